@@ -1,0 +1,55 @@
+//! What a ray met.
+
+use crate::Lanes;
+
+/// The nearest accepted intersection of one ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Where, in multiples of the ray's direction; finite, in the ray's interval, never `-0`.
+    pub t: f32,
+    /// The index of the sphere in its list.
+    pub sphere: u32,
+}
+
+/// A [`Hit`] or none for every lane of a packet, in plain arrays.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(64))]
+pub struct HitPacket<L: Lanes> {
+    pub(crate) t: L::Array,
+    pub(crate) sphere: L::Ids,
+}
+
+impl<L: Lanes> HitPacket<L> {
+    /// The index that stands for "no sphere".
+    pub const NO_SPHERE: u32 = u32::MAX;
+
+    /// No hit in any lane: `t` is `+inf`, the sphere [`Self::NO_SPHERE`].
+    #[must_use]
+    #[inline(always)]
+    pub fn none() -> Self {
+        let mut packet = Self { t: Default::default(), sphere: Default::default() };
+        packet.t.as_mut().fill(f32::INFINITY);
+        packet.sphere.as_mut().fill(Self::NO_SPHERE);
+        packet
+    }
+
+    /// The `t` of every lane; `+inf` where nothing was hit.
+    #[must_use]
+    pub fn t(&self) -> &[f32] {
+        self.t.as_ref()
+    }
+
+    /// The sphere index of every lane; [`Self::NO_SPHERE`] where nothing was hit.
+    #[must_use]
+    pub fn spheres(&self) -> &[u32] {
+        self.sphere.as_ref()
+    }
+
+    /// The hit in `lane`; nothing where there is none, or no such lane.
+    #[must_use]
+    #[inline(always)]
+    pub fn hit(&self, lane: usize) -> Option<Hit> {
+        let hit = Hit { t: *self.t().get(lane)?, sphere: *self.spheres().get(lane)? };
+        (hit.sphere != Self::NO_SPHERE).then_some(hit)
+    }
+}

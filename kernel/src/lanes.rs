@@ -1,0 +1,142 @@
+//! The lane operations that the kernel needs, and no more.
+//!
+//! A kernel written against [`Lanes`] runs on one lane (`f32`: the readable reference, and the
+//! form for targets without SIMD) and on 4, 8 or 16 lanes of the crate `wide`, with the same
+//! bits: answers come from `+ - * /` and square root, each correctly rounded on every target.
+//! The two operations whose last bit differs between targets, [`Lanes::filter_mul_add`] and
+//! [`Lanes::filter_max`], carry the word *filter* in their name; they may decide which work is
+//! skipped, under a bound that covers them, and never what is answered.
+//!
+//! The trait is open: other vector types can implement it. Types whose instruction set is chosen
+//! at run time need proof that the CPU has it: that is the [`Lanes::Token`], asked for by
+//! everything that makes lanes from numbers. For types fixed at build time it is `()`.
+//! Vectors never cross such a boundary: packets in memory hold plain arrays.
+
+mod scalar;
+mod wide;
+
+use core::fmt::Debug;
+use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
+
+/// One truth value a lane.
+pub trait LaneMask:
+    Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self>
+{
+    /// Lane `i` in bit `i`; bits past the last lane are zero.
+    fn bits(self) -> u32;
+
+    /// Whether any lane is true.
+    #[inline(always)]
+    fn any(self) -> bool {
+        self.bits() != 0
+    }
+}
+
+/// A vector of `COUNT` single-precision numbers.
+///
+/// `+ - * /` and [`sqrt`](Lanes::sqrt) must be IEEE 754 round-to-nearest-even in every lane, with
+/// subnormals kept, and must not be contracted. Comparisons with NaN are false.
+pub trait Lanes:
+    Copy
+    + Debug
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// How many lanes; 1 to 32, a multiple of [`DoubleLanes::COUNT`] of [`Lanes::Double`].
+    const COUNT: usize;
+    /// What must be held to make lanes: `()` where the instruction set is fixed at build time.
+    type Token: Copy + Debug;
+    /// `[f32; COUNT]`: what packets in memory are made of.
+    type Array: Copy + Debug + Default + PartialEq + AsRef<[f32]> + AsMut<[f32]>;
+    /// `[u32; COUNT]`: sphere indices, one a lane.
+    type Ids: Copy + Debug + Default + PartialEq + AsRef<[u32]> + AsMut<[u32]>;
+    /// One truth value a lane.
+    type Mask: LaneMask;
+    /// The double-precision partner: as many lanes, or a part of them.
+    type Double: DoubleLanes<Token = Self::Token>;
+
+    /// The token that these lanes were made with.
+    fn token(self) -> Self::Token;
+    /// `value` in every lane.
+    fn splat(token: Self::Token, value: f32) -> Self;
+    /// Lane `i` from element `i`.
+    fn load(token: Self::Token, array: &Self::Array) -> Self;
+    /// Element `i` from lane `i`.
+    fn store(self) -> Self::Array;
+    /// The correctly rounded square root; NaN below zero.
+    fn sqrt(self) -> Self;
+    /// `self * factor + addend` with one rounding or two, as the target likes: for filters.
+    fn filter_mul_add(self, factor: Self, addend: Self) -> Self;
+    /// The larger; any of the two where one is NaN or both are zero: for filters.
+    fn filter_max(self, other: Self) -> Self;
+    /// `self < other`.
+    fn lt(self, other: Self) -> Self::Mask;
+    /// `self <= other`.
+    fn le(self, other: Self) -> Self::Mask;
+    /// `yes` where `mask` is true, else `no`.
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+
+    /// The magnitude; NaN for NaN.
+    #[inline(always)]
+    fn abs(self) -> Self {
+        let zero = Self::splat(self.token(), 0.0);
+        Self::select(self.lt(zero), -self, self)
+    }
+
+    /// `function` of every lane, by way of an array: for what lanes have no operation for.
+    #[inline(always)]
+    fn map(self, function: impl Fn(f32) -> f32) -> Self {
+        let mut array = self.store();
+        for value in array.as_mut() {
+            *value = function(*value);
+        }
+        Self::load(self.token(), &array)
+    }
+}
+
+/// A vector of `COUNT` double-precision numbers, under the same rules as [`Lanes`].
+pub trait DoubleLanes:
+    Copy
+    + Debug
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// How many lanes; divides [`Lanes::COUNT`] of every type that names this its partner.
+    const COUNT: usize;
+    /// What must be held to make lanes.
+    type Token: Copy + Debug;
+    /// `[f64; COUNT]`.
+    type Array: Copy + Debug + Default + AsRef<[f64]> + AsMut<[f64]>;
+    /// One truth value a lane.
+    type Mask: LaneMask;
+
+    /// The token that these lanes were made with.
+    fn token(self) -> Self::Token;
+    /// `value` in every lane.
+    fn splat(token: Self::Token, value: f64) -> Self;
+    /// Lane `i` from element `i`, exactly; lanes past the end of `singles` are zero.
+    fn widen(token: Self::Token, singles: &[f32]) -> Self;
+    /// Element `i` from lane `i`.
+    fn store(self) -> Self::Array;
+    /// The correctly rounded square root; NaN below zero.
+    fn sqrt(self) -> Self;
+    /// `self < other`.
+    fn lt(self, other: Self) -> Self::Mask;
+    /// `self <= other`.
+    fn le(self, other: Self) -> Self::Mask;
+    /// `yes` where `mask` is true, else `no`.
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+
+    /// The magnitude; NaN for NaN.
+    #[inline(always)]
+    fn abs(self) -> Self {
+        let zero = Self::splat(self.token(), 0.0);
+        Self::select(self.lt(zero), -self, self)
+    }
+}

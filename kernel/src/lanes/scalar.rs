@@ -1,0 +1,112 @@
+//! One lane: `f32`, with `f64` as its partner. The reference that every width equals.
+
+use super::{DoubleLanes, LaneMask, Lanes};
+
+impl LaneMask for bool {
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        u32::from(self)
+    }
+}
+
+impl Lanes for f32 {
+    const COUNT: usize = 1;
+    type Token = ();
+    type Array = [f32; 1];
+    type Ids = [u32; 1];
+    type Mask = bool;
+    type Double = f64;
+
+    #[inline(always)]
+    fn token(self) {}
+
+    #[inline(always)]
+    fn splat((): (), value: f32) -> Self {
+        value
+    }
+
+    #[inline(always)]
+    fn load((): (), array: &[f32; 1]) -> Self {
+        array[0]
+    }
+
+    #[inline(always)]
+    fn store(self) -> [f32; 1] {
+        [self]
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        libm::sqrtf(self)
+    }
+
+    #[inline(always)]
+    fn filter_mul_add(self, factor: Self, addend: Self) -> Self {
+        self * factor + addend
+    }
+
+    #[inline(always)]
+    fn filter_max(self, other: Self) -> Self {
+        if self > other { self } else { other }
+    }
+
+    #[inline(always)]
+    fn lt(self, other: Self) -> bool {
+        self < other
+    }
+
+    #[inline(always)]
+    fn le(self, other: Self) -> bool {
+        self <= other
+    }
+
+    #[inline(always)]
+    fn select(mask: bool, yes: Self, no: Self) -> Self {
+        if mask { yes } else { no }
+    }
+}
+
+impl DoubleLanes for f64 {
+    const COUNT: usize = 1;
+    type Token = ();
+    type Array = [f64; 1];
+    type Mask = bool;
+
+    #[inline(always)]
+    fn token(self) {}
+
+    #[inline(always)]
+    fn splat((): (), value: f64) -> Self {
+        value
+    }
+
+    #[inline(always)]
+    fn widen((): (), singles: &[f32]) -> Self {
+        singles.first().copied().map_or(0.0, Self::from)
+    }
+
+    #[inline(always)]
+    fn store(self) -> [f64; 1] {
+        [self]
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        libm::sqrt(self)
+    }
+
+    #[inline(always)]
+    fn lt(self, other: Self) -> bool {
+        self < other
+    }
+
+    #[inline(always)]
+    fn le(self, other: Self) -> bool {
+        self <= other
+    }
+
+    #[inline(always)]
+    fn select(mask: bool, yes: Self, no: Self) -> Self {
+        if mask { yes } else { no }
+    }
+}

@@ -1,0 +1,23 @@
+#![doc = include_str!("lib.md")]
+#![no_std]
+#![forbid(unsafe_code)]
+
+pub mod accuracy;
+pub mod camera;
+mod error_free;
+mod filter;
+mod hit;
+mod intersect;
+mod lanes;
+mod ray;
+mod sphere;
+
+pub use accuracy::{Accuracy, Fast, Stable};
+pub use camera::Camera;
+pub use glam::Vec3;
+pub use hit::{Hit, HitPacket};
+pub use intersect::{any, nearest, nearest_hit, pairs, roots};
+pub use lanes::{DoubleLanes, LaneMask, Lanes};
+pub use ray::{Ray, RayPacket};
+pub use sphere::{Sphere, SpherePacket, Spheres, SpheresError};
+pub use wide::{f32x4, f32x8, f32x16};

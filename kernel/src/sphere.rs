@@ -1,0 +1,136 @@
+//! Spheres: one, a borrowed list, and one a lane.
+
+use crate::Lanes;
+use core::fmt;
+use glam::Vec3;
+
+/// The surface `|x - center| = radius`.
+///
+/// Radius zero (of either sign) is the point `center`. A negative radius, or NaN or infinity
+/// anywhere, is a sphere that nothing hits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sphere {
+    /// The centre, in the units of the scene.
+    pub center: Vec3,
+    /// The radius, in the same units.
+    pub radius: f32,
+}
+
+impl Sphere {
+    /// Whether the sphere is a surface at all: every number finite, the radius not negative.
+    #[must_use]
+    pub fn is_valid(&self) -> bool {
+        self.center.is_finite() && self.radius.is_finite() && self.radius >= 0.0
+    }
+}
+
+/// A list of spheres in the caller's memory, coordinate by coordinate.
+///
+/// Sphere `i` is `(x[i], y[i], z[i])` with radius `r[i]`, and `i` is the index that a hit names.
+/// No padding or alignment is asked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Spheres<'a> {
+    x: &'a [f32],
+    y: &'a [f32],
+    z: &'a [f32],
+    r: &'a [f32],
+}
+
+/// Why four slices are no list of spheres.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SpheresError {
+    /// The slices have different lengths.
+    UnequalLengths,
+    /// More spheres than a hit can name: the index is a `u32`, and its last value means "none".
+    TooMany,
+}
+
+impl fmt::Display for SpheresError {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::UnequalLengths => "the coordinate slices of the spheres differ in length",
+            Self::TooMany => "more spheres than 2^32 - 1",
+        })
+    }
+}
+
+impl core::error::Error for SpheresError {}
+
+impl<'a> Spheres<'a> {
+    /// Borrows centres and radii.
+    ///
+    /// # Errors
+    /// [`SpheresError`] where the lengths differ or exceed 2^32 - 1.
+    pub const fn new(
+        x: &'a [f32],
+        y: &'a [f32],
+        z: &'a [f32],
+        r: &'a [f32],
+    ) -> Result<Self, SpheresError> {
+        if x.len() != y.len() || x.len() != z.len() || x.len() != r.len() {
+            return Err(SpheresError::UnequalLengths);
+        }
+        if x.len() as u64 > u32::MAX as u64 {
+            return Err(SpheresError::TooMany);
+        }
+        Ok(Self { x, y, z, r })
+    }
+
+    /// How many spheres.
+    #[must_use]
+    pub const fn len(&self) -> usize {
+        self.x.len()
+    }
+
+    /// Whether there is none.
+    #[must_use]
+    pub const fn is_empty(&self) -> bool {
+        self.x.is_empty()
+    }
+
+    /// Sphere `index`, or nothing past the end.
+    #[must_use]
+    #[inline(always)]
+    pub fn get(&self, index: usize) -> Option<Sphere> {
+        Some(Sphere {
+            center: Vec3::new(*self.x.get(index)?, *self.y.get(index)?, *self.z.get(index)?),
+            radius: *self.r.get(index)?,
+        })
+    }
+
+    /// The spheres in the order of their indices.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = Sphere> + use<'a> {
+        let Self { x, y, z, r } = *self;
+        x.iter()
+            .zip(y)
+            .zip(z.iter().zip(r))
+            .map(|((&x, &y), (&z, &radius))| Sphere { center: Vec3::new(x, y, z), radius })
+    }
+}
+
+/// One sphere a lane: for ray `i` against sphere `i`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(64))]
+pub struct SpherePacket<L: Lanes> {
+    pub(crate) center: [L::Array; 3],
+    pub(crate) radius: L::Array,
+}
+
+impl<L: Lanes> SpherePacket<L> {
+    /// Sphere `i` in lane `i`; lanes past the end of `spheres` hold a sphere that nothing hits,
+    /// spheres past the last lane are left out.
+    #[must_use]
+    pub fn new(spheres: &[Sphere]) -> Self {
+        let mut packet = Self { center: Default::default(), radius: Default::default() };
+        packet.radius.as_mut().fill(-1.0);
+        for axis in 0..3 {
+            for (element, sphere) in packet.center[axis].as_mut().iter_mut().zip(spheres) {
+                *element = sphere.center[axis];
+            }
+        }
+        for (element, sphere) in packet.radius.as_mut().iter_mut().zip(spheres) {
+            *element = sphere.radius;
+        }
+        packet
+    }
+}
