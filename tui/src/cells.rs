@@ -1,0 +1,98 @@
+//! Character cells: what a terminal shows, before any escape sequence.
+
+/// A colour as a terminal names it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Color {
+    /// The terminal's own.
+    #[default]
+    Default,
+    /// One of the 16 that the user's theme defines.
+    Ansi16(u8),
+    /// One of the xterm palette of 256.
+    Ansi256(u8),
+    /// Red, green, blue, sRGB-encoded.
+    Rgb([u8; 3]),
+}
+
+/// One character and its colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cell {
+    /// A character one column wide.
+    pub glyph: char,
+    /// The colour of its ink.
+    pub foreground: Color,
+    /// The colour behind it.
+    pub background: Color,
+}
+
+impl Cell {
+    /// A space in the terminal's own colours.
+    pub const BLANK: Self =
+        Self { glyph: ' ', foreground: Color::Default, background: Color::Default };
+}
+
+/// A rectangle of cells, row by row from the top left.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CellGrid {
+    columns: u16,
+    rows: u16,
+    cells: Vec<Cell>,
+}
+
+impl CellGrid {
+    /// Blank cells.
+    #[must_use]
+    pub fn new(columns: u16, rows: u16) -> Self {
+        let count = usize::from(columns) * usize::from(rows);
+        Self { columns, rows, cells: vec![Cell::BLANK; count] }
+    }
+
+    /// How many cells a row has.
+    #[must_use]
+    pub fn columns(&self) -> u16 {
+        self.columns
+    }
+
+    /// How many rows.
+    #[must_use]
+    pub fn rows(&self) -> u16 {
+        self.rows
+    }
+
+    /// All cells, row by row.
+    #[must_use]
+    pub fn cells(&self) -> &[Cell] {
+        &self.cells
+    }
+
+    /// All cells, row by row, to be changed.
+    pub fn cells_mut(&mut self) -> &mut [Cell] {
+        &mut self.cells
+    }
+
+    /// The cells of `row`, none past the last.
+    #[must_use]
+    pub fn row(&self, row: u16) -> &[Cell] {
+        let start = usize::from(row) * usize::from(self.columns);
+        self.cells.get(start..start + usize::from(self.columns)).unwrap_or(&[])
+    }
+
+    /// Writes `text` from `(column, row)` on, cut at the right edge.
+    pub fn write(
+        &mut self,
+        column: u16,
+        row: u16,
+        text: &str,
+        foreground: Color,
+        background: Color,
+    ) {
+        if row >= self.rows {
+            return;
+        }
+        let start = usize::from(row) * usize::from(self.columns);
+        let line = &mut self.cells[start..start + usize::from(self.columns)];
+        for (cell, glyph) in line.iter_mut().skip(usize::from(column)).zip(text.chars()) {
+            *cell = Cell { glyph, foreground, background };
+        }
+    }
+}
