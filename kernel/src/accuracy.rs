@@ -92,6 +92,10 @@ pub trait Accuracy: sealed::Sealed + Copy + core::fmt::Debug {
     /// The tier's name on the command line and in reports.
     const NAME: &'static str;
 
+    /// How far off a tier may be beside the few ulp of s that are allowed to all: as if r^2
+    /// were changed by up to (`SPREAD` (|p| + r))^2. Zero but for [`Fast`].
+    const SPREAD: f32 = 0.0;
+
     /// What the tier computes once a packet.
     type Prepared<L: Lanes>: Copy;
 

@@ -165,7 +165,7 @@ fn for_candidates<L: Lanes, R>(
 
 /// The lanes whose bit is set.
 #[inline(always)]
-fn lanes_of_bits<L: Lanes>(token: L::Token, bits: u32) -> L::Mask {
+pub(crate) fn lanes_of_bits<L: Lanes>(token: L::Token, bits: u32) -> L::Mask {
     let mut marks = L::Array::default();
     for (lane, mark) in marks.as_mut().iter_mut().enumerate() {
         *mark = if bits >> lane & 1 == 1 { 1.0 } else { 0.0 };

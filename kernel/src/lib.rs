@@ -4,6 +4,7 @@
 
 pub mod accuracy;
 mod axes;
+pub mod bvh;
 pub mod camera;
 mod error_free;
 mod exact;
@@ -16,6 +17,7 @@ mod ray;
 mod sphere;
 
 pub use accuracy::{Accuracy, Exact, Fast, Stable};
+pub use bvh::{Bvh, BvhLeaf, BvhNode, BvhSize};
 pub use camera::Camera;
 #[cfg(feature = "dispatch")]
 pub use fearless_simd;

@@ -29,6 +29,8 @@ impl sealed::Sealed for Fast {}
 
 impl Accuracy for Fast {
     const NAME: &'static str = "fast";
+    /// D/a is off by 20 u |p|^2 + 10 u r^2 (`filter.rs`); this is 2^-9, whose square is 64 u.
+    const SPREAD: f32 = 1.0 / 512.0;
     type Prepared<L: Lanes> = FastRays<L>;
 
     #[inline(always)]

@@ -1,0 +1,138 @@
+//! The spheres of a leaf against one ray: which may be hit, and between which s.
+//!
+//! # Method
+//!
+//! Closest point first: with f = c - o, m = f.n is the s of the point nearest to the centre, l = |f -
+//! m n| its distance, h = sqrt(r^2 - l^2) half the chord, m - h and m + h the roots. All in
+//! single precision, each with a margin; what comes out is, for every sphere that may be hit, an s
+//! that no answer is below, and one that an answer is surely not above - if the sphere is surely
+//! hit. So the nearest of many spheres is known, but for a few, before a tier is asked, and the
+//! tier can be asked about sixteen rays at once.
+//!
+//! # The margin
+//!
+//! u, n, v, s as in `slabs.rs`; p = c - o in the reals, S = |m| + r, first order.
+//!
+//! | step | error at most, in u |
+//! |---|---|
+//! | \|v\| is 1: length 1.5u (a) + 1u (root), 1u (division) | 3.5 |
+//! | m: f 1u, n 1u, sum 3u; from p.v to its part of \|v\|^2: 8u | 13 \|p\| |
+//! | f - m n against p - m v: f 1u, n 1u, product 1u, difference 1u | 4 \|p\| |
+//! | l: m is 13u \|p\| off, which adds at most as much; and the row before | 17 \|p\| |
+//! | the root of l^2 as computed: three sums | 19 \|p\| |
+//! | r^2 and the comparison, as a change of r | 2 r |
+//! | `Stable`: 2^-40 (p^2 + r^2) more in l^2 | (23 \|p\|)^2 + (23 r)^2, in u^2 |
+//!
+//! Where l <= r, |p| <= S (1 + 13u). So with delta = 48 u S: a hit has l <= r + delta as computed; and
+//! l^2 <= r^2 - W, W = delta (2 r + delta), is a hit, since at l = r (and the more so beyond, where
+//! l grows faster than its error) the line is found no nearer than r - 21u S. In the same way r^2 - l^2 -+
+//! W contains h^2. The rest of the roots: m 13u |p|, |v| 4u h, the root 1u h, the sum 1u, t's own
+//! error 16u (`Stable`): 35u S, below delta. What underflows is covered by 2^-60 in delta. `Fast`: W has (SPREAD S)^2 more.
+//!
+//! A far root that is surely in the interval is a bound too where the near one is not: the answer is one
+//! of them.
+
+use super::slabs::U;
+use super::{BvhLeaf, WIDTH};
+use crate::axes::axes;
+use crate::{Accuracy, LaneMask, Lanes};
+
+/// What may be hit in `L::COUNT` spheres.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bracket<L: Lanes> {
+    /// Which spheres may be hit in the interval.
+    pub(super) candidates: u32,
+    /// No answer is below.
+    pub(super) entry: L,
+    /// Some answer is not above; `+inf` where none is sure.
+    pub(super) bound: L,
+}
+
+/// One ray in all lanes, as leaves see it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Probe<L: Lanes> {
+    pub(super) origin: [L; 3],
+    pub(super) direction: [L; 3],
+    /// Where the interval starts: an s below, and an s above.
+    pub(super) start: [L; 2],
+    /// Where it ends: an s below; above, or the best s that is known.
+    pub(super) end: [L; 2],
+}
+
+/// The lanes of part `part` of sixteen numbers.
+#[inline(always)]
+pub(super) fn part_of<L: Lanes>(token: L::Token, numbers: &[f32; WIDTH], part: usize) -> L {
+    let mut array = L::Array::default();
+    let from = part * L::COUNT % WIDTH;
+    for (element, number) in array.as_mut().iter_mut().zip(numbers.iter().skip(from)) {
+        *element = *number;
+    }
+    L::load(token, &array)
+}
+
+impl<L: Lanes> Probe<L> {
+    /// The spheres of part `part` of a leaf.
+    #[inline(always)]
+    pub(super) fn meet<A: Accuracy>(&self, leaf: &BvhLeaf, part: usize) -> Option<Bracket<L>> {
+        let token = self.origin[0].token();
+        let f = axes!(i => part_of::<L>(token, &leaf.center[i], part) - self.origin[i]);
+        let radius = part_of::<L>(token, &leaf.radius, part);
+        let n = self.direction;
+        let middle = f[2].filter_mul_add(n[2], f[1].filter_mul_add(n[1], f[0] * n[0]));
+        let back = -middle;
+        let q = axes!(i => back.filter_mul_add(n[i], f[i]));
+        let ll = q[2].filter_mul_add(q[2], q[1].filter_mul_add(q[1], q[0] * q[0]));
+
+        let size = middle.abs() + radius;
+        let delta = size.filter_mul_add(radius.like(48.0 * U), radius.like(LEAST_DELTA));
+        let reach = radius + delta;
+        let mut most = reach * reach;
+        if A::SPREAD > 0.0 {
+            let spread = size * size.like(A::SPREAD);
+            most = spread.filter_mul_add(spread, most);
+        }
+        let near_enough = ll.le(most);
+        let candidates = if A::SPREAD > 0.0 {
+            near_enough
+        } else {
+            near_enough & (middle - reach).le(self.end[1]) & self.start[0].le(middle + reach)
+        };
+        candidates.any().then(
+            #[inline(always)]
+            || self.bracket::<A>(candidates, middle, radius, ll, delta, most),
+        )
+    }
+
+    #[inline(always)]
+    fn bracket<A: Accuracy>(
+        &self,
+        candidates: L::Mask,
+        middle: L,
+        radius: L,
+        ll: L,
+        delta: L,
+        most: L,
+    ) -> Bracket<L> {
+        let zero = radius.like(0.0);
+        let rr = radius * radius;
+        let slack = most - rr;
+        let left = rr - ll;
+        let long = (left + slack).filter_max(zero).sqrt() + delta;
+        let sure = left - slack;
+        let short = sure.filter_max(zero).sqrt() - delta;
+        let (entry, leave) = (middle - long, middle + long);
+        let (entered, left_again) = (middle - short, middle + short);
+
+        let candidates =
+            candidates & zero.le(radius) & entry.le(self.end[1]) & self.start[0].le(leave);
+        let hit = zero.lt(sure);
+        let near = hit & self.start[1].le(entry) & entered.le(self.end[0]);
+        let far = hit & self.start[1].le(left_again) & leave.le(self.end[0]);
+        let infinity = radius.like(f32::INFINITY);
+        let bound = L::select(near, entered, L::select(far, leave, infinity));
+        Bracket { candidates: candidates.bits(), entry, bound }
+    }
+}
+
+/// 2^-60.
+const LEAST_DELTA: f32 = 1.0 / (1_073_741_824.0 * 1_073_741_824.0);

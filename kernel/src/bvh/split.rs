@@ -1,0 +1,335 @@
+//! Cutting a run of spheres in two, by the surface area heuristic where that can tell.
+//!
+//! The spheres lie in the leaves that the tree will have, so that they are moved, not pointed at:
+//! every pass reads memory in order, and no other memory is needed. Cuts fall on multiples of
+//! sixteen, so a run is a run of leaves.
+
+use super::{BvhLeaf, WIDTH};
+
+/// How many slices a run is sorted into, an axis.
+const BINS: usize = 16;
+
+/// The box of some spheres, and the box of their centres.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bounds {
+    pub(super) low: [f32; 3],
+    pub(super) high: [f32; 3],
+    least: [f32; 3],
+    most: [f32; 3],
+}
+
+/// A run of leaves, and how many spheres are in them: all leaves are full but the last of all.
+pub(super) struct Run<'a> {
+    pub(super) leaves: &'a mut [BvhLeaf],
+    pub(super) count: usize,
+}
+
+#[inline(always)]
+fn least(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
+}
+
+#[inline(always)]
+fn most(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}
+
+/// Half the surface of a box: what the chance to meet it is proportional to.
+#[inline(always)]
+fn half_area(low: [f32; 3], high: [f32; 3]) -> f32 {
+    let [x, y, z] = [high[0] - low[0], high[1] - low[1], high[2] - low[2]];
+    x * y + y * z + z * x
+}
+
+impl Bounds {
+    const NONE: Self = Self {
+        low: [f32::INFINITY; 3],
+        high: [f32::NEG_INFINITY; 3],
+        least: [f32::INFINITY; 3],
+        most: [f32::NEG_INFINITY; 3],
+    };
+
+    /// Of `leaves` that hold `count` spheres; the box is rounded outward.
+    pub(super) fn of(leaves: &[BvhLeaf], count: usize) -> Self {
+        let mut bounds = Self::NONE;
+        let (full, rest) = leaves.split_at(leaves.len().min(count / WIDTH));
+        for axis in 0..3 {
+            let mut low = [f32::INFINITY; WIDTH];
+            let mut high = [f32::NEG_INFINITY; WIDTH];
+            let (mut left, mut right) = (low, high);
+            for leaf in full {
+                let center = &leaf.center[axis];
+                for lane in 0..WIDTH {
+                    low[lane] = least(low[lane], center[lane] - leaf.radius[lane]);
+                    high[lane] = most(high[lane], center[lane] + leaf.radius[lane]);
+                    left[lane] = least(left[lane], center[lane]);
+                    right[lane] = most(right[lane], center[lane]);
+                }
+            }
+            if let Some(leaf) = rest.first() {
+                for lane in 0..count % WIDTH {
+                    let center = leaf.center[axis][lane];
+                    low[lane] = least(low[lane], center - leaf.radius[lane]);
+                    high[lane] = most(high[lane], center + leaf.radius[lane]);
+                    left[lane] = least(left[lane], center);
+                    right[lane] = most(right[lane], center);
+                }
+            }
+            // Rounding to nearest is monotonic: one step covers all.
+            bounds.low[axis] = low.into_iter().fold(f32::INFINITY, least).next_down();
+            bounds.high[axis] = high.into_iter().fold(f32::NEG_INFINITY, most).next_up();
+            bounds.least[axis] = left.into_iter().fold(f32::INFINITY, least);
+            bounds.most[axis] = right.into_iter().fold(f32::NEG_INFINITY, most);
+        }
+        bounds
+    }
+
+    pub(super) fn half_area(&self) -> f32 {
+        half_area(self.low, self.high)
+    }
+
+    /// The axis along which the centres lie farthest apart; 3, for the radius, where they do not.
+    fn longest_axis(&self) -> usize {
+        let mut axis = 3;
+        let mut longest = 0.0;
+        for i in 0..3 {
+            let length = self.most[i] - self.least[i];
+            if length > longest {
+                (axis, longest) = (i, length);
+            }
+        }
+        axis
+    }
+
+    /// Which slice a centre is in is (centre - least) * scale: zero where an axis tells nothing.
+    fn scales(&self) -> [f32; 3] {
+        let mut scales = [0.0; 3];
+        for (axis, scale) in scales.iter_mut().enumerate() {
+            // A hair below sixteen, so that the last centre is in the last slice.
+            let slices =
+                BINS as f32 * (1.0 - 4.0 * f32::EPSILON) / (self.most[axis] - self.least[axis]);
+            if slices < f32::MAX {
+                *scale = slices;
+            }
+        }
+        scales
+    }
+}
+
+#[inline(always)]
+fn bin_of(center: f32, least: f32, scale: f32) -> usize {
+    ((center - least) * scale) as i32 as usize & (BINS - 1)
+}
+
+/// What lies in a slice; the fourth number is there to fill a register.
+#[derive(Clone, Copy)]
+struct Bin {
+    low: [f32; 4],
+    high: [f32; 4],
+    count: usize,
+}
+
+impl Bin {
+    const EMPTY: Self = Self { low: [f32::INFINITY; 4], high: [f32::NEG_INFINITY; 4], count: 0 };
+
+    #[inline(always)]
+    fn grow(&mut self, low: [f32; 4], high: [f32; 4], count: usize) {
+        for i in 0..4 {
+            self.low[i] = least(self.low[i], low[i]);
+            self.high[i] = most(self.high[i], high[i]);
+        }
+        self.count += count;
+    }
+
+    fn cost(&self) -> f32 {
+        if self.count == 0 {
+            return 0.0;
+        }
+        let [low, high] = [self.low, self.high].map(|[x, y, z, _]| [x, y, z]);
+        half_area(low, high) * self.count as f32
+    }
+}
+
+/// Where to cut: before sphere `at`, in the order along `axis`.
+struct Cut {
+    axis: usize,
+    at: usize,
+    /// The slice that the cut is in, and what lies in the slices before.
+    bin: usize,
+    before: usize,
+    inside: usize,
+}
+
+impl Run<'_> {
+    /// Cuts the run where the heuristic says; answers with the leaves of the first part, at least
+    /// one and fewer than all. The run has two leaves or more.
+    pub(super) fn split(&mut self, bounds: &Bounds) -> usize {
+        let scales = bounds.scales();
+        match self.best_cut(bounds, scales) {
+            Some(cut) => {
+                let (least, scale) = (bounds.least[cut.axis], scales[cut.axis]);
+                let before = self.gather(0, self.count, |leaf, lane| {
+                    bin_of(leaf.center[cut.axis][lane], least, scale) < cut.bin
+                });
+                debug_assert_eq!(before, cut.before, "counted and gathered alike");
+                if before < cut.at && cut.at < before + cut.inside {
+                    let end = self.gather(before, self.count, |leaf, lane| {
+                        bin_of(leaf.center[cut.axis][lane], least, scale) == cut.bin
+                    });
+                    self.order_about(cut.at, before, end, cut.axis);
+                }
+                cut.at / WIDTH
+            }
+            None => self.split_at(self.leaves.len() / 2, bounds),
+        }
+    }
+
+    /// Cuts the run behind `leaves` leaves, by the centres along the longest axis, or by the radii
+    /// where the centres coincide.
+    pub(super) fn split_at(&mut self, leaves: usize, bounds: &Bounds) -> usize {
+        self.order_about(leaves * WIDTH, 0, self.count, bounds.longest_axis());
+        leaves
+    }
+
+    /// The cheapest cut between slices, moved to a multiple of sixteen; none where all centres
+    /// coincide, or nearly.
+    fn best_cut(&self, bounds: &Bounds, scales: [f32; 3]) -> Option<Cut> {
+        let mut bins = [[Bin::EMPTY; BINS]; 3];
+        for (place, leaf) in self.leaves.iter().enumerate() {
+            let lanes = (self.count - place * WIDTH).min(WIDTH);
+            for lane in 0..lanes {
+                let [x, y, z] = [leaf.center[0][lane], leaf.center[1][lane], leaf.center[2][lane]];
+                let r = leaf.radius[lane];
+                let (low, high) = ([x - r, y - r, z - r, 0.0], [x + r, y + r, z + r, 0.0]);
+                for (axis, center) in [x, y, z].into_iter().enumerate() {
+                    bins[axis][bin_of(center, bounds.least[axis], scales[axis])].grow(low, high, 1);
+                }
+            }
+        }
+        let mut best = None;
+        let mut least_cost = f32::INFINITY;
+        for (axis, bins) in bins.iter().enumerate() {
+            if scales[axis] == 0.0 {
+                continue;
+            }
+            // From the right, then from the left.
+            let mut right_costs = [0.0; BINS];
+            let mut right = Bin::EMPTY;
+            for (cost, bin) in right_costs.iter_mut().zip(bins).rev() {
+                right.grow(bin.low, bin.high, bin.count);
+                *cost = right.cost();
+            }
+            let mut left = Bin::EMPTY;
+            for (boundary, bin) in bins.iter().enumerate().take(BINS - 1) {
+                left.grow(bin.low, bin.high, bin.count);
+                let cost = left.cost() + right_costs[boundary + 1];
+                if left.count > 0 && left.count < self.count && cost < least_cost {
+                    least_cost = cost;
+                    best = Some((axis, left.count));
+                }
+            }
+        }
+        let (axis, count) = best?;
+        let last = (self.leaves.len() - 1) * WIDTH;
+        let at = ((count + WIDTH / 2) / WIDTH * WIDTH).clamp(WIDTH, last.max(WIDTH));
+        let mut before = 0;
+        for (bin, Bin { count, .. }) in bins[axis].iter().enumerate() {
+            if at <= before + count {
+                return Some(Cut { axis, at, bin, before, inside: *count });
+            }
+            before += count;
+        }
+        None
+    }
+
+    /// Moves spheres so that the first `at` have keys no larger than the others; only those of
+    /// places `from..to` move.
+    ///
+    /// The keys, as integers in the order of the numbers, are sorted into sixteen slices, of which
+    /// only the one with place `at` is looked at again: four bits a round, eight rounds at most.
+    fn order_about(&mut self, at: usize, mut from: usize, mut to: usize, axis: usize) {
+        while from < at && at < to {
+            let (mut low, mut high) = (u32::MAX, 0);
+            for place in from..to {
+                let key = self.key(place, axis);
+                low = low.min(key);
+                high = high.max(key);
+            }
+            let bits = u32::BITS - (high - low).leading_zeros();
+            if bits == 0 {
+                return;
+            }
+            let shift = bits.saturating_sub(4);
+            let mut counts = [0; BINS];
+            for place in from..to {
+                counts[((self.key(place, axis) - low) >> shift) as usize & (BINS - 1)] += 1;
+            }
+            let (mut bin, mut before) = (0, from);
+            for count in counts {
+                if at < before + count {
+                    break;
+                }
+                before += count;
+                bin += 1;
+            }
+            let slice = |leaf: &BvhLeaf, lane: usize| (key_of(leaf, lane, axis) - low) >> shift;
+            from = self.gather(from, to, |leaf, lane| slice(leaf, lane) < bin);
+            to = self.gather(from, to, |leaf, lane| slice(leaf, lane) == bin);
+        }
+    }
+
+    fn key(&self, place: usize, axis: usize) -> u32 {
+        self.leaves.get(place / WIDTH).map_or(0, |leaf| key_of(leaf, place % WIDTH, axis))
+    }
+
+    /// Moves the spheres for which `wanted` holds to the front of places `from..to`; answers
+    /// with where they end.
+    #[inline(always)]
+    fn gather(
+        &mut self,
+        mut from: usize,
+        mut to: usize,
+        wanted: impl Fn(&BvhLeaf, usize) -> bool,
+    ) -> usize {
+        let holds = |leaves: &[BvhLeaf], place: usize| {
+            leaves.get(place / WIDTH).is_some_and(|leaf| wanted(leaf, place % WIDTH))
+        };
+        loop {
+            while from < to && holds(self.leaves, from) {
+                from += 1;
+            }
+            while from < to && !holds(self.leaves, to - 1) {
+                to -= 1;
+            }
+            if from >= to {
+                return from;
+            }
+            self.swap(from, to - 1);
+        }
+    }
+
+    fn swap(&mut self, one: usize, other: usize) {
+        let places = [one / WIDTH, other / WIDTH];
+        let [a, b] = [one % WIDTH, other % WIDTH];
+        if let Ok([first, second]) = self.leaves.get_disjoint_mut(places) {
+            for axis in 0..3 {
+                core::mem::swap(&mut first.center[axis][a], &mut second.center[axis][b]);
+            }
+            core::mem::swap(&mut first.radius[a], &mut second.radius[b]);
+            core::mem::swap(&mut first.index[a], &mut second.index[b]);
+        } else if let Some(leaf) = self.leaves.get_mut(places[0]) {
+            for axis in 0..3 {
+                leaf.center[axis].swap(a, b);
+            }
+            leaf.radius.swap(a, b);
+            leaf.index.swap(a, b);
+        }
+    }
+}
+
+/// A centre, or for axis 3 the radius, as an integer in the order of the numbers.
+#[inline(always)]
+fn key_of(leaf: &BvhLeaf, lane: usize, axis: usize) -> u32 {
+    let bits = leaf.center.get(axis).unwrap_or(&leaf.radius)[lane % WIDTH].to_bits();
+    if bits >> 31 == 1 { !bits } else { bits | 1 << 31 }
+}

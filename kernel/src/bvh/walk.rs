@@ -1,0 +1,386 @@
+//! Rays through the tree, each on its own way.
+//!
+//! # Method
+//!
+//! A ray keeps a stack of boxes that it has yet to look into, the nearest on top, each with the s at
+//! which it is entered. A step takes one from the stack: a node's children are tested all at once, and
+//! those that are met go onto the stack; a leaf's spheres are tested all at once, and those that may be
+//! the nearest go onto a list. Boxes entered past the best s that is sure are dropped. When all rays
+//! of a packet are through, the tier is asked about the lists (`bvh/resolve.rs`), which hold one
+//! sphere a ray, seldom more.
+//!
+//! # The stack
+//!
+//! A step takes one entry and adds sixteen at most, so a ray on its way down a tree of nine
+//! nodes, one below the other, has 15 * 9 + 1 = 136 at most, whatever its numbers are; 256 are
+//! there, so that a mask in place of a bounds check never acts.
+
+use super::bracket::{Probe, part_of};
+use super::resolve::{List, settle, settle_one, settle_outside, take};
+use super::slabs::{Slabs, raised};
+use super::{Bvh, BvhLeaf, BvhNode, DEPTH, LEAF, NO_CHILD, WIDTH};
+use crate::accuracy::RayLanes;
+use crate::axes::axes;
+use crate::intersect::lanes_of_bits;
+use crate::{Accuracy, HitPacket, LaneMask, Lanes, RayPacket, Spheres};
+
+/// The nearest hit of every ray: what [`nearest`](crate::nearest) returns, from a tree.
+///
+/// `hits[i]` is overwritten with what `rays[i]` meets; packets past the end of the shorter slice
+/// are left alone. `spheres` is the list that `bvh` was built from; what happens with another
+/// stands at [`Bvh`].
+///
+/// Domain and guarantee: see the [module](crate::bvh). Cost: by the logarithm of the number of
+/// spheres, where they do not overlap much; rays that the bounds do not cover, and spheres above
+/// 2^40, cost as without a tree. Stack: some 12 KiB.
+#[inline(always)]
+pub fn nearest<A: Accuracy, L: Lanes>(
+    token: L::Token,
+    rays: &[RayPacket<L>],
+    spheres: Spheres<'_>,
+    bvh: &Bvh<'_>,
+    hits: &mut [HitPacket<L>],
+) {
+    if bvh.count != spheres.len() {
+        return crate::nearest::<A, L>(token, rays, spheres, hits);
+    }
+    let mut walks = [Walk::NEW; TOGETHER];
+    for (packet, hit) in rays.iter().zip(hits.iter_mut()) {
+        *hit = HitPacket::none();
+        meet::<A, L, false>(token, packet, &spheres, bvh, &mut walks, hit);
+    }
+}
+
+/// Whether every ray meets anything: what [`any`](crate::any) returns, from a tree.
+///
+/// Lane `i` in bit `i` of `met[k]` for `rays[k]`. True exactly where [`nearest`] finds a hit;
+/// cheaper, since a ray that has surely met something is done. Otherwise as `nearest`.
+#[inline(always)]
+pub fn any<A: Accuracy, L: Lanes>(
+    token: L::Token,
+    rays: &[RayPacket<L>],
+    spheres: Spheres<'_>,
+    bvh: &Bvh<'_>,
+    met: &mut [u32],
+) {
+    if bvh.count != spheres.len() {
+        return crate::any::<A, L>(token, rays, spheres, met);
+    }
+    let mut walks = [Walk::NEW; TOGETHER];
+    for (packet, met) in rays.iter().zip(met.iter_mut()) {
+        let mut hit = HitPacket::none();
+        let sure = meet::<A, L, true>(token, packet, &spheres, bvh, &mut walks, &mut hit);
+        let found = L::load(token, &hit.t).lt(L::splat(token, f32::INFINITY));
+        *met = sure | found.bits();
+    }
+}
+
+/// How many rays of a packet are under way in turn.
+const TOGETHER: usize = 4;
+/// See above.
+const STACK: usize = 256;
+const _: () = assert!(STACK >= (WIDTH - 1) * DEPTH + WIDTH);
+
+/// One ray under way.
+#[derive(Clone, Copy, Debug)]
+struct Walk {
+    origin: [f32; 3],
+    direction: [f32; 3],
+    inverse: [f32; 3],
+    near: [f32; 3],
+    far: [f32; 3],
+    start: [f32; 2],
+    /// Some answer, or the end of the interval, is not above.
+    best: f32,
+    /// The end of the interval, from below.
+    end: f32,
+    spread: f32,
+    /// |d|.
+    length: f32,
+    lane: usize,
+    list: List,
+    /// Something is surely met.
+    met: bool,
+    entries: [f32; STACK],
+    children: [u32; STACK],
+    top: usize,
+}
+
+impl Walk {
+    const NEW: Self = Self {
+        origin: [0.0; 3],
+        direction: [0.0; 3],
+        inverse: [0.0; 3],
+        near: [0.0; 3],
+        far: [0.0; 3],
+        start: [0.0; 2],
+        best: 0.0,
+        end: 0.0,
+        spread: 0.0,
+        length: 0.0,
+        lane: 0,
+        list: List::EMPTY,
+        met: false,
+        entries: [0.0; STACK],
+        children: [NO_CHILD; STACK],
+        top: 0,
+    };
+
+    #[inline(always)]
+    fn begin<L: Lanes>(&mut self, slabs: &Slabs<L>, lane: usize, root: u32) {
+        #[inline(always)]
+        fn at<A: AsRef<[f32]>>(array: &A, lane: usize) -> f32 {
+            match array.as_ref().get(lane) {
+                Some(value) => *value,
+                None => f32::NAN,
+            }
+        }
+        self.origin = axes!(i => at(&slabs.origin[i], lane));
+        self.direction = axes!(i => at(&slabs.direction[i], lane));
+        self.inverse = axes!(i => at(&slabs.inverse[i], lane));
+        self.near = axes!(i => at(&slabs.near[i], lane));
+        self.far = axes!(i => at(&slabs.far[i], lane));
+        self.start = [at(&slabs.start[0], lane), at(&slabs.start[1], lane)];
+        self.end = at(&slabs.end[0], lane);
+        self.best = at(&slabs.end[1], lane);
+        self.spread = at(&slabs.spread, lane);
+        self.length = at(&slabs.length, lane);
+        self.lane = lane;
+        self.list.count = 0;
+        self.met = false;
+        self.entries[0] = f32::NEG_INFINITY;
+        self.children[0] = root;
+        self.top = 1;
+    }
+
+    /// Looks into one box; whether there was one.
+    #[inline(always)]
+    fn step<A: Accuracy, L: Lanes, const ANY: bool>(
+        &mut self,
+        token: L::Token,
+        packet: &RayPacket<L>,
+        bvh: &Bvh<'_>,
+        hits: &mut HitPacket<L>,
+    ) -> bool {
+        let best = if A::SPREAD > 0.0 { self.best + self.spread } else { self.best };
+        let child = loop {
+            if self.top == 0 {
+                return false;
+            }
+            self.top -= 1;
+            let at = self.top & (STACK - 1);
+            if self.entries[at] <= best {
+                break self.children[at];
+            }
+        };
+        if child & LEAF == 0 {
+            if let Some(node) = bvh.nodes.get(child as usize) {
+                self.enter::<A, L>(token, node, best);
+            }
+        } else {
+            let place = child & !LEAF;
+            if let Some(leaf) = bvh.leaves.get(place as usize) {
+                self.meet::<A, L, ANY>(token, packet, bvh, leaf, place * WIDTH as u32, hits);
+            }
+        }
+        true
+    }
+
+    #[inline(always)]
+    fn enter<A: Accuracy, L: Lanes>(&mut self, token: L::Token, node: &BvhNode, best: f32) {
+        let start = if A::SPREAD > 0.0 { self.start[0] - self.spread } else { self.start[0] };
+        let forward = axes!(i => self.inverse[i] >= 0.0);
+        let nearer = axes!(i => if forward[i] { &node.low[i] } else { &node.high[i] });
+        let farther = axes!(i => if forward[i] { &node.high[i] } else { &node.low[i] });
+        let inverse = axes!(i => L::splat(token, self.inverse[i]));
+        let near = axes!(i => L::splat(token, -self.near[i]));
+        let far = axes!(i => L::splat(token, self.far[i]));
+        let (start, minus_best) = (L::splat(token, start), L::splat(token, -best));
+        let base = self.top;
+        for part in 0..WIDTH / L::COUNT {
+            let entry = axes!(i => {
+                part_of::<L>(token, nearer[i], part).filter_mul_add(inverse[i], near[i])
+            });
+            let minus_leave = axes!(i => {
+                part_of::<L>(token, farther[i], part).filter_mul_add(-inverse[i], far[i])
+            });
+            let entry = entry[0].filter_max(entry[1]).filter_max(entry[2].filter_max(start));
+            let minus_leave = minus_leave[0]
+                .filter_max(minus_leave[1])
+                .filter_max(minus_leave[2].filter_max(minus_best));
+            let mut met = entry.le(-minus_leave).bits();
+            let entries = entry.store();
+            while met != 0 {
+                let lane = met.trailing_zeros() as usize;
+                met &= met - 1;
+                let (Some(&entry), Some(&child)) =
+                    (entries.as_ref().get(lane), node.child.get(part * L::COUNT + lane))
+                else {
+                    continue;
+                };
+                // The nearest on top.
+                let mut at = self.top;
+                while at > base {
+                    let below = (at - 1) & (STACK - 1);
+                    if self.entries[below] >= entry {
+                        break;
+                    }
+                    self.entries[at & (STACK - 1)] = self.entries[below];
+                    self.children[at & (STACK - 1)] = self.children[below];
+                    at -= 1;
+                }
+                self.entries[at & (STACK - 1)] = entry;
+                self.children[at & (STACK - 1)] = child;
+                self.top += 1;
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn meet<A: Accuracy, L: Lanes, const ANY: bool>(
+        &mut self,
+        token: L::Token,
+        packet: &RayPacket<L>,
+        bvh: &Bvh<'_>,
+        leaf: &BvhLeaf,
+        place: u32,
+        hits: &mut HitPacket<L>,
+    ) {
+        let probe = Probe {
+            origin: axes!(i => L::splat(token, self.origin[i])),
+            direction: axes!(i => L::splat(token, self.direction[i])),
+            start: [L::splat(token, self.start[0]), L::splat(token, self.start[1])],
+            end: [L::splat(token, self.end), L::splat(token, self.best)],
+        };
+        for part in 0..WIDTH / L::COUNT {
+            let Some(bracket) = probe.meet::<A>(leaf, part) else { continue };
+            let (entries, bounds) = (bracket.entry.store(), bracket.bound.store());
+            let mut candidates = bracket.candidates;
+            while candidates != 0 {
+                let lane = candidates.trailing_zeros() as usize;
+                candidates &= candidates - 1;
+                let (Some(&entry), Some(&bound)) =
+                    (entries.as_ref().get(lane), bounds.as_ref().get(lane))
+                else {
+                    continue;
+                };
+                if ANY && bound < f32::INFINITY {
+                    self.met = true;
+                    self.top = 0;
+                    return;
+                }
+                if entry > self.best {
+                    continue;
+                }
+                if bound < self.best {
+                    self.best = bound;
+                }
+                if self.list.is_full(self.best) {
+                    self.flush::<A, L, ANY>(token, packet, bvh, hits);
+                }
+                self.list.push(place + (part * L::COUNT + lane) as u32, entry);
+            }
+        }
+    }
+
+    /// Asks the tier about the list, which is full.
+    #[inline(always)]
+    fn flush<A: Accuracy, L: Lanes, const ANY: bool>(
+        &mut self,
+        token: L::Token,
+        packet: &RayPacket<L>,
+        bvh: &Bvh<'_>,
+        hits: &mut HitPacket<L>,
+    ) {
+        let (lane, list) = (self.lane, self.list);
+        self.list.count = 0;
+        let nearest = L::out_of_line(
+            token,
+            #[inline(always)]
+            || settle_one::<A, L>(token, packet, lane, bvh.leaves, &list),
+        );
+        let Some(hit) = nearest else { return };
+        take(hits, lane, hit.t, hit.sphere);
+        if ANY {
+            self.met = true;
+            self.top = 0;
+        }
+        let best = raised(hit.t * self.length);
+        if best < self.best {
+            self.best = best;
+        }
+    }
+}
+
+/// Meets one packet's rays with all spheres; answers with the lanes that surely meet something,
+/// where that is all that is asked.
+#[inline(always)]
+fn meet<A: Accuracy, L: Lanes, const ANY: bool>(
+    token: L::Token,
+    packet: &RayPacket<L>,
+    spheres: &Spheres<'_>,
+    bvh: &Bvh<'_>,
+    walks: &mut [Walk; TOGETHER],
+    hits: &mut HitPacket<L>,
+) -> u32 {
+    let rays = RayLanes::load(token, packet);
+    let live = rays.live.bits();
+    let slabs = Slabs::<L>::new::<A>(&rays, bvh.extent);
+    let mut lists = [(List::EMPTY, f32::INFINITY); 32];
+    let mut met = 0;
+
+    let mut waiting = slabs.judged;
+    let walk = &mut walks[0];
+    while waiting != 0 {
+        let lane = waiting.trailing_zeros() as usize;
+        waiting &= waiting - 1;
+        walk.begin(&slabs, lane, bvh.root);
+        while walk.step::<A, L, ANY>(token, packet, bvh, hits) {}
+        if walk.met {
+            met |= 1 << lane;
+        } else if let Some(list) = lists.get_mut(lane) {
+            *list = (walk.list, walk.best);
+        }
+    }
+    settle::<A, L>(token, &rays, bvh.leaves, &lists, hits);
+
+    let judged = slabs.judged & !met;
+    if !bvh.outside.is_empty() && judged != 0 {
+        L::out_of_line(
+            token,
+            #[inline(always)]
+            || settle_outside::<A, L>(token, &rays, bvh.outside, judged, hits),
+        );
+    }
+    let rest = live & !slabs.judged;
+    if rest != 0 {
+        L::out_of_line(
+            token,
+            #[inline(always)]
+            || meet_all::<A, L>(token, packet, spheres, rest, hits),
+        );
+    }
+    met
+}
+
+/// Rays that the bounds do not cover, those in `lanes`, against all spheres.
+#[inline(always)]
+fn meet_all<A: Accuracy, L: Lanes>(
+    token: L::Token,
+    packet: &RayPacket<L>,
+    spheres: &Spheres<'_>,
+    lanes: u32,
+    hits: &mut HitPacket<L>,
+) {
+    let asked = lanes_of_bits::<L>(token, lanes);
+    let mut rays = *packet;
+    let never = L::splat(token, f32::NAN);
+    rays.t_min = L::select(asked, L::load(token, &rays.t_min), never).store();
+    let mut found = [HitPacket::none()];
+    crate::nearest::<A, L>(token, &[rays], *spheres, &mut found);
+    for (lane, (&t, &index)) in found[0].t().iter().zip(found[0].spheres()).enumerate() {
+        if lanes >> lane & 1 == 1 && t < f32::INFINITY {
+            take(hits, lane, t, index);
+        }
+    }
+}
