@@ -4,9 +4,17 @@
 //! | room | holds |
 //! |---|---|
 //! | [`oracle`] | the exact answers, from big integers |
+//! | [`ulp`] | distance in ulp, and the tally of a tier's answers |
 //! | [`case`] | one ray and one sphere, printed so that no bit is hidden |
+//! | [`random`] | random numbers that never change |
+//! | [`aim`] | rays aimed at spheres |
+//! | [`regimes`] | cases of the 22 hard regimes |
 //! | [`vectors`] | the 100,000 hard cases that lie beside the workspace, where they do |
 
+pub mod aim;
 pub mod case;
 pub mod oracle;
+pub mod random;
+pub mod regimes;
+pub mod ulp;
 pub mod vectors;
