@@ -9,10 +9,16 @@
 //! | [`random`] | random numbers that never change |
 //! | [`aim`] | rays aimed at spheres |
 //! | [`regimes`] | cases of the 22 hard regimes |
+//! | [`kept`] | some of them with their answers, in a file |
+//! | [`measured`] | cases of the regimes in which error is measured |
+//! | [`budget`] | the one table of what each tier gets wrong, and where |
 //! | [`vectors`] | the 100,000 hard cases that lie beside the workspace, where they do |
 
 pub mod aim;
+pub mod budget;
 pub mod case;
+pub mod kept;
+pub mod measured;
 pub mod oracle;
 pub mod random;
 pub mod regimes;

@@ -72,25 +72,19 @@ pub(super) fn degenerate(random: &mut Random) -> Case {
 
 /// Roots about the largest and the least that single precision holds.
 pub(super) fn extreme_t(random: &mut Random) -> Case {
-    let radius = random.log_uniform(-10, 10);
-    let t_exponent =
-        if random.one_in(2) { random.integer(124, 130) } else { -random.integer(124, 154) };
+    let large = random.one_in(2);
+    let t_exponent = if large { random.integer(124, 130) } else { -random.integer(124, 154) };
+    // The scene takes a part of the exponent, the direction the rest.
+    let part = random.integer(10, 60) * t_exponent.signum();
+    let radius = random.uniform(1.0, 2.0) * power_of_two(part);
     let distance = radius * random.uniform(1.0, 20.0);
-    let mut aim = Aim {
-        origin: random.unit(),
+    let aim = Aim {
+        origin: random.unit().map(|x| x * radius),
         length: distance * power_of_two(-t_exponent),
         distance,
         radius,
         offset: random.uniform(0.0, 1.2),
     };
-    // A direction beyond single precision: shrink the scene instead.
-    if aim.length > power_of_two(126) {
-        let shrink = power_of_two(126) / aim.length;
-        aim.length *= shrink;
-        aim.distance *= shrink;
-        aim.radius *= shrink;
-        aim.origin = [0.0; 3];
-    }
     let mut case = aim.case(random);
     if random.one_in(3) {
         case.ray.t_min = f32::NEG_INFINITY;
