@@ -10,7 +10,7 @@ fn check(set: Set) {
     assert!(
         complaints.is_empty(),
         "{}\n{} complaints; measured now:\n{}\nTo pin these figures:\n\
-         cargo run --release -p spherule-tests --example pin_budget\n",
+         cargo run --profile test -p spherule-tests --example pin_budget\n",
         complaints.join("\n"),
         complaints.len(),
         budget::markdown(&fresh),

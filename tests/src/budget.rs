@@ -5,7 +5,7 @@
 //! the table never promises less than is true. After a change of a tier
 //!
 //! ```text
-//! cargo run --release -p spherule-tests --example pin_budget
+//! cargo run --profile test -p spherule-tests --example pin_budget
 //! ```
 //!
 //! writes the table again, reasons kept, and prints it as Markdown; `git diff` then says what the
