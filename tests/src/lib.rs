@@ -4,7 +4,7 @@
 //! | room | holds |
 //! |---|---|
 //! | [`oracle`] | the exact answers, from big integers |
-//! | [`ulp`] | distance in ulp, and the tally of a tier's answers |
+//! | [`ulp`], [`tally`] | distance in ulp, and what a tier's answers come to |
 //! | [`case`] | one ray and one sphere, printed so that no bit is hidden |
 //! | [`random`] | random numbers that never change |
 //! | [`aim`] | rays aimed at spheres |
@@ -26,5 +26,6 @@ pub mod measured;
 pub mod oracle;
 pub mod random;
 pub mod regimes;
+pub mod tally;
 pub mod ulp;
 pub mod vectors;
