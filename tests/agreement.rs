@@ -85,6 +85,11 @@ proptest! {
     }
 
     #[test]
+    fn lists_are_their_spheres_in_every_size(scene in inputs::sized_scene()) {
+        check_scene(&scene)?;
+    }
+
+    #[test]
     fn lists_are_their_spheres_for_any_bits(scene in inputs::scene(inputs::wild)) {
         check_scene(&scene)?;
     }
