@@ -15,4 +15,5 @@ pub mod check;
 pub mod probe;
 pub mod random;
 pub mod rounds;
+pub mod settings;
 pub mod workload;

@@ -107,6 +107,9 @@ impl Cloud {
     }
 
     /// As the kernel reads them.
+    ///
+    /// # Panics
+    /// Never: the lengths are equal.
     #[must_use]
     pub fn spheres(&self) -> Spheres<'_> {
         Spheres::new(&self.x, &self.y, &self.z, &self.r).expect("equal lengths")
