@@ -38,10 +38,10 @@ impl<L: Lanes> RayLanes<L> {
         let (origin, direction) = (load3(&packet.origin), load3(&packet.direction));
         let (t_min, t_max) = (L::load(token, &packet.t_min), L::load(token, &packet.t_max));
 
-        // A number minus itself is zero, and NaN for NaN and the infinities.
-        let zero = L::splat(token, 0.0);
-        let residue = |v: [L; 3]| (v[0] - v[0]) + (v[1] - v[1]) + (v[2] - v[2]);
-        let finite = (residue(origin) + residue(direction)).le(zero);
+        let (zero, largest) = (L::splat(token, 0.0), L::splat(token, f32::MAX));
+        let finite =
+            |v: [L; 3]| v[0].abs().le(largest) & v[1].abs().le(largest) & v[2].abs().le(largest);
+        let finite = finite(origin) & finite(direction);
         let along = direction.map(|d| d.lt(zero) | zero.lt(d));
         let directed = along[0] | along[1] | along[2];
         Self { origin, direction, t_min, t_max, live: finite & directed & t_min.le(t_max) }

@@ -1,7 +1,7 @@
 //! Rays against lists of spheres: nearest hit, any hit, pairs, and both roots.
 
 use crate::accuracy::RayLanes;
-use crate::filter::{BLOCK, FilterGroup, FilterRays, GROUP};
+use crate::filter::{BLOCK_SPHERES, FilterBlock, FilterGroup, FilterRays, GROUP};
 use crate::{
     Accuracy, Hit, HitPacket, LaneMask, Lanes, Ray, RayPacket, Sphere, SpherePacket, Spheres,
 };
@@ -19,8 +19,8 @@ pub fn nearest<A: Accuracy, L: Lanes>(
     for hit in hits.iter_mut().take(rays.len()) {
         *hit = HitPacket::none();
     }
-    for_candidates(token, rays, hits, &spheres, |packet, hit, first, group| {
-        nearest_in_group::<A, L>(token, packet, &spheres, first, group, hit);
+    for_candidates(token, rays, hits, &spheres, |hit, candidates| {
+        nearest_in_group::<A, L>(token, candidates, hit);
         false
     });
 }
@@ -35,8 +35,8 @@ pub fn any<A: Accuracy, L: Lanes>(
     for bits in met.iter_mut().take(rays.len()) {
         *bits = 0;
     }
-    for_candidates(token, rays, met, &spheres, |packet, bits, first, group| {
-        any_in_group::<A, L>(token, packet, &spheres, first, group, bits)
+    for_candidates(token, rays, met, &spheres, |bits, candidates| {
+        any_in_group::<A, L>(token, candidates, bits)
     });
 }
 
@@ -83,35 +83,98 @@ pub fn roots<A: Accuracy>(ray: &Ray, sphere: &Sphere) -> Option<[f32; 2]> {
     roots.meets.then_some([roots.near + 0.0, roots.far + 0.0])
 }
 
-/// Calls `resolve` for each packet and group of spheres that the filter does not rule out, with
-/// the index of the group's first sphere; where it returns true the packet wants no more.
+/// A packet, and a group of spheres that the filter could not rule out for it.
+struct Candidates<'a, L: Lanes> {
+    rays: &'a RayLanes<L>,
+    filter: &'a FilterRays<L>,
+    group: &'a FilterGroup,
+    spheres: &'a Spheres<'a>,
+    /// The index of the group's first sphere.
+    first: usize,
+}
+
+/// Calls `resolve` for each packet and group of spheres that the filter does not rule out; where
+/// it returns true the packet wants no more.
 #[inline(always)]
 fn for_candidates<L: Lanes, R>(
     token: L::Token,
     rays: &[RayPacket<L>],
     results: &mut [R],
     spheres: &Spheres<'_>,
-    resolve: impl Fn(&RayPacket<L>, &mut R, usize, &FilterGroup) -> bool,
+    resolve: impl Fn(&mut R, &Candidates<'_, L>) -> bool,
 ) {
-    let mut block = [FilterGroup::EMPTY; BLOCK];
-    for first in (0..spheres.len()).step_by(BLOCK * GROUP) {
-        // Prepare the next spheres once for all packets.
-        let groups = (spheres.len() - first).div_ceil(GROUP).min(BLOCK);
-        for (index, group) in block.iter_mut().take(groups).enumerate() {
-            *group = FilterGroup::prepare(spheres, first + index * GROUP);
-        }
-
+    for first in (0..spheres.len()).step_by(BLOCK_SPHERES) {
+        // The spheres are prepared once for all packets.
+        let block = FilterBlock::new(spheres, first);
         for (packet, result) in rays.iter().zip(results.iter_mut()) {
-            let filter = FilterRays::new(token, &RayLanes::load(token, packet));
-            for (index, group) in block.iter().take(groups).enumerate() {
-                if filter.may_meet_any(group)
-                    && resolve(packet, result, first + index * GROUP, group)
-                {
-                    break;
+            let rays = RayLanes::load(token, packet);
+            let filter = FilterRays::new(token, &rays, &block);
+            for (group, first) in block.groups().iter().zip((first..).step_by(GROUP)) {
+                if filter.may_meet_any(group) {
+                    let (rays, filter) = (&rays, &filter);
+                    if resolve(result, &Candidates { rays, filter, group, spheres, first }) {
+                        break;
+                    }
                 }
             }
         }
     }
+}
+
+/// Calls `met` with every sphere of the group that the filter does not rule out by itself: its
+/// index, and the accepted t of rules 1 to 4, `+inf` where there is none.
+#[inline(always)]
+fn resolve<A: Accuracy, L: Lanes>(
+    token: L::Token,
+    candidates: &Candidates<'_, L>,
+    mut met: impl FnMut(u32, L),
+) {
+    let Candidates { rays, filter, group, spheres, first } = *candidates;
+    let prepared = A::prepare(rays);
+    for slot in 0..GROUP {
+        let Some(sphere) = spheres.get(first + slot) else { return };
+        if filter.may_meet(group, slot) {
+            let center = sphere.center.to_array().map(|x| L::splat(token, x));
+            let radius = L::splat(token, sphere.radius);
+            met((first + slot) as u32, accepted::<A, L>(token, rays, &prepared, center, radius));
+        }
+    }
+}
+
+// Out of line, so that what candidates need does not press on the registers of the filter loop.
+#[inline(never)]
+fn nearest_in_group<A: Accuracy, L: Lanes>(
+    token: L::Token,
+    candidates: &Candidates<'_, L>,
+    hit: &mut HitPacket<L>,
+) {
+    let mut best = L::load(token, &hit.t);
+    let ids = &mut hit.sphere;
+    resolve::<A, L>(token, candidates, |index, t| {
+        // Spheres come in the order of their indices, so an equal t is no improvement.
+        let nearer = t.lt(best);
+        best = L::select(nearer, t, best);
+        let mut nearer = nearer.bits();
+        while nearer != 0 {
+            if let Some(id) = ids.as_mut().get_mut(nearer.trailing_zeros() as usize) {
+                *id = index;
+            }
+            nearer &= nearer - 1;
+        }
+    });
+    hit.t = best.store();
+}
+
+/// True where every live lane has met something.
+#[inline(never)]
+fn any_in_group<A: Accuracy, L: Lanes>(
+    token: L::Token,
+    candidates: &Candidates<'_, L>,
+    met: &mut u32,
+) -> bool {
+    let infinity = L::splat(token, f32::INFINITY);
+    resolve::<A, L>(token, candidates, |_, t| *met |= t.lt(infinity).bits());
+    candidates.rays.live.bits() & !*met == 0
 }
 
 /// The accepted t of rules 1 to 4, `+inf` where there is none.
@@ -124,74 +187,15 @@ fn accepted<A: Accuracy, L: Lanes>(
     radius: L,
 ) -> L {
     let (zero, largest) = (L::splat(token, 0.0), L::splat(token, f32::MAX));
-    let within = |t: L| rays.t_min.le(t) & t.le(rays.t_max) & t.abs().le(largest);
+    let finite = |x: L| x.abs().le(largest);
+    let valid = finite(center[0]) & finite(center[1]) & finite(center[2]);
+    let valid = valid & zero.le(radius) & finite(radius);
+
     let roots = A::roots(prepared, center, radius);
+    let met = rays.live & valid & roots.meets;
+    let within = |t: L| rays.t_min.le(t) & t.le(rays.t_max) & finite(t);
     // Adding zero turns -0 into +0.
     let (near, far) = (roots.near + zero, roots.far + zero);
-    let coordinates = (center[0].abs().le(largest))
-        & (center[1].abs().le(largest))
-        & (center[2].abs().le(largest));
-    let valid = coordinates & zero.le(radius) & radius.le(largest);
-    let met = rays.live & valid & roots.meets;
-    let infinity = L::splat(token, f32::INFINITY);
-    L::select(met & within(near), near, L::select(met & within(far), far, infinity))
-}
-
-#[inline(never)]
-fn nearest_in_group<A: Accuracy, L: Lanes>(
-    token: L::Token,
-    packet: &RayPacket<L>,
-    spheres: &Spheres<'_>,
-    first: usize,
-    group: &FilterGroup,
-    hit: &mut HitPacket<L>,
-) {
-    let rays = RayLanes::load(token, packet);
-    let filter = FilterRays::new(token, &rays);
-    let prepared = A::prepare(&rays);
-    let mut best = L::load(token, &hit.t);
-    for slot in 0..GROUP {
-        let Some(sphere) = spheres.get(first + slot) else { break };
-        if !filter.may_meet(group, slot) {
-            continue;
-        }
-        let center = sphere.center.to_array().map(|x| L::splat(token, x));
-        let t = accepted::<A, L>(token, &rays, &prepared, center, L::splat(token, sphere.radius));
-        // Spheres come in the order of their indices, so an equal t is no improvement.
-        let mut nearer = t.lt(best).bits();
-        best = L::select(t.lt(best), t, best);
-        while nearer != 0 {
-            let lane = nearer.trailing_zeros() as usize;
-            if let Some(id) = hit.sphere.as_mut().get_mut(lane) {
-                *id = (first + slot) as u32;
-            }
-            nearer &= nearer - 1;
-        }
-    }
-    hit.t = best.store();
-}
-
-#[inline(never)]
-fn any_in_group<A: Accuracy, L: Lanes>(
-    token: L::Token,
-    packet: &RayPacket<L>,
-    spheres: &Spheres<'_>,
-    first: usize,
-    group: &FilterGroup,
-    met: &mut u32,
-) -> bool {
-    let rays = RayLanes::load(token, packet);
-    let filter = FilterRays::new(token, &rays);
-    let prepared = A::prepare(&rays);
-    let infinity = L::splat(token, f32::INFINITY);
-    for slot in 0..GROUP {
-        let Some(sphere) = spheres.get(first + slot) else { break };
-        if !filter.may_meet(group, slot) {
-            continue;
-        }
-        let center = sphere.center.to_array().map(|x| L::splat(token, x));
-        let t = accepted::<A, L>(token, &rays, &prepared, center, L::splat(token, sphere.radius));
-        *met |= t.lt(infinity).bits();
-    }
-    rays.live.bits() & !*met == 0
+    let far = L::select(met & within(far), far, L::splat(token, f32::INFINITY));
+    L::select(met & within(near), near, far)
 }

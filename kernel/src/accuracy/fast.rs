@@ -15,12 +15,13 @@ use crate::Lanes;
 #[derive(Clone, Copy, Debug)]
 pub struct Fast;
 
-/// The rays, and a = d.d.
+/// The rays, a = d.d, and 1/a: one division a packet in place of two a sphere.
 #[derive(Clone, Copy, Debug)]
 pub struct FastRays<L> {
     origin: [L; 3],
     direction: [L; 3],
     a: L,
+    per_a: L,
 }
 
 impl sealed::Sealed for Fast {}
@@ -32,12 +33,13 @@ impl Accuracy for Fast {
     #[inline(always)]
     fn prepare<L: Lanes>(rays: &RayLanes<L>) -> FastRays<L> {
         let d = rays.direction;
-        FastRays { origin: rays.origin, direction: d, a: d[0] * d[0] + d[1] * d[1] + d[2] * d[2] }
+        let a = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+        FastRays { origin: rays.origin, direction: d, a, per_a: L::splat(a.token(), 1.0) / a }
     }
 
     #[inline(always)]
     fn roots<L: Lanes>(rays: &FastRays<L>, center: [L; 3], radius: L) -> Roots<L> {
-        let FastRays { origin: o, direction: d, a } = *rays;
+        let FastRays { origin: o, direction: d, a, per_a } = *rays;
         let p = [center[0] - o[0], center[1] - o[1], center[2] - o[2]];
         let b = d[0] * p[0] + d[1] * p[1] + d[2] * p[2];
         let c = (p[0] * p[0] + p[1] * p[1] + p[2] * p[2]) - radius * radius;
@@ -45,8 +47,8 @@ impl Accuracy for Fast {
         let root = discriminant.sqrt();
         Roots {
             meets: L::splat(a.token(), 0.0).le(discriminant),
-            near: (b - root) / a,
-            far: (b + root) / a,
+            near: (b - root) * per_a,
+            far: (b + root) * per_a,
         }
     }
 }
