@@ -4,17 +4,21 @@
 //! |---|---|
 //! | [`Fast`] | the textbook form in single precision; wrong where that is wrong |
 //! | [`Stable`] | the best form that plain single precision allows |
+//! | [`Exact`] | decided as in real arithmetic, t correctly rounded, for every input |
 //!
 //! A tier says where a line meets a sphere; validity, interval, order and ties are the same code
 //! for all of them, in [`nearest`](crate::nearest) and its companions.
 
+mod beyond;
+mod exact;
 mod fast;
 mod stable;
 
+pub use exact::Exact;
 pub use fast::Fast;
 pub use stable::Stable;
 
-use crate::{Lanes, RayPacket};
+use crate::{Lanes, Ray, RayPacket, Sphere};
 
 mod sealed {
     pub trait Sealed {}
@@ -48,15 +52,28 @@ impl<L: Lanes> RayLanes<L> {
     }
 }
 
-/// Where the lines of a packet meet a sphere.
+/// Where the lines of a packet meet a sphere, as a tier computed it.
 #[derive(Clone, Copy, Debug)]
-pub struct Roots<L: Lanes> {
+struct Roots<L: Lanes> {
     /// Whether the line meets the sphere at all; tangents do.
-    pub meets: L::Mask,
+    meets: L::Mask,
     /// The smaller root; unspecified where the line does not meet the sphere.
-    pub near: L,
+    near: L,
     /// The larger root.
-    pub far: L,
+    far: L,
+}
+
+impl<L: Lanes> Roots<L> {
+    /// The accepted t of rules 2 to 4, `+inf` where there is none.
+    #[inline(always)]
+    fn first_accepted(&self, rays: &RayLanes<L>) -> L {
+        let splat = |value| L::splat(self.near.token(), value);
+        let within = |t: L| rays.t_min.le(t) & t.le(rays.t_max) & t.abs().le(splat(f32::MAX));
+        // Adding zero turns -0 into +0.
+        let (near, far) = (self.near + splat(0.0), self.far + splat(0.0));
+        let far = L::select(self.meets & within(far), far, splat(f32::INFINITY));
+        L::select(self.meets & within(near), near, far)
+    }
 }
 
 /// A tier. Sealed: the scene structures prove their bounds tier by tier.
@@ -70,9 +87,26 @@ pub trait Accuracy: sealed::Sealed + Copy + core::fmt::Debug {
     /// Computes what depends on the rays alone.
     fn prepare<L: Lanes>(rays: &RayLanes<L>) -> Self::Prepared<L>;
 
-    /// Where the rays' lines meet one sphere a lane.
+    /// The t of rules 2 to 4 for one sphere a lane, `+inf` where there is none.
     ///
-    /// Called only where the sphere is valid, and read only in lanes whose ray is; every bit
-    /// pattern must return.
-    fn roots<L: Lanes>(rays: &Self::Prepared<L>, center: [L; 3], radius: L) -> Roots<L>;
+    /// Read only in the lanes `asked`, where ray and sphere are valid; may be `+inf` where t is
+    /// larger than `limit`. Every bit pattern must return.
+    fn first_root<L: Lanes>(
+        rays: &RayLanes<L>,
+        prepared: &Self::Prepared<L>,
+        center: [L; 3],
+        radius: L,
+        asked: L::Mask,
+        limit: L,
+    ) -> L;
+
+    /// Both roots of the line of a valid ray and a valid sphere, the smaller first, never -0.
+    fn line_roots(ray: &Ray, sphere: &Sphere) -> Option<[f32; 2]>;
+}
+
+/// [`Accuracy::line_roots`] by the lanes of a tier that computes both roots always.
+#[inline(always)]
+fn line_roots_of(roots: impl Fn(&RayLanes<f32>) -> Roots<f32>, ray: &Ray) -> Option<[f32; 2]> {
+    let roots = roots(&RayLanes::load((), &RayPacket::new(&[*ray])));
+    roots.meets.then_some([roots.near + 0.0, roots.far + 0.0])
 }

@@ -39,7 +39,7 @@
 //! The row of `Fast`: p 1u, so b 4u |p| and |p|^2 6u; b^2 8u + 1u, the product a c 3u (a) + 6u + 1u,
 //! their difference 1u, all times |p|^2 a; r^2 1u, its difference with |p|^2 3u, and the same
 //! 3u + 1u + 1u. `Stable` errs less: its first discriminant, within 26 |q|^2 + 10 r^2 with
-//! |q| <= |p|, is believed only where it exceeds 2^-4 (|q|^2 + r^2), and its second is within
+//! |q| <= |p|, is believed only where it exceeds 2^-5 (|q|^2 + r^2), and its second is within
 //! 2^-40 (|p|^2 + r^2). Hence kappa = 104 u: a tier's hit passes.
 //!
 //! The table holds where nothing over- or underflows. That is so for |centre|, r, |K|, |origin|
@@ -205,9 +205,9 @@ impl<L: Lanes> FilterRays<L> {
         self.threshold.le(low.filter_max(high)).any()
     }
 
-    /// Whether any lane may meet sphere `slot` of the group.
+    /// Which lanes may meet sphere `slot` of the group.
     #[inline(always)]
-    pub(crate) fn may_meet(&self, group: &FilterGroup, slot: usize) -> bool {
-        self.threshold.le(self.raised(group, slot)).any()
+    pub(crate) fn may_meet(&self, group: &FilterGroup, slot: usize) -> L::Mask {
+        self.threshold.le(self.raised(group, slot))
     }
 }

@@ -58,11 +58,17 @@ pub fn pairs<A: Accuracy, L: Lanes>(
     let rays = RayLanes::load(token, rays);
     let center = spheres.center.each_ref().map(|array| L::load(token, array));
     let radius = L::load(token, &spheres.radius);
-    let t = accepted::<A, L>(token, &rays, &A::prepare(&rays), center, radius);
+    let (zero, largest) = (L::splat(token, 0.0), L::splat(token, f32::MAX));
+    let finite = |x: L| x.abs().le(largest);
+    let valid = finite(center[0]) & finite(center[1]) & finite(center[2]);
+    let asked = rays.live & valid & zero.le(radius) & finite(radius);
+    let infinity = L::splat(token, f32::INFINITY);
+    let t = A::first_root(&rays, &A::prepare(&rays), center, radius, asked, infinity);
+    let t = L::select(asked, t, infinity);
     let mut hits = HitPacket::<L>::none();
     hits.t = t.store();
     for (lane, id) in hits.sphere.as_mut().iter_mut().enumerate() {
-        let hit = t.lt(L::splat(token, f32::INFINITY)).bits() >> lane & 1 == 1;
+        let hit = t.lt(infinity).bits() >> lane & 1 == 1;
         *id = if hit { lane as u32 } else { HitPacket::<L>::NO_SPHERE };
     }
     hits
@@ -74,16 +80,11 @@ pub fn pairs<A: Accuracy, L: Lanes>(
 #[must_use]
 pub fn roots<A: Accuracy>(ray: &Ray, sphere: &Sphere) -> Option<[f32; 2]> {
     let line = Ray { t_min: f32::NEG_INFINITY, t_max: f32::INFINITY, ..*ray };
-    let rays = RayLanes::load((), &RayPacket::<f32>::new(&[line]));
-    if !rays.live || !sphere.is_valid() {
-        return None;
-    }
-    let roots = A::roots(&A::prepare(&rays), sphere.center.to_array(), sphere.radius);
-    // Adding zero turns -0 into +0.
-    roots.meets.then_some([roots.near + 0.0, roots.far + 0.0])
+    (line.is_live() && sphere.is_valid()).then(|| A::line_roots(&line, sphere))?
 }
 
 /// A packet, and a group of spheres that the filter could not rule out for it.
+#[derive(Clone, Copy)]
 struct Candidates<'a, L: Lanes> {
     rays: &'a RayLanes<L>,
     filter: &'a FilterRays<L>,
@@ -101,7 +102,7 @@ fn for_candidates<L: Lanes, R>(
     rays: &[RayPacket<L>],
     results: &mut [R],
     spheres: &Spheres<'_>,
-    resolve: impl Fn(&mut R, &Candidates<'_, L>) -> bool,
+    resolve: impl Fn(&mut R, Candidates<'_, L>) -> bool,
 ) {
     for first in (0..spheres.len()).step_by(BLOCK_SPHERES) {
         // The spheres are prepared once for all packets.
@@ -112,7 +113,7 @@ fn for_candidates<L: Lanes, R>(
             for (group, first) in block.groups().iter().zip((first..).step_by(GROUP)) {
                 if filter.may_meet_any(group) {
                     let (rays, filter) = (&rays, &filter);
-                    if resolve(result, &Candidates { rays, filter, group, spheres, first }) {
+                    if resolve(result, Candidates { rays, filter, group, spheres, first }) {
                         break;
                     }
                 }
@@ -122,21 +123,27 @@ fn for_candidates<L: Lanes, R>(
 }
 
 /// Calls `met` with every sphere of the group that the filter does not rule out by itself: its
-/// index, and the accepted t of rules 1 to 4, `+inf` where there is none.
+/// index, and the t of rules 1 to 4, `+inf` where there is none. `met` answers with the largest t
+/// that still matters, `limit` is the first.
 #[inline(always)]
 fn resolve<A: Accuracy, L: Lanes>(
     token: L::Token,
-    candidates: &Candidates<'_, L>,
-    mut met: impl FnMut(u32, L),
+    candidates: Candidates<'_, L>,
+    mut limit: L,
+    mut met: impl FnMut(u32, L) -> L,
 ) {
-    let Candidates { rays, filter, group, spheres, first } = *candidates;
+    let Candidates { rays, filter, group, spheres, first } = candidates;
+    let infinity = L::splat(token, f32::INFINITY);
+    // Keeping this from one group to the next costs Fast 6 % and gains the others 2 %.
     let prepared = A::prepare(rays);
     for slot in 0..GROUP {
         let Some(sphere) = spheres.get(first + slot) else { return };
-        if filter.may_meet(group, slot) {
+        let asked = rays.live & filter.may_meet(group, slot);
+        if sphere.is_valid() && asked.any() {
             let center = sphere.center.to_array().map(|x| L::splat(token, x));
             let radius = L::splat(token, sphere.radius);
-            met((first + slot) as u32, accepted::<A, L>(token, rays, &prepared, center, radius));
+            let t = A::first_root(rays, &prepared, center, radius, asked, limit);
+            limit = met((first + slot) as u32, L::select(asked, t, infinity));
         }
     }
 }
@@ -145,12 +152,12 @@ fn resolve<A: Accuracy, L: Lanes>(
 #[inline(never)]
 fn nearest_in_group<A: Accuracy, L: Lanes>(
     token: L::Token,
-    candidates: &Candidates<'_, L>,
+    candidates: Candidates<'_, L>,
     hit: &mut HitPacket<L>,
 ) {
     let mut best = L::load(token, &hit.t);
     let ids = &mut hit.sphere;
-    resolve::<A, L>(token, candidates, |index, t| {
+    resolve::<A, L>(token, candidates, best, |index, t| {
         // Spheres come in the order of their indices, so an equal t is no improvement.
         let nearer = t.lt(best);
         best = L::select(nearer, t, best);
@@ -161,6 +168,7 @@ fn nearest_in_group<A: Accuracy, L: Lanes>(
             }
             nearer &= nearer - 1;
         }
+        best
     });
     hit.t = best.store();
 }
@@ -169,33 +177,14 @@ fn nearest_in_group<A: Accuracy, L: Lanes>(
 #[inline(never)]
 fn any_in_group<A: Accuracy, L: Lanes>(
     token: L::Token,
-    candidates: &Candidates<'_, L>,
+    candidates: Candidates<'_, L>,
     met: &mut u32,
 ) -> bool {
     let infinity = L::splat(token, f32::INFINITY);
-    resolve::<A, L>(token, candidates, |_, t| *met |= t.lt(infinity).bits());
-    candidates.rays.live.bits() & !*met == 0
-}
-
-/// The accepted t of rules 1 to 4, `+inf` where there is none.
-#[inline(always)]
-fn accepted<A: Accuracy, L: Lanes>(
-    token: L::Token,
-    rays: &RayLanes<L>,
-    prepared: &A::Prepared<L>,
-    center: [L; 3],
-    radius: L,
-) -> L {
-    let (zero, largest) = (L::splat(token, 0.0), L::splat(token, f32::MAX));
-    let finite = |x: L| x.abs().le(largest);
-    let valid = finite(center[0]) & finite(center[1]) & finite(center[2]);
-    let valid = valid & zero.le(radius) & finite(radius);
-
-    let roots = A::roots(prepared, center, radius);
-    let met = rays.live & valid & roots.meets;
-    let within = |t: L| rays.t_min.le(t) & t.le(rays.t_max) & finite(t);
-    // Adding zero turns -0 into +0.
-    let (near, far) = (roots.near + zero, roots.far + zero);
-    let far = L::select(met & within(far), far, L::splat(token, f32::INFINITY));
-    L::select(met & within(near), near, far)
+    let live = candidates.rays.live.bits();
+    resolve::<A, L>(token, candidates, infinity, |_, t| {
+        *met |= t.lt(infinity).bits();
+        infinity
+    });
+    live & !*met == 0
 }

@@ -78,6 +78,16 @@ pub trait Lanes:
     fn le(self, other: Self) -> Self::Mask;
     /// `yes` where `mask` is true, else `no`.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+    /// Lanes `part * DoubleLanes::COUNT ..` in double precision, exactly.
+    ///
+    /// `part` counts from zero to [`Lanes::PARTS`]; past it, any part.
+    fn widen(self, part: usize) -> Self::Double;
+    /// Rounds `doubles` to single precision into those elements of `array` that
+    /// [`widen`](Lanes::widen) would read lanes from.
+    fn narrow(array: &mut Self::Array, part: usize, doubles: Self::Double);
+
+    /// How many partners it takes to hold all lanes.
+    const PARTS: usize = Self::COUNT / Self::Double::COUNT;
 
     /// The magnitude; NaN for NaN.
     #[inline(always)]
@@ -111,8 +121,6 @@ pub trait DoubleLanes:
     const COUNT: usize;
     /// What must be held to make lanes.
     type Token: Copy + Debug;
-    /// `[f64; COUNT]`.
-    type Array: Copy + Debug + Default + AsRef<[f64]> + AsMut<[f64]>;
     /// One truth value a lane.
     type Mask: LaneMask;
 
@@ -120,10 +128,6 @@ pub trait DoubleLanes:
     fn token(self) -> Self::Token;
     /// `value` in every lane.
     fn splat(token: Self::Token, value: f64) -> Self;
-    /// Lane `i` from element `i`, exactly; lanes past the end of `singles` are zero.
-    fn widen(token: Self::Token, singles: &[f32]) -> Self;
-    /// Element `i` from lane `i`.
-    fn store(self) -> Self::Array;
     /// The correctly rounded square root; NaN below zero.
     fn sqrt(self) -> Self;
     /// `self < other`.
