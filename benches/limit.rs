@@ -10,7 +10,7 @@ use spherule_benches::probe::{self, OPERATIONS};
 use spherule_benches::rounds::{self, Median, Samples, Subject};
 use spherule_benches::workload::{Cloud, Kind, RAYS, packets};
 use spherule_kernel::{
-    Accuracy, Fast, HitPacket, Lanes, Spheres, Stable, f32x4, f32x8, f32x16, nearest,
+    Accuracy, Exact, Fast, HitPacket, Lanes, Spheres, Stable, f32x4, f32x8, f32x16, nearest,
 };
 
 const COUNTS: [usize; 2] = [64, 1024];
@@ -37,6 +37,7 @@ fn main() {
             let mut add = |subject| subjects.push(subject);
             add(brute::<Fast>(kind, rays, cloud, &truth, Tolerance::TEXTBOOK, work));
             add(brute::<Stable>(kind, rays, cloud, &truth, Tolerance::CLOSEST_POINT, work));
+            add(brute::<Exact>(kind, rays, cloud, &truth, Tolerance::EXACT, work));
         }
     }
     let samples = rounds::take(&mut subjects, rounds);
@@ -104,13 +105,13 @@ fn print(samples: &Samples, rounds: usize) {
     let limit = OPERATIONS * samples.median(&peak).middle;
     println!("\nFMA limit of a test = {OPERATIONS} x `{peak}` = {limit:.4} ns.\n");
     println!(
-        "| tier | rays | spheres | ns a test | least | share of the FMA limit | of `{mixed}` | Stable / Fast |\n\
+        "| tier | rays | spheres | ns a test | least | share of the FMA limit | of `{mixed}` | time of fast |\n\
          |---|---|---|---|---|---|---|---|"
     );
     for spheres in COUNTS {
         for kind in Kind::ALL {
             let fast = subject_name(Fast::NAME, kind, spheres);
-            for tier in [Fast::NAME, Stable::NAME] {
+            for tier in [Fast::NAME, Stable::NAME, Exact::NAME] {
                 let name = subject_name(tier, kind, spheres);
                 let share = scaled(samples.ratio(&peak, &name), OPERATIONS);
                 println!(

@@ -9,7 +9,7 @@ use spherule_benches::check::{self, Tolerance};
 use spherule_benches::settings::settings;
 use spherule_benches::workload::{Cloud, Kind, RAYS, SPHERES, packets};
 use spherule_kernel::{
-    Accuracy, Fast, HitPacket, Lanes, Ray, Stable, f32x4, f32x8, f32x16, nearest,
+    Accuracy, Exact, Fast, HitPacket, Lanes, Ray, Stable, f32x4, f32x8, f32x16, nearest,
 };
 use std::hint::black_box;
 
@@ -31,6 +31,7 @@ fn groups(criterion: &mut Criterion) {
             group.throughput(Throughput::Elements((RAYS * count) as u64));
             tier::<Fast>(&mut group, &workload, Tolerance::TEXTBOOK);
             tier::<Stable>(&mut group, &workload, Tolerance::CLOSEST_POINT);
+            tier::<Exact>(&mut group, &workload, Tolerance::EXACT);
             group.finish();
         }
     }

@@ -21,7 +21,7 @@ use spherule_benches::check::{self, Tolerance};
 use spherule_benches::settings::settings;
 use spherule_benches::workload::{Cloud, Kind, RAYS, packets};
 use spherule_kernel::{
-    Accuracy, Fast, Hit, HitPacket, Lanes, Ray, Sphere, Stable, f32x8, f32x16, nearest,
+    Accuracy, Exact, Fast, Hit, HitPacket, Lanes, Ray, Sphere, Stable, f32x8, f32x16, nearest,
 };
 use std::hint::black_box;
 use ultraviolet::{Vec3x8, f32x8 as Lanes8};
@@ -44,6 +44,8 @@ fn groups(criterion: &mut Criterion) {
             kernel::<Fast, f32x16>(&mut group, &rays, &cloud);
             kernel::<Stable, f32x8>(&mut group, &rays, &cloud);
             kernel::<Stable, f32x16>(&mut group, &rays, &cloud);
+            kernel::<Exact, f32x8>(&mut group, &rays, &cloud);
+            kernel::<Exact, f32x16>(&mut group, &rays, &cloud);
 
             let mut peer = |name: &str, run: &mut dyn FnMut(&mut [Answer])| {
                 let mut answers = vec![(0.0, 0); RAYS];

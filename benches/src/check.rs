@@ -21,6 +21,8 @@ impl Tolerance {
     pub const TEXTBOOK: Self = Self { wrong: 8, relative: 1e-3 };
     /// The closest-point form: right on all these rays; grazing ones lose a few bits of t.
     pub const CLOSEST_POINT: Self = Self { wrong: 0, relative: 4e-6 };
+    /// Correctly rounded: half an ulp, and the reference's own error.
+    pub const EXACT: Self = Self { wrong: 0, relative: 6.0e-8 };
 }
 
 /// The nearest hit of every ray in double precision: closest point first, the smaller root.

@@ -2,10 +2,10 @@
 //! tier itself. These hold whatever bits come in, in the tier's domain or not.
 
 use crate::geometry::Scene;
-use crate::promise::{self, Promise};
+use crate::promise::Promise;
 use spherule_kernel::{
-    Fast, Hit, HitPacket, Lanes, Ray, RayPacket, Sphere, SpherePacket, Spheres, Stable, any, f32x4,
-    f32x8, f32x16, nearest, nearest_hit, pairs, roots,
+    Exact, Fast, Hit, HitPacket, Lanes, Ray, RayPacket, Sphere, SpherePacket, Spheres, Stable, any,
+    f32x4, f32x8, f32x16, nearest, nearest_hit, pairs, roots,
 };
 
 /// Judges everything that the kernel answers about a scene.
@@ -15,6 +15,7 @@ use spherule_kernel::{
 pub fn check(scene: &Scene) {
     tier::<Fast>(scene);
     tier::<Stable>(scene);
+    tier::<Exact>(scene);
 }
 
 fn tier<A: Promise>(scene: &Scene) {
@@ -26,7 +27,7 @@ fn tier<A: Promise>(scene: &Scene) {
     }
     for (ray, &aim) in scene.rays.iter().zip(&scene.aims) {
         let sphere = &scene.spheres[aim];
-        promise::judge::<A>(ray, sphere, roots::<A>(ray, sphere));
+        A::judge(ray, sphere, roots::<A>(ray, sphere));
     }
     width::<A, f32>(scene, &list, &single);
     width::<A, f32x4>(scene, &list, &single);

@@ -5,9 +5,9 @@
 //! by a few roundings. So the exact oracle is asked twice, for a sphere a little smaller and one a
 //! little larger: where both are missed the tier must miss, where both are met it must hit, and
 //! its roots must lie between theirs. That holds from head-on to grazing, and asks nothing of the
-//! float arithmetic that is on trial.
+//! float arithmetic that is on trial. `Exact` gets no such band.
 
-use spherule_kernel::{Accuracy, Fast, Ray, Sphere, Stable};
+use spherule_kernel::{Accuracy, Exact, Fast, Ray, Sphere, Stable};
 use spherule_tests::oracle;
 
 /// Half an ulp of 1.
@@ -16,42 +16,56 @@ const U: f64 = 1.0 / 16_777_216.0;
 const REACH: f64 = 1_099_511_627_776.0;
 const LENGTH: f64 = 1_048_576.0;
 
-/// What a tier promises in its domain.
+/// What a tier promises of the roots of a line.
 pub trait Promise: Accuracy {
-    /// How many radii away a sphere may be.
-    const RADII: f64;
-
-    /// The error of the squared radius, from radius and distance.
-    fn square_error(radius: f64, distance: f64) -> f64;
-
-    /// The error of t besides, in multiples of the direction's length.
-    fn further_error(distance: f64) -> f64;
+    /// Judges the roots that the tier found.
+    ///
+    /// # Panics
+    /// Where the promise is broken.
+    fn judge(ray: &Ray, sphere: &Sphere, found: Option<[f32; 2]>);
 }
 
 /// The textbook form: p.p - r^2 and b^2 are rounded at the size of |p|^2.
 impl Promise for Fast {
-    const RADII: f64 = f64::INFINITY;
-
-    fn square_error(radius: f64, distance: f64) -> f64 {
-        24.0 * U * (radius * radius + distance * distance)
-    }
-
-    fn further_error(distance: f64) -> f64 {
-        8.0 * U * distance
+    fn judge(ray: &Ray, sphere: &Sphere, found: Option<[f32; 2]>) {
+        let band = Band {
+            radii: f64::INFINITY,
+            square_error: |radius, distance| 24.0 * U * (radius * radius + distance * distance),
+            further_error: |distance| 8.0 * U * distance,
+        };
+        band.judge(Self::NAME, ray, sphere, found);
     }
 }
 
 /// Closest point first: whatever the distance, up to 2^20 radii, the error is one of r^2 alone.
 impl Promise for Stable {
-    const RADII: f64 = LENGTH;
-
-    fn square_error(radius: f64, _: f64) -> f64 {
-        32.0 * U * radius * radius
+    fn judge(ray: &Ray, sphere: &Sphere, found: Option<[f32; 2]>) {
+        let band = Band {
+            radii: LENGTH,
+            square_error: |radius, _| 32.0 * U * radius * radius,
+            further_error: |_| 0.0,
+        };
+        band.judge(Self::NAME, ray, sphere, found);
     }
+}
 
-    fn further_error(_: f64) -> f64 {
-        0.0
+/// The roots of real arithmetic, correctly rounded, whatever the input.
+impl Promise for Exact {
+    fn judge(ray: &Ray, sphere: &Sphere, found: Option<[f32; 2]>) {
+        let exact = oracle::roots(ray, sphere);
+        let bits = |roots: Option<[f32; 2]>| roots.map(|roots| roots.map(f32::to_bits));
+        assert_eq!(bits(found), bits(exact), "exact: {found:?} for {exact:?}: {ray:?} {sphere:?}");
     }
+}
+
+/// How far a tier may be from the exact roots in the domain that is common to `f32` tiers.
+struct Band {
+    /// How many radii away a sphere may be.
+    radii: f64,
+    /// The error of the squared radius, from radius and distance.
+    square_error: fn(f64, f64) -> f64,
+    /// The error of t besides, in multiples of the direction's length, from the distance.
+    further_error: fn(f64) -> f64,
 }
 
 /// |c - o| and |d|, near enough to tell what is promised.
@@ -62,53 +76,50 @@ fn lengths(ray: &Ray, sphere: &Sphere) -> (f64, f64) {
     (length(p), length(ray.direction.to_array().map(f64::from)))
 }
 
-/// Whether the tier promises anything for this pair.
+/// Whether radius, distance and direction lie in the domain.
 #[must_use]
-pub fn in_domain<A: Promise>(ray: &Ray, sphere: &Sphere) -> bool {
-    let radius = f64::from(sphere.radius);
+pub fn in_domain(ray: &Ray, sphere: &Sphere) -> bool {
     let (distance, length) = lengths(ray, sphere);
-    (1.0 / REACH..=REACH).contains(&radius)
-        && distance <= REACH.min(A::RADII * radius)
+    (1.0 / REACH..=REACH).contains(&f64::from(sphere.radius))
+        && distance <= REACH
         && (1.0 / LENGTH..=LENGTH).contains(&length)
 }
 
-/// Judges the roots that the tier found, where it promises anything.
-///
-/// # Panics
-/// Where the promise is broken.
-pub fn judge<A: Promise>(ray: &Ray, sphere: &Sphere, found: Option<[f32; 2]>) {
-    if !in_domain::<A>(ray, sphere) {
-        return;
-    }
-    let (distance, length) = lengths(ray, sphere);
-    let radius = f64::from(sphere.radius);
-    let error = A::square_error(radius, distance);
-    let smaller = (radius * radius - error).max(0.0).sqrt() as f32;
-    let larger = (radius * radius + error).sqrt() as f32;
-    let exact = |radius: f32| oracle::roots(ray, &Sphere { radius, ..*sphere });
-    let within = exact(smaller.next_down());
-    let around = exact(larger.next_up());
+impl Band {
+    fn judge(&self, tier: &str, ray: &Ray, sphere: &Sphere, found: Option<[f32; 2]>) {
+        let (distance, length) = lengths(ray, sphere);
+        let radius = f64::from(sphere.radius);
+        if !in_domain(ray, sphere) || distance > self.radii * radius {
+            return;
+        }
+        let error = (self.square_error)(radius, distance);
+        let smaller = (radius * radius - error).max(0.0).sqrt() as f32;
+        let larger = (radius * radius + error).sqrt() as f32;
+        let exact = |radius: f32| oracle::roots(ray, &Sphere { radius, ..*sphere });
+        let within = exact(smaller.next_down());
+        let around = exact(larger.next_up());
 
-    let say = || {
-        format!("{}: {found:?} where {within:?} and {around:?} bound: {ray:?} {sphere:?}", A::NAME)
-    };
-    let Some([first, last]) = around else {
-        assert!(found.is_none(), "false hit, {}", say());
-        return;
-    };
-    let Some([near, far]) = found else {
-        assert!(within.is_none(), "false miss, {}", say());
-        return;
-    };
-    // Between first and last in any case; where the smaller sphere is met, outside its roots.
-    let [inner_near, inner_far] = within.unwrap_or([last, first]);
-    let between = |low: f32, t: f32, high: f32| {
-        let few_roundings = 8.0 * U * f64::from(t).abs() + 1e-44;
-        let slack = few_roundings + A::further_error(distance) / length;
-        f64::from(low) - slack <= f64::from(t) && f64::from(t) <= f64::from(high) + slack
-    };
-    assert!(between(first, near, inner_near), "entry, {}", say());
-    assert!(between(inner_far, far, last), "exit, {}", say());
+        let say = || {
+            format!("{tier}: {found:?} where {within:?} and {around:?} bound: {ray:?} {sphere:?}")
+        };
+        let Some([first, last]) = around else {
+            assert!(found.is_none(), "false hit, {}", say());
+            return;
+        };
+        let Some([near, far]) = found else {
+            assert!(within.is_none(), "false miss, {}", say());
+            return;
+        };
+        // Between first and last in any case; where the smaller sphere is met, outside its roots.
+        let [inner_near, inner_far] = within.unwrap_or([last, first]);
+        let between = |low: f32, t: f32, high: f32| {
+            let few_roundings = 8.0 * U * f64::from(t).abs() + 1e-44;
+            let slack = few_roundings + (self.further_error)(distance) / length;
+            f64::from(low) - slack <= f64::from(t) && f64::from(t) <= f64::from(high) + slack
+        };
+        assert!(between(first, near, inner_near), "entry, {}", say());
+        assert!(between(inner_far, far, last), "exit, {}", say());
+    }
 }
 
 #[cfg(test)]
@@ -121,39 +132,45 @@ mod tests {
 
     #[test]
     fn the_exact_roots_pass() {
-        judge::<Stable>(&RAY, &BALL, Some([2.0, 3.0]));
-        judge::<Stable>(&RAY, &Sphere { center: Vec3::X * 2.0, ..BALL }, None);
+        Stable::judge(&RAY, &BALL, Some([2.0, 3.0]));
+        Stable::judge(&RAY, &Sphere { center: Vec3::X * 2.0, ..BALL }, None);
     }
 
     #[test]
     fn at_a_tangent_both_decisions_pass() {
         let tangent = Sphere { center: Vec3::X, ..BALL };
-        judge::<Stable>(&RAY, &tangent, Some([2.5, 2.5]));
-        judge::<Stable>(&RAY, &tangent, None);
+        Stable::judge(&RAY, &tangent, Some([2.5, 2.5]));
+        Stable::judge(&RAY, &tangent, None);
     }
 
     #[test]
     #[should_panic(expected = "false miss")]
     fn a_false_miss_is_seen() {
-        judge::<Stable>(&RAY, &BALL, None);
+        Stable::judge(&RAY, &BALL, None);
     }
 
     #[test]
     #[should_panic(expected = "false hit")]
     fn a_false_hit_is_seen() {
         let beside = Sphere { center: Vec3::X * 1.0001, ..BALL };
-        judge::<Stable>(&RAY, &beside, Some([2.5, 2.5]));
+        Stable::judge(&RAY, &beside, Some([2.5, 2.5]));
     }
 
     #[test]
     #[should_panic(expected = "entry")]
     fn an_entry_sixteen_ulps_off_is_seen() {
-        judge::<Stable>(&RAY, &BALL, Some([2.0 + 16.0 * f32::EPSILON * 2.0, 3.0]));
+        Stable::judge(&RAY, &BALL, Some([2.0 + 16.0 * f32::EPSILON * 2.0, 3.0]));
+    }
+
+    #[test]
+    #[should_panic(expected = "exact")]
+    fn an_exact_root_one_ulp_off_is_seen() {
+        Exact::judge(&RAY, &BALL, Some([2.0_f32.next_up(), 3.0]));
     }
 
     #[test]
     #[should_panic(expected = "exit")]
     fn an_exit_that_is_the_entry_is_seen() {
-        judge::<Fast>(&RAY, &BALL, Some([2.0, 2.0]));
+        Fast::judge(&RAY, &BALL, Some([2.0, 2.0]));
     }
 }

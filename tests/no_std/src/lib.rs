@@ -12,8 +12,9 @@ extern crate std;
 use core::hint::black_box;
 use spherule_kernel::camera::Projection;
 use spherule_kernel::{
-    Accuracy, Camera, Fast, Hit, HitPacket, Lanes, Ray, RayPacket, Sphere, SpherePacket, Spheres,
-    Stable, Vec3, any, f32x4, f32x8, f32x16, nearest, nearest_hit, pairs, roots,
+    Accuracy, Camera, Exact, Fast, Hit, HitPacket, Lanes, Ray, RayPacket, Sphere, SpherePacket,
+    Spheres, Stable, Vec3, any, f32x4, f32x8, f32x16, float_environment_is_sound, nearest,
+    nearest_hit, pairs, roots,
 };
 
 /// What a firmware does in its own way; without `std` there must be one.
@@ -57,6 +58,8 @@ pub unsafe extern "C" fn spherule_no_std(numbers: *const f32, count: usize) -> u
     let mut digest = 0;
     digest ^= tier::<Fast>(&camera, spheres, &vector);
     digest ^= tier::<Stable>(&camera, spheres, &vector);
+    digest ^= tier::<Exact>(&camera, spheres, &vector);
+    digest ^= u32::from(float_environment_is_sound());
     black_box(digest)
 }
 
