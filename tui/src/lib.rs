@@ -2,5 +2,6 @@
 
 pub mod cells;
 pub mod draw;
+pub mod encode;
 pub mod scene;
 pub mod view;
