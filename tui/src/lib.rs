@@ -4,4 +4,5 @@ pub mod cells;
 pub mod draw;
 pub mod encode;
 pub mod scene;
+pub mod terminal;
 pub mod view;
