@@ -4,6 +4,7 @@
 pub mod cells;
 pub mod color;
 pub mod draw;
+pub mod encode;
 pub mod palette;
 pub mod picture;
 pub mod samples;
