@@ -12,3 +12,4 @@ pub mod scene;
 pub mod shade;
 pub mod terminal;
 pub mod view;
+pub mod viewer;
