@@ -17,6 +17,7 @@ use crate::terminal::Terminal;
 use crate::view::View;
 use crossterm::event;
 use meter::{Frame, Meter};
+pub use state::{ORBIT_STEP, ZOOM_STEP};
 use state::{Outcome, State};
 use std::env;
 use std::io;

@@ -7,9 +7,9 @@ use std::f32::consts::PI;
 use std::time::Duration;
 
 /// How far a key leads the eye around, in radians: 5 degrees.
-const ORBIT_STEP: f32 = PI / 36.0;
+pub const ORBIT_STEP: f32 = PI / 36.0;
 /// What a key or a notch of the wheel enlarges by.
-const ZOOM_STEP: f32 = 1.1;
+pub const ZOOM_STEP: f32 = 1.1;
 /// Radians a second: around in 12 seconds.
 const SPIN: f32 = PI / 6.0;
 /// After a suspension or on a slow link the spin goes on; it does not catch up.
