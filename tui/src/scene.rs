@@ -1,7 +1,15 @@
 //! What there is to see: spheres, their colours, lights, and a first view.
 
 pub mod builtin;
+pub mod elements;
 pub mod framing;
+mod lines;
+pub mod open;
+mod read_error;
+pub mod toml;
+pub mod xyz;
+
+pub use read_error::ReadError;
 
 use crate::color::Srgb;
 use crate::view::View;

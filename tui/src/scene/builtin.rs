@@ -1,6 +1,6 @@
 //! The scenes that come with the program.
 
-use super::{Light, Scene, Source};
+use super::{Light, Scene, Source, xyz};
 use crate::color::Srgb;
 use crate::view::{Lens, View};
 use spherule_kernel::{Sphere, Vec3};
@@ -20,7 +20,7 @@ pub struct Builtin {
 pub const DEFAULT: &str = "marbles";
 
 /// All of them.
-pub const BUILTINS: [Builtin; 4] = [
+pub const BUILTINS: [Builtin; 5] = [
     Builtin {
         name: "marbles",
         description: "lit spheres with shadows on a huge ground sphere",
@@ -41,12 +41,31 @@ pub const BUILTINS: [Builtin; 4] = [
         description: "far, tiny, huge and grazing spheres, where single precision ends",
         scene: edge,
     },
+    Builtin {
+        name: "caffeine",
+        description: "a molecule, read from the .xyz file that comes with the program",
+        scene: caffeine,
+    },
 ];
 
 /// The scene called `name`.
 #[must_use]
 pub fn builtin(name: &str) -> Option<Scene> {
     BUILTINS.iter().find(|builtin| builtin.name == name).map(|builtin| (builtin.scene)())
+}
+
+/// The scene of a file that comes with the program, for those who have the program alone.
+#[must_use]
+pub fn shipped_file(name: &str) -> Option<Scene> {
+    (name == "caffeine.xyz").then(caffeine)
+}
+
+fn caffeine() -> Scene {
+    let text = include_str!("../../scenes/caffeine.xyz");
+    match xyz::read(text.as_bytes(), "caffeine.xyz") {
+        Ok(scene) => scene,
+        Err(error) => unreachable!("{error}"),
+    }
 }
 
 fn sphere(x: f32, y: f32, z: f32, radius: f32) -> Sphere {
