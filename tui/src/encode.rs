@@ -116,6 +116,12 @@ impl Encoder {
         Self::default()
     }
 
+    /// What the terminal shows, as far as is known.
+    #[must_use]
+    pub fn shown(&self) -> Option<&CellGrid> {
+        self.shown.as_ref()
+    }
+
     /// After a resize, a suspension, or anything else that may have written to the screen.
     pub fn forget(&mut self) {
         self.shown = None;
