@@ -7,7 +7,7 @@ use crate::palette::Palette;
 use spherule_kernel::Vec3;
 
 /// Characters from little ink to much, and the part of the cell that their ink covers, in
-/// thousandths: the mean of Unifont and DejaVu Sans Mono, in both of which it grows.
+/// thousandths: the mean of Unifont and `DejaVu` Sans Mono, in both of which it grows.
 const RAMP: [(char, f32); 10] = [
     (' ', 0.0),
     ('.', 31.0),

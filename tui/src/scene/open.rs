@@ -2,6 +2,7 @@
 
 use super::read_error::ReadError;
 use super::{Scene, builtin, lines, toml, xyz};
+use crate::failure::cause;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
@@ -90,12 +91,6 @@ pub fn read(
             toml::read(text, source)
         }
     }
-}
-
-/// What went wrong, without the number that the operating system gives it.
-fn cause(error: &io::Error) -> String {
-    let text = error.to_string();
-    text.split(" (os error").next().unwrap_or_default().to_lowercase()
 }
 
 fn is_plain_word(name: &str) -> bool {
