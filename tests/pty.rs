@@ -86,7 +86,7 @@ impl Viewer {
 fn shows_a_frame(output: &Output) -> bool {
     output.screen().alternate_screen()
         && output.sent.ends_with(b"\x1b[?2026l")
-        && last_row(output.screen()).contains("Mrays/s")
+        && !last_row(output.screen()).trim().is_empty()
 }
 
 #[test]
@@ -374,5 +374,5 @@ fn what_is_left_behind_is_found() {
     assert_eq!(left_behind("printf '\\033[31m'"), ["foreground colour"]);
     assert_eq!(left_behind("stty raw"), ["line discipline"]);
     assert_eq!(left_behind("stty -echo"), ["line discipline"]);
-    assert_eq!(left_behind("printf '\\033[?1049h\\033[?1049l'; stty raw; stty sane"), [""; 0]);
+    assert_eq!(left_behind("saved=$(stty -g); stty raw; stty \"$saved\""), [""; 0]);
 }
