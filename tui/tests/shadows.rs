@@ -35,14 +35,14 @@ fn acne<A: Accuracy>(radius: f32, place: f32) -> (u32, u32) {
         // From up to ten radii away, towards a point of the ball.
         let origin = center + radius * (1.0 + 9.0 * numbers.next().abs()) * numbers.vector();
         let ray = Ray::new(origin, center + radius * numbers.vector() - origin);
+        if (origin - center).length() < 1.001 * radius {
+            continue; // From inside every shadow ray meets the sphere.
+        }
         let [x, y, z] = center.to_array().map(|x| [x]);
         let r = [radius];
         let spheres = Spheres::new(&x, &y, &z, &r).expect("one sphere");
         let Some(hit) = nearest_hit::<A>(&ray, spheres) else { continue };
         let point = SurfacePoint::new(&ray, hit.t, &sphere);
-        if point.normal.dot(point.origin - center) < 0.0 {
-            continue; // Seen from inside, where every shadow ray meets the sphere.
-        }
         // A light anywhere above the surface, and one that grazes it.
         let across = point.normal.cross(numbers.vector()).normalize();
         let grazing = across + 10_f32.powf(numbers.next() * 3.0 - 3.0) * point.normal;

@@ -221,7 +221,10 @@ fn a_header_that_lies_about_its_shape_or_length() {
         let header =
             format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({rows}, 8), }}\n");
         let message = refused(&format!("{name}.npy"), &npy(&header, &[0; 32]));
-        assert!(message.contains("bytes than") || message.contains("more than"), "{message}");
+        assert!(
+            message.contains("bytes than") || message.contains("larger than any file"),
+            "{message}"
+        );
     }
     let two = "{'descr': '<f4', 'fortran_order': False, 'shape': (9999999999, 9999999999), }\n";
     assert!(refused("lie3.npy", &npy(two, &[])).contains("larger than any file"));
