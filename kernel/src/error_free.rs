@@ -1,13 +1,13 @@
 //! Sums and products of lanes with their rounding errors: nothing is lost.
 //!
 //! Built from `+ - *` alone: a fused multiply-add would be shorter, but it is not fused on every
-//! target, and where it is not the error term is silently zero.
+//! target, and where it is not the error term would silently be zero.
 
 use crate::Lanes;
 
 /// `high + low = a + b` exactly, with `high` the rounded sum (Knuth; Møller 1965).
 ///
-/// Domain: no overflow; underflow does not harm sums.
+/// Domain: no overflow. Underflow does no harm: sums that small are exact.
 #[inline(always)]
 pub(crate) fn two_sum<L: Lanes>(a: L, b: L) -> (L, L) {
     let high = a + b;
@@ -16,21 +16,42 @@ pub(crate) fn two_sum<L: Lanes>(a: L, b: L) -> (L, L) {
     (high, (a - a_part) + (b - b_part))
 }
 
-/// `high + low = value`, each with at most 12 significant bits, so that products of such parts
+/// A number and its two halves of at most 12 significant bits each, so that products of halves
 /// are exact (Veltkamp, in Dekker 1971).
-///
-/// Domain: `|value|` below 2^115.
-#[inline(always)]
-pub(crate) fn split<L: Lanes>(value: L) -> (L, L) {
-    let scaled = value * L::splat(value.token(), 4097.0);
-    let high = scaled - (scaled - value);
-    (high, value - high)
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Halved<L> {
+    pub(crate) value: L,
+    high: L,
+    low: L,
 }
 
-/// The rounding error of `product = fl(a * b)`, from the split factors (Dekker 1971).
-///
-/// Domain: the product neither overflows nor falls below 2^-102, or is zero.
-#[inline(always)]
-pub(crate) fn product_error<L: Lanes>(product: L, a: (L, L), b: (L, L)) -> L {
-    (((a.0 * b.0 - product) + a.0 * b.1) + a.1 * b.0) + a.1 * b.1
+impl<L: Lanes> Halved<L> {
+    /// Domain: `|value|` below 2^115.
+    #[inline(always)]
+    pub(crate) fn new(value: L) -> Self {
+        let scaled = value * value.like(4097.0);
+        let high = scaled - (scaled - value);
+        Self { value, high, low: value - high }
+    }
+
+    /// `high + low = self * other` exactly, with `high` the rounded product (Dekker 1971).
+    ///
+    /// Domain: the product does not overflow, and is zero or at least 2^-102.
+    #[inline(always)]
+    pub(crate) fn times(self, other: Self) -> (L, L) {
+        let product = self.value * other.value;
+        let error = (self.high * other.high - product)
+            + self.high * other.low
+            + self.low * other.high
+            + self.low * other.low;
+        (product, error)
+    }
+
+    /// `high + low = self^2` exactly.
+    #[inline(always)]
+    pub(crate) fn squared(self) -> (L, L) {
+        let square = self.value * self.value;
+        let cross = self.high * self.low;
+        ((square), (self.high * self.high - square) + (cross + cross) + self.low * self.low)
+    }
 }

@@ -12,6 +12,8 @@
 //! everything that makes lanes from numbers. For types fixed at build time it is `()`.
 //! Vectors never cross such a boundary: packets in memory hold plain arrays.
 
+#[cfg(feature = "dispatch")]
+mod dispatched;
 mod scalar;
 mod wide;
 
@@ -78,22 +80,31 @@ pub trait Lanes:
     fn le(self, other: Self) -> Self::Mask;
     /// `yes` where `mask` is true, else `no`.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+    /// Lanes `part * DoubleLanes::COUNT ..` in double precision, exactly.
+    ///
+    /// `part` counts from zero to [`Lanes::PARTS`]; past it, any part.
+    fn widen(self, part: usize) -> Self::Double;
+    /// Rounds `doubles` to single precision into those elements of `array` that
+    /// [`widen`](Lanes::widen) would read lanes from.
+    fn narrow(array: &mut Self::Array, part: usize, doubles: Self::Double);
+
+    /// Calls `work` in a function of its own, compiled for the instruction set of the lanes: for what
+    /// is rare beside a hot loop, whose registers it would take.
+    fn out_of_line<R>(token: Self::Token, work: impl FnOnce() -> R) -> R;
+
+    /// How many partners it takes to hold all lanes.
+    const PARTS: usize = Self::COUNT / Self::Double::COUNT;
+
+    /// `value` in every lane, with the token of these lanes.
+    #[inline(always)]
+    fn like(self, value: f32) -> Self {
+        Self::splat(self.token(), value)
+    }
 
     /// The magnitude; NaN for NaN.
     #[inline(always)]
     fn abs(self) -> Self {
-        let zero = Self::splat(self.token(), 0.0);
-        Self::select(self.lt(zero), -self, self)
-    }
-
-    /// `function` of every lane, by way of an array: for what lanes have no operation for.
-    #[inline(always)]
-    fn map(self, function: impl Fn(f32) -> f32) -> Self {
-        let mut array = self.store();
-        for value in array.as_mut() {
-            *value = function(*value);
-        }
-        Self::load(self.token(), &array)
+        Self::select(self.lt(self.like(0.0)), -self, self)
     }
 }
 
@@ -111,8 +122,6 @@ pub trait DoubleLanes:
     const COUNT: usize;
     /// What must be held to make lanes.
     type Token: Copy + Debug;
-    /// `[f64; COUNT]`.
-    type Array: Copy + Debug + Default + AsRef<[f64]> + AsMut<[f64]>;
     /// One truth value a lane.
     type Mask: LaneMask;
 
@@ -120,10 +129,6 @@ pub trait DoubleLanes:
     fn token(self) -> Self::Token;
     /// `value` in every lane.
     fn splat(token: Self::Token, value: f64) -> Self;
-    /// Lane `i` from element `i`, exactly; lanes past the end of `singles` are zero.
-    fn widen(token: Self::Token, singles: &[f32]) -> Self;
-    /// Element `i` from lane `i`.
-    fn store(self) -> Self::Array;
     /// The correctly rounded square root; NaN below zero.
     fn sqrt(self) -> Self;
     /// `self < other`.
@@ -133,10 +138,21 @@ pub trait DoubleLanes:
     /// `yes` where `mask` is true, else `no`.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
 
+    /// `value` in every lane, with the token of these lanes.
+    #[inline(always)]
+    fn like(self, value: f64) -> Self {
+        Self::splat(self.token(), value)
+    }
+
     /// The magnitude; NaN for NaN.
     #[inline(always)]
     fn abs(self) -> Self {
-        let zero = Self::splat(self.token(), 0.0);
-        Self::select(self.lt(zero), -self, self)
+        Self::select(self.lt(self.like(0.0)), -self, self)
     }
+}
+
+/// A call that is not inlined: [`Lanes::out_of_line`] where the instruction set is fixed.
+#[inline(never)]
+fn plain_call<R>(work: impl FnOnce() -> R) -> R {
+    work()
 }

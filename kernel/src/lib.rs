@@ -3,17 +3,23 @@
 #![forbid(unsafe_code)]
 
 pub mod accuracy;
+mod axes;
 pub mod camera;
 mod error_free;
+mod exact;
 mod filter;
+mod float_environment;
 mod hit;
 mod intersect;
 mod lanes;
 mod ray;
 mod sphere;
 
-pub use accuracy::{Accuracy, Fast, Stable};
+pub use accuracy::{Accuracy, Exact, Fast, Stable};
 pub use camera::Camera;
+#[cfg(feature = "dispatch")]
+pub use fearless_simd;
+pub use float_environment::float_environment_is_sound;
 pub use glam::Vec3;
 pub use hit::{Hit, HitPacket};
 pub use intersect::{any, nearest, nearest_hit, pairs, roots};

@@ -36,6 +36,15 @@ impl Ray {
         Self { origin, direction, t_min: 0.0, t_max: f32::INFINITY }
     }
 
+    /// Whether the ray can hit anything: rule 1, and an interval that is not empty.
+    #[must_use]
+    pub fn is_live(&self) -> bool {
+        self.origin.is_finite()
+            && self.direction.is_finite()
+            && self.direction != Vec3::ZERO
+            && self.t_min <= self.t_max
+    }
+
     /// The point at `t`, each coordinate with two roundings.
     #[must_use]
     pub fn at(&self, t: f32) -> Vec3 {

@@ -9,7 +9,7 @@ mod surface;
 pub use surface::SurfacePoint;
 
 use crate::picture::Picture;
-use crate::scene::{Light, Scene, Source};
+use crate::scene::Scene;
 use spherule_kernel::{Accuracy, Lanes, Ray, RayPacket, Vec3, any};
 
 /// How much of a surface's colour is seen where no light reaches it.
@@ -76,7 +76,7 @@ impl<L: Lanes<Token = ()>> Shader<L> {
         for light in &scene.lights {
             let brightness = light.color.to_linear();
             for shaded in &self.shaded {
-                let Some((ray, cosine)) = shadow_ray(&shaded.point, light) else { continue };
+                let Some((ray, cosine)) = shaded.point.towards(light) else { continue };
                 let received = cosine * brightness * shaded.color;
                 if scene.shadows {
                     self.shadows.push(&ray, shaded.pixel, received);
@@ -120,19 +120,4 @@ impl<L: Lanes<Token = ()>> Shadows<L> {
         self.waiting.clear();
         count
     }
-}
-
-/// The ray to the light and the cosine of its angle to the normal; nothing where the surface
-/// faces away.
-#[inline]
-fn shadow_ray(point: &SurfacePoint, light: &Light) -> Option<(Ray, f32)> {
-    let (direction, t_max) = match light.source {
-        Source::Direction(direction) => (direction, f32::INFINITY),
-        Source::Position(position) => (position - point.origin, 1.0),
-    };
-    let cosine = point.normal.dot(direction) / direction.length();
-    // A surface point lies off its sphere, so its own sphere has no root above zero; zero itself
-    // could be one where the product of two roots underflows.
-    let ray = Ray { origin: point.origin, direction, t_min: f32::MIN_POSITIVE, t_max };
-    (cosine > 0.0).then_some((ray, cosine))
 }

@@ -4,8 +4,9 @@
 //! p.p - r^2 cancels where the sphere is far for its size, and b - sqrt D where the ray starts
 //! near the surface: that is what the tier trades for speed, and what the report counts.
 
-use super::{Accuracy, RayLanes, Roots, sealed};
-use crate::Lanes;
+use super::{Accuracy, RayLanes, Roots, line_roots_of, sealed};
+use crate::axes::{axes, dot};
+use crate::{Lanes, Ray, Sphere};
 
 /// The textbook quadratic in `f32`: wrong where `f32` is wrong.
 ///
@@ -15,12 +16,13 @@ use crate::Lanes;
 #[derive(Clone, Copy, Debug)]
 pub struct Fast;
 
-/// The rays, and a = d.d.
+/// The rays, a = d.d, and 1/a: one division a packet in place of two a sphere.
 #[derive(Clone, Copy, Debug)]
 pub struct FastRays<L> {
     origin: [L; 3],
     direction: [L; 3],
     a: L,
+    per_a: L,
 }
 
 impl sealed::Sealed for Fast {}
@@ -32,21 +34,35 @@ impl Accuracy for Fast {
     #[inline(always)]
     fn prepare<L: Lanes>(rays: &RayLanes<L>) -> FastRays<L> {
         let d = rays.direction;
-        FastRays { origin: rays.origin, direction: d, a: d[0] * d[0] + d[1] * d[1] + d[2] * d[2] }
+        let a = dot(d, d);
+        FastRays { origin: rays.origin, direction: d, a, per_a: a.like(1.0) / a }
     }
 
     #[inline(always)]
-    fn roots<L: Lanes>(rays: &FastRays<L>, center: [L; 3], radius: L) -> Roots<L> {
-        let FastRays { origin: o, direction: d, a } = *rays;
-        let p = [center[0] - o[0], center[1] - o[1], center[2] - o[2]];
-        let b = d[0] * p[0] + d[1] * p[1] + d[2] * p[2];
-        let c = (p[0] * p[0] + p[1] * p[1] + p[2] * p[2]) - radius * radius;
-        let discriminant = b * b - a * c;
-        let root = discriminant.sqrt();
-        Roots {
-            meets: L::splat(a.token(), 0.0).le(discriminant),
-            near: (b - root) / a,
-            far: (b + root) / a,
-        }
+    fn first_root<L: Lanes>(
+        rays: &RayLanes<L>,
+        prepared: &FastRays<L>,
+        center: [L; 3],
+        radius: L,
+        _asked: L::Mask,
+        _limit: L,
+    ) -> L {
+        roots(prepared, center, radius).first_accepted(rays)
     }
+
+    fn line_roots(ray: &Ray, sphere: &Sphere) -> Option<[f32; 2]> {
+        let (center, radius) = (sphere.center.to_array(), sphere.radius);
+        line_roots_of(|rays| roots(&Self::prepare(rays), center, radius), ray)
+    }
+}
+
+#[inline(always)]
+fn roots<L: Lanes>(rays: &FastRays<L>, center: [L; 3], radius: L) -> Roots<L> {
+    let FastRays { origin: o, direction: d, a, per_a } = *rays;
+    let p = axes!(i => center[i] - o[i]);
+    let b = dot(d, p);
+    let c = dot(p, p) - radius * radius;
+    let discriminant = b * b - a * c;
+    let root = discriminant.sqrt();
+    Roots { meets: a.like(0.0).le(discriminant), near: (b - root) * per_a, far: (b + root) * per_a }
 }

@@ -1,20 +1,59 @@
-//! Closest point first, in single precision.
+//! Closest point first, then what single precision can be made to give.
+//!
+//! # Method
+//!
+//! The lecture's geometric form goes to the point of the line nearest to the centre, and from
+//! there half a chord back and forth. Its enemies are two: rounding p = c - o, which at distance
+//! 1e6 r moves the sphere by a twentieth of its radius, and the subtraction r^2 - l^2 near a
+//! tangent. Both are cured without a wider type:
+//!
+//! 1. p is kept as the exact sum of two numbers.
+//! 2. t_m = d.p / a need not be the closest point: *any* point of the line is a sound place to
+//!    solve the quadratic from, as long as q = p - t_m d is known well for the t_m that was
+//!    rounded to. With the product's rounding error recovered it is: to a rounding or two of q,
+//!    however large p was. (Moving to the object first: Wald, Ray Tracing Gems II, ch. 34.)
+//! 3. From there, with g = d.q: D = g^2 - a (q.q - r^2), t = t_m + (g -+ sqrt D) / a. g is what
+//!    is left of the projection, so this is the second projection too (Haines, Guenther,
+//!    Akenine-Moeller, Ray Tracing Gems, ch. 7).
+//! 4. Where |D| is small beside its terms - a graze - the lane moves on by g / a, with q in two
+//!    terms, and sums q.q - r^2 in two-term arithmetic: errors of some 2^-45 in place of 2^-22.
+//! 5. Where a root is small beside t_m - the ray starts near the surface - it is taken from the
+//!    product of the roots, (p.p - r^2) / a, with that difference in two-term arithmetic.
+//!
+//! Steps 4 and 5 are work for a few lanes: a packet does them only where one of its lanes asks
+//! for it, and keeps them only in that lane, so that the answer does not depend on neighbours.
+//!
+//! The direction is scaled by a power of two to a length near one, which is exact, and t scaled
+//! back.
 
-use super::{Accuracy, RayLanes, Roots, sealed};
-use crate::Lanes;
-use crate::error_free::{product_error, split, two_sum};
+use super::beyond::Beyond;
+use super::{Accuracy, RayLanes, Roots, line_roots_of, sealed};
+use crate::axes::{axes, dot};
+use crate::error_free::{Halved, two_sum};
+use crate::{LaneMask, Lanes, Ray, Sphere};
 
-/// The best form that plain `f32` allows.
+/// The best form that plain `f32` allows: few-ulp answers without wider arithmetic.
+///
+/// Domain: r and |p| (p the centre less the origin) zero or within [2^-40, 2^40]; any direction
+/// whose largest component is a normal number. Inside it, for distance/r up to 1e6: decisions
+/// right but for tangents closer than some 2^-40 r, and t within a few ulp; where the ray starts
+/// within 2^-6 r of the surface, t is within an absolute bound of some 2^-44 r instead. Outside it:
+/// answers in the same bits on every target, but no promise. The measured figures stand in the
+/// budget table of the tests.
 #[derive(Clone, Copy, Debug)]
 pub struct Stable;
 
-/// The rays, and a = d.d.
+/// The rays, their directions scaled to lengths near one.
 #[derive(Clone, Copy, Debug)]
 pub struct StableRays<L> {
     origin: [L; 3],
-    direction: [L; 3],
-    halves: [(L, L); 3],
+    direction: [Halved<L>; 3],
+    /// a = d.d of the scaled direction, and 1/a.
     a: L,
+    per_a: L,
+    beyond: Beyond<L>,
+    /// The power of two that the direction was scaled by; t is scaled back by the same.
+    scale: L,
 }
 
 impl sealed::Sealed for Stable {}
@@ -26,34 +65,151 @@ impl Accuracy for Stable {
     #[inline(always)]
     fn prepare<L: Lanes>(rays: &RayLanes<L>) -> StableRays<L> {
         let d = rays.direction;
+        let longest = d[0].abs().filter_max(d[1].abs()).filter_max(d[2].abs());
+        let scale = inverse_powers_of_two(longest);
+        let d = axes!(i => d[i] * scale);
+        let a = dot(d, d);
         StableRays {
             origin: rays.origin,
-            direction: d,
-            halves: d.map(split),
-            a: d[0] * d[0] + d[1] * d[1] + d[2] * d[2],
+            direction: axes!(i => Halved::new(d[i])),
+            a,
+            per_a: a.like(1.0) / a,
+            beyond: Beyond::new(rays),
+            scale,
         }
     }
 
     #[inline(always)]
-    fn roots<L: Lanes>(rays: &StableRays<L>, center: [L; 3], radius: L) -> Roots<L> {
-        let StableRays { origin: o, direction: d, halves, a } = *rays;
-        let p = [0, 1, 2].map(|i| two_sum(center[i], -o[i]));
-        let b = d[0] * p[0].0 + d[1] * p[1].0 + d[2] * p[2].0;
-        let middle = b / a;
-        let middle_halves = split(middle);
-        let q = [0, 1, 2].map(|i| {
-            let product = middle * d[i];
-            let error = product_error(product, middle_halves, halves[i]);
-            (p[i].0 - product) + (p[i].1 - error)
-        });
-        let g = d[0] * q[0] + d[1] * q[1] + d[2] * q[2];
-        let c = (q[0] * q[0] + q[1] * q[1] + q[2] * q[2]) - radius * radius;
-        let discriminant = g * g - a * c;
-        let root = discriminant.sqrt();
-        Roots {
-            meets: L::splat(a.token(), 0.0).le(discriminant),
-            near: middle + (g - root) / a,
-            far: middle + (g + root) / a,
+    fn first_root<L: Lanes>(
+        rays: &RayLanes<L>,
+        prepared: &StableRays<L>,
+        center: [L; 3],
+        radius: L,
+        asked: L::Mask,
+        limit: L,
+    ) -> L {
+        let asked = asked & !prepared.beyond.limit(rays, center, radius, limit);
+        let infinity = limit.like(f32::INFINITY);
+        if !asked.any() {
+            return infinity;
         }
+        let t = roots(prepared, center, radius).first_accepted(rays);
+        L::select(asked, t, infinity)
+    }
+
+    fn line_roots(ray: &Ray, sphere: &Sphere) -> Option<[f32; 2]> {
+        let (center, radius) = (sphere.center.to_array(), sphere.radius);
+        line_roots_of(|rays| roots(&Self::prepare(rays), center, radius), ray)
+    }
+}
+
+#[inline(always)]
+fn roots<L: Lanes>(rays: &StableRays<L>, center: [L; 3], radius: L) -> Roots<L> {
+    let StableRays { origin: o, direction: d, a, per_a, scale, .. } = *rays;
+    let d_value = axes!(i => d[i].value);
+
+    // Go to the middle of the chord, or near it, and find the centre from there.
+    let p = axes!(i => two_sum(center[i], -o[i]));
+    let middle = dot(d_value, axes!(i => p[i].0)) * per_a;
+    let halved_middle = Halved::new(middle);
+    let steps = axes!(i => halved_middle.times(d[i]));
+    let q = axes!(i => (p[i].0 - steps[i].0) + (p[i].1 - steps[i].1));
+
+    // Solve the quadratic there.
+    let (g, qq, rr) = (dot(d_value, q), dot(q, q), radius * radius);
+    let mut offset = g * per_a;
+    let mut discriminant = g * g - a * (qq - rr);
+
+    // A graze is solved again, in two-term arithmetic.
+    let grazing = discriminant.abs().le(a.like(GRAZING) * (a * (qq + rr)));
+    if grazing.any() {
+        let (moved, regrazed) = about_closest_point(rays, p, steps, offset, radius);
+        offset = L::select(grazing, moved, offset);
+        discriminant = L::select(grazing, regrazed, discriminant);
+    }
+    let half_chord = discriminant.sqrt() * per_a;
+    let mut near = middle + (offset - half_chord);
+    let mut far = middle + (offset + half_chord);
+
+    // A root that cancelled is taken from the product of the two.
+    let forward = a.like(0.0).le(middle);
+    let small = L::select(forward, near, far);
+    // Strictly: for a tangent at the origin both are zero, and so is the product's divisor.
+    let cancelled = small.abs().lt(a.like(CANCELLED) * half_chord);
+    if cancelled.any() {
+        let large = L::select(forward, far, near);
+        let quotient = squares_less_square(p, radius) / (a * large);
+        near = L::select(cancelled & forward, quotient, near);
+        far = L::select(cancelled & !forward, quotient, far);
+    }
+    Roots { meets: a.like(0.0).le(discriminant), near: near * scale, far: far * scale }
+}
+
+/// A discriminant this small beside its terms is computed again: 1.6 % of the radius from the edge.
+/// (1/16: 5 % slower on camera rays, no ulp gained. 1/64: an ulp lost, nothing gained.)
+const GRAZING: f32 = 1.0 / 32.0;
+/// A root this small beside half the chord is computed again.
+const CANCELLED: f32 = 1.0 / 8.0;
+
+/// Moves from p - steps on by `offset` d, to the closest point but for some 2^-45 of |p|, and
+/// solves there: the new offset from the middle, and the discriminant.
+#[inline(always)]
+fn about_closest_point<L: Lanes>(
+    rays: &StableRays<L>,
+    p: [(L, L); 3],
+    steps: [(L, L); 3],
+    offset: L,
+    radius: L,
+) -> (L, L) {
+    let halved_offset = Halved::new(offset);
+    let q = axes!(i => {
+        let (high, low) = two_sum(p[i].0, -steps[i].0);
+        let low = low + (p[i].1 - steps[i].1);
+        let step = halved_offset.times(rays.direction[i]);
+        let (high, lower) = two_sum(high, -step.0);
+        two_sum(high, lower + (low - step.1))
+    });
+    let g = dot(axes!(i => rays.direction[i].value), axes!(i => q[i].0));
+    let discriminant = g * g - rays.a * squares_less_square(q, radius);
+    (offset + g * rays.per_a, discriminant)
+}
+
+/// v.v - r^2 of two-term coordinates, with an error of some 2^-45 of its terms.
+#[inline(always)]
+fn squares_less_square<L: Lanes>(v: [(L, L); 3], radius: L) -> L {
+    let (rr, rr_low) = Halved::new(radius).squared();
+    let [x, y, z] = axes!(i => {
+        let (high, low) = v[i];
+        let (square, error) = Halved::new(high).squared();
+        let cross = high * low;
+        (square, error + (cross + cross))
+    });
+
+    let (xy, xy_low) = two_sum(x.0, y.0);
+    let (zr, zr_low) = two_sum(z.0, -rr);
+    let (sum, sum_low) = two_sum(xy, zr);
+    sum + ((sum_low + (xy_low + zr_low)) + ((x.1 + y.1) + (z.1 - rr_low)))
+}
+
+/// 2^-e for a number in [2^e, 2^(e+1)), as far as that is a normal number.
+#[inline(always)]
+fn inverse_powers_of_two<L: Lanes>(lengths: L) -> L {
+    let mut powers = lengths.store();
+    for power in powers.as_mut() {
+        let exponent = (power.to_bits() >> 23) & 0xff;
+        *power = f32::from_bits((254 - exponent.min(253)) << 23);
+    }
+    L::load(lengths.token(), &powers)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Ray, Sphere, Stable, Vec3, roots};
+
+    #[test]
+    fn a_tangent_at_the_origin_has_two_roots_of_zero() {
+        let ray = Ray::new(Vec3::new(0.0, 33_554_432.0, 0.0), Vec3::new(7.0, 0.0, 0.0));
+        let sphere = Sphere { center: Vec3::new(0.0, 16_777_216.0, 0.0), radius: 16_777_216.0 };
+        assert_eq!(roots::<Stable>(&ray, &sphere), Some([0.0, 0.0]));
     }
 }

@@ -64,12 +64,26 @@ impl Lanes for f32 {
     fn select(mask: bool, yes: Self, no: Self) -> Self {
         if mask { yes } else { no }
     }
+
+    #[inline(always)]
+    fn out_of_line<R>((): (), work: impl FnOnce() -> R) -> R {
+        super::plain_call(work)
+    }
+
+    #[inline(always)]
+    fn widen(self, _: usize) -> f64 {
+        f64::from(self)
+    }
+
+    #[inline(always)]
+    fn narrow(array: &mut [f32; 1], _: usize, double: f64) {
+        array[0] = double as Self;
+    }
 }
 
 impl DoubleLanes for f64 {
     const COUNT: usize = 1;
     type Token = ();
-    type Array = [f64; 1];
     type Mask = bool;
 
     #[inline(always)]
@@ -78,16 +92,6 @@ impl DoubleLanes for f64 {
     #[inline(always)]
     fn splat((): (), value: f64) -> Self {
         value
-    }
-
-    #[inline(always)]
-    fn widen((): (), singles: &[f32]) -> Self {
-        singles.first().copied().map_or(0.0, Self::from)
-    }
-
-    #[inline(always)]
-    fn store(self) -> [f64; 1] {
-        [self]
     }
 
     #[inline(always)]

@@ -47,11 +47,6 @@ macro_rules! shared_lane_operations {
         }
 
         #[inline(always)]
-        fn store(self) -> Self::Array {
-            self.to_array()
-        }
-
-        #[inline(always)]
         fn sqrt(self) -> Self {
             $vector::sqrt(self)
         }
@@ -108,6 +103,36 @@ macro_rules! wide_lanes {
             }
 
             #[inline(always)]
+            fn store(self) -> [f32; $count] {
+                self.to_array()
+            }
+
+            #[inline(always)]
+            fn out_of_line<R>((): (), work: impl FnOnce() -> R) -> R {
+                super::plain_call(work)
+            }
+
+            #[inline(always)]
+            fn widen(self, part: usize) -> $double {
+                const WIDTH: usize = <$double as DoubleLanes>::COUNT;
+                let (singles, first) = (self.to_array(), part * WIDTH % $count);
+                let mut doubles = [0.0; WIDTH];
+                for lane in 0..WIDTH {
+                    doubles[lane] = f64::from(singles[first + lane]);
+                }
+                $double::new(doubles)
+            }
+
+            #[inline(always)]
+            fn narrow(array: &mut [f32; $count], part: usize, doubles: $double) {
+                const WIDTH: usize = <$double as DoubleLanes>::COUNT;
+                let (doubles, first) = (doubles.to_array(), part * WIDTH % $count);
+                for lane in 0..WIDTH {
+                    array[first + lane] = doubles[lane] as f32;
+                }
+            }
+
+            #[inline(always)]
             fn filter_mul_add(self, factor: Self, addend: Self) -> Self {
                 self.mul_add(factor, addend)
             }
@@ -137,19 +162,9 @@ macro_rules! wide_double_lanes {
         impl DoubleLanes for $vector {
             const COUNT: usize = $count;
             type Token = ();
-            type Array = [f64; $count];
             type Mask = WideMask<$vector>;
 
             shared_lane_operations!($vector, f64);
-
-            #[inline(always)]
-            fn widen((): (), singles: &[f32]) -> Self {
-                let mut doubles = [0.0; $count];
-                for (double, single) in doubles.iter_mut().zip(singles) {
-                    *double = f64::from(*single);
-                }
-                $vector::new(doubles)
-            }
         }
     };
 }

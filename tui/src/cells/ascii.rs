@@ -10,15 +10,15 @@ use spherule_kernel::Vec3;
 /// thousandths: the mean of Unifont and `DejaVu` Sans Mono, in both of which it grows.
 const RAMP: [(char, f32); 10] = [
     (' ', 0.0),
-    ('.', 31.0),
-    (':', 62.0),
-    ('-', 70.0),
-    ('=', 109.0),
-    ('+', 125.0),
-    ('*', 148.0),
-    ('%', 200.0),
-    ('#', 258.0),
-    ('@', 300.0),
+    ('.', 29.0),
+    (':', 58.0),
+    (';', 70.0),
+    ('=', 103.0),
+    ('x', 134.0),
+    ('o', 167.0),
+    ('%', 191.0),
+    ('#', 230.0),
+    ('@', 249.0),
 ];
 
 /// The last of the ramp has the ink that stands for full light.

@@ -118,9 +118,9 @@ fn marbles() -> Scene {
     }
     scene.view = Some(View {
         eye: Vec3::new(0.4, 2.6, 8.2),
-        target: Vec3::new(0.0, 0.75, 0.0),
+        target: Vec3::new(0.1, 0.85, 0.0),
         up: Vec3::Y,
-        lens: Lens::Perspective { fov: 32.0 },
+        lens: Lens::Perspective { fov: 30.0 },
     });
     scene
 }
@@ -182,9 +182,45 @@ fn add_flake(scene: &mut Scene, center: Vec3, radius: f32, axis: Vec3, generatio
     }
 }
 
+/// The radius of the horizon of `edge`.
+const HORIZON: f32 = 4_000_000.0;
+
+/// Parallel rays that start far away, so that p.p, which the textbook form subtracts r^2 from, is
+/// thousands of times as large as r^2. `Fast` frays the large spheres, dissolves the small ones
+/// and the far one, and breaks the horizon; `Stable` draws all of them as they are.
 fn edge() -> Scene {
     let mut scene = Scene::new();
-    scene.push(sphere(0.0, 0.0, 0.0, 1.0), Srgb::WHITE, None);
+    scene.background = Srgb([0x0e, 0x12, 0x20]);
+    scene.lights = vec![
+        Light { source: Source::Direction(Vec3::new(-0.5, 0.7, 0.8)), color: Srgb::WHITE },
+        Light { source: Source::Direction(Vec3::new(0.9, 0.2, 0.5)), color: Srgb([70, 84, 110]) },
+    ];
+    // Slanting, so that no product of coordinates is exact.
+    let eye = Vec3::new(120.0, 90.0, 1990.0);
+    let sight = eye.normalize();
+    let up = sight.cross(Vec3::Y.cross(sight).normalize());
+
+    // The same distance, less and less radius.
+    for (x, radius, color) in [
+        (-4.4, 1.9, Srgb([0xd8, 0x3a, 0x2e])),
+        (-1.1, 1.2, Srgb([0xf2, 0x8c, 0x34])),
+        (1.1, 0.75, Srgb([0xf2, 0xc9, 0x4c])),
+        (2.6, 0.45, Srgb([0x5c, 0xb8, 0x5c])),
+    ] {
+        scene.push(sphere(x, 1.8, 0.0, radius), color, None);
+    }
+    let far = Vec3::new(4.9, 1.8, 0.0) - 3.0 * eye;
+    scene.push(Sphere { center: far, radius: 1.4 }, Srgb([0x3d, 0x7f, 0xd4]), Some("far"));
+    for bead in -6..=6 {
+        let bead = sphere(bead as f32, -1.5, 0.0, 0.2);
+        scene.push(bead, Srgb([0xe8, 0xe4, 0xda]), Some("tiny"));
+    }
+    // Behind the others, and so far that the eye is outside.
+    let center = -3.0 * eye - (HORIZON + 2.8) * up;
+    let horizon = Sphere { center, radius: HORIZON };
+    scene.push(horizon, Srgb([0x6c, 0x9a, 0x5a]), Some("huge, grazing"));
+    scene.view =
+        Some(View { eye, target: Vec3::ZERO, up: Vec3::Y, lens: Lens::Parallel { height: 9.0 } });
     scene
 }
 

@@ -14,6 +14,7 @@
 //! `f32` costs at most sqrt 3 u |P|. [`LIFT`] covers both with a factor to spare; the test that
 //! no tier shadows itself, a ground of radius 10^6 among its spheres, is in `tests/shadows.rs`.
 
+use crate::scene::{Light, Source};
 use spherule_kernel::{Ray, Sphere, Vec3};
 
 /// The distance from the sphere, in units of the larger of r and |P|: 32 u.
@@ -56,5 +57,21 @@ impl SurfacePoint {
         let size = point.iter().fold(radius, |size, x| size.max(x.abs()));
         let lifted = [0, 1, 2].map(|i| point[i] + LIFT * size * normal[i]);
         Self { origin: narrow(lifted), normal: narrow(normal) }
+    }
+
+    /// The ray to the light and the cosine of its angle to the normal; nothing where the surface
+    /// faces away.
+    #[must_use]
+    #[inline]
+    pub fn towards(&self, light: &Light) -> Option<(Ray, f32)> {
+        let (direction, t_max) = match light.source {
+            Source::Direction(direction) => (direction, f32::INFINITY),
+            Source::Position(position) => (position - self.origin, 1.0),
+        };
+        let cosine = self.normal.dot(direction) / direction.length();
+        // The point lies off its sphere, so that has no root above zero; zero itself could be one
+        // where the difference of two roots is lost.
+        let ray = Ray { origin: self.origin, direction, t_min: f32::MIN_POSITIVE, t_max };
+        (cosine > 0.0).then_some((ray, cosine))
     }
 }

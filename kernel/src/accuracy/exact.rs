@@ -1,0 +1,257 @@
+//! Double precision with a proven bound, and expansions for what it cannot prove.
+//!
+//! # Method
+//!
+//! What passes the miss filter is computed in double-precision lanes, by the cross product:
+//! D = a r^2 - |d x p|^2, t = (b -+ sqrt D) / a, each with a bound on its error. Where D is
+//! larger than its bound, its sign is known; where t less and t plus its bound round to the same
+//! `f32`, that is the correctly rounded t. The other lanes - exact tangents, ties, some rays that
+//! start on the surface - go one by one through [`Quadratic`], which is always right. So is, then,
+//! every lane: the bound decides what is spent, never what is answered.
+//!
+//! # The bound
+//!
+//! u = 2^-53, first order; every constant below is rounded up by at least an eighth, which covers
+//! the second order, the rounding of the bound itself, and that it is computed from rounded
+//! quantities. The inputs are `f32`, so products of two of them are exact, and nothing over- or
+//! underflows (the table in `exact/quadratic.rs`). G = |d|_1 |p|_1, X = |d x p|_1,
+//! L = |d x p|^2, A = a r^2.
+//!
+//! | quantity | error at most |
+//! |---|---|
+//! | p | u, relative |
+//! | x_k = d_i p_j - d_j p_i; M_k = \|d_i p_j\| + \|d_j p_i\|, sum of M at most G | 1u (p) + 1u (product) + 1u (difference) = 3u M_k |
+//! | L, from x | 2 * 3u X G + (3u)^2 G^2 |
+//! | L, squares and sums | 3u L |
+//! | A: two sums, one product | 3u A |
+//! | D = A - L | u (A + L) |
+//! | **D, together** | 4u (A + L) + 6u X G + 9u^2 G^2, of computed X: + 18u^2 G^2; **E = 5u (A + L) + 8u X G + 32u^2 G^2** |
+//! | sqrt D, where D > E | E / sqrt D + u sqrt D |
+//! | b = d.p | 4u G |
+//! | n = b -+ sqrt D | 4u G + E / sqrt D + u sqrt D + u \|n\| |
+//! | 1/a = sqrt D * i, i = 1 / (a sqrt D): one division serves E / (a sqrt D) too | 2u (a) + 1u + 1u + 1u, relative |
+//! | t = n / a | the error of n over a, + 5u \|t\| + u \|t\| (product) |
+//! | t -+ the bound, in `f64` | u \|t\| |
+//! | **t, together** | **T = (5u G + 2u sqrt D) / a + E i + 11u \|t\|** |
+//!
+//! E enters T with its own slack of an eighth, which covers the 5u of E i.
+
+use super::beyond::Beyond;
+use super::{Accuracy, RayLanes, sealed};
+use crate::axes::{axes, dot};
+use crate::exact::{Quadratic, Root};
+use crate::{DoubleLanes, LaneMask, Lanes, Ray, Sphere};
+
+/// Hits decided as in real arithmetic, t correctly rounded, for every `f32` input.
+///
+/// Whether the line meets the sphere is decided as in real arithmetic, a tangent being a hit; t is
+/// the correctly rounded root, subnormals kept; the interval is tested on that t. So the answer
+/// is the same on every target, in every lane width and whatever the order of traversal.
+///
+/// Asks for the default floating-point environment: round to nearest even, subnormals neither
+/// flushed nor taken for zero; [`float_environment_is_sound`](crate::float_environment_is_sound)
+/// tells. Exactness is per ray and sphere as given in `f32`: a hit *point* computed from t is
+/// rounded, and lies inside the sphere half of the time.
+///
+/// Cost: as [`Fast`](super::Fast) for what the filter rules out; some 100 double-precision
+/// operations a candidate; at most some 10,000, on the stack, for a lane that these cannot decide.
+#[derive(Clone, Copy, Debug)]
+pub struct Exact;
+
+/// u, of double precision.
+const U: f64 = f64::EPSILON / 2.0;
+
+impl sealed::Sealed for Exact {}
+
+impl Accuracy for Exact {
+    const NAME: &'static str = "exact";
+    type Prepared<L: Lanes> = Beyond<L>;
+
+    #[inline(always)]
+    fn prepare<L: Lanes>(rays: &RayLanes<L>) -> Beyond<L> {
+        Beyond::new(rays)
+    }
+
+    #[inline(always)]
+    fn first_root<L: Lanes>(
+        rays: &RayLanes<L>,
+        beyond: &Beyond<L>,
+        center: [L; 3],
+        radius: L,
+        asked: L::Mask,
+        limit: L,
+    ) -> L {
+        let infinity = radius.like(f32::INFINITY);
+        let asked = asked & !beyond.limit(rays, center, radius, limit);
+        if !asked.any() {
+            return infinity;
+        }
+        let brackets = Brackets::new(rays, center, radius, asked);
+        let near = brackets.judge(brackets.near, rays, limit);
+        let far = brackets.judge(brackets.far, rays, limit);
+
+        // The far root does not matter where the near one is taken, or lies past the limit.
+        let t = L::select(near.hit, near.t, L::select(far.hit, far.t, infinity));
+        let decided = near.known & (near.hit | far.known | limit.lt(near.t));
+        let undecided = (asked & !decided).bits();
+        // Adding zero turns -0 into +0.
+        let t = L::select(asked, t + t.like(0.0), infinity);
+        if undecided == 0 {
+            return t;
+        }
+
+        // Out of the lanes, as arrays: this is scalar code, and rare.
+        let mut settled = t.store();
+        Unsettled::<L> {
+            origin: axes!(i => rays.origin[i].store()),
+            direction: axes!(i => rays.direction[i].store()),
+            t_min: rays.t_min.store(),
+            t_max: rays.t_max.store(),
+            center: axes!(i => center[i].store()),
+            radius: radius.store(),
+        }
+        .settle(undecided, &mut settled);
+        L::load(t.token(), &settled)
+    }
+
+    fn line_roots(ray: &Ray, sphere: &Sphere) -> Option<[f32; 2]> {
+        let quadratic = Quadratic::<f64>::new(
+            ray.origin.to_array(),
+            ray.direction.to_array(),
+            sphere.center.to_array(),
+            sphere.radius,
+        )?;
+        Some([quadratic.rounded(Root::Near), quadratic.rounded(Root::Far)])
+    }
+}
+
+/// For every lane the least and the greatest `f32` that each root can round to: both `+inf` where
+/// the line surely misses, `-inf` and `+inf` where it is not known to meet the sphere.
+struct Brackets<L: Lanes> {
+    token: L::Token,
+    near: [L::Array; 2],
+    far: [L::Array; 2],
+}
+
+/// What a bracket tells of a root.
+struct Judged<L: Lanes> {
+    /// The lower end.
+    t: L,
+    /// The bracket is one number, which rule 3 accepts.
+    hit: L::Mask,
+    /// The bracket is one number, or no number in it matters.
+    known: L::Mask,
+}
+
+impl<L: Lanes> Brackets<L> {
+    #[inline(always)]
+    fn new(rays: &RayLanes<L>, center: [L; 3], radius: L, asked: L::Mask) -> Self {
+        let mut brackets =
+            Self { token: radius.token(), near: Default::default(), far: Default::default() };
+        let asked = asked.bits();
+        for part in 0..L::PARTS {
+            let first = part * L::Double::COUNT;
+            if (asked >> first) & ((1 << L::Double::COUNT) - 1) != 0 {
+                brackets.fill(
+                    part,
+                    axes!(i => rays.origin[i].widen(part)),
+                    axes!(i => rays.direction[i].widen(part)),
+                    axes!(i => center[i].widen(part)),
+                    radius.widen(part),
+                );
+            }
+        }
+        brackets
+    }
+
+    #[inline(always)]
+    fn fill(
+        &mut self,
+        part: usize,
+        origin: [L::Double; 3],
+        d: [L::Double; 3],
+        center: [L::Double; 3],
+        radius: L::Double,
+    ) {
+        let p = axes!(i => center[i] - origin[i]);
+
+        // D and its bound.
+        let x = [d[1] * p[2] - d[2] * p[1], d[2] * p[0] - d[0] * p[2], d[0] * p[1] - d[1] * p[0]];
+        let a = dot(d, d);
+        let (reach, square) = (a * (radius * radius), dot(x, x));
+        let discriminant = reach - square;
+        let g = sum_of_magnitudes(d) * sum_of_magnitudes(p);
+        let error = a.like(5.0 * U) * (reach + square)
+            + a.like(8.0 * U) * (sum_of_magnitudes(x) * g)
+            + a.like(32.0 * U * U) * (g * g);
+        let meets = error.lt(discriminant);
+        let misses = discriminant.lt(-error);
+
+        // The roots and their bounds.
+        let root = discriminant.sqrt();
+        let inverse = a.like(1.0) / (a * root);
+        let per_a = root * inverse;
+        let b = dot(d, p);
+        let shared = per_a * (a.like(5.0 * U) * g + a.like(2.0 * U) * root) + error * inverse;
+        let infinity = a.like(f64::INFINITY);
+        let low_otherwise = L::Double::select(misses, infinity, -infinity);
+        for (bracket, n) in [(&mut self.near, b - root), (&mut self.far, b + root)] {
+            let t = n * per_a;
+            let bound = shared + a.like(11.0 * U) * t.abs();
+            let [low, high] = bracket;
+            L::narrow(low, part, L::Double::select(meets, t - bound, low_otherwise));
+            L::narrow(high, part, L::Double::select(meets, t + bound, infinity));
+        }
+    }
+
+    /// What lies past the limit need not be known any better.
+    #[inline(always)]
+    fn judge(&self, [low, high]: [L::Array; 2], rays: &RayLanes<L>, limit: L) -> Judged<L> {
+        let (low, high) = (L::load(self.token, &low), L::load(self.token, &high));
+        let settled = high.le(low);
+        let out = high.lt(rays.t_min) | rays.t_max.lt(low) | limit.lt(low);
+        Judged { t: low, hit: settled & rays.accept(low), known: settled | out }
+    }
+}
+
+#[inline(always)]
+fn sum_of_magnitudes<D: DoubleLanes>(v: [D; 3]) -> D {
+    v[0].abs() + v[1].abs() + v[2].abs()
+}
+
+/// Rays and spheres that double precision could not decide, in memory.
+struct Unsettled<L: Lanes> {
+    origin: [L::Array; 3],
+    direction: [L::Array; 3],
+    t_min: L::Array,
+    t_max: L::Array,
+    center: [L::Array; 3],
+    radius: L::Array,
+}
+
+impl<L: Lanes> Unsettled<L> {
+    /// Puts the t of rules 2 to 4 into the elements of `t` whose bit is set in `lanes`.
+    #[cold]
+    #[inline(never)]
+    fn settle(&self, lanes: u32, t: &mut L::Array) {
+        for (lane, t) in t.as_mut().iter_mut().enumerate() {
+            if lanes >> lane & 1 == 1 {
+                *t = self.first_root(lane).unwrap_or(f32::INFINITY);
+            }
+        }
+    }
+
+    fn first_root(&self, lane: usize) -> Option<f32> {
+        let at = |array: &L::Array| array.as_ref().get(lane).copied().unwrap_or(f32::NAN);
+        let at3 = |arrays: &[L::Array; 3]| arrays.each_ref().map(at);
+        let (t_min, t_max) = (at(&self.t_min), at(&self.t_max));
+        let accepted = |t: &f32| t_min <= *t && *t <= t_max && t.is_finite();
+        let quadratic = Quadratic::<f64>::new(
+            at3(&self.origin),
+            at3(&self.direction),
+            at3(&self.center),
+            at(&self.radius),
+        )?;
+        [Root::Near, Root::Far].into_iter().map(|root| quadratic.rounded(root)).find(accepted)
+    }
+}

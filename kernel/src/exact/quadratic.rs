@@ -1,0 +1,196 @@
+//! The line x(t) = o + t d and the surface |x - c| = r, exactly.
+//!
+//! # Method
+//!
+//! With p = c - o, a = d.d, b = d.p and the power of the origin k = p.p - r^2, the line meets the
+//! sphere where a t^2 - 2 b t + k = 0: at t = (b -+ sqrt D) / a with
+//! D = b^2 - a k = a r^2 - |d x p|^2 (Lagrange). The second form has fewer terms.
+//!
+//! The sign of D, as an expansion, decides whether there are roots. A root is then estimated to
+//! 16 u (u = 2^-53), which leaves one `f32` it can round to, or two neighbours. Which of two is
+//! told by the side of their midpoint m that the root lies on, for which no root need be taken:
+//! with v = m d - p, f = |v|^2 - r^2 and g = d.v, half the slope of f along the line,
+//!
+//! ```text
+//! m < t1  iff f > 0 and g < 0        m > t2  iff f > 0 and g > 0
+//! m = t1  iff f = 0 and g <= 0       m = t2  iff f = 0 and g >= 0
+//! ```
+//!
+//! # Why the expansions are exact
+//!
+//! A finite `f32` is k 2^-149 with |k| < 2^277, so that
+//!
+//! | quantity | a multiple of | magnitude below | terms |
+//! |---|---|---|---|
+//! | d c, d o, d^2, r^2: products of two `f32`, 48 bits, one double each | 2^-298 | 2^256 | 1 |
+//! | a component of d x p = d x c - d x o: four such products | 2^-298 | 2^258 | 4 |
+//! | D: three squares of four terms, and three products d^2 r^2 | 2^-596 | 2^520 | 3 * 20 + 3 * 2 = 66 |
+//! | b = d.c - d.o | 2^-298 | 2^259 | 6 |
+//! | a component of p | 2^-149 | 2^129 | 2 |
+//! | k: three squares of two terms, and r^2 | 2^-298 | 2^261 | 3 * 6 + 1 = 19 |
+//! | m, a midpoint of neighbours: 25 bits; m d, 49 bits | 2^-150; 2^-299 | 2^128; 2^256 | 1 |
+//! | a component of v = m d - c + o | 2^-299 | 2^257 | 3 |
+//! | f: three squares of three terms, and r^2 | 2^-598 | 2^517 | 3 * 12 + 1 = 37 |
+//! | g: nine products | 2^-448 | 2^387 | 18 |
+//!
+//! All partial results are multiples of the same unit and bounded alike, so none leaves the range
+//! of normal doubles, [2^-1022, 2^1024), and Veltkamp's splitting, which multiplies by 2^27 + 1,
+//! does not either.
+
+use super::expansion::{Expansion, Float};
+use core::cmp::Ordering;
+
+/// Which of the two roots.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Root {
+    /// t1, the smaller.
+    Near,
+    /// t2.
+    Far,
+}
+
+/// A line that meets a sphere, and estimates of its quadratic.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Quadratic<F> {
+    origin: [F; 3],
+    direction: [F; 3],
+    center: [F; 3],
+    radius: F,
+    /// t1 and t2, each within 10 u of itself.
+    estimates: [f64; 2],
+}
+
+impl<F: Float> Quadratic<F> {
+    /// Nothing where the line misses the sphere; a tangent does not.
+    ///
+    /// Domain: a valid ray and a valid sphere. Anything else returns too, with no meaning.
+    pub(crate) fn new(
+        origin: [f32; 3],
+        direction: [f32; 3],
+        center: [f32; 3],
+        radius: f32,
+    ) -> Option<Self> {
+        let exactly = |single| F::from(f64::from(single));
+        let line = Self {
+            origin: origin.map(exactly),
+            direction: direction.map(exactly),
+            center: center.map(exactly),
+            radius: exactly(radius),
+            estimates: [0.0; 2],
+        };
+        let discriminant = line.discriminant()?;
+
+        // q = b + sign(b) sqrt D does not cancel: 4 u of b, 3.5 u of the root, 1 u of the sum.
+        // a is within 2 u, k within 4 u; so q / a within 9 u, k / q within 10 u.
+        let root = libm::sqrt(discriminant);
+        let (b, k) = (line.half_slope(), line.power());
+        let a: f64 = line.direction.iter().map(|&d| -> f64 { (d * d).into() }).sum();
+        let q = if b < 0.0 { b - root } else { b + root };
+        // q is zero only where b and D are, and then so is k: both roots are zero.
+        let other = if k == 0.0 { 0.0 } else { k / q };
+        let estimates = if b < 0.0 { [q / a, other] } else { [other, q / a] };
+        Some(Self { estimates, ..line })
+    }
+
+    /// The correctly rounded root; +0 for zero, infinite where it rounds so.
+    pub(crate) fn rounded(&self, root: Root) -> f32 {
+        let estimate = self.estimates[usize::from(root == Root::Far)];
+        let error = estimate.abs() * (16.0 * f64::EPSILON / 2.0);
+        let (low, high) = ((estimate - error) as f32, (estimate + error) as f32);
+        let rounded = if low == high {
+            low
+        } else {
+            match self.compare_with(midpoint(low, high), root) {
+                Ordering::Less => low,
+                Ordering::Greater => high,
+                // The one with an even last bit.
+                Ordering::Equal if low.to_bits() & 1 == 0 => low,
+                Ordering::Equal => high,
+            }
+        };
+        // Adding zero turns -0 into +0.
+        rounded + 0.0
+    }
+
+    /// D = a r^2 - |d x p|^2, estimated; nothing where it is negative.
+    #[inline(never)]
+    fn discriminant(&self) -> Option<f64> {
+        let Self { origin: o, direction: d, center: c, radius: r, .. } = *self;
+        let mut sum = Expansion::<F, 66>::zero();
+        for (i, j) in [(1, 2), (2, 0), (0, 1)] {
+            let mut component = Expansion::<F, 4>::zero();
+            component.add(d[i] * c[j]);
+            component.add(-(d[i] * o[j]));
+            component.add(-(d[j] * c[i]));
+            component.add(d[j] * o[i]);
+            sum.add_square(component.terms());
+        }
+        for d in d {
+            sum.add_product(d * d, -(r * r));
+        }
+        // So far the sum is -D.
+        (sum.sign() != Ordering::Greater).then(|| -sum.estimate())
+    }
+
+    /// b = d.p.
+    #[inline(never)]
+    fn half_slope(&self) -> f64 {
+        let mut sum = Expansion::<F, 6>::zero();
+        for i in 0..3 {
+            sum.add(self.direction[i] * self.center[i]);
+            sum.add(-(self.direction[i] * self.origin[i]));
+        }
+        sum.estimate()
+    }
+
+    /// k = p.p - r^2.
+    #[inline(never)]
+    fn power(&self) -> f64 {
+        let mut sum = Expansion::<F, 19>::zero();
+        for i in 0..3 {
+            let mut component = Expansion::<F, 2>::zero();
+            component.add(self.center[i]);
+            component.add(-self.origin[i]);
+            sum.add_square(component.terms());
+        }
+        sum.add(-(self.radius * self.radius));
+        sum.estimate()
+    }
+
+    /// How a root compares with `t`, a number of at most 25 significant bits.
+    #[inline(never)]
+    fn compare_with(&self, t: f64, root: Root) -> Ordering {
+        let Self { origin: o, direction: d, center: c, radius: r, .. } = *self;
+        let (mut f, mut g) = (Expansion::<F, 37>::zero(), Expansion::<F, 18>::zero());
+        f.add(-(r * r));
+        for i in 0..3 {
+            let mut component = Expansion::<F, 3>::zero();
+            component.add(F::from(t) * d[i]);
+            component.add(-c[i]);
+            component.add(o[i]);
+            f.add_square(component.terms());
+            for &term in component.terms() {
+                g.add_product(d[i], term);
+            }
+        }
+        let outward = if root == Root::Near { Ordering::Less } else { Ordering::Greater };
+        match (f.sign(), g.sign()) {
+            (Ordering::Greater, slope) if slope == outward => outward.reverse(),
+            (Ordering::Equal, slope) if slope == outward || slope == Ordering::Equal => {
+                Ordering::Equal
+            }
+            _ => outward,
+        }
+    }
+}
+
+/// The number half-way between neighbours, exactly; an infinity stands for the `f32` that would
+/// come next, 2^128, as it does in rounding.
+fn midpoint(low: f32, high: f32) -> f64 {
+    let end = |single: f32| {
+        if single.is_finite() { f64::from(single) } else { TWO_128.copysign(f64::from(single)) }
+    };
+    (end(low) + end(high)) * 0.5
+}
+
+const TWO_128: f64 = 2.0 * (1u128 << 127) as f64;

@@ -1,0 +1,39 @@
+//! Whether the machine computes as the proofs assume.
+
+use core::hint::black_box;
+
+/// Whether arithmetic rounds to nearest even and keeps subnormals, in `f32` and `f64`, on the
+/// thread that asks.
+///
+/// Rust assumes so and every target starts so, but a library called from another language may
+/// have set flush-to-zero, denormals-are-zero or another rounding mode; AArch32 NEON always
+/// flushes. Where this is false, [`Exact`](crate::Exact) promises nothing. Costs some
+/// nanoseconds: ask once, at the start.
+#[must_use]
+#[inline(never)]
+pub fn float_environment_is_sound() -> bool {
+    // Nearest even: 1 + u is a tie that falls to 1, 1 + 3u one that rises, of either sign; every
+    // directed mode gets one of them wrong.
+    let half_ulp = black_box(f32::EPSILON / 2.0);
+    let one = black_box(1.0_f32);
+    let nearest = one + half_ulp == one
+        && one + 3.0 * half_ulp == one + 4.0 * half_ulp
+        && -one - half_ulp == -one
+        && -one - 3.0 * half_ulp == -one - 4.0 * half_ulp;
+    let (half_ulp, one) = (black_box(f64::EPSILON / 2.0), black_box(1.0_f64));
+    let nearest = nearest
+        && one + half_ulp == one
+        && one + 3.0 * half_ulp == one + 4.0 * half_ulp
+        && -one - half_ulp == -one
+        && -one - 3.0 * half_ulp == -one - 4.0 * half_ulp;
+
+    // Subnormals: made from normals, and read.
+    let (small, tiny) = (black_box(f32::MIN_POSITIVE), black_box(f32::from_bits(1)));
+    let kept = black_box(small * black_box(0.5)).to_bits() == 0x0040_0000
+        && black_box(tiny * black_box(16_777_216.0)) == f32::from_bits(2 << 23);
+    let (small, tiny) = (black_box(f64::MIN_POSITIVE), black_box(f64::from_bits(1)));
+    nearest
+        && kept
+        && black_box(small * black_box(0.5)).to_bits() == 1 << 51
+        && black_box(tiny * black_box(9_007_199_254_740_992.0)) == f64::from_bits(2 << 52)
+}
