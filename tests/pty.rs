@@ -214,6 +214,24 @@ fn a_storm_of_sizes_ends_in_the_last() {
 }
 
 #[test]
+fn a_key_and_a_resize_at_once_both_count() {
+    let mut viewer = Viewer::start();
+    for round in 0..50 {
+        let (key, tier) = if round % 2 == 0 { ("1", " fast ") } else { ("2", " stable ") };
+        let (columns, rows) = (40 + round, 8 + round % 5);
+        viewer.session.resize(columns, rows);
+        viewer.session.type_in(key);
+        viewer.session.wait_for("both", |output| {
+            let line = last_row(output.screen());
+            (shows_a_frame(output) && line.contains(tier)).then_some(())
+        });
+    }
+    viewer.session.resize(COLUMNS, ROWS);
+    viewer.session.type_in("q");
+    assert!(viewer.session.wait_for_end().success());
+}
+
+#[test]
 fn a_terminal_without_a_cell_is_waited_for() {
     let viewer = Viewer::start_at_size(0, 0);
     viewer.session.wait_for("the start", |output| output.screen().hide_cursor().then_some(()));

@@ -4,9 +4,12 @@
 //! comes before the message of a panic, and a thread watches for signals (see `signals`). Giving
 //! back twice does no harm.
 
+mod input;
 mod signals;
 
-use crossterm::{event, terminal};
+use crossterm::event::Event;
+use crossterm::terminal;
+use input::Input;
 use std::io;
 use std::os::fd::AsFd;
 use std::panic;
@@ -35,8 +38,9 @@ static OUTPUT: Mutex<()> = Mutex::new(());
 
 /// The terminal in raw mode, on its alternate screen. Dropping it gives it back.
 #[derive(Debug)]
-#[non_exhaustive]
-pub struct Terminal {}
+pub struct Terminal {
+    input: Input,
+}
 
 impl Terminal {
     /// Takes the terminal.
@@ -46,16 +50,20 @@ impl Terminal {
     pub fn enter() -> io::Result<Self> {
         signals::watch()?;
         restore_before_panic_message();
-        let this = Self {};
-        {
-            let _output = output();
-            RUNNING.store(true, SeqCst);
-            take()?;
-        }
-        // crossterm listens for SIGWINCH from its first poll on: a resize between the first look
-        // at the size and that poll would be lost.
-        event::poll(Duration::ZERO)?;
+        let this = Self { input: Input::open().map_err(no_terminal)? };
+        let _output = output();
+        RUNNING.store(true, SeqCst);
+        take()?;
         Ok(this)
+    }
+
+    /// The next thing that the terminal has to say, if it does within `wait`; without, whenever
+    /// it does. A resize tells that the size must be asked for, not what it is.
+    ///
+    /// # Errors
+    /// If the terminal cannot be read.
+    pub fn next_event(&mut self, wait: Option<Duration>) -> io::Result<Option<Event>> {
+        self.input.next(wait)
     }
 
     /// Columns and rows; either may be 0.
@@ -118,11 +126,13 @@ fn leave() {
     }
 }
 
+fn no_terminal(error: io::Error) -> io::Error {
+    io::Error::new(error.kind(), format!("no terminal to read keys from: {error}"))
+}
+
 /// Takes the terminal; the output is held by the caller.
 fn take() -> io::Result<()> {
-    terminal::enable_raw_mode().map_err(|error| {
-        io::Error::new(error.kind(), format!("no terminal to read keys from: {error}"))
-    })?;
+    terminal::enable_raw_mode().map_err(no_terminal)?;
     SHOWN.store(true, SeqCst);
     write(ENTER)
 }
@@ -144,7 +154,7 @@ fn resume() {
         }
         RESUMED.store(true, SeqCst);
     }
-    // crossterm reports a resize, and the viewer, which may be waiting for a key, draws.
+    // A resize wakes up the viewer, which may be waiting for a key.
     let _ = signal_hook::low_level::raise(signal_hook::consts::SIGWINCH);
 }
 

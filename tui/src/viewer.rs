@@ -15,7 +15,6 @@ use crate::encode::Encoder;
 use crate::scene::Scene;
 use crate::terminal::Terminal;
 use crate::view::View;
-use crossterm::event;
 use meter::{Frame, Meter};
 pub use state::{ORBIT_STEP, ZOOM_STEP};
 use state::{Outcome, State};
@@ -93,13 +92,9 @@ impl Viewer<'_> {
     /// Waits for input, for ever without `wait`, and takes all there is.
     fn take_input(&mut self, wait: Option<Duration>) -> io::Result<Outcome> {
         let mut outcome = Outcome::Unchanged;
-        // Without a limit `read` is what waits.
-        let mut ready = wait.map_or(Ok(true), event::poll)?;
+        let mut next = self.terminal.next_event(wait)?;
         for _ in 0..LONGEST_BACKLOG {
-            if !ready {
-                break;
-            }
-            let event = event::read()?;
+            let Some(event) = next else { break };
             if self.panic_key && keys::is_panic(&event) {
                 panic!("asked for by {PANIC_SWITCH}");
             }
@@ -116,7 +111,7 @@ impl Viewer<'_> {
             if outcome == Outcome::Quit {
                 break;
             }
-            ready = event::poll(Duration::ZERO)?;
+            next = self.terminal.next_event(Some(Duration::ZERO))?;
         }
         if self.terminal.was_resumed() {
             self.encoder.forget();

@@ -2,15 +2,12 @@
 //!
 //! A thread of its own takes them, so that a long frame does not hold them up.
 
-use super::{RUNNING, leave, restore, resume};
+use super::{leave, restore, resume};
 use crossterm::terminal;
-use rustix::event::{PollFd, PollFlags};
 use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP};
 use signal_hook::iterator::Signals;
 use signal_hook::low_level::emulate_default_handler;
-use std::fs::File;
-use std::io::{self, IsTerminal};
-use std::os::fd::{AsFd, BorrowedFd};
+use std::io;
 use std::sync::atomic::{AtomicBool, Ordering::SeqCst};
 use std::sync::mpsc;
 use std::thread;
@@ -38,13 +35,12 @@ pub(super) fn watch() -> io::Result<()> {
             }
         }
     })?;
-    thread::Builder::new().name("hang-up".into()).spawn(watch_for_hang_up)?;
     Ok(())
 }
 
 /// Restores, then lets the signal do what it does to a process without a handler, so that whoever
 /// waits for us learns of it.
-fn die_by(signal: i32) {
+pub(super) fn die_by(signal: i32) {
     let (done, restored) = mpsc::channel();
     let restoring = thread::Builder::new().spawn(move || {
         restore();
@@ -56,30 +52,4 @@ fn die_by(signal: i32) {
     // A terminal that is stopped by Ctrl-S takes no bytes, but modes it does.
     let _ = terminal::disable_raw_mode();
     let _ = emulate_default_handler(signal);
-}
-
-/// A terminal that is not our controlling one sends no SIGHUP when it goes, and crossterm reads
-/// the end of its input for ever.
-fn watch_for_hang_up() {
-    let stdin = io::stdin();
-    if stdin.is_terminal() {
-        wait_for_hang_up(stdin.as_fd());
-    } else if let Ok(tty) = File::open("/dev/tty") {
-        wait_for_hang_up(tty.as_fd());
-    }
-}
-
-fn wait_for_hang_up(tty: BorrowedFd<'_>) {
-    let mut watched = [PollFd::new(&tty, PollFlags::empty())];
-    loop {
-        match rustix::event::poll(&mut watched, None) {
-            Err(rustix::io::Errno::INTR) => {}
-            Ok(_) if watched[0].revents().contains(PollFlags::HUP) => break,
-            // Where terminals cannot be polled there is nothing to watch.
-            _ => return,
-        }
-    }
-    if RUNNING.load(SeqCst) {
-        die_by(SIGHUP);
-    }
 }
