@@ -6,88 +6,21 @@
 
 mod pty {
     pub(crate) mod binary;
+    mod leaving;
     pub(crate) mod look;
     pub(crate) mod modes;
     pub(crate) mod picture;
     pub(crate) mod session;
+    pub(crate) mod viewer;
 }
 
-use portable_pty::native_pty_system;
-use pty::binary::spherule;
-use pty::look::{Look, last_row, look};
+use pty::look::last_row;
 use pty::modes::is_cooked;
-use pty::picture::{OPTIONS, SceneFile, once};
-use pty::session::{Output, Session, command, size};
-use rustix::process::Signal;
-use spherule_kernel::Vec3;
-use spherule_tui::view::{Lens, LensKind, View, orbited, with_projection, zoomed};
+use pty::picture::once;
+use pty::viewer::{COLUMNS, PICTURE_ROWS, ROWS, VIEW, Viewer, shows_a_frame};
+use spherule_tui::view::{LensKind, orbited, with_projection, zoomed};
 use spherule_tui::viewer::{ORBIT_STEP, ZOOM_STEP};
 use std::f32::consts::PI;
-use std::io::Read;
-
-const COLUMNS: u16 = 72;
-const ROWS: u16 = 20;
-/// The last row is the status line's.
-const PICTURE_ROWS: u16 = ROWS - 1;
-
-const VIEW: View = View {
-    eye: Vec3::new(0.5, 1.0, 5.0),
-    target: Vec3::ZERO,
-    up: Vec3::Y,
-    lens: Lens::Perspective { fov: 40.0 },
-};
-
-/// The viewer on the test's scene, and the scene's file, which must outlive its reading.
-struct Viewer {
-    session: Session,
-    _scene: SceneFile,
-}
-
-impl Viewer {
-    fn start_at_size(columns: u16, rows: u16) -> Self {
-        Self::start_with(&[], columns, rows)
-    }
-
-    fn start_with(variables: &[(&str, &str)], columns: u16, rows: u16) -> Self {
-        let scene = SceneFile::new(&VIEW);
-        let mut arguments = vec![scene.path()];
-        arguments.extend(OPTIONS);
-        let session = Session::start(spherule(), &arguments, variables, (columns, rows));
-        Self { session, _scene: scene }
-    }
-
-    /// Started, and the first picture is there.
-    fn start() -> Self {
-        let viewer = Self::start_at_size(COLUMNS, ROWS);
-        viewer.wait_for_frame();
-        viewer
-    }
-
-    fn wait_for_frame(&self) {
-        self.session.wait_for("a frame", |output| shows_a_frame(output).then_some(()));
-    }
-
-    fn wait_for_picture(&self, what: &str, expected: &[Vec<Look>]) {
-        let rows = expected.len() as u16;
-        self.session.wait_for(what, |output| {
-            (shows_a_frame(output) && look(output.screen(), rows) == expected).then_some(())
-        });
-    }
-
-    fn quit(mut self) {
-        self.session.type_in("q");
-        let status = self.session.wait_for_end();
-        assert!(status.success(), "{status}");
-        assert_eq!(self.session.left_behind(), [""; 0]);
-    }
-}
-
-/// A whole frame: all bytes of it, the status line among them.
-fn shows_a_frame(output: &Output) -> bool {
-    output.screen().alternate_screen()
-        && output.sent.ends_with(b"\x1b[?2026l")
-        && !last_row(output.screen()).trim().is_empty()
-}
 
 #[test]
 fn it_starts_and_draws_what_once_draws() {
@@ -240,157 +173,4 @@ fn a_terminal_without_a_cell_is_waited_for() {
     viewer.session.resize(1, 1);
     viewer.session.resize(0, 7);
     viewer.quit();
-}
-
-/// After the program was stopped: the terminal is the shell's, and after SIGCONT the program's.
-fn assert_stops_and_goes_on(viewer: Viewer) {
-    viewer.session.wait_until_stopped();
-    assert!(is_cooked(&viewer.session.modes()), "the shell gets no lines");
-    viewer.session.wait_for("the normal screen", |output| {
-        (!output.screen().alternate_screen()).then_some(())
-    });
-    assert_eq!(viewer.session.left_behind(), [""; 0]);
-    let sent = viewer.session.output().sent.len();
-    viewer.session.signal(Signal::CONT);
-    viewer.wait_for_picture("the picture again", &once(&VIEW, COLUMNS, PICTURE_ROWS));
-    assert!(!is_cooked(&viewer.session.modes()));
-    let redrawn = viewer.session.output().sent[sent..].windows(4).any(|bytes| bytes == b"\x1b[2J");
-    assert!(redrawn, "not drawn in full");
-    viewer.quit();
-}
-
-#[test]
-fn ctrl_z_stops_and_sigcont_draws_again() {
-    let mut viewer = Viewer::start();
-    viewer.session.type_in("\x1a");
-    assert_stops_and_goes_on(viewer);
-}
-
-#[test]
-fn sigtstp_stops_and_sigcont_draws_again() {
-    let viewer = Viewer::start();
-    viewer.session.signal(Signal::TSTP);
-    assert_stops_and_goes_on(viewer);
-}
-
-#[test]
-fn after_a_stop_that_cannot_be_caught_it_draws_again() {
-    let viewer = Viewer::start();
-    viewer.session.signal(Signal::STOP);
-    viewer.session.wait_until_stopped();
-    let sent = viewer.session.output().sent.len();
-    viewer.session.signal(Signal::CONT);
-    viewer.session.wait_for("a full frame", |output| {
-        let redrawn = output.sent[sent..].windows(4).any(|bytes| bytes == b"\x1b[2J");
-        (redrawn && shows_a_frame(output)).then_some(())
-    });
-    viewer.quit();
-}
-
-#[test]
-fn every_key_that_quits_does() {
-    for key in ["q", "\x03", "\x1b"] {
-        let mut viewer = Viewer::start();
-        viewer.session.type_in(key);
-        let status = viewer.session.wait_for_end();
-        assert!(status.success(), "{key:?}: {status}");
-        assert_eq!(viewer.session.left_behind(), [""; 0], "{key:?}");
-    }
-}
-
-#[test]
-fn a_panic_is_told_on_the_normal_screen() {
-    let mut viewer = Viewer::start_with(&[("SPHERULE_TEST_PANIC", "1")], COLUMNS, ROWS);
-    viewer.wait_for_frame();
-    viewer.session.type_in("!");
-    let status = viewer.session.wait_for_end();
-    assert_eq!(status.exit_code(), 101, "{status}");
-    assert_eq!(viewer.session.left_behind(), [""; 0]);
-    let shown = viewer.session.output().screen().contents();
-    assert!(shown.contains("panicked at"), "{shown}");
-}
-
-#[test]
-fn unasked_for_the_panic_key_does_nothing() {
-    let mut viewer = Viewer::start();
-    viewer.session.type_in("!");
-    viewer.quit();
-}
-
-#[test]
-fn signals_restore_and_kill() {
-    for (signal, name) in [
-        (Signal::TERM, "Terminated"),
-        (Signal::HUP, "Hangup"),
-        (Signal::INT, "Interrupt"),
-        (Signal::QUIT, "Quit"),
-    ] {
-        let mut viewer = Viewer::start();
-        viewer.session.signal(signal);
-        let status = viewer.session.wait_for_end();
-        assert_eq!(status.signal(), Some(name), "{status}");
-        assert_eq!(viewer.session.left_behind(), [""; 0], "{name}");
-    }
-}
-
-#[test]
-fn killed_while_it_is_stopped_it_leaves_the_terminal_alone() {
-    let mut viewer = Viewer::start();
-    viewer.session.type_in("\x1a");
-    viewer.session.wait_until_stopped();
-    viewer.session.signal(Signal::TERM);
-    viewer.session.signal(Signal::CONT);
-    let status = viewer.session.wait_for_end();
-    assert_eq!(status.signal(), Some("Terminated"), "{status}");
-    assert_eq!(viewer.session.left_behind(), [""; 0]);
-}
-
-#[test]
-fn a_terminal_that_takes_nothing_does_not_keep_it_alive() {
-    let mut viewer = Viewer::start();
-    viewer.session.block_output();
-    viewer.session.type_in(" ");
-    viewer.session.signal(Signal::TERM);
-    let status = viewer.session.wait_for_exit();
-    assert_eq!(status.signal(), Some("Terminated"), "{status}");
-    assert!(is_cooked(&viewer.session.modes()));
-}
-
-#[test]
-fn it_ends_with_its_terminal() {
-    let scene = SceneFile::new(&VIEW);
-    let pair = native_pty_system().openpty(size(COLUMNS, ROWS)).expect("a pseudo-terminal");
-    let mut child = pair
-        .slave
-        .spawn_command(command(spherule(), &[scene.path()], &[]))
-        .expect("the program starts");
-    let mut reader = pair.master.try_clone_reader().expect("output can be read");
-    let mut sent = Vec::new();
-    let mut bytes = [0; 4096];
-    while !sent.ends_with(b"\x1b[?2026l") {
-        let count = reader.read(&mut bytes).expect("the program writes");
-        sent.extend_from_slice(&bytes[..count]);
-    }
-    drop((pair, reader));
-    let status = child.wait().expect("it is our child");
-    assert_eq!(status.signal(), Some("Hangup"), "{status}");
-}
-
-/// The checks above can fail: what a careless program leaves behind is found, thing by thing.
-#[test]
-fn what_is_left_behind_is_found() {
-    let left_behind = |script: &str| {
-        let mut session = Session::start("sh", &["-c", script], &[], (COLUMNS, ROWS));
-        assert!(session.wait_for_end().success());
-        session.left_behind()
-    };
-    assert_eq!(left_behind("printf 'hello\\n'"), [""; 0]);
-    assert_eq!(left_behind("printf '\\033[?1049h'"), ["alternate screen", "mode 1049"]);
-    assert_eq!(left_behind("printf '\\033[?25l'"), ["hidden cursor", "mode 25"]);
-    assert_eq!(left_behind("printf '\\033[?1002h'"), ["mouse", "mode 1002"]);
-    assert_eq!(left_behind("printf '\\033[?7l\\033[?2026h'"), ["mode 7", "mode 2026"]);
-    assert_eq!(left_behind("printf '\\033[31m'"), ["foreground colour"]);
-    assert_eq!(left_behind("stty raw"), ["line discipline"]);
-    assert_eq!(left_behind("stty -echo"), ["line discipline"]);
-    assert_eq!(left_behind("saved=$(stty -g); stty raw; stty \"$saved\""), [""; 0]);
 }

@@ -50,7 +50,7 @@ impl Terminal {
     pub fn enter() -> io::Result<Self> {
         signals::watch()?;
         restore_before_panic_message();
-        let this = Self { input: Input::open().map_err(no_terminal)? };
+        let this = Self { input: Input::open().map_err(|error| no_terminal(&error))? };
         let _output = output();
         RUNNING.store(true, SeqCst);
         take()?;
@@ -126,13 +126,13 @@ fn leave() {
     }
 }
 
-fn no_terminal(error: io::Error) -> io::Error {
+fn no_terminal(error: &io::Error) -> io::Error {
     io::Error::new(error.kind(), format!("no terminal to read keys from: {error}"))
 }
 
 /// Takes the terminal; the output is held by the caller.
 fn take() -> io::Result<()> {
-    terminal::enable_raw_mode().map_err(no_terminal)?;
+    terminal::enable_raw_mode().map_err(|error| no_terminal(&error))?;
     SHOWN.store(true, SeqCst);
     write(ENTER)
 }
