@@ -92,9 +92,10 @@ impl Viewer<'_> {
     /// Waits for input, for ever without `wait`, and takes all there is.
     fn take_input(&mut self, wait: Option<Duration>) -> io::Result<Outcome> {
         let mut outcome = Outcome::Unchanged;
-        let mut next = self.terminal.next_event(wait)?;
+        let mut wait = wait;
         for _ in 0..LONGEST_BACKLOG {
-            let Some(event) = next else { break };
+            let Some(event) = self.terminal.next_event(wait)? else { break };
+            wait = Some(Duration::ZERO);
             if self.panic_key && keys::is_panic(&event) {
                 panic!("asked for by {PANIC_SWITCH}");
             }
@@ -111,7 +112,6 @@ impl Viewer<'_> {
             if outcome == Outcome::Quit {
                 break;
             }
-            next = self.terminal.next_event(Some(Duration::ZERO))?;
         }
         if self.terminal.was_resumed() {
             self.encoder.forget();
