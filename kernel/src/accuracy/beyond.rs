@@ -2,8 +2,9 @@
 //! other, that saves most of what a tier costs.
 //!
 //! Both roots are at least b/a - r/|d|, so both are past the limit where b - r |d| > limit a. The
-//! test has a margin of 2^-20 of its terms, which also covers the few ulp that the t of `Stable`
-//! is off, in its domain; that of `Fast` may be off by anything, so `Fast` does not use it.
+//! test has a margin of 2^-20 of its terms, which also covers the 2^-22 (|p| + r) / |d| that the t
+//! of `Stable` is off where its squares do not underflow; where |p| + r might be so small, nothing
+//! is told. The t of `Fast` may be off by anything, so `Fast` does not use it.
 
 use super::RayLanes;
 use crate::Lanes;
@@ -38,10 +39,14 @@ impl<L: Lanes> Beyond<L> {
         let b = dot(rays.direction, p);
         let end = limit * self.a;
         let reach = radius * self.length;
-        let size = (p[0].abs() + p[1].abs() + p[2].abs()) * self.length + reach + end.abs();
-        (end + b.like(8.0 * f32::EPSILON) * size + b.like(LEAST_A)).lt(b - reach)
+        let size = (p[0].abs() + p[1].abs() + p[2].abs()) * self.length + reach;
+        let margin = b.like(8.0 * f32::EPSILON) * (size + end.abs()) + b.like(LEAST_A);
+        (b.like(LEAST_SIZE) * self.length).le(size) & (end + margin).lt(b - reach)
     }
 }
+
+/// 2^-38: below it, the squares of |p| and r might underflow in `Stable`.
+const LEAST_SIZE: f32 = 1.0 / (1u64 << 38) as f32;
 
 /// 2^-120.
 const LEAST_A: f32 = 1.0 / (1u128 << 120) as f32;

@@ -117,12 +117,18 @@ impl<F: Float> Quadratic<F> {
     fn discriminant(&self) -> Option<f64> {
         let Self { origin: o, direction: d, center: c, radius: r, .. } = *self;
         let mut sum = Expansion::<F, 66>::zero();
-        for (i, j) in [(1, 2), (2, 0), (0, 1)] {
+        // Each component of d x p from two axes of d, c and o, those after the component's own.
+        let ([x, y, z], [cx, cy, cz], [ox, oy, oz]) = (d, c, o);
+        for (d, c, o) in [
+            ([y, z], [cy, cz], [oy, oz]),
+            ([z, x], [cz, cx], [oz, ox]),
+            ([x, y], [cx, cy], [ox, oy]),
+        ] {
             let mut component = Expansion::<F, 4>::zero();
-            component.add(d[i] * c[j]);
-            component.add(-(d[i] * o[j]));
-            component.add(-(d[j] * c[i]));
-            component.add(d[j] * o[i]);
+            component.add(d[0] * c[1]);
+            component.add(-(d[0] * o[1]));
+            component.add(-(d[1] * c[0]));
+            component.add(d[1] * o[0]);
             sum.add_square(component.terms());
         }
         for d in d {
@@ -136,9 +142,9 @@ impl<F: Float> Quadratic<F> {
     #[inline(never)]
     fn half_slope(&self) -> f64 {
         let mut sum = Expansion::<F, 6>::zero();
-        for i in 0..3 {
-            sum.add(self.direction[i] * self.center[i]);
-            sum.add(-(self.direction[i] * self.origin[i]));
+        for ((d, c), o) in self.direction.into_iter().zip(self.center).zip(self.origin) {
+            sum.add(d * c);
+            sum.add(-(d * o));
         }
         sum.estimate()
     }
@@ -147,10 +153,10 @@ impl<F: Float> Quadratic<F> {
     #[inline(never)]
     fn power(&self) -> f64 {
         let mut sum = Expansion::<F, 19>::zero();
-        for i in 0..3 {
+        for (c, o) in self.center.into_iter().zip(self.origin) {
             let mut component = Expansion::<F, 2>::zero();
-            component.add(self.center[i]);
-            component.add(-self.origin[i]);
+            component.add(c);
+            component.add(-o);
             sum.add_square(component.terms());
         }
         sum.add(-(self.radius * self.radius));
@@ -163,14 +169,14 @@ impl<F: Float> Quadratic<F> {
         let Self { origin: o, direction: d, center: c, radius: r, .. } = *self;
         let (mut f, mut g) = (Expansion::<F, 37>::zero(), Expansion::<F, 18>::zero());
         f.add(-(r * r));
-        for i in 0..3 {
+        for ((d, c), o) in d.into_iter().zip(c).zip(o) {
             let mut component = Expansion::<F, 3>::zero();
-            component.add(F::from(t) * d[i]);
-            component.add(-c[i]);
-            component.add(o[i]);
+            component.add(F::from(t) * d);
+            component.add(-c);
+            component.add(o);
             f.add_square(component.terms());
             for &term in component.terms() {
-                g.add_product(d[i], term);
+                g.add_product(d, term);
             }
         }
         let outward = if root == Root::Near { Ordering::Less } else { Ordering::Greater };
