@@ -80,6 +80,9 @@ pub trait Lanes:
     fn le(self, other: Self) -> Self::Mask;
     /// `yes` where `mask` is true, else `no`.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+    /// The lanes in which `mask` is true, in their order, from the first lane on; what the lanes
+    /// behind them hold is not said.
+    fn compress(self, mask: Self::Mask) -> Self;
     /// Lanes `part * DoubleLanes::COUNT ..` in double precision, exactly.
     ///
     /// `part` counts from zero to [`Lanes::PARTS`]; past it, any part.

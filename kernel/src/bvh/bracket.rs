@@ -71,13 +71,65 @@ pub(super) fn part_of<L: Lanes>(token: L::Token, numbers: &[f32; WIDTH], part: u
 }
 
 impl<L: Lanes> Probe<L> {
-    /// The spheres of part `part` of a leaf.
+    /// Which spheres of part `part` of a leaf may be hit, as far as can be told without a root.
     #[inline(always)]
-    pub(super) fn meet<A: Accuracy>(&self, leaf: &BvhLeaf, part: usize) -> Option<Bracket<L>> {
-        let token = self.origin[0].token();
-        let f = axes!(i => part_of::<L>(token, &leaf.center[i], part) - self.origin[i]);
+    pub(super) fn may_meet<A: Accuracy>(&self, leaf: &BvhLeaf, part: usize) -> u32 {
+        let passed = Passed::new::<A>(self, leaf, part);
+        let Passed { middle, reach, ll, most, .. } = passed;
+        let near_enough = ll.le(most);
+        let candidates = if A::SPREAD > 0.0 {
+            near_enough
+        } else {
+            near_enough & (middle - reach).le(self.end[1]) & self.start[0].le(middle + reach)
+        };
+        candidates.bits()
+    }
+
+    /// Between which s the spheres of part `part` of a leaf are hit.
+    #[inline(always)]
+    pub(super) fn meet<A: Accuracy>(&self, leaf: &BvhLeaf, part: usize) -> Bracket<L> {
+        let Passed { middle, radius, delta, ll, most, .. } = Passed::new::<A>(self, leaf, part);
+        let zero = radius.like(0.0);
+        let rr = radius * radius;
+        let slack = most - rr;
+        let left = rr - ll;
+        let long = (left + slack).filter_max(zero).sqrt() + delta;
+        let sure = left - slack;
+        let short = sure.filter_max(zero).sqrt() - delta;
+        // The near root lies in [entry, entered], the far one in [leaving, left].
+        let (entry, entered) = (middle - long, middle - short);
+        let (leaving, left) = (middle + short, middle + long);
+
+        let candidates =
+            ll.le(most) & zero.le(radius) & entry.le(self.end[1]) & self.start[0].le(left);
+        let hit = zero.lt(sure);
+        let near = hit & self.start[1].le(entry) & entered.le(self.end[0]);
+        let far = hit & self.start[1].le(leaving) & left.le(self.end[0]);
+        let infinity = radius.like(f32::INFINITY);
+        let bound = L::select(near, entered, L::select(far, left, infinity));
+        Bracket { candidates: candidates.bits(), entry, bound }
+    }
+}
+
+/// How near a ray passes some spheres.
+struct Passed<L> {
+    radius: L,
+    middle: L,
+    /// l^2.
+    ll: L,
+    delta: L,
+    /// r + delta, and what l^2 is at most where there is a hit.
+    reach: L,
+    most: L,
+}
+
+impl<L: Lanes> Passed<L> {
+    #[inline(always)]
+    fn new<A: Accuracy>(probe: &Probe<L>, leaf: &BvhLeaf, part: usize) -> Self {
+        let token = probe.origin[0].token();
+        let f = axes!(i => part_of::<L>(token, &leaf.center[i], part) - probe.origin[i]);
         let radius = part_of::<L>(token, &leaf.radius, part);
-        let n = self.direction;
+        let n = probe.direction;
         let middle = f[2].filter_mul_add(n[2], f[1].filter_mul_add(n[1], f[0] * n[0]));
         let back = -middle;
         let q = axes!(i => back.filter_mul_add(n[i], f[i]));
@@ -91,46 +143,7 @@ impl<L: Lanes> Probe<L> {
             let spread = size * size.like(A::SPREAD);
             most = spread.filter_mul_add(spread, most);
         }
-        let near_enough = ll.le(most);
-        let candidates = if A::SPREAD > 0.0 {
-            near_enough
-        } else {
-            near_enough & (middle - reach).le(self.end[1]) & self.start[0].le(middle + reach)
-        };
-        candidates.any().then(
-            #[inline(always)]
-            || self.bracket::<A>(candidates, middle, radius, ll, delta, most),
-        )
-    }
-
-    #[inline(always)]
-    fn bracket<A: Accuracy>(
-        &self,
-        candidates: L::Mask,
-        middle: L,
-        radius: L,
-        ll: L,
-        delta: L,
-        most: L,
-    ) -> Bracket<L> {
-        let zero = radius.like(0.0);
-        let rr = radius * radius;
-        let slack = most - rr;
-        let left = rr - ll;
-        let long = (left + slack).filter_max(zero).sqrt() + delta;
-        let sure = left - slack;
-        let short = sure.filter_max(zero).sqrt() - delta;
-        let (entry, leave) = (middle - long, middle + long);
-        let (entered, left_again) = (middle - short, middle + short);
-
-        let candidates =
-            candidates & zero.le(radius) & entry.le(self.end[1]) & self.start[0].le(leave);
-        let hit = zero.lt(sure);
-        let near = hit & self.start[1].le(entry) & entered.le(self.end[0]);
-        let far = hit & self.start[1].le(left_again) & leave.le(self.end[0]);
-        let infinity = radius.like(f32::INFINITY);
-        let bound = L::select(near, entered, L::select(far, leave, infinity));
-        Bracket { candidates: candidates.bits(), entry, bound }
+        Self { radius, middle, ll, delta, reach, most }
     }
 }
 

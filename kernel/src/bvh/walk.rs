@@ -81,6 +81,42 @@ const TOGETHER: usize = 4;
 const STACK: usize = 256;
 const _: () = assert!(STACK >= (WIDTH - 1) * DEPTH + WIDTH);
 
+/// Puts lanes where [`part_of`] would take them from.
+#[inline(always)]
+fn put_part<L: Lanes>(numbers: &mut [f32; WIDTH], part: usize, lanes: L) {
+    let array = lanes.store();
+    let places = numbers.iter_mut().skip(part * L::COUNT % WIDTH);
+    for (place, number) in places.zip(array.as_ref()) {
+        *place = *number;
+    }
+}
+
+/// Takes lanes from a stack.
+#[inline(always)]
+fn get<L: Lanes>(token: L::Token, stack: &[f32; STACK + WIDTH], at: usize) -> L {
+    let mut array = L::Array::default();
+    if let Some(places) = stack.get(at..at + L::COUNT) {
+        array.as_mut().copy_from_slice(places);
+    }
+    L::load(token, &array)
+}
+
+/// Lays lanes onto a stack.
+#[inline(always)]
+fn put<L: Lanes>(stack: &mut [f32; STACK + WIDTH], at: usize, lanes: L) {
+    let array = lanes.store();
+    if let Some(places) = stack.get_mut(at..at + L::COUNT) {
+        places.copy_from_slice(array.as_ref());
+    }
+}
+
+/// What a ray meets in a node.
+#[derive(Clone, Copy, Debug)]
+struct Met {
+    children: u32,
+    entries: [f32; WIDTH],
+}
+
 /// One ray under way.
 #[derive(Clone, Copy, Debug)]
 struct Walk {
@@ -101,8 +137,9 @@ struct Walk {
     list: List,
     /// Something is surely met.
     met: bool,
-    entries: [f32; STACK],
-    children: [u32; STACK],
+    entries: [f32; STACK + WIDTH],
+    /// As bits: numbers that are moved, never computed with.
+    children: [f32; STACK + WIDTH],
     top: usize,
 }
 
@@ -121,8 +158,8 @@ impl Walk {
         lane: 0,
         list: List::EMPTY,
         met: false,
-        entries: [0.0; STACK],
-        children: [NO_CHILD; STACK],
+        entries: [0.0; STACK + WIDTH],
+        children: [0.0; STACK + WIDTH],
         top: 0,
     };
 
@@ -149,45 +186,20 @@ impl Walk {
         self.list.count = 0;
         self.met = false;
         self.entries[0] = f32::NEG_INFINITY;
-        self.children[0] = root;
+        self.children[0] = f32::from_bits(root);
         self.top = 1;
     }
 
-    /// Looks into one box; whether there was one.
+    /// Takes a box from the stack.
     #[inline(always)]
-    fn step<A: Accuracy, L: Lanes, const ANY: bool>(
-        &mut self,
-        token: L::Token,
-        packet: &RayPacket<L>,
-        bvh: &Bvh<'_>,
-        hits: &mut HitPacket<L>,
-    ) -> bool {
-        let best = if A::SPREAD > 0.0 { self.best + self.spread } else { self.best };
-        let child = loop {
-            if self.top == 0 {
-                return false;
-            }
-            self.top -= 1;
-            let at = self.top & (STACK - 1);
-            if self.entries[at] <= best {
-                break self.children[at];
-            }
-        };
-        if child & LEAF == 0 {
-            if let Some(node) = bvh.nodes.get(child as usize) {
-                self.enter::<A, L>(token, node, best);
-            }
-        } else {
-            let place = child & !LEAF;
-            if let Some(leaf) = bvh.leaves.get(place as usize) {
-                self.meet::<A, L, ANY>(token, packet, bvh, leaf, place * WIDTH as u32, hits);
-            }
-        }
-        true
+    fn next(&mut self) -> Option<u32> {
+        self.top = self.top.checked_sub(1)?;
+        Some(self.children[self.top & (STACK - 1)].to_bits())
     }
 
     #[inline(always)]
-    fn enter<A: Accuracy, L: Lanes>(&mut self, token: L::Token, node: &BvhNode, best: f32) {
+    fn enter<A: Accuracy, L: Lanes>(&self, token: L::Token, node: &BvhNode, met: &mut Met) {
+        let best = if A::SPREAD > 0.0 { self.best + self.spread } else { self.best };
         let start = if A::SPREAD > 0.0 { self.start[0] - self.spread } else { self.start[0] };
         let forward = axes!(i => self.inverse[i] >= 0.0);
         let nearer = axes!(i => if forward[i] { &node.low[i] } else { &node.high[i] });
@@ -196,7 +208,7 @@ impl Walk {
         let near = axes!(i => L::splat(token, -self.near[i]));
         let far = axes!(i => L::splat(token, self.far[i]));
         let (start, minus_best) = (L::splat(token, start), L::splat(token, -best));
-        let base = self.top;
+        met.children = 0;
         for part in 0..WIDTH / L::COUNT {
             let entry = axes!(i => {
                 part_of::<L>(token, nearer[i], part).filter_mul_add(inverse[i], near[i])
@@ -208,32 +220,82 @@ impl Walk {
             let minus_leave = minus_leave[0]
                 .filter_max(minus_leave[1])
                 .filter_max(minus_leave[2].filter_max(minus_best));
-            let mut met = entry.le(-minus_leave).bits();
-            let entries = entry.store();
-            while met != 0 {
-                let lane = met.trailing_zeros() as usize;
-                met &= met - 1;
-                let (Some(&entry), Some(&child)) =
-                    (entries.as_ref().get(lane), node.child.get(part * L::COUNT + lane))
-                else {
-                    continue;
-                };
-                // The nearest on top.
-                let mut at = self.top;
-                while at > base {
-                    let below = (at - 1) & (STACK - 1);
-                    if self.entries[below] >= entry {
-                        break;
-                    }
-                    self.entries[at & (STACK - 1)] = self.entries[below];
-                    self.children[at & (STACK - 1)] = self.children[below];
-                    at -= 1;
-                }
-                self.entries[at & (STACK - 1)] = entry;
-                self.children[at & (STACK - 1)] = child;
-                self.top += 1;
-            }
+            met.children |= entry.le(-minus_leave).bits() << (part * L::COUNT);
+            put_part(&mut met.entries, part, entry);
         }
+    }
+
+    /// Lays the children that are `met` onto the stack, the nearest on top.
+    ///
+    /// A child's place is the number of those entered later, counted by a comparison with all:
+    /// most nodes have one or two, and loops of a sort would be guessed wrong by the processor.
+    #[inline(always)]
+    fn push_sorted<L: Lanes>(
+        &mut self,
+        token: L::Token,
+        Met { children: met, entries }: &Met,
+        children: &[u32; WIDTH],
+    ) {
+        let met = *met;
+        let base = self.top;
+        let mut left = met;
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize % WIDTH;
+            let below = left & left.wrapping_neg();
+            left &= left - 1;
+            let entry = L::splat(token, entries[lane]);
+            let (mut later, mut earlier) = (0, 0);
+            for part in 0..WIDTH / L::COUNT {
+                let others = part_of::<L>(token, entries, part);
+                later |= entry.lt(others).bits() << (part * L::COUNT);
+                earlier |= others.lt(entry).bits() << (part * L::COUNT);
+            }
+            let equal_before = !(later | earlier) & (below - 1);
+            let rank = ((later | equal_before) & met).count_ones() as usize;
+            let at = (base + rank) & (STACK - 1);
+            self.entries[at] = entries[lane];
+            self.children[at] = f32::from_bits(children[lane]);
+            self.top += 1;
+        }
+    }
+
+    /// Drops what is entered past the best.
+    #[inline(always)]
+    fn cull<A: Accuracy, L: Lanes>(&mut self, token: L::Token) {
+        let best = if A::SPREAD > 0.0 { self.best + self.spread } else { self.best };
+        let limit = L::splat(token, best);
+        let (top, mut kept) = (self.top, 0);
+        for from in (0..top).step_by(L::COUNT) {
+            let entries = get::<L>(token, &self.entries, from);
+            let children = get::<L>(token, &self.children, from);
+            let stays = entries.le(limit);
+            put::<L>(&mut self.entries, kept, entries.compress(stays));
+            put::<L>(&mut self.children, kept, children.compress(stays));
+            let here = stays.bits() & (((1_u64 << (top - from).min(L::COUNT)) - 1) as u32);
+            kept += here.count_ones() as usize;
+        }
+        self.top = kept;
+    }
+
+    #[inline(always)]
+    fn probe<L: Lanes>(&self, token: L::Token) -> Probe<L> {
+        Probe {
+            origin: axes!(i => L::splat(token, self.origin[i])),
+            direction: axes!(i => L::splat(token, self.direction[i])),
+            start: [L::splat(token, self.start[0]), L::splat(token, self.start[1])],
+            end: [L::splat(token, self.end), L::splat(token, self.best)],
+        }
+    }
+
+    /// Which spheres of a leaf to look at.
+    #[inline(always)]
+    fn filter<A: Accuracy, L: Lanes>(&self, token: L::Token, leaf: &BvhLeaf) -> u32 {
+        let probe = self.probe::<L>(token);
+        let mut spheres = 0;
+        for part in 0..WIDTH / L::COUNT {
+            spheres |= probe.may_meet::<A>(leaf, part) << (part * L::COUNT);
+        }
+        spheres
     }
 
     #[inline(always)]
@@ -246,14 +308,10 @@ impl Walk {
         place: u32,
         hits: &mut HitPacket<L>,
     ) {
-        let probe = Probe {
-            origin: axes!(i => L::splat(token, self.origin[i])),
-            direction: axes!(i => L::splat(token, self.direction[i])),
-            start: [L::splat(token, self.start[0]), L::splat(token, self.start[1])],
-            end: [L::splat(token, self.end), L::splat(token, self.best)],
-        };
+        let before = self.best;
+        let probe = self.probe::<L>(token);
         for part in 0..WIDTH / L::COUNT {
-            let Some(bracket) = probe.meet::<A>(leaf, part) else { continue };
+            let bracket = probe.meet::<A>(leaf, part);
             let (entries, bounds) = (bracket.entry.store(), bracket.bound.store());
             let mut candidates = bracket.candidates;
             while candidates != 0 {
@@ -280,6 +338,9 @@ impl Walk {
                 }
                 self.list.push(place + (part * L::COUNT + lane) as u32, entry);
             }
+        }
+        if self.best < before {
+            self.cull::<A, L>(token);
         }
     }
 
@@ -330,16 +391,71 @@ fn meet<A: Accuracy, L: Lanes, const ANY: bool>(
     let mut met = 0;
 
     let mut waiting = slabs.judged;
-    let walk = &mut walks[0];
-    while waiting != 0 {
-        let lane = waiting.trailing_zeros() as usize;
-        waiting &= waiting - 1;
-        walk.begin(&slabs, lane, bvh.root);
-        while walk.step::<A, L, ANY>(token, packet, bvh, hits) {}
-        if walk.met {
-            met |= 1 << lane;
-        } else if let Some(list) = lists.get_mut(lane) {
-            *list = (walk.list, walk.best);
+    let mut under_way = 0_u32;
+    for (place, walk) in walks.iter_mut().enumerate() {
+        if waiting != 0 {
+            walk.begin(&slabs, waiting.trailing_zeros() as usize, bvh.root);
+            waiting &= waiting - 1;
+            under_way |= 1 << place;
+        }
+    }
+    let mut boxes = [(0_usize, 0_u32); TOGETHER];
+    let mut in_nodes = [Met { children: 0, entries: [0.0; WIDTH] }; TOGETHER];
+    let mut in_leaves = [0_u32; TOGETHER];
+    while under_way != 0 {
+        // Nodes from the front, leaves from the back.
+        let (mut nodes, mut leaves) = (0, TOGETHER);
+        let mut left = under_way;
+        while left != 0 {
+            let place = left.trailing_zeros() as usize % TOGETHER;
+            left &= left - 1;
+            let walk = &mut walks[place];
+            let child = loop {
+                if let Some(child) = walk.next() {
+                    break child;
+                }
+                if walk.met {
+                    met |= 1 << walk.lane;
+                } else if let Some(list) = lists.get_mut(walk.lane) {
+                    *list = (walk.list, walk.best);
+                }
+                if waiting == 0 {
+                    under_way &= !(1 << place);
+                    break NO_CHILD;
+                }
+                walk.begin(&slabs, waiting.trailing_zeros() as usize, bvh.root);
+                waiting &= waiting - 1;
+            };
+            if child & LEAF == 0 {
+                boxes[nodes % TOGETHER] = (place, child);
+                nodes += 1;
+            } else if child != NO_CHILD {
+                leaves -= 1;
+                boxes[leaves % TOGETHER] = (place, child & !LEAF);
+            }
+        }
+        for (&(place, child), met) in boxes.iter().zip(&mut in_nodes).take(nodes) {
+            if let Some(node) = bvh.nodes.get(child as usize) {
+                walks[place % TOGETHER].enter::<A, L>(token, node, met);
+            }
+        }
+        for (&(place, child), spheres) in boxes.iter().zip(&mut in_leaves).skip(leaves) {
+            if let Some(leaf) = bvh.leaves.get(child as usize) {
+                *spheres = walks[place % TOGETHER].filter::<A, L>(token, leaf);
+            }
+        }
+        for (&(place, child), met) in boxes.iter().zip(&in_nodes).take(nodes) {
+            if let Some(node) = bvh.nodes.get(child as usize) {
+                walks[place % TOGETHER].push_sorted::<L>(token, met, &node.child);
+            }
+        }
+        for (&(place, child), spheres) in boxes.iter().zip(&in_leaves).skip(leaves) {
+            if *spheres != 0
+                && let Some(leaf) = bvh.leaves.get(child as usize)
+            {
+                let walk = &mut walks[place % TOGETHER];
+                walk.meet::<A, L, ANY>(token, packet, bvh, leaf, child * WIDTH as u32, hits);
+            }
         }
     }
     settle::<A, L>(token, &rays, bvh.leaves, &lists, hits);

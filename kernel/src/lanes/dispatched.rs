@@ -139,6 +139,11 @@ macro_rules! dispatched_lanes {
             }
 
             #[inline(always)]
+            fn compress(self, mask: Self::Mask) -> Self {
+                SimdBase::compress(self, mask.0)
+            }
+
+            #[inline(always)]
             fn widen(self, part: usize) -> $double<S> {
                 let (low, high) = SimdWiden::widen(self);
                 if part == 0 { low } else { high }

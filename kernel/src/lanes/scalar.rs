@@ -71,6 +71,11 @@ impl Lanes for f32 {
     }
 
     #[inline(always)]
+    fn compress(self, _: bool) -> Self {
+        self
+    }
+
+    #[inline(always)]
     fn widen(self, _: usize) -> f64 {
         f64::from(self)
     }

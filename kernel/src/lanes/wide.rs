@@ -113,6 +113,19 @@ macro_rules! wide_lanes {
             }
 
             #[inline(always)]
+            fn compress(self, mask: Self::Mask) -> Self {
+                let numbers = self.to_array();
+                let mut kept = numbers;
+                let (mut bits, mut to) = (mask.bits(), 0);
+                while bits != 0 {
+                    kept[to % $count] = numbers[bits.trailing_zeros() as usize % $count];
+                    to += 1;
+                    bits &= bits - 1;
+                }
+                $vector::new(kept)
+            }
+
+            #[inline(always)]
             fn widen(self, part: usize) -> $double {
                 const WIDTH: usize = <$double as DoubleLanes>::COUNT;
                 let (singles, first) = (self.to_array(), part * WIDTH % $count);
