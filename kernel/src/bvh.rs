@@ -30,11 +30,14 @@
 
 mod bracket;
 mod build;
+mod bundle;
+mod frustum;
 mod resolve;
 mod slabs;
 mod split;
 mod walk;
 
+pub use bundle::{any_coherent, nearest_coherent};
 pub use walk::{any, nearest};
 
 use crate::Spheres;

@@ -55,7 +55,7 @@ pub(super) const U: f32 = f32::EPSILON / 2.0;
 /// 2^-60: the least component of a direction.
 const LEAST_COMPONENT: f32 = 1.0 / (1_073_741_824.0 * 1_073_741_824.0);
 /// 2^-80: what is added for underflow.
-const LEAST_PAD: f32 = LEAST_COMPONENT / 1_048_576.0;
+pub(super) const LEAST_PAD: f32 = LEAST_COMPONENT / 1_048_576.0;
 /// 2^100: above it, or below its inverse, a squared direction is not judged.
 const LONGEST: f32 = super::LARGEST * super::LARGEST * 1_048_576.0;
 

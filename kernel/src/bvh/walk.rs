@@ -83,7 +83,7 @@ const _: () = assert!(STACK >= (WIDTH - 1) * DEPTH + WIDTH);
 
 /// Puts lanes where [`part_of`] would take them from.
 #[inline(always)]
-fn put_part<L: Lanes>(numbers: &mut [f32; WIDTH], part: usize, lanes: L) {
+pub(super) fn put_part<L: Lanes>(numbers: &mut [f32; WIDTH], part: usize, lanes: L) {
     let array = lanes.store();
     let places = numbers.iter_mut().skip(part * L::COUNT % WIDTH);
     for (place, number) in places.zip(array.as_ref()) {
