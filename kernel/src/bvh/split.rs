@@ -9,6 +9,9 @@ use super::{BvhLeaf, WIDTH};
 /// How many slices a run is sorted into, an axis.
 const BINS: usize = 16;
 
+/// Up to how many leaves all cuts are compared.
+const EVERY_CUT: usize = 32;
+
 /// The box of some spheres, and the box of their centres.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bounds {
@@ -141,12 +144,12 @@ impl Bin {
         self.count += count;
     }
 
-    fn cost(&self) -> f32 {
+    fn half_area(&self) -> f32 {
         if self.count == 0 {
             return 0.0;
         }
         let [low, high] = [self.low, self.high].map(|[x, y, z, _]| [x, y, z]);
-        half_area(low, high) * self.count as f32
+        half_area(low, high)
     }
 }
 
@@ -212,26 +215,49 @@ impl Run<'_> {
             if scales[axis] == 0.0 {
                 continue;
             }
-            // From the right, then from the left.
-            let mut right_costs = [0.0; BINS];
-            let mut right = Bin::EMPTY;
-            for (cost, bin) in right_costs.iter_mut().zip(bins).rev() {
-                right.grow(bin.low, bin.high, bin.count);
-                *cost = right.cost();
+            // Surfaces of the first so many slices, and of the others.
+            let mut left = [0.0; BINS + 1];
+            let mut right = [0.0; BINS + 1];
+            let mut all = Bin::EMPTY;
+            for (area, bin) in left.iter_mut().skip(1).zip(bins) {
+                all.grow(bin.low, bin.high, bin.count);
+                *area = all.half_area();
             }
-            let mut left = Bin::EMPTY;
-            for (boundary, bin) in bins.iter().enumerate().take(BINS - 1) {
-                left.grow(bin.low, bin.high, bin.count);
-                let cost = left.cost() + right_costs[boundary + 1];
-                if left.count > 0 && left.count < self.count && cost < least_cost {
-                    least_cost = cost;
-                    best = Some((axis, left.count));
+            let mut all = Bin::EMPTY;
+            for (area, bin) in right.iter_mut().zip(bins).rev().skip(1) {
+                all.grow(bin.low, bin.high, bin.count);
+                *area = all.half_area();
+            }
+            let mut before = 0;
+            for (bin, Bin { count: inside, .. }) in bins.iter().enumerate() {
+                if *inside == 0 {
+                    continue;
                 }
+                // Of a short run every cut, of a long one that nearest to the end of the slice.
+                let end = before + inside;
+                let nearest = (end + WIDTH / 2) / WIDTH * WIDTH;
+                let (mut at, last) = if self.leaves.len() <= EVERY_CUT {
+                    (before / WIDTH * WIDTH + WIDTH, end / WIDTH * WIDTH)
+                } else {
+                    (nearest, nearest)
+                };
+                while at <= last {
+                    if at > 0 && at < self.count {
+                        let share = (at - before.min(at)) as f32 / *inside as f32;
+                        let first = left[bin] + share * (left[bin + 1] - left[bin]);
+                        let second = right[bin] + share * (right[bin + 1] - right[bin]);
+                        let cost = first * at as f32 + second * (self.count - at) as f32;
+                        if cost < least_cost {
+                            least_cost = cost;
+                            best = Some((axis, at));
+                        }
+                    }
+                    at += WIDTH;
+                }
+                before = end;
             }
         }
-        let (axis, count) = best?;
-        let last = (self.leaves.len() - 1) * WIDTH;
-        let at = ((count + WIDTH / 2) / WIDTH * WIDTH).clamp(WIDTH, last.max(WIDTH));
+        let (axis, at) = best?;
         let mut before = 0;
         for (bin, Bin { count, .. }) in bins[axis].iter().enumerate() {
             if at <= before + count {
