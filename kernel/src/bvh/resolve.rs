@@ -126,11 +126,10 @@ impl<L: Lanes> Asked<L> {
 pub(super) fn take<L: Lanes>(hits: &mut HitPacket<L>, lane: usize, t: f32, index: u32) {
     if let (Some(best), Some(sphere)) =
         (hits.t.as_mut().get_mut(lane), hits.sphere.as_mut().get_mut(lane))
+        && (t < *best || (t == *best && index < *sphere))
     {
-        if t < *best || (t == *best && index < *sphere) {
-            *best = t;
-            *sphere = index;
-        }
+        *best = t;
+        *sphere = index;
     }
 }
 

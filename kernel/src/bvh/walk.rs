@@ -2,18 +2,23 @@
 //!
 //! # Method
 //!
-//! A ray keeps a stack of boxes that it has yet to look into, the nearest on top, each with the s at
-//! which it is entered. A step takes one from the stack: a node's children are tested all at once, and
-//! those that are met go onto the stack; a leaf's spheres are tested all at once, and those that may be
-//! the nearest go onto a list. Boxes entered past the best s that is sure are dropped. When all rays
-//! of a packet are through, the tier is asked about the lists (`bvh/resolve.rs`), which hold one
-//! sphere a ray, seldom more.
+//! A ray keeps a stack of boxes that it has yet to look into, the nearest on top, each with the s
+//! at which it is entered. A step takes one from the stack: a node's children are tested all at
+//! once, and those that are met go onto the stack; a leaf's spheres are tested all at once, and
+//! those that may be the nearest go onto a list. When a hit is surely nearer than what was known,
+//! boxes entered later are dropped from the stack. When all rays of a packet are through, the tier is
+//! asked about the lists (`bvh/resolve.rs`), which hold one sphere a ray, seldom more.
+//!
+//! Four rays are under way in turn, and step together: all take a box, all test, all push. Each
+//! branch waits for a chain of some fifty cycles; so the chains overlap, and a wrong guess is
+//! known early. (Round robin, one whole step a ray: no gain. Eight or sixteen rays: no more.)
 //!
 //! # The stack
 //!
 //! A step takes one entry and adds sixteen at most, so a ray on its way down a tree of nine
 //! nodes, one below the other, has 15 * 9 + 1 = 136 at most, whatever its numbers are; 256 are
-//! there, so that a mask in place of a bounds check never acts.
+//! there, so that a mask can stand for a bounds check, and never acts. Spheres that are not in the
+//! order of their s cost time, no memory: a full list is settled (`LIST`).
 
 use super::bracket::{Probe, part_of};
 use super::resolve::{List, settle, settle_one, settle_outside, take};
@@ -44,10 +49,10 @@ pub fn nearest<A: Accuracy, L: Lanes>(
     if bvh.count != spheres.len() {
         return crate::nearest::<A, L>(token, rays, spheres, hits);
     }
-    let mut walks = [Walk::NEW; TOGETHER];
+    let mut under_way = UnderWay::NEW;
     for (packet, hit) in rays.iter().zip(hits.iter_mut()) {
         *hit = HitPacket::none();
-        meet::<A, L, false>(token, packet, &spheres, bvh, &mut walks, hit);
+        meet::<A, L, false>(token, packet, &spheres, bvh, &mut under_way, hit);
     }
 }
 
@@ -66,10 +71,10 @@ pub fn any<A: Accuracy, L: Lanes>(
     if bvh.count != spheres.len() {
         return crate::any::<A, L>(token, rays, spheres, met);
     }
-    let mut walks = [Walk::NEW; TOGETHER];
+    let mut under_way = UnderWay::NEW;
     for (packet, met) in rays.iter().zip(met.iter_mut()) {
         let mut hit = HitPacket::none();
-        let sure = meet::<A, L, true>(token, packet, &spheres, bvh, &mut walks, &mut hit);
+        let sure = meet::<A, L, true>(token, packet, &spheres, bvh, &mut under_way, &mut hit);
         let found = L::load(token, &hit.t).lt(L::splat(token, f32::INFINITY));
         *met = sure | found.bits();
     }
@@ -373,6 +378,22 @@ impl Walk {
     }
 }
 
+/// What is kept from one packet to the next, so that it is cleared once.
+#[derive(Clone, Copy, Debug)]
+struct UnderWay {
+    walks: [Walk; TOGETHER],
+    /// For every lane its candidates, and its best.
+    lists: [(List, f32); MOST_LANES],
+}
+
+impl UnderWay {
+    const NEW: Self =
+        Self { walks: [Walk::NEW; TOGETHER], lists: [(List::EMPTY, f32::INFINITY); MOST_LANES] };
+}
+
+/// More lanes have no type.
+const MOST_LANES: usize = 32;
+
 /// Meets one packet's rays with all spheres; answers with the lanes that surely meet something,
 /// where that is all that is asked.
 #[inline(always)]
@@ -381,13 +402,15 @@ fn meet<A: Accuracy, L: Lanes, const ANY: bool>(
     packet: &RayPacket<L>,
     spheres: &Spheres<'_>,
     bvh: &Bvh<'_>,
-    walks: &mut [Walk; TOGETHER],
+    UnderWay { walks, lists }: &mut UnderWay,
     hits: &mut HitPacket<L>,
 ) -> u32 {
     let rays = RayLanes::load(token, packet);
     let live = rays.live.bits();
     let slabs = Slabs::<L>::new::<A>(&rays, bvh.extent);
-    let mut lists = [(List::EMPTY, f32::INFINITY); 32];
+    for (list, _) in lists.iter_mut().take(L::COUNT) {
+        list.count = 0;
+    }
     let mut met = 0;
 
     let mut waiting = slabs.judged;
@@ -458,7 +481,7 @@ fn meet<A: Accuracy, L: Lanes, const ANY: bool>(
             }
         }
     }
-    settle::<A, L>(token, &rays, bvh.leaves, &lists, hits);
+    settle::<A, L>(token, &rays, bvh.leaves, lists.get(..L::COUNT).unwrap_or(&[]), hits);
 
     let judged = slabs.judged & !met;
     if !bvh.outside.is_empty() && judged != 0 {
