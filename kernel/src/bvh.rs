@@ -30,6 +30,8 @@
 
 mod bracket;
 mod build;
+mod order;
+mod ray_walk;
 mod resolve;
 mod slabs;
 mod split;
