@@ -61,7 +61,7 @@ pub fn kernel_hits<A: Accuracy, L: Lanes<Token = ()>>(
     spheres: Spheres<'_>,
 ) -> Vec<Option<Hit>> {
     let packets = packets::<L>(rays);
-    let mut hits = vec![HitPacket::none(); packets.len()];
+    let mut hits = vec![HitPacket::<L>::none(); packets.len()];
     nearest::<A, L>((), &packets, spheres, &mut hits);
     let all = hits.iter().flat_map(|packet| (0..L::COUNT).map(|lane| packet.hit(lane)));
     all.take(rays.len()).collect()

@@ -78,7 +78,7 @@ fn on_plane((ix, iy): (u32, u32)) -> Vec3 {
 /// The rays in packets of `L`.
 #[must_use]
 pub fn packets<L: Lanes>(rays: &[Ray]) -> Vec<RayPacket<L>> {
-    rays.chunks(L::COUNT).map(RayPacket::new).collect()
+    rays.chunks(L::COUNT).map(RayPacket::<L>::new).collect()
 }
 
 /// Spheres in memory of their own, coordinate by coordinate.

@@ -28,7 +28,7 @@ pub fn nearest<A: Accuracy, L: Lanes>(
     hits: &mut [HitPacket<L>],
 ) {
     for hit in hits.iter_mut().take(rays.len()) {
-        *hit = HitPacket::none();
+        *hit = HitPacket::<L>::none();
     }
     for_candidates(
         token,
@@ -72,8 +72,8 @@ pub fn any<A: Accuracy, L: Lanes>(
 /// targets without SIMD. With it, pass packets.
 #[must_use]
 pub fn nearest_hit<A: Accuracy>(ray: &Ray, spheres: Spheres<'_>) -> Option<Hit> {
-    let mut hits = [HitPacket::none()];
-    nearest::<A, f32>((), &[RayPacket::new(&[*ray])], spheres, &mut hits);
+    let mut hits = [HitPacket::<f32>::none()];
+    nearest::<A, f32>((), &[RayPacket::<f32>::new(&[*ray])], spheres, &mut hits);
     hits[0].hit(0)
 }
 

@@ -12,10 +12,13 @@
 //! everything that makes lanes from numbers. For types fixed at build time it is `()`.
 //! Vectors never cross such a boundary: packets in memory hold plain arrays.
 
+mod array;
 #[cfg(feature = "dispatch")]
 mod dispatched;
 mod scalar;
 mod wide;
+
+pub use array::LaneArray;
 
 use core::fmt::Debug;
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
@@ -52,9 +55,7 @@ pub trait Lanes:
     /// What must be held to make lanes: `()` where the instruction set is fixed at build time.
     type Token: Copy + Debug;
     /// `[f32; COUNT]`: what packets in memory are made of.
-    type Array: Copy + Debug + Default + PartialEq + AsRef<[f32]> + AsMut<[f32]>;
-    /// `[u32; COUNT]`: sphere indices, one a lane.
-    type Ids: Copy + Debug + Default + PartialEq + AsRef<[u32]> + AsMut<[u32]>;
+    type Array: LaneArray;
     /// One truth value a lane.
     type Mask: LaneMask;
     /// The double-precision partner: as many lanes, or a part of them.

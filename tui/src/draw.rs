@@ -174,7 +174,7 @@ impl Renderer {
 
             // Rays, and what they meet.
             self.aim(&camera, width, top..bottom, height);
-            self.hits.resize(self.rays.len(), HitPacket::none());
+            self.hits.resize(self.rays.len(), HitPacket::<Lane>::none());
             nearest::<A, Lane>((), &self.rays, scene.spheres(), &mut self.hits);
 
             // Light.
@@ -207,7 +207,7 @@ impl Renderer {
         self.rays.clear();
         for iy in rows.step_by(down as usize) {
             for ix in (0..width).step_by(across as usize) {
-                self.rays.push(camera.packet(ix, iy, width, height));
+                self.rays.push(camera.packet::<Lane>(ix, iy, width, height));
             }
         }
     }

@@ -97,7 +97,7 @@ impl<L: Lanes<Token = ()>> Shadows<L> {
     fn push(&mut self, ray: &Ray, pixel: u32, received: Vec3) {
         let lane = self.waiting.len() % L::COUNT;
         if lane == 0 {
-            self.rays.push(RayPacket::inactive());
+            self.rays.push(RayPacket::<L>::inactive());
         }
         if let Some(packet) = self.rays.last_mut() {
             packet.set(lane, ray);

@@ -78,7 +78,8 @@ pub fn trace(arguments: &TraceArguments) -> Result<(), Failure> {
 
 /// Traces with one tier. Packets are made once; only the kernel's calls are timed.
 fn trace_as<A: Accuracy>(arguments: &TraceArguments, spheres: Spheres<'_>, rays: &[Ray]) -> Met {
-    let packets: Vec<RayPacket<Lane>> = rays.chunks(Lane::COUNT).map(RayPacket::new).collect();
+    let packets: Vec<RayPacket<Lane>> =
+        rays.chunks(Lane::COUNT).map(RayPacket::<Lane>::new).collect();
     let mut hits = vec![HitPacket::<Lane>::none(); packets.len()];
     let mut met = vec![0; packets.len()];
     let mut passes = Vec::new();
@@ -92,7 +93,7 @@ fn trace_as<A: Accuracy>(arguments: &TraceArguments, spheres: Spheres<'_>, rays:
     if arguments.pairs {
         let spheres: Vec<Sphere> = spheres.iter().collect();
         let sphere_packets: Vec<SpherePacket<Lane>> =
-            spheres.chunks(Lane::COUNT).map(SpherePacket::new).collect();
+            spheres.chunks(Lane::COUNT).map(SpherePacket::<Lane>::new).collect();
         repeat(&mut || {
             for (hit, (rays, spheres)) in hits.iter_mut().zip(packets.iter().zip(&sphere_packets)) {
                 *hit = pairs::<A, Lane>((), rays, spheres);

@@ -50,7 +50,7 @@ fn acne<A: Accuracy>(radius: f32, place: f32) -> (u32, u32) {
             let light = Light { source: Source::Direction(direction), color: Srgb::WHITE };
             let Some((ray, _)) = point.towards(&light) else { continue };
             let mut met = [0];
-            any::<A, f32x8>((), &[RayPacket::new(&[ray])], spheres, &mut met);
+            any::<A, f32x8>((), &[RayPacket::<f32x8>::new(&[ray])], spheres, &mut met);
             own += met[0];
             cast += 1;
         }
