@@ -1,0 +1,42 @@
+//! Each tier against the oracle: by the budget table, and on every case that is kept.
+
+use spherule_tests::budget::{self, Set};
+use spherule_tests::kept;
+use spherule_tests::oracle;
+
+fn check(set: Set) {
+    let Some(fresh) = budget::measure(set) else { return };
+    let complaints = budget::complaints(set, &fresh);
+    assert!(
+        complaints.is_empty(),
+        "{}\n{} complaints; measured now:\n{}\nTo pin these figures:\n\
+         cargo run --profile test -p spherule-tests --example pin_budget\n",
+        complaints.join("\n"),
+        complaints.len(),
+        budget::markdown(&fresh),
+    );
+}
+
+#[test]
+fn measured_regimes_are_on_budget() {
+    check(Set::Measured);
+}
+
+#[test]
+fn hard_regimes_are_on_budget() {
+    check(Set::Hard);
+}
+
+#[test]
+fn vectors_are_on_budget() {
+    check(Set::Vectors);
+}
+
+#[test]
+fn kept_cases_have_the_oracle_s_answers() {
+    for (index, kept) in kept::parse(&kept::read()).iter().enumerate() {
+        let answer = oracle::intersect(&kept.case.ray, &kept.case.sphere);
+        let (answer, expected) = (answer.map(f32::to_bits), kept.expected.map(f32::to_bits));
+        assert_eq!(answer, expected, "case {index}: {:?}", kept.case);
+    }
+}

@@ -1,0 +1,150 @@
+//! One ray, one sphere: what is drawn, kept, shrunk and, where a test fails, printed.
+//!
+//! Decimal digits hide the last bit, so numbers are printed as hexadecimal floats, with their
+//! bits beside them: the value to read, the bits to paste into a test.
+
+use spherule_kernel::{Ray, Sphere, Vec3};
+use std::fmt;
+
+/// A ray and a sphere for it.
+#[derive(Clone, Copy, PartialEq)]
+pub struct Case {
+    /// The ray, interval included.
+    pub ray: Ray,
+    /// The sphere.
+    pub sphere: Sphere,
+}
+
+impl Case {
+    /// How many numbers make a case.
+    pub const NUMBERS: usize = 12;
+
+    /// From origin, direction, `t_min`, `t_max`, centre and radius, in this order.
+    #[must_use]
+    pub const fn from_numbers(numbers: [f32; Self::NUMBERS]) -> Self {
+        let [ox, oy, oz, dx, dy, dz, t_min, t_max, cx, cy, cz, radius] = numbers;
+        Self {
+            ray: Ray {
+                origin: Vec3::new(ox, oy, oz),
+                direction: Vec3::new(dx, dy, dz),
+                t_min,
+                t_max,
+            },
+            sphere: Sphere { center: Vec3::new(cx, cy, cz), radius },
+        }
+    }
+
+    /// The inverse of [`Case::from_numbers`], bit for bit.
+    #[must_use]
+    pub fn numbers(&self) -> [f32; Self::NUMBERS] {
+        let ([ox, oy, oz], [dx, dy, dz]) =
+            (self.ray.origin.to_array(), self.ray.direction.to_array());
+        let [cx, cy, cz] = self.sphere.center.to_array();
+        let Ray { t_min, t_max, .. } = self.ray;
+        [ox, oy, oz, dx, dy, dz, t_min, t_max, cx, cy, cz, self.sphere.radius]
+    }
+
+    /// The bits of [`Case::numbers`].
+    #[must_use]
+    pub fn bits(&self) -> [u32; Self::NUMBERS] {
+        self.numbers().map(f32::to_bits)
+    }
+
+    /// The inverse of [`Case::bits`].
+    #[must_use]
+    pub fn from_bits(bits: [u32; Self::NUMBERS]) -> Self {
+        Self::from_numbers(bits.map(f32::from_bits))
+    }
+}
+
+impl fmt::Debug for Case {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "{}\n  {}", HexRay(&self.ray), HexSphere(&self.sphere))
+    }
+}
+
+/// A number as a hexadecimal float with its bits.
+#[derive(Clone, Copy, Debug)]
+pub struct Hex(pub f32);
+
+impl fmt::Display for Hex {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (value, bits) = (self.0, self.0.to_bits());
+        let sign = if value.is_sign_negative() { "-" } else { "" };
+        let (exponent, fraction) = (i64::from(bits >> 23 & 0xff), bits & 0x007f_ffff);
+        match (exponent, fraction) {
+            (255, 0) => write!(formatter, "{sign}inf")?,
+            (255, _) => write!(formatter, "{sign}nan")?,
+            (0, 0) => write!(formatter, "{sign}0")?,
+            // 23 bits of fraction are six hexadecimal digits but for one bit.
+            (0, _) => write!(formatter, "{sign}0x0.{:06x}p-126", fraction << 1)?,
+            _ => write!(formatter, "{sign}0x1.{:06x}p{}", fraction << 1, exponent - 127)?,
+        }
+        write!(formatter, " [{bits:08x}]")
+    }
+}
+
+/// A ray, number by number.
+#[derive(Clone, Copy, Debug)]
+pub struct HexRay<'a>(pub &'a Ray);
+
+impl fmt::Display for HexRay<'_> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Ray { origin, direction, t_min, t_max } = self.0;
+        write!(formatter, "ray from {} along {}", HexPoint(*origin), HexPoint(*direction))?;
+        write!(formatter, " in [{}, {}]", Hex(*t_min), Hex(*t_max))
+    }
+}
+
+/// A sphere, number by number.
+#[derive(Clone, Copy, Debug)]
+pub struct HexSphere<'a>(pub &'a Sphere);
+
+impl fmt::Display for HexSphere<'_> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Sphere { center, radius } = self.0;
+        write!(formatter, "sphere at {} of radius {}", HexPoint(*center), Hex(*radius))
+    }
+}
+
+struct HexPoint(Vec3);
+
+impl fmt::Display for HexPoint {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [x, y, z] = self.0.to_array().map(Hex);
+        write!(formatter, "({x}, {y}, {z})")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_printed_in_hexadecimal_with_their_bits() {
+        for (value, printed) in [
+            (1.5, "0x1.800000p0 [3fc00000]"),
+            (-0.0, "-0 [80000000]"),
+            (f32::from_bits(1), "0x0.000002p-126 [00000001]"),
+            (f32::MAX, "0x1.fffffep127 [7f7fffff]"),
+            (f32::NEG_INFINITY, "-inf [ff800000]"),
+            (f32::from_bits(0xffc0_0001), "-nan [ffc00001]"),
+        ] {
+            assert_eq!(Hex(value).to_string(), printed);
+        }
+    }
+
+    #[test]
+    fn a_failing_case_can_be_read_and_pasted() {
+        let numbers = [0.0, 0.0, -3.0, 0.0, 0.0, 1.0, 0.0, f32::INFINITY, 0.0, 0.0, 0.0, 1.0];
+        let printed = format!("{:?}", Case::from_numbers(numbers));
+        assert!(printed.contains("-0x1.800000p1 [c0400000]"), "{printed}");
+        assert!(printed.contains("inf [7f800000]"), "{printed}");
+    }
+
+    #[test]
+    fn bits_go_round() {
+        let bits = core::array::from_fn(|i| 0x7fc0_0000 ^ (i as u32 * 0x0101_0101));
+        assert_eq!(Case::from_bits(bits).bits(), bits);
+    }
+}

@@ -1,0 +1,183 @@
+//! The answers, from big integers: slow, obvious, and without a float in any decision.
+//!
+//! Every finite `f32` is an integer multiple of 2^-149, so origin, direction, centre and radius
+//! become integers in that unit, and with p = c - o
+//!
+//! ```text
+//! a = d.d    b = d.p    D = b^2 - a (p.p - r^2)    t = (b -+ sqrt D) / a
+//! ```
+//!
+//! the first three are integers too. The unit cancels in t. Rounding a real number to `f32` asks
+//! only where it lies among the multiples of 2^-150 (every `f32` and every midpoint between two is
+//! one): so the largest multiple not above t, and whether t exceeds it, say everything.
+//!
+//! The rules are those of the contract: 1 invalid input hits nothing; 2 D = 0 is a hit; 3 a root
+//! counts where its rounded value T is finite and in `[t_min, t_max]`; 4 the smaller such T;
+//! 5 over several spheres the smallest T, then the lowest index.
+
+use num_bigint::{BigInt, Sign};
+use num_traits::{One, Zero};
+use spherule_kernel::{Hit, Ray, Sphere, Vec3};
+use std::cmp::Ordering;
+
+/// Multiples of 2^-150 are what roots are cut to.
+const CUT: u32 = 150;
+
+/// The line and the sphere as a quadratic with integer coefficients.
+struct Quadratic {
+    a: BigInt,
+    b: BigInt,
+    discriminant: BigInt,
+}
+
+impl Quadratic {
+    /// Nothing where rule 1 applies.
+    fn new(ray: &Ray, sphere: &Sphere) -> Option<Self> {
+        let finite = ray.origin.is_finite()
+            && ray.direction.is_finite()
+            && sphere.center.is_finite()
+            && sphere.radius.is_finite();
+        if !finite {
+            return None;
+        }
+        let (o, d, c) = (units3(ray.origin), units3(ray.direction), units3(sphere.center));
+        let r = units(sphere.radius);
+        if d.iter().all(BigInt::is_zero) || r.sign() == Sign::Minus {
+            return None;
+        }
+        let p = [&c[0] - &o[0], &c[1] - &o[1], &c[2] - &o[2]];
+        let (a, b) = (dot(&d, &d), dot(&d, &p));
+        let discriminant = &b * &b - &a * (dot(&p, &p) - &r * &r);
+        Some(Self { a, b, discriminant })
+    }
+
+    /// Rule 2.
+    fn meets(&self) -> bool {
+        self.discriminant.sign() != Sign::Minus
+    }
+
+    /// Both roots, the smaller first, for a line that meets the sphere.
+    fn roots(&self) -> [CutRoot; 2] {
+        let b = &self.b << CUT;
+        let square = &self.discriminant << (2 * CUT);
+        let root = square.sqrt();
+        let root_is_cut = &root * &root != square;
+        // Cutting b - sqrt downwards cuts the square root upwards.
+        let near = b.clone() - &root - i32::from(root_is_cut);
+        let far = b + root;
+        [near, far].map(|numerator| CutRoot::quotient(&numerator, &self.a, root_is_cut))
+    }
+}
+
+/// A real number in halves of 2^-150: even where it is a multiple of 2^-150, else the odd number
+/// between the two multiples around it.
+struct CutRoot(BigInt);
+
+impl CutRoot {
+    fn quotient(numerator: &BigInt, positive: &BigInt, numerator_is_cut: bool) -> Self {
+        let truncated = numerator / positive;
+        let remainder = numerator - &truncated * positive;
+        let floor = if remainder.sign() == Sign::Minus { truncated - 1 } else { truncated };
+        Self(floor * 2 + i32::from(numerator_is_cut || !remainder.is_zero()))
+    }
+
+    /// To nearest even, and whether it was a tie: subnormals kept, -0 as +0, infinity where the
+    /// magnitude is 2^128 - 2^103 or more.
+    fn round(&self) -> (f32, bool) {
+        let magnitude = self.0.magnitude();
+        // A significand has 24 bits, and the last is never worth less than 2^-149: four of our
+        // halves of 2^-150.
+        let dropped = magnitude.bits().saturating_sub(24).max(2);
+        let kept = magnitude >> dropped;
+        let rest = magnitude - (&kept << dropped);
+        let against_half = (rest << 1u32).cmp(&(num_bigint::BigUint::one() << dropped));
+        let odd = kept.bit(0);
+        let up = against_half == Ordering::Greater || (against_half == Ordering::Equal && odd);
+        let significand = u64::try_from(kept).expect("at most 24 bits") + u64::from(up);
+        // The leading bit of the significand, where there is one, counts as one more exponent; a
+        // carry out of it as another.
+        let bits = ((dropped - 2) << 23).saturating_add(significand).min(0x7f80_0000);
+        let value = f32::from_bits(u32::try_from(bits).expect("at most infinity"));
+        let negative = self.0.sign() == Sign::Minus && bits != 0;
+        (if negative { -value } else { value }, against_half == Ordering::Equal)
+    }
+}
+
+/// `x` in units of 2^-149.
+///
+/// # Panics
+/// Where `x` is NaN or infinite.
+#[must_use]
+pub fn units(x: f32) -> BigInt {
+    assert!(x.is_finite(), "{x} is no multiple of anything");
+    let bits = x.to_bits();
+    let (exponent, fraction) = (bits >> 23 & 0xff, bits & 0x007f_ffff);
+    let magnitude = match exponent {
+        0 => BigInt::from(fraction),
+        _ => BigInt::from(fraction | 0x0080_0000) << (exponent - 1),
+    };
+    if x.is_sign_negative() { -magnitude } else { magnitude }
+}
+
+/// [`units`] of each coordinate.
+#[must_use]
+pub fn units3(v: Vec3) -> [BigInt; 3] {
+    v.to_array().map(units)
+}
+
+/// The sum of the products of coordinates.
+#[must_use]
+pub fn dot(v: &[BigInt; 3], w: &[BigInt; 3]) -> BigInt {
+    &v[0] * &w[0] + &v[1] * &w[1] + &v[2] * &w[2]
+}
+
+/// How D compares with zero: `Less` misses, `Equal` is a tangent. Nothing for invalid input.
+#[must_use]
+pub fn discriminant_sign(ray: &Ray, sphere: &Sphere) -> Option<Ordering> {
+    Quadratic::new(ray, sphere).map(|quadratic| quadratic.discriminant.cmp(&BigInt::zero()))
+}
+
+/// Rules 1 and 2: whether the line (not only the ray's interval) meets the sphere.
+#[must_use]
+pub fn meets(ray: &Ray, sphere: &Sphere) -> bool {
+    Quadratic::new(ray, sphere).is_some_and(|quadratic| quadratic.meets())
+}
+
+/// Rules 1 and 2, and both roots of the line, correctly rounded, the smaller first.
+///
+/// Whatever the interval; infinite where a root overflows.
+#[must_use]
+pub fn roots(ray: &Ray, sphere: &Sphere) -> Option<[f32; 2]> {
+    roots_and_ties(ray, sphere).map(|roots| roots.map(|(root, _)| root))
+}
+
+/// [`roots`], each with whether the real root lies midway between two neighbouring `f32`.
+#[must_use]
+pub fn roots_and_ties(ray: &Ray, sphere: &Sphere) -> Option<[(f32, bool); 2]> {
+    let quadratic = Quadratic::new(ray, sphere)?;
+    quadratic.meets().then(|| quadratic.roots().map(|root| root.round()))
+}
+
+/// Rules 1 to 4: the t of the hit.
+#[must_use]
+pub fn intersect(ray: &Ray, sphere: &Sphere) -> Option<f32> {
+    // Comparing two given floats rounds nothing; comparing with NaN accepts nothing.
+    let accepted = |t: &f32| t.is_finite() && ray.t_min <= *t && *t <= ray.t_max;
+    roots(ray, sphere)?.into_iter().find(accepted)
+}
+
+/// Rules 1 to 5: the nearest hit, the lowest index among equals.
+///
+/// # Panics
+/// Where there are 2^32 spheres or more.
+#[must_use]
+pub fn nearest(ray: &Ray, spheres: &[Sphere]) -> Option<Hit> {
+    let mut nearest: Option<Hit> = None;
+    for (index, sphere) in spheres.iter().enumerate() {
+        let Some(t) = intersect(ray, sphere) else { continue };
+        if nearest.is_none_or(|hit| t < hit.t) {
+            nearest = Some(Hit { t, sphere: u32::try_from(index).expect("a 32-bit index") });
+        }
+    }
+    nearest
+}
