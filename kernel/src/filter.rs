@@ -184,6 +184,13 @@ impl<L: Lanes> FilterRays<L> {
         }
     }
 
+    /// Lets nothing pass any more in lanes that are not `live`.
+    #[inline(always)]
+    pub(crate) fn keep(&mut self, live: L::Mask) {
+        let never = L::splat(self.threshold.token(), f32::INFINITY);
+        self.threshold = L::select(live, self.threshold, never);
+    }
+
     /// D/a + |o|^2, raised by the bound.
     #[inline(always)]
     fn raised(&self, group: &FilterGroup, slot: usize) -> L {

@@ -9,7 +9,16 @@ use crate::{
 /// The nearest hit of every ray: the smallest accepted t, and among equals the lowest index.
 ///
 /// `hits[i]` is overwritten with what `rays[i]` meets; packets past the end of the shorter slice
-/// are left alone.
+/// are left alone. t counts in multiples of each ray's own direction.
+///
+/// Domain: every bit pattern; invalid rays and spheres meet nothing, and change nothing for their
+/// neighbours. Guarantee: what the tier `A` promises for one ray and one sphere; the same bits in
+/// every lane width, alone or beside any other ray, for spheres in any order (`Fast`, and `Stable`
+/// outside its domain: in the given order).
+///
+/// Cost: some 8 operations a ray and sphere that miss each other, and the tier's price for the
+/// others. Preparing 128 spheres costs as much as testing one packet against them: pass many
+/// packets in one call. Stack: some 3 KiB.
 pub fn nearest<A: Accuracy, L: Lanes>(
     token: L::Token,
     rays: &[RayPacket<L>],
@@ -19,13 +28,20 @@ pub fn nearest<A: Accuracy, L: Lanes>(
     for hit in hits.iter_mut().take(rays.len()) {
         *hit = HitPacket::none();
     }
-    for_candidates(token, rays, hits, &spheres, |hit, candidates| {
-        nearest_in_group::<A, L>(token, candidates, hit);
-        false
-    });
+    for_candidates(
+        token,
+        rays,
+        hits,
+        &spheres,
+        |_| lanes_of_bits::<L>(token, 0),
+        |hit, candidates| nearest_in_group::<A, L>(token, candidates, hit),
+    );
 }
 
 /// Whether every ray meets anything: lane `i` in bit `i` of `met[k]` for `rays[k]`.
+///
+/// True exactly where [`nearest`] finds a hit; cheaper, since a ray that has met something is
+/// done. Otherwise as `nearest`.
 pub fn any<A: Accuracy, L: Lanes>(
     token: L::Token,
     rays: &[RayPacket<L>],
@@ -35,12 +51,18 @@ pub fn any<A: Accuracy, L: Lanes>(
     for bits in met.iter_mut().take(rays.len()) {
         *bits = 0;
     }
-    for_candidates(token, rays, met, &spheres, |bits, candidates| {
-        any_in_group::<A, L>(token, candidates, bits)
-    });
+    for_candidates(
+        token,
+        rays,
+        met,
+        &spheres,
+        |bits| lanes_of_bits::<L>(token, *bits),
+        |bits, candidates| any_in_group::<A, L>(token, candidates, bits),
+    );
 }
 
-/// The nearest hit of one ray, by the one-lane form of [`nearest`].
+/// The nearest hit of one ray, by the one-lane form of [`nearest`]: the reference, and the form for
+/// targets without SIMD. With it, pass packets.
 #[must_use]
 pub fn nearest_hit<A: Accuracy>(ray: &Ray, spheres: Spheres<'_>) -> Option<Hit> {
     let mut hits = [HitPacket::none()];
@@ -49,6 +71,9 @@ pub fn nearest_hit<A: Accuracy>(ray: &Ray, spheres: Spheres<'_>) -> Option<Hit> 
 }
 
 /// Ray `i` against sphere `i` alone; the sphere index of a hit is its lane.
+///
+/// Bit for bit what [`nearest`] finds for that ray in a list of that sphere. No filter: the tier's
+/// price for every packet.
 #[must_use]
 pub fn pairs<A: Accuracy, L: Lanes>(
     token: L::Token,
@@ -94,32 +119,48 @@ struct Candidates<'a, L: Lanes> {
     first: usize,
 }
 
-/// Calls `resolve` for each packet and group of spheres that the filter does not rule out; where
-/// it returns true the packet wants no more.
+/// Calls `resolve` for each packet and group of spheres that the filter does not rule out, until
+/// all of the packet's live lanes are `done`.
 #[inline(always)]
 fn for_candidates<L: Lanes, R>(
     token: L::Token,
     rays: &[RayPacket<L>],
     results: &mut [R],
     spheres: &Spheres<'_>,
-    resolve: impl Fn(&mut R, Candidates<'_, L>) -> bool,
+    done: impl Fn(&R) -> L::Mask,
+    resolve: impl Fn(&mut R, Candidates<'_, L>),
 ) {
     for first in (0..spheres.len()).step_by(BLOCK_SPHERES) {
         // The spheres are prepared once for all packets.
         let block = FilterBlock::new(spheres, first);
         for (packet, result) in rays.iter().zip(results.iter_mut()) {
-            let rays = RayLanes::load(token, packet);
-            let filter = FilterRays::new(token, &rays, &block);
+            let mut rays = RayLanes::load(token, packet);
+            rays.live = rays.live & !done(result);
+            let mut filter = FilterRays::new(token, &rays, &block);
             for (group, first) in block.groups().iter().zip((first..).step_by(GROUP)) {
                 if filter.may_meet_any(group) {
-                    let (rays, filter) = (&rays, &filter);
-                    if resolve(result, Candidates { rays, filter, group, spheres, first }) {
+                    let candidates =
+                        Candidates { rays: &rays, filter: &filter, group, spheres, first };
+                    resolve(result, candidates);
+                    let live = rays.live & !done(result);
+                    if !live.any() {
                         break;
                     }
+                    filter.keep(live);
                 }
             }
         }
     }
+}
+
+/// The lanes whose bit is set.
+#[inline(always)]
+fn lanes_of_bits<L: Lanes>(token: L::Token, bits: u32) -> L::Mask {
+    let mut marks = L::Array::default();
+    for (lane, mark) in marks.as_mut().iter_mut().enumerate() {
+        *mark = if bits >> lane & 1 == 1 { 1.0 } else { 0.0 };
+    }
+    L::splat(token, 0.0).lt(L::load(token, &marks))
 }
 
 /// Calls `met` with every sphere of the group that the filter does not rule out by itself: its
@@ -173,18 +214,15 @@ fn nearest_in_group<A: Accuracy, L: Lanes>(
     hit.t = best.store();
 }
 
-/// True where every live lane has met something.
 #[inline(never)]
 fn any_in_group<A: Accuracy, L: Lanes>(
     token: L::Token,
     candidates: Candidates<'_, L>,
     met: &mut u32,
-) -> bool {
+) {
     let infinity = L::splat(token, f32::INFINITY);
-    let live = candidates.rays.live.bits();
     resolve::<A, L>(token, candidates, infinity, |_, t| {
         *met |= t.lt(infinity).bits();
         infinity
     });
-    live & !*met == 0
 }

@@ -135,7 +135,8 @@ fn roots<L: Lanes>(rays: &StableRays<L>, center: [L; 3], radius: L) -> Roots<L> 
     // A root that cancelled is taken from the product of the two.
     let forward = splat(0.0).le(middle);
     let small = L::select(forward, near, far);
-    let cancelled = small.abs().le(splat(CANCELLED) * half_chord);
+    // Strictly: for a tangent at the origin both are zero, and so is the product's divisor.
+    let cancelled = small.abs().lt(splat(CANCELLED) * half_chord);
     if cancelled.any() {
         let large = L::select(forward, far, near);
         let quotient = squares_less_square(p, radius) / (a * large);
@@ -200,4 +201,16 @@ fn squares_less_square<L: Lanes>(v: [(L, L); 3], radius: L) -> L {
 fn inverse_power_of_two(length: f32) -> f32 {
     let exponent = (length.to_bits() >> 23) & 0xff;
     f32::from_bits((254 - exponent.min(253)) << 23)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Ray, Sphere, Stable, Vec3, roots};
+
+    #[test]
+    fn a_tangent_at_the_origin_has_two_roots_of_zero() {
+        let ray = Ray::new(Vec3::new(0.0, 33_554_432.0, 0.0), Vec3::new(7.0, 0.0, 0.0));
+        let sphere = Sphere { center: Vec3::new(0.0, 16_777_216.0, 0.0), radius: 16_777_216.0 };
+        assert_eq!(roots::<Stable>(&ray, &sphere), Some([0.0, 0.0]));
+    }
 }
