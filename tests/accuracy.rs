@@ -1,8 +1,10 @@
 //! Each tier against the oracle: by the budget table, and on every case that is kept.
 
+use spherule_tests::budget::table::TABLE;
 use spherule_tests::budget::{self, Set};
 use spherule_tests::kept;
 use spherule_tests::oracle;
+use spherule_tests::tally::Summary;
 
 fn check(set: Set) {
     let Some(fresh) = budget::measure(set) else { return };
@@ -30,6 +32,31 @@ fn hard_regimes_are_on_budget() {
 #[test]
 fn vectors_are_on_budget() {
     check(Set::Vectors);
+}
+
+/// What `Stable` promises in its domain, away from grazing: a table that is pinned anew must
+/// still keep it.
+#[test]
+fn stable_decides_right_in_its_domain() {
+    let domain = [
+        "ordinary",
+        "dist/r 1e2",
+        "dist/r 1e4",
+        "dist/r 1e6",
+        "grazing 2^-8",
+        "grazing 2^-12",
+        "|d| 2^20",
+        "|d| 2^-20",
+        "|d| 2^60",
+        "|d| 2^-60",
+        "translated 1e6",
+    ];
+    for regime in domain {
+        let row = TABLE.iter().find(|row| row.regime == regime && row.tier == "stable");
+        let Summary { wrong_hits, wrong_misses, wrong_roots, .. } =
+            row.expect("a row of the table").summary;
+        assert_eq!([wrong_hits, wrong_misses, wrong_roots], [0; 3], "{regime}");
+    }
 }
 
 #[test]

@@ -2,7 +2,7 @@
 //! neighbours; a list gives what its spheres give one at a time, whatever the filter skips.
 
 use proptest::prelude::*;
-use proptest::test_runner::{Config, TestCaseError};
+use proptest::test_runner::TestCaseError;
 use spherule_kernel::{Hit, Ray, Sphere};
 use spherule_tests::case::Case;
 use spherule_tests::doors::{DOORS, Door};
@@ -16,11 +16,6 @@ fn hit_bits(hit: Option<Hit>) -> Option<(u32, u32)> {
 
 fn t_bits(t: Option<f32>) -> Option<u32> {
     t.map(f32::to_bits)
-}
-
-/// Cases as they come from [`Config::cases`], failures printed and not written to files.
-fn config(cases: u32) -> Config {
-    Config { cases, failure_persistence: None, ..Config::default() }
 }
 
 /// Rules 3 and 4 in plain words, on the roots that the tier computes.
@@ -77,7 +72,7 @@ fn check_pairs(cases: &[Case]) -> Result<(), TestCaseError> {
 }
 
 proptest! {
-    #![proptest_config(config(400))]
+    #![proptest_config(inputs::config(1000))]
 
     #[test]
     fn lists_are_their_spheres_on_the_lattice(scene in inputs::scene(inputs::lattice)) {
@@ -106,7 +101,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(config(3000))]
+    #![proptest_config(inputs::config(5000))]
 
     #[test]
     fn pairs_are_their_roots_in_every_width(

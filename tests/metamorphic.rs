@@ -2,16 +2,11 @@
 //! ray and sphere that no tier may lose.
 
 use proptest::prelude::*;
-use proptest::test_runner::Config;
 use spherule_kernel::{Hit, Ray, Sphere, Vec3};
 use spherule_tests::case::Case;
 use spherule_tests::doors::{DOORS, Door};
 use spherule_tests::inputs::{self, Scene};
 use spherule_tests::random::power_of_two;
-
-fn config(cases: u32) -> Config {
-    Config { cases, failure_persistence: None, ..Config::default() }
-}
 
 fn bits(hit: Option<Hit>) -> Option<(u32, u32)> {
     hit.map(|hit| (hit.t.to_bits(), hit.sphere))
@@ -42,7 +37,7 @@ fn scaled(t: f32, exponent: i64) -> f32 {
 }
 
 proptest! {
-    #![proptest_config(config(300))]
+    #![proptest_config(inputs::config(600))]
 
     /// r(t) = o + t d: with d twice as long, every t is half as large, exactly.
     #[test]

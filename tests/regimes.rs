@@ -10,6 +10,9 @@ use std::cmp::Ordering;
 
 const COUNT: u64 = 400;
 
+type OfCase = fn(&Case) -> bool;
+type OfNumber = fn(f32) -> bool;
+
 /// In how many of the first [`COUNT`] cases of a regime `claim` holds.
 fn count(regime: usize, claim: impl Fn(&Case) -> bool) -> u64 {
     REGIMES[regime].cases(COUNT).filter(claim).count() as u64
@@ -134,7 +137,7 @@ fn intervals_end_at_a_root() {
 #[test]
 fn every_degenerate_input_occurs() {
     let finite = |case: &Case| case.numbers().iter().filter(|x| x.is_nan()).count() == 0;
-    let claims: [(&str, fn(&Case) -> bool); 9] = [
+    let claims: [(&str, OfCase); 9] = [
         ("direction zero", |case| case.ray.direction == Vec3::ZERO),
         ("radius negative", |case| case.sphere.radius < 0.0),
         ("radius zero, met", |case| case.sphere.radius == 0.0 && hits(case)),
@@ -165,7 +168,7 @@ fn ties_are_ties_of_the_root_that_answers() {
 
 #[test]
 fn roots_overflow_and_underflow() {
-    let claims: [(&str, fn(f32) -> bool); 4] = [
+    let claims: [(&str, OfNumber); 4] = [
         ("overflow", f32::is_infinite),
         ("close to overflow", |root| root.is_finite() && root.abs() > 1e37),
         ("subnormal", f32::is_subnormal),
@@ -180,7 +183,7 @@ fn roots_overflow_and_underflow() {
 #[test]
 fn random_bits_are_of_every_kind() {
     let bits: Vec<f32> = REGIMES[19].cases(COUNT).flat_map(|case| case.numbers()).collect();
-    let kinds: [fn(f32) -> bool; 4] =
+    let kinds: [OfNumber; 4] =
         [f32::is_nan, f32::is_subnormal, f32::is_sign_negative, |x| x.abs() > 1e30];
     for claim in kinds {
         assert!(bits.iter().filter(|&&x| claim(x)).count() > 0);

@@ -9,8 +9,18 @@ use crate::regimes::REGIMES;
 use crate::ulp::step;
 use proptest::prelude::*;
 use proptest::sample::select;
+use proptest::test_runner::Config;
 use spherule_kernel::{Ray, Sphere};
-use std::fmt;
+use std::{env, fmt};
+
+/// `cases` cases a test, or as many as the environment variable `PROPTEST_CASES` says; failures
+/// are printed and not written to files, since what is printed can be pasted into a test.
+#[must_use]
+pub fn config(cases: u32) -> Config {
+    let default = Config::default();
+    let cases = if env::var_os("PROPTEST_CASES").is_some() { default.cases } else { cases };
+    Config { cases, failure_persistence: None, ..default }
+}
 
 /// Numbers at which something changes.
 pub const SPECIALS: [f32; 24] = [

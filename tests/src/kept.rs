@@ -1,7 +1,7 @@
 //! Cases kept in the project with the oracle's answers: `tests/cases/regimes.txt`.
 //!
 //! One case a line: the regime's number, the bits of the twelve numbers of a
-//! [`Case`](crate::case::Case) and of the t of the hit, or `miss`, in hexadecimal. Lines that
+//! [`Case`] and of the t of the hit, or `miss`, in hexadecimal. Lines that
 //! start with `#` say where the cases come from. A reader needs neither our generator nor our
 //! oracle, so that a change of either is noticed.
 

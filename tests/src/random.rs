@@ -83,7 +83,10 @@ impl Random {
     }
 }
 
-/// 2^exponent, exactly, for exponents of normal `f64`.
+/// 2^exponent, exactly.
+///
+/// # Panics
+/// Where it is no normal `f64`.
 #[must_use]
 pub fn power_of_two(exponent: i64) -> f64 {
     assert!((-1022..=1023).contains(&exponent), "2^{exponent} is no normal f64");
