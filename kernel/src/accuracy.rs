@@ -18,6 +18,7 @@ pub use exact::Exact;
 pub use fast::Fast;
 pub use stable::Stable;
 
+use crate::axes::axes;
 use crate::{Lanes, Ray, RayPacket, Sphere};
 
 mod sealed {
@@ -38,18 +39,29 @@ pub struct RayLanes<L: Lanes> {
 impl<L: Lanes> RayLanes<L> {
     #[inline(always)]
     pub(crate) fn load(token: L::Token, packet: &RayPacket<L>) -> Self {
-        let load3 = |arrays: &[L::Array; 3]| arrays.each_ref().map(|array| L::load(token, array));
-        let (origin, direction) = (load3(&packet.origin), load3(&packet.direction));
+        let origin = axes!(i => L::load(token, &packet.origin[i]));
+        let direction = axes!(i => L::load(token, &packet.direction[i]));
         let (t_min, t_max) = (L::load(token, &packet.t_min), L::load(token, &packet.t_max));
 
-        let (zero, largest) = (L::splat(token, 0.0), L::splat(token, f32::MAX));
-        let finite =
-            |v: [L; 3]| v[0].abs().le(largest) & v[1].abs().le(largest) & v[2].abs().le(largest);
-        let finite = finite(origin) & finite(direction);
-        let along = direction.map(|d| d.lt(zero) | zero.lt(d));
+        let zero = L::splat(token, 0.0);
+        let along = axes!(i => direction[i].lt(zero) | zero.lt(direction[i]));
         let directed = along[0] | along[1] | along[2];
-        Self { origin, direction, t_min, t_max, live: finite & directed & t_min.le(t_max) }
+        let live = all_finite(origin) & all_finite(direction) & directed & t_min.le(t_max);
+        Self { origin, direction, t_min, t_max, live }
     }
+
+    /// Rule 3.
+    #[inline(always)]
+    fn accept(&self, t: L) -> L::Mask {
+        self.t_min.le(t) & t.le(self.t_max) & t.abs().le(t.like(f32::MAX))
+    }
+}
+
+/// Neither NaN nor infinite in any component.
+#[inline(always)]
+pub(crate) fn all_finite<L: Lanes>(v: [L; 3]) -> L::Mask {
+    let largest = v[0].like(f32::MAX);
+    v[0].abs().le(largest) & v[1].abs().le(largest) & v[2].abs().le(largest)
 }
 
 /// Where the lines of a packet meet a sphere, as a tier computed it.
@@ -67,12 +79,11 @@ impl<L: Lanes> Roots<L> {
     /// The accepted t of rules 2 to 4, `+inf` where there is none.
     #[inline(always)]
     fn first_accepted(&self, rays: &RayLanes<L>) -> L {
-        let splat = |value| L::splat(self.near.token(), value);
-        let within = |t: L| rays.t_min.le(t) & t.le(rays.t_max) & t.abs().le(splat(f32::MAX));
         // Adding zero turns -0 into +0.
-        let (near, far) = (self.near + splat(0.0), self.far + splat(0.0));
-        let far = L::select(self.meets & within(far), far, splat(f32::INFINITY));
-        L::select(self.meets & within(near), near, far)
+        let zero = self.near.like(0.0);
+        let (near, far) = (self.near + zero, self.far + zero);
+        let far = L::select(self.meets & rays.accept(far), far, zero.like(f32::INFINITY));
+        L::select(self.meets & rays.accept(near), near, far)
     }
 }
 

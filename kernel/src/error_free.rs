@@ -29,7 +29,7 @@ impl<L: Lanes> Halved<L> {
     /// Domain: `|value|` below 2^115.
     #[inline(always)]
     pub(crate) fn new(value: L) -> Self {
-        let scaled = value * L::splat(value.token(), 4097.0);
+        let scaled = value * value.like(4097.0);
         let high = scaled - (scaled - value);
         Self { value, high, low: value - high }
     }

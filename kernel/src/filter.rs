@@ -50,6 +50,7 @@
 //! can arise, so the maximum of four means what it says.
 
 use crate::accuracy::RayLanes;
+use crate::axes::{axes, dot};
 use crate::{LaneMask, Lanes, Sphere, Spheres};
 
 /// How many spheres share one branch.
@@ -88,7 +89,7 @@ impl FilterGroup {
             self.excess[slot] = f32::INFINITY;
             return;
         }
-        let [x, y, z] = [0, 1, 2].map(|axis| sphere.center[axis] - shift[axis]);
+        let [x, y, z] = axes!(i => sphere.center[i] - shift[i]);
         let (cc, rr) = (x * x + y * y + z * z, sphere.radius * sphere.radius);
         self.center[0][slot] = x;
         self.center[1][slot] = y;
@@ -158,29 +159,29 @@ pub(crate) struct FilterRays<L: Lanes> {
 impl<L: Lanes> FilterRays<L> {
     #[inline(always)]
     pub(crate) fn new(token: L::Token, rays: &RayLanes<L>, block: &FilterBlock) -> Self {
-        let splat = |value| L::splat(token, value);
-        let dot = |u: [L; 3], v: [L; 3]| u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-
         // Rays that the bound does not cover are replaced by one that it does.
         let a = dot(rays.direction, rays.direction);
         let far = rays.origin[0].abs().filter_max(rays.origin[1].abs());
         let far = far.filter_max(rays.origin[2].abs());
-        let judged =
-            rays.live & splat(1.0 / LONGEST).le(a) & a.le(splat(LONGEST)) & far.le(splat(LARGEST));
-        let per_length = splat(1.0) / L::select(judged, a, splat(1.0)).sqrt();
-        let direction = rays.direction.map(|d| L::select(judged, d * per_length, splat(0.0)));
-        let origin = [0, 1, 2].map(|axis| {
-            L::select(judged, rays.origin[axis] - splat(block.shift[axis]), splat(0.0))
+        let judged = rays.live
+            & a.like(1.0 / LONGEST).le(a)
+            & a.le(a.like(LONGEST))
+            & far.le(a.like(LARGEST));
+        let (zero, one) = (a.like(0.0), a.like(1.0));
+        let per_length = one / L::select(judged, a, one).sqrt();
+        let direction = axes!(i => L::select(judged, rays.direction[i] * per_length, zero));
+        let origin = axes!(i => {
+            let shifted = rays.origin[i] - L::splat(token, block.shift[i]);
+            L::select(judged, shifted, zero)
         });
-
         let along = dot(direction, origin);
         let oo = dot(origin, origin);
-        let otherwise = L::select(rays.live, splat(f32::NEG_INFINITY), splat(f32::INFINITY));
+        let otherwise = L::select(rays.live, a.like(f32::NEG_INFINITY), a.like(f32::INFINITY));
         Self {
             direction,
-            twice_origin: origin.map(|o| o + o),
+            twice_origin: axes!(i => origin[i] + origin[i]),
             minus_along: -along,
-            threshold: L::select(judged, oo - splat(KAPPA) * oo, otherwise),
+            threshold: L::select(judged, oo - oo.like(KAPPA) * oo, otherwise),
         }
     }
 
@@ -197,7 +198,7 @@ impl<L: Lanes> FilterRays<L> {
         let token = self.threshold.token();
         let [dx, dy, dz] = self.direction;
         let [fx, fy, fz] = self.twice_origin;
-        let [x, y, z] = [0, 1, 2].map(|axis| L::splat(token, group.center[axis][slot]));
+        let [x, y, z] = axes!(i => L::splat(token, group.center[i][slot]));
         let w = L::splat(token, group.excess[slot]);
         let b = x.filter_mul_add(dx, y.filter_mul_add(dy, z.filter_mul_add(dz, self.minus_along)));
         let c = x.filter_mul_add(fx, y.filter_mul_add(fy, z.filter_mul_add(fz, w)));

@@ -1,6 +1,7 @@
 //! Rays against lists of spheres: nearest hit, any hit, pairs, and both roots.
 
-use crate::accuracy::RayLanes;
+use crate::accuracy::{RayLanes, all_finite};
+use crate::axes::axes;
 use crate::filter::{BLOCK_SPHERES, FilterBlock, FilterGroup, FilterRays, GROUP};
 use crate::{
     Accuracy, Hit, HitPacket, LaneMask, Lanes, Ray, RayPacket, Sphere, SpherePacket, Spheres,
@@ -19,6 +20,7 @@ use crate::{
 /// Cost: some 8 operations a ray and sphere that miss each other, and the tier's price for the
 /// others. Preparing 128 spheres costs as much as testing one packet against them: pass many
 /// packets in one call. Stack: some 3 KiB.
+#[inline(always)]
 pub fn nearest<A: Accuracy, L: Lanes>(
     token: L::Token,
     rays: &[RayPacket<L>],
@@ -33,7 +35,9 @@ pub fn nearest<A: Accuracy, L: Lanes>(
         rays,
         hits,
         &spheres,
+        #[inline(always)]
         |_| lanes_of_bits::<L>(token, 0),
+        #[inline(always)]
         |hit, candidates| nearest_in_group::<A, L>(token, candidates, hit),
     );
 }
@@ -42,6 +46,7 @@ pub fn nearest<A: Accuracy, L: Lanes>(
 ///
 /// True exactly where [`nearest`] finds a hit; cheaper, since a ray that has met something is
 /// done. Otherwise as `nearest`.
+#[inline(always)]
 pub fn any<A: Accuracy, L: Lanes>(
     token: L::Token,
     rays: &[RayPacket<L>],
@@ -56,7 +61,9 @@ pub fn any<A: Accuracy, L: Lanes>(
         rays,
         met,
         &spheres,
+        #[inline(always)]
         |bits| lanes_of_bits::<L>(token, *bits),
+        #[inline(always)]
         |bits, candidates| any_in_group::<A, L>(token, candidates, bits),
     );
 }
@@ -75,19 +82,17 @@ pub fn nearest_hit<A: Accuracy>(ray: &Ray, spheres: Spheres<'_>) -> Option<Hit> 
 /// Bit for bit what [`nearest`] finds for that ray in a list of that sphere. No filter: the tier's
 /// price for every packet.
 #[must_use]
+#[inline(always)]
 pub fn pairs<A: Accuracy, L: Lanes>(
     token: L::Token,
     rays: &RayPacket<L>,
     spheres: &SpherePacket<L>,
 ) -> HitPacket<L> {
     let rays = RayLanes::load(token, rays);
-    let center = spheres.center.each_ref().map(|array| L::load(token, array));
+    let center = axes!(i => L::load(token, &spheres.center[i]));
     let radius = L::load(token, &spheres.radius);
-    let (zero, largest) = (L::splat(token, 0.0), L::splat(token, f32::MAX));
-    let finite = |x: L| x.abs().le(largest);
-    let valid = finite(center[0]) & finite(center[1]) & finite(center[2]);
-    let asked = rays.live & valid & zero.le(radius) & finite(radius);
-    let infinity = L::splat(token, f32::INFINITY);
+    let (zero, infinity) = (radius.like(0.0), radius.like(f32::INFINITY));
+    let asked = rays.live & all_finite(center) & zero.le(radius) & radius.lt(infinity);
     let t = A::first_root(&rays, &A::prepare(&rays), center, radius, asked, infinity);
     let t = L::select(asked, t, infinity);
     let mut hits = HitPacket::<L>::none();
@@ -141,7 +146,12 @@ fn for_candidates<L: Lanes, R>(
                 if filter.may_meet_any(group) {
                     let candidates =
                         Candidates { rays: &rays, filter: &filter, group, spheres, first };
-                    resolve(result, candidates);
+                    // What candidates need must not press on the registers of this loop.
+                    L::out_of_line(
+                        token,
+                        #[inline(always)]
+                        || resolve(result, candidates),
+                    );
                     let live = rays.live & !done(result);
                     if !live.any() {
                         break;
@@ -181,7 +191,7 @@ fn resolve<A: Accuracy, L: Lanes>(
         let Some(sphere) = spheres.get(first + slot) else { return };
         let asked = rays.live & filter.may_meet(group, slot);
         if sphere.is_valid() && asked.any() {
-            let center = sphere.center.to_array().map(|x| L::splat(token, x));
+            let center = axes!(i => L::splat(token, sphere.center[i]));
             let radius = L::splat(token, sphere.radius);
             let t = A::first_root(rays, &prepared, center, radius, asked, limit);
             limit = met((first + slot) as u32, L::select(asked, t, infinity));
@@ -189,8 +199,7 @@ fn resolve<A: Accuracy, L: Lanes>(
     }
 }
 
-// Out of line, so that what candidates need does not press on the registers of the filter loop.
-#[inline(never)]
+#[inline(always)]
 fn nearest_in_group<A: Accuracy, L: Lanes>(
     token: L::Token,
     candidates: Candidates<'_, L>,
@@ -198,31 +207,43 @@ fn nearest_in_group<A: Accuracy, L: Lanes>(
 ) {
     let mut best = L::load(token, &hit.t);
     let ids = &mut hit.sphere;
-    resolve::<A, L>(token, candidates, best, |index, t| {
-        // Spheres come in the order of their indices, so an equal t is no improvement.
-        let nearer = t.lt(best);
-        best = L::select(nearer, t, best);
-        let mut nearer = nearer.bits();
-        while nearer != 0 {
-            if let Some(id) = ids.as_mut().get_mut(nearer.trailing_zeros() as usize) {
-                *id = index;
+    resolve::<A, L>(
+        token,
+        candidates,
+        best,
+        #[inline(always)]
+        |index, t| {
+            // Spheres come in the order of their indices, so an equal t is no improvement.
+            let nearer = t.lt(best);
+            best = L::select(nearer, t, best);
+            let mut nearer = nearer.bits();
+            while nearer != 0 {
+                if let Some(id) = ids.as_mut().get_mut(nearer.trailing_zeros() as usize) {
+                    *id = index;
+                }
+                nearer &= nearer - 1;
             }
-            nearer &= nearer - 1;
-        }
-        best
-    });
+            best
+        },
+    );
     hit.t = best.store();
 }
 
-#[inline(never)]
+#[inline(always)]
 fn any_in_group<A: Accuracy, L: Lanes>(
     token: L::Token,
     candidates: Candidates<'_, L>,
     met: &mut u32,
 ) {
     let infinity = L::splat(token, f32::INFINITY);
-    resolve::<A, L>(token, candidates, infinity, |_, t| {
-        *met |= t.lt(infinity).bits();
-        infinity
-    });
+    resolve::<A, L>(
+        token,
+        candidates,
+        infinity,
+        #[inline(always)]
+        |_, t| {
+            *met |= t.lt(infinity).bits();
+            infinity
+        },
+    );
 }

@@ -12,6 +12,8 @@
 //! everything that makes lanes from numbers. For types fixed at build time it is `()`.
 //! Vectors never cross such a boundary: packets in memory hold plain arrays.
 
+#[cfg(feature = "dispatch")]
+mod dispatched;
 mod scalar;
 mod wide;
 
@@ -86,24 +88,23 @@ pub trait Lanes:
     /// [`widen`](Lanes::widen) would read lanes from.
     fn narrow(array: &mut Self::Array, part: usize, doubles: Self::Double);
 
+    /// Calls `work` in a function of its own, compiled for the instruction set of the lanes: for what
+    /// is rare beside a hot loop, whose registers it would take.
+    fn out_of_line<R>(token: Self::Token, work: impl FnOnce() -> R) -> R;
+
     /// How many partners it takes to hold all lanes.
     const PARTS: usize = Self::COUNT / Self::Double::COUNT;
+
+    /// `value` in every lane, with the token of these lanes.
+    #[inline(always)]
+    fn like(self, value: f32) -> Self {
+        Self::splat(self.token(), value)
+    }
 
     /// The magnitude; NaN for NaN.
     #[inline(always)]
     fn abs(self) -> Self {
-        let zero = Self::splat(self.token(), 0.0);
-        Self::select(self.lt(zero), -self, self)
-    }
-
-    /// `function` of every lane, by way of an array: for what lanes have no operation for.
-    #[inline(always)]
-    fn map(self, function: impl Fn(f32) -> f32) -> Self {
-        let mut array = self.store();
-        for value in array.as_mut() {
-            *value = function(*value);
-        }
-        Self::load(self.token(), &array)
+        Self::select(self.lt(self.like(0.0)), -self, self)
     }
 }
 
@@ -137,10 +138,21 @@ pub trait DoubleLanes:
     /// `yes` where `mask` is true, else `no`.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
 
+    /// `value` in every lane, with the token of these lanes.
+    #[inline(always)]
+    fn like(self, value: f64) -> Self {
+        Self::splat(self.token(), value)
+    }
+
     /// The magnitude; NaN for NaN.
     #[inline(always)]
     fn abs(self) -> Self {
-        let zero = Self::splat(self.token(), 0.0);
-        Self::select(self.lt(zero), -self, self)
+        Self::select(self.lt(self.like(0.0)), -self, self)
     }
+}
+
+/// A call that is not inlined: [`Lanes::out_of_line`] where the instruction set is fixed.
+#[inline(never)]
+fn plain_call<R>(work: impl FnOnce() -> R) -> R {
+    work()
 }

@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 
 pub mod accuracy;
+mod axes;
 pub mod camera;
 mod error_free;
 mod exact;
@@ -16,6 +17,8 @@ mod sphere;
 
 pub use accuracy::{Accuracy, Exact, Fast, Stable};
 pub use camera::Camera;
+#[cfg(feature = "dispatch")]
+pub use fearless_simd;
 pub use float_environment::float_environment_is_sound;
 pub use glam::Vec3;
 pub use hit::{Hit, HitPacket};

@@ -7,6 +7,7 @@
 
 use super::RayLanes;
 use crate::Lanes;
+use crate::axes::{axes, dot};
 
 /// What tells whether both roots of a sphere lie past a limit.
 #[derive(Clone, Copy, Debug)]
@@ -21,10 +22,9 @@ impl<L: Lanes> Beyond<L> {
     #[inline(always)]
     pub(super) fn new(rays: &RayLanes<L>) -> Self {
         let d = rays.direction;
-        let splat = |value| L::splat(d[0].token(), value);
-        let a = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-        let a = L::select(splat(LEAST_A).le(a), a, splat(f32::NAN));
-        Self { a, length: a.sqrt() * splat(1.0 + 8.0 * f32::EPSILON) }
+        let a = dot(d, d);
+        let a = L::select(a.like(LEAST_A).le(a), a, a.like(f32::NAN));
+        Self { a, length: a.sqrt() * a.like(1.0 + 8.0 * f32::EPSILON) }
     }
 
     /// Where both roots are surely larger than `limit`.
@@ -34,14 +34,12 @@ impl<L: Lanes> Beyond<L> {
     /// is added for what underflows. What overflows makes the bound infinite or NaN: not told.
     #[inline(always)]
     pub(super) fn limit(&self, rays: &RayLanes<L>, center: [L; 3], radius: L, limit: L) -> L::Mask {
-        let splat = |value| L::splat(self.a.token(), value);
-        let [x, y, z] = [0, 1, 2].map(|i| center[i] - rays.origin[i]);
-        let [dx, dy, dz] = rays.direction;
-        let b = dx * x + dy * y + dz * z;
+        let p = axes!(i => center[i] - rays.origin[i]);
+        let b = dot(rays.direction, p);
         let end = limit * self.a;
         let reach = radius * self.length;
-        let size = (x.abs() + y.abs() + z.abs()) * self.length + reach + end.abs();
-        (end + splat(8.0 * f32::EPSILON) * size + splat(LEAST_A)).lt(b - reach)
+        let size = (p[0].abs() + p[1].abs() + p[2].abs()) * self.length + reach + end.abs();
+        (end + b.like(8.0 * f32::EPSILON) * size + b.like(LEAST_A)).lt(b - reach)
     }
 }
 

@@ -38,6 +38,7 @@
 
 use super::beyond::Beyond;
 use super::{Accuracy, RayLanes, sealed};
+use crate::axes::{axes, dot};
 use crate::exact::{Quadratic, Root};
 use crate::{DoubleLanes, LaneMask, Lanes, Ray, Sphere};
 
@@ -80,37 +81,37 @@ impl Accuracy for Exact {
         asked: L::Mask,
         limit: L,
     ) -> L {
-        let token = radius.token();
-        let infinity = L::splat(token, f32::INFINITY);
+        let infinity = radius.like(f32::INFINITY);
         let asked = asked & !beyond.limit(rays, center, radius, limit);
         if !asked.any() {
             return infinity;
         }
         let brackets = Brackets::new(rays, center, radius, asked);
-
-        // A root is settled where its bracket is one number, and out where none of its bracket is
-        // acceptable. What lies past the limit need not be known any better.
-        let within =
-            |t: L| rays.t_min.le(t) & t.le(rays.t_max) & t.abs().le(L::splat(token, f32::MAX));
-        let settled = |low: L, high: L| high.le(low);
-        let out = |low: L, high: L| high.lt(rays.t_min) | rays.t_max.lt(low) | limit.lt(low);
-        let [near_low, near_high] = brackets.near.map(|t| L::load(token, &t));
-        let [far_low, far_high] = brackets.far.map(|t| L::load(token, &t));
-
-        let near_known = settled(near_low, near_high) | out(near_low, near_high);
-        let near_hit = settled(near_low, near_high) & within(near_low);
-        let far_known = settled(far_low, far_high) | out(far_low, far_high);
-        let far_hit = settled(far_low, far_high) & within(far_low);
-        let far = L::select(far_hit, far_low, infinity);
-        let t = L::select(near_hit, near_low, far);
+        let near = brackets.judge(brackets.near, rays, limit);
+        let far = brackets.judge(brackets.far, rays, limit);
 
         // The far root does not matter where the near one is taken, or lies past the limit.
-        let decided = near_known & (near_hit | far_known | limit.lt(near_low));
+        let t = L::select(near.hit, near.t, L::select(far.hit, far.t, infinity));
+        let decided = near.known & (near.hit | far.known | limit.lt(near.t));
         let undecided = (asked & !decided).bits();
         // Adding zero turns -0 into +0.
-        let t = t + L::splat(token, 0.0);
-        let t = L::select(asked, t, infinity);
-        if undecided == 0 { t } else { settle(rays, center, radius, undecided, t) }
+        let t = L::select(asked, t + t.like(0.0), infinity);
+        if undecided == 0 {
+            return t;
+        }
+
+        // Out of the lanes, as arrays: this is scalar code, and rare.
+        let mut settled = t.store();
+        Unsettled::<L> {
+            origin: axes!(i => rays.origin[i].store()),
+            direction: axes!(i => rays.direction[i].store()),
+            t_min: rays.t_min.store(),
+            t_max: rays.t_max.store(),
+            center: axes!(i => center[i].store()),
+            radius: radius.store(),
+        }
+        .settle(undecided, &mut settled);
+        L::load(t.token(), &settled)
     }
 
     fn line_roots(ray: &Ray, sphere: &Sphere) -> Option<[f32; 2]> {
@@ -127,25 +128,36 @@ impl Accuracy for Exact {
 /// For every lane the least and the greatest `f32` that each root can round to: both `+inf` where
 /// the line surely misses, `-inf` and `+inf` where it is not known to meet the sphere.
 struct Brackets<L: Lanes> {
+    token: L::Token,
     near: [L::Array; 2],
     far: [L::Array; 2],
+}
+
+/// What a bracket tells of a root.
+struct Judged<L: Lanes> {
+    /// The lower end.
+    t: L,
+    /// The bracket is one number, which rule 3 accepts.
+    hit: L::Mask,
+    /// The bracket is one number, or no number in it matters.
+    known: L::Mask,
 }
 
 impl<L: Lanes> Brackets<L> {
     #[inline(always)]
     fn new(rays: &RayLanes<L>, center: [L; 3], radius: L, asked: L::Mask) -> Self {
-        let mut brackets = Self { near: Default::default(), far: Default::default() };
+        let mut brackets =
+            Self { token: radius.token(), near: Default::default(), far: Default::default() };
         let asked = asked.bits();
         for part in 0..L::PARTS {
             let first = part * L::Double::COUNT;
             if (asked >> first) & ((1 << L::Double::COUNT) - 1) != 0 {
-                let widen = |lanes: L| lanes.widen(part);
                 brackets.fill(
                     part,
-                    rays.origin.map(widen),
-                    rays.direction.map(widen),
-                    center.map(widen),
-                    widen(radius),
+                    axes!(i => rays.origin[i].widen(part)),
+                    axes!(i => rays.direction[i].widen(part)),
+                    axes!(i => center[i].widen(part)),
+                    radius.widen(part),
                 );
             }
         }
@@ -157,68 +169,89 @@ impl<L: Lanes> Brackets<L> {
         &mut self,
         part: usize,
         origin: [L::Double; 3],
-        direction: [L::Double; 3],
+        d: [L::Double; 3],
         center: [L::Double; 3],
         radius: L::Double,
     ) {
-        let splat = |value| L::Double::splat(radius.token(), value);
-        let [dx, dy, dz] = direction;
-        let [px, py, pz] = [0, 1, 2].map(|i| center[i] - origin[i]);
+        let p = axes!(i => center[i] - origin[i]);
 
         // D and its bound.
-        let [x, y, z] = [dy * pz - dz * py, dz * px - dx * pz, dx * py - dy * px];
-        let a = dx * dx + dy * dy + dz * dz;
-        let (reach, square) = (a * (radius * radius), x * x + y * y + z * z);
+        let x = [d[1] * p[2] - d[2] * p[1], d[2] * p[0] - d[0] * p[2], d[0] * p[1] - d[1] * p[0]];
+        let a = dot(d, d);
+        let (reach, square) = (a * (radius * radius), dot(x, x));
         let discriminant = reach - square;
-        let g = (dx.abs() + dy.abs() + dz.abs()) * (px.abs() + py.abs() + pz.abs());
-        let sum = x.abs() + y.abs() + z.abs();
-        let error = splat(5.0 * U) * (reach + square)
-            + splat(8.0 * U) * (sum * g)
-            + splat(32.0 * U * U) * (g * g);
+        let g = sum_of_magnitudes(d) * sum_of_magnitudes(p);
+        let error = a.like(5.0 * U) * (reach + square)
+            + a.like(8.0 * U) * (sum_of_magnitudes(x) * g)
+            + a.like(32.0 * U * U) * (g * g);
         let meets = error.lt(discriminant);
         let misses = discriminant.lt(-error);
 
         // The roots and their bounds.
         let root = discriminant.sqrt();
-        let inverse = splat(1.0) / (a * root);
+        let inverse = a.like(1.0) / (a * root);
         let per_a = root * inverse;
-        let b = dx * px + dy * py + dz * pz;
-        let shared = per_a * (splat(5.0 * U) * g + splat(2.0 * U) * root) + error * inverse;
-        let infinity = splat(f64::INFINITY);
+        let b = dot(d, p);
+        let shared = per_a * (a.like(5.0 * U) * g + a.like(2.0 * U) * root) + error * inverse;
+        let infinity = a.like(f64::INFINITY);
         let low_otherwise = L::Double::select(misses, infinity, -infinity);
         for (bracket, n) in [(&mut self.near, b - root), (&mut self.far, b + root)] {
             let t = n * per_a;
-            let bound = shared + splat(11.0 * U) * t.abs();
+            let bound = shared + a.like(11.0 * U) * t.abs();
             let [low, high] = bracket;
             L::narrow(low, part, L::Double::select(meets, t - bound, low_otherwise));
             L::narrow(high, part, L::Double::select(meets, t + bound, infinity));
         }
     }
+
+    /// What lies past the limit need not be known any better.
+    #[inline(always)]
+    fn judge(&self, [low, high]: [L::Array; 2], rays: &RayLanes<L>, limit: L) -> Judged<L> {
+        let (low, high) = (L::load(self.token, &low), L::load(self.token, &high));
+        let settled = high.le(low);
+        let out = high.lt(rays.t_min) | rays.t_max.lt(low) | limit.lt(low);
+        Judged { t: low, hit: settled & rays.accept(low), known: settled | out }
+    }
 }
 
-/// The t of rules 2 to 4 in the lanes whose bit is set in `undecided`, by expansions; `t` in the
-/// others.
-#[cold]
-#[inline(never)]
-fn settle<L: Lanes>(rays: &RayLanes<L>, center: [L; 3], radius: L, undecided: u32, t: L) -> L {
-    let (origin, direction) = (rays.origin.map(L::store), rays.direction.map(L::store));
-    let (center, radius) = (center.map(L::store), radius.store());
-    let (t_min, t_max) = (rays.t_min.store(), rays.t_max.store());
-    let mut settled = t.store();
-    for (lane, t) in settled.as_mut().iter_mut().enumerate() {
-        if undecided >> lane & 1 == 1 {
-            let get = |array: &L::Array| array.as_ref().get(lane).copied().unwrap_or(f32::NAN);
-            let get3 = |arrays: &[L::Array; 3]| arrays.each_ref().map(get);
-            let accepted = |t: &f32| get(&t_min) <= *t && *t <= get(&t_max) && t.is_finite();
-            *t =
-                Quadratic::<f64>::new(get3(&origin), get3(&direction), get3(&center), get(&radius))
-                    .and_then(|quadratic| {
-                        Some(quadratic.rounded(Root::Near))
-                            .filter(accepted)
-                            .or_else(|| Some(quadratic.rounded(Root::Far)).filter(accepted))
-                    })
-                    .unwrap_or(f32::INFINITY);
+#[inline(always)]
+fn sum_of_magnitudes<D: DoubleLanes>(v: [D; 3]) -> D {
+    v[0].abs() + v[1].abs() + v[2].abs()
+}
+
+/// Rays and spheres that double precision could not decide, in memory.
+struct Unsettled<L: Lanes> {
+    origin: [L::Array; 3],
+    direction: [L::Array; 3],
+    t_min: L::Array,
+    t_max: L::Array,
+    center: [L::Array; 3],
+    radius: L::Array,
+}
+
+impl<L: Lanes> Unsettled<L> {
+    /// Puts the t of rules 2 to 4 into the elements of `t` whose bit is set in `lanes`.
+    #[cold]
+    #[inline(never)]
+    fn settle(&self, lanes: u32, t: &mut L::Array) {
+        for (lane, t) in t.as_mut().iter_mut().enumerate() {
+            if lanes >> lane & 1 == 1 {
+                *t = self.first_root(lane).unwrap_or(f32::INFINITY);
+            }
         }
     }
-    L::load(rays.t_min.token(), &settled)
+
+    fn first_root(&self, lane: usize) -> Option<f32> {
+        let at = |array: &L::Array| array.as_ref().get(lane).copied().unwrap_or(f32::NAN);
+        let at3 = |arrays: &[L::Array; 3]| arrays.each_ref().map(at);
+        let (t_min, t_max) = (at(&self.t_min), at(&self.t_max));
+        let accepted = |t: &f32| t_min <= *t && *t <= t_max && t.is_finite();
+        let quadratic = Quadratic::<f64>::new(
+            at3(&self.origin),
+            at3(&self.direction),
+            at3(&self.center),
+            at(&self.radius),
+        )?;
+        [Root::Near, Root::Far].into_iter().map(|root| quadratic.rounded(root)).find(accepted)
+    }
 }

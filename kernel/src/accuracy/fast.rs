@@ -5,6 +5,7 @@
 //! near the surface: that is what the tier trades for speed, and what the report counts.
 
 use super::{Accuracy, RayLanes, Roots, line_roots_of, sealed};
+use crate::axes::{axes, dot};
 use crate::{Lanes, Ray, Sphere};
 
 /// The textbook quadratic in `f32`: wrong where `f32` is wrong.
@@ -33,8 +34,8 @@ impl Accuracy for Fast {
     #[inline(always)]
     fn prepare<L: Lanes>(rays: &RayLanes<L>) -> FastRays<L> {
         let d = rays.direction;
-        let a = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-        FastRays { origin: rays.origin, direction: d, a, per_a: L::splat(a.token(), 1.0) / a }
+        let a = dot(d, d);
+        FastRays { origin: rays.origin, direction: d, a, per_a: a.like(1.0) / a }
     }
 
     #[inline(always)]
@@ -58,14 +59,10 @@ impl Accuracy for Fast {
 #[inline(always)]
 fn roots<L: Lanes>(rays: &FastRays<L>, center: [L; 3], radius: L) -> Roots<L> {
     let FastRays { origin: o, direction: d, a, per_a } = *rays;
-    let p = [center[0] - o[0], center[1] - o[1], center[2] - o[2]];
-    let b = d[0] * p[0] + d[1] * p[1] + d[2] * p[2];
-    let c = (p[0] * p[0] + p[1] * p[1] + p[2] * p[2]) - radius * radius;
+    let p = axes!(i => center[i] - o[i]);
+    let b = dot(d, p);
+    let c = dot(p, p) - radius * radius;
     let discriminant = b * b - a * c;
     let root = discriminant.sqrt();
-    Roots {
-        meets: L::splat(a.token(), 0.0).le(discriminant),
-        near: (b - root) * per_a,
-        far: (b + root) * per_a,
-    }
+    Roots { meets: a.like(0.0).le(discriminant), near: (b - root) * per_a, far: (b + root) * per_a }
 }

@@ -28,6 +28,7 @@
 
 use super::beyond::Beyond;
 use super::{Accuracy, RayLanes, Roots, line_roots_of, sealed};
+use crate::axes::{axes, dot};
 use crate::error_free::{Halved, two_sum};
 use crate::{LaneMask, Lanes, Ray, Sphere};
 
@@ -64,16 +65,15 @@ impl Accuracy for Stable {
     #[inline(always)]
     fn prepare<L: Lanes>(rays: &RayLanes<L>) -> StableRays<L> {
         let d = rays.direction;
-        let token = d[0].token();
         let longest = d[0].abs().filter_max(d[1].abs()).filter_max(d[2].abs());
-        let scale = longest.map(inverse_power_of_two);
-        let d = d.map(|d| d * scale);
-        let a = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+        let scale = inverse_powers_of_two(longest);
+        let d = axes!(i => d[i] * scale);
+        let a = dot(d, d);
         StableRays {
             origin: rays.origin,
-            direction: d.map(Halved::new),
+            direction: axes!(i => Halved::new(d[i])),
             a,
-            per_a: L::splat(token, 1.0) / a,
+            per_a: a.like(1.0) / a,
             beyond: Beyond::new(rays),
             scale,
         }
@@ -89,7 +89,7 @@ impl Accuracy for Stable {
         limit: L,
     ) -> L {
         let asked = asked & !prepared.beyond.limit(rays, center, radius, limit);
-        let infinity = L::splat(limit.token(), f32::INFINITY);
+        let infinity = limit.like(f32::INFINITY);
         if !asked.any() {
             return infinity;
         }
@@ -106,15 +106,14 @@ impl Accuracy for Stable {
 #[inline(always)]
 fn roots<L: Lanes>(rays: &StableRays<L>, center: [L; 3], radius: L) -> Roots<L> {
     let StableRays { origin: o, direction: d, a, per_a, scale, .. } = *rays;
-    let splat = |value| L::splat(a.token(), value);
-    let d_value = d.map(|d| d.value);
+    let d_value = axes!(i => d[i].value);
 
     // Go to the middle of the chord, or near it, and find the centre from there.
-    let p = [0, 1, 2].map(|i| two_sum(center[i], -o[i]));
-    let middle = dot(d_value, p.map(|p| p.0)) * per_a;
+    let p = axes!(i => two_sum(center[i], -o[i]));
+    let middle = dot(d_value, axes!(i => p[i].0)) * per_a;
     let halved_middle = Halved::new(middle);
-    let steps = d.map(|d| halved_middle.times(d));
-    let q = [0, 1, 2].map(|i| (p[i].0 - steps[i].0) + (p[i].1 - steps[i].1));
+    let steps = axes!(i => halved_middle.times(d[i]));
+    let q = axes!(i => (p[i].0 - steps[i].0) + (p[i].1 - steps[i].1));
 
     // Solve the quadratic there.
     let (g, qq, rr) = (dot(d_value, q), dot(q, q), radius * radius);
@@ -122,7 +121,7 @@ fn roots<L: Lanes>(rays: &StableRays<L>, center: [L; 3], radius: L) -> Roots<L> 
     let mut discriminant = g * g - a * (qq - rr);
 
     // A graze is solved again, in two-term arithmetic.
-    let grazing = discriminant.abs().le(splat(GRAZING) * (a * (qq + rr)));
+    let grazing = discriminant.abs().le(a.like(GRAZING) * (a * (qq + rr)));
     if grazing.any() {
         let (moved, regrazed) = about_closest_point(rays, p, steps, offset, radius);
         offset = L::select(grazing, moved, offset);
@@ -133,17 +132,17 @@ fn roots<L: Lanes>(rays: &StableRays<L>, center: [L; 3], radius: L) -> Roots<L> 
     let mut far = middle + (offset + half_chord);
 
     // A root that cancelled is taken from the product of the two.
-    let forward = splat(0.0).le(middle);
+    let forward = a.like(0.0).le(middle);
     let small = L::select(forward, near, far);
     // Strictly: for a tangent at the origin both are zero, and so is the product's divisor.
-    let cancelled = small.abs().lt(splat(CANCELLED) * half_chord);
+    let cancelled = small.abs().lt(a.like(CANCELLED) * half_chord);
     if cancelled.any() {
         let large = L::select(forward, far, near);
         let quotient = squares_less_square(p, radius) / (a * large);
         near = L::select(cancelled & forward, quotient, near);
         far = L::select(cancelled & !forward, quotient, far);
     }
-    Roots { meets: splat(0.0).le(discriminant), near: near * scale, far: far * scale }
+    Roots { meets: a.like(0.0).le(discriminant), near: near * scale, far: far * scale }
 }
 
 /// A discriminant this small beside its terms is computed again: 1.6 % of the radius from the edge.
@@ -151,11 +150,6 @@ fn roots<L: Lanes>(rays: &StableRays<L>, center: [L; 3], radius: L) -> Roots<L> 
 const GRAZING: f32 = 1.0 / 32.0;
 /// A root this small beside half the chord is computed again.
 const CANCELLED: f32 = 1.0 / 8.0;
-
-#[inline(always)]
-fn dot<L: Lanes>(u: [L; 3], v: [L; 3]) -> L {
-    u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
-}
 
 /// Moves from p - steps on by `offset` d, to the closest point but for some 2^-45 of |p|, and
 /// solves there: the new offset from the middle, and the discriminant.
@@ -168,14 +162,14 @@ fn about_closest_point<L: Lanes>(
     radius: L,
 ) -> (L, L) {
     let halved_offset = Halved::new(offset);
-    let q = [0, 1, 2].map(|i| {
+    let q = axes!(i => {
         let (high, low) = two_sum(p[i].0, -steps[i].0);
         let low = low + (p[i].1 - steps[i].1);
         let step = halved_offset.times(rays.direction[i]);
         let (high, lower) = two_sum(high, -step.0);
         two_sum(high, lower + (low - step.1))
     });
-    let g = dot(rays.direction.map(|d| d.value), q.map(|q| q.0));
+    let g = dot(axes!(i => rays.direction[i].value), axes!(i => q[i].0));
     let discriminant = g * g - rays.a * squares_less_square(q, radius);
     (offset + g * rays.per_a, discriminant)
 }
@@ -184,7 +178,8 @@ fn about_closest_point<L: Lanes>(
 #[inline(always)]
 fn squares_less_square<L: Lanes>(v: [(L, L); 3], radius: L) -> L {
     let (rr, rr_low) = Halved::new(radius).squared();
-    let [x, y, z] = v.map(|(high, low)| {
+    let [x, y, z] = axes!(i => {
+        let (high, low) = v[i];
         let (square, error) = Halved::new(high).squared();
         let cross = high * low;
         (square, error + (cross + cross))
@@ -198,9 +193,13 @@ fn squares_less_square<L: Lanes>(v: [(L, L); 3], radius: L) -> L {
 
 /// 2^-e for a number in [2^e, 2^(e+1)), as far as that is a normal number.
 #[inline(always)]
-fn inverse_power_of_two(length: f32) -> f32 {
-    let exponent = (length.to_bits() >> 23) & 0xff;
-    f32::from_bits((254 - exponent.min(253)) << 23)
+fn inverse_powers_of_two<L: Lanes>(lengths: L) -> L {
+    let mut powers = lengths.store();
+    for power in powers.as_mut() {
+        let exponent = (power.to_bits() >> 23) & 0xff;
+        *power = f32::from_bits((254 - exponent.min(253)) << 23);
+    }
+    L::load(lengths.token(), &powers)
 }
 
 #[cfg(test)]

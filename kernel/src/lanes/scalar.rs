@@ -66,6 +66,11 @@ impl Lanes for f32 {
     }
 
     #[inline(always)]
+    fn out_of_line<R>((): (), work: impl FnOnce() -> R) -> R {
+        super::plain_call(work)
+    }
+
+    #[inline(always)]
     fn widen(self, _: usize) -> f64 {
         f64::from(self)
     }

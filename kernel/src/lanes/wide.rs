@@ -108,6 +108,11 @@ macro_rules! wide_lanes {
             }
 
             #[inline(always)]
+            fn out_of_line<R>((): (), work: impl FnOnce() -> R) -> R {
+                super::plain_call(work)
+            }
+
+            #[inline(always)]
             fn widen(self, part: usize) -> $double {
                 const WIDTH: usize = <$double as DoubleLanes>::COUNT;
                 let (singles, first) = (self.to_array(), part * WIDTH % $count);

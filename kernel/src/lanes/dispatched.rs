@@ -1,0 +1,172 @@
+//! 4, 8 and 16 lanes of the crate `fearless_simd`, whose instruction set is chosen at run time.
+//!
+//! The token is the crate's own: a value of it is the proof that the CPU has the instructions, so
+//! that all this needs no `unsafe` here. What is computed with such lanes must be inlined into a
+//! function that was compiled for the instruction set (`vectorize`); a function or closure that is
+//! not stays right, and is many times slower. Hence `#[inline(always)]` on all of it, and
+//! [`Lanes::out_of_line`] where a call is wanted.
+
+use super::{DoubleLanes, LaneMask, Lanes};
+use core::fmt::Debug;
+use core::ops::{BitAnd, BitOr, Not};
+use fearless_simd::{
+    Select, Simd, SimdBase, SimdFloat, SimdMask, SimdNarrow, SimdWiden, f32x4, f32x8, f32x16,
+    f64x2, f64x4, f64x8, mask32x4, mask32x8, mask32x16, mask64x2, mask64x4, mask64x8,
+};
+
+/// A mask of `fearless_simd`.
+#[derive(Clone, Copy, Debug)]
+pub struct DispatchedMask<M>(M);
+
+impl<M: BitAnd<Output = M>> BitAnd for DispatchedMask<M> {
+    type Output = Self;
+    #[inline(always)]
+    fn bitand(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
+}
+
+impl<M: BitOr<Output = M>> BitOr for DispatchedMask<M> {
+    type Output = Self;
+    #[inline(always)]
+    fn bitor(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+}
+
+impl<M: Not<Output = M>> Not for DispatchedMask<M> {
+    type Output = Self;
+    #[inline(always)]
+    fn not(self) -> Self {
+        Self(!self.0)
+    }
+}
+
+#[inline(never)]
+fn vectorized_call<S: Simd, R>(simd: S, work: impl FnOnce() -> R) -> R {
+    simd.vectorize(work)
+}
+
+/// What single and double precision share.
+macro_rules! shared_lane_operations {
+    ($vector:ident, $mask:ident, $element:ident) => {
+        #[inline(always)]
+        fn token(self) -> S {
+            fearless_simd::ExtractToken::token(&self)
+        }
+
+        #[inline(always)]
+        fn splat(token: S, value: $element) -> Self {
+            <Self as fearless_simd::SimdFrom<$element, S>>::simd_from(token, value)
+        }
+
+        #[inline(always)]
+        fn sqrt(self) -> Self {
+            SimdFloat::sqrt(self)
+        }
+
+        #[inline(always)]
+        fn lt(self, other: Self) -> Self::Mask {
+            DispatchedMask(SimdBase::simd_lt(self, other))
+        }
+
+        #[inline(always)]
+        fn le(self, other: Self) -> Self::Mask {
+            DispatchedMask(SimdBase::simd_le(self, other))
+        }
+
+        #[inline(always)]
+        fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
+            mask.0.select(yes, no)
+        }
+
+        #[inline(always)]
+        fn abs(self) -> Self {
+            SimdBase::abs(self)
+        }
+    };
+}
+
+macro_rules! dispatched_mask {
+    ($mask:ident) => {
+        impl<S: Simd> LaneMask for DispatchedMask<$mask<S>> {
+            #[inline(always)]
+            fn bits(self) -> u32 {
+                self.0.to_bitmask() as u32
+            }
+
+            #[inline(always)]
+            fn any(self) -> bool {
+                self.0.any_true()
+            }
+        }
+    };
+}
+
+macro_rules! dispatched_lanes {
+    ($vector:ident, $mask:ident, $count:literal, $double:ident, $double_mask:ident, $half:literal) => {
+        dispatched_mask!($mask);
+        dispatched_mask!($double_mask);
+
+        impl<S: Simd> Lanes for $vector<S> {
+            const COUNT: usize = $count;
+            type Token = S;
+            type Array = [f32; $count];
+            type Ids = [u32; $count];
+            type Mask = DispatchedMask<$mask<S>>;
+            type Double = $double<S>;
+
+            shared_lane_operations!($vector, $mask, f32);
+
+            #[inline(always)]
+            fn load(token: S, array: &[f32; $count]) -> Self {
+                SimdBase::load_array_ref(token, array)
+            }
+
+            #[inline(always)]
+            fn store(self) -> [f32; $count] {
+                self.to_array()
+            }
+
+            #[inline(always)]
+            fn filter_mul_add(self, factor: Self, addend: Self) -> Self {
+                SimdFloat::mul_add(self, factor, addend)
+            }
+
+            #[inline(always)]
+            fn filter_max(self, other: Self) -> Self {
+                SimdBase::max(self, other)
+            }
+
+            #[inline(always)]
+            fn widen(self, part: usize) -> $double<S> {
+                let (low, high) = SimdWiden::widen(self);
+                if part == 0 { low } else { high }
+            }
+
+            #[inline(always)]
+            fn narrow(array: &mut [f32; $count], part: usize, doubles: $double<S>) {
+                let singles = SimdNarrow::narrow(doubles, doubles).to_array();
+                let first = part * $half % $count;
+                array[first..first + $half].copy_from_slice(&singles[..$half]);
+            }
+
+            #[inline(always)]
+            fn out_of_line<R>(token: S, work: impl FnOnce() -> R) -> R {
+                vectorized_call(token, work)
+            }
+        }
+
+        impl<S: Simd> DoubleLanes for $double<S> {
+            const COUNT: usize = $half;
+            type Token = S;
+            type Mask = DispatchedMask<$double_mask<S>>;
+
+            shared_lane_operations!($double, $double_mask, f64);
+        }
+    };
+}
+
+dispatched_lanes!(f32x4, mask32x4, 4, f64x2, mask64x2, 2);
+dispatched_lanes!(f32x8, mask32x8, 8, f64x4, mask64x4, 4);
+dispatched_lanes!(f32x16, mask32x16, 16, f64x8, mask64x8, 8);
