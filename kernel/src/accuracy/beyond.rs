@@ -36,7 +36,9 @@ impl<L: Lanes> Beyond<L> {
     pub(super) fn limit(&self, rays: &RayLanes<L>, center: [L; 3], radius: L, limit: L) -> L::Mask {
         let p = axes!(i => center[i] - rays.origin[i]);
         let b = dot(rays.direction, p);
-        let end = limit * self.a;
+        // Among subnormals the next t may be twice the last, more than any margin: past the limit
+        // by one of them is not past it yet.
+        let end = (limit + b.like(f32::MIN_POSITIVE)) * self.a;
         let reach = radius * self.length;
         let size = (p[0].abs() + p[1].abs() + p[2].abs()) * self.length + reach + end.abs();
         (end + b.like(8.0 * f32::EPSILON) * size + b.like(LEAST_A)).lt(b - reach)
