@@ -34,6 +34,13 @@ impl<L: Lanes> Beyond<L> {
     /// is added for what underflows. What overflows makes the bound infinite or NaN: not told.
     #[inline(always)]
     pub(super) fn limit(&self, rays: &RayLanes<L>, center: [L; 3], radius: L, limit: L) -> L::Mask {
+        let [end, size, entry] = self.terms(rays, center, radius, limit);
+        (end + end.like(MARGIN) * size + end.like(LEAST_A)).lt(entry)
+    }
+
+    /// limit a, the sum of the three magnitudes, and b - r |d|.
+    #[inline(always)]
+    fn terms(&self, rays: &RayLanes<L>, center: [L; 3], radius: L, limit: L) -> [L; 3] {
         let p = axes!(i => center[i] - rays.origin[i]);
         let b = dot(rays.direction, p);
         // Among subnormals the next t may be twice the last, more than any margin: past the limit
@@ -41,9 +48,14 @@ impl<L: Lanes> Beyond<L> {
         let end = (limit + b.like(f32::MIN_POSITIVE)) * self.a;
         let reach = radius * self.length;
         let size = (p[0].abs() + p[1].abs() + p[2].abs()) * self.length + reach + end.abs();
-        (end + b.like(8.0 * f32::EPSILON) * size + b.like(LEAST_A)).lt(b - reach)
+        [end, size, b - reach]
     }
 }
 
+/// 2^-20.
+const MARGIN: f32 = 8.0 * f32::EPSILON;
 /// 2^-120.
 const LEAST_A: f32 = 1.0 / (1u128 << 120) as f32;
+
+#[cfg(test)]
+mod worst;
