@@ -101,10 +101,11 @@ pub trait Lanes:
         Self::splat(self.token(), value)
     }
 
-    /// The magnitude; NaN for NaN.
+    /// The magnitude, +0 for -0; NaN for NaN.
     #[inline(always)]
     fn abs(self) -> Self {
-        Self::select(self.lt(self.like(0.0)), -self, self)
+        let zero = self.like(0.0);
+        Self::select(self.le(zero), zero - self, self)
     }
 }
 
@@ -144,10 +145,11 @@ pub trait DoubleLanes:
         Self::splat(self.token(), value)
     }
 
-    /// The magnitude; NaN for NaN.
+    /// The magnitude, +0 for -0; NaN for NaN.
     #[inline(always)]
     fn abs(self) -> Self {
-        Self::select(self.lt(self.like(0.0)), -self, self)
+        let zero = self.like(0.0);
+        Self::select(self.le(zero), zero - self, self)
     }
 }
 
@@ -156,3 +158,4 @@ pub trait DoubleLanes:
 fn plain_call<R>(work: impl FnOnce() -> R) -> R {
     work()
 }
+
