@@ -159,3 +159,5 @@ fn plain_call<R>(work: impl FnOnce() -> R) -> R {
     work()
 }
 
+#[cfg(test)]
+mod bit_for_bit;

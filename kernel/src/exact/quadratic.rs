@@ -194,3 +194,8 @@ fn midpoint(low: f32, high: f32) -> f64 {
 }
 
 const TWO_128: f64 = 2.0 * (1u128 << 127) as f64;
+
+#[cfg(test)]
+mod by_hand;
+#[cfg(test)]
+mod flops;

@@ -12,7 +12,7 @@
 //! |---|---|---|
 //! | 5u (A + L) | fails, 2.39 | through the centre, A is all there is |
 //! | 8u X G | holds, 0.63 | where X is far below G, the products of x cancel, so that their difference is exact, and M is at most G/2: 2u X G remain; where X is not, 5u L helps |
-//! | 32u^2 G^2 | holds, 0.68 | x computed as zero is off by at most u G in truth: u^2 G^2; what is larger shows in X |
+//! | 32u^2 G^2 | holds, 0.62 | x computed as zero is off by at most u G in truth: u^2 G^2; what is larger shows in X |
 //! | 5u G | holds, 0.43 | E i is at least 5u (A + L) / (a sqrt D), about as large wherever b is |
 //! | 2u sqrt D | holds, 0.33 | E i again, at least 5u sqrt D / a |
 //! | 11u \|t\| | holds, 0.71 | \|t\| is at most G / a and half a chord, which 5u G and E i have counted |
