@@ -41,7 +41,7 @@ pub fn float_environment_is_sound() -> bool {
 #[cfg(test)]
 mod tests {
     // The answers that are false need another environment, which only unsafe code can set: see
-    // tests/stack.
+    // tests/machine.
     #[test]
     fn the_machine_that_runs_this_is_sound() {
         assert!(super::float_environment_is_sound());
