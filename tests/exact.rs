@@ -202,7 +202,7 @@ fn expansions_and_filter_agree_on_a_lattice_rich_in_tangents() {
         done += 16;
     }
     println!("lattice: {done} cases, {tangents} tangents, {hits} hits, 0 mismatches");
-    assert!(tangents * 10 > done, "{tangents} tangents of {done}: not rich in them");
+    assert!(tangents * 25 > done, "{tangents} tangents of {done}: not rich in them");
 }
 
 #[test]
