@@ -58,7 +58,7 @@ use crate::{DoubleLanes, LaneMask, Lanes, Ray, Sphere};
 ///
 /// Cost: as [`Fast`](super::Fast) for what the filter rules out; some 100 double-precision
 /// operations a candidate. A lane that these cannot decide costs some hundred to some thousand
-/// more, on the stack: never above 26,000, and 11,300 is the most that a search finds (2.7 us on a
+/// more, in 1 KiB of stack: never above 26,000, and 11,300 is the most that a search finds (2.7 us on a
 /// server's core).
 #[derive(Clone, Copy, Debug)]
 pub struct Exact;

@@ -39,6 +39,7 @@
 
 use super::expansion::{Expansion, Float};
 use core::cmp::Ordering;
+use core::marker::PhantomData;
 
 /// Which of the two roots.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,10 +53,11 @@ pub(crate) enum Root {
 /// A line that meets a sphere, and estimates of its quadratic.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Quadratic<F> {
-    origin: [F; 3],
-    direction: [F; 3],
-    center: [F; 3],
-    radius: F,
+    origin: [f32; 3],
+    direction: [f32; 3],
+    center: [f32; 3],
+    radius: f32,
+    float: PhantomData<F>,
     /// t1 and t2, each within 10 u of itself.
     estimates: [f64; 2],
 }
@@ -70,21 +72,15 @@ impl<F: Float> Quadratic<F> {
         center: [f32; 3],
         radius: f32,
     ) -> Option<Self> {
-        let exactly = |single| F::from(f64::from(single));
-        let line = Self {
-            origin: origin.map(exactly),
-            direction: direction.map(exactly),
-            center: center.map(exactly),
-            radius: exactly(radius),
-            estimates: [0.0; 2],
-        };
+        let line =
+            Self { origin, direction, center, radius, float: PhantomData, estimates: [0.0; 2] };
         let discriminant = line.discriminant()?;
 
         // q = b + sign(b) sqrt D does not cancel: 4 u of b, 3.5 u of the root, 1 u of the sum.
         // a is within 2 u, k within 4 u; so q / a within 9 u, k / q within 10 u.
         let root = libm::sqrt(discriminant);
         let (b, k) = (line.half_slope(), line.power());
-        let a: f64 = line.direction.iter().map(|&d| -> f64 { (d * d).into() }).sum();
+        let a: f64 = direction.iter().map(|&d| f64::from(d) * f64::from(d)).sum();
         let q = if b < 0.0 { b - root } else { b + root };
         // q is zero only where b and D are, and then so is k: both roots are zero.
         let other = if k == 0.0 { 0.0 } else { k / q };
@@ -115,18 +111,21 @@ impl<F: Float> Quadratic<F> {
     /// D = a r^2 - |d x p|^2, estimated; nothing where it is negative.
     #[inline(never)]
     fn discriminant(&self) -> Option<f64> {
-        let Self { origin: o, direction: d, center: c, radius: r, .. } = *self;
+        let o = |i: usize| exactly::<F>(self.origin[i]);
+        let d = |i: usize| exactly::<F>(self.direction[i]);
+        let c = |i: usize| exactly::<F>(self.center[i]);
+        let r = exactly::<F>(self.radius);
         let mut sum = Expansion::<F, 66>::zero();
         for (i, j) in [(1, 2), (2, 0), (0, 1)] {
             let mut component = Expansion::<F, 4>::zero();
-            component.add(d[i] * c[j]);
-            component.add(-(d[i] * o[j]));
-            component.add(-(d[j] * c[i]));
-            component.add(d[j] * o[i]);
+            component.add(d(i) * c(j));
+            component.add(-(d(i) * o(j)));
+            component.add(-(d(j) * c(i)));
+            component.add(d(j) * o(i));
             sum.add_square(component.terms());
         }
-        for d in d {
-            sum.add_product(d * d, -(r * r));
+        for i in 0..3 {
+            sum.add_product(d(i) * d(i), -(r * r));
         }
         // So far the sum is -D.
         (sum.sign() != Ordering::Greater).then(|| -sum.estimate())
@@ -137,8 +136,8 @@ impl<F: Float> Quadratic<F> {
     fn half_slope(&self) -> f64 {
         let mut sum = Expansion::<F, 6>::zero();
         for i in 0..3 {
-            sum.add(self.direction[i] * self.center[i]);
-            sum.add(-(self.direction[i] * self.origin[i]));
+            sum.add(exactly::<F>(self.direction[i]) * exactly::<F>(self.center[i]));
+            sum.add(-(exactly::<F>(self.direction[i]) * exactly::<F>(self.origin[i])));
         }
         sum.estimate()
     }
@@ -149,28 +148,28 @@ impl<F: Float> Quadratic<F> {
         let mut sum = Expansion::<F, 19>::zero();
         for i in 0..3 {
             let mut component = Expansion::<F, 2>::zero();
-            component.add(self.center[i]);
-            component.add(-self.origin[i]);
+            component.add(exactly::<F>(self.center[i]));
+            component.add(-exactly::<F>(self.origin[i]));
             sum.add_square(component.terms());
         }
-        sum.add(-(self.radius * self.radius));
+        sum.add(-(exactly::<F>(self.radius) * exactly::<F>(self.radius)));
         sum.estimate()
     }
 
     /// How a root compares with `t`, a number of at most 25 significant bits.
     #[inline(never)]
     fn compare_with(&self, t: f64, root: Root) -> Ordering {
-        let Self { origin: o, direction: d, center: c, radius: r, .. } = *self;
+        let r = exactly::<F>(self.radius);
         let (mut f, mut g) = (Expansion::<F, 37>::zero(), Expansion::<F, 18>::zero());
         f.add(-(r * r));
         for i in 0..3 {
             let mut component = Expansion::<F, 3>::zero();
-            component.add(F::from(t) * d[i]);
-            component.add(-c[i]);
-            component.add(o[i]);
+            component.add(F::from(t) * exactly(self.direction[i]));
+            component.add(-exactly::<F>(self.center[i]));
+            component.add(exactly(self.origin[i]));
             f.add_square(component.terms());
             for &term in component.terms() {
-                g.add_product(d[i], term);
+                g.add_product(exactly(self.direction[i]), term);
             }
         }
         let outward = if root == Root::Near { Ordering::Less } else { Ordering::Greater };
@@ -182,6 +181,10 @@ impl<F: Float> Quadratic<F> {
             _ => outward,
         }
     }
+}
+
+fn exactly<F: Float>(single: f32) -> F {
+    F::from(f64::from(single))
 }
 
 /// The number half-way between neighbours, exactly; an infinity stands for the `f32` that would
