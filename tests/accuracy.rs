@@ -59,6 +59,18 @@ fn stable_decides_right_in_its_domain() {
     }
 }
 
+/// What `Exact` promises for every input.
+#[test]
+fn exact_is_exact_everywhere() {
+    let rows: Vec<_> = TABLE.iter().filter(|row| row.tier == "exact").collect();
+    assert_eq!(rows.len(), TABLE.len() / 3);
+    for row in rows {
+        let Summary { wrong_hits, wrong_misses, wrong_roots, max, .. } = row.summary;
+        assert_eq!([wrong_hits, wrong_misses, wrong_roots], [0; 3], "{}", row.regime);
+        assert_eq!(max, 0, "{}", row.regime);
+    }
+}
+
 #[test]
 fn kept_cases_have_the_oracle_s_answers() {
     for (index, kept) in kept::parse(&kept::read()).iter().enumerate() {

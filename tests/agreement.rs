@@ -3,7 +3,7 @@
 
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
-use spherule_kernel::{Hit, Ray, Sphere};
+use spherule_kernel::{Hit, Ray, Sphere, Vec3};
 use spherule_tests::case::Case;
 use spherule_tests::doors::{DOORS, Door};
 use spherule_tests::inputs::{self, Scene};
@@ -85,6 +85,11 @@ proptest! {
     }
 
     #[test]
+    fn lists_are_their_spheres_in_every_size(scene in inputs::sized_scene()) {
+        check_scene(&scene)?;
+    }
+
+    #[test]
     fn lists_are_their_spheres_for_any_bits(scene in inputs::scene(inputs::wild)) {
         check_scene(&scene)?;
     }
@@ -162,6 +167,40 @@ fn neighbours_change_nothing() {
                     door.lanes
                 );
             }
+        }
+    }
+}
+
+/// Found by `lists_are_their_spheres_in_every_size`: with d 2^-38 long, a c is half of the least
+/// number, `Fast` computes D = 0 and calls a miss a hit; the filter must leave that to it.
+#[test]
+fn the_filter_keeps_what_underflow_makes_a_hit() {
+    let (d, r) = (2.0_f32.powi(-38), 2.0_f32.powi(-37));
+    let numbers = [0.0, 0.0, 0.0, d, 0.0, 0.0, 0.0, f32::INFINITY, 0.0, -r, -r, r];
+    let case = Case::from_numbers(numbers);
+    for door in DOORS {
+        let hit = door.nearest_one(&case.ray, &[case.sphere]);
+        let expected = t_bits((door.pairs)(&[case])[0]);
+        assert_eq!(t_bits(hit.map(|hit| hit.t)), expected, "{} in {}", door.tier, door.lanes);
+    }
+}
+
+/// Found by `lists_are_their_spheres_in_every_size`: lengths about 2^-75, whose squares underflow,
+/// and a nearer sphere, by an ulp, in the second group of four.
+#[test]
+fn a_nearer_sphere_of_a_later_group_is_kept_where_squares_underflow() {
+    let size = 2.0_f32.powi(-76);
+    let at = |z: f32, radius: f32| Sphere { center: Vec3::new(0.0, 0.0, z), radius };
+    let ray = Ray { t_min: f32::NEG_INFINITY, ..Ray::new(Vec3::ZERO, Vec3::new(0.0, 0.0, 2.0)) };
+    let mut spheres = [at(0.0, 0.0); 6];
+    spheres[4] = at((-1.5 * size).next_up(), (2.0 * size).next_up());
+    spheres[5] = at(-1.5 * size, 2.5 * size);
+    let reordered = [4, 0, 1, 2, 3, 5].map(|index| spheres[index]);
+    for spheres in [spheres, reordered] {
+        for door in DOORS {
+            let hit = hit_bits(door.nearest_one(&ray, &spheres));
+            let expected = hit_bits(by_rule_5(&door, &ray, &spheres));
+            assert_eq!(hit, expected, "{} in {} lanes", door.tier, door.lanes);
         }
     }
 }

@@ -237,12 +237,21 @@ fn origin_on_the_surface() {
 
 #[test]
 fn zero_has_no_sign() {
-    // b = -0 and D = 0: the root is -0 before it is told not to be.
-    let case = straight(|ray, _| (ray.origin, ray.direction) = (Vec3::X, -Vec3::Z));
-    answers(&case, Some(0.0));
-    for door in Door::references() {
-        let roots = (door.roots)(&case.ray, &case.sphere).expect("a tangent");
-        assert_eq!(roots.map(f32::to_bits), [0, 0], "{}", door.tier);
+    // Along the surface from where it starts: b and the root are -0 for some signs of zeros.
+    let zeros = [0.0, -0.0];
+    for origin in [Vec3::X, -Vec3::X, Vec3::Y, -Vec3::Y] {
+        for (x, y, z) in [(0, 0, 1.0), (0, 1, 1.0), (1, 0, 1.0), (1, 1, 1.0)]
+            .into_iter()
+            .flat_map(|(x, y, z)| [(x, y, z), (x, y, -z)])
+        {
+            let direction = Vec3::new(zeros[x], zeros[y], z);
+            let case = straight(|ray, _| (ray.origin, ray.direction) = (origin, direction));
+            answers(&case, Some(0.0));
+            for door in Door::references() {
+                let roots = (door.roots)(&case.ray, &case.sphere).expect("a tangent");
+                assert_eq!(roots.map(f32::to_bits), [0, 0], "{}: {case:?}", door.tier);
+            }
+        }
     }
     hits_at(0.0, |ray, _| (ray.origin, ray.t_max) = (-Vec3::Z, -0.0));
     hits_at(0.0, |ray, _| (ray.origin, ray.t_min) = (Vec3::Z, -0.0));

@@ -43,6 +43,24 @@ fn lists_of_any_length() {
     }
 }
 
+/// A ray that is done does not end the search for its neighbours.
+#[test]
+fn each_lane_meets_its_own_sphere() {
+    let count = 40;
+    let at = |index: usize| Vec3::new(10.0 * index as f32, 0.0, 0.0);
+    let spheres: Vec<Sphere> = (0..count).map(|i| Sphere { center: at(i), ..SPHERE }).collect();
+    let rays: Vec<Ray> =
+        (0..count).map(|i| Ray { origin: RAY.origin + at(i), ..RAY }).rev().collect();
+    let expected: Vec<Option<Hit>> =
+        (0..count as u32).rev().map(|sphere| Some(Hit { t: 2.0, sphere })).collect();
+    for door in DOORS {
+        let hits = (door.nearest)(&rays, &spheres);
+        assert_eq!(hits, expected, "{} in {} lanes", door.tier, door.lanes);
+        let met = (door.any)(&rays, &spheres);
+        assert_eq!(met, vec![true; count], "{} in {} lanes", door.tier, door.lanes);
+    }
+}
+
 #[test]
 fn a_million_spheres_in_one_place() {
     let spheres = vec![SPHERE; 1_000_000];

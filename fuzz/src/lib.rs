@@ -1,1 +1,13 @@
-//! Placeholder.
+//! What the fuzz target does, as a library, so that it is tested without a fuzzer.
+//!
+//! | room | holds |
+//! |---|---|
+//! | [`geometry`] | how bytes become rays and spheres that are worth intersecting |
+//! | [`agreement`] | lanes against one lane, and the rules of the contract on a tier's own answers |
+//! | [`promise`] | a tier's roots against the exact ones, within what the tier promises |
+
+#![forbid(unsafe_code)]
+
+pub mod agreement;
+pub mod geometry;
+pub mod promise;

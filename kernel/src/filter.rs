@@ -42,12 +42,14 @@
 //! |q| <= |p|, is believed only where it exceeds 2^-5 (|q|^2 + r^2), and its second is within
 //! 2^-40 (|p|^2 + r^2). Hence kappa = 104 u: a tier's hit passes.
 //!
-//! The table holds where nothing over- or underflows. That is so for |centre|, r, |K|, |origin|
-//! up to 2^40 and a in [2^-100, 2^100]: squares stay below 2^84, and what underflows in the
-//! smallest of them is below kappa times the least |c|^2 + r^2 that is counted, 2^-60. A sphere
-//! outside that range passes always (w = +inf), as does a ray (threshold -inf); an invalid sphere
-//! never does, and an inactive ray only beside a sphere out of range. Within those rules no NaN
-//! can arise, so the maximum of four means what it says.
+//! The table holds where the filter neither over- nor underflows, and `Fast` does not underflow
+//! (where it overflows it finds no finite t). That is so for |centre|, r, |K|, |origin| up to 2^40
+//! and a in [2^-60, 2^100]: the filter's squares stay below 2^84; what underflows in its smallest
+//! is below 2^-148, and kappa times the least |c|^2 + r^2 that is counted, 2^-60, above 2^-78; what
+//! underflows in the D of `Fast` is below 2^-148, and a times that above 2^-138. A sphere outside
+//! that range passes always (w = +inf), as does a ray (threshold -inf); an invalid sphere never
+//! does, and an inactive ray only beside a sphere out of range. Within those rules no NaN can
+//! arise, so the maximum of four means what it says.
 
 use crate::accuracy::RayLanes;
 use crate::axes::{axes, dot};
@@ -66,8 +68,11 @@ const KAPPA: f32 = 104.0 / 16_777_216.0;
 const LARGEST: f32 = 1_099_511_627_776.0;
 /// 2^-60: no sphere counts as smaller than this squared size.
 const LEAST_SIZE: f32 = 1.0 / (1_073_741_824.0 * 1_073_741_824.0);
-/// 2^100: above it, or below its inverse, a squared direction is not judged.
+/// 2^100: above it a squared direction is not judged.
 const LONGEST: f32 = LARGEST * LARGEST * 1_048_576.0;
+/// 2^-60: below it a squared direction is not judged. (2^-100 dropped hits that `Fast` owes to
+/// underflow.)
+const SHORTEST: f32 = LEAST_SIZE;
 
 /// Four spheres as the filter reads them.
 #[derive(Clone, Copy, Debug)]
@@ -173,10 +178,8 @@ impl<L: Lanes> FilterRays<L> {
         let a = dot(rays.direction, rays.direction);
         let far = rays.origin[0].abs().filter_max(rays.origin[1].abs());
         let far = far.filter_max(rays.origin[2].abs());
-        let judged = rays.live
-            & a.like(1.0 / LONGEST).le(a)
-            & a.le(a.like(LONGEST))
-            & far.le(a.like(LARGEST));
+        let judged =
+            rays.live & a.like(SHORTEST).le(a) & a.le(a.like(LONGEST)) & far.le(a.like(LARGEST));
         let (zero, one) = (a.like(0.0), a.like(1.0));
         let per_length = one / L::select(judged, a, one).sqrt();
         let direction = axes!(i => L::select(judged, rays.direction[i] * per_length, zero));

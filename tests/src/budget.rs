@@ -19,7 +19,7 @@ use crate::oracle;
 use crate::regimes::REGIMES;
 use crate::tally::{Summary, Tally};
 use crate::vectors;
-use spherule_kernel::{Accuracy, Fast, Spheres, Stable, nearest_hit};
+use spherule_kernel::{Accuracy, Exact, Fast, Spheres, Stable, nearest_hit};
 use std::fmt::Write;
 
 /// Where the cases of a row come from.
@@ -68,7 +68,11 @@ pub struct Fresh {
 type Tier = (&'static str, fn(&Case) -> Option<f32>);
 
 /// Every tier that has a budget.
-const TIERS: [Tier; 2] = [(Fast::NAME, answer::<Fast>), (Stable::NAME, answer::<Stable>)];
+const TIERS: [Tier; 3] = [
+    (Fast::NAME, answer::<Fast>),
+    (Stable::NAME, answer::<Stable>),
+    (Exact::NAME, answer::<Exact>),
+];
 
 /// The tier's answer, by the door that users take.
 ///

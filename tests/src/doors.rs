@@ -3,8 +3,8 @@
 
 use crate::case::Case;
 use spherule_kernel::{
-    Accuracy, Fast, Hit, HitPacket, Lanes, Ray, RayPacket, Sphere, SpherePacket, Spheres, Stable,
-    any, f32x4, f32x8, f32x16, nearest, pairs, roots,
+    Accuracy, Exact, Fast, Hit, HitPacket, Lanes, Ray, RayPacket, Sphere, SpherePacket, Spheres,
+    Stable, any, f32x4, f32x8, f32x16, nearest, pairs, roots,
 };
 
 /// A tier in a lane width.
@@ -25,7 +25,7 @@ pub struct Door {
 }
 
 /// All of them; of each tier the one-lane form, which is the reference, first.
-pub const DOORS: [Door; 8] = [
+pub const DOORS: [Door; 12] = [
     door::<Fast, f32>(),
     door::<Fast, f32x4>(),
     door::<Fast, f32x8>(),
@@ -34,6 +34,10 @@ pub const DOORS: [Door; 8] = [
     door::<Stable, f32x4>(),
     door::<Stable, f32x8>(),
     door::<Stable, f32x16>(),
+    door::<Exact, f32>(),
+    door::<Exact, f32x4>(),
+    door::<Exact, f32x8>(),
+    door::<Exact, f32x16>(),
 ];
 
 const fn door<A: Accuracy, L: Lanes<Token = ()>>() -> Door {

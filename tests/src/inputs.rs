@@ -5,12 +5,13 @@
 //! anywhere; and from the [regimes](crate::regimes).
 
 use crate::case::{Case, HexRay, HexSphere};
+use crate::random::power_of_two;
 use crate::regimes::REGIMES;
 use crate::ulp::step;
 use proptest::prelude::*;
 use proptest::sample::select;
 use proptest::test_runner::Config;
-use spherule_kernel::{Ray, Sphere};
+use spherule_kernel::{Ray, Sphere, Vec3};
 use std::{env, fmt};
 
 /// `cases` cases a test, or as many as the environment variable `PROPTEST_CASES` says; failures
@@ -164,6 +165,29 @@ pub fn scene<S: Strategy<Value = Case>>(cases: impl Fn() -> S) -> impl Strategy<
             rays: rays.iter().map(|case| case.ray).collect(),
             spheres: spheres.iter().map(|case| case.sphere).collect(),
         }
+    })
+}
+
+/// A scene near the lattice with all lengths times one power of two, directions times another:
+/// over and under all that filters and tiers guard against.
+pub fn sized_scene() -> impl Strategy<Value = Scene> {
+    let exponents = (-140_i64..=120, -140_i64..=120);
+    (scene(walked), exponents).prop_map(|(mut scene, (lengths, directions))| {
+        // In double precision, where the powers are normal numbers.
+        let scale = |v: Vec3, exponent: i64| {
+            Vec3::from_array(v.to_array().map(|x| (f64::from(x) * power_of_two(exponent)) as f32))
+        };
+        for ray in &mut scene.rays {
+            ray.origin = scale(ray.origin, lengths);
+            ray.direction = scale(ray.direction, directions);
+            let bound = |t| (f64::from(t) * power_of_two(lengths - directions)) as f32;
+            (ray.t_min, ray.t_max) = (bound(ray.t_min), bound(ray.t_max));
+        }
+        for sphere in &mut scene.spheres {
+            sphere.center = scale(sphere.center, lengths);
+            sphere.radius = (f64::from(sphere.radius) * power_of_two(lengths)) as f32;
+        }
+        scene
     })
 }
 

@@ -1,5 +1,8 @@
 //! Character cells: what a terminal shows, before any escape sequence.
 
+pub mod ascii;
+pub mod half;
+
 /// A colour as a terminal names it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Color {

@@ -1,8 +1,15 @@
 //! From a scene to cells: the whole pipeline in one page.
 
-use crate::cells::CellGrid;
+use crate::cells::{CellGrid, ascii, half};
+use crate::palette::Palette;
+use crate::picture::Picture;
+use crate::samples::CellSamples;
 use crate::scene::Scene;
+use crate::shade::{Shader, SurfacePoint};
 use crate::view::View;
+use spherule_kernel::{
+    Accuracy, Camera, Fast, HitPacket, Lanes, RayPacket, Spheres, Stable, f32x16, nearest,
+};
 
 /// Which tier decides hits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,8 +66,190 @@ pub struct Drawn {
     pub rays: u64,
 }
 
+/// The lanes that pictures are traced in. Sixteen are the fastest also where a register holds four:
+/// `marbles` at 200 x 60 cells takes 4.6 ms, with eight 5.0, with four 5.5 (Stable, SSE2).
+type Lane = f32x16;
+
+/// How many rows of cells are traced at a time: enough rays for the kernel to share the
+/// preparation of the spheres among, few enough to stay in the cache, and a multiple of a
+/// packet's height whatever the samples.
+const BAND: u16 = 4;
+
 /// Draws `scene` as `view` sees it into `columns` x `rows` cells.
+///
+/// Who draws more than once keeps a [`Renderer`].
 #[must_use]
-pub fn draw(_scene: &Scene, _view: &View, _style: &Style, columns: u16, rows: u16) -> Drawn {
-    Drawn { cells: CellGrid::new(columns, rows), rays: 0 }
+pub fn draw(scene: &Scene, view: &View, style: &Style, columns: u16, rows: u16) -> Drawn {
+    Renderer::new().draw(scene, view, style, columns, rows)
+}
+
+/// The camera of a picture and the size of its grid of samples: sample `(ix, iy)` is the ray
+/// `camera.get_ray(ix, iy)`.
+#[must_use]
+pub fn sample_grid(view: &View, style: &Style, columns: u16, rows: u16) -> (Camera, u32, u32) {
+    let samples = CellSamples::new(style);
+    let (width, height) = (u32::from(columns) * samples.across, u32::from(rows) * samples.down);
+    let aspect = picture_aspect(style, columns, rows);
+    (view.camera(width, height, aspect), width, height)
+}
+
+/// Width over height of a picture of `columns` x `rows` cells; 1 where it has no area.
+#[must_use]
+pub fn picture_aspect(style: &Style, columns: u16, rows: u16) -> f64 {
+    if columns == 0 || rows == 0 {
+        return 1.0;
+    }
+    f64::from(columns) * f64::from(style.cell_aspect) / f64::from(rows)
+}
+
+/// Draws, and keeps its memory from frame to frame.
+#[derive(Debug)]
+pub struct Renderer {
+    rays: Vec<RayPacket<Lane>>,
+    hits: Vec<HitPacket<Lane>>,
+    shader: Shader<Lane>,
+    picture: Picture,
+    palette: Palette,
+}
+
+impl Default for Renderer {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Renderer {
+    /// Without memory yet.
+    #[must_use]
+    pub fn new() -> Self {
+        Self {
+            rays: Vec::new(),
+            hits: Vec::new(),
+            shader: Shader::default(),
+            picture: Picture::default(),
+            palette: Palette::new(ColorDepth::Never),
+        }
+    }
+
+    /// Draws `scene` as `view` sees it into `columns` x `rows` cells.
+    #[must_use]
+    pub fn draw(
+        &mut self,
+        scene: &Scene,
+        view: &View,
+        style: &Style,
+        columns: u16,
+        rows: u16,
+    ) -> Drawn {
+        if self.palette.depth() != style.depth {
+            self.palette = Palette::new(style.depth);
+        }
+        match style.accuracy {
+            AccuracyChoice::Fast => self.draw_as::<Fast>(scene, view, style, columns, rows),
+            AccuracyChoice::Stable => self.draw_as::<Stable>(scene, view, style, columns, rows),
+        }
+    }
+
+    fn draw_as<A: Accuracy>(
+        &mut self,
+        scene: &Scene,
+        view: &View,
+        style: &Style,
+        columns: u16,
+        rows: u16,
+    ) -> Drawn {
+        let (camera, width, height) = sample_grid(view, style, columns, rows);
+        let samples = CellSamples::new(style);
+        let mut drawn = Drawn {
+            cells: CellGrid::new(columns, rows),
+            rays: u64::from(width) * u64::from(height),
+        };
+        if columns == 0 {
+            return drawn;
+        }
+        for first in (0..rows).step_by(usize::from(BAND)) {
+            let band = BAND.min(rows - first);
+            let top = u32::from(first) * samples.down;
+            let bottom = top + u32::from(band) * samples.down;
+
+            // Rays, and what they meet.
+            self.aim(&camera, width, top..bottom, height);
+            self.hits.resize(self.rays.len(), HitPacket::none());
+            nearest::<A, Lane>((), &self.rays, scene.spheres(), &mut self.hits);
+
+            // Light.
+            let pixel_rows = u32::from(band) * samples.pixels;
+            self.picture.reset(usize::from(columns), pixel_rows as usize);
+            self.gather(scene, samples, width, top..bottom);
+            drawn.rays += self.shader.light::<A>(scene, &mut self.picture);
+
+            // Characters.
+            let cells = drawn.cells.cells_mut();
+            for row in 0..band {
+                let start = usize::from(first + row) * usize::from(columns);
+                let cells = &mut cells[start..start + usize::from(columns)];
+                let pixels = |row: u16| self.picture.row(usize::from(row));
+                match style.charset {
+                    Charset::Ascii => ascii::write_row(pixels(row), &mut self.palette, cells),
+                    Charset::Half => {
+                        let (upper, lower) = (pixels(2 * row), pixels(2 * row + 1));
+                        half::write_row(upper, lower, first + row, &mut self.palette, cells);
+                    }
+                }
+            }
+        }
+        drawn
+    }
+
+    /// Fills the packets with the tiles of some rows of samples, row of tiles by row of tiles.
+    fn aim(&mut self, camera: &Camera, width: u32, rows: std::ops::Range<u32>, height: u32) {
+        let (across, down) = Camera::tile::<Lane>();
+        self.rays.clear();
+        for iy in rows.step_by(down as usize) {
+            for ix in (0..width).step_by(across as usize) {
+                self.rays.push(camera.packet(ix, iy, width, height));
+            }
+        }
+    }
+
+    /// Hands what the rays met to the shader, and the background to the picture where they met
+    /// nothing; in the order of [`Renderer::aim`].
+    fn gather(
+        &mut self,
+        scene: &Scene,
+        samples: CellSamples,
+        width: u32,
+        rows: std::ops::Range<u32>,
+    ) {
+        let (across, down) = Camera::tile::<Lane>();
+        let tiles = width.div_ceil(across);
+        let share = 1.0 / samples.per_pixel() as f32;
+        let background = share * scene.background.to_linear();
+        let spheres: Spheres<'_> = scene.spheres();
+        let columns = width / samples.across;
+        let pixel_height = samples.down / samples.pixels;
+        for (index, (rays, hits)) in self.rays.iter().zip(&self.hits).enumerate() {
+            let tile_x = index as u32 % tiles * across;
+            let tile_y = index as u32 / tiles * down;
+            for lane in 0..Lane::COUNT as u32 {
+                let (x, y) = (tile_x + lane % across, tile_y + lane / across);
+                if x >= width || rows.start + y >= rows.end {
+                    continue;
+                }
+                let pixel = y / pixel_height * columns + x / samples.across;
+                let met = hits.hit(lane as usize).and_then(|hit| {
+                    let index = hit.sphere as usize;
+                    Some((hit.t, spheres.get(index)?, scene.colors().get(index)?))
+                });
+                let Some((t, sphere, color)) = met else {
+                    self.picture.add(pixel as usize, background);
+                    continue;
+                };
+                let color = share * color.to_linear();
+                self.shader.add(scene, &mut self.picture, pixel, color, || {
+                    SurfacePoint::new(&rays.ray(lane as usize), t, &sphere)
+                });
+            }
+        }
+    }
 }

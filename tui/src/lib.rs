@@ -1,6 +1,21 @@
 //! Spheres in a terminal.
+#![forbid(unsafe_code)]
 
+pub mod arguments;
 pub mod cells;
+pub mod color;
+pub mod color_depth;
 pub mod draw;
+pub mod encode;
+pub mod failure;
+pub mod npy;
+pub mod palette;
+pub mod picture;
+pub mod samples;
 pub mod scene;
+pub mod shade;
+pub mod show;
+pub mod terminal;
+pub mod trace;
 pub mod view;
+pub mod viewer;

@@ -1,5 +1,104 @@
-//! What there is to see.
+//! What there is to see: spheres, their colours, lights, and a first view.
+
+pub mod builtin;
+pub mod elements;
+pub mod framing;
+mod lines;
+pub mod open;
+mod read_error;
+pub mod toml;
+pub mod xyz;
+
+pub use read_error::ReadError;
+
+use crate::color::Srgb;
+use crate::view::View;
+use spherule_kernel::{Sphere, Spheres, Vec3};
+
+/// Where light comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Source {
+    /// From infinitely far.
+    Direction(
+        /// Towards the light; any length but zero.
+        Vec3,
+    ),
+    /// From a point of the scene.
+    Position(Vec3),
+}
+
+/// A light. Its brightness does not fall with distance: a scene states none but its colour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Light {
+    /// Where it comes from.
+    pub source: Source,
+    /// What a surface that faces it receives.
+    pub color: Srgb,
+}
 
 /// Spheres, lights and a first view.
-#[derive(Clone, Debug)]
-pub struct Scene {}
+///
+/// The spheres lie in arrays, coordinate by coordinate, as the kernel reads them.
+#[derive(Clone, Debug, Default)]
+pub struct Scene {
+    x: Vec<f32>,
+    y: Vec<f32>,
+    z: Vec<f32>,
+    radius: Vec<f32>,
+    colors: Vec<Srgb>,
+    labels: Vec<Option<Box<str>>>,
+    /// What is seen where no sphere is.
+    pub background: Srgb,
+    /// Whether spheres cast shadows.
+    pub shadows: bool,
+    /// None: no shading, the plain colour where a sphere is.
+    pub lights: Vec<Light>,
+    /// Where the scene wants to be seen from; none: framed automatically.
+    pub view: Option<View>,
+}
+
+impl Scene {
+    /// No spheres, no lights, a black background.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a sphere after the others.
+    pub fn push(&mut self, sphere: Sphere, color: Srgb, label: Option<&str>) {
+        self.x.push(sphere.center.x);
+        self.y.push(sphere.center.y);
+        self.z.push(sphere.center.z);
+        self.radius.push(sphere.radius);
+        self.colors.push(color);
+        self.labels.push(label.map(Into::into));
+    }
+
+    /// The spheres, as the kernel reads them.
+    #[must_use]
+    pub fn spheres(&self) -> Spheres<'_> {
+        match Spheres::new(&self.x, &self.y, &self.z, &self.radius) {
+            Ok(spheres) => spheres,
+            Err(_) => unreachable!("push keeps the lengths equal, memory keeps them below 2^32"),
+        }
+    }
+
+    /// The colours, one a sphere.
+    #[must_use]
+    pub fn colors(&self) -> &[Srgb] {
+        &self.colors
+    }
+
+    /// What sphere `index` is called; nothing where it has no label, or there is no such sphere.
+    #[must_use]
+    pub fn label(&self, index: usize) -> Option<&str> {
+        self.labels.get(index)?.as_deref()
+    }
+
+    /// The scene's own view, or one that shows all of it in a picture of `aspect`, width over
+    /// height.
+    #[must_use]
+    pub fn first_view(&self, aspect: f32) -> View {
+        self.view.unwrap_or_else(|| framing::framed(self.spheres(), aspect))
+    }
+}

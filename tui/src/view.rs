@@ -1,7 +1,8 @@
 //! Where a scene is looked at from, in the words of a person: angles and points, not vectors of a
 //! plane. A view becomes the kernel's camera when the size of the picture is known.
 
-use spherule_kernel::Vec3;
+use spherule_kernel::camera::Projection;
+use spherule_kernel::{Camera, Vec3};
 
 /// Perspective by its vertical angle, parallel by its height.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,6 +19,15 @@ pub enum Lens {
     },
 }
 
+/// A lens without its angle or height.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LensKind {
+    /// Far things look smaller.
+    Perspective,
+    /// They do not.
+    Parallel,
+}
+
 /// An eye, what it looks at, and through which lens.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
@@ -29,4 +39,241 @@ pub struct View {
     pub up: Vec3,
     /// Perspective or parallel.
     pub lens: Lens,
+}
+
+/// The least angle between line of sight and up that an orbit leaves, in radians: 1 degree.
+const POLE: f32 = 0.017;
+/// The fields of view, in degrees, that changing the projection keeps the eye in place for.
+const NATURAL_FOV: std::ops::RangeInclusive<f32> = 10.0..=90.0;
+/// The field of view, in degrees, where it does not.
+const USUAL_FOV: f32 = 40.0;
+
+impl View {
+    /// Which kind of lens it is.
+    #[must_use]
+    pub fn lens_kind(&self) -> LensKind {
+        match self.lens {
+            Lens::Perspective { .. } => LensKind::Perspective,
+            Lens::Parallel { .. } => LensKind::Parallel,
+        }
+    }
+
+    /// The height of the picture where the target is, in the units of the scene.
+    #[must_use]
+    pub fn height_at_target(&self) -> f32 {
+        match self.lens {
+            Lens::Perspective { fov } => {
+                2.0 * self.eye.distance(self.target) * (fov / 2.0).to_radians().tan()
+            }
+            Lens::Parallel { height } => height,
+        }
+    }
+
+    /// The kernel's camera for a picture of `width` x `height` samples that is `aspect` times as
+    /// wide as it is high.
+    ///
+    /// Computed in double precision and rounded once. Directions have a length of about one at
+    /// the middle of the picture. A view without a direction (the eye on the target) looks along
+    /// -z; where up is parallel to the line of sight, another is taken.
+    #[must_use]
+    pub fn camera(&self, width: u32, height: u32, aspect: f64) -> Camera {
+        let [forward, right, up] = self.axes();
+        let (lift, start) = match self.lens {
+            Lens::Perspective { fov } => ((f64::from(fov) / 2.0).to_radians().tan(), forward),
+            Lens::Parallel { height } => {
+                (f64::from(height) / 2.0, self.eye.to_array().map(f64::from))
+            }
+        };
+        let step_x = 2.0 * lift * aspect / f64::from(width);
+        let step_y = 2.0 * lift / f64::from(height);
+        let left = (f64::from(width) - 1.0) / 2.0 * step_x;
+        let top = (f64::from(height) - 1.0) / 2.0 * step_y;
+        let rounded = |vector: [f64; 3]| Vec3::from_array(vector.map(|x| x as f32));
+        Camera {
+            projection: match self.lens {
+                Lens::Perspective { .. } => Projection::Perspective { eye: self.eye },
+                Lens::Parallel { .. } => Projection::Parallel { direction: rounded(forward) },
+            },
+            corner: rounded([0, 1, 2].map(|i| start[i] - left * right[i] + top * up[i])),
+            step_x: rounded(right.map(|x| x * step_x)),
+            step_y: rounded(up.map(|x| -x * step_y)),
+        }
+    }
+
+    /// Unit vectors: the line of sight, to the right, upwards.
+    fn axes(&self) -> [[f64; 3]; 3] {
+        let difference = |a: Vec3, b: Vec3| [0, 1, 2].map(|i| f64::from(a[i]) - f64::from(b[i]));
+        let forward = unit(difference(self.target, self.eye)).unwrap_or([0.0, 0.0, -1.0]);
+        let ups = [self.up, Vec3::Y, Vec3::Z].map(|up| difference(up, Vec3::ZERO));
+        let right = ups
+            .into_iter()
+            .find_map(|up| unit(cross(forward, unit(up)?)))
+            .unwrap_or([1.0, 0.0, 0.0]);
+        [forward, right, cross(right, forward)]
+    }
+}
+
+/// The eye led around the target: `yaw` to the right around the upward axis, `pitch` upwards,
+/// both in radians. The distance is kept; it stops just before a pole.
+#[must_use]
+pub fn orbited(view: &View, yaw: f32, pitch: f32) -> View {
+    let distance = view.eye.distance(view.target);
+    let up = view.up.try_normalize().unwrap_or(Vec3::Y);
+    let Some(outward) = (view.eye - view.target).try_normalize() else { return *view };
+    // Split the way to the eye into height and heading; turn each.
+    let elevation = outward.dot(up).clamp(-1.0, 1.0).asin();
+    let heading = (outward - outward.dot(up) * up)
+        .try_normalize()
+        .unwrap_or_else(|| up.any_orthonormal_vector());
+    let side = up.cross(heading);
+    let limit = std::f32::consts::FRAC_PI_2 - POLE;
+    let elevation = (elevation + pitch).clamp(-limit, limit);
+    let turned = yaw.cos() * heading + yaw.sin() * side;
+    let outward = elevation.cos() * turned + elevation.sin() * up;
+    View { eye: view.target + distance * outward, ..*view }
+}
+
+/// What is at the target appears `factor` times as large: by going nearer in perspective, by a
+/// lower picture in parallel. A factor that is not finite and above 0, or that would leave the
+/// range of useful numbers, changes nothing.
+#[must_use]
+pub fn zoomed(view: &View, factor: f32) -> View {
+    let useful = |size: f32| factor > 0.0 && (1e-15..1e15).contains(&size);
+    match view.lens {
+        Lens::Perspective { .. } => {
+            let way = (view.eye - view.target) / factor;
+            if useful(way.length()) { View { eye: view.target + way, ..*view } } else { *view }
+        }
+        Lens::Parallel { height } => {
+            let height = height / factor;
+            if useful(height) { View { lens: Lens::Parallel { height }, ..*view } } else { *view }
+        }
+    }
+}
+
+/// The same picture at the target, through the other lens.
+///
+/// Back and forth gives the same view, except that from a parallel picture so high or low that
+/// its angle would be unnatural the eye moves instead.
+#[must_use]
+pub fn with_projection(view: &View, kind: LensKind) -> View {
+    let height = view.height_at_target();
+    match kind {
+        kind if kind == view.lens_kind() => *view,
+        LensKind::Parallel => View { lens: Lens::Parallel { height }, ..*view },
+        LensKind::Perspective => {
+            let way = view.eye - view.target;
+            let fov = 2.0 * (height / 2.0 / way.length()).atan().to_degrees();
+            if NATURAL_FOV.contains(&fov) {
+                return View { lens: Lens::Perspective { fov }, ..*view };
+            }
+            let distance = height / 2.0 / (USUAL_FOV / 2.0).to_radians().tan();
+            let outward = way.try_normalize().unwrap_or(Vec3::Z);
+            View {
+                eye: view.target + distance * outward,
+                lens: Lens::Perspective { fov: USUAL_FOV },
+                ..*view
+            }
+        }
+    }
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// The vector of length one; nothing where it has no direction, or its length is rounding noise.
+fn unit(vector: [f64; 3]) -> Option<[f64; 3]> {
+    let length = vector.iter().map(|x| x * x).sum::<f64>().sqrt();
+    (length > 1e-12 && length.is_finite()).then(|| vector.map(|x| x / length))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const VIEW: View = View {
+        eye: Vec3::new(0.0, 0.0, 5.0),
+        target: Vec3::ZERO,
+        up: Vec3::Y,
+        lens: Lens::Perspective { fov: 90.0 },
+    };
+
+    fn near(a: Vec3, b: Vec3) -> bool {
+        (a - b).abs().max_element() < 1e-5
+    }
+
+    #[test]
+    fn the_corners_of_a_perspective_picture() {
+        let camera = VIEW.camera(4, 2, 2.0);
+        assert!(near(camera.get_ray(0, 0).direction, Vec3::new(-1.5, 0.5, -1.0)));
+        assert!(near(camera.get_ray(3, 1).direction, Vec3::new(1.5, -0.5, -1.0)));
+        assert_eq!(camera.get_ray(1, 1).origin, VIEW.eye);
+    }
+
+    #[test]
+    fn the_corners_of_a_parallel_picture() {
+        let camera = View { lens: Lens::Parallel { height: 2.0 }, ..VIEW }.camera(2, 2, 1.0);
+        let ray = camera.get_ray(0, 1);
+        assert!(near(ray.origin, Vec3::new(-0.5, -0.5, 5.0)));
+        assert!(near(ray.direction, Vec3::NEG_Z));
+    }
+
+    #[test]
+    fn degenerate_views_still_make_rays() {
+        for view in [
+            View { up: Vec3::Z, ..VIEW },
+            View { up: Vec3::ZERO, ..VIEW },
+            View { eye: Vec3::ZERO, ..VIEW },
+            View { eye: Vec3::Y, up: Vec3::Y, ..VIEW },
+        ] {
+            let ray = view.camera(3, 3, 1.0).get_ray(0, 0);
+            assert!(ray.direction.is_finite() && ray.direction.length() > 0.5, "{view:?}");
+        }
+    }
+
+    #[test]
+    fn a_quarter_orbit_leads_the_eye_to_the_right() {
+        let view = orbited(&VIEW, std::f32::consts::FRAC_PI_2, 0.0);
+        assert!(near(view.eye, Vec3::new(5.0, 0.0, 0.0)), "{view:?}");
+    }
+
+    #[test]
+    fn an_orbit_stops_before_the_poles_and_keeps_its_distance() {
+        let mut view = VIEW;
+        for _ in 0..100 {
+            view = orbited(&view, 0.3, 0.3);
+        }
+        assert!((view.eye.length() - 5.0).abs() < 1e-3);
+        assert!(view.eye.y < 5.0 && view.eye.y > 4.99);
+        assert!(orbited(&view, 0.0, -9.0).eye.y < -4.99);
+    }
+
+    #[test]
+    fn zooming_in_and_out_comes_back() {
+        for lens in [Lens::Perspective { fov: 40.0 }, Lens::Parallel { height: 3.0 }] {
+            let view = View { lens, ..VIEW };
+            let nearer = zoomed(&view, 2.0);
+            assert!((nearer.height_at_target() * 2.0 - view.height_at_target()).abs() < 1e-5);
+            assert!(near(zoomed(&nearer, 0.5).eye, view.eye));
+            for factor in [0.0, -1.0, f32::NAN, f32::INFINITY, 1e-30] {
+                let same = zoomed(&view, factor);
+                assert_eq!(same, view, "{factor}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_other_projection_keeps_the_size_at_the_target() {
+        let parallel = with_projection(&VIEW, LensKind::Parallel);
+        assert!(matches!(parallel.lens, Lens::Parallel { height } if (height - 10.0).abs() < 1e-5));
+        assert_eq!(parallel.eye, VIEW.eye);
+        let back = with_projection(&parallel, LensKind::Perspective);
+        assert!((back.height_at_target() - VIEW.height_at_target()).abs() < 1e-4);
+        assert_eq!(back.eye, VIEW.eye);
+        let low = zoomed(&parallel, 100.0);
+        let moved = with_projection(&low, LensKind::Perspective);
+        assert_eq!(moved.lens, Lens::Perspective { fov: 40.0 });
+        assert!((moved.height_at_target() - low.height_at_target()).abs() < 1e-6);
+    }
 }

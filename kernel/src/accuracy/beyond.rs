@@ -2,8 +2,9 @@
 //! other, that saves most of what a tier costs.
 //!
 //! Both roots are at least b/a - r/|d|, so both are past the limit where b - r |d| > limit a. The
-//! test has a margin of 2^-20 of its terms, which also covers the few ulp that the t of `Stable`
-//! is off, in its domain; that of `Fast` may be off by anything, so `Fast` does not use it.
+//! test has a margin of 2^-20 of its terms, which also covers the 2^-22 (|p| + r) / |d| that the t
+//! of `Stable` is off where its squares do not underflow; where |p| + r might be so small, nothing
+//! is told. The t of `Fast` may be off by anything, so `Fast` does not use it.
 
 use super::RayLanes;
 use crate::Lanes;
@@ -35,10 +36,11 @@ impl<L: Lanes> Beyond<L> {
     #[inline(always)]
     pub(super) fn limit(&self, rays: &RayLanes<L>, center: [L; 3], radius: L, limit: L) -> L::Mask {
         let [end, size, entry] = self.terms(rays, center, radius, limit);
-        (end + end.like(MARGIN) * size + end.like(LEAST_A)).lt(entry)
+        let margin = end.like(MARGIN) * (size + end.abs()) + end.like(LEAST_A);
+        (end.like(LEAST_SIZE) * self.length).le(size) & (end + margin).lt(entry)
     }
 
-    /// limit a, the sum of the three magnitudes, and b - r |d|.
+    /// limit a; |p|_1 |d| + r |d|; b - r |d|.
     #[inline(always)]
     fn terms(&self, rays: &RayLanes<L>, center: [L; 3], radius: L, limit: L) -> [L; 3] {
         let p = axes!(i => center[i] - rays.origin[i]);
@@ -47,13 +49,16 @@ impl<L: Lanes> Beyond<L> {
         // by one of them is not past it yet.
         let end = (limit + b.like(f32::MIN_POSITIVE)) * self.a;
         let reach = radius * self.length;
-        let size = (p[0].abs() + p[1].abs() + p[2].abs()) * self.length + reach + end.abs();
+        let size = (p[0].abs() + p[1].abs() + p[2].abs()) * self.length + reach;
         [end, size, b - reach]
     }
 }
 
 /// 2^-20.
 const MARGIN: f32 = 8.0 * f32::EPSILON;
+/// 2^-38: below it, the squares of |p| and r might underflow in `Stable`.
+const LEAST_SIZE: f32 = 1.0 / (1u64 << 38) as f32;
+
 /// 2^-120.
 const LEAST_A: f32 = 1.0 / (1u128 << 120) as f32;
 

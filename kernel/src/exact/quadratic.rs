@@ -108,24 +108,34 @@ impl<F: Float> Quadratic<F> {
         rounded + 0.0
     }
 
+    /// c and o, axis by axis.
+    fn center_and_origin(&self) -> impl Iterator<Item = (F, F)> {
+        self.center.into_iter().zip(self.origin).map(|(c, o)| (exactly(c), exactly(o)))
+    }
+
     /// D = a r^2 - |d x p|^2, estimated; nothing where it is negative.
     #[inline(never)]
     fn discriminant(&self) -> Option<f64> {
-        let o = |i: usize| exactly::<F>(self.origin[i]);
-        let d = |i: usize| exactly::<F>(self.direction[i]);
-        let c = |i: usize| exactly::<F>(self.center[i]);
-        let r = exactly::<F>(self.radius);
         let mut sum = Expansion::<F, 66>::zero();
-        for (i, j) in [(1, 2), (2, 0), (0, 1)] {
+        // Each component of d x p from two axes of d, c and o, those after the component's own.
+        let ([x, y, z], [cx, cy, cz], [ox, oy, oz]) = (self.direction, self.center, self.origin);
+        for (d, c, o) in [
+            ([y, z], [cy, cz], [oy, oz]),
+            ([z, x], [cz, cx], [oz, ox]),
+            ([x, y], [cx, cy], [ox, oy]),
+        ] {
+            let (d, c, o) = (d.map(exactly::<F>), c.map(exactly::<F>), o.map(exactly::<F>));
             let mut component = Expansion::<F, 4>::zero();
-            component.add(d(i) * c(j));
-            component.add(-(d(i) * o(j)));
-            component.add(-(d(j) * c(i)));
-            component.add(d(j) * o(i));
+            component.add(d[0] * c[1]);
+            component.add(-(d[0] * o[1]));
+            component.add(-(d[1] * c[0]));
+            component.add(d[1] * o[0]);
             sum.add_square(component.terms());
         }
-        for i in 0..3 {
-            sum.add_product(d(i) * d(i), -(r * r));
+        let r = exactly::<F>(self.radius);
+        for d in self.direction {
+            let d = exactly::<F>(d);
+            sum.add_product(d * d, -(r * r));
         }
         // So far the sum is -D.
         (sum.sign() != Ordering::Greater).then(|| -sum.estimate())
@@ -135,9 +145,10 @@ impl<F: Float> Quadratic<F> {
     #[inline(never)]
     fn half_slope(&self) -> f64 {
         let mut sum = Expansion::<F, 6>::zero();
-        for i in 0..3 {
-            sum.add(exactly::<F>(self.direction[i]) * exactly::<F>(self.center[i]));
-            sum.add(-(exactly::<F>(self.direction[i]) * exactly::<F>(self.origin[i])));
+        for (d, (c, o)) in self.direction.into_iter().zip(self.center_and_origin()) {
+            let d = exactly::<F>(d);
+            sum.add(d * c);
+            sum.add(-(d * o));
         }
         sum.estimate()
     }
@@ -146,10 +157,10 @@ impl<F: Float> Quadratic<F> {
     #[inline(never)]
     fn power(&self) -> f64 {
         let mut sum = Expansion::<F, 19>::zero();
-        for i in 0..3 {
+        for (c, o) in self.center_and_origin() {
             let mut component = Expansion::<F, 2>::zero();
-            component.add(exactly::<F>(self.center[i]));
-            component.add(-exactly::<F>(self.origin[i]));
+            component.add(c);
+            component.add(-o);
             sum.add_square(component.terms());
         }
         sum.add(-(exactly::<F>(self.radius) * exactly::<F>(self.radius)));
@@ -162,14 +173,15 @@ impl<F: Float> Quadratic<F> {
         let r = exactly::<F>(self.radius);
         let (mut f, mut g) = (Expansion::<F, 37>::zero(), Expansion::<F, 18>::zero());
         f.add(-(r * r));
-        for i in 0..3 {
+        for (d, (c, o)) in self.direction.into_iter().zip(self.center_and_origin()) {
+            let d = exactly::<F>(d);
             let mut component = Expansion::<F, 3>::zero();
-            component.add(F::from(t) * exactly(self.direction[i]));
-            component.add(-exactly::<F>(self.center[i]));
-            component.add(exactly(self.origin[i]));
+            component.add(F::from(t) * d);
+            component.add(-c);
+            component.add(o);
             f.add_square(component.terms());
             for &term in component.terms() {
-                g.add_product(exactly(self.direction[i]), term);
+                g.add_product(d, term);
             }
         }
         let outward = if root == Root::Near { Ordering::Less } else { Ordering::Greater };

@@ -32,7 +32,7 @@ fn used<A: Accuracy>(numbers: &Numbers, which: usize) -> f64 {
     assert!(!told, "{} at {limit:e} is dropped: {numbers:?}", A::NAME);
     let terms = beyond.terms(&rays, sphere.center.to_array(), sphere.radius, limit);
     let [end, size, entry] = terms.map(f64::from);
-    let used = (entry - end - f64::from(LEAST_A)) / (size * f64::from(MARGIN));
+    let used = (entry - end - f64::from(LEAST_A)) / ((size + end.abs()) * f64::from(MARGIN));
     if used.is_nan() { f64::NEG_INFINITY } else { used }
 }
 

@@ -1,0 +1,125 @@
+//! Times of several things that are to be compared, taken in turns.
+//!
+//! On a shared machine the clock and the neighbours change from second to second. So everything
+//! runs once a round, and what is reported is the median over the rounds, of times and of ratios
+//! within a round; the quartiles beside it say how far to trust it.
+
+use std::time::Instant;
+
+/// Something to time: a name, and a closure that does some work and answers how much.
+pub struct Subject<'a> {
+    name: String,
+    run: Box<dyn FnMut() -> usize + 'a>,
+}
+
+impl core::fmt::Debug for Subject<'_> {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        formatter.debug_struct("Subject").field("name", &self.name).finish_non_exhaustive()
+    }
+}
+
+impl<'a> Subject<'a> {
+    /// A subject; `run` answers how many units of work it did.
+    pub fn new(name: impl Into<String>, run: impl FnMut() -> usize + 'a) -> Self {
+        Self { name: name.into(), run: Box::new(run) }
+    }
+}
+
+/// Nanoseconds a unit of every subject, a round each.
+#[derive(Clone, Debug)]
+pub struct Samples {
+    names: Vec<String>,
+    by_subject: Vec<Vec<f64>>,
+}
+
+/// A median and the quartiles around it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Median {
+    /// The lower quartile.
+    pub low: f64,
+    /// The median.
+    pub middle: f64,
+    /// The upper quartile.
+    pub high: f64,
+}
+
+/// Times every subject once a round, after one round that is thrown away.
+pub fn take(subjects: &mut [Subject<'_>], rounds: usize) -> Samples {
+    let mut by_subject = vec![Vec::with_capacity(rounds); subjects.len()];
+    for round in 0..=rounds {
+        for (subject, samples) in subjects.iter_mut().zip(&mut by_subject) {
+            let start = Instant::now();
+            let units = (subject.run)();
+            let elapsed = start.elapsed().as_secs_f64() * 1e9;
+            if round > 0 {
+                samples.push(elapsed / units as f64);
+            }
+        }
+    }
+    Samples { names: subjects.iter().map(|subject| subject.name.clone()).collect(), by_subject }
+}
+
+impl Samples {
+    /// Every sample of a subject.
+    ///
+    /// # Panics
+    /// Where there is no such subject.
+    #[must_use]
+    pub fn of(&self, name: &str) -> &[f64] {
+        let index = self.names.iter().position(|n| n == name);
+        &self.by_subject[index.unwrap_or_else(|| panic!("no subject {name}"))]
+    }
+
+    /// Nanoseconds a unit.
+    #[must_use]
+    pub fn median(&self, name: &str) -> Median {
+        median(self.of(name).to_vec())
+    }
+
+    /// How many times the time of `other` is that of `name`, round by round.
+    #[must_use]
+    pub fn ratio(&self, name: &str, other: &str) -> Median {
+        let pairs = self.of(name).iter().zip(self.of(other));
+        median(pairs.map(|(name, other)| name / other).collect())
+    }
+
+    /// The shortest time: what neighbours disturb least.
+    #[must_use]
+    pub fn least(&self, name: &str) -> f64 {
+        self.of(name).iter().copied().fold(f64::INFINITY, f64::min)
+    }
+}
+
+fn median(mut values: Vec<f64>) -> Median {
+    values.sort_by(f64::total_cmp);
+    let at = |share: f64| values[((values.len() - 1) as f64 * share).round() as usize];
+    Median { low: at(0.25), middle: at(0.5), high: at(0.75) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn medians_and_quartiles() {
+        let of = |values: &[f64]| median(values.to_vec());
+        assert_eq!(of(&[3.0]), Median { low: 3.0, middle: 3.0, high: 3.0 });
+        assert_eq!(of(&[5.0, 1.0, 2.0, 4.0, 3.0]), Median { low: 2.0, middle: 3.0, high: 4.0 });
+    }
+
+    #[test]
+    fn subjects_take_turns_and_the_first_round_does_not_count() {
+        let order = std::cell::RefCell::new(Vec::new());
+        let subject = |name: &'static str| {
+            let order = &order;
+            Subject::new(name, move || {
+                order.borrow_mut().push(name);
+                1
+            })
+        };
+        let samples = take(&mut [subject("a"), subject("b")], 2);
+        assert_eq!(*order.borrow(), ["a", "b", "a", "b", "a", "b"]);
+        assert_eq!(samples.of("a").len(), 2);
+        assert!(samples.least("b") <= samples.median("b").middle);
+    }
+}

@@ -1,0 +1,176 @@
+//! A tier's roots against the exact ones.
+//!
+//! What a tier promises is put as a backward error: its answer must be an exact answer for a
+//! sphere whose squared radius differs by no more than the tier's error, and t may besides be off
+//! by a few roundings. So the exact oracle is asked twice, for a sphere a little smaller and one a
+//! little larger: where both are missed the tier must miss, where both are met it must hit, and
+//! its roots must lie between theirs. That holds from head-on to grazing, and asks nothing of the
+//! float arithmetic that is on trial. `Exact` gets no such band.
+
+use spherule_kernel::{Accuracy, Exact, Fast, Ray, Sphere, Stable};
+use spherule_tests::oracle;
+
+/// Half an ulp of 1.
+const U: f64 = 1.0 / 16_777_216.0;
+/// The domain: radius and distance up to 2^40, radius from 2^-40, direction 2^-20 to 2^20 long.
+const REACH: f64 = 1_099_511_627_776.0;
+const LENGTH: f64 = 1_048_576.0;
+
+/// What a tier promises of the roots of a line.
+pub trait Promise: Accuracy {
+    /// Judges the roots that the tier found.
+    ///
+    /// # Panics
+    /// Where the promise is broken.
+    fn judge(ray: &Ray, sphere: &Sphere, found: Option<[f32; 2]>);
+}
+
+/// The textbook form: p.p - r^2 and b^2 are rounded at the size of |p|^2.
+impl Promise for Fast {
+    fn judge(ray: &Ray, sphere: &Sphere, found: Option<[f32; 2]>) {
+        let band = Band {
+            radii: f64::INFINITY,
+            square_error: |radius, distance| 24.0 * U * (radius * radius + distance * distance),
+            further_error: |distance| 8.0 * U * distance,
+        };
+        band.judge(Self::NAME, ray, sphere, found);
+    }
+}
+
+/// Closest point first: whatever the distance, up to 2^20 radii, the error is one of r^2 alone.
+impl Promise for Stable {
+    fn judge(ray: &Ray, sphere: &Sphere, found: Option<[f32; 2]>) {
+        let band = Band {
+            radii: LENGTH,
+            square_error: |radius, _| 32.0 * U * radius * radius,
+            further_error: |_| 0.0,
+        };
+        band.judge(Self::NAME, ray, sphere, found);
+    }
+}
+
+/// The roots of real arithmetic, correctly rounded, whatever the input.
+impl Promise for Exact {
+    fn judge(ray: &Ray, sphere: &Sphere, found: Option<[f32; 2]>) {
+        let exact = oracle::roots(ray, sphere);
+        let bits = |roots: Option<[f32; 2]>| roots.map(|roots| roots.map(f32::to_bits));
+        assert_eq!(bits(found), bits(exact), "exact: {found:?} for {exact:?}: {ray:?} {sphere:?}");
+    }
+}
+
+/// How far a tier may be from the exact roots in the domain that is common to `f32` tiers.
+struct Band {
+    /// How many radii away a sphere may be.
+    radii: f64,
+    /// The error of the squared radius, from radius and distance.
+    square_error: fn(f64, f64) -> f64,
+    /// The error of t besides, in multiples of the direction's length, from the distance.
+    further_error: fn(f64) -> f64,
+}
+
+/// |c - o| and |d|, near enough to tell what is promised.
+fn lengths(ray: &Ray, sphere: &Sphere) -> (f64, f64) {
+    let length = |v: [f64; 3]| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+    let (o, c) = (ray.origin.to_array(), sphere.center.to_array());
+    let p = [0, 1, 2].map(|axis| f64::from(c[axis]) - f64::from(o[axis]));
+    (length(p), length(ray.direction.to_array().map(f64::from)))
+}
+
+/// Whether radius, distance and direction lie in the domain.
+#[must_use]
+pub fn in_domain(ray: &Ray, sphere: &Sphere) -> bool {
+    let (distance, length) = lengths(ray, sphere);
+    (1.0 / REACH..=REACH).contains(&f64::from(sphere.radius))
+        && distance <= REACH
+        && (1.0 / LENGTH..=LENGTH).contains(&length)
+}
+
+impl Band {
+    fn judge(&self, tier: &str, ray: &Ray, sphere: &Sphere, found: Option<[f32; 2]>) {
+        let (distance, length) = lengths(ray, sphere);
+        let radius = f64::from(sphere.radius);
+        if !in_domain(ray, sphere) || distance > self.radii * radius {
+            return;
+        }
+        let error = (self.square_error)(radius, distance);
+        let smaller = (radius * radius - error).max(0.0).sqrt() as f32;
+        let larger = (radius * radius + error).sqrt() as f32;
+        let exact = |radius: f32| oracle::roots(ray, &Sphere { radius, ..*sphere });
+        let within = exact(smaller.next_down());
+        let around = exact(larger.next_up());
+
+        let say = || {
+            format!("{tier}: {found:?} where {within:?} and {around:?} bound: {ray:?} {sphere:?}")
+        };
+        let Some([first, last]) = around else {
+            assert!(found.is_none(), "false hit, {}", say());
+            return;
+        };
+        let Some([near, far]) = found else {
+            assert!(within.is_none(), "false miss, {}", say());
+            return;
+        };
+        // Between first and last in any case; where the smaller sphere is met, outside its roots.
+        let [inner_near, inner_far] = within.unwrap_or([last, first]);
+        let between = |low: f32, t: f32, high: f32| {
+            let few_roundings = 8.0 * U * f64::from(t).abs() + 1e-44;
+            let slack = few_roundings + (self.further_error)(distance) / length;
+            f64::from(low) - slack <= f64::from(t) && f64::from(t) <= f64::from(high) + slack
+        };
+        assert!(between(first, near, inner_near), "entry, {}", say());
+        assert!(between(inner_far, far, last), "exit, {}", say());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spherule_kernel::Vec3;
+
+    const RAY: Ray = Ray::new(Vec3::new(0.0, 0.0, -5.0), Vec3::new(0.0, 0.0, 2.0));
+    const BALL: Sphere = Sphere { center: Vec3::ZERO, radius: 1.0 };
+
+    #[test]
+    fn the_exact_roots_pass() {
+        Stable::judge(&RAY, &BALL, Some([2.0, 3.0]));
+        Stable::judge(&RAY, &Sphere { center: Vec3::X * 2.0, ..BALL }, None);
+    }
+
+    #[test]
+    fn at_a_tangent_both_decisions_pass() {
+        let tangent = Sphere { center: Vec3::X, ..BALL };
+        Stable::judge(&RAY, &tangent, Some([2.5, 2.5]));
+        Stable::judge(&RAY, &tangent, None);
+    }
+
+    #[test]
+    #[should_panic(expected = "false miss")]
+    fn a_false_miss_is_seen() {
+        Stable::judge(&RAY, &BALL, None);
+    }
+
+    #[test]
+    #[should_panic(expected = "false hit")]
+    fn a_false_hit_is_seen() {
+        let beside = Sphere { center: Vec3::X * 1.0001, ..BALL };
+        Stable::judge(&RAY, &beside, Some([2.5, 2.5]));
+    }
+
+    #[test]
+    #[should_panic(expected = "entry")]
+    fn an_entry_sixteen_ulps_off_is_seen() {
+        Stable::judge(&RAY, &BALL, Some([2.0 + 16.0 * f32::EPSILON * 2.0, 3.0]));
+    }
+
+    #[test]
+    #[should_panic(expected = "exact")]
+    fn an_exact_root_one_ulp_off_is_seen() {
+        Exact::judge(&RAY, &BALL, Some([2.0_f32.next_up(), 3.0]));
+    }
+
+    #[test]
+    #[should_panic(expected = "exit")]
+    fn an_exit_that_is_the_entry_is_seen() {
+        Fast::judge(&RAY, &BALL, Some([2.0, 2.0]));
+    }
+}

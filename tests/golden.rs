@@ -1,0 +1,119 @@
+//! Pictures: the built-in scenes against files that a person can read in a diff, and the samples
+//! of `unit` against the exact oracle, so that the files are not the program's own word alone.
+//!
+//! After a change that is meant, `SPHERULE_GOLDEN=write cargo test -p spherule-tests --test golden`
+//! writes the files in `tui/tests/golden` anew; read the diff before committing it.
+
+use spherule_kernel::{Sphere, Vec3};
+use spherule_tests::oracle;
+use spherule_tui::draw::{
+    AccuracyChoice, Charset, ColorDepth, Style, draw, picture_aspect, sample_grid,
+};
+use spherule_tui::view::{LensKind, orbited, with_projection};
+use spherule_tui::{encode, scene};
+use std::path::PathBuf;
+
+const ASCII: Style = Style {
+    accuracy: AccuracyChoice::Stable,
+    charset: Charset::Ascii,
+    depth: ColorDepth::Never,
+    samples: 4,
+    cell_aspect: 0.5,
+};
+
+/// The picture as it would be written to a pipe, with `\e` for escape.
+fn picture(name: &str, style: &Style, columns: u16, rows: u16) -> String {
+    let scene = scene::builtin::builtin(name).expect("a built-in scene");
+    let view = scene.first_view(picture_aspect(style, columns, rows) as f32);
+    let mut bytes = Vec::new();
+    encode::full(&draw(&scene, &view, style, columns, rows).cells, &mut bytes);
+    String::from_utf8(bytes).expect("UTF-8").replace('\x1b', "\\e")
+}
+
+/// Compares with the file, or writes it where that is asked for.
+fn check(file: &str, actual: &str) {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../tui/tests/golden");
+    let path = folder.join(file);
+    if std::env::var_os("SPHERULE_GOLDEN").is_some_and(|value| value == "write") {
+        std::fs::write(&path, actual).expect("a writable folder");
+        return;
+    }
+    let expected = std::fs::read_to_string(&path).expect(file);
+    assert!(actual == expected, "{file} differs; expected\n{expected}\nfound\n{actual}");
+}
+
+#[test]
+fn scenes_in_ascii() {
+    for name in ["unit", "marbles", "flake", "edge", "caffeine"] {
+        check(&format!("{name}.txt"), &picture(name, &ASCII, 60, 24));
+    }
+}
+
+#[test]
+fn edge_as_fast_sees_it() {
+    let fast = Style { accuracy: AccuracyChoice::Fast, ..ASCII };
+    check("edge-fast.txt", &picture("edge", &fast, 60, 24));
+}
+
+#[test]
+fn half_blocks_without_colour() {
+    let half = Style { charset: Charset::Half, ..ASCII };
+    check("marbles-half.txt", &picture("marbles", &half, 60, 24));
+}
+
+#[test]
+fn colours() {
+    for (depth, name) in [
+        (ColorDepth::Ansi16, "16"),
+        (ColorDepth::Ansi256, "256"),
+        (ColorDepth::Truecolor, "truecolor"),
+    ] {
+        let half = Style { charset: Charset::Half, depth, ..ASCII };
+        check(&format!("marbles-half-{name}.txt"), &picture("marbles", &half, 16, 6));
+        let ascii = Style { depth, ..ASCII };
+        check(&format!("caffeine-ascii-{name}.txt"), &picture("caffeine", &ascii, 16, 6));
+    }
+}
+
+/// One sample a pixel: each pixel is on exactly where the oracle says that its ray meets the
+/// sphere.
+#[test]
+fn every_sample_of_unit_is_what_the_oracle_says() {
+    let scene = scene::builtin::builtin("unit").expect("unit");
+    let sphere = Sphere { center: Vec3::ZERO, radius: 1.0 };
+    let (mut hits, mut misses) = (0, 0);
+    for (columns, rows) in [(80, 24), (61, 33), (200, 60)] {
+        for charset in [Charset::Ascii, Charset::Half] {
+            for kind in [LensKind::Perspective, LensKind::Parallel] {
+                for turn in [0.0, 0.7] {
+                    let style = Style { charset, samples: 1, ..ASCII };
+                    let aspect = picture_aspect(&style, columns, rows) as f32;
+                    let view = orbited(&scene.first_view(aspect), turn, turn / 2.0);
+                    let view = with_projection(&view, kind);
+                    let (camera, width, height) = sample_grid(&view, &style, columns, rows);
+                    let down = if charset == Charset::Half { 2 } else { 1 };
+                    assert_eq!((width, height), (u32::from(columns), u32::from(rows) * down));
+                    let cells = draw(&scene, &view, &style, columns, rows).cells;
+                    for iy in 0..height {
+                        for ix in 0..width {
+                            let row = cells.row((iy / down) as u16);
+                            let on = match row[ix as usize].glyph {
+                                '@' | '█' => true,
+                                ' ' => false,
+                                '▀' => iy % 2 == 0,
+                                '▄' => iy % 2 == 1,
+                                other => panic!("{other} in a picture of on and off"),
+                            };
+                            let ray = camera.get_ray(ix, iy);
+                            let met = oracle::intersect(&ray, &sphere).is_some();
+                            assert_eq!(on, met, "{columns}x{rows} {kind:?} {turn} at {ix},{iy}");
+                            hits += u32::from(met);
+                            misses += u32::from(!met);
+                        }
+                    }
+                }
+            }
+        }
+    }
+    assert!(hits > 20_000 && misses > 20_000, "{hits} hits, {misses} misses");
+}

@@ -1,0 +1,176 @@
+//! The real program in a pseudo-terminal: what it shows, and how it leaves the terminal.
+//!
+//! Needs no controlling terminal: `setsid -w cargo test --test pty </dev/null` passes as well.
+#![cfg(target_os = "linux")]
+#![forbid(unsafe_code)]
+
+mod pty {
+    pub(crate) mod binary;
+    mod leaving;
+    pub(crate) mod look;
+    pub(crate) mod modes;
+    pub(crate) mod picture;
+    pub(crate) mod session;
+    pub(crate) mod viewer;
+}
+
+use pty::look::last_row;
+use pty::modes::is_cooked;
+use pty::picture::once;
+use pty::viewer::{COLUMNS, PICTURE_ROWS, ROWS, VIEW, Viewer, shows_a_frame};
+use spherule_tui::view::{LensKind, orbited, with_projection, zoomed};
+use spherule_tui::viewer::{ORBIT_STEP, ZOOM_STEP};
+use std::f32::consts::PI;
+
+#[test]
+fn it_starts_and_draws_what_once_draws() {
+    let viewer = Viewer::start();
+    let expected = once(&VIEW, COLUMNS, PICTURE_ROWS);
+    assert!(expected.iter().flatten().any(|(glyph, ..)| glyph != " "), "a blank picture");
+    viewer.wait_for_picture("the first picture", &expected);
+    {
+        let output = viewer.session.output();
+        assert!(output.screen().hide_cursor());
+        assert!(last_row(output.screen()).contains("stable perspective half"));
+        assert!(!is_cooked(&viewer.session.modes()));
+    }
+    viewer.quit();
+}
+
+#[test]
+fn keys_orbit_and_zoom() {
+    let mut viewer = Viewer::start();
+    viewer.session.type_in("lll\x1b[C\x1b[A-");
+    let mut view = VIEW;
+    for _ in 0..4 {
+        view = orbited(&view, ORBIT_STEP, 0.0);
+    }
+    view = zoomed(&orbited(&view, 0.0, ORBIT_STEP), ZOOM_STEP.powi(-1));
+    viewer.wait_for_picture("the orbit", &once(&view, COLUMNS, PICTURE_ROWS));
+    viewer.session.type_in("o");
+    let parallel = with_projection(&view, LensKind::Parallel);
+    viewer.wait_for_picture("the projection", &once(&parallel, COLUMNS, PICTURE_ROWS));
+    viewer.session.type_in("r");
+    viewer.wait_for_picture("the way back", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.quit();
+}
+
+#[test]
+fn the_mouse_drags_and_zooms() {
+    let mut viewer = Viewer::start();
+    // Taken at column 10, row 5, pulled by 10 columns and 2 rows, let go; then the wheel.
+    viewer.session.type_in("\x1b[<0;11;6M\x1b[<32;21;8M\x1b[<0;21;8m\x1b[<64;21;8M");
+    let a_row = PI / f32::from(PICTURE_ROWS);
+    let view = zoomed(&orbited(&VIEW, -5.0 * a_row, 2.0 * a_row), ZOOM_STEP);
+    viewer.wait_for_picture("the drag", &once(&view, COLUMNS, PICTURE_ROWS));
+    viewer.quit();
+}
+
+#[test]
+fn the_status_line_tells_the_tier() {
+    let mut viewer = Viewer::start();
+    for (key, text) in [("1", " fast "), ("2", " stable "), ("3", "not yet"), ("c", " ascii ")] {
+        viewer.session.type_in(key);
+        viewer
+            .session
+            .wait_for(text, |output| last_row(output.screen()).contains(text).then_some(()));
+    }
+    viewer.quit();
+}
+
+#[test]
+fn help_opens_and_closes() {
+    let mut viewer = Viewer::start();
+    let before = once(&VIEW, COLUMNS, PICTURE_ROWS);
+    viewer.session.type_in("?");
+    viewer
+        .session
+        .wait_for("the help", |output| output.screen().contents().contains("wheel").then_some(()));
+    viewer.session.type_in("?");
+    viewer.wait_for_picture("the picture under it", &before);
+    viewer.quit();
+}
+
+#[test]
+fn it_spins_until_told_not_to() {
+    let mut viewer = Viewer::start();
+    viewer.session.type_in(" ");
+    viewer.session.wait_for("a rate", |output| {
+        let line = last_row(output.screen());
+        (line.contains("fps") && !line.contains("-- fps")).then_some(())
+    });
+    viewer.session.type_in(" r");
+    viewer.wait_for_picture("the first view", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.quit();
+}
+
+#[test]
+fn where_nothing_changes_nothing_is_sent() {
+    let mut viewer = Viewer::start();
+    let sent = viewer.session.output().sent.len();
+    // Keys without a meaning, and a choice that is made already.
+    viewer.session.type_in("xyz2");
+    viewer.session.type_in("q");
+    assert!(viewer.session.wait_for_end().success());
+    let output = viewer.session.output();
+    let frames = output.sent[sent..].windows(8).filter(|bytes| bytes == b"\x1b[?2026h").count();
+    assert_eq!(frames, 0, "{:?}", String::from_utf8_lossy(&output.sent[sent..]));
+}
+
+#[test]
+fn it_follows_the_size() {
+    let viewer = Viewer::start();
+    for (columns, rows) in [(100, 30), (30, 10), (72, 21)] {
+        viewer.session.resize(columns, rows);
+        viewer.wait_for_picture("the new size", &once(&VIEW, columns, rows - 1));
+    }
+    viewer.quit();
+}
+
+#[test]
+fn an_early_resize_is_not_lost() {
+    let viewer = Viewer::start_at_size(40, 12);
+    viewer.session.resize(COLUMNS, ROWS);
+    viewer.wait_for_picture("the new size", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.quit();
+}
+
+#[test]
+fn a_storm_of_sizes_ends_in_the_last() {
+    let viewer = Viewer::start();
+    for step in 0..200 {
+        viewer.session.resize(20 + step % 70, 3 + step % 17);
+    }
+    viewer.session.resize(COLUMNS, ROWS);
+    viewer.wait_for_picture("the last size", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.quit();
+}
+
+#[test]
+fn a_key_and_a_resize_at_once_both_count() {
+    let mut viewer = Viewer::start();
+    for round in 0..50 {
+        let (key, tier) = if round % 2 == 0 { ("1", " fast ") } else { ("2", " stable ") };
+        let (columns, rows) = (40 + round, 8 + round % 5);
+        viewer.session.resize(columns, rows);
+        viewer.session.type_in(key);
+        viewer.session.wait_for("both", |output| {
+            let line = last_row(output.screen());
+            (shows_a_frame(output) && line.contains(tier)).then_some(())
+        });
+    }
+    viewer.session.resize(COLUMNS, ROWS);
+    viewer.session.type_in("q");
+    assert!(viewer.session.wait_for_end().success());
+}
+
+#[test]
+fn a_terminal_without_a_cell_is_waited_for() {
+    let viewer = Viewer::start_at_size(0, 0);
+    viewer.session.wait_for("the start", |output| output.screen().hide_cursor().then_some(()));
+    viewer.session.resize(COLUMNS, ROWS);
+    viewer.wait_for_picture("the picture", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.session.resize(1, 1);
+    viewer.session.resize(0, 7);
+    viewer.quit();
+}

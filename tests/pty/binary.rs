@@ -1,0 +1,39 @@
+//! The real binary, of the profile that the tests themselves are of.
+
+use std::env;
+use std::path::PathBuf;
+use std::process::Command;
+use std::sync::OnceLock;
+
+/// Where `spherule` is. Cargo names the binaries of another package to nobody, but it puts them
+/// two levels above the test: `target/PROFILE/deps/pty-HASH`.
+pub(crate) fn spherule() -> PathBuf {
+    static BINARY: OnceLock<PathBuf> = OnceLock::new();
+    BINARY.get_or_init(find).clone()
+}
+
+fn find() -> PathBuf {
+    let test = env::current_exe().expect("the test knows its own path");
+    let profile_directory = test.parent().and_then(|deps| deps.parent()).expect("in target");
+    let binary = profile_directory.join(format!("spherule{}", env::consts::EXE_SUFFIX));
+    // `cargo test -p spherule-tests` builds no other package's binary, and an old one is worse
+    // than none. Where everything is built already this takes no time. Not under cargo: no build.
+    if let Some(cargo) = env::var_os("CARGO") {
+        let target = profile_directory.parent().expect("in target");
+        let profile = match profile_directory.file_name().and_then(|name| name.to_str()) {
+            // Not `dev`: that would be another binary in the same place, built each time.
+            Some("debug") | None => "test",
+            Some(name) => name,
+        };
+        let built = Command::new(cargo)
+            .args(["build", "--quiet", "--package", "spherule-tui", "--bin", "spherule"])
+            .args(["--profile", profile])
+            .arg("--target-dir")
+            .arg(target)
+            .status()
+            .expect("cargo runs");
+        assert!(built.success(), "spherule does not build");
+    }
+    assert!(binary.is_file(), "{} is not built", binary.display());
+    binary
+}

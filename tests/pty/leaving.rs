@@ -1,0 +1,163 @@
+//! How the program stops, goes on and ends, and what it leaves behind.
+
+use super::binary::spherule;
+use super::modes::is_cooked;
+use super::picture::{SceneFile, once};
+use super::session::{Session, command, size};
+use super::viewer::{COLUMNS, PICTURE_ROWS, ROWS, VIEW, Viewer, shows_a_frame};
+use portable_pty::native_pty_system;
+use rustix::process::Signal;
+use std::io::Read;
+
+/// After the program was stopped: the terminal is the shell's, and after SIGCONT the program's.
+fn assert_stops_and_goes_on(viewer: Viewer) {
+    viewer.session.wait_until_stopped();
+    assert!(is_cooked(&viewer.session.modes()), "the shell gets no lines");
+    viewer.session.wait_for("the normal screen", |output| {
+        (!output.screen().alternate_screen()).then_some(())
+    });
+    assert_eq!(viewer.session.left_behind(), [""; 0]);
+    let sent = viewer.session.output().sent.len();
+    viewer.session.signal(Signal::CONT);
+    viewer.wait_for_picture("the picture again", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    assert!(!is_cooked(&viewer.session.modes()));
+    let redrawn = viewer.session.output().sent[sent..].windows(4).any(|bytes| bytes == b"\x1b[2J");
+    assert!(redrawn, "not drawn in full");
+    viewer.quit();
+}
+
+#[test]
+fn ctrl_z_stops_and_sigcont_draws_again() {
+    let mut viewer = Viewer::start();
+    viewer.session.type_in("\x1a");
+    assert_stops_and_goes_on(viewer);
+}
+
+#[test]
+fn sigtstp_stops_and_sigcont_draws_again() {
+    let viewer = Viewer::start();
+    viewer.session.signal(Signal::TSTP);
+    assert_stops_and_goes_on(viewer);
+}
+
+#[test]
+fn after_a_stop_that_cannot_be_caught_it_draws_again() {
+    let viewer = Viewer::start();
+    viewer.session.signal(Signal::STOP);
+    viewer.session.wait_until_stopped();
+    let sent = viewer.session.output().sent.len();
+    viewer.session.signal(Signal::CONT);
+    viewer.session.wait_for("a full frame", |output| {
+        let redrawn = output.sent[sent..].windows(4).any(|bytes| bytes == b"\x1b[2J");
+        (redrawn && shows_a_frame(output)).then_some(())
+    });
+    viewer.quit();
+}
+
+#[test]
+fn every_key_that_quits_does() {
+    for key in ["q", "\x03", "\x1b"] {
+        let mut viewer = Viewer::start();
+        viewer.session.type_in(key);
+        let status = viewer.session.wait_for_end();
+        assert!(status.success(), "{key:?}: {status}");
+        assert_eq!(viewer.session.left_behind(), [""; 0], "{key:?}");
+    }
+}
+
+#[test]
+fn a_panic_is_told_on_the_normal_screen() {
+    let mut viewer = Viewer::start_with(&[("SPHERULE_TEST_PANIC", "1")], COLUMNS, ROWS);
+    viewer.wait_for_frame();
+    viewer.session.type_in("!");
+    let status = viewer.session.wait_for_end();
+    assert_eq!(status.exit_code(), 101, "{status}");
+    assert_eq!(viewer.session.left_behind(), [""; 0]);
+    let shown = viewer.session.output().screen().contents();
+    assert!(shown.contains("panicked at"), "{shown}");
+}
+
+#[test]
+fn unasked_for_the_panic_key_does_nothing() {
+    let mut viewer = Viewer::start();
+    viewer.session.type_in("!");
+    viewer.quit();
+}
+
+#[test]
+fn signals_restore_and_kill() {
+    for (signal, name) in [
+        (Signal::TERM, "Terminated"),
+        (Signal::HUP, "Hangup"),
+        (Signal::INT, "Interrupt"),
+        (Signal::QUIT, "Quit"),
+    ] {
+        let mut viewer = Viewer::start();
+        viewer.session.signal(signal);
+        let status = viewer.session.wait_for_end();
+        assert_eq!(status.signal(), Some(name), "{status}");
+        assert_eq!(viewer.session.left_behind(), [""; 0], "{name}");
+    }
+}
+
+#[test]
+fn killed_while_it_is_stopped_it_leaves_the_terminal_alone() {
+    let mut viewer = Viewer::start();
+    viewer.session.type_in("\x1a");
+    viewer.session.wait_until_stopped();
+    viewer.session.signal(Signal::TERM);
+    viewer.session.signal(Signal::CONT);
+    let status = viewer.session.wait_for_end();
+    assert_eq!(status.signal(), Some("Terminated"), "{status}");
+    assert_eq!(viewer.session.left_behind(), [""; 0]);
+}
+
+#[test]
+fn a_terminal_that_takes_nothing_does_not_keep_it_alive() {
+    let mut viewer = Viewer::start();
+    viewer.session.block_output();
+    viewer.session.type_in(" ");
+    viewer.session.signal(Signal::TERM);
+    let status = viewer.session.wait_for_exit();
+    assert_eq!(status.signal(), Some("Terminated"), "{status}");
+    assert!(is_cooked(&viewer.session.modes()));
+}
+
+#[test]
+fn it_ends_with_its_terminal() {
+    let scene = SceneFile::new(&VIEW);
+    let pair = native_pty_system().openpty(size(COLUMNS, ROWS)).expect("a pseudo-terminal");
+    let mut child = pair
+        .slave
+        .spawn_command(command(spherule(), &[scene.path()], &[]))
+        .expect("the program starts");
+    let mut reader = pair.master.try_clone_reader().expect("output can be read");
+    let mut sent = Vec::new();
+    let mut bytes = [0; 4096];
+    while !sent.ends_with(b"\x1b[?2026l") {
+        let count = reader.read(&mut bytes).expect("the program writes");
+        sent.extend_from_slice(&bytes[..count]);
+    }
+    drop((pair, reader));
+    let status = child.wait().expect("it is our child");
+    assert_eq!(status.signal(), Some("Hangup"), "{status}");
+}
+
+/// The checks above can fail: what a careless program leaves behind is found, thing by thing.
+#[test]
+fn what_is_left_behind_is_found() {
+    let left_behind = |script: &str| {
+        let mut session = Session::start("sh", &["-c", script], &[], (COLUMNS, ROWS));
+        assert!(session.wait_for_end().success());
+        session.left_behind()
+    };
+    assert_eq!(left_behind("printf 'hello\\n'"), [""; 0]);
+    assert_eq!(left_behind("printf '\\033[?1049h'"), ["alternate screen", "mode 1049"]);
+    assert_eq!(left_behind("printf '\\033[?25l'"), ["hidden cursor", "mode 25"]);
+    assert_eq!(left_behind("printf '\\033[?1002h'"), ["mouse", "mode 1002"]);
+    assert_eq!(left_behind("printf '\\033[?7l\\033[?2026h'"), ["mode 7", "mode 2026"]);
+    assert_eq!(left_behind("printf '\\033[31m'"), ["foreground colour"]);
+    assert_eq!(left_behind("stty raw"), ["line discipline"]);
+    assert_eq!(left_behind("stty -echo"), ["line discipline"]);
+    assert_eq!(left_behind("saved=$(stty -g); stty raw; stty \"$saved\""), [""; 0]);
+}

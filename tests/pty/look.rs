@@ -1,0 +1,29 @@
+//! What a screen looks like, to be compared.
+
+use vt100::{Color, Screen};
+
+/// A glyph and its colours.
+pub(crate) type Look = (String, Color, Color);
+
+/// The first `rows` rows, every cell of them. The ink of a space cannot be seen.
+pub(crate) fn look(screen: &Screen, rows: u16) -> Vec<Vec<Look>> {
+    let columns = screen.size().1.get();
+    (0..rows.min(screen.size().0.get()))
+        .map(|row| (0..columns).filter_map(|column| cell_look(screen, row, column)).collect())
+        .collect()
+}
+
+fn cell_look(screen: &Screen, row: u16, column: u16) -> Option<Look> {
+    let cell = screen.cell(row, column)?;
+    Some(match cell.contents() {
+        "" | " " => (" ".to_owned(), Color::Default, cell.bgcolor()),
+        glyph => (glyph.to_owned(), cell.fgcolor(), cell.bgcolor()),
+    })
+}
+
+/// The text of the last row.
+pub(crate) fn last_row(screen: &Screen) -> String {
+    let (rows, columns) = screen.size();
+    let row = rows.get() - 1;
+    screen.contents_between(row, 0, row, columns.get())
+}

@@ -1,0 +1,99 @@
+//! The picture that a screen should show, by another way: `spherule --once` with its camera there.
+
+use super::binary::spherule;
+use super::look::{Look, look};
+use spherule_tui::view::{Lens, View};
+use std::fs;
+use std::num::NonZeroU16;
+use std::path::PathBuf;
+use std::process::{self, Command, Stdio};
+use std::sync::atomic::{AtomicU32, Ordering};
+
+/// A scene of three lit spheres and a shadow, in a file of its own, seen from `view`.
+pub(crate) struct SceneFile {
+    path: PathBuf,
+}
+
+impl SceneFile {
+    pub(crate) fn new(view: &View) -> Self {
+        static COUNT: AtomicU32 = AtomicU32::new(0);
+        let number = COUNT.fetch_add(1, Ordering::Relaxed);
+        let path = std::env::temp_dir().join(format!("spherule-{}-{number}.toml", process::id()));
+        fs::write(&path, text(view)).expect("a temporary file");
+        Self { path }
+    }
+
+    pub(crate) fn path(&self) -> &str {
+        self.path.to_str().expect("a path that is text")
+    }
+}
+
+impl Drop for SceneFile {
+    fn drop(&mut self) {
+        let _ = fs::remove_file(&self.path);
+    }
+}
+
+/// Options under which viewer and `--once` draw the same; both get them.
+pub(crate) const OPTIONS: [&str; 6] =
+    ["--color", "truecolor", "--charset", "half", "--cell-aspect", "1:2"];
+
+fn text(view: &View) -> String {
+    // As f64: its shortest decimal is read back to the same f32.
+    let vector = |v: [f32; 3]| v.map(|x| format!("{:?}", f64::from(x))).join(", ");
+    let lens = match view.lens {
+        Lens::Perspective { fov } => {
+            format!("projection = \"perspective\"\nfov = {:?}", f64::from(fov))
+        }
+        Lens::Parallel { height } => {
+            format!("projection = \"parallel\"\nheight = {:?}", f64::from(height))
+        }
+    };
+    format!(
+        "shadows = true\n\
+         background = \"#102030\"\n\
+         [camera]\n\
+         eye = [{}]\n\
+         target = [{}]\n\
+         up = [{}]\n\
+         {lens}\n\
+         [[sphere]]\n\
+         center = [0, 0, 0]\n\
+         radius = 1.0\n\
+         color = \"#d04020\"\n\
+         [[sphere]]\n\
+         center = [1.5, 0.5, -0.5]\n\
+         radius = 0.75\n\
+         color = \"#2060e0\"\n\
+         [[sphere]]\n\
+         center = [-1.25, -0.5, 0.5]\n\
+         radius = 0.5\n\
+         color = \"#f0e040\"\n\
+         [[light]]\n\
+         direction = [1, 2, 1]\n",
+        vector(view.eye.to_array()),
+        vector(view.target.to_array()),
+        vector(view.up.to_array()),
+    )
+}
+
+/// What `spherule --once` prints of the scene seen from `view`, as a terminal shows it.
+pub(crate) fn once(view: &View, columns: u16, rows: u16) -> Vec<Vec<Look>> {
+    let scene = SceneFile::new(view);
+    let output = Command::new(spherule())
+        .args([scene.path(), "--once", "--size", &format!("{columns}x{rows}")])
+        .args(OPTIONS)
+        .env_remove("NO_COLOR")
+        .stdin(Stdio::null())
+        .output()
+        .expect("spherule runs");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    // A row more, so that the last newline does not scroll.
+    let cells = |count| NonZeroU16::new(count).expect("not 0");
+    let mut terminal = vt100::Parser::new(cells(rows + 1), cells(columns), 0);
+    for line in output.stdout.split_inclusive(|byte| *byte == b'\n') {
+        terminal.process(line);
+        terminal.process(b"\r");
+    }
+    look(terminal.screen(), rows)
+}

@@ -1,0 +1,237 @@
+//! A program in a pseudo-terminal of its own, and what its screen shows.
+//!
+//! Nothing here sleeps for a fixed time: whatever is waited for is looked for until it is there,
+//! and a test fails when it has not come for [`PATIENCE`].
+
+use super::modes;
+use portable_pty::{
+    Child, CommandBuilder, ExitStatus, MasterPty, PtySize, SlavePty, native_pty_system,
+};
+use rustix::fd::OwnedFd;
+use rustix::fs::{Mode, OFlags};
+use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, kill_process, waitid};
+use rustix::termios::{Action, Termios, tcflow, tcgetattr};
+use std::ffi::OsStr;
+use std::io::{Read, Write};
+use std::num::NonZeroU16;
+use std::sync::{Arc, Condvar, Mutex, MutexGuard};
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// Far beyond what anything takes on a loaded machine.
+const PATIENCE: Duration = Duration::from_secs(60);
+/// Between two looks at something that does not tell when it changes.
+const GLANCE: Duration = Duration::from_millis(2);
+/// Written by the test itself into the terminal: what has come out before it is all there is. No
+/// terminal knows this sequence, so none shows it.
+const END_MARK: &[u8] = b"\x1b]7777;all has been read\x07";
+
+/// What has come out of the terminal so far.
+pub(crate) struct Output {
+    pub(crate) terminal: vt100::Parser,
+    pub(crate) sent: Vec<u8>,
+}
+
+impl Output {
+    pub(crate) fn screen(&self) -> &vt100::Screen {
+        self.terminal.screen()
+    }
+}
+
+type Shared = Arc<(Mutex<Output>, Condvar)>;
+
+/// A running program, its terminal, and the terminal's modes from before.
+pub(crate) struct Session {
+    child: Box<dyn Child + Send + Sync>,
+    pid: Pid,
+    keys: Box<dyn Write + Send>,
+    master: Box<dyn MasterPty + Send>,
+    /// The program's side. Kept open, or the last bytes may be lost with the last who has it.
+    line: OwnedFd,
+    _slave: Box<dyn SlavePty + Send>,
+    output: Shared,
+    modes_before: String,
+}
+
+/// A terminal has at least one cell where its model is concerned.
+fn cells(count: u16) -> NonZeroU16 {
+    NonZeroU16::new(count.max(1)).expect("at least 1")
+}
+
+pub(crate) fn size(columns: u16, rows: u16) -> PtySize {
+    PtySize { rows, cols: columns, pixel_width: 0, pixel_height: 0 }
+}
+
+/// `program` with the environment of a good local terminal, and with `variables`.
+pub(crate) fn command(
+    program: impl AsRef<OsStr>,
+    arguments: &[&str],
+    variables: &[(&str, &str)],
+) -> CommandBuilder {
+    let mut command = CommandBuilder::new(program);
+    command.args(arguments);
+    for name in ["NO_COLOR", "CLICOLOR_FORCE", "SSH_CONNECTION", "LINES", "COLUMNS"] {
+        command.env_remove(name);
+    }
+    command.env("TERM", "xterm-256color");
+    command.env("COLORTERM", "truecolor");
+    command.env("RUST_BACKTRACE", "0");
+    for (name, value) in variables {
+        command.env(name, value);
+    }
+    command
+}
+
+impl Session {
+    /// Starts `program` in a terminal of `columns` x `rows`.
+    pub(crate) fn start(
+        program: impl AsRef<OsStr>,
+        arguments: &[&str],
+        variables: &[(&str, &str)],
+        (columns, rows): (u16, u16),
+    ) -> Self {
+        let pair = native_pty_system().openpty(size(columns, rows)).expect("a pseudo-terminal");
+        let name = pair.master.tty_name().expect("it has a name");
+        // Not as the test's own controlling terminal, should the test have none.
+        let line = rustix::fs::open(name, OFlags::RDWR | OFlags::NOCTTY, Mode::empty())
+            .expect("the program's side opens");
+        let modes_before = modes::line_discipline(&tcgetattr(&line).expect("it is a terminal"));
+
+        let command = command(program, arguments, variables);
+        let child = pair.slave.spawn_command(command).expect("the program starts");
+        let pid = child.process_id().expect("it has an id").try_into().expect("it is positive");
+
+        let terminal = vt100::Parser::new(cells(rows), cells(columns), 0);
+        let output: Shared =
+            Arc::new((Mutex::new(Output { terminal, sent: Vec::new() }), Condvar::new()));
+        let mut reader = pair.master.try_clone_reader().expect("output can be read");
+        let shared = Arc::clone(&output);
+        thread::spawn(move || {
+            let mut bytes = [0; 4096];
+            while let Ok(count @ 1..) = reader.read(&mut bytes) {
+                let mut output = shared.0.lock().expect("no test panics while it reads");
+                output.terminal.process(&bytes[..count]);
+                output.sent.extend_from_slice(&bytes[..count]);
+                shared.1.notify_all();
+            }
+        });
+        Self {
+            child,
+            pid: Pid::from_raw(pid).expect("it is not 0"),
+            keys: pair.master.take_writer().expect("input can be written"),
+            master: pair.master,
+            line,
+            _slave: pair.slave,
+            output,
+            modes_before,
+        }
+    }
+
+    /// Types `keys`.
+    pub(crate) fn type_in(&mut self, keys: &str) {
+        self.keys.write_all(keys.as_bytes()).and_then(|()| self.keys.flush()).expect("it listens");
+    }
+
+    /// Sends `signal` to the program alone.
+    pub(crate) fn signal(&self, signal: Signal) {
+        kill_process(self.pid, signal).expect("it is still there");
+    }
+
+    /// Gives the terminal another size.
+    pub(crate) fn resize(&self, columns: u16, rows: u16) {
+        // The model first, so that what is drawn for the new size finds it.
+        self.output().terminal.screen_mut().set_size(cells(rows), cells(columns));
+        self.master.resize(size(columns, rows)).expect("the terminal takes its size");
+    }
+
+    /// What has come out so far. While this is held nothing more is read.
+    pub(crate) fn output(&self) -> MutexGuard<'_, Output> {
+        self.output.0.lock().expect("the reader does not panic")
+    }
+
+    /// Lets the terminal take no more output, as Ctrl-S does outside of raw mode.
+    pub(crate) fn block_output(&self) {
+        tcflow(&self.line, Action::OOff).expect("the terminal obeys");
+    }
+
+    /// Waits until the output is as it should be, and gives what `found` has found in it.
+    pub(crate) fn wait_for<T>(&self, what: &str, found: impl Fn(&Output) -> Option<T>) -> T {
+        let deadline = Instant::now() + PATIENCE;
+        let mut output = self.output();
+        loop {
+            if let Some(found) = found(&output) {
+                return found;
+            }
+            let left = deadline.saturating_duration_since(Instant::now());
+            if left.is_zero() {
+                let shown = output.screen().contents();
+                drop(output);
+                panic!("waited in vain for {what}; the screen shows:\n{shown}");
+            }
+            output = self.output.1.wait_timeout(output, left).expect("the reader lives").0;
+        }
+    }
+
+    /// The modes of the program's side now.
+    pub(crate) fn modes(&self) -> Termios {
+        tcgetattr(&self.line).expect("it is a terminal")
+    }
+
+    /// Waits until the program is stopped, as a shell does.
+    pub(crate) fn wait_until_stopped(&self) {
+        self.poll("a stop", || {
+            let options = WaitIdOptions::STOPPED | WaitIdOptions::NOHANG;
+            waitid(WaitId::Pid(self.pid), options).expect("it is our child")
+        });
+    }
+
+    /// Waits for the program's end, and until all that it has sent is read.
+    pub(crate) fn wait_for_end(&mut self) -> ExitStatus {
+        let status = self.wait_for_exit();
+        rustix::io::write(&self.line, END_MARK).expect("the terminal takes the mark");
+        self.wait_for("the last bytes", |output| output.sent.ends_with(END_MARK).then_some(()));
+        status
+    }
+
+    /// Waits for the program's end alone.
+    pub(crate) fn wait_for_exit(&mut self) -> ExitStatus {
+        let deadline = Instant::now() + PATIENCE;
+        loop {
+            if let Some(status) = self.child.try_wait().expect("it is our child") {
+                return status;
+            }
+            assert!(Instant::now() < deadline, "waited in vain for the end of the program");
+            thread::sleep(GLANCE);
+        }
+    }
+
+    /// What the program has left behind, of all that it was given.
+    pub(crate) fn left_behind(&self) -> Vec<String> {
+        let output = self.output();
+        let mut found = modes::left_behind(output.screen(), &output.sent);
+        if modes::line_discipline(&self.modes()) != self.modes_before {
+            found.push("line discipline".to_owned());
+        }
+        found
+    }
+
+    fn poll<T>(&self, what: &str, look: impl Fn() -> Option<T>) -> T {
+        let deadline = Instant::now() + PATIENCE;
+        loop {
+            if let Some(found) = look() {
+                return found;
+            }
+            assert!(Instant::now() < deadline, "waited in vain for {what}");
+            thread::sleep(GLANCE);
+        }
+    }
+}
+
+impl Drop for Session {
+    fn drop(&mut self) {
+        if let Ok(None) = self.child.try_wait() {
+            let _ = kill_process(self.pid, Signal::KILL);
+            let _ = self.child.wait();
+        }
+    }
+}

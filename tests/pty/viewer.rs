@@ -1,0 +1,72 @@
+//! The viewer on a scene of the tests' own.
+
+use super::binary::spherule;
+use super::look::{Look, last_row, look};
+use super::picture::{OPTIONS, SceneFile};
+use super::session::{Output, Session};
+use spherule_kernel::Vec3;
+use spherule_tui::view::{Lens, View};
+
+pub(crate) const COLUMNS: u16 = 72;
+pub(crate) const ROWS: u16 = 20;
+/// The last row is the status line's.
+pub(crate) const PICTURE_ROWS: u16 = ROWS - 1;
+
+pub(crate) const VIEW: View = View {
+    eye: Vec3::new(0.5, 1.0, 5.0),
+    target: Vec3::ZERO,
+    up: Vec3::Y,
+    lens: Lens::Perspective { fov: 40.0 },
+};
+
+/// The viewer on the test's scene, and the scene's file, which must outlive its reading.
+pub(crate) struct Viewer {
+    pub(crate) session: Session,
+    _scene: SceneFile,
+}
+
+impl Viewer {
+    pub(crate) fn start_at_size(columns: u16, rows: u16) -> Self {
+        Self::start_with(&[], columns, rows)
+    }
+
+    pub(crate) fn start_with(variables: &[(&str, &str)], columns: u16, rows: u16) -> Self {
+        let scene = SceneFile::new(&VIEW);
+        let mut arguments = vec![scene.path()];
+        arguments.extend(OPTIONS);
+        let session = Session::start(spherule(), &arguments, variables, (columns, rows));
+        Self { session, _scene: scene }
+    }
+
+    /// Started, and the first picture is there.
+    pub(crate) fn start() -> Self {
+        let viewer = Self::start_at_size(COLUMNS, ROWS);
+        viewer.wait_for_frame();
+        viewer
+    }
+
+    pub(crate) fn wait_for_frame(&self) {
+        self.session.wait_for("a frame", |output| shows_a_frame(output).then_some(()));
+    }
+
+    pub(crate) fn wait_for_picture(&self, what: &str, expected: &[Vec<Look>]) {
+        let rows = expected.len() as u16;
+        self.session.wait_for(what, |output| {
+            (shows_a_frame(output) && look(output.screen(), rows) == expected).then_some(())
+        });
+    }
+
+    pub(crate) fn quit(mut self) {
+        self.session.type_in("q");
+        let status = self.session.wait_for_end();
+        assert!(status.success(), "{status}");
+        assert_eq!(self.session.left_behind(), [""; 0]);
+    }
+}
+
+/// A whole frame: all bytes of it, the status line among them.
+pub(crate) fn shows_a_frame(output: &Output) -> bool {
+    output.screen().alternate_screen()
+        && output.sent.ends_with(b"\x1b[?2026l")
+        && !last_row(output.screen()).trim().is_empty()
+}

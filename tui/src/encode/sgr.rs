@@ -1,0 +1,121 @@
+//! Colours as SGR parameters, from pieces made at compile time: a frame has tens of thousands.
+
+use crate::cells::{Cell, Color};
+
+/// The colours that the terminal will draw the next glyph with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Pen {
+    foreground: Color,
+    background: Color,
+}
+
+impl Pen {
+    /// After a reset.
+    pub(super) const RESET: Self = Self { foreground: Color::Default, background: Color::Default };
+
+    /// Whether `cell` can be drawn without a word about colour. A space has no ink.
+    pub(super) fn suits(self, cell: &Cell) -> bool {
+        self.background == cell.background
+            && (self.foreground == cell.foreground || cell.glyph == ' ')
+    }
+
+    /// Appends the shortest change that suits `cell`; whether there was one.
+    pub(super) fn take_up(&mut self, cell: &Cell, out: &mut Vec<u8>) -> bool {
+        if self.suits(cell) {
+            return false;
+        }
+        let inkless = cell.glyph == ' ';
+        if cell.background == Color::Default && (inkless || cell.foreground == Color::Default) {
+            self.put_down(out);
+            return true;
+        }
+        out.extend_from_slice(b"\x1b[");
+        if !inkless && self.foreground != cell.foreground {
+            self.foreground = cell.foreground;
+            push_color(cell.foreground, &FOREGROUND, out);
+        }
+        if self.background != cell.background {
+            self.background = cell.background;
+            push_color(cell.background, &BACKGROUND, out);
+        }
+        // Every parameter was pushed with a semicolon behind it.
+        if let Some(last) = out.last_mut() {
+            *last = b'm';
+        }
+        true
+    }
+
+    /// Resets, if there is anything to reset.
+    pub(super) fn put_down(&mut self, out: &mut Vec<u8>) {
+        if *self != Self::RESET {
+            *self = Self::RESET;
+            out.extend_from_slice(b"\x1b[m");
+        }
+    }
+}
+
+/// The parameters of one of the two layers, each with a semicolon behind it.
+struct Layer {
+    default: &'static [u8],
+    /// Codes of the eight dark colours start here, ...
+    dark: u8,
+    /// ... of the eight bright ones here.
+    bright: u8,
+    palette: &'static [u8],
+    rgb: &'static [u8],
+}
+
+const FOREGROUND: Layer =
+    Layer { default: b"39;", dark: 30, bright: 90, palette: b"38;5;", rgb: b"38;2;" };
+const BACKGROUND: Layer =
+    Layer { default: b"49;", dark: 40, bright: 100, palette: b"48;5;", rgb: b"48;2;" };
+
+fn push_color(color: Color, layer: &Layer, out: &mut Vec<u8>) {
+    match color {
+        Color::Default => out.extend_from_slice(layer.default),
+        Color::Ansi16(index @ 0..8) => push_number(layer.dark + index, out),
+        Color::Ansi16(index) => push_number(layer.bright + index % 8, out),
+        Color::Ansi256(index) => {
+            out.extend_from_slice(layer.palette);
+            push_number(index, out);
+        }
+        Color::Rgb([red, green, blue]) => {
+            out.extend_from_slice(layer.rgb);
+            push_number(red, out);
+            push_number(green, out);
+            push_number(blue, out);
+        }
+    }
+}
+
+/// A byte in decimal, a semicolon behind it, and how many of the four are used.
+type Number = ([u8; 4], u8);
+
+const NUMBERS: [Number; 256] = {
+    let mut numbers = [([b';'; 4], 0); 256];
+    let mut value = 0;
+    while value < 256 {
+        let digits =
+            [b'0' + (value / 100) as u8, b'0' + (value / 10 % 10) as u8, b'0' + (value % 10) as u8];
+        let skipped = if value >= 100 {
+            0
+        } else if value >= 10 {
+            1
+        } else {
+            2
+        };
+        let mut digit = skipped;
+        while digit < 3 {
+            numbers[value].0[digit - skipped] = digits[digit];
+            digit += 1;
+        }
+        numbers[value].1 = 4 - skipped as u8;
+        value += 1;
+    }
+    numbers
+};
+
+fn push_number(value: u8, out: &mut Vec<u8>) {
+    let (bytes, used) = &NUMBERS[usize::from(value)];
+    out.extend_from_slice(&bytes[..usize::from(*used)]);
+}

@@ -1,0 +1,210 @@
+//! The screen model is vt100's: what it shows after our bytes is what we meant.
+
+use super::{Encoder, diff, full, look_same};
+use crate::cells::{Cell, CellGrid, Color};
+use proptest::prelude::*;
+use std::num::NonZeroU16;
+
+fn terminal(columns: u16, rows: u16) -> vt100::Parser {
+    let size = |count| NonZeroU16::new(count).expect("a terminal has cells");
+    vt100::Parser::new(size(rows), size(columns), 100)
+}
+
+fn color(color: vt100::Color) -> Color {
+    match color {
+        vt100::Color::Default => Color::Default,
+        vt100::Color::Idx(index) => Color::Ansi256(index),
+        vt100::Color::Rgb(red, green, blue) => Color::Rgb([red, green, blue]),
+    }
+}
+
+/// The model does not tell the 16 from the first of the 256.
+fn as_the_model_names_it(color: Color) -> Color {
+    if let Color::Ansi16(index) = color { Color::Ansi256(index % 16) } else { color }
+}
+
+fn assert_shows(terminal: &vt100::Parser, grid: &CellGrid) {
+    for row in 0..grid.rows() {
+        for (column, expected) in (0..grid.columns()).zip(grid.row(row)) {
+            let shown = terminal.screen().cell(row, column).expect("inside the screen");
+            let shown = Cell {
+                glyph: shown.contents().chars().next().unwrap_or(' '),
+                foreground: color(shown.fgcolor()),
+                background: color(shown.bgcolor()),
+            };
+            let expected = Cell {
+                glyph: super::printable(expected.glyph),
+                foreground: as_the_model_names_it(expected.foreground),
+                background: as_the_model_names_it(expected.background),
+            };
+            assert!(look_same(&shown, &expected), "{row},{column}: {shown:?}, not {expected:?}");
+        }
+    }
+}
+
+fn any_color() -> impl Strategy<Value = Color> {
+    prop_oneof![
+        Just(Color::Default),
+        (0..16_u8).prop_map(Color::Ansi16),
+        any::<u8>().prop_map(Color::Ansi256),
+        prop::array::uniform3(prop_oneof![Just(0), Just(9), Just(99), any::<u8>()])
+            .prop_map(Color::Rgb),
+    ]
+}
+
+/// Few different cells, so that neighbours share colours and frames share cells.
+fn any_frames() -> impl Strategy<Value = Vec<CellGrid>> {
+    let glyph = prop::sample::select(vec![' ', 'a', '@', '\u{2580}', '\u{2584}', '\x1b', '\n']);
+    let cell = (glyph, any_color(), any_color()).prop_map(|(glyph, foreground, background)| Cell {
+        glyph,
+        foreground,
+        background,
+    });
+    let palette = prop::collection::vec(cell, 1..5);
+    (1..40_u16, 1..12_u16, palette).prop_flat_map(|(columns, rows, palette)| {
+        let count = usize::from(columns) * usize::from(rows);
+        let picks = prop::collection::vec(any::<prop::sample::Index>(), count);
+        // Which cells a frame keeps from the one before, in percent.
+        let kept = prop::collection::vec(0..100_u8, count);
+        prop::collection::vec((picks, kept, 0..100_u8), 1..4).prop_map(move |frames| {
+            let mut grid = CellGrid::new(columns, rows);
+            let mut grids = Vec::new();
+            for (picks, kept, keep) in frames {
+                for ((cell, pick), chance) in grid.cells_mut().iter_mut().zip(picks).zip(kept) {
+                    if chance >= keep {
+                        *cell = *pick.get(&palette);
+                    }
+                }
+                grids.push(grid.clone());
+            }
+            grids
+        })
+    })
+}
+
+proptest! {
+    #[test]
+    fn the_terminal_shows_each_frame(frames in any_frames()) {
+        let mut terminal = terminal(frames[0].columns(), frames[0].rows());
+        // Whatever was there before is cleared, and its pen does not bleed.
+        terminal.process(b"\x1b[41mleft over\x1b[5;5Hanywhere\x1b[m");
+        let mut encoder = Encoder::new();
+        for frame in frames {
+            let mut bytes = Vec::new();
+            encoder.encode(frame.clone(), &mut bytes);
+            terminal.process(&bytes);
+            assert_shows(&terminal, &frame);
+            let mut again = Vec::new();
+            encoder.encode(frame, &mut again);
+            prop_assert!(again.is_empty());
+        }
+    }
+
+    #[test]
+    fn lines_show_the_grid(frames in any_frames()) {
+        let grid = &frames[0];
+        let mut bytes = Vec::new();
+        full(grid, &mut bytes);
+        prop_assert_eq!(bytes.iter().filter(|byte| **byte == b'\n').count(), usize::from(grid.rows()));
+        let mut terminal = terminal(grid.columns(), grid.rows() + 1);
+        for line in bytes.split_inclusive(|byte| *byte == b'\n') {
+            // What a terminal in cooked mode makes of a newline.
+            terminal.process(line);
+            terminal.process(b"\r");
+        }
+        assert_shows(&terminal, grid);
+    }
+}
+
+fn one_line(cells: &[Cell]) -> CellGrid {
+    let mut grid = CellGrid::new(cells.len().try_into().expect("short"), 1);
+    grid.cells_mut().copy_from_slice(cells);
+    grid
+}
+
+fn encoded(cells: &[Cell]) -> String {
+    let mut bytes = Vec::new();
+    full(&one_line(cells), &mut bytes);
+    String::from_utf8(bytes).expect("UTF-8")
+}
+
+fn ink(glyph: char, foreground: Color) -> Cell {
+    Cell { glyph, foreground, background: Color::Default }
+}
+
+#[test]
+fn no_colour_no_escape() {
+    assert_eq!(encoded(&[ink('a', Color::Default), Cell::BLANK]), "a \n");
+    assert_eq!(encoded(&[ink('\x1b', Color::Default)]), "?\n");
+}
+
+#[test]
+fn every_depth_has_its_parameters() {
+    let both = |color| encoded(&[Cell { glyph: 'x', foreground: color, background: color }]);
+    assert_eq!(both(Color::Ansi16(1)), "\x1b[31;41mx\x1b[0m\n");
+    assert_eq!(both(Color::Ansi16(15)), "\x1b[97;107mx\x1b[0m\n");
+    assert_eq!(both(Color::Ansi256(208)), "\x1b[38;5;208;48;5;208mx\x1b[0m\n");
+    assert_eq!(both(Color::Rgb([0, 50, 255])), "\x1b[38;2;0;50;255;48;2;0;50;255mx\x1b[0m\n");
+}
+
+#[test]
+fn colours_are_said_once() {
+    let red = Color::Ansi16(1);
+    let line = [ink('a', red), ink(' ', Color::Default), ink('b', red), ink('c', Color::Default)];
+    assert_eq!(encoded(&line), "\x1b[31ma b\x1b[mc\x1b[0m\n");
+    let background = |glyph, foreground| Cell { glyph, foreground, background: Color::Ansi16(4) };
+    let line = [background('a', red), background('b', Color::Default), background(' ', red)];
+    assert_eq!(encoded(&line), "\x1b[31;44ma\x1b[39mb \x1b[0m\n");
+}
+
+fn changes(from: &[&str], to: &[&str]) -> String {
+    let grid = |lines: &[&str]| {
+        let mut grid = CellGrid::new(lines[0].len() as u16, lines.len() as u16);
+        for (row, line) in (0..).zip(lines) {
+            grid.write(0, row, line, Color::Default, Color::Default);
+        }
+        grid
+    };
+    let mut bytes = Vec::new();
+    diff(Some(&grid(from)), &grid(to), &mut bytes);
+    String::from_utf8(bytes).expect("UTF-8")
+}
+
+#[test]
+fn the_cursor_goes_the_shortest_way() {
+    let frame = |body: &str| format!("\x1b[?2026h{body}\x1b[?2026l");
+    assert_eq!(changes(&["abc", "def"], &["abc", "def"]), "");
+    assert_eq!(changes(&["abc", "def"], &["Abc", "def"]), frame("\x1b[HA"));
+    assert_eq!(changes(&["abc", "def"], &["abc", "dEf"]), frame("\x1b[2;2HE"));
+    // A gap of three is written again, a gap of five is jumped.
+    assert_eq!(changes(&["abcdefg"], &["AbcdEfg"]), frame("\x1b[HAbcdE"));
+    assert_eq!(changes(&["abcdefg"], &["AbcdefG"]), frame("\x1b[HA\x1b[5CG"));
+    // Straight down, a step back, and from the last column by a carriage return.
+    assert_eq!(changes(&["abc", "def"], &["Abc", "dEf"]), frame("\x1b[HA\nE"));
+    assert_eq!(changes(&["abcd", "efgh"], &["abCd", "efGh"]), frame("\x1b[;3HC\n\x08G"));
+    assert_eq!(changes(&["abc", "def"], &["abC", "Def"]), frame("\x1b[;3HC\r\nD"));
+}
+
+#[test]
+fn the_last_cell_does_not_scroll() {
+    let mut grid = CellGrid::new(4, 2);
+    grid.cells_mut().fill(ink('x', Color::Ansi16(2)));
+    let mut bytes = Vec::new();
+    diff(None, &grid, &mut bytes);
+    let mut terminal = terminal(4, 2);
+    terminal.process(&bytes);
+    assert_eq!(terminal.screen().contents(), "xxxx\nxxxx");
+    assert!(!bytes.ends_with(b"\n"));
+}
+
+#[test]
+fn a_new_size_is_drawn_in_full() {
+    let mut encoder = Encoder::new();
+    encoder.encode(CellGrid::new(4, 2), &mut Vec::new());
+    let mut bytes = Vec::new();
+    encoder.encode(CellGrid::new(3, 2), &mut bytes);
+    assert!(bytes.windows(4).any(|piece| piece == b"\x1b[2J"));
+    let mut empty = Vec::new();
+    encoder.encode(CellGrid::new(0, 0), &mut empty);
+    assert!(!empty.is_empty());
+}

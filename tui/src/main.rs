@@ -1,0 +1,25 @@
+//! The program `spherule`: arguments in, exit code out. Everything else is in the library.
+#![forbid(unsafe_code)]
+
+use spherule_tui::arguments::{self, Command, Request};
+use spherule_tui::failure::{Failure, write_stdout};
+use spherule_tui::{show, trace};
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    match run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(),
+    }
+}
+
+fn run() -> Result<(), Failure> {
+    match arguments::parse(std::env::args_os())? {
+        Request::Print(text) => write_stdout(text.as_bytes()),
+        Request::Run(arguments) => match &arguments.command {
+            None => show::show(&arguments.picture),
+            Some(Command::Trace(trace)) => trace::trace(trace),
+            Some(Command::Scenes) => write_stdout(show::scenes().as_bytes()),
+        },
+    }
+}

@@ -1,0 +1,209 @@
+//! Scenes in TOML: the format is stated in the README and, by example, in the tests below.
+
+use super::read_error::ReadError;
+use super::{Light, Scene, Source};
+use crate::color::Srgb;
+use crate::view::{Lens, View};
+use serde::Deserialize;
+use spherule_kernel::{Sphere, Vec3};
+use std::ops::Range;
+use toml::Spanned;
+
+/// A number and its place in the file.
+type Number = Spanned<f64>;
+type Vector = Spanned<[Number; 3]>;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SceneTable {
+    background: Option<Spanned<String>>,
+    #[serde(default)]
+    shadows: bool,
+    camera: Option<Spanned<CameraTable>>,
+    #[serde(default)]
+    sphere: Vec<SphereTable>,
+    #[serde(default)]
+    light: Vec<Spanned<LightTable>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CameraTable {
+    eye: Vector,
+    target: Vector,
+    up: Option<Vector>,
+    #[serde(default)]
+    projection: ProjectionName,
+    fov: Option<Number>,
+    height: Option<Number>,
+}
+
+#[derive(Clone, Copy, Default, Deserialize, PartialEq)]
+#[serde(rename_all = "lowercase")]
+enum ProjectionName {
+    #[default]
+    Perspective,
+    Parallel,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SphereTable {
+    center: Vector,
+    radius: Number,
+    color: Option<Spanned<String>>,
+    label: Option<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LightTable {
+    direction: Option<Vector>,
+    position: Option<Vector>,
+    color: Option<Spanned<String>>,
+}
+
+/// The field of view of a camera that states none, in degrees.
+const USUAL_FOV: f32 = 40.0;
+
+/// Reads the scene that `text` describes; `source` is its name in errors.
+///
+/// # Errors
+/// [`ReadError`] with line and column: no TOML, an unknown key, a wrong type, a number that is
+/// not a finite `f32`, a negative radius, a vector without a direction, a colour that is none, a
+/// camera that cannot see, no sphere.
+pub fn read(text: &str, source: &str) -> Result<Scene, ReadError> {
+    let table: SceneTable = toml::from_str(text).map_err(|error| {
+        let message = error.message().lines().map(str::trim).collect::<Vec<_>>().join(", ");
+        Place { text, source }.error(error.span().unwrap_or(0..0), message)
+    })?;
+    scene(table, &Place { text, source })
+}
+
+/// Turns places in the text into errors.
+struct Place<'a> {
+    text: &'a str,
+    source: &'a str,
+}
+
+impl Place<'_> {
+    fn error(&self, span: Range<usize>, what: impl Into<String>) -> ReadError {
+        let before = self.text.get(..span.start).unwrap_or(self.text);
+        let line_start = before.rfind('\n').map_or(0, |end| end + 1);
+        let line = before.matches('\n').count() + 1;
+        let column = before[line_start..].chars().count() + 1;
+        ReadError::at(self.source, line, column, what)
+    }
+
+    fn number(&self, number: &Number, name: &str) -> Result<f32, ReadError> {
+        let single = *number.get_ref() as f32;
+        if single.is_finite() {
+            return Ok(single);
+        }
+        let what = format!("{name} is {}: not finite in single precision", number.get_ref());
+        Err(self.error(number.span(), what))
+    }
+
+    fn vector(&self, vector: &Vector, name: &str) -> Result<Vec3, ReadError> {
+        let mut result = Vec3::ZERO;
+        for (axis, number) in vector.get_ref().iter().enumerate() {
+            result[axis] = self.number(number, name)?;
+        }
+        Ok(result)
+    }
+
+    fn direction(&self, vector: &Vector, name: &str) -> Result<Vec3, ReadError> {
+        let direction = self.vector(vector, name)?;
+        // Neither its square nor that square's inverse may leave the range of numbers.
+        if (1e-15..1e15).contains(&direction.abs().max_element()) {
+            return Ok(direction);
+        }
+        let what = format!("{name} has no direction: too short or too long");
+        Err(self.error(vector.span(), what))
+    }
+
+    fn color(&self, color: Option<&Spanned<String>>, default: Srgb) -> Result<Srgb, ReadError> {
+        color.map_or(Ok(default), |color| {
+            color.get_ref().parse().map_err(|what: String| self.error(color.span(), what))
+        })
+    }
+}
+
+fn scene(table: SceneTable, place: &Place<'_>) -> Result<Scene, ReadError> {
+    let mut scene = Scene::new();
+    scene.background = place.color(table.background.as_ref(), Srgb::BLACK)?;
+    scene.shadows = table.shadows;
+    scene.view = table.camera.map(|camera| view(&camera, place)).transpose()?;
+    for sphere in &table.sphere {
+        let center = place.vector(&sphere.center, "center")?;
+        let radius = place.number(&sphere.radius, "radius")?;
+        if radius < 0.0 {
+            let what = format!("radius is {}: negative", sphere.radius.get_ref());
+            return Err(place.error(sphere.radius.span(), what));
+        }
+        let color = place.color(sphere.color.as_ref(), Srgb::WHITE)?;
+        scene.push(Sphere { center, radius }, color, sphere.label.as_deref());
+    }
+    if table.sphere.is_empty() {
+        return Err(ReadError::whole(place.source, "an empty scene: at least one [[sphere]]"));
+    }
+    for light in &table.light {
+        scene.lights.push(self::light(light, place)?);
+    }
+    Ok(scene)
+}
+
+fn light(table: &Spanned<LightTable>, place: &Place<'_>) -> Result<Light, ReadError> {
+    let LightTable { direction, position, color } = table.get_ref();
+    let source = match (direction, position) {
+        (Some(direction), None) => Source::Direction(place.direction(direction, "direction")?),
+        (None, Some(position)) => Source::Position(place.vector(position, "position")?),
+        _ => {
+            let what = "a light has a direction or a position, one of the two";
+            return Err(place.error(table.span(), what));
+        }
+    };
+    Ok(Light { source, color: place.color(color.as_ref(), Srgb::WHITE)? })
+}
+
+fn view(table: &Spanned<CameraTable>, place: &Place<'_>) -> Result<View, ReadError> {
+    let camera = table.get_ref();
+    let eye = place.vector(&camera.eye, "eye")?;
+    let target = place.vector(&camera.target, "target")?;
+    let up = match &camera.up {
+        Some(up) => place.direction(up, "up")?,
+        None => Vec3::Y,
+    };
+    if eye == target {
+        return Err(place.error(camera.target.span(), "the camera's target is its eye"));
+    }
+    Ok(View { eye, target, up, lens: lens(table, place)? })
+}
+
+fn lens(table: &Spanned<CameraTable>, place: &Place<'_>) -> Result<Lens, ReadError> {
+    let camera = table.get_ref();
+    let in_vain = |number: &Number, what| Err(place.error(number.span(), what));
+    match (camera.projection, &camera.fov, &camera.height) {
+        (ProjectionName::Perspective, _, Some(height)) => {
+            in_vain(height, "height is for projection = \"parallel\"; perspective has fov")
+        }
+        (ProjectionName::Parallel, Some(fov), _) => {
+            in_vain(fov, "fov is for projection = \"perspective\"; parallel has height")
+        }
+        (ProjectionName::Perspective, None, None) => Ok(Lens::Perspective { fov: USUAL_FOV }),
+        (ProjectionName::Perspective, Some(number), None) => match place.number(number, "fov")? {
+            fov if fov > 0.0 && fov < 180.0 => Ok(Lens::Perspective { fov }),
+            fov => in_vain(number, &format!("fov is {fov}: above 0 and below 180 degrees")),
+        },
+        (ProjectionName::Parallel, None, Some(number)) => match place.number(number, "height")? {
+            height if height > 0.0 => Ok(Lens::Parallel { height }),
+            height => in_vain(number, &format!("height is {height}: above 0")),
+        },
+        (ProjectionName::Parallel, None, None) => {
+            Err(place.error(table.span(), "a parallel camera has a height"))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,117 @@
+//! What `spherule trace` prints: the keys that scripts rely on.
+
+use crate::draw::AccuracyChoice;
+use serde_json::{Map, Value, json};
+use std::time::Duration;
+
+/// The instruction set that the program was built for.
+const LEVEL: &str = if cfg!(target_feature = "avx512f") {
+    "avx512"
+} else if cfg!(target_feature = "avx2") {
+    "avx2"
+} else {
+    "baseline"
+};
+
+/// What was traced, and how fast.
+pub(super) struct Report {
+    pub(super) rays: usize,
+    pub(super) spheres: usize,
+    pub(super) hits: usize,
+    pub(super) accuracy: AccuracyChoice,
+    pub(super) lanes: usize,
+    pub(super) build: Duration,
+    pub(super) passes: Vec<Duration>,
+}
+
+impl Report {
+    /// The keys and their values, in the order in which they are printed.
+    fn entries(&self) -> Vec<(&'static str, Value)> {
+        let accuracy = match self.accuracy {
+            AccuracyChoice::Fast => "fast",
+            AccuracyChoice::Stable => "stable",
+        };
+        let rounded = |number: f64| json!((number * 1e3).round() / 1e3);
+        vec![
+            ("rays", json!(self.rays)),
+            ("spheres", json!(self.spheres)),
+            ("hits", json!(self.hits)),
+            ("structure", json!("brute")),
+            ("accuracy", json!(accuracy)),
+            ("level", json!(LEVEL)),
+            ("lanes", json!(self.lanes)),
+            ("threads", json!(1)),
+            ("build_ms", rounded(self.build.as_secs_f64() * 1e3)),
+            ("mrays_per_s", rounded(self.mega_rays_a_second())),
+        ]
+    }
+
+    /// Of the median pass; 0 where it took no time that can be measured.
+    fn mega_rays_a_second(&self) -> f64 {
+        let mut seconds: Vec<f64> = self.passes.iter().map(Duration::as_secs_f64).collect();
+        seconds.sort_by(f64::total_cmp);
+        let middle = seconds.len() / 2;
+        let median = match seconds.len() {
+            0 => 0.0,
+            count if count % 2 == 0 => (seconds[middle - 1] + seconds[middle]) / 2.0,
+            _ => seconds[middle],
+        };
+        if median > 0.0 { self.rays as f64 / median / 1e6 } else { 0.0 }
+    }
+
+    /// One line of `key=value`.
+    pub(super) fn line(&self) -> String {
+        let pair = |(key, value): (&str, Value)| match value {
+            Value::String(text) => format!("{key}={text}"),
+            number => format!("{key}={number}"),
+        };
+        self.entries().into_iter().map(pair).collect::<Vec<_>>().join(" ") + "\n"
+    }
+
+    /// One JSON object.
+    pub(super) fn json(&self) -> String {
+        let object: Map<_, _> =
+            self.entries().into_iter().map(|(key, value)| (key.to_owned(), value)).collect();
+        Value::Object(object).to_string() + "\n"
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_keys_are_all_there() {
+        let report = Report {
+            rays: 8_000_000,
+            spheres: 2,
+            hits: 3,
+            accuracy: AccuracyChoice::Fast,
+            lanes: 8,
+            build: Duration::from_micros(1500),
+            passes: [3, 1, 2].map(Duration::from_secs).to_vec(),
+        };
+        let line = report.line();
+        assert!(line.starts_with("rays=8000000 spheres=2 hits=3 structure=brute accuracy=fast "));
+        assert!(line.ends_with(" lanes=8 threads=1 build_ms=1.5 mrays_per_s=4.0\n"), "{line}");
+        let object: Value = serde_json::from_str(&report.json()).expect("JSON");
+        assert_eq!(object["mrays_per_s"], json!(4.0));
+        assert_eq!(object.as_object().map(Map::len), Some(10));
+    }
+
+    #[test]
+    fn the_median_of_an_even_number_is_between() {
+        let report = |passes: &[u64]| Report {
+            rays: 3_000_000,
+            spheres: 0,
+            hits: 0,
+            accuracy: AccuracyChoice::Stable,
+            lanes: 8,
+            build: Duration::ZERO,
+            passes: passes.iter().copied().map(Duration::from_secs).collect(),
+        };
+        assert_eq!(report(&[1, 2]).mega_rays_a_second(), 2.0);
+        assert_eq!(report(&[0]).mega_rays_a_second(), 0.0);
+        assert_eq!(report(&[]).mega_rays_a_second(), 0.0);
+    }
+}

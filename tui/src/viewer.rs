@@ -1,0 +1,157 @@
+//! The viewer: input to state, state to picture, picture to terminal, until somebody quits.
+//!
+//! All input that is there is taken before a frame is drawn, so a slow link gets fewer frames,
+//! not late ones. While nothing moves, nothing is drawn and nothing is sent.
+
+mod help;
+mod keys;
+mod meter;
+mod state;
+mod status;
+
+use crate::cells::CellGrid;
+use crate::draw::{Renderer, Style};
+use crate::encode::Encoder;
+use crate::scene::Scene;
+use crate::terminal::Terminal;
+use crate::view::View;
+use meter::{Frame, Meter};
+pub use state::{ORBIT_STEP, ZOOM_STEP};
+use state::{Outcome, State};
+use std::env;
+use std::io;
+use std::time::{Duration, Instant};
+
+/// Frames a second while something moves, at most; over SSH every frame is waited for by the
+/// keys behind it.
+const LOCAL_RATE: u32 = 60;
+const REMOTE_RATE: u32 = 30;
+/// Events taken before a frame is drawn all the same: whoever pastes a file sees something.
+const LONGEST_BACKLOG: usize = 4096;
+/// As `--size` has it: a terminal that claims more is not believed.
+const LARGEST_SIZE: u16 = 4096;
+/// Set, the key `!` panics. There is no other way to test that the terminal survives a panic of
+/// the real program; it harms nobody who does not ask for it.
+const PANIC_SWITCH: &str = "SPHERULE_TEST_PANIC";
+
+/// Shows `scene` on the terminal, from `view` on, until the user quits.
+///
+/// # Errors
+/// If there is no terminal to read keys from, or it goes away.
+pub fn run(scene: &Scene, view: View, style: Style) -> io::Result<()> {
+    let rate = if env::var_os("SSH_CONNECTION").is_some() { REMOTE_RATE } else { LOCAL_RATE };
+    let mut viewer = Viewer {
+        scene,
+        terminal: Terminal::enter()?,
+        state: State::new(view, style),
+        renderer: Renderer::new(),
+        encoder: Encoder::new(),
+        meter: Meter::default(),
+        bytes: Vec::new(),
+        panic_key: env::var_os(PANIC_SWITCH).is_some(),
+    };
+    let interval = Duration::from_secs(1) / rate;
+    let mut last_frame = None;
+    let mut stale = true;
+    loop {
+        let moving = stale || viewer.state.is_spinning();
+        let wait = moving.then(|| {
+            last_frame.map_or(Duration::ZERO, |at: Instant| interval.saturating_sub(at.elapsed()))
+        });
+        match viewer.take_input(wait)? {
+            Outcome::Quit => return Ok(()),
+            Outcome::Changed => stale = true,
+            Outcome::Unchanged => {}
+        }
+        let now = Instant::now();
+        let due = last_frame.is_none_or(|at| now - at >= interval);
+        if due && (stale || viewer.state.is_spinning()) {
+            if let Some(last_frame) = last_frame {
+                viewer.state.advance(now - last_frame);
+            }
+            viewer.show_frame(now)?;
+            last_frame = Some(now);
+            stale = false;
+        }
+    }
+}
+
+struct Viewer<'a> {
+    scene: &'a Scene,
+    terminal: Terminal,
+    state: State,
+    renderer: Renderer,
+    encoder: Encoder,
+    meter: Meter,
+    /// Kept from frame to frame for its memory.
+    bytes: Vec<u8>,
+    panic_key: bool,
+}
+
+impl Viewer<'_> {
+    /// Waits for input, for ever without `wait`, and takes all there is.
+    fn take_input(&mut self, wait: Option<Duration>) -> io::Result<Outcome> {
+        let mut outcome = Outcome::Unchanged;
+        let mut wait = wait;
+        for _ in 0..LONGEST_BACKLOG {
+            let Some(event) = self.terminal.next_event(wait)? else { break };
+            wait = Some(Duration::ZERO);
+            if self.panic_key && keys::is_panic(&event) {
+                panic!("asked for by {PANIC_SWITCH}");
+            }
+            match keys::input(&event) {
+                Some(keys::Input::Suspend) => self.terminal.suspend()?,
+                // The terminal may have moved its cells about, even if the size is the same.
+                Some(keys::Input::Resize) => {
+                    self.encoder.forget();
+                    outcome = Outcome::Changed;
+                }
+                Some(input) => outcome = outcome.and(self.state.apply(input)),
+                None => {}
+            }
+            if outcome == Outcome::Quit {
+                break;
+            }
+        }
+        if self.terminal.was_resumed() {
+            self.encoder.forget();
+            outcome = outcome.and(Outcome::Changed);
+        }
+        Ok(outcome)
+    }
+
+    /// Draws and sends one frame, in one write.
+    fn show_frame(&mut self, now: Instant) -> io::Result<()> {
+        let (columns, rows) = self.terminal.size()?;
+        let (columns, rows) = (columns.min(LARGEST_SIZE), rows.min(LARGEST_SIZE));
+        if columns == 0 || rows == 0 {
+            return Ok(());
+        }
+        let status_row = if rows >= 2 { rows - 1 } else { rows };
+        self.state.set_height(status_row);
+        let started = Instant::now();
+        let State { view, style, .. } = &self.state;
+        let drawn = self.renderer.draw(self.scene, view, style, columns, status_row);
+        let drawing = started.elapsed();
+
+        let mut cells = CellGrid::new(columns, rows);
+        cells.cells_mut()[..drawn.cells.cells().len()].copy_from_slice(drawn.cells.cells());
+        if self.state.help {
+            help::write(&mut cells, status_row);
+        }
+        // The picture first: then the status line can tell what it cost.
+        self.bytes.clear();
+        if let Some(shown) = self.encoder.shown() {
+            let last_row = usize::from(status_row) * usize::from(columns);
+            if shown.cells().len() == cells.cells().len() {
+                cells.cells_mut()[last_row..].copy_from_slice(&shown.cells()[last_row..]);
+            }
+        }
+        self.encoder.encode(cells.clone(), &mut self.bytes);
+        let frame =
+            Frame { drawing, making: started.elapsed(), rays: drawn.rays, bytes: self.bytes.len() };
+        status::write(&mut cells, status_row, &self.state, self.meter.count(frame, now));
+        self.encoder.encode(cells, &mut self.bytes);
+        self.terminal.show(&self.bytes)
+    }
+}

@@ -1,0 +1,47 @@
+//! The keys, over the picture.
+
+use crate::cells::{CellGrid, Color};
+
+const LINES: [&str; 14] = [
+    "                                         ",
+    "  arrows, h j k l, drag   around          ",
+    "  + -, wheel              nearer, farther ",
+    "  space                   spin            ",
+    "  r                       first view      ",
+    "  o                       projection      ",
+    "                                         ",
+    "  1 2 3                   fast, stable, exact ",
+    "  c                       half blocks, ascii  ",
+    "                                         ",
+    "  ?                       this            ",
+    "  Ctrl-Z                  stop, fg goes on",
+    "  q, Esc, Ctrl-C          quit            ",
+    "                                         ",
+];
+
+/// Writes the keys into the middle of the first `rows` rows, cut where there is no room.
+pub(super) fn write(cells: &mut CellGrid, rows: u16) {
+    let width = LINES.iter().map(|line| line.len()).max().unwrap_or(0);
+    let left = usize::from(cells.columns()).saturating_sub(width) / 2;
+    let top = usize::from(rows).saturating_sub(LINES.len()) / 2;
+    for (row, line) in (top..usize::from(rows)).zip(LINES) {
+        let (Ok(column), Ok(row)) = (u16::try_from(left), u16::try_from(row)) else { return };
+        cells.write(column, row, &format!("{line:width$}"), Color::Default, Color::Default);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_never_reaches_the_status_line() {
+        for (columns, rows) in [(80, 24), (80, 5), (10, 3), (1, 1), (200, 60)] {
+            let mut cells = CellGrid::new(columns, rows);
+            cells.write(0, rows - 1, "status", Color::Default, Color::Default);
+            let status = cells.row(rows - 1).to_vec();
+            write(&mut cells, rows - 1);
+            assert_eq!(cells.row(rows - 1), status);
+        }
+    }
+}

@@ -1,0 +1,138 @@
+//! What keys, mouse and terminal say, in the words of the viewer.
+
+use crossterm::event::{
+    Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers, MouseButton, MouseEvent, MouseEventKind,
+};
+
+/// One thing that the user or the terminal wants.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Input {
+    /// Lead the eye around: steps to the right, steps up.
+    Orbit(i8, i8),
+    /// Go nearer by so many steps.
+    Zoom(i8),
+    /// The mouse took hold at this column and row, ...
+    Grab(u16, u16),
+    /// ... and has pulled to this one.
+    Drag(u16, u16),
+    /// Use the textbook form.
+    Fast,
+    /// Use the best plain form.
+    Stable,
+    /// Use the exact tier, once there is one.
+    Exact,
+    /// The other projection.
+    Projection,
+    /// The next charset.
+    Charset,
+    /// Start or stop to spin.
+    Spin,
+    /// Back to the first view.
+    Reset,
+    /// Show or hide the keys.
+    Help,
+    /// Close what is open, else quit.
+    Escape,
+    /// End.
+    Quit,
+    /// Give the terminal back and stop, until continued.
+    Suspend,
+    /// Another size, or one that must be asked for again.
+    Resize,
+}
+
+/// What `event` means, if anything.
+pub(super) fn input(event: &Event) -> Option<Input> {
+    match event {
+        Event::Key(key) if key.kind != KeyEventKind::Release => key_input(key),
+        Event::Mouse(mouse) => mouse_input(mouse),
+        Event::Resize(..) => Some(Input::Resize),
+        _ => None,
+    }
+}
+
+fn key_input(key: &KeyEvent) -> Option<Input> {
+    if key.modifiers.contains(KeyModifiers::CONTROL) {
+        return match key.code {
+            KeyCode::Char('c') => Some(Input::Quit),
+            KeyCode::Char('z') => Some(Input::Suspend),
+            _ => None,
+        };
+    }
+    Some(match key.code {
+        KeyCode::Left | KeyCode::Char('h') => Input::Orbit(-1, 0),
+        KeyCode::Right | KeyCode::Char('l') => Input::Orbit(1, 0),
+        KeyCode::Up | KeyCode::Char('k') => Input::Orbit(0, 1),
+        KeyCode::Down | KeyCode::Char('j') => Input::Orbit(0, -1),
+        KeyCode::Char('+' | '=') => Input::Zoom(1),
+        KeyCode::Char('-' | '_') => Input::Zoom(-1),
+        KeyCode::Char('1') => Input::Fast,
+        KeyCode::Char('2') => Input::Stable,
+        KeyCode::Char('3') => Input::Exact,
+        KeyCode::Char('o') => Input::Projection,
+        KeyCode::Char('c') => Input::Charset,
+        KeyCode::Char(' ') => Input::Spin,
+        KeyCode::Char('r') => Input::Reset,
+        KeyCode::Char('?') => Input::Help,
+        KeyCode::Char('q') => Input::Quit,
+        KeyCode::Esc => Input::Escape,
+        _ => return None,
+    })
+}
+
+fn mouse_input(mouse: &MouseEvent) -> Option<Input> {
+    match mouse.kind {
+        MouseEventKind::ScrollUp => Some(Input::Zoom(1)),
+        MouseEventKind::ScrollDown => Some(Input::Zoom(-1)),
+        MouseEventKind::Down(MouseButton::Left) => Some(Input::Grab(mouse.column, mouse.row)),
+        MouseEventKind::Drag(MouseButton::Left) => Some(Input::Drag(mouse.column, mouse.row)),
+        _ => None,
+    }
+}
+
+/// The key that panics where a test has asked for it.
+pub(super) fn is_panic(event: &Event) -> bool {
+    matches!(event, Event::Key(KeyEvent { code: KeyCode::Char('!'), .. }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn key(code: KeyCode, modifiers: KeyModifiers) -> Option<Input> {
+        input(&Event::Key(KeyEvent::new(code, modifiers)))
+    }
+
+    #[test]
+    fn control_is_not_the_letter() {
+        assert_eq!(key(KeyCode::Char('c'), KeyModifiers::NONE), Some(Input::Charset));
+        assert_eq!(key(KeyCode::Char('c'), KeyModifiers::CONTROL), Some(Input::Quit));
+        assert_eq!(key(KeyCode::Char('z'), KeyModifiers::CONTROL), Some(Input::Suspend));
+        assert_eq!(key(KeyCode::Char('q'), KeyModifiers::CONTROL), None);
+    }
+
+    #[test]
+    fn shifted_keys_count() {
+        assert_eq!(key(KeyCode::Char('?'), KeyModifiers::SHIFT), Some(Input::Help));
+        assert_eq!(key(KeyCode::Char('+'), KeyModifiers::SHIFT), Some(Input::Zoom(1)));
+    }
+
+    #[test]
+    fn a_released_key_says_nothing() {
+        let mut released = KeyEvent::new(KeyCode::Char('q'), KeyModifiers::NONE);
+        released.kind = KeyEventKind::Release;
+        assert_eq!(input(&Event::Key(released)), None);
+    }
+
+    #[test]
+    fn only_the_left_button_drags() {
+        let mouse = |kind| {
+            let modifiers = KeyModifiers::NONE;
+            input(&Event::Mouse(MouseEvent { kind, column: 3, row: 4, modifiers }))
+        };
+        assert_eq!(mouse(MouseEventKind::Down(MouseButton::Left)), Some(Input::Grab(3, 4)));
+        assert_eq!(mouse(MouseEventKind::Drag(MouseButton::Left)), Some(Input::Drag(3, 4)));
+        assert_eq!(mouse(MouseEventKind::Drag(MouseButton::Right)), None);
+        assert_eq!(mouse(MouseEventKind::ScrollUp), Some(Input::Zoom(1)));
+    }
+}

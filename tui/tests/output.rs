@@ -1,0 +1,149 @@
+//! One picture: its lines, its colours, and where it goes.
+
+mod program;
+
+use program::{printed, run, run_with_input, spherule};
+use std::fs::OpenOptions;
+use std::process::Stdio;
+
+#[test]
+fn a_picture_is_exactly_its_rows() {
+    for (size, rows) in [("80x24", 24), ("1x1", 1), ("7x3", 3), ("200x1", 1)] {
+        for charset in ["ascii", "half"] {
+            let text = printed(&run(["--size", size, "--charset", charset]));
+            assert!(text.ends_with('\n') && !text.contains('\x1b'), "{size} {charset}");
+            assert_eq!(text.lines().count(), rows);
+            let columns: usize = size.split('x').next().and_then(|n| n.parse().ok()).expect("n");
+            assert!(text.lines().all(|line| line.chars().count() == columns));
+        }
+    }
+}
+
+#[test]
+fn a_pipe_gets_eighty_by_twenty_four_without_colour() {
+    let text = printed(&run(["unit"]));
+    assert_eq!(text, printed(&run("unit --size 80x24 --charset ascii --color never".split(' '))));
+    assert_eq!(text, printed(&run(["unit", "--once"])));
+    assert!(text.is_ascii());
+}
+
+#[test]
+fn every_coloured_line_is_closed_by_a_reset() {
+    for color in ["16", "256", "truecolor", "always"] {
+        for charset in ["ascii", "half"] {
+            let words = ["--size", "40x12", "--charset", charset, "--color", color];
+            let text = printed(&run(words));
+            assert_eq!(text.lines().count(), 12);
+            for line in text.lines().filter(|line| line.contains('\x1b')) {
+                assert!(line.ends_with("\x1b[0m"), "{color} {charset}: {line:?}");
+            }
+            assert!(text.contains('\x1b'));
+        }
+    }
+}
+
+#[test]
+fn the_flag_then_no_color_then_clicolor_force() {
+    let coloured = |flag: &[&str], variables: &[(&str, &str)]| {
+        let mut command = spherule();
+        command.args(["unit", "--size", "20x6"]).args(flag).envs(variables.iter().copied());
+        printed(&command.output().expect("the program runs")).contains('\x1b')
+    };
+    assert!(!coloured(&[], &[]));
+    assert!(coloured(&[], &[("CLICOLOR_FORCE", "1")]));
+    assert!(!coloured(&[], &[("CLICOLOR_FORCE", "0")]));
+    assert!(!coloured(&[], &[("CLICOLOR_FORCE", "1"), ("NO_COLOR", "1")]));
+    assert!(coloured(&[], &[("CLICOLOR_FORCE", "1"), ("NO_COLOR", "")]));
+    assert!(coloured(&["--color", "always"], &[("NO_COLOR", "1")]));
+    assert!(coloured(&["--color", "256"], &[("NO_COLOR", "1")]));
+    assert!(!coloured(&["--color", "never"], &[("CLICOLOR_FORCE", "1")]));
+}
+
+#[test]
+fn the_depth_is_what_the_environment_says() {
+    let text = |term: &str, colorterm: &str| {
+        let mut command = spherule();
+        command.args(["marbles", "--size", "20x6", "--color", "always"]);
+        command.env("TERM", term).env("COLORTERM", colorterm);
+        printed(&command.output().expect("the program runs"))
+    };
+    assert!(text("xterm", "truecolor").contains("8;2;"));
+    assert!(text("xterm-256color", "").contains("8;5;"));
+    let sixteen = text("xterm", "");
+    assert!(!sixteen.contains("8;2;") && !sixteen.contains("8;5;"));
+}
+
+#[test]
+fn a_reader_that_goes_away_is_a_success() {
+    for words in ["--size 500x500 --color truecolor", "unit", "scenes", "--help", "trace --help"] {
+        let mut child = spherule()
+            .args(words.split(' '))
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("the program runs");
+        drop(child.stdout.take());
+        let output = child.wait_with_output().expect("the program ends");
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert_eq!((output.status.code(), stderr.as_ref()), (Some(0), ""), "{words}");
+    }
+}
+
+#[test]
+fn an_output_that_cannot_be_written_is_a_failure() {
+    let Ok(full) = OpenOptions::new().write(true).open("/dev/full") else {
+        println!("skipped: no /dev/full");
+        return;
+    };
+    for words in ["unit", "scenes", "--version"] {
+        let full = full.try_clone().expect("a handle");
+        let output = spherule().args(words.split(' ')).stdout(full).output().expect("it runs");
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{words}");
+        assert_eq!(stderr, "spherule: standard output: no space left on device\n");
+    }
+}
+
+#[test]
+fn scenes_are_listed_a_line_each() {
+    let text = printed(&run(["scenes"]));
+    let words: Vec<Vec<&str>> =
+        text.lines().map(|line| line.split_whitespace().take(2).collect()).collect();
+    assert_eq!(
+        words,
+        [["marbles", "10"], ["unit", "1"], ["flake", "7381"], ["edge", "19"], ["caffeine", "24"]]
+    );
+}
+
+#[test]
+fn marbles_is_what_is_shown_without_a_name() {
+    assert_eq!(printed(&run([""; 0])), printed(&run(["marbles"])));
+}
+
+#[test]
+fn a_molecule_from_its_name_its_file_and_standard_input() {
+    let shipped = printed(&run(["caffeine.xyz"]));
+    let text = include_bytes!("../scenes/caffeine.xyz");
+    assert_eq!(shipped, printed(&run(["caffeine"])));
+    assert_eq!(
+        shipped,
+        printed(&run([concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/caffeine.xyz")]))
+    );
+    assert_eq!(shipped, printed(&run_with_input("-", text)));
+    assert!(shipped.contains('@'));
+}
+
+#[test]
+fn the_projection_can_be_chosen() {
+    let perspective = printed(&run(["--size", "40x12"]));
+    let parallel = printed(&run(["--size", "40x12", "--projection", "parallel"]));
+    assert_ne!(perspective, parallel);
+}
+
+#[test]
+fn fast_shows_its_faults_in_edge_and_stable_does_not() {
+    let picture = |tier| printed(&run(["edge", "--size", "80x24", "--accuracy", tier]));
+    let (fast, stable) = (picture("fast"), picture("stable"));
+    let differing = fast.chars().zip(stable.chars()).filter(|(a, b)| a != b).count();
+    assert!(differing > 100, "{differing} of 1920 cells");
+}

@@ -1,0 +1,62 @@
+//! The real program, run and its outcome checked.
+
+#![allow(dead_code, reason = "every test program uses a part of it")]
+
+use std::ffi::OsStr;
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::{Command, Output, Stdio};
+
+/// The program without any variable that decides about colour.
+pub(crate) fn spherule() -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_spherule"));
+    for name in ["NO_COLOR", "CLICOLOR_FORCE", "COLORTERM"] {
+        command.env_remove(name);
+    }
+    command.env("TERM", "xterm-256color").stdin(Stdio::null());
+    command
+}
+
+/// Runs it with these arguments.
+pub(crate) fn run<S: AsRef<OsStr>>(arguments: impl IntoIterator<Item = S>) -> Output {
+    spherule().args(arguments).output().expect("the program runs")
+}
+
+/// Runs it with these words, and `input` on standard input.
+pub(crate) fn run_with_input(words: &str, input: &[u8]) -> Output {
+    let mut child = spherule()
+        .args(words.split_whitespace())
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program runs");
+    // It may have seen enough before it has read everything.
+    let _ = child.stdin.take().expect("piped").write_all(input);
+    child.wait_with_output().expect("the program ends")
+}
+
+/// What a successful run printed.
+pub(crate) fn printed(output: &Output) -> String {
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!((output.status.code(), stderr.as_ref()), (Some(0), ""));
+    String::from_utf8(output.stdout.clone()).expect("UTF-8")
+}
+
+/// The one line that an input error prints, after `spherule: `.
+pub(crate) fn refusal(output: &Output) -> String {
+    let stderr = String::from_utf8(output.stderr.clone()).expect("UTF-8");
+    assert_eq!(output.status.code(), Some(2), "{stderr}");
+    assert!(output.stdout.is_empty(), "something on stdout, and {stderr}");
+    let message = stderr.strip_prefix("spherule: ").expect("the program's name");
+    let line = message.strip_suffix('\n').expect("a line");
+    assert!(!line.contains('\n'), "more than a line: {stderr}");
+    line.to_owned()
+}
+
+/// A file that is this test's own.
+pub(crate) fn file(name: &str, bytes: &[u8]) -> PathBuf {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+    std::fs::write(&path, bytes).expect("a writable folder");
+    path
+}
