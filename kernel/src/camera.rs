@@ -75,3 +75,6 @@ impl Camera {
         packet
     }
 }
+
+#[cfg(test)]
+mod packets;

@@ -102,10 +102,11 @@ pub trait Lanes:
         Self::splat(self.token(), value)
     }
 
-    /// The magnitude; NaN for NaN.
+    /// The magnitude, +0 for -0; NaN for NaN.
     #[inline(always)]
     fn abs(self) -> Self {
-        Self::select(self.lt(self.like(0.0)), -self, self)
+        let zero = self.like(0.0);
+        Self::select(self.le(zero), zero - self, self)
     }
 }
 
@@ -145,10 +146,11 @@ pub trait DoubleLanes:
         Self::splat(self.token(), value)
     }
 
-    /// The magnitude; NaN for NaN.
+    /// The magnitude, +0 for -0; NaN for NaN.
     #[inline(always)]
     fn abs(self) -> Self {
-        Self::select(self.lt(self.like(0.0)), -self, self)
+        let zero = self.like(0.0);
+        Self::select(self.le(zero), zero - self, self)
     }
 }
 
@@ -157,3 +159,6 @@ pub trait DoubleLanes:
 fn plain_call<R>(work: impl FnOnce() -> R) -> R {
     work()
 }
+
+#[cfg(test)]
+mod bit_for_bit;

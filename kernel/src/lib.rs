@@ -15,6 +15,8 @@ mod hit;
 mod intersect;
 mod lanes;
 mod ray;
+#[cfg(test)]
+mod search;
 mod sphere;
 
 pub use accuracy::{Accuracy, Exact, Fast, Stable};

@@ -34,3 +34,4 @@ pub mod regimes;
 pub mod tally;
 pub mod ulp;
 pub mod vectors;
+pub mod widths;

@@ -35,18 +35,32 @@ impl<L: Lanes> Beyond<L> {
     /// is added for what underflows. What overflows makes the bound infinite or NaN: not told.
     #[inline(always)]
     pub(super) fn limit(&self, rays: &RayLanes<L>, center: [L; 3], radius: L, limit: L) -> L::Mask {
+        let [end, size, entry] = self.terms(rays, center, radius, limit);
+        let margin = end.like(MARGIN) * (size + end.abs()) + end.like(LEAST_A);
+        (end.like(LEAST_SIZE) * self.length).le(size) & (end + margin).lt(entry)
+    }
+
+    /// limit a; |p|_1 |d| + r |d|; b - r |d|.
+    #[inline(always)]
+    fn terms(&self, rays: &RayLanes<L>, center: [L; 3], radius: L, limit: L) -> [L; 3] {
         let p = axes!(i => center[i] - rays.origin[i]);
         let b = dot(rays.direction, p);
-        let end = limit * self.a;
+        // Among subnormals the next t may be twice the last, more than any margin: past the limit
+        // by one of them is not past it yet.
+        let end = (limit + b.like(f32::MIN_POSITIVE)) * self.a;
         let reach = radius * self.length;
         let size = (p[0].abs() + p[1].abs() + p[2].abs()) * self.length + reach;
-        let margin = b.like(8.0 * f32::EPSILON) * (size + end.abs()) + b.like(LEAST_A);
-        (b.like(LEAST_SIZE) * self.length).le(size) & (end + margin).lt(b - reach)
+        [end, size, b - reach]
     }
 }
 
+/// 2^-20.
+const MARGIN: f32 = 8.0 * f32::EPSILON;
 /// 2^-38: below it, the squares of |p| and r might underflow in `Stable`.
 const LEAST_SIZE: f32 = 1.0 / (1u64 << 38) as f32;
 
 /// 2^-120.
 const LEAST_A: f32 = 1.0 / (1u128 << 120) as f32;
+
+#[cfg(test)]
+mod worst;
