@@ -38,7 +38,7 @@ fn with_filter<R>(
     let r = column(sphere.radius, 0.0);
     let spheres = Spheres::new(&x, &y, &z, &r).expect("equal lengths");
     let block = FilterBlock::widened(&spheres, 0, kappa);
-    let rays = RayLanes::<f32>::load((), &RayPacket::new(&[line]));
+    let rays = RayLanes::<f32>::load((), &RayPacket::<f32>::new(&[line]));
     ask(&FilterRays::widened((), &rays, &block, kappa), &block)
 }
 

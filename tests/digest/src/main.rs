@@ -42,7 +42,7 @@ fn digest<A: Accuracy, L: Lanes<Token = ()>>(cases: &[Case]) -> u64 {
         |cases: &[Case]| RayPacket::<L>::new(&cases.iter().map(|c| c.ray).collect::<Vec<_>>());
     for cases in cases.chunks(L::COUNT) {
         let spheres: Vec<Sphere> = cases.iter().map(|case| case.sphere).collect();
-        let hits = pairs::<A, L>((), &rays(cases), &SpherePacket::new(&spheres));
+        let hits = pairs::<A, L>((), &rays(cases), &SpherePacket::<L>::new(&spheres));
         hits.t().iter().take(cases.len()).for_each(|&t| fnv.t(t));
     }
 
@@ -64,7 +64,7 @@ fn digest<A: Accuracy, L: Lanes<Token = ()>>(cases: &[Case]) -> u64 {
 fn lists<A: Accuracy, L: Lanes<Token = ()>>(fnv: &mut Fnv, cases: &[Case], spheres: Spheres<'_>) {
     let rays: Vec<_> = cases.iter().map(|case| case.ray).collect();
     let packets: Vec<_> = rays.chunks(L::COUNT).map(RayPacket::<L>::new).collect();
-    let mut hits = vec![HitPacket::none(); packets.len()];
+    let mut hits = vec![HitPacket::<L>::none(); packets.len()];
     nearest::<A, L>((), &packets, spheres, &mut hits);
     let mut met = vec![0; packets.len()];
     any::<A, L>((), &packets, spheres, &mut met);

@@ -46,7 +46,7 @@ extern "C" fn both_roots() {
 
 fn all_pairs<L: Lanes<Token = ()>>(cases: &[(Ray, Sphere)]) {
     for (ray, sphere) in black_box(cases) {
-        black_box(pairs::<Exact, L>((), &RayPacket::new(&[*ray]), &SpherePacket::new(&[*sphere])));
+        black_box(pairs::<Exact, L>((), &RayPacket::<L>::new(&[*ray]), &SpherePacket::<L>::new(&[*sphere])));
     }
 }
 

@@ -25,7 +25,7 @@ fn case(numbers: &Numbers) -> (Ray, Sphere) {
 fn used<A: Accuracy>(numbers: &Numbers, which: usize) -> f64 {
     let (line, sphere) = case(numbers);
     let Some(roots) = roots::<A>(&line, &sphere) else { return f64::NEG_INFINITY };
-    let rays = RayLanes::<f32>::load((), &RayPacket::new(&[line]));
+    let rays = RayLanes::<f32>::load((), &RayPacket::<f32>::new(&[line]));
     let beyond = Beyond::new(&rays);
     let limit = roots[which];
     let told = beyond.limit(&rays, sphere.center.to_array(), sphere.radius, limit);
@@ -84,7 +84,7 @@ fn no_root_up_to_the_limit_is_dropped() {
         }
         let Some(roots) = roots::<Exact>(&line, &sphere) else { continue };
         met += 1;
-        let rays = RayLanes::<f32>::load((), &RayPacket::new(&[line]));
+        let rays = RayLanes::<f32>::load((), &RayPacket::<f32>::new(&[line]));
         let beyond = Beyond::new(&rays);
         for limit in [roots[0], roots[0].next_up(), roots[1], f32::MAX, f32::INFINITY] {
             let told = beyond.limit(&rays, sphere.center.to_array(), sphere.radius, limit);
