@@ -35,7 +35,7 @@ fn pairs_of<L: Lanes<Token = ()>>(cases: &[Case]) -> Vec<Option<f32>> {
             rays.set(lane, &case.ray);
             spheres.push(case.sphere);
         }
-        let hits = pairs::<Exact, L>((), &rays, &SpherePacket::new(&spheres));
+        let hits = pairs::<Exact, L>((), &rays, &SpherePacket::<L>::new(&spheres));
         answers.extend((0..cases.len()).map(|lane| hits.hit(lane).map(|hit| hit.t)));
     }
     answers
@@ -43,7 +43,7 @@ fn pairs_of<L: Lanes<Token = ()>>(cases: &[Case]) -> Vec<Option<f32>> {
 
 fn nearest_of<L: Lanes<Token = ()>>(rays: &[Ray], spheres: &[Sphere]) -> Vec<Option<Hit>> {
     let packets: Vec<_> = rays.chunks(L::COUNT).map(RayPacket::<L>::new).collect();
-    let mut hits = vec![HitPacket::none(); packets.len()];
+    let mut hits = vec![HitPacket::<L>::none(); packets.len()];
     nearest::<Exact, L>((), &packets, Columns::new(spheres).spheres(), &mut hits);
     (0..rays.len()).map(|index| hits[index / L::COUNT].hit(index % L::COUNT)).collect()
 }
