@@ -35,3 +35,8 @@ pub mod tally;
 pub mod ulp;
 pub mod vectors;
 pub mod widths;
+
+/// The README's Rust, compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+mod readme {}
