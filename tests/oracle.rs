@@ -1,14 +1,234 @@
-//! The oracle against hand-made cases, a second derivation, and the vectors of another hand.
+//! The oracle against cases worked by hand, a second derivation, and the vectors of another hand.
+//!
+//! The second derivation knows no square root and no division: by the signs of
+//! f(m) = |m d - p|^2 - r^2 and g(m) = d.(m d - p) at a number m it tells on which side of m a
+//! root lies, and so finds the one `f32` whose rounding interval holds it by halving.
 
-use spherule_tests::oracle;
-use spherule_tests::vectors;
+use num_bigint::{BigInt, Sign};
+use spherule_kernel::{Hit, Ray, Sphere, Vec3};
+use spherule_tests::case::Case;
+use spherule_tests::oracle::{self, dot, units, units3};
+use spherule_tests::regimes::REGIMES;
+use spherule_tests::{ulp, vectors};
+use std::cmp::Ordering;
+
+/// From (0, 0, -3) upwards to the sphere of radius 1 at zero: roots 2 and 4.
+fn straight() -> Case {
+    Case {
+        ray: Ray::new(Vec3::new(0.0, 0.0, -3.0), Vec3::Z),
+        sphere: Sphere { center: Vec3::ZERO, radius: 1.0 },
+    }
+}
+
+fn intersect(case: &Case) -> Option<f32> {
+    oracle::intersect(&case.ray, &case.sphere)
+}
+
+#[test]
+fn entry_exit_and_interval() {
+    let mut case = straight();
+    assert_eq!(oracle::roots(&case.ray, &case.sphere), Some([2.0, 4.0]));
+    assert_eq!(intersect(&case), Some(2.0));
+    for (t_min, t_max, expected) in [
+        (2.0, 2.0, Some(2.0)),
+        (2.0_f32.next_up(), 4.0, Some(4.0)),
+        (2.0_f32.next_up(), 4.0_f32.next_down(), None),
+        (0.0, 2.0_f32.next_down(), None),
+        (5.0, 1.0, None),
+        (f32::NAN, 9.0, None),
+        (0.0, f32::NAN, None),
+        (f32::NEG_INFINITY, f32::INFINITY, Some(2.0)),
+    ] {
+        (case.ray.t_min, case.ray.t_max) = (t_min, t_max);
+        assert_eq!(intersect(&case), expected, "[{t_min}, {t_max}]");
+    }
+}
+
+#[test]
+fn invalid_input_hits_nothing() {
+    for which in 0..Case::NUMBERS {
+        for value in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+            let mut numbers = straight().numbers();
+            numbers[which] = value;
+            let case = Case::from_numbers(numbers);
+            let bound = which == 6 || which == 7;
+            let hit = (which == 6 && value == f32::NEG_INFINITY)
+                || (which == 7 && value == f32::INFINITY);
+            assert_eq!(intersect(&case).is_some(), hit, "{case:?}");
+            assert_eq!(oracle::meets(&case.ray, &case.sphere), bound, "{case:?}");
+        }
+    }
+    let mut still = straight();
+    still.ray.direction = -Vec3::ZERO;
+    assert_eq!(intersect(&still), None);
+    let mut negative = straight();
+    negative.sphere.radius = -f32::from_bits(1);
+    assert_eq!(intersect(&negative), None);
+}
+
+#[test]
+fn tangents_points_and_the_ulp_beside_them() {
+    let mut case = straight();
+    case.ray.origin.x = 1.0;
+    assert_eq!(oracle::discriminant_sign(&case.ray, &case.sphere), Some(Ordering::Equal));
+    assert_eq!(intersect(&case), Some(3.0));
+    case.sphere.radius = 1.0_f32.next_down();
+    assert_eq!(oracle::discriminant_sign(&case.ray, &case.sphere), Some(Ordering::Less));
+    assert_eq!(intersect(&case), None);
+    for zero in [0.0, -0.0] {
+        let mut point = straight();
+        point.sphere.radius = zero;
+        assert_eq!(intersect(&point), Some(3.0));
+        point.ray.origin.x = f32::from_bits(1);
+        assert_eq!(intersect(&point), None);
+    }
+}
+
+#[test]
+fn roots_round_to_even_and_zero_has_no_sign() {
+    // Tangents of d = (1, 0, 0) at t = p.x, a number of more than 24 bits in c.x - o.x.
+    let at = |c: f32, o: f32| {
+        let ray = Ray { t_min: f32::NEG_INFINITY, ..Ray::new(Vec3::new(o, 1.0, 0.0), Vec3::X) };
+        let sphere = Sphere { center: Vec3::new(c, 0.0, 0.0), radius: 1.0 };
+        let tie = oracle::roots_and_ties(&ray, &sphere).expect("a tangent")[0].1;
+        (oracle::intersect(&ray, &sphere), tie)
+    };
+    let million = 16_777_216.0;
+    assert_eq!(at(million, -1.0), (Some(million), true));
+    assert_eq!(at(million + 2.0, -1.0), (Some(million + 4.0), true));
+    assert_eq!(at(-million, 1.0), (Some(-million), true));
+    assert_eq!(at(-million - 2.0, 1.0), (Some(-million - 4.0), true));
+    assert_eq!(at(million, -1.5), (Some(million + 2.0), false));
+    // The largest number's last bit is worth 2^104: from half of that on, infinity.
+    let half = f32::from_bits((103 + 127) << 23);
+    assert_eq!(at(f32::MAX, -half), (None, true));
+    assert_eq!(at(f32::MAX, -half.next_down()), (Some(f32::MAX), false));
+    assert_eq!(at(-f32::MAX, half), (None, true));
+
+    // Roots about the least number.
+    let least = f32::from_bits(1);
+    let tiny = |p: f32, d: f32| {
+        let ray = Ray {
+            t_min: f32::NEG_INFINITY,
+            ..Ray::new(Vec3::new(0.0, 1.0, 0.0), Vec3::new(d, 0.0, 0.0))
+        };
+        let sphere = Sphere { center: Vec3::new(p, 0.0, 0.0), radius: 1.0 };
+        oracle::intersect(&ray, &sphere).expect("a tangent").to_bits()
+    };
+    assert_eq!(tiny(least, 2.0), 0, "half of the least rounds to even, zero");
+    assert_eq!(tiny(-least, 2.0), 0, "and not to -0");
+    assert_eq!(tiny(3.0 * least, 2.0), 2);
+    assert_eq!(tiny(least, 1.9), 1);
+    assert_eq!(tiny(-least, 1.9), 0x8000_0001);
+    assert_eq!(tiny(least, f32::MAX), 0);
+    assert_eq!(tiny(-0.0, 1.0), 0);
+}
+
+#[test]
+fn the_nearest_of_many_and_the_lowest_of_equals() {
+    let Case { ray, sphere } = straight();
+    let behind = Sphere { center: Vec3::new(0.0, 0.0, -9.0), ..sphere };
+    let further = Sphere { center: Vec3::new(0.0, 0.0, 1.0), ..sphere };
+    let spheres = [behind, further, sphere, further, sphere];
+    assert_eq!(oracle::nearest(&ray, &spheres), Some(Hit { t: 2.0, sphere: 2 }));
+    assert_eq!(oracle::nearest(&ray, &spheres[..1]), None);
+    assert_eq!(oracle::nearest(&ray, &[]), None);
+}
+
+/// The number at place `place` of all `f32`, in units of 2^-149; infinity as 2^128.
+fn number_at(place: i64) -> BigInt {
+    if place.abs() == ulp::ordered(f32::INFINITY) {
+        BigInt::from(place.signum()) << (128 + 149)
+    } else {
+        units(ulp::step(0.0, place))
+    }
+}
+
+/// Which of the two roots, and on which side of a number it is.
+struct Sides {
+    d: [BigInt; 3],
+    p: [BigInt; 3],
+    r: BigInt,
+    far: bool,
+}
+
+impl Sides {
+    /// How m, in units of 2^-150, compares with the root.
+    fn compare(&self, m: &BigInt) -> Ordering {
+        // With d in units of 2^-149, m d is in units of 2^-299: p and r must follow.
+        let q: [BigInt; 3] = std::array::from_fn(|i| m * &self.d[i] - (&self.p[i] << 150));
+        let r: BigInt = &self.r << 150;
+        let f = (dot(&q, &q) - &r * &r).sign();
+        let g = dot(&self.d, &q).sign();
+        // Between the roots f < 0; beyond them f > 0, with g < 0 before and g > 0 after.
+        match (f, g) {
+            (Sign::Minus, _) if self.far => Ordering::Less,
+            (Sign::Minus, _) => Ordering::Greater,
+            (Sign::Plus, Sign::Minus) => Ordering::Less,
+            (Sign::Plus, _) => Ordering::Greater,
+            (Sign::NoSign, Sign::Minus) if self.far => Ordering::Less,
+            (Sign::NoSign, Sign::Plus) if !self.far => Ordering::Greater,
+            (Sign::NoSign, _) => Ordering::Equal,
+        }
+    }
+
+    /// The `f32` nearest to the root: the first whose upper midpoint is not below it.
+    fn rounded(&self) -> f32 {
+        let infinity = ulp::ordered(f32::INFINITY);
+        let (mut low, mut high) = (-infinity, infinity);
+        while low < high {
+            let place = low + (high - low) / 2;
+            // The sum in units of 2^-149 is the midpoint in units of 2^-150.
+            let midpoint = number_at(place) + number_at(place + 1);
+            let below = match self.compare(&midpoint) {
+                Ordering::Less => true,
+                Ordering::Greater => false,
+                // A tie goes to the even significand, which is the even place.
+                Ordering::Equal => place % 2 != 0,
+            };
+            if below { low = place + 1 } else { high = place }
+        }
+        ulp::step(0.0, low)
+    }
+}
+
+/// Both roots by halving; the sign of D from |d x p|^2, not from b^2 - a c.
+fn roots_by_halving(case: &Case) -> Option<[f32; 2]> {
+    let Case { ray, sphere } = case;
+    let numbers = [0, 1, 2, 3, 4, 5, 8, 9, 10, 11].map(|i| case.numbers()[i]);
+    if numbers.iter().any(|x| !x.is_finite()) || sphere.radius < 0.0 || ray.direction == Vec3::ZERO
+    {
+        return None;
+    }
+    let (o, d, c) = (units3(ray.origin), units3(ray.direction), units3(sphere.center));
+    let p: [BigInt; 3] = std::array::from_fn(|i| &c[i] - &o[i]);
+    let r = units(sphere.radius);
+    let x = [[1, 2], [2, 0], [0, 1]].map(|[i, j]| &d[i] * &p[j] - &d[j] * &p[i]);
+    if dot(&d, &d) * &r * &r < dot(&x, &x) {
+        return None;
+    }
+    let mut sides = Sides { d, p, r, far: false };
+    let near = sides.rounded();
+    sides.far = true;
+    Some([near, sides.rounded()])
+}
+
+#[test]
+fn agrees_with_halving_in_every_regime() {
+    for regime in REGIMES {
+        for (index, case) in regime.cases(150).enumerate() {
+            let roots = oracle::roots(&case.ray, &case.sphere).map(|roots| roots.map(f32::to_bits));
+            let halved = roots_by_halving(&case).map(|roots| roots.map(f32::to_bits));
+            assert_eq!(roots, halved, "{regime:?} {index}: {case:?}");
+        }
+    }
+}
 
 #[test]
 fn agrees_with_every_vector() {
     let Some(vectors) = vectors::read() else { return };
     for (index, vector) in vectors.iter().enumerate() {
-        let found = oracle::intersect(&vector.case.ray, &vector.case.sphere);
-        let (found, expected) = (found.map(f32::to_bits), vector.expected.map(f32::to_bits));
-        assert_eq!(found, expected, "vector {index}: {:?}", vector.case);
+        let found = intersect(&vector.case).map(f32::to_bits);
+        assert_eq!(found, vector.expected.map(f32::to_bits), "vector {index}: {:?}", vector.case);
     }
 }

@@ -4,9 +4,33 @@
 //! | room | holds |
 //! |---|---|
 //! | [`oracle`] | the exact answers, from big integers |
+//! | [`ulp`], [`tally`] | distance in ulp, and what a tier's answers come to |
 //! | [`case`] | one ray and one sphere, printed so that no bit is hidden |
+//! | [`random`] | random numbers that never change |
+//! | [`aim`] | rays aimed at spheres |
+//! | [`regimes`] | cases of the 22 hard regimes |
+//! | [`inputs`] | what proptest draws |
+//! | [`kept`] | some of them with their answers, in a file |
+//! | [`measured`] | cases of the regimes in which error is measured |
+//! | [`budget`] | the one table of what each tier gets wrong, and where |
+//! | [`doors`] | every tier in every lane width, as plain functions |
 //! | [`vectors`] | the 100,000 hard cases that lie beside the workspace, where they do |
+//!
+//! `PROPTEST_CASES=100000 cargo test -p spherule-tests` looks longer for counterexamples;
+//! `SPHERULE_VECTORS=<folder>` says where the vectors are, and makes their absence a failure.
+//! After a change of a tier the budget is pinned anew as [`budget`] says; after a change of a
+//! generator the kept cases are written anew as the head of their file says.
 
+pub mod aim;
+pub mod budget;
 pub mod case;
+pub mod doors;
+pub mod inputs;
+pub mod kept;
+pub mod measured;
 pub mod oracle;
+pub mod random;
+pub mod regimes;
+pub mod tally;
+pub mod ulp;
 pub mod vectors;

@@ -161,9 +161,15 @@ pub fn roots_and_ties(ray: &Ray, sphere: &Sphere) -> Option<[(f32, bool); 2]> {
 /// Rules 1 to 4: the t of the hit.
 #[must_use]
 pub fn intersect(ray: &Ray, sphere: &Sphere) -> Option<f32> {
+    accepted(ray, roots(ray, sphere)?)
+}
+
+/// Rules 3 and 4: which of the rounded roots the ray's interval accepts.
+#[must_use]
+pub fn accepted(ray: &Ray, roots: [f32; 2]) -> Option<f32> {
     // Comparing two given floats rounds nothing; comparing with NaN accepts nothing.
     let accepted = |t: &f32| t.is_finite() && ray.t_min <= *t && *t <= ray.t_max;
-    roots(ray, sphere)?.into_iter().find(accepted)
+    roots.into_iter().find(accepted)
 }
 
 /// Rules 1 to 5: the nearest hit, the lowest index among equals.

@@ -32,16 +32,7 @@ pub struct Vector {
 /// Where the folder is there and cannot be read as documented, or where it must be there.
 #[must_use]
 pub fn read() -> Option<Vec<Vector>> {
-    let asked = std::env::var_os(FOLDER_VARIABLE).map(PathBuf::from);
-    let folder = asked
-        .clone()
-        .unwrap_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/vectors"));
-    if !folder.is_dir() {
-        assert!(asked.is_none(), "{FOLDER_VARIABLE}: no folder {}", folder.display());
-        skip("the vectors are absent: no folder shared/vectors beside the workspace");
-        return None;
-    }
-
+    let folder = find(std::env::var_os(FOLDER_VARIABLE).map(PathBuf::from))?;
     let rays: Vec<f32> = read_array(&folder.join("rays.npy"), Some(8));
     let spheres: Vec<f32> = read_array(&folder.join("spheres.npy"), Some(4));
     let regimes: Vec<u8> = read_array(&folder.join("regime.npy"), None);
@@ -58,6 +49,20 @@ pub fn read() -> Option<Vec<Vector>> {
         Vector { regime: regimes[index], case: Case::from_numbers(numbers), expected }
     });
     Some(vectors.collect())
+}
+
+/// The folder that was asked for, or else the one beside the workspace if it is there.
+fn find(asked: Option<PathBuf>) -> Option<PathBuf> {
+    if let Some(folder) = asked {
+        assert!(folder.is_dir(), "{FOLDER_VARIABLE}: no folder {}", folder.display());
+        return Some(folder);
+    }
+    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/vectors");
+    if !beside.is_dir() {
+        skip("the vectors are absent: no folder shared/vectors beside the workspace");
+        return None;
+    }
+    Some(beside)
 }
 
 /// The numbers of one file, in C order, of one dimension or of rows of `columns`.
@@ -78,4 +83,25 @@ pub fn skip(reason: &str) {
     let count = SKIPS.fetch_add(1, Ordering::Relaxed) + 1;
     // Nothing is lost where standard error is closed.
     let _ = writeln!(std::io::stderr(), "SKIPPED ({count}): {reason}");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    #[should_panic(expected = "SPHERULE_VECTORS: no folder")]
+    fn what_must_be_there_is_not_skipped() {
+        let _ = find(Some(PathBuf::from("no/such/folder")));
+    }
+
+    #[test]
+    fn every_regime_has_its_cases() {
+        let Some(vectors) = read() else { return };
+        assert_eq!(vectors.len(), 100_000);
+        for regime in crate::regimes::REGIMES {
+            let cases = vectors.iter().filter(|vector| vector.regime == regime.number).count();
+            assert!(cases > 1000, "{regime:?}: {cases} cases");
+        }
+    }
 }

@@ -1,0 +1,220 @@
+//! What must hold between two answers, whatever the right one is: properties of the lecture's
+//! ray and sphere that no tier may lose.
+
+use proptest::prelude::*;
+use spherule_kernel::{Hit, Ray, Sphere, Vec3};
+use spherule_tests::case::Case;
+use spherule_tests::doors::{DOORS, Door};
+use spherule_tests::inputs::{self, Scene};
+use spherule_tests::random::power_of_two;
+
+fn bits(hit: Option<Hit>) -> Option<(u32, u32)> {
+    hit.map(|hit| (hit.t.to_bits(), hit.sphere))
+}
+
+fn all_bits(hits: Vec<Option<Hit>>) -> Vec<Option<(u32, u32)>> {
+    hits.into_iter().map(bits).collect()
+}
+
+/// A lattice scene, or one a few ulp off: nothing in it comes near under- or overflow. Point
+/// spheres are left out, since the discriminant of one is all rounding, down to its square.
+fn common() -> impl Strategy<Value = Scene> {
+    let case = || prop_oneof![inputs::lattice(), inputs::walked()];
+    inputs::scene(case).prop_map(|mut scene| {
+        for sphere in &mut scene.spheres {
+            sphere.radius += if sphere.radius == 0.0 { 1.0 } else { 0.0 };
+        }
+        scene
+    })
+}
+
+fn any_scene() -> impl Strategy<Value = Scene> {
+    inputs::scene(inputs::case)
+}
+
+fn scaled(t: f32, exponent: i64) -> f32 {
+    t * power_of_two(exponent) as f32
+}
+
+proptest! {
+    #![proptest_config(inputs::config(600))]
+
+    /// r(t) = o + t d: with d twice as long, every t is half as large, exactly.
+    #[test]
+    fn scaling_the_direction_scales_t(scene in common(), exponent in -10_i64..=10) {
+        let scaled_rays: Vec<Ray> = scene.rays.iter().map(|ray| Ray {
+            direction: ray.direction * power_of_two(exponent) as f32,
+            t_min: scaled(ray.t_min, -exponent),
+            t_max: scaled(ray.t_max, -exponent),
+            ..*ray
+        }).collect();
+        for door in DOORS {
+            let scale = |hit: Hit| Hit { t: scaled(hit.t, -exponent), ..hit };
+            let expected = (door.nearest)(&scene.rays, &scene.spheres);
+            let expected = all_bits(expected.into_iter().map(|hit| hit.map(scale)).collect());
+            let found = all_bits((door.nearest)(&scaled_rays, &scene.spheres));
+            prop_assert_eq!(found, expected, "{} in {} lanes", door.tier, door.lanes);
+        }
+    }
+
+    /// All lengths twice as large: the same t.
+    #[test]
+    fn scaling_the_world_keeps_t(scene in common(), exponent in -10_i64..=10) {
+        let by = power_of_two(exponent) as f32;
+        let rays: Vec<Ray> = scene.rays.iter().map(|ray| Ray {
+            origin: ray.origin * by,
+            direction: ray.direction * by,
+            ..*ray
+        }).collect();
+        let spheres: Vec<Sphere> = scene.spheres.iter().map(|sphere| Sphere {
+            center: sphere.center * by,
+            radius: sphere.radius * by,
+        }).collect();
+        for door in DOORS {
+            let expected = all_bits((door.nearest)(&scene.rays, &scene.spheres));
+            let found = all_bits((door.nearest)(&rays, &spheres));
+            prop_assert_eq!(found, expected, "{} in {} lanes", door.tier, door.lanes);
+        }
+    }
+
+    /// A mirror turns signs of products, and no rounding.
+    #[test]
+    fn mirrors_keep_t(scene in any_scene(), mirrored in any::<[bool; 3]>()) {
+        let mirror = |v: Vec3| {
+            Vec3::from_array(std::array::from_fn(|i| if mirrored[i] { -v[i] } else { v[i] }))
+        };
+        let rays: Vec<Ray> = scene.rays.iter().map(|ray| Ray {
+            origin: mirror(ray.origin),
+            direction: mirror(ray.direction),
+            ..*ray
+        }).collect();
+        let spheres: Vec<Sphere> = scene.spheres.iter().map(|sphere| Sphere {
+            center: mirror(sphere.center),
+            ..*sphere
+        }).collect();
+        for door in DOORS {
+            let expected = all_bits((door.nearest)(&scene.rays, &scene.spheres));
+            let found = all_bits((door.nearest)(&rays, &spheres));
+            prop_assert_eq!(found, expected, "{} in {} lanes", door.tier, door.lanes);
+        }
+    }
+
+    /// Looking back along a line: entry and exit change places and signs.
+    #[test]
+    fn looking_back_turns_the_roots(case in inputs::case()) {
+        let back = Ray { direction: -case.ray.direction, ..case.ray };
+        for door in Door::references() {
+            let forth = (door.roots)(&case.ray, &case.sphere);
+            let back = (door.roots)(&back, &case.sphere);
+            prop_assert_eq!(forth.is_some(), back.is_some(), "{}", door.tier);
+            let (Some([near, far]), Some([back_near, back_far])) = (forth, back) else { continue };
+            let numbers = [near, far, back_near, back_far].iter().all(|t| !t.is_nan());
+            if numbers {
+                // Not bits: zero has no sign to turn.
+                prop_assert_eq!([near, far], [-back_far, -back_near], "{}", door.tier);
+            }
+        }
+    }
+
+    /// The interval is closed at its end: cut at t, the hit is still there.
+    #[test]
+    fn an_interval_that_ends_at_the_hit_finds_it_again(scene in any_scene()) {
+        for door in DOORS {
+            let hits = (door.nearest)(&scene.rays, &scene.spheres);
+            let cut = |(ray, hit): (&Ray, &Option<Hit>)| Ray {
+                t_max: hit.map_or(ray.t_max, |hit| hit.t),
+                ..*ray
+            };
+            let rays: Vec<Ray> = scene.rays.iter().zip(&hits).map(cut).collect();
+            let found = all_bits((door.nearest)(&rays, &scene.spheres));
+            prop_assert_eq!(found, all_bits(hits), "{} in {} lanes", door.tier, door.lanes);
+        }
+    }
+
+    /// And at its start: begun at t the hit is still there, begun at the next number it is not,
+    /// and what is found is further.
+    #[test]
+    fn an_interval_that_starts_after_the_hit_finds_another(scene in any_scene()) {
+        for door in DOORS {
+            let hits = (door.nearest)(&scene.rays, &scene.spheres);
+            for open in [false, true] {
+                let start = |hit: &Hit| if open { hit.t.next_up() } else { hit.t };
+                let begun = |(ray, hit): (&Ray, &Option<Hit>)| Ray {
+                    t_min: hit.as_ref().map_or(ray.t_min, start),
+                    ..*ray
+                };
+                let rays: Vec<Ray> = scene.rays.iter().zip(&hits).map(begun).collect();
+                let found = (door.nearest)(&rays, &scene.spheres);
+                for (hit, found) in hits.iter().zip(found) {
+                    let Some(hit) = hit else {
+                        prop_assert_eq!(found, None);
+                        continue;
+                    };
+                    let as_it_should = match open {
+                        false => bits(found) == bits(Some(*hit)),
+                        true => found.is_none_or(|found| found.t > hit.t),
+                    };
+                    prop_assert!(
+                        as_it_should,
+                        "{} in {} lanes: {:?}, then {:?}", door.tier, door.lanes, hit, found
+                    );
+                }
+            }
+        }
+    }
+
+    /// Lanes do not know their numbers.
+    #[test]
+    fn permuted_lanes_permute_the_answers(
+        (scene, order) in any_scene().prop_flat_map(|scene| {
+            let order: Vec<usize> = (0..scene.rays.len()).collect();
+            (Just(scene), Just(order).prop_shuffle())
+        })
+    ) {
+        let rays: Vec<Ray> = order.iter().map(|&index| scene.rays[index]).collect();
+        for door in DOORS {
+            let hits = (door.nearest)(&scene.rays, &scene.spheres);
+            let expected: Vec<_> = order.iter().map(|&index| bits(hits[index])).collect();
+            let found = all_bits((door.nearest)(&rays, &scene.spheres));
+            prop_assert_eq!(found, expected, "{} in {} lanes", door.tier, door.lanes);
+        }
+    }
+
+    /// The order of the list decides nothing but which of equals has the lowest index.
+    #[test]
+    fn permuted_spheres_keep_t(
+        (scene, order) in any_scene().prop_flat_map(|scene| {
+            let order: Vec<usize> = (0..scene.spheres.len()).collect();
+            (Just(scene), Just(order).prop_shuffle())
+        })
+    ) {
+        let spheres: Vec<Sphere> = order.iter().map(|&index| scene.spheres[index]).collect();
+        for door in DOORS {
+            let hits = (door.nearest)(&scene.rays, &scene.spheres);
+            let found = (door.nearest)(&scene.rays, &spheres);
+            for ((ray, hit), found) in scene.rays.iter().zip(hits).zip(found) {
+                let t = |hit: Option<Hit>| hit.map(|hit| hit.t.to_bits());
+                prop_assert_eq!(t(found), t(hit), "{} in {} lanes", door.tier, door.lanes);
+                let Some(found) = found else { continue };
+                // The first in the new order that is met at this t.
+                let same_t = |&sphere: &Sphere| {
+                    let t = (door.reference().pairs)(&[Case { ray: *ray, sphere }])[0];
+                    t == Some(found.t)
+                };
+                let lowest = spheres.iter().position(same_t);
+                prop_assert_eq!(lowest, Some(found.sphere as usize));
+            }
+        }
+    }
+
+    /// Anything is hit where something is nearest.
+    #[test]
+    fn any_is_whether_there_is_a_nearest(scene in any_scene()) {
+        for door in DOORS {
+            let nearest = (door.nearest)(&scene.rays, &scene.spheres);
+            let expected: Vec<bool> = nearest.iter().map(Option::is_some).collect();
+            let found = (door.any)(&scene.rays, &scene.spheres);
+            prop_assert_eq!(found, expected, "{} in {} lanes", door.tier, door.lanes);
+        }
+    }
+}

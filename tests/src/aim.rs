@@ -1,0 +1,92 @@
+//! Rays aimed at spheres: the geometry in double precision, the case in single.
+
+use crate::case::Case;
+use crate::random::{Random, cross, dot};
+use spherule_kernel::{Ray, Sphere, Vec3};
+
+/// What a case shall look like before it is rounded to single precision.
+#[derive(Clone, Copy, Debug)]
+pub struct Aim {
+    /// Where the ray starts.
+    pub origin: [f64; 3],
+    /// The length of the direction.
+    pub length: f64,
+    /// From the origin to the point of the line closest to the centre; behind where negative.
+    pub distance: f64,
+    /// The radius.
+    pub radius: f64,
+    /// From the centre to the line, in radii: less than 1 hits.
+    pub offset: f64,
+}
+
+impl Aim {
+    /// The case in a random orientation, `t` in `[0, +inf]`.
+    #[must_use]
+    pub fn case(&self, random: &mut Random) -> Case {
+        let along = random.unit();
+        let across = random.perpendicular(along);
+        // Aim the rounded ray, not the one that it was to be.
+        let origin = single(self.origin);
+        let direction = single(along.map(|x| x * self.length));
+        let along = normalized(double(direction)).unwrap_or(along);
+        let center = core::array::from_fn(|i| {
+            f64::from(origin[i]) + self.distance * along[i] + self.offset * self.radius * across[i]
+        });
+        let sphere = Sphere { center: single(center), radius: self.radius as f32 };
+        Case { ray: Ray::new(origin, direction), sphere }
+    }
+}
+
+/// The line's distance from the centre, in double precision.
+#[must_use]
+pub fn line_distance(case: &Case) -> f64 {
+    let (o, d) = (double(case.ray.origin), double(case.ray.direction));
+    let c = double(case.sphere.center);
+    let x = cross(d, [c[0] - o[0], c[1] - o[1], c[2] - o[2]]);
+    (dot(x, x) / dot(d, d)).sqrt()
+}
+
+/// Rounded to single precision.
+#[must_use]
+pub fn single(v: [f64; 3]) -> Vec3 {
+    Vec3::from_array(v.map(|x| x as f32))
+}
+
+/// Widened to double precision.
+#[must_use]
+pub fn double(v: Vec3) -> [f64; 3] {
+    v.to_array().map(f64::from)
+}
+
+/// Of length one, where the length is neither zero nor infinite.
+fn normalized(v: [f64; 3]) -> Option<[f64; 3]> {
+    let length = dot(v, v).sqrt();
+    (length > 0.0 && length.is_finite()).then(|| v.map(|x| x / length))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::oracle;
+
+    #[test]
+    fn offsets_below_one_hit_and_above_one_miss() {
+        let mut random = Random::new(4, 0);
+        for _ in 0..1000 {
+            let offset = random.uniform(0.0, 2.0);
+            let aim = Aim {
+                origin: random.unit(),
+                length: random.log_uniform(-10, 10),
+                distance: random.uniform(3.0, 10.0),
+                radius: random.uniform(0.5, 1.5),
+                offset,
+            };
+            let case = aim.case(&mut random);
+            assert!((line_distance(&case) - offset * aim.radius).abs() < 1e-5, "{case:?}");
+            if (offset - 1.0).abs() > 1e-4 {
+                let hit = oracle::intersect(&case.ray, &case.sphere).is_some();
+                assert_eq!(hit, offset < 1.0, "{case:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,262 @@
+//! What proptest draws, and shrinks to something that can be read.
+//!
+//! Cases come in four kinds: on a lattice of small integers, where tangents, ties and equal t are
+//! common and a shrunk case is a few digits; a few ulp away from such a case; wild, any number
+//! anywhere; and from the [regimes](crate::regimes).
+
+use crate::case::{Case, HexRay, HexSphere};
+use crate::random::power_of_two;
+use crate::regimes::REGIMES;
+use crate::ulp::step;
+use proptest::prelude::*;
+use proptest::sample::select;
+use proptest::test_runner::Config;
+use spherule_kernel::{Ray, Sphere, Vec3};
+use std::{env, fmt};
+
+/// `cases` cases a test, or as many as the environment variable `PROPTEST_CASES` says; failures
+/// are printed and not written to files, since what is printed can be pasted into a test.
+#[must_use]
+pub fn config(cases: u32) -> Config {
+    let default = Config::default();
+    let cases = if env::var_os("PROPTEST_CASES").is_some() { default.cases } else { cases };
+    Config { cases, failure_persistence: None, ..default }
+}
+
+/// Numbers at which something changes.
+pub const SPECIALS: [f32; 24] = [
+    0.0,
+    -0.0,
+    1.0,
+    -1.0,
+    f32::from_bits(0x0000_0001),
+    f32::from_bits(0x8000_0001),
+    f32::from_bits(0x007f_ffff),
+    f32::MIN_POSITIVE,
+    -f32::MIN_POSITIVE,
+    f32::from_bits(0x3f7f_ffff),
+    f32::from_bits(0x3f80_0001),
+    // 2^-63 and 2^-75: squares underflow to subnormals, and to zero.
+    f32::from_bits((127 - 63) << 23),
+    f32::from_bits((127 - 75) << 23),
+    // 2^-40 and 2^40: the ends of the domain of `Stable`.
+    f32::from_bits((127 - 40) << 23),
+    f32::from_bits((127 + 40) << 23),
+    // 2^63 and 2^64: the first square to overflow.
+    f32::from_bits((127 + 63) << 23),
+    f32::from_bits((127 + 64) << 23),
+    16_777_216.0,
+    f32::MAX,
+    f32::MIN,
+    f32::INFINITY,
+    f32::NEG_INFINITY,
+    f32::NAN,
+    f32::from_bits(0xffc0_0001),
+];
+
+/// Any number whatever: special ones, common ones, subnormals, any bits.
+pub fn number() -> impl Strategy<Value = f32> {
+    prop_oneof![
+        2 => (-20_i8..=20).prop_map(f32::from),
+        2 => select(&SPECIALS[..]),
+        2 => -20.0_f32..20.0,
+        1 => (any::<bool>(), 0..0x0080_0000_u32)
+            .prop_map(|(negative, bits)| f32::from_bits(bits | u32::from(negative) << 31)),
+        3 => any::<u32>().prop_map(f32::from_bits),
+    ]
+}
+
+/// Small integers throughout, half of the directions along an axis, and common intervals.
+pub fn lattice() -> impl Strategy<Value = Case> {
+    let coordinate = || -3_i8..=3;
+    let point = move || [coordinate(), coordinate(), coordinate()];
+    let along_axis = (0..3_usize, select(&[1_i8, -1, 2, 3][..])).prop_map(|(axis, length)| {
+        let mut direction = [0; 3];
+        direction[axis] = length;
+        direction
+    });
+    let direction = prop_oneof![along_axis, [-2_i8..=2, -2_i8..=2, -2_i8..=2]];
+    let ends = prop_oneof![
+        4 => Just((0.0, f32::INFINITY)),
+        2 => Just((f32::NEG_INFINITY, f32::INFINITY)),
+        1 => (-3_i8..=3, -1_i8..=6)
+            .prop_map(|(low, length)| (f32::from(low), f32::from(low) + f32::from(length))),
+    ];
+    (point(), direction, point(), 0_i8..=5, ends).prop_map(|(o, d, c, r, (t_min, t_max))| {
+        let ([ox, oy, oz], [dx, dy, dz]) = (o.map(f32::from), d.map(f32::from));
+        let [cx, cy, cz] = c.map(f32::from);
+        let radius = f32::from(r);
+        Case::from_numbers([ox, oy, oz, dx, dy, dz, t_min, t_max, cx, cy, cz, radius])
+    })
+}
+
+/// A lattice case, each number up to two ulp away; zero stays zero.
+pub fn walked() -> impl Strategy<Value = Case> {
+    (lattice(), [(); Case::NUMBERS].map(|()| -2_i64..=2)).prop_map(|(case, steps)| {
+        let mut numbers = case.numbers();
+        for (number, steps) in numbers.iter_mut().zip(steps) {
+            if *number != 0.0 && number.is_finite() {
+                *number = step(*number, steps);
+            }
+        }
+        Case::from_numbers(numbers)
+    })
+}
+
+/// Any number in every place.
+pub fn wild() -> impl Strategy<Value = Case> {
+    [(); Case::NUMBERS].map(|()| number()).prop_map(Case::from_numbers)
+}
+
+/// A case of any of the regimes.
+pub fn hard() -> impl Strategy<Value = Case> {
+    (select(&REGIMES[..]), any::<u64>()).prop_map(|(regime, index)| regime.case(index))
+}
+
+/// A case of any kind.
+pub fn case() -> impl Strategy<Value = Case> {
+    prop_oneof![lattice(), walked(), wild(), hard()]
+}
+
+/// Rays, and a list of spheres that they share.
+#[derive(Clone, PartialEq)]
+pub struct Scene {
+    /// The rays.
+    pub rays: Vec<Ray>,
+    /// The spheres.
+    pub spheres: Vec<Sphere>,
+}
+
+impl fmt::Debug for Scene {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (index, ray) in self.rays.iter().enumerate() {
+            write!(formatter, "\n  {index}: {}", HexRay(ray))?;
+        }
+        for (index, sphere) in self.spheres.iter().enumerate() {
+            write!(formatter, "\n  {index}: {}", HexSphere(sphere))?;
+        }
+        Ok(())
+    }
+}
+
+/// Up to 35 rays, so that packets of every width are full and begun, and 0 to 40 spheres, so that
+/// groups of four are.
+///
+/// Rays and spheres come from `cases`; those of one case meet as the case says, those of the
+/// lattice meet each other, often at equal t.
+pub fn scene<S: Strategy<Value = Case>>(cases: impl Fn() -> S) -> impl Strategy<Value = Scene> {
+    let rays = prop::collection::vec(cases(), 1..=35);
+    let spheres = prop::collection::vec(cases(), 0..=40);
+    let aimed_and_twins = any::<[bool; 2]>();
+    (rays, spheres, aimed_and_twins).prop_map(|(rays, mut spheres, [aimed, twins])| {
+        // Half of the scenes also hold spheres at which their rays were aimed.
+        if aimed {
+            for (place, case) in spheres.iter_mut().step_by(2).zip(&rays) {
+                *place = *case;
+            }
+        }
+        // Half hold spheres twice, groups apart.
+        if twins {
+            for index in (0..spheres.len()).step_by(3) {
+                spheres[index] = spheres[index / 2];
+            }
+        }
+        Scene {
+            rays: rays.iter().map(|case| case.ray).collect(),
+            spheres: spheres.iter().map(|case| case.sphere).collect(),
+        }
+    })
+}
+
+/// A scene near the lattice with all lengths times one power of two, directions times another:
+/// over and under all that filters and tiers guard against.
+pub fn sized_scene() -> impl Strategy<Value = Scene> {
+    let exponents = (-140_i64..=120, -140_i64..=120);
+    (scene(walked), exponents).prop_map(|(mut scene, (lengths, directions))| {
+        // In double precision, where the powers are normal numbers.
+        let scale = |v: Vec3, exponent: i64| {
+            Vec3::from_array(v.to_array().map(|x| (f64::from(x) * power_of_two(exponent)) as f32))
+        };
+        for ray in &mut scene.rays {
+            ray.origin = scale(ray.origin, lengths);
+            ray.direction = scale(ray.direction, directions);
+            let bound = |t| (f64::from(t) * power_of_two(lengths - directions)) as f32;
+            (ray.t_min, ray.t_max) = (bound(ray.t_min), bound(ray.t_max));
+        }
+        for sphere in &mut scene.spheres {
+            sphere.center = scale(sphere.center, lengths);
+            sphere.radius = (f64::from(sphere.radius) * power_of_two(lengths)) as f32;
+        }
+        scene
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::oracle;
+    use proptest::strategy::ValueTree;
+    use proptest::test_runner::TestRunner;
+    use std::cmp::Ordering;
+
+    fn draw<S: Strategy>(strategy: &S, count: usize) -> Vec<S::Value> {
+        let mut runner = TestRunner::deterministic();
+        let tree = |_| strategy.new_tree(&mut runner).expect("nothing is filtered").current();
+        (0..count).map(tree).collect()
+    }
+
+    #[test]
+    fn numbers_are_of_every_kind_and_sign() {
+        let numbers = draw(&number(), 5000);
+        for special in SPECIALS {
+            let drawn = numbers.iter().any(|x| x.to_bits() == special.to_bits());
+            assert!(drawn, "{special:e} is never drawn");
+        }
+        for sign in [false, true] {
+            let of_sign = |x: &&f32| x.is_sign_negative() == sign;
+            let count =
+                |kind: fn(&f32) -> bool| numbers.iter().filter(of_sign).filter(|x| kind(x)).count();
+            assert!(count(|x| x.is_subnormal()) > 100);
+            assert!(count(|x| x.is_nan()) > 10);
+            assert!(count(|x| x.is_normal() && x.abs() < 1e-20) > 100);
+            assert!(count(|x| x.is_normal() && x.abs() > 1e20) > 100);
+        }
+    }
+
+    #[test]
+    fn lattices_are_rich_in_tangents_hits_and_misses() {
+        let cases = draw(&lattice(), 5000);
+        let of = |sign| {
+            let is =
+                |case: &&Case| oracle::discriminant_sign(&case.ray, &case.sphere) == Some(sign);
+            cases.iter().filter(is).count()
+        };
+        let counts = [Ordering::Less, Ordering::Equal, Ordering::Greater].map(of);
+        assert!(counts[0] > 1000 && counts[1] > 25 && counts[2] > 1000, "{counts:?}");
+    }
+
+    #[test]
+    fn walks_stay_within_two_ulp_and_leave_the_lattice() {
+        let cases = draw(&walked(), 1000);
+        let whole =
+            |case: &&Case| case.numbers().iter().all(|x| x.is_infinite() || x.fract() == 0.0);
+        assert!(cases.iter().filter(whole).count() < 100);
+        let near = |x: &f32| x.is_infinite() || (-2..=2).any(|by| step(x.round(), by) == *x);
+        assert!(cases.iter().all(|case| case.numbers().iter().all(near)));
+    }
+
+    #[test]
+    fn scenes_have_hits_of_equal_t_and_all_lengths() {
+        let scenes = draw(&scene(lattice), 300);
+        let mut equal = 0;
+        for Scene { rays, spheres } in &scenes {
+            let Some(hit) = oracle::nearest(&rays[0], spheres) else { continue };
+            let same = |s: &&Sphere| oracle::intersect(&rays[0], s) == Some(hit.t);
+            equal += usize::from(spheres.iter().filter(same).count() > 1);
+        }
+        assert!(equal > 10, "{equal} scenes whose first ray meets two spheres at once");
+        let lengths: std::collections::BTreeSet<_> =
+            scenes.iter().map(|scene| scene.spheres.len()).collect();
+        assert!(lengths.len() > 35 && lengths.contains(&0));
+    }
+}

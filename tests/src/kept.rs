@@ -1,0 +1,124 @@
+//! Cases kept in the project with the oracle's answers: `tests/cases/regimes.txt`.
+//!
+//! One case a line: the regime's number, the bits of the twelve numbers of a
+//! [`Case`] and of the t of the hit, or `miss`, in hexadecimal. Lines that
+//! start with `#` say where the cases come from. A reader needs neither our generator nor our
+//! oracle, so that a change of either is noticed.
+
+use crate::case::Case;
+use crate::oracle;
+use crate::regimes::REGIMES;
+use std::fmt::Write;
+use std::path::PathBuf;
+
+/// How many cases of each regime are kept.
+pub const CASES_A_REGIME: u64 = 30;
+
+/// A case with its answer.
+#[derive(Clone, Copy, Debug)]
+pub struct Kept {
+    /// Which of the [`REGIMES`].
+    pub regime: usize,
+    /// Ray and sphere.
+    pub case: Case,
+    /// The t of the hit.
+    pub expected: Option<f32>,
+}
+
+/// Where the file is.
+#[must_use]
+pub fn path() -> PathBuf {
+    [env!("CARGO_MANIFEST_DIR"), "cases", "regimes.txt"].iter().collect()
+}
+
+/// The file as it is in the project.
+///
+/// # Panics
+/// Where it cannot be read.
+#[must_use]
+pub fn read() -> String {
+    std::fs::read_to_string(path()).expect("tests/cases/regimes.txt")
+}
+
+/// The file as generator and oracle would write it.
+#[must_use]
+pub fn write() -> String {
+    let mut text = String::from(
+        "# Cases of the 22 hard regimes: the generator of tests/src/regimes.rs, answered by the\n\
+         # integer oracle of tests/src/oracle.rs. Made again by:\n\
+         #   cargo run -p spherule-tests --example keep_cases\n\
+         # A line: regime; origin x y z, direction x y z, t_min, t_max, centre x y z, radius; t\n\
+         # of the hit or miss. Numbers are the bits of single-precision floats, hexadecimal.\n",
+    );
+    for regime in REGIMES {
+        let _ = writeln!(text, "# {} {}", regime.number, regime.name);
+        for case in regime.cases(CASES_A_REGIME) {
+            let _ = write!(text, "{}", regime.number);
+            for bits in case.bits() {
+                let _ = write!(text, " {bits:08x}");
+            }
+            let _ = match oracle::intersect(&case.ray, &case.sphere) {
+                Some(t) => writeln!(text, " {:08x}", t.to_bits()),
+                None => writeln!(text, " miss"),
+            };
+        }
+    }
+    text
+}
+
+/// The cases of such a text.
+///
+/// # Panics
+/// With the number of the line, where one is not as documented.
+#[must_use]
+pub fn parse(text: &str) -> Vec<Kept> {
+    let lines = text.lines().enumerate().filter(|(_, line)| !line.starts_with('#'));
+    let parsed = lines.map(|(index, line)| {
+        parse_line(line).unwrap_or_else(|| panic!("line {}: no case: {line}", index + 1))
+    });
+    parsed.collect()
+}
+
+fn parse_line(line: &str) -> Option<Kept> {
+    let words: Vec<&str> = line.split(' ').collect();
+    let [regime, numbers @ .., expected] = words.as_slice() else { return None };
+    let float = |word: &&str| u32::from_str_radix(word, 16).ok().map(f32::from_bits);
+    let numbers = numbers.iter().map(float).collect::<Option<Vec<f32>>>()?;
+    Some(Kept {
+        regime: regime.parse().ok()?,
+        case: Case::from_numbers(numbers.try_into().ok()?),
+        expected: match *expected {
+            "miss" => None,
+            word => Some(float(&word)?),
+        },
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_file_is_what_generator_and_oracle_say() {
+        // Not assert_eq: the difference would fill the screen.
+        let (kept, fresh) = (read(), write());
+        let differing = kept.lines().zip(fresh.lines()).position(|(kept, fresh)| kept != fresh);
+        assert_eq!(differing, None, "the first line (from 0) that differs");
+        assert!(kept == fresh, "one is longer than the other");
+    }
+
+    #[test]
+    fn cases_go_round() {
+        let kept = parse(&read());
+        assert_eq!(kept.len() as u64, 22 * CASES_A_REGIME);
+        for regime in REGIMES {
+            let number = usize::from(regime.number);
+            let cases = kept.iter().filter(|kept| kept.regime == number);
+            for (kept, case) in cases.zip(regime.cases(CASES_A_REGIME)) {
+                assert_eq!(kept.case.bits(), case.bits());
+                let answer = oracle::intersect(&case.ray, &case.sphere);
+                assert_eq!(kept.expected.map(f32::to_bits), answer.map(f32::to_bits));
+            }
+        }
+    }
+}
