@@ -36,6 +36,12 @@ impl RegimeError {
         f64::from(count) * 1e6 / f64::from(self.summary.cases)
     }
 
+    /// True hits that were found, at the right root.
+    #[must_use]
+    pub const fn found(&self) -> u32 {
+        self.summary.hits - self.summary.wrong_misses - self.summary.wrong_roots
+    }
+
     /// Of true hits, those with a correctly rounded t, in per cent.
     #[must_use]
     pub fn rounded_percent(&self) -> f64 {

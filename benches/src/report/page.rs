@@ -65,6 +65,9 @@ pub fn errors(machine: &Machine, errors: &[NamedErrors]) -> String {
     text += "\nError of t in ulp where the decision is right: median / p99.9 / max \
         (true hits whose t is correctly rounded).\n\n";
     table(&mut text, errors, |error| {
+        if error.found() == 0 {
+            return "none found".to_owned();
+        }
         let found = [error.summary.median, error.summary.p999, error.summary.max];
         let [median, p999, max] = found.map(ulp);
         let percent = error.rounded_percent();
@@ -156,6 +159,7 @@ pub fn speed(
         );
     }
     let _ = writeln!(text, "\n{}", verdict(contenders, rivalries));
+    text += &what_is_left(contenders, rivalries);
     let digests = errors.iter().filter(|entry| {
         contenders.iter().any(|contender| contender.is_tier && contender.name == entry.name)
     });
@@ -203,6 +207,28 @@ fn verdict(contenders: &[Contender], rivalries: &[Rivalry]) -> String {
     };
     if !marks.is_empty() {
         let _ = write!(text, " Of the marks, {}.", marks.join("; "));
+    }
+    text
+}
+
+/// For tiers with a rival that is no less right: what they are still good for.
+fn what_is_left(contenders: &[Contender], rivalries: &[Rivalry]) -> String {
+    let is_tier = |name| contenders.iter().any(|other| other.name == name && other.is_tier);
+    let mut text = String::new();
+    for rivalry in rivalries {
+        if !is_tier(rivalry.name) || rivalry.dominates() || rivalry.no_less_right < rivalry.regimes
+        {
+            continue;
+        }
+        let _ = write!(text, "\n`{}` is no less right than `{}`", rivalry.by, rivalry.name);
+        let clearly_slower = Workload::ALL.iter().filter_map(|workload| {
+            let own = rivalry.ratios.iter().filter(|(_, on, _)| on == workload);
+            let slower = own.clone().filter(|(_, _, ratio)| ratio.low > 1.0).count();
+            (slower > 0).then(|| format!("{workload} ({slower} of {})", own.count()))
+        });
+        let places: Vec<_> = clearly_slower.collect();
+        let places = if places.is_empty() { "nowhere".to_owned() } else { places.join("; ") };
+        let _ = writeln!(text, ", and clearly slower on (in how many lanes): {places}.");
     }
     text
 }

@@ -15,8 +15,9 @@ const REGIMES: [&str; 5] =
 const WORKLOAD: Workload = Workload::ALL[0];
 const SIZE: (u32, u32) = (1500, 860);
 const HEAD: u32 = 110;
-/// Where zero stands on a logarithmic axis: below everything that is not zero.
-const ZERO: f64 = 0.3;
+/// Zero has no place on a logarithmic axis: it gets a band under it, this part of its height, in
+/// which every name has a row of its own.
+const BAND: f64 = 0.3;
 
 type Error = Box<dyn std::error::Error>;
 type Panel<'a> = DrawingArea<SVGBackend<'a>, Shift>;
@@ -77,12 +78,18 @@ pub fn svg(
                 };
                 let marks: Vec<Vec<Mark>> = errors
                     .iter()
-                    .map(|entry| {
+                    .enumerate()
+                    .map(|(index, entry)| {
+                        let row = (index as f64 + 0.7) / (errors.len() as f64 + 0.4);
+                        let error = match of_regime(entry) {
+                            0.0 => top.powf(-BAND * row),
+                            error => error,
+                        };
                         let own = contenders.iter().filter(|c| c.name == entry.name);
-                        own.map(|contender| Mark {
-                            time: speed.time(contender.name, contender.engine, WORKLOAD).middle,
-                            error: of_regime(entry).max(ZERO),
-                            engine: contender.engine,
+                        own.map(|&Contender { name, engine, .. }| Mark {
+                            time: speed.time(name, engine, WORKLOAD).middle,
+                            error,
+                            engine,
                         })
                         .collect()
                     })
@@ -127,24 +134,26 @@ fn draw_panel(
         .margin(8)
         .x_label_area_size(42)
         .y_label_area_size(48)
-        .build_cartesian_2d((least / 1.4..most * 1.4).log_scale(), (ZERO / 2.5..top).log_scale())?;
+        .build_cartesian_2d(
+            (least / 1.4..most * 1.4).log_scale().base(2.0),
+            (top.powf(-BAND)..top).log_scale(),
+        )?;
     chart
         .configure_mesh()
         .light_line_style(WHITE)
         .bold_line_style(RGBColor(225, 225, 225))
         .x_desc(format!("ns a ray-sphere test ({WORKLOAD})"))
-        .x_labels(6)
+        .x_labels(8)
         .y_labels(8)
         .x_label_formatter(&|time| format!("{time}"))
         .y_label_formatter(&|error| scale_label(*error))
         .label_style(("sans-serif", 13))
         .axis_desc_style(("sans-serif", 14))
         .draw()?;
-    // Zero has no place on a logarithmic axis: it gets a line of its own.
-    let zero = [(least / 1.4, ZERO), (most * 1.4, ZERO)];
-    chart.draw_series(LineSeries::new(zero, RGBColor(150, 150, 150)))?;
-    let label = ("sans-serif", 13).into_text_style(panel).color(&RGBColor(90, 90, 90));
-    let place = (most * 1.05, ZERO * 1.6);
+    let band = [(least / 1.4, top.powf(-BAND)), (most * 1.4, top.powf(-BAND * 0.08))];
+    chart.draw_series(core::iter::once(Rectangle::new(band, RGBColor(232, 240, 236).filled())))?;
+    let label = ("sans-serif", 15).into_text_style(panel).color(&RGBColor(60, 60, 60));
+    let place = (most * 1.1, top.powf(-BAND * 0.4));
     chart.draw_series(core::iter::once(Text::new("0", place, label)))?;
 
     for (index, own) in marks.iter().enumerate() {

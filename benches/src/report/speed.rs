@@ -7,7 +7,7 @@ use crate::report::contender::{Contender, Engine};
 use crate::rounds::{self, Median, Samples, Subject};
 use crate::workload::{Cloud, Kind, RAYS};
 use spherule_kernel::Ray;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// What stands in the list of spheres.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -132,10 +132,10 @@ fn subject<'a>(
     check::near_reference(&name, &hits, truth, tolerance);
     let worst = check::worst(&hits, truth);
 
-    let start = Instant::now();
+    let start = rounds::busy();
     run.run();
-    let once = start.elapsed().max(Duration::from_nanos(100));
-    let passes = at_least.as_nanos().div_ceil(once.as_nanos()).max(1) as usize;
+    let once = (rounds::busy() - start).max(100.0);
+    let passes = (at_least.as_secs_f64() * 1e9 / once).ceil() as usize;
     let tests = passes * RAYS * spheres.len();
     let subject = Subject::new(name, move || {
         for _ in 0..passes {
