@@ -49,8 +49,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         std::fs::write(folder.join(format!("{build}.svg")), picture)?;
         let path = folder.join("report.md");
         let before = std::fs::read_to_string(&path).unwrap_or_default();
-        let after = page::replaced(&before, &format!("speed, {build}"), &of_speed);
-        std::fs::write(path, page::replaced(&after, "error", &of_error))?;
+        let after = page::replaced(&before, "error", &of_error);
+        std::fs::write(path, page::replaced(&after, &format!("speed, {build}"), &of_speed))?;
     }
     Ok(())
 }
