@@ -43,8 +43,8 @@ pub struct PictureArguments {
     /// A built-in scene, a file (.toml, .xyz), or - for standard input
     #[arg(value_name = "SCENE", default_value = DEFAULT)]
     pub scene: String,
-    /// How far hits may be trusted: fast or stable
-    #[arg(long, value_name = "TIER", default_value = "stable", value_parser = values::accuracy)]
+    /// How far hits may be trusted: fast, stable or exact
+    #[arg(long, value_name = "TIER", default_value = AccuracyChoice::default().as_str(), value_parser = values::accuracy)]
     pub accuracy: AccuracyChoice,
     /// Picture size in cells, each 1 to 4096 [default: the terminal's, 80x24 in a pipe]
     #[arg(long, value_name = "COLSxROWS", value_parser = values::size)]
@@ -102,8 +102,8 @@ pub struct TraceArguments {
     /// Report as a JSON object
     #[arg(long)]
     pub json: bool,
-    /// How far hits may be trusted: fast or stable
-    #[arg(long, value_name = "TIER", default_value = "stable", value_parser = values::accuracy)]
+    /// How far hits may be trusted: fast, stable or exact
+    #[arg(long, value_name = "TIER", default_value = AccuracyChoice::default().as_str(), value_parser = values::accuracy)]
     pub accuracy: AccuracyChoice,
     /// How spheres are searched: auto or brute
     #[arg(long, value_name = "HOW", default_value = "auto", value_parser = values::structure)]
@@ -176,7 +176,7 @@ mod tests {
     fn what_is_not_said_has_a_default() {
         let arguments = picture("");
         assert_eq!(arguments.scene, "marbles");
-        assert_eq!(arguments.accuracy, AccuracyChoice::Stable);
+        assert_eq!(arguments.accuracy, AccuracyChoice::Exact);
         assert_eq!((arguments.size, arguments.samples), (None, 4));
         assert_eq!(arguments.color, ColorChoice::Auto);
         assert_eq!(arguments.charset, CharsetChoice::Auto);
@@ -208,8 +208,7 @@ mod tests {
             ("--size 1000000x1000000", "each 1 to 4096"),
             ("--size 80", "COLSxROWS"),
             ("--samples 0", "1 to 256"),
-            ("--accuracy exact", "not yet"),
-            ("--accuracy sloppy", "fast or stable"),
+            ("--accuracy sloppy", "fast, stable or exact"),
             ("--structure bvh", "auto or brute"),
             ("--threads 2", "--threads"),
             ("--level avx2", "--level"),

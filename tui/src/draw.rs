@@ -8,16 +8,34 @@ use crate::scene::Scene;
 use crate::shade::{Shader, SurfacePoint};
 use crate::view::View;
 use spherule_kernel::{
-    Accuracy, Camera, Fast, HitPacket, Lanes, RayPacket, Spheres, Stable, f32x16, nearest,
+    Accuracy, Camera, Exact, Fast, HitPacket, Lanes, RayPacket, Spheres, Stable, f32x16, nearest,
 };
 
 /// Which tier decides hits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum AccuracyChoice {
     /// The textbook form.
     Fast,
     /// The best form of plain `f32`.
     Stable,
+    /// As in real arithmetic. The default, since it costs no more than `Stable`.
+    #[default]
+    Exact,
+}
+
+impl AccuracyChoice {
+    /// All of them, the fastest first.
+    pub const ALL: [Self; 3] = [Self::Fast, Self::Stable, Self::Exact];
+
+    /// The name on the command line and in reports.
+    #[must_use]
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::Fast => Fast::NAME,
+            Self::Stable => Stable::NAME,
+            Self::Exact => Exact::NAME,
+        }
+    }
 }
 
 /// How many colours there are.
@@ -147,6 +165,7 @@ impl Renderer {
         match style.accuracy {
             AccuracyChoice::Fast => self.draw_as::<Fast>(scene, view, style, columns, rows),
             AccuracyChoice::Stable => self.draw_as::<Stable>(scene, view, style, columns, rows),
+            AccuracyChoice::Exact => self.draw_as::<Exact>(scene, view, style, columns, rows),
         }
     }
 

@@ -10,8 +10,8 @@ use crate::failure::{Failure, write_stdout};
 use crate::npy;
 use report::Report;
 use spherule_kernel::{
-    Accuracy, Fast, HitPacket, Lanes, Ray, RayPacket, Sphere, SpherePacket, Spheres, Stable, Vec3,
-    any, f32x16, nearest, pairs,
+    Accuracy, Exact, Fast, HitPacket, Lanes, Ray, RayPacket, Sphere, SpherePacket, Spheres, Stable,
+    Vec3, any, f32x16, nearest, pairs,
 };
 use std::time::{Duration, Instant};
 
@@ -54,6 +54,7 @@ pub fn trace(arguments: &TraceArguments) -> Result<(), Failure> {
     let met = match arguments.accuracy {
         AccuracyChoice::Fast => trace_as::<Fast>(arguments, list, &rays),
         AccuracyChoice::Stable => trace_as::<Stable>(arguments, list, &rays),
+        AccuracyChoice::Exact => trace_as::<Exact>(arguments, list, &rays),
     };
 
     if let Some(path) = &arguments.out_t {

@@ -33,7 +33,7 @@ fn an_unknown_option() {
     for words in ["--threads 2", "--level avx2", "--frobnicate"] {
         refusal(&run(words.split(' ')));
     }
-    assert!(refusal(&run(["--accuracy", "exact"])).contains("not yet"));
+    assert!(refusal(&run(["--accuracy", "real"])).contains("fast, stable or exact"));
 }
 
 #[test]

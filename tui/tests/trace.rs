@@ -3,7 +3,7 @@
 mod program;
 
 use program::{file, printed, refusal, run};
-use spherule_kernel::{Fast, Ray, Spheres, Stable, Vec3, nearest_hit};
+use spherule_kernel::{Exact, Fast, Ray, Spheres, Stable, Vec3, nearest_hit};
 use std::path::{Path, PathBuf};
 
 /// A `.npy` file of version 1 with this header and data.
@@ -62,10 +62,10 @@ fn scalar(tier: &str, ray: &Ray, spheres: &[f32]) -> (u32, i32) {
     let column = |i: usize| spheres.iter().skip(i).step_by(4).copied().collect::<Vec<_>>();
     let (x, y, z, r) = (column(0), column(1), column(2), column(3));
     let spheres = Spheres::new(&x, &y, &z, &r).expect("equal lengths");
-    let hit = if tier == "fast" {
-        nearest_hit::<Fast>(ray, spheres)
-    } else {
-        nearest_hit::<Stable>(ray, spheres)
+    let hit = match tier {
+        "fast" => nearest_hit::<Fast>(ray, spheres),
+        "stable" => nearest_hit::<Stable>(ray, spheres),
+        _ => nearest_hit::<Exact>(ray, spheres),
     };
     hit.map_or((f32::INFINITY.to_bits(), -1), |hit| (hit.t.to_bits(), hit.sphere as i32))
 }
@@ -100,7 +100,7 @@ fn trace(name: &str, spheres: &[f32], rays: &[f32], words: &str) -> (String, Vec
 #[test]
 fn nearest_hits_are_those_of_a_scalar_loop() {
     let (spheres, rays) = data();
-    for tier in ["fast", "stable"] {
+    for tier in ["fast", "stable", "exact"] {
         let words = format!("--accuracy {tier} --repeat 3");
         let (text, t, id) = trace(tier, &spheres, &rays, &words);
         let expected: Vec<_> =
@@ -123,7 +123,7 @@ fn any_is_one_or_nought() {
     let (spheres, rays) = data();
     let (_, t, id) = trace("any", &spheres, &rays, "--any");
     let expected: Vec<_> =
-        rays.chunks(8).map(|row| i32::from(scalar("stable", &ray(row), &spheres).1 >= 0)).collect();
+        rays.chunks(8).map(|row| i32::from(scalar("exact", &ray(row), &spheres).1 >= 0)).collect();
     assert_eq!((t.len(), id), (0, expected));
 }
 
@@ -135,7 +135,7 @@ fn pairs_meet_their_own_sphere_alone() {
         let (text, t, id) = trace("pairs", &spheres, &rays, words);
         let mut hits = 0;
         for (index, (row, sphere)) in rays.chunks(8).zip(spheres.chunks(4)).enumerate() {
-            let (expected, met) = scalar("stable", &ray(row), sphere);
+            let (expected, met) = scalar("exact", &ray(row), sphere);
             let is_hit = met >= 0;
             hits += i32::from(is_hit);
             if words == "--pairs" {

@@ -13,12 +13,8 @@ const LARGEST_SIDE: u16 = 4096;
 const ASPECTS: std::ops::RangeInclusive<f32> = 0.05..=20.0;
 
 pub(super) fn accuracy(text: &str) -> Result<AccuracyChoice, &'static str> {
-    match text {
-        "fast" => Ok(AccuracyChoice::Fast),
-        "stable" => Ok(AccuracyChoice::Stable),
-        "exact" => Err("not yet: fast or stable"),
-        _ => Err("fast or stable"),
-    }
+    let named = AccuracyChoice::ALL.into_iter().find(|choice| choice.as_str() == text);
+    named.ok_or("fast, stable or exact")
 }
 
 pub(super) fn size(text: &str) -> Result<(u16, u16), String> {

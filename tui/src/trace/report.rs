@@ -27,17 +27,13 @@ pub(super) struct Report {
 impl Report {
     /// The keys and their values, in the order in which they are printed.
     fn entries(&self) -> Vec<(&'static str, Value)> {
-        let accuracy = match self.accuracy {
-            AccuracyChoice::Fast => "fast",
-            AccuracyChoice::Stable => "stable",
-        };
         let rounded = |number: f64| json!((number * 1e3).round() / 1e3);
         vec![
             ("rays", json!(self.rays)),
             ("spheres", json!(self.spheres)),
             ("hits", json!(self.hits)),
             ("structure", json!("brute")),
-            ("accuracy", json!(accuracy)),
+            ("accuracy", json!(self.accuracy.as_str())),
             ("level", json!(LEVEL)),
             ("lanes", json!(self.lanes)),
             ("threads", json!(1)),
