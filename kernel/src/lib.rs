@@ -16,6 +16,7 @@ mod intersect;
 mod lanes;
 mod ray;
 mod sphere;
+mod stages;
 
 pub use accuracy::{Accuracy, Exact, Fast, Stable};
 pub use camera::Camera;
@@ -28,4 +29,5 @@ pub use intersect::{any, nearest, nearest_hit, pairs, roots};
 pub use lanes::{DoubleLanes, LaneArray, LaneMask, Lanes};
 pub use ray::{Ray, RayArrays, RayPacket};
 pub use sphere::{Sphere, SphereArrays, SpherePacket, Spheres, SpheresError};
+pub use stages::{Question, Stages, stages};
 pub use wide::{f32x4, f32x8, f32x16};

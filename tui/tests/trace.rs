@@ -2,25 +2,9 @@
 
 mod program;
 
-use program::{file, printed, refusal, run};
+use program::{array, file, npy, printed, refusal, run};
 use spherule_kernel::{Exact, Fast, Ray, Spheres, Stable, Vec3, nearest_hit};
 use std::path::{Path, PathBuf};
-
-/// A `.npy` file of version 1 with this header and data.
-fn npy(header: &str, data: &[u8]) -> Vec<u8> {
-    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
-    bytes.extend((header.len() as u16).to_le_bytes());
-    bytes.extend(header.as_bytes());
-    bytes.extend(data);
-    bytes
-}
-
-fn array(rows: usize, columns: usize, values: &[f32]) -> Vec<u8> {
-    let header =
-        format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({rows}, {columns}), }}\n");
-    let data: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
-    npy(&header, &data)
-}
 
 /// 4-byte elements after the header of a file that the program wrote.
 fn column(path: &Path) -> Vec<[u8; 4]> {

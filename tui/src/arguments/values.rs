@@ -6,6 +6,7 @@ use crate::draw::{AccuracyChoice, Charset, ColorDepth};
 use crate::samples::MOST_SAMPLES;
 use crate::scene::open::Format;
 use crate::view::LensKind;
+use spherule_kernel::dispatch::{Level, LevelName};
 
 /// The largest picture, in columns or rows.
 const LARGEST_SIDE: u16 = 4096;
@@ -84,6 +85,12 @@ pub(super) fn structure(text: &str) -> Result<StructureChoice, &'static str> {
         "brute" => Ok(StructureChoice::Brute),
         _ => Err("auto or brute"),
     }
+}
+
+pub(super) fn level(text: &str) -> Result<Level, String> {
+    let name = LevelName::ALL.into_iter().find(|name| name.as_str() == text);
+    let name = name.ok_or("baseline, avx2 or avx512")?;
+    Level::named(name).ok_or_else(|| format!("this CPU has no {text}"))
 }
 
 pub(super) fn repeat(text: &str) -> Result<u32, &'static str> {

@@ -2,16 +2,8 @@
 
 use crate::draw::AccuracyChoice;
 use serde_json::{Map, Value, json};
+use spherule_kernel::dispatch::LevelName;
 use std::time::Duration;
-
-/// The instruction set that the program was built for.
-const LEVEL: &str = if cfg!(target_feature = "avx512f") {
-    "avx512"
-} else if cfg!(target_feature = "avx2") {
-    "avx2"
-} else {
-    "baseline"
-};
 
 /// What was traced, and how fast.
 pub(super) struct Report {
@@ -19,6 +11,7 @@ pub(super) struct Report {
     pub(super) spheres: usize,
     pub(super) hits: usize,
     pub(super) accuracy: AccuracyChoice,
+    pub(super) level: LevelName,
     pub(super) lanes: usize,
     pub(super) build: Duration,
     pub(super) passes: Vec<Duration>,
@@ -34,7 +27,7 @@ impl Report {
             ("hits", json!(self.hits)),
             ("structure", json!("brute")),
             ("accuracy", json!(self.accuracy.as_str())),
-            ("level", json!(LEVEL)),
+            ("level", json!(self.level.as_str())),
             ("lanes", json!(self.lanes)),
             ("threads", json!(1)),
             ("build_ms", rounded(self.build.as_secs_f64() * 1e3)),
@@ -83,13 +76,17 @@ mod tests {
             spheres: 2,
             hits: 3,
             accuracy: AccuracyChoice::Fast,
+            level: LevelName::Avx2,
             lanes: 8,
             build: Duration::from_micros(1500),
             passes: [3, 1, 2].map(Duration::from_secs).to_vec(),
         };
         let line = report.line();
         assert!(line.starts_with("rays=8000000 spheres=2 hits=3 structure=brute accuracy=fast "));
-        assert!(line.ends_with(" lanes=8 threads=1 build_ms=1.5 mrays_per_s=4.0\n"), "{line}");
+        assert!(
+            line.ends_with(" level=avx2 lanes=8 threads=1 build_ms=1.5 mrays_per_s=4.0\n"),
+            "{line}"
+        );
         let object: Value = serde_json::from_str(&report.json()).expect("JSON");
         assert_eq!(object["mrays_per_s"], json!(4.0));
         assert_eq!(object.as_object().map(Map::len), Some(10));
@@ -102,6 +99,7 @@ mod tests {
             spheres: 0,
             hits: 0,
             accuracy: AccuracyChoice::Stable,
+            level: LevelName::Avx2,
             lanes: 8,
             build: Duration::ZERO,
             passes: passes.iter().copied().map(Duration::from_secs).collect(),
