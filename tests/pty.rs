@@ -109,7 +109,7 @@ fn where_nothing_changes_nothing_is_sent() {
     let mut viewer = Viewer::start();
     let sent = viewer.session.output().sent.len();
     // Keys without a meaning, and a choice that is made already.
-    viewer.session.type_in("xyz2");
+    viewer.session.type_in("xyz3");
     viewer.session.type_in("q");
     assert!(viewer.session.wait_for_end().success());
     let output = viewer.session.output();

@@ -110,3 +110,41 @@ impl<L: Lanes> Walk<L> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Ray, Vec3, f32x16};
+
+    /// Rays along z, so far from the axis: through the unit sphere, touching it, and past it.
+    fn counted(distances: &[f32], spheres: Spheres<'_>, question: Question) -> Stages {
+        let mut packet = RayPacket::<f32x16>::inactive();
+        for (lane, &x) in distances.iter().enumerate() {
+            packet.set(lane, &Ray::new(Vec3::new(x, 0.0, -3.0), Vec3::Z));
+        }
+        stages::<f32x16>((), &[packet], spheres, question)
+    }
+
+    #[test]
+    fn a_tangent_needs_expansions_and_a_clear_miss_nothing() {
+        let unit = Spheres::new(&[0.0], &[0.0], &[0.0], &[1.0]).expect("one sphere");
+        for question in [Question::Nearest, Question::Any] {
+            let of = |distances: &[f32]| counted(distances, unit, question);
+            assert_eq!(of(&[]), Stages::default());
+            assert_eq!(of(&[5.0, -7.0]), Stages { tests: 2, double: 0, expansions: 0 });
+            assert_eq!(of(&[0.3, 5.0]), Stages { tests: 2, double: 1, expansions: 0 });
+            assert_eq!(of(&[1.0, 0.3, 5.0]), Stages { tests: 3, double: 2, expansions: 1 });
+        }
+    }
+
+    #[test]
+    fn a_limit_saves_double_precision_and_so_does_an_answer() {
+        let z: [f32; 40] = core::array::from_fn(|i| i as f32 * 3.0);
+        let (zero, r) = ([0.0; 40], [1.0; 40]);
+        let row = Spheres::new(&zero, &zero, &z, &r).expect("equal lengths");
+        let nearest = counted(&[0.25], row, Question::Nearest);
+        let any = counted(&[0.25], row, Question::Any);
+        assert_eq!((nearest.tests, any.tests), (40, 40));
+        assert!(nearest.double <= 2 && any.double <= 4, "{nearest:?} {any:?}");
+    }
+}

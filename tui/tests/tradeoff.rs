@@ -4,7 +4,7 @@ mod program;
 
 use program::{file, printed, refusal, run};
 use serde_json::Value;
-use spherule_kernel::{Fast, Ray, Sphere, Spheres, nearest_hit};
+use spherule_kernel::{Fast, Ray, Sphere, nearest_hit};
 use spherule_tui::draw::{AccuracyChoice, Charset, ColorDepth, Style, picture_aspect, sample_grid};
 use spherule_tui::scene::{builtin::builtin, open::open};
 

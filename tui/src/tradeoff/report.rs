@@ -95,37 +95,54 @@ impl Report {
         for tier in &self.tiers {
             if tier.rays_kind != kind {
                 kind = tier.rays_kind;
-                text += &format!("\n{} {kind} rays\n{HEAD}", tier.rays);
+                text += &format!("\n{} {kind} rays\n", tier.rays);
+                for words in HEAD {
+                    text += &row(&words.map(str::to_owned));
+                }
             }
             let ulp = |thousandths| {
                 tier.errors
                     .ulp_at(thousandths)
                     .map_or_else(|| "-".to_owned(), |ulp| ulp.to_string())
             };
-            text += &format!(
-                "{:<7}{:>9.3}{:>9.4}{:>9.1}{:>10}{:>8}{:>8}{:>8}{:>9}{:>11}{:>9.4}{:>9.5}\n",
-                tier.accuracy.as_str(),
-                tier.ns_per_ray(),
-                tier.ns_per_ray() / *spheres as f64,
-                tier.mrays_per_s(),
-                tier.errors.wrong_hits,
-                tier.errors.wrong_misses,
-                tier.errors.wrong_sphere,
+            text += &row(&[
+                tier.accuracy.as_str().to_owned(),
+                format!("{:.3}", tier.ns_per_ray()),
+                format!("{:.4}", tier.ns_per_ray() / *spheres as f64),
+                format!("{:.1}", tier.mrays_per_s()),
+                tier.errors.wrong_hits.to_string(),
+                tier.errors.wrong_misses.to_string(),
+                tier.errors.wrong_sphere.to_string(),
                 ulp(500),
                 ulp(999),
                 ulp(1000),
-                100.0 * tier.share(tier.stages.double),
-                100.0 * tier.share(tier.stages.expansions),
-            );
+                format!("{:.4}", 100.0 * tier.share(tier.stages.double)),
+                format!("{:.5}", 100.0 * tier.share(tier.stages.expansions)),
+            ]);
         }
         text + FOOT
     }
 }
 
-const HEAD: &str = "\
-         ns       ns  million     wrong   wrong   wrong  ulp of t:                  % of tests in
-tier     a ray   a test  rays/s      hits  misses  sphere  median    99.9%    largest      f64 expans.
-";
+/// A row of the table: the first column from the left, the others from the right.
+fn row(words: &[String; 12]) -> String {
+    let mut line = String::new();
+    for (index, (word, width)) in words.iter().zip(WIDTHS).enumerate() {
+        line += &if index == 0 { format!("{word:<width$}") } else { format!("{word:>width$}") };
+    }
+    line.trim_end().to_owned() + "\n"
+}
+
+/// The columns of the table, in two rows of words.
+const HEAD: [[&str; 12]; 2] = [
+    ["", "ns", "ns", "million", "wrong", "wrong", "wrong", "ulp of t", "", "", "% in", "% in"],
+    [
+        "tier", "a ray", "a test", "rays/s", "hits", "misses", "sphere", "median", "99.9%",
+        "largest", "f64", "expans.",
+    ],
+];
+/// How wide they are.
+const WIDTHS: [usize; 12] = [7, 9, 9, 9, 10, 8, 8, 9, 9, 11, 9, 9];
 const FOOT: &str = "
 Wrong: the nearest hit differs from that of exact, counted in rays. ulp: of t, where both meet the
 same sphere. Times are medians of passes in turns; shadow rays are timed asking for any hit.
