@@ -115,19 +115,19 @@ pub fn roots<A: Accuracy>(ray: &Ray, sphere: &Sphere) -> Option<[f32; 2]> {
 
 /// A packet, and a group of spheres that the filter could not rule out for it.
 #[derive(Clone, Copy)]
-struct Candidates<'a, L: Lanes> {
-    rays: &'a RayLanes<L>,
-    filter: &'a FilterRays<L>,
-    group: &'a FilterGroup,
-    spheres: &'a Spheres<'a>,
+pub(crate) struct Candidates<'a, L: Lanes> {
+    pub(crate) rays: &'a RayLanes<L>,
+    pub(crate) filter: &'a FilterRays<L>,
+    pub(crate) group: &'a FilterGroup,
+    pub(crate) spheres: &'a Spheres<'a>,
     /// The index of the group's first sphere.
-    first: usize,
+    pub(crate) first: usize,
 }
 
 /// Calls `resolve` for each packet and group of spheres that the filter does not rule out, until
 /// all of the packet's live lanes are `done`.
 #[inline(always)]
-fn for_candidates<L: Lanes, R>(
+pub(crate) fn for_candidates<L: Lanes, R>(
     token: L::Token,
     rays: &[RayPacket<L>],
     results: &mut [R],
@@ -165,7 +165,7 @@ fn for_candidates<L: Lanes, R>(
 
 /// The lanes whose bit is set.
 #[inline(always)]
-fn lanes_of_bits<L: Lanes>(token: L::Token, bits: u32) -> L::Mask {
+pub(crate) fn lanes_of_bits<L: Lanes>(token: L::Token, bits: u32) -> L::Mask {
     let mut marks = L::Array::default();
     for (lane, mark) in marks.as_mut().iter_mut().enumerate() {
         *mark = if bits >> lane & 1 == 1 { 1.0 } else { 0.0 };
@@ -200,7 +200,7 @@ fn resolve<A: Accuracy, L: Lanes>(
 }
 
 #[inline(always)]
-fn nearest_in_group<A: Accuracy, L: Lanes>(
+pub(crate) fn nearest_in_group<A: Accuracy, L: Lanes>(
     token: L::Token,
     candidates: Candidates<'_, L>,
     hit: &mut HitPacket<L>,
@@ -230,7 +230,7 @@ fn nearest_in_group<A: Accuracy, L: Lanes>(
 }
 
 #[inline(always)]
-fn any_in_group<A: Accuracy, L: Lanes>(
+pub(crate) fn any_in_group<A: Accuracy, L: Lanes>(
     token: L::Token,
     candidates: Candidates<'_, L>,
     met: &mut u32,

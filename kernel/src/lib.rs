@@ -18,6 +18,7 @@ mod ray;
 #[cfg(test)]
 mod search;
 mod sphere;
+mod stages;
 
 pub use accuracy::{Accuracy, Exact, Fast, Stable};
 pub use camera::Camera;
@@ -30,4 +31,5 @@ pub use intersect::{any, nearest, nearest_hit, pairs, roots};
 pub use lanes::{DoubleLanes, LaneArray, LaneMask, Lanes};
 pub use ray::{Ray, RayArrays, RayPacket};
 pub use sphere::{Sphere, SphereArrays, SpherePacket, Spheres, SpheresError};
+pub use stages::{Question, Stages, stages};
 pub use wide::{f32x4, f32x8, f32x16};

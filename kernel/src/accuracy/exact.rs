@@ -88,13 +88,7 @@ impl Accuracy for Exact {
         if !asked.any() {
             return infinity;
         }
-        let brackets = Brackets::new(rays, center, radius, asked);
-        let near = brackets.judge(brackets.near, rays, limit);
-        let far = brackets.judge(brackets.far, rays, limit);
-
-        // The far root does not matter where the near one is taken, or lies past the limit.
-        let t = L::select(near.hit, near.t, L::select(far.hit, far.t, infinity));
-        let decided = near.known & (near.hit | far.known | limit.lt(near.t));
+        let (t, decided) = Brackets::new(rays, center, radius, asked).decide(rays, limit);
         let undecided = (asked & !decided).bits();
         // Adding zero turns -0 into +0.
         let t = L::select(asked, t + t.like(0.0), infinity);
@@ -124,6 +118,36 @@ impl Accuracy for Exact {
             sphere.radius,
         )?;
         Some([quadratic.rounded(Root::Near), quadratic.rounded(Root::Far)])
+    }
+}
+
+impl Exact {
+    /// Of the lanes `asked`, those that [`Accuracy::first_root`] takes to double precision, and of
+    /// these, those that it takes to expansions.
+    #[inline(always)]
+    pub(crate) fn reached<L: Lanes>(
+        rays: &RayLanes<L>,
+        center: [L; 3],
+        radius: L,
+        asked: L::Mask,
+        limit: L,
+    ) -> [L::Mask; 2] {
+        let double = asked & !Beyond::new(rays).limit(rays, center, radius, limit);
+        let (_, decided) = Brackets::new(rays, center, radius, double).decide(rays, limit);
+        [double, double & !decided]
+    }
+
+    /// `limit`, or the t of [`Accuracy::first_root`] where that is smaller.
+    #[inline(always)]
+    pub(crate) fn nearer<L: Lanes>(
+        rays: &RayLanes<L>,
+        center: [L; 3],
+        radius: L,
+        asked: L::Mask,
+        limit: L,
+    ) -> L {
+        let t = Self::first_root(rays, &Beyond::new(rays), center, radius, asked, limit);
+        L::select(asked & t.lt(limit), t, limit)
     }
 }
 
@@ -186,6 +210,17 @@ impl<L: Lanes> Brackets<L> {
             L::narrow(low, part, L::Double::select(meets, t - bound, low_otherwise));
             L::narrow(high, part, L::Double::select(meets, t + bound, infinity));
         }
+    }
+
+    /// The t of rules 2 to 4, and the lanes in which that is the answer.
+    #[inline(always)]
+    fn decide(&self, rays: &RayLanes<L>, limit: L) -> (L, L::Mask) {
+        let near = self.judge(self.near, rays, limit);
+        let far = self.judge(self.far, rays, limit);
+        // The far root does not matter where the near one is taken, or lies past the limit.
+        let infinity = limit.like(f32::INFINITY);
+        let t = L::select(near.hit, near.t, L::select(far.hit, far.t, infinity));
+        (t, near.known & (near.hit | far.known | limit.lt(near.t)))
     }
 
     /// What lies past the limit need not be known any better.
