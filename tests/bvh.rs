@@ -56,9 +56,9 @@ fn walk_with<A: Accuracy, L: Lanes>(
     spheres: &Columns,
     bvh: &Bvh<'_>,
 ) -> Answers {
-    let packets: Vec<RayPacket<L>> = rays.chunks(L::COUNT).map(RayPacket::new).collect();
+    let packets: Vec<RayPacket<L>> = rays.chunks(L::COUNT).map(RayPacket::<L>::new).collect();
     // What was there before must not show.
-    let mut hits = vec![HitPacket::none(); packets.len()];
+    let mut hits = vec![HitPacket::<L>::none(); packets.len()];
     let mut met = vec![u32::MAX; packets.len()];
     bvh::nearest::<A, L>(token, &packets, spheres.spheres(), bvh, &mut hits);
     bvh::any::<A, L>(token, &packets, spheres.spheres(), bvh, &mut met);

@@ -43,7 +43,7 @@ pub fn nearest<A: Accuracy, L: Lanes>(
     }
     let mut under_way = UnderWay::NEW;
     for (packet, hit) in rays.iter().zip(hits.iter_mut()) {
-        *hit = HitPacket::none();
+        *hit = HitPacket::<L>::none();
         meet::<A, L, false>(token, packet, &spheres, bvh, &mut under_way, hit);
     }
 }
@@ -65,7 +65,7 @@ pub fn any<A: Accuracy, L: Lanes>(
     }
     let mut under_way = UnderWay::NEW;
     for (packet, met) in rays.iter().zip(met.iter_mut()) {
-        let mut hit = HitPacket::none();
+        let mut hit = HitPacket::<L>::none();
         let sure = meet::<A, L, true>(token, packet, &spheres, bvh, &mut under_way, &mut hit);
         let found = L::load(token, &hit.t).lt(L::splat(token, f32::INFINITY));
         *met = sure | found.bits();
@@ -102,7 +102,7 @@ fn meet<A: Accuracy, L: Lanes, const ANY: bool>(
     UnderWay { walks, lists }: &mut UnderWay,
     hits: &mut HitPacket<L>,
 ) -> u32 {
-    let rays = RayLanes::load(token, packet);
+    let rays = RayLanes::<L>::load(token, packet);
     let live = rays.live.bits();
     let slabs = Slabs::<L>::new::<A>(&rays, bvh.extent);
     for (list, _) in lists.iter_mut().take(L::COUNT) {
@@ -212,7 +212,7 @@ fn meet_all<A: Accuracy, L: Lanes>(
     let mut rays = *packet;
     let never = L::splat(token, f32::NAN);
     rays.t_min = L::select(asked, L::load(token, &rays.t_min), never).store();
-    let mut found = [HitPacket::none()];
+    let mut found = [HitPacket::<L>::none()];
     crate::nearest::<A, L>(token, &[rays], *spheres, &mut found);
     for (lane, (&t, &index)) in found[0].t().iter().zip(found[0].spheres()).enumerate() {
         if lanes >> lane & 1 == 1 && t < f32::INFINITY {
