@@ -69,7 +69,7 @@ fn brute<'a, A: Accuracy + 'a>(
 
     let passes = (work * 64).div_ceil(spheres.len());
     let packets = packets::<Wide>(rays);
-    let mut hits = vec![HitPacket::none(); packets.len()];
+    let mut hits = vec![HitPacket::<f32x16>::none(); packets.len()];
     Subject::new(name, move || {
         for _ in 0..passes {
             nearest::<A, Wide>((), &packets, spheres, &mut hits);

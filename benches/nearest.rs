@@ -58,7 +58,7 @@ fn width<A: Accuracy, L: Lanes<Token = ()>>(
     check::same_bits::<A, L>(rays, spheres);
 
     let packets = packets::<L>(rays);
-    let mut hits = vec![HitPacket::none(); packets.len()];
+    let mut hits = vec![HitPacket::<L>::none(); packets.len()];
     group.bench_function(format!("{}/x{}", A::NAME, L::COUNT), |bencher| {
         bencher.iter(|| {
             nearest::<A, L>((), black_box(&packets), black_box(spheres), &mut hits);

@@ -78,7 +78,7 @@ fn kernel<A: Accuracy, L: Lanes<Token = ()>>(
 ) {
     check::same_bits::<A, L>(rays, cloud.spheres());
     let packets = packets::<L>(rays);
-    let mut hits = vec![HitPacket::none(); packets.len()];
+    let mut hits = vec![HitPacket::<L>::none(); packets.len()];
     group.bench_function(format!("spherule/{}/x{}", A::NAME, L::COUNT), |bencher| {
         bencher.iter(|| {
             nearest::<A, L>((), black_box(&packets), black_box(cloud.spheres()), &mut hits);

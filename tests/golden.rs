@@ -14,7 +14,7 @@ use spherule_tui::{encode, scene};
 use std::path::PathBuf;
 
 const ASCII: Style = Style {
-    accuracy: AccuracyChoice::Stable,
+    accuracy: AccuracyChoice::Exact,
     charset: Charset::Ascii,
     depth: ColorDepth::Never,
     samples: 4,

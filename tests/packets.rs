@@ -44,13 +44,13 @@ fn has_no_hit_without_a_lane<L: Lanes<Token = ()>>() {
     let ray = Ray::new(Vec3::new(0.0, 0.0, -3.0), Vec3::Z);
     let sphere = Sphere { center: Vec3::ZERO, radius: 1.0 };
     let rays = RayPacket::<L>::new(&[ray; 40]);
-    let hits = pairs::<Fast, L>((), &rays, &SpherePacket::new(&[sphere; 40]));
+    let hits = pairs::<Fast, L>((), &rays, &SpherePacket::<L>::new(&[sphere; 40]));
     assert_eq!((hits.t().len(), hits.spheres().len()), (L::COUNT, L::COUNT));
     for lane in 0..40 {
         assert_eq!(hits.hit(lane).is_some(), lane < L::COUNT, "lane {lane} of {}", L::COUNT);
     }
     // Lanes without a sphere hit nothing, and say so in both arrays.
-    let hits = pairs::<Fast, L>((), &rays, &SpherePacket::new(&[]));
+    let hits = pairs::<Fast, L>((), &rays, &SpherePacket::<L>::new(&[]));
     assert!(hits.t().iter().all(|&t| t == f32::INFINITY));
     assert!(hits.spheres().iter().all(|&sphere| sphere == HitPacket::<L>::NO_SPHERE));
 }
@@ -61,7 +61,7 @@ fn leaves_what_is_past_the_end_alone<L: Lanes<Token = ()>>() {
     let missing = RayPacket::<L>::new(&[Ray::new(Vec3::new(0.0, 0.0, -3.0), Vec3::X); 16]);
     let (zero, one) = ([0.0], [1.0]);
     let spheres = Spheres::new(&zero, &zero, &zero, &one).expect("one sphere");
-    let mut hits = [HitPacket::none(); 3];
+    let mut hits = [HitPacket::<L>::none(); 3];
     nearest::<Fast, L>((), &[hitting; 3], spheres, &mut hits[..2]);
     assert_eq!(hits.map(|hit| hit.hit(0).is_some()), [true, true, false]);
     nearest::<Fast, L>((), &[missing], spheres, &mut hits);

@@ -31,7 +31,7 @@ fn it_starts_and_draws_what_once_draws() {
     {
         let output = viewer.session.output();
         assert!(output.screen().hide_cursor());
-        assert!(last_row(output.screen()).contains("stable perspective half"));
+        assert!(last_row(output.screen()).contains("exact perspective half"));
         assert!(!is_cooked(&viewer.session.modes()));
     }
     viewer.quit();
@@ -69,7 +69,7 @@ fn the_mouse_drags_and_zooms() {
 #[test]
 fn the_status_line_tells_the_tier() {
     let mut viewer = Viewer::start();
-    for (key, text) in [("1", " fast "), ("2", " stable "), ("3", "not yet"), ("c", " ascii ")] {
+    for (key, text) in [("1", " fast "), ("2", " stable "), ("3", " exact "), ("c", " ascii ")] {
         viewer.session.type_in(key);
         viewer
             .session
@@ -109,7 +109,7 @@ fn where_nothing_changes_nothing_is_sent() {
     let mut viewer = Viewer::start();
     let sent = viewer.session.output().sent.len();
     // Keys without a meaning, and a choice that is made already.
-    viewer.session.type_in("xyz2");
+    viewer.session.type_in("xyz3");
     viewer.session.type_in("q");
     assert!(viewer.session.wait_for_end().success());
     let output = viewer.session.output();

@@ -6,6 +6,7 @@
 //! | `nearest` | criterion: tier x lane width x spheres x kind of rays |
 //! | `peers` | criterion: the same rays through other people's code |
 //! | `limit` | a table: the share of the machine's arithmetic that brute force reaches |
+//! | `report` | tables and a plot: speed against error for every tier; see [`report`] |
 //!
 //! Nothing is timed before its answers are checked: [`check`].
 
@@ -14,6 +15,7 @@
 pub mod check;
 pub mod probe;
 pub mod random;
+pub mod report;
 pub mod rounds;
 pub mod settings;
 pub mod workload;

@@ -1,10 +1,10 @@
 //! Times of several things that are to be compared, taken in turns.
 //!
-//! On a shared machine the clock and the neighbours change from second to second. So everything
-//! runs once a round, and what is reported is the median over the rounds, of times and of ratios
+//! On a shared machine the clock and the neighbours change from second to second. So the time is
+//! the thread's own, which stands still while others use the CPU; everything runs once a round, and what is reported is the median over the rounds, of times and of ratios
 //! within a round; the quartiles beside it say how far to trust it.
 
-use std::time::Instant;
+use rustix::time::{ClockId, clock_gettime};
 
 /// Something to time: a name, and a closure that does some work and answers how much.
 pub struct Subject<'a> {
@@ -48,15 +48,22 @@ pub fn take(subjects: &mut [Subject<'_>], rounds: usize) -> Samples {
     let mut by_subject = vec![Vec::with_capacity(rounds); subjects.len()];
     for round in 0..=rounds {
         for (subject, samples) in subjects.iter_mut().zip(&mut by_subject) {
-            let start = Instant::now();
+            let start = busy();
             let units = (subject.run)();
-            let elapsed = start.elapsed().as_secs_f64() * 1e9;
+            let elapsed = busy() - start;
             if round > 0 {
                 samples.push(elapsed / units as f64);
             }
         }
     }
     Samples { names: subjects.iter().map(|subject| subject.name.clone()).collect(), by_subject }
+}
+
+/// For how many nanoseconds this thread has had a CPU.
+#[must_use]
+pub fn busy() -> f64 {
+    let time = clock_gettime(ClockId::ThreadCPUTime);
+    time.tv_sec as f64 * 1e9 + time.tv_nsec as f64
 }
 
 impl Samples {

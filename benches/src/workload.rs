@@ -78,7 +78,7 @@ fn on_plane((ix, iy): (u32, u32)) -> Vec3 {
 /// The rays in packets of `L`.
 #[must_use]
 pub fn packets<L: Lanes>(rays: &[Ray]) -> Vec<RayPacket<L>> {
-    rays.chunks(L::COUNT).map(RayPacket::new).collect()
+    rays.chunks(L::COUNT).map(RayPacket::<L>::new).collect()
 }
 
 /// Spheres in memory of their own, coordinate by coordinate.
@@ -102,6 +102,35 @@ impl Cloud {
             cloud.y.push(center.y);
             cloud.z.push(center.z);
             cloud.r.push(random.between(0.2, 0.7));
+        }
+        cloud
+    }
+
+    /// `count` spheres as [`Cloud::new`] has them and, in the middle of the list, a ground: a
+    /// sphere of radius 1000 that ends where the cube does. Its surface is a line hit for most
+    /// rays, and no bound that holds for it is a good one for the others.
+    #[must_use]
+    pub fn with_ground(count: usize) -> Self {
+        let mut cloud = Self::new(count);
+        cloud.x.insert(count / 2, 0.0);
+        cloud.y.insert(count / 2, -1000.0 - HALF);
+        cloud.z.insert(count / 2, 0.0);
+        cloud.r.insert(count / 2, 1000.0);
+        cloud
+    }
+
+    /// `count` spheres about the middle of the cube, so large that the line of every ray of every
+    /// [`Kind`] meets each, and small enough that no ray starts inside.
+    #[must_use]
+    pub fn on_every_line(count: usize) -> Self {
+        let mut random = Random::new(0xa11);
+        let mut cloud = Self::default();
+        for _ in 0..count {
+            let center = random.in_cube(1.0);
+            cloud.x.push(center.x);
+            cloud.y.push(center.y);
+            cloud.z.push(center.z);
+            cloud.r.push(random.between(20.0, 26.0));
         }
         cloud
     }
@@ -151,6 +180,17 @@ mod tests {
             assert!(sphere.center.abs().max_element() <= HALF);
             assert!((0.2..=0.7).contains(&sphere.radius));
         }
+        for kind in Kind::ALL {
+            for ray in kind.rays() {
+                for sphere in Cloud::on_every_line(64).list() {
+                    let p = sphere.center - ray.origin;
+                    let off = p.cross(ray.direction).length() / ray.direction.length();
+                    assert!(off < sphere.radius && sphere.radius < p.length());
+                }
+            }
+        }
+        assert_eq!(Cloud::with_ground(64).list()[32].radius, 1000.0);
+        assert_eq!(Cloud::with_ground(64).list().len(), 65);
         // A short list is the start of a long one.
         assert_eq!(Cloud::new(8).list(), Cloud::new(64).list()[..8]);
     }

@@ -64,8 +64,8 @@ fn rules<A: Promise>(ray: &Ray, spheres: &[Sphere], hit: Option<Hit>) {
 
 /// Lanes of `L` against one lane.
 fn width<A: Promise, L: Lanes<Token = ()>>(scene: &Scene, list: &List, single: &[Option<Hit>]) {
-    let packets: Vec<RayPacket<L>> = scene.rays.chunks(L::COUNT).map(RayPacket::new).collect();
-    let mut hits = vec![HitPacket::none(); packets.len()];
+    let packets: Vec<RayPacket<L>> = scene.rays.chunks(L::COUNT).map(RayPacket::<L>::new).collect();
+    let mut hits = vec![HitPacket::<L>::none(); packets.len()];
     nearest::<A, L>((), &packets, list.spheres(), &mut hits);
     let mut met = vec![u32::MAX; packets.len()];
     any::<A, L>((), &packets, list.spheres(), &mut met);
@@ -83,7 +83,7 @@ fn width<A: Promise, L: Lanes<Token = ()>>(scene: &Scene, list: &List, single: &
     let aims: Vec<_> = scene.aims.iter().map(|&aim| scene.spheres[aim]).collect();
     let chunks = packets.iter().zip(scene.rays.chunks(L::COUNT).zip(aims.chunks(L::COUNT)));
     for (packet, (rays, aims)) in chunks {
-        let hits = pairs::<A, L>((), packet, &SpherePacket::new(aims));
+        let hits = pairs::<A, L>((), packet, &SpherePacket::<L>::new(aims));
         for lane in 0..L::COUNT {
             let alone = rays
                 .get(lane)

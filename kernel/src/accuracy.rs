@@ -122,6 +122,6 @@ pub trait Accuracy: sealed::Sealed + Copy + core::fmt::Debug {
 /// [`Accuracy::line_roots`] by the lanes of a tier that computes both roots always.
 #[inline(always)]
 fn line_roots_of(roots: impl Fn(&RayLanes<f32>) -> Roots<f32>, ray: &Ray) -> Option<[f32; 2]> {
-    let roots = roots(&RayLanes::load((), &RayPacket::new(&[*ray])));
+    let roots = roots(&RayLanes::load((), &RayPacket::<f32>::new(&[*ray])));
     roots.meets.then_some([roots.near + 0.0, roots.far + 0.0])
 }

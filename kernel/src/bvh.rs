@@ -30,8 +30,13 @@
 
 mod bracket;
 mod build;
+<<<<<<< HEAD
 mod bundle;
 mod frustum;
+=======
+mod order;
+mod ray_walk;
+>>>>>>> wh
 mod resolve;
 mod slabs;
 mod split;
@@ -157,9 +162,10 @@ impl<'a> Bvh<'a> {
     ///
     /// Spheres that are not valid are left out. The same list gives the same tree on every target.
     ///
-    /// Cost: time by the number of spheres times its logarithm, whatever the spheres: a cut looks
-    /// at a sphere a bounded number of times, and a node halves nothing less than
-    /// threefold. Stack: some 16 KiB. No other memory.
+    /// Cost: a cut looks at each of its spheres a bounded number of times, and a node makes fifteen
+    /// cuts at most of runs that its children are eight times shorter than; so time grows by the
+    /// number of spheres times its logarithm, whatever the spheres. Stack: some 20 KiB. No other
+    /// memory.
     ///
     /// # Errors
     /// [`TooSmall`], with what is needed, where either slice is shorter than [`Bvh::needed`] says;

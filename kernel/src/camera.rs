@@ -65,7 +65,7 @@ impl Camera {
     #[must_use]
     pub fn packet<L: Lanes>(&self, ix: u32, iy: u32, width: u32, height: u32) -> RayPacket<L> {
         let (tile_width, _) = Self::tile::<L>();
-        let mut packet = RayPacket::inactive();
+        let mut packet = RayPacket::<L>::inactive();
         for lane in 0..L::COUNT as u32 {
             let (x, y) = (ix + lane % tile_width, iy + lane / tile_width);
             if x < width && y < height {
@@ -75,3 +75,6 @@ impl Camera {
         packet
     }
 }
+
+#[cfg(test)]
+mod packets;

@@ -55,3 +55,52 @@ impl<L: Lanes> Halved<L> {
         ((square), (self.high * self.high - square) + (cross + cross) + self.low * self.low)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Halved, two_sum};
+    use crate::search::Random;
+
+    /// Double precision holds a sum of singles exactly where their sizes are within 2^28.
+    #[test]
+    fn a_sum_loses_nothing() {
+        let mut random = Random(1);
+        for _ in 0..1_000_000 {
+            let (a, b) = (random.wide(-14, 14), random.wide(-14, 14));
+            let (high, low) = two_sum(a, b);
+            assert_eq!(high.to_bits(), (a + b).to_bits());
+            assert_eq!(
+                f64::from(high) + f64::from(low),
+                f64::from(a) + f64::from(b),
+                "{a:e} {b:e}"
+            );
+        }
+        // Far apart, and among subnormals.
+        assert_eq!(two_sum(f32::MAX / 2.0, f32::from_bits(1)), (f32::MAX / 2.0, f32::from_bits(1)));
+        assert_eq!(two_sum(f32::from_bits(3), f32::from_bits(2)), (f32::from_bits(5), 0.0));
+    }
+
+    /// Double precision holds every product of two singles exactly.
+    #[test]
+    fn a_product_loses_nothing() {
+        let mut random = Random(2);
+        for round in 0..1_000_000 {
+            // The whole domain: the product at least 2^-102.
+            let a = random.wide(-50, 113);
+            let b = if round % 2 == 0 { random.wide(-50, 12) } else { random.wide(-1, 1) };
+            let (high, low) = Halved::new(a).times(Halved::new(b));
+            assert_eq!(high.to_bits(), (a * b).to_bits());
+            assert_eq!(
+                f64::from(high) + f64::from(low),
+                f64::from(a) * f64::from(b),
+                "{a:e} {b:e}"
+            );
+            let a = random.wide(-50, 62);
+            let (high, low) = Halved::new(a).squared();
+            assert_eq!(high.to_bits(), (a * a).to_bits());
+            assert_eq!(f64::from(high) + f64::from(low), f64::from(a) * f64::from(a), "{a:e}");
+        }
+        let zero = Halved::new(0.0_f32).times(Halved::new(3.0));
+        assert_eq!(zero, (0.0, 0.0));
+    }
+}

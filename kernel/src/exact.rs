@@ -6,4 +6,6 @@
 mod expansion;
 mod quadratic;
 
+#[cfg(test)]
+pub(crate) use expansion::Expansion;
 pub(crate) use quadratic::{Quadratic, Root};

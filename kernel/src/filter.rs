@@ -86,7 +86,7 @@ impl FilterGroup {
     const EMPTY: Self = Self { center: [[0.0; GROUP]; 3], excess: [f32::NEG_INFINITY; GROUP] };
 
     #[inline(always)]
-    fn put(&mut self, slot: usize, sphere: &Sphere, shift: [f32; 3]) {
+    fn put(&mut self, slot: usize, sphere: &Sphere, shift: [f32; 3], kappa: f32) {
         if !sphere.is_valid() {
             return;
         }
@@ -99,7 +99,7 @@ impl FilterGroup {
         self.center[0][slot] = x;
         self.center[1][slot] = y;
         self.center[2][slot] = z;
-        self.excess[slot] = (rr - cc) + KAPPA * (cc + rr).max(LEAST_SIZE);
+        self.excess[slot] = (rr - cc) + kappa * (cc + rr).max(LEAST_SIZE);
     }
 }
 
@@ -114,13 +114,18 @@ pub(crate) struct FilterBlock {
 impl FilterBlock {
     /// Spheres `first ..` of the list, as many as a block takes.
     pub(crate) fn new(spheres: &Spheres<'_>, first: usize) -> Self {
+        Self::widened(spheres, first, KAPPA)
+    }
+
+    #[inline(always)]
+    fn widened(spheres: &Spheres<'_>, first: usize, kappa: f32) -> Self {
         let shift = middle(spheres, first);
         let mut groups = [FilterGroup::EMPTY; BLOCK];
         let mut count = 0;
         for (group, start) in groups.iter_mut().zip((first..spheres.len()).step_by(GROUP)) {
             for slot in 0..GROUP {
                 if let Some(sphere) = spheres.get(start + slot) {
-                    group.put(slot, &sphere, shift);
+                    group.put(slot, &sphere, shift, kappa);
                 }
             }
             count += 1;
@@ -164,6 +169,11 @@ pub(crate) struct FilterRays<L: Lanes> {
 impl<L: Lanes> FilterRays<L> {
     #[inline(always)]
     pub(crate) fn new(token: L::Token, rays: &RayLanes<L>, block: &FilterBlock) -> Self {
+        Self::widened(token, rays, block, KAPPA)
+    }
+
+    #[inline(always)]
+    fn widened(token: L::Token, rays: &RayLanes<L>, block: &FilterBlock, kappa: f32) -> Self {
         // Rays that the bound does not cover are replaced by one that it does.
         let a = dot(rays.direction, rays.direction);
         let far = rays.origin[0].abs().filter_max(rays.origin[1].abs());
@@ -184,7 +194,7 @@ impl<L: Lanes> FilterRays<L> {
             direction,
             twice_origin: axes!(i => origin[i] + origin[i]),
             minus_along: -along,
-            threshold: L::select(judged, oo - oo.like(KAPPA) * oo, otherwise),
+            threshold: L::select(judged, oo - oo.like(kappa) * oo, otherwise),
         }
     }
 
@@ -222,3 +232,6 @@ impl<L: Lanes> FilterRays<L> {
         self.threshold.le(self.raised(group, slot))
     }
 }
+
+#[cfg(test)]
+mod worst;

@@ -1,6 +1,6 @@
 //! What a ray met.
 
-use crate::Lanes;
+use crate::{LaneArray, Lanes};
 
 /// The nearest accepted intersection of one ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,15 +11,18 @@ pub struct Hit {
     pub sphere: u32,
 }
 
+/// A [`Hit`] or none for each of `L`'s lanes.
+pub type HitPacket<L> = HitArrays<<L as Lanes>::Array>;
+
 /// A [`Hit`] or none for every lane of a packet, in plain arrays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
-pub struct HitPacket<L: Lanes> {
-    pub(crate) t: L::Array,
-    pub(crate) sphere: L::Ids,
+pub struct HitArrays<A: LaneArray> {
+    pub(crate) t: A,
+    pub(crate) sphere: A::Ids,
 }
 
-impl<L: Lanes> HitPacket<L> {
+impl<A: LaneArray> HitArrays<A> {
     /// The index that stands for "no sphere".
     pub const NO_SPHERE: u32 = u32::MAX;
 

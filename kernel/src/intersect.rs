@@ -28,7 +28,7 @@ pub fn nearest<A: Accuracy, L: Lanes>(
     hits: &mut [HitPacket<L>],
 ) {
     for hit in hits.iter_mut().take(rays.len()) {
-        *hit = HitPacket::none();
+        *hit = HitPacket::<L>::none();
     }
     for_candidates(
         token,
@@ -72,8 +72,8 @@ pub fn any<A: Accuracy, L: Lanes>(
 /// targets without SIMD. With it, pass packets.
 #[must_use]
 pub fn nearest_hit<A: Accuracy>(ray: &Ray, spheres: Spheres<'_>) -> Option<Hit> {
-    let mut hits = [HitPacket::none()];
-    nearest::<A, f32>((), &[RayPacket::new(&[*ray])], spheres, &mut hits);
+    let mut hits = [HitPacket::<f32>::none()];
+    nearest::<A, f32>((), &[RayPacket::<f32>::new(&[*ray])], spheres, &mut hits);
     hits[0].hit(0)
 }
 
@@ -115,19 +115,19 @@ pub fn roots<A: Accuracy>(ray: &Ray, sphere: &Sphere) -> Option<[f32; 2]> {
 
 /// A packet, and a group of spheres that the filter could not rule out for it.
 #[derive(Clone, Copy)]
-struct Candidates<'a, L: Lanes> {
-    rays: &'a RayLanes<L>,
-    filter: &'a FilterRays<L>,
-    group: &'a FilterGroup,
-    spheres: &'a Spheres<'a>,
+pub(crate) struct Candidates<'a, L: Lanes> {
+    pub(crate) rays: &'a RayLanes<L>,
+    pub(crate) filter: &'a FilterRays<L>,
+    pub(crate) group: &'a FilterGroup,
+    pub(crate) spheres: &'a Spheres<'a>,
     /// The index of the group's first sphere.
-    first: usize,
+    pub(crate) first: usize,
 }
 
 /// Calls `resolve` for each packet and group of spheres that the filter does not rule out, until
 /// all of the packet's live lanes are `done`.
 #[inline(always)]
-fn for_candidates<L: Lanes, R>(
+pub(crate) fn for_candidates<L: Lanes, R>(
     token: L::Token,
     rays: &[RayPacket<L>],
     results: &mut [R],
@@ -200,7 +200,7 @@ fn resolve<A: Accuracy, L: Lanes>(
 }
 
 #[inline(always)]
-fn nearest_in_group<A: Accuracy, L: Lanes>(
+pub(crate) fn nearest_in_group<A: Accuracy, L: Lanes>(
     token: L::Token,
     candidates: Candidates<'_, L>,
     hit: &mut HitPacket<L>,
@@ -230,7 +230,7 @@ fn nearest_in_group<A: Accuracy, L: Lanes>(
 }
 
 #[inline(always)]
-fn any_in_group<A: Accuracy, L: Lanes>(
+pub(crate) fn any_in_group<A: Accuracy, L: Lanes>(
     token: L::Token,
     candidates: Candidates<'_, L>,
     met: &mut u32,

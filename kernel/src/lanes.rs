@@ -12,10 +12,13 @@
 //! everything that makes lanes from numbers. For types fixed at build time it is `()`.
 //! Vectors never cross such a boundary: packets in memory hold plain arrays.
 
+mod array;
 #[cfg(feature = "dispatch")]
 mod dispatched;
 mod scalar;
 mod wide;
+
+pub use array::LaneArray;
 
 use core::fmt::Debug;
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
@@ -52,9 +55,7 @@ pub trait Lanes:
     /// What must be held to make lanes: `()` where the instruction set is fixed at build time.
     type Token: Copy + Debug;
     /// `[f32; COUNT]`: what packets in memory are made of.
-    type Array: Copy + Debug + Default + PartialEq + AsRef<[f32]> + AsMut<[f32]>;
-    /// `[u32; COUNT]`: sphere indices, one a lane.
-    type Ids: Copy + Debug + Default + PartialEq + AsRef<[u32]> + AsMut<[u32]>;
+    type Array: LaneArray;
     /// One truth value a lane.
     type Mask: LaneMask;
     /// The double-precision partner: as many lanes, or a part of them.
@@ -104,10 +105,11 @@ pub trait Lanes:
         Self::splat(self.token(), value)
     }
 
-    /// The magnitude; NaN for NaN.
+    /// The magnitude, +0 for -0; NaN for NaN.
     #[inline(always)]
     fn abs(self) -> Self {
-        Self::select(self.lt(self.like(0.0)), -self, self)
+        let zero = self.like(0.0);
+        Self::select(self.le(zero), zero - self, self)
     }
 }
 
@@ -147,10 +149,11 @@ pub trait DoubleLanes:
         Self::splat(self.token(), value)
     }
 
-    /// The magnitude; NaN for NaN.
+    /// The magnitude, +0 for -0; NaN for NaN.
     #[inline(always)]
     fn abs(self) -> Self {
-        Self::select(self.lt(self.like(0.0)), -self, self)
+        let zero = self.like(0.0);
+        Self::select(self.le(zero), zero - self, self)
     }
 }
 
@@ -159,3 +162,6 @@ pub trait DoubleLanes:
 fn plain_call<R>(work: impl FnOnce() -> R) -> R {
     work()
 }
+
+#[cfg(test)]
+mod bit_for_bit;

@@ -1,6 +1,6 @@
 //! Rays, one at a time and in packets.
 
-use crate::Lanes;
+use crate::{LaneArray, Lanes};
 use glam::Vec3;
 
 /// The half-line (or, by its interval, any part of the line) `origin + t * direction`.
@@ -52,20 +52,23 @@ impl Ray {
     }
 }
 
-/// As many rays as `L` has lanes, component by component, in plain arrays.
+/// As many rays as `L` has lanes.
+pub type RayPacket<L> = RayArrays<<L as Lanes>::Array>;
+
+/// A packet of rays, component by component, in plain arrays.
 ///
-/// The packet is memory, not registers: it holds no vector type, so it may be made on one side of
-/// a run-time dispatch and read on the other.
+/// A packet is memory, not registers: it holds no vector type, so it may be made on one side of a
+/// run-time dispatch and read on the other. [`RayPacket`] names it by the lanes that read it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
-pub struct RayPacket<L: Lanes> {
-    pub(crate) origin: [L::Array; 3],
-    pub(crate) direction: [L::Array; 3],
-    pub(crate) t_min: L::Array,
-    pub(crate) t_max: L::Array,
+pub struct RayArrays<A: LaneArray> {
+    pub(crate) origin: [A; 3],
+    pub(crate) direction: [A; 3],
+    pub(crate) t_min: A,
+    pub(crate) t_max: A,
 }
 
-impl<L: Lanes> RayPacket<L> {
+impl<A: LaneArray> RayArrays<A> {
     /// A packet whose every lane is [`Ray::INACTIVE`].
     #[must_use]
     pub fn inactive() -> Self {
@@ -85,7 +88,7 @@ impl<L: Lanes> RayPacket<L> {
     #[must_use]
     pub fn new(rays: &[Ray]) -> Self {
         let mut packet = Self::inactive();
-        for (lane, ray) in rays.iter().take(L::COUNT).enumerate() {
+        for (lane, ray) in rays.iter().take(A::COUNT).enumerate() {
             packet.set(lane, ray);
         }
         packet
@@ -93,7 +96,7 @@ impl<L: Lanes> RayPacket<L> {
 
     /// Puts `ray` in `lane`; nothing happens where there is no such lane.
     pub fn set(&mut self, lane: usize, ray: &Ray) {
-        let put = |array: &mut L::Array, value: f32| {
+        let put = |array: &mut A, value: f32| {
             if let Some(element) = array.as_mut().get_mut(lane) {
                 *element = value;
             }
@@ -109,10 +112,10 @@ impl<L: Lanes> RayPacket<L> {
     /// The ray in `lane`; [`Ray::INACTIVE`] where there is no such lane.
     #[must_use]
     pub fn ray(&self, lane: usize) -> Ray {
-        if lane >= L::COUNT {
+        if lane >= A::COUNT {
             return Ray::INACTIVE;
         }
-        let get = |array: &L::Array| array.as_ref().get(lane).copied().unwrap_or(f32::NAN);
+        let get = |array: &A| array.as_ref().get(lane).copied().unwrap_or(f32::NAN);
         Ray {
             origin: Vec3::from_array([0, 1, 2].map(|axis| get(&self.origin[axis]))),
             direction: Vec3::from_array([0, 1, 2].map(|axis| get(&self.direction[axis]))),

@@ -1,6 +1,6 @@
 //! Spheres: one, a borrowed list, and one a lane.
 
-use crate::Lanes;
+use crate::{LaneArray, Lanes};
 use core::fmt;
 use glam::Vec3;
 
@@ -108,15 +108,18 @@ impl<'a> Spheres<'a> {
     }
 }
 
-/// One sphere a lane: for ray `i` against sphere `i`.
+/// One sphere for each of `L`'s lanes.
+pub type SpherePacket<L> = SphereArrays<<L as Lanes>::Array>;
+
+/// One sphere a lane, in plain arrays: for ray `i` against sphere `i`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
-pub struct SpherePacket<L: Lanes> {
-    pub(crate) center: [L::Array; 3],
-    pub(crate) radius: L::Array,
+pub struct SphereArrays<A: LaneArray> {
+    pub(crate) center: [A; 3],
+    pub(crate) radius: A,
 }
 
-impl<L: Lanes> SpherePacket<L> {
+impl<A: LaneArray> SphereArrays<A> {
     /// Sphere `i` in lane `i`; lanes past the end of `spheres` hold a sphere that nothing hits,
     /// spheres past the last lane are left out.
     #[must_use]

@@ -103,7 +103,7 @@ impl Columns {
 }
 
 fn packets<L: Lanes>(rays: &[Ray]) -> Vec<RayPacket<L>> {
-    rays.chunks(L::COUNT).map(RayPacket::new).collect()
+    rays.chunks(L::COUNT).map(RayPacket::<L>::new).collect()
 }
 
 fn nearest_of<A: Accuracy, L: Lanes<Token = ()>>(
@@ -111,7 +111,7 @@ fn nearest_of<A: Accuracy, L: Lanes<Token = ()>>(
     spheres: &[Sphere],
 ) -> Vec<Option<Hit>> {
     let packets = packets::<L>(rays);
-    let mut hits = vec![HitPacket::none(); packets.len()];
+    let mut hits = vec![HitPacket::<L>::none(); packets.len()];
     nearest::<A, L>((), &packets, Columns::new(spheres).spheres(), &mut hits);
     (0..rays.len()).map(|index| hits[index / L::COUNT].hit(index % L::COUNT)).collect()
 }
@@ -128,7 +128,8 @@ fn pairs_of<A: Accuracy, L: Lanes<Token = ()>>(cases: &[Case]) -> Vec<Option<f32
     let packet = |cases: &[Case]| {
         let rays: Vec<Ray> = cases.iter().map(|case| case.ray).collect();
         let spheres: Vec<Sphere> = cases.iter().map(|case| case.sphere).collect();
-        let hits = pairs::<A, L>((), &RayPacket::new(&rays), &SpherePacket::new(&spheres));
+        let hits =
+            pairs::<A, L>((), &RayPacket::<L>::new(&rays), &SpherePacket::<L>::new(&spheres));
         let answer = |lane: usize| {
             let hit = hits.hit(lane)?;
             assert_eq!(hit.sphere as usize, lane, "a pair's sphere is its lane");

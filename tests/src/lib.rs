@@ -34,3 +34,9 @@ pub mod regimes;
 pub mod tally;
 pub mod ulp;
 pub mod vectors;
+pub mod widths;
+
+/// The README's Rust, compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+mod readme {}

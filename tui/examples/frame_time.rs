@@ -1,28 +1,60 @@
-//! Milliseconds a frame of the built-in scenes, 200 x 60 cells, 4 samples a cell, drawn and
-//! encoded in full: `cargo run --release -p spherule-tui --example frame_time [FRAMES [SCENE]]`.
-//! Wall-clock times, so on a busy machine look at the least.
+//! Milliseconds of CPU a frame of the built-in scenes, 200 x 60 cells in half blocks and
+//! truecolor, 4 samples a cell, drawn and encoded in full, and their ratio to work that is known:
+//! `cargo run --release -p spherule-tui --example frame_time [FRAMES [SCENE [LEVEL]]]`.
+//!
+//! A shared machine is slower than its CPU. So the clock is that of the thread, which stands while
+//! others run, and a probe, the same work on every machine, is timed in turns with the frames: what
+//! shares the core slows both. A quiet core takes the ratio times the least time of the probe.
 
+use rustix::time::{ClockId, clock_gettime};
+use spherule_kernel::dispatch::{Level, LevelName};
 use spherule_tui::draw::{AccuracyChoice, Charset, ColorDepth, Renderer, Style, picture_aspect};
-use spherule_tui::scene::builtin::BUILTINS;
+use spherule_tui::scene::{Scene, builtin::BUILTINS};
 use spherule_tui::{encode, view};
 use std::hint::black_box;
-use std::time::Instant;
+
+/// Multiply-adds in chains, as many side by side as keep a core busy without wide registers.
+const PROBE_CHAINS: usize = 32;
+/// How long the chains are: 0.75 ms of an EPYC at 3.7 GHz.
+const PROBE_STEPS: u32 = 400_000;
 
 fn main() {
-    let frames = std::env::args().nth(1).and_then(|n| n.parse().ok()).unwrap_or(50_u32);
-    let only = std::env::args().nth(2);
-    for accuracy in [AccuracyChoice::Fast, AccuracyChoice::Stable] {
+    let mut words = std::env::args().skip(1);
+    let frames = words.next().and_then(|n| n.parse().ok()).unwrap_or(50_u32);
+    let only = words.next();
+    let named = |word: String| LevelName::ALL.into_iter().find(|name| name.as_str() == word);
+    let level = words.next().and_then(named).and_then(Level::named).unwrap_or_else(Level::best);
+    println!("{}: medians of {frames} rounds in turns", level.name().as_str());
+    for accuracy in AccuracyChoice::ALL {
         for entry in BUILTINS {
             if only.as_ref().is_some_and(|name| name != entry.name) {
                 continue;
             }
             let frames = if entry.name == "flake" { frames.div_ceil(10) } else { frames };
-            time(entry.name, &(entry.scene)(), accuracy, frames);
+            time(entry.name, &(entry.scene)(), accuracy, level, frames);
         }
     }
 }
 
-fn time(name: &str, scene: &spherule_tui::scene::Scene, accuracy: AccuracyChoice, frames: u32) {
+/// The work that is known.
+fn probe() -> [f32; PROBE_CHAINS] {
+    let (factor, addend) = (black_box(0.999_f32), black_box(0.5_f32));
+    let mut chains = black_box([1.0_f32; PROBE_CHAINS]);
+    for _ in 0..PROBE_STEPS {
+        for x in &mut chains {
+            *x = *x * factor + addend;
+        }
+    }
+    chains
+}
+
+/// Milliseconds that this thread has had a CPU.
+fn cpu_ms() -> f64 {
+    let time = clock_gettime(ClockId::ThreadCPUTime);
+    time.tv_sec as f64 * 1e3 + time.tv_nsec as f64 / 1e6
+}
+
+fn time(name: &str, scene: &Scene, accuracy: AccuracyChoice, level: Level, frames: u32) {
     let style = Style {
         accuracy,
         charset: Charset::Half,
@@ -31,29 +63,41 @@ fn time(name: &str, scene: &spherule_tui::scene::Scene, accuracy: AccuracyChoice
         cell_aspect: 0.5,
     };
     let mut view = scene.first_view(picture_aspect(&style, 200, 60) as f32);
-    let (mut renderer, mut bytes) = (Renderer::new(), Vec::new());
-    let (mut draw, mut encoding, mut rays) = (Vec::new(), Vec::new(), 0);
+    let (mut renderer, mut bytes) = (Renderer::new(level), Vec::new());
+    let (mut draw, mut encoding, mut probes) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut sums, mut ratios, mut rays) = (Vec::new(), Vec::new(), 0);
     for _ in 0..frames.max(1) {
         view = view::orbited(&view, 0.02, 0.0);
-        let start = Instant::now();
+        let start = cpu_ms();
+        black_box(probe());
+        let known = cpu_ms() - start;
+        let start = cpu_ms();
         let drawn = black_box(renderer.draw(scene, &view, &style, 200, 60));
-        let middle = Instant::now();
+        let drawing = cpu_ms() - start;
         bytes.clear();
         encode::full(&drawn.cells, &mut bytes);
         black_box(&bytes);
-        draw.push((middle - start).as_secs_f64() * 1e3);
-        encoding.push(middle.elapsed().as_secs_f64() * 1e3);
+        let both = cpu_ms() - start;
+        probes.push(known);
+        draw.push(drawing);
+        encoding.push(both - drawing);
+        sums.push(both);
+        ratios.push(both / known);
         rays = drawn.rays;
     }
-    // The least is what a quiet core takes, the median what this one took.
-    let least_and_median = |list: &mut Vec<f64>| {
+    let median = |list: &mut Vec<f64>| {
         list.sort_by(f64::total_cmp);
-        format!("{:.2} ({:.2})", list[0], list[list.len() / 2])
+        list[list.len() / 2]
     };
+    let (draw, encoding, known) = (median(&mut draw), median(&mut encoding), median(&mut probes));
+    let (both, ratio) = (median(&mut sums), median(&mut ratios));
     println!(
-        "{name:8} {accuracy:?}: least (median) ms: draw {}, encode {}; {rays} rays, {} bytes",
-        least_and_median(&mut draw),
-        least_and_median(&mut encoding),
+        "{name:8} {:6}: {both:.2} ms (least {:.2}; draw {draw:.2}, encode {encoding:.2}), probe \
+         {known:.2} ms (least {:.2}), ratio {ratio:.2}: {:.2} ms on a quiet core; {rays} rays, {} bytes",
+        accuracy.as_str(),
+        sums[0],
+        probes[0],
+        ratio * probes[0],
         bytes.len()
     );
 }

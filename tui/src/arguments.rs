@@ -9,6 +9,7 @@ use crate::scene::builtin::DEFAULT;
 use crate::scene::open::Format;
 use crate::view::LensKind;
 use clap::{Args, Parser, Subcommand};
+use spherule_kernel::dispatch::Level;
 use std::ffi::OsString;
 use std::path::PathBuf;
 
@@ -33,6 +34,8 @@ pub struct Arguments {
 pub enum Command {
     /// Trace rays from a file against spheres from a file
     Trace(TraceArguments),
+    /// Measure speed and error of every tier on a scene, on this machine
+    Tradeoff(TradeoffArguments),
     /// List the built-in scenes
     Scenes,
 }
@@ -43,8 +46,8 @@ pub struct PictureArguments {
     /// A built-in scene, a file (.toml, .xyz), or - for standard input
     #[arg(value_name = "SCENE", default_value = DEFAULT)]
     pub scene: String,
-    /// How far hits may be trusted: fast or stable
-    #[arg(long, value_name = "TIER", default_value = "stable", value_parser = values::accuracy)]
+    /// How far hits may be trusted: fast, stable or exact
+    #[arg(long, value_name = "TIER", default_value = AccuracyChoice::default().as_str(), value_parser = values::accuracy)]
     pub accuracy: AccuracyChoice,
     /// Picture size in cells, each 1 to 4096 [default: the terminal's, 80x24 in a pipe]
     #[arg(long, value_name = "COLSxROWS", value_parser = values::size)]
@@ -70,6 +73,9 @@ pub struct PictureArguments {
     /// How spheres are searched: auto or brute
     #[arg(long, value_name = "HOW", default_value = "auto", value_parser = values::structure)]
     pub structure: StructureChoice,
+    /// Instructions: baseline, avx2 or avx512 [default: the best that the CPU has]
+    #[arg(long, value_name = "LEVEL", value_parser = values::level)]
+    pub level: Option<Level>,
     /// Write one picture, also to a terminal
     #[arg(long)]
     pub once: bool,
@@ -102,12 +108,41 @@ pub struct TraceArguments {
     /// Report as a JSON object
     #[arg(long)]
     pub json: bool,
-    /// How far hits may be trusted: fast or stable
-    #[arg(long, value_name = "TIER", default_value = "stable", value_parser = values::accuracy)]
+    /// How far hits may be trusted: fast, stable or exact
+    #[arg(long, value_name = "TIER", default_value = AccuracyChoice::default().as_str(), value_parser = values::accuracy)]
     pub accuracy: AccuracyChoice,
     /// How spheres are searched: auto or brute
     #[arg(long, value_name = "HOW", default_value = "auto", value_parser = values::structure)]
     pub structure: StructureChoice,
+    /// Instructions: baseline, avx2 or avx512 [default: the best that the CPU has]
+    #[arg(long, value_name = "LEVEL", value_parser = values::level)]
+    pub level: Option<Level>,
+}
+
+/// A scene whose rays are timed and judged.
+#[derive(Args, Clone, Debug)]
+pub struct TradeoffArguments {
+    /// A built-in scene, a file (.toml, .xyz), or - for standard input
+    #[arg(value_name = "SCENE", default_value = DEFAULT)]
+    pub scene: String,
+    /// Report as a JSON object
+    #[arg(long)]
+    pub json: bool,
+    /// The picture whose rays they are, in cells, each 1 to 4096 [default: 80x24]
+    #[arg(long, value_name = "COLSxROWS", value_parser = values::size)]
+    pub size: Option<(u16, u16)>,
+    /// Rays a cell, 1 to 256
+    #[arg(long, value_name = "N", default_value = "4", value_parser = values::samples)]
+    pub samples: u32,
+    /// perspective or parallel, whatever the scene says
+    #[arg(long, value_name = "KIND", value_parser = values::projection)]
+    pub projection: Option<LensKind>,
+    /// Format of the scene: toml or xyz [default: by name; from standard input by first line]
+    #[arg(long, value_name = "FORMAT", value_parser = values::format)]
+    pub format: Option<Format>,
+    /// Instructions: baseline, avx2 or avx512 [default: the best that the CPU has]
+    #[arg(long, value_name = "LEVEL", value_parser = values::level)]
+    pub level: Option<Level>,
 }
 
 /// What `--charset` says.
@@ -176,7 +211,7 @@ mod tests {
     fn what_is_not_said_has_a_default() {
         let arguments = picture("");
         assert_eq!(arguments.scene, "marbles");
-        assert_eq!(arguments.accuracy, AccuracyChoice::Stable);
+        assert_eq!(arguments.accuracy, AccuracyChoice::Exact);
         assert_eq!((arguments.size, arguments.samples), (None, 4));
         assert_eq!(arguments.color, ColorChoice::Auto);
         assert_eq!(arguments.charset, CharsetChoice::Auto);
@@ -208,11 +243,10 @@ mod tests {
             ("--size 1000000x1000000", "each 1 to 4096"),
             ("--size 80", "COLSxROWS"),
             ("--samples 0", "1 to 256"),
-            ("--accuracy exact", "not yet"),
-            ("--accuracy sloppy", "fast or stable"),
+            ("--accuracy sloppy", "fast, stable or exact"),
             ("--structure bvh", "auto or brute"),
             ("--threads 2", "--threads"),
-            ("--level avx2", "--level"),
+            ("--level sse", "baseline, avx2 or avx512"),
             ("--cell-aspect 1:0", "W:H"),
             ("--cell-aspect nan:1", "W:H"),
             ("a b", "'b'"),

@@ -7,17 +7,36 @@ use crate::samples::CellSamples;
 use crate::scene::Scene;
 use crate::shade::{Shader, SurfacePoint};
 use crate::view::View;
+use spherule_kernel::dispatch::{Level, Packet, nearest};
 use spherule_kernel::{
-    Accuracy, Camera, Fast, HitPacket, Lanes, RayPacket, Spheres, Stable, f32x16, nearest,
+    Accuracy, Camera, Exact, Fast, HitPacket, Lanes, RayPacket, Spheres, Stable,
 };
 
 /// Which tier decides hits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum AccuracyChoice {
     /// The textbook form.
     Fast,
     /// The best form of plain `f32`.
     Stable,
+    /// As in real arithmetic. The default, since it costs no more than `Stable`.
+    #[default]
+    Exact,
+}
+
+impl AccuracyChoice {
+    /// All of them, the fastest first.
+    pub const ALL: [Self; 3] = [Self::Fast, Self::Stable, Self::Exact];
+
+    /// The name on the command line and in reports.
+    #[must_use]
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::Fast => Fast::NAME,
+            Self::Stable => Stable::NAME,
+            Self::Exact => Exact::NAME,
+        }
+    }
 }
 
 /// How many colours there are.
@@ -66,21 +85,17 @@ pub struct Drawn {
     pub rays: u64,
 }
 
-/// The lanes that pictures are traced in. Sixteen are the fastest also where a register holds four:
-/// `marbles` at 200 x 60 cells takes 4.6 ms, with eight 5.0, with four 5.5 (Stable, SSE2).
-type Lane = f32x16;
-
 /// How many rows of cells are traced at a time: enough rays for the kernel to share the
 /// preparation of the spheres among, few enough to stay in the cache, and a multiple of a
 /// packet's height whatever the samples.
 const BAND: u16 = 4;
 
-/// Draws `scene` as `view` sees it into `columns` x `rows` cells.
+/// Draws `scene` as `view` sees it into `columns` x `rows` cells, with the best that the CPU has.
 ///
 /// Who draws more than once keeps a [`Renderer`].
 #[must_use]
 pub fn draw(scene: &Scene, view: &View, style: &Style, columns: u16, rows: u16) -> Drawn {
-    Renderer::new().draw(scene, view, style, columns, rows)
+    Renderer::default().draw(scene, view, style, columns, rows)
 }
 
 /// The camera of a picture and the size of its grid of samples: sample `(ix, iy)` is the ray
@@ -105,24 +120,26 @@ pub fn picture_aspect(style: &Style, columns: u16, rows: u16) -> f64 {
 /// Draws, and keeps its memory from frame to frame.
 #[derive(Debug)]
 pub struct Renderer {
-    rays: Vec<RayPacket<Lane>>,
-    hits: Vec<HitPacket<Lane>>,
-    shader: Shader<Lane>,
+    level: Level,
+    rays: Vec<RayPacket<Packet>>,
+    hits: Vec<HitPacket<Packet>>,
+    shader: Shader,
     picture: Picture,
     palette: Palette,
 }
 
 impl Default for Renderer {
     fn default() -> Self {
-        Self::new()
+        Self::new(Level::best())
     }
 }
 
 impl Renderer {
-    /// Without memory yet.
+    /// Without memory yet; `level` changes no picture, only how long it takes.
     #[must_use]
-    pub fn new() -> Self {
+    pub fn new(level: Level) -> Self {
         Self {
+            level,
             rays: Vec::new(),
             hits: Vec::new(),
             shader: Shader::default(),
@@ -147,6 +164,7 @@ impl Renderer {
         match style.accuracy {
             AccuracyChoice::Fast => self.draw_as::<Fast>(scene, view, style, columns, rows),
             AccuracyChoice::Stable => self.draw_as::<Stable>(scene, view, style, columns, rows),
+            AccuracyChoice::Exact => self.draw_as::<Exact>(scene, view, style, columns, rows),
         }
     }
 
@@ -174,14 +192,14 @@ impl Renderer {
 
             // Rays, and what they meet.
             self.aim(&camera, width, top..bottom, height);
-            self.hits.resize(self.rays.len(), HitPacket::none());
-            nearest::<A, Lane>((), &self.rays, scene.spheres(), &mut self.hits);
+            self.hits.resize(self.rays.len(), HitPacket::<Packet>::none());
+            nearest::<A>(self.level, &self.rays, scene.spheres(), &mut self.hits);
 
             // Light.
             let pixel_rows = u32::from(band) * samples.pixels;
             self.picture.reset(usize::from(columns), pixel_rows as usize);
             self.gather(scene, samples, width, top..bottom);
-            drawn.rays += self.shader.light::<A>(scene, &mut self.picture);
+            drawn.rays += self.shader.light::<A>(self.level, scene, &mut self.picture);
 
             // Characters.
             let cells = drawn.cells.cells_mut();
@@ -203,11 +221,11 @@ impl Renderer {
 
     /// Fills the packets with the tiles of some rows of samples, row of tiles by row of tiles.
     fn aim(&mut self, camera: &Camera, width: u32, rows: std::ops::Range<u32>, height: u32) {
-        let (across, down) = Camera::tile::<Lane>();
+        let (across, down) = Camera::tile::<Packet>();
         self.rays.clear();
         for iy in rows.step_by(down as usize) {
             for ix in (0..width).step_by(across as usize) {
-                self.rays.push(camera.packet(ix, iy, width, height));
+                self.rays.push(camera.packet::<Packet>(ix, iy, width, height));
             }
         }
     }
@@ -221,7 +239,7 @@ impl Renderer {
         width: u32,
         rows: std::ops::Range<u32>,
     ) {
-        let (across, down) = Camera::tile::<Lane>();
+        let (across, down) = Camera::tile::<Packet>();
         let tiles = width.div_ceil(across);
         let share = 1.0 / samples.per_pixel() as f32;
         let background = share * scene.background.to_linear();
@@ -231,7 +249,7 @@ impl Renderer {
         for (index, (rays, hits)) in self.rays.iter().zip(&self.hits).enumerate() {
             let tile_x = index as u32 % tiles * across;
             let tile_y = index as u32 / tiles * down;
-            for lane in 0..Lane::COUNT as u32 {
+            for lane in 0..Packet::COUNT as u32 {
                 let (x, y) = (tile_x + lane % across, tile_y + lane / across);
                 if x >= width || rows.start + y >= rows.end {
                     continue;

@@ -3,7 +3,7 @@
 
 use spherule_tui::arguments::{self, Command, Request};
 use spherule_tui::failure::{Failure, write_stdout};
-use spherule_tui::{show, trace};
+use spherule_tui::{show, trace, tradeoff};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -19,6 +19,7 @@ fn run() -> Result<(), Failure> {
         Request::Run(arguments) => match &arguments.command {
             None => show::show(&arguments.picture),
             Some(Command::Trace(trace)) => trace::trace(trace),
+            Some(Command::Tradeoff(arguments)) => tradeoff::tradeoff(arguments),
             Some(Command::Scenes) => write_stdout(show::scenes().as_bytes()),
         },
     }

@@ -10,7 +10,8 @@ pub use surface::SurfacePoint;
 
 use crate::picture::Picture;
 use crate::scene::Scene;
-use spherule_kernel::{Accuracy, Lanes, Ray, RayPacket, Vec3, any};
+use spherule_kernel::dispatch::{Level, Packet, any};
+use spherule_kernel::{Accuracy, Lanes, Ray, RayPacket, Vec3};
 
 /// How much of a surface's colour is seen where no light reaches it.
 const AMBIENT: f32 = 0.06;
@@ -26,29 +27,22 @@ struct Shaded {
 
 /// Collects the hits of a part of the picture, then lights them, light by light, so that shadow
 /// rays of one light fill packets. Its memory is reused from part to part.
-#[derive(Clone, Debug)]
-pub struct Shader<L: Lanes> {
+#[derive(Clone, Debug, Default)]
+pub struct Shader {
     shaded: Vec<Shaded>,
-    shadows: Shadows<L>,
+    shadows: Shadows,
 }
 
 /// Shadow rays of one light.
-#[derive(Clone, Debug)]
-struct Shadows<L: Lanes> {
-    rays: Vec<RayPacket<L>>,
+#[derive(Clone, Debug, Default)]
+struct Shadows {
+    rays: Vec<RayPacket<Packet>>,
     /// What each ray adds, and to which pixel, if nothing is in its way.
     waiting: Vec<(u32, Vec3)>,
     met: Vec<u32>,
 }
 
-impl<L: Lanes> Default for Shader<L> {
-    fn default() -> Self {
-        let shadows = Shadows { rays: Vec::new(), waiting: Vec::new(), met: Vec::new() };
-        Self { shaded: Vec::new(), shadows }
-    }
-}
-
-impl<L: Lanes<Token = ()>> Shader<L> {
+impl Shader {
     /// Adds a sample that met a sphere of `color` (times the sample's share) to `pixel`, at once
     /// where the scene has no light.
     #[inline]
@@ -68,7 +62,12 @@ impl<L: Lanes<Token = ()>> Shader<L> {
     }
 
     /// Lights what was added since the last call; returns how many shadow rays that took.
-    pub fn light<A: Accuracy>(&mut self, scene: &Scene, picture: &mut Picture) -> u64 {
+    pub fn light<A: Accuracy>(
+        &mut self,
+        level: Level,
+        scene: &Scene,
+        picture: &mut Picture,
+    ) -> u64 {
         for shaded in &self.shaded {
             picture.add(shaded.pixel as usize, AMBIENT * shaded.color);
         }
@@ -84,20 +83,20 @@ impl<L: Lanes<Token = ()>> Shader<L> {
                     picture.add(shaded.pixel as usize, received);
                 }
             }
-            shadow_rays += self.shadows.cast::<A>(scene, picture);
+            shadow_rays += self.shadows.cast::<A>(level, scene, picture);
         }
         self.shaded.clear();
         shadow_rays
     }
 }
 
-impl<L: Lanes<Token = ()>> Shadows<L> {
+impl Shadows {
     /// Puts a ray into the next free lane.
     #[inline]
     fn push(&mut self, ray: &Ray, pixel: u32, received: Vec3) {
-        let lane = self.waiting.len() % L::COUNT;
+        let lane = self.waiting.len() % Packet::COUNT;
         if lane == 0 {
-            self.rays.push(RayPacket::inactive());
+            self.rays.push(RayPacket::<Packet>::inactive());
         }
         if let Some(packet) = self.rays.last_mut() {
             packet.set(lane, ray);
@@ -106,12 +105,12 @@ impl<L: Lanes<Token = ()>> Shadows<L> {
     }
 
     /// Traces the rays, adds what those bring that nothing stops, and returns how many they were.
-    fn cast<A: Accuracy>(&mut self, scene: &Scene, picture: &mut Picture) -> u64 {
+    fn cast<A: Accuracy>(&mut self, level: Level, scene: &Scene, picture: &mut Picture) -> u64 {
         self.met.clear();
         self.met.resize(self.rays.len(), 0);
-        any::<A, L>((), &self.rays, scene.spheres(), &mut self.met);
+        any::<A>(level, &self.rays, scene.spheres(), &mut self.met);
         for (index, &(pixel, received)) in self.waiting.iter().enumerate() {
-            if self.met[index / L::COUNT] >> (index % L::COUNT) & 1 == 0 {
+            if self.met[index / Packet::COUNT] >> (index % Packet::COUNT) & 1 == 0 {
                 picture.add(pixel as usize, received);
             }
         }

@@ -2,16 +2,17 @@
 
 use crate::arguments::{CharsetChoice, PictureArguments};
 use crate::color_depth::Surroundings;
-use crate::draw::{Charset, ColorDepth, Style, draw, picture_aspect};
+use crate::draw::{Charset, ColorDepth, Renderer, Style, picture_aspect};
 use crate::failure::{Failure, cause, write_stdout};
 use crate::{encode, scene, view, viewer};
 use crossterm::terminal;
+use spherule_kernel::dispatch::Level;
 use std::io::IsTerminal;
 
 /// The size of a picture in a pipe.
-const PIPE_SIZE: (u16, u16) = (80, 24);
+pub(crate) const PIPE_SIZE: (u16, u16) = (80, 24);
 /// Width over height of a cell where no terminal says.
-const USUAL_ASPECT: f32 = 0.5;
+pub(crate) const USUAL_ASPECT: f32 = 0.5;
 /// The widest cell and the narrowest that a terminal is believed to have.
 const LIKELY_ASPECTS: std::ops::RangeInclusive<f32> = 0.2..=2.0;
 
@@ -48,12 +49,13 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Failure> {
         view = view::with_projection(&view, kind);
     }
 
+    let mut renderer = Renderer::new(arguments.level.unwrap_or_else(Level::best));
     if is_terminal && !arguments.once {
-        return viewer::run(&scene, view, style)
+        return viewer::run(&scene, view, style, renderer)
             .map_err(|error| Failure::Running(format!("terminal: {}", cause(&error))));
     }
     let mut bytes = Vec::new();
-    encode::full(&draw(&scene, &view, &style, columns, rows).cells, &mut bytes);
+    encode::full(&renderer.draw(&scene, &view, &style, columns, rows).cells, &mut bytes);
     write_stdout(&bytes)
 }
 

@@ -9,14 +9,12 @@ use crate::draw::AccuracyChoice;
 use crate::failure::{Failure, write_stdout};
 use crate::npy;
 use report::Report;
+use spherule_kernel::dispatch::{Level, Packet, any, nearest, pairs};
 use spherule_kernel::{
-    Accuracy, Fast, HitPacket, Lanes, Ray, RayPacket, Sphere, SpherePacket, Spheres, Stable, Vec3,
-    any, f32x16, nearest, pairs,
+    Accuracy, Exact, Fast, HitPacket, Lanes, Ray, RayPacket, Sphere, SpherePacket, Spheres, Stable,
+    Vec3,
 };
 use std::time::{Duration, Instant};
-
-/// The lanes that files are traced in: sixteen, the fastest also where a register holds four.
-type Lane = f32x16;
 
 /// What the rays met.
 struct Met {
@@ -51,9 +49,11 @@ pub fn trace(arguments: &TraceArguments) -> Result<(), Failure> {
     let start = Instant::now();
     let list = spheres.list().map_err(|error| Failure::Input(error.to_string()))?;
     let build = start.elapsed();
+    let level = arguments.level.unwrap_or_else(Level::best);
     let met = match arguments.accuracy {
-        AccuracyChoice::Fast => trace_as::<Fast>(arguments, list, &rays),
-        AccuracyChoice::Stable => trace_as::<Stable>(arguments, list, &rays),
+        AccuracyChoice::Fast => trace_as::<Fast>(arguments, level, list, &rays),
+        AccuracyChoice::Stable => trace_as::<Stable>(arguments, level, list, &rays),
+        AccuracyChoice::Exact => trace_as::<Exact>(arguments, level, list, &rays),
     };
 
     if let Some(path) = &arguments.out_t {
@@ -68,7 +68,8 @@ pub fn trace(arguments: &TraceArguments) -> Result<(), Failure> {
         spheres: list.len(),
         hits: met.id.iter().filter(|&&id| id != misses).count(),
         accuracy: arguments.accuracy,
-        lanes: Lane::COUNT,
+        level: level.name(),
+        lanes: Packet::COUNT,
         build,
         passes: met.passes,
     };
@@ -77,9 +78,15 @@ pub fn trace(arguments: &TraceArguments) -> Result<(), Failure> {
 }
 
 /// Traces with one tier. Packets are made once; only the kernel's calls are timed.
-fn trace_as<A: Accuracy>(arguments: &TraceArguments, spheres: Spheres<'_>, rays: &[Ray]) -> Met {
-    let packets: Vec<RayPacket<Lane>> = rays.chunks(Lane::COUNT).map(RayPacket::new).collect();
-    let mut hits = vec![HitPacket::<Lane>::none(); packets.len()];
+fn trace_as<A: Accuracy>(
+    arguments: &TraceArguments,
+    level: Level,
+    spheres: Spheres<'_>,
+    rays: &[Ray],
+) -> Met {
+    let packets: Vec<RayPacket<Packet>> =
+        rays.chunks(Packet::COUNT).map(RayPacket::<Packet>::new).collect();
+    let mut hits = vec![HitPacket::<Packet>::none(); packets.len()];
     let mut met = vec![0; packets.len()];
     let mut passes = Vec::new();
     let mut repeat = |pass: &mut dyn FnMut()| {
@@ -91,25 +98,21 @@ fn trace_as<A: Accuracy>(arguments: &TraceArguments, spheres: Spheres<'_>, rays:
     };
     if arguments.pairs {
         let spheres: Vec<Sphere> = spheres.iter().collect();
-        let sphere_packets: Vec<SpherePacket<Lane>> =
-            spheres.chunks(Lane::COUNT).map(SpherePacket::new).collect();
-        repeat(&mut || {
-            for (hit, (rays, spheres)) in hits.iter_mut().zip(packets.iter().zip(&sphere_packets)) {
-                *hit = pairs::<A, Lane>((), rays, spheres);
-            }
-        });
+        let sphere_packets: Vec<SpherePacket<Packet>> =
+            spheres.chunks(Packet::COUNT).map(SpherePacket::<Packet>::new).collect();
+        repeat(&mut || pairs::<A>(level, &packets, &sphere_packets, &mut hits));
     } else if arguments.any {
-        repeat(&mut || any::<A, Lane>((), &packets, spheres, &mut met));
+        repeat(&mut || any::<A>(level, &packets, spheres, &mut met));
     } else {
-        repeat(&mut || nearest::<A, Lane>((), &packets, spheres, &mut hits));
+        repeat(&mut || nearest::<A>(level, &packets, spheres, &mut hits));
     }
 
-    let hit = |index: usize| hits[index / Lane::COUNT].hit(index % Lane::COUNT);
+    let hit = |index: usize| hits[index / Packet::COUNT].hit(index % Packet::COUNT);
     let mut t = Vec::new();
     let id = if arguments.any {
         let any = |index: usize| match arguments.pairs {
             true => hit(index).is_some(),
-            false => met[index / Lane::COUNT] >> (index % Lane::COUNT) & 1 == 1,
+            false => met[index / Packet::COUNT] >> (index % Packet::COUNT) & 1 == 1,
         };
         (0..rays.len()).map(|index| i32::from(any(index))).collect()
     } else {

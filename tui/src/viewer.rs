@@ -34,17 +34,17 @@ const LARGEST_SIZE: u16 = 4096;
 /// the real program; it harms nobody who does not ask for it.
 const PANIC_SWITCH: &str = "SPHERULE_TEST_PANIC";
 
-/// Shows `scene` on the terminal, from `view` on, until the user quits.
+/// Shows `scene` on the terminal, from `view` on, drawn by `renderer`, until the user quits.
 ///
 /// # Errors
 /// If there is no terminal to read keys from, or it goes away.
-pub fn run(scene: &Scene, view: View, style: Style) -> io::Result<()> {
+pub fn run(scene: &Scene, view: View, style: Style, renderer: Renderer) -> io::Result<()> {
     let rate = if env::var_os("SSH_CONNECTION").is_some() { REMOTE_RATE } else { LOCAL_RATE };
     let mut viewer = Viewer {
         scene,
         terminal: Terminal::enter()?,
         state: State::new(view, style),
-        renderer: Renderer::new(),
+        renderer,
         encoder: Encoder::new(),
         meter: Meter::default(),
         bytes: Vec::new(),

@@ -3,6 +3,7 @@
 mod program;
 
 use program::{file, refusal, run, run_with_input};
+use spherule_kernel::dispatch::{Level, LevelName};
 
 /// What the program says about a scene in a file.
 fn scene(name: &str, text: &str) -> String {
@@ -30,10 +31,23 @@ fn an_unknown_scene() {
 
 #[test]
 fn an_unknown_option() {
-    for words in ["--threads 2", "--level avx2", "--frobnicate"] {
+    for words in ["--threads 2", "--frobnicate"] {
         refusal(&run(words.split(' ')));
     }
-    assert!(refusal(&run(["--accuracy", "exact"])).contains("not yet"));
+    assert!(refusal(&run(["--accuracy", "real"])).contains("fast, stable or exact"));
+}
+
+#[test]
+fn a_level_that_is_none_or_not_the_cpu_s() {
+    for before in ["", "trace --spheres s.npy --rays r.npy "] {
+        let words = format!("{before}--level sse2");
+        assert!(refusal(&run(words.split(' '))).contains("baseline, avx2 or avx512"));
+        for name in LevelName::ALL.into_iter().filter(|&name| Level::named(name).is_none()) {
+            let words = format!("{before}--level {}", name.as_str());
+            let message = refusal(&run(words.split(' ')));
+            assert!(message.ends_with(&format!("this CPU has no {}", name.as_str())), "{message}");
+        }
+    }
 }
 
 #[test]

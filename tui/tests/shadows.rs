@@ -1,7 +1,7 @@
 //! No tier sees a sphere in the shadow of itself (acne), whatever its size and place.
 
 use spherule_kernel::{
-    Accuracy, Fast, Ray, RayPacket, Sphere, Spheres, Stable, Vec3, any, f32x8, nearest_hit,
+    Accuracy, Exact, Fast, Ray, RayPacket, Sphere, Spheres, Stable, Vec3, any, f32x8, nearest_hit,
 };
 use spherule_tui::color::Srgb;
 use spherule_tui::scene::{Light, Source};
@@ -50,7 +50,7 @@ fn acne<A: Accuracy>(radius: f32, place: f32) -> (u32, u32) {
             let light = Light { source: Source::Direction(direction), color: Srgb::WHITE };
             let Some((ray, _)) = point.towards(&light) else { continue };
             let mut met = [0];
-            any::<A, f32x8>((), &[RayPacket::new(&[ray])], spheres, &mut met);
+            any::<A, f32x8>((), &[RayPacket::<f32x8>::new(&[ray])], spheres, &mut met);
             own += met[0];
             cast += 1;
         }
@@ -80,6 +80,11 @@ fn stable_has_no_acne() {
     no_acne::<Stable>();
 }
 
+#[test]
+fn exact_has_no_acne() {
+    no_acne::<Exact>();
+}
+
 /// The ground of `marbles`, seen from a little above it as far as the eye reaches.
 #[test]
 fn a_huge_ground_has_no_acne() {
@@ -107,4 +112,5 @@ fn a_huge_ground_has_no_acne() {
     }
     seen_from_above::<Fast>();
     seen_from_above::<Stable>();
+    seen_from_above::<Exact>();
 }

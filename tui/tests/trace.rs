@@ -2,25 +2,9 @@
 
 mod program;
 
-use program::{file, printed, refusal, run};
-use spherule_kernel::{Fast, Ray, Spheres, Stable, Vec3, nearest_hit};
+use program::{array, file, npy, printed, refusal, run};
+use spherule_kernel::{Exact, Fast, Ray, Spheres, Stable, Vec3, nearest_hit};
 use std::path::{Path, PathBuf};
-
-/// A `.npy` file of version 1 with this header and data.
-fn npy(header: &str, data: &[u8]) -> Vec<u8> {
-    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
-    bytes.extend((header.len() as u16).to_le_bytes());
-    bytes.extend(header.as_bytes());
-    bytes.extend(data);
-    bytes
-}
-
-fn array(rows: usize, columns: usize, values: &[f32]) -> Vec<u8> {
-    let header =
-        format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({rows}, {columns}), }}\n");
-    let data: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
-    npy(&header, &data)
-}
 
 /// 4-byte elements after the header of a file that the program wrote.
 fn column(path: &Path) -> Vec<[u8; 4]> {
@@ -62,10 +46,10 @@ fn scalar(tier: &str, ray: &Ray, spheres: &[f32]) -> (u32, i32) {
     let column = |i: usize| spheres.iter().skip(i).step_by(4).copied().collect::<Vec<_>>();
     let (x, y, z, r) = (column(0), column(1), column(2), column(3));
     let spheres = Spheres::new(&x, &y, &z, &r).expect("equal lengths");
-    let hit = if tier == "fast" {
-        nearest_hit::<Fast>(ray, spheres)
-    } else {
-        nearest_hit::<Stable>(ray, spheres)
+    let hit = match tier {
+        "fast" => nearest_hit::<Fast>(ray, spheres),
+        "stable" => nearest_hit::<Stable>(ray, spheres),
+        _ => nearest_hit::<Exact>(ray, spheres),
     };
     hit.map_or((f32::INFINITY.to_bits(), -1), |hit| (hit.t.to_bits(), hit.sphere as i32))
 }
@@ -100,7 +84,7 @@ fn trace(name: &str, spheres: &[f32], rays: &[f32], words: &str) -> (String, Vec
 #[test]
 fn nearest_hits_are_those_of_a_scalar_loop() {
     let (spheres, rays) = data();
-    for tier in ["fast", "stable"] {
+    for tier in ["fast", "stable", "exact"] {
         let words = format!("--accuracy {tier} --repeat 3");
         let (text, t, id) = trace(tier, &spheres, &rays, &words);
         let expected: Vec<_> =
@@ -123,7 +107,7 @@ fn any_is_one_or_nought() {
     let (spheres, rays) = data();
     let (_, t, id) = trace("any", &spheres, &rays, "--any");
     let expected: Vec<_> =
-        rays.chunks(8).map(|row| i32::from(scalar("stable", &ray(row), &spheres).1 >= 0)).collect();
+        rays.chunks(8).map(|row| i32::from(scalar("exact", &ray(row), &spheres).1 >= 0)).collect();
     assert_eq!((t.len(), id), (0, expected));
 }
 
@@ -135,7 +119,7 @@ fn pairs_meet_their_own_sphere_alone() {
         let (text, t, id) = trace("pairs", &spheres, &rays, words);
         let mut hits = 0;
         for (index, (row, sphere)) in rays.chunks(8).zip(spheres.chunks(4)).enumerate() {
-            let (expected, met) = scalar("stable", &ray(row), sphere);
+            let (expected, met) = scalar("exact", &ray(row), sphere);
             let is_hit = met >= 0;
             hits += i32::from(is_hit);
             if words == "--pairs" {

@@ -93,7 +93,7 @@ impl Frustum {
                 met = met & L::splat(token, plane.offset).le(farthest);
             }
             inside.places |= crate::LaneMask::bits(met) << (part * L::COUNT);
-            super::walk::put_part(&mut inside.depths, part, begin);
+            super::ray_walk::put_part(&mut inside.depths, part, begin);
         }
     }
 

@@ -7,7 +7,7 @@ use super::{BvhLeaf, WIDTH};
 use crate::accuracy::RayLanes;
 use crate::axes::axes;
 use crate::intersect::lanes_of_bits;
-use crate::{Accuracy, Hit, HitPacket, LaneMask, Lanes, RayPacket, Sphere};
+use crate::{Accuracy, Hit, HitArrays, HitPacket, LaneArray, LaneMask, Lanes, RayPacket, Sphere};
 use glam::Vec3;
 
 /// How many candidates a ray can keep.
@@ -74,7 +74,7 @@ fn sphere_at(leaves: &[BvhLeaf], place: u32) -> Option<(Sphere, u32)> {
 struct Asked<L: Lanes> {
     center: [L::Array; 3],
     radius: L::Array,
-    index: L::Ids,
+    index: <L::Array as LaneArray>::Ids,
     lanes: u32,
 }
 
@@ -123,14 +123,13 @@ impl<L: Lanes> Asked<L> {
 
 /// Takes a hit that is nearer, or as near and of a lower index.
 #[inline(always)]
-pub(super) fn take<L: Lanes>(hits: &mut HitPacket<L>, lane: usize, t: f32, index: u32) {
+pub(super) fn take<A: LaneArray>(hits: &mut HitArrays<A>, lane: usize, t: f32, index: u32) {
     if let (Some(best), Some(sphere)) =
         (hits.t.as_mut().get_mut(lane), hits.sphere.as_mut().get_mut(lane))
+        && (t < *best || (t == *best && index < *sphere))
     {
-        if t < *best || (t == *best && index < *sphere) {
-            *best = t;
-            *sphere = index;
-        }
+        *best = t;
+        *sphere = index;
     }
 }
 
@@ -187,7 +186,7 @@ pub(super) fn settle_one<A: Accuracy, L: Lanes>(
     for copy in 0..L::COUNT {
         copies.set(copy, &ray);
     }
-    let rays = RayLanes::load(token, &copies);
+    let rays = RayLanes::<L>::load(token, &copies);
     let prepared = A::prepare(&rays);
     let limit = L::splat(token, f32::INFINITY);
     let mut nearest: Option<Hit> = None;

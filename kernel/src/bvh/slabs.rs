@@ -13,7 +13,7 @@
 //! # Why nothing is lost
 //!
 //! u = 2^-24, first order; M = extent + |o|, with no coordinate of a box above the extent and
-//! no coordinate of o above |o|; P = |p| + r, p = c - o: P <= 2 sqrt 3 M. With rho = 1/|d| as rounded and v = rho d
+//! no coordinate of o above |o|; P = |p| + r, p = c - o: P <= 2 sqrt 3 M, generously. With rho = 1/|d| as rounded and v = rho d
 //! in the reals, points of the line are o + s v for s = t / rho, and n_i = v_i (1 + u).
 //!
 //! Let t be what a tier answers, and x = o + t d in the reals. How far is x from the sphere?

@@ -9,6 +9,9 @@ use super::{BvhLeaf, WIDTH};
 /// How many slices a run is sorted into, an axis.
 const BINS: usize = 16;
 
+/// Up to how many leaves all cuts are compared.
+const EVERY_CUT: usize = 32;
+
 /// The box of some spheres, and the box of their centres.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bounds {
@@ -141,12 +144,12 @@ impl Bin {
         self.count += count;
     }
 
-    fn cost(&self) -> f32 {
+    fn half_area(&self) -> f32 {
         if self.count == 0 {
             return 0.0;
         }
         let [low, high] = [self.low, self.high].map(|[x, y, z, _]| [x, y, z]);
-        half_area(low, high) * self.count as f32
+        half_area(low, high)
     }
 }
 
@@ -212,26 +215,49 @@ impl Run<'_> {
             if scales[axis] == 0.0 {
                 continue;
             }
-            // From the right, then from the left.
-            let mut right_costs = [0.0; BINS];
-            let mut right = Bin::EMPTY;
-            for (cost, bin) in right_costs.iter_mut().zip(bins).rev() {
-                right.grow(bin.low, bin.high, bin.count);
-                *cost = right.cost();
+            // Surfaces of the first so many slices, and of the others.
+            let mut left = [0.0; BINS + 1];
+            let mut right = [0.0; BINS + 1];
+            let mut all = Bin::EMPTY;
+            for (area, bin) in left.iter_mut().skip(1).zip(bins) {
+                all.grow(bin.low, bin.high, bin.count);
+                *area = all.half_area();
             }
-            let mut left = Bin::EMPTY;
-            for (boundary, bin) in bins.iter().enumerate().take(BINS - 1) {
-                left.grow(bin.low, bin.high, bin.count);
-                let cost = left.cost() + right_costs[boundary + 1];
-                if left.count > 0 && left.count < self.count && cost < least_cost {
-                    least_cost = cost;
-                    best = Some((axis, left.count));
+            let mut all = Bin::EMPTY;
+            for (area, bin) in right.iter_mut().zip(bins).rev().skip(1) {
+                all.grow(bin.low, bin.high, bin.count);
+                *area = all.half_area();
+            }
+            let mut before = 0;
+            for (bin, Bin { count: inside, .. }) in bins.iter().enumerate() {
+                if *inside == 0 {
+                    continue;
                 }
+                // Of a short run every cut, of a long one that nearest to the end of the slice.
+                let end = before + inside;
+                let nearest = (end + WIDTH / 2) / WIDTH * WIDTH;
+                let (mut at, last) = if self.leaves.len() <= EVERY_CUT {
+                    (before / WIDTH * WIDTH + WIDTH, end / WIDTH * WIDTH)
+                } else {
+                    (nearest, nearest)
+                };
+                while at <= last {
+                    if at > 0 && at < self.count {
+                        let share = (at - before.min(at)) as f32 / *inside as f32;
+                        let first = left[bin] + share * (left[bin + 1] - left[bin]);
+                        let second = right[bin] + share * (right[bin + 1] - right[bin]);
+                        let cost = first * at as f32 + second * (self.count - at) as f32;
+                        if cost < least_cost {
+                            least_cost = cost;
+                            best = Some((axis, at));
+                        }
+                    }
+                    at += WIDTH;
+                }
+                before = end;
             }
         }
-        let (axis, count) = best?;
-        let last = (self.leaves.len() - 1) * WIDTH;
-        let at = ((count + WIDTH / 2) / WIDTH * WIDTH).clamp(WIDTH, last.max(WIDTH));
+        let (axis, at) = best?;
         let mut before = 0;
         for (bin, Bin { count, .. }) in bins[axis].iter().enumerate() {
             if at <= before + count {
@@ -241,95 +267,4 @@ impl Run<'_> {
         }
         None
     }
-
-    /// Moves spheres so that the first `at` have keys no larger than the others; only those of
-    /// places `from..to` move.
-    ///
-    /// The keys, as integers in the order of the numbers, are sorted into sixteen slices, of which
-    /// only the one with place `at` is looked at again: four bits a round, eight rounds at most.
-    fn order_about(&mut self, at: usize, mut from: usize, mut to: usize, axis: usize) {
-        while from < at && at < to {
-            let (mut low, mut high) = (u32::MAX, 0);
-            for place in from..to {
-                let key = self.key(place, axis);
-                low = low.min(key);
-                high = high.max(key);
-            }
-            let bits = u32::BITS - (high - low).leading_zeros();
-            if bits == 0 {
-                return;
-            }
-            let shift = bits.saturating_sub(4);
-            let mut counts = [0; BINS];
-            for place in from..to {
-                counts[((self.key(place, axis) - low) >> shift) as usize & (BINS - 1)] += 1;
-            }
-            let (mut bin, mut before) = (0, from);
-            for count in counts {
-                if at < before + count {
-                    break;
-                }
-                before += count;
-                bin += 1;
-            }
-            let slice = |leaf: &BvhLeaf, lane: usize| (key_of(leaf, lane, axis) - low) >> shift;
-            from = self.gather(from, to, |leaf, lane| slice(leaf, lane) < bin);
-            to = self.gather(from, to, |leaf, lane| slice(leaf, lane) == bin);
-        }
-    }
-
-    fn key(&self, place: usize, axis: usize) -> u32 {
-        self.leaves.get(place / WIDTH).map_or(0, |leaf| key_of(leaf, place % WIDTH, axis))
-    }
-
-    /// Moves the spheres for which `wanted` holds to the front of places `from..to`; answers
-    /// with where they end.
-    #[inline(always)]
-    fn gather(
-        &mut self,
-        mut from: usize,
-        mut to: usize,
-        wanted: impl Fn(&BvhLeaf, usize) -> bool,
-    ) -> usize {
-        let holds = |leaves: &[BvhLeaf], place: usize| {
-            leaves.get(place / WIDTH).is_some_and(|leaf| wanted(leaf, place % WIDTH))
-        };
-        loop {
-            while from < to && holds(self.leaves, from) {
-                from += 1;
-            }
-            while from < to && !holds(self.leaves, to - 1) {
-                to -= 1;
-            }
-            if from >= to {
-                return from;
-            }
-            self.swap(from, to - 1);
-        }
-    }
-
-    fn swap(&mut self, one: usize, other: usize) {
-        let places = [one / WIDTH, other / WIDTH];
-        let [a, b] = [one % WIDTH, other % WIDTH];
-        if let Ok([first, second]) = self.leaves.get_disjoint_mut(places) {
-            for axis in 0..3 {
-                core::mem::swap(&mut first.center[axis][a], &mut second.center[axis][b]);
-            }
-            core::mem::swap(&mut first.radius[a], &mut second.radius[b]);
-            core::mem::swap(&mut first.index[a], &mut second.index[b]);
-        } else if let Some(leaf) = self.leaves.get_mut(places[0]) {
-            for axis in 0..3 {
-                leaf.center[axis].swap(a, b);
-            }
-            leaf.radius.swap(a, b);
-            leaf.index.swap(a, b);
-        }
-    }
-}
-
-/// A centre, or for axis 3 the radius, as an integer in the order of the numbers.
-#[inline(always)]
-fn key_of(leaf: &BvhLeaf, lane: usize, axis: usize) -> u32 {
-    let bits = leaf.center.get(axis).unwrap_or(&leaf.radius)[lane % WIDTH].to_bits();
-    if bits >> 31 == 1 { !bits } else { bits | 1 << 31 }
 }

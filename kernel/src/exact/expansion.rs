@@ -132,3 +132,6 @@ impl<F: Float, const N: usize> Expansion<F, N> {
         self.terms().iter().fold(0.0, |sum, &term| sum + term.into())
     }
 }
+
+#[cfg(test)]
+mod against_integers;

@@ -39,6 +39,7 @@
 
 use super::expansion::{Expansion, Float};
 use core::cmp::Ordering;
+use core::marker::PhantomData;
 
 /// Which of the two roots.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,10 +53,11 @@ pub(crate) enum Root {
 /// A line that meets a sphere, and estimates of its quadratic.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Quadratic<F> {
-    origin: [F; 3],
-    direction: [F; 3],
-    center: [F; 3],
-    radius: F,
+    origin: [f32; 3],
+    direction: [f32; 3],
+    center: [f32; 3],
+    radius: f32,
+    float: PhantomData<F>,
     /// t1 and t2, each within 10 u of itself.
     estimates: [f64; 2],
 }
@@ -70,21 +72,15 @@ impl<F: Float> Quadratic<F> {
         center: [f32; 3],
         radius: f32,
     ) -> Option<Self> {
-        let exactly = |single| F::from(f64::from(single));
-        let line = Self {
-            origin: origin.map(exactly),
-            direction: direction.map(exactly),
-            center: center.map(exactly),
-            radius: exactly(radius),
-            estimates: [0.0; 2],
-        };
+        let line =
+            Self { origin, direction, center, radius, float: PhantomData, estimates: [0.0; 2] };
         let discriminant = line.discriminant()?;
 
         // q = b + sign(b) sqrt D does not cancel: 4 u of b, 3.5 u of the root, 1 u of the sum.
         // a is within 2 u, k within 4 u; so q / a within 9 u, k / q within 10 u.
         let root = libm::sqrt(discriminant);
         let (b, k) = (line.half_slope(), line.power());
-        let a: f64 = line.direction.iter().map(|&d| -> f64 { (d * d).into() }).sum();
+        let a: f64 = direction.iter().map(|&d| f64::from(d) * f64::from(d)).sum();
         let q = if b < 0.0 { b - root } else { b + root };
         // q is zero only where b and D are, and then so is k: both roots are zero.
         let other = if k == 0.0 { 0.0 } else { k / q };
@@ -112,18 +108,23 @@ impl<F: Float> Quadratic<F> {
         rounded + 0.0
     }
 
+    /// c and o, axis by axis.
+    fn center_and_origin(&self) -> impl Iterator<Item = (F, F)> {
+        self.center.into_iter().zip(self.origin).map(|(c, o)| (exactly(c), exactly(o)))
+    }
+
     /// D = a r^2 - |d x p|^2, estimated; nothing where it is negative.
     #[inline(never)]
     fn discriminant(&self) -> Option<f64> {
-        let Self { origin: o, direction: d, center: c, radius: r, .. } = *self;
         let mut sum = Expansion::<F, 66>::zero();
         // Each component of d x p from two axes of d, c and o, those after the component's own.
-        let ([x, y, z], [cx, cy, cz], [ox, oy, oz]) = (d, c, o);
+        let ([x, y, z], [cx, cy, cz], [ox, oy, oz]) = (self.direction, self.center, self.origin);
         for (d, c, o) in [
             ([y, z], [cy, cz], [oy, oz]),
             ([z, x], [cz, cx], [oz, ox]),
             ([x, y], [cx, cy], [ox, oy]),
         ] {
+            let (d, c, o) = (d.map(exactly::<F>), c.map(exactly::<F>), o.map(exactly::<F>));
             let mut component = Expansion::<F, 4>::zero();
             component.add(d[0] * c[1]);
             component.add(-(d[0] * o[1]));
@@ -131,7 +132,9 @@ impl<F: Float> Quadratic<F> {
             component.add(d[1] * o[0]);
             sum.add_square(component.terms());
         }
-        for d in d {
+        let r = exactly::<F>(self.radius);
+        for d in self.direction {
+            let d = exactly::<F>(d);
             sum.add_product(d * d, -(r * r));
         }
         // So far the sum is -D.
@@ -142,7 +145,8 @@ impl<F: Float> Quadratic<F> {
     #[inline(never)]
     fn half_slope(&self) -> f64 {
         let mut sum = Expansion::<F, 6>::zero();
-        for ((d, c), o) in self.direction.into_iter().zip(self.center).zip(self.origin) {
+        for (d, (c, o)) in self.direction.into_iter().zip(self.center_and_origin()) {
+            let d = exactly::<F>(d);
             sum.add(d * c);
             sum.add(-(d * o));
         }
@@ -153,23 +157,24 @@ impl<F: Float> Quadratic<F> {
     #[inline(never)]
     fn power(&self) -> f64 {
         let mut sum = Expansion::<F, 19>::zero();
-        for (c, o) in self.center.into_iter().zip(self.origin) {
+        for (c, o) in self.center_and_origin() {
             let mut component = Expansion::<F, 2>::zero();
             component.add(c);
             component.add(-o);
             sum.add_square(component.terms());
         }
-        sum.add(-(self.radius * self.radius));
+        sum.add(-(exactly::<F>(self.radius) * exactly::<F>(self.radius)));
         sum.estimate()
     }
 
     /// How a root compares with `t`, a number of at most 25 significant bits.
     #[inline(never)]
     fn compare_with(&self, t: f64, root: Root) -> Ordering {
-        let Self { origin: o, direction: d, center: c, radius: r, .. } = *self;
+        let r = exactly::<F>(self.radius);
         let (mut f, mut g) = (Expansion::<F, 37>::zero(), Expansion::<F, 18>::zero());
         f.add(-(r * r));
-        for ((d, c), o) in d.into_iter().zip(c).zip(o) {
+        for (d, (c, o)) in self.direction.into_iter().zip(self.center_and_origin()) {
+            let d = exactly::<F>(d);
             let mut component = Expansion::<F, 3>::zero();
             component.add(F::from(t) * d);
             component.add(-c);
@@ -190,6 +195,10 @@ impl<F: Float> Quadratic<F> {
     }
 }
 
+fn exactly<F: Float>(single: f32) -> F {
+    F::from(f64::from(single))
+}
+
 /// The number half-way between neighbours, exactly; an infinity stands for the `f32` that would
 /// come next, 2^128, as it does in rounding.
 fn midpoint(low: f32, high: f32) -> f64 {
@@ -200,3 +209,8 @@ fn midpoint(low: f32, high: f32) -> f64 {
 }
 
 const TWO_128: f64 = 2.0 * (1u128 << 127) as f64;
+
+#[cfg(test)]
+mod by_hand;
+#[cfg(test)]
+mod flops;

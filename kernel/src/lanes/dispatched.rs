@@ -112,7 +112,6 @@ macro_rules! dispatched_lanes {
             const COUNT: usize = $count;
             type Token = S;
             type Array = [f32; $count];
-            type Ids = [u32; $count];
             type Mask = DispatchedMask<$mask<S>>;
             type Double = $double<S>;
 

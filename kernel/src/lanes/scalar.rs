@@ -13,7 +13,6 @@ impl Lanes for f32 {
     const COUNT: usize = 1;
     type Token = ();
     type Array = [f32; 1];
-    type Ids = [u32; 1];
     type Mask = bool;
     type Double = f64;
 

@@ -91,7 +91,6 @@ macro_rules! wide_lanes {
             const COUNT: usize = $count;
             type Token = ();
             type Array = [f32; $count];
-            type Ids = [u32; $count];
             type Mask = WideMask<$vector>;
             type Double = $double;
 

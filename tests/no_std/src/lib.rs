@@ -87,12 +87,12 @@ fn width<A: Accuracy, L: Lanes<Token = ()>>(
     let mut rays = [camera.packet::<L>(0, 0, 8, 8), camera.packet::<L>(4, 4, 8, 8)];
     rays[1].set(1, &camera.get_ray(7, 7));
     rays[0].set(0, &rays[1].ray(L::COUNT - 1));
-    let mut hits = [HitPacket::none(); 2];
+    let mut hits = [HitPacket::<L>::none(); 2];
     nearest::<A, L>((), &rays, spheres, &mut hits);
     let mut met = [0; 2];
     any::<A, L>((), &rays, spheres, &mut met);
     let beside =
-        pairs::<A, L>((), &RayPacket::new(&[rays[0].ray(0)]), &SpherePacket::new(&[*sphere]));
+        pairs::<A, L>((), &RayPacket::<L>::new(&[rays[0].ray(0)]), &SpherePacket::<L>::new(&[*sphere]));
 
     let mut sum = met[0] ^ met[1];
     for packet in hits.iter().chain([&beside]) {

@@ -6,6 +6,7 @@ use crate::draw::{AccuracyChoice, Charset, ColorDepth};
 use crate::samples::MOST_SAMPLES;
 use crate::scene::open::Format;
 use crate::view::LensKind;
+use spherule_kernel::dispatch::{Level, LevelName};
 
 /// The largest picture, in columns or rows.
 const LARGEST_SIDE: u16 = 4096;
@@ -13,12 +14,8 @@ const LARGEST_SIDE: u16 = 4096;
 const ASPECTS: std::ops::RangeInclusive<f32> = 0.05..=20.0;
 
 pub(super) fn accuracy(text: &str) -> Result<AccuracyChoice, &'static str> {
-    match text {
-        "fast" => Ok(AccuracyChoice::Fast),
-        "stable" => Ok(AccuracyChoice::Stable),
-        "exact" => Err("not yet: fast or stable"),
-        _ => Err("fast or stable"),
-    }
+    let named = AccuracyChoice::ALL.into_iter().find(|choice| choice.as_str() == text);
+    named.ok_or("fast, stable or exact")
 }
 
 pub(super) fn size(text: &str) -> Result<(u16, u16), String> {
@@ -88,6 +85,12 @@ pub(super) fn structure(text: &str) -> Result<StructureChoice, &'static str> {
         "brute" => Ok(StructureChoice::Brute),
         _ => Err("auto or brute"),
     }
+}
+
+pub(super) fn level(text: &str) -> Result<Level, String> {
+    let name = LevelName::ALL.into_iter().find(|name| name.as_str() == text);
+    let name = name.ok_or("baseline, avx2 or avx512")?;
+    Level::named(name).ok_or_else(|| format!("this CPU has no {text}"))
 }
 
 pub(super) fn repeat(text: &str) -> Result<u32, &'static str> {

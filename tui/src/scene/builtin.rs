@@ -187,7 +187,7 @@ const HORIZON: f32 = 4_000_000.0;
 
 /// Parallel rays that start far away, so that p.p, which the textbook form subtracts r^2 from, is
 /// thousands of times as large as r^2. `Fast` frays the large spheres, dissolves the small ones
-/// and the far one, and breaks the horizon; `Stable` draws all of them as they are.
+/// and the far one, and breaks the horizon; the others draw all of them as they are.
 fn edge() -> Scene {
     let mut scene = Scene::new();
     scene.background = Srgb([0x0e, 0x12, 0x20]);

@@ -2,16 +2,8 @@
 
 use crate::draw::AccuracyChoice;
 use serde_json::{Map, Value, json};
+use spherule_kernel::dispatch::LevelName;
 use std::time::Duration;
-
-/// The instruction set that the program was built for.
-const LEVEL: &str = if cfg!(target_feature = "avx512f") {
-    "avx512"
-} else if cfg!(target_feature = "avx2") {
-    "avx2"
-} else {
-    "baseline"
-};
 
 /// What was traced, and how fast.
 pub(super) struct Report {
@@ -19,6 +11,7 @@ pub(super) struct Report {
     pub(super) spheres: usize,
     pub(super) hits: usize,
     pub(super) accuracy: AccuracyChoice,
+    pub(super) level: LevelName,
     pub(super) lanes: usize,
     pub(super) build: Duration,
     pub(super) passes: Vec<Duration>,
@@ -27,18 +20,14 @@ pub(super) struct Report {
 impl Report {
     /// The keys and their values, in the order in which they are printed.
     fn entries(&self) -> Vec<(&'static str, Value)> {
-        let accuracy = match self.accuracy {
-            AccuracyChoice::Fast => "fast",
-            AccuracyChoice::Stable => "stable",
-        };
         let rounded = |number: f64| json!((number * 1e3).round() / 1e3);
         vec![
             ("rays", json!(self.rays)),
             ("spheres", json!(self.spheres)),
             ("hits", json!(self.hits)),
             ("structure", json!("brute")),
-            ("accuracy", json!(accuracy)),
-            ("level", json!(LEVEL)),
+            ("accuracy", json!(self.accuracy.as_str())),
+            ("level", json!(self.level.as_str())),
             ("lanes", json!(self.lanes)),
             ("threads", json!(1)),
             ("build_ms", rounded(self.build.as_secs_f64() * 1e3)),
@@ -87,13 +76,17 @@ mod tests {
             spheres: 2,
             hits: 3,
             accuracy: AccuracyChoice::Fast,
+            level: LevelName::Avx2,
             lanes: 8,
             build: Duration::from_micros(1500),
             passes: [3, 1, 2].map(Duration::from_secs).to_vec(),
         };
         let line = report.line();
         assert!(line.starts_with("rays=8000000 spheres=2 hits=3 structure=brute accuracy=fast "));
-        assert!(line.ends_with(" lanes=8 threads=1 build_ms=1.5 mrays_per_s=4.0\n"), "{line}");
+        assert!(
+            line.ends_with(" level=avx2 lanes=8 threads=1 build_ms=1.5 mrays_per_s=4.0\n"),
+            "{line}"
+        );
         let object: Value = serde_json::from_str(&report.json()).expect("JSON");
         assert_eq!(object["mrays_per_s"], json!(4.0));
         assert_eq!(object.as_object().map(Map::len), Some(10));
@@ -106,6 +99,7 @@ mod tests {
             spheres: 0,
             hits: 0,
             accuracy: AccuracyChoice::Stable,
+            level: LevelName::Avx2,
             lanes: 8,
             build: Duration::ZERO,
             passes: passes.iter().copied().map(Duration::from_secs).collect(),

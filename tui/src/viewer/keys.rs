@@ -19,7 +19,7 @@ pub(super) enum Input {
     Fast,
     /// Use the best plain form.
     Stable,
-    /// Use the exact tier, once there is one.
+    /// Use the exact tier.
     Exact,
     /// The other projection.
     Projection,

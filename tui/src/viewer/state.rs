@@ -40,8 +40,6 @@ pub(super) struct State {
     pub(super) view: View,
     pub(super) style: Style,
     pub(super) help: bool,
-    /// Something to say in the status line, until the next input that changes something.
-    pub(super) note: Option<&'static str>,
     spinning: bool,
     /// Where the mouse took hold, or was led to since.
     held: Option<(u16, u16)>,
@@ -51,16 +49,7 @@ pub(super) struct State {
 
 impl State {
     pub(super) fn new(view: View, style: Style) -> Self {
-        Self {
-            home: view,
-            view,
-            style,
-            help: false,
-            note: None,
-            spinning: false,
-            held: None,
-            height: 1,
-        }
+        Self { home: view, view, style, help: false, spinning: false, held: None, height: 1 }
     }
 
     pub(super) fn is_spinning(&self) -> bool {
@@ -91,7 +80,7 @@ impl State {
             Input::Suspend | Input::Resize => return Outcome::Unchanged,
             _ => {}
         }
-        let (view, style, help, note) = (self.view, self.style, self.help, self.note.take());
+        let (view, style, help) = (self.view, self.style, self.help);
         let was_spinning = self.spinning;
         match input {
             Input::Orbit(right, up) => {
@@ -102,7 +91,7 @@ impl State {
             Input::Drag(column, row) => self.drag_to(column, row),
             Input::Fast => self.style.accuracy = AccuracyChoice::Fast,
             Input::Stable => self.style.accuracy = AccuracyChoice::Stable,
-            Input::Exact => self.note = Some("exact: not yet"),
+            Input::Exact => self.style.accuracy = AccuracyChoice::Exact,
             Input::Projection => {
                 let other = match view.lens_kind() {
                     LensKind::Perspective => LensKind::Parallel,
@@ -124,7 +113,7 @@ impl State {
             Input::Help | Input::Escape => self.help = !self.help,
             Input::Quit | Input::Grab(..) | Input::Suspend | Input::Resize => {}
         }
-        let same = (view, style, help, note) == (self.view, self.style, self.help, self.note)
+        let same = (view, style, help) == (self.view, self.style, self.help)
             && was_spinning == self.spinning;
         if same { Outcome::Unchanged } else { Outcome::Changed }
     }
@@ -207,21 +196,12 @@ mod tests {
         assert_eq!(state.apply(Input::Stable), Outcome::Unchanged);
         assert_eq!(state.apply(Input::Fast), Outcome::Changed);
         assert_eq!(state.style.accuracy, AccuracyChoice::Fast);
+        assert_eq!(state.apply(Input::Exact), Outcome::Changed);
+        assert_eq!(state.style.accuracy, AccuracyChoice::Exact);
         assert_eq!(state.apply(Input::Charset), Outcome::Changed);
         assert_eq!(state.style.charset, Charset::Ascii);
         assert_eq!(state.apply(Input::Projection), Outcome::Changed);
         assert_eq!(state.view.lens_kind(), LensKind::Parallel);
-    }
-
-    #[test]
-    fn a_note_stays_until_something_changes() {
-        let mut state = state();
-        assert_eq!(state.apply(Input::Exact), Outcome::Changed);
-        assert_eq!(state.note, Some("exact: not yet"));
-        assert_eq!(state.apply(Input::Exact), Outcome::Unchanged);
-        assert_eq!(state.style.accuracy, AccuracyChoice::Stable);
-        assert_eq!(state.apply(Input::Stable), Outcome::Changed);
-        assert_eq!(state.note, None);
     }
 
     #[test]

@@ -3,32 +3,25 @@
 use super::meter::Figures;
 use super::state::State;
 use crate::cells::{CellGrid, Color};
-use crate::draw::{AccuracyChoice, Charset};
+use crate::draw::Charset;
 use crate::view::LensKind;
 
 const HINT: &str = "? help  q quit ";
 
-/// Writes the status line into `row`: figures from the left; from the right, if there is room, a
-/// note or how to go on.
+/// Writes the status line into `row`: figures from the left; from the right, if there is room, how
+/// to go on.
 pub(super) fn write(cells: &mut CellGrid, row: u16, state: &State, figures: Figures) {
     let columns = usize::from(cells.columns());
     let mut line = figures_line(state, figures);
-    let right = state.note.map_or_else(|| HINT.to_owned(), |note| format!("{note} "));
     let room = columns.saturating_sub(line.len());
-    if room > right.len() {
-        line.push_str(&format!("{right:>room$}"));
-    } else if state.note.is_some() {
-        // What was asked for goes before the figures.
-        line = format!(" {right}");
+    if room > HINT.len() {
+        line.push_str(&format!("{HINT:>room$}"));
     }
     cells.write(0, row, &format!("{line:columns$}"), Color::Default, Color::Default);
 }
 
 fn figures_line(state: &State, figures: Figures) -> String {
-    let accuracy = match state.style.accuracy {
-        AccuracyChoice::Fast => "fast",
-        AccuracyChoice::Stable => "stable",
-    };
+    let accuracy = state.style.accuracy.as_str();
     let lens = match state.view.lens_kind() {
         LensKind::Perspective => "perspective",
         LensKind::Parallel => "parallel",
@@ -50,11 +43,11 @@ fn figures_line(state: &State, figures: Figures) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::draw::{ColorDepth, Style};
+    use crate::draw::{AccuracyChoice, ColorDepth, Style};
     use crate::view::{Lens, View};
     use spherule_kernel::Vec3;
 
-    fn line(columns: u16, note: Option<&'static str>) -> String {
+    fn line(columns: u16) -> String {
         let view = View {
             eye: Vec3::Z,
             target: Vec3::ZERO,
@@ -68,8 +61,7 @@ mod tests {
             samples: 1,
             cell_aspect: 0.5,
         };
-        let mut state = State::new(view, style);
-        state.note = note;
+        let state = State::new(view, style);
         let figures = Figures {
             frames_per_second: Some(59.94),
             milliseconds: 3.21,
@@ -84,20 +76,14 @@ mod tests {
     #[test]
     fn it_fills_the_row() {
         assert_eq!(
-            line(90, None),
+            line(90),
             " stable perspective half  60 fps   3.2 ms  12.3 Mrays/s  45.7 kB           ? help  q quit "
         );
     }
 
     #[test]
     fn it_is_cut_where_there_is_no_room() {
-        assert_eq!(line(10, None), " stable pe");
-        assert_eq!(line(0, None), "");
-    }
-
-    #[test]
-    fn a_note_takes_the_place_of_the_hint_or_of_the_figures() {
-        assert!(line(90, Some("exact: not yet")).ends_with(" kB           exact: not yet "));
-        assert_eq!(line(20, Some("exact: not yet")), " exact: not yet     ");
+        assert_eq!(line(10), " stable pe");
+        assert_eq!(line(0), "");
     }
 }

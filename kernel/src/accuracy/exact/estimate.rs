@@ -1,0 +1,96 @@
+//! D and both roots in double precision, each with the bound that the table of
+//! [`exact`](super) proves.
+
+use crate::DoubleLanes;
+use crate::axes::{axes, dot};
+
+/// u, of double precision.
+const U: f64 = f64::EPSILON / 2.0;
+
+/// What the terms of the two bounds are multiplied by.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Constants {
+    /// Of A + L, in the bound of D.
+    pub(super) sums: f64,
+    /// Of X G, in the bound of D.
+    pub(super) cross: f64,
+    /// Of G^2, in the bound of D.
+    pub(super) square: f64,
+    /// Of G / a, in the bound of t.
+    pub(super) slope: f64,
+    /// Of sqrt D / a, in the bound of t.
+    pub(super) root: f64,
+    /// Of |t|, in the bound of t.
+    pub(super) t: f64,
+}
+
+impl Constants {
+    /// Those of the proof.
+    pub(super) const PROVEN: Self = Self {
+        sums: 5.0 * U,
+        cross: 8.0 * U,
+        square: 32.0 * U * U,
+        slope: 5.0 * U,
+        root: 2.0 * U,
+        t: 11.0 * U,
+    };
+}
+
+/// D and the roots as computed, each with a bound on its error.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Estimate<D> {
+    pub(super) discriminant: D,
+    /// E.
+    pub(super) error: D,
+    /// t and T of the smaller root; no number where D is not above E.
+    pub(super) near: (D, D),
+    /// Of the larger root.
+    pub(super) far: (D, D),
+}
+
+impl<D: DoubleLanes> Estimate<D> {
+    #[inline(always)]
+    pub(super) fn new(
+        origin: [D; 3],
+        d: [D; 3],
+        center: [D; 3],
+        radius: D,
+        constants: &Constants,
+    ) -> Self {
+        let p = axes!(i => center[i] - origin[i]);
+
+        // D and its bound.
+        let x = [d[1] * p[2] - d[2] * p[1], d[2] * p[0] - d[0] * p[2], d[0] * p[1] - d[1] * p[0]];
+        let a = dot(d, d);
+        let (reach, square) = (a * (radius * radius), dot(x, x));
+        let discriminant = reach - square;
+        let g = sum_of_magnitudes(d) * sum_of_magnitudes(p);
+        let error = a.like(constants.sums) * (reach + square)
+            + a.like(constants.cross) * (sum_of_magnitudes(x) * g)
+            + a.like(constants.square) * (g * g);
+
+        // The roots and their bounds.
+        let root = discriminant.sqrt();
+        let inverse = a.like(1.0) / (a * root);
+        let per_a = root * inverse;
+        let b = dot(d, p);
+        let shared =
+            per_a * (a.like(constants.slope) * g + a.like(constants.root) * root) + error * inverse;
+        let (near, far) = ((b - root) * per_a, (b + root) * per_a);
+        let t = a.like(constants.t);
+        Self {
+            discriminant,
+            error,
+            near: (near, shared + t * near.abs()),
+            far: (far, shared + t * far.abs()),
+        }
+    }
+}
+
+#[inline(always)]
+fn sum_of_magnitudes<D: DoubleLanes>(v: [D; 3]) -> D {
+    v[0].abs() + v[1].abs() + v[2].abs()
+}
+
+#[cfg(test)]
+mod worst;

@@ -1,0 +1,70 @@
+//! The kept cases of the 22 regimes, and forty relatives of each: mixed with the next, and a few
+//! ulp away in some numbers. Bits throughout.
+
+use spherule_kernel::{Ray, Sphere, Vec3};
+
+/// A ray and its sphere.
+#[derive(Clone, Copy)]
+pub(crate) struct Case {
+    pub(crate) ray: Ray,
+    pub(crate) sphere: Sphere,
+}
+
+/// How many cases are kept.
+pub(crate) const KEPT: usize = 660;
+const RELATIVES: u64 = 40;
+
+/// All cases, the kept ones first.
+///
+/// # Panics
+/// Where the file is not as its head says.
+pub(crate) fn all() -> Vec<Case> {
+    let text = include_str!("../../cases/regimes.txt");
+    let lines = text.lines().filter(|line| !line.starts_with('#'));
+    let kept: Vec<[u32; 12]> = lines.map(numbers).collect();
+    assert_eq!(kept.len(), KEPT, "as many cases as are kept");
+
+    let mut all = kept.clone();
+    let mut state = 1;
+    for (index, bits) in kept.iter().enumerate() {
+        for _ in 0..RELATIVES {
+            let mut relative = *bits;
+            for (place, number) in relative.iter_mut().enumerate() {
+                match random(&mut state) % 8 {
+                    0 => *number = number.wrapping_add((random(&mut state) % 5) as u32),
+                    1 => *number = number.wrapping_sub((random(&mut state) % 5) as u32),
+                    2 if random(&mut state).is_multiple_of(4) => {
+                        *number = kept[(index + 1) % KEPT][place];
+                    }
+                    _ => {}
+                }
+            }
+            all.push(relative);
+        }
+    }
+    all.into_iter().map(case).collect()
+}
+
+/// The twelve numbers between the regime and the answer.
+fn numbers(line: &str) -> [u32; 12] {
+    let mut words = line.split(' ').skip(1);
+    std::array::from_fn(|_| {
+        let word = words.next().expect("twelve numbers");
+        u32::from_str_radix(word, 16).expect("hexadecimal bits")
+    })
+}
+
+fn case(bits: [u32; 12]) -> Case {
+    let [ox, oy, oz, dx, dy, dz, t_min, t_max, cx, cy, cz, radius] = bits.map(f32::from_bits);
+    let (origin, direction) = (Vec3::new(ox, oy, oz), Vec3::new(dx, dy, dz));
+    let ray = Ray { origin, direction, t_min, t_max };
+    Case { ray, sphere: Sphere { center: Vec3::new(cx, cy, cz), radius } }
+}
+
+/// `SplitMix64`.
+fn random(state: &mut u64) -> u64 {
+    *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let z = (*state ^ (*state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}

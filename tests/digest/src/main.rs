@@ -1,0 +1,115 @@
+//! Prints a digest of every tier's answers in every lane width, which no build may change.
+//!
+//! The cases are those of `tests/cases/regimes.txt`, given as bits, and others a few ulp away;
+//! nothing here computes with floats but the kernel. The digest is FNV-1a over the bits of every t
+//! and every index: of the pairs, of the nearest hits in the list of all spheres, of both roots.
+//! With `--control` one bit of the radius of the first sphere that is met is another.
+
+mod cases;
+
+use cases::Case;
+use spherule_kernel::{
+    Accuracy, Exact, Fast, HitPacket, Lanes, RayPacket, Sphere, SpherePacket, Spheres, Stable, any,
+    f32x4, f32x8, f32x16, nearest, pairs, roots,
+};
+use std::process::ExitCode;
+
+/// FNV-1a, of 64 bits.
+struct Fnv(u64);
+
+impl Fnv {
+    const fn new() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+
+    fn word(&mut self, word: u32) {
+        for byte in word.to_le_bytes() {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+        }
+    }
+
+    /// The bits of `t`; of a NaN, which the roots of `Fast` may be, only that it is one.
+    fn t(&mut self, t: f32) {
+        self.word(if t.is_nan() { u32::MAX } else { t.to_bits() });
+    }
+}
+
+/// The digest of a tier in a width; the index of a pair's sphere is its lane, so that it is left
+/// out.
+fn digest<A: Accuracy, L: Lanes<Token = ()>>(cases: &[Case]) -> u64 {
+    let mut fnv = Fnv::new();
+    let rays =
+        |cases: &[Case]| RayPacket::<L>::new(&cases.iter().map(|c| c.ray).collect::<Vec<_>>());
+    for cases in cases.chunks(L::COUNT) {
+        let spheres: Vec<Sphere> = cases.iter().map(|case| case.sphere).collect();
+        let hits = pairs::<A, L>((), &rays(cases), &SpherePacket::<L>::new(&spheres));
+        hits.t().iter().take(cases.len()).for_each(|&t| fnv.t(t));
+    }
+
+    let kept = &cases[..cases::KEPT];
+    let column = |get: fn(&Sphere) -> f32| kept.iter().map(|c| get(&c.sphere)).collect::<Vec<_>>();
+    let (x, y) = (column(|s| s.center.x), column(|s| s.center.y));
+    let (z, r) = (column(|s| s.center.z), column(|s| s.radius));
+    let Ok(list) = Spheres::new(&x, &y, &z, &r) else { return 0 };
+    // Spheres like those of the regimes, and a list that holds them all.
+    for first in (0..kept.len()).step_by(60) {
+        let end = first + 60;
+        let part = Spheres::new(&x[first..end], &y[first..end], &z[first..end], &r[first..end]);
+        lists::<A, L>(&mut fnv, &kept[first..end], part.unwrap_or(list));
+    }
+    lists::<A, L>(&mut fnv, kept, list);
+    fnv.0
+}
+
+fn lists<A: Accuracy, L: Lanes<Token = ()>>(fnv: &mut Fnv, cases: &[Case], spheres: Spheres<'_>) {
+    let rays: Vec<_> = cases.iter().map(|case| case.ray).collect();
+    let packets: Vec<_> = rays.chunks(L::COUNT).map(RayPacket::<L>::new).collect();
+    let mut hits = vec![HitPacket::<L>::none(); packets.len()];
+    nearest::<A, L>((), &packets, spheres, &mut hits);
+    let mut met = vec![0; packets.len()];
+    any::<A, L>((), &packets, spheres, &mut met);
+    // Ray by ray: a packet by a packet would be another order in every width.
+    for ray in 0..rays.len() {
+        let (packet, lane) = (ray / L::COUNT, ray % L::COUNT);
+        fnv.t(hits[packet].t()[lane]);
+        fnv.word(hits[packet].spheres()[lane]);
+        fnv.word(met[packet] >> lane & 1);
+    }
+}
+
+/// The digests of all widths, which must be one.
+fn tier<A: Accuracy>(cases: &[Case]) -> bool {
+    let digests = [
+        digest::<A, f32>(cases),
+        digest::<A, f32x4>(cases),
+        digest::<A, f32x8>(cases),
+        digest::<A, f32x16>(cases),
+    ];
+    for (lanes, digest) in [1, 4, 8, 16].into_iter().zip(digests) {
+        println!("digest: {} {lanes} lanes {digest:016x}", A::NAME);
+    }
+    let mut fnv = Fnv::new();
+    for case in cases {
+        match roots::<A>(&case.ray, &case.sphere) {
+            Some(roots) => roots.into_iter().for_each(|t| fnv.t(t)),
+            None => fnv.word(0),
+        }
+    }
+    println!("digest: {} roots {:016x}", A::NAME, fnv.0);
+    digests.iter().all(|digest| *digest == digests[0])
+}
+
+fn main() -> ExitCode {
+    let mut cases = cases::all();
+    if std::env::args().nth(1).as_deref() == Some("--control") {
+        let hit = cases.iter_mut().find(|c| roots::<Exact>(&c.ray, &c.sphere).is_some());
+        let radius = &mut hit.expect("a hit").sphere.radius;
+        *radius = f32::from_bits(radius.to_bits() ^ 1 << 12);
+    }
+    let agree = [tier::<Fast>(&cases), tier::<Stable>(&cases), tier::<Exact>(&cases)];
+    if agree.contains(&false) {
+        eprintln!("digest: FAILED: a lane width differs from another");
+        return ExitCode::FAILURE;
+    }
+    ExitCode::SUCCESS
+}

@@ -1,0 +1,149 @@
+//! What `spherule tradeoff` prints: a table for people, or the keys that scripts rely on.
+
+use super::errors::Errors;
+use crate::draw::AccuracyChoice;
+use serde_json::{Value, json};
+use spherule_kernel::Stages;
+use spherule_kernel::dispatch::LevelName;
+
+/// Everything that was measured.
+pub(super) struct Report {
+    pub(super) scene: String,
+    pub(super) spheres: usize,
+    pub(super) cpu: String,
+    pub(super) rustc: &'static str,
+    pub(super) level: LevelName,
+    pub(super) lanes: usize,
+    pub(super) tiers: Vec<Tier>,
+}
+
+/// One tier on one kind of rays.
+pub(super) struct Tier {
+    pub(super) accuracy: AccuracyChoice,
+    pub(super) rays_kind: &'static str,
+    pub(super) rays: usize,
+    /// Of a pass over all rays.
+    pub(super) seconds: f64,
+    pub(super) errors: Errors,
+    pub(super) stages: Stages,
+}
+
+impl Tier {
+    fn ns_per_ray(&self) -> f64 {
+        1e9 * self.seconds / self.rays as f64
+    }
+
+    /// Rays a microsecond; 0 where a pass took no time that can be measured.
+    fn mrays_per_s(&self) -> f64 {
+        if self.seconds > 0.0 { self.rays as f64 / self.seconds / 1e6 } else { 0.0 }
+    }
+
+    /// Of so many tests, as a share of all.
+    fn share(&self, tests: u64) -> f64 {
+        if self.stages.tests == 0 { 0.0 } else { tests as f64 / self.stages.tests as f64 }
+    }
+}
+
+/// Four digits that mean something.
+fn rounded(number: f64) -> f64 {
+    format!("{number:.3e}").parse().unwrap_or(number)
+}
+
+impl Report {
+    /// One JSON object.
+    pub(super) fn json(&self) -> String {
+        let tier = |tier: &Tier| {
+            json!({
+                "accuracy": tier.accuracy.as_str(),
+                "rays_kind": tier.rays_kind,
+                "ns_per_ray": rounded(tier.ns_per_ray()),
+                "ns_per_test": rounded(tier.ns_per_ray() / self.spheres as f64),
+                "mrays_per_s": rounded(tier.mrays_per_s()),
+                "wrong_hits": tier.errors.wrong_hits,
+                "wrong_misses": tier.errors.wrong_misses,
+                "wrong_sphere": tier.errors.wrong_sphere,
+                "ulp_median": tier.errors.ulp_at(500),
+                "ulp_p999": tier.errors.ulp_at(999),
+                "ulp_max": tier.errors.ulp_at(1000),
+                "f64_share": tier.share(tier.stages.double),
+                "expansion_share": tier.share(tier.stages.expansions),
+            })
+        };
+        let report = json!({
+            "scene": self.scene,
+            "cpu": self.cpu,
+            "rustc": self.rustc,
+            "level": self.level.as_str(),
+            "lanes": self.lanes,
+            "threads": 1,
+            "tiers": self.tiers.iter().map(tier).collect::<Vec<Value>>(),
+        });
+        report.to_string() + "\n"
+    }
+
+    /// A table.
+    pub(super) fn table(&self) -> String {
+        let Self { scene, spheres, cpu, rustc, level, lanes, .. } = self;
+        let level = level.as_str();
+        // A scene is a file's name, and that is no line.
+        let scene = scene.escape_debug();
+        let plural = if *spheres == 1 { "" } else { "s" };
+        let mut text = format!(
+            "{scene}: {spheres} sphere{plural}\n{cpu}, {level}, {lanes} lanes, 1 thread; {rustc}\n"
+        );
+        let mut kind = "";
+        for tier in &self.tiers {
+            if tier.rays_kind != kind {
+                kind = tier.rays_kind;
+                text += &format!("\n{} {kind} rays\n", tier.rays);
+                for words in HEAD {
+                    text += &row(&words.map(str::to_owned));
+                }
+            }
+            let ulp = |thousandths| {
+                tier.errors
+                    .ulp_at(thousandths)
+                    .map_or_else(|| "-".to_owned(), |ulp| ulp.to_string())
+            };
+            text += &row(&[
+                tier.accuracy.as_str().to_owned(),
+                format!("{:.3}", tier.ns_per_ray()),
+                format!("{:.4}", tier.ns_per_ray() / *spheres as f64),
+                format!("{:.1}", tier.mrays_per_s()),
+                tier.errors.wrong_hits.to_string(),
+                tier.errors.wrong_misses.to_string(),
+                tier.errors.wrong_sphere.to_string(),
+                ulp(500),
+                ulp(999),
+                ulp(1000),
+                format!("{:.4}", 100.0 * tier.share(tier.stages.double)),
+                format!("{:.5}", 100.0 * tier.share(tier.stages.expansions)),
+            ]);
+        }
+        text + FOOT
+    }
+}
+
+/// A row of the table: the first column from the left, the others from the right.
+fn row(words: &[String; 12]) -> String {
+    let mut line = String::new();
+    for (index, (word, width)) in words.iter().zip(WIDTHS).enumerate() {
+        line += &if index == 0 { format!("{word:<width$}") } else { format!("{word:>width$}") };
+    }
+    line.trim_end().to_owned() + "\n"
+}
+
+/// The columns of the table, in two rows of words.
+const HEAD: [[&str; 12]; 2] = [
+    ["", "ns", "ns", "million", "wrong", "wrong", "wrong", "ulp of t", "", "", "% in", "% in"],
+    [
+        "tier", "a ray", "a test", "rays/s", "hits", "misses", "sphere", "median", "99.9%",
+        "largest", "f64", "expans.",
+    ],
+];
+/// How wide they are.
+const WIDTHS: [usize; 12] = [7, 9, 9, 9, 10, 8, 8, 9, 9, 11, 9, 9];
+const FOOT: &str = "
+Wrong: the nearest hit differs from that of exact, counted in rays. ulp: of t, where both meet the
+same sphere. Times are medians of passes in turns; shadow rays are timed asking for any hit.
+";

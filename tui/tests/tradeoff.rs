@@ -1,0 +1,167 @@
+//! `spherule tradeoff`: its keys, its counts against a scalar loop, and its refusals.
+
+mod program;
+
+use program::{file, printed, refusal, run};
+use serde_json::Value;
+use spherule_kernel::{Fast, Ray, Sphere, nearest_hit};
+use spherule_tui::draw::{AccuracyChoice, Charset, ColorDepth, Style, picture_aspect, sample_grid};
+use spherule_tui::scene::{builtin::builtin, open::open};
+
+fn measured(words: &[&str]) -> Value {
+    let text = printed(&run(["tradeoff", "--json"].iter().chain(words)));
+    assert_eq!(text.lines().count(), 1);
+    serde_json::from_str(&text).expect("JSON")
+}
+
+fn tier<'a>(report: &'a Value, accuracy: &str, kind: &str) -> &'a Value {
+    let tiers = report["tiers"].as_array().expect("a list");
+    let is = |tier: &&Value| tier["accuracy"] == accuracy && tier["rays_kind"] == kind;
+    tiers.iter().find(is).expect("the tier")
+}
+
+/// Whether the ray meets any sphere, in double precision; nothing where that is too close to say.
+fn meets(ray: &Ray, spheres: &[Sphere]) -> Option<bool> {
+    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let (o, d) = (ray.origin.to_array().map(f64::from), ray.direction.to_array().map(f64::from));
+    let mut any = false;
+    for sphere in spheres {
+        let c = sphere.center.to_array().map(f64::from);
+        let p = [c[0] - o[0], c[1] - o[1], c[2] - o[2]];
+        let middle = dot(p, d) / dot(d, d);
+        let q = [p[0] - middle * d[0], p[1] - middle * d[1], p[2] - middle * d[2]];
+        let power = f64::from(sphere.radius).powi(2) - dot(q, q);
+        if power.abs() < 1e-12 * dot(p, p) {
+            return None;
+        }
+        let far = middle + (power.max(0.0) / dot(d, d)).sqrt();
+        any |= power > 0.0 && far > 0.0;
+    }
+    Some(any)
+}
+
+#[test]
+fn the_keys_and_their_types() {
+    let report = measured(&["marbles", "--size", "20x8"]);
+    let keys: Vec<_> = report.as_object().expect("an object").keys().collect();
+    assert_eq!(keys, ["cpu", "lanes", "level", "rustc", "scene", "threads", "tiers"]);
+    assert_eq!((&report["scene"], &report["lanes"]), (&"marbles".into(), &16.into()));
+    assert!(report["cpu"].is_string() && report["level"].is_string());
+    assert!(report["rustc"].as_str().expect("text").starts_with("rustc 1."));
+    assert_eq!(report["tiers"].as_array().map(Vec::len), Some(6));
+    for kind in ["camera", "shadow"] {
+        for accuracy in ["fast", "stable", "exact"] {
+            let tier = tier(&report, accuracy, kind);
+            assert_eq!(tier.as_object().map(serde_json::Map::len), Some(13));
+            for key in ["ns_per_ray", "ns_per_test", "mrays_per_s"] {
+                assert!(tier[key].as_f64().expect(key) > 0.0, "{tier}");
+            }
+            for key in ["wrong_hits", "wrong_misses", "wrong_sphere"] {
+                assert!(tier[key].is_u64(), "{key} in {tier}");
+            }
+            for key in ["ulp_median", "ulp_p999", "ulp_max"] {
+                assert!(tier[key].is_u64() || kind == "shadow" && tier[key].is_null(), "{tier}");
+            }
+            for key in ["f64_share", "expansion_share"] {
+                let share = tier[key].as_f64().expect(key);
+                assert!((0.0..=1.0).contains(&share) && (share == 0.0 || accuracy == "exact"));
+            }
+        }
+        let exact = tier(&report, "exact", kind);
+        assert!(exact["f64_share"].as_f64() > exact["expansion_share"].as_f64());
+    }
+}
+
+#[test]
+fn edge_is_where_fast_is_wrong_and_exact_is_right() {
+    let report = measured(&["edge", "--size", "60x24"]);
+    let count = |tier: &Value| {
+        ["wrong_hits", "wrong_misses", "wrong_sphere"].map(|key| tier[key].as_u64().expect(key))
+    };
+    let [hits, misses, spheres] = count(tier(&report, "fast", "camera"));
+    assert!(hits > 100 && misses > 100, "{hits} hits, {misses} misses, {spheres} spheres");
+    let exact = tier(&report, "exact", "camera");
+    assert_eq!((count(exact), exact["ulp_max"].as_u64()), ([0; 3], Some(0)));
+}
+
+/// The counts of `Fast` by one lane and, for the truth, double precision.
+#[test]
+fn the_counts_are_those_of_a_scalar_loop() {
+    let (columns, rows) = (60, 24);
+    let report = measured(&["edge", "--size", "60x24"]);
+    let style = Style {
+        accuracy: AccuracyChoice::Exact,
+        charset: Charset::Ascii,
+        depth: ColorDepth::Never,
+        samples: 4,
+        cell_aspect: 0.5,
+    };
+    let scene = builtin("edge").expect("edge");
+    let view = scene.first_view(picture_aspect(&style, columns, rows) as f32);
+    let (camera, width, height) = sample_grid(&view, &style, columns, rows);
+    let spheres: Vec<Sphere> = scene.spheres().iter().collect();
+    let (mut hits, mut misses, mut unsure) = (0, 0, 0);
+    for iy in 0..height {
+        for ix in 0..width {
+            let ray = camera.get_ray(ix, iy);
+            let found = nearest_hit::<Fast>(&ray, scene.spheres()).is_some();
+            match meets(&ray, &spheres) {
+                None => unsure += 1,
+                Some(truth) => {
+                    hits += u64::from(found && !truth);
+                    misses += u64::from(!found && truth);
+                }
+            }
+        }
+    }
+    let fast = tier(&report, "fast", "camera");
+    for (key, count) in [("wrong_hits", hits), ("wrong_misses", misses)] {
+        let said = fast[key].as_u64().expect(key);
+        assert!(said >= count && said <= count + unsure, "{key}: {said}, {count} + {unsure}");
+    }
+    assert!(unsure < 20, "{unsure}");
+}
+
+#[test]
+fn a_scene_without_light_has_camera_rays_alone() {
+    let path = file("dark.toml", b"[[sphere]]\ncenter = [0, 0, 0]\nradius = 1.0\n");
+    let path = path.to_str().expect("UTF-8");
+    assert_eq!(open(path, None).expect("a scene").lights.len(), 0);
+    let report = measured(&[path, "--size", "10x5"]);
+    assert_eq!(report["tiers"].as_array().map(Vec::len), Some(3));
+    // Nothing to see: rays that miss, and no ulp.
+    let text = "[camera]\neye = [0, 0, 5]\ntarget = [0, 0, 9]\n\
+                [[sphere]]\ncenter = [0, 0, 0]\nradius = 1.0\n\
+                [[light]]\ndirection = [0, 1, 0]\n";
+    let path = file("behind.toml", text.as_bytes());
+    let report = measured(&[path.to_str().expect("UTF-8"), "--size", "10x5"]);
+    assert_eq!(report["tiers"].as_array().map(Vec::len), Some(3));
+    assert!(tier(&report, "fast", "camera")["ulp_max"].is_null());
+}
+
+#[test]
+fn a_table_for_people() {
+    let text = printed(&run(["tradeoff", "marbles", "--size", "20x8"]));
+    for part in ["marbles: 10 spheres", "rustc 1.", "640 camera rays", " shadow rays", "\nexact "] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+    assert!(!text.contains('\x1b') && !text.contains('\r'));
+    assert!(text.lines().all(|line| line.len() <= 110), "{text}");
+    let level = printed(&run(["tradeoff", "unit", "--size", "4x4", "--level", "baseline"]));
+    assert!(level.contains(" baseline, 16 lanes, 1 thread"), "{level}");
+}
+
+#[test]
+fn bad_use() {
+    for (words, part) in [
+        ("tradeoff nowhere.toml", "nowhere.toml: no such file"),
+        ("tradeoff marble", "no such scene"),
+        ("tradeoff --size 0x1", "each 1 to 4096"),
+        ("tradeoff --accuracy fast", "--accuracy"),
+        ("tradeoff --level sse", "baseline, avx2 or avx512"),
+        ("tradeoff unit unit", "unit"),
+    ] {
+        let message = refusal(&run(words.split(' ')));
+        assert!(message.contains(part), "{words}: {message}");
+    }
+}
