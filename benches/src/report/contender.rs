@@ -131,8 +131,8 @@ fn ready<'a, L: Lanes + 'static>(
 ) -> Box<dyn Run + 'a> {
     let count = rays.len();
     let rays = packets::<L>(rays);
-    let hits = vec![HitPacket::none(); rays.len()];
-    Box::new(Packets { rays, spheres, hits, count, nearest })
+    let hits = vec![HitPacket::<L>::none(); rays.len()];
+    Box::new(Packets::<L, _> { rays, spheres, hits, count, nearest })
 }
 
 fn fixed<'a, A: Accuracy + 'static, L: Lanes<Token = ()> + 'static>(

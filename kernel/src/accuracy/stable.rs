@@ -36,10 +36,10 @@ use crate::{LaneMask, Lanes, Ray, Sphere};
 ///
 /// Domain: r and |p| (p the centre less the origin) zero or within [2^-40, 2^40]; any direction
 /// whose largest component is a normal number. Inside it, for distance/r up to 1e6: decisions
-/// right but for tangents closer than some 2^-40 r, and t within a few ulp; where the ray starts
-/// within 2^-6 r of the surface, t is within an absolute bound of some 2^-44 r instead. Outside it:
-/// answers in the same bits on every target, but no promise. The measured figures stand in the
-/// budget table of the tests.
+/// right but for tangents closer than some 2^-40 r; t within a few ulp where the ray starts a radius
+/// or more from the surface (4 is the most that is measured), nearer than that within 2^-17 r of
+/// distance. Outside it: answers in the same bits on every target, but no promise. The measured
+/// figures stand in the budget table of the tests.
 #[derive(Clone, Copy, Debug)]
 pub struct Stable;
 

@@ -46,7 +46,11 @@ extern "C" fn both_roots() {
 
 fn all_pairs<L: Lanes<Token = ()>>(cases: &[(Ray, Sphere)]) {
     for (ray, sphere) in black_box(cases) {
-        black_box(pairs::<Exact, L>((), &RayPacket::<L>::new(&[*ray]), &SpherePacket::<L>::new(&[*sphere])));
+        black_box(pairs::<Exact, L>(
+            (),
+            &RayPacket::<L>::new(&[*ray]),
+            &SpherePacket::<L>::new(&[*sphere]),
+        ));
     }
 }
 

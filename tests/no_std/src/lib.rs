@@ -91,8 +91,11 @@ fn width<A: Accuracy, L: Lanes<Token = ()>>(
     nearest::<A, L>((), &rays, spheres, &mut hits);
     let mut met = [0; 2];
     any::<A, L>((), &rays, spheres, &mut met);
-    let beside =
-        pairs::<A, L>((), &RayPacket::<L>::new(&[rays[0].ray(0)]), &SpherePacket::<L>::new(&[*sphere]));
+    let beside = pairs::<A, L>(
+        (),
+        &RayPacket::<L>::new(&[rays[0].ray(0)]),
+        &SpherePacket::<L>::new(&[*sphere]),
+    );
 
     let mut sum = met[0] ^ met[1];
     for packet in hits.iter().chain([&beside]) {
