@@ -30,13 +30,10 @@
 
 mod bracket;
 mod build;
-<<<<<<< HEAD
 mod bundle;
 mod frustum;
-=======
 mod order;
 mod ray_walk;
->>>>>>> wh
 mod resolve;
 mod slabs;
 mod split;

@@ -322,9 +322,9 @@ impl BundleWalk {
         hits: &mut [HitPacket<L>],
     ) -> bool {
         let Some(first) = packets.first() else { return true };
-        let mut members = [Member::new::<A>(token, first, bvh); BUNDLE];
+        let mut members = [Member::<L>::new::<A>(token, first, bvh); BUNDLE];
         for (member, packet) in members.iter_mut().zip(packets).skip(1) {
-            *member = Member::new::<A>(token, packet, bvh);
+            *member = Member::<L>::new::<A>(token, packet, bvh);
         }
         let Some(members) = members.get_mut(..packets.len()) else { return false };
         let Some((mut frustum, depths)) = frustum_of(members, bvh) else { return false };
