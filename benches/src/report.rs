@@ -3,7 +3,7 @@
 //! | room | holds |
 //! |---|---|
 //! | [`contender`] | the one list of what is compared: every tier in every lane width |
-//! | [`reference`] | two forms that are no tier: the lecture's with unit directions, and plain `f64` |
+//! | [`mod@reference`] | two forms that are no tier: the lecture's with unit directions, and plain `f64` |
 //! | [`error`] | wrong decisions and ulp of t, regime by regime, against the integer oracle |
 //! | [`speed`] | nanoseconds a ray-sphere test, workload by workload |
 //! | [`target`] | the ratios that were asked for, met or missed |

@@ -1,9 +1,10 @@
 //! The real binary, of the profile that the tests themselves are of.
 
 use std::env;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
+use std::time::SystemTime;
 
 /// Where `spherule` is. Cargo names the binaries of another package to nobody, but it puts them
 /// two levels above the test: `target/PROFILE/deps/pty-HASH`.
@@ -16,9 +17,10 @@ fn find() -> PathBuf {
     let test = env::current_exe().expect("the test knows its own path");
     let profile_directory = test.parent().and_then(|deps| deps.parent()).expect("in target");
     let binary = profile_directory.join(format!("spherule{}", env::consts::EXE_SUFFIX));
-    // `cargo test -p spherule-tests` builds no other package's binary, and an old one is worse
-    // than none. Where everything is built already this takes no time. Not under cargo: no build.
-    if let Some(cargo) = env::var_os("CARGO") {
+    // `cargo test` of the workspace has built it; `cargo test -p spherule-tests` builds no other
+    // package's binary, and an old one is worse than none. Not under cargo: no build.
+    let fresh = modified(&binary) > newest_source();
+    if let Some(cargo) = env::var_os("CARGO").filter(|_| !fresh) {
         let target = profile_directory.parent().expect("in target");
         let profile = match profile_directory.file_name().and_then(|name| name.to_str()) {
             // Not `dev`: that would be another binary in the same place, built each time.
@@ -36,4 +38,27 @@ fn find() -> PathBuf {
     }
     assert!(binary.is_file(), "{} is not built", binary.display());
     binary
+}
+
+fn modified(path: &Path) -> SystemTime {
+    path.metadata().and_then(|data| data.modified()).unwrap_or(SystemTime::UNIX_EPOCH)
+}
+
+/// When something that the binary is made of was last changed.
+fn newest_source() -> SystemTime {
+    let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut pending = vec![
+        workspace.join("Cargo.toml"),
+        workspace.join("Cargo.lock"),
+        workspace.join("kernel"),
+        workspace.join("tui"),
+    ];
+    let mut newest = SystemTime::UNIX_EPOCH;
+    while let Some(path) = pending.pop() {
+        match path.read_dir() {
+            Ok(entries) => pending.extend(entries.flatten().map(|entry| entry.path())),
+            Err(_) => newest = newest.max(modified(&path)),
+        }
+    }
+    newest
 }

@@ -158,7 +158,8 @@ fn a_single_sphere_by_hand() {
 
 /// What is said about this file of rays, after its name.
 fn refused(name: &str, bytes: &[u8]) -> String {
-    let spheres = file("refused.s.npy", &array(1, 4, &[0.0, 0.0, 0.0, 1.0]));
+    // Tests run side by side: a file that two of them write is empty for a moment.
+    let spheres = file(&format!("{name}.s.npy"), &array(1, 4, &[0.0, 0.0, 0.0, 1.0]));
     let rays = file(name, bytes);
     let words = ["trace".as_ref(), "--spheres".as_ref(), spheres.as_os_str(), "--rays".as_ref()];
     let message = refusal(&run(words.into_iter().chain([rays.as_os_str()])));
