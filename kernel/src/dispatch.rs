@@ -5,6 +5,8 @@
 //! once more for each level, and a [`Level`] is the proof that the CPU has it. The bits of an
 //! answer are the same at every level, and the same as those of the lanes of `wide`.
 
+pub mod bvh;
+
 use crate::{
     Accuracy, HitPacket, RayPacket, SpherePacket, Spheres, any as any_in_lanes,
     nearest as nearest_in_lanes, pairs as pairs_in_lanes,
