@@ -6,10 +6,10 @@
 
 use rustix::time::{ClockId, clock_gettime};
 
-/// Something to time: a name, and a closure that does some work and answers how much.
+/// Something to time: a name, and what takes a sample of nanoseconds a unit of work.
 pub struct Subject<'a> {
     name: String,
-    run: Box<dyn FnMut() -> usize + 'a>,
+    sample: Box<dyn FnMut() -> f64 + 'a>,
 }
 
 impl core::fmt::Debug for Subject<'_> {
@@ -19,9 +19,18 @@ impl core::fmt::Debug for Subject<'_> {
 }
 
 impl<'a> Subject<'a> {
-    /// A subject; `run` answers how many units of work it did.
-    pub fn new(name: impl Into<String>, run: impl FnMut() -> usize + 'a) -> Self {
-        Self { name: name.into(), run: Box::new(run) }
+    /// A subject; `run` does some work, is timed, and answers how many units of work that was.
+    pub fn new(name: impl Into<String>, mut run: impl FnMut() -> usize + 'a) -> Self {
+        Self::timing_itself(name, move || {
+            let start = busy();
+            let units = run();
+            (busy() - start) / units as f64
+        })
+    }
+
+    /// A subject of whose work not all is to be timed; `sample` answers nanoseconds a unit.
+    pub fn timing_itself(name: impl Into<String>, sample: impl FnMut() -> f64 + 'a) -> Self {
+        Self { name: name.into(), sample: Box::new(sample) }
     }
 }
 
@@ -48,11 +57,9 @@ pub fn take(subjects: &mut [Subject<'_>], rounds: usize) -> Samples {
     let mut by_subject = vec![Vec::with_capacity(rounds); subjects.len()];
     for round in 0..=rounds {
         for (subject, samples) in subjects.iter_mut().zip(&mut by_subject) {
-            let start = busy();
-            let units = (subject.run)();
-            let elapsed = busy() - start;
+            let sample = (subject.sample)();
             if round > 0 {
-                samples.push(elapsed / units as f64);
+                samples.push(sample);
             }
         }
     }
@@ -62,8 +69,14 @@ pub fn take(subjects: &mut [Subject<'_>], rounds: usize) -> Samples {
 /// For how many nanoseconds this thread has had a CPU.
 #[must_use]
 pub fn busy() -> f64 {
+    busy_nanoseconds() as f64
+}
+
+/// The same, whole.
+#[must_use]
+pub fn busy_nanoseconds() -> u64 {
     let time = clock_gettime(ClockId::ThreadCPUTime);
-    time.tv_sec as f64 * 1e9 + time.tv_nsec as f64
+    time.tv_sec as u64 * 1_000_000_000 + time.tv_nsec as u64
 }
 
 impl Samples {
