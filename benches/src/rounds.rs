@@ -5,6 +5,8 @@
 //! within a round; the quartiles beside it say how far to trust it.
 
 use rustix::time::{ClockId, clock_gettime};
+use std::ops::RangeInclusive;
+use std::time::{Duration, Instant};
 
 /// Something to time: a name, and what takes a sample of nanoseconds a unit of work.
 pub struct Subject<'a> {
@@ -54,16 +56,27 @@ pub struct Median {
 
 /// Times every subject once a round, after one round that is thrown away.
 pub fn take(subjects: &mut [Subject<'_>], rounds: usize) -> Samples {
-    let mut by_subject = vec![Vec::with_capacity(rounds); subjects.len()];
-    for round in 0..=rounds {
-        for (subject, samples) in subjects.iter_mut().zip(&mut by_subject) {
-            let sample = (subject.sample)();
-            if round > 0 {
-                samples.push(sample);
-            }
-        }
+    take_within(subjects, Duration::MAX, rounds..=rounds)
+}
+
+/// The same, with as many rounds as fit into `time`, by what the first one took, of those allowed.
+pub fn take_within(
+    subjects: &mut [Subject<'_>],
+    time: Duration,
+    rounds: RangeInclusive<usize>,
+) -> Samples {
+    let mut round =
+        || -> Vec<f64> { subjects.iter_mut().map(|subject| (subject.sample)()).collect() };
+    let start = Instant::now();
+    round();
+    let fit = (time.as_secs_f64() / start.elapsed().as_secs_f64()) as usize;
+    let rounds = fit.clamp(*rounds.start(), *rounds.end());
+    let by_round: Vec<_> = (0..rounds).map(|_| round()).collect();
+    let of_subject = |index: usize| by_round.iter().map(|round| round[index]).collect();
+    Samples {
+        names: subjects.iter().map(|subject| subject.name.clone()).collect(),
+        by_subject: (0..subjects.len()).map(of_subject).collect(),
     }
-    Samples { names: subjects.iter().map(|subject| subject.name.clone()).collect(), by_subject }
 }
 
 /// For how many nanoseconds this thread has had a CPU.
@@ -80,6 +93,12 @@ pub fn busy_nanoseconds() -> u64 {
 }
 
 impl Samples {
+    /// How often every subject was timed.
+    #[must_use]
+    pub fn rounds(&self) -> usize {
+        self.by_subject.first().map_or(0, Vec::len)
+    }
+
     /// Every sample of a subject.
     ///
     /// # Panics
@@ -141,5 +160,8 @@ mod tests {
         assert_eq!(*order.borrow(), ["a", "b", "a", "b", "a", "b"]);
         assert_eq!(samples.of("a").len(), 2);
         assert!(samples.least("b") <= samples.median("b").middle);
+        let mut sleeper = [Subject::timing_itself("c", || 1.0)];
+        assert_eq!(take_within(&mut sleeper, Duration::ZERO, 3..=9).rounds(), 3);
+        assert_eq!(take_within(&mut sleeper, Duration::MAX, 3..=9).rounds(), 9);
     }
 }

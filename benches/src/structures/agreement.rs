@@ -52,8 +52,8 @@ pub struct Agreement {
     pub rays: usize,
     /// Rays that hit something.
     pub hits: usize,
-    /// Where one hit and the other did not, or t differed by 1e-3, and the sphere was grazed or the
-    /// ray started on it.
+    /// Where one hit and the other did not, or t differed by 1e-3, and single precision cannot tell:
+    /// the sphere was grazed, the ray started on it, or t hangs on cancelled digits.
     pub by_little: usize,
     /// The same, without such a reason.
     pub wrong: usize,
@@ -91,7 +91,10 @@ impl Agreement {
             let both = [*truth, *nearest].into_iter().flatten();
             let nearer = both.min_by(|a, b| a.t.total_cmp(&b.t));
             let sphere = nearer.and_then(|hit| spheres.get(hit.sphere as usize));
-            if sphere.is_some_and(|sphere| by_little(ray, &sphere)) {
+            // Where there are not two, a difference is no little one.
+            let t = |hit: &Option<Hit>| hit.map_or(f64::INFINITY, |hit| f64::from(hit.t));
+            let difference = (t(truth) - t(nearest)).abs();
+            if sphere.is_some_and(|sphere| by_little(ray, &sphere, difference)) {
                 agreement.by_little += 1;
             } else {
                 agreement.wrong += 1;
@@ -112,18 +115,47 @@ impl Agreement {
     }
 }
 
-/// Whether single precision may be wrong about a ray and a sphere: it grazes the sphere, or starts
-/// on it.
-fn by_little(ray: &Ray, sphere: &Sphere) -> bool {
+/// Whether single precision may be wrong about a ray and a sphere: the line grazes the sphere, the
+/// ray starts on it, or t cannot be told more closely than by `difference`.
+fn by_little(ray: &Ray, sphere: &Sphere, difference: f64) -> bool {
     let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let [o, d, c] = [ray.origin, ray.direction, sphere.center].map(|v| v.to_array().map(f64::from));
     let p = [c[0] - o[0], c[1] - o[1], c[2] - o[2]];
-    let middle = dot(p, d) / dot(d, d);
+    let a = dot(d, d);
+    let middle = dot(p, d) / a;
     let q = [p[0] - middle * d[0], p[1] - middle * d[1], p[2] - middle * d[2]];
     let (radius, distance) = (f64::from(sphere.radius), dot(p, p).sqrt());
-    // Of what is subtracted: a few of its units in the last place.
-    let rounding = 16.0 * f64::from(f32::EPSILON) * (distance + radius);
-    let grazes = (dot(q, q).sqrt() - radius).abs() <= rounding + 1e-4 * radius;
-    let starts_on_it = (distance - radius).abs() <= rounding + 1e-4 * radius;
-    grazes || starts_on_it
+    // What the point closest to the centre may be off by, and the discriminant with it.
+    let off = 8.0 * f64::from(f32::EPSILON) * (distance + radius);
+    let doubt = off * (2.0 * radius + off);
+    let discriminant = radius * radius - dot(q, q);
+    let grazes = discriminant.abs() <= doubt;
+    let starts_on_it = (dot(p, p) - radius * radius).abs() <= doubt;
+    grazes || starts_on_it || difference <= doubt / (2.0 * (discriminant * a).sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spherule_kernel::Vec3;
+
+    /// A unit sphere 3 away, and a ray past its middle at `height`.
+    fn agreement(height: f32, answer: Option<f32>) -> Agreement {
+        let ray = Ray::new(Vec3::new(0.0, height, -3.0), Vec3::Z);
+        let spheres = Spheres::new(&[0.0], &[0.0], &[0.0], &[1.0]).expect("one");
+        let hit = |t: f32| Hit { t, sphere: 0 };
+        let truth = [(height <= 1.0).then(|| hit(3.0 - (1.0 - height * height).sqrt()))];
+        let answer = [answer.map(hit)];
+        Agreement::of(&[ray], spheres, &truth, &answer, &answer)
+    }
+
+    #[test]
+    fn a_wrong_answer_is_told_from_a_close_call() {
+        assert_eq!((agreement(0.0, Some(2.0)).wrong, agreement(0.0, Some(2.0)).by_little), (0, 0));
+        assert_eq!((agreement(0.0, None).wrong, agreement(0.0, None).any), (1, 1));
+        assert_eq!(agreement(0.0, Some(2.01)).wrong, 1);
+        assert_eq!(agreement(1.0, None).by_little, 1);
+        assert_eq!(agreement(1.000_001, Some(3.0)).by_little, 1);
+        assert_eq!(agreement(1.01, Some(3.0)).wrong, 1);
+    }
 }

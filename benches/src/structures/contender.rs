@@ -94,6 +94,9 @@ impl Contender {
     }
 }
 
+/// What is asked.
+pub const QUESTIONS: [Question; 2] = [Question::Nearest, Question::Any];
+
 /// What is asked, as it stands in tables.
 #[must_use]
 pub const fn question_name(question: Question) -> &'static str {

@@ -1,230 +1,116 @@
-//! The times of a scene: every contender checked, then all in turns.
+//! A scene: every contender checked, then all timed in turns.
 
 #[cfg(feature = "embree")]
-use crate::embree::{Embree, Width};
-use crate::rounds::{self, Median, Samples, Subject};
+use crate::embree::Embree;
+use crate::rounds;
 use crate::scenes::{Kind, Scene};
-use crate::structures::agreement::{self, Agreement};
-use crate::structures::contender::{Contender, Tier, Way, question_name};
-use crate::structures::ours::{Answers, Rays, Search, Structures, TreeMemory, bytes, sample};
-use crate::structures::peer::{Builder, Ready};
+use crate::structures::agreement;
+use crate::structures::build::{self, Builds};
+use crate::structures::contender::{Tier, Way};
+use crate::structures::measured::Measured;
+use crate::structures::ours::{Answers, Rays, Search, Structures, TreeMemory, sample};
+use crate::structures::peer::Builder;
+use crate::structures::race::Race;
 use spherule_kernel::dispatch::Level;
-use spherule_kernel::{Hit, Question, Ray};
+use spherule_kernel::{Question, Ray};
 use std::cell::RefCell;
+use std::ops::RangeInclusive;
+use std::time::Duration;
 
 /// Tests of brute force that a round may cost.
 const TESTS: usize = 1 << 26;
-/// Rays of single-ray peers: enough for a time.
-const PEER_RAYS: usize = 1 << 15;
-/// What is asked.
-pub const QUESTIONS: [Question; 2] = [Question::Nearest, Question::Any];
+/// Rays of what takes single rays, where that is not what it is for: enough for a time.
+const SINGLE_RAYS: usize = 1 << 15;
 
-/// Times of a scene's rays of a kind.
+/// Who takes part, and how often.
 #[derive(Clone, Debug)]
-pub struct Measured {
-    /// The scene.
-    pub scene: &'static str,
-    /// Which rays.
-    pub kind: Kind,
-    /// How many spheres.
-    pub spheres: usize,
-    /// How many rays; brute force gets fewer of them where it is slow.
-    pub rays: usize,
-    /// Who took part.
-    pub contenders: Vec<Contender>,
-    /// How the peers' answers were.
-    pub agreements: Vec<(Contender, Agreement)>,
-    samples: Samples,
+pub struct Plan<'a> {
+    /// The first is the best, and the one at which all tiers are timed.
+    pub levels: &'a [Level],
+    /// The tiers; at other levels than the first, `Stable` alone.
+    pub tiers: &'a [Tier],
+    /// Other trees.
+    pub builders: &'a [Builder],
+    /// How long a kind of a scene's rays may be timed.
+    pub time: Duration,
+    /// And how often at least and at most.
+    pub rounds: RangeInclusive<usize>,
+    /// How often trees are built.
+    pub builds: usize,
 }
 
-/// What a scene's tree is like.
-#[derive(Clone, Copy, Debug)]
-pub struct Tree {
-    /// Bytes a sphere, beyond the caller's list.
-    pub bytes: f64,
-    /// Nodes below each other.
-    pub depth: usize,
-}
-
-fn subject(contender: Contender, question: Question) -> String {
-    format!("{}, {contender}", question_name(question))
-}
-
-impl Measured {
-    /// A million rays a second.
-    #[must_use]
-    pub fn rate(&self, contender: Contender, question: Question) -> f64 {
-        1e3 / self.samples.median(&subject(contender, question)).middle
-    }
-
-    /// How many times as fast a contender is as another, round by round.
-    #[must_use]
-    pub fn times_as_fast(
-        &self,
-        contender: Contender,
-        other: Contender,
-        question: Question,
-    ) -> Median {
-        self.samples.ratio(&subject(other, question), &subject(contender, question))
-    }
-
-    /// The fastest of those that `chosen` keeps.
-    #[must_use]
-    pub fn fastest(
-        &self,
-        question: Question,
-        chosen: impl Fn(Contender) -> bool,
-    ) -> Option<Contender> {
-        let rate = |contender: &Contender| self.rate(*contender, question);
-        let all = self.contenders.iter().copied().filter(|&contender| chosen(contender));
-        all.max_by(|a, b| rate(a).total_cmp(&rate(b)))
-    }
-}
-
-/// Times both kinds of a scene's rays.
+/// A scene's builds, and the times of both kinds of its rays.
 ///
 /// # Panics
 /// Where an answer is wrong.
 #[must_use]
-pub fn scene(
-    scene: &Scene,
-    levels: &[Level],
-    builders: &[Builder],
-    rounds: usize,
-) -> (Tree, Vec<Measured>) {
+pub fn scene(scene: &Scene, plan: &Plan<'_>) -> (Builds, Vec<Measured>) {
     let spheres = scene.spheres.spheres();
+    let builds = build::measure(spheres, plan.builders, plan.builds);
     let mut memory = TreeMemory::new(spheres.len());
     let bvh = memory.build(spheres);
-    let tree = Tree { bytes: bytes(&bvh) as f64 / spheres.len().max(1) as f64, depth: bvh.depth() };
     let structures = Structures { spheres, bvh: &bvh };
-    let mut peers: Vec<_> = builders.iter().map(|builder| builder(spheres)).collect();
+    let mut peers: Vec<_> = plan.builders.iter().map(|builder| (builder.build)(spheres)).collect();
     #[cfg(feature = "embree")]
     let embree = Embree::build(spheres);
+
     let measured = Kind::ALL.map(|kind| {
         let list = scene.rays(kind);
-        let few = &sample(list, TESTS / spheres.len().max(1));
-        let (all, few) = (Rays::new(list), Rays::new(few));
-        let answers = RefCell::new(Answers::new(all.count()));
+        let name = format!("{}, {}", scene.name, kind.as_str());
+        let [few, some] = [TESTS / spheres.len().max(1), SINGLE_RAYS].map(|n| sample(list, n));
+        let [few_packets, some_packets, all_packets] = [&few, &some, list].map(Rays::new);
+        let answers = RefCell::new(Answers::new(all_packets.count()));
         let mut race = Race {
             structures,
+            answers: &answers,
             contenders: Vec::new(),
             agreements: Vec::new(),
             subjects: Vec::new(),
         };
-        for &level in levels {
-            agreement::ours(scene.name, list, level, structures);
-            for (way, rays) in [(Way::Brute, &few), (Way::Single, &all), (Way::Coherent, &all)] {
-                for tier in Tier::ALL {
-                    race.ours(way, tier, level, rays, &answers);
+        // Rays that have nothing in common gain nothing as packets: not timed so.
+        let ways: &[(Way, &Rays)] = match kind {
+            Kind::Primary => &[
+                (Way::Brute, &few_packets),
+                (Way::Single, &some_packets),
+                (Way::Coherent, &all_packets),
+            ],
+            Kind::Diffuse => &[(Way::Brute, &few_packets), (Way::Single, &all_packets)],
+        };
+        let question = Question::Nearest;
+        for (index, &level) in plan.levels.iter().enumerate() {
+            agreement::ours(&name, list, level, structures);
+            let tiers = if index == 0 { plan.tiers } else { &[Tier::Stable] };
+            for &(way, rays) in ways {
+                for &tier in tiers {
+                    race.ours(Search { question, way, tier, level }, rays);
                 }
             }
         }
-        let exact = Search {
-            question: Question::Nearest,
-            way: Way::Single,
-            tier: Tier::Exact,
-            level: levels[0],
-        };
+        let exact = Search { question, way: Way::Single, tier: Tier::Exact, level: plan.levels[0] };
         let truth = |rays: &[Ray]| {
             let rays = Rays::new(rays);
             let mut answers = Answers::new(rays.count());
             exact.run(structures, &rays, &mut answers);
             answers.nearest()
         };
-        let name = format!("{}, {}", scene.name, kind.as_str());
-        let some = sample(list, PEER_RAYS);
         let truth_of_some = truth(&some);
         for peer in &mut peers {
             peer.take_rays(&some);
             race.peer(&**peer, &name, &some, &truth_of_some);
         }
         #[cfg(feature = "embree")]
-        race.embree(&embree, &name, list, kind, &truth(list));
-        let samples = rounds::take(&mut race.subjects, rounds);
+        race.embree(&embree, &name, (kind, list), &truth(list));
+
+        let samples = rounds::take_within(&mut race.subjects, plan.time, plan.rounds.clone());
         Measured {
             scene: scene.name,
             kind,
             spheres: spheres.len(),
-            rays: list.len(),
+            level: plan.levels[0].name(),
             contenders: race.contenders,
             agreements: race.agreements,
             samples,
         }
     });
-    (tree, measured.into())
-}
-
-/// Contenders that are made ready.
-struct Race<'a> {
-    structures: Structures<'a>,
-    contenders: Vec<Contender>,
-    agreements: Vec<(Contender, Agreement)>,
-    subjects: Vec<Subject<'a>>,
-}
-
-impl<'a> Race<'a> {
-    fn ours(
-        &mut self,
-        way: Way,
-        tier: Tier,
-        level: Level,
-        rays: &'a Rays,
-        answers: &'a RefCell<Answers>,
-    ) {
-        let contender = Contender::Ours(way, tier, level.name());
-        self.contenders.push(contender);
-        let structures = self.structures;
-        for question in QUESTIONS {
-            let search = Search { question, way, tier, level };
-            self.subjects.push(Subject::new(subject(contender, question), move || {
-                search.run(structures, rays, &mut answers.borrow_mut());
-                rays.count()
-            }));
-        }
-    }
-
-    fn peer(&mut self, peer: &'a dyn Ready, name: &str, rays: &[Ray], truth: &[Option<Hit>]) {
-        let contender = Contender::Peer(peer.name());
-        let mut hits = vec![None; rays.len()];
-        let [nearest, any] = QUESTIONS.map(|question| {
-            peer.pass(question, &mut hits);
-            hits.clone()
-        });
-        let agreement = Agreement::of(rays, self.structures.spheres, truth, &nearest, &any);
-        // Some clamp directions that are nearly along an axis.
-        let agreement = agreement.within(1e-3, &format!("{name}, {contender}"));
-        self.contenders.push(contender);
-        self.agreements.push((contender, agreement));
-        for question in QUESTIONS {
-            let mut hits = hits.clone();
-            self.subjects.push(Subject::new(subject(contender, question), move || {
-                peer.pass(question, &mut hits);
-                hits.len()
-            }));
-        }
-    }
-
-    #[cfg(feature = "embree")]
-    fn embree(
-        &mut self,
-        embree: &'a Embree,
-        name: &str,
-        rays: &'a [Ray],
-        kind: Kind,
-        truth: &[Option<Hit>],
-    ) {
-        for width in Width::ALL {
-            let contender = Contender::Embree(width);
-            let pass = move |question| embree.pass(width, question, kind == Kind::Primary, rays);
-            let [nearest, any] = QUESTIONS.map(|question| pass(question).hits);
-            let agreement = Agreement::of(rays, self.structures.spheres, truth, &nearest, &any);
-            let agreement = agreement.within(0.0, &format!("{name}, {contender}"));
-            self.contenders.push(contender);
-            self.agreements.push((contender, agreement));
-            for question in QUESTIONS {
-                let sample = move || pass(question).nanoseconds as f64 / rays.len() as f64;
-                self.subjects.push(Subject::timing_itself(subject(contender, question), sample));
-            }
-        }
-    }
+    (builds, measured.into())
 }

@@ -70,6 +70,15 @@ impl Rays {
     pub const fn count(&self) -> usize {
         self.count
     }
+
+    /// In pieces of so many packets, each with room for its answers.
+    pub fn pieces<'a>(
+        &'a self,
+        answers: &'a mut Answers,
+        packets: usize,
+    ) -> impl Iterator<Item = (&'a [RayPacket<Packet>], &'a mut [HitPacket<Packet>])> {
+        self.packets.chunks(packets).zip(answers.hits.chunks_mut(packets))
+    }
 }
 
 /// What rays were found to meet.

@@ -35,16 +35,25 @@ pub trait Ready {
     fn pass(&self, question: Question, hits: &mut [Option<Hit>]);
 }
 
-/// Builds a peer's tree.
-pub type Builder = fn(Spheres<'_>) -> Box<dyn Ready>;
+/// Who builds a peer's tree.
+#[derive(Clone, Copy, Debug)]
+pub struct Builder {
+    /// Crate and structure.
+    pub name: &'static str,
+    /// Builds it.
+    pub build: fn(Spheres<'_>) -> Box<dyn Ready>,
+}
 
 /// The builder of a peer.
 #[must_use]
 pub const fn builder<P: Peer + 'static>() -> Builder {
-    |spheres| {
-        let start = busy();
-        let tree = P::build(spheres);
-        Box::new(Entry { tree, rays: Vec::new(), build_nanoseconds: busy() - start })
+    Builder {
+        name: P::NAME,
+        build: |spheres| {
+            let start = busy();
+            let tree = P::build(spheres);
+            Box::new(Entry { tree, rays: Vec::new(), build_nanoseconds: busy() - start })
+        },
     }
 }
 
