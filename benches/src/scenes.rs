@@ -20,7 +20,7 @@ mod rays;
 mod spheres;
 
 use crate::workload::Cloud;
-use spherule_kernel::{Ray, Vec3};
+use spherule_kernel::{Ray, Vec3, Viewpoint};
 use std::f64::consts::PI;
 
 /// Which scene.
@@ -195,6 +195,17 @@ impl Scene {
     }
 }
 
+/// What all of the rays have in common, if anything: tile lists need it.
+#[must_use]
+pub fn viewpoint(rays: &[Ray]) -> Option<Viewpoint> {
+    let first = rays.first()?;
+    if rays.iter().all(|ray| ray.origin == first.origin) {
+        return Some(Viewpoint::Origin(first.origin));
+    }
+    let parallel = rays.iter().all(|ray| ray.direction == first.direction);
+    parallel.then_some(Viewpoint::Direction(first.direction))
+}
+
 /// A point in double precision: scenes are made so, and rounded once.
 type Point = [f64; 3];
 
@@ -213,4 +224,23 @@ fn cross(a: Point, b: Point) -> Point {
 fn unit(a: Point) -> Point {
     let length = a.iter().map(|x| x * x).sum::<f64>().sqrt();
     a.map(|x| x / length)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cameras_have_a_viewpoint_and_incoherent_rays_have_none() {
+        for name in Name::ALL {
+            let scene = name.scene(Size::SMALL);
+            let primary = viewpoint(scene.rays(Kind::Primary));
+            let is_direction = matches!(primary, Some(Viewpoint::Direction(_)));
+            assert!(primary.is_some() && is_direction == (name == Name::Parallel));
+            assert_eq!(viewpoint(scene.rays(Kind::Diffuse)), None);
+            let pixels = Size::SMALL.pixels * Size::SMALL.pixels;
+            let counts = Kind::ALL.map(|kind| scene.rays(kind).len());
+            assert_eq!(counts, [pixels, pixels / 4], "{}", name.as_str());
+        }
+    }
 }

@@ -18,14 +18,15 @@ use obvhs_tree::Obvhs;
 use parry_tree::Parry;
 use spherule_benches::report::machine::Machine;
 use spherule_benches::scenes::{Name, Size};
-use spherule_benches::structures::contender::Tier;
+use spherule_benches::structures::contender::{Contender, Tier, Way};
 use spherule_benches::structures::growth;
 use spherule_benches::structures::measure::{self, Plan};
+use spherule_benches::structures::measured::Measured;
 use spherule_benches::structures::page::{self, Results};
 use spherule_benches::structures::peer::builder;
 use spherule_benches::structures::{plot, threads};
 use spherule_kernel::dispatch::{Level, LevelName};
-use spherule_kernel::float_environment_is_sound;
+use spherule_kernel::{Question, float_environment_is_sound};
 use std::path::Path;
 use std::time::Duration;
 
@@ -59,6 +60,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let levels = if test || AT_EVERY_LEVEL.contains(&name) { &levels } else { &levels[..1] };
         let (builds, measured) =
             measure::scene(&name.scene(size), &Plan { levels, ..plan.clone() });
+        measured.iter().for_each(progress);
         scenes.push((name.as_str(), builds, measured));
     }
     let two_threads = chosen.is_none().then(|| {
@@ -103,4 +105,18 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         std::fs::write(folder.join("structures.md"), page)?;
     }
     Ok(())
+}
+
+/// What is known of a scene before the report is: a million rays a second of `Stable`, and how many
+/// times Embree that is.
+fn progress(measured: &Measured) {
+    let question = Question::Nearest;
+    let embree = measured.fastest(question, Contender::is_embree);
+    for way in Way::ALL {
+        let own = Contender::Ours(way, Tier::Stable, measured.level);
+        let Some(rate) = measured.rate(own, question) else { continue };
+        let times = embree.map(|embree| measured.times_as_fast(own, embree, question).middle);
+        let times = times.map_or_else(String::new, |times| format!(", {times:.2} times Embree"));
+        eprintln!("  {}, {}: {rate:.1}{times}", measured.kind.as_str(), way.as_str());
+    }
 }

@@ -32,7 +32,7 @@ pub fn ours(name: &str, rays: &[Ray], level: Level, structures: Structures<'_>) 
     };
     for tier in [Tier::Stable, Tier::Exact] {
         let nearest = search(Question::Nearest, Way::Brute, tier);
-        for way in Way::ALL {
+        for way in Way::ALL.into_iter().filter(|&way| structures.have(way)) {
             let own = search(Question::Nearest, way, tier);
             let met = search(Question::Any, way, tier);
             let who = format!("{name}, {}, {}, {level:?}", way.as_str(), tier.as_str());

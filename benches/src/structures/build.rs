@@ -5,7 +5,7 @@ use crate::embree::Embree;
 use crate::rounds::{self, Median, Samples, Subject};
 use crate::structures::ours::{TreeMemory, bytes};
 use crate::structures::peer::Builder;
-use spherule_kernel::Spheres;
+use spherule_kernel::{Bvh, Spheres};
 
 /// The name of Embree among builds.
 pub const EMBREE: &str = "Embree";
@@ -42,15 +42,10 @@ impl Builds {
     }
 }
 
-/// Builds in turns, one thread each. Memory is part of it for all: ours is asked of the system and
-/// filled before it is built in, and returned.
+/// Builds in turns, one thread each, and tells what `bvh` over the same spheres is like. Memory is
+/// part of it for all: ours is asked of the system and filled before it is built in, and returned.
 #[must_use]
-pub fn measure(spheres: Spheres<'_>, builders: &[Builder], rounds: usize) -> Builds {
-    let (bytes, depth) = {
-        let mut memory = TreeMemory::new(spheres.len());
-        let bvh = memory.build(spheres);
-        (bytes(&bvh) as f64 / spheres.len().max(1) as f64, bvh.depth())
-    };
+pub fn measure(spheres: Spheres<'_>, bvh: &Bvh<'_>, builders: &[Builder], rounds: usize) -> Builds {
     let mut names = vec![OURS];
     let mut subjects = vec![Subject::new(OURS, || {
         let mut memory = TreeMemory::new(spheres.len());
@@ -69,5 +64,6 @@ pub fn measure(spheres: Spheres<'_>, builders: &[Builder], rounds: usize) -> Bui
         subjects.push(Subject::timing_itself(builder.name, build));
     }
     let samples = rounds::take(&mut subjects, rounds);
-    Builds { spheres: spheres.len(), bytes, depth, names, samples }
+    let bytes = bytes(bvh) as f64 / spheres.len().max(1) as f64;
+    Builds { spheres: spheres.len(), bytes, depth: bvh.depth(), names, samples }
 }

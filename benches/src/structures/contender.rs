@@ -40,11 +40,13 @@ pub enum Way {
     Single,
     /// The tree, packets of rays together.
     Coherent,
+    /// Tile lists, made anew for every pass over the rays.
+    Tiles,
 }
 
 impl Way {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::Brute, Self::Single, Self::Coherent];
+    pub const ALL: [Self; 4] = [Self::Brute, Self::Single, Self::Coherent, Self::Tiles];
 
     /// As it stands in tables.
     #[must_use]
@@ -53,6 +55,7 @@ impl Way {
             Self::Brute => "brute force",
             Self::Single => "tree, ray by ray",
             Self::Coherent => "tree, packets",
+            Self::Tiles => "tile lists",
         }
     }
 }

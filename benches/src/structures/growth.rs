@@ -31,8 +31,9 @@ pub enum Line {
 }
 
 /// What is shown, and what it is called.
-pub const LINES: [(Kind, Line, &str); 5] = [
+pub const LINES: [(Kind, Line, &str); 6] = [
     (Kind::Primary, Line::Ours(Way::Coherent), "tree, primary"),
+    (Kind::Primary, Line::Ours(Way::Tiles), "tile lists, primary"),
     (Kind::Primary, Line::Embree, "Embree, primary"),
     (Kind::Diffuse, Line::Ours(Way::Single), "tree, diffuse"),
     (Kind::Diffuse, Line::Embree, "Embree, diffuse"),

@@ -3,7 +3,7 @@
 #[cfg(feature = "embree")]
 use crate::embree::Embree;
 use crate::rounds;
-use crate::scenes::{Kind, Scene};
+use crate::scenes::{Kind, Scene, viewpoint};
 use crate::structures::agreement;
 use crate::structures::build::{self, Builds};
 use crate::structures::contender::{Tier, Way};
@@ -46,16 +46,16 @@ pub struct Plan<'a> {
 #[must_use]
 pub fn scene(scene: &Scene, plan: &Plan<'_>) -> (Builds, Vec<Measured>) {
     let spheres = scene.spheres.spheres();
-    let builds = build::measure(spheres, plan.builders, plan.builds);
     let mut memory = TreeMemory::new(spheres.len());
     let bvh = memory.build(spheres);
-    let structures = Structures { spheres, bvh: &bvh };
+    let builds = build::measure(spheres, &bvh, plan.builders, plan.builds);
     let mut peers: Vec<_> = plan.builders.iter().map(|builder| (builder.build)(spheres)).collect();
     #[cfg(feature = "embree")]
     let embree = Embree::build(spheres);
 
     let measured = Kind::ALL.map(|kind| {
         let list = scene.rays(kind);
+        let structures = Structures { spheres, bvh: &bvh, viewpoint: viewpoint(list) };
         let name = format!("{}, {}", scene.name, kind.as_str());
         let [few, some] = [TESTS / spheres.len().max(1), SINGLE_RAYS].map(|n| sample(list, n));
         let [few_packets, some_packets, all_packets] = [&few, &some, list].map(Rays::new);
@@ -73,6 +73,7 @@ pub fn scene(scene: &Scene, plan: &Plan<'_>) -> (Builds, Vec<Measured>) {
                 (Way::Brute, &few_packets),
                 (Way::Single, &some_packets),
                 (Way::Coherent, &all_packets),
+                (Way::Tiles, &all_packets),
             ],
             Kind::Diffuse => &[(Way::Brute, &few_packets), (Way::Single, &all_packets)],
         };

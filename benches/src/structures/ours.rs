@@ -4,8 +4,8 @@ use crate::structures::contender::{Tier, Way};
 use crate::workload::packets;
 use spherule_kernel::dispatch::{self, Level, Packet};
 use spherule_kernel::{
-    Accuracy, Bvh, BvhLeaf, BvhNode, Exact, Fast, Hit, HitPacket, Lanes, Question, Ray, RayPacket,
-    Spheres, Stable,
+    Accuracy, Bvh, BvhLeaf, BvhNode, DepthOrder, Exact, Fast, Hit, HitPacket, Lanes, Question, Ray,
+    RayPacket, Spheres, Stable, Viewpoint,
 };
 
 /// Memory for a tree.
@@ -49,6 +49,16 @@ pub struct Structures<'a> {
     pub spheres: Spheres<'a>,
     /// A tree over it.
     pub bvh: &'a Bvh<'a>,
+    /// What the rays have in common: without it there are no tile lists.
+    pub viewpoint: Option<Viewpoint>,
+}
+
+impl Structures<'_> {
+    /// Whether rays can go that way.
+    #[must_use]
+    pub fn have(&self, way: Way) -> bool {
+        way != Way::Tiles || self.viewpoint.is_some()
+    }
 }
 
 /// Rays in packets of 16.
@@ -81,12 +91,15 @@ impl Rays {
     }
 }
 
-/// What rays were found to meet.
+/// What rays were found to meet, and memory to find it.
 #[derive(Debug)]
 pub struct Answers {
     hits: Vec<HitPacket<Packet>>,
     met: Vec<u32>,
     count: usize,
+    /// For the spheres of tile lists by depth, and for the lists.
+    order: Vec<u32>,
+    lists: Vec<u32>,
 }
 
 impl Answers {
@@ -94,7 +107,8 @@ impl Answers {
     #[must_use]
     pub fn new(count: usize) -> Self {
         let packets = count.div_ceil(Packet::COUNT);
-        Self { hits: vec![HitPacket::<Packet>::none(); packets], met: vec![0; packets], count }
+        let hits = vec![HitPacket::<Packet>::none(); packets];
+        Self { hits, met: vec![0; packets], count, order: Vec::new(), lists: Vec::new() }
     }
 
     /// The hits of the last search for the nearest.
@@ -130,6 +144,9 @@ pub struct Search {
 
 impl Search {
     /// Finds what the rays meet, as far as there is room for answers.
+    ///
+    /// # Panics
+    /// Where tile lists are asked of rays that have nothing in common.
     pub fn run(&self, structures: Structures<'_>, rays: &Rays, answers: &mut Answers) {
         match self.tier {
             Tier::Fast => self.run_tier::<Fast>(structures, rays, answers),
@@ -141,11 +158,25 @@ impl Search {
 
     fn run_tier<A: Accuracy>(
         &self,
-        Structures { spheres, bvh }: Structures<'_>,
+        Structures { spheres, bvh, viewpoint }: Structures<'_>,
         Rays { packets, .. }: &Rays,
-        Answers { hits, met, .. }: &mut Answers,
+        Answers { hits, met, order, lists, .. }: &mut Answers,
     ) {
         let level = self.level;
+        if self.way == Way::Tiles {
+            let viewpoint = viewpoint.expect("rays with a viewpoint");
+            order.resize(order.len().max(DepthOrder::needed(spheres.len())), 0);
+            lists.resize(lists.len().max(DepthOrder::lists(spheres.len())), 0);
+            let order = &DepthOrder::new(spheres, viewpoint, order).expect("memory for this many");
+            return match self.question {
+                Question::Nearest => {
+                    dispatch::tiles::nearest::<A>(level, packets, spheres, order, lists, hits);
+                }
+                Question::Any => {
+                    dispatch::tiles::any::<A>(level, packets, spheres, order, lists, met);
+                }
+            };
+        }
         match (self.question, self.way) {
             (Question::Nearest, Way::Brute) => {
                 dispatch::nearest::<A>(level, packets, spheres, hits);
@@ -163,6 +194,7 @@ impl Search {
             (Question::Any, Way::Coherent) => {
                 dispatch::bvh::any_coherent::<A>(level, packets, spheres, bvh, met);
             }
+            (_, Way::Tiles) => {}
         }
     }
 }

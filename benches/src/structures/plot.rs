@@ -3,6 +3,7 @@
 use crate::report::machine::Machine;
 use crate::scenes::Kind;
 use crate::structures::build::{EMBREE, OURS};
+use crate::structures::contender::Way;
 use crate::structures::growth::{LINES, Line, Step};
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -17,6 +18,7 @@ type Series = (&'static str, RGBColor, Vec<(f64, f64)>);
 
 const PRIMARY: RGBColor = RGBColor(0, 114, 178);
 const DIFFUSE: RGBColor = RGBColor(213, 94, 0);
+const TILES: RGBColor = RGBColor(0, 158, 115);
 const BRUTE: RGBColor = RGBColor(110, 110, 110);
 
 /// The picture, as SVG.
@@ -43,7 +45,8 @@ pub fn svg(machine: &Machine, steps: &[Step]) -> Result<String, Error> {
             .into_iter()
             .map(|(kind, line, name)| {
                 let colour = match (line, kind) {
-                    (Line::Ours(crate::structures::contender::Way::Brute), _) => BRUTE,
+                    (Line::Ours(Way::Brute), _) => BRUTE,
+                    (Line::Ours(Way::Tiles), _) => TILES,
                     (_, Kind::Primary) => PRIMARY,
                     (_, Kind::Diffuse) => DIFFUSE,
                 };
