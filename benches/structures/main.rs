@@ -41,7 +41,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (test, quick, write) = (asked("--test"), asked("--quick"), asked("--write"));
     let chosen = arguments.iter().position(|argument| argument == "--scene");
     let chosen = chosen.and_then(|index| arguments.get(index + 1));
-    let names = Name::ALL.into_iter().filter(|name| chosen.is_none_or(|one| one == name.as_str()));
+    let names: Vec<_> = Name::ALL
+        .into_iter()
+        .filter(|name| chosen.is_none_or(|one| one == name.as_str()))
+        .collect();
+    if names.is_empty() {
+        let all = Name::ALL.map(Name::as_str).join(", ");
+        return Err(format!("no such scene; there are: {all}").into());
+    }
 
     // The best first.
     let levels: Vec<_> = LevelName::ALL.into_iter().rev().filter_map(Level::named).collect();
