@@ -32,6 +32,7 @@ mod bracket;
 mod build;
 mod bundle;
 mod frustum;
+mod member;
 mod order;
 mod ray_walk;
 mod resolve;

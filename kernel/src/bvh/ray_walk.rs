@@ -259,7 +259,7 @@ impl Walk {
         for part in 0..WIDTH / L::COUNT {
             let bracket = probe.meet::<A>(leaf, part);
             let (entries, bounds) = (bracket.entry.store(), bracket.bound.store());
-            let mut candidates = bracket.candidates;
+            let mut candidates = bracket.candidates.bits();
             while candidates != 0 {
                 let lane = candidates.trailing_zeros() as usize;
                 candidates &= candidates - 1;

@@ -64,7 +64,7 @@ impl List {
 
 /// The sphere at a place in the leaves, and its index.
 #[inline(always)]
-fn sphere_at(leaves: &[BvhLeaf], place: u32) -> Option<(Sphere, u32)> {
+pub(super) fn sphere_at(leaves: &[BvhLeaf], place: u32) -> Option<(Sphere, u32)> {
     let (leaf, lane) = (leaves.get(place as usize / WIDTH)?, place as usize % WIDTH);
     let [x, y, z] = axes!(i => leaf.center[i][lane]);
     Some((Sphere { center: Vec3::new(x, y, z), radius: leaf.radius[lane] }, leaf.index[lane]))

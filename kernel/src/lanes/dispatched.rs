@@ -143,6 +143,11 @@ macro_rules! dispatched_lanes {
             }
 
             #[inline(always)]
+            fn filter_greatest(self) -> f32 {
+                SimdBase::reduce_max(self)
+            }
+
+            #[inline(always)]
             fn widen(self, part: usize) -> $double<S> {
                 let (low, high) = SimdWiden::widen(self);
                 if part == 0 { low } else { high }
