@@ -107,12 +107,7 @@ pub(super) struct Passed<L> {
 
 impl<L: Lanes> Passed<L> {
     #[inline(always)]
-    pub(super) fn new<A: Accuracy>(
-        origin: [L; 3],
-        n: [L; 3],
-        center: [L; 3],
-        radius: L,
-    ) -> Self {
+    pub(super) fn new<A: Accuracy>(origin: [L; 3], n: [L; 3], center: [L; 3], radius: L) -> Self {
         let f = axes!(i => center[i] - origin[i]);
         let middle = f[2].filter_mul_add(n[2], f[1].filter_mul_add(n[1], f[0] * n[0]));
         let back = -middle;

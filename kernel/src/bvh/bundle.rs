@@ -94,12 +94,7 @@ fn members_of<'a, L: Lanes>(
         [ref a] => [a, nobody, nobody, nobody],
         _ => [nobody; BUNDLE],
     };
-    [
-        Member::new(token, a),
-        Member::new(token, b),
-        Member::new(token, c),
-        Member::new(token, d),
-    ]
+    [Member::new(token, a), Member::new(token, b), Member::new(token, c), Member::new(token, d)]
 }
 
 /// The largest of an expression in the live lanes of some members; `-inf` where none is live.
@@ -174,9 +169,9 @@ impl Course {
             origin[0].abs().max(origin[1].abs()).max(origin[2].abs())
         } else {
             {
-            let far = axes!(i => greatest_of!(members, m => m.origin[i].abs()));
-            far[0].max(far[1]).max(far[2])
-        }
+                let far = axes!(i => greatest_of!(members, m => m.origin[i].abs()));
+                far[0].max(far[1]).max(far[2])
+            }
         };
         let origin = one_origin.then_some(origin);
         Some(Self { along, sign, size: bvh.extent + far, origin })
@@ -203,10 +198,8 @@ impl Course {
                     (least, most)
                 }
             };
-            *lines = [
-                Line::new(1.0, low, least, self.size),
-                Line::new(-1.0, high, most, self.size),
-            ];
+            *lines =
+                [Line::new(1.0, low, least, self.size), Line::new(-1.0, high, most, self.size)];
         }
         sides
     }
@@ -219,9 +212,7 @@ impl Course {
         for member in &mut *members {
             let per_depth = member.length.like(self.sign) / member.direction[k];
             let mut slopes = all;
-            for ((i, [low, high]), all) in
-                across(k).into_iter().zip(&mut slopes).zip(&mut all)
-            {
+            for ((i, [low, high]), all) in across(k).into_iter().zip(&mut slopes).zip(&mut all) {
                 let slope = member.direction[i % 3] * per_depth;
                 let none = slope.like(f32::NEG_INFINITY);
                 *high = L::select(member.live, slope, none).filter_greatest();

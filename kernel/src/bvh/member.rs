@@ -10,7 +10,7 @@
 
 use super::bracket::{Bracket, Passed};
 use super::frustum::Sides;
-use super::resolve::{settle_outside, sphere_at};
+use super::resolve::{ask, settle_outside, sphere_at};
 use super::slabs::{Course, lowered, raised};
 use super::{Bvh, BvhLeaf, WIDTH};
 use crate::accuracy::RayLanes;
@@ -139,9 +139,8 @@ impl<'a, L: Lanes> Member<'a, L> {
     fn settle<A: Accuracy, const ANY: bool>(&mut self, leaves: &[BvhLeaf], asked: L::Mask) {
         let token = self.length.token();
         let rays = RayLanes::load(token, self.packet);
-        let prepared = A::prepare(&rays);
         let Asked { center, radius, index } = Asked::new(leaves, self.place, self.shared);
-        let t = A::first_root(&rays, &prepared, center, radius, asked, self.t);
+        let t = ask::<A, L>(&rays, center, radius, asked, self.t);
         self.take(asked, t, index);
         self.entry = L::select(asked, self.entry.like(f32::NAN), self.entry);
         self.shorten::<ANY>();

@@ -111,14 +111,35 @@ impl<L: Lanes> Asked<L> {
 
     /// The t of every lane that is asked, `+inf` where there is none.
     #[inline(always)]
-    fn ask<A: Accuracy>(&self, rays: &RayLanes<L>, prepared: &A::Prepared<L>, limit: L) -> L {
+    fn ask<A: Accuracy>(&self, rays: &RayLanes<L>, limit: L) -> L {
         let token = limit.token();
         let asked = rays.live & lanes_of_bits::<L>(token, self.lanes);
         let center = axes!(i => L::load(token, &self.center[i]));
-        let radius = L::load(token, &self.radius);
-        let t = A::first_root(rays, prepared, center, radius, asked, limit);
-        L::select(asked, t, limit.like(f32::INFINITY))
+        ask::<A, L>(rays, center, L::load(token, &self.radius), asked, limit)
     }
+}
+
+/// Asks the tier about one sphere a lane: t where there is a hit in a lane that is `asked`, else
+/// `+inf`.
+///
+/// The one place where the tree does so, and a function of its own: a tier is long, and would be
+/// compiled into every walk several times.
+#[inline(always)]
+pub(super) fn ask<A: Accuracy, L: Lanes>(
+    rays: &RayLanes<L>,
+    center: [L; 3],
+    radius: L,
+    asked: L::Mask,
+    limit: L,
+) -> L {
+    L::out_of_line(
+        limit.token(),
+        #[inline(always)]
+        || {
+            let t = A::first_root(rays, &A::prepare(rays), center, radius, asked, limit);
+            L::select(asked, t, limit.like(f32::INFINITY))
+        },
+    )
 }
 
 /// Takes a hit that is nearer, or as near and of a lower index.
@@ -149,7 +170,6 @@ pub(super) fn settle<A: Accuracy, L: Lanes>(
     if longest == 0 {
         return;
     }
-    let prepared = A::prepare(rays);
     for at in 0..longest {
         let mut asked = Asked::<L>::none();
         for (lane, (list, best)) in lists.iter().enumerate().take(L::COUNT) {
@@ -161,7 +181,7 @@ pub(super) fn settle<A: Accuracy, L: Lanes>(
             continue;
         }
         let limit = L::load(token, &hits.t);
-        let t = asked.ask::<A>(rays, &prepared, limit);
+        let t = asked.ask::<A>(rays, limit);
         let t = t.store();
         let lanes = t.as_ref().iter().zip(asked.index.as_ref()).enumerate();
         for (lane, (&t, &index)) in lanes {
@@ -187,7 +207,6 @@ pub(super) fn settle_one<A: Accuracy, L: Lanes>(
         copies.set(copy, &ray);
     }
     let rays = RayLanes::<L>::load(token, &copies);
-    let prepared = A::prepare(&rays);
     let limit = L::splat(token, f32::INFINITY);
     let mut nearest: Option<Hit> = None;
     for from in (0..LIST).step_by(L::COUNT) {
@@ -197,7 +216,7 @@ pub(super) fn settle_one<A: Accuracy, L: Lanes>(
                 asked.put(lane, leaves, place);
             }
         }
-        let t = asked.ask::<A>(&rays, &prepared, limit).store();
+        let t = asked.ask::<A>(&rays, limit).store();
         for (&t, &sphere) in t.as_ref().iter().zip(asked.index.as_ref()) {
             if t < f32::INFINITY
                 && nearest.is_none_or(
@@ -225,16 +244,13 @@ pub(super) fn settle_outside<A: Accuracy, L: Lanes>(
     if !asked.any() {
         return;
     }
-    let prepared = A::prepare(rays);
-    let infinity = L::splat(token, f32::INFINITY);
     for leaf in outside {
         for place in 0..WIDTH {
             if leaf.radius[place] >= 0.0 {
                 let center = axes!(i => L::splat(token, leaf.center[i][place]));
                 let radius = L::splat(token, leaf.radius[place]);
                 let limit = L::load(token, &hits.t);
-                let t = A::first_root(rays, &prepared, center, radius, asked, limit);
-                let t = L::select(asked, t, infinity).store();
+                let t = ask::<A, L>(rays, center, radius, asked, limit).store();
                 for (lane, &t) in t.as_ref().iter().enumerate() {
                     if t < f32::INFINITY {
                         take(hits, lane, t, leaf.index[place]);

@@ -38,13 +38,28 @@ pub fn nearest<A: Accuracy, L: Lanes>(
     bvh: &Bvh<'_>,
     hits: &mut [HitPacket<L>],
 ) {
+    L::out_of_line(
+        token,
+        #[inline(always)]
+        || nearest_one_by_one::<A, L>(token, rays, &spheres, bvh, hits),
+    );
+}
+
+#[inline(always)]
+fn nearest_one_by_one<A: Accuracy, L: Lanes>(
+    token: L::Token,
+    rays: &[RayPacket<L>],
+    spheres: &Spheres<'_>,
+    bvh: &Bvh<'_>,
+    hits: &mut [HitPacket<L>],
+) {
     if bvh.count != spheres.len() {
-        return crate::nearest::<A, L>(token, rays, spheres, hits);
+        return brute_force::<A, L>(token, rays, spheres, hits);
     }
     let mut under_way = UnderWay::NEW;
     for (packet, hit) in rays.iter().zip(hits.iter_mut()) {
         *hit = HitPacket::<L>::none();
-        meet::<A, L, false>(token, packet, &spheres, bvh, &mut under_way, hit);
+        meet::<A, L, false>(token, packet, spheres, bvh, &mut under_way, hit);
     }
 }
 
@@ -60,13 +75,28 @@ pub fn any<A: Accuracy, L: Lanes>(
     bvh: &Bvh<'_>,
     met: &mut [u32],
 ) {
+    L::out_of_line(
+        token,
+        #[inline(always)]
+        || any_one_by_one::<A, L>(token, rays, &spheres, bvh, met),
+    );
+}
+
+#[inline(always)]
+fn any_one_by_one<A: Accuracy, L: Lanes>(
+    token: L::Token,
+    rays: &[RayPacket<L>],
+    spheres: &Spheres<'_>,
+    bvh: &Bvh<'_>,
+    met: &mut [u32],
+) {
     if bvh.count != spheres.len() {
-        return crate::any::<A, L>(token, rays, spheres, met);
+        return crate::any::<A, L>(token, rays, *spheres, met);
     }
     let mut under_way = UnderWay::NEW;
     for (packet, met) in rays.iter().zip(met.iter_mut()) {
         let mut hit = HitPacket::<L>::none();
-        let sure = meet::<A, L, true>(token, packet, &spheres, bvh, &mut under_way, &mut hit);
+        let sure = meet::<A, L, true>(token, packet, spheres, bvh, &mut under_way, &mut hit);
         let found = L::load(token, &hit.t).lt(L::splat(token, f32::INFINITY));
         *met = sure | found.bits();
     }
@@ -199,6 +229,21 @@ fn meet<A: Accuracy, L: Lanes, const ANY: bool>(
     met
 }
 
+/// All rays against all spheres, in a function of its own.
+#[inline(always)]
+fn brute_force<A: Accuracy, L: Lanes>(
+    token: L::Token,
+    rays: &[RayPacket<L>],
+    spheres: &Spheres<'_>,
+    hits: &mut [HitPacket<L>],
+) {
+    L::out_of_line(
+        token,
+        #[inline(always)]
+        || crate::nearest::<A, L>(token, rays, *spheres, hits),
+    );
+}
+
 /// Rays that the bounds do not cover, those in `lanes`, against all spheres.
 #[inline(always)]
 fn meet_all<A: Accuracy, L: Lanes>(
@@ -213,7 +258,7 @@ fn meet_all<A: Accuracy, L: Lanes>(
     let never = L::splat(token, f32::NAN);
     rays.t_min = L::select(asked, L::load(token, &rays.t_min), never).store();
     let mut found = [HitPacket::<L>::none()];
-    crate::nearest::<A, L>(token, &[rays], *spheres, &mut found);
+    brute_force::<A, L>(token, &[rays], spheres, &mut found);
     for (lane, (&t, &index)) in found[0].t().iter().zip(found[0].spheres()).enumerate() {
         if lanes >> lane & 1 == 1 && t < f32::INFINITY {
             take(hits, lane, t, index);
