@@ -28,9 +28,11 @@
 //! sixteen has only leaves for children: nodes stand [`DEPTH`] deep at most, for 2^28, 2^25, ..
 //! 2^4 leaves.
 
+mod answers;
 mod bracket;
 mod build;
 mod bundle;
+mod candidates;
 mod frustum;
 mod member;
 mod order;

@@ -36,7 +36,7 @@ pub fn nearest<A: Accuracy, L: Lanes>(
         hits,
         &spheres,
         #[inline(always)]
-        |_| lanes_of_bits::<L>(token, 0),
+        |_| L::mask(token, 0),
         #[inline(always)]
         |hit, candidates| nearest_in_group::<A, L>(token, candidates, hit),
     );
@@ -62,7 +62,7 @@ pub fn any<A: Accuracy, L: Lanes>(
         met,
         &spheres,
         #[inline(always)]
-        |bits| lanes_of_bits::<L>(token, *bits),
+        |bits| L::mask(token, *bits),
         #[inline(always)]
         |bits, candidates| any_in_group::<A, L>(token, candidates, bits),
     );
@@ -161,16 +161,6 @@ pub(crate) fn for_candidates<L: Lanes, R>(
             }
         }
     }
-}
-
-/// The lanes whose bit is set.
-#[inline(always)]
-pub(crate) fn lanes_of_bits<L: Lanes>(token: L::Token, bits: u32) -> L::Mask {
-    let mut marks = L::Array::default();
-    for (lane, mark) in marks.as_mut().iter_mut().enumerate() {
-        *mark = if bits >> lane & 1 == 1 { 1.0 } else { 0.0 };
-    }
-    L::splat(token, 0.0).lt(L::load(token, &marks))
 }
 
 /// Calls `met` with every sphere of the group that the filter does not rule out by itself: its

@@ -79,6 +79,15 @@ pub trait Lanes:
     fn lt(self, other: Self) -> Self::Mask;
     /// `self <= other`.
     fn le(self, other: Self) -> Self::Mask;
+    /// True in the lanes whose bit is set.
+    #[inline(always)]
+    fn mask(token: Self::Token, bits: u32) -> Self::Mask {
+        let mut marks = Self::Array::default();
+        for (lane, mark) in marks.as_mut().iter_mut().enumerate() {
+            *mark = if bits >> lane & 1 == 1 { 1.0 } else { 0.0 };
+        }
+        Self::splat(token, 0.0).lt(Self::load(token, &marks))
+    }
     /// `yes` where `mask` is true, else `no`.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
     /// The lanes in which `mask` is true, in their order, from the first lane on; what the lanes

@@ -8,6 +8,7 @@
 //! spheres may both be a lane's nearest is the tier asked before. (Asking at every sphere: 1.5
 //! times the time on a million spheres.)
 
+use super::answers::Nearest;
 use super::bracket::{Bracket, Passed};
 use super::frustum::Sides;
 use super::resolve::{ask, settle_outside, sphere_at};
@@ -80,11 +81,16 @@ impl<'a, L: Lanes> Member<'a, L> {
     #[inline(always)]
     pub(super) fn meet_outside<A: Accuracy, const ANY: bool>(&mut self, outside: &[BvhLeaf]) {
         let token = self.length.token();
-        let mut hits = HitPacket::<L>::none();
+        let mut hits = [HitPacket::<L>::none()];
         let rays = RayLanes::load(token, self.packet);
-        settle_outside::<A, L>(token, &rays, outside, self.live.bits(), &mut hits);
-        self.t = L::load(token, &hits.t);
-        self.sphere = lanes_of_ids::<L>(token, hits.sphere.as_ref());
+        let mut nearest = Nearest::<L>(&mut hits);
+        settle_outside::<A, L>(&rays, outside, self.live.bits(), 0, &mut nearest);
+        self.t = L::load(token, &hits[0].t);
+        let mut spheres = L::Array::default();
+        for (bits, index) in spheres.as_mut().iter_mut().zip(hits[0].sphere.as_ref()) {
+            *bits = f32::from_bits(*index);
+        }
+        self.sphere = L::load(token, &spheres);
         self.shorten::<ANY>();
     }
 
