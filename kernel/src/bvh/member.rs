@@ -267,12 +267,3 @@ impl<L: Lanes> Asked<L> {
     }
 }
 
-/// Indices as the bits of lanes.
-#[inline(always)]
-fn lanes_of_ids<L: Lanes>(token: L::Token, ids: &[u32]) -> L {
-    let mut array = L::Array::default();
-    for (bits, index) in array.as_mut().iter_mut().zip(ids) {
-        *bits = f32::from_bits(*index);
-    }
-    L::load(token, &array)
-}
