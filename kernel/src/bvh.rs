@@ -38,8 +38,8 @@ mod join;
 mod member;
 mod order;
 mod ray_walk;
-mod resolve;
-mod slabs;
+pub(crate) mod resolve;
+pub(crate) mod slabs;
 mod split;
 mod walk;
 

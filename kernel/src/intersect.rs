@@ -27,6 +27,21 @@ pub fn nearest<A: Accuracy, L: Lanes>(
     spheres: Spheres<'_>,
     hits: &mut [HitPacket<L>],
 ) {
+    L::out_of_line(
+        token,
+        #[inline(always)]
+        || nearest_here::<A, L>(token, rays, &spheres, hits),
+    );
+}
+
+/// [`nearest`], compiled into its caller.
+#[inline(always)]
+fn nearest_here<A: Accuracy, L: Lanes>(
+    token: L::Token,
+    rays: &[RayPacket<L>],
+    spheres: &Spheres<'_>,
+    hits: &mut [HitPacket<L>],
+) {
     for hit in hits.iter_mut().take(rays.len()) {
         *hit = HitPacket::<L>::none();
     }
@@ -34,7 +49,7 @@ pub fn nearest<A: Accuracy, L: Lanes>(
         token,
         rays,
         hits,
-        &spheres,
+        spheres,
         #[inline(always)]
         |_| L::mask(token, 0),
         #[inline(always)]
@@ -53,6 +68,21 @@ pub fn any<A: Accuracy, L: Lanes>(
     spheres: Spheres<'_>,
     met: &mut [u32],
 ) {
+    L::out_of_line(
+        token,
+        #[inline(always)]
+        || any_here::<A, L>(token, rays, &spheres, met),
+    );
+}
+
+/// [`any`], compiled into its caller.
+#[inline(always)]
+fn any_here<A: Accuracy, L: Lanes>(
+    token: L::Token,
+    rays: &[RayPacket<L>],
+    spheres: &Spheres<'_>,
+    met: &mut [u32],
+) {
     for bits in met.iter_mut().take(rays.len()) {
         *bits = 0;
     }
@@ -60,7 +90,7 @@ pub fn any<A: Accuracy, L: Lanes>(
         token,
         rays,
         met,
-        &spheres,
+        spheres,
         #[inline(always)]
         |bits| L::mask(token, *bits),
         #[inline(always)]

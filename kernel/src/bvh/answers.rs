@@ -33,13 +33,8 @@ impl<L: Lanes> Answers<L> for Nearest<'_, L> {
 
     #[inline(always)]
     fn take(&mut self, packet: usize, lane: usize, hit: Hit) {
-        let Some(hits) = self.0.get_mut(packet) else { return };
-        if let (Some(t), Some(sphere)) =
-            (hits.t.as_mut().get_mut(lane), hits.sphere.as_mut().get_mut(lane))
-            && (hit.t < *t || (hit.t == *t && hit.sphere < *sphere))
-        {
-            *t = hit.t;
-            *sphere = hit.sphere;
+        if let Some(hits) = self.0.get_mut(packet) {
+            hits.take(lane, hit);
         }
     }
 

@@ -266,4 +266,3 @@ impl<L: Lanes> Asked<L> {
         }
     }
 }
-

@@ -129,7 +129,7 @@ pub(super) fn sphere_at(leaves: &[BvhLeaf], place: u32) -> Option<(Sphere, u32)>
 /// The one place where the tree does so, and a function of its own: a tier is long, and would be
 /// compiled into every walk several times.
 #[inline(always)]
-pub(super) fn ask<A: Accuracy, L: Lanes>(
+pub(crate) fn ask<A: Accuracy, L: Lanes>(
     rays: &RayLanes<L>,
     center: [L; 3],
     radius: L,

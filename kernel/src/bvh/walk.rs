@@ -41,7 +41,7 @@ pub fn nearest<A: Accuracy, L: Lanes>(
     hits: &mut [HitPacket<L>],
 ) {
     if bvh.count != spheres.len() {
-        return brute_force::<A, L>(token, rays, spheres, hits);
+        return crate::nearest::<A, L>(token, rays, spheres, hits);
     }
     let rays = rays.get(..hits.len()).unwrap_or(rays);
     L::out_of_line(
@@ -63,15 +63,14 @@ pub fn any<A: Accuracy, L: Lanes>(
     bvh: &Bvh<'_>,
     met: &mut [u32],
 ) {
+    if bvh.count != spheres.len() {
+        return crate::any::<A, L>(token, rays, spheres, met);
+    }
     let rays = rays.get(..met.len()).unwrap_or(rays);
-    let other = bvh.count != spheres.len();
     L::out_of_line(
         token,
         #[inline(always)]
-        || match other {
-            true => crate::any::<A, L>(token, rays, spheres, met),
-            false => walk::<A, L, _>(token, rays, spheres, bvh, &mut Any(met)),
-        },
+        || walk::<A, L, _>(token, rays, spheres, bvh, &mut Any(met)),
     );
 }
 
@@ -247,21 +246,6 @@ fn begin<A: Accuracy, L: Lanes>(
     slabs
 }
 
-/// All rays against all spheres, in a function of its own.
-#[inline(always)]
-fn brute_force<A: Accuracy, L: Lanes>(
-    token: L::Token,
-    rays: &[RayPacket<L>],
-    spheres: Spheres<'_>,
-    hits: &mut [HitPacket<L>],
-) {
-    L::out_of_line(
-        token,
-        #[inline(always)]
-        || crate::nearest::<A, L>(token, rays, spheres, hits),
-    );
-}
-
 /// Rays that the bounds do not cover, those in `lanes`, against all spheres.
 #[inline(always)]
 fn meet_all<A: Accuracy, L: Lanes>(
@@ -277,7 +261,7 @@ fn meet_all<A: Accuracy, L: Lanes>(
     let never = L::splat(token, f32::NAN);
     rays.t_min = L::select(asked, L::load(token, &rays.t_min), never).store();
     let mut found = [HitPacket::<L>::none()];
-    brute_force::<A, L>(token, &[rays], spheres, &mut found);
+    crate::nearest::<A, L>(token, &[rays], spheres, &mut found);
     for (lane, (&t, &sphere)) in found[0].t().iter().zip(found[0].spheres()).enumerate() {
         if lanes >> lane & 1 == 1 && t < f32::INFINITY {
             answers.take(place, lane, Hit { t, sphere });
