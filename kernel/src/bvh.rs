@@ -8,7 +8,8 @@
 //! the surface area heuristic (Wald 2007: sixteen bins an axis), and cuts at multiples of sixteen
 //! spheres only: then every leaf but the last is full, and the memory needed is known before.
 //! [`nearest`] and [`any`] walk the tree ray by ray, which is the way for rays that have nothing in
-//! common.
+//! common; [`nearest_coherent`] and [`any_coherent`] let packets that look the same way go down
+//! together, which is the way for the rays of a camera and of shadows.
 //!
 //! # What is guaranteed
 //!
@@ -29,10 +30,13 @@
 //! 2^4 leaves.
 
 mod answers;
+mod bins;
+mod bounds;
 mod bracket;
 mod build;
 mod bundle;
 mod candidates;
+mod course;
 mod frustum;
 mod join;
 mod member;
@@ -41,6 +45,7 @@ mod ray_walk;
 pub(crate) mod resolve;
 pub(crate) mod slabs;
 mod split;
+mod stack;
 mod walk;
 
 pub use bundle::{any_coherent, nearest_coherent};
@@ -124,7 +129,7 @@ impl fmt::Display for TooSmall {
 
 impl core::error::Error for TooSmall {}
 
-/// A tree over a list of spheres, for [`nearest`] and [`any`].
+/// A tree over a list of spheres, for [`nearest`] and its companions.
 ///
 /// It holds copies of the spheres. Walked with another list than it was built from, it is memory
 /// safe and does not panic: with one of another length it is not used at all (every ray is tested

@@ -51,11 +51,14 @@ pub struct Way {
 
 /// All of them that the CPU has; the same source, so few stand for all.
 pub fn ways() -> impl Iterator<Item = Way> {
-    let fixed = [fixed::<Exact, f32>("1 lane"), fixed::<Stable, f32x8>("8 lanes")];
+    let fixed = [
+        fixed::<Exact, f32>("1 lane"),
+        fixed::<Stable, f32x8>("8 lanes"),
+        fixed::<Fast, f32x8>("8 lanes"),
+    ];
     let levels = LevelName::ALL.into_iter().filter(|&name| Level::named(name).is_some());
-    fixed.into_iter().chain(levels.flat_map(|name| {
-        [dispatched::<Exact>(name), dispatched::<Stable>(name), dispatched::<Fast>(name)]
-    }))
+    let levels = levels.flat_map(|name| [dispatched::<Exact>(name), dispatched::<Stable>(name)]);
+    fixed.into_iter().chain(levels)
 }
 
 const fn fixed<A: Accuracy, L: Lanes<Token = ()>>(lanes: &'static str) -> Way {

@@ -18,8 +18,9 @@
 //! from then on a run longer than q is cut behind q leaves, which takes one off each time. After
 //! fifteen cuts no child is longer than q.
 
+use super::bounds::Bounds;
 use super::join::Join;
-use super::split::{Bounds, Run};
+use super::split::Run;
 use super::{Bvh, BvhLeaf, BvhNode, DEPTH, LARGEST, LEAF, NO_CHILD, WIDTH};
 use crate::{Sphere, Spheres};
 

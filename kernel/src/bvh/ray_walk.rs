@@ -1,24 +1,17 @@
-//! One ray on its way: what it knows, the stack, and what it does with nodes and leaves.
+//! One ray on its way: what it knows, and what it does with nodes and leaves.
 //!
-//! # The stack
-//!
-//! A step takes one entry and adds sixteen at most, so a ray on its way down a tree of nine
-//! nodes, one below the other, has 15 * 9 + 1 = 136 at most, whatever its numbers are; 256 are
-//! there, so that a mask can stand for a bounds check, and never acts. Spheres that are not in the
-//! order of their s cost time, no memory: a full list is settled (`LIST`).
+//! Spheres that are not in the order of their s cost time, no memory: a full list of candidates
+//! is settled.
 
 use super::answers::Answers;
 use super::bracket::{Probe, part_of};
 use super::candidates::Candidates;
 use super::resolve::{Questions, RayPlace};
 use super::slabs::{Slabs, raised};
-use super::{Bvh, BvhLeaf, BvhNode, DEPTH, WIDTH};
+use super::stack::{Met, Stack};
+use super::{Bvh, BvhLeaf, BvhNode, WIDTH};
 use crate::axes::axes;
 use crate::{Accuracy, Hit, LaneMask, Lanes, RayPacket};
-
-/// How deep a stack can be.
-const STACK: usize = 256;
-const _: () = assert!(STACK >= (WIDTH - 1) * DEPTH + WIDTH);
 
 /// Puts lanes where [`part_of`] would take them from.
 #[inline(always)]
@@ -28,36 +21,6 @@ pub(super) fn put_part<L: Lanes>(numbers: &mut [f32; WIDTH], part: usize, lanes:
     for (place, number) in places.zip(array.as_ref()) {
         *place = *number;
     }
-}
-
-/// Takes lanes from a stack.
-#[inline(always)]
-fn get<L: Lanes>(token: L::Token, stack: &[f32; STACK + WIDTH], at: usize) -> L {
-    let mut array = L::Array::default();
-    if let Some(places) = stack.get(at..at + L::COUNT) {
-        array.as_mut().copy_from_slice(places);
-    }
-    L::load(token, &array)
-}
-
-/// Lays lanes onto a stack.
-#[inline(always)]
-fn put<L: Lanes>(stack: &mut [f32; STACK + WIDTH], at: usize, lanes: L) {
-    let array = lanes.store();
-    if let Some(places) = stack.get_mut(at..at + L::COUNT) {
-        places.copy_from_slice(array.as_ref());
-    }
-}
-
-/// What a ray meets in a node.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Met {
-    children: u32,
-    entries: [f32; WIDTH],
-}
-
-impl Met {
-    pub(super) const NOTHING: Self = Self { children: 0, entries: [0.0; WIDTH] };
 }
 
 /// One ray under way.
@@ -78,10 +41,7 @@ pub(super) struct Walk {
     length: f32,
     pub(super) ray: RayPlace,
     candidates: Candidates,
-    entries: [f32; STACK + WIDTH],
-    /// As bits: numbers that are moved, never computed with.
-    children: [f32; STACK + WIDTH],
-    top: usize,
+    pub(super) stack: Stack,
 }
 
 impl Walk {
@@ -98,9 +58,7 @@ impl Walk {
         length: 0.0,
         ray: RayPlace::FIRST,
         candidates: Candidates::NONE,
-        entries: [0.0; STACK + WIDTH],
-        children: [0.0; STACK + WIDTH],
-        top: 0,
+        stack: Stack::EMPTY,
     };
 
     #[inline(always)]
@@ -134,22 +92,7 @@ impl Walk {
         }
         self.ray = ray;
         self.candidates.clear();
-        self.entries[0] = f32::NEG_INFINITY;
-        self.children[0] = f32::from_bits(root);
-        self.top = 1;
-    }
-
-    /// Takes a box from the stack, which is not empty.
-    #[inline(always)]
-    pub(super) fn next(&mut self) -> u32 {
-        self.top = self.top.wrapping_sub(1) & (STACK - 1);
-        self.children[self.top].to_bits()
-    }
-
-    /// Nothing is left on the stack.
-    #[inline(always)]
-    pub(super) fn has_ended(&self) -> bool {
-        self.top == 0
+        self.stack.begin(root);
     }
 
     #[inline(always)]
@@ -179,73 +122,6 @@ impl Walk {
             put_part(&mut met.entries, part, entry);
         }
         met
-    }
-
-    /// Lays the children that are `met` onto the stack: the nearest on top, where `SORTED`, the
-    /// others in their own order.
-    ///
-    /// (All in order, by counting those entered later or by insertion: a tenth slower for the
-    /// nearest hit, since the number of children cannot be guessed.)
-    #[inline(always)]
-    pub(super) fn push<L: Lanes, const SORTED: bool>(
-        &mut self,
-        token: L::Token,
-        met: &Met,
-        children: &[u32; WIDTH],
-    ) {
-        let mut others = met.children;
-        let mut nearest = 0;
-        if SORTED {
-            let mut least = L::splat(token, f32::INFINITY);
-            for part in 0..WIDTH / L::COUNT {
-                let mask = L::mask(token, met.children >> (part * L::COUNT));
-                let entries = part_of::<L>(token, &met.entries, part);
-                least = -(-L::select(mask, entries, least)).filter_max(-least);
-            }
-            let least = L::splat(token, -(-least).filter_greatest());
-            let mut first = 0;
-            for part in 0..WIDTH / L::COUNT {
-                let entries = part_of::<L>(token, &met.entries, part);
-                first |= entries.le(least).bits() << (part * L::COUNT);
-            }
-            first &= others;
-            nearest = first.trailing_zeros() as usize % WIDTH;
-            others &= !(first & first.wrapping_neg());
-        }
-        let bits = children.map(f32::from_bits);
-        for part in 0..WIDTH / L::COUNT {
-            let here = others >> (part * L::COUNT) & ((1_u64 << L::COUNT) - 1) as u32;
-            let mask = L::mask(token, here);
-            let top = self.top & (STACK - 1);
-            let entries = part_of::<L>(token, &met.entries, part);
-            put::<L>(&mut self.entries, top, entries.compress(mask));
-            put::<L>(&mut self.children, top, part_of::<L>(token, &bits, part).compress(mask));
-            self.top = top + here.count_ones() as usize;
-        }
-        if SORTED {
-            let top = self.top & (STACK - 1);
-            self.entries[top] = met.entries[nearest];
-            self.children[top] = bits[nearest];
-            self.top = top + usize::from(met.children != 0);
-        }
-    }
-
-    /// Drops what is entered past the best.
-    #[inline(always)]
-    fn cull<A: Accuracy, L: Lanes>(&mut self, token: L::Token) {
-        let best = if A::SPREAD > 0.0 { self.best + self.spread } else { self.best };
-        let limit = L::splat(token, best);
-        let (top, mut kept) = (self.top, 0);
-        for from in (0..top).step_by(L::COUNT) {
-            let entries = get::<L>(token, &self.entries, from);
-            let children = get::<L>(token, &self.children, from);
-            let stays = entries.le(limit);
-            put::<L>(&mut self.entries, kept, entries.compress(stays));
-            put::<L>(&mut self.children, kept, children.compress(stays));
-            let here = stays.bits() & (((1_u64 << (top - from).min(L::COUNT)) - 1) as u32);
-            kept += here.count_ones() as usize;
-        }
-        self.top = kept;
     }
 
     #[inline(always)]
@@ -306,7 +182,7 @@ impl Walk {
                 if N::ANY && bound < f32::INFINITY {
                     answers.take(self.ray.packet, self.ray.lane, Hit { t: 0.0, sphere: 0 });
                     self.candidates.clear();
-                    self.top = 0;
+                    self.stack.clear();
                     return;
                 }
                 if entry > self.best {
@@ -322,7 +198,8 @@ impl Walk {
             }
         }
         if self.best < before {
-            self.cull::<A, L>(token);
+            let best = if A::SPREAD > 0.0 { self.best + self.spread } else { self.best };
+            self.stack.cull::<L>(token, best);
         }
     }
 

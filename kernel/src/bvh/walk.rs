@@ -16,9 +16,10 @@
 //! next. (Packet by packet, its slowest ray alone at the end: 1.5 times the time on 7,381 spheres.)
 
 use super::answers::{Answers, Any, Nearest};
-use super::ray_walk::{Met, Walk};
+use super::ray_walk::Walk;
 use super::resolve::{Questions, RayPlace, settle_outside};
 use super::slabs::Slabs;
+use super::stack::Met;
 use super::{Bvh, LEAF, NO_CHILD, WIDTH};
 use crate::accuracy::RayLanes;
 use crate::{Accuracy, Hit, HitPacket, LaneArray, LaneMask, Lanes, RayPacket, Spheres};
@@ -157,7 +158,7 @@ fn walk<A: Accuracy, L: Lanes, N: Answers<L>>(
         let (mut in_nodes, mut in_leaves) = (0, 0);
         for &number in order.iter().take(count) {
             let Some(walk) = walks.get_mut(number as usize) else { continue };
-            let child = walk.next();
+            let child = walk.stack.pop();
             let leaf = child & LEAF != 0;
             append(nodes, &mut in_nodes, Step { walk: number, child }, !leaf);
             append(leaves, &mut in_leaves, Step { walk: number, child: child & !LEAF }, leaf);
@@ -172,9 +173,9 @@ fn walk<A: Accuracy, L: Lanes, N: Answers<L>>(
             let Some(walk) = walks.get_mut(step.walk as usize) else { continue };
             let Some(node) = bvh.nodes.get(step.child as usize) else { continue };
             if N::ANY {
-                walk.push::<L, false>(token, met, &node.child);
+                walk.stack.push::<L, false>(token, met, &node.child);
             } else {
-                walk.push::<L, true>(token, met, &node.child);
+                walk.stack.push::<L, true>(token, met, &node.child);
             }
         }
 
@@ -198,7 +199,10 @@ fn walk<A: Accuracy, L: Lanes, N: Answers<L>>(
         let mut left = 0;
         for at in 0..count {
             let (Some(&number), Some(&first)) = (order.get(at), order.get(left)) else { continue };
-            let goes_on = !walks.get(number as usize).is_none_or(Walk::has_ended);
+            let goes_on = !walks.get(number as usize).is_none_or(
+                #[inline(always)]
+                |walk| walk.stack.is_empty(),
+            );
             let swapped = if goes_on { [number, first] } else { [first, number] };
             for (place, number) in [left, at].into_iter().zip(swapped) {
                 if let Some(place) = order.get_mut(place) {
