@@ -34,7 +34,11 @@ impl<L: Lanes> Answer<L> for HitPacket<L> {
         spheres: Spheres<'_>,
         answers: &mut [Self],
     ) {
-        crate::nearest::<A, L>(token, rays, spheres, answers);
+        L::out_of_line(
+            token,
+            #[inline(always)]
+            || crate::nearest::<A, L>(token, rays, spheres, answers),
+        );
     }
 }
 
@@ -53,6 +57,10 @@ impl<L: Lanes> Answer<L> for u32 {
         spheres: Spheres<'_>,
         answers: &mut [Self],
     ) {
-        crate::any::<A, L>(token, rays, spheres, answers);
+        L::out_of_line(
+            token,
+            #[inline(always)]
+            || crate::any::<A, L>(token, rays, spheres, answers),
+        );
     }
 }

@@ -74,13 +74,15 @@ impl<L: Lanes> Member<L> {
     }
 
     /// Asks the tier about a sphere, of the rays `asked`.
+    ///
+    /// The call is here, and not where it is called from, so that the tier is compiled once for all
+    /// viewpoints and questions.
     #[inline(always)]
-    pub(super) fn meet<A: Accuracy, R: Answer<L>>(
-        &mut self,
+    pub(super) fn meet<A: Accuracy>(
+        &self,
         sphere: &Sphere,
         index: u32,
         asked: L::Mask,
-        slack: f32,
         hit: &mut HitPacket<L>,
     ) {
         // Another list than the order was made from may have anything there.
@@ -88,22 +90,27 @@ impl<L: Lanes> Member<L> {
             return;
         }
         let token = self.length.token();
-        let center = axes!(i => L::splat(token, sphere.center[i]));
-        let radius = L::splat(token, sphere.radius);
-        let limit = L::load(token, &hit.t);
-        let prepared = A::prepare(&self.rays);
-        let t = A::first_root(&self.rays, &prepared, center, radius, asked, limit);
-        let t = L::select(asked, t, t.like(f32::INFINITY));
-        let mut nearer = (t.le(limit) & t.lt(t.like(f32::INFINITY))).bits();
-        let t = t.store();
-        while nearer != 0 {
-            let lane = nearer.trailing_zeros() as usize;
-            nearer &= nearer - 1;
-            if let Some(&t) = t.as_ref().get(lane) {
-                take(hit, lane, t, index);
-            }
-        }
-        self.shorten::<R>(slack, hit);
+        L::out_of_line(
+            token,
+            #[inline(always)]
+            || {
+                let center = axes!(i => L::splat(token, sphere.center[i]));
+                let radius = L::splat(token, sphere.radius);
+                let limit = L::load(token, &hit.t);
+                let prepared = A::prepare(&self.rays);
+                let t = A::first_root(&self.rays, &prepared, center, radius, asked, limit);
+                let t = L::select(asked, t, t.like(f32::INFINITY));
+                let mut nearer = (t.le(limit) & t.lt(t.like(f32::INFINITY))).bits();
+                let t = t.store();
+                while nearer != 0 {
+                    let lane = nearer.trailing_zeros() as usize;
+                    nearer &= nearer - 1;
+                    if let Some(&t) = t.as_ref().get(lane) {
+                        take(hit, lane, t, index);
+                    }
+                }
+            },
+        );
     }
 
     /// Takes the hits so far as the ends of the rays.
