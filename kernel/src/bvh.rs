@@ -28,10 +28,14 @@
 //! sixteen has only leaves for children: nodes stand [`DEPTH`] deep at most, for 2^28, 2^25, ..
 //! 2^4 leaves.
 
+mod answers;
 mod bracket;
 mod build;
 mod bundle;
+mod candidates;
 mod frustum;
+mod join;
+mod member;
 mod order;
 mod ray_walk;
 pub(crate) mod resolve;
@@ -40,6 +44,7 @@ mod split;
 mod walk;
 
 pub use bundle::{any_coherent, nearest_coherent};
+pub use join::{InTurn, Join};
 pub use walk::{any, nearest};
 
 use crate::Spheres;
@@ -172,11 +177,26 @@ impl<'a> Bvh<'a> {
         nodes: &'a mut [BvhNode],
         leaves: &'a mut [BvhLeaf],
     ) -> Result<Self, TooSmall> {
+        Self::build_with(&InTurn, spheres, nodes, leaves)
+    }
+
+    /// [`Bvh::build`] with several pieces of work at once, on threads of the caller's: the same tree.
+    ///
+    /// Cost: with two threads some 0.6 of the time; never more than sixteen are of use.
+    ///
+    /// # Errors
+    /// As [`Bvh::build`].
+    pub fn build_with(
+        join: &impl Join,
+        spheres: Spheres<'_>,
+        nodes: &'a mut [BvhNode],
+        leaves: &'a mut [BvhLeaf],
+    ) -> Result<Self, TooSmall> {
         let needed = Self::needed(spheres.len());
         if nodes.len() < needed.nodes || leaves.len() < needed.leaves {
             return Err(TooSmall { needed });
         }
-        Ok(build::build(spheres, nodes, leaves))
+        Ok(build::build(join, spheres, nodes, leaves))
     }
 
     /// The memory that the tree takes: at most what was needed.

@@ -4,10 +4,14 @@
 //! every pass reads memory in order, and no other memory is needed. Cuts fall on multiples of
 //! sixteen, so a run is a run of leaves.
 
+use super::join::Join;
 use super::{BvhLeaf, WIDTH};
 
 /// How many slices a run is sorted into, an axis.
 const BINS: usize = 16;
+
+/// More leaves than these are counted by halves, which two threads can do.
+const WORTH_A_THREAD: usize = 1024;
 
 /// Up to how many leaves all cuts are compared.
 const EVERY_CUT: usize = 32;
@@ -52,8 +56,24 @@ impl Bounds {
         most: [f32::NEG_INFINITY; 3],
     };
 
-    /// Of `leaves` that hold `count` spheres; the box is rounded outward.
-    pub(super) fn of(leaves: &[BvhLeaf], count: usize) -> Self {
+    /// Of `leaves` that hold `count` spheres, by halves where they are many; the box is rounded
+    /// outward.
+    pub(super) fn of(join: &impl Join, leaves: &[BvhLeaf], count: usize) -> Self {
+        let Some((first, second)) = halves(leaves) else { return Self::here(leaves, count) };
+        let inside = first.len() * WIDTH;
+        let (first, second) =
+            join.join(|| Self::of(join, first, inside), || Self::of(join, second, count - inside));
+        let mut both = first;
+        for axis in 0..3 {
+            both.low[axis] = least(both.low[axis], second.low[axis]);
+            both.high[axis] = most(both.high[axis], second.high[axis]);
+            both.least[axis] = least(both.least[axis], second.least[axis]);
+            both.most[axis] = most(both.most[axis], second.most[axis]);
+        }
+        both
+    }
+
+    fn here(leaves: &[BvhLeaf], count: usize) -> Self {
         let mut bounds = Self::NONE;
         let (full, rest) = leaves.split_at(leaves.len().min(count / WIDTH));
         for axis in 0..3 {
@@ -153,6 +173,56 @@ impl Bin {
     }
 }
 
+/// Two halves, the first of full leaves, of what is worth a thread.
+fn halves(leaves: &[BvhLeaf]) -> Option<(&[BvhLeaf], &[BvhLeaf])> {
+    (leaves.len() > WORTH_A_THREAD).then(|| leaves.split_at(leaves.len() / 2))
+}
+
+/// Sorts the `count` spheres of `leaves` into slices, by halves where they are many.
+fn bins_of(
+    join: &impl Join,
+    leaves: &[BvhLeaf],
+    count: usize,
+    bounds: &Bounds,
+    scales: [f32; 3],
+) -> [[Bin; BINS]; 3] {
+    let Some((first, second)) = halves(leaves) else {
+        return bins_here(leaves, count, bounds, scales);
+    };
+    let inside = first.len() * WIDTH;
+    let (mut both, second) = join.join(
+        || bins_of(join, first, inside, bounds, scales),
+        || bins_of(join, second, count - inside, bounds, scales),
+    );
+    for (bins, others) in both.iter_mut().zip(&second) {
+        for (bin, other) in bins.iter_mut().zip(others) {
+            bin.grow(other.low, other.high, other.count);
+        }
+    }
+    both
+}
+
+fn bins_here(
+    leaves: &[BvhLeaf],
+    count: usize,
+    bounds: &Bounds,
+    scales: [f32; 3],
+) -> [[Bin; BINS]; 3] {
+    let mut bins = [[Bin::EMPTY; BINS]; 3];
+    for (place, leaf) in leaves.iter().enumerate() {
+        let lanes = (count - place * WIDTH).min(WIDTH);
+        for lane in 0..lanes {
+            let [x, y, z] = [leaf.center[0][lane], leaf.center[1][lane], leaf.center[2][lane]];
+            let r = leaf.radius[lane];
+            let (low, high) = ([x - r, y - r, z - r, 0.0], [x + r, y + r, z + r, 0.0]);
+            for (axis, center) in [x, y, z].into_iter().enumerate() {
+                bins[axis][bin_of(center, bounds.least[axis], scales[axis])].grow(low, high, 1);
+            }
+        }
+    }
+    bins
+}
+
 /// Where to cut: before sphere `at`, in the order along `axis`.
 struct Cut {
     axis: usize,
@@ -166,9 +236,9 @@ struct Cut {
 impl Run<'_> {
     /// Cuts the run where the heuristic says; answers with the leaves of the first part, at least
     /// one and fewer than all. The run has two leaves or more.
-    pub(super) fn split(&mut self, bounds: &Bounds) -> usize {
+    pub(super) fn split(&mut self, join: &impl Join, bounds: &Bounds) -> usize {
         let scales = bounds.scales();
-        match self.best_cut(bounds, scales) {
+        match self.best_cut(join, bounds, scales) {
             Some(cut) => {
                 let (least, scale) = (bounds.least[cut.axis], scales[cut.axis]);
                 let before = self.gather(0, self.count, |leaf, lane| {
@@ -196,19 +266,8 @@ impl Run<'_> {
 
     /// The cheapest cut between slices, moved to a multiple of sixteen; none where all centres
     /// coincide, or nearly.
-    fn best_cut(&self, bounds: &Bounds, scales: [f32; 3]) -> Option<Cut> {
-        let mut bins = [[Bin::EMPTY; BINS]; 3];
-        for (place, leaf) in self.leaves.iter().enumerate() {
-            let lanes = (self.count - place * WIDTH).min(WIDTH);
-            for lane in 0..lanes {
-                let [x, y, z] = [leaf.center[0][lane], leaf.center[1][lane], leaf.center[2][lane]];
-                let r = leaf.radius[lane];
-                let (low, high) = ([x - r, y - r, z - r, 0.0], [x + r, y + r, z + r, 0.0]);
-                for (axis, center) in [x, y, z].into_iter().enumerate() {
-                    bins[axis][bin_of(center, bounds.least[axis], scales[axis])].grow(low, high, 1);
-                }
-            }
-        }
+    fn best_cut(&self, join: &impl Join, bounds: &Bounds, scales: [f32; 3]) -> Option<Cut> {
+        let bins = bins_of(join, self.leaves, self.count, bounds, scales);
         let mut best = None;
         let mut least_cost = f32::INFINITY;
         for (axis, bins) in bins.iter().enumerate() {

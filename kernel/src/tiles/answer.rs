@@ -34,11 +34,7 @@ impl<L: Lanes> Answer<L> for HitPacket<L> {
         spheres: Spheres<'_>,
         answers: &mut [Self],
     ) {
-        L::out_of_line(
-            token,
-            #[inline(always)]
-            || crate::nearest::<A, L>(token, rays, spheres, answers),
-        );
+        crate::nearest::<A, L>(token, rays, spheres, answers);
     }
 }
 
@@ -57,10 +53,6 @@ impl<L: Lanes> Answer<L> for u32 {
         spheres: Spheres<'_>,
         answers: &mut [Self],
     ) {
-        L::out_of_line(
-            token,
-            #[inline(always)]
-            || crate::any::<A, L>(token, rays, spheres, answers),
-        );
+        crate::any::<A, L>(token, rays, spheres, answers);
     }
 }

@@ -4,9 +4,9 @@ use super::answer::Answer;
 use super::view::View;
 use crate::accuracy::RayLanes;
 use crate::axes::{axes, dot};
-use crate::bvh::resolve::take;
+use crate::bvh::resolve::ask;
 use crate::bvh::slabs::{LONGEST, raised};
-use crate::{Accuracy, HitPacket, LaneMask, Lanes, RayPacket, Sphere};
+use crate::{Accuracy, Hit, HitPacket, LaneMask, Lanes, RayPacket, Sphere};
 
 /// A packet of a group: its rays with directions of unit length.
 #[derive(Clone, Copy)]
@@ -74,9 +74,6 @@ impl<L: Lanes> Member<L> {
     }
 
     /// Asks the tier about a sphere, of the rays `asked`.
-    ///
-    /// The call is here, and not where it is called from, so that the tier is compiled once for all
-    /// viewpoints and questions.
     #[inline(always)]
     pub(super) fn meet<A: Accuracy>(
         &self,
@@ -90,27 +87,19 @@ impl<L: Lanes> Member<L> {
             return;
         }
         let token = self.length.token();
-        L::out_of_line(
-            token,
-            #[inline(always)]
-            || {
-                let center = axes!(i => L::splat(token, sphere.center[i]));
-                let radius = L::splat(token, sphere.radius);
-                let limit = L::load(token, &hit.t);
-                let prepared = A::prepare(&self.rays);
-                let t = A::first_root(&self.rays, &prepared, center, radius, asked, limit);
-                let t = L::select(asked, t, t.like(f32::INFINITY));
-                let mut nearer = (t.le(limit) & t.lt(t.like(f32::INFINITY))).bits();
-                let t = t.store();
-                while nearer != 0 {
-                    let lane = nearer.trailing_zeros() as usize;
-                    nearer &= nearer - 1;
-                    if let Some(&t) = t.as_ref().get(lane) {
-                        take(hit, lane, t, index);
-                    }
-                }
-            },
-        );
+        let center = axes!(i => L::splat(token, sphere.center[i]));
+        let radius = L::splat(token, sphere.radius);
+        let limit = L::load(token, &hit.t);
+        let t = ask::<A, L>(&self.rays, center, radius, asked, limit);
+        let mut nearer = (t.le(limit) & t.lt(t.like(f32::INFINITY))).bits();
+        let t = t.store();
+        while nearer != 0 {
+            let lane = nearer.trailing_zeros() as usize;
+            nearer &= nearer - 1;
+            if let Some(&t) = t.as_ref().get(lane) {
+                hit.take(lane, Hit { t, sphere: index });
+            }
+        }
     }
 
     /// Takes the hits so far as the ends of the rays.
