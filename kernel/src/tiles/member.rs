@@ -75,12 +75,11 @@ impl<L: Lanes> Member<L> {
 
     /// Asks the tier about a sphere, of the rays `asked`.
     #[inline(always)]
-    pub(super) fn meet<A: Accuracy, R: Answer<L>>(
-        &mut self,
+    pub(super) fn meet<A: Accuracy>(
+        &self,
         sphere: &Sphere,
         index: u32,
         asked: L::Mask,
-        slack: f32,
         hit: &mut HitPacket<L>,
     ) {
         // Another list than the order was made from may have anything there.
@@ -101,7 +100,6 @@ impl<L: Lanes> Member<L> {
                 hit.take(lane, Hit { t, sphere: index });
             }
         }
-        self.shorten::<R>(slack, hit);
     }
 
     /// Takes the hits so far as the ends of the rays.
