@@ -12,6 +12,36 @@ use crate::{
 };
 use fearless_simd::{Simd, f32x16};
 
+/// Does `work` in a function that is compiled for `level`, with its token: of the levels of x86
+/// those that have a [`LevelName`](super::LevelName), since one more is a quarter more to compile.
+macro_rules! at_level {
+    ($level:expr, $simd:ident => $work:expr) => {
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        {
+            if let Some($simd) = $level.as_avx512() {
+                return $simd.vectorize(
+                    #[inline(always)]
+                    || $work,
+                );
+            }
+            if let Some($simd) = $level.as_avx2() {
+                return $simd.vectorize(
+                    #[inline(always)]
+                    || $work,
+                );
+            }
+            if let Some($simd) = $level.as_sse2() {
+                return $simd.vectorize(
+                    #[inline(always)]
+                    || $work,
+                );
+            }
+        }
+        #[cfg(not(all(any(target_arch = "x86", target_arch = "x86_64"), target_feature = "sse2")))]
+        fearless_simd::dispatch!($level, $simd => $work);
+    };
+}
+
 /// A trait of functions at a level, and its implementation for every tier by functions that are
 /// generic over tier and lanes.
 macro_rules! compiled {
@@ -33,7 +63,7 @@ macro_rules! compiled {
                     fn at<S: Simd>(simd: S, $($argument: $type),*) {
                         $($walk)::+::<$tier, f32x16<S>>(simd, $($argument),*);
                     }
-                    fearless_simd::dispatch!(level.0, simd => at(simd, $($argument),*));
+                    at_level!(level.0, simd => at(simd, $($argument),*));
                 }
             )*
         }
