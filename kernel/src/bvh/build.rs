@@ -259,7 +259,8 @@ fn children(
     whole: Part,
 ) -> ([Part; WIDTH], usize) {
     let mut parts = [whole; WIDTH];
-    let longest = whole.leaves.div_ceil(8);
+    // At least one: nothing divides by zero.
+    let longest = whole.leaves.div_ceil(8).max(1);
     let wanted = |part: &Part| part.leaves.div_ceil(longest) - 1;
     for number in 1..WIDTH {
         let (made, rest) = parts.split_at_mut(number);

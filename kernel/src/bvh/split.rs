@@ -35,16 +35,18 @@ impl Run<'_> {
         let scales = bounds.scales();
         match self.best_cut(join, bounds, scales) {
             Some(cut) => {
-                let (least, scale) = (bounds.least[cut.axis], scales[cut.axis]);
+                // Of three, as a mask that the compiler sees.
+                let axis = cut.axis % 3;
+                let (least, scale) = (bounds.least[axis], scales[axis]);
                 let before = self.gather(0, self.count, |leaf, lane| {
-                    bin_of(leaf.center[cut.axis][lane], least, scale) < cut.bin
+                    bin_of(leaf.center[axis][lane], least, scale) < cut.bin
                 });
                 debug_assert_eq!(before, cut.before, "counted and gathered alike");
                 if before < cut.at && cut.at < before + cut.inside {
                     let end = self.gather(before, self.count, |leaf, lane| {
-                        bin_of(leaf.center[cut.axis][lane], least, scale) == cut.bin
+                        bin_of(leaf.center[axis][lane], least, scale) == cut.bin
                     });
-                    self.order_about(cut.at, before, end, cut.axis);
+                    self.order_about(cut.at, before, end, axis);
                 }
                 cut.at / WIDTH
             }
@@ -113,7 +115,7 @@ impl Run<'_> {
         }
         let (axis, at) = best?;
         let mut before = 0;
-        for (bin, Bin { count, .. }) in bins[axis].iter().enumerate() {
+        for (bin, Bin { count, .. }) in bins[axis % 3].iter().enumerate() {
             if at <= before + count {
                 return Some(Cut { axis, at, bin, before, inside: *count });
             }
