@@ -85,7 +85,10 @@ impl Run<'_> {
                 *area = all.half_area();
             }
             let mut before = 0;
-            for (bin, Bin { count: inside, .. }) in bins.iter().enumerate() {
+            // Pairs, so that the compiler sees that no index is out of bounds.
+            let areas = left.windows(2).zip(right.windows(2));
+            for (Bin { count: inside, .. }, areas) in bins.iter().zip(areas) {
+                let (&[left, left_with], &[right_with, right]) = areas else { continue };
                 if *inside == 0 {
                     continue;
                 }
@@ -100,8 +103,8 @@ impl Run<'_> {
                 while at <= last {
                     if at > 0 && at < self.count {
                         let share = (at - before.min(at)) as f32 / *inside as f32;
-                        let first = left[bin] + share * (left[bin + 1] - left[bin]);
-                        let second = right[bin] + share * (right[bin + 1] - right[bin]);
+                        let first = left + share * (left_with - left);
+                        let second = right_with + share * (right - right_with);
                         let cost = first * at as f32 + second * (self.count - at) as f32;
                         if cost < least_cost {
                             least_cost = cost;
