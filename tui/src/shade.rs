@@ -10,7 +10,8 @@ pub use surface::SurfacePoint;
 
 use crate::picture::Picture;
 use crate::scene::Scene;
-use spherule_kernel::dispatch::{Level, Packet, any};
+use crate::structure::{RaysKind, Search};
+use spherule_kernel::dispatch::{Level, Packet};
 use spherule_kernel::{Accuracy, Lanes, Ray, RayPacket, Vec3};
 
 /// How much of a surface's colour is seen where no light reaches it.
@@ -66,6 +67,7 @@ impl Shader {
         &mut self,
         level: Level,
         scene: &Scene,
+        search: &Search<'_>,
         picture: &mut Picture,
     ) -> u64 {
         for shaded in &self.shaded {
@@ -83,7 +85,7 @@ impl Shader {
                     picture.add(shaded.pixel as usize, received);
                 }
             }
-            shadow_rays += self.shadows.cast::<A>(level, scene, picture);
+            shadow_rays += self.shadows.cast::<A>(level, search, picture);
         }
         self.shaded.clear();
         shadow_rays
@@ -105,10 +107,15 @@ impl Shadows {
     }
 
     /// Traces the rays, adds what those bring that nothing stops, and returns how many they were.
-    fn cast<A: Accuracy>(&mut self, level: Level, scene: &Scene, picture: &mut Picture) -> u64 {
+    fn cast<A: Accuracy>(
+        &mut self,
+        level: Level,
+        search: &Search<'_>,
+        picture: &mut Picture,
+    ) -> u64 {
         self.met.clear();
         self.met.resize(self.rays.len(), 0);
-        any::<A>(level, &self.rays, scene.spheres(), &mut self.met);
+        search.any::<A>(level, RaysKind::Coherent, &self.rays, &mut self.met);
         for (index, &(pixel, received)) in self.waiting.iter().enumerate() {
             if self.met[index / Packet::COUNT] >> (index % Packet::COUNT) & 1 == 0 {
                 picture.add(pixel as usize, received);

@@ -1,0 +1,61 @@
+//! Which structure is likely the fastest.
+//!
+//! # Method
+//!
+//! A model of the costs, in units of one test of brute force, a ray against a sphere: brute force
+//! costs rays x spheres; a tree costs a build, by the sphere, and a walk, by the ray. The walk
+//! grows by the logarithm of the number of spheres, which is left out: where that matters, brute
+//! force is out of the question. What is cheapest is chosen.
+
+use super::{RaysKind, Structure};
+
+/// What is to be asked of the spheres, before there are others.
+#[derive(Clone, Copy, Debug)]
+pub struct Workload {
+    /// Rays a picture.
+    pub rays: usize,
+    /// Pictures: infinitely many in the viewer.
+    pub pictures: f64,
+    /// What the rays have in common.
+    pub kind: RaysKind,
+}
+
+/// Tests that a sphere in a tree is worth: its part of the build.
+const BUILD: f64 = 1500.0;
+/// Tests that a walk of a tree is worth, to a coherent ray and to another one.
+const WALK: [f64; 2] = [40.0, 200.0];
+
+/// The structure that costs the least for `workload` against so many spheres.
+#[must_use]
+pub fn choose(spheres: usize, workload: &Workload) -> Structure {
+    let (rays, spheres) = (workload.rays as f64, spheres as f64);
+    let walk = match workload.kind {
+        RaysKind::Coherent => WALK[0],
+        RaysKind::Incoherent => WALK[1],
+    };
+    let brute = rays * spheres;
+    let tree = rays * walk + spheres * BUILD / workload.pictures;
+    if tree < brute { Structure::Bvh } else { Structure::Brute }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn chosen(spheres: usize, rays: usize, pictures: f64, kind: RaysKind) -> Structure {
+        choose(spheres, &Workload { rays, pictures, kind })
+    }
+
+    #[test]
+    fn few_spheres_and_few_rays_need_no_tree() {
+        use RaysKind::{Coherent, Incoherent};
+        for kind in [Coherent, Incoherent] {
+            assert_eq!(chosen(0, 0, 1.0, kind), Structure::Brute);
+            assert_eq!(chosen(1, usize::MAX, f64::INFINITY, kind), Structure::Brute);
+            assert_eq!(chosen(1_000_000, 100, 1.0, kind), Structure::Brute);
+            assert_eq!(chosen(1_000_000, 100, f64::INFINITY, kind), Structure::Bvh);
+            assert_eq!(chosen(1_000_000, 7680, 1.0, kind), Structure::Bvh);
+            assert_eq!(chosen(10_000, 1_000_000, 1.0, kind), Structure::Bvh);
+        }
+    }
+}
