@@ -34,8 +34,8 @@ mod bundle;
 mod frustum;
 mod order;
 mod ray_walk;
-mod resolve;
-mod slabs;
+pub(crate) mod resolve;
+pub(crate) mod slabs;
 mod split;
 mod walk;
 

@@ -6,6 +6,7 @@
 //! answer are the same at every level, and the same as those of the lanes of `wide`.
 
 pub mod bvh;
+pub mod tiles;
 
 use crate::{
     Accuracy, HitPacket, RayPacket, SpherePacket, Spheres, any as any_in_lanes,

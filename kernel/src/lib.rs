@@ -20,6 +20,7 @@ mod ray;
 mod search;
 mod sphere;
 mod stages;
+pub mod tiles;
 
 pub use accuracy::{Accuracy, Exact, Fast, Stable};
 pub use bvh::{Bvh, BvhLeaf, BvhNode, BvhSize};
@@ -34,4 +35,5 @@ pub use lanes::{DoubleLanes, LaneArray, LaneMask, Lanes};
 pub use ray::{Ray, RayArrays, RayPacket};
 pub use sphere::{Sphere, SphereArrays, SpherePacket, Spheres, SpheresError};
 pub use stages::{Question, Stages, stages};
+pub use tiles::{DepthOrder, Viewpoint};
 pub use wide::{f32x4, f32x8, f32x16};

@@ -123,7 +123,7 @@ impl<L: Lanes> Asked<L> {
 
 /// Takes a hit that is nearer, or as near and of a lower index.
 #[inline(always)]
-pub(super) fn take<A: LaneArray>(hits: &mut HitArrays<A>, lane: usize, t: f32, index: u32) {
+pub(crate) fn take<A: LaneArray>(hits: &mut HitArrays<A>, lane: usize, t: f32, index: u32) {
     if let (Some(best), Some(sphere)) =
         (hits.t.as_mut().get_mut(lane), hits.sphere.as_mut().get_mut(lane))
         && (t < *best || (t == *best && index < *sphere))

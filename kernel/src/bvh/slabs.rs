@@ -51,13 +51,13 @@ use crate::axes::{axes, dot};
 use crate::{Accuracy, Lanes};
 
 /// u.
-pub(super) const U: f32 = f32::EPSILON / 2.0;
+pub(crate) const U: f32 = f32::EPSILON / 2.0;
 /// 2^-60: the least component of a direction.
 const LEAST_COMPONENT: f32 = 1.0 / (1_073_741_824.0 * 1_073_741_824.0);
 /// 2^-80: what is added for underflow.
 pub(super) const LEAST_PAD: f32 = LEAST_COMPONENT / 1_048_576.0;
 /// 2^100: above it, or below its inverse, a squared direction is not judged.
-const LONGEST: f32 = super::LARGEST * super::LARGEST * 1_048_576.0;
+pub(crate) const LONGEST: f32 = super::LARGEST * super::LARGEST * 1_048_576.0;
 
 /// The rays of a packet, ready to be walked one by one.
 #[derive(Clone, Copy, Debug)]
@@ -124,7 +124,7 @@ impl<L: Lanes> Slabs<L> {
 
 /// At least s, for `s` that was made of a t: see above.
 #[inline(always)]
-pub(super) fn raised<L: Lanes>(s: L) -> L {
+pub(crate) fn raised<L: Lanes>(s: L) -> L {
     let (more, less) = (s * s.like(1.0 + 8.0 * U), s * s.like(1.0 - 8.0 * U));
     more.filter_max(less) + s.like(LEAST_PAD)
 }
