@@ -28,6 +28,17 @@ impl Random {
         low + unit * (high - low)
     }
 
+    /// Uniform in `0 .. 1`, on a grid of 2^-53.
+    pub fn unit(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// Normal, of mean 0 and variance 1 (Box and Muller).
+    pub fn normal(&mut self) -> f64 {
+        let (radius, angle) = (1.0 - self.unit(), self.unit() * core::f64::consts::TAU);
+        (-2.0 * radius.ln()).sqrt() * angle.cos()
+    }
+
     /// Uniform in a cube around the origin, `half` from the centre to a side.
     pub fn in_cube(&mut self, half: f32) -> Vec3 {
         Vec3::from_array([(); 3].map(|()| self.between(-half, half)))

@@ -5,11 +5,13 @@
 //! within a round; the quartiles beside it say how far to trust it.
 
 use rustix::time::{ClockId, clock_gettime};
+use std::ops::RangeInclusive;
+use std::time::{Duration, Instant};
 
-/// Something to time: a name, and a closure that does some work and answers how much.
+/// Something to time: a name, and what takes a sample of nanoseconds a unit of work.
 pub struct Subject<'a> {
     name: String,
-    run: Box<dyn FnMut() -> usize + 'a>,
+    sample: Box<dyn FnMut() -> f64 + 'a>,
 }
 
 impl core::fmt::Debug for Subject<'_> {
@@ -19,9 +21,18 @@ impl core::fmt::Debug for Subject<'_> {
 }
 
 impl<'a> Subject<'a> {
-    /// A subject; `run` answers how many units of work it did.
-    pub fn new(name: impl Into<String>, run: impl FnMut() -> usize + 'a) -> Self {
-        Self { name: name.into(), run: Box::new(run) }
+    /// A subject; `run` does some work, is timed, and answers how many units of work that was.
+    pub fn new(name: impl Into<String>, mut run: impl FnMut() -> usize + 'a) -> Self {
+        Self::timing_itself(name, move || {
+            let start = busy();
+            let units = run();
+            (busy() - start) / units as f64
+        })
+    }
+
+    /// A subject of whose work not all is to be timed; `sample` answers nanoseconds a unit.
+    pub fn timing_itself(name: impl Into<String>, sample: impl FnMut() -> f64 + 'a) -> Self {
+        Self { name: name.into(), sample: Box::new(sample) }
     }
 }
 
@@ -45,28 +56,49 @@ pub struct Median {
 
 /// Times every subject once a round, after one round that is thrown away.
 pub fn take(subjects: &mut [Subject<'_>], rounds: usize) -> Samples {
-    let mut by_subject = vec![Vec::with_capacity(rounds); subjects.len()];
-    for round in 0..=rounds {
-        for (subject, samples) in subjects.iter_mut().zip(&mut by_subject) {
-            let start = busy();
-            let units = (subject.run)();
-            let elapsed = busy() - start;
-            if round > 0 {
-                samples.push(elapsed / units as f64);
-            }
-        }
+    take_within(subjects, Duration::MAX, rounds..=rounds)
+}
+
+/// The same, with as many rounds as fit into `time`, by what the first one took, of those allowed.
+pub fn take_within(
+    subjects: &mut [Subject<'_>],
+    time: Duration,
+    rounds: RangeInclusive<usize>,
+) -> Samples {
+    let mut round =
+        || -> Vec<f64> { subjects.iter_mut().map(|subject| (subject.sample)()).collect() };
+    let start = Instant::now();
+    round();
+    let fit = (time.as_secs_f64() / start.elapsed().as_secs_f64()) as usize;
+    let rounds = fit.clamp(*rounds.start(), *rounds.end());
+    let by_round: Vec<_> = (0..rounds).map(|_| round()).collect();
+    let of_subject = |index: usize| by_round.iter().map(|round| round[index]).collect();
+    Samples {
+        names: subjects.iter().map(|subject| subject.name.clone()).collect(),
+        by_subject: (0..subjects.len()).map(of_subject).collect(),
     }
-    Samples { names: subjects.iter().map(|subject| subject.name.clone()).collect(), by_subject }
 }
 
 /// For how many nanoseconds this thread has had a CPU.
 #[must_use]
 pub fn busy() -> f64 {
+    busy_nanoseconds() as f64
+}
+
+/// The same, whole.
+#[must_use]
+pub fn busy_nanoseconds() -> u64 {
     let time = clock_gettime(ClockId::ThreadCPUTime);
-    time.tv_sec as f64 * 1e9 + time.tv_nsec as f64
+    time.tv_sec as u64 * 1_000_000_000 + time.tv_nsec as u64
 }
 
 impl Samples {
+    /// How often every subject was timed.
+    #[must_use]
+    pub fn rounds(&self) -> usize {
+        self.by_subject.first().map_or(0, Vec::len)
+    }
+
     /// Every sample of a subject.
     ///
     /// # Panics
@@ -128,5 +160,8 @@ mod tests {
         assert_eq!(*order.borrow(), ["a", "b", "a", "b", "a", "b"]);
         assert_eq!(samples.of("a").len(), 2);
         assert!(samples.least("b") <= samples.median("b").middle);
+        let mut sleeper = [Subject::timing_itself("c", || 1.0)];
+        assert_eq!(take_within(&mut sleeper, Duration::ZERO, 3..=9).rounds(), 3);
+        assert_eq!(take_within(&mut sleeper, Duration::MAX, 3..=9).rounds(), 9);
     }
 }

@@ -135,6 +135,14 @@ impl Cloud {
         cloud
     }
 
+    /// The spheres of a list.
+    #[must_use]
+    pub fn of(list: &[Sphere]) -> Self {
+        let axis = |axis: usize| list.iter().map(|sphere| sphere.center[axis]).collect();
+        let r = list.iter().map(|sphere| sphere.radius).collect();
+        Self { x: axis(0), y: axis(1), z: axis(2), r }
+    }
+
     /// As the kernel reads them.
     ///
     /// # Panics

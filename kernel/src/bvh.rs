@@ -8,7 +8,8 @@
 //! the surface area heuristic (Wald 2007: sixteen bins an axis), and cuts at multiples of sixteen
 //! spheres only: then every leaf but the last is full, and the memory needed is known before.
 //! [`nearest`] and [`any`] walk the tree ray by ray, which is the way for rays that have nothing in
-//! common.
+//! common; [`nearest_coherent`] and [`any_coherent`] let packets that look the same way go down
+//! together, which is the way for the rays of a camera and of shadows.
 //!
 //! # What is guaranteed
 //!
@@ -28,18 +29,27 @@
 //! sixteen has only leaves for children: nodes stand [`DEPTH`] deep at most, for 2^28, 2^25, ..
 //! 2^4 leaves.
 
+mod answers;
+mod bins;
+mod bounds;
 mod bracket;
 mod build;
 mod bundle;
+mod candidates;
+mod course;
 mod frustum;
+mod join;
+mod member;
 mod order;
 mod ray_walk;
 pub(crate) mod resolve;
 pub(crate) mod slabs;
 mod split;
+mod stack;
 mod walk;
 
 pub use bundle::{any_coherent, nearest_coherent};
+pub use join::{InTurn, Join};
 pub use walk::{any, nearest};
 
 use crate::Spheres;
@@ -119,7 +129,7 @@ impl fmt::Display for TooSmall {
 
 impl core::error::Error for TooSmall {}
 
-/// A tree over a list of spheres, for [`nearest`] and [`any`].
+/// A tree over a list of spheres, for [`nearest`] and its companions.
 ///
 /// It holds copies of the spheres. Walked with another list than it was built from, it is memory
 /// safe and does not panic: with one of another length it is not used at all (every ray is tested
@@ -172,11 +182,26 @@ impl<'a> Bvh<'a> {
         nodes: &'a mut [BvhNode],
         leaves: &'a mut [BvhLeaf],
     ) -> Result<Self, TooSmall> {
+        Self::build_with(&InTurn, spheres, nodes, leaves)
+    }
+
+    /// [`Bvh::build`] with several pieces of work at once, on threads of the caller's: the same tree.
+    ///
+    /// Cost: with two threads some 0.6 of the time; never more than sixteen are of use.
+    ///
+    /// # Errors
+    /// As [`Bvh::build`].
+    pub fn build_with(
+        join: &impl Join,
+        spheres: Spheres<'_>,
+        nodes: &'a mut [BvhNode],
+        leaves: &'a mut [BvhLeaf],
+    ) -> Result<Self, TooSmall> {
         let needed = Self::needed(spheres.len());
         if nodes.len() < needed.nodes || leaves.len() < needed.leaves {
             return Err(TooSmall { needed });
         }
-        Ok(build::build(spheres, nodes, leaves))
+        Ok(build::build(join, spheres, nodes, leaves))
     }
 
     /// The memory that the tree takes: at most what was needed.

@@ -36,6 +36,18 @@ impl<A: LaneArray> HitArrays<A> {
         packet
     }
 
+    /// Takes a hit in `lane` that is nearer than what is known, or as near and of a lower index.
+    #[inline(always)]
+    pub(crate) fn take(&mut self, lane: usize, hit: Hit) {
+        if let (Some(t), Some(sphere)) =
+            (self.t.as_mut().get_mut(lane), self.sphere.as_mut().get_mut(lane))
+            && (hit.t < *t || (hit.t == *t && hit.sphere < *sphere))
+        {
+            *t = hit.t;
+            *sphere = hit.sphere;
+        }
+    }
+
     /// The `t` of every lane; `+inf` where nothing was hit.
     #[must_use]
     pub fn t(&self) -> &[f32] {

@@ -27,6 +27,21 @@ pub fn nearest<A: Accuracy, L: Lanes>(
     spheres: Spheres<'_>,
     hits: &mut [HitPacket<L>],
 ) {
+    L::out_of_line(
+        token,
+        #[inline(always)]
+        || nearest_here::<A, L>(token, rays, &spheres, hits),
+    );
+}
+
+/// [`nearest`], compiled into its caller.
+#[inline(always)]
+fn nearest_here<A: Accuracy, L: Lanes>(
+    token: L::Token,
+    rays: &[RayPacket<L>],
+    spheres: &Spheres<'_>,
+    hits: &mut [HitPacket<L>],
+) {
     for hit in hits.iter_mut().take(rays.len()) {
         *hit = HitPacket::<L>::none();
     }
@@ -34,9 +49,9 @@ pub fn nearest<A: Accuracy, L: Lanes>(
         token,
         rays,
         hits,
-        &spheres,
+        spheres,
         #[inline(always)]
-        |_| lanes_of_bits::<L>(token, 0),
+        |_| L::mask(token, 0),
         #[inline(always)]
         |hit, candidates| nearest_in_group::<A, L>(token, candidates, hit),
     );
@@ -53,6 +68,21 @@ pub fn any<A: Accuracy, L: Lanes>(
     spheres: Spheres<'_>,
     met: &mut [u32],
 ) {
+    L::out_of_line(
+        token,
+        #[inline(always)]
+        || any_here::<A, L>(token, rays, &spheres, met),
+    );
+}
+
+/// [`any`], compiled into its caller.
+#[inline(always)]
+fn any_here<A: Accuracy, L: Lanes>(
+    token: L::Token,
+    rays: &[RayPacket<L>],
+    spheres: &Spheres<'_>,
+    met: &mut [u32],
+) {
     for bits in met.iter_mut().take(rays.len()) {
         *bits = 0;
     }
@@ -60,9 +90,9 @@ pub fn any<A: Accuracy, L: Lanes>(
         token,
         rays,
         met,
-        &spheres,
+        spheres,
         #[inline(always)]
-        |bits| lanes_of_bits::<L>(token, *bits),
+        |bits| L::mask(token, *bits),
         #[inline(always)]
         |bits, candidates| any_in_group::<A, L>(token, candidates, bits),
     );
@@ -161,16 +191,6 @@ pub(crate) fn for_candidates<L: Lanes, R>(
             }
         }
     }
-}
-
-/// The lanes whose bit is set.
-#[inline(always)]
-pub(crate) fn lanes_of_bits<L: Lanes>(token: L::Token, bits: u32) -> L::Mask {
-    let mut marks = L::Array::default();
-    for (lane, mark) in marks.as_mut().iter_mut().enumerate() {
-        *mark = if bits >> lane & 1 == 1 { 1.0 } else { 0.0 };
-    }
-    L::splat(token, 0.0).lt(L::load(token, &marks))
 }
 
 /// Calls `met` with every sphere of the group that the filter does not rule out by itself: its

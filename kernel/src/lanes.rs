@@ -79,11 +79,40 @@ pub trait Lanes:
     fn lt(self, other: Self) -> Self::Mask;
     /// `self <= other`.
     fn le(self, other: Self) -> Self::Mask;
+    /// True in the lanes whose bit is set.
+    #[inline(always)]
+    fn mask(token: Self::Token, bits: u32) -> Self::Mask {
+        let mut marks = Self::Array::default();
+        for (lane, mark) in marks.as_mut().iter_mut().enumerate() {
+            *mark = if bits >> lane & 1 == 1 { 1.0 } else { 0.0 };
+        }
+        Self::splat(token, 0.0).lt(Self::load(token, &marks))
+    }
     /// `yes` where `mask` is true, else `no`.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
     /// The lanes in which `mask` is true, in their order, from the first lane on; what the lanes
     /// behind them hold is not said.
     fn compress(self, mask: Self::Mask) -> Self;
+    /// The largest lane; any lane where one is NaN: for filters.
+    #[inline(always)]
+    fn filter_greatest(self) -> f32 {
+        let mut array = self.store();
+        let lanes = array.as_mut();
+        let mut half = Self::COUNT / 2;
+        while half > 0 {
+            let (low, high) = lanes.split_at_mut(half.min(lanes.len()));
+            for (one, other) in low.iter_mut().zip(high) {
+                if *one < *other {
+                    *one = *other;
+                }
+            }
+            half /= 2;
+        }
+        match lanes.first() {
+            Some(greatest) => *greatest,
+            None => f32::NAN,
+        }
+    }
     /// Lanes `part * DoubleLanes::COUNT ..` in double precision, exactly.
     ///
     /// `part` counts from zero to [`Lanes::PARTS`]; past it, any part.

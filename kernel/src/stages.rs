@@ -6,7 +6,7 @@
 
 use crate::axes::axes;
 use crate::filter::GROUP;
-use crate::intersect::{Candidates, any_in_group, for_candidates, lanes_of_bits, nearest_in_group};
+use crate::intersect::{Candidates, any_in_group, for_candidates, nearest_in_group};
 use crate::{Exact, HitPacket, LaneMask, Lanes, RayPacket, Spheres};
 use core::ops::AddAssign;
 
@@ -60,7 +60,7 @@ pub fn stages<L: Lanes>(
             core::slice::from_ref(packet),
             &mut walk,
             &spheres,
-            |walk| lanes_of_bits::<L>(token, walk.met),
+            |walk| L::mask(token, walk.met),
             |walk, candidates| {
                 walk.count(token, candidates, question);
                 match question {

@@ -14,6 +14,7 @@
 //! | [`measured`] | cases of the regimes in which error is measured |
 //! | [`budget`] | the one table of what each tier gets wrong, and where |
 //! | [`doors`] | every tier in every lane width, as plain functions |
+//! | [`tree_ways`] | every way through a tree, as plain functions |
 //! | [`vectors`] | the 100,000 hard cases that lie beside the workspace, where they do |
 //!
 //! `PROPTEST_CASES=100000 cargo test -p spherule-tests` looks longer for counterexamples;
@@ -32,6 +33,7 @@ pub mod oracle;
 pub mod random;
 pub mod regimes;
 pub mod tally;
+pub mod tree_ways;
 pub mod ulp;
 pub mod vectors;
 pub mod widths;

@@ -41,7 +41,7 @@ use crate::{Accuracy, LaneMask, Lanes};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bracket<L: Lanes> {
     /// Which spheres may be hit in the interval.
-    pub(super) candidates: u32,
+    pub(super) candidates: L::Mask,
     /// No answer is below.
     pub(super) entry: L,
     /// Some answer is not above; `+inf` where none is sure.
@@ -74,45 +74,27 @@ impl<L: Lanes> Probe<L> {
     /// Which spheres of part `part` of a leaf may be hit, as far as can be told without a root.
     #[inline(always)]
     pub(super) fn may_meet<A: Accuracy>(&self, leaf: &BvhLeaf, part: usize) -> u32 {
-        let passed = Passed::new::<A>(self, leaf, part);
-        let Passed { middle, reach, ll, most, .. } = passed;
-        let near_enough = ll.le(most);
-        let candidates = if A::SPREAD > 0.0 {
-            near_enough
-        } else {
-            near_enough & (middle - reach).le(self.end[1]) & self.start[0].le(middle + reach)
-        };
-        candidates.bits()
+        self.passed::<A>(leaf, part).may_meet::<A>(self.start[0], self.end[1]).bits()
+    }
+
+    #[inline(always)]
+    fn passed<A: Accuracy>(&self, leaf: &BvhLeaf, part: usize) -> Passed<L> {
+        let token = self.origin[0].token();
+        let center = axes!(i => part_of::<L>(token, &leaf.center[i], part));
+        let radius = part_of::<L>(token, &leaf.radius, part);
+        Passed::new::<A>(self.origin, self.direction, center, radius)
     }
 
     /// Between which s the spheres of part `part` of a leaf are hit.
     #[inline(always)]
     pub(super) fn meet<A: Accuracy>(&self, leaf: &BvhLeaf, part: usize) -> Bracket<L> {
-        let Passed { middle, radius, delta, ll, most, .. } = Passed::new::<A>(self, leaf, part);
-        let zero = radius.like(0.0);
-        let rr = radius * radius;
-        let slack = most - rr;
-        let left = rr - ll;
-        let long = (left + slack).filter_max(zero).sqrt() + delta;
-        let sure = left - slack;
-        let short = sure.filter_max(zero).sqrt() - delta;
-        // The near root lies in [entry, entered], the far one in [leaving, left].
-        let (entry, entered) = (middle - long, middle - short);
-        let (leaving, left) = (middle + short, middle + long);
-
-        let candidates =
-            ll.le(most) & zero.le(radius) & entry.le(self.end[1]) & self.start[0].le(left);
-        let hit = zero.lt(sure);
-        let near = hit & self.start[1].le(entry) & entered.le(self.end[0]);
-        let far = hit & self.start[1].le(leaving) & left.le(self.end[0]);
-        let infinity = radius.like(f32::INFINITY);
-        let bound = L::select(near, entered, L::select(far, left, infinity));
-        Bracket { candidates: candidates.bits(), entry, bound }
+        self.passed::<A>(leaf, part).bracket(self.start, self.end)
     }
 }
 
-/// How near a ray passes some spheres.
-struct Passed<L> {
+/// How near a ray passes a sphere, in every lane.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Passed<L> {
     radius: L,
     middle: L,
     /// l^2.
@@ -125,11 +107,8 @@ struct Passed<L> {
 
 impl<L: Lanes> Passed<L> {
     #[inline(always)]
-    fn new<A: Accuracy>(probe: &Probe<L>, leaf: &BvhLeaf, part: usize) -> Self {
-        let token = probe.origin[0].token();
-        let f = axes!(i => part_of::<L>(token, &leaf.center[i], part) - probe.origin[i]);
-        let radius = part_of::<L>(token, &leaf.radius, part);
-        let n = probe.direction;
+    pub(super) fn new<A: Accuracy>(origin: [L; 3], n: [L; 3], center: [L; 3], radius: L) -> Self {
+        let f = axes!(i => center[i] - origin[i]);
         let middle = f[2].filter_mul_add(n[2], f[1].filter_mul_add(n[1], f[0] * n[0]));
         let back = -middle;
         let q = axes!(i => back.filter_mul_add(n[i], f[i]));
@@ -144,6 +123,42 @@ impl<L: Lanes> Passed<L> {
             most = spread.filter_mul_add(spread, most);
         }
         Self { radius, middle, ll, delta, reach, most }
+    }
+
+    /// Which may be hit between the s `start` and `end`, as far as can be told without a root.
+    #[inline(always)]
+    pub(super) fn may_meet<A: Accuracy>(&self, start: L, end: L) -> L::Mask {
+        let near_enough = self.ll.le(self.most);
+        if A::SPREAD > 0.0 {
+            return near_enough;
+        }
+        let Self { middle, reach, .. } = *self;
+        near_enough & (middle - reach).le(end) & start.le(middle + reach)
+    }
+
+    /// Between which s the spheres are hit; the interval starts and ends somewhere in
+    /// `start` and `end`.
+    #[inline(always)]
+    pub(super) fn bracket(&self, start: [L; 2], end: [L; 2]) -> Bracket<L> {
+        let Self { middle, radius, delta, ll, most, .. } = *self;
+        let zero = radius.like(0.0);
+        let rr = radius * radius;
+        let slack = most - rr;
+        let left = rr - ll;
+        let long = (left + slack).filter_max(zero).sqrt() + delta;
+        let sure = left - slack;
+        let short = sure.filter_max(zero).sqrt() - delta;
+        // The near root lies in [entry, entered], the far one in [leaving, left].
+        let (entry, entered) = (middle - long, middle - short);
+        let (leaving, left) = (middle + short, middle + long);
+
+        let candidates = ll.le(most) & zero.le(radius) & entry.le(end[1]) & start[0].le(left);
+        let hit = zero.lt(sure);
+        let near = hit & start[1].le(entry) & entered.le(end[0]);
+        let far = hit & start[1].le(leaving) & left.le(end[0]);
+        let infinity = radius.like(f32::INFINITY);
+        let bound = L::select(near, entered, L::select(far, left, infinity));
+        Bracket { candidates, entry, bound }
     }
 }
 

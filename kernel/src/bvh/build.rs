@@ -5,6 +5,10 @@
 //! of more than one leaf become nodes in their turn; a stack of those that wait replaces
 //! recursion.
 //!
+//! The root's children do so apart from each other, perhaps at the same time: each in as many
+//! nodes as it can need, which is 8/15 of its leaves ([`Bvh::needed`]). Then the nodes move together.
+//! So the tree does not depend on what runs at the same time.
+//!
 //! # Depth
 //!
 //! Of a node's m leaves let q = m/8, rounded up, and let a run of s leaves *want* s/q, rounded up,
@@ -14,7 +18,9 @@
 //! from then on a run longer than q is cut behind q leaves, which takes one off each time. After
 //! fifteen cuts no child is longer than q.
 
-use super::split::{Bounds, Run};
+use super::bounds::Bounds;
+use super::join::Join;
+use super::split::Run;
 use super::{Bvh, BvhLeaf, BvhNode, DEPTH, LARGEST, LEAF, NO_CHILD, WIDTH};
 use crate::{Sphere, Spheres};
 
@@ -37,6 +43,7 @@ struct Waiting {
 
 /// The memory is as large as [`Bvh::needed`] says.
 pub(super) fn build<'a>(
+    join: &impl Join,
     spheres: Spheres<'_>,
     nodes: &'a mut [BvhNode],
     leaves: &'a mut [BvhLeaf],
@@ -47,8 +54,8 @@ pub(super) fn build<'a>(
     let outside = fill(rest, &spheres, |sphere| sphere.is_valid() && !is_inside(sphere));
     let outside = outside.div_ceil(WIDTH).min(rest.len());
 
-    let root = Part::new(leaves, inside, 0, full);
-    let used = if full > 1 { build_nodes(nodes, leaves, inside, root) } else { 0 };
+    let root = Part::new(join, leaves, inside, 0, full);
+    let used = if full > 1 { build_tree(join, nodes, leaves, inside, root) } else { 0 };
     let child = match full {
         0 => NO_CHILD,
         1 => LEAF,
@@ -103,33 +110,121 @@ fn fill(leaves: &mut [BvhLeaf], spheres: &Spheres<'_>, wanted: impl Fn(&Sphere) 
 
 impl Part {
     /// Leaves `first..first + leaves` of all, which hold `count` spheres.
-    fn new(all: &[BvhLeaf], count: usize, first: usize, leaves: usize) -> Self {
+    fn new(join: &impl Join, all: &[BvhLeaf], count: usize, first: usize, leaves: usize) -> Self {
         let run = all.get(first..first + leaves).unwrap_or(&[]);
-        let bounds = Bounds::of(run, (count - first * WIDTH).min(leaves * WIDTH));
+        let bounds = Bounds::of(join, run, (count - first * WIDTH).min(leaves * WIDTH));
         let cost = if leaves > 1 { bounds.half_area() * leaves as f32 } else { -1.0 };
         Self { first, leaves, bounds, cost }
     }
 }
 
+/// A child of the root, and the memory that becomes its nodes.
+#[derive(Default)]
+struct Subtree<'a> {
+    leaves: &'a mut [BvhLeaf],
+    /// Where its leaves begin among all.
+    first: usize,
+    /// How many spheres are in them.
+    count: usize,
+    nodes: &'a mut [BvhNode],
+    /// How many nodes it took: none for a single leaf.
+    used: usize,
+}
+
 /// Builds the nodes over all leaves, which are two or more; answers with their number.
-fn build_nodes(nodes: &mut [BvhNode], leaves: &mut [BvhLeaf], count: usize, root: Part) -> usize {
+fn build_tree(
+    join: &impl Join,
+    nodes: &mut [BvhNode],
+    leaves: &mut [BvhLeaf],
+    count: usize,
+    root: Part,
+) -> usize {
+    let (mut parts, number) = children(join, leaves, count, root);
+    let parts = parts.get_mut(..number).unwrap_or(&mut []);
+    // In the order of their leaves, so that memory is handed out from the front.
+    for end in 1..parts.len() {
+        for at in (1..=end).rev() {
+            if let Some([before, part]) = parts.get_mut(at - 1..=at)
+                && part.first < before.first
+            {
+                core::mem::swap(before, part);
+            }
+        }
+    }
+
+    let mut subtrees: [Subtree<'_>; WIDTH] = Default::default();
+    let mut free = nodes.get_mut(1..).unwrap_or(&mut []);
+    let mut left = leaves;
+    for (part, subtree) in parts.iter().zip(&mut subtrees) {
+        let (own, others) = left.split_at_mut(part.leaves.min(left.len()));
+        let (room, rest) = free.split_at_mut(room_for(part).min(free.len()));
+        let count = (count - part.first * WIDTH).min(part.leaves * WIDTH);
+        *subtree = Subtree { leaves: own, first: part.first, count, nodes: room, used: 0 };
+        (left, free) = (others, rest);
+    }
+    build_subtrees(join, subtrees.get_mut(..number).unwrap_or(&mut []));
+    let used = subtrees.map(|subtree| subtree.used);
+
+    let mut node = node_over(parts, 0);
+    let (mut from, mut to) = (1, 1);
+    for ((child, part), used) in node.child.iter_mut().zip(&*parts).zip(used) {
+        if part.leaves == 1 {
+            continue;
+        }
+        *child = to as u32;
+        for place in 0..used {
+            let Some(mut moved) = nodes.get(from + place).copied() else { continue };
+            for child in moved.child.iter_mut().filter(|child| **child & LEAF == 0) {
+                *child += to as u32;
+            }
+            if let Some(node) = nodes.get_mut(to + place) {
+                *node = moved;
+            }
+        }
+        from += room_for(part);
+        to += used;
+    }
+    if let Some(place) = nodes.first_mut() {
+        *place = node;
+    }
+    to
+}
+
+/// How many nodes are enough for a child of the root.
+fn room_for(part: &Part) -> usize {
+    if part.leaves > 1 { part.leaves / 15 * 8 + part.leaves % 15 * 8 / 15 } else { 0 }
+}
+
+/// Builds subtrees, which are apart.
+fn build_subtrees(join: &impl Join, subtrees: &mut [Subtree<'_>]) {
+    if let [subtree] = subtrees {
+        if subtree.leaves.len() > 1 {
+            subtree.used = build_nodes(join, subtree);
+        }
+    } else if !subtrees.is_empty() {
+        let (some, others) = subtrees.split_at_mut(subtrees.len() / 2);
+        join.join(|| build_subtrees(join, some), || build_subtrees(join, others));
+    }
+}
+
+/// Builds the nodes of a subtree, numbered from zero; answers with their number.
+fn build_nodes(join: &impl Join, subtree: &mut Subtree<'_>) -> usize {
+    let Subtree { leaves, first, count, nodes, .. } = subtree;
+    let root = Part::new(join, leaves, *count, 0, leaves.len());
     // Each level leaves at most fifteen waiting for the one that goes on.
     let mut waiting = [Waiting { part: root, node: 0 }; (WIDTH - 1) * DEPTH + WIDTH];
     let (mut top, mut used) = (1, 1);
     while top > 0 {
         top -= 1;
         let Some(&Waiting { part, node }) = waiting.get(top) else { break };
-        let (children, number) = children(leaves, count, part);
-        let mut built = BvhNode::EMPTY;
-        for (slot, child) in children.iter().enumerate().take(number) {
-            for axis in 0..3 {
-                built.low[axis][slot] = child.bounds.low[axis];
-                built.high[axis][slot] = child.bounds.high[axis];
-            }
-            if child.leaves == 1 {
-                built.child[slot] = child.first as u32 | LEAF;
-            } else if let Some(place) = waiting.get_mut(top) {
-                built.child[slot] = used as u32;
+        let (children, number) = children(join, leaves, *count, part);
+        let children = children.get(..number).unwrap_or(&[]);
+        let mut built = node_over(children, *first);
+        for (slot, child) in built.child.iter_mut().zip(children) {
+            if child.leaves > 1
+                && let Some(place) = waiting.get_mut(top)
+            {
+                *slot = used as u32;
                 *place = Waiting { part: *child, node: used };
                 (top, used) = (top + 1, used + 1);
             }
@@ -141,8 +236,28 @@ fn build_nodes(nodes: &mut [BvhNode], leaves: &mut [BvhLeaf], count: usize, root
     used
 }
 
+/// A node with the boxes of its children; those that are leaves are named, `first` added.
+fn node_over(children: &[Part], first: usize) -> BvhNode {
+    let mut node = BvhNode::EMPTY;
+    for (slot, child) in children.iter().enumerate().take(WIDTH) {
+        for axis in 0..3 {
+            node.low[axis][slot] = child.bounds.low[axis];
+            node.high[axis][slot] = child.bounds.high[axis];
+        }
+        if child.leaves == 1 {
+            node.child[slot] = (first + child.first) as u32 | LEAF;
+        }
+    }
+    node
+}
+
 /// Cuts a run of two leaves or more into up to sixteen.
-fn children(leaves: &mut [BvhLeaf], count: usize, whole: Part) -> ([Part; WIDTH], usize) {
+fn children(
+    join: &impl Join,
+    leaves: &mut [BvhLeaf],
+    count: usize,
+    whole: Part,
+) -> ([Part; WIDTH], usize) {
     let mut parts = [whole; WIDTH];
     let longest = whole.leaves.div_ceil(8);
     let wanted = |part: &Part| part.leaves.div_ceil(longest) - 1;
@@ -161,10 +276,10 @@ fn children(leaves: &mut [BvhLeaf], count: usize, whole: Part) -> ([Part; WIDTH]
             leaves: leaves.get_mut(first..first + length).unwrap_or(&mut []),
             count: (count - first * WIDTH).min(length * WIDTH),
         };
-        let cut = if forced { run.split_at(longest, &bounds) } else { run.split(&bounds) };
-        *part = Part::new(leaves, count, first, cut);
+        let cut = if forced { run.split_at(longest, &bounds) } else { run.split(join, &bounds) };
+        *part = Part::new(join, leaves, count, first, cut);
         if let Some(place) = rest.first_mut() {
-            *place = Part::new(leaves, count, first + cut, length - cut);
+            *place = Part::new(join, leaves, count, first + cut, length - cut);
         }
     }
     (parts, WIDTH)

@@ -3,28 +3,22 @@
 //! # Method
 //!
 //! Up to four packets - 64 rays of 16 lanes - go down the tree as one bundle: a node's children are
-//! tested against the bundle's [frustum](super::frustum), not against rays, nearest first; of a leaf
-//! the spheres inside it are taken one by one, and each is tested against the rays, a ray a lane,
-//! closest point first as in `bracket.rs`. Only what passes is asked of the tier. The depth beyond
-//! which nothing matters shrinks with every hit.
+//! tested against the bundle's [frustum](super::frustum), not against rays, nearest first; so are the
+//! spheres of a leaf, and those inside against the narrower planes of each packet; what is left
+//! is tested against the packet's rays, a ray a lane (`member.rs`). The depth beyond which nothing
+//! matters shrinks with every hit.
 //!
 //! A bundle is walked so if its rays start at t >= 0, run the same way along an axis, and are
-//! narrow: slopes within [`NARROW`]; others go one by one ([`nearest`](super::nearest)).
+//! narrow (`course.rs`); others go one by one ([`nearest`](super::nearest)).
 
-use super::frustum::{Frustum, Inside, Plane};
-use super::resolve::{settle_outside, take};
-use super::slabs::{Slabs, U, raised};
-use super::{Bvh, BvhLeaf, DEPTH, LEAF, NO_CHILD, WIDTH};
-use crate::accuracy::RayLanes;
-use crate::axes::axes;
-use crate::{Accuracy, HitPacket, LaneMask, Lanes, RayPacket, Spheres};
+use super::course::Course;
+use super::frustum::Inside;
+use super::member::Member;
+use super::{Bvh, DEPTH, LEAF, NO_CHILD, WIDTH};
+use crate::{Accuracy, HitPacket, Lanes, RayPacket, Spheres};
 
 /// How many packets go together.
 const BUNDLE: usize = 4;
-/// The widest range of slopes that is walked as one.
-const NARROW: f32 = 0.5;
-/// The least n_k.
-const ALONG: f32 = 1.0 / 16.0;
 /// As in `walk.rs`.
 const STACK: usize = 256;
 const _: () = assert!(STACK >= (WIDTH - 1) * DEPTH + WIDTH);
@@ -43,8 +37,15 @@ pub fn nearest_coherent<A: Accuracy, L: Lanes>(
     hits: &mut [HitPacket<L>],
 ) {
     let mut walk = BundleWalk::new();
+    let nobody = RayPacket::<L>::inactive();
     for (rays, hits) in rays.chunks(BUNDLE).zip(hits.chunks_mut(BUNDLE)) {
-        if bvh.count != spheres.len() || !walk.bundle::<A, L, false>(token, rays, bvh, hits) {
+        let mut members = members_of::<L>(token, rays, &nobody);
+        let Some(members) = members.get_mut(..rays.len()) else { continue };
+        if bvh.count == spheres.len() && walk.bundle::<A, L, false>(token, members, bvh) {
+            for (member, hits) in members.iter().zip(hits) {
+                *hits = member.hits();
+            }
+        } else {
             super::nearest::<A, L>(token, rays, spheres, bvh, hits);
         }
     }
@@ -60,11 +61,13 @@ pub fn any_coherent<A: Accuracy, L: Lanes>(
     met: &mut [u32],
 ) {
     let mut walk = BundleWalk::new();
+    let nobody = RayPacket::<L>::inactive();
     for (rays, met) in rays.chunks(BUNDLE).zip(met.chunks_mut(BUNDLE)) {
-        let mut hits = [HitPacket::<L>::none(); BUNDLE];
-        if bvh.count == spheres.len() && walk.bundle::<A, L, true>(token, rays, bvh, &mut hits) {
-            for (met, hits) in met.iter_mut().zip(&hits) {
-                *met = L::load(token, &hits.t).lt(L::splat(token, f32::INFINITY)).bits();
+        let mut members = members_of::<L>(token, rays, &nobody);
+        let Some(members) = members.get_mut(..rays.len()) else { continue };
+        if bvh.count == spheres.len() && walk.bundle::<A, L, true>(token, members, bvh) {
+            for (member, met) in members.iter().zip(met) {
+                *met = member.met();
             }
         } else {
             super::any::<A, L>(token, rays, spheres, bvh, met);
@@ -72,232 +75,21 @@ pub fn any_coherent<A: Accuracy, L: Lanes>(
     }
 }
 
-/// A packet of a bundle: its rays with directions of unit length.
-#[derive(Clone, Copy)]
-struct Member<L: Lanes> {
-    rays: RayLanes<L>,
-    /// Whether the bounds cover all of its rays, and all start at t >= 0.
-    covered: bool,
-    direction: [L; 3],
-    /// |d|: t times it is s.
-    length: L,
-    /// The start of the interval: an s.
-    start: L,
-    /// No hit beyond counts any more: an s.
-    best: L,
-}
-
-impl<L: Lanes> Member<L> {
-    #[inline(always)]
-    fn new<A: Accuracy>(token: L::Token, packet: &RayPacket<L>, bvh: &Bvh<'_>) -> Self {
-        let rays = RayLanes::load(token, packet);
-        let slabs = Slabs::<L>::new::<A>(&rays, bvh.extent);
-        let live = rays.live.bits();
-        let forward = L::splat(token, 0.0).le(rays.t_min).bits();
-        Self {
-            rays,
-            covered: live & !(slabs.judged & forward) == 0,
-            direction: axes!(i => L::load(token, &slabs.direction[i])),
-            length: L::load(token, &slabs.length),
-            start: L::load(token, &slabs.start[0]),
-            best: L::load(token, &slabs.end[1]),
-        }
-    }
-
-    /// Which rays may meet sphere `place` of a leaf: the margin is that of `bracket.rs`.
-    #[inline(always)]
-    fn candidates<A: Accuracy>(&self, leaf: &BvhLeaf, place: usize) -> L::Mask {
-        let token = self.length.token();
-        let f = axes!(i => L::splat(token, leaf.center[i][place % WIDTH]) - self.rays.origin[i]);
-        let radius = L::splat(token, leaf.radius[place % WIDTH]);
-        let n = self.direction;
-        let middle = f[2].filter_mul_add(n[2], f[1].filter_mul_add(n[1], f[0] * n[0]));
-        let back = -middle;
-        let q = axes!(i => back.filter_mul_add(n[i], f[i]));
-        let ll = q[2].filter_mul_add(q[2], q[1].filter_mul_add(q[1], q[0] * q[0]));
-        let size = middle.abs() + radius;
-        let delta = size.filter_mul_add(radius.like(48.0 * U), radius.like(LEAST_DELTA));
-        let reach = radius + delta;
-        let most = reach * reach;
-        let near = self.rays.live & (middle - reach).le(self.best) & self.start.le(middle + reach);
-        if A::SPREAD > 0.0 {
-            let spread = size * size.like(A::SPREAD);
-            return self.rays.live & ll.le(spread.filter_mul_add(spread, most));
-        }
-        near & ll.le(most)
-    }
-
-    #[inline(always)]
-    fn may_meet<A: Accuracy>(&self, leaf: &BvhLeaf, place: usize) -> bool {
-        self.candidates::<A>(leaf, place).any()
-    }
-
-    /// Asks the tier about sphere `place` of a leaf.
-    #[inline(always)]
-    fn meet<A: Accuracy, const ANY: bool>(
-        &mut self,
-        leaf: &BvhLeaf,
-        place: usize,
-        hit: &mut HitPacket<L>,
-    ) {
-        let token = self.length.token();
-        let asked = self.candidates::<A>(leaf, place);
-        let center = axes!(i => L::splat(token, leaf.center[i][place % WIDTH]));
-        let radius = L::splat(token, leaf.radius[place % WIDTH]);
-        let limit = L::load(token, &hit.t);
-        let prepared = A::prepare(&self.rays);
-        let t = A::first_root(&self.rays, &prepared, center, radius, asked, limit);
-        let t = L::select(asked, t, t.like(f32::INFINITY));
-        let mut nearer = (asked & t.le(limit) & t.lt(t.like(f32::INFINITY))).bits();
-        let t = t.store();
-        while nearer != 0 {
-            let lane = nearer.trailing_zeros() as usize;
-            nearer &= nearer - 1;
-            if let Some(&t) = t.as_ref().get(lane) {
-                take(hit, lane, t, leaf.index[place % WIDTH]);
-            }
-        }
-        self.shorten::<ANY>(hit);
-    }
-
-    /// Takes the hits so far as the ends of the rays.
-    #[inline(always)]
-    fn shorten<const ANY: bool>(&mut self, hit: &HitPacket<L>) {
-        let t = L::load(self.length.token(), &hit.t);
-        let infinity = t.like(f32::INFINITY);
-        if ANY {
-            let met = t.lt(infinity);
-            self.rays.live = self.rays.live & !met;
-            self.best = L::select(met, -infinity, self.best);
-        } else {
-            self.best = least(self.best, raised(t * self.length));
-        }
-    }
-}
-
-/// 2^-60, as in `bracket.rs`.
-const LEAST_DELTA: f32 = 1.0 / (1_073_741_824.0 * 1_073_741_824.0);
-
+/// The members of a bundle; those past its end are `nobody`.
 #[inline(always)]
-fn least<L: Lanes>(a: L, b: L) -> L {
-    -(-a).filter_max(-b)
-}
-
-/// How deep a bundle's rays go, from its origins and its rays' ends.
-struct Depths {
-    origin: f32,
-    rate: f32,
-    pad: f32,
-}
-
-impl Depths {
-    /// The greatest depth that a ray still goes to, raised by the margin.
-    #[inline(always)]
-    fn end<L: Lanes>(&self, members: &[Member<L>]) -> f32 {
-        let mut farthest = f32::NEG_INFINITY;
-        for member in members {
-            let none = member.best.like(f32::NEG_INFINITY);
-            farthest = greatest(L::select(member.rays.live, member.best, none), farthest);
-        }
-        let ahead = farthest * self.rate;
-        self.origin + ahead + 8.0 * U * ahead.abs() + self.pad
-    }
-}
-
-/// The largest of the lanes and `more`.
-#[inline(always)]
-fn greatest<L: Lanes>(lanes: L, more: f32) -> f32 {
-    let mut largest = more;
-    for &lane in lanes.store().as_ref() {
-        if lane > largest {
-            largest = lane;
-        }
-    }
-    largest
-}
-
-/// The largest of an expression in the live lanes of all members; of what is not live, nothing.
-macro_rules! greatest_of {
-    ($members:ident, $member:ident => $value:expr) => {{
-        let mut lanes = None;
-        for $member in $members.iter() {
-            let value: L = $value;
-            let value = L::select($member.rays.live, value, value.like(f32::NEG_INFINITY));
-            lanes = Some(match lanes {
-                Some(so_far) => value.filter_max(so_far),
-                None => value,
-            });
-        }
-        match lanes {
-            Some(lanes) => greatest(lanes, f32::NEG_INFINITY),
-            None => f32::NEG_INFINITY,
-        }
-    }};
-}
-
-/// What the rays cannot leave, and how deep they go; nothing where they do not look the same way.
-#[inline(always)]
-fn frustum_of<L: Lanes>(members: &[Member<L>], bvh: &Bvh<'_>) -> Option<(Frustum, Depths)> {
-    let mut along = None;
-    for member in members {
-        if !member.covered {
-            return None;
-        }
-        if along.is_none() && member.rays.live.any() {
-            let lane = member.rays.live.bits().trailing_zeros() as usize;
-            let [x, y, z] = axes!(i => *member.direction[i].store().as_ref().get(lane)?);
-            let axis = if x.abs() >= y.abs() && x.abs() >= z.abs() {
-                (0, x)
-            } else if y.abs() >= z.abs() {
-                (1, y)
-            } else {
-                (2, z)
-            };
-            along = Some(axis);
-        }
-    }
-    let (k, travel) = along?;
-    let sign = if travel < 0.0 { -1.0 } else { 1.0 };
-    let rate = greatest_of!(members, m => m.direction[k] * m.length.like(sign));
-    let least_rate = -greatest_of!(members, m => m.direction[k] * m.length.like(-sign));
-    if least_rate < ALONG {
-        return None;
-    }
-
-    let far = axes!(i => greatest_of!(members, m => m.rays.origin[i].abs()));
-    let size = bvh.extent + far[0].max(far[1]).max(far[2]);
-    let mut planes = [Plane { across: 0, side: 0.0, slope: 0.0, offset: 0.0, length: 0.0 }; 4];
-    for (pair, i) in [(k + 1) % 3, (k + 2) % 3].into_iter().enumerate() {
-        let high = greatest_of!(members, m => m.direction[i] / m.direction[k]);
-        let low = -greatest_of!(members, m => -(m.direction[i] / m.direction[k]));
-        if high - low > NARROW {
-            return None;
-        }
-        let (high, low) = (high + 8.0 * U * high.abs(), low - 8.0 * U * low.abs());
-        for (one, (side, slope)) in
-            [(sign, -sign * low), (-sign, sign * high)].into_iter().enumerate()
-        {
-            // The least of side x_i + slope x_k at the origins.
-            let offset = -greatest_of!(members, m => {
-                let across = m.rays.origin[i] * m.length.like(-side);
-                across + m.rays.origin[k] * m.length.like(-slope)
-            });
-            let plane = planes.get_mut(2 * pair + one)?;
-            *plane = Plane {
-                across: i,
-                side,
-                slope,
-                offset: offset - Plane::pad(slope, size),
-                length: libm::sqrtf(1.0 + slope * slope) * (1.0 + 8.0 * U),
-            };
-        }
-    }
-    let pad = Plane::pad(0.0, size);
-    let origin = greatest_of!(members, m => m.rays.origin[k] * m.length.like(sign));
-    let start = -greatest_of!(members, m => m.rays.origin[k] * m.length.like(-sign));
-    let depths = Depths { origin, rate, pad };
-    let end = depths.end(members);
-    Some((Frustum { planes, along: k, sign, start: start - pad, end }, depths))
+fn members_of<'a, L: Lanes>(
+    token: L::Token,
+    rays: &'a [RayPacket<L>],
+    nobody: &'a RayPacket<L>,
+) -> [Member<'a, L>; BUNDLE] {
+    let [a, b, c, d] = match *rays {
+        [ref a, ref b, ref c, ref d] => [a, b, c, d],
+        [ref a, ref b, ref c] => [a, b, c, nobody],
+        [ref a, ref b] => [a, b, nobody, nobody],
+        [ref a] => [a, nobody, nobody, nobody],
+        _ => [nobody; BUNDLE],
+    };
+    [Member::new(token, a), Member::new(token, b), Member::new(token, c), Member::new(token, d)]
 }
 
 /// The boxes that are yet to be looked into, the nearest on top.
@@ -317,27 +109,18 @@ impl BundleWalk {
     fn bundle<A: Accuracy, L: Lanes, const ANY: bool>(
         &mut self,
         token: L::Token,
-        packets: &[RayPacket<L>],
+        members: &mut [Member<'_, L>],
         bvh: &Bvh<'_>,
-        hits: &mut [HitPacket<L>],
     ) -> bool {
-        let Some(first) = packets.first() else { return true };
-        let mut members = [Member::<L>::new::<A>(token, first, bvh); BUNDLE];
-        for (member, packet) in members.iter_mut().zip(packets).skip(1) {
-            *member = Member::<L>::new::<A>(token, packet, bvh);
-        }
-        let Some(members) = members.get_mut(..packets.len()) else { return false };
-        let Some((mut frustum, depths)) = frustum_of(members, bvh) else { return false };
-        for hit in hits.iter_mut() {
-            *hit = HitPacket::<L>::none();
-        }
-        for (member, hit) in members.iter_mut().zip(hits.iter_mut()) {
-            let live = member.rays.live.bits();
-            settle_outside::<A, L>(token, &member.rays, bvh.outside, live, hit);
-            member.shorten::<ANY>(hit);
+        let Some(course) = Course::of(members, bvh) else { return false };
+        let Some(mut frustum) = course.enclose(members) else { return false };
+        if !bvh.outside.is_empty() {
+            for member in &mut *members {
+                member.meet_outside::<A, ANY>(bvh.outside);
+            }
+            frustum.end = course.end(members);
         }
 
-        frustum.end = depths.end(members);
         self.depths[0] = f32::NEG_INFINITY;
         self.children[0] = bvh.root;
         self.top = 1;
@@ -354,27 +137,29 @@ impl BundleWalk {
                     frustum.enter::<L>(token, node, &mut inside);
                     self.push(&inside, &node.child);
                 }
-            } else if let Some(leaf) = bvh.leaves.get((child & !LEAF) as usize) {
-                let mut places = frustum.look::<L>(token, leaf);
-                let mut changed = false;
+                continue;
+            }
+            let number = child & !LEAF;
+            let Some(leaf) = bvh.leaves.get(number as usize) else { continue };
+            let places = frustum.look::<L>(token, leaf);
+            if places == 0 {
+                continue;
+            }
+            let mut changed = false;
+            for member in &mut *members {
+                let mut places = places & member.sides.look::<L>(token, leaf);
                 while places != 0 {
-                    let place = places.trailing_zeros() as usize % WIDTH;
+                    let place = places.trailing_zeros() as usize;
                     places &= places - 1;
-                    for (member, hit) in members.iter_mut().zip(hits.iter_mut()) {
-                        if member.may_meet::<A>(leaf, place) {
-                            changed = true;
-                            L::out_of_line(
-                                token,
-                                #[inline(always)]
-                                || member.meet::<A, ANY>(leaf, place, hit),
-                            );
-                        }
-                    }
-                }
-                if changed {
-                    frustum.end = depths.end(members);
+                    changed |= member.meet::<A, ANY>(bvh, (number, leaf), place);
                 }
             }
+            if changed {
+                frustum.end = course.end(members);
+            }
+        }
+        for member in members {
+            member.finish::<A, ANY>(bvh.leaves);
         }
         true
     }

@@ -1,50 +1,108 @@
-//! The planes and the depths between which a bundle of rays runs.
+//! The lines and the depths between which a bundle of rays runs.
 //!
 //! # Method
 //!
-//! Rays that run the same way along an axis k, n_k of one sign sigma, have slopes n_i / n_k and n_j /
-//! n_k along the two others. With the least and the greatest of each, every point that a ray
-//! reaches from its origin on is inside four planes, sigma (x_i - u_min x_k) >= D and so on, where
-//! D is the least of the same expression at the origins (Reshetov, Soupikov and Hurley 2005, Multi-
-//! Level Ray Tracing Algorithm). A box is outside where its farthest corner is; a sphere where its
-//! centre is by more than its radius times the length of the normal. Along k itself the bundle is
-//! bounded by its origins, and by how far its rays still go.
+//! Rays that run the same way along an axis k, d_k of one sign sigma, have slopes w_i = d_i / d_k and
+//! w_j = d_j / d_k along the two others. From its origin on, a ray with slope w between w_min and
+//! w_max in terms of the depth sigma x_k stays on one side of each of two lines: x_i >= w x_k + D,
+//! where w is the least slope (per depth) and D the least of o_i - w o_k; and x_i <= w x_k + D with
+//! the greatest of both. So it does along j: four planes (Reshetov, Soupikov and Hurley 2005,
+//! Multi-Level Ray Tracing Algorithm). A box is outside where its farthest corner is; a sphere where
+//! its centre is by more than its radius times the length of the normal. Along k itself the bundle
+//! is bounded by its origins, and by how far its rays still go.
 //!
 //! # The margin
 //!
 //! As `slabs.rs` shows, what a tier calls a hit lies within 111 u M of the sphere's box, where M is the
 //! extent and |o| together.
-//! A slope is 3u off in itself and is moved by 8u. With the plane's |normal|_1 = 1 + |slope|
-//! that is 111 u M (1 + |slope|) of the plane's expression; its rounding, and that of D, are below
-//! 8 u M (1 + |slope|). The pad is 128 u M (1 + |slope|), and 2^-80 for what underflows. Depths are
-//! the case of slope 0.
+//! A slope is 6u off in itself - two components of n, a division, a product - and is moved by 8u. With the plane's
+//! |normal|_1 = 1 + |w| the 111 u M are 111 u M (1 + |w|) of its expression; its rounding, and that
+//! of D, are below 8 u M (1 + |w|). The pad is 128 u M (1 + |w|), and 2^-80 for what underflows. Depths
+//! are the case of slope 0.
 
+use super::bracket::part_of;
+use super::ray_walk::put_part;
 use super::slabs::{LEAST_PAD, U};
 use super::{BvhLeaf, BvhNode, WIDTH};
-use crate::Lanes;
-use crate::bvh::bracket::part_of;
+use crate::{LaneMask, Lanes};
 
-/// A plane: inside is `side * x_across - slope * x_along >= offset`, with `side` 1 or -1.
+/// A line that bounds x_i in terms of x_k: `slope * x_k + offset`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Plane {
-    pub(super) across: usize,
-    /// The sign of the coordinate across, and whether the box's upper corner is the farther.
-    pub(super) side: f32,
-    /// What the coordinate along is multiplied by, the sign of travel in it.
-    pub(super) slope: f32,
-    /// The least of the expression at the origins, lowered by the margin.
-    pub(super) offset: f32,
-    /// The length of the normal, rounded up.
-    pub(super) length: f32,
+pub(super) struct Line {
+    slope: f32,
+    /// Moved outward by the margin.
+    offset: f32,
+    /// At least the length of the plane's normal.
+    length: f32,
+}
+
+impl Line {
+    pub(super) const NONE: Self = Self { slope: 0.0, offset: 0.0, length: 0.0 };
+
+    /// The line below (`side` 1) or above (-1) all rays, for slopes that end at `slope` and an offset
+    /// that ends at `offset`; `size` is M.
+    #[inline(always)]
+    pub(super) fn new(side: f32, slope: f32, offset: f32, size: f32) -> Self {
+        // At least the root of 1 + slope^2, and not much more where the slope is below one.
+        let length = (1.0 + 0.5 * slope * slope) * (1.0 + 8.0 * U);
+        Self { slope, offset: offset - side * margin(slope, size), length }
+    }
+}
+
+/// How far a plane of that slope is moved.
+#[inline(always)]
+pub(super) fn margin(slope: f32, size: f32) -> f32 {
+    128.0 * U * size * (1.0 + slope.abs()) + LEAST_PAD
+}
+
+/// The four planes: two lines for each of the axes across.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sides {
+    /// The axis that all rays run along.
+    pub(super) along: usize,
+    /// Below and above the rays, along the axes [`across`].
+    pub(super) lines: [[Line; 2]; 2],
+}
+
+/// The axes that are not `along`.
+#[inline(always)]
+pub(super) fn across(along: usize) -> [usize; 2] {
+    [(along + 1) % 3, (along + 2) % 3]
+}
+
+impl Sides {
+    pub(super) const NONE: Self = Self { along: 0, lines: [[Line::NONE; 2]; 2] };
+
+    /// Which spheres of a leaf may be between the planes.
+    #[inline(always)]
+    pub(super) fn look<L: Lanes>(&self, token: L::Token, leaf: &BvhLeaf) -> u32 {
+        let k = self.along % 3;
+        let mut places = 0;
+        for part in 0..WIDTH / L::COUNT {
+            let radius = part_of::<L>(token, &leaf.radius, part);
+            let along = part_of::<L>(token, &leaf.center[k], part);
+            let mut met = L::splat(token, 0.0).le(radius);
+            for (i, [below, above]) in across(k).into_iter().zip(&self.lines) {
+                let across = part_of::<L>(token, &leaf.center[i % 3], part);
+                let least = along
+                    .filter_mul_add(L::splat(token, below.slope), L::splat(token, below.offset));
+                let most = along
+                    .filter_mul_add(L::splat(token, above.slope), L::splat(token, above.offset));
+                let highest = radius.filter_mul_add(L::splat(token, below.length), across);
+                let lowest = (-radius).filter_mul_add(L::splat(token, above.length), across);
+                met = met & least.le(highest) & lowest.le(most);
+            }
+            places |= met.bits() << (part * L::COUNT);
+        }
+        places
+    }
 }
 
 /// What a bundle of rays cannot leave.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frustum {
-    pub(super) planes: [Plane; 4],
-    /// The axis that all rays run along.
-    pub(super) along: usize,
-    /// In which direction: 1 or -1.
+    pub(super) sides: Sides,
+    /// sigma: 1 or -1.
     pub(super) sign: f32,
     /// The least depth, sigma x_k, of an origin, lowered by the margin.
     pub(super) start: f32,
@@ -52,72 +110,56 @@ pub(super) struct Frustum {
     pub(super) end: f32,
 }
 
-/// What of a node or a leaf is inside: a bit a child or sphere, and the depth it begins at.
+/// What of a node is inside: a bit a child, and the depth it begins at.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Inside {
     pub(super) places: u32,
     pub(super) depths: [f32; WIDTH],
 }
 
-impl Plane {
-    #[inline(always)]
-    pub(super) fn pad(slope: f32, size: f32) -> f32 {
-        128.0 * U * size * (1.0 + slope.abs()) + LEAST_PAD
-    }
-}
-
 impl Frustum {
     /// Which children of a node may be met.
     #[inline(always)]
     pub(super) fn enter<L: Lanes>(&self, token: L::Token, node: &BvhNode, inside: &mut Inside) {
-        let k = self.along;
-        let (first, last) = if self.sign > 0.0 {
-            (&node.low[k], &node.high[k])
-        } else {
-            (&node.high[k], &node.low[k])
-        };
+        let k = self.sides.along % 3;
+        let (low, high) = (&node.low[k], &node.high[k]);
+        let (first, last) = if self.sign > 0.0 { (low, high) } else { (high, low) };
         let sign = L::splat(token, self.sign);
+        let (start, end) = (L::splat(token, self.start), L::splat(token, self.end));
         inside.places = 0;
         for part in 0..WIDTH / L::COUNT {
             let begin = part_of::<L>(token, first, part) * sign;
             let finish = part_of::<L>(token, last, part) * sign;
-            let mut met =
-                begin.le(L::splat(token, self.end)) & L::splat(token, self.start).le(finish);
-            for plane in &self.planes {
-                let i = plane.across;
-                let across = if plane.side > 0.0 { &node.high[i] } else { &node.low[i] };
-                let along = if plane.slope > 0.0 { &node.high[k] } else { &node.low[k] };
-                let across = part_of::<L>(token, across, part) * L::splat(token, plane.side);
-                let along = part_of::<L>(token, along, part);
-                let farthest = along.filter_mul_add(L::splat(token, plane.slope), across);
-                met = met & L::splat(token, plane.offset).le(farthest);
+            let mut met = begin.le(end) & start.le(finish);
+            for (i, [below, above]) in across(k).into_iter().zip(&self.sides.lines) {
+                // Where along k the line is farthest out.
+                let corner = if below.slope > 0.0 { low } else { high };
+                let least = part_of::<L>(token, corner, part)
+                    .filter_mul_add(L::splat(token, below.slope), L::splat(token, below.offset));
+                let corner = if above.slope > 0.0 { high } else { low };
+                let most = part_of::<L>(token, corner, part)
+                    .filter_mul_add(L::splat(token, above.slope), L::splat(token, above.offset));
+                met = met
+                    & least.le(part_of::<L>(token, &node.high[i % 3], part))
+                    & part_of::<L>(token, &node.low[i % 3], part).le(most);
             }
-            inside.places |= crate::LaneMask::bits(met) << (part * L::COUNT);
-            super::ray_walk::put_part(&mut inside.depths, part, begin);
+            inside.places |= met.bits() << (part * L::COUNT);
+            put_part(&mut inside.depths, part, begin);
         }
     }
 
     /// Which spheres of a leaf may be met.
     #[inline(always)]
     pub(super) fn look<L: Lanes>(&self, token: L::Token, leaf: &BvhLeaf) -> u32 {
-        let k = self.along;
+        let sign = L::splat(token, self.sign);
+        let (start, end) = (L::splat(token, self.start), L::splat(token, self.end));
         let mut places = 0;
         for part in 0..WIDTH / L::COUNT {
             let radius = part_of::<L>(token, &leaf.radius, part);
-            let along = part_of::<L>(token, &leaf.center[k], part);
-            let depth = along * L::splat(token, self.sign);
-            let mut met = L::splat(token, 0.0).le(radius)
-                & (depth - radius).le(L::splat(token, self.end))
-                & L::splat(token, self.start).le(depth + radius);
-            for plane in &self.planes {
-                let across = part_of::<L>(token, &leaf.center[plane.across], part);
-                let across = across * L::splat(token, plane.side);
-                let at = along.filter_mul_add(L::splat(token, plane.slope), across);
-                let farthest = radius.filter_mul_add(L::splat(token, plane.length), at);
-                met = met & L::splat(token, plane.offset).le(farthest);
-            }
-            places |= crate::LaneMask::bits(met) << (part * L::COUNT);
+            let depth = part_of::<L>(token, &leaf.center[self.sides.along % 3], part) * sign;
+            let met = (depth - radius).le(end) & start.le(depth + radius);
+            places |= met.bits() << (part * L::COUNT);
         }
-        places
+        places & self.sides.look::<L>(token, leaf)
     }
 }

@@ -1,243 +1,172 @@
 //! From candidates to answers: where the tier is asked.
 //!
-//! Candidates of one packet's rays are asked about together, a ray a lane, one candidate each; a
-//! ray that has more than its list can hold is asked about alone, a candidate a lane.
+//! Candidates of any rays wait until there is one for every lane; then the tier is asked about all
+//! of them at once.
 
+use super::answers::Answers;
 use super::{BvhLeaf, WIDTH};
 use crate::accuracy::RayLanes;
 use crate::axes::axes;
-use crate::intersect::lanes_of_bits;
-use crate::{Accuracy, Hit, HitArrays, HitPacket, LaneArray, LaneMask, Lanes, RayPacket, Sphere};
+use crate::{Accuracy, Hit, LaneArray, Lanes, RayPacket, Sphere};
 use glam::Vec3;
 
-/// How many candidates a ray can keep.
-pub(super) const LIST: usize = 8;
-
-/// The spheres that may be a ray's nearest, by their places in the leaves.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct List {
-    places: [u32; LIST],
-    /// No answer of that candidate is below.
-    entries: [f32; LIST],
-    pub(super) count: usize,
+/// A ray of a list of packets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct RayPlace {
+    pub(super) packet: usize,
+    pub(super) lane: usize,
 }
 
-impl List {
-    pub(super) const EMPTY: Self = Self { places: [0; LIST], entries: [0.0; LIST], count: 0 };
+impl RayPlace {
+    pub(super) const FIRST: Self = Self { packet: 0, lane: 0 };
+}
 
-    /// Whether another has no room, after those were dropped whose entry is past `best`.
+/// Rays and spheres that the tier will be asked about, one of each a lane.
+pub(super) struct Questions<L: Lanes> {
+    rays: RayPacket<L>,
+    center: [L::Array; 3],
+    radius: L::Array,
+    index: <L::Array as LaneArray>::Ids,
+    whose: <L::Array as LaneArray>::Each<RayPlace>,
+    count: usize,
+}
+
+impl<L: Lanes> Questions<L> {
     #[inline(always)]
-    pub(super) fn is_full(&mut self, best: f32) -> bool {
-        if self.count < LIST {
-            return false;
+    pub(super) fn none() -> Self {
+        Self {
+            rays: RayPacket::<L>::inactive(),
+            center: Default::default(),
+            radius: Default::default(),
+            index: Default::default(),
+            whose: L::Array::each(RayPlace::FIRST),
+            count: 0,
         }
-        let mut kept = 0;
-        for at in 0..LIST {
-            if self.entries[at] <= best {
-                self.entries[kept] = self.entries[at];
-                self.places[kept] = self.places[at];
-                kept += 1;
-            }
-        }
-        self.count = kept;
-        kept == LIST
     }
 
+    /// Adds a ray and the sphere at `place` in the leaves; asks, where that makes as many as there
+    /// are lanes.
     #[inline(always)]
-    pub(super) fn push(&mut self, place: u32, entry: f32) {
-        if let (Some(to), Some(at)) =
-            (self.places.get_mut(self.count), self.entries.get_mut(self.count))
+    pub(super) fn add<A: Accuracy>(
+        &mut self,
+        token: L::Token,
+        (packets, whose): (&[RayPacket<L>], RayPlace),
+        (leaves, place): (&[BvhLeaf], u32),
+        answers: &mut impl Answers<L>,
+    ) {
+        let (Some(packet), Some((sphere, index))) =
+            (packets.get(whose.packet), sphere_at(leaves, place))
+        else {
+            return;
+        };
+        let lane = self.count;
+        for axis in 0..3 {
+            copy(&packet.origin[axis], whose.lane, &mut self.rays.origin[axis], lane);
+            copy(&packet.direction[axis], whose.lane, &mut self.rays.direction[axis], lane);
+            put(&mut self.center[axis], lane, sphere.center[axis]);
+        }
+        copy(&packet.t_min, whose.lane, &mut self.rays.t_min, lane);
+        copy(&packet.t_max, whose.lane, &mut self.rays.t_max, lane);
+        put(&mut self.radius, lane, sphere.radius);
+        if let (Some(number), Some(place)) =
+            (self.index.as_mut().get_mut(lane), self.whose.as_mut().get_mut(lane))
         {
-            *to = place;
-            *at = entry;
+            (*number, *place) = (index, whose);
             self.count += 1;
         }
+        if self.count == L::COUNT {
+            self.ask::<A>(token, answers);
+        }
     }
 
-    /// Candidate `at`, unless its entry is past `best`.
+    /// Asks the tier about what there is, and hands its answers on.
     #[inline(always)]
-    pub(super) fn get(&self, at: usize, best: f32) -> Option<u32> {
-        let place = *self.places.get(at)?;
-        (at < self.count && *self.entries.get(at)? <= best).then_some(place)
+    pub(super) fn ask<A: Accuracy>(&mut self, token: L::Token, answers: &mut impl Answers<L>) {
+        if self.count == 0 {
+            return;
+        }
+        let asked = (1_u64 << self.count) - 1;
+        self.count = 0;
+        let rays = RayLanes::load(token, &self.rays);
+        let asked = rays.live & L::mask(token, asked as u32);
+        let center = axes!(i => L::load(token, &self.center[i]));
+        let radius = L::load(token, &self.radius);
+        let t = ask::<A, L>(&rays, center, radius, asked, L::splat(token, f32::INFINITY)).store();
+        let indices = self.index.as_ref().iter().zip(self.whose.as_ref());
+        for (&t, (&sphere, whose)) in t.as_ref().iter().zip(indices) {
+            if t < f32::INFINITY {
+                answers.take(whose.packet, whose.lane, Hit { t, sphere });
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn put<A: LaneArray>(array: &mut A, lane: usize, value: f32) {
+    if let Some(element) = array.as_mut().get_mut(lane) {
+        *element = value;
+    }
+}
+
+#[inline(always)]
+fn copy<A: LaneArray>(from: &A, there: usize, to: &mut A, here: usize) {
+    if let Some(value) = from.as_ref().get(there) {
+        put(to, here, *value);
     }
 }
 
 /// The sphere at a place in the leaves, and its index.
 #[inline(always)]
-fn sphere_at(leaves: &[BvhLeaf], place: u32) -> Option<(Sphere, u32)> {
+pub(super) fn sphere_at(leaves: &[BvhLeaf], place: u32) -> Option<(Sphere, u32)> {
     let (leaf, lane) = (leaves.get(place as usize / WIDTH)?, place as usize % WIDTH);
     let [x, y, z] = axes!(i => leaf.center[i][lane]);
     Some((Sphere { center: Vec3::new(x, y, z), radius: leaf.radius[lane] }, leaf.index[lane]))
 }
 
-/// Spheres and their indices, one a lane, where there are any.
-struct Asked<L: Lanes> {
-    center: [L::Array; 3],
-    radius: L::Array,
-    index: <L::Array as LaneArray>::Ids,
-    lanes: u32,
-}
-
-impl<L: Lanes> Asked<L> {
-    #[inline(always)]
-    fn none() -> Self {
-        Self {
-            center: Default::default(),
-            radius: Default::default(),
-            index: Default::default(),
-            lanes: 0,
-        }
-    }
-
-    #[inline(always)]
-    fn put(&mut self, lane: usize, leaves: &[BvhLeaf], place: u32) {
-        let Some((sphere, index)) = sphere_at(leaves, place) else { return };
-        let [x, y, z] = &mut self.center;
-        for (array, value) in [
-            (x, sphere.center.x),
-            (y, sphere.center.y),
-            (z, sphere.center.z),
-            (&mut self.radius, sphere.radius),
-        ] {
-            if let Some(element) = array.as_mut().get_mut(lane) {
-                *element = value;
-            }
-        }
-        if let Some(element) = self.index.as_mut().get_mut(lane) {
-            *element = index;
-            self.lanes |= 1 << lane;
-        }
-    }
-
-    /// The t of every lane that is asked, `+inf` where there is none.
-    #[inline(always)]
-    fn ask<A: Accuracy>(&self, rays: &RayLanes<L>, prepared: &A::Prepared<L>, limit: L) -> L {
-        let token = limit.token();
-        let asked = rays.live & lanes_of_bits::<L>(token, self.lanes);
-        let center = axes!(i => L::load(token, &self.center[i]));
-        let radius = L::load(token, &self.radius);
-        let t = A::first_root(rays, prepared, center, radius, asked, limit);
-        L::select(asked, t, limit.like(f32::INFINITY))
-    }
-}
-
-/// Takes a hit that is nearer, or as near and of a lower index.
+/// Asks the tier about one sphere a lane: t where there is a hit in a lane that is `asked`, else
+/// `+inf`.
+///
+/// The one place where the tree does so, and a function of its own: a tier is long, and would be
+/// compiled into every walk several times.
 #[inline(always)]
-pub(crate) fn take<A: LaneArray>(hits: &mut HitArrays<A>, lane: usize, t: f32, index: u32) {
-    if let (Some(best), Some(sphere)) =
-        (hits.t.as_mut().get_mut(lane), hits.sphere.as_mut().get_mut(lane))
-        && (t < *best || (t == *best && index < *sphere))
-    {
-        *best = t;
-        *sphere = index;
-    }
-}
-
-/// Asks about the candidates of all rays, a ray a lane.
-#[inline(always)]
-pub(super) fn settle<A: Accuracy, L: Lanes>(
-    token: L::Token,
+pub(crate) fn ask<A: Accuracy, L: Lanes>(
     rays: &RayLanes<L>,
-    leaves: &[BvhLeaf],
-    lists: &[(List, f32)],
-    hits: &mut HitPacket<L>,
-) {
-    let mut longest = 0;
-    for (list, _) in lists {
-        longest = longest.max(list.count);
-    }
-    if longest == 0 {
-        return;
-    }
-    let prepared = A::prepare(rays);
-    for at in 0..longest {
-        let mut asked = Asked::<L>::none();
-        for (lane, (list, best)) in lists.iter().enumerate().take(L::COUNT) {
-            if let Some(place) = list.get(at, *best) {
-                asked.put(lane, leaves, place);
-            }
-        }
-        if asked.lanes == 0 {
-            continue;
-        }
-        let limit = L::load(token, &hits.t);
-        let t = asked.ask::<A>(rays, &prepared, limit);
-        let t = t.store();
-        let lanes = t.as_ref().iter().zip(asked.index.as_ref()).enumerate();
-        for (lane, (&t, &index)) in lanes {
-            if t < f32::INFINITY {
-                take(hits, lane, t, index);
-            }
-        }
-    }
+    center: [L; 3],
+    radius: L,
+    asked: L::Mask,
+    limit: L,
+) -> L {
+    L::out_of_line(
+        limit.token(),
+        #[inline(always)]
+        || {
+            let t = A::first_root(rays, &A::prepare(rays), center, radius, asked, limit);
+            L::select(asked, t, limit.like(f32::INFINITY))
+        },
+    )
 }
 
-/// Asks about the candidates of one ray, a candidate a lane: its nearest hit.
-#[inline(always)]
-pub(super) fn settle_one<A: Accuracy, L: Lanes>(
-    token: L::Token,
-    packet: &RayPacket<L>,
-    lane: usize,
-    leaves: &[BvhLeaf],
-    list: &List,
-) -> Option<Hit> {
-    let ray = packet.ray(lane);
-    let mut copies = RayPacket::<L>::inactive();
-    for copy in 0..L::COUNT {
-        copies.set(copy, &ray);
-    }
-    let rays = RayLanes::<L>::load(token, &copies);
-    let prepared = A::prepare(&rays);
-    let limit = L::splat(token, f32::INFINITY);
-    let mut nearest: Option<Hit> = None;
-    for from in (0..LIST).step_by(L::COUNT) {
-        let mut asked = Asked::<L>::none();
-        for lane in 0..L::COUNT.min(LIST) {
-            if let Some(place) = list.get(from + lane, f32::INFINITY) {
-                asked.put(lane, leaves, place);
-            }
-        }
-        let t = asked.ask::<A>(&rays, &prepared, limit).store();
-        for (&t, &sphere) in t.as_ref().iter().zip(asked.index.as_ref()) {
-            if t < f32::INFINITY
-                && nearest.is_none_or(
-                    #[inline(always)]
-                    |hit| t < hit.t || (t == hit.t && sphere < hit.sphere),
-                )
-            {
-                nearest = Some(Hit { t, sphere });
-            }
-        }
-    }
-    nearest
-}
-
-/// Asks about spheres that every ray must be tested against, those in `lanes`.
+/// Asks about spheres that every ray must be tested against, for the rays of a packet in `lanes`.
 #[inline(always)]
 pub(super) fn settle_outside<A: Accuracy, L: Lanes>(
-    token: L::Token,
     rays: &RayLanes<L>,
     outside: &[BvhLeaf],
     lanes: u32,
-    hits: &mut HitPacket<L>,
+    packet: usize,
+    answers: &mut impl Answers<L>,
 ) {
-    let asked = rays.live & lanes_of_bits::<L>(token, lanes);
-    if !asked.any() {
-        return;
-    }
-    let prepared = A::prepare(rays);
-    let infinity = L::splat(token, f32::INFINITY);
+    let token = rays.t_min.token();
+    let asked = rays.live & L::mask(token, lanes);
     for leaf in outside {
         for place in 0..WIDTH {
             if leaf.radius[place] >= 0.0 {
                 let center = axes!(i => L::splat(token, leaf.center[i][place]));
                 let radius = L::splat(token, leaf.radius[place]);
-                let limit = L::load(token, &hits.t);
-                let t = A::first_root(rays, &prepared, center, radius, asked, limit);
-                let t = L::select(asked, t, infinity).store();
+                let limit = L::splat(token, f32::INFINITY);
+                let t = ask::<A, L>(rays, center, radius, asked, limit).store();
                 for (lane, &t) in t.as_ref().iter().enumerate() {
                     if t < f32::INFINITY {
-                        take(hits, lane, t, leaf.index[place]);
+                        answers.take(packet, lane, Hit { t, sphere: leaf.index[place] });
                     }
                 }
             }

@@ -80,26 +80,47 @@ pub(super) struct Slabs<L: Lanes> {
     pub(super) spread: L::Array,
 }
 
-impl<L: Lanes> Slabs<L> {
+/// The course of a packet's rays: directions of unit length, and what the bounds cover.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Course<L: Lanes> {
+    /// The rays that the bounds cover.
+    pub(super) judged: L::Mask,
+    /// n.
+    pub(super) direction: [L; 3],
+    /// |d|: t times it is s.
+    pub(super) length: L,
+    /// The largest coordinate of the origin.
+    pub(super) far: L,
+}
+
+impl<L: Lanes> Course<L> {
     #[inline(always)]
-    pub(super) fn new<A: Accuracy>(rays: &RayLanes<L>, extent: f32) -> Self {
+    pub(super) fn new(rays: &RayLanes<L>) -> Self {
         let d = rays.direction;
         let a = dot(d, d);
-        let (zero, one) = (a.like(0.0), a.like(1.0));
         let far = rays.origin[0].abs().filter_max(rays.origin[1].abs());
         let far = far.filter_max(rays.origin[2].abs());
         let judged = rays.live
             & a.like(1.0 / LONGEST).le(a)
             & a.le(a.like(LONGEST))
             & far.le(a.like(super::LARGEST));
+        let one = a.like(1.0);
         let length = L::select(judged, a, one).sqrt();
         let per_length = one / length;
-        let direction = axes!(i => d[i] * per_length);
+        Self { judged, direction: axes!(i => d[i] * per_length), length, far }
+    }
+}
+
+impl<L: Lanes> Slabs<L> {
+    #[inline(always)]
+    pub(super) fn new<A: Accuracy>(rays: &RayLanes<L>, extent: f32) -> Self {
+        let Course { judged, direction, length, far } = Course::new(rays);
+        let (zero, one) = (length.like(0.0), length.like(1.0));
         let origin = rays.origin;
 
-        let size = far + a.like(extent);
-        let pad = size.filter_mul_add(a.like(128.0 * U), a.like(LEAST_PAD));
-        let least = a.like(LEAST_COMPONENT);
+        let size = far + length.like(extent);
+        let pad = size.filter_mul_add(length.like(128.0 * U), length.like(LEAST_PAD));
+        let least = length.like(LEAST_COMPONENT);
         let inverse = axes!(i => {
             let clamped = least.filter_max(direction[i].abs());
             one / L::select(direction[i].lt(zero), -clamped, clamped)
@@ -114,12 +135,18 @@ impl<L: Lanes> Slabs<L> {
             inverse: axes!(i => inverse[i].store()),
             near: axes!(i => (along[i] + reach[i]).store()),
             far: axes!(i => (along[i] - reach[i]).store()),
-            start: [(-raised(-start)).store(), raised(start).store()],
-            end: [(-raised(-end)).store(), raised(end).store()],
+            start: [lowered(start).store(), raised(start).store()],
+            end: [lowered(end).store(), raised(end).store()],
             length: length.store(),
-            spread: (size * a.like(4.0 * A::SPREAD)).store(),
+            spread: (size * length.like(4.0 * A::SPREAD)).store(),
         }
     }
+}
+
+/// At most s, as [`raised`].
+#[inline(always)]
+pub(super) fn lowered<L: Lanes>(s: L) -> L {
+    -raised(-s)
 }
 
 /// At least s, for `s` that was made of a t: see above.

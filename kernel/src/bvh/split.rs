@@ -4,153 +4,18 @@
 //! every pass reads memory in order, and no other memory is needed. Cuts fall on multiples of
 //! sixteen, so a run is a run of leaves.
 
+use super::bins::{BINS, Bin, bin_of, bins_of};
+use super::bounds::Bounds;
+use super::join::Join;
 use super::{BvhLeaf, WIDTH};
-
-/// How many slices a run is sorted into, an axis.
-const BINS: usize = 16;
 
 /// Up to how many leaves all cuts are compared.
 const EVERY_CUT: usize = 32;
-
-/// The box of some spheres, and the box of their centres.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Bounds {
-    pub(super) low: [f32; 3],
-    pub(super) high: [f32; 3],
-    least: [f32; 3],
-    most: [f32; 3],
-}
 
 /// A run of leaves, and how many spheres are in them: all leaves are full but the last of all.
 pub(super) struct Run<'a> {
     pub(super) leaves: &'a mut [BvhLeaf],
     pub(super) count: usize,
-}
-
-#[inline(always)]
-fn least(a: f32, b: f32) -> f32 {
-    if a < b { a } else { b }
-}
-
-#[inline(always)]
-fn most(a: f32, b: f32) -> f32 {
-    if a > b { a } else { b }
-}
-
-/// Half the surface of a box: what the chance to meet it is proportional to.
-#[inline(always)]
-fn half_area(low: [f32; 3], high: [f32; 3]) -> f32 {
-    let [x, y, z] = [high[0] - low[0], high[1] - low[1], high[2] - low[2]];
-    x * y + y * z + z * x
-}
-
-impl Bounds {
-    const NONE: Self = Self {
-        low: [f32::INFINITY; 3],
-        high: [f32::NEG_INFINITY; 3],
-        least: [f32::INFINITY; 3],
-        most: [f32::NEG_INFINITY; 3],
-    };
-
-    /// Of `leaves` that hold `count` spheres; the box is rounded outward.
-    pub(super) fn of(leaves: &[BvhLeaf], count: usize) -> Self {
-        let mut bounds = Self::NONE;
-        let (full, rest) = leaves.split_at(leaves.len().min(count / WIDTH));
-        for axis in 0..3 {
-            let mut low = [f32::INFINITY; WIDTH];
-            let mut high = [f32::NEG_INFINITY; WIDTH];
-            let (mut left, mut right) = (low, high);
-            for leaf in full {
-                let center = &leaf.center[axis];
-                for lane in 0..WIDTH {
-                    low[lane] = least(low[lane], center[lane] - leaf.radius[lane]);
-                    high[lane] = most(high[lane], center[lane] + leaf.radius[lane]);
-                    left[lane] = least(left[lane], center[lane]);
-                    right[lane] = most(right[lane], center[lane]);
-                }
-            }
-            if let Some(leaf) = rest.first() {
-                for lane in 0..count % WIDTH {
-                    let center = leaf.center[axis][lane];
-                    low[lane] = least(low[lane], center - leaf.radius[lane]);
-                    high[lane] = most(high[lane], center + leaf.radius[lane]);
-                    left[lane] = least(left[lane], center);
-                    right[lane] = most(right[lane], center);
-                }
-            }
-            // Rounding to nearest is monotonic: one step covers all.
-            bounds.low[axis] = low.into_iter().fold(f32::INFINITY, least).next_down();
-            bounds.high[axis] = high.into_iter().fold(f32::NEG_INFINITY, most).next_up();
-            bounds.least[axis] = left.into_iter().fold(f32::INFINITY, least);
-            bounds.most[axis] = right.into_iter().fold(f32::NEG_INFINITY, most);
-        }
-        bounds
-    }
-
-    pub(super) fn half_area(&self) -> f32 {
-        half_area(self.low, self.high)
-    }
-
-    /// The axis along which the centres lie farthest apart; 3, for the radius, where they do not.
-    fn longest_axis(&self) -> usize {
-        let mut axis = 3;
-        let mut longest = 0.0;
-        for i in 0..3 {
-            let length = self.most[i] - self.least[i];
-            if length > longest {
-                (axis, longest) = (i, length);
-            }
-        }
-        axis
-    }
-
-    /// Which slice a centre is in is (centre - least) * scale: zero where an axis tells nothing.
-    fn scales(&self) -> [f32; 3] {
-        let mut scales = [0.0; 3];
-        for (axis, scale) in scales.iter_mut().enumerate() {
-            // A hair below sixteen, so that the last centre is in the last slice.
-            let slices =
-                BINS as f32 * (1.0 - 4.0 * f32::EPSILON) / (self.most[axis] - self.least[axis]);
-            if slices < f32::MAX {
-                *scale = slices;
-            }
-        }
-        scales
-    }
-}
-
-#[inline(always)]
-fn bin_of(center: f32, least: f32, scale: f32) -> usize {
-    ((center - least) * scale) as i32 as usize & (BINS - 1)
-}
-
-/// What lies in a slice; the fourth number is there to fill a register.
-#[derive(Clone, Copy)]
-struct Bin {
-    low: [f32; 4],
-    high: [f32; 4],
-    count: usize,
-}
-
-impl Bin {
-    const EMPTY: Self = Self { low: [f32::INFINITY; 4], high: [f32::NEG_INFINITY; 4], count: 0 };
-
-    #[inline(always)]
-    fn grow(&mut self, low: [f32; 4], high: [f32; 4], count: usize) {
-        for i in 0..4 {
-            self.low[i] = least(self.low[i], low[i]);
-            self.high[i] = most(self.high[i], high[i]);
-        }
-        self.count += count;
-    }
-
-    fn half_area(&self) -> f32 {
-        if self.count == 0 {
-            return 0.0;
-        }
-        let [low, high] = [self.low, self.high].map(|[x, y, z, _]| [x, y, z]);
-        half_area(low, high)
-    }
 }
 
 /// Where to cut: before sphere `at`, in the order along `axis`.
@@ -166,9 +31,9 @@ struct Cut {
 impl Run<'_> {
     /// Cuts the run where the heuristic says; answers with the leaves of the first part, at least
     /// one and fewer than all. The run has two leaves or more.
-    pub(super) fn split(&mut self, bounds: &Bounds) -> usize {
+    pub(super) fn split(&mut self, join: &impl Join, bounds: &Bounds) -> usize {
         let scales = bounds.scales();
-        match self.best_cut(bounds, scales) {
+        match self.best_cut(join, bounds, scales) {
             Some(cut) => {
                 let (least, scale) = (bounds.least[cut.axis], scales[cut.axis]);
                 let before = self.gather(0, self.count, |leaf, lane| {
@@ -196,19 +61,8 @@ impl Run<'_> {
 
     /// The cheapest cut between slices, moved to a multiple of sixteen; none where all centres
     /// coincide, or nearly.
-    fn best_cut(&self, bounds: &Bounds, scales: [f32; 3]) -> Option<Cut> {
-        let mut bins = [[Bin::EMPTY; BINS]; 3];
-        for (place, leaf) in self.leaves.iter().enumerate() {
-            let lanes = (self.count - place * WIDTH).min(WIDTH);
-            for lane in 0..lanes {
-                let [x, y, z] = [leaf.center[0][lane], leaf.center[1][lane], leaf.center[2][lane]];
-                let r = leaf.radius[lane];
-                let (low, high) = ([x - r, y - r, z - r, 0.0], [x + r, y + r, z + r, 0.0]);
-                for (axis, center) in [x, y, z].into_iter().enumerate() {
-                    bins[axis][bin_of(center, bounds.least[axis], scales[axis])].grow(low, high, 1);
-                }
-            }
-        }
+    fn best_cut(&self, join: &impl Join, bounds: &Bounds, scales: [f32; 3]) -> Option<Cut> {
+        let bins = bins_of(join, self.leaves, self.count, bounds, scales);
         let mut best = None;
         let mut least_cost = f32::INFINITY;
         for (axis, bins) in bins.iter().enumerate() {

@@ -11,6 +11,11 @@ pub trait LaneArray: Copy + Debug + Default + PartialEq + AsRef<[f32]> + AsMut<[
     const COUNT: usize;
     /// `[u32; N]`: sphere indices, one a lane.
     type Ids: Copy + Debug + Default + PartialEq + AsRef<[u32]> + AsMut<[u32]>;
+    /// `[T; N]`: anything else, one a lane.
+    type Each<T>: AsRef<[T]> + AsMut<[T]>;
+
+    /// `value` for every lane.
+    fn each<T: Copy>(value: T) -> Self::Each<T>;
 }
 
 macro_rules! lane_array {
@@ -18,6 +23,12 @@ macro_rules! lane_array {
         impl LaneArray for [f32; $count] {
             const COUNT: usize = $count;
             type Ids = [u32; $count];
+            type Each<T> = [T; $count];
+
+            #[inline(always)]
+            fn each<T: Copy>(value: T) -> [T; $count] {
+                [value; $count]
+            }
         }
     };
 }

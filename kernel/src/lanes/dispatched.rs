@@ -128,6 +128,12 @@ macro_rules! dispatched_lanes {
             }
 
             #[inline(always)]
+            fn mask(token: S, bits: u32) -> Self::Mask {
+                // Bits past the last lane are not looked at.
+                DispatchedMask(SimdMask::from_bitmask(token, u64::from(bits) & ((1 << $count) - 1)))
+            }
+
+            #[inline(always)]
             fn filter_mul_add(self, factor: Self, addend: Self) -> Self {
                 SimdFloat::mul_add(self, factor, addend)
             }
@@ -140,6 +146,11 @@ macro_rules! dispatched_lanes {
             #[inline(always)]
             fn compress(self, mask: Self::Mask) -> Self {
                 SimdBase::compress(self, mask.0)
+            }
+
+            #[inline(always)]
+            fn filter_greatest(self) -> f32 {
+                SimdBase::reduce_max(self)
             }
 
             #[inline(always)]

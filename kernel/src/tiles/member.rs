@@ -4,9 +4,9 @@ use super::answer::Answer;
 use super::view::View;
 use crate::accuracy::RayLanes;
 use crate::axes::{axes, dot};
-use crate::bvh::resolve::take;
+use crate::bvh::resolve::ask;
 use crate::bvh::slabs::{LONGEST, raised};
-use crate::{Accuracy, HitPacket, LaneMask, Lanes, RayPacket, Sphere};
+use crate::{Accuracy, Hit, HitPacket, LaneMask, Lanes, RayPacket, Sphere};
 
 /// A packet of a group: its rays with directions of unit length.
 #[derive(Clone, Copy)]
@@ -75,12 +75,11 @@ impl<L: Lanes> Member<L> {
 
     /// Asks the tier about a sphere, of the rays `asked`.
     #[inline(always)]
-    pub(super) fn meet<A: Accuracy, R: Answer<L>>(
-        &mut self,
+    pub(super) fn meet<A: Accuracy>(
+        &self,
         sphere: &Sphere,
         index: u32,
         asked: L::Mask,
-        slack: f32,
         hit: &mut HitPacket<L>,
     ) {
         // Another list than the order was made from may have anything there.
@@ -91,19 +90,16 @@ impl<L: Lanes> Member<L> {
         let center = axes!(i => L::splat(token, sphere.center[i]));
         let radius = L::splat(token, sphere.radius);
         let limit = L::load(token, &hit.t);
-        let prepared = A::prepare(&self.rays);
-        let t = A::first_root(&self.rays, &prepared, center, radius, asked, limit);
-        let t = L::select(asked, t, t.like(f32::INFINITY));
+        let t = ask::<A, L>(&self.rays, center, radius, asked, limit);
         let mut nearer = (t.le(limit) & t.lt(t.like(f32::INFINITY))).bits();
         let t = t.store();
         while nearer != 0 {
             let lane = nearer.trailing_zeros() as usize;
             nearer &= nearer - 1;
             if let Some(&t) = t.as_ref().get(lane) {
-                take(hit, lane, t, index);
+                hit.take(lane, Hit { t, sphere: index });
             }
         }
-        self.shorten::<R>(slack, hit);
     }
 
     /// Takes the hits so far as the ends of the rays.

@@ -186,11 +186,7 @@ impl<V: View> Walk<'_, V> {
             member.shorten::<R>(slack, hit);
         }
         if self.order.outside > 0 {
-            L::out_of_line(
-                token,
-                #[inline(always)]
-                || self.meet_outside::<A, L, R>(slack, members, hits),
-            );
+            self.meet_outside::<A, L, R>(slack, members, hits);
         }
         for at in (0..list.count).step_by(L::COUNT) {
             // All that follows is as deep, or deeper.
@@ -216,11 +212,8 @@ impl<V: View> Walk<'_, V> {
                     if asked.any()
                         && let Some(sphere) = self.spheres.get(listed.index as usize)
                     {
-                        L::out_of_line(
-                            token,
-                            #[inline(always)]
-                            || member.meet::<A, R>(&sphere, listed.index, asked, slack, hit),
-                        );
+                        member.meet::<A>(&sphere, listed.index, asked, hit);
+                        member.shorten::<R>(slack, hit);
                     }
                 }
                 if !reached {
@@ -241,8 +234,8 @@ impl<V: View> Walk<'_, V> {
         for &index in self.order.outside() {
             let Some(sphere) = self.spheres.get(index as usize) else { return };
             for (member, hit) in members.iter_mut().zip(hits.iter_mut()) {
-                let asked = member.rays.live;
-                member.meet::<A, R>(&sphere, index, asked, slack, hit);
+                member.meet::<A>(&sphere, index, member.rays.live, hit);
+                member.shorten::<R>(slack, hit);
             }
         }
     }

@@ -12,9 +12,9 @@ extern crate std;
 use core::hint::black_box;
 use spherule_kernel::camera::Projection;
 use spherule_kernel::{
-    Accuracy, Camera, Exact, Fast, Hit, HitPacket, Lanes, Ray, RayPacket, Sphere, SpherePacket,
-    Spheres, Stable, Vec3, any, f32x4, f32x8, f32x16, float_environment_is_sound, nearest,
-    nearest_hit, pairs, roots,
+    Accuracy, Camera, DepthOrder, Exact, Fast, Hit, HitPacket, Lanes, Ray, RayPacket, Sphere,
+    SpherePacket, Spheres, Stable, Vec3, Viewpoint, any, f32x4, f32x8, f32x16,
+    float_environment_is_sound, nearest, nearest_hit, pairs, roots, tiles,
 };
 
 /// What a firmware does in its own way; without `std` there must be one.
@@ -97,8 +97,24 @@ fn width<A: Accuracy, L: Lanes<Token = ()>>(
         &SpherePacket::<L>::new(&[*sphere]),
     );
 
-    let mut sum = met[0] ^ met[1];
-    for packet in hits.iter().chain([&beside]) {
+    // More memory than most lists of spheres need: too little is a value, too.
+    let (mut memory, mut lists) = ([0; 1024], [0; 1000]);
+    let viewpoint = match camera.projection {
+        Projection::Perspective { eye } => Viewpoint::Origin(eye),
+        Projection::Parallel { direction } => Viewpoint::Direction(direction),
+    };
+    let (mut listed, mut listed_met) = ([HitPacket::<L>::none(); 2], [0; 2]);
+    let needed = match DepthOrder::new(spheres, viewpoint, &mut memory) {
+        Ok(order) => {
+            tiles::nearest::<A, L>((), &rays, spheres, &order, &mut lists, &mut listed);
+            tiles::any::<A, L>((), &rays, spheres, &order, &mut lists, &mut listed_met);
+            DepthOrder::lists(spheres.len())
+        }
+        Err(error) => error.needed,
+    };
+
+    let mut sum = met[0] ^ met[1] ^ listed_met[0] ^ listed_met[1] ^ needed as u32;
+    for packet in hits.iter().chain(&listed).chain([&beside]) {
         for lane in 0..L::COUNT {
             sum ^= packet.hit(lane).map_or(0, digest).rotate_left(lane as u32);
         }

@@ -1,0 +1,200 @@
+//! As brute force does: the places where boxes, margins and intervals end.
+
+use crate::scenes::{camera, diffuse, point, uniform, unit};
+use crate::{BOTH, EXACT, assert_same, bits, brute, difference};
+use spherule_kernel::{Exact, Ray, Sphere, Vec3, roots};
+use spherule_tests::case::{Case, HexRay};
+use spherule_tests::doors::Columns;
+use spherule_tests::inputs::SPECIALS;
+use spherule_tests::random::Random;
+use spherule_tests::regimes::REGIMES;
+use spherule_tests::tree_ways::{Memory, ways};
+
+#[test]
+fn any_number_of_spheres() {
+    let rays: Vec<Ray> = diffuse(500).into_iter().chain(camera(16)).collect();
+    for count in [0, 1, 2, 15, 16, 17, 31, 33, 255, 257, 272, 273, 4097] {
+        assert_same(BOTH, &rays, &uniform(count));
+    }
+}
+
+#[test]
+fn intervals() {
+    let mut random = Random::new(72, 0);
+    let mut rays = diffuse(2000);
+    for ray in &mut rays {
+        let ends = [f32::NEG_INFINITY, f32::INFINITY, -0.5, 0.0, -0.0, 0.1, 0.5, 1.0, f32::NAN];
+        (ray.t_min, ray.t_max) = (random.pick(&ends), random.pick(&ends));
+        ray.direction *= random.uniform(0.5, 2.0) as f32;
+    }
+    assert_same(BOTH, &rays, &uniform(500));
+    // Ends that are answers, and their neighbours.
+    let spheres = uniform(500);
+    let hits = (brute("exact").nearest)(&rays, &spheres);
+    for (ray, hit) in rays.iter_mut().zip(hits) {
+        let Some(hit) = hit else { continue };
+        let end = random.pick(&[hit.t, hit.t.next_up(), hit.t.next_down()]);
+        if random.one_in(2) { ray.t_max = end } else { ray.t_min = end }
+    }
+    assert_same(BOTH, &rays, &spheres);
+}
+
+/// Parallel to an axis and exactly tangent, which is to run in the face of a box.
+#[test]
+fn tangents_along_axes() {
+    let mut random = Random::new(73, 0);
+    let spheres: Vec<Sphere> = (0..600)
+        .map(|_| Sphere {
+            center: Vec3::from_array([(); 3].map(|()| random.integer(-512, 512) as f32 / 512.0)),
+            radius: random.integer(1, 64) as f32 / 512.0,
+        })
+        .collect();
+    for away in [2.0, 1000.0] {
+        let mut rays = Vec::new();
+        for _ in 0..3000 {
+            let sphere = random.pick(&spheres);
+            let axis = random.integer(0, 2) as usize;
+            let side = (axis + random.integer(1, 2) as usize) % 3;
+            let sign = random.sign() as f32;
+            let mut origin = sphere.center;
+            origin[side] += random.sign() as f32 * sphere.radius;
+            origin[axis] = -sign * away;
+            let mut direction = Vec3::ZERO;
+            direction[axis] = sign * random.integer(1, 3) as f32;
+            // Zeros of either sign, and numbers next to zero.
+            let other = 3 - axis - side;
+            direction[side] = random.pick(&[0.0, -0.0]);
+            direction[other] = random.pick(&[0.0, -0.0, 1e-38, -1e-38, 1e-45, 1e-25]);
+            rays.push(Ray::new(origin, direction));
+        }
+        assert_same(BOTH, &rays, &spheres);
+    }
+}
+
+/// Tangents of any direction; origins on, and inside of, spheres.
+#[test]
+fn tangents_and_origins_on_spheres() {
+    let mut random = Random::new(74, 0);
+    let spheres = uniform(700);
+    let mut rays = Vec::new();
+    for round in 0..6000 {
+        let sphere = random.pick(&spheres);
+        let along = random.unit();
+        let across = random.perpendicular(along);
+        let [along, across] = [along, across].map(|v| Vec3::from_array(v.map(|x| x as f32)));
+        let side = sphere.center + sphere.radius * across;
+        let away = random.pick(&[0.0, 0.01, 2.0, 1000.0]);
+        let origin = if round % 2 == 0 {
+            side - away * along
+        } else {
+            sphere.center
+                + random.pick(&[0.0, 0.5, 0.999_999, 1.0, 1.000_001]) * (side - sphere.center)
+        };
+        rays.push(Ray::new(origin, along));
+    }
+    assert_same(BOTH, &rays, &spheres);
+}
+
+/// Rays with numbers at which something overflows, vanishes or is none.
+#[test]
+fn rays_of_any_components() {
+    let mut random = Random::new(75, 0);
+    let numbers: Vec<f32> = SPECIALS.into_iter().chain([1e-38, 3e38, -3e38, 1e-20, 1e20]).collect();
+    let mut rays = Vec::new();
+    for _ in 0..8000 {
+        let mut ray = Ray::new(point(&mut random, 1.0), unit(&mut random));
+        for axis in 0..3 {
+            if random.one_in(3) {
+                ray.direction[axis] = random.pick(&numbers);
+            }
+            if random.one_in(8) {
+                ray.origin[axis] = random.pick(&numbers);
+            }
+        }
+        if random.one_in(4) {
+            ray.direction *= random.pick(&[1e-38, 1e-30, 1e-20, 1e-15, 1e15, 1e18, 1e30]);
+        }
+        rays.push(ray);
+    }
+    assert_same(EXACT, &rays, &uniform(300));
+}
+
+/// The hard cases' rays against the hard cases' spheres, of one regime and of all.
+#[test]
+fn regimes() {
+    let mut all: Vec<Case> = Vec::new();
+    for regime in REGIMES {
+        let cases: Vec<Case> = regime.cases(400).collect();
+        let rays: Vec<Ray> = cases.iter().map(|case| case.ray).collect();
+        let spheres: Vec<Sphere> = cases.iter().map(|case| case.sphere).collect();
+        if let Some(difference) = difference(EXACT, &rays, &spheres) {
+            panic!("{regime:?}: {difference}");
+        }
+        // Beside a scene, moved to where it is.
+        let mut beside = uniform(400);
+        for (place, sphere) in beside.iter_mut().step_by(40).zip(&spheres) {
+            *place = *sphere;
+        }
+        assert_same(EXACT, &rays, &beside);
+        all.extend(&cases[..60]);
+    }
+    let rays: Vec<Ray> = all.iter().map(|case| case.ray).collect();
+    let spheres: Vec<Sphere> = all.iter().map(|case| case.sphere).collect();
+    assert_same(EXACT, &rays, &spheres);
+}
+
+#[test]
+fn stable_in_its_domain() {
+    // Distances up to 1e6 radii, sizes from 2^-30 to 2^30.
+    let mut random = Random::new(76, 0);
+    for exponent in [-30, -10, 0, 10, 30] {
+        let scale = 2.0_f32.powi(exponent);
+        let mut spheres = uniform(400);
+        for sphere in &mut spheres {
+            sphere.center *= scale;
+            sphere.radius *= scale;
+        }
+        let rays: Vec<Ray> = (0..3000)
+            .map(|_| {
+                let target = random.pick(&spheres);
+                let away = 10.0_f64.powf(random.uniform(-1.0, 4.0)) as f32 * scale;
+                let along = unit(&mut random);
+                let from = target.center - away * along;
+                let aside = target.radius * random.uniform(0.0, 1.1) as f32 * unit(&mut random);
+                Ray::new(from + aside, along * random.uniform(0.1, 10.0) as f32)
+            })
+            .collect();
+        assert_same(BOTH, &rays, &spheres);
+    }
+}
+
+/// `Fast` may lose what is no hit, and nothing else.
+#[test]
+fn fast_loses_false_hits_alone() {
+    let mut spheres = uniform(500);
+    // Far from the origin, where the textbook form sees hits that are none.
+    spheres.iter_mut().for_each(|sphere| sphere.center.z -= 300.0);
+    let mut random = Random::new(79, 0);
+    let rays: Vec<Ray> = (0..4000)
+        .map(|_| Ray::new(Vec3::ZERO, point(&mut random, 1.3) - Vec3::new(0.0, 0.0, 300.0)))
+        .collect();
+    let columns = Columns::new(&spheres);
+    let mut memory = Memory::new(spheres.len());
+    let tree = memory.build(&columns);
+    let expected = (brute("fast").nearest)(&rays, &spheres);
+    let mut lost = 0;
+    for way in ways().filter(|way| way.tier == "fast") {
+        for (hits, _) in
+            [way.one_by_one(&rays, &columns, &tree), way.coherent(&rays, &columns, &tree)]
+        {
+            for ((ray, hit), expected) in rays.iter().zip(hits).zip(&expected) {
+                if bits(hit) != bits(*expected) {
+                    lost += 1;
+                    let sphere = &spheres[expected.expect("a hit was lost").sphere as usize];
+                    assert_eq!(roots::<Exact>(ray, sphere), None, "{} {hit:?}", HexRay(ray));
+                }
+            }
+        }
+    }
+    println!("{lost} false hits lost");
+}
