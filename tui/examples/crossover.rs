@@ -4,21 +4,29 @@
 //!
 //! One thread; clouds of spheres that fill a seventh of a cube; nearest hits by `Exact`, for a
 //! camera's rays in the order of a picture, and for rays from anywhere to anywhere. The structures
-//! are timed in turns, medians of several rounds: nanoseconds a ray, and a sphere of the build.
+//! are timed in turns, medians of several rounds of the thread's own clock.
 
+use rustix::time::{ClockId, clock_gettime};
 use spherule_kernel::camera::Projection;
 use spherule_kernel::dispatch::{Level, LevelName, Packet};
+use spherule_kernel::tiles::Viewpoint;
 use spherule_kernel::{Camera, Exact, HitPacket, Lanes, Ray, RayPacket, Spheres, Vec3};
 use spherule_tui::draw::tile_order;
 use spherule_tui::structure::{
-    RaysKind, SceneStructures, Search, Structure, StructureChoice, TreeMemory, Workload, choose,
+    RaysKind, SceneStructures, Search, Structure, TileLists, TreeMemory, Workload, choose,
 };
+use spherule_tui::threads::Threads;
 use std::hint::black_box;
-use std::time::Instant;
 
 /// How many spheres.
 const SPHERES: [usize; 14] =
     [1, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 4096, 16_384, 131_072, 1_048_576];
+/// Where the camera is.
+const EYE: Vec3 = Vec3::new(0.0, 0.0, 4.0);
+/// Packets that are traced together, as those of a band of a picture.
+const BAND: usize = 128;
+/// Rays of the pictures that are chosen for: 80 x 24 cells of 4 samples.
+const PICTURE: usize = 7680;
 /// Rounds of the structures in turns.
 const ROUNDS: usize = 9;
 /// Rays of a cloud, and of a cloud of so many spheres that brute force would take for ever.
@@ -30,18 +38,36 @@ fn main() {
     let named = LevelName::ALL.into_iter().find(|name| name.as_str() == word);
     let level = named.and_then(Level::named).unwrap_or_else(Level::best);
     println!(
-        "{}, ns a ray; in tests of brute force: a walk, a sphere of a build",
+        "{}: ns a ray, ns a sphere; the same in tests of brute force; what is chosen for pictures \
+         of {PICTURE} rays",
         level.name().as_str()
     );
     println!(
-        "{:10} {:>8} {:>10} {:>8} {:>7} {:>8} {:>8}   pictures of 7,680 rays: 1, for ever",
-        "rays", "spheres", "brute", "bvh", "build", "walk/t", "build/t"
+        "{:10} {:>8} {:>10} {:>8} {:>8} {:>7} {:>7} {:>9} {:>9} {:>8} {:>8}   {:11}   without end",
+        "rays",
+        "spheres",
+        "brute",
+        "tiles",
+        "bvh",
+        "sort",
+        "build",
+        "tiles/t",
+        "bvh/t",
+        "sort/t",
+        "build/t",
+        "one"
     );
     for kind in [RaysKind::Coherent, RaysKind::Incoherent] {
         for count in SPHERES {
             measure(kind, count, level);
         }
     }
+}
+
+/// Nanoseconds that this thread has had a CPU: others share the machine.
+fn cpu_ns() -> f64 {
+    let time = clock_gettime(ClockId::ThreadCPUTime);
+    time.tv_sec as f64 * 1e9 + time.tv_nsec as f64
 }
 
 /// Numbers in [-1, 1) (splitmix64).
@@ -72,7 +98,7 @@ fn rays(kind: RaysKind, count: usize) -> Vec<RayPacket<Packet>> {
     let side = (count as f32).sqrt() as u32;
     let step = 2.0 * 0.364 / side as f32;
     let camera = Camera {
-        projection: Projection::Perspective { eye: Vec3::new(0.0, 0.0, 4.0) },
+        projection: Projection::Perspective { eye: EYE },
         corner: Vec3::new(-0.364, 0.364, -1.0),
         step_x: Vec3::new(step, 0.0, 0.0),
         step_y: Vec3::new(0.0, -step, 0.0),
@@ -96,46 +122,79 @@ fn measure(kind: RaysKind, count: usize, level: Level) {
     let middle = (rays.len() - part) / 2;
     let few = &rays[middle..middle + part];
 
-    let forever = Workload { rays: 7680, pictures: f64::INFINITY, kind };
-    let (mut brute, mut tree, mut build) = (Vec::new(), Vec::new(), Vec::new());
+    let threads = Threads::default();
+    let mut times = Times::default();
     let mut hits = vec![HitPacket::<Packet>::none(); rays.len()];
+    let mut lists = TileLists::default();
     for _ in 0..ROUNDS {
         let mut memory = TreeMemory::default();
-        let mut structures = SceneStructures::new(spheres, &mut memory);
-        let chosen = StructureChoice::Only(Structure::Bvh);
-        let search = structures.search(chosen, &forever).expect("memory for a tree");
-        build.push(structures.build_time().as_secs_f64() * 1e9 / count as f64);
+        let mut structures = SceneStructures::new(spheres, &threads, &mut memory);
         let mut time = |search: Search<'_>, rays: &[RayPacket<Packet>]| {
-            let start = Instant::now();
-            search.nearest::<Exact>(level, kind, rays, &mut hits);
+            let start = cpu_ns();
+            for (rays, hits) in rays.chunks(BAND).zip(hits.chunks_mut(BAND)) {
+                search.nearest::<Exact>(level, kind, rays, &mut lists, hits);
+            }
             black_box(&hits);
-            start.elapsed().as_secs_f64() * 1e9 / (rays.len() * Packet::COUNT) as f64
+            (cpu_ns() - start) / (rays.len() * Packet::COUNT) as f64
         };
-        tree.push(time(search, &rays));
-        brute.push(time(Search::brute(spheres), few));
+        times.brute.push(time(Search::brute(spheres), few));
+        let viewpoint = (kind == RaysKind::Coherent).then_some(Viewpoint::Origin(EYE));
+        let start = cpu_ns();
+        let order = structures.search(Structure::Tiles, viewpoint).expect("memory");
+        times.sort.push((cpu_ns() - start) / count as f64);
+        let part = if viewpoint.is_some() { &rays } else { few };
+        times.tiles.push(time(order, part));
+        let start = cpu_ns();
+        let tree = structures.search(Structure::Bvh, None).expect("memory");
+        times.build.push((cpu_ns() - start) / count as f64);
+        times.bvh.push(time(tree, &rays));
     }
-    let median = |list: &mut Vec<f64>| {
-        list.sort_by(f64::total_cmp);
-        list[list.len() / 2]
-    };
-    let (brute, tree, build) = (median(&mut brute), median(&mut tree), median(&mut build));
-    let test = brute / count as f64;
-    // What was chosen, and how much longer it takes than the best.
-    let choice = |pictures: f64| {
-        let chosen = choose(count, &Workload { rays: 7680, pictures, kind });
-        let with_build = tree + build * count as f64 / 7680.0 / pictures;
-        let taken = match chosen {
-            Structure::Brute => brute,
-            Structure::Bvh => with_build,
+    times.print(kind, count);
+}
+
+/// Nanoseconds, a round each: a ray, or a sphere of the sort and of the build.
+#[derive(Default)]
+struct Times {
+    brute: Vec<f64>,
+    tiles: Vec<f64>,
+    bvh: Vec<f64>,
+    sort: Vec<f64>,
+    build: Vec<f64>,
+}
+
+impl Times {
+    fn print(&mut self, kind: RaysKind, count: usize) {
+        let median = |list: &mut Vec<f64>| {
+            list.sort_by(f64::total_cmp);
+            list[list.len() / 2]
         };
-        format!("{} x{:.2}", chosen.as_str(), taken / with_build.min(brute))
-    };
-    println!(
-        "{:10} {count:8} {brute:10.2} {tree:8.2} {build:7.1} {:8.1} {:8.1}   {}, {}",
-        format!("{kind:?}").to_lowercase(),
-        tree / test,
-        build / test,
-        choice(1.0),
-        choice(f64::INFINITY)
-    );
+        let (brute, tiles, bvh) =
+            (median(&mut self.brute), median(&mut self.tiles), median(&mut self.bvh));
+        let (sort, build) = (median(&mut self.sort), median(&mut self.build));
+        let test = brute / count as f64;
+        // What was chosen, and how much longer it takes than the best.
+        let choice = |pictures: f64| {
+            let chosen = choose(count, &Workload { rays: PICTURE, pictures, kind });
+            let a_ray = count as f64 / PICTURE as f64;
+            let taken = |structure| match structure {
+                Structure::Brute => brute,
+                Structure::Tiles if kind == RaysKind::Incoherent => brute,
+                Structure::Tiles => tiles + sort * a_ray,
+                Structure::Bvh => bvh + build * a_ray / pictures,
+            };
+            let best = Structure::ALL.map(taken).into_iter().fold(f64::INFINITY, f64::min);
+            format!("{:5} x{:.2}", chosen.as_str(), taken(chosen) / best)
+        };
+        println!(
+            "{:10} {count:8} {brute:10.2} {tiles:8.2} {bvh:8.2} {sort:7.1} {build:7.1} {:9.1} \
+             {:9.1} {:8.1} {:8.1}   {}   {}",
+            format!("{kind:?}").to_lowercase(),
+            tiles / test,
+            bvh / test,
+            sort / test,
+            build / test,
+            choice(1.0),
+            choice(f64::INFINITY)
+        );
+    }
 }

@@ -77,10 +77,11 @@ fn time(
     };
     let mut view = scene.first_view(picture_aspect(&style, 200, 60) as f32);
     let mut memory = TreeMemory::default();
-    let mut structures = SceneStructures::new(scene.spheres(), &mut memory);
-    let workload = picture_workload(&style, 200, 60, f64::INFINITY);
-    let search = structures.search(structure, &workload).expect("memory for a tree");
-    let (mut renderer, mut bytes) = (Renderer::new(level, Threads::default()), Vec::new());
+    let threads = Threads::default();
+    let mut structures = SceneStructures::new(scene.spheres(), &threads, &mut memory);
+    let workload = picture_workload(scene.spheres().len(), &style, 200, 60, f64::INFINITY);
+    let structure = structures.structure(structure, &workload);
+    let (mut renderer, mut bytes) = (Renderer::new(level, &threads), Vec::new());
     let (mut draw, mut encoding, mut probes) = (Vec::new(), Vec::new(), Vec::new());
     let (mut sums, mut ratios, mut rays) = (Vec::new(), Vec::new(), 0);
     for _ in 0..frames.max(1) {
@@ -89,7 +90,9 @@ fn time(
         black_box(probe());
         let known = cpu_ms() - start;
         let start = cpu_ms();
-        let drawn = black_box(renderer.draw(scene, search, &view, &style, 200, 60));
+        let search = structures.picture(structure, workload.kind, view.viewpoint(), &scene.lights);
+        let search = search.expect("memory for a structure");
+        let drawn = black_box(renderer.draw(scene, &search, &view, &style, 200, 60));
         let drawing = cpu_ms() - start;
         bytes.clear();
         encode::full(&drawn.cells, &mut bytes);
@@ -112,7 +115,7 @@ fn time(
         "{name:8} {:6} {:5}: {both:.2} ms (least {:.2}; draw {draw:.2}, encode {encoding:.2}), probe \
          {known:.2} ms (least {:.2}), ratio {ratio:.2}: {:.2} ms on a quiet core; {rays} rays, {} bytes",
         accuracy.as_str(),
-        search.structure().as_str(),
+        structure.as_str(),
         sums[0],
         probes[0],
         ratio * probes[0],

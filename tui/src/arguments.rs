@@ -83,7 +83,7 @@ pub struct PictureArguments {
 /// How answers are computed: they do not depend on it.
 #[derive(Args, Clone, Copy, Debug)]
 pub struct ComputingArguments {
-    /// How spheres are searched: auto, brute or bvh
+    /// How spheres are searched: auto, brute, tiles or bvh
     #[arg(long, value_name = "HOW", default_value = "auto", value_parser = values::structure)]
     pub structure: StructureChoice,
     /// Threads, 1 to 1024 [default: all that the machine has]
@@ -250,7 +250,7 @@ mod tests {
             ("--size 80", "COLSxROWS"),
             ("--samples 0", "1 to 256"),
             ("--accuracy sloppy", "fast, stable or exact"),
-            ("--structure octree", "auto, brute or bvh"),
+            ("--structure octree", "auto, brute, tiles or bvh"),
             ("--threads 0", "1 to 1024"),
             ("tradeoff --threads 1025", "1 to 1024"),
             ("trace --threads two", "1 to 1024"),

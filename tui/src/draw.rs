@@ -8,7 +8,7 @@ pub use tile_order::tile_order;
 use crate::cells::CellGrid;
 use crate::samples::CellSamples;
 use crate::scene::Scene;
-use crate::structure::{RaysKind, Search, Workload};
+use crate::structure::{PictureSearch, RaysKind, Search, Workload, picture_kind};
 use crate::threads::Threads;
 use crate::view::View;
 use band::{BAND, BandPainter, Frame};
@@ -95,8 +95,11 @@ pub struct Drawn {
 #[must_use]
 pub fn draw(scene: &Scene, view: &View, style: &Style, columns: u16, rows: u16) -> Drawn {
     let search = Search::brute(scene.spheres());
-    let mut renderer = Renderer::new(Level::best(), Threads::default());
-    renderer.draw(scene, search, view, style, columns, rows)
+    let lights = vec![search; scene.lights.len()];
+    let search = PictureSearch { kind: RaysKind::Coherent, camera: search, lights };
+    let threads = Threads::default();
+    let mut renderer = Renderer::new(Level::best(), &threads);
+    renderer.draw(scene, &search, view, style, columns, rows)
 }
 
 /// The camera of a picture and the size of its grid of samples: sample `(ix, iy)` is the ray
@@ -109,15 +112,21 @@ pub fn sample_grid(view: &View, style: &Style, columns: u16, rows: u16) -> (Came
     (view.camera(width, height, aspect), width, height)
 }
 
-/// What the camera's rays of so many such pictures ask of a structure.
+/// What the camera's rays of so many such pictures ask of a structure over so many spheres.
 ///
 /// Shadow rays are not counted: how many there are, the picture shows.
 #[must_use]
-pub fn picture_workload(style: &Style, columns: u16, rows: u16, pictures: f64) -> Workload {
+pub fn picture_workload(
+    spheres: usize,
+    style: &Style,
+    columns: u16,
+    rows: u16,
+    pictures: f64,
+) -> Workload {
     let samples = CellSamples::new(style);
     let cells = usize::from(columns) * usize::from(rows);
     let rays = cells * (samples.across * samples.down) as usize;
-    Workload { rays, pictures, kind: RaysKind::Coherent }
+    Workload { rays, pictures, kind: picture_kind(spheres, rays) }
 }
 
 /// Width over height of a picture of `columns` x `rows` cells; 1 where it has no area.
@@ -131,27 +140,27 @@ pub fn picture_aspect(style: &Style, columns: u16, rows: u16) -> f64 {
 
 /// Draws, and keeps its memory from frame to frame.
 #[derive(Debug)]
-pub struct Renderer {
+pub struct Renderer<'a> {
     level: Level,
-    threads: Threads,
+    threads: &'a Threads,
     /// One a thread.
     painters: Vec<BandPainter>,
 }
 
-impl Renderer {
+impl<'a> Renderer<'a> {
     /// Without memory yet; `level` and `threads` change no picture, only how long it takes.
     #[must_use]
-    pub fn new(level: Level, threads: Threads) -> Self {
+    pub fn new(level: Level, threads: &'a Threads) -> Self {
         Self { level, threads, painters: Vec::new() }
     }
 
     /// Draws `scene` as `view` sees it into `columns` x `rows` cells; `search` finds the spheres
-    /// of that scene.
+    /// of that scene from that view.
     #[must_use]
     pub fn draw(
         &mut self,
         scene: &Scene,
-        search: Search<'_>,
+        search: &PictureSearch<'_>,
         view: &View,
         style: &Style,
         columns: u16,

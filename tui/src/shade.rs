@@ -10,7 +10,7 @@ pub use surface::SurfacePoint;
 
 use crate::picture::Picture;
 use crate::scene::Scene;
-use crate::structure::{RaysKind, Search};
+use crate::structure::{PictureSearch, RaysKind, Search, TileLists};
 use spherule_kernel::dispatch::{Level, Packet};
 use spherule_kernel::{Accuracy, Lanes, Ray, RayPacket, Vec3};
 
@@ -62,19 +62,21 @@ impl Shader {
         }
     }
 
-    /// Lights what was added since the last call; returns how many shadow rays that took.
+    /// Lights what was added since the last call; `search` is that of the picture.
+    /// Returns how many shadow rays that took.
     pub fn light<A: Accuracy>(
         &mut self,
         level: Level,
         scene: &Scene,
-        search: &Search<'_>,
+        search: &PictureSearch<'_>,
+        lists: &mut TileLists,
         picture: &mut Picture,
     ) -> u64 {
         for shaded in &self.shaded {
             picture.add(shaded.pixel as usize, AMBIENT * shaded.color);
         }
         let mut shadow_rays = 0;
-        for light in &scene.lights {
+        for (light, towards) in scene.lights.iter().zip(&search.lights) {
             let brightness = light.color.to_linear();
             for shaded in &self.shaded {
                 let Some((ray, cosine)) = shaded.point.towards(light) else { continue };
@@ -85,7 +87,7 @@ impl Shader {
                     picture.add(shaded.pixel as usize, received);
                 }
             }
-            shadow_rays += self.shadows.cast::<A>(level, search, picture);
+            shadow_rays += self.shadows.cast::<A>(level, search.kind, towards, lists, picture);
         }
         self.shaded.clear();
         shadow_rays
@@ -110,12 +112,14 @@ impl Shadows {
     fn cast<A: Accuracy>(
         &mut self,
         level: Level,
+        kind: RaysKind,
         search: &Search<'_>,
+        lists: &mut TileLists,
         picture: &mut Picture,
     ) -> u64 {
         self.met.clear();
         self.met.resize(self.rays.len(), 0);
-        search.any::<A>(level, RaysKind::Coherent, &self.rays, &mut self.met);
+        search.any::<A>(level, kind, &self.rays, lists, &mut self.met);
         for (index, &(pixel, received)) in self.waiting.iter().enumerate() {
             if self.met[index / Packet::COUNT] >> (index % Packet::COUNT) & 1 == 0 {
                 picture.add(pixel as usize, received);

@@ -52,15 +52,17 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Failure> {
     }
 
     let ComputingArguments { structure, threads, level } = arguments.computing;
-    let mut renderer = Renderer::new(level.unwrap_or_else(Level::best), Threads::new(threads)?);
+    let threads = Threads::new(threads)?;
+    let mut renderer = Renderer::new(level.unwrap_or_else(Level::best), &threads);
     let mut memory = TreeMemory::default();
-    let mut structures = SceneStructures::new(scene.spheres(), &mut memory);
+    let mut structures = SceneStructures::new(scene.spheres(), &threads, &mut memory);
     if is_terminal && !arguments.once {
         return viewer::run(&scene, structures, structure, view, style, renderer);
     }
-    let workload = picture_workload(&style, columns, rows, 1.0);
-    let search = structures.search(structure, &workload)?;
-    let drawn = renderer.draw(&scene, search, &view, &style, columns, rows);
+    let workload = picture_workload(scene.spheres().len(), &style, columns, rows, 1.0);
+    let structure = structures.structure(structure, &workload);
+    let search = structures.picture(structure, workload.kind, view.viewpoint(), &scene.lights)?;
+    let drawn = renderer.draw(&scene, &search, &view, &style, columns, rows);
     let mut bytes = Vec::new();
     encode::full(&drawn.cells, &mut bytes);
     write_stdout(&bytes)

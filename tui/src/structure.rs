@@ -1,33 +1,37 @@
 //! How the spheres that a ray may meet are found: by asking all of them, or by a structure that
-//! is built over them first. No answer depends on it, but for false hits of `Fast` that a tree
-//! loses; only the time does.
+//! is built over them first. No answer depends on it, but for false hits of `Fast` that structures
+//! lose; only the time does.
 
 mod choose;
 mod scene;
 mod search;
 
-pub use choose::{Workload, choose};
-pub use scene::{SceneStructures, TreeMemory};
-pub use search::Search;
+pub use choose::{Workload, choose, picture_kind};
+pub use scene::{PictureSearch, SceneStructures, TreeMemory};
+pub use search::{Search, TileLists};
 
 /// What is searched.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Structure {
     /// The list of spheres, from end to end.
     Brute,
+    /// The spheres in the order of their depth, sorted for every picture and culled by tiles of
+    /// it: for rays that share an origin or a direction; the others ask the list.
+    Tiles,
     /// A tree of boxes, built once.
     Bvh,
 }
 
 impl Structure {
     /// All of them.
-    pub const ALL: [Self; 2] = [Self::Brute, Self::Bvh];
+    pub const ALL: [Self; 3] = [Self::Brute, Self::Tiles, Self::Bvh];
 
     /// The name on the command line and in reports.
     #[must_use]
     pub const fn as_str(self) -> &'static str {
         match self {
             Self::Brute => "brute",
+            Self::Tiles => "tiles",
             Self::Bvh => "bvh",
         }
     }
@@ -67,7 +71,8 @@ impl StructureChoice {
 /// What rays that come one after the other have in common.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RaysKind {
-    /// An origin or a direction, or nearly so: camera rays, shadow rays to one light.
+    /// An origin or a direction, or nearly so, and they lie close together: camera rays, shadow rays
+    /// to one light.
     Coherent,
     /// Nothing.
     Incoherent,
@@ -85,6 +90,7 @@ mod tests {
             names.push(choice.as_str());
             choice = choice.next();
         }
-        assert_eq!((names, choice), (vec!["auto", "brute", "bvh"], StructureChoice::Auto));
+        assert_eq!(names, ["auto", "brute", "tiles", "bvh"]);
+        assert_eq!(choice, StructureChoice::Auto);
     }
 }

@@ -3,6 +3,7 @@
 
 use crate::failure::Failure;
 use rayon::{ThreadPool, ThreadPoolBuilder};
+use spherule_kernel::bvh::Join;
 use std::num::NonZeroUsize;
 use std::sync::{Mutex, PoisonError};
 use std::thread::available_parallelism;
@@ -10,12 +11,20 @@ use std::thread::available_parallelism;
 /// The most threads that can be asked for.
 pub const MOST_THREADS: usize = 1024;
 
-/// No more packets than this go through a structure together.
-pub const ALIGNMENT: usize = 16;
-/// The most packets a task.
-const MOST_PACKETS: usize = 256;
-/// Tasks a thread, where there are packets for them.
-const TASKS: usize = 16;
+/// The fewest packets a task and the most: enough that brute force prepares its spheres for many
+/// at a time, few enough that they stay in the cache.
+const PACKETS: (usize, usize) = (16, 1024);
+/// Tasks, where there are packets for them: so many that threads end at about the same time.
+const TASKS: usize = 128;
+
+/// How many of so many packets a task should have.
+///
+/// Not a matter of the number of threads: so the packets that go through a structure together are
+/// always the same ones.
+#[must_use]
+pub fn packets_a_task(packets: usize) -> usize {
+    (packets / TASKS).next_multiple_of(PACKETS.0).clamp(PACKETS.0, PACKETS.1)
+}
 
 /// A number of threads. One is the caller's own: then there is no pool.
 #[derive(Debug, Default)]
@@ -42,18 +51,6 @@ impl Threads {
     #[must_use]
     pub fn count(&self) -> usize {
         self.pool.as_ref().map_or(1, ThreadPool::current_num_threads)
-    }
-
-    /// How many of so many packets a task should have: enough that brute force prepares its
-    /// spheres for many at a time, few enough that they stay in the cache and that all threads end
-    /// at about the same time.
-    ///
-    /// A multiple of [`ALIGNMENT`] whatever the threads: so the packets that go through a
-    /// structure together are always the same ones.
-    #[must_use]
-    pub fn packets_a_task(&self, packets: usize) -> usize {
-        let tasks = TASKS * self.count();
-        (packets / tasks).next_multiple_of(ALIGNMENT).clamp(ALIGNMENT, MOST_PACKETS)
     }
 
     /// Calls `work` with every task, from all threads at once; each thread has a memory of its
@@ -89,6 +86,19 @@ impl Threads {
     }
 }
 
+impl Join for Threads {
+    fn join<A: Send, B: Send>(
+        &self,
+        one: impl FnOnce() -> A + Send,
+        other: impl FnOnce() -> B + Send,
+    ) -> (A, B) {
+        match &self.pool {
+            Some(pool) => pool.join(one, other),
+            None => (one(), other()),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -118,6 +128,13 @@ mod tests {
             threads.share(&mut done, 0..10, |count: &mut usize, _| *count += 1);
         }
         assert_eq!(done.iter().sum::<usize>(), 30);
+    }
+
+    #[test]
+    fn two_pieces_of_work_are_joined() {
+        for count in [1, 2] {
+            assert_eq!(threads(count).join(|| 1, || "one"), (1, "one"));
+        }
     }
 
     /// Both tasks wait for each other: on fewer than two threads this does not end.

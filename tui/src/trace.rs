@@ -2,20 +2,18 @@
 //!
 //! Values are not judged: NaN, infinities and negative radii have the kernel's answers.
 
+mod batches;
 mod passes;
-mod pieces;
 mod report;
 
 use crate::arguments::{ComputingArguments, TraceArguments};
 use crate::draw::AccuracyChoice;
 use crate::failure::{Failure, write_stdout};
 use crate::npy;
-use crate::structure::{
-    RaysKind, SceneStructures, Structure, StructureChoice, TreeMemory, Workload,
-};
-use crate::threads::Threads;
+use crate::structure::{SceneStructures, Structure, StructureChoice, TreeMemory, Workload};
+use crate::threads::{Threads, packets_a_task};
+use batches::{batches, kind, runs};
 use passes::{Met, Passes, Question};
-use pieces::{Piece, pieces};
 use report::Report;
 use spherule_kernel::dispatch::{Level, Packet};
 use spherule_kernel::{Exact, Fast, Lanes, Ray, Spheres, Stable, Vec3};
@@ -47,20 +45,22 @@ pub fn trace(arguments: &TraceArguments) -> Result<(), Failure> {
     let spheres = columns.list().map_err(|error| Failure::Input(error.to_string()))?;
     let threads = Threads::new(threads)?;
     let level = level.unwrap_or_else(Level::best);
-    let longest = threads.packets_a_task(rays.len().div_ceil(Packet::COUNT));
-    let pieces = pieces::<Packet>(&rays, longest);
+    let runs = runs::<Packet>(&rays);
     let mut memory = TreeMemory::default();
-    let mut structures = SceneStructures::new(spheres, &mut memory);
+    let mut structures = SceneStructures::new(spheres, &threads, &mut memory);
     let workload =
-        Workload { rays: rays.len(), pictures: arguments.repeat.into(), kind: most(&pieces) };
-    let search = structures.search(structure, &workload)?;
+        Workload { rays: rays.len(), pictures: arguments.repeat.into(), kind: kind(&runs) };
+    let structure = structures.structure(structure, &workload);
+    let batches = batches(&runs, structure, packets_a_task(rays.len().div_ceil(Packet::COUNT)));
     let repeat = arguments.repeat;
-    let passes = Passes { level, threads: &threads, search, pieces: &pieces, question, repeat };
+    let passes = Passes { level, threads: &threads, batches: &batches, question, repeat };
     let met = match arguments.accuracy {
-        AccuracyChoice::Fast => passes.run::<Fast>(spheres, &rays),
-        AccuracyChoice::Stable => passes.run::<Stable>(spheres, &rays),
-        AccuracyChoice::Exact => passes.run::<Exact>(spheres, &rays),
-    };
+        AccuracyChoice::Fast => passes.run::<Fast>(&mut structures, spheres, &rays),
+        AccuracyChoice::Stable => passes.run::<Stable>(&mut structures, spheres, &rays),
+        AccuracyChoice::Exact => passes.run::<Exact>(&mut structures, spheres, &rays),
+    }?;
+    // The first batch is that of the structure, if there is one.
+    let structure = batches.first().map_or(structure, |batch| batch.structure);
 
     let id = |(index, &sphere): (usize, &u32)| match (sphere, arguments.any) {
         (Met::NOTHING, false) => -1,
@@ -79,7 +79,7 @@ pub fn trace(arguments: &TraceArguments) -> Result<(), Failure> {
         rays: rays.len(),
         spheres: spheres.len(),
         hits: met.sphere.iter().filter(|&&sphere| sphere != Met::NOTHING).count(),
-        structure: search.structure(),
+        structure,
         accuracy: arguments.accuracy,
         level: level.name(),
         lanes: Packet::COUNT,
@@ -103,19 +103,6 @@ fn check_counts(arguments: &TraceArguments, spheres: usize, rays: usize) -> Resu
         return Err(Failure::Input(what));
     }
     Ok(())
-}
-
-/// The kind of most of the rays.
-fn most(pieces: &[Piece]) -> RaysKind {
-    let packets = |kind| {
-        let pieces = pieces.iter().filter(|piece| piece.kind == kind);
-        pieces.map(|piece| piece.packets.len()).sum::<usize>()
-    };
-    if packets(RaysKind::Incoherent) > packets(RaysKind::Coherent) {
-        RaysKind::Incoherent
-    } else {
-        RaysKind::Coherent
-    }
 }
 
 /// The ray of a row of eight.

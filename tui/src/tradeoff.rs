@@ -14,8 +14,8 @@ use crate::draw::{
 };
 use crate::failure::{Failure, write_stdout};
 use crate::show::{PIPE_SIZE, USUAL_ASPECT};
-use crate::structure::{RaysKind, SceneStructures, Search, Structure, TreeMemory};
-use crate::threads::Threads;
+use crate::structure::{RaysKind, SceneStructures, Search, Structure, TileLists, TreeMemory};
+use crate::threads::{Threads, packets_a_task};
 use crate::{machine, scene, view};
 use errors::Errors;
 use progress::Progress;
@@ -52,20 +52,24 @@ pub fn tradeoff(arguments: &TradeoffArguments) -> Result<(), Failure> {
 
     let spheres = scene.spheres();
     let mut memory = TreeMemory::default();
-    let mut structures = SceneStructures::new(spheres, &mut memory);
+    let mut structures = SceneStructures::new(spheres, &threads, &mut memory);
     // What is built is not timed here, as if there were pictures without end.
-    let workload = picture_workload(&style, columns, rows, f64::INFINITY);
-    let search = structures.search(structure, &workload)?;
+    let workload = picture_workload(spheres.len(), &style, columns, rows, f64::INFINITY);
+    let structure = structures.structure(structure, &workload);
+    let search = structures.picture(structure, workload.kind, view.viewpoint(), &scene.lights)?;
     let (camera, width, height) = sample_grid(&view, &style, columns, rows);
-    let most = most_rays(spheres.len(), search.structure());
+    let most = most_rays(spheres.len(), structure);
     let camera = Rays::of_camera(&camera, width, height, most);
-    let machine = Machine { level, threads: &threads, search };
-    let shadow = Rays::of_shadows(&camera, &machine.hits::<Exact>(&camera), &scene, most);
+    let for_camera =
+        Machine { level, threads: &threads, kind: search.kind, searches: &[search.camera] };
+    let for_shadow = Machine { searches: &search.lights, ..for_camera };
+    let shadow = Rays::of_shadows(&camera, &for_camera.hits::<Exact>(&camera), &scene, most);
     let mut progress = Progress::new();
     let mut tiers = Vec::new();
-    for (rays, kind, question) in
-        [(&camera, "camera", Question::Nearest), (&shadow, "shadow", Question::Any)]
-    {
+    for (machine, rays, kind, question) in [
+        (&for_camera, &camera, "camera", Question::Nearest),
+        (&for_shadow, &shadow, "shadow", Question::Any),
+    ] {
         if rays.count > 0 {
             tiers.extend(machine.measure(rays, kind, question, spheres, &mut progress));
         }
@@ -77,7 +81,7 @@ pub fn tradeoff(arguments: &TradeoffArguments) -> Result<(), Failure> {
         spheres: spheres.len(),
         cpu: machine::cpu(),
         rustc: machine::RUSTC,
-        structure: search.structure(),
+        structure,
         level: level.name(),
         lanes: Packet::COUNT,
         threads: threads.count(),
@@ -88,10 +92,13 @@ pub fn tradeoff(arguments: &TradeoffArguments) -> Result<(), Failure> {
 }
 
 /// What measures.
+#[derive(Clone, Copy)]
 struct Machine<'a> {
     level: Level,
     threads: &'a Threads,
-    search: Search<'a>,
+    kind: RaysKind,
+    /// One for every part of the rays.
+    searches: &'a [Search<'a>],
 }
 
 impl Machine<'_> {
@@ -151,8 +158,8 @@ impl Machine<'_> {
                 black_box(&hits);
             }
             Question::Any => {
-                self.trace(rays, &mut met, |rays, met| {
-                    self.search.any::<A>(self.level, RaysKind::Coherent, rays, met);
+                self.trace(rays, &mut met, |search, rays, lists, met| {
+                    search.any::<A>(self.level, self.kind, rays, lists, met);
                 });
                 black_box(&met);
             }
@@ -167,20 +174,30 @@ impl Machine<'_> {
     }
 
     fn nearest<A: Accuracy>(&self, rays: &Rays, hits: &mut [HitPacket<Packet>]) {
-        self.trace(rays, hits, |rays, hits| {
-            self.search.nearest::<A>(self.level, RaysKind::Coherent, rays, hits);
+        self.trace(rays, hits, |search, rays, lists, hits| {
+            search.nearest::<A>(self.level, self.kind, rays, lists, hits);
         });
     }
 
-    /// Hands packets and results to the threads.
+    /// Hands packets and results to the threads, part by part.
     fn trace<R: Send>(
         &self,
         rays: &Rays,
         results: &mut [R],
-        trace: impl Fn(&[RayPacket<Packet>], &mut [R]) + Sync,
+        trace: impl Fn(&Search<'_>, &[RayPacket<Packet>], &mut TileLists, &mut [R]) + Sync,
     ) {
-        let task = self.threads.packets_a_task(rays.packets.len());
-        let tasks = rays.packets.chunks(task).zip(results.chunks_mut(task));
-        self.threads.share(&mut Vec::new(), tasks, |(), (rays, results)| trace(rays, results));
+        let (mut packets, mut results) = (&*rays.packets, results);
+        let mut tasks = Vec::new();
+        for (&length, search) in rays.parts.iter().zip(self.searches) {
+            let own = packets.split_off(..length).unwrap_or_default();
+            let answers = results.split_off_mut(..length).unwrap_or_default();
+            let size = packets_a_task(length);
+            let pieces = own.chunks(size).zip(answers.chunks_mut(size));
+            tasks.extend(pieces.map(|(rays, results)| (search, rays, results)));
+        }
+        let tasks = tasks.into_iter();
+        self.threads.share(&mut Vec::new(), tasks, |lists, (search, rays, results)| {
+            trace(search, rays, lists, results);
+        });
     }
 }

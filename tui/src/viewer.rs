@@ -48,7 +48,7 @@ pub fn run(
     structure: StructureChoice,
     view: View,
     style: Style,
-    renderer: Renderer,
+    renderer: Renderer<'_>,
 ) -> Result<(), Failure> {
     let rate = if env::var_os("SSH_CONNECTION").is_some() { REMOTE_RATE } else { LOCAL_RATE };
     let mut viewer = Viewer {
@@ -98,7 +98,7 @@ struct Viewer<'a> {
     structures: SceneStructures<'a>,
     terminal: Terminal,
     state: State,
-    renderer: Renderer,
+    renderer: Renderer<'a>,
     encoder: Encoder,
     meter: Meter,
     /// Kept from frame to frame for its memory.
@@ -149,9 +149,12 @@ impl Viewer<'_> {
         self.state.set_height(status_row);
         let started = Instant::now();
         let State { view, style, structure, .. } = &self.state;
-        let workload = picture_workload(style, columns, status_row, f64::INFINITY);
-        let search = self.structures.search(*structure, &workload)?;
-        let drawn = self.renderer.draw(self.scene, search, view, style, columns, status_row);
+        let count = self.scene.spheres().len();
+        let workload = picture_workload(count, style, columns, status_row, f64::INFINITY);
+        let structure = self.structures.structure(*structure, &workload);
+        let (kind, viewpoint) = (workload.kind, view.viewpoint());
+        let search = self.structures.picture(structure, kind, viewpoint, &self.scene.lights)?;
+        let drawn = self.renderer.draw(self.scene, &search, view, style, columns, status_row);
         let drawing = started.elapsed();
 
         let mut cells = CellGrid::new(columns, rows);
@@ -171,7 +174,7 @@ impl Viewer<'_> {
         let frame =
             Frame { drawing, making: started.elapsed(), rays: drawn.rays, bytes: self.bytes.len() };
         let figures = self.meter.count(frame, now);
-        status::write(&mut cells, status_row, &self.state, search.structure(), figures);
+        status::write(&mut cells, status_row, &self.state, structure, figures);
         self.encoder.encode(cells, &mut self.bytes);
         self.terminal.show(&self.bytes).map_err(|error| lost(&error))
     }

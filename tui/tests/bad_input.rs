@@ -43,7 +43,7 @@ fn threads_and_structures_that_are_none() {
             assert!(message.ends_with("1 to 1024"), "{message}");
         }
         let message = refusal(&run(format!("{before}--structure octree").split(' ')));
-        assert!(message.ends_with("auto, brute or bvh"), "{message}");
+        assert!(message.ends_with("auto, brute, tiles or bvh"), "{message}");
     }
 }
 

@@ -48,13 +48,16 @@ fn the_same_files(name: &str, spheres: &[f32]) {
             }
             let levels = LevelName::ALL.into_iter().filter(|&level| Level::named(level).is_some());
             for level in levels {
-                for structure in ["brute", "bvh", "auto"] {
+                for structure in ["brute", "tiles", "bvh", "auto"] {
                     for threads in [1, 3] {
                         let words = words(structure, threads, level);
                         let (text, found) = trace(name, &rays_name, &words);
                         assert!(found == expected, "{name} {kind} {words}");
                         let ran = value(&text, "structure");
-                        assert!(structure == "auto" || ran == structure, "{text}");
+                        // Tiles are for rays that share an origin or a direction.
+                        let able = kind == "camera" || structure != "tiles";
+                        let expected = if able { structure } else { "brute" };
+                        assert!(structure == "auto" || ran == expected, "{text}");
                         assert_eq!(value(&text, "threads"), threads.to_string());
                     }
                 }
@@ -89,7 +92,7 @@ fn fast_does_not_depend_on_threads() {
     file("fast.npy", &array(500, 4, &flake(500)));
     for (name, rays) in [("fast-camera", camera(80)), ("fast-scattered", scattered(5000))] {
         file(&format!("{name}.npy"), &array(rays.len() / 8, 8, &rays));
-        for structure in ["brute", "bvh"] {
+        for structure in ["brute", "tiles", "bvh"] {
             let words = format!("--accuracy fast --structure {structure} --threads ");
             let files =
                 [1, 2, 5].map(|threads| trace("fast", name, &format!("{words}{threads}")).1);
@@ -132,17 +135,21 @@ fn pairs_have_no_structure() {
         let (text, _) = trace("pairs", "pairs-rays", &format!("--pairs --structure {choice}"));
         assert_eq!(value(&text, "structure"), "brute");
     }
-    let words = "trace --spheres s.npy --rays r.npy --pairs --structure bvh";
-    let message = refusal(&run(words.split(' ')));
-    assert_eq!(message, "--pairs with --structure bvh: auto or brute");
+    for choice in ["tiles", "bvh"] {
+        let words = format!("trace --spheres s.npy --rays r.npy --pairs --structure {choice}");
+        let message = refusal(&run(words.split(' ')));
+        assert_eq!(message, format!("--pairs with --structure {choice}: auto or brute"));
+    }
 }
 
 #[test]
 fn the_build_is_timed() {
     file("built.npy", &array(2000, 4, &cloud(2000, 3)));
-    file("built-rays.npy", &array(16, 8, &camera(4)));
-    let (text, _) = trace("built", "built-rays", "--structure bvh");
-    assert!(value(&text, "build_ms").parse::<f64>().expect("a number") > 0.0, "{text}");
+    file("built-rays.npy", &array(256, 8, &camera(16)));
+    for structure in ["tiles", "bvh"] {
+        let (text, _) = trace("built", "built-rays", &format!("--structure {structure}"));
+        assert!(value(&text, "build_ms").parse::<f64>().expect("a number") > 0.0, "{text}");
+    }
     let (text, _) = trace("built", "built-rays", "--structure brute");
     assert_eq!(value(&text, "build_ms"), "0.0");
 }
@@ -156,14 +163,18 @@ fn pictures_are_the_same() {
         };
         for tier in ["stable", "exact"] {
             let expected = picture(tier, "--structure brute --threads 1");
-            for structure in ["auto", "brute", "bvh"] {
+            for structure in ["auto", "brute", "tiles", "bvh"] {
                 for threads in [1, 2, 5] {
                     let more = format!("--structure {structure} --threads {threads}");
                     assert!(picture(tier, &more) == expected, "{scene} {tier} {more}");
                 }
             }
         }
-        let fast = [1, 2, 5].map(|threads| picture("fast", &format!("--threads {threads}")));
-        assert!(fast[0] == fast[1] && fast[0] == fast[2], "{scene}");
+        for structure in ["brute", "tiles", "bvh"] {
+            let fast = [1, 2, 5].map(|threads| {
+                picture("fast", &format!("--structure {structure} --threads {threads}"))
+            });
+            assert!(fast[0] == fast[1] && fast[0] == fast[2], "{scene} {structure}");
+        }
     }
 }

@@ -161,7 +161,7 @@ fn bad_use() {
         ("tradeoff --size 0x1", "each 1 to 4096"),
         ("tradeoff --accuracy fast", "--accuracy"),
         ("tradeoff --threads 0", "1 to 1024"),
-        ("tradeoff --structure tree", "auto, brute or bvh"),
+        ("tradeoff --structure tree", "auto, brute, tiles or bvh"),
         ("tradeoff --level sse", "baseline, avx2 or avx512"),
         ("tradeoff unit unit", "unit"),
     ] {

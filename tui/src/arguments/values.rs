@@ -87,7 +87,7 @@ pub(super) fn structure(text: &str) -> Result<StructureChoice, &'static str> {
     match named {
         Some(structure) => Ok(StructureChoice::Only(structure)),
         None if text == "auto" => Ok(StructureChoice::Auto),
-        None => Err("auto, brute or bvh"),
+        None => Err("auto, brute, tiles or bvh"),
     }
 }
 

@@ -7,7 +7,7 @@ use crate::picture::Picture;
 use crate::samples::CellSamples;
 use crate::scene::Scene;
 use crate::shade::{Shader, SurfacePoint};
-use crate::structure::{RaysKind, Search};
+use crate::structure::{PictureSearch, TileLists};
 use spherule_kernel::dispatch::{Level, Packet};
 use spherule_kernel::{Accuracy, Camera, HitPacket, Lanes, RayPacket, Spheres};
 use std::ops::Range;
@@ -22,7 +22,7 @@ pub(super) const BAND: usize = 4;
 pub(super) struct Frame<'a> {
     pub(super) level: Level,
     pub(super) scene: &'a Scene,
-    pub(super) search: Search<'a>,
+    pub(super) search: &'a PictureSearch<'a>,
     pub(super) style: &'a Style,
     pub(super) camera: Camera,
     /// Of the grid of samples.
@@ -35,6 +35,7 @@ pub(super) struct Frame<'a> {
 pub(super) struct BandPainter {
     rays: Vec<RayPacket<Packet>>,
     hits: Vec<HitPacket<Packet>>,
+    lists: TileLists,
     shader: Shader,
     picture: Picture,
     palette: Palette,
@@ -45,6 +46,7 @@ impl Default for BandPainter {
         Self {
             rays: Vec::new(),
             hits: Vec::new(),
+            lists: TileLists::default(),
             shader: Shader::default(),
             picture: Picture::default(),
             palette: Palette::new(ColorDepth::Never),
@@ -71,13 +73,15 @@ impl BandPainter {
         // Rays, and what they meet.
         self.aim(frame, top..bottom);
         self.hits.resize(self.rays.len(), HitPacket::<Packet>::none());
-        search.nearest::<A>(level, RaysKind::Coherent, &self.rays, &mut self.hits);
+        let (rays, lists) = (&self.rays, &mut self.lists);
+        search.camera.nearest::<A>(level, search.kind, rays, lists, &mut self.hits);
 
         // Light.
         let pixel_rows = cells.len() / columns * samples.pixels as usize;
         self.picture.reset(columns, pixel_rows);
         self.gather(frame, samples, top..bottom);
-        let shadow_rays = self.shader.light::<A>(level, scene, &search, &mut self.picture);
+        let lists = &mut self.lists;
+        let shadow_rays = self.shader.light::<A>(level, scene, search, lists, &mut self.picture);
 
         // Characters.
         if self.palette.depth() != style.depth {

@@ -1,10 +1,12 @@
 //! The part of `spherule trace` that is timed: packets through the kernel, by all threads.
 
-use super::pieces::Piece;
-use crate::structure::Search;
+use super::batches::{Batch, Task};
+use crate::failure::Failure;
+use crate::structure::{SceneStructures, Search, TileLists};
 use crate::threads::Threads;
 use spherule_kernel::dispatch::{Level, Packet, pairs};
 use spherule_kernel::{Accuracy, HitPacket, Lanes, Ray, RayPacket, Sphere, SpherePacket, Spheres};
+use std::ops::Range;
 use std::time::{Duration, Instant};
 
 /// What is asked.
@@ -38,69 +40,91 @@ impl Met {
 pub(super) struct Passes<'a> {
     pub(super) level: Level,
     pub(super) threads: &'a Threads,
-    pub(super) search: Search<'a>,
-    pub(super) pieces: &'a [Piece],
+    pub(super) batches: &'a [Batch],
     pub(super) question: Question,
     pub(super) repeat: u32,
 }
 
 impl Passes<'_> {
-    /// Traces with one tier. Packets are made once; only the kernel's calls are timed.
-    pub(super) fn run<A: Accuracy>(&self, spheres: Spheres<'_>, rays: &[Ray]) -> Met {
+    /// Traces with one tier. Packets are made once; only the kernel's calls are timed, and what
+    /// `structures` build for them is not.
+    ///
+    /// # Errors
+    /// [`Failure::Running`] where there is no memory for a structure.
+    pub(super) fn run<A: Accuracy>(
+        &self,
+        structures: &mut SceneStructures<'_>,
+        spheres: Spheres<'_>,
+        rays: &[Ray],
+    ) -> Result<Met, Failure> {
         let packets: Vec<RayPacket<Packet>> =
             rays.chunks(Packet::COUNT).map(RayPacket::<Packet>::new).collect();
-        let (level, search) = (self.level, &self.search);
+        let level = self.level;
         if self.question == Question::Any {
             let mut met = vec![0; packets.len()];
-            let passes = self.timed(&packets, &mut met, |piece, rays, met| {
-                search.any::<A>(level, piece.kind, rays, met);
-            });
+            let any = |search: &Search<'_>, task: &Task, lists: &mut TileLists, met: &mut [u32]| {
+                let rays = &packets[task.packets.clone()];
+                search.any::<A>(level, task.kind, rays, lists, met);
+            };
+            let passes = self.timed(structures, &mut met, any)?;
             let bit = |index: usize| met[index / Packet::COUNT] >> (index % Packet::COUNT) & 1;
             let sphere = |index| if bit(index) == 1 { 1 } else { Met::NOTHING };
-            return Met { t: Vec::new(), sphere: (0..rays.len()).map(sphere).collect(), passes };
+            let sphere = (0..rays.len()).map(sphere).collect();
+            return Ok(Met { t: Vec::new(), sphere, passes });
         }
         let mut hits = vec![HitPacket::<Packet>::none(); packets.len()];
         let passes = if self.question == Question::Pairs {
             let spheres: Vec<Sphere> = spheres.iter().collect();
             let spheres: Vec<SpherePacket<Packet>> =
                 spheres.chunks(Packet::COUNT).map(SpherePacket::<Packet>::new).collect();
-            self.timed(&packets, &mut hits, |piece, rays, hits| {
-                pairs::<A>(level, rays, &spheres[piece.packets.clone()], hits);
-            })
+            self.timed(structures, &mut hits, |_, task, _, hits| {
+                let (rays, spheres) =
+                    (&packets[task.packets.clone()], &spheres[task.packets.clone()]);
+                pairs::<A>(level, rays, spheres, hits);
+            })?
         } else {
-            self.timed(&packets, &mut hits, |piece, rays, hits| {
-                search.nearest::<A>(level, piece.kind, rays, hits);
-            })
+            self.timed(structures, &mut hits, |search, task, lists, hits| {
+                let rays = &packets[task.packets.clone()];
+                search.nearest::<A>(level, task.kind, rays, lists, hits);
+            })?
         };
         let hit = |index: usize| hits[index / Packet::COUNT].hit(index % Packet::COUNT);
-        Met {
-            t: (0..rays.len()).map(|ray| hit(ray).map_or(f32::INFINITY, |hit| hit.t)).collect(),
-            sphere: (0..rays.len())
-                .map(|ray| hit(ray).map_or(Met::NOTHING, |hit| hit.sphere))
-                .collect(),
+        let t = |ray| hit(ray).map_or(f32::INFINITY, |hit| hit.t);
+        let sphere = |ray| hit(ray).map_or(Met::NOTHING, |hit| hit.sphere);
+        Ok(Met {
+            t: (0..rays.len()).map(t).collect(),
+            sphere: (0..rays.len()).map(sphere).collect(),
             passes,
-        }
+        })
     }
 
-    /// Hands the pieces to the threads, as often as asked, and says how long each time took.
+    /// Hands the tasks to the threads, as often as asked, and says how long each time took; a
+    /// structure for a batch is built once.
     fn timed<R: Send>(
         &self,
-        packets: &[RayPacket<Packet>],
+        structures: &mut SceneStructures<'_>,
         results: &mut [R],
-        trace: impl Fn(&Piece, &[RayPacket<Packet>], &mut [R]) + Sync,
-    ) -> Vec<Duration> {
-        let pass = |_| {
-            let start = Instant::now();
-            let mut rest = &mut *results;
-            let pieces = self.pieces.iter().map(|piece| {
-                let own = rest.split_off_mut(..piece.packets.len()).unwrap_or_default();
-                (piece, own)
-            });
-            self.threads.share(&mut Vec::new(), pieces, |(), (piece, results)| {
-                trace(piece, &packets[piece.packets.clone()], results);
-            });
-            start.elapsed()
-        };
-        (0..self.repeat).map(pass).collect()
+        trace: impl Fn(&Search<'_>, &Task, &mut TileLists, &mut [R]) + Sync,
+    ) -> Result<Vec<Duration>, Failure> {
+        let mut passes = vec![Duration::ZERO; self.repeat as usize];
+        let mut lists = Vec::new();
+        for batch in self.batches {
+            let search = structures.search(batch.structure, batch.viewpoint)?;
+            for pass in &mut passes {
+                let (mut rest, mut from) = (&mut *results, 0);
+                let tasks = batch.tasks.iter().map(|task| {
+                    let Range { start, end } = task.packets;
+                    let _other_batches = rest.split_off_mut(..start - from);
+                    from = end;
+                    (task, rest.split_off_mut(..end - start).unwrap_or_default())
+                });
+                let start = Instant::now();
+                self.threads.share(&mut lists, tasks, |lists, (task, results)| {
+                    trace(&search, task, lists, results);
+                });
+                *pass += start.elapsed();
+            }
+        }
+        Ok(passes)
     }
 }

@@ -15,6 +15,8 @@ const MOST_TESTS: usize = 1 << 27;
 /// Packets of rays, and how many rays they hold.
 pub(super) struct Rays {
     pub(super) packets: Vec<RayPacket<Packet>>,
+    /// How many packets share an origin, a direction or an end, one part after the other.
+    pub(super) parts: Vec<usize>,
     pub(super) count: usize,
 }
 
@@ -22,7 +24,7 @@ pub(super) struct Rays {
 pub(super) fn most_rays(spheres: usize, structure: Structure) -> usize {
     match structure {
         Structure::Brute => (MOST_TESTS / spheres.max(1)).clamp(Packet::COUNT, MOST_RAYS),
-        Structure::Bvh => MOST_RAYS,
+        Structure::Tiles | Structure::Bvh => MOST_RAYS,
     }
 }
 
@@ -30,11 +32,14 @@ pub(super) fn most_rays(spheres: usize, structure: Structure) -> usize {
 const BLOCK: u32 = 4;
 
 impl Rays {
-    fn new(packets: Vec<RayPacket<Packet>>) -> Self {
+    fn new(parts: impl Iterator<Item = Vec<RayPacket<Packet>>>) -> Self {
+        let parts: Vec<_> = parts.collect();
+        let lengths = parts.iter().map(Vec::len).collect();
+        let packets = parts.concat();
         let live = |packet: &RayPacket<Packet>| {
             (0..Packet::COUNT).filter(|&lane| packet.ray(lane).is_live()).count()
         };
-        Self { count: packets.iter().map(live).sum(), packets }
+        Self { count: packets.iter().map(live).sum(), packets, parts: lengths }
     }
 
     /// The rays of a picture of `width` x `height` samples, in the order in which it is drawn; of
@@ -58,7 +63,7 @@ impl Rays {
                 camera.packet::<Packet>(ix, iy, width, height)
             })
         });
-        Self::new(packets.take(most_packets).collect())
+        Self::new(std::iter::once(packets.take(most_packets).collect()))
     }
 
     /// The rays from what `camera` rays meet to every light that the surface faces, light by
@@ -82,12 +87,11 @@ impl Rays {
         }
         let wanted = points.len() * scene.lights.len();
         let step = wanted.div_ceil(most).max(1);
-        let packets = scene.lights.iter().flat_map(|light| {
+        Self::new(scene.lights.iter().map(|light| {
             let towards = |point: &SurfacePoint| point.towards(light).map(|(ray, _)| ray);
             let rays: Vec<Ray> = points.iter().step_by(step).filter_map(towards).collect();
-            rays.chunks(Packet::COUNT).map(RayPacket::<Packet>::new).collect::<Vec<_>>()
-        });
-        Self::new(packets.collect())
+            rays.chunks(Packet::COUNT).map(RayPacket::<Packet>::new).collect()
+        }))
     }
 }
 

@@ -151,6 +151,6 @@ const HEAD: [[&str; 12]; 2] = [
 const WIDTHS: [usize; 12] = [7, 9, 9, 9, 10, 8, 8, 9, 9, 11, 9, 9];
 const FOOT: &str = "
 Wrong: the nearest hit differs from that of exact, counted in rays. ulp: of t, where both meet the
-same sphere. Times are medians of passes in turns; shadow rays are timed asking for any hit. A test
-is a ray and a sphere, whether a structure asks for it or not.
+same sphere. Times are medians of passes in turns, without the building of a structure; shadow rays are timed
+asking for any hit. A test is a ray and a sphere, whether a structure asks for it or not.
 ";

@@ -12,7 +12,7 @@ const LINES: [&str; 15] = [
     "                                         ",
     "  1 2 3                   fast, stable, exact ",
     "  c                       half blocks, ascii  ",
-    "  s                       structure: auto, brute, bvh ",
+    "  s                       auto, brute, tiles, bvh ",
     "                                         ",
     "  ?                       this            ",
     "  Ctrl-Z                  stop, fg goes on",
