@@ -171,12 +171,17 @@ unsafe impl Send for Embree {}
 unsafe impl Sync for Embree {}
 
 impl Embree {
-    /// Builds a scene of `spheres`: one thread, medium quality, no flags.
+    /// Builds a scene of `spheres`, on a thread of its own: medium quality, no flags.
     ///
     /// # Panics
     /// Where the library reports an error.
     #[must_use]
     pub fn build(spheres: Spheres<'_>) -> Self {
+        let build = || Self::build_here(spheres);
+        std::thread::scope(|scope| scope.spawn(build).join().expect("embree's thread panicked"))
+    }
+
+    fn build_here(spheres: Spheres<'_>) -> Self {
         let of = |sphere: spherule_kernel::Sphere| sphere.center.extend(sphere.radius).to_array();
         let spheres: Box<[[f32; 4]]> = spheres.iter().map(of).collect();
         // SAFETY: the configuration ends with a zero.

@@ -22,7 +22,10 @@ use crate::axes::axes;
 use crate::{Lanes, Ray, RayPacket, Sphere};
 
 mod sealed {
+    #[cfg(not(feature = "dispatch"))]
     pub trait Sealed {}
+    #[cfg(feature = "dispatch")]
+    pub trait Sealed: crate::dispatch::Compiled {}
 }
 
 /// The rays of a packet in registers, as the tiers read them.

@@ -6,13 +6,12 @@
 //! answer are the same at every level, and the same as those of the lanes of `wide`.
 
 pub mod bvh;
+mod compiled;
 pub mod tiles;
 
-use crate::{
-    Accuracy, HitPacket, RayPacket, SpherePacket, Spheres, any as any_in_lanes,
-    nearest as nearest_in_lanes, pairs as pairs_in_lanes,
-};
-use fearless_simd::{Simd, f32x16};
+pub(crate) use compiled::Compiled;
+
+use crate::{Accuracy, HitPacket, RayPacket, SpherePacket, Spheres};
 
 /// What packets here are laid out for: 16 lanes.
 pub type Packet = crate::f32x16;
@@ -92,16 +91,7 @@ pub fn nearest<A: Accuracy>(
     spheres: Spheres<'_>,
     hits: &mut [HitPacket<Packet>],
 ) {
-    #[inline(always)]
-    fn at<S: Simd, A: Accuracy>(
-        simd: S,
-        rays: &[RayPacket<Packet>],
-        spheres: Spheres<'_>,
-        hits: &mut [HitPacket<Packet>],
-    ) {
-        nearest_in_lanes::<A, f32x16<S>>(simd, rays, spheres, hits);
-    }
-    fearless_simd::dispatch!(level.0, simd => at::<_, A>(simd, rays, spheres, hits));
+    A::nearest(level, rays, spheres, hits);
 }
 
 /// [`crate::any`] at `level`.
@@ -111,16 +101,7 @@ pub fn any<A: Accuracy>(
     spheres: Spheres<'_>,
     met: &mut [u32],
 ) {
-    #[inline(always)]
-    fn at<S: Simd, A: Accuracy>(
-        simd: S,
-        rays: &[RayPacket<Packet>],
-        spheres: Spheres<'_>,
-        met: &mut [u32],
-    ) {
-        any_in_lanes::<A, f32x16<S>>(simd, rays, spheres, met);
-    }
-    fearless_simd::dispatch!(level.0, simd => at::<_, A>(simd, rays, spheres, met));
+    A::any(level, rays, spheres, met);
 }
 
 /// [`crate::pairs`] at `level`, packet by packet; packets past the end of the shortest slice are
@@ -131,16 +112,5 @@ pub fn pairs<A: Accuracy>(
     spheres: &[SpherePacket<Packet>],
     hits: &mut [HitPacket<Packet>],
 ) {
-    #[inline(always)]
-    fn at<S: Simd, A: Accuracy>(
-        simd: S,
-        rays: &[RayPacket<Packet>],
-        spheres: &[SpherePacket<Packet>],
-        hits: &mut [HitPacket<Packet>],
-    ) {
-        for ((rays, spheres), hits) in rays.iter().zip(spheres).zip(hits) {
-            *hits = pairs_in_lanes::<A, f32x16<S>>(simd, rays, spheres);
-        }
-    }
-    fearless_simd::dispatch!(level.0, simd => at::<_, A>(simd, rays, spheres, hits));
+    A::pairs(level, rays, spheres, hits);
 }

@@ -18,7 +18,7 @@ use std::ops::RangeInclusive;
 use std::time::Duration;
 
 /// Tests of brute force that a round may cost.
-const TESTS: usize = 1 << 26;
+const TESTS: usize = 1 << 25;
 /// Rays of what takes single rays, where that is not what it is for: enough for a time.
 const SINGLE_RAYS: usize = 1 << 15;
 

@@ -1,12 +1,7 @@
 //! The walks of the [tree](crate::bvh) at a level chosen at run time.
 
 use super::{Level, Packet};
-use crate::bvh::{
-    any as any_in_lanes, any_coherent as any_coherent_in_lanes, nearest as nearest_in_lanes,
-    nearest_coherent as nearest_coherent_in_lanes,
-};
 use crate::{Accuracy, Bvh, HitPacket, RayPacket, Spheres};
-use fearless_simd::{Simd, f32x16};
 
 /// [`crate::bvh::nearest`] at `level`.
 pub fn nearest<A: Accuracy>(
@@ -16,17 +11,7 @@ pub fn nearest<A: Accuracy>(
     bvh: &Bvh<'_>,
     hits: &mut [HitPacket<Packet>],
 ) {
-    #[inline(always)]
-    fn at<S: Simd, A: Accuracy>(
-        simd: S,
-        rays: &[RayPacket<Packet>],
-        spheres: Spheres<'_>,
-        bvh: &Bvh<'_>,
-        hits: &mut [HitPacket<Packet>],
-    ) {
-        nearest_in_lanes::<A, f32x16<S>>(simd, rays, spheres, bvh, hits);
-    }
-    fearless_simd::dispatch!(level.0, simd => at::<_, A>(simd, rays, spheres, bvh, hits));
+    A::tree_nearest(level, rays, spheres, bvh, hits);
 }
 
 /// [`crate::bvh::any`] at `level`.
@@ -37,17 +22,7 @@ pub fn any<A: Accuracy>(
     bvh: &Bvh<'_>,
     met: &mut [u32],
 ) {
-    #[inline(always)]
-    fn at<S: Simd, A: Accuracy>(
-        simd: S,
-        rays: &[RayPacket<Packet>],
-        spheres: Spheres<'_>,
-        bvh: &Bvh<'_>,
-        met: &mut [u32],
-    ) {
-        any_in_lanes::<A, f32x16<S>>(simd, rays, spheres, bvh, met);
-    }
-    fearless_simd::dispatch!(level.0, simd => at::<_, A>(simd, rays, spheres, bvh, met));
+    A::tree_any(level, rays, spheres, bvh, met);
 }
 
 /// [`crate::bvh::nearest_coherent`] at `level`.
@@ -58,17 +33,7 @@ pub fn nearest_coherent<A: Accuracy>(
     bvh: &Bvh<'_>,
     hits: &mut [HitPacket<Packet>],
 ) {
-    #[inline(always)]
-    fn at<S: Simd, A: Accuracy>(
-        simd: S,
-        rays: &[RayPacket<Packet>],
-        spheres: Spheres<'_>,
-        bvh: &Bvh<'_>,
-        hits: &mut [HitPacket<Packet>],
-    ) {
-        nearest_coherent_in_lanes::<A, f32x16<S>>(simd, rays, spheres, bvh, hits);
-    }
-    fearless_simd::dispatch!(level.0, simd => at::<_, A>(simd, rays, spheres, bvh, hits));
+    A::tree_nearest_coherent(level, rays, spheres, bvh, hits);
 }
 
 /// [`crate::bvh::any_coherent`] at `level`.
@@ -79,15 +44,5 @@ pub fn any_coherent<A: Accuracy>(
     bvh: &Bvh<'_>,
     met: &mut [u32],
 ) {
-    #[inline(always)]
-    fn at<S: Simd, A: Accuracy>(
-        simd: S,
-        rays: &[RayPacket<Packet>],
-        spheres: Spheres<'_>,
-        bvh: &Bvh<'_>,
-        met: &mut [u32],
-    ) {
-        any_coherent_in_lanes::<A, f32x16<S>>(simd, rays, spheres, bvh, met);
-    }
-    fearless_simd::dispatch!(level.0, simd => at::<_, A>(simd, rays, spheres, bvh, met));
+    A::tree_any_coherent(level, rays, spheres, bvh, met);
 }

@@ -12,9 +12,9 @@ extern crate std;
 use core::hint::black_box;
 use spherule_kernel::camera::Projection;
 use spherule_kernel::{
-    Accuracy, Camera, DepthOrder, Exact, Fast, Hit, HitPacket, Lanes, Ray, RayPacket, Sphere,
-    SpherePacket, Spheres, Stable, Vec3, Viewpoint, any, f32x4, f32x8, f32x16,
-    float_environment_is_sound, nearest, nearest_hit, pairs, roots, tiles,
+    Accuracy, Bvh, BvhLeaf, BvhNode, Camera, DepthOrder, Exact, Fast, Hit, HitPacket, Lanes, Ray,
+    RayPacket, Sphere, SpherePacket, Spheres, Stable, Vec3, Viewpoint, any, bvh, f32x4, f32x8,
+    f32x16, float_environment_is_sound, nearest, nearest_hit, pairs, roots, tiles,
 };
 
 /// What a firmware does in its own way; without `std` there must be one.
@@ -59,6 +59,10 @@ pub unsafe extern "C" fn spherule_no_std(numbers: *const f32, count: usize) -> u
     digest ^= tier::<Fast>(&camera, spheres, &vector);
     digest ^= tier::<Stable>(&camera, spheres, &vector);
     digest ^= tier::<Exact>(&camera, spheres, &vector);
+    // The same source in every tier and width: of each one.
+    digest ^= tree::<Fast, f32>(&camera, spheres);
+    digest ^= tree::<Stable, f32x4>(&camera, spheres);
+    digest ^= tree::<Exact, f32x16>(&camera, spheres);
     digest ^= u32::from(float_environment_is_sound());
     black_box(digest)
 }
@@ -120,6 +124,30 @@ fn width<A: Accuracy, L: Lanes<Token = ()>>(
         }
     }
     sum
+}
+
+/// By a tree, in memory for some sixty spheres.
+fn tree<A: Accuracy, L: Lanes<Token = ()>>(camera: &Camera, spheres: Spheres<'_>) -> u32 {
+    let (mut nodes, mut leaves) = ([BvhNode::EMPTY; 3], [BvhLeaf::EMPTY; 5]);
+    let tree = match Bvh::build(spheres, &mut nodes, &mut leaves) {
+        Ok(tree) => tree,
+        Err(error) => return error.needed.leaves as u32,
+    };
+    let rays = [camera.packet::<L>(0, 0, 8, 8), camera.packet::<L>(4, 4, 8, 8)];
+    let (mut hits, mut coherent) = ([HitPacket::<L>::none(); 2], [HitPacket::<L>::none(); 2]);
+    bvh::nearest::<A, L>((), &rays, spheres, &tree, &mut hits);
+    bvh::nearest_coherent::<A, L>((), &rays, spheres, &tree, &mut coherent);
+    let (mut met, mut coherently) = ([0; 2], [0; 2]);
+    bvh::any::<A, L>((), &rays, spheres, &tree, &mut met);
+    bvh::any_coherent::<A, L>((), &rays, spheres, &tree, &mut coherently);
+
+    let mut sum = met[0] ^ met[1] ^ coherently[0] ^ coherently[1] ^ tree.depth() as u32;
+    for packet in hits.iter().chain(&coherent) {
+        for lane in 0..L::COUNT {
+            sum ^= packet.hit(lane).map_or(0, digest).rotate_left(lane as u32);
+        }
+    }
+    sum ^ tree.size().nodes as u32
 }
 
 fn digest(hit: Hit) -> u32 {
