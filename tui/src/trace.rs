@@ -10,9 +10,9 @@ use crate::arguments::{ComputingArguments, TraceArguments};
 use crate::draw::AccuracyChoice;
 use crate::failure::{Failure, write_stdout};
 use crate::npy;
-use crate::structure::{SceneStructures, Structure, StructureChoice, TreeMemory, Workload};
+use crate::structure::{SceneStructures, Structure, StructureChoice, TreeMemory};
 use crate::threads::{Threads, packets_a_task};
-use batches::{batches, kind, runs};
+use batches::{batches, runs, workload};
 use passes::{Met, Passes, Question};
 use report::Report;
 use spherule_kernel::dispatch::{Level, Packet};
@@ -48,8 +48,7 @@ pub fn trace(arguments: &TraceArguments) -> Result<(), Failure> {
     let runs = runs::<Packet>(&rays);
     let mut memory = TreeMemory::default();
     let mut structures = SceneStructures::new(spheres, &threads, &mut memory);
-    let workload =
-        Workload { rays: rays.len(), pictures: arguments.repeat.into(), kind: kind(&runs) };
+    let workload = workload::<Packet>(&runs, arguments.repeat);
     let structure = structures.structure(structure, &workload);
     let batches = batches(&runs, structure, packets_a_task(rays.len().div_ceil(Packet::COUNT)));
     let repeat = arguments.repeat;

@@ -1,6 +1,6 @@
 //! Packets cut into what is searched together, and that into the tasks of threads.
 
-use crate::structure::{RaysKind, Structure};
+use crate::structure::{RaysKind, Structure, Workload};
 use spherule_kernel::tiles::Viewpoint;
 use spherule_kernel::{Lanes, Ray, Vec3};
 use std::ops::Range;
@@ -71,13 +71,18 @@ fn shared(rays: &[Ray]) -> Option<Viewpoint> {
     }
 }
 
-/// What most packets of the runs are.
-pub(super) fn kind(runs: &[Run]) -> RaysKind {
-    let count = |shared| {
-        let runs = runs.iter().filter(|run| run.shared.is_some() == shared);
-        runs.map(|run| run.packets.len()).sum::<usize>()
+/// What the runs ask of a structure, traced so often: a run that shares something is a picture.
+pub(super) fn workload<L: Lanes>(runs: &[Run], repeat: u32) -> Workload {
+    let (coherent, other): (Vec<&Run>, Vec<&Run>) =
+        runs.iter().partition(|run| run.shared.is_some());
+    let packets = |runs: &[&Run]| runs.iter().map(|run| run.packets.len()).sum::<usize>();
+    let all = L::COUNT * (packets(&coherent) + packets(&other));
+    let (pictures, kind) = if packets(&other) > packets(&coherent) {
+        (1, RaysKind::Incoherent)
+    } else {
+        (coherent.len().max(1), RaysKind::Coherent)
     };
-    if count(false) > count(true) { RaysKind::Incoherent } else { RaysKind::Coherent }
+    Workload { rays: all / pictures, pictures: pictures as f64 * f64::from(repeat), kind }
 }
 
 /// The batches in which `structure` searches the runs, in tasks of at most `longest` packets.
@@ -142,7 +147,8 @@ mod tests {
         let origin = Some(Viewpoint::Origin(Vec3::splat(0.5)));
         let found: Vec<_> = runs.iter().map(|run| (run.packets.clone(), run.shared)).collect();
         assert_eq!(found, [(0..8, origin), (8..20, None), (20..63, origin)]);
-        assert_eq!(kind(&runs), Coherent);
+        let Workload { rays, pictures, kind } = workload::<f32x16>(&runs, 3);
+        assert_eq!((rays, pictures, kind), (504, 6.0, Coherent));
         let parallel: Vec<_> =
             (0..9_u8).map(|index| Ray::new(Vec3::splat(index.into()), Vec3::Z)).collect();
         let shared = Some(Viewpoint::Direction(Vec3::Z));
