@@ -44,7 +44,7 @@ fn the_same_files(name: &str, spheres: &[f32]) {
             assert_eq!((value(&text, "structure"), value(&text, "threads")), ("brute", "1"));
             if question == "--accuracy exact" {
                 let hits: usize = value(&text, "hits").parse().expect("a number");
-                assert!(hits > 20 && hits < rays.len() / 8, "{name} {kind}: {hits} hits");
+                assert!(hits > 20, "{name} {kind}: {hits} hits");
             }
             let levels = LevelName::ALL.into_iter().filter(|&level| Level::named(level).is_some());
             for level in levels {
