@@ -1,6 +1,6 @@
 //! Milliseconds of CPU a frame of the built-in scenes, 200 x 60 cells in half blocks and
 //! truecolor, 4 samples a cell, drawn and encoded in full, and their ratio to work that is known:
-//! `cargo run --release -p spherule-tui --example frame_time [FRAMES [SCENE [LEVEL]]]`.
+//! `cargo run --release -p spherule-tui --example frame_time [FRAMES [SCENE [LEVEL [STRUCTURE]]]]`.
 //!
 //! A shared machine is slower than its CPU. So the clock is that of the thread, which stands while
 //! others run, and a probe, the same work on every machine, is timed in turns with the frames: what
@@ -8,8 +8,12 @@
 
 use rustix::time::{ClockId, clock_gettime};
 use spherule_kernel::dispatch::{Level, LevelName};
-use spherule_tui::draw::{AccuracyChoice, Charset, ColorDepth, Renderer, Style, picture_aspect};
+use spherule_tui::draw::{
+    AccuracyChoice, Charset, ColorDepth, Renderer, Style, picture_aspect, picture_workload,
+};
 use spherule_tui::scene::{Scene, builtin::BUILTINS};
+use spherule_tui::structure::{SceneStructures, Structure, StructureChoice, TreeMemory};
+use spherule_tui::threads::Threads;
 use spherule_tui::{encode, view};
 use std::hint::black_box;
 
@@ -24,14 +28,16 @@ fn main() {
     let only = words.next();
     let named = |word: String| LevelName::ALL.into_iter().find(|name| name.as_str() == word);
     let level = words.next().and_then(named).and_then(Level::named).unwrap_or_else(Level::best);
+    let structure = words.next().unwrap_or_else(|| "auto".to_owned());
+    let named = Structure::ALL.into_iter().find(|known| known.as_str() == structure);
+    let structure = named.map_or(StructureChoice::Auto, StructureChoice::Only);
     println!("{}: medians of {frames} rounds in turns", level.name().as_str());
     for accuracy in AccuracyChoice::ALL {
         for entry in BUILTINS {
             if only.as_ref().is_some_and(|name| name != entry.name) {
                 continue;
             }
-            let frames = if entry.name == "flake" { frames.div_ceil(10) } else { frames };
-            time(entry.name, &(entry.scene)(), accuracy, level, frames);
+            time(entry.name, &(entry.scene)(), accuracy, level, structure, frames);
         }
     }
 }
@@ -54,7 +60,14 @@ fn cpu_ms() -> f64 {
     time.tv_sec as f64 * 1e3 + time.tv_nsec as f64 / 1e6
 }
 
-fn time(name: &str, scene: &Scene, accuracy: AccuracyChoice, level: Level, frames: u32) {
+fn time(
+    name: &str,
+    scene: &Scene,
+    accuracy: AccuracyChoice,
+    level: Level,
+    structure: StructureChoice,
+    frames: u32,
+) {
     let style = Style {
         accuracy,
         charset: Charset::Half,
@@ -63,7 +76,12 @@ fn time(name: &str, scene: &Scene, accuracy: AccuracyChoice, level: Level, frame
         cell_aspect: 0.5,
     };
     let mut view = scene.first_view(picture_aspect(&style, 200, 60) as f32);
-    let (mut renderer, mut bytes) = (Renderer::new(level), Vec::new());
+    let mut memory = TreeMemory::default();
+    let threads = Threads::default();
+    let mut structures = SceneStructures::new(scene.spheres(), &threads, &mut memory);
+    let workload = picture_workload(scene.spheres().len(), &style, 200, 60, f64::INFINITY);
+    let structure = structures.structure(structure, &workload);
+    let (mut renderer, mut bytes) = (Renderer::new(level, &threads), Vec::new());
     let (mut draw, mut encoding, mut probes) = (Vec::new(), Vec::new(), Vec::new());
     let (mut sums, mut ratios, mut rays) = (Vec::new(), Vec::new(), 0);
     for _ in 0..frames.max(1) {
@@ -72,7 +90,9 @@ fn time(name: &str, scene: &Scene, accuracy: AccuracyChoice, level: Level, frame
         black_box(probe());
         let known = cpu_ms() - start;
         let start = cpu_ms();
-        let drawn = black_box(renderer.draw(scene, &view, &style, 200, 60));
+        let search = structures.picture(structure, workload.kind, view.viewpoint(), &scene.lights);
+        let search = search.expect("memory for a structure");
+        let drawn = black_box(renderer.draw(scene, &search, &view, &style, 200, 60));
         let drawing = cpu_ms() - start;
         bytes.clear();
         encode::full(&drawn.cells, &mut bytes);
@@ -92,9 +112,10 @@ fn time(name: &str, scene: &Scene, accuracy: AccuracyChoice, level: Level, frame
     let (draw, encoding, known) = (median(&mut draw), median(&mut encoding), median(&mut probes));
     let (both, ratio) = (median(&mut sums), median(&mut ratios));
     println!(
-        "{name:8} {:6}: {both:.2} ms (least {:.2}; draw {draw:.2}, encode {encoding:.2}), probe \
+        "{name:8} {:6} {:5}: {both:.2} ms (least {:.2}; draw {draw:.2}, encode {encoding:.2}), probe \
          {known:.2} ms (least {:.2}), ratio {ratio:.2}: {:.2} ms on a quiet core; {rays} rays, {} bytes",
         accuracy.as_str(),
+        structure.as_str(),
         sums[0],
         probes[0],
         ratio * probes[0],

@@ -7,10 +7,12 @@ use crate::draw::{AccuracyChoice, Charset};
 use crate::failure::Failure;
 use crate::scene::builtin::DEFAULT;
 use crate::scene::open::Format;
+use crate::structure::StructureChoice;
 use crate::view::LensKind;
 use clap::{Args, Parser, Subcommand};
 use spherule_kernel::dispatch::Level;
 use std::ffi::OsString;
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 /// Spheres in a terminal, by packets of rays.
@@ -70,15 +72,26 @@ pub struct PictureArguments {
     /// Shape of a cell, width to height [default: asked of the terminal, else 1:2]
     #[arg(long, value_name = "W:H", value_parser = values::aspect)]
     pub cell_aspect: Option<f32>,
-    /// How spheres are searched: auto or brute
-    #[arg(long, value_name = "HOW", default_value = "auto", value_parser = values::structure)]
-    pub structure: StructureChoice,
-    /// Instructions: baseline, avx2 or avx512 [default: the best that the CPU has]
-    #[arg(long, value_name = "LEVEL", value_parser = values::level)]
-    pub level: Option<Level>,
+    /// How it is computed.
+    #[command(flatten)]
+    pub computing: ComputingArguments,
     /// Write one picture, also to a terminal
     #[arg(long)]
     pub once: bool,
+}
+
+/// How answers are computed: they do not depend on it.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct ComputingArguments {
+    /// How spheres are searched: auto, brute, tiles or bvh
+    #[arg(long, value_name = "HOW", default_value = "auto", value_parser = values::structure)]
+    pub structure: StructureChoice,
+    /// Threads, 1 to 1024 [default: all that the machine has]
+    #[arg(long, value_name = "N", value_parser = values::threads)]
+    pub threads: Option<NonZeroUsize>,
+    /// Instructions: baseline, avx2 or avx512 [default: the best that the CPU has]
+    #[arg(long, value_name = "LEVEL", value_parser = values::level)]
+    pub level: Option<Level>,
 }
 
 /// Rays and spheres from files, hits to files.
@@ -111,12 +124,9 @@ pub struct TraceArguments {
     /// How far hits may be trusted: fast, stable or exact
     #[arg(long, value_name = "TIER", default_value = AccuracyChoice::default().as_str(), value_parser = values::accuracy)]
     pub accuracy: AccuracyChoice,
-    /// How spheres are searched: auto or brute
-    #[arg(long, value_name = "HOW", default_value = "auto", value_parser = values::structure)]
-    pub structure: StructureChoice,
-    /// Instructions: baseline, avx2 or avx512 [default: the best that the CPU has]
-    #[arg(long, value_name = "LEVEL", value_parser = values::level)]
-    pub level: Option<Level>,
+    /// How it is computed.
+    #[command(flatten)]
+    pub computing: ComputingArguments,
 }
 
 /// A scene whose rays are timed and judged.
@@ -140,9 +150,9 @@ pub struct TradeoffArguments {
     /// Format of the scene: toml or xyz [default: by name; from standard input by first line]
     #[arg(long, value_name = "FORMAT", value_parser = values::format)]
     pub format: Option<Format>,
-    /// Instructions: baseline, avx2 or avx512 [default: the best that the CPU has]
-    #[arg(long, value_name = "LEVEL", value_parser = values::level)]
-    pub level: Option<Level>,
+    /// How it is computed.
+    #[command(flatten)]
+    pub computing: ComputingArguments,
 }
 
 /// What `--charset` says.
@@ -152,15 +162,6 @@ pub enum CharsetChoice {
     Auto,
     /// This one.
     Only(Charset),
-}
-
-/// What `--structure` says.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum StructureChoice {
-    /// Whatever suits: so far brute force.
-    Auto,
-    /// Every ray against every sphere.
-    Brute,
 }
 
 /// What the arguments ask for.
@@ -195,6 +196,7 @@ fn in_one_line(message: &str) -> String {
 mod tests {
     use super::*;
     use crate::draw::ColorDepth;
+    use crate::structure::Structure;
 
     fn parsed(line: &str) -> Result<Request, Failure> {
         parse(std::iter::once("spherule").chain(line.split_whitespace()).map(Into::into))
@@ -215,6 +217,8 @@ mod tests {
         assert_eq!((arguments.size, arguments.samples), (None, 4));
         assert_eq!(arguments.color, ColorChoice::Auto);
         assert_eq!(arguments.charset, CharsetChoice::Auto);
+        assert_eq!(arguments.computing.structure, StructureChoice::Auto);
+        assert_eq!(arguments.computing.threads, None);
         assert!(!arguments.once);
     }
 
@@ -222,7 +226,8 @@ mod tests {
     fn every_option_is_read() {
         let arguments = picture(
             "a.xyz --accuracy fast --size 200x60 --charset half --color 256 --samples 9 \
-             --projection parallel --format xyz --cell-aspect 3:4 --structure brute --once",
+             --projection parallel --format xyz --cell-aspect 3:4 --structure bvh \
+             --threads 3 --once",
         );
         assert_eq!(arguments.scene, "a.xyz");
         assert_eq!(arguments.accuracy, AccuracyChoice::Fast);
@@ -232,7 +237,8 @@ mod tests {
         assert_eq!(arguments.projection, Some(LensKind::Parallel));
         assert_eq!(arguments.format, Some(Format::Xyz));
         assert_eq!(arguments.cell_aspect, Some(0.75));
-        assert_eq!(arguments.structure, StructureChoice::Brute);
+        assert_eq!(arguments.computing.structure, StructureChoice::Only(Structure::Bvh));
+        assert_eq!(arguments.computing.threads.map(NonZeroUsize::get), Some(3));
         assert!(arguments.once);
     }
 
@@ -244,8 +250,10 @@ mod tests {
             ("--size 80", "COLSxROWS"),
             ("--samples 0", "1 to 256"),
             ("--accuracy sloppy", "fast, stable or exact"),
-            ("--structure bvh", "auto or brute"),
-            ("--threads 2", "--threads"),
+            ("--structure octree", "auto, brute, tiles or bvh"),
+            ("--threads 0", "1 to 1024"),
+            ("tradeoff --threads 1025", "1 to 1024"),
+            ("trace --threads two", "1 to 1024"),
             ("--level sse", "baseline, avx2 or avx512"),
             ("--cell-aspect 1:0", "W:H"),
             ("--cell-aspect nan:1", "W:H"),

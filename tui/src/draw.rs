@@ -1,16 +1,20 @@
 //! From a scene to cells: the whole pipeline in one page.
 
-use crate::cells::{CellGrid, ascii, half};
-use crate::palette::Palette;
-use crate::picture::Picture;
+mod band;
+mod tile_order;
+
+pub use tile_order::tile_order;
+
+use crate::cells::CellGrid;
 use crate::samples::CellSamples;
 use crate::scene::Scene;
-use crate::shade::{Shader, SurfacePoint};
+use crate::structure::{PictureSearch, RaysKind, Search, Workload, picture_kind};
+use crate::threads::Threads;
 use crate::view::View;
-use spherule_kernel::dispatch::{Level, Packet, nearest};
-use spherule_kernel::{
-    Accuracy, Camera, Exact, Fast, HitPacket, Lanes, RayPacket, Spheres, Stable,
-};
+use band::{BAND, BandPainter, Frame};
+use spherule_kernel::dispatch::Level;
+use spherule_kernel::{Accuracy, Camera, Exact, Fast, Stable};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Which tier decides hits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -85,17 +89,17 @@ pub struct Drawn {
     pub rays: u64,
 }
 
-/// How many rows of cells are traced at a time: enough rays for the kernel to share the
-/// preparation of the spheres among, few enough to stay in the cache, and a multiple of a
-/// packet's height whatever the samples.
-const BAND: u16 = 4;
-
-/// Draws `scene` as `view` sees it into `columns` x `rows` cells, with the best that the CPU has.
+/// Draws `scene` as `view` sees it into `columns` x `rows` cells, on this thread and by brute force.
 ///
 /// Who draws more than once keeps a [`Renderer`].
 #[must_use]
 pub fn draw(scene: &Scene, view: &View, style: &Style, columns: u16, rows: u16) -> Drawn {
-    Renderer::default().draw(scene, view, style, columns, rows)
+    let search = Search::brute(scene.spheres());
+    let lights = vec![search; scene.lights.len()];
+    let search = PictureSearch { kind: RaysKind::Coherent, camera: search, lights };
+    let threads = Threads::default();
+    let mut renderer = Renderer::new(Level::best(), &threads);
+    renderer.draw(scene, &search, view, style, columns, rows)
 }
 
 /// The camera of a picture and the size of its grid of samples: sample `(ix, iy)` is the ray
@@ -106,6 +110,23 @@ pub fn sample_grid(view: &View, style: &Style, columns: u16, rows: u16) -> (Came
     let (width, height) = (u32::from(columns) * samples.across, u32::from(rows) * samples.down);
     let aspect = picture_aspect(style, columns, rows);
     (view.camera(width, height, aspect), width, height)
+}
+
+/// What the camera's rays of so many such pictures ask of a structure over so many spheres.
+///
+/// Shadow rays are not counted: how many there are, the picture shows.
+#[must_use]
+pub fn picture_workload(
+    spheres: usize,
+    style: &Style,
+    columns: u16,
+    rows: u16,
+    pictures: f64,
+) -> Workload {
+    let samples = CellSamples::new(style);
+    let cells = usize::from(columns) * usize::from(rows);
+    let rays = cells * (samples.across * samples.down) as usize;
+    Workload { rays, pictures, kind: picture_kind(spheres, rays) }
 }
 
 /// Width over height of a picture of `columns` x `rows` cells; 1 where it has no area.
@@ -119,155 +140,51 @@ pub fn picture_aspect(style: &Style, columns: u16, rows: u16) -> f64 {
 
 /// Draws, and keeps its memory from frame to frame.
 #[derive(Debug)]
-pub struct Renderer {
+pub struct Renderer<'a> {
     level: Level,
-    rays: Vec<RayPacket<Packet>>,
-    hits: Vec<HitPacket<Packet>>,
-    shader: Shader,
-    picture: Picture,
-    palette: Palette,
+    threads: &'a Threads,
+    /// One a thread.
+    painters: Vec<BandPainter>,
 }
 
-impl Default for Renderer {
-    fn default() -> Self {
-        Self::new(Level::best())
-    }
-}
-
-impl Renderer {
-    /// Without memory yet; `level` changes no picture, only how long it takes.
+impl<'a> Renderer<'a> {
+    /// Without memory yet; `level` and `threads` change no picture, only how long it takes.
     #[must_use]
-    pub fn new(level: Level) -> Self {
-        Self {
-            level,
-            rays: Vec::new(),
-            hits: Vec::new(),
-            shader: Shader::default(),
-            picture: Picture::default(),
-            palette: Palette::new(ColorDepth::Never),
-        }
+    pub fn new(level: Level, threads: &'a Threads) -> Self {
+        Self { level, threads, painters: Vec::new() }
     }
 
-    /// Draws `scene` as `view` sees it into `columns` x `rows` cells.
+    /// Draws `scene` as `view` sees it into `columns` x `rows` cells; `search` finds the spheres
+    /// of that scene from that view.
     #[must_use]
     pub fn draw(
         &mut self,
         scene: &Scene,
-        view: &View,
-        style: &Style,
-        columns: u16,
-        rows: u16,
-    ) -> Drawn {
-        if self.palette.depth() != style.depth {
-            self.palette = Palette::new(style.depth);
-        }
-        match style.accuracy {
-            AccuracyChoice::Fast => self.draw_as::<Fast>(scene, view, style, columns, rows),
-            AccuracyChoice::Stable => self.draw_as::<Stable>(scene, view, style, columns, rows),
-            AccuracyChoice::Exact => self.draw_as::<Exact>(scene, view, style, columns, rows),
-        }
-    }
-
-    fn draw_as<A: Accuracy>(
-        &mut self,
-        scene: &Scene,
+        search: &PictureSearch<'_>,
         view: &View,
         style: &Style,
         columns: u16,
         rows: u16,
     ) -> Drawn {
         let (camera, width, height) = sample_grid(view, style, columns, rows);
-        let samples = CellSamples::new(style);
-        let mut drawn = Drawn {
-            cells: CellGrid::new(columns, rows),
-            rays: u64::from(width) * u64::from(height),
-        };
-        if columns == 0 {
-            return drawn;
-        }
-        for first in (0..rows).step_by(usize::from(BAND)) {
-            let band = BAND.min(rows - first);
-            let top = u32::from(first) * samples.down;
-            let bottom = top + u32::from(band) * samples.down;
-
-            // Rays, and what they meet.
-            self.aim(&camera, width, top..bottom, height);
-            self.hits.resize(self.rays.len(), HitPacket::<Packet>::none());
-            nearest::<A>(self.level, &self.rays, scene.spheres(), &mut self.hits);
-
-            // Light.
-            let pixel_rows = u32::from(band) * samples.pixels;
-            self.picture.reset(usize::from(columns), pixel_rows as usize);
-            self.gather(scene, samples, width, top..bottom);
-            drawn.rays += self.shader.light::<A>(self.level, scene, &mut self.picture);
-
-            // Characters.
-            let cells = drawn.cells.cells_mut();
-            for row in 0..band {
-                let start = usize::from(first + row) * usize::from(columns);
-                let cells = &mut cells[start..start + usize::from(columns)];
-                let pixels = |row: u16| self.picture.row(usize::from(row));
-                match style.charset {
-                    Charset::Ascii => ascii::write_row(pixels(row), &mut self.palette, cells),
-                    Charset::Half => {
-                        let (upper, lower) = (pixels(2 * row), pixels(2 * row + 1));
-                        half::write_row(upper, lower, first + row, &mut self.palette, cells);
-                    }
-                }
-            }
-        }
-        drawn
-    }
-
-    /// Fills the packets with the tiles of some rows of samples, row of tiles by row of tiles.
-    fn aim(&mut self, camera: &Camera, width: u32, rows: std::ops::Range<u32>, height: u32) {
-        let (across, down) = Camera::tile::<Packet>();
-        self.rays.clear();
-        for iy in rows.step_by(down as usize) {
-            for ix in (0..width).step_by(across as usize) {
-                self.rays.push(camera.packet::<Packet>(ix, iy, width, height));
-            }
+        let frame = Frame { level: self.level, scene, search, style, camera, width, height };
+        match style.accuracy {
+            AccuracyChoice::Fast => self.draw_as::<Fast>(&frame, columns, rows),
+            AccuracyChoice::Stable => self.draw_as::<Stable>(&frame, columns, rows),
+            AccuracyChoice::Exact => self.draw_as::<Exact>(&frame, columns, rows),
         }
     }
 
-    /// Hands what the rays met to the shader, and the background to the picture where they met
-    /// nothing; in the order of [`Renderer::aim`].
-    fn gather(
-        &mut self,
-        scene: &Scene,
-        samples: CellSamples,
-        width: u32,
-        rows: std::ops::Range<u32>,
-    ) {
-        let (across, down) = Camera::tile::<Packet>();
-        let tiles = width.div_ceil(across);
-        let share = 1.0 / samples.per_pixel() as f32;
-        let background = share * scene.background.to_linear();
-        let spheres: Spheres<'_> = scene.spheres();
-        let columns = width / samples.across;
-        let pixel_height = samples.down / samples.pixels;
-        for (index, (rays, hits)) in self.rays.iter().zip(&self.hits).enumerate() {
-            let tile_x = index as u32 % tiles * across;
-            let tile_y = index as u32 / tiles * down;
-            for lane in 0..Packet::COUNT as u32 {
-                let (x, y) = (tile_x + lane % across, tile_y + lane / across);
-                if x >= width || rows.start + y >= rows.end {
-                    continue;
-                }
-                let pixel = y / pixel_height * columns + x / samples.across;
-                let met = hits.hit(lane as usize).and_then(|hit| {
-                    let index = hit.sphere as usize;
-                    Some((hit.t, spheres.get(index)?, scene.colors().get(index)?))
-                });
-                let Some((t, sphere, color)) = met else {
-                    self.picture.add(pixel as usize, background);
-                    continue;
-                };
-                let color = share * color.to_linear();
-                self.shader.add(scene, &mut self.picture, pixel, color, || {
-                    SurfacePoint::new(&rays.ray(lane as usize), t, &sphere)
-                });
-            }
-        }
+    fn draw_as<A: Accuracy>(&mut self, frame: &Frame<'_>, columns: u16, rows: u16) -> Drawn {
+        let mut cells = CellGrid::new(columns, rows);
+        let shadow_rays = AtomicU64::new(0);
+        let band = usize::from(columns) * BAND;
+        let bands = cells.cells_mut().chunks_mut(band.max(1)).zip((0..).step_by(BAND));
+        self.threads.share(&mut self.painters, bands, |painter, (cells, first)| {
+            let count = painter.paint::<A>(frame, first, cells);
+            shadow_rays.fetch_add(count, Ordering::Relaxed);
+        });
+        let camera_rays = u64::from(frame.width) * u64::from(frame.height);
+        Drawn { cells, rays: camera_rays + shadow_rays.into_inner() }
     }
 }

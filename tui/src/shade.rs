@@ -10,7 +10,8 @@ pub use surface::SurfacePoint;
 
 use crate::picture::Picture;
 use crate::scene::Scene;
-use spherule_kernel::dispatch::{Level, Packet, any};
+use crate::structure::{PictureSearch, RaysKind, Search, TileLists};
+use spherule_kernel::dispatch::{Level, Packet};
 use spherule_kernel::{Accuracy, Lanes, Ray, RayPacket, Vec3};
 
 /// How much of a surface's colour is seen where no light reaches it.
@@ -61,18 +62,21 @@ impl Shader {
         }
     }
 
-    /// Lights what was added since the last call; returns how many shadow rays that took.
+    /// Lights what was added since the last call; `search` is that of the picture.
+    /// Returns how many shadow rays that took.
     pub fn light<A: Accuracy>(
         &mut self,
         level: Level,
         scene: &Scene,
+        search: &PictureSearch<'_>,
+        lists: &mut TileLists,
         picture: &mut Picture,
     ) -> u64 {
         for shaded in &self.shaded {
             picture.add(shaded.pixel as usize, AMBIENT * shaded.color);
         }
         let mut shadow_rays = 0;
-        for light in &scene.lights {
+        for (light, towards) in scene.lights.iter().zip(&search.lights) {
             let brightness = light.color.to_linear();
             for shaded in &self.shaded {
                 let Some((ray, cosine)) = shaded.point.towards(light) else { continue };
@@ -83,7 +87,7 @@ impl Shader {
                     picture.add(shaded.pixel as usize, received);
                 }
             }
-            shadow_rays += self.shadows.cast::<A>(level, scene, picture);
+            shadow_rays += self.shadows.cast::<A>(level, search.kind, towards, lists, picture);
         }
         self.shaded.clear();
         shadow_rays
@@ -105,10 +109,17 @@ impl Shadows {
     }
 
     /// Traces the rays, adds what those bring that nothing stops, and returns how many they were.
-    fn cast<A: Accuracy>(&mut self, level: Level, scene: &Scene, picture: &mut Picture) -> u64 {
+    fn cast<A: Accuracy>(
+        &mut self,
+        level: Level,
+        kind: RaysKind,
+        search: &Search<'_>,
+        lists: &mut TileLists,
+        picture: &mut Picture,
+    ) -> u64 {
         self.met.clear();
         self.met.resize(self.rays.len(), 0);
-        any::<A>(level, &self.rays, scene.spheres(), &mut self.met);
+        search.any::<A>(level, kind, &self.rays, lists, &mut self.met);
         for (index, &(pixel, received)) in self.waiting.iter().enumerate() {
             if self.met[index / Packet::COUNT] >> (index % Packet::COUNT) & 1 == 0 {
                 picture.add(pixel as usize, received);

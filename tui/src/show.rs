@@ -1,9 +1,11 @@
 //! One picture, or the viewer: what `spherule [SCENE]` does.
 
-use crate::arguments::{CharsetChoice, PictureArguments};
+use crate::arguments::{CharsetChoice, ComputingArguments, PictureArguments};
 use crate::color_depth::Surroundings;
-use crate::draw::{Charset, ColorDepth, Renderer, Style, picture_aspect};
-use crate::failure::{Failure, cause, write_stdout};
+use crate::draw::{Charset, ColorDepth, Renderer, Style, picture_aspect, picture_workload};
+use crate::failure::{Failure, write_stdout};
+use crate::structure::{SceneStructures, TreeMemory};
+use crate::threads::Threads;
 use crate::{encode, scene, view, viewer};
 use crossterm::terminal;
 use spherule_kernel::dispatch::Level;
@@ -49,13 +51,20 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Failure> {
         view = view::with_projection(&view, kind);
     }
 
-    let mut renderer = Renderer::new(arguments.level.unwrap_or_else(Level::best));
+    let ComputingArguments { structure, threads, level } = arguments.computing;
+    let threads = Threads::new(threads)?;
+    let mut renderer = Renderer::new(level.unwrap_or_else(Level::best), &threads);
+    let mut memory = TreeMemory::default();
+    let mut structures = SceneStructures::new(scene.spheres(), &threads, &mut memory);
     if is_terminal && !arguments.once {
-        return viewer::run(&scene, view, style, renderer)
-            .map_err(|error| Failure::Running(format!("terminal: {}", cause(&error))));
+        return viewer::run(&scene, structures, structure, view, style, renderer);
     }
+    let workload = picture_workload(scene.spheres().len(), &style, columns, rows, 1.0);
+    let structure = structures.structure(structure, &workload);
+    let search = structures.picture(structure, workload.kind, view.viewpoint(), &scene.lights)?;
+    let drawn = renderer.draw(&scene, &search, &view, &style, columns, rows);
     let mut bytes = Vec::new();
-    encode::full(&renderer.draw(&scene, &view, &style, columns, rows).cells, &mut bytes);
+    encode::full(&drawn.cells, &mut bytes);
     write_stdout(&bytes)
 }
 

@@ -2,6 +2,7 @@
 //! plane. A view becomes the kernel's camera when the size of the picture is known.
 
 use spherule_kernel::camera::Projection;
+use spherule_kernel::tiles::Viewpoint;
 use spherule_kernel::{Camera, Vec3};
 
 /// Perspective by its vertical angle, parallel by its height.
@@ -97,6 +98,15 @@ impl View {
             corner: rounded([0, 1, 2].map(|i| start[i] - left * right[i] + top * up[i])),
             step_x: rounded(right.map(|x| x * step_x)),
             step_y: rounded(up.map(|x| -x * step_y)),
+        }
+    }
+
+    /// What all rays of [`View::camera`] have in common.
+    #[must_use]
+    pub fn viewpoint(&self) -> Viewpoint {
+        match self.camera(1, 1, 1.0).projection {
+            Projection::Perspective { eye } => Viewpoint::Origin(eye),
+            Projection::Parallel { direction } => Viewpoint::Direction(direction),
         }
     }
 

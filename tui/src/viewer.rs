@@ -10,9 +10,11 @@ mod state;
 mod status;
 
 use crate::cells::CellGrid;
-use crate::draw::{Renderer, Style};
+use crate::draw::{Renderer, Style, picture_workload};
 use crate::encode::Encoder;
+use crate::failure::{Failure, cause};
 use crate::scene::Scene;
+use crate::structure::{SceneStructures, StructureChoice};
 use crate::terminal::Terminal;
 use crate::view::View;
 use meter::{Frame, Meter};
@@ -34,16 +36,26 @@ const LARGEST_SIZE: u16 = 4096;
 /// the real program; it harms nobody who does not ask for it.
 const PANIC_SWITCH: &str = "SPHERULE_TEST_PANIC";
 
-/// Shows `scene` on the terminal, from `view` on, drawn by `renderer`, until the user quits.
+/// Shows `scene` on the terminal, from `view` on, drawn by `renderer` with the structure of its
+/// own that `structure` says, until the user quits.
 ///
 /// # Errors
-/// If there is no terminal to read keys from, or it goes away.
-pub fn run(scene: &Scene, view: View, style: Style, renderer: Renderer) -> io::Result<()> {
+/// [`Failure::Running`] if there is no terminal to read keys from, or it goes away, or there is no
+/// memory for a structure.
+pub fn run(
+    scene: &Scene,
+    structures: SceneStructures<'_>,
+    structure: StructureChoice,
+    view: View,
+    style: Style,
+    renderer: Renderer<'_>,
+) -> Result<(), Failure> {
     let rate = if env::var_os("SSH_CONNECTION").is_some() { REMOTE_RATE } else { LOCAL_RATE };
     let mut viewer = Viewer {
         scene,
-        terminal: Terminal::enter()?,
-        state: State::new(view, style),
+        structures,
+        terminal: Terminal::enter().map_err(|error| lost(&error))?,
+        state: State::new(view, style, structure),
         renderer,
         encoder: Encoder::new(),
         meter: Meter::default(),
@@ -58,7 +70,7 @@ pub fn run(scene: &Scene, view: View, style: Style, renderer: Renderer) -> io::R
         let wait = moving.then(|| {
             last_frame.map_or(Duration::ZERO, |at: Instant| interval.saturating_sub(at.elapsed()))
         });
-        match viewer.take_input(wait)? {
+        match viewer.take_input(wait).map_err(|error| lost(&error))? {
             Outcome::Quit => return Ok(()),
             Outcome::Changed => stale = true,
             Outcome::Unchanged => {}
@@ -76,11 +88,17 @@ pub fn run(scene: &Scene, view: View, style: Style, renderer: Renderer) -> io::R
     }
 }
 
+/// The terminal is not there.
+fn lost(error: &io::Error) -> Failure {
+    Failure::Running(format!("terminal: {}", cause(error)))
+}
+
 struct Viewer<'a> {
     scene: &'a Scene,
+    structures: SceneStructures<'a>,
     terminal: Terminal,
     state: State,
-    renderer: Renderer,
+    renderer: Renderer<'a>,
     encoder: Encoder,
     meter: Meter,
     /// Kept from frame to frame for its memory.
@@ -121,8 +139,8 @@ impl Viewer<'_> {
     }
 
     /// Draws and sends one frame, in one write.
-    fn show_frame(&mut self, now: Instant) -> io::Result<()> {
-        let (columns, rows) = self.terminal.size()?;
+    fn show_frame(&mut self, now: Instant) -> Result<(), Failure> {
+        let (columns, rows) = self.terminal.size().map_err(|error| lost(&error))?;
         let (columns, rows) = (columns.min(LARGEST_SIZE), rows.min(LARGEST_SIZE));
         if columns == 0 || rows == 0 {
             return Ok(());
@@ -130,8 +148,13 @@ impl Viewer<'_> {
         let status_row = if rows >= 2 { rows - 1 } else { rows };
         self.state.set_height(status_row);
         let started = Instant::now();
-        let State { view, style, .. } = &self.state;
-        let drawn = self.renderer.draw(self.scene, view, style, columns, status_row);
+        let State { view, style, structure, .. } = &self.state;
+        let count = self.scene.spheres().len();
+        let workload = picture_workload(count, style, columns, status_row, f64::INFINITY);
+        let structure = self.structures.structure(*structure, &workload);
+        let (kind, viewpoint) = (workload.kind, view.viewpoint());
+        let search = self.structures.picture(structure, kind, viewpoint, &self.scene.lights)?;
+        let drawn = self.renderer.draw(self.scene, &search, view, style, columns, status_row);
         let drawing = started.elapsed();
 
         let mut cells = CellGrid::new(columns, rows);
@@ -150,8 +173,9 @@ impl Viewer<'_> {
         self.encoder.encode(cells.clone(), &mut self.bytes);
         let frame =
             Frame { drawing, making: started.elapsed(), rays: drawn.rays, bytes: self.bytes.len() };
-        status::write(&mut cells, status_row, &self.state, self.meter.count(frame, now));
+        let figures = self.meter.count(frame, now);
+        status::write(&mut cells, status_row, &self.state, structure, figures);
         self.encoder.encode(cells, &mut self.bytes);
-        self.terminal.show(&self.bytes)
+        self.terminal.show(&self.bytes).map_err(|error| lost(&error))
     }
 }

@@ -31,10 +31,20 @@ fn an_unknown_scene() {
 
 #[test]
 fn an_unknown_option() {
-    for words in ["--threads 2", "--frobnicate"] {
-        refusal(&run(words.split(' ')));
-    }
+    refusal(&run(["--frobnicate"]));
     assert!(refusal(&run(["--accuracy", "real"])).contains("fast, stable or exact"));
+}
+
+#[test]
+fn threads_and_structures_that_are_none() {
+    for before in ["", "tradeoff ", "trace --spheres s.npy --rays r.npy "] {
+        for count in ["0", "-1", "1025", "many", "1.5", "99999999999999999999"] {
+            let message = refusal(&run(format!("{before}--threads={count}").split(' ')));
+            assert!(message.ends_with("1 to 1024"), "{message}");
+        }
+        let message = refusal(&run(format!("{before}--structure octree").split(' ')));
+        assert!(message.ends_with("auto, brute, tiles or bvh"), "{message}");
+    }
 }
 
 #[test]

@@ -96,7 +96,7 @@ fn nearest_hits_are_those_of_a_scalar_loop() {
         let start =
             format!("rays=101 spheres=7 hits={hits} structure=brute accuracy={tier} level=");
         assert!(text.starts_with(&start) && text.ends_with('\n'), "{text}");
-        for key in ["lanes=", "threads=1", "build_ms=", "mrays_per_s="] {
+        for key in ["lanes=", "threads=", "build_ms=", "mrays_per_s="] {
             assert!(text.contains(&format!(" {key}")), "{text}");
         }
     }
@@ -135,7 +135,8 @@ fn pairs_meet_their_own_sphere_alone() {
         if words.contains("json") {
             let report: serde_json::Value = serde_json::from_str(&text).expect("JSON");
             assert_eq!((&report["hits"], &report["rays"]), (&hits.into(), &101.into()));
-            assert_eq!((&report["structure"], &report["threads"]), (&"brute".into(), &1.into()));
+            assert_eq!(report["structure"], "brute");
+            assert!(report["threads"].as_u64() > Some(0));
         }
     }
 }

@@ -44,7 +44,7 @@ fn meets(ray: &Ray, spheres: &[Sphere]) -> Option<bool> {
 fn the_keys_and_their_types() {
     let report = measured(&["marbles", "--size", "20x8"]);
     let keys: Vec<_> = report.as_object().expect("an object").keys().collect();
-    assert_eq!(keys, ["cpu", "lanes", "level", "rustc", "scene", "threads", "tiers"]);
+    assert_eq!(keys, ["cpu", "lanes", "level", "rustc", "scene", "structure", "threads", "tiers"]);
     assert_eq!((&report["scene"], &report["lanes"]), (&"marbles".into(), &16.into()));
     assert!(report["cpu"].is_string() && report["level"].is_string());
     assert!(report["rustc"].as_str().expect("text").starts_with("rustc 1."));
@@ -147,8 +147,10 @@ fn a_table_for_people() {
     }
     assert!(!text.contains('\x1b') && !text.contains('\r'));
     assert!(text.lines().all(|line| line.len() <= 110), "{text}");
-    let level = printed(&run(["tradeoff", "unit", "--size", "4x4", "--level", "baseline"]));
-    assert!(level.contains(" baseline, 16 lanes, 1 thread"), "{level}");
+    let words = "tradeoff unit --size 4x4 --level baseline --threads 1 --structure bvh";
+    let head = printed(&run(words.split(' ')));
+    assert!(head.starts_with("unit: 1 sphere, bvh\n"), "{head}");
+    assert!(head.contains(" baseline, 16 lanes, 1 thread;"), "{head}");
 }
 
 #[test]
@@ -158,6 +160,8 @@ fn bad_use() {
         ("tradeoff marble", "no such scene"),
         ("tradeoff --size 0x1", "each 1 to 4096"),
         ("tradeoff --accuracy fast", "--accuracy"),
+        ("tradeoff --threads 0", "1 to 1024"),
+        ("tradeoff --structure tree", "auto, brute, tiles or bvh"),
         ("tradeoff --level sse", "baseline, avx2 or avx512"),
         ("tradeoff unit unit", "unit"),
     ] {

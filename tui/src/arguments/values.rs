@@ -1,12 +1,15 @@
 //! The values of options, each from its text; an error says what there is to choose from.
 
-use super::{CharsetChoice, StructureChoice};
+use super::CharsetChoice;
 use crate::color_depth::ColorChoice;
 use crate::draw::{AccuracyChoice, Charset, ColorDepth};
 use crate::samples::MOST_SAMPLES;
 use crate::scene::open::Format;
+use crate::structure::{Structure, StructureChoice};
+use crate::threads::MOST_THREADS;
 use crate::view::LensKind;
 use spherule_kernel::dispatch::{Level, LevelName};
+use std::num::NonZeroUsize;
 
 /// The largest picture, in columns or rows.
 const LARGEST_SIDE: u16 = 4096;
@@ -80,11 +83,17 @@ pub(super) fn aspect(text: &str) -> Result<f32, &'static str> {
 }
 
 pub(super) fn structure(text: &str) -> Result<StructureChoice, &'static str> {
-    match text {
-        "auto" => Ok(StructureChoice::Auto),
-        "brute" => Ok(StructureChoice::Brute),
-        _ => Err("auto or brute"),
+    let named = Structure::ALL.into_iter().find(|structure| structure.as_str() == text);
+    match named {
+        Some(structure) => Ok(StructureChoice::Only(structure)),
+        None if text == "auto" => Ok(StructureChoice::Auto),
+        None => Err("auto, brute, tiles or bvh"),
     }
+}
+
+pub(super) fn threads(text: &str) -> Result<NonZeroUsize, String> {
+    let count = text.parse::<NonZeroUsize>().ok().filter(|count| count.get() <= MOST_THREADS);
+    count.ok_or_else(|| format!("1 to {MOST_THREADS}"))
 }
 
 pub(super) fn level(text: &str) -> Result<Level, String> {

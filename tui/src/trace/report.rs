@@ -1,6 +1,7 @@
 //! What `spherule trace` prints: the keys that scripts rely on.
 
 use crate::draw::AccuracyChoice;
+use crate::structure::Structure;
 use serde_json::{Map, Value, json};
 use spherule_kernel::dispatch::LevelName;
 use std::time::Duration;
@@ -10,9 +11,11 @@ pub(super) struct Report {
     pub(super) rays: usize,
     pub(super) spheres: usize,
     pub(super) hits: usize,
+    pub(super) structure: Structure,
     pub(super) accuracy: AccuracyChoice,
     pub(super) level: LevelName,
     pub(super) lanes: usize,
+    pub(super) threads: usize,
     pub(super) build: Duration,
     pub(super) passes: Vec<Duration>,
 }
@@ -25,11 +28,11 @@ impl Report {
             ("rays", json!(self.rays)),
             ("spheres", json!(self.spheres)),
             ("hits", json!(self.hits)),
-            ("structure", json!("brute")),
+            ("structure", json!(self.structure.as_str())),
             ("accuracy", json!(self.accuracy.as_str())),
             ("level", json!(self.level.as_str())),
             ("lanes", json!(self.lanes)),
-            ("threads", json!(1)),
+            ("threads", json!(self.threads)),
             ("build_ms", rounded(self.build.as_secs_f64() * 1e3)),
             ("mrays_per_s", rounded(self.mega_rays_a_second())),
         ]
@@ -75,16 +78,18 @@ mod tests {
             rays: 8_000_000,
             spheres: 2,
             hits: 3,
+            structure: Structure::Bvh,
             accuracy: AccuracyChoice::Fast,
             level: LevelName::Avx2,
             lanes: 8,
+            threads: 2,
             build: Duration::from_micros(1500),
             passes: [3, 1, 2].map(Duration::from_secs).to_vec(),
         };
         let line = report.line();
-        assert!(line.starts_with("rays=8000000 spheres=2 hits=3 structure=brute accuracy=fast "));
+        assert!(line.starts_with("rays=8000000 spheres=2 hits=3 structure=bvh accuracy=fast "));
         assert!(
-            line.ends_with(" level=avx2 lanes=8 threads=1 build_ms=1.5 mrays_per_s=4.0\n"),
+            line.ends_with(" level=avx2 lanes=8 threads=2 build_ms=1.5 mrays_per_s=4.0\n"),
             "{line}"
         );
         let object: Value = serde_json::from_str(&report.json()).expect("JSON");
@@ -98,9 +103,11 @@ mod tests {
             rays: 3_000_000,
             spheres: 0,
             hits: 0,
+            structure: Structure::Brute,
             accuracy: AccuracyChoice::Stable,
             level: LevelName::Avx2,
             lanes: 8,
+            threads: 2,
             build: Duration::ZERO,
             passes: passes.iter().copied().map(Duration::from_secs).collect(),
         };

@@ -1,60 +1,83 @@
 //! The rays that a picture of a scene takes: from the camera, and from there to the lights.
 
+use crate::draw::tile_order;
 use crate::scene::Scene;
 use crate::shade::SurfacePoint;
-use spherule_kernel::dispatch::{Level, Packet, nearest};
-use spherule_kernel::{Camera, Exact, HitPacket, Lanes, Ray, RayPacket};
+use crate::structure::Structure;
+use spherule_kernel::dispatch::Packet;
+use spherule_kernel::{Camera, HitPacket, Lanes, Ray, RayPacket};
 
 /// The most rays, so that their memory is a cache's, not a machine's.
 const MOST_RAYS: usize = 1 << 17;
-/// The most tests of a ray against a sphere a pass: some 0.1 s at the least level.
+/// The most tests of a ray against a sphere a pass of brute force: some 0.1 s at the least level.
 const MOST_TESTS: usize = 1 << 27;
 
 /// Packets of rays, and how many rays they hold.
 pub(super) struct Rays {
     pub(super) packets: Vec<RayPacket<Packet>>,
+    /// How many packets share an origin, a direction or an end, one part after the other.
+    pub(super) parts: Vec<usize>,
     pub(super) count: usize,
 }
 
 /// The most rays against so many spheres.
-fn most_rays(spheres: usize) -> usize {
-    (MOST_TESTS / spheres.max(1)).clamp(Packet::COUNT, MOST_RAYS)
+pub(super) fn most_rays(spheres: usize, structure: Structure) -> usize {
+    match structure {
+        Structure::Brute => (MOST_TESTS / spheres.max(1)).clamp(Packet::COUNT, MOST_RAYS),
+        Structure::Tiles | Structure::Bvh => MOST_RAYS,
+    }
 }
 
+/// The side in tiles of the part of a picture that is measured or left out.
+const BLOCK: u32 = 4;
+
 impl Rays {
-    fn new(packets: Vec<RayPacket<Packet>>) -> Self {
+    fn new(parts: impl Iterator<Item = Vec<RayPacket<Packet>>>) -> Self {
+        let parts: Vec<_> = parts.collect();
+        let lengths = parts.iter().map(Vec::len).collect();
+        let packets = parts.concat();
         let live = |packet: &RayPacket<Packet>| {
             (0..Packet::COUNT).filter(|&lane| packet.ray(lane).is_live()).count()
         };
-        Self { count: packets.iter().map(live).sum(), packets }
+        Self { count: packets.iter().map(live).sum(), packets, parts: lengths }
     }
 
-    /// The rays of a picture of `width` x `height` samples, in the tiles that it is drawn in; of
-    /// too many tiles every n-th.
-    pub(super) fn of_camera(camera: &Camera, width: u32, height: u32, spheres: usize) -> Self {
+    /// The rays of a picture of `width` x `height` samples, in the order in which it is drawn; of
+    /// more than `most`, those of every n-th block of tiles.
+    pub(super) fn of_camera(camera: &Camera, width: u32, height: u32, most: usize) -> Self {
         let (across, down) = Camera::tile::<Packet>();
-        let columns = u64::from(width.div_ceil(across));
-        let tiles = columns * u64::from(height.div_ceil(down));
-        let mut step = tiles.div_ceil((most_rays(spheres) / Packet::COUNT) as u64).max(1);
+        let (columns, rows) = (width.div_ceil(across), height.div_ceil(down));
+        let blocks_across = u64::from(columns.div_ceil(BLOCK));
+        let blocks = blocks_across * u64::from(rows.div_ceil(BLOCK));
+        let most_packets = most / Packet::COUNT;
+        let mut step = (blocks * u64::from(BLOCK * BLOCK)).div_ceil(most_packets as u64).max(1);
         // A step that goes well with the width would see a few columns alone.
-        while step > 1 && common_divisor(step, columns) > 1 {
+        while step > 1 && common_divisor(step, blocks_across) > 1 {
             step += 1;
         }
-        let tile = |index: u64| {
-            let (ix, iy) = ((index % columns) as u32 * across, (index / columns) as u32 * down);
-            camera.packet::<Packet>(ix, iy, width, height)
-        };
-        Self::new((0..tiles).step_by(step as usize).map(tile).collect())
+        let packets = (0..blocks).step_by(step as usize).flat_map(|index| {
+            let left = (index % blocks_across) as u32 * BLOCK;
+            let top = (index / blocks_across) as u32 * BLOCK;
+            tile_order((columns - left).min(BLOCK), (rows - top).min(BLOCK)).map(move |tile| {
+                let (ix, iy) = ((left + tile.0) * across, (top + tile.1) * down);
+                camera.packet::<Packet>(ix, iy, width, height)
+            })
+        });
+        Self::new(std::iter::once(packets.take(most_packets).collect()))
     }
 
     /// The rays from what `camera` rays meet to every light that the surface faces, light by
-    /// light; from too many points, every n-th.
-    pub(super) fn of_shadows(camera: &Self, scene: &Scene, level: Level) -> Self {
+    /// light, where `hits` are what they meet; where those are more than `most`, from every n-th
+    /// point.
+    pub(super) fn of_shadows(
+        camera: &Self,
+        hits: &[HitPacket<Packet>],
+        scene: &Scene,
+        most: usize,
+    ) -> Self {
         let spheres = scene.spheres();
-        let mut hits = vec![HitPacket::<Packet>::none(); camera.packets.len()];
-        nearest::<Exact>(level, &camera.packets, spheres, &mut hits);
         let mut points = Vec::new();
-        for (rays, hits) in camera.packets.iter().zip(&hits) {
+        for (rays, hits) in camera.packets.iter().zip(hits) {
             for lane in 0..Packet::COUNT {
                 let Some(hit) = hits.hit(lane) else { continue };
                 if let Some(sphere) = spheres.get(hit.sphere as usize) {
@@ -63,13 +86,12 @@ impl Rays {
             }
         }
         let wanted = points.len() * scene.lights.len();
-        let step = wanted.div_ceil(most_rays(spheres.len())).max(1);
-        let packets = scene.lights.iter().flat_map(|light| {
+        let step = wanted.div_ceil(most).max(1);
+        Self::new(scene.lights.iter().map(|light| {
             let towards = |point: &SurfacePoint| point.towards(light).map(|(ray, _)| ray);
             let rays: Vec<Ray> = points.iter().step_by(step).filter_map(towards).collect();
-            rays.chunks(Packet::COUNT).map(RayPacket::<Packet>::new).collect::<Vec<_>>()
-        });
-        Self::new(packets.collect())
+            rays.chunks(Packet::COUNT).map(RayPacket::<Packet>::new).collect()
+        }))
     }
 }
 
@@ -82,20 +104,25 @@ fn common_divisor(a: u64, b: u64) -> u64 {
 mod tests {
     use super::*;
     use crate::scene::builtin::builtin;
+    use spherule_kernel::Exact;
+    use spherule_kernel::dispatch::{Level, nearest};
 
     #[test]
     fn a_picture_of_any_size_is_some_rays_from_everywhere() {
         let scene = builtin("marbles").expect("marbles");
         for (side, spheres) in [(0, 1), (1, 1), (160, 10), (65_536, 10), (8192, 100_000_000)] {
             let camera = scene.first_view(1.0).camera(side, side, 1.0);
-            let rays = Rays::of_camera(&camera, side, side, spheres);
-            assert!(rays.count <= most_rays(spheres));
+            let most = most_rays(spheres, Structure::Brute);
+            let rays = Rays::of_camera(&camera, side, side, most);
+            assert!(rays.count <= most);
             assert_eq!(rays.count == 0, side == 0);
             assert!(side > 160 || rays.count == (side * side) as usize);
         }
         let camera = scene.first_view(1.0).camera(4096, 4096, 1.0);
-        let rays = Rays::of_camera(&camera, 4096, 4096, 10);
-        let shadow = Rays::of_shadows(&rays, &scene, Level::best());
+        let rays = Rays::of_camera(&camera, 4096, 4096, MOST_RAYS);
+        let mut hits = vec![HitPacket::<Packet>::none(); rays.packets.len()];
+        nearest::<Exact>(Level::best(), &rays.packets, scene.spheres(), &mut hits);
+        let shadow = Rays::of_shadows(&rays, &hits, &scene, MOST_RAYS);
         assert!(rays.count > MOST_RAYS / 4 && shadow.count > 0 && shadow.count <= MOST_RAYS);
         let across = |packet: &RayPacket<Packet>| packet.ray(0).direction.x.to_bits();
         let mut columns: Vec<u32> = rays.packets.iter().map(across).collect();

@@ -2,6 +2,7 @@
 
 use super::errors::Errors;
 use crate::draw::AccuracyChoice;
+use crate::structure::Structure;
 use serde_json::{Value, json};
 use spherule_kernel::Stages;
 use spherule_kernel::dispatch::LevelName;
@@ -12,8 +13,10 @@ pub(super) struct Report {
     pub(super) spheres: usize,
     pub(super) cpu: String,
     pub(super) rustc: &'static str,
+    pub(super) structure: Structure,
     pub(super) level: LevelName,
     pub(super) lanes: usize,
+    pub(super) threads: usize,
     pub(super) tiers: Vec<Tier>,
 }
 
@@ -75,7 +78,8 @@ impl Report {
             "rustc": self.rustc,
             "level": self.level.as_str(),
             "lanes": self.lanes,
-            "threads": 1,
+            "threads": self.threads,
+            "structure": self.structure.as_str(),
             "tiers": self.tiers.iter().map(tier).collect::<Vec<Value>>(),
         });
         report.to_string() + "\n"
@@ -83,13 +87,15 @@ impl Report {
 
     /// A table.
     pub(super) fn table(&self) -> String {
-        let Self { scene, spheres, cpu, rustc, level, lanes, .. } = self;
-        let level = level.as_str();
+        let Self { scene, spheres, cpu, rustc, lanes, threads, .. } = self;
+        let (level, structure) = (self.level.as_str(), self.structure.as_str());
         // A scene is a file's name, and that is no line.
         let scene = scene.escape_debug();
-        let plural = if *spheres == 1 { "" } else { "s" };
+        let plural = |count: usize| if count == 1 { "" } else { "s" };
+        let (some_spheres, some_threads) = (plural(*spheres), plural(*threads));
         let mut text = format!(
-            "{scene}: {spheres} sphere{plural}\n{cpu}, {level}, {lanes} lanes, 1 thread; {rustc}\n"
+            "{scene}: {spheres} sphere{some_spheres}, {structure}\n\
+             {cpu}, {level}, {lanes} lanes, {threads} thread{some_threads}; {rustc}\n"
         );
         let mut kind = "";
         for tier in &self.tiers {
@@ -145,5 +151,6 @@ const HEAD: [[&str; 12]; 2] = [
 const WIDTHS: [usize; 12] = [7, 9, 9, 9, 10, 8, 8, 9, 9, 11, 9, 9];
 const FOOT: &str = "
 Wrong: the nearest hit differs from that of exact, counted in rays. ulp: of t, where both meet the
-same sphere. Times are medians of passes in turns; shadow rays are timed asking for any hit.
+same sphere. Times are medians of passes in turns, without the building of a structure; shadow rays are timed
+asking for any hit. A test is a ray and a sphere, whether a structure asks for it or not.
 ";

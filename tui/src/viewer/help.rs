@@ -2,7 +2,7 @@
 
 use crate::cells::{CellGrid, Color};
 
-const LINES: [&str; 14] = [
+const LINES: [&str; 15] = [
     "                                         ",
     "  arrows, h j k l, drag   around          ",
     "  + -, wheel              nearer, farther ",
@@ -12,6 +12,7 @@ const LINES: [&str; 14] = [
     "                                         ",
     "  1 2 3                   fast, stable, exact ",
     "  c                       half blocks, ascii  ",
+    "  s                       auto, brute, tiles, bvh ",
     "                                         ",
     "  ?                       this            ",
     "  Ctrl-Z                  stop, fg goes on",

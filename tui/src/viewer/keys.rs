@@ -25,6 +25,8 @@ pub(super) enum Input {
     Projection,
     /// The next charset.
     Charset,
+    /// The next structure.
+    Structure,
     /// Start or stop to spin.
     Spin,
     /// Back to the first view.
@@ -71,6 +73,7 @@ fn key_input(key: &KeyEvent) -> Option<Input> {
         KeyCode::Char('3') => Input::Exact,
         KeyCode::Char('o') => Input::Projection,
         KeyCode::Char('c') => Input::Charset,
+        KeyCode::Char('s') => Input::Structure,
         KeyCode::Char(' ') => Input::Spin,
         KeyCode::Char('r') => Input::Reset,
         KeyCode::Char('?') => Input::Help,

@@ -2,6 +2,7 @@
 
 use super::keys::Input;
 use crate::draw::{AccuracyChoice, Charset, Style};
+use crate::structure::StructureChoice;
 use crate::view::{LensKind, View, orbited, with_projection, zoomed};
 use std::f32::consts::PI;
 use std::time::Duration;
@@ -39,6 +40,7 @@ pub(super) struct State {
     home: View,
     pub(super) view: View,
     pub(super) style: Style,
+    pub(super) structure: StructureChoice,
     pub(super) help: bool,
     spinning: bool,
     /// Where the mouse took hold, or was led to since.
@@ -48,8 +50,17 @@ pub(super) struct State {
 }
 
 impl State {
-    pub(super) fn new(view: View, style: Style) -> Self {
-        Self { home: view, view, style, help: false, spinning: false, held: None, height: 1 }
+    pub(super) fn new(view: View, style: Style, structure: StructureChoice) -> Self {
+        Self {
+            home: view,
+            view,
+            style,
+            structure,
+            help: false,
+            spinning: false,
+            held: None,
+            height: 1,
+        }
     }
 
     pub(super) fn is_spinning(&self) -> bool {
@@ -81,6 +92,7 @@ impl State {
             _ => {}
         }
         let (view, style, help) = (self.view, self.style, self.help);
+        let structure = self.structure;
         let was_spinning = self.spinning;
         match input {
             Input::Orbit(right, up) => {
@@ -105,6 +117,7 @@ impl State {
                     Charset::Half => Charset::Ascii,
                 };
             }
+            Input::Structure => self.structure = structure.next(),
             Input::Spin => self.spinning = !self.spinning,
             Input::Reset => {
                 self.view = self.home;
@@ -114,7 +127,7 @@ impl State {
             Input::Quit | Input::Grab(..) | Input::Suspend | Input::Resize => {}
         }
         let same = (view, style, help) == (self.view, self.style, self.help)
-            && was_spinning == self.spinning;
+            && (structure, was_spinning) == (self.structure, self.spinning);
         if same { Outcome::Unchanged } else { Outcome::Changed }
     }
 
@@ -134,6 +147,7 @@ impl State {
 mod tests {
     use super::*;
     use crate::draw::ColorDepth;
+    use crate::structure::Structure;
     use crate::view::Lens;
     use spherule_kernel::Vec3;
 
@@ -151,7 +165,7 @@ mod tests {
             samples: 4,
             cell_aspect: 0.5,
         };
-        let mut state = State::new(view, style);
+        let mut state = State::new(view, style, StructureChoice::Auto);
         state.set_height(36);
         state
     }
@@ -202,6 +216,8 @@ mod tests {
         assert_eq!(state.style.charset, Charset::Ascii);
         assert_eq!(state.apply(Input::Projection), Outcome::Changed);
         assert_eq!(state.view.lens_kind(), LensKind::Parallel);
+        assert_eq!(state.apply(Input::Structure), Outcome::Changed);
+        assert_eq!(state.structure, StructureChoice::Only(Structure::Brute));
     }
 
     #[test]

@@ -4,15 +4,28 @@ use super::meter::Figures;
 use super::state::State;
 use crate::cells::{CellGrid, Color};
 use crate::draw::Charset;
+use crate::structure::{Structure, StructureChoice};
 use crate::view::LensKind;
 
 const HINT: &str = "? help  q quit ";
 
 /// Writes the status line into `row`: figures from the left; from the right, if there is room, how
-/// to go on.
-pub(super) fn write(cells: &mut CellGrid, row: u16, state: &State, figures: Figures) {
+/// to go on. What `structure` was searched stands there too, if there is room beside, or if the
+/// user has chosen it.
+pub(super) fn write(
+    cells: &mut CellGrid,
+    row: u16,
+    state: &State,
+    structure: Structure,
+    figures: Figures,
+) {
     let columns = usize::from(cells.columns());
-    let mut line = figures_line(state, figures);
+    let mut line = figures_line(state, "", figures);
+    let word = format!(" {}", structure.as_str());
+    let taken = if state.structure == StructureChoice::Auto { HINT.len() + 1 } else { 0 };
+    if line.len() + word.len() + taken <= columns {
+        line = figures_line(state, &word, figures);
+    }
     let room = columns.saturating_sub(line.len());
     if room > HINT.len() {
         line.push_str(&format!("{HINT:>room$}"));
@@ -20,7 +33,7 @@ pub(super) fn write(cells: &mut CellGrid, row: u16, state: &State, figures: Figu
     cells.write(0, row, &format!("{line:columns$}"), Color::Default, Color::Default);
 }
 
-fn figures_line(state: &State, figures: Figures) -> String {
+fn figures_line(state: &State, structure: &str, figures: Figures) -> String {
     let accuracy = state.style.accuracy.as_str();
     let lens = match state.view.lens_kind() {
         LensKind::Perspective => "perspective",
@@ -33,7 +46,7 @@ fn figures_line(state: &State, figures: Figures) -> String {
     let rate =
         figures.frames_per_second.map_or_else(|| "--".to_owned(), |rate| format!("{rate:.0}"));
     format!(
-        " {accuracy} {lens} {charset}  {rate:>2} fps {:>5.1} ms {:>5.1} Mrays/s {:>5.1} kB ",
+        " {accuracy} {lens} {charset}{structure}  {rate:>2} fps {:>5.1} ms {:>5.1} Mrays/s {:>5.1} kB ",
         figures.milliseconds,
         figures.megarays_per_second,
         figures.bytes as f64 / 1e3,
@@ -47,7 +60,7 @@ mod tests {
     use crate::view::{Lens, View};
     use spherule_kernel::Vec3;
 
-    fn line(columns: u16) -> String {
+    fn line(columns: u16, choice: StructureChoice) -> String {
         let view = View {
             eye: Vec3::Z,
             target: Vec3::ZERO,
@@ -61,7 +74,7 @@ mod tests {
             samples: 1,
             cell_aspect: 0.5,
         };
-        let state = State::new(view, style);
+        let state = State::new(view, style, choice);
         let figures = Figures {
             frames_per_second: Some(59.94),
             milliseconds: 3.21,
@@ -69,21 +82,36 @@ mod tests {
             bytes: 45_678,
         };
         let mut cells = CellGrid::new(columns, 2);
-        write(&mut cells, 1, &state, figures);
+        write(&mut cells, 1, &state, Structure::Bvh, figures);
         cells.row(1).iter().map(|cell| cell.glyph).collect()
     }
+
+    const AUTO: StructureChoice = StructureChoice::Auto;
+    const CHOSEN: StructureChoice = StructureChoice::Only(Structure::Bvh);
 
     #[test]
     fn it_fills_the_row() {
         assert_eq!(
-            line(90),
-            " stable perspective half  60 fps   3.2 ms  12.3 Mrays/s  45.7 kB           ? help  q quit "
+            line(90, AUTO),
+            " stable perspective half bvh  60 fps   3.2 ms  12.3 Mrays/s  45.7 kB       ? help  q quit "
+        );
+    }
+
+    #[test]
+    fn what_auto_chose_needs_room() {
+        assert_eq!(
+            line(84, AUTO),
+            " stable perspective half  60 fps   3.2 ms  12.3 Mrays/s  45.7 kB     ? help  q quit "
+        );
+        assert_eq!(
+            line(75, CHOSEN),
+            " stable perspective half bvh  60 fps   3.2 ms  12.3 Mrays/s  45.7 kB       "
         );
     }
 
     #[test]
     fn it_is_cut_where_there_is_no_room() {
-        assert_eq!(line(10), " stable pe");
-        assert_eq!(line(0), "");
+        assert_eq!(line(10, CHOSEN), " stable pe");
+        assert_eq!(line(0, AUTO), "");
     }
 }

@@ -1,0 +1,156 @@
+//! Work for all cores: tasks handed out one by one, so that a thread whose tasks are short takes
+//! more of them.
+
+use crate::failure::Failure;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use spherule_kernel::bvh::Join;
+use std::num::NonZeroUsize;
+use std::sync::{Mutex, PoisonError};
+use std::thread::available_parallelism;
+
+/// The most threads that can be asked for.
+pub const MOST_THREADS: usize = 1024;
+
+/// The fewest packets a task and the most: enough that brute force prepares its spheres for many
+/// at a time, few enough that they stay in the cache.
+const PACKETS: (usize, usize) = (16, 1024);
+/// Tasks, where there are packets for them: so many that threads end at about the same time.
+const TASKS: usize = 128;
+
+/// How many of so many packets a task should have.
+///
+/// Not a matter of the number of threads: so the packets that go through a structure together are
+/// always the same ones.
+#[must_use]
+pub fn packets_a_task(packets: usize) -> usize {
+    (packets / TASKS).next_multiple_of(PACKETS.0).clamp(PACKETS.0, PACKETS.1)
+}
+
+/// A number of threads. One is the caller's own: then there is no pool.
+#[derive(Debug, Default)]
+pub struct Threads {
+    pool: Option<ThreadPool>,
+}
+
+impl Threads {
+    /// So many threads; all that the machine has where that is not said.
+    ///
+    /// # Errors
+    /// [`Failure::Running`] where the system does not give them.
+    pub fn new(count: Option<NonZeroUsize>) -> Result<Self, Failure> {
+        let count = count.or_else(|| available_parallelism().ok()).map_or(1, NonZeroUsize::get);
+        if count == 1 {
+            return Ok(Self::default());
+        }
+        let pool = ThreadPoolBuilder::new().num_threads(count).build();
+        let pool = pool.map_err(|error| Failure::Running(format!("{count} threads: {error}")))?;
+        Ok(Self { pool: Some(pool) })
+    }
+
+    /// How many.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.pool.as_ref().map_or(1, ThreadPool::current_num_threads)
+    }
+
+    /// Calls `work` with every task, from all threads at once; each thread has a memory of its
+    /// own, of which there are made as many as there are threads.
+    ///
+    /// Which thread gets which task is left to chance: what a task leads to must not depend on
+    /// the memory's contents.
+    pub fn share<M: Default + Send, T: Send>(
+        &self,
+        memories: &mut Vec<M>,
+        mut tasks: impl Iterator<Item = T> + Send,
+        work: impl Fn(&mut M, T) + Sync,
+    ) {
+        memories.resize_with(self.count(), M::default);
+        let Some(pool) = &self.pool else {
+            for memory in memories {
+                tasks.by_ref().for_each(|task| work(memory, task));
+            }
+            return;
+        };
+        let tasks = Mutex::new(tasks);
+        let next = || tasks.lock().unwrap_or_else(PoisonError::into_inner).next();
+        let (next, work) = (&next, &work);
+        pool.scope(|scope| {
+            for memory in memories {
+                scope.spawn(move |_| {
+                    while let Some(task) = next() {
+                        work(memory, task);
+                    }
+                });
+            }
+        });
+    }
+}
+
+impl Join for Threads {
+    fn join<A: Send, B: Send>(
+        &self,
+        one: impl FnOnce() -> A + Send,
+        other: impl FnOnce() -> B + Send,
+    ) -> (A, B) {
+        match &self.pool {
+            Some(pool) => pool.join(one, other),
+            None => (one(), other()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::Barrier;
+
+    fn threads(count: usize) -> Threads {
+        Threads::new(NonZeroUsize::new(count)).expect("threads")
+    }
+
+    #[test]
+    fn every_task_is_done_once() {
+        for count in [1, 2, 5] {
+            let (threads, mut done) = (threads(count), Vec::new());
+            assert_eq!(threads.count(), count);
+            threads.share(&mut done, 0..1000, |done: &mut Vec<i32>, task| done.push(task));
+            assert_eq!(done.len(), count);
+            let mut all = done.concat();
+            all.sort_unstable();
+            assert!(all.into_iter().eq(0..1000), "{count}");
+        }
+    }
+
+    #[test]
+    fn the_memories_stay() {
+        let (threads, mut done) = (threads(2), Vec::new());
+        for _ in 0..3 {
+            threads.share(&mut done, 0..10, |count: &mut usize, _| *count += 1);
+        }
+        assert_eq!(done.iter().sum::<usize>(), 30);
+    }
+
+    #[test]
+    fn two_pieces_of_work_are_joined() {
+        for count in [1, 2] {
+            assert_eq!(threads(count).join(|| 1, || "one"), (1, "one"));
+        }
+    }
+
+    /// Both tasks wait for each other: on fewer than two threads this does not end.
+    #[test]
+    fn threads_work_at_the_same_time() {
+        let meeting = Barrier::new(2);
+        threads(2).share(&mut Vec::new(), 0..2, |(), _| {
+            meeting.wait();
+        });
+    }
+
+    #[test]
+    fn one_thread_is_the_caller_s() {
+        let here = std::thread::current().id();
+        threads(1).share(&mut Vec::new(), 0..3, |(), _| {
+            assert_eq!(std::thread::current().id(), here);
+        });
+    }
+}
