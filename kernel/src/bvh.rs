@@ -26,7 +26,7 @@
 //!
 //! A node over m leaves gives none of its children more than m/8 of them, rounded up, whatever
 //! the heuristic prefers (`bvh/build.rs`). There are at most 2^28 leaves, and a node over at most
-//! sixteen has only leaves for children: nodes stand [`DEPTH`] deep at most, for 2^28, 2^25, ..
+//! sixteen has only leaves for children: nodes stand nine deep at most, for 2^28, 2^25, ..
 //! 2^4 leaves.
 
 mod answers;
