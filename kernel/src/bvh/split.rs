@@ -67,8 +67,8 @@ impl Run<'_> {
         let bins = bins_of(join, self.leaves, self.count, bounds, scales);
         let mut best = None;
         let mut least_cost = f32::INFINITY;
-        for (axis, bins) in bins.iter().enumerate() {
-            if scales[axis] == 0.0 {
+        for ((axis, bins), scale) in bins.iter().enumerate().zip(scales) {
+            if scale == 0.0 {
                 continue;
             }
             // Surfaces of the first so many slices, and of the others.
