@@ -33,6 +33,7 @@ pub mod oracle;
 pub mod random;
 pub mod regimes;
 pub mod tally;
+#[cfg(feature = "dispatch")]
 pub mod tree_ways;
 pub mod ulp;
 pub mod vectors;
