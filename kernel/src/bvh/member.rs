@@ -5,8 +5,7 @@
 //! A sphere is met in single precision first: an s that no answer of a lane is below, its *entry*,
 //! and one that the answer is surely not above (`bracket.rs`). A lane keeps one sphere, its *pending*
 //! one, about which the tier is asked when all is walked, for all lanes at once. Only where two
-//! spheres may both be a lane's nearest is the tier asked before. (Asking at every sphere: 1.5
-//! times the time on a million spheres.)
+//! spheres may both be a lane's nearest is the tier asked before.
 
 use super::answers::Nearest;
 use super::bracket::{Bracket, Passed};

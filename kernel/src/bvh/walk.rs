@@ -13,7 +13,8 @@
 //! a node test it, then they push; those that took a leaf test that. So few branches depend on
 //! one ray, which the processor cannot guess, and the chains of some fifty cycles that a step
 //! is overlap. Where a ray has ended another takes its place, of the same packet or the
-//! next. (Packet by packet, its slowest ray alone at the end: 1.5 times the time on 7,381 spheres.)
+//! next. (Packet by packet, most of its rays have ended long before the slowest: of 16 some 5 were under
+//! way on 7,381 spheres.)
 
 use super::answers::{Answers, Any, Nearest};
 use super::ray_walk::Walk;
