@@ -3,6 +3,8 @@
 
 #[path = "bvh/equality.rs"]
 mod equality;
+#[path = "bvh/far.rs"]
+mod far;
 #[path = "bvh/limits.rs"]
 mod limits;
 #[path = "bvh/properties.rs"]

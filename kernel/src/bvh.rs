@@ -16,8 +16,8 @@
 //! Bit for bit what the functions of the same names outside this module return: by
 //! [`Exact`](crate::Exact) for every input, by [`Stable`](crate::Stable) in its domain, by
 //! [`Fast`](crate::Fast) but for hits that the textbook form finds on lines that pass a sphere's
-//! box by. Boxes and filters only decide what is skipped, under bounds proven in `bvh/slabs.rs`
-//! and `bvh/bracket.rs`; every t is a tier's. What the bounds do not cover is not skipped: spheres
+//! box by. Boxes and filters only decide what is skipped, under bounds proven in `bvh/approach.rs`,
+//! `bvh/slabs.rs`, `bvh/bracket.rs` and `bvh/frustum.rs`; every t is a tier's. What the bounds do not cover is not skipped: spheres
 //! with a coordinate or radius above 2^40 are kept apart and tested by every ray; rays that start
 //! beyond 2^40, or whose squared length lies outside [2^-100, 2^100], are tested against all
 //! spheres.
@@ -30,6 +30,7 @@
 //! 2^4 leaves.
 
 mod answers;
+mod approach;
 mod bins;
 mod bounds;
 mod bracket;

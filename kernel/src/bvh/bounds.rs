@@ -2,6 +2,7 @@
 
 use super::bins::BINS;
 use super::join::Join;
+use super::slabs::U;
 use super::{BvhLeaf, WIDTH};
 
 /// More leaves than these are counted by halves, which two threads can do.
@@ -90,6 +91,18 @@ impl Bounds {
             bounds.most[axis] = right.into_iter().fold(f32::NEG_INFINITY, most);
         }
         bounds
+    }
+
+    /// The lower and the upper corner as nodes have them: farther out by what of the margins is in
+    /// proportion to the box itself (`slabs.rs`).
+    pub(super) fn padded(&self) -> [[f32; 3]; 2] {
+        let mut largest = 0.0_f32;
+        for axis in 0..3 {
+            largest = largest.max(self.low[axis].abs()).max(self.high[axis].abs());
+        }
+        let pad = 40.0 * U * largest;
+        let low = self.low.map(|coordinate| (coordinate - pad).next_down());
+        [low, self.high.map(|coordinate| (coordinate + pad).next_up())]
     }
 
     pub(super) fn half_area(&self) -> f32 {

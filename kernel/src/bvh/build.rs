@@ -240,9 +240,10 @@ fn build_nodes(join: &impl Join, subtree: &mut Subtree<'_>) -> usize {
 fn node_over(children: &[Part], first: usize) -> BvhNode {
     let mut node = BvhNode::EMPTY;
     for (slot, child) in children.iter().enumerate().take(WIDTH) {
+        let [low, high] = child.bounds.padded();
         for axis in 0..3 {
-            node.low[axis][slot] = child.bounds.low[axis];
-            node.high[axis][slot] = child.bounds.high[axis];
+            node.low[axis][slot] = low[axis];
+            node.high[axis][slot] = high[axis];
         }
         if child.leaves == 1 {
             node.child[slot] = (first + child.first) as u32 | LEAF;

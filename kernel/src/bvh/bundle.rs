@@ -13,7 +13,7 @@
 
 use super::course::Course;
 use super::frustum::Inside;
-use super::member::Member;
+use super::member::{Member, approach};
 use super::{Bvh, DEPTH, LEAF, NO_CHILD, WIDTH};
 use crate::{Accuracy, HitPacket, Lanes, RayPacket, Spheres};
 
@@ -112,7 +112,8 @@ impl BundleWalk {
         members: &mut [Member<'_, L>],
         bvh: &Bvh<'_>,
     ) -> bool {
-        let Some(course) = Course::of(members, bvh) else { return false };
+        approach::<A, L>(members, bvh.extent);
+        let Some(course) = Course::of::<A, L>(members, bvh) else { return false };
         let Some(mut frustum) = course.enclose(members) else { return false };
         if !bvh.outside.is_empty() {
             for member in &mut *members {

@@ -1,11 +1,11 @@
 //! Where the rays of a bundle run, and the planes around them.
 
 use super::Bvh;
-use super::frustum::{Frustum, Line, Sides, across, margin};
+use super::frustum::{Frustum, Line, Sides, across, margin, turn};
 use super::member::Member;
 use super::slabs::U;
 use crate::axes::axes;
-use crate::{LaneMask, Lanes};
+use crate::{Accuracy, LaneMask, Lanes};
 
 /// The widest range of slopes that is walked as one.
 const NARROW: f32 = 0.5;
@@ -35,8 +35,10 @@ pub(super) struct Course {
     along: usize,
     /// Which way along: 1 or -1.
     sign: f32,
-    /// The extent of the tree and the farthest origin together.
-    size: f32,
+    /// The largest of [`Approach::aside`](super::approach::Approach::aside).
+    aside: f32,
+    /// What `Fast` adds to depths.
+    spread: f32,
     /// Where all rays start, if they do so in one point.
     origin: Option<[f32; 3]>,
 }
@@ -44,7 +46,10 @@ pub(super) struct Course {
 impl Course {
     /// Nothing where not all rays run the same way, and far enough, along an axis.
     #[inline(always)]
-    pub(super) fn of<L: Lanes>(members: &[Member<'_, L>], bvh: &Bvh<'_>) -> Option<Self> {
+    pub(super) fn of<A: Accuracy, L: Lanes>(
+        members: &[Member<'_, L>],
+        bvh: &Bvh<'_>,
+    ) -> Option<Self> {
         let mut first = None;
         for member in members {
             if !member.covered {
@@ -65,11 +70,12 @@ impl Course {
         };
         let sign = if travel < 0.0 { -1.0 } else { 1.0 };
         let origin = axes!(i => *member.origin[i].store().as_ref().get(lane)?);
+        let aside = *member.aside.store().as_ref().get(lane)?;
 
         let mut one_origin = true;
         for member in members {
             let (live, o) = (member.live, member.origin);
-            let forward = member.direction[along % 3] * member.length.like(sign);
+            let forward = member.direction[along % 3] * member.aside.like(sign);
             if (live & forward.lt(forward.like(ALONG))).any() {
                 return None;
             }
@@ -77,18 +83,12 @@ impl Course {
                 let shared = o[i].like(origin[i]);
                 o[i].lt(shared) | shared.lt(o[i])
             });
-            one_origin = one_origin && !(live & (x | y | z)).any();
+            one_origin = one_origin && !member.moved && !(live & (x | y | z)).any();
         }
-        let far = if one_origin {
-            origin[0].abs().max(origin[1].abs()).max(origin[2].abs())
-        } else {
-            {
-                let far = axes!(i => greatest_of!(members, m => m.origin[i].abs()));
-                far[0].max(far[1]).max(far[2])
-            }
-        };
+        let aside = if one_origin { aside } else { greatest_of!(members, m => m.aside) };
+        let spread = 4.0 * A::SPREAD * (bvh.extent + aside * (0.125 / U));
         let origin = one_origin.then_some(origin);
-        Some(Self { along, sign, size: bvh.extent + far, origin })
+        Some(Self { along, sign, aside, spread, origin })
     }
 
     /// The planes around some members, whose slopes along the axes across lie in `slopes`: least
@@ -97,23 +97,25 @@ impl Course {
     fn sides<L: Lanes>(&self, members: &[Member<'_, L>], slopes: [[f32; 2]; 2]) -> Sides {
         let k = self.along % 3;
         let mut sides = Sides { along: k, ..Sides::NONE };
+        let [[a, b], [c, d]] = slopes;
+        let steepest = a.abs().max(b.abs()).max(c.abs().max(d.abs()));
+        let (turn, margin) = (turn(steepest), margin(steepest, self.aside));
         for ((i, [low, high]), lines) in across(k).into_iter().zip(slopes).zip(&mut sides.lines) {
-            let low = self.sign * (low - 8.0 * U * low.abs());
-            let high = self.sign * (high + 8.0 * U * high.abs());
+            let low = self.sign * (low - turn);
+            let high = self.sign * (high + turn);
             let (least, most) = match self.origin {
                 Some(origin) => (origin[i % 3] - low * origin[k], origin[i % 3] - high * origin[k]),
                 None => {
                     let least = -greatest_of!(members, m => {
-                        m.origin[k] * m.length.like(low) - m.origin[i % 3]
+                        m.origin[k] * m.aside.like(low) - m.origin[i % 3]
                     });
                     let most = greatest_of!(members, m => {
-                        m.origin[i % 3] - m.origin[k] * m.length.like(high)
+                        m.origin[i % 3] - m.origin[k] * m.aside.like(high)
                     });
                     (least, most)
                 }
             };
-            *lines =
-                [Line::new(1.0, low, least, self.size), Line::new(-1.0, high, most, self.size)];
+            *lines = [Line::new(low, least - margin), Line::new(high, most + margin)];
         }
         sides
     }
@@ -124,7 +126,7 @@ impl Course {
         let k = self.along % 3;
         let mut all = [[f32::INFINITY, f32::NEG_INFINITY]; 2];
         for member in &mut *members {
-            let per_depth = member.length.like(self.sign) / member.direction[k];
+            let per_depth = member.aside.like(self.sign) / member.direction[k];
             let mut slopes = all;
             for ((i, [low, high]), all) in across(k).into_iter().zip(&mut slopes).zip(&mut all) {
                 let slope = member.direction[i % 3] * per_depth;
@@ -140,12 +142,12 @@ impl Course {
         }
         let start = match self.origin {
             Some(origin) => self.sign * origin[k],
-            None => -greatest_of!(members, m => m.origin[k] * m.length.like(-self.sign)),
+            None => -greatest_of!(members, m => m.origin[k] * m.aside.like(-self.sign)),
         };
         Some(Frustum {
             sides: self.sides(members, all),
             sign: self.sign,
-            start: start - margin(0.0, self.size),
+            start: start - margin(0.0, self.aside),
             end: self.end(members),
         })
     }
@@ -155,9 +157,11 @@ impl Course {
     pub(super) fn end<L: Lanes>(&self, members: &[Member<'_, L>]) -> f32 {
         let k = self.along % 3;
         let end = greatest_of!(members, m => {
-            let (sign, per_depth) = (m.length.like(self.sign), m.direction[k]);
+            let (sign, per_depth) = (m.aside.like(self.sign), m.direction[k]);
             (m.best * per_depth + m.origin[k]) * sign
         });
-        end + 8.0 * U * end.abs() + 2.0 * margin(0.0, self.size)
+        // Where no ray goes on, the end is -inf.
+        let raise = 16.0 * U * end.abs().min(f32::MAX);
+        end + raise + 2.0 * margin(0.0, self.aside) + self.spread
     }
 }

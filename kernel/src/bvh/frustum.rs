@@ -13,16 +13,38 @@
 //!
 //! # The margin
 //!
-//! As `slabs.rs` shows, what a tier calls a hit lies within 111 u M of the sphere's box, where M is the
-//! extent and |o| together.
-//! A slope is 6u off in itself - two components of n, a division, a product - and is moved by 8u. With the plane's
-//! |normal|_1 = 1 + |w| the 111 u M are 111 u M (1 + |w|) of its expression; its rounding, and that
-//! of D, are below 8 u M (1 + |w|). The pad is 128 u M (1 + |w|), and 2^-80 for what underflows. Depths
-//! are the case of slope 0.
+//! Rays are those of `approach.rs`, which begin at o' and meet everything beyond it; F, T and P as there.
+//! z = sigma (x_k - o'_k) is how far along k a point x is. An error in proportion to z is a change of the
+//! slope, one in proportion to F a change of D, and one in proportion to the radius a change of the
+//! normal's length: so what is far away or large widens nothing but what is beside it.
+//!
+//! Let x be where a line meets a sphere, or passes it within 2^-36 P. Of x_i - w x_k - D:
+//!
+//! | error | of z, in u | of (1 + \|w\|) F, in u | of r, in u |
+//! |---|---|---|---|
+//! | o' is not on its line; 2^-36 P, with \|p\| <= 33 z + T | 2^-6 | 1, and 2^-35 T | |
+//! | w: two components of n, a division, a product | 6 \|w\| | | |
+//! | D | | 3 | |
+//! | w x_k + D, unless fused | 2 \|w\| | 3 | 2 \|w\| |
+//! | x_i, and the radius times the normal's length l | 2 \|w\| | 1 | 3 l |
+//! | the answer is not the root: x may be before o' by 28 u r, where slopes one in two apart change sides | | | 14 |
+//! | **together** | **10 \|w\| + 2^-6** | **8, and 2^-35 T** | **19 l** |
+//!
+//! (Of x_i: where the ray at hand has the slope w + e, the e z u that it adds is less than the e z by which it is
+//! inside.) With |w| the largest of a packet's four, slopes are moved by 16 u |w| + u, D by
+//! 16 u (F + 2^-11 T) (1 + |w|) and 2^-57, lengths by 48u: since the centre may lie before o' by r, where the
+//! slopes are moved inward, 19 + 17 are needed.
+//!
+//! For a box it is the same, but that of its corner x_k may be far from that of x: then the line is inside by
+//! more than what rounding that adds. What is in proportion to r it has itself, being 40 u of its largest
+//! coordinate larger (`slabs.rs`).
+//!
+//! Along k, the answer is off by the blur and 24 u r + 4 u |c - o'|, which is below 28 u r of a sphere, 31 u of the
+//! box's largest coordinate, and 4 u of best n_k; the roundings are 4 u of that and 3 u F.
 
 use super::bracket::part_of;
 use super::ray_walk::put_part;
-use super::slabs::{LEAST_PAD, U};
+use super::slabs::U;
 use super::{BvhLeaf, BvhNode, WIDTH};
 use crate::{LaneMask, Lanes};
 
@@ -30,7 +52,6 @@ use crate::{LaneMask, Lanes};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Line {
     slope: f32,
-    /// Moved outward by the margin.
     offset: f32,
     /// At least the length of the plane's normal.
     length: f32,
@@ -40,20 +61,28 @@ impl Line {
     pub(super) const NONE: Self = Self { slope: 0.0, offset: 0.0, length: 0.0 };
 
     /// The line below (`side` 1) or above (-1) all rays, for slopes that end at `slope` and an offset
-    /// that ends at `offset`; `size` is M.
+    /// that ends at `offset`, both moved outward.
     #[inline(always)]
-    pub(super) fn new(side: f32, slope: f32, offset: f32, size: f32) -> Self {
+    pub(super) fn new(slope: f32, offset: f32) -> Self {
         // At least the root of 1 + slope^2, and not much more where the slope is below one.
-        let length = (1.0 + 0.5 * slope * slope) * (1.0 + 8.0 * U);
-        Self { slope, offset: offset - side * margin(slope, size), length }
+        Self { slope, offset, length: slope * slope * (0.5 * LARGER) + LARGER }
     }
 }
 
-/// How far a plane of that slope is moved.
+/// How far a plane of that slope, at least zero, is moved; `aside` is the rays' largest.
 #[inline(always)]
-pub(super) fn margin(slope: f32, size: f32) -> f32 {
-    128.0 * U * size * (1.0 + slope.abs()) + LEAST_PAD
+pub(super) fn margin(slope: f32, aside: f32) -> f32 {
+    2.0 * aside * (1.0 + slope)
 }
+
+/// How far that slope is moved.
+#[inline(always)]
+pub(super) fn turn(slope: f32) -> f32 {
+    16.0 * U * slope + U
+}
+
+/// How much larger a radius counts: 48u.
+const LARGER: f32 = 1.0 + 48.0 * U;
 
 /// The four planes: two lines for each of the axes across.
 #[derive(Clone, Copy, Debug)]
@@ -156,6 +185,7 @@ impl Frustum {
         let mut places = 0;
         for part in 0..WIDTH / L::COUNT {
             let radius = part_of::<L>(token, &leaf.radius, part);
+            let radius = radius * radius.like(LARGER);
             let depth = part_of::<L>(token, &leaf.center[self.sides.along % 3], part) * sign;
             let met = (depth - radius).le(end) & start.le(depth + radius);
             places |= met.bits() << (part * L::COUNT);

@@ -8,10 +8,10 @@
 //! spheres may both be a lane's nearest is the tier asked before.
 
 use super::answers::Nearest;
+use super::approach::{Approach, RayTime, far_away};
 use super::bracket::{Bracket, Passed};
 use super::frustum::Sides;
 use super::resolve::{ask, settle_outside, sphere_at};
-use super::slabs::{Course, lowered, raised};
 use super::{Bvh, BvhLeaf, WIDTH};
 use crate::accuracy::RayLanes;
 use crate::axes::axes;
@@ -24,22 +24,26 @@ pub(super) struct Member<'a, L: Lanes> {
     packet: &'a RayPacket<L>,
     /// Whether the bounds cover all of its rays, and all start at t >= 0.
     pub(super) covered: bool,
+    /// Whether its rays may begin elsewhere than they say.
+    pub(super) moved: bool,
     /// The planes around these rays alone.
     pub(super) sides: Sides,
     /// Rays that may yet meet something nearer.
     pub(super) live: L::Mask,
+    /// o'.
     pub(super) origin: [L; 3],
     /// n.
     pub(super) direction: [L; 3],
-    /// |d|: t times it is s.
-    pub(super) length: L,
+    time: RayTime<L>,
+    /// As [`Approach::aside`].
+    pub(super) aside: L,
     /// The interval starts in between: an s below, and an s above.
     start: [L; 2],
     /// It ends above.
     end: L,
-    /// No hit beyond counts any more: an s.
+    /// No root beyond counts any more: an s.
     pub(super) best: L,
-    /// Of the pending sphere: no answer is below; NaN where there is none.
+    /// Of the pending sphere: no root is below; NaN where there is none.
     entry: L,
     /// Its place in the leaves, as bits.
     place: L,
@@ -54,20 +58,22 @@ impl<'a, L: Lanes> Member<'a, L> {
     #[inline(always)]
     pub(super) fn new(token: L::Token, packet: &'a RayPacket<L>) -> Self {
         let rays = RayLanes::load(token, packet);
-        let Course { judged, direction, length, .. } = Course::new(&rays);
+        let Approach { judged, origin, direction, time, aside, start, end: [end, best] } =
+            Approach::as_it_is(&rays);
         let forward = L::splat(token, 0.0).le(rays.t_min);
-        let (start, end) = (rays.t_min * length, rays.t_max * length);
         Self {
             packet,
             covered: !(rays.live & !(judged & forward)).any(),
+            moved: false,
             sides: Sides::NONE,
             live: rays.live,
-            origin: rays.origin,
+            origin,
             direction,
-            length,
-            start: [lowered(start), raised(start)],
-            end: lowered(end),
-            best: raised(end),
+            time,
+            aside,
+            start,
+            end,
+            best,
             entry: L::splat(token, f32::NAN),
             place: L::splat(token, 0.0),
             shared: None,
@@ -76,10 +82,21 @@ impl<'a, L: Lanes> Member<'a, L> {
         }
     }
 
+    /// Begins nearer to a tree of that extent, before all else.
+    #[inline(always)]
+    fn approach(&mut self, extent: f32) {
+        let rays = RayLanes::load(self.aside.token(), self.packet);
+        let Approach { origin, time, aside, start, end: [end, best], .. } =
+            Approach::as_it_is(&rays).nearer(&rays, extent);
+        (self.origin, self.time, self.aside) = (origin, time, aside);
+        (self.start, self.end, self.best) = (start, end, best);
+        self.moved = true;
+    }
+
     /// Meets the spheres that no node leads to.
     #[inline(always)]
     pub(super) fn meet_outside<A: Accuracy, const ANY: bool>(&mut self, outside: &[BvhLeaf]) {
-        let token = self.length.token();
+        let token = self.aside.token();
         let mut hits = [HitPacket::<L>::none()];
         let rays = RayLanes::load(token, self.packet);
         let mut nearest = Nearest::<L>(&mut hits);
@@ -101,17 +118,17 @@ impl<'a, L: Lanes> Member<'a, L> {
         (number, leaf): (u32, &BvhLeaf),
         place: usize,
     ) -> bool {
-        let token = self.length.token();
+        let token = self.aside.token();
         let center = axes!(i => L::splat(token, leaf.center[i][place % WIDTH]));
         let radius = L::splat(token, leaf.radius[place % WIDTH]);
-        let passed = Passed::new::<A>(self.origin, self.direction, center, radius);
+        let passed = Passed::new(self.origin, self.direction, self.aside, center, radius);
         let near = self.live & passed.may_meet::<A>(self.start[0], self.best);
         if !near.any() {
             return false;
         }
 
         let Bracket { candidates, entry, bound } =
-            passed.bracket(self.start, [self.end, self.best]);
+            passed.bracket::<A>(self.start, [self.end, self.best], self.time.blur());
         let mut candidates = near & candidates;
         if ANY {
             let sure = candidates & bound.lt(bound.like(f32::INFINITY));
@@ -142,7 +159,7 @@ impl<'a, L: Lanes> Member<'a, L> {
     /// Asks the tier about the pending spheres of the lanes `asked`, which have none then.
     #[inline(always)]
     fn settle<A: Accuracy, const ANY: bool>(&mut self, leaves: &[BvhLeaf], asked: L::Mask) {
-        let token = self.length.token();
+        let token = self.aside.token();
         let rays = RayLanes::load(token, self.packet);
         let Asked { center, radius, index } = Asked::new(leaves, self.place, self.shared);
         let t = ask::<A, L>(&rays, center, radius, asked, self.t);
@@ -182,7 +199,7 @@ impl<'a, L: Lanes> Member<'a, L> {
             self.best = L::select(met, -infinity, self.best);
             self.entry = L::select(met, self.entry.like(f32::NAN), self.entry);
         } else {
-            let bound = raised(self.t * self.length);
+            let bound = self.time.after(self.t);
             self.best = L::select(bound.lt(self.best), bound, self.best);
         }
     }
@@ -213,6 +230,30 @@ impl<'a, L: Lanes> Member<'a, L> {
     pub(super) fn met(&self) -> u32 {
         self.t.lt(self.t.like(f32::INFINITY)).bits()
     }
+}
+
+/// Lets new members begin nearer to a tree of that extent, where any of their rays are far away: in place,
+/// since a choice between two members costs a tenth of a bundle's time.
+#[inline(always)]
+pub(super) fn approach<A: Accuracy, L: Lanes>(members: &mut [Member<'_, L>], extent: f32) {
+    let Some(first) = members.first() else { return };
+    let token = first.aside.token();
+    let mut far = far_away(first.live, first.aside, extent);
+    for member in members.iter().skip(1) {
+        far = far | far_away(member.live, member.aside, extent);
+    }
+    if A::SPREAD > 0.0 || !far.any() {
+        return;
+    }
+    L::out_of_line(
+        token,
+        #[inline(always)]
+        || {
+            for member in members {
+                member.approach(extent);
+            }
+        },
+    );
 }
 
 /// One sphere a lane.

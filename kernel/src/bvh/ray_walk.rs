@@ -4,10 +4,11 @@
 //! is settled.
 
 use super::answers::Answers;
+use super::approach::RayTime;
 use super::bracket::{Probe, part_of};
 use super::candidates::Candidates;
 use super::resolve::{Questions, RayPlace};
-use super::slabs::{Slabs, raised};
+use super::slabs::Slabs;
 use super::stack::{Met, Stack};
 use super::{Bvh, BvhLeaf, BvhNode, WIDTH};
 use crate::axes::axes;
@@ -37,8 +38,8 @@ pub(super) struct Walk {
     /// The end of the interval, from below.
     end: f32,
     spread: f32,
-    /// |d|.
-    length: f32,
+    aside: f32,
+    time: RayTime<f32>,
     pub(super) ray: RayPlace,
     candidates: Candidates,
     pub(super) stack: Stack,
@@ -55,7 +56,8 @@ impl Walk {
         best: 0.0,
         end: 0.0,
         spread: 0.0,
-        length: 0.0,
+        aside: 0.0,
+        time: RayTime { shift: 0.0, length: 0.0 },
         ray: RayPlace::FIRST,
         candidates: Candidates::NONE,
         stack: Stack::EMPTY,
@@ -86,7 +88,8 @@ impl Walk {
         self.end = at(&slabs.end[0], lane);
         self.best = at(&slabs.end[1], lane);
         self.spread = at(&slabs.spread, lane);
-        self.length = at(&slabs.length, lane);
+        self.aside = at(&slabs.aside, lane);
+        self.time = RayTime { shift: at(&slabs.shift, lane), length: at(&slabs.length, lane) };
         if limit < f32::INFINITY {
             self.shorten(limit);
         }
@@ -131,6 +134,8 @@ impl Walk {
             direction: axes!(i => L::splat(token, self.direction[i])),
             start: [L::splat(token, self.start[0]), L::splat(token, self.start[1])],
             end: [L::splat(token, self.end), L::splat(token, self.best)],
+            aside: L::splat(token, self.aside),
+            blur: L::splat(token, self.time.blur()),
         }
     }
 
@@ -148,7 +153,7 @@ impl Walk {
     /// Takes a t that the ray surely has as its end.
     #[inline(always)]
     fn shorten(&mut self, t: f32) {
-        let best = raised(t * self.length);
+        let best = self.time.after(t);
         if best < self.best {
             self.best = best;
         }
