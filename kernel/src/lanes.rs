@@ -93,6 +93,20 @@ pub trait Lanes:
     /// The lanes in which `mask` is true, in their order, from the first lane on; what the lanes
     /// behind them hold is not said.
     fn compress(self, mask: Self::Mask) -> Self;
+    /// Lane `i` from lane `order >> 4 i & 15`, for up to sixteen lanes; of a lane that is not there,
+    /// from any.
+    #[inline(always)]
+    fn in_order(self, order: u64) -> Self {
+        let array = self.store();
+        let mut ordered = array;
+        for (lane, element) in ordered.as_mut().iter_mut().enumerate() {
+            let from = (order >> (4 * lane as u32 % u64::BITS)) as usize % 16 % Self::COUNT;
+            if let Some(value) = array.as_ref().get(from) {
+                *element = *value;
+            }
+        }
+        Self::load(self.token(), &ordered)
+    }
     /// The largest lane; any lane where one is NaN: for filters.
     #[inline(always)]
     fn filter_greatest(self) -> f32 {

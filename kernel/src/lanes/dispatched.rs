@@ -6,6 +6,8 @@
 //! not stays right, and is many times slower. Hence `#[inline(always)]` on all of it, and
 //! [`Lanes::out_of_line`] where a call is wanted.
 
+mod in_order;
+
 use super::{DoubleLanes, LaneMask, Lanes};
 use core::fmt::Debug;
 use core::ops::{BitAnd, BitOr, Not};
@@ -104,7 +106,7 @@ macro_rules! dispatched_mask {
 }
 
 macro_rules! dispatched_lanes {
-    ($vector:ident, $mask:ident, $count:literal, $double:ident, $double_mask:ident, $half:literal) => {
+    ($vector:ident, $mask:ident, $count:literal, $double:ident, $double_mask:ident, $half:literal $(, $own:item)?) => {
         dispatched_mask!($mask);
         dispatched_mask!($double_mask);
 
@@ -148,6 +150,8 @@ macro_rules! dispatched_lanes {
                 SimdBase::compress(self, mask.0)
             }
 
+            $($own)?
+
             #[inline(always)]
             fn filter_greatest(self) -> f32 {
                 SimdBase::reduce_max(self)
@@ -184,4 +188,15 @@ macro_rules! dispatched_lanes {
 
 dispatched_lanes!(f32x4, mask32x4, 4, f64x2, mask64x2, 2);
 dispatched_lanes!(f32x8, mask32x8, 8, f64x4, mask64x4, 4);
-dispatched_lanes!(f32x16, mask32x16, 16, f64x8, mask64x8, 8);
+dispatched_lanes!(
+    f32x16,
+    mask32x16,
+    16,
+    f64x8,
+    mask64x8,
+    8,
+    #[inline(always)]
+    fn in_order(self, order: u64) -> Self {
+        in_order::sixteen(self, order)
+    }
+);
