@@ -38,15 +38,20 @@ mod build;
 mod bundle;
 mod candidates;
 mod course;
+mod few;
 mod frustum;
 mod join;
 mod member;
+mod octants;
 mod order;
 mod ray_walk;
 pub(crate) mod resolve;
+mod round;
 pub(crate) mod slabs;
 mod split;
 mod stack;
+mod touch;
+mod under_way;
 mod walk;
 
 pub use bundle::{any_coherent, nearest_coherent};
@@ -67,7 +72,7 @@ pub(crate) const LEAF: u32 = 1 << 31;
 /// 2^40: spheres with a coordinate or radius above are kept outside of the tree.
 pub(crate) const LARGEST: f32 = 1_099_511_627_776.0;
 
-/// The boxes of up to sixteen children, and where they are. 448 bytes.
+/// The boxes of up to sixteen children, where they are, and in which order rays meet them. 512 bytes.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub struct BvhNode {
@@ -77,6 +82,9 @@ pub struct BvhNode {
     pub(crate) high: [[f32; WIDTH]; 3],
     /// A node, or a leaf with [`LEAF`] set, or [`NO_CHILD`].
     pub(crate) child: [u32; WIDTH],
+    /// For each octant of directions the slots from the farthest child to the nearest, four bits
+    /// each; bit i of an octant's number is set where directions run down along axis i.
+    pub(crate) order: [u64; 8],
 }
 
 impl BvhNode {
@@ -85,6 +93,7 @@ impl BvhNode {
         low: [[f32::INFINITY; WIDTH]; 3],
         high: [[f32::NEG_INFINITY; WIDTH]; 3],
         child: [NO_CHILD; WIDTH],
+        order: [0; 8],
     };
 }
 
@@ -93,7 +102,7 @@ impl BvhNode {
 #[repr(C, align(64))]
 pub struct BvhLeaf {
     pub(crate) center: [[f32; WIDTH]; 3],
-    /// -1 where there is no sphere.
+    /// NaN where there is no sphere: no comparison with it is true.
     pub(crate) radius: [f32; WIDTH],
     /// The index in the list of spheres.
     pub(crate) index: [u32; WIDTH],
@@ -102,13 +111,13 @@ pub struct BvhLeaf {
 impl BvhLeaf {
     /// A leaf without spheres: what memory for a tree is filled with.
     pub const EMPTY: Self =
-        Self { center: [[0.0; WIDTH]; 3], radius: [-1.0; WIDTH], index: [u32::MAX; WIDTH] };
+        Self { center: [[0.0; WIDTH]; 3], radius: [f32::NAN; WIDTH], index: [u32::MAX; WIDTH] };
 }
 
 /// How much memory a tree takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BvhSize {
-    /// Nodes, of 448 bytes.
+    /// Nodes, of 512 bytes.
     pub nodes: usize,
     /// Leaves, of 320 bytes.
     pub leaves: usize,
@@ -158,7 +167,7 @@ impl<'a> Bvh<'a> {
     /// up, and one. Of the nodes over m leaves let J have sixteen children, and the other K, whose
     /// children are all leaves, at least two. Each node but the root and each leaf is a child:
     /// 16 J + (leaves below the K) = J + K - 1 + m, so 15 J + 2 K <= K - 1 + m, and 2 K <= m:
-    /// J + K is at most m/2 + m/30 = 8 m/15. Together 35 bytes a sphere at most, and 768 bytes.
+    /// J + K is at most m/2 + m/30 = 8 m/15. Together 38 bytes a sphere at most, and 832 bytes.
     #[must_use]
     pub const fn needed(count: usize) -> BvhSize {
         let full = count.div_ceil(WIDTH);

@@ -16,7 +16,7 @@ fn tree_of<'a>(name: &str, memory: &'a mut Memory, spheres: &Columns, count: usi
     let (size, needed) = (tree.size(), Bvh::needed(count));
     println!("{name}: {size:?} of {needed:?}, depth {}, {elapsed:?}", tree.depth());
     assert!(size.nodes <= needed.nodes && size.leaves <= needed.leaves, "{name}: {size:?}");
-    assert!(size.nodes * 448 + size.leaves * 320 <= 40 * count + 1088, "{name}: {size:?}");
+    assert!(size.nodes * 512 + size.leaves * 320 <= 40 * count + 1152, "{name}: {size:?}");
     assert!(tree.depth() <= 9, "{name}: depth {}", tree.depth());
     assert!(
         elapsed < Duration::from_secs(2) + Duration::from_micros(5) * count as u32,

@@ -20,6 +20,7 @@
 
 use super::bounds::Bounds;
 use super::join::Join;
+use super::octants::order_children;
 use super::split::Run;
 use super::{Bvh, BvhLeaf, BvhNode, DEPTH, LARGEST, LEAF, NO_CHILD, WIDTH};
 use crate::{Sphere, Spheres};
@@ -249,6 +250,7 @@ fn node_over(children: &[Part], first: usize) -> BvhNode {
             node.child[slot] = (first + child.first) as u32 | LEAF;
         }
     }
+    order_children(&mut node);
     node
 }
 

@@ -4,12 +4,12 @@
 //! is settled.
 
 use super::answers::Answers;
-use super::approach::RayTime;
 use super::bracket::{Probe, part_of};
 use super::candidates::Candidates;
+use super::octants::octant_of;
 use super::resolve::{Questions, RayPlace};
-use super::slabs::Slabs;
-use super::stack::{Met, Stack};
+use super::slabs::{Slabs, at};
+use super::stack::Stack;
 use super::{Bvh, BvhLeaf, BvhNode, WIDTH};
 use crate::axes::axes;
 use crate::{Accuracy, Hit, LaneMask, Lanes, RayPacket};
@@ -27,122 +27,127 @@ pub(super) fn put_part<L: Lanes>(numbers: &mut [f32; WIDTH], part: usize, lanes:
 /// One ray under way.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Walk {
-    origin: [f32; 3],
-    direction: [f32; 3],
-    inverse: [f32; 3],
-    near: [f32; 3],
-    far: [f32; 3],
-    start: [f32; 2],
-    /// Some answer, or the end of the interval, is not above.
-    pub(super) best: f32,
-    /// The end of the interval, from below.
-    end: f32,
-    spread: f32,
-    aside: f32,
-    time: RayTime<f32>,
     pub(super) ray: RayPlace,
+    /// Which packet under way it is of; past all of them where it is of none.
+    pub(super) slabs: u32,
+    /// The octant of its direction.
+    octant: u32,
+    /// Some answer, or the end of the interval, is not above.
+    best: f32,
     candidates: Candidates,
     pub(super) stack: Stack,
 }
 
 impl Walk {
     pub(super) const NEW: Self = Self {
-        origin: [0.0; 3],
-        direction: [0.0; 3],
-        inverse: [0.0; 3],
-        near: [0.0; 3],
-        far: [0.0; 3],
-        start: [0.0; 2],
-        best: 0.0,
-        end: 0.0,
-        spread: 0.0,
-        aside: 0.0,
-        time: RayTime { shift: 0.0, length: 0.0 },
         ray: RayPlace::FIRST,
+        slabs: u32::MAX,
+        octant: 0,
+        best: 0.0,
         candidates: Candidates::NONE,
         stack: Stack::EMPTY,
     };
 
+    /// Begins with ray `ray`, of the packet under way `packet`, whose rays `slabs` are.
     #[inline(always)]
     pub(super) fn begin<L: Lanes>(
         &mut self,
         slabs: &Slabs<L>,
+        packet: u32,
         ray: RayPlace,
-        limit: f32,
         root: u32,
     ) {
-        #[inline(always)]
-        fn at<A: AsRef<[f32]>>(array: &A, lane: usize) -> f32 {
-            match array.as_ref().get(lane) {
-                Some(value) => *value,
-                None => f32::NAN,
-            }
-        }
-        let lane = ray.lane;
-        self.origin = axes!(i => at(&slabs.origin[i], lane));
-        self.direction = axes!(i => at(&slabs.direction[i], lane));
-        self.inverse = axes!(i => at(&slabs.inverse[i], lane));
-        self.near = axes!(i => at(&slabs.near[i], lane));
-        self.far = axes!(i => at(&slabs.far[i], lane));
-        self.start = [at(&slabs.start[0], lane), at(&slabs.start[1], lane)];
-        self.end = at(&slabs.end[0], lane);
-        self.best = at(&slabs.end[1], lane);
-        self.spread = at(&slabs.spread, lane);
-        self.aside = at(&slabs.aside, lane);
-        self.time = RayTime { shift: at(&slabs.shift, lane), length: at(&slabs.length, lane) };
-        if limit < f32::INFINITY {
-            self.shorten(limit);
-        }
         self.ray = ray;
+        self.slabs = packet;
+        self.octant = octant_of(axes!(i => slabs.down[i] >> (ray.lane % 32) & 1 == 1));
+        self.best = at(&slabs.end[1], ray.lane);
         self.candidates.clear();
         self.stack.begin(root);
     }
 
+    /// How far boxes matter.
     #[inline(always)]
-    pub(super) fn enter<A: Accuracy, L: Lanes>(&self, token: L::Token, node: &BvhNode) -> Met {
-        let mut met = Met { children: 0, entries: [0.0; WIDTH] };
-        let best = if A::SPREAD > 0.0 { self.best + self.spread } else { self.best };
-        let start = if A::SPREAD > 0.0 { self.start[0] - self.spread } else { self.start[0] };
-        let forward = axes!(i => self.inverse[i] >= 0.0);
-        let nearer = axes!(i => if forward[i] { &node.low[i] } else { &node.high[i] });
-        let farther = axes!(i => if forward[i] { &node.high[i] } else { &node.low[i] });
-        let inverse = axes!(i => L::splat(token, self.inverse[i]));
-        let near = axes!(i => L::splat(token, -self.near[i]));
-        let far = axes!(i => L::splat(token, self.far[i]));
+    fn end_of_boxes<A: Accuracy, L: Lanes>(&self, slabs: &Slabs<L>) -> f32 {
+        if A::SPREAD > 0.0 { self.best + at(&slabs.spread, self.ray.lane) } else { self.best }
+    }
+
+    /// Lays the children of a node that the ray meets onto its stack; the nearest on top, but
+    /// where `ANY` hit will do.
+    #[inline(always)]
+    pub(super) fn enter<A: Accuracy, L: Lanes, const ANY: bool>(
+        &mut self,
+        token: L::Token,
+        slabs: &Slabs<L>,
+        node: &BvhNode,
+    ) {
+        let lane = self.ray.lane;
+        let best = self.end_of_boxes::<A, L>(slabs);
+        let start = at(&slabs.start[0], lane);
+        let start = if A::SPREAD > 0.0 { start - at(&slabs.spread, lane) } else { start };
+        let down = axes!(i => self.octant >> i & 1 == 1);
+        let nearer = axes!(i => if down[i] { &node.high[i] } else { &node.low[i] });
+        let farther = axes!(i => if down[i] { &node.low[i] } else { &node.high[i] });
+        let inverse = axes!(i => L::splat(token, at(&slabs.inverse[i], lane)));
+        let minus_inverse = axes!(i => L::splat(token, at(&slabs.minus_inverse[i], lane)));
+        let minus_near = axes!(i => L::splat(token, at(&slabs.minus_near[i], lane)));
+        let far = axes!(i => L::splat(token, at(&slabs.far[i], lane)));
         let (start, minus_best) = (L::splat(token, start), L::splat(token, -best));
+        let order = node.order[self.octant as usize % 8];
+        let children = node.child.map(f32::from_bits);
+
+        let (mut met, mut entries) = (0, [0.0; WIDTH]);
         for part in 0..WIDTH / L::COUNT {
             let entry = axes!(i => {
-                part_of::<L>(token, nearer[i], part).filter_mul_add(inverse[i], near[i])
+                part_of::<L>(token, nearer[i], part).filter_mul_add(inverse[i], minus_near[i])
             });
             let minus_leave = axes!(i => {
-                part_of::<L>(token, farther[i], part).filter_mul_add(-inverse[i], far[i])
+                part_of::<L>(token, farther[i], part).filter_mul_add(minus_inverse[i], far[i])
             });
             let entry = entry[0].filter_max(entry[1]).filter_max(entry[2].filter_max(start));
             let minus_leave = minus_leave[0]
                 .filter_max(minus_leave[1])
                 .filter_max(minus_leave[2].filter_max(minus_best));
-            met.children |= entry.le(-minus_leave).bits() << (part * L::COUNT);
-            put_part(&mut met.entries, part, entry);
+            let child = part_of::<L>(token, &children, part);
+            if L::COUNT == WIDTH && ANY {
+                self.stack.push::<L>(entry.le(-minus_leave), entry, child);
+            } else if L::COUNT == WIDTH {
+                let (entry, minus_leave) = (entry.in_order(order), minus_leave.in_order(order));
+                self.stack.push::<L>(entry.le(-minus_leave), entry, child.in_order(order));
+            } else {
+                met |= entry.le(-minus_leave).bits() << (part * L::COUNT);
+                put_part(&mut entries, part, entry);
+            }
         }
-        met
+        if L::COUNT != WIDTH {
+            self.stack.push_in_order(met, order, &entries, &children);
+        }
     }
 
     #[inline(always)]
-    fn probe<L: Lanes>(&self, token: L::Token) -> Probe<L> {
+    fn probe<L: Lanes>(&self, token: L::Token, slabs: &Slabs<L>) -> Probe<L> {
+        let lane = self.ray.lane;
         Probe {
-            origin: axes!(i => L::splat(token, self.origin[i])),
-            direction: axes!(i => L::splat(token, self.direction[i])),
-            start: [L::splat(token, self.start[0]), L::splat(token, self.start[1])],
-            end: [L::splat(token, self.end), L::splat(token, self.best)],
-            aside: L::splat(token, self.aside),
-            blur: L::splat(token, self.time.blur()),
+            origin: axes!(i => L::splat(token, at(&slabs.origin[i], lane))),
+            direction: axes!(i => L::splat(token, at(&slabs.direction[i], lane))),
+            start: [
+                L::splat(token, at(&slabs.start[0], lane)),
+                L::splat(token, at(&slabs.start[1], lane)),
+            ],
+            end: [L::splat(token, at(&slabs.end[0], lane)), L::splat(token, self.best)],
+            aside: L::splat(token, at(&slabs.aside, lane)),
+            blur: L::splat(token, slabs.time(self.ray.lane).blur()),
         }
     }
 
     /// Which spheres of a leaf to look at.
     #[inline(always)]
-    pub(super) fn filter<A: Accuracy, L: Lanes>(&self, token: L::Token, leaf: &BvhLeaf) -> u32 {
-        let probe = self.probe::<L>(token);
+    pub(super) fn filter<A: Accuracy, L: Lanes>(
+        &self,
+        token: L::Token,
+        slabs: &Slabs<L>,
+        leaf: &BvhLeaf,
+    ) -> u32 {
+        let probe = self.probe::<L>(token, slabs);
         let mut spheres = 0;
         for part in 0..WIDTH / L::COUNT {
             spheres |= probe.may_meet::<A>(leaf, part) << (part * L::COUNT);
@@ -152,8 +157,8 @@ impl Walk {
 
     /// Takes a t that the ray surely has as its end.
     #[inline(always)]
-    fn shorten(&mut self, t: f32) {
-        let best = self.time.after(t);
+    fn shorten<L: Lanes>(&mut self, slabs: &Slabs<L>, t: f32) {
+        let best = slabs.time(self.ray.lane).after(t);
         if best < self.best {
             self.best = best;
         }
@@ -164,14 +169,14 @@ impl Walk {
     pub(super) fn meet<A: Accuracy, L: Lanes, N: Answers<L>>(
         &mut self,
         token: L::Token,
-        packets: &[RayPacket<L>],
-        bvh: &Bvh<'_>,
+        slabs: &Slabs<L>,
+        (packets, bvh): (&[RayPacket<L>], &Bvh<'_>),
         (leaf, place): (&BvhLeaf, u32),
         questions: &mut Questions<L>,
         answers: &mut N,
     ) {
         let before = self.best;
-        let probe = self.probe::<L>(token);
+        let probe = self.probe::<L>(token, slabs);
         for part in 0..WIDTH / L::COUNT {
             let bracket = probe.meet::<A>(leaf, part);
             let (entries, bounds) = (bracket.entry.store(), bracket.bound.store());
@@ -197,14 +202,13 @@ impl Walk {
                     self.best = bound;
                 }
                 if self.candidates.is_full(self.best) {
-                    self.settle::<A, L, N>(token, packets, bvh, questions, answers);
+                    self.settle::<A, L, N>(token, slabs, packets, bvh, questions, answers);
                 }
                 self.candidates.push(place + (part * L::COUNT + lane) as u32, entry);
             }
         }
         if self.best < before {
-            let best = if A::SPREAD > 0.0 { self.best + self.spread } else { self.best };
-            self.stack.cull::<L>(token, best);
+            self.stack.cull::<L>(token, self.end_of_boxes::<A, L>(slabs));
         }
     }
 
@@ -213,6 +217,7 @@ impl Walk {
     fn settle<A: Accuracy, L: Lanes, N: Answers<L>>(
         &mut self,
         token: L::Token,
+        slabs: &Slabs<L>,
         packets: &[RayPacket<L>],
         bvh: &Bvh<'_>,
         questions: &mut Questions<L>,
@@ -224,7 +229,7 @@ impl Walk {
             #[inline(always)]
             || questions.ask::<A>(token, answers),
         );
-        self.shorten(answers.limit(self.ray.packet, self.ray.lane));
+        self.shorten(slabs, answers.limit(self.ray.packet, self.ray.lane));
     }
 
     /// Puts the candidates among the questions.

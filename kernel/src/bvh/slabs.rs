@@ -39,10 +39,9 @@
 //! that the inverse is below 2^60, products below 2^102, and no number is NaN: a box without
 //! a child is entered at +inf. Other rays are not `judged`, and go to no box.
 
-use super::approach::{Approach, far_away};
+use super::approach::{Approach, RayTime, far_away};
 use crate::accuracy::RayLanes;
-use crate::axes::axes;
-use crate::{Accuracy, LaneMask, Lanes};
+use crate::{Accuracy, LaneArray, LaneMask, Lanes};
 
 /// u.
 pub(crate) const U: f32 = f32::EPSILON / 2.0;
@@ -55,6 +54,7 @@ pub(crate) const LONGEST: f32 = super::LARGEST * super::LARGEST * 1_048_576.0;
 
 /// The rays of a packet, ready to be walked one by one.
 #[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
 pub(super) struct Slabs<L: Lanes> {
     /// The rays that the bounds cover.
     pub(super) judged: u32,
@@ -63,8 +63,9 @@ pub(super) struct Slabs<L: Lanes> {
     /// n.
     pub(super) direction: [L::Array; 3],
     pub(super) inverse: [L::Array; 3],
-    /// (o' + pad, o' - pad) / n, with the pad away from the box.
-    pub(super) near: [L::Array; 3],
+    pub(super) minus_inverse: [L::Array; 3],
+    /// -(o' + pad) / n and (o' - pad) / n, with the pad away from the box.
+    pub(super) minus_near: [L::Array; 3],
     pub(super) far: [L::Array; 3],
     /// As [`Approach::start`] and [`Approach::end`].
     pub(super) start: [L::Array; 2],
@@ -76,53 +77,101 @@ pub(super) struct Slabs<L: Lanes> {
     pub(super) aside: L::Array,
     /// What `Fast` adds to either end for boxes.
     pub(super) spread: L::Array,
+    /// Where n runs down along each axis, a bit a ray.
+    pub(super) down: [u32; 3],
 }
 
 impl<L: Lanes> Slabs<L> {
+    /// No rays.
+    pub(super) fn none() -> Self {
+        Self {
+            judged: 0,
+            origin: Default::default(),
+            direction: Default::default(),
+            inverse: Default::default(),
+            minus_inverse: Default::default(),
+            minus_near: Default::default(),
+            far: Default::default(),
+            start: Default::default(),
+            end: Default::default(),
+            shift: Default::default(),
+            length: Default::default(),
+            aside: Default::default(),
+            spread: Default::default(),
+            down: [0; 3],
+        }
+    }
+
+    /// Makes the rays of a packet ready, in the place of others. (As a value it was copied: 3 % of a
+    /// walk.)
     #[inline(always)]
-    pub(super) fn new<A: Accuracy>(rays: &RayLanes<L>, extent: f32) -> Self {
+    pub(super) fn take<A: Accuracy>(&mut self, rays: &RayLanes<L>, extent: f32) {
         let approach = Approach::as_it_is(rays);
         if A::SPREAD > 0.0 || !far_away(approach.judged, approach.aside, extent).any() {
-            return Self::of::<A>(approach, extent);
+            return self.set::<A>(approach, extent);
         }
         // A copy, so that others stay in registers.
         let rays = *rays;
         L::out_of_line(
             approach.aside.token(),
             #[inline(always)]
-            move || Self::of::<A>(Approach::as_it_is(&rays).nearer(&rays, extent), extent),
-        )
+            move || self.set::<A>(Approach::as_it_is(&rays).nearer(&rays, extent), extent),
+        );
     }
 
     #[inline(always)]
-    fn of<A: Accuracy>(approach: Approach<L>, extent: f32) -> Self {
+    fn set<A: Accuracy>(&mut self, approach: Approach<L>, extent: f32) {
         let Approach { judged, origin, direction, time, aside, start, end } = approach;
         let (zero, one) = (aside.like(0.0), aside.like(1.0));
 
         let pad = aside + aside;
         let least = aside.like(LEAST_COMPONENT);
-        let inverse = axes!(i => {
+        self.judged = judged.bits();
+        for i in 0..3 {
             let clamped = least.filter_max(direction[i].abs());
-            one / L::select(direction[i].lt(zero), -clamped, clamped)
-        });
-        let along = axes!(i => origin[i] * inverse[i]);
-        let reach = axes!(i => pad * inverse[i].abs());
-        let size = aside.filter_mul_add(aside.like(0.125 / U), aside.like(extent));
-        let spread = size * size.like(4.0 * A::SPREAD);
-        Self {
-            judged: judged.bits(),
-            origin: axes!(i => origin[i].store()),
-            direction: axes!(i => direction[i].store()),
-            inverse: axes!(i => inverse[i].store()),
-            near: axes!(i => (along[i] + reach[i]).store()),
-            far: axes!(i => (along[i] - reach[i]).store()),
-            start: [start[0].store(), start[1].store()],
-            end: [end[0].store(), end[1].store()],
-            shift: time.shift.store(),
-            length: time.length.store(),
-            aside: aside.store(),
-            spread: spread.store(),
+            let inverse = one / L::select(direction[i].lt(zero), -clamped, clamped);
+            let (along, reach) = (origin[i] * inverse, pad * inverse.abs());
+            self.origin[i] = origin[i].store();
+            self.direction[i] = direction[i].store();
+            self.inverse[i] = inverse.store();
+            self.minus_inverse[i] = (-inverse).store();
+            self.minus_near[i] = (-(along + reach)).store();
+            self.far[i] = (along - reach).store();
+            self.down[i] = direction[i].lt(zero).bits();
         }
+        self.start = [start[0].store(), start[1].store()];
+        self.end = [end[0].store(), end[1].store()];
+        self.shift = time.shift.store();
+        self.length = time.length.store();
+        self.aside = aside.store();
+        let size = aside.filter_mul_add(aside.like(0.125 / U), aside.like(extent));
+        self.spread = (size * size.like(4.0 * A::SPREAD)).store();
+    }
+
+    /// From t to s, for one ray.
+    #[inline(always)]
+    pub(super) fn time(&self, lane: usize) -> RayTime<f32> {
+        RayTime { shift: at(&self.shift, lane), length: at(&self.length, lane) }
+    }
+
+    /// Takes a t that a ray surely has as its end.
+    pub(super) fn shorten(&mut self, lane: usize, t: f32) {
+        let sooner = self.time(lane).after(t);
+        if let Some(end) = self.end[1].as_mut().get_mut(lane)
+            && sooner < *end
+        {
+            *end = sooner;
+        }
+    }
+}
+
+/// A number of one lane.
+#[inline(always)]
+pub(super) fn at<A: LaneArray>(array: &A, lane: usize) -> f32 {
+    // The remainder tells the compiler that it is there.
+    match array.as_ref().get(lane % A::COUNT) {
+        Some(value) => *value,
+        None => f32::NAN,
     }
 }
 

@@ -1,46 +1,50 @@
 //! The boxes that a ray has yet to look into.
 //!
-//! A step takes one entry and adds sixteen at most, so a ray on its way down a tree of nine
-//! nodes, one below the other, has 15 * 9 + 1 = 136 at most, whatever its numbers are; 256 are
-//! there, so that a mask can stand for a bounds check, and never acts.
+//! What a ray meets in a node is one frame: up to sixteen boxes, the next on top. Frames lie one on the
+//! other as the nodes do in the tree, nine at most (`bvh.rs`), whatever a ray's numbers are; sixteen
+//! are there, so that a mask can stand for a bounds check, and never acts. (All boxes one behind
+//! the other: as fast, with a proof of its length that says more than that there are nine.)
 
 use super::bracket::part_of;
+use super::ray_walk::put_part;
 use super::{DEPTH, WIDTH};
 use crate::{LaneMask, Lanes};
 
-/// How deep a stack can be.
-const DEEPEST: usize = 256;
-const _: () = assert!(DEEPEST >= (WIDTH - 1) * DEPTH + WIDTH);
+/// How many frames there are.
+const FRAMES: usize = 16;
+const _: () = assert!(FRAMES > DEPTH);
 
-/// What a ray meets in a node.
+/// Boxes of one node, and the s at which the ray enters each.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Met {
-    pub(super) children: u32,
-    pub(super) entries: [f32; WIDTH],
-}
-
-impl Met {
-    pub(super) const NOTHING: Self = Self { children: 0, entries: [0.0; WIDTH] };
+#[repr(align(64))]
+struct Frame {
+    entries: [f32; WIDTH],
+    /// As bits: numbers that are moved, never computed with.
+    children: [f32; WIDTH],
 }
 
 /// Boxes, and the s at which the ray enters each.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stack {
-    entries: [f32; DEEPEST + WIDTH],
-    /// As bits: numbers that are moved, never computed with.
-    children: [f32; DEEPEST + WIDTH],
+    frames: [Frame; FRAMES],
+    /// How many boxes a frame holds: one at least.
+    counts: [u32; FRAMES],
     top: usize,
 }
 
 impl Stack {
-    pub(super) const EMPTY: Self =
-        Self { entries: [0.0; DEEPEST + WIDTH], children: [0.0; DEEPEST + WIDTH], top: 0 };
+    pub(super) const EMPTY: Self = Self {
+        frames: [Frame { entries: [0.0; WIDTH], children: [0.0; WIDTH] }; FRAMES],
+        counts: [0; FRAMES],
+        top: 0,
+    };
 
     /// Nothing but the root.
     #[inline(always)]
     pub(super) fn begin(&mut self, root: u32) {
-        self.entries[0] = f32::NEG_INFINITY;
-        self.children[0] = f32::from_bits(root);
+        self.frames[0].entries[0] = f32::NEG_INFINITY;
+        self.frames[0].children[0] = f32::from_bits(root);
+        self.counts[0] = 1;
         self.top = 1;
     }
 
@@ -48,100 +52,81 @@ impl Stack {
         self.top = 0;
     }
 
-    /// Takes a box from the stack, which is not empty.
-    #[inline(always)]
-    pub(super) fn pop(&mut self) -> u32 {
-        self.top = self.top.wrapping_sub(1) & (DEEPEST - 1);
-        self.children[self.top].to_bits()
-    }
-
     #[inline(always)]
     pub(super) fn is_empty(&self) -> bool {
         self.top == 0
     }
 
-    /// Lays the children that are `met` onto the stack: the nearest on top, where `SORTED`, the
-    /// others in their own order.
-    ///
-    /// (All in order, by counting for each those entered later: as fast to a tenth slower, since the
-    /// processor cannot guess the number of children.)
+    /// Takes a box from the stack; where it is empty, any, and it stays so.
     #[inline(always)]
-    pub(super) fn push<L: Lanes, const SORTED: bool>(
+    pub(super) fn pop(&mut self) -> u32 {
+        let below = self.top.saturating_sub(1) % FRAMES;
+        let left = self.counts[below].wrapping_sub(1);
+        self.counts[below] = left;
+        self.top = if left == 0 { below } else { self.top };
+        self.frames[below].children[left as usize % WIDTH].to_bits()
+    }
+
+    /// Lays the boxes of the lanes `met` onto the stack as a frame, the last on top; for sixteen
+    /// lanes.
+    #[inline(always)]
+    pub(super) fn push<L: Lanes>(&mut self, met: L::Mask, entries: L, children: L) {
+        let top = self.top % FRAMES;
+        let frame = &mut self.frames[top];
+        put_part(&mut frame.entries, 0, entries.compress(met));
+        put_part(&mut frame.children, 0, children.compress(met));
+        self.count(met.bits().count_ones());
+    }
+
+    /// The same for all that is in a node, `met` a bit a slot, in the order of an octant.
+    #[inline(always)]
+    pub(super) fn push_in_order(
         &mut self,
-        token: L::Token,
-        met: &Met,
-        children: &[u32; WIDTH],
+        met: u32,
+        order: u64,
+        entries: &[f32; WIDTH],
+        children: &[f32; WIDTH],
     ) {
-        let mut others = met.children;
-        let mut nearest = 0;
-        if SORTED {
-            let mut least = L::splat(token, f32::INFINITY);
-            for part in 0..WIDTH / L::COUNT {
-                let mask = L::mask(token, met.children >> (part * L::COUNT));
-                let entries = part_of::<L>(token, &met.entries, part);
-                least = -(-L::select(mask, entries, least)).filter_max(-least);
-            }
-            let least = L::splat(token, -(-least).filter_greatest());
-            let mut first = 0;
-            for part in 0..WIDTH / L::COUNT {
-                let entries = part_of::<L>(token, &met.entries, part);
-                first |= entries.le(least).bits() << (part * L::COUNT);
-            }
-            first &= others;
-            nearest = first.trailing_zeros() as usize % WIDTH;
-            others &= !(first & first.wrapping_neg());
+        let frame = &mut self.frames[self.top % FRAMES];
+        let mut count = 0;
+        for place in 0..WIDTH {
+            let slot = (order >> (4 * place)) as usize % WIDTH;
+            frame.entries[count % WIDTH] = entries[slot];
+            frame.children[count % WIDTH] = children[slot];
+            count += (met >> slot & 1) as usize;
         }
-        let bits = children.map(f32::from_bits);
-        for part in 0..WIDTH / L::COUNT {
-            let here = others >> (part * L::COUNT) & ((1_u64 << L::COUNT) - 1) as u32;
-            let mask = L::mask(token, here);
-            let top = self.top & (DEEPEST - 1);
-            let entries = part_of::<L>(token, &met.entries, part);
-            put::<L>(&mut self.entries, top, entries.compress(mask));
-            put::<L>(&mut self.children, top, part_of::<L>(token, &bits, part).compress(mask));
-            self.top = top + here.count_ones() as usize;
-        }
-        if SORTED {
-            let top = self.top & (DEEPEST - 1);
-            self.entries[top] = met.entries[nearest];
-            self.children[top] = bits[nearest];
-            self.top = top + usize::from(met.children != 0);
-        }
+        self.count(count as u32);
+    }
+
+    /// Takes the frame above the top, which holds so many, as the top.
+    #[inline(always)]
+    fn count(&mut self, count: u32) {
+        self.counts[self.top % FRAMES] = count;
+        self.top = self.top % FRAMES + usize::from(count > 0);
     }
 
     /// Drops what is entered past `limit`.
     #[inline(always)]
     pub(super) fn cull<L: Lanes>(&mut self, token: L::Token, limit: f32) {
-        let limit = L::splat(token, limit);
-        let (top, mut kept) = (self.top, 0);
-        for from in (0..top).step_by(L::COUNT) {
-            let entries = get::<L>(token, &self.entries, from);
-            let children = get::<L>(token, &self.children, from);
-            let stays = entries.le(limit);
-            put::<L>(&mut self.entries, kept, entries.compress(stays));
-            put::<L>(&mut self.children, kept, children.compress(stays));
-            let here = stays.bits() & (((1_u64 << (top - from).min(L::COUNT)) - 1) as u32);
-            kept += here.count_ones() as usize;
+        let top = self.top % FRAMES;
+        self.top = 0;
+        for from in 0..top {
+            let Frame { entries, children } = self.frames[from];
+            let there = (1_u32 << (self.counts[from] % 32)) - 1;
+            if L::COUNT == WIDTH {
+                let entries = part_of::<L>(token, &entries, 0);
+                let stays = entries.le(L::splat(token, limit)) & L::mask(token, there);
+                self.push(stays, entries, part_of::<L>(token, &children, 0));
+            } else {
+                let mut stays = 0;
+                for (place, entry) in entries.iter().enumerate() {
+                    stays |= u32::from(*entry <= limit) << place;
+                }
+                self.push_in_order(stays & there, AS_THEY_ARE, &entries, &children);
+            }
         }
-        self.top = kept;
     }
 }
 
-/// Takes lanes from a stack.
-#[inline(always)]
-fn get<L: Lanes>(token: L::Token, stack: &[f32; DEEPEST + WIDTH], at: usize) -> L {
-    let mut array = L::Array::default();
-    if let Some(places) = stack.get(at..at + L::COUNT) {
-        array.as_mut().copy_from_slice(places);
-    }
-    L::load(token, &array)
-}
-
-/// Lays lanes onto a stack.
-#[inline(always)]
-fn put<L: Lanes>(stack: &mut [f32; DEEPEST + WIDTH], at: usize, lanes: L) {
-    let array = lanes.store();
-    if let Some(places) = stack.get_mut(at..at + L::COUNT) {
-        places.copy_from_slice(array.as_ref());
-    }
-}
+/// The order that leaves all where it is.
+const AS_THEY_ARE: u64 = 0xfedc_ba98_7654_3210;
