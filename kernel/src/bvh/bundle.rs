@@ -11,11 +11,12 @@
 //! A bundle is walked so if its rays start at t >= 0, run the same way along an axis, and are
 //! narrow (`course.rs`); others go one by one ([`nearest`](super::nearest)).
 
+use super::bounds::most;
 use super::course::Course;
 use super::frustum::Inside;
 use super::member::{Member, approach};
 use super::{Bvh, DEPTH, LEAF, NO_CHILD, WIDTH};
-use crate::{Accuracy, HitPacket, Lanes, RayPacket, Spheres};
+use crate::{Accuracy, HitPacket, LaneMask, Lanes, RayPacket, Spheres};
 
 /// How many packets go together.
 const BUNDLE: usize = 4;
@@ -122,6 +123,9 @@ impl BundleWalk {
             frustum.end = course.end(members);
         }
 
+        for member in &mut *members {
+            member.depth = if member.live.any() { frustum.end } else { f32::NEG_INFINITY };
+        }
         self.depths[0] = f32::NEG_INFINITY;
         self.children[0] = bvh.root;
         self.top = 1;
@@ -146,17 +150,29 @@ impl BundleWalk {
             if places == 0 {
                 continue;
             }
-            let mut changed = false;
+            let mut any_changed = false;
             for member in &mut *members {
+                // (3 % of the time of u10k, 6 % of u1m's.)
+                if depth > member.depth {
+                    continue;
+                }
                 let mut places = places & member.sides.look::<L>(token, leaf);
+                let mut changed = false;
                 while places != 0 {
                     let place = places.trailing_zeros() as usize;
                     places &= places - 1;
                     changed |= member.meet::<A, ANY>(bvh, (number, leaf), place);
                 }
+                if changed {
+                    member.depth = course.end(core::slice::from_ref(&*member));
+                    any_changed = true;
+                }
             }
-            if changed {
-                frustum.end = course.end(members);
+            if any_changed {
+                frustum.end = f32::NEG_INFINITY;
+                for member in &*members {
+                    frustum.end = most(frustum.end, member.depth);
+                }
             }
         }
         for member in members {

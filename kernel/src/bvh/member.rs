@@ -28,6 +28,8 @@ pub(super) struct Member<'a, L: Lanes> {
     pub(super) moved: bool,
     /// The planes around these rays alone.
     pub(super) sides: Sides,
+    /// The greatest depth that one of them still goes to.
+    pub(super) depth: f32,
     /// Rays that may yet meet something nearer.
     pub(super) live: L::Mask,
     /// o'.
@@ -66,6 +68,7 @@ impl<'a, L: Lanes> Member<'a, L> {
             covered: !(rays.live & !(judged & forward)).any(),
             moved: false,
             sides: Sides::NONE,
+            depth: f32::INFINITY,
             live: rays.live,
             origin,
             direction,
