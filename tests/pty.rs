@@ -38,6 +38,21 @@ fn it_starts_and_draws_what_once_draws() {
 }
 
 #[test]
+fn s_goes_through_the_structures_and_the_picture_stays() {
+    let viewer = Viewer::start();
+    let expected = once(&VIEW, COLUMNS, PICTURE_ROWS);
+    for structure in ["brute", "tiles", "bvh"] {
+        viewer.session.type_in("s");
+        viewer.session.wait_for(structure, |output| {
+            let named = last_row(output.screen()).contains(structure);
+            (shows_a_frame(output) && named).then_some(())
+        });
+        viewer.wait_for_picture("the same picture", &expected);
+    }
+    viewer.quit();
+}
+
+#[test]
 fn keys_orbit_and_zoom() {
     let mut viewer = Viewer::start();
     viewer.session.type_in("lll\x1b[C\x1b[A-");

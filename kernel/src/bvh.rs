@@ -8,7 +8,7 @@
 //! the surface area heuristic (Wald 2007: sixteen bins an axis), and cuts at multiples of sixteen
 //! spheres only: then every leaf but the last is full, and the memory needed is known before.
 //! [`nearest`] and [`any`] walk the tree ray by ray, which is the way for rays that have nothing in
-//! common; [`nearest_coherent`] and [`any_coherent`] let packets that look the same way go down
+//! common (and look at every leaf, where there are four at most); [`nearest_coherent`] and [`any_coherent`] let packets that look the same way go down
 //! together, which is the way for the rays of a camera and of shadows.
 //!
 //! # What is guaranteed
@@ -17,10 +17,10 @@
 //! [`Exact`](crate::Exact) for every input, by [`Stable`](crate::Stable) in its domain, by
 //! [`Fast`](crate::Fast) but for hits that the textbook form finds on lines that pass a sphere's
 //! box by. Boxes and filters only decide what is skipped, under bounds proven in `bvh/approach.rs`,
-//! `bvh/slabs.rs`, `bvh/bracket.rs` and `bvh/frustum.rs`; every t is a tier's. What the bounds do not cover is not skipped: spheres
-//! with a coordinate or radius above 2^40 are kept apart and tested by every ray; rays that start
-//! beyond 2^40, or whose squared length lies outside [2^-100, 2^100], are tested against all
-//! spheres.
+//! `bvh/slabs.rs`, `bvh/bracket.rs` and `bvh/frustum.rs`; every t is a tier's. What the bounds do
+//! not cover is not skipped: spheres with a coordinate or radius above 2^40 are kept apart and tested
+//! by every ray; rays that start beyond 2^40, or whose squared length lies outside [2^-100,
+//! 2^100], are tested against all spheres.
 //!
 //! # Depth
 //!
