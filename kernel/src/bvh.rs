@@ -8,8 +8,9 @@
 //! the surface area heuristic (Wald 2007: sixteen bins an axis), and cuts at multiples of sixteen
 //! spheres only: then every leaf but the last is full, and the memory needed is known before.
 //! [`nearest`] and [`any`] walk the tree ray by ray, which is the way for rays that have nothing in
-//! common (and look at every leaf, where there are four at most); [`nearest_coherent`] and [`any_coherent`] let packets that look the same way go down
-//! together, which is the way for the rays of a camera and of shadows.
+//! common (and look at every leaf, where there are four at most); [`nearest_coherent`] and
+//! [`any_coherent`] let packets that look the same way go down together, which is the way for the
+//! rays of a camera and of shadows.
 //!
 //! # What is guaranteed
 //!
