@@ -25,8 +25,8 @@
 //!
 //! # Depth
 //!
-//! A node over m leaves gives none of its children more than m/8 of them, rounded up, whatever
-//! the heuristic prefers (`bvh/build.rs`). There are at most 2^28 leaves, and a node over at most
+//! A node over m leaves gives none of its children more than m/8 of them, rounded up, or 16, whatever
+//! the heuristic prefers (`bvh/parts.rs`). There are at most 2^28 leaves, and a node over at most
 //! sixteen has only leaves for children: nodes stand nine deep at most, for 2^28, 2^25, ..
 //! 2^4 leaves.
 
@@ -45,6 +45,7 @@ mod join;
 mod member;
 mod octants;
 mod order;
+mod parts;
 mod ray_walk;
 pub(crate) mod resolve;
 mod round;
@@ -165,10 +166,13 @@ impl<'a> Bvh<'a> {
     /// The memory that any list of `count` spheres needs.
     ///
     /// All leaves but one are full, and one more keeps the spheres above 2^40: count/16, rounded
-    /// up, and one. Of the nodes over m leaves let J have sixteen children, and the other K, whose
-    /// children are all leaves, at least two. Each node but the root and each leaf is a child:
-    /// 16 J + (leaves below the K) = J + K - 1 + m, so 15 J + 2 K <= K - 1 + m, and 2 K <= m:
-    /// J + K is at most m/2 + m/30 = 8 m/15. Together 38 bytes a sphere at most, and 832 bytes.
+    /// up, and one. Of the nodes over m leaves let J have sixteen children, and K have leaves for all
+    /// of their children, at least two. Each node but the root and each leaf is a child: 16 J +
+    /// (leaves below the K) = J + K - 1 + m, so 15 J + 2 K <= K - 1 + m, and 2 K <= m: J + K is at most
+    /// m/2 + m/30 = 8 m/15. Other nodes (`bvh/parts.rs`) need less: with c < 16 children, k of them nodes
+    /// over leaves only, such a node has no room for the leaves of any, so each has 18 - c at least:
+    /// 1 + k nodes over c - k + k (18 - c) leaves are at most 16/45 a leaf. Together 38 bytes a sphere
+    /// at most, and 832 bytes.
     #[must_use]
     pub const fn needed(count: usize) -> BvhSize {
         let full = count.div_ceil(WIDTH);

@@ -1,39 +1,17 @@
 //! From a list of spheres to a tree: top down, straight into nodes of sixteen children.
 //!
-//! A node begins with one run of leaves and cuts one run after another in two, always the one
-//! that costs most (surface times leaves), until there are sixteen or every run is one leaf. Runs
-//! of more than one leaf become nodes in their turn; a stack of those that wait replaces
-//! recursion.
+//! A node is made of the parts of a run (`bvh/parts.rs`); parts of more than one leaf become nodes in
+//! their turn, and a stack of those that wait replaces recursion.
 //!
 //! The root's children do so apart from each other, perhaps at the same time: each in as many
 //! nodes as it can need, which is 8/15 of its leaves ([`Bvh::needed`]). Then the nodes move together.
 //! So the tree does not depend on what runs at the same time.
-//!
-//! # Depth
-//!
-//! Of a node's m leaves let q = m/8, rounded up, and let a run of s leaves *want* s/q, rounded up,
-//! less one, cuts: seven at most at the beginning, zero once no run is longer than q. A cut never
-//! adds to the sum of what is wanted, since the parts' s/q, rounded up, exceed their sum's by one
-//! at most, and one is paid. So as long as more cuts are left than wanted the heuristic chooses;
-//! from then on a run longer than q is cut behind q leaves, which takes one off each time. After
-//! fifteen cuts no child is longer than q.
 
-use super::bounds::Bounds;
 use super::join::Join;
 use super::octants::order_children;
-use super::split::Run;
+use super::parts::{Part, children};
 use super::{Bvh, BvhLeaf, BvhNode, DEPTH, LARGEST, LEAF, NO_CHILD, WIDTH};
 use crate::{Sphere, Spheres};
-
-/// A run of leaves that will be a child.
-#[derive(Clone, Copy)]
-struct Part {
-    first: usize,
-    leaves: usize,
-    bounds: Bounds,
-    /// What a ray pays here, but for a constant; nothing for a leaf.
-    cost: f32,
-}
 
 /// A run that waits to become node `node`.
 #[derive(Clone, Copy)]
@@ -107,16 +85,6 @@ fn fill(leaves: &mut [BvhLeaf], spheres: &Spheres<'_>, wanted: impl Fn(&Sphere) 
         }
     }
     count
-}
-
-impl Part {
-    /// Leaves `first..first + leaves` of all, which hold `count` spheres.
-    fn new(join: &impl Join, all: &[BvhLeaf], count: usize, first: usize, leaves: usize) -> Self {
-        let run = all.get(first..first + leaves).unwrap_or(&[]);
-        let bounds = Bounds::of(join, run, (count - first * WIDTH).min(leaves * WIDTH));
-        let cost = if leaves > 1 { bounds.half_area() * leaves as f32 } else { -1.0 };
-        Self { first, leaves, bounds, cost }
-    }
 }
 
 /// A child of the root, and the memory that becomes its nodes.
@@ -252,41 +220,6 @@ fn node_over(children: &[Part], first: usize) -> BvhNode {
     }
     order_children(&mut node);
     node
-}
-
-/// Cuts a run of two leaves or more into up to sixteen.
-fn children(
-    join: &impl Join,
-    leaves: &mut [BvhLeaf],
-    count: usize,
-    whole: Part,
-) -> ([Part; WIDTH], usize) {
-    let mut parts = [whole; WIDTH];
-    // At least one: nothing divides by zero.
-    let longest = whole.leaves.div_ceil(8).max(1);
-    let wanted = |part: &Part| part.leaves.div_ceil(longest) - 1;
-    for number in 1..WIDTH {
-        let (made, rest) = parts.split_at_mut(number);
-        let forced = made.iter().map(wanted).sum::<usize>() >= WIDTH - number;
-        let candidates = made.iter_mut().filter(|part| !forced || part.leaves > longest);
-        let Some(part) = candidates.max_by(|a, b| a.cost.total_cmp(&b.cost)) else {
-            return (parts, number);
-        };
-        if part.leaves == 1 {
-            return (parts, number);
-        }
-        let Part { first, leaves: length, bounds, .. } = *part;
-        let mut run = Run {
-            leaves: leaves.get_mut(first..first + length).unwrap_or(&mut []),
-            count: (count - first * WIDTH).min(length * WIDTH),
-        };
-        let cut = if forced { run.split_at(longest, &bounds) } else { run.split(join, &bounds) };
-        *part = Part::new(join, leaves, count, first, cut);
-        if let Some(place) = rest.first_mut() {
-            *place = Part::new(join, leaves, count, first + cut, length - cut);
-        }
-    }
-    (parts, WIDTH)
 }
 
 /// Puts the first `count` spheres of a leaf into the order of their indices.
