@@ -39,7 +39,7 @@ fn it_starts_and_draws_what_once_draws() {
 
 #[test]
 fn s_goes_through_the_structures_and_the_picture_stays() {
-    let viewer = Viewer::start();
+    let mut viewer = Viewer::start();
     let expected = once(&VIEW, COLUMNS, PICTURE_ROWS);
     for structure in ["brute", "tiles", "bvh"] {
         viewer.session.type_in("s");
