@@ -81,6 +81,8 @@ pub(super) fn children(
 /// left as they are.
 fn next_to_cut(parts: &mut [Part], longest: usize) -> Option<(&mut Part, bool)> {
     let free = WIDTH - parts.len();
+    // At least one: nothing divides by zero.
+    let longest = longest.max(1);
     let wanted = |part: &Part| part.leaves.div_ceil(longest) - 1;
     let forced = parts.iter().map(wanted).sum::<usize>() >= free;
     let least = if forced { longest } else { WIDTH };
