@@ -1,33 +1,24 @@
-//! The widest code that the CPU has, chosen at run time: [`nearest`](crate::nearest), and its
-//! companions, for packets of 16.
+//! The widest code that the CPU has, chosen at run time.
 //!
-//! A plain build is compiled for the oldest CPU of its target; here the same source is compiled
-//! once more for each level, and a [`Level`] is the proof that the CPU has it. The bits of an
-//! answer are the same at every level, and the same as those of the lanes of `wide`.
-//!
-//! Compile this crate in one piece (`codegen-units = 1`): the standard library's iterators are inlined
-//! from the same piece alone, and a call in an inner loop is a call of code for the oldest CPU. In sixteen
-//! pieces, the default, the walk of a tree took twenty times as long, and was right.
+//! A plain build is compiled for the oldest CPU of its target; with feature `std` every traversal is
+//! compiled once more for each level, and a [`Level`] is the proof that the CPU has it. Without `std` the
+//! CPU cannot be asked, and there is one level, the build's own. The bits of an answer are the same at every
+//! level.
 
-pub mod bvh;
-mod compiled;
-pub mod tiles;
-
-pub(crate) use compiled::Compiled;
-
-use crate::{Accuracy, HitPacket, RayPacket, SpherePacket, Spheres};
-
-/// What packets here are laid out for: 16 lanes.
-pub type Packet = crate::f32x16;
+#[cfg(feature = "std")]
+pub(crate) mod compiled;
 
 /// An instruction set that the CPU has.
 #[derive(Clone, Copy, Debug)]
-pub struct Level(fearless_simd::Level);
+pub struct Level(
+    #[cfg(feature = "std")] pub(crate) fearless_simd::Level,
+    #[cfg(not(feature = "std"))] (),
+);
 
 /// The name of a [`Level`], whether or not the CPU has it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum LevelName {
-    /// What the target guarantees: SSE2 on x86-64.
+    /// What the build's target guarantees: SSE2 on x86-64.
     Baseline,
     /// AVX2 and FMA.
     Avx2,
@@ -40,6 +31,12 @@ impl LevelName {
     pub const ALL: [Self; 3] = [Self::Baseline, Self::Avx2, Self::Avx512];
 
     /// The name on the command line and in reports.
+    ///
+    /// ```
+    /// use spherule_kernel::LevelName;
+    ///
+    /// assert_eq!(LevelName::ALL.map(LevelName::as_str), ["baseline", "avx2", "avx512"]);
+    /// ```
     #[must_use]
     pub const fn as_str(self) -> &'static str {
         match self {
@@ -51,13 +48,36 @@ impl LevelName {
 }
 
 impl Level {
-    /// The best that the CPU has; where that cannot be asked (no `std`), what the build allows.
+    /// The best that the CPU has; without `std` the build's own. Cost: the first call asks the CPU.
+    ///
+    /// ```
+    /// use spherule_kernel::{Level, LevelName};
+    ///
+    /// assert!(Level::best().name() >= LevelName::Baseline);
+    /// ```
     #[must_use]
+    #[cfg(feature = "std")]
     pub fn best() -> Self {
-        Self(fearless_simd::Level::try_detect().unwrap_or(fearless_simd::Level::baseline()))
+        static BEST: std::sync::OnceLock<fearless_simd::Level> = std::sync::OnceLock::new();
+        Self(*BEST.get_or_init(|| {
+            fearless_simd::Level::try_detect().unwrap_or(fearless_simd::Level::baseline())
+        }))
     }
 
-    /// The level of that name, or nothing where the CPU has it not.
+    /// The best that the CPU has; without `std` the build's own.
+    #[must_use]
+    #[cfg(not(feature = "std"))]
+    pub const fn best() -> Self {
+        Self(())
+    }
+
+    /// The level of that name; `None` if the CPU does not have it.
+    ///
+    /// ```
+    /// use spherule_kernel::{Level, LevelName};
+    ///
+    /// assert!(Level::named(Level::best().name()).is_some());
+    /// ```
     #[must_use]
     pub fn named(name: LevelName) -> Option<Self> {
         let best = Self::best();
@@ -65,17 +85,25 @@ impl Level {
             return Some(best);
         }
         match name {
+            #[cfg(feature = "std")]
             LevelName::Baseline => Some(Self(fearless_simd::Level::baseline())),
-            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            #[cfg(all(feature = "std", any(target_arch = "x86", target_arch = "x86_64")))]
             LevelName::Avx2 => best.0.as_avx2().map(|avx2| Self(fearless_simd::Level::Avx2(avx2))),
             _ => None,
         }
     }
 
     /// Its name.
+    ///
+    /// ```
+    /// use spherule_kernel::{Level, LevelName};
+    ///
+    /// let level = Level::named(LevelName::Avx2).unwrap_or(Level::best());
+    /// assert!(LevelName::ALL.contains(&level.name()));
+    /// ```
     #[must_use]
     pub fn name(self) -> LevelName {
-        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        #[cfg(all(feature = "std", any(target_arch = "x86", target_arch = "x86_64")))]
         {
             if self.0.as_avx512().is_some() {
                 return LevelName::Avx512;
@@ -86,35 +114,4 @@ impl Level {
         }
         LevelName::Baseline
     }
-}
-
-/// [`crate::nearest`] at `level`.
-pub fn nearest<A: Accuracy>(
-    level: Level,
-    rays: &[RayPacket<Packet>],
-    spheres: Spheres<'_>,
-    hits: &mut [HitPacket<Packet>],
-) {
-    A::nearest(level, rays, spheres, hits);
-}
-
-/// [`crate::any`] at `level`.
-pub fn any<A: Accuracy>(
-    level: Level,
-    rays: &[RayPacket<Packet>],
-    spheres: Spheres<'_>,
-    met: &mut [u32],
-) {
-    A::any(level, rays, spheres, met);
-}
-
-/// [`crate::pairs`] at `level`, packet by packet; packets past the end of the shortest slice are
-/// left alone.
-pub fn pairs<A: Accuracy>(
-    level: Level,
-    rays: &[RayPacket<Packet>],
-    spheres: &[SpherePacket<Packet>],
-    hits: &mut [HitPacket<Packet>],
-) {
-    A::pairs(level, rays, spheres, hits);
 }

@@ -52,8 +52,9 @@
 //! arise, so the maximum of four means what it says.
 
 use crate::accuracy::RayLanes;
-use crate::axes::{axes, dot};
-use crate::{LaneMask, Lanes, Sphere, Spheres};
+use crate::geometry::sphere::{Sphere, Spheres};
+use crate::lanes::{LaneMask, Lanes};
+use crate::numeric::axes::{axes, dot};
 
 /// How many spheres share one branch.
 pub(crate) const GROUP: usize = 4;

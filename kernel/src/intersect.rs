@@ -1,269 +1,420 @@
-//! Rays against lists of spheres: nearest hit, any hit, pairs, and both roots.
+//! The door: the same questions, by the same methods, to every scene structure.
+//!
+//! Three storeys, by what the caller keeps:
+//!
+//! | storey | rays are | costs beside the traversal |
+//! |---|---|---|
+//! | slices | `&[Ray]` | some 3 ns a ray to pack and unpack, 40 KiB of stack (without `std` 2 KiB) |
+//! | packets | `&[RayPacket]`, sixteen a packet | nothing |
+//! | lanes | packets of your vectors' width, their token | compiled in your crate: its profile counts |
+//!
+//! At the first two the level is the best that the CPU has, or the one that [`Trace`] names.
 
-use crate::accuracy::{RayLanes, all_finite};
-use crate::axes::axes;
-use crate::filter::{BLOCK_SPHERES, FilterBlock, FilterGroup, FilterRays, GROUP};
-use crate::{
-    Accuracy, Hit, HitPacket, LaneMask, Lanes, Ray, RayPacket, Sphere, SpherePacket, Spheres,
-};
+use crate::Accuracy;
+use crate::bvh::traverse::wavefront;
+use crate::bvh::tree::Bvh;
+use crate::coherent::depth_list::DepthList;
+use crate::coherent::{list_source, tree_source};
+use crate::geometry::hit::{Hit, HitPacket};
+use crate::geometry::ray::{Ray, RayPacket};
+use crate::geometry::sphere::Spheres;
+use crate::lanes::Lanes;
+use crate::linear;
+use crate::query::{AnyHit, ClosestHit, Query};
+use crate::slices;
+use crate::trace::{Coherence, Trace};
 
-/// The nearest hit of every ray: the smallest accepted t, and among equals the lowest index.
-///
-/// `hits[i]` is overwritten with what `rays[i]` meets; packets past the end of the shorter slice
-/// are left alone. t counts in multiples of each ray's own direction.
-///
-/// Domain: every bit pattern; invalid rays and spheres meet nothing, and change nothing for their
-/// neighbours. Guarantee: what the tier `A` promises for one ray and one sphere; the same bits in
-/// every lane width, alone or beside any other ray, for spheres in any order (`Fast`, and `Stable`
-/// outside its domain: in the given order).
-///
-/// Cost: some 8 operations a ray and sphere that miss each other, and the tier's price for the
-/// others. Preparing 128 spheres costs as much as testing one packet against them: pass many
-/// packets in one call. Stack: some 3 KiB.
-#[inline(always)]
-pub fn nearest<A: Accuracy, L: Lanes>(
-    token: L::Token,
-    rays: &[RayPacket<L>],
-    spheres: Spheres<'_>,
-    hits: &mut [HitPacket<L>],
-) {
-    L::out_of_line(
-        token,
-        #[inline(always)]
-        || nearest_here::<A, L>(token, rays, &spheres, hits),
-    );
-}
+pub(crate) mod sealed {
+    use super::*;
 
-/// [`nearest`], compiled into its caller.
-#[inline(always)]
-fn nearest_here<A: Accuracy, L: Lanes>(
-    token: L::Token,
-    rays: &[RayPacket<L>],
-    spheres: &Spheres<'_>,
-    hits: &mut [HitPacket<L>],
-) {
-    for hit in hits.iter_mut().take(rays.len()) {
-        *hit = HitPacket::<L>::none();
+    /// The traversals of a structure.
+    pub trait Traverse {
+        /// In lanes of any kind, compiled where it is called.
+        fn in_lanes<L: Lanes, Q: Query>(
+            &self,
+            tier: impl Accuracy,
+            token: L::Token,
+            trace: &mut Trace<'_>,
+            rays: &[RayPacket<L::Array>],
+            answers: &mut [Q::Packet<L::Array>],
+        );
+
+        /// In sixteen lanes at a level, compiled with this crate.
+        fn in_packets<Q: LevelQuery>(
+            &self,
+            tier: impl Accuracy,
+            trace: &mut Trace<'_>,
+            rays: &[RayPacket],
+            answers: &mut [Q::Packet<[f32; 16]>],
+        );
     }
-    for_candidates(
-        token,
-        rays,
-        hits,
-        spheres,
-        #[inline(always)]
-        |_| L::mask(token, 0),
-        #[inline(always)]
-        |hit, candidates| nearest_in_group::<A, L>(token, candidates, hit),
-    );
+
+    /// A query that is compiled for every level.
+    #[cfg(feature = "std")]
+    pub trait LevelQuery: Query + crate::dispatch::compiled::Compiled {}
+    #[cfg(feature = "std")]
+    impl<Q: Query + crate::dispatch::compiled::Compiled> LevelQuery for Q {}
+
+    /// A query: there is one level.
+    #[cfg(not(feature = "std"))]
+    pub trait LevelQuery: Query {}
+    #[cfg(not(feature = "std"))]
+    impl<Q: Query> LevelQuery for Q {}
 }
 
-/// Whether every ray meets anything: lane `i` in bit `i` of `met[k]` for `rays[k]`.
+use sealed::{LevelQuery, Traverse};
+
+/// Spheres that rays are intersected with: [`Spheres`] tests every ray against every sphere; a
+/// [`Bvh`] is for many spheres; a [`DepthList`] for rays of a common origin or direction, without a tree.
+/// `SphereList` and `SphereTree` own what `Spheres` and `Bvh` borrow.
 ///
-/// True exactly where [`nearest`] finds a hit; cheaper, since a ray that has met something is
-/// done. Otherwise as `nearest`.
-#[inline(always)]
-pub fn any<A: Accuracy, L: Lanes>(
-    token: L::Token,
-    rays: &[RayPacket<L>],
-    spheres: Spheres<'_>,
-    met: &mut [u32],
-) {
-    L::out_of_line(
-        token,
-        #[inline(always)]
-        || any_here::<A, L>(token, rays, &spheres, met),
-    );
-}
-
-/// [`any`], compiled into its caller.
-#[inline(always)]
-fn any_here<A: Accuracy, L: Lanes>(
-    token: L::Token,
-    rays: &[RayPacket<L>],
-    spheres: &Spheres<'_>,
-    met: &mut [u32],
-) {
-    for bits in met.iter_mut().take(rays.len()) {
-        *bits = 0;
+/// # Guarantee
+///
+/// The closest hit is the smallest accepted t, and among equals the lowest index; t counts in multiples of
+/// each ray's own direction. Every structure returns bit for bit what [`Spheres`] returns ([`Bvh`] and
+/// [`DepthList`] say what that means for `Fast`, and for `Stable` outside its domain), at every level, in
+/// every lane width, alone or beside any other ray. [`any_hit`](Intersect::any_hit) is true exactly if there
+/// is a closest hit, and cheaper, since a ray that has hit something is done.
+///
+/// # Domain
+///
+/// Every bit pattern: invalid rays and spheres hit nothing, and change nothing for their neighbours
+/// (`docs/contract.md`, rule 1). If the slices differ in length, rays past the end of the answers are left
+/// out, and answers past the end of the rays are left as they are.
+///
+/// # Cost
+///
+/// A list: some 8 operations a ray and sphere that miss each other, and the tier's price for the
+/// others; preparing 128 spheres costs as much as testing one packet against them, so pass many rays in
+/// one call. A tree: by the logarithm of the number of spheres, if they do not overlap much; rays that the
+/// bounds do not cover, and spheres above 2^40, cost as in a list.
+///
+/// ```
+/// use spherule_kernel::{Exact, Hit, Intersect, Ray, SphereList, Vec3};
+///
+/// let spheres = SphereList::from([[0.0, 0.0, 5.0, 1.0], [0.0, 0.0, 9.0, 1.0]]);
+/// let rays = [Ray::new(Vec3::ZERO, Vec3::Z), Ray::new(Vec3::ZERO, Vec3::X)];
+/// let mut hits = [None; 2];
+/// spheres.closest_hits(Exact, &rays, &mut hits);
+/// assert_eq!(hits, [Some(Hit { t: 4.0, sphere: 0 }), None]);
+/// ```
+pub trait Intersect: Traverse {
+    /// The closest hit of one ray: a slice of one. Cost: a packet of which one lane is used; pass many rays
+    /// in one call.
+    ///
+    /// ```
+    /// use spherule_kernel::{Exact, Intersect, Ray, SphereList, Vec3};
+    ///
+    /// let spheres = SphereList::from([[0.0, 0.0, 5.0, 1.0]]);
+    /// let hit = spheres.closest_hit(Exact, &Ray::new(Vec3::ZERO, Vec3::Z));
+    /// assert_eq!(hit.map(|hit| hit.t), Some(4.0));
+    /// ```
+    fn closest_hit(&self, tier: impl Accuracy, ray: &Ray) -> Option<Hit> {
+        let mut hit = [None];
+        self.closest_hits(tier, core::slice::from_ref(ray), &mut hit);
+        hit[0]
     }
-    for_candidates(
-        token,
-        rays,
-        met,
-        spheres,
-        #[inline(always)]
-        |bits| L::mask(token, *bits),
-        #[inline(always)]
-        |bits, candidates| any_in_group::<A, L>(token, candidates, bits),
-    );
-}
 
-/// The nearest hit of one ray, by the one-lane form of [`nearest`]: the reference, and the form for
-/// targets without SIMD. With it, pass packets.
-#[must_use]
-pub fn nearest_hit<A: Accuracy>(ray: &Ray, spheres: Spheres<'_>) -> Option<Hit> {
-    let mut hits = [HitPacket::<f32>::none()];
-    nearest::<A, f32>((), &[RayPacket::<f32>::new(&[*ray])], spheres, &mut hits);
-    hits[0].hit(0)
-}
-
-/// Ray `i` against sphere `i` alone; the sphere index of a hit is its lane.
-///
-/// Bit for bit what [`nearest`] finds for that ray in a list of that sphere. No filter: the tier's
-/// price for every packet.
-#[must_use]
-#[inline(always)]
-pub fn pairs<A: Accuracy, L: Lanes>(
-    token: L::Token,
-    rays: &RayPacket<L>,
-    spheres: &SpherePacket<L>,
-) -> HitPacket<L> {
-    let rays = RayLanes::load(token, rays);
-    let center = axes!(i => L::load(token, &spheres.center[i]));
-    let radius = L::load(token, &spheres.radius);
-    let (zero, infinity) = (radius.like(0.0), radius.like(f32::INFINITY));
-    let asked = rays.live & all_finite(center) & zero.le(radius) & radius.lt(infinity);
-    let t = A::first_root(&rays, &A::prepare(&rays), center, radius, asked, infinity);
-    let t = L::select(asked, t, infinity);
-    let mut hits = HitPacket::<L>::none();
-    hits.t = t.store();
-    for (lane, id) in hits.sphere.as_mut().iter_mut().enumerate() {
-        let hit = t.lt(infinity).bits() >> lane & 1 == 1;
-        *id = if hit { lane as u32 } else { HitPacket::<L>::NO_SPHERE };
+    /// Whether one ray hits anything: a slice of one.
+    ///
+    /// ```
+    /// use spherule_kernel::{Exact, Intersect, Ray, SphereList, Vec3};
+    ///
+    /// let spheres = SphereList::from([[0.0, 0.0, 5.0, 1.0]]);
+    /// let ray = Ray::new(Vec3::ZERO, Vec3::Z);
+    /// assert!(spheres.any_hit(Exact, &ray));
+    /// assert!(!spheres.any_hit(Exact, &Ray { t_max: 3.9, ..ray }));
+    /// ```
+    fn any_hit(&self, tier: impl Accuracy, ray: &Ray) -> bool {
+        let mut hit = [false];
+        self.any_hits(tier, core::slice::from_ref(ray), &mut hit);
+        hit[0]
     }
-    hits
+
+    /// The closest hit of every ray: `hits[i]` becomes what `rays[i]` hits, `None` if that is nothing.
+    ///
+    /// ```
+    /// use spherule_kernel::{Intersect, Ray, Spheres, Stable, Vec3};
+    ///
+    /// let spheres = Spheres::new(&[0.0], &[0.0], &[5.0], &[1.0])?;
+    /// let mut hits = [None];
+    /// spheres.closest_hits(Stable, &[Ray::new(Vec3::ZERO, Vec3::Z)], &mut hits);
+    /// assert_eq!(hits[0].map(|hit| hit.sphere), Some(0));
+    /// # Ok::<(), spherule_kernel::SpheresError>(())
+    /// ```
+    fn closest_hits(&self, tier: impl Accuracy, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        self.closest_hits_with(tier, &mut Trace::new(), rays, hits);
+    }
+
+    /// Whether every ray hits anything.
+    ///
+    /// ```
+    /// use spherule_kernel::{Exact, Intersect, Ray, SphereTree, Vec3};
+    ///
+    /// let tree = SphereTree::new([[0.0, 0.0, 5.0, 1.0]]);
+    /// let mut met = [false; 2];
+    /// tree.any_hits(Exact, &[Vec3::Z, Vec3::X].map(|d| Ray::new(Vec3::ZERO, d)), &mut met);
+    /// assert_eq!(met, [true, false]);
+    /// ```
+    fn any_hits(&self, tier: impl Accuracy, rays: &[Ray], met: &mut [bool]) {
+        self.any_hits_with(tier, &mut Trace::new(), rays, met);
+    }
+
+    /// [`closest_hits`](Intersect::closest_hits), traced as `trace` says.
+    ///
+    /// ```
+    /// use spherule_kernel::{Exact, Intersect, Ray, SphereTree, Trace, Vec3};
+    ///
+    /// let tree = SphereTree::new([[0.0, 0.0, 5.0, 1.0]]);
+    /// let mut hits = [None];
+    /// let rays = [Ray::new(Vec3::ZERO, Vec3::Z)];
+    /// tree.closest_hits_with(Exact, &mut Trace::new().incoherent(), &rays, &mut hits);
+    /// assert!(hits[0].is_some());
+    /// ```
+    fn closest_hits_with(
+        &self,
+        tier: impl Accuracy,
+        trace: &mut Trace<'_>,
+        rays: &[Ray],
+        hits: &mut [Option<Hit>],
+    ) {
+        slices::traverse::<Self, ClosestHit>(self, tier, trace, rays, hits);
+    }
+
+    /// [`any_hits`](Intersect::any_hits), traced as `trace` says.
+    ///
+    /// ```
+    /// use spherule_kernel::{Exact, Intersect, Ray, SphereTree, Trace, Vec3};
+    ///
+    /// let tree = SphereTree::new([[0.0, 0.0, 5.0, 1.0]]);
+    /// let mut met = [false];
+    /// tree.any_hits_with(Exact, &mut Trace::new().coherent(), &[Ray::new(Vec3::ZERO, Vec3::Z)], &mut met);
+    /// assert!(met[0]);
+    /// ```
+    fn any_hits_with(
+        &self,
+        tier: impl Accuracy,
+        trace: &mut Trace<'_>,
+        rays: &[Ray],
+        met: &mut [bool],
+    ) {
+        slices::traverse::<Self, AnyHit>(self, tier, trace, rays, met);
+    }
+
+    /// The closest hit of every ray of every packet: `hits[i]` is overwritten with what `rays[i]` hits.
+    ///
+    /// ```
+    /// use spherule_kernel::{Exact, HitPacket, Intersect, Ray, RayPacket, SphereList, Trace, Vec3};
+    ///
+    /// let spheres = SphereList::from([[0.0, 0.0, 5.0, 1.0]]);
+    /// // Lanes that are not filled are inactive.
+    /// let rays = [RayPacket::new(&[Ray::new(Vec3::ZERO, Vec3::Z)])];
+    /// let mut hits = [HitPacket::none()];
+    /// spheres.closest_hit_packets(Exact, &mut Trace::new(), &rays, &mut hits);
+    /// assert_eq!(hits[0].hits().flatten().count(), 1);
+    /// ```
+    fn closest_hit_packets(
+        &self,
+        tier: impl Accuracy,
+        trace: &mut Trace<'_>,
+        rays: &[RayPacket],
+        hits: &mut [HitPacket],
+    ) {
+        self.in_packets::<ClosestHit>(tier, trace, rays, hits);
+    }
+
+    /// Whether every ray of every packet hits anything: lane `i` in bit `i` of `met[k]` for `rays[k]`.
+    ///
+    /// ```
+    /// use spherule_kernel::{Exact, Intersect, Ray, RayPacket, SphereList, Trace, Vec3};
+    ///
+    /// let spheres = SphereList::from([[0.0, 0.0, 5.0, 1.0]]);
+    /// let rays = [RayPacket::new(&[Ray::new(Vec3::ZERO, Vec3::Z)])];
+    /// let mut met = [0];
+    /// spheres.any_hit_packets(Exact, &mut Trace::new(), &rays, &mut met);
+    /// assert_eq!(met, [1]);
+    /// ```
+    fn any_hit_packets(
+        &self,
+        tier: impl Accuracy,
+        trace: &mut Trace<'_>,
+        rays: &[RayPacket],
+        met: &mut [u32],
+    ) {
+        self.in_packets::<AnyHit>(tier, trace, rays, met);
+    }
+
+    /// [`closest_hit_packets`](Intersect::closest_hit_packets) in lanes of the caller's, with their token.
+    /// The level of `trace` is not looked at.
+    ///
+    /// ```
+    /// use spherule_kernel::{Exact, HitPacket, Intersect, Ray, RayPacket, SphereList, Trace, Vec3, f32x8};
+    ///
+    /// let spheres = SphereList::from([[0.0, 0.0, 5.0, 1.0]]);
+    /// let rays = [RayPacket::<[f32; 8]>::new(&[Ray::new(Vec3::ZERO, Vec3::Z)])];
+    /// let mut hits = [HitPacket::<[f32; 8]>::none()];
+    /// spheres.closest_hit_lanes::<f32x8>(Exact, (), &mut Trace::new(), &rays, &mut hits);
+    /// assert_eq!(hits[0].hit(0).map(|hit| hit.t), Some(4.0));
+    /// ```
+    #[inline(always)]
+    fn closest_hit_lanes<L: Lanes>(
+        &self,
+        tier: impl Accuracy,
+        token: L::Token,
+        trace: &mut Trace<'_>,
+        rays: &[RayPacket<L::Array>],
+        hits: &mut [HitPacket<L::Array>],
+    ) {
+        self.in_lanes::<L, ClosestHit>(tier, token, trace, rays, hits);
+    }
+
+    /// [`any_hit_packets`](Intersect::any_hit_packets) in lanes of the caller's, with their token. The level
+    /// of `trace` is not looked at.
+    ///
+    /// ```
+    /// use spherule_kernel::{Exact, Intersect, Ray, RayPacket, SphereList, Trace, Vec3};
+    ///
+    /// let spheres = SphereList::from([[0.0, 0.0, 5.0, 1.0]]);
+    /// let rays = [RayPacket::<[f32; 1]>::new(&[Ray::new(Vec3::ZERO, Vec3::Z)])];
+    /// let mut met = [0];
+    /// spheres.any_hit_lanes::<f32>(Exact, (), &mut Trace::new(), &rays, &mut met);
+    /// assert_eq!(met, [1]);
+    /// ```
+    #[inline(always)]
+    fn any_hit_lanes<L: Lanes>(
+        &self,
+        tier: impl Accuracy,
+        token: L::Token,
+        trace: &mut Trace<'_>,
+        rays: &[RayPacket<L::Array>],
+        met: &mut [u32],
+    ) {
+        self.in_lanes::<L, AnyHit>(tier, token, trace, rays, met);
+    }
 }
 
-/// Entry and exit of the whole line, whatever the ray's interval: the smaller root first.
-///
-/// Nothing where the line misses the sphere, or where either is invalid.
-#[must_use]
-pub fn roots<A: Accuracy>(ray: &Ray, sphere: &Sphere) -> Option<[f32; 2]> {
-    let line = Ray { t_min: f32::NEG_INFINITY, t_max: f32::INFINITY, ..*ray };
-    (line.is_live() && sphere.is_valid()).then(|| A::line_roots(&line, sphere))?
+impl<S: Traverse> Intersect for S {}
+
+impl Traverse for Spheres<'_> {
+    #[inline(always)]
+    fn in_lanes<L: Lanes, Q: Query>(
+        &self,
+        tier: impl Accuracy,
+        token: L::Token,
+        _: &mut Trace<'_>,
+        rays: &[RayPacket<L::Array>],
+        answers: &mut [Q::Packet<L::Array>],
+    ) {
+        linear::traverse::<L, Q>(tier, token, *self, rays, answers);
+    }
+
+    fn in_packets<Q: LevelQuery>(
+        &self,
+        tier: impl Accuracy,
+        trace: &mut Trace<'_>,
+        rays: &[RayPacket],
+        answers: &mut [Q::Packet<[f32; 16]>],
+    ) {
+        #[cfg(feature = "std")]
+        Q::list(trace.level, tier.tier(), *self, rays, answers);
+        #[cfg(not(feature = "std"))]
+        self.in_lanes::<wide::f32x16, Q>(tier, (), trace, rays, answers);
+    }
 }
 
-/// A packet, and a group of spheres that the filter could not rule out for it.
-#[derive(Clone, Copy)]
-pub(crate) struct Candidates<'a, L: Lanes> {
-    pub(crate) rays: &'a RayLanes<L>,
-    pub(crate) filter: &'a FilterRays<L>,
-    pub(crate) group: &'a FilterGroup,
-    pub(crate) spheres: &'a Spheres<'a>,
-    /// The index of the group's first sphere.
-    pub(crate) first: usize,
-}
-
-/// Calls `resolve` for each packet and group of spheres that the filter does not rule out, until
-/// all of the packet's live lanes are `done`.
-#[inline(always)]
-pub(crate) fn for_candidates<L: Lanes, R>(
-    token: L::Token,
-    rays: &[RayPacket<L>],
-    results: &mut [R],
-    spheres: &Spheres<'_>,
-    done: impl Fn(&R) -> L::Mask,
-    resolve: impl Fn(&mut R, Candidates<'_, L>),
-) {
-    for first in (0..spheres.len()).step_by(BLOCK_SPHERES) {
-        // The spheres are prepared once for all packets.
-        let block = FilterBlock::new(spheres, first);
-        for (packet, result) in rays.iter().zip(results.iter_mut()) {
-            let mut rays = RayLanes::load(token, packet);
-            rays.live = rays.live & !done(result);
-            let mut filter = FilterRays::new(token, &rays, &block);
-            for (group, first) in block.groups().iter().zip((first..).step_by(GROUP)) {
-                if filter.may_meet_any(group) {
-                    let candidates =
-                        Candidates { rays: &rays, filter: &filter, group, spheres, first };
-                    // What candidates need must not press on the registers of this loop.
-                    L::out_of_line(
-                        token,
-                        #[inline(always)]
-                        || resolve(result, candidates),
-                    );
-                    let live = rays.live & !done(result);
-                    if !live.any() {
-                        break;
-                    }
-                    filter.keep(live);
-                }
+impl Traverse for Bvh<'_> {
+    #[inline(always)]
+    fn in_lanes<L: Lanes, Q: Query>(
+        &self,
+        tier: impl Accuracy,
+        token: L::Token,
+        trace: &mut Trace<'_>,
+        rays: &[RayPacket<L::Array>],
+        answers: &mut [Q::Packet<L::Array>],
+    ) {
+        match trace.coherence {
+            Coherence::Incoherent => {
+                wavefront::traverse::<L, Q>(tier, token, self, rays, answers);
+            }
+            coherence => {
+                let detect = coherence == Coherence::Detect;
+                tree_source::traverse::<L, Q>(tier, token, self, detect, rays, answers);
             }
         }
     }
-}
 
-/// Calls `met` with every sphere of the group that the filter does not rule out by itself: its
-/// index, and the t of rules 1 to 4, `+inf` where there is none. `met` answers with the largest t
-/// that still matters, `limit` is the first.
-#[inline(always)]
-fn resolve<A: Accuracy, L: Lanes>(
-    token: L::Token,
-    candidates: Candidates<'_, L>,
-    mut limit: L,
-    mut met: impl FnMut(u32, L) -> L,
-) {
-    let Candidates { rays, filter, group, spheres, first } = candidates;
-    let infinity = L::splat(token, f32::INFINITY);
-    // Keeping this from one group to the next costs Fast 6 % and gains the others 2 %.
-    let prepared = A::prepare(rays);
-    for slot in 0..GROUP {
-        let Some(sphere) = spheres.get(first + slot) else { return };
-        let asked = rays.live & filter.may_meet(group, slot);
-        if sphere.is_valid() && asked.any() {
-            let center = axes!(i => L::splat(token, sphere.center[i]));
-            let radius = L::splat(token, sphere.radius);
-            let t = A::first_root(rays, &prepared, center, radius, asked, limit);
-            limit = met((first + slot) as u32, L::select(asked, t, infinity));
-        }
+    fn in_packets<Q: LevelQuery>(
+        &self,
+        tier: impl Accuracy,
+        trace: &mut Trace<'_>,
+        rays: &[RayPacket],
+        answers: &mut [Q::Packet<[f32; 16]>],
+    ) {
+        #[cfg(feature = "std")]
+        Q::tree(trace.level, tier.tier(), self, trace.coherence, rays, answers);
+        #[cfg(not(feature = "std"))]
+        self.in_lanes::<wide::f32x16, Q>(tier, (), trace, rays, answers);
     }
 }
 
-#[inline(always)]
-pub(crate) fn nearest_in_group<A: Accuracy, L: Lanes>(
-    token: L::Token,
-    candidates: Candidates<'_, L>,
-    hit: &mut HitPacket<L>,
-) {
-    let mut best = L::load(token, &hit.t);
-    let ids = &mut hit.sphere;
-    resolve::<A, L>(
-        token,
-        candidates,
-        best,
-        #[inline(always)]
-        |index, t| {
-            // Spheres come in the order of their indices, so an equal t is no improvement.
-            let nearer = t.lt(best);
-            best = L::select(nearer, t, best);
-            let mut nearer = nearer.bits();
-            while nearer != 0 {
-                if let Some(id) = ids.as_mut().get_mut(nearer.trailing_zeros() as usize) {
-                    *id = index;
-                }
-                nearer &= nearer - 1;
-            }
-            best
-        },
-    );
-    hit.t = best.store();
+impl Traverse for DepthList<'_> {
+    #[inline(always)]
+    fn in_lanes<L: Lanes, Q: Query>(
+        &self,
+        tier: impl Accuracy,
+        token: L::Token,
+        trace: &mut Trace<'_>,
+        rays: &[RayPacket<L::Array>],
+        answers: &mut [Q::Packet<L::Array>],
+    ) {
+        list_source::traverse::<L, Q>(tier, token, self, trace.scratch, rays, answers);
+    }
+
+    fn in_packets<Q: LevelQuery>(
+        &self,
+        tier: impl Accuracy,
+        trace: &mut Trace<'_>,
+        rays: &[RayPacket],
+        answers: &mut [Q::Packet<[f32; 16]>],
+    ) {
+        #[cfg(feature = "std")]
+        Q::depth_list(trace.level, tier.tier(), self, trace.scratch, rays, answers);
+        #[cfg(not(feature = "std"))]
+        self.in_lanes::<wide::f32x16, Q>(tier, (), trace, rays, answers);
+    }
 }
 
-#[inline(always)]
-pub(crate) fn any_in_group<A: Accuracy, L: Lanes>(
-    token: L::Token,
-    candidates: Candidates<'_, L>,
-    met: &mut u32,
-) {
-    let infinity = L::splat(token, f32::INFINITY);
-    resolve::<A, L>(
-        token,
-        candidates,
-        infinity,
-        #[inline(always)]
-        |_, t| {
-            *met |= t.lt(infinity).bits();
-            infinity
-        },
-    );
+/// An owned structure, by what it lends.
+#[cfg(feature = "alloc")]
+macro_rules! traverse_as {
+    ($owned:ty, $lend:ident) => {
+        impl Traverse for $owned {
+            #[inline(always)]
+            fn in_lanes<L: Lanes, Q: Query>(
+                &self,
+                tier: impl Accuracy,
+                token: L::Token,
+                trace: &mut Trace<'_>,
+                rays: &[RayPacket<L::Array>],
+                answers: &mut [Q::Packet<L::Array>],
+            ) {
+                self.$lend().in_lanes::<L, Q>(tier, token, trace, rays, answers);
+            }
+
+            fn in_packets<Q: LevelQuery>(
+                &self,
+                tier: impl Accuracy,
+                trace: &mut Trace<'_>,
+                rays: &[RayPacket],
+                answers: &mut [Q::Packet<[f32; 16]>],
+            ) {
+                self.$lend().in_packets::<Q>(tier, trace, rays, answers);
+            }
+        }
+    };
 }
+
+#[cfg(feature = "alloc")]
+traverse_as!(crate::geometry::sphere_list::SphereList, spheres);
+#[cfg(feature = "alloc")]
+traverse_as!(crate::bvh::owned::SphereTree, bvh);

@@ -13,12 +13,13 @@
 //! Vectors never cross such a boundary: packets in memory hold plain arrays.
 
 mod array;
-#[cfg(feature = "dispatch")]
+#[cfg(feature = "std")]
 mod dispatched;
 mod scalar;
 mod wide;
 
 pub use array::LaneArray;
+pub(crate) use array::WIDTH;
 
 use core::fmt::Debug;
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
@@ -67,6 +68,11 @@ pub trait Lanes:
     fn splat(token: Self::Token, value: f32) -> Self;
     /// Lane `i` from element `i`.
     fn load(token: Self::Token, array: &Self::Array) -> Self;
+    /// Lane `i` from number `part * COUNT + i` of sixteen; a part past the last is the first again.
+    #[inline(always)]
+    fn load_part(token: Self::Token, numbers: &[f32; 16], part: usize) -> Self {
+        Self::load(token, &Self::Array::part(numbers, part))
+    }
     /// Element `i` from lane `i`.
     fn store(self) -> Self::Array;
     /// The correctly rounded square root; NaN below zero.
@@ -82,9 +88,9 @@ pub trait Lanes:
     /// True in the lanes whose bit is set.
     #[inline(always)]
     fn mask(token: Self::Token, bits: u32) -> Self::Mask {
-        let mut marks = Self::Array::default();
-        for (lane, mark) in marks.as_mut().iter_mut().enumerate() {
-            *mark = if bits >> lane & 1 == 1 { 1.0 } else { 0.0 };
+        let mut marks = Self::Array::filled(0.0);
+        for lane in 0..Self::COUNT {
+            marks.set(lane, if bits >> lane & 1 == 1 { 1.0 } else { 0.0 });
         }
         Self::splat(token, 0.0).lt(Self::load(token, &marks))
     }
@@ -99,11 +105,9 @@ pub trait Lanes:
     fn in_order(self, order: u64) -> Self {
         let array = self.store();
         let mut ordered = array;
-        for (lane, element) in ordered.as_mut().iter_mut().enumerate() {
+        for lane in 0..Self::COUNT {
             let from = (order >> (4 * lane as u32 % u64::BITS)) as usize % 16 % Self::COUNT;
-            if let Some(value) = array.as_ref().get(from) {
-                *element = *value;
-            }
+            ordered.set(lane, array.get(from));
         }
         Self::load(self.token(), &ordered)
     }
@@ -111,21 +115,17 @@ pub trait Lanes:
     #[inline(always)]
     fn filter_greatest(self) -> f32 {
         let mut array = self.store();
-        let lanes = array.as_mut();
         let mut half = Self::COUNT / 2;
         while half > 0 {
-            let (low, high) = lanes.split_at_mut(half.min(lanes.len()));
-            for (one, other) in low.iter_mut().zip(high) {
-                if *one < *other {
-                    *one = *other;
+            for lane in 0..half {
+                let other = array.get(half + lane);
+                if array.get(lane) < other {
+                    array.set(lane, other);
                 }
             }
             half /= 2;
         }
-        match lanes.first() {
-            Some(greatest) => *greatest,
-            None => f32::NAN,
-        }
+        array.get(0)
     }
     /// Lanes `part * DoubleLanes::COUNT ..` in double precision, exactly.
     ///

@@ -2,38 +2,50 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "alloc")]
+extern crate alloc;
+#[cfg(feature = "std")]
+extern crate std;
+
 pub mod accuracy;
-mod axes;
 pub mod bvh;
-pub mod camera;
-#[cfg(feature = "dispatch")]
-pub mod dispatch;
-mod error_free;
+mod coherent;
+mod dispatch;
 mod exact;
 mod filter;
-mod float_environment;
-mod hit;
+mod geometry;
 mod intersect;
 mod lanes;
-mod ray;
-#[cfg(test)]
-mod search;
-mod sphere;
+mod linear;
+mod memory;
+mod numeric;
+mod query;
+mod slices;
 mod stages;
-pub mod tiles;
+#[cfg(test)]
+mod testing;
+mod trace;
 
-pub use accuracy::{Accuracy, Exact, Fast, Stable};
-pub use bvh::{Bvh, BvhLeaf, BvhNode, BvhSize};
-pub use camera::Camera;
-#[cfg(feature = "dispatch")]
-pub use fearless_simd;
-pub use float_environment::float_environment_is_sound;
-pub use glam::Vec3;
-pub use hit::{Hit, HitArrays, HitPacket};
-pub use intersect::{any, nearest, nearest_hit, pairs, roots};
+pub use accuracy::{Accuracy, Exact, Fast, Stable, Tier};
+#[cfg(feature = "alloc")]
+pub use bvh::SphereTree;
+pub use bvh::{Bvh, BvhLeaf, BvhNode, BvhSize, InTurn, Join};
+pub use coherent::{DepthList, Viewpoint};
+pub use dispatch::{Level, LevelName};
+pub use geometry::camera::{Camera, Projection};
+pub use geometry::hit::{Hit, HitPacket};
+pub use geometry::ray::{Ray, RayPacket};
+pub use geometry::sphere::{Sphere, SpherePacket, Spheres, SpheresError};
+#[cfg(feature = "alloc")]
+pub use geometry::sphere_list::SphereList;
+pub use glam::{Vec3, Vec4};
+pub use intersect::Intersect;
 pub use lanes::{DoubleLanes, LaneArray, LaneMask, Lanes};
-pub use ray::{Ray, RayArrays, RayPacket};
-pub use sphere::{Sphere, SphereArrays, SpherePacket, Spheres, SpheresError};
-pub use stages::{Question, Stages, stages};
-pub use tiles::{DepthOrder, Viewpoint};
+pub use linear::{pair_lanes, roots};
+pub use memory::TooSmall;
+pub use numeric::float_environment::float_environment_is_sound;
+pub use query::{AnyHit, ClosestHit, Query};
+pub use slices::{pair_packets, pairs};
+pub use stages::{Stages, stages};
+pub use trace::{Coherence, Trace};
 pub use wide::{f32x4, f32x8, f32x16};

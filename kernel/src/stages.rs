@@ -1,23 +1,20 @@
 //! How far `Exact` had to go: which share of its tests the filter did not settle, and which share
 //! double precision did not either.
 //!
-//! The same filter, limits and brackets as in [`nearest`](crate::nearest) and [`any`](crate::any),
-//! walked once more and counted; so the kernel itself holds no counters.
+//! The same filter, limits and brackets as in a traversal of [`Spheres`], gone through once more and
+//! counted; so the kernel itself holds no counters.
 
-use crate::axes::axes;
+use crate::accuracy::Exact;
+use crate::accuracy::TierWork;
 use crate::filter::GROUP;
-use crate::intersect::{Candidates, any_in_group, for_candidates, nearest_in_group};
-use crate::{Exact, HitPacket, LaneMask, Lanes, RayPacket, Spheres};
+use crate::geometry::ray::RayPacket;
+use crate::geometry::sphere::Spheres;
+use crate::lanes::{LaneMask, Lanes};
+use crate::linear::{Candidates, GroupTest, for_candidates};
+use crate::numeric::axes::axes;
+use crate::query::Query;
 use core::ops::AddAssign;
-
-/// What rays ask.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Question {
-    /// What they meet first: [`nearest`](crate::nearest).
-    Nearest,
-    /// Whether they meet anything: [`any`](crate::any).
-    Any,
-}
+use wide::f32x16;
 
 /// How many tests of a ray against a sphere reached which stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -42,71 +39,62 @@ impl AddAssign for Stages {
 /// long as the answer.
 ///
 /// The counts differ a little between instruction sets: a filter with fused operations is sharper.
+///
+/// ```
+/// use spherule_kernel::{ClosestHit, Ray, RayPacket, Spheres, Stages, Vec3, stages};
+///
+/// let spheres = Spheres::new(&[0.0], &[0.0], &[5.0], &[1.0])?;
+/// let rays = [RayPacket::new(&[Ray::new(Vec3::ZERO, Vec3::Z), Ray::new(Vec3::ZERO, Vec3::X)])];
+/// let counted = stages(ClosestHit, &rays, spheres);
+/// assert_eq!(counted, Stages { tests: 2, double: 1, expansions: 0 });
+/// # Ok::<(), spherule_kernel::SpheresError>(())
+/// ```
 #[must_use]
-pub fn stages<L: Lanes>(
-    token: L::Token,
-    rays: &[RayPacket<L>],
-    spheres: Spheres<'_>,
-    question: Question,
-) -> Stages {
+pub fn stages<Q: Query>(_query: Q, rays: &[RayPacket], spheres: Spheres<'_>) -> Stages {
     let mut sum = Stages::default();
     for packet in rays {
-        let live = (0..L::COUNT).filter(|&lane| packet.ray(lane).is_live()).count();
+        let live = (0..RayPacket::COUNT).filter(|&lane| packet.ray(lane).is_live()).count();
         sum.tests += live as u64 * spheres.len() as u64;
-        let mut walk =
-            [Walk::<L> { hit: HitPacket::<L>::none(), met: 0, stages: Stages::default() }];
-        for_candidates(
-            token,
+        let mut counted = [(Q::none::<[f32; 16]>(), Stages::default())];
+        for_candidates::<f32x16, _>(
+            (),
             core::slice::from_ref(packet),
-            &mut walk,
+            &mut counted,
             &spheres,
-            |walk| L::mask(token, walk.met),
-            |walk, candidates| {
-                walk.count(token, candidates, question);
-                match question {
-                    Question::Nearest => {
-                        nearest_in_group::<Exact, L>(token, candidates, &mut walk.hit);
-                    }
-                    Question::Any => any_in_group::<Exact, L>(token, candidates, &mut walk.met),
-                }
+            |(answer, _)| Q::done::<f32x16>((), answer),
+            |(answer, stages), candidates| {
+                count::<f32x16, Q>((), candidates, answer, stages);
+                GroupTest::<f32x16, Q> { token: (), candidates, answer }.run::<Exact>();
             },
         );
-        for walk in walk {
-            sum += walk.stages;
-        }
+        sum += counted[0].1;
     }
     sum
 }
 
-/// A packet on its way through the list.
-struct Walk<L: Lanes> {
-    /// The nearest hit so far, where that is asked.
-    hit: HitPacket<L>,
-    /// The lanes that have met something, where that is asked.
-    met: u32,
-    stages: Stages,
-}
-
-impl<L: Lanes> Walk<L> {
-    /// Counts a group of candidates, before it is resolved. Within the group, limits move as they
-    /// do when it is.
-    fn count(&mut self, token: L::Token, candidates: Candidates<'_, L>, question: Question) {
-        let Candidates { rays, filter, group, spheres, first } = candidates;
-        let mut limit = L::load(token, &self.hit.t);
-        for slot in 0..GROUP {
-            let Some(sphere) = spheres.get(first + slot) else { return };
-            let asked = rays.live & filter.may_meet(group, slot);
-            if !sphere.is_valid() || !asked.any() {
-                continue;
-            }
-            let center = axes!(i => L::splat(token, sphere.center[i]));
-            let radius = L::splat(token, sphere.radius);
-            let [double, expansions] = Exact::reached(rays, center, radius, asked, limit);
-            self.stages.double += u64::from(double.bits().count_ones());
-            self.stages.expansions += u64::from(expansions.bits().count_ones());
-            if question == Question::Nearest {
-                limit = Exact::nearer(rays, center, radius, asked, limit);
-            }
+/// Counts a group of candidates, before it is tested. Within the group, limits move as they
+/// do when it is.
+fn count<L: Lanes, Q: Query>(
+    token: L::Token,
+    candidates: Candidates<'_, L>,
+    answer: &Q::Packet<L::Array>,
+    stages: &mut Stages,
+) {
+    let Candidates { rays, filter, group, spheres, first } = candidates;
+    let mut limit = Q::limits::<L>(token, answer);
+    for slot in 0..GROUP {
+        let Some(sphere) = spheres.get(first + slot) else { return };
+        let asked = rays.live & filter.may_meet(group, slot);
+        if !sphere.is_valid() || !asked.any() {
+            continue;
+        }
+        let center = axes!(i => L::splat(token, sphere.center[i]));
+        let radius = L::splat(token, sphere.radius);
+        let [double, expansions] = Exact::reached(rays, center, radius, asked, limit);
+        stages.double += u64::from(double.bits().count_ones());
+        stages.expansions += u64::from(expansions.bits().count_ones());
+        if !Q::ANY {
+            limit = Exact::nearer(rays, center, radius, asked, limit);
         }
     }
 }
@@ -114,22 +102,25 @@ impl<L: Lanes> Walk<L> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Ray, Vec3, f32x16};
+    use crate::{AnyHit, ClosestHit, Ray, Vec3};
 
     /// Rays along z, so far from the axis: through the unit sphere, touching it, and past it.
-    fn counted(distances: &[f32], spheres: Spheres<'_>, question: Question) -> Stages {
-        let mut packet = RayPacket::<f32x16>::inactive();
+    fn counted(distances: &[f32], spheres: Spheres<'_>, query: impl Query) -> Stages {
+        let mut packet = RayPacket::inactive();
         for (lane, &x) in distances.iter().enumerate() {
             packet.set(lane, &Ray::new(Vec3::new(x, 0.0, -3.0), Vec3::Z));
         }
-        stages::<f32x16>((), &[packet], spheres, question)
+        stages(query, &[packet], spheres)
     }
 
     #[test]
     fn a_tangent_needs_expansions_and_a_clear_miss_nothing() {
         let unit = Spheres::new(&[0.0], &[0.0], &[0.0], &[1.0]).expect("one sphere");
-        for question in [Question::Nearest, Question::Any] {
-            let of = |distances: &[f32]| counted(distances, unit, question);
+        for any in [false, true] {
+            let of = |distances: &[f32]| match any {
+                false => counted(distances, unit, ClosestHit),
+                true => counted(distances, unit, AnyHit),
+            };
             assert_eq!(of(&[]), Stages::default());
             assert_eq!(of(&[5.0, -7.0]), Stages { tests: 2, double: 0, expansions: 0 });
             assert_eq!(of(&[0.3, 5.0]), Stages { tests: 2, double: 1, expansions: 0 });
@@ -142,8 +133,8 @@ mod tests {
         let z: [f32; 40] = core::array::from_fn(|i| i as f32 * 3.0);
         let (zero, r) = ([0.0; 40], [1.0; 40]);
         let row = Spheres::new(&zero, &zero, &z, &r).expect("equal lengths");
-        let nearest = counted(&[0.25], row, Question::Nearest);
-        let any = counted(&[0.25], row, Question::Any);
+        let nearest = counted(&[0.25], row, ClosestHit);
+        let any = counted(&[0.25], row, AnyHit);
         assert_eq!((nearest.tests, any.tests), (40, 40));
         assert!(nearest.double <= 2 && any.double <= 4, "{nearest:?} {any:?}");
     }

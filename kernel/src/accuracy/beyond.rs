@@ -8,8 +8,8 @@
 //! of `Stable` is off where its squares do not underflow; where |p| + r might be so small, nothing
 //! is told. The t of `Fast` may be off by anything, so `Fast` does not use it.
 
-use super::RayLanes;
-use crate::axes::{axes, dot};
+use super::roots::RayLanes;
+use crate::numeric::axes::{axes, dot};
 use crate::{LaneMask, Lanes};
 
 /// What tells whether both roots of a sphere lie past a limit.

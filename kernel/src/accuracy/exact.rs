@@ -40,10 +40,12 @@ mod estimate;
 
 use self::estimate::{Constants, Estimate};
 use super::beyond::Beyond;
-use super::{Accuracy, RayLanes, sealed};
-use crate::axes::axes;
+use super::roots::RayLanes;
+use super::tier::{Tier, TierFormula};
 use crate::exact::{Quadratic, Root};
-use crate::{DoubleLanes, LaneMask, Lanes, Ray, Sphere};
+use crate::lanes::{DoubleLanes, LaneArray, LaneMask, Lanes};
+use crate::numeric::axes::axes;
+use crate::{Ray, Sphere};
 
 /// Hits decided as in real arithmetic, t correctly rounded, for every `f32` input.
 ///
@@ -63,10 +65,8 @@ use crate::{DoubleLanes, LaneMask, Lanes, Ray, Sphere};
 #[derive(Clone, Copy, Debug)]
 pub struct Exact;
 
-impl sealed::Sealed for Exact {}
-
-impl Accuracy for Exact {
-    const NAME: &'static str = "exact";
+impl TierFormula for Exact {
+    const TIER: Tier = Tier::Exact;
     type Prepared<L: Lanes> = Beyond<L>;
 
     #[inline(always)]
@@ -122,7 +122,7 @@ impl Accuracy for Exact {
 }
 
 impl Exact {
-    /// Of the lanes `asked`, those that [`Accuracy::first_root`] takes to double precision, and of
+    /// Of the lanes `asked`, those that [`TierFormula::first_root`] takes to double precision, and of
     /// these, those that it takes to expansions.
     #[inline(always)]
     pub(crate) fn reached<L: Lanes>(
@@ -137,7 +137,7 @@ impl Exact {
         [double, double & !decided]
     }
 
-    /// `limit`, or the t of [`Accuracy::first_root`] where that is smaller.
+    /// `limit`, or the t of [`TierFormula::first_root`] where that is smaller.
     #[inline(always)]
     pub(crate) fn nearer<L: Lanes>(
         rays: &RayLanes<L>,
@@ -172,8 +172,11 @@ struct Judged<L: Lanes> {
 impl<L: Lanes> Brackets<L> {
     #[inline(always)]
     fn new(rays: &RayLanes<L>, center: [L; 3], radius: L, asked: L::Mask) -> Self {
-        let mut brackets =
-            Self { token: radius.token(), near: Default::default(), far: Default::default() };
+        let mut brackets = Self {
+            token: radius.token(),
+            near: [L::Array::filled(0.0); 2],
+            far: [L::Array::filled(0.0); 2],
+        };
         let asked = asked.bits();
         for part in 0..L::PARTS {
             let first = part * L::Double::COUNT;

@@ -4,8 +4,9 @@
 //! p.p - r^2 cancels where the sphere is far for its size, and b - sqrt D where the ray starts
 //! near the surface: that is what the tier trades for speed, and what the report counts.
 
-use super::{Accuracy, RayLanes, Roots, line_roots_of, sealed};
-use crate::axes::{axes, dot};
+use super::roots::{RayLanes, Roots, line_roots_of};
+use super::tier::{Tier, TierFormula};
+use crate::numeric::axes::{axes, dot};
 use crate::{Lanes, Ray, Sphere};
 
 /// The textbook quadratic in `f32`: wrong where `f32` is wrong.
@@ -25,10 +26,8 @@ pub struct FastRays<L> {
     per_a: L,
 }
 
-impl sealed::Sealed for Fast {}
-
-impl Accuracy for Fast {
-    const NAME: &'static str = "fast";
+impl TierFormula for Fast {
+    const TIER: Tier = Tier::Fast;
     /// D/a is off by 20 u |p|^2 + 10 u r^2 (`filter.rs`); this is 2^-9, whose square is 64 u.
     const SPREAD: f32 = 1.0 / 512.0;
     type Prepared<L: Lanes> = FastRays<L>;

@@ -27,9 +27,10 @@
 //! back.
 
 use super::beyond::Beyond;
-use super::{Accuracy, RayLanes, Roots, line_roots_of, sealed};
-use crate::axes::{axes, dot};
-use crate::error_free::{Halved, two_sum};
+use super::roots::{RayLanes, Roots, line_roots_of};
+use super::tier::{Tier, TierFormula};
+use crate::numeric::axes::{axes, dot};
+use crate::numeric::error_free::{VeltkampSplit, two_sum};
 use crate::{LaneMask, Lanes, Ray, Sphere};
 
 /// The best form that plain `f32` allows: few-ulp answers without wider arithmetic.
@@ -47,7 +48,7 @@ pub struct Stable;
 #[derive(Clone, Copy, Debug)]
 pub struct StableRays<L> {
     origin: [L; 3],
-    direction: [Halved<L>; 3],
+    direction: [VeltkampSplit<L>; 3],
     /// a = d.d of the scaled direction, and 1/a.
     a: L,
     per_a: L,
@@ -56,10 +57,8 @@ pub struct StableRays<L> {
     scale: L,
 }
 
-impl sealed::Sealed for Stable {}
-
-impl Accuracy for Stable {
-    const NAME: &'static str = "stable";
+impl TierFormula for Stable {
+    const TIER: Tier = Tier::Stable;
     type Prepared<L: Lanes> = StableRays<L>;
 
     #[inline(always)]
@@ -71,7 +70,7 @@ impl Accuracy for Stable {
         let a = dot(d, d);
         StableRays {
             origin: rays.origin,
-            direction: axes!(i => Halved::new(d[i])),
+            direction: axes!(i => VeltkampSplit::new(d[i])),
             a,
             per_a: a.like(1.0) / a,
             beyond: Beyond::new(rays),
@@ -111,7 +110,7 @@ fn roots<L: Lanes>(rays: &StableRays<L>, center: [L; 3], radius: L) -> Roots<L> 
     // Go to the middle of the chord, or near it, and find the centre from there.
     let p = axes!(i => two_sum(center[i], -o[i]));
     let middle = dot(d_value, axes!(i => p[i].0)) * per_a;
-    let halved_middle = Halved::new(middle);
+    let halved_middle = VeltkampSplit::new(middle);
     let steps = axes!(i => halved_middle.times(d[i]));
     let q = axes!(i => (p[i].0 - steps[i].0) + (p[i].1 - steps[i].1));
 
@@ -161,7 +160,7 @@ fn about_closest_point<L: Lanes>(
     offset: L,
     radius: L,
 ) -> (L, L) {
-    let halved_offset = Halved::new(offset);
+    let halved_offset = VeltkampSplit::new(offset);
     let q = axes!(i => {
         let (high, low) = two_sum(p[i].0, -steps[i].0);
         let low = low + (p[i].1 - steps[i].1);
@@ -177,10 +176,10 @@ fn about_closest_point<L: Lanes>(
 /// v.v - r^2 of two-term coordinates, with an error of some 2^-45 of its terms.
 #[inline(always)]
 fn squares_less_square<L: Lanes>(v: [(L, L); 3], radius: L) -> L {
-    let (rr, rr_low) = Halved::new(radius).squared();
+    let (rr, rr_low) = VeltkampSplit::new(radius).squared();
     let [x, y, z] = axes!(i => {
         let (high, low) = v[i];
-        let (square, error) = Halved::new(high).squared();
+        let (square, error) = VeltkampSplit::new(high).squared();
         let cross = high * low;
         (square, error + (cross + cross))
     });
@@ -210,6 +209,6 @@ mod tests {
     fn a_tangent_at_the_origin_has_two_roots_of_zero() {
         let ray = Ray::new(Vec3::new(0.0, 33_554_432.0, 0.0), Vec3::new(7.0, 0.0, 0.0));
         let sphere = Sphere { center: Vec3::new(0.0, 16_777_216.0, 0.0), radius: 16_777_216.0 };
-        assert_eq!(roots::<Stable>(&ray, &sphere), Some([0.0, 0.0]));
+        assert_eq!(roots(Stable, &ray, &sphere), Some([0.0, 0.0]));
     }
 }

@@ -1,15 +1,22 @@
-//! The walks of every tier at every level, compiled once, here.
+//! Every traversal at every level, compiled once, here.
 //!
-//! What is generic is compiled where it is used, in every program and every test that does; and
-//! three tiers at three levels take minutes. The functions of an `impl` for one type are not
-//! generic: they are compiled with this crate, and the generic functions of
-//! [`dispatch`](crate::dispatch) only call them.
+//! What is generic is compiled where it is used, in every program and every test that does; the
+//! functions of an `impl` for one type are compiled with this crate, and the generic methods of
+//! [`Intersect`](crate::Intersect) only call them. So a crate of a user's has them at full speed
+//! whatever its profile says, and tiers are values here.
 
-use super::{Level, Packet};
-use crate::{
-    Accuracy, Bvh, DepthOrder, Exact, Fast, HitPacket, Lanes, RayPacket, SpherePacket, Spheres,
-    Stable, bvh, tiles,
-};
+use super::Level;
+use crate::accuracy::Tier;
+use crate::bvh::traverse::wavefront;
+use crate::bvh::tree::Bvh;
+use crate::coherent::depth_list::DepthList;
+use crate::coherent::{list_source, tree_source};
+use crate::geometry::hit::HitPacket;
+use crate::geometry::ray::RayPacket;
+use crate::geometry::sphere::{SpherePacket, Spheres};
+use crate::linear;
+use crate::query::{Answers, AnyHit, ClosestHit};
+use crate::trace::Coherence;
 use fearless_simd::{Simd, f32x16};
 
 /// Does `work` in a function that is compiled for `level`, with its token: of the levels of x86
@@ -42,93 +49,131 @@ macro_rules! at_level {
     };
 }
 
-/// A trait of functions at a level, and its implementation for every tier by functions that are
-/// generic over tier and lanes.
+/// The traversals of a query, for packets of sixteen lanes.
+pub trait Compiled: Answers {
+    /// Of a list of spheres.
+    fn list(
+        level: Level,
+        tier: Tier,
+        spheres: Spheres<'_>,
+        rays: &[RayPacket],
+        answers: &mut [Self::Packet<[f32; 16]>],
+    );
+
+    /// Of a tree, as the rays are `coherent` or not.
+    fn tree(
+        level: Level,
+        tier: Tier,
+        bvh: &Bvh<'_>,
+        coherence: Coherence,
+        rays: &[RayPacket],
+        answers: &mut [Self::Packet<[f32; 16]>],
+    );
+
+    /// Of a depth list.
+    fn depth_list(
+        level: Level,
+        tier: Tier,
+        list: &DepthList<'_>,
+        scratch: &mut [f32],
+        rays: &[RayPacket],
+        answers: &mut [Self::Packet<[f32; 16]>],
+    );
+}
+
 macro_rules! compiled {
-    (@trait $(fn $name:ident = $($walk:ident)::+($($argument:ident: $type:ty),*);)*) => {
-        /// What a tier does at a level.
-        pub trait Compiled {
-            $(
-                #[doc = concat!("`", stringify!($($walk)::+), "`")]
-                fn $name(level: Level, $($argument: $type),*);
-            )*
-        }
-    };
-    (@tier $tier:ident $(fn $name:ident = $($walk:ident)::+($($argument:ident: $type:ty),*);)*) => {
-        impl Compiled for $tier {
-            $(
-                #[inline(never)]
-                fn $name(level: Level, $($argument: $type),*) {
-                    #[inline(always)]
-                    fn at<S: Simd>(simd: S, $($argument: $type),*) {
-                        $($walk)::+::<$tier, f32x16<S>>(simd, $($argument),*);
-                    }
-                    at_level!(level.0, simd => at(simd, $($argument),*));
+    ($query:ident, $packet:ty) => {
+        impl Compiled for $query {
+            #[inline(never)]
+            fn list(
+                level: Level,
+                tier: Tier,
+                spheres: Spheres<'_>,
+                rays: &[RayPacket],
+                answers: &mut [$packet],
+            ) {
+                #[inline(always)]
+                fn at<S: Simd>(
+                    simd: S,
+                    tier: Tier,
+                    spheres: Spheres<'_>,
+                    rays: &[RayPacket],
+                    answers: &mut [$packet],
+                ) {
+                    linear::traverse::<f32x16<S>, $query>(tier, simd, spheres, rays, answers);
                 }
-            )*
+                at_level!(level.0, simd => at(simd, tier, spheres, rays, answers));
+            }
+
+            #[inline(never)]
+            fn tree(
+                level: Level,
+                tier: Tier,
+                bvh: &Bvh<'_>,
+                coherence: Coherence,
+                rays: &[RayPacket],
+                answers: &mut [$packet],
+            ) {
+                #[inline(always)]
+                fn at<S: Simd>(
+                    simd: S,
+                    tier: Tier,
+                    bvh: &Bvh<'_>,
+                    coherence: Coherence,
+                    rays: &[RayPacket],
+                    answers: &mut [$packet],
+                ) {
+                    if coherence == Coherence::Incoherent {
+                        wavefront::traverse::<f32x16<S>, $query>(tier, simd, bvh, rays, answers);
+                    } else {
+                        let detect = coherence == Coherence::Detect;
+                        tree_source::traverse::<f32x16<S>, $query>(
+                            tier, simd, bvh, detect, rays, answers,
+                        );
+                    }
+                }
+                at_level!(level.0, simd => at(simd, tier, bvh, coherence, rays, answers));
+            }
+
+            #[inline(never)]
+            fn depth_list(
+                level: Level,
+                tier: Tier,
+                list: &DepthList<'_>,
+                scratch: &mut [f32],
+                rays: &[RayPacket],
+                answers: &mut [$packet],
+            ) {
+                #[inline(always)]
+                fn at<S: Simd>(
+                    simd: S,
+                    tier: Tier,
+                    list: &DepthList<'_>,
+                    scratch: &mut [f32],
+                    rays: &[RayPacket],
+                    answers: &mut [$packet],
+                ) {
+                    list_source::traverse::<f32x16<S>, $query>(
+                        tier, simd, list, scratch, rays, answers,
+                    );
+                }
+                at_level!(level.0, simd => at(simd, tier, list, scratch, rays, answers));
+            }
         }
     };
-    ($($functions:tt)*) => {
-        compiled!(@trait $($functions)*);
-        compiled!(@tier Fast $($functions)*);
-        compiled!(@tier Stable $($functions)*);
-        compiled!(@tier Exact $($functions)*);
-    };
 }
 
-compiled! {
-    fn nearest = crate::nearest(
-        rays: &[RayPacket<Packet>], spheres: Spheres<'_>, hits: &mut [HitPacket<Packet>]
-    );
-    fn any = crate::any(rays: &[RayPacket<Packet>], spheres: Spheres<'_>, met: &mut [u32]);
-    fn pairs = each_pair(
-        rays: &[RayPacket<Packet>],
-        spheres: &[SpherePacket<Packet>],
-        hits: &mut [HitPacket<Packet>]
-    );
-    fn tree_nearest = bvh::nearest(
-        rays: &[RayPacket<Packet>],
-        spheres: Spheres<'_>,
-        bvh: &Bvh<'_>,
-        hits: &mut [HitPacket<Packet>]
-    );
-    fn tree_any = bvh::any(
-        rays: &[RayPacket<Packet>], spheres: Spheres<'_>, bvh: &Bvh<'_>, met: &mut [u32]
-    );
-    fn tree_nearest_coherent = bvh::nearest_coherent(
-        rays: &[RayPacket<Packet>],
-        spheres: Spheres<'_>,
-        bvh: &Bvh<'_>,
-        hits: &mut [HitPacket<Packet>]
-    );
-    fn tree_any_coherent = bvh::any_coherent(
-        rays: &[RayPacket<Packet>], spheres: Spheres<'_>, bvh: &Bvh<'_>, met: &mut [u32]
-    );
-    fn tiles_nearest = tiles::nearest(
-        rays: &[RayPacket<Packet>],
-        spheres: Spheres<'_>,
-        order: &DepthOrder<'_>,
-        lists: &mut [u32],
-        hits: &mut [HitPacket<Packet>]
-    );
-    fn tiles_any = tiles::any(
-        rays: &[RayPacket<Packet>],
-        spheres: Spheres<'_>,
-        order: &DepthOrder<'_>,
-        lists: &mut [u32],
-        met: &mut [u32]
-    );
-}
+compiled!(ClosestHit, HitPacket);
+compiled!(AnyHit, u32);
 
-/// [`crate::pairs`], packet by packet.
-#[inline(always)]
-fn each_pair<A: Accuracy, L: Lanes>(
-    token: L::Token,
-    rays: &[RayPacket<L>],
-    spheres: &[SpherePacket<L>],
-    hits: &mut [HitPacket<L>],
+/// [`pair_lanes`](crate::pair_lanes), packet by packet.
+#[inline(never)]
+pub(crate) fn pairs(
+    level: Level,
+    tier: Tier,
+    rays: &[RayPacket],
+    spheres: &[SpherePacket],
+    hits: &mut [HitPacket],
 ) {
-    for ((rays, spheres), hits) in rays.iter().zip(spheres).zip(hits) {
-        *hits = crate::pairs::<A, L>(token, rays, spheres);
-    }
+    at_level!(level.0, simd => linear::each_pair::<f32x16<_>>(tier, simd, rays, spheres, hits));
 }

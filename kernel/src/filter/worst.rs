@@ -7,9 +7,9 @@
 extern crate std;
 
 use super::{FilterBlock, FilterRays, KAPPA};
-use crate::accuracy::RayLanes;
-use crate::search::{Random, climb};
-use crate::{Accuracy, Exact, Fast, Ray, RayPacket, Sphere, Spheres, Stable, Vec3, roots};
+use crate::accuracy::{RayLanes, TierFormula};
+use crate::testing::climb::{Random, climb};
+use crate::{Exact, Fast, Ray, RayPacket, Sphere, Spheres, Stable, Vec3, roots};
 use std::println;
 
 /// Origin, direction, centre, radius, and the centre of the sphere's neighbours, where the filter
@@ -38,14 +38,14 @@ fn with_filter<R>(
     let r = column(sphere.radius, 0.0);
     let spheres = Spheres::new(&x, &y, &z, &r).expect("equal lengths");
     let block = FilterBlock::widened(&spheres, 0, kappa);
-    let rays = RayLanes::<f32>::load((), &RayPacket::<f32>::new(&[line]));
+    let rays = RayLanes::<f32>::load((), &RayPacket::<[f32; 1]>::new(&[line]));
     ask(&FilterRays::widened((), &rays, &block, kappa), &block)
 }
 
 /// The kappa that the case needs, over KAPPA; nothing where the tier sees no hit.
-fn needed<A: Accuracy>(numbers: &Numbers) -> f64 {
+fn needed<A: TierFormula>(numbers: &Numbers) -> f64 {
     let (line, sphere, _) = case(numbers);
-    if roots::<A>(&line, &sphere).is_none() {
+    if roots(A::TIER, &line, &sphere).is_none() {
         return f64::NEG_INFINITY;
     }
     with_filter(numbers, 0.0, |rays, block| {
@@ -92,9 +92,9 @@ fn start(random: &mut Random) -> Numbers {
     [ox, oy, oz, dx, dy, dz, cx, cy, cz, radius.abs(), kx, ky, kz]
 }
 
-fn worst<A: Accuracy>() -> (f64, Numbers) {
+fn worst<A: TierFormula>() -> (f64, Numbers) {
     let worst = climb(5, 1500, 400, start, needed::<A>);
-    println!("{}: {:.3} of kappa needed", A::NAME, worst.0);
+    println!("{}: {:.3} of kappa needed", A::TIER.as_str(), worst.0);
     assert!(passes(&worst.1, KAPPA), "dropped: {:?}", worst.1);
     worst
 }
@@ -104,7 +104,7 @@ fn worst<A: Accuracy>() -> (f64, Numbers) {
 /// error is a 2^-26th of such a D.
 fn fast_row(numbers: &Numbers) -> f64 {
     let (line, sphere, _) = case(numbers);
-    if roots::<Fast>(&line, &sphere).is_none() {
+    if roots(Fast, &line, &sphere).is_none() {
         return f64::NEG_INFINITY;
     }
     let (o, d) = (line.origin.to_array(), line.direction.to_array().map(f64::from));
@@ -150,9 +150,9 @@ fn nothing_near_the_threshold_is_dropped() {
             numbers[index] *= scale;
         }
         let (line, sphere, _) = case(&numbers);
-        let met = roots::<Fast>(&line, &sphere).is_some()
-            || roots::<Stable>(&line, &sphere).is_some()
-            || roots::<Exact>(&line, &sphere).is_some();
+        let met = roots(Fast, &line, &sphere).is_some()
+            || roots(Stable, &line, &sphere).is_some()
+            || roots(Exact, &line, &sphere).is_some();
         hits += u32::from(met);
         assert!(!met || !line.is_live() || passes(&numbers, KAPPA), "dropped: {numbers:?}");
     }

@@ -2,8 +2,8 @@
 
 extern crate std;
 
-use super::{DoubleLanes, LaneMask, Lanes};
-use crate::search::Random;
+use super::{DoubleLanes, LaneArray, LaneMask, Lanes};
+use crate::testing::climb::Random;
 use crate::{f32x4, f32x8, f32x16};
 use std::vec::Vec;
 
@@ -38,7 +38,7 @@ fn same(lane: f32, scalar: f32) -> bool {
 }
 
 fn array<L: Lanes>(numbers: &[f32]) -> L::Array {
-    let mut array = L::Array::default();
+    let mut array = L::Array::filled(0.0);
     array.as_mut().copy_from_slice(numbers);
     array
 }

@@ -7,10 +7,10 @@
 extern crate std;
 
 use super::{Beyond, LEAST_A, MARGIN, RAISE};
-use crate::accuracy::RayLanes;
-use crate::axes::dot;
-use crate::search::{Random, climb};
-use crate::{Accuracy, Exact, Ray, RayPacket, Sphere, Stable, Vec3, roots};
+use crate::accuracy::{RayLanes, TierFormula};
+use crate::numeric::axes::dot;
+use crate::testing::climb::{Random, climb};
+use crate::{Exact, Ray, RayPacket, Sphere, Stable, Vec3, roots};
 use std::println;
 
 type Numbers = [f32; 10];
@@ -23,14 +23,14 @@ fn case(numbers: &Numbers) -> (Ray, Sphere) {
 }
 
 /// The part of the margin that is used with the root `which` as the limit.
-fn used<A: Accuracy>(numbers: &Numbers, which: usize) -> f64 {
+fn used<A: TierFormula>(numbers: &Numbers, which: usize) -> f64 {
     let (line, sphere) = case(numbers);
-    let Some(roots) = roots::<A>(&line, &sphere) else { return f64::NEG_INFINITY };
-    let rays = RayLanes::<f32>::load((), &RayPacket::<f32>::new(&[line]));
+    let Some(roots) = A::line_roots(&line, &sphere) else { return f64::NEG_INFINITY };
+    let rays = RayLanes::<f32>::load((), &RayPacket::<[f32; 1]>::new(&[line]));
     let beyond = Beyond::new(&rays);
     let limit = roots[which];
     let told = beyond.limit(&rays, sphere.center.to_array(), sphere.radius, limit);
-    assert!(!told, "{} at {limit:e} is dropped: {numbers:?}", A::NAME);
+    assert!(!told, "{} at {limit:e} is dropped: {numbers:?}", A::TIER.as_str());
     let terms = beyond.terms(&rays, sphere.center.to_array(), sphere.radius, limit);
     let [end, size, b, _] = terms.map(f64::from);
     let entry = b - discriminant(&line, &sphere).max(0.0).sqrt();
@@ -51,7 +51,7 @@ fn discriminant(line: &Ray, sphere: &Sphere) -> f64 {
 /// The part of what D is raised by that its error uses.
 fn raised(numbers: &Numbers) -> f64 {
     let (line, sphere) = case(numbers);
-    let rays = RayLanes::<f32>::load((), &RayPacket::<f32>::new(&[line]));
+    let rays = RayLanes::<f32>::load((), &RayPacket::<[f32; 1]>::new(&[line]));
     let beyond = Beyond::new(&rays);
     let terms = beyond.terms(&rays, sphere.center.to_array(), sphere.radius, 0.0);
     let [_, size, _, computed] = terms.map(f64::from);
@@ -87,8 +87,8 @@ fn the_raise_covers_the_error_of_the_discriminant() {
 #[test]
 fn the_margin_covers_roots_at_the_limit() {
     for (name, worst) in [
-        (Exact::NAME, climb(7, 1500, 300, start, |numbers| used::<Exact>(numbers, 0)).0),
-        (Stable::NAME, climb(8, 1500, 300, start, |numbers| used::<Stable>(numbers, 0)).0),
+        ("exact", climb(7, 1500, 300, start, |numbers| used::<Exact>(numbers, 0)).0),
+        ("stable", climb(8, 1500, 300, start, |numbers| used::<Stable>(numbers, 0)).0),
     ] {
         println!("{name}: {worst:.3} of the margin used");
         assert!(0.125 < worst && worst <= 1.0, "{name}: {worst}");
@@ -115,9 +115,9 @@ fn no_root_up_to_the_limit_is_dropped() {
         if !line.is_live() || !sphere.is_valid() {
             continue;
         }
-        let Some(roots) = roots::<Exact>(&line, &sphere) else { continue };
+        let Some(roots) = roots(Exact, &line, &sphere) else { continue };
         met += 1;
-        let rays = RayLanes::<f32>::load((), &RayPacket::<f32>::new(&[line]));
+        let rays = RayLanes::<f32>::load((), &RayPacket::<[f32; 1]>::new(&[line]));
         let beyond = Beyond::new(&rays);
         for limit in [roots[0], roots[0].next_up(), roots[1], f32::MAX, f32::INFINITY] {
             let told = beyond.limit(&rays, sphere.center.to_array(), sphere.radius, limit);

@@ -2,7 +2,7 @@
 //! [`exact`](super) proves.
 
 use crate::DoubleLanes;
-use crate::axes::{axes, dot};
+use crate::numeric::axes::{axes, dot};
 
 /// u, of double precision.
 const U: f64 = f64::EPSILON / 2.0;

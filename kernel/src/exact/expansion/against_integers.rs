@@ -3,7 +3,7 @@
 extern crate std;
 
 use super::{Expansion, two_product, two_sum};
-use crate::search::Random;
+use crate::testing::climb::Random;
 use core::cmp::Ordering;
 use num_bigint::BigInt;
 use std::vec::Vec;

@@ -9,7 +9,7 @@ extern crate std;
 
 use super::{Quadratic, Root};
 use crate::exact::expansion::Float;
-use crate::search::{Random, climb};
+use crate::testing::climb::{Random, climb};
 use core::cell::Cell;
 use core::hint::black_box;
 use core::ops::{Add, Mul, Neg, Sub};

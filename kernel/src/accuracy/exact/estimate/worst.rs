@@ -21,7 +21,7 @@ extern crate std;
 
 use super::{Constants, Estimate};
 use crate::exact::Expansion;
-use crate::search::{Random, climb};
+use crate::testing::climb::{Random, climb};
 use std::println;
 
 type Numbers = [f32; 10];

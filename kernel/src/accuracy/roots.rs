@@ -1,0 +1,77 @@
+//! Rays in registers, and the roots that a tier finds on their lines.
+
+use crate::geometry::ray::RayPacket;
+use crate::numeric::axes::axes;
+use crate::{Lanes, Ray};
+
+/// The rays of a packet in registers, as the tiers read them.
+#[derive(Clone, Copy, Debug)]
+pub struct RayLanes<L: Lanes> {
+    pub(crate) origin: [L; 3],
+    pub(crate) direction: [L; 3],
+    pub(crate) t_min: L,
+    pub(crate) t_max: L,
+    /// Rule 1 for rays, and an interval that is not empty.
+    pub(crate) live: L::Mask,
+}
+
+impl<L: Lanes> RayLanes<L> {
+    #[inline(always)]
+    pub(crate) fn load(token: L::Token, packet: &RayPacket<L::Array>) -> Self {
+        let origin = axes!(i => L::load(token, &packet.origin[i]));
+        let direction = axes!(i => L::load(token, &packet.direction[i]));
+        let (t_min, t_max) = (L::load(token, &packet.t_min), L::load(token, &packet.t_max));
+
+        let zero = L::splat(token, 0.0);
+        let along = axes!(i => direction[i].lt(zero) | zero.lt(direction[i]));
+        let directed = along[0] | along[1] | along[2];
+        let live = all_finite(origin) & all_finite(direction) & directed & t_min.le(t_max);
+        Self { origin, direction, t_min, t_max, live }
+    }
+
+    /// Rule 3.
+    #[inline(always)]
+    pub(super) fn accept(&self, t: L) -> L::Mask {
+        self.t_min.le(t) & t.le(self.t_max) & t.abs().le(t.like(f32::MAX))
+    }
+}
+
+/// Neither NaN nor infinite in any component.
+#[inline(always)]
+pub(crate) fn all_finite<L: Lanes>(v: [L; 3]) -> L::Mask {
+    let largest = v[0].like(f32::MAX);
+    v[0].abs().le(largest) & v[1].abs().le(largest) & v[2].abs().le(largest)
+}
+
+/// Where the lines of a packet meet a sphere, as a tier computed it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Roots<L: Lanes> {
+    /// Whether the line meets the sphere at all; tangents do.
+    pub(super) meets: L::Mask,
+    /// The smaller root; unspecified if the line does not meet the sphere.
+    pub(super) near: L,
+    /// The larger root.
+    pub(super) far: L,
+}
+
+impl<L: Lanes> Roots<L> {
+    /// The accepted t of rules 2 to 4, `+inf` if there is none.
+    #[inline(always)]
+    pub(super) fn first_accepted(&self, rays: &RayLanes<L>) -> L {
+        // Adding zero turns -0 into +0.
+        let zero = self.near.like(0.0);
+        let (near, far) = (self.near + zero, self.far + zero);
+        let far = L::select(self.meets & rays.accept(far), far, zero.like(f32::INFINITY));
+        L::select(self.meets & rays.accept(near), near, far)
+    }
+}
+
+/// Both roots of one line, by the lanes of a tier that computes both roots always.
+#[inline(always)]
+pub(super) fn line_roots_of(
+    roots: impl Fn(&RayLanes<f32>) -> Roots<f32>,
+    ray: &Ray,
+) -> Option<[f32; 2]> {
+    let roots = roots(&RayLanes::load((), &RayPacket::<[f32; 1]>::new(&[*ray])));
+    roots.meets.then_some([roots.near + 0.0, roots.far + 0.0])
+}

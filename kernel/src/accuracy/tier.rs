@@ -1,0 +1,196 @@
+//! The choice of a tier: by type at build time, or by value at run time.
+//!
+//! Traversals are compiled once, not once a tier: what a tier changes in them is one number, its
+//! [`spread`](TierFormula::SPREAD). The tests of spheres are compiled for each tier, as a [`TierWork`],
+//! and the tier chooses among them: at build time if it is a type, by one branch if it is a [`Tier`].
+
+use super::roots::RayLanes;
+use super::{Exact, Fast, Stable};
+use crate::{Lanes, Ray, Sphere};
+use core::fmt::{Debug, Formatter};
+
+/// The formula of a tier.
+pub trait TierFormula: Copy + Debug {
+    /// The tier as a value.
+    const TIER: Tier;
+
+    /// How far off the tier may be beside the few ulp of s that are allowed to all: as if r^2
+    /// were changed by up to (`SPREAD` (|p| + r))^2. Zero except for [`Fast`].
+    const SPREAD: f32 = 0.0;
+
+    /// What the tier computes once a packet.
+    type Prepared<L: Lanes>: Copy;
+
+    /// Computes what depends on the rays alone.
+    fn prepare<L: Lanes>(rays: &RayLanes<L>) -> Self::Prepared<L>;
+
+    /// The t of rules 2 to 4 for one sphere a lane, `+inf` if there is none.
+    ///
+    /// Read only in the lanes `asked`, where ray and sphere are valid; may be `+inf` where t is
+    /// larger than `limit`. Every bit pattern must return.
+    fn first_root<L: Lanes>(
+        rays: &RayLanes<L>,
+        prepared: &Self::Prepared<L>,
+        center: [L; 3],
+        radius: L,
+        asked: L::Mask,
+        limit: L,
+    ) -> L;
+
+    /// Both roots of the line of a valid ray and a valid sphere, the smaller first, never -0.
+    fn line_roots(ray: &Ray, sphere: &Sphere) -> Option<[f32; 2]>;
+}
+
+/// Work that is compiled once a tier.
+pub trait TierWork {
+    /// What comes of it.
+    type Output;
+    /// Does the work by the formula of one tier.
+    fn run<F: TierFormula>(self) -> Self::Output;
+}
+
+mod sealed {
+    /// Calls the formula of a tier.
+    pub trait Chosen: Copy {
+        /// [`TierFormula::SPREAD`](super::TierFormula::SPREAD).
+        fn spread(self) -> f32;
+        /// Does `work` by the formula of the tier.
+        fn with_formula<W: super::TierWork>(self, work: W) -> W::Output;
+    }
+}
+
+/// A tier: [`Fast`], [`Stable`] or [`Exact`], known at build time, or a [`Tier`], known at run time.
+///
+/// Sealed: the scene structures prove their bounds tier by tier.
+pub trait Accuracy: sealed::Chosen + Copy + Debug {
+    /// The tier as a value.
+    fn tier(self) -> Tier;
+}
+
+impl<F: TierFormula> sealed::Chosen for F {
+    #[inline(always)]
+    fn spread(self) -> f32 {
+        F::SPREAD
+    }
+
+    #[inline(always)]
+    fn with_formula<W: TierWork>(self, work: W) -> W::Output {
+        work.run::<F>()
+    }
+}
+
+impl<F: TierFormula> Accuracy for F {
+    #[inline(always)]
+    fn tier(self) -> Tier {
+        F::TIER
+    }
+}
+
+/// A tier that is chosen at run time.
+///
+/// ```
+/// use spherule_kernel::{Accuracy, Exact, Tier};
+///
+/// assert_eq!(Tier::ALL.map(Tier::as_str), ["fast", "stable", "exact"]);
+/// assert_eq!(Exact.tier(), Tier::Exact);
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Tier {
+    /// [`Fast`].
+    Fast,
+    /// [`Stable`].
+    Stable,
+    /// [`Exact`].
+    Exact,
+}
+
+impl Tier {
+    /// Every tier, the fastest first.
+    pub const ALL: [Self; 3] = [Self::Fast, Self::Stable, Self::Exact];
+
+    /// The name on the command line and in reports.
+    #[must_use]
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::Fast => "fast",
+            Self::Stable => "stable",
+            Self::Exact => "exact",
+        }
+    }
+}
+
+/// Its name.
+impl Debug for Tier {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> core::fmt::Result {
+        formatter.write_str(self.as_str())
+    }
+}
+
+impl sealed::Chosen for Tier {
+    #[inline(always)]
+    fn spread(self) -> f32 {
+        match self {
+            Self::Fast => Fast::SPREAD,
+            Self::Stable => Stable::SPREAD,
+            Self::Exact => Exact::SPREAD,
+        }
+    }
+
+    #[inline(always)]
+    fn with_formula<W: TierWork>(self, work: W) -> W::Output {
+        match self {
+            Self::Fast => work.run::<Fast>(),
+            Self::Stable => work.run::<Stable>(),
+            Self::Exact => work.run::<Exact>(),
+        }
+    }
+}
+
+impl Accuracy for Tier {
+    #[inline(always)]
+    fn tier(self) -> Tier {
+        self
+    }
+}
+
+/// Tests one sphere a lane: t if there is a hit in a lane that is `asked`, else `+inf`.
+///
+/// The one place where scene structures do so, and a function of its own for each tier: a tier is long,
+/// and would be compiled into every traversal several times.
+#[inline(always)]
+pub(crate) fn test_lanes<L: Lanes>(
+    tier: impl Accuracy,
+    rays: &RayLanes<L>,
+    center: [L; 3],
+    radius: L,
+    asked: L::Mask,
+    limit: L,
+) -> L {
+    tier.with_formula(LaneTest { rays, center, radius, asked, limit })
+}
+
+/// The arguments of [`test_lanes`].
+struct LaneTest<'a, L: Lanes> {
+    rays: &'a RayLanes<L>,
+    center: [L; 3],
+    radius: L,
+    asked: L::Mask,
+    limit: L,
+}
+
+impl<L: Lanes> TierWork for LaneTest<'_, L> {
+    type Output = L;
+
+    #[inline(always)]
+    fn run<F: TierFormula>(self) -> L {
+        let Self { rays, center, radius, asked, limit } = self;
+        L::out_of_line(
+            limit.token(),
+            #[inline(always)]
+            || {
+                let t = F::first_root(rays, &F::prepare(rays), center, radius, asked, limit);
+                L::select(asked, t, limit.like(f32::INFINITY))
+            },
+        )
+    }
+}

@@ -1,0 +1,12 @@
+//! One ray's way through the tree: `wavefront` -> `in_flight` -> `prepared_ray` -> `ray_state` ->
+//! `root_interval` -> `deferred`, whence the tier.
+
+pub(crate) mod deferred;
+mod few;
+mod in_flight;
+mod prefetch;
+pub(crate) mod prepared_ray;
+mod ray_state;
+pub(crate) mod root_interval;
+mod stack;
+pub(crate) mod wavefront;

@@ -1,0 +1,224 @@
+//! The packets whose rays are in flight, how the next ray begins, and what every ray does next: the
+//! rounds of a traversal.
+
+use super::deferred::{RayPlace, test_outside};
+use super::prepared_ray::PreparedPacket;
+use super::ray_state::RayState;
+use crate::Accuracy;
+use crate::accuracy::RayLanes;
+use crate::bvh::node::{LEAF, NO_CHILD};
+use crate::bvh::tree::Bvh;
+use crate::geometry::hit::{Hit, HitPacket};
+use crate::geometry::ray::RayPacket;
+use crate::lanes::{LaneArray, LaneMask, Lanes};
+use crate::linear;
+use crate::query::{ClosestHit, Query};
+
+/// The packets whose rays are in flight.
+pub(crate) struct PacketsInFlight<A: LaneArray> {
+    prepared: A::Each<PreparedPacket<A>>,
+    /// How many rays of each have not ended.
+    in_flight: A::Each<u32>,
+    /// The one that rays begin from, and which rays of it have yet to.
+    current: u32,
+    waiting: u32,
+    /// The packet that comes next.
+    next: usize,
+}
+
+impl<A: LaneArray> PacketsInFlight<A> {
+    #[inline(always)]
+    pub(crate) fn none() -> Self {
+        let (prepared, in_flight) = (A::each(PreparedPacket::none()), A::each(0));
+        Self { prepared, in_flight, current: 0, waiting: 0, next: 0 }
+    }
+
+    #[inline(always)]
+    pub(crate) fn prepared(&self, state: &RayState) -> Option<&PreparedPacket<A>> {
+        self.prepared.as_ref().get(state.packet as usize)
+    }
+
+    /// Begins the next ray, if there is any.
+    #[inline(always)]
+    pub(crate) fn begin<L: Lanes<Array = A>, Q: Query>(
+        &mut self,
+        tier: impl Accuracy,
+        token: L::Token,
+        (packets, bvh): (&[RayPacket<A>], &Bvh<'_>),
+        state: &mut RayState,
+        answers: &mut [Q::Packet<A>],
+    ) -> bool {
+        while self.waiting == 0 {
+            let (Some(rays), Some(answer)) = (packets.get(self.next), answers.get_mut(self.next))
+            else {
+                return false;
+            };
+            // One is free: this ray's place is, and as many others there are as rays in flight.
+            let places = self.in_flight.as_ref();
+            for number in 0..places.len() {
+                if places[number] == 0 {
+                    self.current = number as u32;
+                }
+            }
+            if let (Some(prepared), Some(in_flight)) = (
+                self.prepared.as_mut().get_mut(self.current as usize),
+                self.in_flight.as_mut().get_mut(self.current as usize),
+            ) {
+                begin::<L, Q>(tier, token, rays, bvh, prepared, answer);
+                self.waiting = prepared.covered;
+                *in_flight = prepared.covered.count_ones();
+            }
+            self.next += 1;
+        }
+        let lane = self.waiting.trailing_zeros() as usize;
+        let ray = RayPlace { packet: self.next - 1, lane };
+        self.waiting &= self.waiting - 1;
+        if let Some(prepared) = self.prepared.as_ref().get(self.current as usize) {
+            state.begin(prepared, self.current, ray, bvh.root);
+        }
+        true
+    }
+
+    /// Counts a ray that has ended; its state is nobody's then.
+    #[inline(always)]
+    pub(crate) fn end(&mut self, state: &mut RayState) {
+        let ended = state.packet as usize;
+        state.packet = RayState::NEW.packet;
+        if let Some(in_flight) = self.in_flight.as_mut().get_mut(ended) {
+            *in_flight = in_flight.saturating_sub(1);
+        }
+    }
+}
+
+/// Prepares the rays of a packet, and answers for those that do not go into the tree.
+#[inline(always)]
+pub(crate) fn begin<L: Lanes, Q: Query>(
+    tier: impl Accuracy,
+    token: L::Token,
+    packet: &RayPacket<L::Array>,
+    bvh: &Bvh<'_>,
+    prepared: &mut PreparedPacket<L::Array>,
+    answer: &mut Q::Packet<L::Array>,
+) {
+    *answer = Q::none::<L::Array>();
+    let rays = RayLanes::<L>::load(token, packet);
+    prepared.prepare::<L>(&rays, bvh.extent, tier.spread());
+    let rest = rays.live.bits() & !prepared.covered;
+    if rest != 0 {
+        test_all::<L, Q>(tier, token, packet, bvh, rest, answer);
+    }
+    if !bvh.outside.is_empty() {
+        let covered = prepared.covered;
+        L::out_of_line(
+            token,
+            #[inline(always)]
+            || test_outside::<L, Q>(tier, &rays, bvh, covered, answer),
+        );
+        for lane in 0..L::COUNT {
+            prepared.shorten(lane, Q::limit::<L::Array>(answer, lane));
+        }
+    }
+    if bvh.root == NO_CHILD {
+        prepared.covered = 0;
+    }
+}
+
+/// Rays that the bounds do not cover, those in `lanes`, against all spheres.
+#[inline(always)]
+fn test_all<L: Lanes, Q: Query>(
+    tier: impl Accuracy,
+    token: L::Token,
+    packet: &RayPacket<L::Array>,
+    bvh: &Bvh<'_>,
+    lanes: u32,
+    answer: &mut Q::Packet<L::Array>,
+) {
+    let asked = L::mask(token, lanes);
+    let mut rays = *packet;
+    let never = L::splat(token, f32::NAN);
+    rays.t_min = L::select(asked, L::load(token, &rays.t_min), never).store();
+    let mut found = [HitPacket::none()];
+    linear::traverse::<L, ClosestHit>(tier, token, bvh.spheres, &[rays], &mut found);
+    let [found] = found;
+    for lane in 0..L::COUNT {
+        let t = found.t.get(lane);
+        if lanes >> lane & 1 == 1
+            && t < f32::INFINITY
+            && let Some(&sphere) = found.sphere.as_ref().get(lane)
+        {
+            Q::take::<L::Array>(answer, lane, Hit { t, sphere });
+        }
+    }
+}
+
+/// A ray in flight, and the node or leaf that it looks into next.
+#[derive(Clone, Copy)]
+pub(crate) struct Step {
+    pub(crate) state: u32,
+    pub(crate) child: u32,
+}
+
+impl Step {
+    const NONE: Self = Self { state: 0, child: NO_CHILD };
+}
+
+/// Steps, one a ray in flight at most.
+pub(crate) struct Steps<A: LaneArray> {
+    steps: A::Each<Step>,
+    pub(crate) count: usize,
+}
+
+impl<A: LaneArray> Steps<A> {
+    #[inline(always)]
+    fn none() -> Self {
+        Self { steps: A::each(Step::NONE), count: 0 }
+    }
+
+    /// Adds a step if it is `wanted`, without a branch.
+    #[inline(always)]
+    pub(crate) fn append(&mut self, step: Step, wanted: bool) {
+        if let Some(place) = self.steps.as_mut().get_mut(self.count % A::COUNT) {
+            *place = step;
+            self.count += usize::from(wanted);
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn get(&self, at: usize) -> Step {
+        match self.steps.as_ref().get(at % A::COUNT) {
+            Some(step) => *step,
+            None => Step::NONE,
+        }
+    }
+}
+
+/// What the rays do next: the rounds of the loop.
+pub(crate) struct Round<A: LaneArray> {
+    pub(crate) nodes: Steps<A>,
+    pub(crate) leaves: Steps<A>,
+    /// Rays that have ended.
+    pub(crate) ended: Steps<A>,
+}
+
+impl<A: LaneArray> Round<A> {
+    #[inline(always)]
+    pub(crate) fn empty() -> Self {
+        Self { nodes: Steps::none(), leaves: Steps::none(), ended: Steps::none() }
+    }
+
+    #[inline(always)]
+    pub(crate) fn clear(&mut self) {
+        (self.nodes.count, self.leaves.count, self.ended.count) = (0, 0, 0);
+    }
+
+    /// Takes what is next from the stack of a ray.
+    #[inline(always)]
+    pub(crate) fn go_on(&mut self, number: u32, state: &mut RayState) {
+        let ended = state.stack.is_empty();
+        let child = state.stack.pop();
+        let leaf = child & LEAF != 0;
+        self.nodes.append(Step { state: number, child }, !leaf & !ended);
+        self.leaves.append(Step { state: number, child: child & !LEAF }, leaf & !ended);
+        self.ended.append(Step { state: number, child }, ended);
+    }
+}

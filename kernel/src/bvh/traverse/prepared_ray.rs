@@ -1,0 +1,275 @@
+//! Rays as the bounds of boxes and spheres see them.
+//!
+//! # Method
+//!
+//! The direction is brought to unit length, n = d / |d|, and t becomes s = |d| (t - tau). A ray that starts
+//! far from the scene is taken from o' = o + tau d, two scene sizes before the point where it is closest
+//! to the coordinates' origin, since what a filter computes from an origin is off by some u of the
+//! distance to it. Other rays have tau = 0 and o' = o. The tiers test the ray as it is: no answer changes.
+//!
+//! A slab low <= o'_i + s n_i <= high is entered at (low - o'_i) / n_i; with 1 / n_i and o'_i / n_i known
+//! that is one multiply-add. The pad, which makes it safe, is part of o'_i / n_i and costs nothing: near =
+//! low * inverse - (o' * inverse + pad * |inverse|), far = high * inverse - (o' * inverse - pad *
+//! |inverse|), with high and low changing places where n_i is negative. A box is entered if the largest
+//! near, or the start of the interval, is at most the least far, or the best s so far: closed, so that
+//! equal t are never culled.
+//!
+//! Why nothing is lost, and what every constant covers: `docs/traversal-margins.md`. `tests/bvh/far.rs`
+//! guards it.
+
+use crate::accuracy::RayLanes;
+use crate::lanes::{LaneArray, LaneMask, Lanes};
+use crate::numeric::axes::{axes, dot};
+use crate::numeric::error_free::{VeltkampSplit, two_sum};
+use crate::numeric::rounding::{LARGEST, LEAST_COMPONENT, LONGEST, U, lowered, raised};
+
+/// The rays of a packet, prepared, in registers.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PreparedLanes<L: Lanes> {
+    /// The rays that the bounds cover.
+    pub(crate) covered: L::Mask,
+    /// o'.
+    pub(crate) origin: [L; 3],
+    /// n.
+    pub(crate) direction: [L; 3],
+    pub(crate) time: RayTime<L>,
+    /// 8 u (F + 2^-11 T) and 2^-58, F the largest coordinate of o', T = |tau d|: four times what o', and a
+    /// tier by T, may be off.
+    pub(crate) absolute_error: L,
+    /// The interval as s: start and end, each from below and from above.
+    pub(crate) start: [L; 2],
+    pub(crate) end: [L; 2],
+}
+
+/// From t to s.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RayTime<L> {
+    /// tau.
+    pub(crate) shift: L,
+    /// |d|.
+    pub(crate) length: L,
+}
+
+impl<L: Lanes> RayTime<L> {
+    /// What the s of an answer may be off, for all spheres alike: 4 u T. (Kept in memory instead: a packet's
+    /// beginning loses what its hits gain.)
+    #[inline(always)]
+    pub(crate) fn t_error(&self) -> L {
+        self.shift * self.length * self.shift.like(4.0 * U)
+    }
+
+    /// At least the s of a root that is answered by t.
+    #[inline(always)]
+    pub(crate) fn after(&self, t: L) -> L {
+        raised((t - self.shift) * self.length) + self.t_error()
+    }
+
+    /// At most the s of a root that is answered by t.
+    #[inline(always)]
+    fn before(&self, t: L) -> L {
+        lowered((t - self.shift) * self.length) - self.t_error()
+    }
+}
+
+/// Rays are moved where the closest point is farther than this many times the distance that is left.
+const WORTH_IT: f32 = 8.0;
+/// 2^-58.
+const LEAST_ERROR: f32 = 1.0 / (1_u64 << 58) as f32;
+
+impl<L: Lanes> PreparedLanes<L> {
+    /// From where the rays begin.
+    #[inline(always)]
+    pub(crate) fn as_they_are(rays: &RayLanes<L>) -> Self {
+        let far = largest(rays.origin);
+        let d = rays.direction;
+        let a = dot(d, d);
+        let covered = rays.live
+            & a.like(1.0 / LONGEST).le(a)
+            & a.le(a.like(LONGEST))
+            & far.le(a.like(LARGEST));
+        let (zero, one) = (a.like(0.0), a.like(1.0));
+        let length = L::select(covered, a, one).sqrt();
+        let per_length = one / length;
+        let (start, end) = (rays.t_min * length, rays.t_max * length);
+        Self {
+            covered,
+            origin: rays.origin,
+            direction: axes!(i => d[i] * per_length),
+            time: RayTime { shift: zero, length },
+            absolute_error: absolute_error(far),
+            start: [lowered(start), raised(start)],
+            end: [lowered(end), raised(end)],
+        }
+    }
+
+    /// From nearer, where the rays begin far away from a scene of that extent.
+    #[inline(always)]
+    pub(crate) fn nearer(self, rays: &RayLanes<L>, extent: f32) -> Self {
+        let far = largest(rays.origin);
+        let (zero, length) = (far.like(0.0), self.time.length);
+        let left = far.filter_mul_add(far.like(32.0 * U), far.like(2.0 * extent));
+        let closest = -dot(rays.origin, self.direction);
+        let moved = self.covered & (left * far.like(WORTH_IT)).lt(closest);
+
+        let shift = L::select(moved, (closest - left) / length, zero);
+        let split_shift = VeltkampSplit::new(shift);
+        let origin = axes!(i => {
+            let (high, low) = split_shift.times(VeltkampSplit::new(rays.direction[i]));
+            let (sum, error) = two_sum(rays.origin[i], high);
+            L::select(moved, sum + (error + low), rays.origin[i])
+        });
+        let (by, time) = (shift * length, RayTime { shift, length });
+        Self {
+            origin,
+            time,
+            absolute_error: absolute_error(
+                by.filter_mul_add(by.like(1.0 / 2048.0), largest(origin)),
+            ),
+            start: [time.before(rays.t_min), time.after(rays.t_min)],
+            end: [time.before(rays.t_max), time.after(rays.t_max)],
+            ..self
+        }
+    }
+}
+
+/// Which of `rays`, that begin where they are, may be worth moving: no point of a line that is closest to
+/// the coordinates' origin is farther from where it begins than sqrt 3 F.
+#[inline(always)]
+pub(crate) fn far_away<L: Lanes>(rays: L::Mask, absolute_error: L, extent: f32) -> L::Mask {
+    rays & absolute_error.like(WORTH_IT * 8.0 * U * extent).lt(absolute_error)
+}
+
+/// The absolute error for rays of that size, F + 2^-11 T.
+#[inline(always)]
+fn absolute_error<L: Lanes>(size: L) -> L {
+    size.filter_mul_add(size.like(8.0 * U), size.like(LEAST_ERROR))
+}
+
+/// The largest coordinate.
+#[inline(always)]
+fn largest<L: Lanes>(v: [L; 3]) -> L {
+    v[0].abs().filter_max(v[1].abs()).filter_max(v[2].abs())
+}
+
+/// The rays of a packet, prepared, in memory: to be traced one by one.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+pub(crate) struct PreparedPacket<A: LaneArray> {
+    /// The rays that the bounds cover.
+    pub(crate) covered: u32,
+    /// o'.
+    pub(crate) origin: [A; 3],
+    /// n.
+    pub(crate) direction: [A; 3],
+    pub(crate) inverse: [A; 3],
+    pub(crate) minus_inverse: [A; 3],
+    /// -(o' + pad) / n and (o' - pad) / n, with the pad away from the box.
+    pub(crate) minus_near: [A; 3],
+    pub(crate) far: [A; 3],
+    /// As [`PreparedLanes::start`] and [`PreparedLanes::end`].
+    pub(crate) start: [A; 2],
+    pub(crate) end: [A; 2],
+    /// As in [`RayTime`].
+    shift: A,
+    length: A,
+    /// As [`PreparedLanes::absolute_error`].
+    pub(crate) absolute_error: A,
+    /// What the spread of a tier adds to either end for boxes.
+    pub(crate) spread: A,
+    /// Where n runs down along each axis, a bit a ray.
+    pub(crate) down: [u32; 3],
+}
+
+impl<A: LaneArray> PreparedPacket<A> {
+    /// No rays.
+    #[inline(always)]
+    pub(crate) fn none() -> Self {
+        let zeros = A::filled(0.0);
+        Self {
+            covered: 0,
+            origin: [zeros; 3],
+            direction: [zeros; 3],
+            inverse: [zeros; 3],
+            minus_inverse: [zeros; 3],
+            minus_near: [zeros; 3],
+            far: [zeros; 3],
+            start: [zeros; 2],
+            end: [zeros; 2],
+            shift: zeros,
+            length: zeros,
+            absolute_error: zeros,
+            spread: zeros,
+            down: [0; 3],
+        }
+    }
+
+    /// Prepares the rays of a packet, in the place of others. (As a value it was copied: 3 % of a
+    /// traversal.)
+    #[inline(always)]
+    pub(crate) fn prepare<L: Lanes<Array = A>>(
+        &mut self,
+        rays: &RayLanes<L>,
+        extent: f32,
+        spread: f32,
+    ) {
+        let prepared = PreparedLanes::as_they_are(rays);
+        // Fast is off by so much more that nothing is gained: its rays are not moved.
+        if spread > 0.0 || !far_away(prepared.covered, prepared.absolute_error, extent).any() {
+            return self.set(prepared, extent, spread);
+        }
+        // A copy, so that others stay in registers.
+        let rays = *rays;
+        L::out_of_line(
+            prepared.absolute_error.token(),
+            #[inline(always)]
+            move || {
+                let prepared = PreparedLanes::as_they_are(&rays).nearer(&rays, extent);
+                self.set(prepared, extent, spread);
+            },
+        );
+    }
+
+    #[inline(always)]
+    fn set<L: Lanes<Array = A>>(&mut self, rays: PreparedLanes<L>, extent: f32, spread: f32) {
+        let PreparedLanes { covered, origin, direction, time, absolute_error, start, end } = rays;
+        let (zero, one) = (absolute_error.like(0.0), absolute_error.like(1.0));
+
+        let pad = absolute_error + absolute_error;
+        let least = absolute_error.like(LEAST_COMPONENT);
+        self.covered = covered.bits();
+        for i in 0..3 {
+            let clamped = least.filter_max(direction[i].abs());
+            let inverse = one / L::select(direction[i].lt(zero), -clamped, clamped);
+            let (along, reach) = (origin[i] * inverse, pad * inverse.abs());
+            self.origin[i] = origin[i].store();
+            self.direction[i] = direction[i].store();
+            self.inverse[i] = inverse.store();
+            self.minus_inverse[i] = (-inverse).store();
+            self.minus_near[i] = (-(along + reach)).store();
+            self.far[i] = (along - reach).store();
+            self.down[i] = direction[i].lt(zero).bits();
+        }
+        self.start = [start[0].store(), start[1].store()];
+        self.end = [end[0].store(), end[1].store()];
+        self.shift = time.shift.store();
+        self.length = time.length.store();
+        self.absolute_error = absolute_error.store();
+        let size = absolute_error.filter_mul_add(zero.like(0.125 / U), zero.like(extent));
+        self.spread = (size * size.like(4.0 * spread)).store();
+    }
+
+    /// From t to s, for one ray.
+    #[inline(always)]
+    pub(crate) fn time(&self, lane: usize) -> RayTime<f32> {
+        RayTime { shift: self.shift.get(lane), length: self.length.get(lane) }
+    }
+
+    /// Takes a t that a ray surely has as its end.
+    #[inline(always)]
+    pub(crate) fn shorten(&mut self, lane: usize, t: f32) {
+        let sooner = self.time(lane).after(t);
+        if sooner < self.end[1].get(lane) {
+            self.end[1].set(lane, sooner);
+        }
+    }
+}

@@ -1,0 +1,289 @@
+//! One ray in flight: what it knows, and what it does with nodes and leaves.
+//!
+//! Spheres that are not in the order of their s cost time, no memory: a full list of candidates
+//! is tested.
+
+use super::deferred::{DeferredTests, RayPlace, SphereSource};
+use super::prepared_ray::PreparedPacket;
+use super::root_interval::RayProbe;
+use super::stack::Stack;
+use crate::Accuracy;
+use crate::bvh::node::{BvhLeaf, BvhNode, WIDTH, octant_of};
+use crate::geometry::hit::Hit;
+use crate::geometry::ray::RayPacket;
+use crate::lanes::{LaneArray, LaneMask, Lanes};
+use crate::numeric::axes::axes;
+use crate::query::Query;
+
+/// How many candidates a ray can keep.
+const MOST: usize = 8;
+
+/// Spheres that may be a ray's closest, by their places in the leaves, until the tier tests them.
+#[derive(Clone, Copy, Debug)]
+struct Candidates {
+    places: [u32; MOST],
+    /// No answer of that candidate is below.
+    entries: [f32; MOST],
+    count: usize,
+}
+
+impl Candidates {
+    const NONE: Self = Self { places: [0; MOST], entries: [0.0; MOST], count: 0 };
+
+    /// Whether another has no room, after those were dropped whose entry is past `best`.
+    #[inline(always)]
+    fn is_full(&mut self, best: f32) -> bool {
+        if self.count < MOST {
+            return false;
+        }
+        let mut kept = 0;
+        for at in 0..MOST {
+            if self.entries[at] <= best {
+                self.entries[kept] = self.entries[at];
+                self.places[kept] = self.places[at];
+                kept += 1;
+            }
+        }
+        self.count = kept;
+        kept == MOST
+    }
+
+    #[inline(always)]
+    fn push(&mut self, place: u32, entry: f32) {
+        if self.count < MOST {
+            self.places[self.count] = place;
+            self.entries[self.count] = entry;
+            self.count += 1;
+        }
+    }
+}
+
+/// One ray in flight.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RayState {
+    pub(crate) ray: RayPlace,
+    /// Which packet in flight it is of; past all of them if it is of none.
+    pub(crate) packet: u32,
+    /// The octant of its direction.
+    octant: u32,
+    /// Some answer, or the end of the interval, is not above.
+    best: f32,
+    candidates: Candidates,
+    pub(crate) stack: Stack,
+}
+
+impl RayState {
+    pub(crate) const NEW: Self = Self {
+        ray: RayPlace::FIRST,
+        packet: u32::MAX,
+        octant: 0,
+        best: 0.0,
+        candidates: Candidates::NONE,
+        stack: Stack::EMPTY,
+    };
+
+    /// Begins with ray `ray`, of the packet in flight `packet`, which is `prepared`.
+    #[inline(always)]
+    pub(crate) fn begin<A: LaneArray>(
+        &mut self,
+        prepared: &PreparedPacket<A>,
+        packet: u32,
+        ray: RayPlace,
+        root: u32,
+    ) {
+        self.ray = ray;
+        self.packet = packet;
+        self.octant = octant_of(axes!(i => prepared.down[i] >> (ray.lane % 32) & 1 == 1));
+        self.best = prepared.end[1].get(ray.lane);
+        self.candidates.count = 0;
+        self.stack.begin(root);
+    }
+
+    /// How far boxes matter.
+    #[inline(always)]
+    fn end_of_boxes<A: LaneArray>(&self, prepared: &PreparedPacket<A>, spread: f32) -> f32 {
+        if spread > 0.0 { self.best + prepared.spread.get(self.ray.lane) } else { self.best }
+    }
+
+    /// Lays the children of a node that the ray enters onto its stack; the nearest on top, except
+    /// where any hit will do.
+    #[inline(always)]
+    pub(crate) fn enter<L: Lanes, Q: Query>(
+        &mut self,
+        token: L::Token,
+        prepared: &PreparedPacket<L::Array>,
+        spread: f32,
+        node: &BvhNode,
+    ) {
+        let lane = self.ray.lane;
+        let best = self.end_of_boxes(prepared, spread);
+        let start = prepared.start[0].get(lane);
+        let start = if spread > 0.0 { start - prepared.spread.get(lane) } else { start };
+        let down = axes!(i => self.octant >> i & 1 == 1);
+        let nearer = axes!(i => if down[i] { &node.high[i] } else { &node.low[i] });
+        let farther = axes!(i => if down[i] { &node.low[i] } else { &node.high[i] });
+        let inverse = axes!(i => L::splat(token, prepared.inverse[i].get(lane)));
+        let minus_inverse = axes!(i => L::splat(token, prepared.minus_inverse[i].get(lane)));
+        let minus_near = axes!(i => L::splat(token, prepared.minus_near[i].get(lane)));
+        let far = axes!(i => L::splat(token, prepared.far[i].get(lane)));
+        let (start, minus_best) = (L::splat(token, start), L::splat(token, -best));
+        let order = node.order[self.octant as usize % 8];
+        let mut children = [0.0; WIDTH];
+        for place in 0..WIDTH {
+            children[place] = f32::from_bits(node.child[place]);
+        }
+
+        let (mut met, mut entries) = (0, [0.0; WIDTH]);
+        for part in 0..WIDTH / L::COUNT {
+            let entry = axes!(i => {
+                L::load_part(token, nearer[i], part).filter_mul_add(inverse[i], minus_near[i])
+            });
+            let minus_leave = axes!(i => {
+                L::load_part(token, farther[i], part).filter_mul_add(minus_inverse[i], far[i])
+            });
+            let entry = entry[0].filter_max(entry[1]).filter_max(entry[2].filter_max(start));
+            let minus_leave = minus_leave[0]
+                .filter_max(minus_leave[1])
+                .filter_max(minus_leave[2].filter_max(minus_best));
+            let child = L::load_part(token, &children, part);
+            if L::COUNT == WIDTH && Q::ANY {
+                self.stack.push::<L>(entry.le(-minus_leave), entry, child);
+            } else if L::COUNT == WIDTH {
+                let (entry, minus_leave) = (entry.in_order(order), minus_leave.in_order(order));
+                self.stack.push::<L>(entry.le(-minus_leave), entry, child.in_order(order));
+            } else {
+                met |= entry.le(-minus_leave).bits() << (part * L::COUNT);
+                entry.store().put_part(&mut entries, part);
+            }
+        }
+        if L::COUNT != WIDTH {
+            self.stack.push_in_order(met, order, &entries, &children);
+        }
+    }
+
+    #[inline(always)]
+    fn probe<L: Lanes>(
+        &self,
+        token: L::Token,
+        prepared: &PreparedPacket<L::Array>,
+        spread: f32,
+    ) -> RayProbe<L> {
+        let lane = self.ray.lane;
+        let start = &prepared.start;
+        RayProbe {
+            origin: axes!(i => L::splat(token, prepared.origin[i].get(lane))),
+            direction: axes!(i => L::splat(token, prepared.direction[i].get(lane))),
+            start: [L::splat(token, start[0].get(lane)), L::splat(token, start[1].get(lane))],
+            end: [L::splat(token, prepared.end[0].get(lane)), L::splat(token, self.best)],
+            absolute_error: L::splat(token, prepared.absolute_error.get(lane)),
+            t_error: L::splat(token, prepared.time(lane).t_error()),
+            spread,
+        }
+    }
+
+    /// Which spheres of a leaf to look at.
+    #[inline(always)]
+    pub(crate) fn may_hit<L: Lanes>(
+        &self,
+        token: L::Token,
+        prepared: &PreparedPacket<L::Array>,
+        spread: f32,
+        leaf: &BvhLeaf,
+    ) -> u32 {
+        let probe = self.probe::<L>(token, prepared, spread);
+        let mut spheres = 0;
+        for part in 0..WIDTH / L::COUNT {
+            spheres |= probe.may_hit(&leaf.columns(), part) << (part * L::COUNT);
+        }
+        spheres
+    }
+
+    /// Looks at the spheres of a leaf, the first of which is at `place`.
+    #[inline(always)]
+    pub(crate) fn meet<L: Lanes, Q: Query>(
+        &mut self,
+        tier: impl Accuracy,
+        token: L::Token,
+        prepared: &PreparedPacket<L::Array>,
+        (packets, source): (&[RayPacket<L::Array>], &impl SphereSource),
+        (leaf, place): (&BvhLeaf, u32),
+        deferred: &mut DeferredTests<L>,
+        answers: &mut [Q::Packet<L::Array>],
+    ) {
+        let before = self.best;
+        let spread = tier.spread();
+        let probe = self.probe::<L>(token, prepared, spread);
+        for part in 0..WIDTH / L::COUNT {
+            let interval = probe.root_interval(&leaf.columns(), part);
+            let (entries, bounds) = (interval.entry.store(), interval.bound.store());
+            let mut candidates = interval.candidates.bits();
+            while candidates != 0 {
+                let lane = candidates.trailing_zeros() as usize;
+                candidates &= candidates - 1;
+                let (entry, bound) = (entries.get(lane), bounds.get(lane));
+                if Q::ANY && bound < f32::INFINITY {
+                    if let Some(answer) = answers.get_mut(self.ray.packet) {
+                        Q::take::<L::Array>(answer, self.ray.lane, Hit { t: 0.0, sphere: 0 });
+                    }
+                    self.candidates.count = 0;
+                    self.stack.clear();
+                    return;
+                }
+                if entry > self.best {
+                    continue;
+                }
+                if bound < self.best {
+                    self.best = bound;
+                }
+                if self.candidates.is_full(self.best) {
+                    // There are too many to keep.
+                    self.end::<L, Q>(tier, token, (packets, source), deferred, answers);
+                    L::out_of_line(
+                        token,
+                        #[inline(always)]
+                        || deferred.test::<Q>(tier, token, answers),
+                    );
+                    self.shorten::<L, Q>(prepared, answers);
+                }
+                self.candidates.push(place + (part * L::COUNT + lane) as u32, entry);
+            }
+        }
+        if self.best < before {
+            self.stack.cull::<L>(token, self.end_of_boxes(prepared, spread));
+        }
+    }
+
+    /// Takes the answer so far as the end.
+    #[inline(always)]
+    fn shorten<L: Lanes, Q: Query>(
+        &mut self,
+        prepared: &PreparedPacket<L::Array>,
+        answers: &[Q::Packet<L::Array>],
+    ) {
+        let Some(answer) = answers.get(self.ray.packet) else { return };
+        let t = Q::limit::<L::Array>(answer, self.ray.lane);
+        let best = prepared.time(self.ray.lane).after(t);
+        if best < self.best {
+            self.best = best;
+        }
+    }
+
+    /// Puts the candidates among the deferred tests.
+    #[inline(always)]
+    pub(crate) fn end<L: Lanes, Q: Query>(
+        &mut self,
+        tier: impl Accuracy,
+        token: L::Token,
+        (packets, source): (&[RayPacket<L::Array>], &impl SphereSource),
+        deferred: &mut DeferredTests<L>,
+        answers: &mut [Q::Packet<L::Array>],
+    ) {
+        for at in 0..self.candidates.count % (MOST + 1) {
+            if self.candidates.entries[at] <= self.best {
+                let place = self.candidates.places[at];
+                deferred.add::<Q>(tier, token, (packets, self.ray), (source, place), answers);
+            }
+        }
+        self.candidates.count = 0;
+    }
+}

@@ -1,0 +1,164 @@
+//! The spheres of a leaf against one ray, or one sphere against the rays of a packet: which may be hit, and
+//! between which s.
+//!
+//! # Method
+//!
+//! Closest point first: with f = c - o', m = f.n is the s of the point closest to the centre, l = |f -
+//! m n| its distance, h = sqrt(r^2 - l^2) half the chord, m - h and m + h the roots. All in
+//! single precision, each with a margin; what comes out is, for every sphere that may be hit, an s
+//! that no answer is below, and one that an answer is surely not above - if the sphere is surely
+//! hit. So the closest of many spheres is known, except for a few, before a tier tests it, and the
+//! tier can test sixteen rays at once.
+//!
+//! Let S = |m| + r and delta = 48 u S + the absolute error of the ray. A hit has l <= r + delta, and l^2 within
+//! r^2 + W, W = (delta / 4) (2 r + 5 delta / 4); l^2 <= r^2 - W is surely a hit. The proof:
+//! `docs/traversal-margins.md`, which `tests/bvh/far.rs` guards.
+//!
+//! A far root that is surely in the interval is a bound too where the near one is not: the answer is one
+//! of them.
+
+use crate::lanes::{LaneMask, Lanes, WIDTH};
+use crate::numeric::axes::axes;
+use crate::numeric::rounding::U;
+
+/// Between which s spheres are hit.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RootInterval<L: Lanes> {
+    /// Which spheres may be hit in the ray's interval.
+    pub(crate) candidates: L::Mask,
+    /// No root of the sphere is below.
+    pub(crate) entry: L,
+    /// No root above can be answered by less than this sphere's answer; `+inf` where none is sure.
+    pub(crate) bound: L,
+}
+
+/// Sixteen spheres, coordinate by coordinate, as leaves and depth lists have them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SphereColumns<'a> {
+    pub(crate) center: [&'a [f32; WIDTH]; 3],
+    pub(crate) radius: &'a [f32; WIDTH],
+}
+
+/// One ray in all lanes, as leaves see it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RayProbe<L: Lanes> {
+    pub(crate) origin: [L; 3],
+    pub(crate) direction: [L; 3],
+    /// Where the interval starts: an s below, and an s above.
+    pub(crate) start: [L; 2],
+    /// Where it ends: an s below; above, or the best s that is known.
+    pub(crate) end: [L; 2],
+    /// As [`PreparedLanes::absolute_error`](super::prepared_ray::PreparedLanes::absolute_error).
+    pub(crate) absolute_error: L,
+    /// As [`RayTime::t_error`](super::prepared_ray::RayTime::t_error).
+    pub(crate) t_error: L,
+    /// Of the tier.
+    pub(crate) spread: f32,
+}
+
+impl<L: Lanes> RayProbe<L> {
+    /// Which spheres of part `part` may be hit, as far as can be told without a root.
+    #[inline(always)]
+    pub(crate) fn may_hit(&self, spheres: &SphereColumns<'_>, part: usize) -> u32 {
+        self.pass(spheres, part).may_hit(self.start[0], self.end[1], self.spread).bits()
+    }
+
+    #[inline(always)]
+    fn pass(&self, spheres: &SphereColumns<'_>, part: usize) -> Pass<L> {
+        let token = self.origin[0].token();
+        let center = axes!(i => L::load_part(token, spheres.center[i], part));
+        let radius = L::load_part(token, spheres.radius, part);
+        Pass::new(self.origin, self.direction, self.absolute_error, center, radius)
+    }
+
+    /// Between which s the spheres of part `part` are hit.
+    #[inline(always)]
+    pub(crate) fn root_interval(
+        &self,
+        spheres: &SphereColumns<'_>,
+        part: usize,
+    ) -> RootInterval<L> {
+        let Self { start, end, t_error, spread, .. } = *self;
+        self.pass(spheres, part).root_interval(start, end, t_error, spread)
+    }
+}
+
+/// How closely a ray passes a sphere, in every lane.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pass<L> {
+    radius: L,
+    middle: L,
+    /// l^2.
+    ll: L,
+    /// S.
+    size: L,
+    delta: L,
+}
+
+impl<L: Lanes> Pass<L> {
+    #[inline(always)]
+    pub(crate) fn new(
+        origin: [L; 3],
+        n: [L; 3],
+        absolute_error: L,
+        center: [L; 3],
+        radius: L,
+    ) -> Self {
+        let f = axes!(i => center[i] - origin[i]);
+        let middle = f[2].filter_mul_add(n[2], f[1].filter_mul_add(n[1], f[0] * n[0]));
+        let back = -middle;
+        let q = axes!(i => back.filter_mul_add(n[i], f[i]));
+        let ll = q[2].filter_mul_add(q[2], q[1].filter_mul_add(q[1], q[0] * q[0]));
+
+        let size = middle.abs() + radius;
+        let delta = size.filter_mul_add(radius.like(48.0 * U), absolute_error);
+        Self { radius, middle, ll, size, delta }
+    }
+
+    /// Which may be hit between the s `start` and `end`, as far as can be told without a root.
+    #[inline(always)]
+    pub(crate) fn may_hit(&self, start: L, end: L, spread: f32) -> L::Mask {
+        let reach = self.radius + self.delta;
+        if spread > 0.0 {
+            let spread = self.size * self.size.like(spread);
+            return self.ll.le(spread.filter_mul_add(spread, reach * reach));
+        }
+        self.ll.le(reach * reach) & (self.middle - reach).le(end) & start.le(self.middle + reach)
+    }
+
+    /// Between which s the spheres are hit; the interval starts and ends somewhere in
+    /// `start` and `end`.
+    #[inline(always)]
+    pub(crate) fn root_interval(
+        &self,
+        start: [L; 2],
+        end: [L; 2],
+        t_error: L,
+        spread: f32,
+    ) -> RootInterval<L> {
+        let Self { middle, radius, delta, ll, size } = *self;
+        let zero = radius.like(0.0);
+        let half = radius * radius.like(0.5);
+        let mut slack = delta * delta.filter_mul_add(radius.like(0.3125), half);
+        if spread > 0.0 {
+            let spread = size * radius.like(spread);
+            slack = spread.filter_mul_add(spread, slack);
+        }
+        let left = radius * radius - ll;
+        let longest = left + slack;
+        let long = longest.filter_max(zero).sqrt() + delta;
+        let sure = left - slack;
+        let short = sure.filter_max(zero).sqrt() - delta;
+        // The near root lies in [entry, entered], the far one in [leaving, left].
+        let (entry, entered) = (middle - long, middle - short);
+        let (leaving, left) = (middle + short, middle + long);
+
+        let candidates = zero.le(longest) & zero.le(radius) & entry.le(end[1]) & start[0].le(left);
+        let hit = zero.lt(sure);
+        let near = hit & start[1].le(entry) & entered.le(end[0]);
+        let far = hit & start[1].le(leaving) & left.le(end[0]);
+        let infinity = radius.like(f32::INFINITY);
+        let bound = L::select(near, entered, L::select(far, left, infinity));
+        RootInterval { candidates, entry, bound: bound + (t_error + t_error) }
+    }
+}

@@ -1,0 +1,135 @@
+//! Spheres in the order of their depth, for runs of rays that share an origin or a direction: object
+//! order married to image order, without a tree, in memory that the caller provides.
+//!
+//! # Method
+//!
+//! [`DepthList`] sorts the spheres by the least depth that a ray may hit them at: the
+//! distance from the common origin, or how far they lie along the common direction. It is made once a
+//! frame, and any number of threads may read it. Packets come as they are - the rays of a camera, a block
+//! of the picture a packet - in groups of a thousand, of some ten, of four. What the rays of a group cannot
+//! leave is a frustum (`fit.rs`); the spheres inside of the larger group's are copied into a short list,
+//! still in the order of their depth, of which the smaller groups take theirs (`listed.rs`).
+//! The smallest groups go through the last list from the front, as they go through the leaves of a tree, and
+//! stop where the next sphere begins deeper than all that their rays have hit (`list_source.rs`).
+
+use super::depth_sort;
+use super::listed::{COLUMNS, Listed, column_length};
+use super::view::View;
+use crate::geometry::sphere::Spheres;
+use crate::memory::TooSmall;
+use glam::Vec3;
+
+/// What the rays of a run have in common.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Viewpoint {
+    /// All start here: a perspective camera's eye, a point light.
+    Origin(Vec3),
+    /// All have this direction, of any length: a parallel projection, a directional light.
+    Direction(Vec3),
+}
+
+/// The spheres of a list in the order of their depth, in memory of the caller's.
+///
+/// # Guarantee
+///
+/// Bit for bit what the list of spheres answers: by [`Exact`](crate::Exact) for every input, by
+/// [`Stable`](crate::Stable) in its domain, by [`Fast`](crate::Fast) except for hits that the textbook form
+/// finds on lines that pass a sphere by. Lists and filters only decide what is skipped, under the
+/// bounds of the tree (`docs/traversal-margins.md`); every t is a tier's. What the bounds
+/// do not cover is not skipped: spheres with a coordinate or radius above 2^40 are tested by every
+/// ray; packets with a ray that does not fit the [`Viewpoint`], starts at t < 0, whose squared length
+/// lies outside [2^-100, 2^100], or whose rays look in different directions, are tested against all
+/// spheres.
+///
+/// # Cost
+///
+/// Grows with the number of spheres that lie one behind the other, and by a sixteenth of an operation in a
+/// thousand packets with their number; packets that follow each other should lie beside each other in the
+/// picture. [`Trace::scratch`](crate::Trace::scratch) is memory for the short lists: with less than
+/// [`DepthList::scratch`] the answers are the same, and take longer. Stack: some 12 KiB.
+///
+/// ```
+/// use spherule_kernel::{DepthList, Exact, Intersect, Ray, Spheres, Vec3, Viewpoint};
+///
+/// let spheres = Spheres::new(&[0.0, 0.0], &[0.0, 0.0], &[9.0, 5.0], &[1.0, 1.0]).expect("equal lengths");
+/// let mut memory = [0.0; DepthList::needed(2)];
+/// let list = DepthList::sort(spheres, Viewpoint::Origin(Vec3::ZERO), &mut memory)?;
+/// let hit = list.closest_hit(Exact, &Ray::new(Vec3::ZERO, Vec3::Z));
+/// assert_eq!(hit.map(|hit| (hit.t, hit.sphere)), Some((4.0, 1)));
+/// # Ok::<(), spherule_kernel::TooSmall>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct DepthList<'a> {
+    /// The list that was sorted.
+    pub(super) spheres: Spheres<'a>,
+    /// `None` if the bounds do not cover it.
+    pub(super) view: Option<View>,
+    pub(super) listed: Listed<'a>,
+    /// How many places behind those of the list are those of spheres above 2^40, which every ray
+    /// must be tested against.
+    pub(super) outside: usize,
+    /// For no sphere of the list is |x_i| + r larger, in the frame of the view.
+    pub(super) extent: f32,
+}
+
+impl<'a> DepthList<'a> {
+    /// How many numbers of memory any list of `count` spheres needs: 24 bytes a sphere, and 768.
+    ///
+    /// `usize::MAX`, which no memory has, if that many cannot be counted.
+    ///
+    /// ```
+    /// assert_eq!(spherule_kernel::DepthList::needed(100), 768);
+    /// ```
+    #[must_use]
+    pub const fn needed(count: usize) -> usize {
+        column_length(count).saturating_mul(COLUMNS)
+    }
+
+    /// How many numbers of scratch memory a traversal makes use of at most: 48 bytes a sphere, and 1536.
+    ///
+    /// ```
+    /// assert_eq!(spherule_kernel::DepthList::scratch(100), 1536);
+    /// ```
+    #[must_use]
+    pub const fn scratch(count: usize) -> usize {
+        Self::needed(count).saturating_mul(2)
+    }
+
+    /// Sorts `spheres` for rays of `viewpoint`, in the memory given, whose contents do not matter.
+    ///
+    /// Spheres that are not valid are left out. With a viewpoint that is no one's - NaN, infinity,
+    /// a zero direction - or one beyond 2^40, the list can be used, and saves nothing.
+    ///
+    /// Cost: a radix sort, some 20 ns a sphere. Stack: 2 KiB. No other memory.
+    ///
+    /// # Errors
+    /// [`TooSmall`] if `memory` is shorter than [`DepthList::needed`] says; longer is no error.
+    pub fn sort(
+        spheres: Spheres<'a>,
+        viewpoint: Viewpoint,
+        memory: &'a mut [f32],
+    ) -> Result<Self, TooSmall> {
+        let needed = Self::needed(spheres.len());
+        TooSmall::check(needed, memory.len())?;
+        let view = View::new(viewpoint);
+        let memory = memory.get_mut(..needed).unwrap_or_default();
+        let sorted = match &view {
+            Some(view) => depth_sort::sort(&spheres, view, memory),
+            None => depth_sort::Sorted::default(),
+        };
+        let listed = Listed::new(memory, sorted.listed);
+        Ok(Self { spheres, view, listed, outside: sorted.outside, extent: sorted.extent })
+    }
+
+    /// The indices, as bits, of spheres above 2^40.
+    pub(super) fn outside(&self) -> &'a [f32] {
+        let behind = self.listed.indices().get(self.listed.count..).unwrap_or_default();
+        behind.get(..self.outside).unwrap_or_default()
+    }
+
+    /// The list that was sorted.
+    #[must_use]
+    pub const fn spheres(&self) -> Spheres<'a> {
+        self.spheres
+    }
+}

@@ -1,0 +1,106 @@
+//! Sorting spheres by depth.
+//!
+//! Indices are sorted by a radix sort of eight bits a round, from one column of the memory to another, with
+//! the keys where the depths will be, in the order of the spheres; then the columns are filled. All
+//! columns hold `f32`, of keys and indices the bits.
+
+use super::listed::{column_length, columns};
+use super::view::View;
+use crate::geometry::sphere::{Sphere, Spheres};
+use crate::numeric::axes::axes;
+use crate::numeric::rounding::LARGEST;
+
+/// The key of a sphere that nothing hits, above all others.
+const NOTHING: u32 = u32::MAX;
+/// The key of a sphere that the bounds do not cover.
+const OUTSIDE: u32 = u32::MAX - 1;
+
+/// What a sort leaves in the memory of a list.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Sorted {
+    /// How many spheres are listed, and how many follow that the bounds do not cover.
+    pub(super) listed: usize,
+    pub(super) outside: usize,
+    /// For no listed sphere is |x_i| + r larger.
+    pub(super) extent: f32,
+}
+
+/// Sorts in memory as large as `DepthList::needed` says.
+pub(super) fn sort(spheres: &Spheres<'_>, view: &View, memory: &mut [f32]) -> Sorted {
+    let count = spheres.len();
+    let mut columns = columns(memory, column_length(count));
+
+    let [spare, _, _, _, keys, indices] = &mut columns;
+    for (key, sphere) in keys.iter_mut().zip(spheres.iter()) {
+        *key = f32::from_bits(key_of(view, &sphere));
+    }
+    for (index, number) in indices.iter_mut().zip(0..) {
+        *index = f32::from_bits(number);
+    }
+    let keys = keys.get(..count).unwrap_or_default();
+    if let (Some(spare), Some(indices)) = (spare.get_mut(..count), indices.get_mut(..count)) {
+        sort_by_key(keys, indices, spare);
+    }
+    let listed = keys.iter().filter(|key| key.to_bits() < OUTSIDE).count();
+    let outside = keys.iter().filter(|key| key.to_bits() == OUTSIDE).count();
+
+    let [x, y, z, radius, depth, index] = columns;
+    let center = x.iter_mut().zip(y.iter_mut()).zip(z.iter_mut());
+    let but_index = center.zip(radius.iter_mut()).zip(depth.iter_mut());
+    let mut extent = 0.0_f32;
+    for (place, ((((x, y), z), radius), depth)) in but_index.enumerate() {
+        let sphere = index.get(place).and_then(|index| spheres.get(index.to_bits() as usize));
+        match sphere {
+            Some(sphere) if place < listed => {
+                let (center, least) = view.see(&sphere);
+                ([*x, *y, *z], *radius, *depth) = (center, sphere.radius, least);
+                let [a, b, c] = axes!(i => center[i].abs() + sphere.radius);
+                extent = extent.max(a).max(b).max(c);
+            }
+            _ => ([*x, *y, *z], *radius, *depth) = ([0.0; 3], f32::NAN, f32::INFINITY),
+        }
+    }
+    Sorted { listed, outside, extent }
+}
+
+/// An integer in the order of the depths.
+fn key_of(view: &View, sphere: &Sphere) -> u32 {
+    if !sphere.is_valid() {
+        return NOTHING;
+    }
+    if sphere.center.abs().max_element().max(sphere.radius) > LARGEST {
+        return OUTSIDE;
+    }
+    let (_, depth) = view.see(sphere);
+    let bits = depth.to_bits();
+    if bits >> 31 == 1 { !bits } else { bits | 1 << 31 }
+}
+
+/// Sorts `indices` by the keys that they are the places of; equal ones stay in their order.
+fn sort_by_key(keys: &[f32], indices: &mut [f32], spare: &mut [f32]) {
+    let (mut from, mut to) = (indices, spare);
+    for round in 0..4 {
+        let digit = |index: f32| {
+            let key = keys.get(index.to_bits() as usize).map_or(0, |key| key.to_bits());
+            (key >> (8 * round)) as usize & 0xff
+        };
+        let mut places = [0_u32; 256];
+        for &index in from.iter() {
+            let count = &mut places[digit(index)];
+            *count = count.wrapping_add(1);
+        }
+        let mut before = 0_u32;
+        for place in &mut places {
+            (*place, before) = (before, before.wrapping_add(*place));
+        }
+        for &index in from.iter() {
+            let place = &mut places[digit(index)];
+            if let Some(element) = to.get_mut(*place as usize) {
+                *element = index;
+            }
+            *place = place.wrapping_add(1);
+        }
+        (from, to) = (to, from);
+    }
+    // After four rounds all are where they came from.
+}

@@ -1,0 +1,170 @@
+//! The lines and the depths between which a group of rays runs.
+//!
+//! # Method
+//!
+//! Rays that run the same way along an axis k, d_k of one sign sigma, have slopes w_i = d_i / d_k and
+//! w_j = d_j / d_k along the two others. From its origin on, a ray with slope w between w_min and
+//! w_max in terms of the depth sigma x_k stays on one side of each of two lines: x_i >= w x_k + D,
+//! where w is the least slope (per depth) and D the least of o_i - w o_k; and x_i <= w x_k + D with
+//! the greatest of both. So it does along j: four planes (Reshetov, Soupikov and Hurley 2005,
+//! Multi-Level Ray Tracing Algorithm). A box is outside if its farthest corner is; a sphere if
+//! its centre is by more than its radius times the length of the normal. Along k itself the group
+//! is bounded by its origins, and by how far its rays still go.
+//!
+//! Slopes are moved by 16 u |w| + u, D by 16 u (F + 2^-11 T) (1 + |w|) and 2^-57, the lengths of normals by
+//! 48 u: `docs/traversal-margins.md` proves that this is enough, and `tests/bvh/far.rs` guards it.
+
+use crate::bvh::node::{BvhNode, WIDTH};
+use crate::bvh::traverse::root_interval::SphereColumns;
+use crate::lanes::{LaneArray, LaneMask, Lanes};
+use crate::numeric::rounding::U;
+
+/// A line that bounds x_i in terms of x_k: `slope * x_k + offset`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Line {
+    slope: f32,
+    offset: f32,
+    /// At least the length of the plane's normal.
+    length: f32,
+}
+
+impl Line {
+    const NONE: Self = Self { slope: 0.0, offset: 0.0, length: 0.0 };
+
+    /// The line below (`side` 1) or above (-1) all rays, for slopes that end at `slope` and an offset
+    /// that ends at `offset`, both moved outward.
+    #[inline(always)]
+    pub(super) fn new(slope: f32, offset: f32) -> Self {
+        // At least the root of 1 + slope^2, and not much more where the slope is below one.
+        Self { slope, offset, length: slope * slope * (0.5 * LARGER) + LARGER }
+    }
+}
+
+/// How far a plane of that slope, at least zero, is moved; the error is the rays' largest.
+#[inline(always)]
+pub(super) fn margin(slope: f32, absolute_error: f32) -> f32 {
+    2.0 * absolute_error * (1.0 + slope)
+}
+
+/// How far that slope is moved.
+#[inline(always)]
+pub(super) fn turn(slope: f32) -> f32 {
+    16.0 * U * slope + U
+}
+
+/// How much larger a radius counts: 48u.
+const LARGER: f32 = 1.0 + 48.0 * U;
+
+/// The four planes: two lines for each of the axes across.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sides {
+    /// The axis that all rays run along.
+    pub(super) along: usize,
+    /// Below and above the rays, along the axes [`across`].
+    pub(super) lines: [[Line; 2]; 2],
+}
+
+/// The axes that are not `along`.
+#[inline(always)]
+pub(super) fn across(along: usize) -> [usize; 2] {
+    [(along + 1) % 3, (along + 2) % 3]
+}
+
+impl Sides {
+    pub(super) const NONE: Self = Self { along: 0, lines: [[Line::NONE; 2]; 2] };
+
+    /// Which of sixteen spheres may be between the planes.
+    #[inline(always)]
+    pub(super) fn look<L: Lanes>(&self, token: L::Token, spheres: &SphereColumns<'_>) -> u32 {
+        let k = self.along % 3;
+        let mut places = 0;
+        for part in 0..WIDTH / L::COUNT {
+            let radius = L::load_part(token, spheres.radius, part);
+            let along = L::load_part(token, spheres.center[k], part);
+            let mut met = L::splat(token, 0.0).le(radius);
+            let axes = across(k);
+            for side in 0..2 {
+                let [below, above] = self.lines[side];
+                let across = L::load_part(token, spheres.center[axes[side] % 3], part);
+                let least = along
+                    .filter_mul_add(L::splat(token, below.slope), L::splat(token, below.offset));
+                let most = along
+                    .filter_mul_add(L::splat(token, above.slope), L::splat(token, above.offset));
+                let highest = radius.filter_mul_add(L::splat(token, below.length), across);
+                let lowest = (-radius).filter_mul_add(L::splat(token, above.length), across);
+                met = met & least.le(highest) & lowest.le(most);
+            }
+            places |= met.bits() << (part * L::COUNT);
+        }
+        places
+    }
+}
+
+/// What a group of rays cannot leave.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Frustum {
+    pub(super) sides: Sides,
+    /// sigma: 1 or -1.
+    pub(super) sign: f32,
+    /// The least depth, sigma x_k, of an origin, lowered by the margin.
+    pub(super) start: f32,
+    /// The greatest depth that a ray still goes to, raised by the margin.
+    pub(super) end: f32,
+}
+
+/// What of a node is inside: a bit a child, and the depth it begins at.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Inside {
+    pub(super) places: u32,
+    pub(super) depths: [f32; WIDTH],
+}
+
+impl Frustum {
+    /// Which children of a node may be entered.
+    #[inline(always)]
+    pub(super) fn enter<L: Lanes>(&self, token: L::Token, node: &BvhNode, inside: &mut Inside) {
+        let k = self.sides.along % 3;
+        let (low, high) = (&node.low[k], &node.high[k]);
+        let (first, last) = if self.sign > 0.0 { (low, high) } else { (high, low) };
+        let sign = L::splat(token, self.sign);
+        let (start, end) = (L::splat(token, self.start), L::splat(token, self.end));
+        inside.places = 0;
+        for part in 0..WIDTH / L::COUNT {
+            let begin = L::load_part(token, first, part) * sign;
+            let finish = L::load_part(token, last, part) * sign;
+            let mut met = begin.le(end) & start.le(finish);
+            let axes = across(k);
+            for side in 0..2 {
+                let (i, [below, above]) = (axes[side] % 3, self.sides.lines[side]);
+                // Where along k the line is farthest out.
+                let corner = if below.slope > 0.0 { low } else { high };
+                let least = L::load_part(token, corner, part)
+                    .filter_mul_add(L::splat(token, below.slope), L::splat(token, below.offset));
+                let corner = if above.slope > 0.0 { high } else { low };
+                let most = L::load_part(token, corner, part)
+                    .filter_mul_add(L::splat(token, above.slope), L::splat(token, above.offset));
+                met = met
+                    & least.le(L::load_part(token, &node.high[i], part))
+                    & L::load_part(token, &node.low[i], part).le(most);
+            }
+            inside.places |= met.bits() << (part * L::COUNT);
+            begin.store().put_part(&mut inside.depths, part);
+        }
+    }
+
+    /// Which of sixteen spheres may be hit.
+    #[inline(always)]
+    pub(super) fn look<L: Lanes>(&self, token: L::Token, spheres: &SphereColumns<'_>) -> u32 {
+        let sign = L::splat(token, self.sign);
+        let (start, end) = (L::splat(token, self.start), L::splat(token, self.end));
+        let mut places = 0;
+        for part in 0..WIDTH / L::COUNT {
+            let radius = L::load_part(token, spheres.radius, part);
+            let radius = radius * radius.like(LARGER);
+            let depth = L::load_part(token, spheres.center[self.sides.along % 3], part) * sign;
+            let met = (depth - radius).le(end) & start.le(depth + radius);
+            places |= met.bits() << (part * L::COUNT);
+        }
+        places & self.sides.look::<L>(token, spheres)
+    }
+}

@@ -1,0 +1,96 @@
+//! What the rays of a depth list have in common, an origin or a direction, and the frame that follows from
+//! it.
+//!
+//! From a common origin, spheres and rays are seen relative to it: then the errors of all bounds are in
+//! proportion to the distance from it, however far it is from the coordinates' origin. Rays of a common
+//! direction are seen where they are. Depth is the distance from the common origin, or how far a point
+//! lies along the common direction.
+
+use super::depth_list::Viewpoint;
+use crate::accuracy::RayLanes;
+use crate::geometry::sphere::Sphere;
+use crate::lanes::Lanes;
+use crate::numeric::axes::{axes, dot};
+use crate::numeric::rounding::{LARGEST, LEAST_COMPONENT, LONGEST, U};
+
+/// A viewpoint that the bounds cover.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum View {
+    /// All rays start here.
+    Perspective { eye: [f32; 3] },
+    /// All rays have this direction; the same of unit length.
+    Parallel { direction: [f32; 3], unit: [f32; 3] },
+}
+
+impl View {
+    /// `None` if the bounds do not cover the viewpoint.
+    pub(super) fn new(viewpoint: Viewpoint) -> Option<Self> {
+        match viewpoint {
+            Viewpoint::Origin(eye) => {
+                let eye = eye.to_array();
+                let [x, y, z] = axes!(i => eye[i].abs() <= LARGEST);
+                (x && y && z).then_some(Self::Perspective { eye })
+            }
+            Viewpoint::Direction(direction) => {
+                let direction = direction.to_array();
+                let a = dot(direction, direction);
+                let per_length = 1.0 / libm::sqrtf(a);
+                let unit = axes!(i => direction[i] * per_length);
+                let covered = 1.0 / LONGEST <= a && a <= LONGEST;
+                covered.then_some(Self::Parallel { direction, unit })
+            }
+        }
+    }
+
+    /// The centre of a sphere in the frame, and a depth that no ray hits it before.
+    ///
+    /// The distance is 4u off, |x| - r one more, x.n 5u; an answer lies at |s| >= |p| - r, |s| >= r - |p|
+    /// and s >= p.n - r, except for 32 u (|p| + r) (`docs/traversal-margins.md`).
+    pub(super) fn see(&self, sphere: &Sphere) -> ([f32; 3], f32) {
+        let margin = |away: f32| 64.0 * U * (away + sphere.radius) + LEAST_COMPONENT;
+        match self {
+            Self::Perspective { eye } => {
+                let center = axes!(i => sphere.center[i] - eye[i]);
+                let away = libm::sqrtf(dot(center, center));
+                (center, (away - sphere.radius).abs() - margin(away))
+            }
+            Self::Parallel { unit, .. } => {
+                let center = sphere.center.to_array();
+                let away = libm::sqrtf(dot(center, center));
+                (center, dot(center, *unit) - sphere.radius - margin(away))
+            }
+        }
+    }
+
+    /// Which rays have in common what all have.
+    #[inline(always)]
+    pub(super) fn shares<L: Lanes>(&self, rays: &RayLanes<L>) -> L::Mask {
+        let (has, common) = match self {
+            Self::Perspective { eye } => (rays.origin, eye),
+            Self::Parallel { direction, .. } => (rays.direction, direction),
+        };
+        let [x, y, z] = axes!(i => {
+            let common = has[i].like(common[i]);
+            has[i].le(common) & common.le(has[i])
+        });
+        x & y & z
+    }
+
+    /// The rays in the frame.
+    #[inline(always)]
+    pub(super) fn in_frame<L: Lanes>(&self, rays: &RayLanes<L>) -> RayLanes<L> {
+        match self {
+            Self::Perspective { .. } => RayLanes { origin: [rays.t_min.like(0.0); 3], ..*rays },
+            Self::Parallel { .. } => *rays,
+        }
+    }
+
+    /// How deep rays start that start there in the frame.
+    #[inline(always)]
+    pub(super) fn start_depth<L: Lanes>(&self, origin: [L; 3]) -> L {
+        match self {
+            Self::Perspective { .. } => origin[0].like(0.0),
+            Self::Parallel { unit, .. } => dot(origin, axes!(i => origin[0].like(unit[i]))),
+        }
+    }
+}

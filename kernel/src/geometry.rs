@@ -1,0 +1,8 @@
+//! What a scene is made of, and what comes of it: rays, spheres, hits, and cameras that make rays.
+
+pub(crate) mod camera;
+pub(crate) mod hit;
+pub(crate) mod ray;
+pub(crate) mod sphere;
+#[cfg(feature = "alloc")]
+pub(crate) mod sphere_list;

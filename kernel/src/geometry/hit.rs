@@ -1,0 +1,70 @@
+//! What a ray hits.
+
+use crate::lanes::LaneArray;
+
+/// The closest accepted intersection of one ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Where, in multiples of the ray's direction; finite, in the ray's interval, never `-0`.
+    pub t: f32,
+    /// The index of the sphere in its list.
+    pub sphere: u32,
+}
+
+/// A [`Hit`] or none for every lane of a packet, in plain arrays: sixteen lanes unless `A` says
+/// otherwise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(64))]
+pub struct HitPacket<A: LaneArray = [f32; 16]> {
+    pub(crate) t: A,
+    pub(crate) sphere: A::Ids,
+}
+
+impl<A: LaneArray> HitPacket<A> {
+    /// The index that stands for "no sphere".
+    pub const NO_SPHERE: u32 = u32::MAX;
+
+    /// No hit in any lane: `t` is `+inf`, the sphere [`Self::NO_SPHERE`].
+    #[must_use]
+    #[inline(always)]
+    pub fn none() -> Self {
+        Self { t: A::filled(f32::INFINITY), sphere: A::ids(Self::NO_SPHERE) }
+    }
+
+    /// Takes a hit in `lane` if it is closer than the one known, or as close and of a lower index.
+    #[inline(always)]
+    pub(crate) fn take(&mut self, lane: usize, hit: Hit) {
+        if let (Some(t), Some(sphere)) =
+            (self.t.as_mut().get_mut(lane), self.sphere.as_mut().get_mut(lane))
+            && (hit.t < *t || (hit.t == *t && hit.sphere < *sphere))
+        {
+            *t = hit.t;
+            *sphere = hit.sphere;
+        }
+    }
+
+    /// The `t` of every lane; `+inf` if the ray hits nothing.
+    #[must_use]
+    pub fn t(&self) -> &[f32] {
+        self.t.as_ref()
+    }
+
+    /// The sphere index of every lane; [`Self::NO_SPHERE`] if the ray hits nothing.
+    #[must_use]
+    pub fn spheres(&self) -> &[u32] {
+        self.sphere.as_ref()
+    }
+
+    /// The hit in `lane`; `None` if there is none, or no such lane.
+    #[must_use]
+    #[inline(always)]
+    pub fn hit(&self, lane: usize) -> Option<Hit> {
+        let hit = Hit { t: *self.t().get(lane)?, sphere: *self.spheres().get(lane)? };
+        (hit.sphere != Self::NO_SPHERE).then_some(hit)
+    }
+
+    /// The hit of every lane, in order.
+    pub fn hits(&self) -> impl ExactSizeIterator<Item = Option<Hit>> {
+        (0..A::COUNT).map(|lane| self.hit(lane))
+    }
+}

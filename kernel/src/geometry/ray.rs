@@ -1,0 +1,137 @@
+//! Rays, one at a time and in packets.
+
+use crate::lanes::LaneArray;
+use glam::Vec3;
+
+/// The half-line (or, by its interval, any part of the line) `origin + t * direction`.
+///
+/// `direction` need not have unit length; `t` is counted in multiples of it. Only `t` in the
+/// closed interval `[t_min, t_max]` counts; an empty one (`t_min > t_max`, or NaN at either end)
+/// accepts nothing, and is how a lane of a packet is switched off. A ray with NaN or infinity in
+/// `origin` or `direction`, or with `direction` zero, hits nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    /// Where `t` is zero, in the units of the scene.
+    pub origin: Vec3,
+    /// Where `t` grows to; any length but zero.
+    pub direction: Vec3,
+    /// The least accepted `t`; may be negative or `-inf`.
+    pub t_min: f32,
+    /// The greatest accepted `t`; may be `+inf`.
+    pub t_max: f32,
+}
+
+impl Ray {
+    /// A ray that hits nothing.
+    pub const INACTIVE: Self = Self {
+        origin: Vec3::ZERO,
+        direction: Vec3::ZERO,
+        t_min: f32::INFINITY,
+        t_max: f32::NEG_INFINITY,
+    };
+
+    /// The half-line from `origin`: `t` in `[0, +inf]`.
+    #[must_use]
+    pub const fn new(origin: Vec3, direction: Vec3) -> Self {
+        Self { origin, direction, t_min: 0.0, t_max: f32::INFINITY }
+    }
+
+    /// Whether the ray can hit anything: rule 1, and an interval that is not empty.
+    #[must_use]
+    pub fn is_live(&self) -> bool {
+        self.origin.is_finite()
+            && self.direction.is_finite()
+            && self.direction != Vec3::ZERO
+            && self.t_min <= self.t_max
+    }
+
+    /// The point at `t`, each coordinate with two roundings.
+    #[must_use]
+    pub fn at(&self, t: f32) -> Vec3 {
+        self.origin + t * self.direction
+    }
+}
+
+/// A packet of rays, component by component, in plain arrays: sixteen rays unless `A` says otherwise.
+///
+/// A packet is memory, not registers: it holds no vector type, so it may be made on one side of a
+/// run-time dispatch and read on the other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(64))]
+pub struct RayPacket<A: LaneArray = [f32; 16]> {
+    pub(crate) origin: [A; 3],
+    pub(crate) direction: [A; 3],
+    pub(crate) t_min: A,
+    pub(crate) t_max: A,
+}
+
+impl<A: LaneArray> RayPacket<A> {
+    /// A packet whose every lane is [`Ray::INACTIVE`].
+    #[must_use]
+    #[inline(always)]
+    pub fn inactive() -> Self {
+        Self {
+            origin: [A::filled(0.0); 3],
+            direction: [A::filled(0.0); 3],
+            t_min: A::filled(f32::INFINITY),
+            t_max: A::filled(f32::NEG_INFINITY),
+        }
+    }
+
+    /// Ray `i` in lane `i`; lanes past the end of `rays` are inactive, rays past the last lane
+    /// are left out.
+    #[must_use]
+    #[inline(always)]
+    pub fn new(rays: &[Ray]) -> Self {
+        let mut packet = Self::inactive();
+        for (lane, ray) in rays.iter().take(A::COUNT).enumerate() {
+            packet.set(lane, ray);
+        }
+        packet
+    }
+
+    /// Puts `ray` in `lane`; does nothing if there is no such lane.
+    #[inline(always)]
+    pub fn set(&mut self, lane: usize, ray: &Ray) {
+        let (origin, direction) = (ray.origin.to_array(), ray.direction.to_array());
+        for axis in 0..3 {
+            self.origin[axis].set(lane, origin[axis]);
+            self.direction[axis].set(lane, direction[axis]);
+        }
+        self.t_min.set(lane, ray.t_min);
+        self.t_max.set(lane, ray.t_max);
+    }
+
+    /// The ray in `lane`; [`Ray::INACTIVE`] if there is no such lane.
+    #[must_use]
+    #[inline(always)]
+    pub fn ray(&self, lane: usize) -> Ray {
+        if lane >= A::COUNT {
+            return Ray::INACTIVE;
+        }
+        let ([ox, oy, oz], [dx, dy, dz]) = (&self.origin, &self.direction);
+        Ray {
+            origin: Vec3::new(ox.get(lane), oy.get(lane), oz.get(lane)),
+            direction: Vec3::new(dx.get(lane), dy.get(lane), dz.get(lane)),
+            t_min: self.t_min.get(lane),
+            t_max: self.t_max.get(lane),
+        }
+    }
+}
+
+/// Cuts rays into packets on the stack, for [`RayPacket`]s of sixteen.
+impl RayPacket {
+    /// How many rays a packet holds: sixteen.
+    pub const COUNT: usize = 16;
+
+    /// As many packets as `rays` fill, in `packets`; returns those that were filled. The last is
+    /// filled up with inactive lanes. Rays that find no room are left out.
+    pub fn pack<'a>(rays: &[Ray], packets: &'a mut [Self]) -> &'a [Self] {
+        let mut filled = 0;
+        for (rays, packet) in rays.chunks(Self::COUNT).zip(packets.iter_mut()) {
+            *packet = Self::new(rays);
+            filled += 1;
+        }
+        packets.get(..filled).unwrap_or_default()
+    }
+}

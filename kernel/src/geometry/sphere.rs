@@ -1,0 +1,166 @@
+//! Spheres: one, a borrowed list, and one a lane.
+
+use crate::lanes::LaneArray;
+use core::fmt;
+use glam::{Vec3, Vec4};
+
+/// The surface `|x - center| = radius`.
+///
+/// Radius zero (of either sign) is the point `center`. A negative radius, or NaN or infinity
+/// anywhere, is a sphere that nothing hits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sphere {
+    /// The centre, in the units of the scene.
+    pub center: Vec3,
+    /// The radius, in the same units.
+    pub radius: f32,
+}
+
+impl Sphere {
+    /// Whether the sphere is a surface at all: every number finite, the radius not negative.
+    #[must_use]
+    pub fn is_valid(&self) -> bool {
+        self.center.is_finite() && self.radius.is_finite() && self.radius >= 0.0
+    }
+}
+
+/// Centre and radius as a row: x, y, z, r.
+impl From<[f32; 4]> for Sphere {
+    #[inline]
+    fn from([x, y, z, radius]: [f32; 4]) -> Self {
+        Self { center: Vec3::new(x, y, z), radius }
+    }
+}
+
+/// The radius is `w`.
+impl From<Vec4> for Sphere {
+    #[inline]
+    fn from(row: Vec4) -> Self {
+        row.to_array().into()
+    }
+}
+
+impl From<(Vec3, f32)> for Sphere {
+    #[inline]
+    fn from((center, radius): (Vec3, f32)) -> Self {
+        Self { center, radius }
+    }
+}
+
+/// A list of spheres in the caller's memory, coordinate by coordinate.
+///
+/// Sphere `i` is `(x[i], y[i], z[i])` with radius `r[i]`, and `i` is the index that a hit names.
+/// No padding or alignment is asked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Spheres<'a> {
+    x: &'a [f32],
+    y: &'a [f32],
+    z: &'a [f32],
+    r: &'a [f32],
+}
+
+/// Why four slices are no list of spheres.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SpheresError {
+    /// The slices have different lengths.
+    UnequalLengths,
+    /// More spheres than a hit can name: the index is a `u32`, and its last value means "none".
+    TooMany,
+}
+
+impl fmt::Display for SpheresError {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::UnequalLengths => "the coordinate slices of the spheres differ in length",
+            Self::TooMany => "more spheres than 2^32 - 1",
+        })
+    }
+}
+
+impl core::error::Error for SpheresError {}
+
+impl<'a> Spheres<'a> {
+    /// Borrows centres and radii.
+    ///
+    /// # Errors
+    /// [`SpheresError`] where the lengths differ or exceed 2^32 - 1.
+    pub const fn new(
+        x: &'a [f32],
+        y: &'a [f32],
+        z: &'a [f32],
+        r: &'a [f32],
+    ) -> Result<Self, SpheresError> {
+        if x.len() != y.len() || x.len() != z.len() || x.len() != r.len() {
+            return Err(SpheresError::UnequalLengths);
+        }
+        if x.len() as u64 > u32::MAX as u64 {
+            return Err(SpheresError::TooMany);
+        }
+        Ok(Self { x, y, z, r })
+    }
+
+    /// As many spheres as all four columns hold, and as an index can name.
+    #[cfg(feature = "alloc")]
+    pub(super) fn first_of(x: &'a [f32], y: &'a [f32], z: &'a [f32], r: &'a [f32]) -> Self {
+        let count = x.len().min(y.len()).min(z.len()).min(r.len()).min(u32::MAX as usize);
+        let first = |column: &'a [f32]| column.get(..count).unwrap_or_default();
+        Self { x: first(x), y: first(y), z: first(z), r: first(r) }
+    }
+
+    /// How many spheres.
+    #[must_use]
+    pub const fn len(&self) -> usize {
+        self.x.len()
+    }
+
+    /// Whether there is none.
+    #[must_use]
+    pub const fn is_empty(&self) -> bool {
+        self.x.is_empty()
+    }
+
+    /// Sphere `index`; `None` past the end.
+    #[must_use]
+    #[inline(always)]
+    pub fn get(&self, index: usize) -> Option<Sphere> {
+        Some(Sphere {
+            center: Vec3::new(*self.x.get(index)?, *self.y.get(index)?, *self.z.get(index)?),
+            radius: *self.r.get(index)?,
+        })
+    }
+
+    /// The spheres in the order of their indices.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = Sphere> + use<'a> {
+        let Self { x, y, z, r } = *self;
+        x.iter()
+            .zip(y)
+            .zip(z.iter().zip(r))
+            .map(|((&x, &y), (&z, &radius))| Sphere { center: Vec3::new(x, y, z), radius })
+    }
+}
+
+/// One sphere a lane, in plain arrays, for ray `i` against sphere `i`: sixteen unless `A` says
+/// otherwise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(64))]
+pub struct SpherePacket<A: LaneArray = [f32; 16]> {
+    pub(crate) center: [A; 3],
+    pub(crate) radius: A,
+}
+
+impl<A: LaneArray> SpherePacket<A> {
+    /// Sphere `i` in lane `i`; lanes past the end of `spheres` hold a sphere that nothing hits,
+    /// spheres past the last lane are left out.
+    #[must_use]
+    pub fn new(spheres: &[Sphere]) -> Self {
+        let mut packet = Self { center: [A::filled(0.0); 3], radius: A::filled(-1.0) };
+        for (lane, sphere) in spheres.iter().enumerate() {
+            let center = sphere.center.to_array();
+            for axis in 0..3 {
+                packet.center[axis].set(lane, center[axis]);
+            }
+            packet.radius.set(lane, sphere.radius);
+        }
+        packet
+    }
+}

@@ -1,0 +1,113 @@
+//! A list of spheres that owns its columns.
+
+use super::sphere::{Sphere, Spheres};
+use alloc::vec::Vec;
+
+/// Spheres in memory of their own, coordinate by coordinate: the owned form of [`Spheres`].
+///
+/// Made from anything that becomes a [`Sphere`]: rows `[f32; 4]`, glam's vectors, pairs of centre and
+/// radius, slices or vectors of them, any iterator. 16 bytes a sphere.
+///
+/// ```
+/// use spherule_kernel::{Sphere, SphereList, Vec3, Vec4};
+///
+/// let rows = SphereList::from([[0.0, 0.0, 5.0, 1.0], [0.0, 0.0, 9.0, 1.0]]);
+/// let vectors: SphereList = [Vec4::new(0.0, 0.0, 5.0, 1.0)].into_iter().collect();
+/// let pairs: SphereList = [(Vec3::Z, 0.5)].into_iter().collect();
+/// let spheres = SphereList::from(&[Sphere { center: Vec3::Z, radius: 0.5 }][..]);
+/// assert_eq!((rows.len(), vectors.len()), (2, 1));
+/// assert_eq!(pairs.spheres().get(0), spheres.spheres().get(0));
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SphereList {
+    x: Vec<f32>,
+    y: Vec<f32>,
+    z: Vec<f32>,
+    r: Vec<f32>,
+}
+
+impl SphereList {
+    /// An empty list.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self { x: Vec::new(), y: Vec::new(), z: Vec::new(), r: Vec::new() }
+    }
+
+    /// Appends a sphere.
+    pub fn push(&mut self, sphere: impl Into<Sphere>) {
+        let Sphere { center, radius } = sphere.into();
+        self.x.push(center.x);
+        self.y.push(center.y);
+        self.z.push(center.z);
+        self.r.push(radius);
+    }
+
+    /// How many spheres.
+    #[must_use]
+    pub const fn len(&self) -> usize {
+        self.x.len()
+    }
+
+    /// Whether there is none.
+    #[must_use]
+    pub const fn is_empty(&self) -> bool {
+        self.x.is_empty()
+    }
+
+    /// The list, borrowed: the first 2^32 - 1 spheres, since a hit can name no more.
+    #[must_use]
+    pub fn spheres(&self) -> Spheres<'_> {
+        Spheres::first_of(&self.x, &self.y, &self.z, &self.r)
+    }
+}
+
+impl<S: Into<Sphere>> FromIterator<S> for SphereList {
+    fn from_iter<I: IntoIterator<Item = S>>(spheres: I) -> Self {
+        let mut list = Self::new();
+        list.extend(spheres);
+        list
+    }
+}
+
+impl<S: Into<Sphere>> Extend<S> for SphereList {
+    fn extend<I: IntoIterator<Item = S>>(&mut self, spheres: I) {
+        let spheres = spheres.into_iter();
+        let (more, _) = spheres.size_hint();
+        for column in [&mut self.x, &mut self.y, &mut self.z, &mut self.r] {
+            column.reserve(more);
+        }
+        for sphere in spheres {
+            self.push(sphere);
+        }
+    }
+}
+
+impl<S: Into<Sphere> + Copy> From<&[S]> for SphereList {
+    fn from(spheres: &[S]) -> Self {
+        spheres.iter().copied().collect()
+    }
+}
+
+impl<S: Into<Sphere> + Copy> From<&Vec<S>> for SphereList {
+    fn from(spheres: &Vec<S>) -> Self {
+        spheres.iter().copied().collect()
+    }
+}
+
+impl<S: Into<Sphere>> From<Vec<S>> for SphereList {
+    fn from(spheres: Vec<S>) -> Self {
+        spheres.into_iter().collect()
+    }
+}
+
+impl<S: Into<Sphere>, const N: usize> From<[S; N]> for SphereList {
+    fn from(spheres: [S; N]) -> Self {
+        spheres.into_iter().collect()
+    }
+}
+
+impl From<Spheres<'_>> for SphereList {
+    fn from(spheres: Spheres<'_>) -> Self {
+        spheres.iter().collect()
+    }
+}

@@ -1,0 +1,28 @@
+//! Memory of the caller's that turned out too small.
+
+use core::fmt;
+
+/// The memory given to a scene structure was too small.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TooSmall {
+    /// How many elements the slice must have at least: what the structure's `needed` says.
+    pub needed: usize,
+    /// How many it has.
+    pub given: usize,
+}
+
+impl TooSmall {
+    /// An error if `given` is less than what is `needed`.
+    pub(crate) const fn check(needed: usize, given: usize) -> Result<(), Self> {
+        if given < needed { Err(Self { needed, given }) } else { Ok(()) }
+    }
+}
+
+impl fmt::Display for TooSmall {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { needed, given } = self;
+        write!(formatter, "the memory holds {given} elements, and {needed} are needed")
+    }
+}
+
+impl core::error::Error for TooSmall {}

@@ -1,0 +1,169 @@
+//! What is computed for a ray: its closest hit, or whether there is any.
+//!
+//! Every traversal is generic over its query, so a new one is an implementation of [`Answers`] here and
+//! what it changes in each traversal.
+
+use crate::geometry::hit::{Hit, HitPacket};
+use crate::lanes::{LaneArray, LaneMask, Lanes};
+use core::fmt::Debug;
+
+/// A query: [`ClosestHit`] or [`AnyHit`]. Sealed.
+pub trait Query: Answers {}
+
+/// The closest hit of every ray: the smallest accepted t, and among equals the lowest index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ClosestHit;
+
+/// Whether every ray hits anything.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct AnyHit;
+
+impl Query for ClosestHit {}
+impl Query for AnyHit {}
+
+mod sealed {
+    use super::*;
+
+    /// The answers of a query, and how a traversal fills them in.
+    pub trait Answers: Copy + Debug {
+        /// Whether a ray that has hit something is done.
+        const ANY: bool;
+        /// What a packet is answered with.
+        type Packet<A: LaneArray>: Copy + Debug;
+        /// What one ray is answered with.
+        type One: Copy;
+
+        /// No hit in any lane.
+        fn none<A: LaneArray>() -> Self::Packet<A>;
+        /// The answer of one lane.
+        fn one<A: LaneArray>(packet: &Self::Packet<A>, lane: usize) -> Self::One;
+        /// The lanes that are done.
+        fn done<L: Lanes>(token: L::Token, packet: &Self::Packet<L::Array>) -> L::Mask;
+        /// In every lane the t above which nothing matters any more.
+        fn limits<L: Lanes>(token: L::Token, packet: &Self::Packet<L::Array>) -> L;
+        /// Takes the t of one sphere in every lane, `+inf` if there is no hit, where spheres come in the order
+        /// of their indices; returns the new limits.
+        fn accept<L: Lanes>(packet: &mut Self::Packet<L::Array>, index: u32, t: L, limits: L) -> L;
+        /// Takes a hit if it is closer than the one known, or as close and of a lower index.
+        fn take<A: LaneArray>(packet: &mut Self::Packet<A>, lane: usize, hit: Hit);
+        /// The t above which nothing matters any more in a lane: `-inf` if it is done.
+        fn limit<A: LaneArray>(packet: &Self::Packet<A>, lane: usize) -> f32;
+        /// The answers of t, `+inf` if there is no hit, and indices, as bits.
+        fn from_lanes<L: Lanes>(t: L, sphere: L) -> Self::Packet<L::Array>;
+    }
+}
+
+pub(crate) use sealed::Answers;
+
+impl Answers for ClosestHit {
+    const ANY: bool = false;
+    type Packet<A: LaneArray> = HitPacket<A>;
+    type One = Option<Hit>;
+
+    #[inline(always)]
+    fn none<A: LaneArray>() -> HitPacket<A> {
+        HitPacket::none()
+    }
+
+    #[inline(always)]
+    fn one<A: LaneArray>(packet: &HitPacket<A>, lane: usize) -> Option<Hit> {
+        packet.hit(lane)
+    }
+
+    #[inline(always)]
+    fn done<L: Lanes>(token: L::Token, _: &HitPacket<L::Array>) -> L::Mask {
+        L::mask(token, 0)
+    }
+
+    #[inline(always)]
+    fn limits<L: Lanes>(token: L::Token, packet: &HitPacket<L::Array>) -> L {
+        L::load(token, &packet.t)
+    }
+
+    #[inline(always)]
+    fn accept<L: Lanes>(packet: &mut HitPacket<L::Array>, index: u32, t: L, limits: L) -> L {
+        // Spheres come in the order of their indices, so an equal t is no improvement.
+        let closer = t.lt(limits);
+        let best = L::select(closer, t, limits);
+        packet.t = best.store();
+        let mut closer = closer.bits();
+        while closer != 0 {
+            if let Some(sphere) = packet.sphere.as_mut().get_mut(closer.trailing_zeros() as usize) {
+                *sphere = index;
+            }
+            closer &= closer - 1;
+        }
+        best
+    }
+
+    #[inline(always)]
+    fn take<A: LaneArray>(packet: &mut HitPacket<A>, lane: usize, hit: Hit) {
+        packet.take(lane, hit);
+    }
+
+    #[inline(always)]
+    fn limit<A: LaneArray>(packet: &HitPacket<A>, lane: usize) -> f32 {
+        packet.t.get(lane)
+    }
+
+    #[inline(always)]
+    fn from_lanes<L: Lanes>(t: L, sphere: L) -> HitPacket<L::Array> {
+        let mut hits = HitPacket::none();
+        hits.t = t.store();
+        let bits = sphere.store();
+        let indices = hits.sphere.as_mut();
+        for lane in 0..L::COUNT {
+            if let Some(index) = indices.get_mut(lane) {
+                *index = bits.get(lane).to_bits();
+            }
+        }
+        hits
+    }
+}
+
+impl Answers for AnyHit {
+    const ANY: bool = true;
+    type Packet<A: LaneArray> = u32;
+    type One = bool;
+
+    #[inline(always)]
+    fn none<A: LaneArray>() -> u32 {
+        0
+    }
+
+    #[inline(always)]
+    fn one<A: LaneArray>(packet: &u32, lane: usize) -> bool {
+        lane < A::COUNT && packet >> lane & 1 == 1
+    }
+
+    #[inline(always)]
+    fn done<L: Lanes>(token: L::Token, packet: &u32) -> L::Mask {
+        L::mask(token, *packet)
+    }
+
+    #[inline(always)]
+    fn limits<L: Lanes>(token: L::Token, _: &u32) -> L {
+        L::splat(token, f32::INFINITY)
+    }
+
+    #[inline(always)]
+    fn accept<L: Lanes>(packet: &mut u32, _: u32, t: L, limits: L) -> L {
+        *packet |= t.lt(t.like(f32::INFINITY)).bits();
+        limits
+    }
+
+    #[inline(always)]
+    fn take<A: LaneArray>(packet: &mut u32, lane: usize, _: Hit) {
+        *packet |= 1 << (lane % 32);
+    }
+
+    #[inline(always)]
+    fn limit<A: LaneArray>(packet: &u32, lane: usize) -> f32 {
+        if packet >> (lane % 32) & 1 == 1 { f32::NEG_INFINITY } else { f32::INFINITY }
+    }
+
+    #[inline(always)]
+    fn from_lanes<L: Lanes>(t: L, _: L) -> u32 {
+        t.lt(t.like(f32::INFINITY)).bits()
+    }
+}

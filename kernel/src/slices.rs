@@ -1,0 +1,99 @@
+//! Slices of rays: packed, traced and unpacked, some packets at a time, on the stack.
+
+use crate::Accuracy;
+use crate::dispatch::Level;
+use crate::geometry::hit::{Hit, HitPacket};
+use crate::geometry::ray::{Ray, RayPacket};
+use crate::geometry::sphere::{Sphere, SpherePacket};
+use crate::intersect::sealed::{LevelQuery, Traverse};
+#[cfg(not(feature = "std"))]
+use crate::linear;
+use crate::trace::Trace;
+
+/// How many packets are traced at a time: enough that preparing 128 spheres of a list for them is a
+/// hundredth of the work; for firmware as many as its stack holds.
+const PACKETS: usize = if cfg!(feature = "std") { 64 } else { 4 };
+
+/// Answers every ray of a slice.
+pub(crate) fn traverse<S: Traverse + ?Sized, Q: LevelQuery>(
+    structure: &S,
+    tier: impl Accuracy,
+    trace: &mut Trace<'_>,
+    rays: &[Ray],
+    answers: &mut [Q::One],
+) {
+    let mut packets = [RayPacket::inactive(); PACKETS];
+    let mut answered = [Q::none::<[f32; 16]>(); PACKETS];
+    const AT_ONCE: usize = PACKETS * RayPacket::COUNT;
+    for (rays, answers) in rays.chunks(AT_ONCE).zip(answers.chunks_mut(AT_ONCE)) {
+        let packed = RayPacket::pack(rays, &mut packets);
+        structure.in_packets::<Q>(tier, trace, packed, &mut answered);
+        for (place, answer) in answers.iter_mut().take(rays.len()).enumerate() {
+            if let Some(packet) = answered.get(place / RayPacket::COUNT) {
+                *answer = Q::one(packet, place % RayPacket::COUNT);
+            }
+        }
+    }
+}
+
+/// Ray `i` against sphere `i` alone, packet by packet; the sphere index of a hit is its lane.
+///
+/// As [`pair_lanes`](crate::pair_lanes), at `level`. Packets past the end of the shortest slice are left as
+/// they are.
+///
+/// ```
+/// use spherule_kernel::{Exact, HitPacket, Level, Ray, RayPacket, SpherePacket, Vec3, pair_packets};
+///
+/// let rays = [RayPacket::new(&[Ray::new(Vec3::ZERO, Vec3::Z)])];
+/// let spheres = [SpherePacket::new(&[[0.0, 0.0, 5.0, 1.0].into()])];
+/// let mut hits = [HitPacket::none()];
+/// pair_packets(Exact, Level::best(), &rays, &spheres, &mut hits);
+/// assert_eq!(hits[0].t()[0], 4.0);
+/// ```
+pub fn pair_packets(
+    tier: impl Accuracy,
+    level: Level,
+    rays: &[RayPacket],
+    spheres: &[SpherePacket],
+    hits: &mut [HitPacket],
+) {
+    #[cfg(feature = "std")]
+    crate::dispatch::compiled::pairs(level, tier.tier(), rays, spheres, hits);
+    #[cfg(not(feature = "std"))]
+    {
+        let _ = level;
+        linear::each_pair::<wide::f32x16>(tier, (), rays, spheres, hits);
+    }
+}
+
+/// Ray `i` against sphere `i` alone, at the best level that the CPU has; the sphere of a hit is `i`.
+///
+/// Returns bit for bit what [`Intersect`](crate::Intersect) finds for that ray in a list of that sphere.
+/// What is past the end of the shortest slice is left as it is.
+///
+/// ```
+/// use spherule_kernel::{Exact, Ray, Sphere, Vec3, pairs};
+///
+/// let rays = [Ray::new(Vec3::ZERO, Vec3::Z); 2];
+/// let spheres = [Sphere::from([0.0, 9.0, 5.0, 1.0]), Sphere::from([0.0, 0.0, 5.0, 1.0])];
+/// let mut hits = [None; 2];
+/// pairs(Exact, &rays, &spheres, &mut hits);
+/// assert_eq!(hits.map(|hit| hit.map(|hit| (hit.t, hit.sphere))), [None, Some((4.0, 1))]);
+/// ```
+pub fn pairs(tier: impl Accuracy, rays: &[Ray], spheres: &[Sphere], hits: &mut [Option<Hit>]) {
+    let count = rays.len().min(spheres.len()).min(hits.len());
+    let level = Level::best();
+    let mut from = 0;
+    while from < count {
+        let to = (from + RayPacket::COUNT).min(count);
+        let packet = RayPacket::new(rays.get(from..to).unwrap_or_default());
+        let other = SpherePacket::new(spheres.get(from..to).unwrap_or_default());
+        let mut found = [HitPacket::none()];
+        pair_packets(tier, level, &[packet], &[other], &mut found);
+        let answers = hits.get_mut(from..to).unwrap_or_default();
+        for (place, (answer, hit)) in answers.iter_mut().zip(found[0].hits()).enumerate() {
+            *answer = hit.map(|hit| Hit { sphere: (from + place) as u32, ..hit });
+        }
+        from = to;
+    }
+}

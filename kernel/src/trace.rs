@@ -1,0 +1,79 @@
+//! What a caller says of the rays, and of the way in which they are traced.
+
+use crate::dispatch::Level;
+
+/// How rays are traced: at which level, what is known of them, and with what working memory. No answer
+/// depends on it.
+///
+/// ```
+/// use spherule_kernel::{Level, LevelName, Trace};
+///
+/// let mut memory = [0.0; 1536];
+/// let trace = Trace::new().incoherent().with_scratch(&mut memory);
+/// let baseline = Trace::new().at(Level::named(LevelName::Baseline).unwrap_or(trace.level));
+/// assert!(baseline.level.name() <= trace.level.name());
+/// ```
+#[derive(Debug)]
+pub struct Trace<'m> {
+    /// The instruction set.
+    pub level: Level,
+    /// What the rays have in common: the tree has two traversals.
+    pub coherence: Coherence,
+    /// Working memory of a [`DepthList`](crate::DepthList), as long as its `scratch` says; others need
+    /// none.
+    pub scratch: &'m mut [f32],
+}
+
+/// What rays that come one after the other have in common.
+///
+/// The words of Embree's `RTCRayQueryFlags`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Coherence {
+    /// Found out as they come: some percent more than to say it.
+    #[default]
+    Detect,
+    /// An origin or a direction, or nearly so, and they lie close together: camera rays, shadow rays
+    /// to one light.
+    Coherent,
+    /// Nothing, or there are many more spheres between them than they share.
+    Incoherent,
+}
+
+impl Trace<'_> {
+    /// At the best level that the CPU has; coherence is detected; no scratch memory.
+    #[must_use]
+    #[inline]
+    pub fn new() -> Self {
+        Self { level: Level::best(), coherence: Coherence::Detect, scratch: &mut [] }
+    }
+
+    /// At `level`.
+    #[must_use]
+    pub fn at(self, level: Level) -> Self {
+        Self { level, ..self }
+    }
+
+    /// For coherent rays.
+    #[must_use]
+    pub fn coherent(self) -> Self {
+        Self { coherence: Coherence::Coherent, ..self }
+    }
+
+    /// For incoherent rays.
+    #[must_use]
+    pub fn incoherent(self) -> Self {
+        Self { coherence: Coherence::Incoherent, ..self }
+    }
+
+    /// With working memory.
+    #[must_use]
+    pub fn with_scratch(self, scratch: &mut [f32]) -> Trace<'_> {
+        Trace { level: self.level, coherence: self.coherence, scratch }
+    }
+}
+
+impl Default for Trace<'_> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
