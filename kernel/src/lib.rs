@@ -1,6 +1,9 @@
 #![doc = include_str!("lib.md")]
 #![no_std]
 #![forbid(unsafe_code)]
+// Loops over lanes count: an iterator or closure of the standard library is a call in a build of many codegen
+// units without link-time optimisation (`lanes/array.rs`).
+#![allow(clippy::needless_range_loop, clippy::manual_map)]
 
 #[cfg(feature = "alloc")]
 extern crate alloc;

@@ -1,12 +1,13 @@
 //! One ray's way through the tree: `wavefront` -> `in_flight` -> `prepared_ray` -> `ray_state` ->
 //! `root_interval` -> `deferred`, whence the tier.
 
-pub(crate) mod deferred;
+mod deferred;
 mod few;
 mod in_flight;
 mod prefetch;
 pub(crate) mod prepared_ray;
 mod ray_state;
 pub(crate) mod root_interval;
+pub(crate) mod source;
 mod stack;
 pub(crate) mod wavefront;

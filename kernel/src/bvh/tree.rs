@@ -4,7 +4,7 @@ use super::build::join::{InTurn, Join};
 use super::build::top_down;
 use super::built::Built;
 use super::node::{BvhLeaf, BvhNode, DEPTH, LEAF, NO_CHILD, WIDTH};
-use super::traverse::deferred::SphereSource;
+use super::traverse::source::SphereSource;
 use crate::geometry::sphere::{Sphere, Spheres};
 use crate::memory::TooSmall;
 

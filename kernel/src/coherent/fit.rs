@@ -82,14 +82,14 @@ impl Fit {
             }
         }
         let (state, lane) = first?;
-        let (along, sign) = heading(axes!(i => state.direction[i].store().get(lane)));
-        let origin = axes!(i => state.origin[i].store().get(lane));
-        let error = state.absolute_error.store().get(lane);
+        let (along, sign) = heading(axes!(i => state.rays.direction[i].store().get(lane)));
+        let origin = axes!(i => state.rays.origin[i].store().get(lane));
+        let error = state.rays.absolute_error.store().get(lane);
 
         let mut one_origin = true;
         for state in states {
-            let (live, o) = (state.live, state.origin);
-            let forward = state.direction[along % 3] * o[0].like(sign);
+            let (live, o) = (state.live, state.rays.origin);
+            let forward = state.rays.direction[along % 3] * o[0].like(sign);
             if (live & forward.lt(forward.like(ALONG))).any() {
                 return None;
             }
@@ -99,7 +99,8 @@ impl Fit {
             });
             one_origin = one_origin && !state.moved && !(live & (x | y | z)).any();
         }
-        let error = if one_origin { error } else { greatest_of!(states, s => s.absolute_error) };
+        let error =
+            if one_origin { error } else { greatest_of!(states, s => s.rays.absolute_error) };
         let spread = spread_of(spread, extent, error);
         let origin = one_origin.then_some(origin);
         Some(Self { along, sign, absolute_error: error, spread, origin })
@@ -139,10 +140,10 @@ impl Fit {
                 Some(origin) => [origin[i] - low * origin[k], origin[i] - high * origin[k]],
                 None => [
                     -greatest_of!(states, s => {
-                        s.origin[k] * s.absolute_error.like(low) - s.origin[i]
+                        s.rays.origin[k] * s.rays.absolute_error.like(low) - s.rays.origin[i]
                     }),
                     greatest_of!(states, s => {
-                        s.origin[i] - s.origin[k] * s.absolute_error.like(high)
+                        s.rays.origin[i] - s.rays.origin[k] * s.rays.absolute_error.like(high)
                     }),
                 ],
             };
@@ -161,10 +162,10 @@ impl Fit {
         let k = self.along % 3;
         let mut all = [[f32::INFINITY, f32::NEG_INFINITY]; 2];
         for state in &mut *states {
-            let per_depth = state.absolute_error.like(self.sign) / state.direction[k];
+            let per_depth = state.rays.absolute_error.like(self.sign) / state.rays.direction[k];
             let mut slopes = all;
             for side in 0..2 {
-                let slope = state.direction[across(k)[side] % 3] * per_depth;
+                let slope = state.rays.direction[across(k)[side] % 3] * per_depth;
                 let none = slope.like(f32::NEG_INFINITY);
                 let high = L::select(state.live, slope, none).filter_greatest();
                 let low = -L::select(state.live, -slope, none).filter_greatest();
@@ -178,7 +179,9 @@ impl Fit {
         }
         let start = match self.origin {
             Some(origin) => self.sign * origin[k],
-            None => -greatest_of!(states, s => s.origin[k] * s.absolute_error.like(-self.sign)),
+            None => {
+                -greatest_of!(states, s => s.rays.origin[k] * s.rays.absolute_error.like(-self.sign))
+            }
         };
         Some(Frustum {
             sides: self.sides_of(states, all),
@@ -193,7 +196,7 @@ impl Fit {
     pub(super) fn end<L: Lanes>(&self, states: &[PacketState<'_, L>]) -> f32 {
         let k = self.along % 3;
         let end = greatest_of!(states, s => {
-            (s.best * s.direction[k] + s.origin[k]) * s.absolute_error.like(self.sign)
+            (s.best * s.rays.direction[k] + s.rays.origin[k]) * s.rays.absolute_error.like(self.sign)
         });
         // Where no ray goes on, the end is -inf.
         let raise = 16.0 * U * end.abs().min(f32::MAX);

@@ -6,12 +6,12 @@
 use super::depth_list::DepthList;
 use super::fit::{Fit, greatest_of, spread_of};
 use super::listed::Listed;
-use super::packet_state::PacketState;
-use super::survey::{LARGE, MIDDLE, Survey, reaches, unfit};
+use super::packet_state::{GROUP, PacketState, meet_block};
+use super::survey::{Survey, reaches};
 use super::view::View;
 use crate::Accuracy;
 use crate::accuracy::RayLanes;
-use crate::bvh::traverse::deferred::SphereSource;
+use crate::bvh::traverse::source::SphereSource;
 use crate::geometry::ray::RayPacket;
 use crate::geometry::sphere::{Sphere, Spheres};
 use crate::lanes::{LaneMask, Lanes};
@@ -19,9 +19,11 @@ use crate::linear;
 use crate::numeric::rounding::most;
 use crate::query::Query;
 
-/// How many packets go through a list together.
-const SMALL: usize = 4;
-/// The widest range of slopes of them.
+/// How many packets share the larger list.
+const LARGE: usize = 1024;
+/// How many share the shorter one.
+const MIDDLE: usize = 64;
+/// The widest range of slopes that goes through a list together.
 const NARROW: f32 = 2.0;
 
 /// Answers every ray.
@@ -37,170 +39,154 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
     let Some(view) = &list.view else {
         return linear::traverse::<L, Q>(tier, token, list.spheres, rays, answers);
     };
-    let through = Through { list, view };
     let (longer, shorter) = scratch.split_at_mut(scratch.len() / 2);
+    let size = (list.extent, tier.spread());
     let count = rays.len().min(answers.len());
-    let mut from = 0;
+    let (mut from, mut unfit) = (0, 0);
     while from < count {
-        let rays = rays.get(from..count).unwrap_or_default();
-        let survey = Survey::new::<L>(token, view, rays);
-        let group = match &survey {
-            Some(survey) => survey.packets,
-            None => unfit::<L>(token, view, rays),
-        };
-        if let (Some(rays), Some(answers)) =
-            (rays.get(..group), answers.get_mut(from..from + group))
-        {
-            match &survey {
-                Some(survey) => {
-                    through.large_group::<L, Q>(tier, token, survey, rays, longer, shorter, answers)
-                }
-                None => linear::traverse::<L, Q>(tier, token, list.spheres, rays, answers),
+        let large = rays.get(from..count.min(from + LARGE)).unwrap_or_default();
+        let survey = Survey::new::<L>(token, view, large, size);
+        let end = from + survey.packets;
+        if survey.packets == 0 {
+            from += 1;
+        }
+        if survey.packets > 0 || from == count {
+            // Packets that do not fit, against all spheres, in one run.
+            if let (Some(rays), Some(answers)) =
+                (rays.get(unfit..from), answers.get_mut(unfit..from))
+            {
+                linear::traverse::<L, Q>(tier, token, list.spheres, rays, answers);
             }
         }
-        from += group.max(1);
+        let mut listed = list.listed;
+        if survey.packets > MIDDLE {
+            listed = listed.inside::<L>(token, &survey, longer).unwrap_or(listed);
+        }
+        while from < end {
+            let to = end.min(from + MIDDLE);
+            let middle = rays.get(from..to).unwrap_or_default();
+            let mut shorter_list = listed;
+            if middle.len() > GROUP {
+                let survey = Survey::new::<L>(token, view, middle, size);
+                shorter_list = listed.inside::<L>(token, &survey, shorter).unwrap_or(listed);
+            }
+            let source = ListSource { list, view, listed: &shorter_list };
+            while from < to {
+                let next = to.min(from + GROUP);
+                if let (Some(rays), Some(answers)) =
+                    (rays.get(from..next), answers.get_mut(from..next))
+                {
+                    source.trace::<L, Q>(tier, token, rays, answers);
+                }
+                from = next;
+            }
+        }
+        if survey.packets > 0 {
+            unfit = from;
+        }
     }
 }
 
-/// What all groups share.
-struct Through<'a> {
+/// The spheres of a short list, by their places in it.
+struct ListSource<'a> {
     list: &'a DepthList<'a>,
     view: &'a View,
+    listed: &'a Listed<'a>,
 }
 
-impl Through<'_> {
-    #[expect(clippy::too_many_arguments, reason = "two pieces of scratch memory, reborrowed")]
+impl SphereSource for ListSource<'_> {
     #[inline(always)]
-    fn large_group<L: Lanes, Q: Query>(
-        &self,
-        tier: impl Accuracy,
-        token: L::Token,
-        survey: &Survey,
-        rays: &[RayPacket<L::Array>],
-        longer: &mut [f32],
-        shorter: &mut [f32],
-        answers: &mut [Q::Packet<L::Array>],
-    ) {
-        let (extent, spread) = (self.list.extent, tier.spread());
-        let mut listed = self.list.listed;
-        if rays.len() > MIDDLE {
-            let (frustum, reach) = survey.frustum(&survey.all(), extent, spread);
-            if let Some(inside) = listed.inside::<L>(token, &frustum, reach, longer) {
-                listed = inside;
-            }
-        }
-        for part in 0..LARGE / MIDDLE {
-            let (from, to) = (part * MIDDLE, ((part + 1) * MIDDLE).min(rays.len()));
-            let (Some(rays), Some(answers)) = (rays.get(from..to), answers.get_mut(from..to))
-            else {
-                return;
-            };
-            let mut listed = listed;
-            if rays.len() > SMALL {
-                let (frustum, reach) = survey.frustum(&survey.bounds[part], extent, spread);
-                if let Some(inside) = listed.inside::<L>(token, &frustum, reach, shorter) {
-                    listed = inside;
-                }
-            }
-            let mut from = 0;
-            while from < rays.len() {
-                let to = (from + SMALL).min(rays.len());
-                if let (Some(rays), Some(answers)) = (rays.get(from..to), answers.get_mut(from..to))
-                {
-                    self.small_group::<L, Q>(tier, token, rays, &listed, answers);
-                }
-                from = to;
-            }
-        }
+    fn sphere_at(&self, place: u32) -> Option<(Sphere, u32)> {
+        sphere_of(&self.list.spheres, self.listed.indices().get(place as usize))
     }
 
     #[inline(always)]
-    fn small_group<L: Lanes, Q: Query>(
+    fn outside(&self, number: usize) -> Option<(Sphere, u32)> {
+        sphere_of(&self.list.spheres, self.list.outside().get(number))
+    }
+}
+
+/// The sphere of an index that is given as bits.
+#[inline(always)]
+fn sphere_of(spheres: &Spheres<'_>, index: Option<&f32>) -> Option<(Sphere, u32)> {
+    let index = index?.to_bits();
+    Some((spheres.get(index as usize)?, index))
+}
+
+impl ListSource<'_> {
+    /// Answers the rays of up to four packets.
+    #[inline(always)]
+    fn trace<L: Lanes, Q: Query>(
         &self,
         tier: impl Accuracy,
         token: L::Token,
         rays: &[RayPacket<L::Array>],
-        listed: &Listed<'_>,
         answers: &mut [Q::Packet<L::Array>],
     ) {
-        let Some(first) = rays.first() else { return };
-        let (extent, spread) = (self.list.extent, tier.spread());
-        let mut states = [self.state_of::<L>(token, first); SMALL];
-        for place in 1..SMALL {
-            if let Some(packet) = rays.get(place) {
-                states[place] = self.state_of(token, packet);
-            }
+        let nobody = RayPacket::inactive();
+        let mut states = [self.state_of::<L>(token, &nobody); GROUP];
+        let mut live = false;
+        for place in 0..rays.len().min(GROUP) {
+            states[place] = self.state_of(token, &rays[place]);
+            live |= states[place].live.any();
         }
         let states = states.get_mut(..rays.len()).unwrap_or_default();
-        let mut live = false;
-        for state in &*states {
-            live |= state.live.any();
-        }
-        if !live {
-            for answer in answers {
-                *answer = Q::none::<L::Array>();
+        if live {
+            let Some(fit) = Fit::of(states, self.list.extent, tier.spread()) else {
+                return linear::traverse::<L, Q>(tier, token, self.list.spheres, rays, answers);
+            };
+            let Some(frustum) = fit.enclose(states, NARROW) else {
+                return linear::traverse::<L, Q>(tier, token, self.list.spheres, rays, answers);
+            };
+            let slack = spread_of(tier.spread(), self.list.extent, fit.absolute_error);
+            let mut reach = f32::NEG_INFINITY;
+            for state in &mut *states {
+                if self.list.outside > 0 {
+                    state.test_outside::<Q>(tier, self);
+                }
+                state.depth = self.depth_of(state, slack);
+                reach = most(reach, state.depth);
             }
-            return;
-        }
-        let fit = Fit::of(states, extent, spread);
-        let enclosed = match &fit {
-            Some(fit) => fit.enclose(states, NARROW),
-            None => None,
-        };
-        let (Some(fit), Some(frustum)) = (fit, enclosed) else {
-            return linear::traverse::<L, Q>(tier, token, self.list.spheres, rays, answers);
-        };
-        let source =
-            ListSource { listed, spheres: self.list.spheres, outside: self.list.outside() };
-        let slack = spread_of(spread, extent, fit.absolute_error);
-        let mut reach = f32::NEG_INFINITY;
-        for state in &mut *states {
-            if self.list.outside > 0 {
-                state.test_outside::<Q>(tier, &source);
-            }
-            state.depth = self.depth_of(state, slack);
-            reach = most(reach, state.depth);
-        }
 
-        // From the front: all that follows a block begins as deep, or deeper.
-        let mut number = 0;
-        while let Some((spheres, depth)) = listed.block(number) {
-            if depth > reach {
-                break;
-            }
-            let places = frustum.look::<L>(token, &spheres);
-            let mut any_changed = false;
-            if places != 0 {
-                for state in &mut *states {
-                    if depth > state.depth {
-                        continue;
-                    }
-                    let mut places = places & state.sides.look::<L>(token, &spheres);
-                    let mut changed = false;
-                    while places != 0 {
-                        let place = places.trailing_zeros() as usize;
-                        places &= places - 1;
-                        changed |= state.meet::<Q>(tier, &source, (number as u32, &spheres), place);
-                    }
-                    if changed {
-                        state.depth = self.depth_of(state, slack);
-                        any_changed = true;
-                    }
+            // From the front: all that follows a block begins as deep, or deeper.
+            let mut number = 0;
+            while let Some((spheres, depth)) = self.listed.block(number)
+                && depth <= reach
+            {
+                let block = (number as u32, &spheres, depth);
+                number += 1;
+                // What lies before the rays is left out of short lists already.
+                let places = frustum.sides.look::<L>(token, &spheres);
+                if places == 0 {
+                    continue;
                 }
+                meet_block::<L, Q>(
+                    tier,
+                    self,
+                    states,
+                    block,
+                    places,
+                    #[inline(always)]
+                    |state| self.depth_of(state, slack),
+                    &mut reach,
+                );
             }
-            if any_changed {
-                reach = f32::NEG_INFINITY;
-                for state in &*states {
-                    reach = most(reach, state.depth);
-                }
-            }
-            number += 1;
         }
         for place in 0..states.len() {
             if let (Some(state), Some(answer)) = (states.get_mut(place), answers.get_mut(place)) {
-                *answer = state.finish::<Q>(tier, &source);
+                *answer = state.finish::<Q>(tier, self);
             }
         }
+    }
+
+    /// How deep the rays of a packet still go.
+    #[inline(always)]
+    fn depth_of<L: Lanes>(&self, state: &PacketState<'_, L>, slack: f32) -> f32 {
+        let states = [state];
+        let best = greatest_of!(states, s => {
+            reaches(self.view, s.best, s.rays.origin, s.rays.absolute_error)
+        });
+        best + slack
     }
 
     #[inline(always)]
@@ -210,34 +196,5 @@ impl Through<'_> {
         packet: &'a RayPacket<L::Array>,
     ) -> PacketState<'a, L> {
         PacketState::new(packet, &self.view.in_frame(&RayLanes::load(token, packet)))
-    }
-
-    /// How deep the rays of a packet still go.
-    #[inline(always)]
-    fn depth_of<L: Lanes>(&self, state: &PacketState<'_, L>, slack: f32) -> f32 {
-        let states = [state];
-        greatest_of!(states, s => reaches(self.view, s.best, s.origin, s.absolute_error)) + slack
-    }
-}
-
-/// The spheres of a list, by their places in it.
-struct ListSource<'a> {
-    listed: &'a Listed<'a>,
-    spheres: Spheres<'a>,
-    /// The indices, as bits, of spheres that every ray must be tested against.
-    outside: &'a [f32],
-}
-
-impl SphereSource for ListSource<'_> {
-    #[inline(always)]
-    fn sphere_at(&self, place: u32) -> Option<(Sphere, u32)> {
-        let index = self.listed.index(place as usize)?;
-        Some((self.spheres.get(index)?, index as u32))
-    }
-
-    #[inline(always)]
-    fn outside(&self, number: usize) -> Option<(Sphere, u32)> {
-        let index = self.outside.get(number)?.to_bits();
-        Some((self.spheres.get(index as usize)?, index))
     }
 }

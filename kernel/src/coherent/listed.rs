@@ -1,6 +1,6 @@
 //! Spheres in the order of their depth, column by column, in blocks of sixteen.
 
-use super::frustum::Frustum;
+use super::survey::Survey;
 use crate::bvh::traverse::root_interval::SphereColumns;
 use crate::lanes::{LaneArray, Lanes, WIDTH};
 
@@ -68,28 +68,19 @@ impl<'a> Listed<'a> {
         Some((SphereColumns { center, radius: radius.get(number)? }, depth.get(number)?[0]))
     }
 
-    /// The index of the sphere at a place.
-    #[inline(always)]
-    pub(super) fn index(&self, place: usize) -> Option<usize> {
-        match self.columns[5].get(place / WIDTH) {
-            Some(block) => Some(block[place % WIDTH].to_bits() as usize),
-            None => None,
-        }
-    }
-
     /// The indices of all places, as bits.
+    #[inline(always)]
     pub(super) fn indices(&self) -> &'a [f32] {
         self.columns[5].as_flattened()
     }
 
-    /// What of the list may be hit by rays inside `frustum` that go no deeper than `reach`, in the same
-    /// order; `None` if it has no room in `memory`.
+    /// What of the list the rays of a survey may hit, in the same order; `None` if it has no room in
+    /// `memory`.
     #[inline(always)]
     pub(super) fn inside<'b, L: Lanes>(
         &self,
         token: L::Token,
-        frustum: &Frustum,
-        reach: f32,
+        Survey { frustum, reach, .. }: &Survey,
         memory: &'b mut [f32],
     ) -> Option<Listed<'b>> {
         // As many whole blocks as there is room for.
@@ -98,7 +89,7 @@ impl<'a> Listed<'a> {
         let (mut count, mut number) = (0, 0);
         while let Some((spheres, depth)) = self.block(number) {
             // All that follows begins deeper.
-            if depth > reach {
+            if depth > *reach {
                 break;
             }
             let places = frustum.look::<L>(token, &spheres);

@@ -10,99 +10,84 @@
 use super::frustum::Sides;
 use crate::Accuracy;
 use crate::accuracy::{RayLanes, test_lanes};
-use crate::bvh::traverse::deferred::{SphereSource, test_outside};
-use crate::bvh::traverse::prepared_ray::{PreparedLanes, RayTime, far_away};
+use crate::bvh::traverse::prepared_ray::{PreparedLanes, far_away};
 use crate::bvh::traverse::root_interval::{Pass, RootInterval, SphereColumns};
+use crate::bvh::traverse::source::{SphereSource, test_outside};
 use crate::geometry::hit::HitPacket;
 use crate::geometry::ray::RayPacket;
 use crate::lanes::{LaneArray, LaneMask, Lanes, WIDTH};
 use crate::numeric::axes::axes;
+use crate::numeric::rounding::most;
 use crate::query::{ClosestHit, Query};
+
+/// How many packets go together.
+pub(super) const GROUP: usize = 4;
 
 /// A packet in flight.
 #[derive(Clone, Copy)]
 pub(super) struct PacketState<'a, L: Lanes> {
     /// The rays themselves: read again where the tier tests.
     packet: &'a RayPacket<L::Array>,
+    /// The same, prepared; the end of the interval from above is `best`.
+    pub(super) rays: PreparedLanes<L>,
     /// Whether the bounds cover all of its rays, and all start at t >= 0.
     pub(super) covered: bool,
     /// Whether its rays may begin elsewhere than they say.
     pub(super) moved: bool,
     /// The planes around these rays alone.
     pub(super) sides: Sides,
-    /// The greatest depth, as a frustum or a list counts it, that one of them still goes to.
+    /// The greatest depth, as a tree or a list counts it, that one of them still goes to.
     pub(super) depth: f32,
-    /// Rays that may yet meet something nearer.
+    /// Rays that may yet hit something closer.
     pub(super) live: L::Mask,
-    /// o'.
-    pub(super) origin: [L; 3],
-    /// n.
-    pub(super) direction: [L; 3],
-    time: RayTime<L>,
-    /// As [`PreparedLanes::absolute_error`].
-    pub(super) absolute_error: L,
-    /// The interval starts in between: an s below, and an s above.
-    start: [L; 2],
-    /// It ends above.
-    end: L,
     /// No root beyond counts any more: an s.
     pub(super) best: L,
-    /// Of the pending sphere: no root is below; NaN where there is none.
+    /// Of the pending sphere: no root is below; NaN if there is none.
     entry: L,
     /// Its place in the structure, as bits.
     place: L,
-    /// That place, where all pending spheres are one.
+    /// That place, if all pending spheres are one.
     shared: Option<u32>,
-    /// The nearest answer of the tier so far, and the index of its sphere, as bits.
+    /// The closest answer of the tier so far, and the index of its sphere, as bits.
     t: L,
     sphere: L,
 }
 
 impl<'a, L: Lanes> PacketState<'a, L> {
+    /// Of a packet, whose rays in the frame of the structure are `rays`.
     #[inline(always)]
     pub(super) fn new(packet: &'a RayPacket<L::Array>, rays: &RayLanes<L>) -> Self {
-        let token = rays.t_min.token();
-        let PreparedLanes {
-            covered,
-            origin,
-            direction,
-            time,
-            absolute_error,
-            start,
-            end: [end, best],
-        } = PreparedLanes::as_they_are(rays);
-        let forward = L::splat(token, 0.0).le(rays.t_min);
+        let (live, zero) = (rays.live, rays.t_min.like(0.0));
+        let forward = zero.le(rays.t_min);
+        let rays = PreparedLanes::as_they_are(rays);
         Self {
             packet,
-            covered: !(rays.live & !(covered & forward)).any(),
+            rays,
+            covered: !(live & !(rays.covered & forward)).any(),
             moved: false,
             sides: Sides::NONE,
             depth: f32::INFINITY,
-            live: rays.live,
-            origin,
-            direction,
-            time,
-            absolute_error,
-            start,
-            end,
-            best,
-            entry: L::splat(token, f32::NAN),
-            place: L::splat(token, 0.0),
+            live,
+            best: rays.end[1],
+            entry: zero.like(f32::NAN),
+            place: zero,
             shared: None,
-            t: L::splat(token, f32::INFINITY),
-            sphere: L::splat(token, f32::from_bits(HitPacket::<L::Array>::NO_SPHERE)),
+            t: zero.like(f32::INFINITY),
+            sphere: zero.like(f32::from_bits(HitPacket::<L::Array>::NO_SPHERE)),
         }
     }
 
-    /// Begins nearer to a tree of that extent, before all else.
+    #[inline(always)]
+    fn token(&self) -> L::Token {
+        self.best.token()
+    }
+
+    /// Begins nearer to a scene of that extent, before all else.
     #[inline(always)]
     fn approach(&mut self, extent: f32) {
-        let rays = RayLanes::load(self.absolute_error.token(), self.packet);
-        let PreparedLanes { origin, time, absolute_error, start, end: [end, best], .. } =
-            PreparedLanes::as_they_are(&rays).nearer(&rays, extent);
-        (self.origin, self.time, self.absolute_error) = (origin, time, absolute_error);
-        (self.start, self.end, self.best) = (start, end, best);
-        self.moved = true;
+        let rays = RayLanes::load(self.token(), self.packet);
+        self.rays = PreparedLanes::as_they_are(&rays).nearer(&rays, extent);
+        (self.best, self.moved) = (self.rays.end[1], true);
     }
 
     /// Tests the spheres that every ray must be tested against.
@@ -112,7 +97,7 @@ impl<'a, L: Lanes> PacketState<'a, L> {
         tier: impl Accuracy,
         source: &impl SphereSource,
     ) {
-        let token = self.absolute_error.token();
+        let token = self.token();
         let mut hits = HitPacket::none();
         let rays = RayLanes::load(token, self.packet);
         test_outside::<L, ClosestHit>(tier, &rays, source, self.live.bits(), &mut hits);
@@ -135,20 +120,39 @@ impl<'a, L: Lanes> PacketState<'a, L> {
         &mut self,
         tier: impl Accuracy,
         source: &impl SphereSource,
+        block: (u32, &SphereColumns<'_>),
+        place: usize,
+    ) -> bool {
+        if tier.spread() == 0.0 {
+            return self.meet_as::<Q, false>(tier, source, block, place);
+        }
+        L::out_of_line(
+            self.token(),
+            #[inline(always)]
+            || self.meet_as::<Q, true>(tier, source, block, place),
+        )
+    }
+
+    #[inline(always)]
+    fn meet_as<Q: Query, const SPREADS: bool>(
+        &mut self,
+        tier: impl Accuracy,
+        source: &impl SphereSource,
         (number, spheres): (u32, &SphereColumns<'_>),
         place: usize,
     ) -> bool {
-        let (token, spread) = (self.absolute_error.token(), tier.spread());
+        let (token, spread) = (self.token(), tier.spread());
+        let PreparedLanes { origin, direction, absolute_error, time, start, end, .. } = self.rays;
         let center = axes!(i => L::splat(token, spheres.center[i][place % WIDTH]));
         let radius = L::splat(token, spheres.radius[place % WIDTH]);
-        let pass = Pass::new(self.origin, self.direction, self.absolute_error, center, radius);
-        let near = self.live & pass.may_hit(self.start[0], self.best, spread);
+        let pass = Pass::new(origin, direction, absolute_error, center, radius);
+        let near = self.live & pass.may_hit::<SPREADS>(start[0], self.best, spread);
         if !near.any() {
             return false;
         }
 
         let RootInterval { candidates, entry, bound } =
-            pass.root_interval(self.start, [self.end, self.best], self.time.t_error(), spread);
+            pass.root_interval::<SPREADS>(start, [end[0], self.best], time.t_error(), spread);
         let mut candidates = near & candidates;
         if Q::ANY {
             let sure = candidates & bound.lt(bound.like(f32::INFINITY));
@@ -184,7 +188,7 @@ impl<'a, L: Lanes> PacketState<'a, L> {
         source: &impl SphereSource,
         asked: L::Mask,
     ) {
-        let token = self.absolute_error.token();
+        let token = self.token();
         let rays = RayLanes::load(token, self.packet);
         let Pending { center, radius, index } = Pending::new(source, self.place, self.shared);
         let t = test_lanes(tier, &rays, center, radius, asked, self.t);
@@ -224,7 +228,7 @@ impl<'a, L: Lanes> PacketState<'a, L> {
             self.best = L::select(met, -infinity, self.best);
             self.entry = L::select(met, self.entry.like(f32::NAN), self.entry);
         } else {
-            let bound = self.time.after(self.t);
+            let bound = self.rays.time.after(self.t);
             self.best = L::select(bound.lt(self.best), bound, self.best);
         }
     }
@@ -244,15 +248,52 @@ impl<'a, L: Lanes> PacketState<'a, L> {
     }
 }
 
+/// Tests sixteen spheres, those in `places`, from `depth` on, with every packet that goes there; `end` becomes the greatest depth that any of them still goes to, if that changes.
+#[inline(always)]
+pub(super) fn meet_block<L: Lanes, Q: Query>(
+    tier: impl Accuracy,
+    source: &impl SphereSource,
+    states: &mut [PacketState<'_, L>],
+    (number, spheres, depth): (u32, &SphereColumns<'_>, f32),
+    places: u32,
+    depth_of: impl Fn(&PacketState<'_, L>) -> f32,
+    end: &mut f32,
+) {
+    let mut any_changed = false;
+    for state in &mut *states {
+        // (3 % of the time of u10k, 6 % of u1m's.)
+        if depth > state.depth {
+            continue;
+        }
+        let mut places = places & state.sides.look::<L>(state.token(), spheres);
+        let mut changed = false;
+        while places != 0 {
+            let place = places.trailing_zeros() as usize;
+            places &= places - 1;
+            changed |= state.meet::<Q>(tier, source, (number, spheres), place);
+        }
+        if changed {
+            state.depth = depth_of(state);
+            any_changed = true;
+        }
+    }
+    if any_changed {
+        *end = f32::NEG_INFINITY;
+        for state in &*states {
+            *end = most(*end, state.depth);
+        }
+    }
+}
+
 /// Lets new packets begin nearer to a scene of that extent, if any of their rays are far away: in place,
 /// since a choice between two states costs a tenth of a group's time.
 #[inline(always)]
 pub(super) fn approach<L: Lanes>(states: &mut [PacketState<'_, L>], extent: f32, spread: f32) {
     let Some(first) = states.first() else { return };
-    let token = first.absolute_error.token();
-    let mut far = far_away(first.live, first.absolute_error, extent);
+    let token = first.token();
+    let mut far = far_away(first.live, first.rays.absolute_error, extent);
     for state in states.iter() {
-        far = far | far_away(state.live, state.absolute_error, extent);
+        far = far | far_away(state.live, state.rays.absolute_error, extent);
     }
     if spread > 0.0 || !far.any() {
         return;

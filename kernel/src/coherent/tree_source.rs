@@ -13,7 +13,7 @@
 
 use super::fit::Fit;
 use super::frustum::Inside;
-use super::packet_state::{PacketState, approach};
+use super::packet_state::{GROUP, PacketState, approach, meet_block};
 use crate::Accuracy;
 use crate::accuracy::RayLanes;
 use crate::bvh::node::{DEPTH, LEAF, NO_CHILD, WIDTH};
@@ -21,11 +21,8 @@ use crate::bvh::traverse::wavefront;
 use crate::bvh::tree::Bvh;
 use crate::geometry::ray::RayPacket;
 use crate::lanes::{LaneMask, Lanes};
-use crate::numeric::rounding::most;
 use crate::query::Query;
 
-/// How many packets go together.
-const GROUP: usize = 4;
 /// The widest range of slopes that is traced as one.
 const NARROW: f32 = 0.5;
 /// How many boxes can wait: fifteen a node on the way, and the last node's.
@@ -168,35 +165,22 @@ impl Boxes {
             }
             let number = child & !LEAF;
             let Some(leaf) = bvh.leaves.get(number as usize) else { continue };
-            let spheres = leaf.columns();
+            let (spheres, mut end) = (leaf.columns(), frustum.end);
             let places = frustum.look::<L>(token, &spheres);
             if places == 0 {
                 continue;
             }
-            let mut any_changed = false;
-            for state in &mut *states {
-                // (3 % of the time of u10k, 6 % of u1m's.)
-                if depth > state.depth {
-                    continue;
-                }
-                let mut places = places & state.sides.look::<L>(token, &spheres);
-                let mut changed = false;
-                while places != 0 {
-                    let place = places.trailing_zeros() as usize;
-                    places &= places - 1;
-                    changed |= state.meet::<Q>(tier, bvh, (number, &spheres), place);
-                }
-                if changed {
-                    state.depth = fit.end(core::slice::from_ref(&*state));
-                    any_changed = true;
-                }
-            }
-            if any_changed {
-                frustum.end = f32::NEG_INFINITY;
-                for state in &*states {
-                    frustum.end = most(frustum.end, state.depth);
-                }
-            }
+            meet_block::<L, Q>(
+                tier,
+                bvh,
+                states,
+                (number, &spheres, depth),
+                places,
+                #[inline(always)]
+                |state| fit.end(core::slice::from_ref(state)),
+                &mut end,
+            );
+            frustum.end = end;
         }
         true
     }

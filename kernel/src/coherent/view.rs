@@ -36,7 +36,7 @@ impl View {
                 let a = dot(direction, direction);
                 let per_length = 1.0 / libm::sqrtf(a);
                 let unit = axes!(i => direction[i] * per_length);
-                let covered = 1.0 / LONGEST <= a && a <= LONGEST;
+                let covered = (1.0 / LONGEST..=LONGEST).contains(&a);
                 covered.then_some(Self::Parallel { direction, unit })
             }
         }

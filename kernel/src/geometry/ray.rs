@@ -93,6 +93,9 @@ impl<A: LaneArray> RayPacket<A> {
     /// Puts `ray` in `lane`; does nothing if there is no such lane.
     #[inline(always)]
     pub fn set(&mut self, lane: usize, ray: &Ray) {
+        if lane >= A::COUNT {
+            return;
+        }
         let (origin, direction) = (ray.origin.to_array(), ray.direction.to_array());
         for axis in 0..3 {
             self.origin[axis].set(lane, origin[axis]);

@@ -154,7 +154,7 @@ impl<A: LaneArray> SpherePacket<A> {
     #[must_use]
     pub fn new(spheres: &[Sphere]) -> Self {
         let mut packet = Self { center: [A::filled(0.0); 3], radius: A::filled(-1.0) };
-        for (lane, sphere) in spheres.iter().enumerate() {
+        for (lane, sphere) in spheres.iter().take(A::COUNT).enumerate() {
             let center = sphere.center.to_array();
             for axis in 0..3 {
                 packet.center[axis].set(lane, center[axis]);

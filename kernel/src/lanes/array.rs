@@ -33,9 +33,9 @@ pub trait LaneArray:
     fn ids(value: u32) -> Self::Ids;
     /// `value` in every lane.
     fn each<T: Copy>(value: T) -> Self::Each<T>;
-    /// The number in `lane`; NaN if there is no such lane.
+    /// The number in `lane`, modulo N: the remainder spares a branch.
     fn get(&self, lane: usize) -> f32;
-    /// Puts a number in `lane`; does nothing if there is no such lane.
+    /// Puts a number in `lane`, modulo N.
     fn set(&mut self, lane: usize, value: f32);
     /// Numbers `part * N ..` of sixteen; a part past the last is the first again.
     fn part(numbers: &[f32; 16], part: usize) -> Self;
@@ -71,14 +71,12 @@ macro_rules! lane_array {
 
             #[inline(always)]
             fn get(&self, lane: usize) -> f32 {
-                if lane < $count { self[lane] } else { f32::NAN }
+                self[lane % $count]
             }
 
             #[inline(always)]
             fn set(&mut self, lane: usize, value: f32) {
-                if lane < $count {
-                    self[lane] = value;
-                }
+                self[lane % $count] = value;
             }
 
             #[inline(always)]

@@ -1,24 +1,17 @@
-//! From candidates to answers: tests of spheres that wait for company.
+//! From candidates to answers: what all rays of a traversal share, and tests that wait for company.
 //!
 //! Candidates of any rays wait until there is one for every lane; then the tier tests all of
 //! them at once.
 
+use super::source::SphereSource;
 use crate::Accuracy;
 use crate::accuracy::{RayLanes, test_lanes};
+use crate::bvh::tree::Bvh;
 use crate::geometry::hit::Hit;
 use crate::geometry::ray::RayPacket;
-use crate::geometry::sphere::Sphere;
 use crate::lanes::{LaneArray, Lanes};
 use crate::numeric::axes::axes;
 use crate::query::Query;
-
-/// Where spheres lie until a tier tests them: by place in a structure, each with its index.
-pub(crate) trait SphereSource {
-    /// The sphere at a place, and its index.
-    fn sphere_at(&self, place: u32) -> Option<(Sphere, u32)>;
-    /// Sphere `number` of those that every ray must be tested against; `None` past the last.
-    fn outside(&self, number: usize) -> Option<(Sphere, u32)>;
-}
 
 /// A ray of a list of packets.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,8 +24,13 @@ impl RayPlace {
     pub(crate) const FIRST: Self = Self { packet: 0, lane: 0 };
 }
 
-/// Rays and spheres that the tier will test, one of each a lane.
-pub(crate) struct DeferredTests<L: Lanes> {
+/// Rays and spheres that the tier will test, one of each a lane, and where the answers go.
+pub(crate) struct DeferredTests<'a, T, L: Lanes, Q: Query> {
+    pub(crate) tier: T,
+    pub(crate) token: L::Token,
+    pub(crate) bvh: &'a Bvh<'a>,
+    pub(crate) packets: &'a [RayPacket<L::Array>],
+    pub(crate) answers: &'a mut [Q::Packet<L::Array>],
     rays: RayPacket<L::Array>,
     center: [L::Array; 3],
     radius: L::Array,
@@ -41,10 +39,21 @@ pub(crate) struct DeferredTests<L: Lanes> {
     count: usize,
 }
 
-impl<L: Lanes> DeferredTests<L> {
+impl<'a, T: Accuracy, L: Lanes, Q: Query> DeferredTests<'a, T, L, Q> {
     #[inline(always)]
-    pub(crate) fn none() -> Self {
+    pub(crate) fn new(
+        tier: T,
+        token: L::Token,
+        bvh: &'a Bvh<'a>,
+        packets: &'a [RayPacket<L::Array>],
+        answers: &'a mut [Q::Packet<L::Array>],
+    ) -> Self {
         Self {
+            tier,
+            token,
+            bvh,
+            packets,
+            answers,
             rays: RayPacket::inactive(),
             center: [L::Array::filled(0.0); 3],
             radius: L::Array::filled(0.0),
@@ -54,24 +63,16 @@ impl<L: Lanes> DeferredTests<L> {
         }
     }
 
-    /// Adds a ray and the sphere at `place` of a structure; tests, if that makes as many as there
+    /// Adds a ray and the sphere at `place` in the leaves; tests, if that makes as many as there
     /// are lanes.
     #[inline(always)]
-    pub(crate) fn add<Q: Query>(
-        &mut self,
-        tier: impl Accuracy,
-        token: L::Token,
-        (packets, whose): (&[RayPacket<L::Array>], RayPlace),
-        (source, place): (&impl SphereSource, u32),
-        answers: &mut [Q::Packet<L::Array>],
-    ) {
+    pub(crate) fn add(&mut self, ray: RayPlace, place: u32) {
         let (Some(packet), Some((sphere, index))) =
-            (packets.get(whose.packet), source.sphere_at(place))
+            (self.packets.get(ray.packet), self.bvh.sphere_at(place))
         else {
             return;
         };
-        let lane = self.count;
-        let (there, center) = (whose.lane, sphere.center.to_array());
+        let (lane, there, center) = (self.count, ray.lane, sphere.center.to_array());
         for axis in 0..3 {
             self.rays.origin[axis].set(lane, packet.origin[axis].get(there));
             self.rays.direction[axis].set(lane, packet.direction[axis].get(there));
@@ -83,71 +84,36 @@ impl<L: Lanes> DeferredTests<L> {
         if let (Some(number), Some(place)) =
             (self.index.as_mut().get_mut(lane), self.whose.as_mut().get_mut(lane))
         {
-            (*number, *place) = (index, whose);
+            (*number, *place) = (index, ray);
             self.count += 1;
         }
         if self.count == L::COUNT {
-            self.test::<Q>(tier, token, answers);
+            self.test();
         }
     }
 
     /// Tests what there is, and hands the answers on.
     #[inline(always)]
-    pub(crate) fn test<Q: Query>(
-        &mut self,
-        tier: impl Accuracy,
-        token: L::Token,
-        answers: &mut [Q::Packet<L::Array>],
-    ) {
+    pub(crate) fn test(&mut self) {
         if self.count == 0 {
             return;
         }
-        let asked = (1_u64 << self.count) - 1;
+        let (token, asked) = (self.token, (1_u64 << self.count) - 1);
         self.count = 0;
         let rays = RayLanes::<L>::load(token, &self.rays);
         let asked = rays.live & L::mask(token, asked as u32);
         let center = axes!(i => L::load(token, &self.center[i]));
         let radius = L::load(token, &self.radius);
         let infinity = L::splat(token, f32::INFINITY);
-        let t = test_lanes(tier, &rays, center, radius, asked, infinity).store();
-        let (indices, whose) = (self.index.as_ref(), self.whose.as_ref());
+        let t = test_lanes(self.tier, &rays, center, radius, asked, infinity).store();
         for lane in 0..L::COUNT {
             let t = t.get(lane);
             if t < f32::INFINITY
-                && let (Some(&sphere), Some(ray)) = (indices.get(lane), whose.get(lane))
-                && let Some(answer) = answers.get_mut(ray.packet)
+                && let (Some(&sphere), Some(ray)) =
+                    (self.index.as_ref().get(lane), self.whose.as_ref().get(lane))
+                && let Some(answer) = self.answers.get_mut(ray.packet)
             {
                 Q::take::<L::Array>(answer, ray.lane, Hit { t, sphere });
-            }
-        }
-    }
-}
-
-/// Tests the spheres that every ray must be tested against, for the rays of a packet in `lanes`.
-#[inline(always)]
-pub(crate) fn test_outside<L: Lanes, Q: Query>(
-    tier: impl Accuracy,
-    rays: &RayLanes<L>,
-    source: &impl SphereSource,
-    lanes: u32,
-    answer: &mut Q::Packet<L::Array>,
-) {
-    let token = rays.t_min.token();
-    let asked = rays.live & L::mask(token, lanes);
-    let mut number = 0;
-    while let Some((sphere, index)) = source.outside(number) {
-        number += 1;
-        if !sphere.is_valid() {
-            continue;
-        }
-        let center = axes!(i => L::splat(token, sphere.center[i]));
-        let radius = L::splat(token, sphere.radius);
-        let infinity = L::splat(token, f32::INFINITY);
-        let t = test_lanes(tier, rays, center, radius, asked, infinity).store();
-        for lane in 0..L::COUNT {
-            let t = t.get(lane);
-            if t < f32::INFINITY {
-                Q::take::<L::Array>(answer, lane, Hit { t, sphere: index });
             }
         }
     }

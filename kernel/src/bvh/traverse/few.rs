@@ -12,7 +12,6 @@ use super::ray_state::RayState;
 use crate::Accuracy;
 use crate::bvh::node::WIDTH;
 use crate::bvh::tree::Bvh;
-use crate::geometry::ray::RayPacket;
 use crate::lanes::Lanes;
 use crate::query::Query;
 
@@ -29,23 +28,12 @@ pub(crate) fn is_few(bvh: &Bvh<'_>) -> bool {
 
 /// Answers every ray by testing it against all spheres of such a tree.
 #[inline(always)]
-pub(crate) fn traverse<L: Lanes, Q: Query>(
-    tier: impl Accuracy,
-    token: L::Token,
-    bvh: &Bvh<'_>,
-    packets: &[RayPacket<L::Array>],
-    answers: &mut [Q::Packet<L::Array>],
-) {
-    let spread = tier.spread();
-    let leaves = bvh.leaves;
+pub(crate) fn traverse<T: Accuracy, L: Lanes, Q: Query>(tests: &mut DeferredTests<'_, T, L, Q>) {
+    let bvh = tests.bvh;
     let mut prepared = PreparedPacket::none();
     let mut state = RayState::NEW;
-    let mut deferred = DeferredTests::<L>::none();
-    for packet in 0..packets.len() {
-        let (Some(rays), Some(answer)) = (packets.get(packet), answers.get_mut(packet)) else {
-            break;
-        };
-        begin::<L, Q>(tier, token, rays, bvh, &mut prepared, answer);
+    for packet in 0..tests.packets.len() {
+        begin(tests, packet, &mut prepared);
         let mut waiting = prepared.covered;
         while waiting != 0 {
             let ray = RayPlace { packet, lane: waiting.trailing_zeros() as usize };
@@ -53,34 +41,24 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
             state.begin(&prepared, 0, ray, bvh.root);
 
             let mut candidates = 0;
-            for number in 0..leaves.len().min(FEW) {
-                let here = state.may_hit::<L>(token, &prepared, spread, &leaves[number]);
+            for number in 0..bvh.leaves.len().min(FEW) {
+                let here = state.may_hit(tests, &prepared, &bvh.leaves[number]);
                 candidates |= u64::from(here) << (number * WIDTH);
             }
             if candidates.count_ones() <= AT_ONCE {
                 while candidates != 0 {
-                    let place = candidates.trailing_zeros();
+                    tests.add(ray, candidates.trailing_zeros());
                     candidates &= candidates - 1;
-                    deferred.add::<Q>(tier, token, (packets, ray), (bvh, place), answers);
                 }
                 continue;
             }
-            for number in 0..leaves.len().min(FEW) {
+            for number in 0..bvh.leaves.len().min(FEW) {
                 let first = number * WIDTH;
                 if candidates >> first & 0xffff != 0 {
-                    state.meet::<L, Q>(
-                        tier,
-                        token,
-                        &prepared,
-                        (packets, bvh),
-                        (&leaves[number], first as u32),
-                        &mut deferred,
-                        answers,
-                    );
+                    state.meet(tests, &prepared, (&bvh.leaves[number], first as u32));
                 }
             }
-            state.end::<L, Q>(tier, token, (packets, bvh), &mut deferred, answers);
+            state.end(tests);
         }
     }
-    deferred.test::<Q>(tier, token, answers);
 }

@@ -1,15 +1,14 @@
 //! The packets whose rays are in flight, how the next ray begins, and what every ray does next: the
 //! rounds of a traversal.
 
-use super::deferred::{RayPlace, test_outside};
+use super::deferred::{DeferredTests, RayPlace};
 use super::prepared_ray::PreparedPacket;
 use super::ray_state::RayState;
+use super::source::test_outside;
 use crate::Accuracy;
 use crate::accuracy::RayLanes;
 use crate::bvh::node::{LEAF, NO_CHILD};
-use crate::bvh::tree::Bvh;
 use crate::geometry::hit::{Hit, HitPacket};
-use crate::geometry::ray::RayPacket;
 use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::linear;
 use crate::query::{ClosestHit, Query};
@@ -40,19 +39,15 @@ impl<A: LaneArray> PacketsInFlight<A> {
 
     /// Begins the next ray, if there is any.
     #[inline(always)]
-    pub(crate) fn begin<L: Lanes<Array = A>, Q: Query>(
+    pub(crate) fn begin<T: Accuracy, L: Lanes<Array = A>, Q: Query>(
         &mut self,
-        tier: impl Accuracy,
-        token: L::Token,
-        (packets, bvh): (&[RayPacket<A>], &Bvh<'_>),
+        tests: &mut DeferredTests<'_, T, L, Q>,
         state: &mut RayState,
-        answers: &mut [Q::Packet<A>],
     ) -> bool {
         while self.waiting == 0 {
-            let (Some(rays), Some(answer)) = (packets.get(self.next), answers.get_mut(self.next))
-            else {
+            if self.next >= tests.packets.len() {
                 return false;
-            };
+            }
             // One is free: this ray's place is, and as many others there are as rays in flight.
             let places = self.in_flight.as_ref();
             for number in 0..places.len() {
@@ -64,7 +59,7 @@ impl<A: LaneArray> PacketsInFlight<A> {
                 self.prepared.as_mut().get_mut(self.current as usize),
                 self.in_flight.as_mut().get_mut(self.current as usize),
             ) {
-                begin::<L, Q>(tier, token, rays, bvh, prepared, answer);
+                begin(tests, self.next, prepared);
                 self.waiting = prepared.covered;
                 *in_flight = prepared.covered.count_ones();
             }
@@ -74,7 +69,7 @@ impl<A: LaneArray> PacketsInFlight<A> {
         let ray = RayPlace { packet: self.next - 1, lane };
         self.waiting &= self.waiting - 1;
         if let Some(prepared) = self.prepared.as_ref().get(self.current as usize) {
-            state.begin(prepared, self.current, ray, bvh.root);
+            state.begin(prepared, self.current, ray, tests.bvh.root);
         }
         true
     }
@@ -90,22 +85,38 @@ impl<A: LaneArray> PacketsInFlight<A> {
     }
 }
 
-/// Prepares the rays of a packet, and answers for those that do not go into the tree.
+/// Prepares the rays of packet `place`, and answers for those that do not go into the tree.
 #[inline(always)]
-pub(crate) fn begin<L: Lanes, Q: Query>(
-    tier: impl Accuracy,
-    token: L::Token,
-    packet: &RayPacket<L::Array>,
-    bvh: &Bvh<'_>,
+pub(crate) fn begin<T: Accuracy, L: Lanes, Q: Query>(
+    tests: &mut DeferredTests<'_, T, L, Q>,
+    place: usize,
     prepared: &mut PreparedPacket<L::Array>,
-    answer: &mut Q::Packet<L::Array>,
 ) {
+    let (tier, token, bvh) = (tests.tier, tests.token, tests.bvh);
+    let (Some(packet), Some(answer)) = (tests.packets.get(place), tests.answers.get_mut(place))
+    else {
+        return;
+    };
     *answer = Q::none::<L::Array>();
     let rays = RayLanes::<L>::load(token, packet);
     prepared.prepare::<L>(&rays, bvh.extent, tier.spread());
     let rest = rays.live.bits() & !prepared.covered;
     if rest != 0 {
-        test_all::<L, Q>(tier, token, packet, bvh, rest, answer);
+        // The bounds do not cover these rays: they are tested against all spheres.
+        let (asked, never) = (L::mask(token, rest), L::splat(token, f32::NAN));
+        let mut rays = *packet;
+        rays.t_min = L::select(asked, L::load(token, &rays.t_min), never).store();
+        let mut found = [HitPacket::none()];
+        linear::traverse::<L, ClosestHit>(tier, token, bvh.spheres, &[rays], &mut found);
+        let [found] = found;
+        for lane in 0..L::COUNT {
+            let t = found.t.get(lane);
+            if t < f32::INFINITY
+                && let Some(&sphere) = found.sphere.as_ref().get(lane)
+            {
+                Q::take::<L::Array>(answer, lane, Hit { t, sphere });
+            }
+        }
     }
     if !bvh.outside.is_empty() {
         let covered = prepared.covered;
@@ -120,34 +131,6 @@ pub(crate) fn begin<L: Lanes, Q: Query>(
     }
     if bvh.root == NO_CHILD {
         prepared.covered = 0;
-    }
-}
-
-/// Rays that the bounds do not cover, those in `lanes`, against all spheres.
-#[inline(always)]
-fn test_all<L: Lanes, Q: Query>(
-    tier: impl Accuracy,
-    token: L::Token,
-    packet: &RayPacket<L::Array>,
-    bvh: &Bvh<'_>,
-    lanes: u32,
-    answer: &mut Q::Packet<L::Array>,
-) {
-    let asked = L::mask(token, lanes);
-    let mut rays = *packet;
-    let never = L::splat(token, f32::NAN);
-    rays.t_min = L::select(asked, L::load(token, &rays.t_min), never).store();
-    let mut found = [HitPacket::none()];
-    linear::traverse::<L, ClosestHit>(tier, token, bvh.spheres, &[rays], &mut found);
-    let [found] = found;
-    for lane in 0..L::COUNT {
-        let t = found.t.get(lane);
-        if lanes >> lane & 1 == 1
-            && t < f32::INFINITY
-            && let Some(&sphere) = found.sphere.as_ref().get(lane)
-        {
-            Q::take::<L::Array>(answer, lane, Hit { t, sphere });
-        }
     }
 }
 

@@ -3,16 +3,16 @@
 //! Spheres that are not in the order of their s cost time, no memory: a full list of candidates
 //! is tested.
 
-use super::deferred::{DeferredTests, RayPlace, SphereSource};
+use super::deferred::{DeferredTests, RayPlace};
 use super::prepared_ray::PreparedPacket;
 use super::root_interval::RayProbe;
 use super::stack::Stack;
 use crate::Accuracy;
 use crate::bvh::node::{BvhLeaf, BvhNode, WIDTH, octant_of};
 use crate::geometry::hit::Hit;
-use crate::geometry::ray::RayPacket;
 use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::axes;
+use crate::numeric::rounding::least;
 use crate::query::Query;
 
 /// How many candidates a ray can keep.
@@ -101,8 +101,8 @@ impl RayState {
 
     /// How far boxes matter.
     #[inline(always)]
-    fn end_of_boxes<A: LaneArray>(&self, prepared: &PreparedPacket<A>, spread: f32) -> f32 {
-        if spread > 0.0 { self.best + prepared.spread.get(self.ray.lane) } else { self.best }
+    fn end_of_boxes<A: LaneArray>(&self, prepared: &PreparedPacket<A>) -> f32 {
+        self.best + prepared.spread.get(self.ray.lane)
     }
 
     /// Lays the children of a node that the ray enters onto its stack; the nearest on top, except
@@ -112,13 +112,11 @@ impl RayState {
         &mut self,
         token: L::Token,
         prepared: &PreparedPacket<L::Array>,
-        spread: f32,
         node: &BvhNode,
     ) {
         let lane = self.ray.lane;
-        let best = self.end_of_boxes(prepared, spread);
-        let start = prepared.start[0].get(lane);
-        let start = if spread > 0.0 { start - prepared.spread.get(lane) } else { start };
+        let best = self.end_of_boxes(prepared);
+        let start = prepared.start[0].get(lane) - prepared.spread.get(lane);
         let down = axes!(i => self.octant >> i & 1 == 1);
         let nearer = axes!(i => if down[i] { &node.high[i] } else { &node.low[i] });
         let farther = axes!(i => if down[i] { &node.low[i] } else { &node.high[i] });
@@ -162,13 +160,12 @@ impl RayState {
     }
 
     #[inline(always)]
-    fn probe<L: Lanes>(
+    fn probe<T: Accuracy, L: Lanes, Q: Query>(
         &self,
-        token: L::Token,
+        tests: &DeferredTests<'_, T, L, Q>,
         prepared: &PreparedPacket<L::Array>,
-        spread: f32,
     ) -> RayProbe<L> {
-        let lane = self.ray.lane;
+        let (token, lane) = (tests.token, self.ray.lane);
         let start = &prepared.start;
         RayProbe {
             origin: axes!(i => L::splat(token, prepared.origin[i].get(lane))),
@@ -177,44 +174,72 @@ impl RayState {
             end: [L::splat(token, prepared.end[0].get(lane)), L::splat(token, self.best)],
             absolute_error: L::splat(token, prepared.absolute_error.get(lane)),
             t_error: L::splat(token, prepared.time(lane).t_error()),
-            spread,
+            spread: tests.tier.spread(),
         }
     }
 
     /// Which spheres of a leaf to look at.
     #[inline(always)]
-    pub(crate) fn may_hit<L: Lanes>(
+    pub(crate) fn may_hit<T: Accuracy, L: Lanes, Q: Query>(
         &self,
-        token: L::Token,
+        tests: &DeferredTests<'_, T, L, Q>,
         prepared: &PreparedPacket<L::Array>,
-        spread: f32,
         leaf: &BvhLeaf,
     ) -> u32 {
-        let probe = self.probe::<L>(token, prepared, spread);
+        if tests.tier.spread() == 0.0 {
+            return self.may_hit_as::<T, L, Q, false>(tests, prepared, leaf);
+        }
+        L::out_of_line(
+            tests.token,
+            #[inline(always)]
+            || self.may_hit_as::<T, L, Q, true>(tests, prepared, leaf),
+        )
+    }
+
+    #[inline(always)]
+    fn may_hit_as<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
+        &self,
+        tests: &DeferredTests<'_, T, L, Q>,
+        prepared: &PreparedPacket<L::Array>,
+        leaf: &BvhLeaf,
+    ) -> u32 {
+        let probe = self.probe(tests, prepared);
         let mut spheres = 0;
         for part in 0..WIDTH / L::COUNT {
-            spheres |= probe.may_hit(&leaf.columns(), part) << (part * L::COUNT);
+            spheres |= probe.may_hit::<SPREADS>(&leaf.columns(), part) << (part * L::COUNT);
         }
         spheres
     }
 
     /// Looks at the spheres of a leaf, the first of which is at `place`.
     #[inline(always)]
-    pub(crate) fn meet<L: Lanes, Q: Query>(
+    pub(crate) fn meet<T: Accuracy, L: Lanes, Q: Query>(
         &mut self,
-        tier: impl Accuracy,
-        token: L::Token,
+        tests: &mut DeferredTests<'_, T, L, Q>,
         prepared: &PreparedPacket<L::Array>,
-        (packets, source): (&[RayPacket<L::Array>], &impl SphereSource),
+        leaf: (&BvhLeaf, u32),
+    ) {
+        if tests.tier.spread() == 0.0 {
+            return self.meet_as::<T, L, Q, false>(tests, prepared, leaf);
+        }
+        L::out_of_line(
+            tests.token,
+            #[inline(always)]
+            || self.meet_as::<T, L, Q, true>(tests, prepared, leaf),
+        );
+    }
+
+    #[inline(always)]
+    fn meet_as<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
+        &mut self,
+        tests: &mut DeferredTests<'_, T, L, Q>,
+        prepared: &PreparedPacket<L::Array>,
         (leaf, place): (&BvhLeaf, u32),
-        deferred: &mut DeferredTests<L>,
-        answers: &mut [Q::Packet<L::Array>],
     ) {
         let before = self.best;
-        let spread = tier.spread();
-        let probe = self.probe::<L>(token, prepared, spread);
+        let probe = self.probe(tests, prepared);
         for part in 0..WIDTH / L::COUNT {
-            let interval = probe.root_interval(&leaf.columns(), part);
+            let interval = probe.root_interval::<SPREADS>(&leaf.columns(), part);
             let (entries, bounds) = (interval.entry.store(), interval.bound.store());
             let mut candidates = interval.candidates.bits();
             while candidates != 0 {
@@ -222,7 +247,7 @@ impl RayState {
                 candidates &= candidates - 1;
                 let (entry, bound) = (entries.get(lane), bounds.get(lane));
                 if Q::ANY && bound < f32::INFINITY {
-                    if let Some(answer) = answers.get_mut(self.ray.packet) {
+                    if let Some(answer) = tests.answers.get_mut(self.ray.packet) {
                         Q::take::<L::Array>(answer, self.ray.lane, Hit { t: 0.0, sphere: 0 });
                     }
                     self.candidates.count = 0;
@@ -237,51 +262,34 @@ impl RayState {
                 }
                 if self.candidates.is_full(self.best) {
                     // There are too many to keep.
-                    self.end::<L, Q>(tier, token, (packets, source), deferred, answers);
+                    self.end(tests);
                     L::out_of_line(
-                        token,
+                        tests.token,
                         #[inline(always)]
-                        || deferred.test::<Q>(tier, token, answers),
+                        || tests.test(),
                     );
-                    self.shorten::<L, Q>(prepared, answers);
+                    if let Some(answer) = tests.answers.get(self.ray.packet) {
+                        let t = Q::limit::<L::Array>(answer, self.ray.lane);
+                        self.best = least(prepared.time(self.ray.lane).after(t), self.best);
+                    }
                 }
                 self.candidates.push(place + (part * L::COUNT + lane) as u32, entry);
             }
         }
         if self.best < before {
-            self.stack.cull::<L>(token, self.end_of_boxes(prepared, spread));
-        }
-    }
-
-    /// Takes the answer so far as the end.
-    #[inline(always)]
-    fn shorten<L: Lanes, Q: Query>(
-        &mut self,
-        prepared: &PreparedPacket<L::Array>,
-        answers: &[Q::Packet<L::Array>],
-    ) {
-        let Some(answer) = answers.get(self.ray.packet) else { return };
-        let t = Q::limit::<L::Array>(answer, self.ray.lane);
-        let best = prepared.time(self.ray.lane).after(t);
-        if best < self.best {
-            self.best = best;
+            self.stack.cull::<L>(tests.token, self.end_of_boxes(prepared));
         }
     }
 
     /// Puts the candidates among the deferred tests.
     #[inline(always)]
-    pub(crate) fn end<L: Lanes, Q: Query>(
+    pub(crate) fn end<T: Accuracy, L: Lanes, Q: Query>(
         &mut self,
-        tier: impl Accuracy,
-        token: L::Token,
-        (packets, source): (&[RayPacket<L::Array>], &impl SphereSource),
-        deferred: &mut DeferredTests<L>,
-        answers: &mut [Q::Packet<L::Array>],
+        tests: &mut DeferredTests<'_, T, L, Q>,
     ) {
         for at in 0..self.candidates.count % (MOST + 1) {
             if self.candidates.entries[at] <= self.best {
-                let place = self.candidates.places[at];
-                deferred.add::<Q>(tier, token, (packets, self.ray), (source, place), answers);
+                tests.add(self.ray, self.candidates.places[at]);
             }
         }
         self.candidates.count = 0;

@@ -44,27 +44,24 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
         token,
         #[inline(always)]
         || {
+            let count = rays.len().min(answers.len());
+            let (rays, answers) = (rays.get(..count).unwrap_or_default(), answers);
+            let mut tests = DeferredTests::<_, L, Q>::new(tier, token, bvh, rays, answers);
             if few::is_few(bvh) {
-                few::traverse::<L, Q>(tier, token, bvh, rays, answers);
+                few::traverse(&mut tests);
             } else {
-                by_boxes::<L, Q>(tier, token, bvh, rays, answers);
+                by_boxes(&mut tests);
             }
+            tests.test();
         },
     );
 }
 
 #[inline(always)]
-fn by_boxes<L: Lanes, Q: Query>(
-    tier: impl Accuracy,
-    token: L::Token,
-    bvh: &Bvh<'_>,
-    packets: &[RayPacket<L::Array>],
-    answers: &mut [Q::Packet<L::Array>],
-) {
-    let spread = tier.spread();
+fn by_boxes<T: Accuracy, L: Lanes, Q: Query>(tests: &mut DeferredTests<'_, T, L, Q>) {
+    let bvh = tests.bvh;
     let mut states = L::Array::each(RayState::NEW);
     let states = states.as_mut();
-    let mut deferred = DeferredTests::<L>::none();
     let mut in_flight = PacketsInFlight::<L::Array>::none();
     let mut round = Round::<L::Array>::empty();
     let far = prefetch::pays(bvh.nodes, bvh.leaves);
@@ -77,9 +74,9 @@ fn by_boxes<L: Lanes, Q: Query>(
         for at in 0..round.ended.count {
             let Step { state: number, .. } = round.ended.get(at);
             let Some(state) = states.get_mut(number as usize) else { continue };
-            state.end::<L, Q>(tier, token, (packets, bvh), &mut deferred, answers);
+            state.end(tests);
             in_flight.end(state);
-            if in_flight.begin::<L, Q>(tier, token, (packets, bvh), state, answers) {
+            if in_flight.begin(tests, state) {
                 round.go_on(number, state);
             }
         }
@@ -107,7 +104,7 @@ fn by_boxes<L: Lanes, Q: Query>(
             let Some(state) = states.get_mut(step.state as usize) else { continue };
             let Some(node) = bvh.nodes.get(step.child as usize) else { continue };
             let Some(prepared) = in_flight.prepared(state) else { continue };
-            state.enter::<L, Q>(token, prepared, spread, node);
+            state.enter::<L, Q>(tests.token, prepared, node);
         }
 
         // Those whose leaf may hold a hit move to the front.
@@ -118,7 +115,7 @@ fn by_boxes<L: Lanes, Q: Query>(
             let Some(state) = states.get(step.state as usize) else { continue };
             let Some(leaf) = bvh.leaves.get(step.child as usize) else { continue };
             let Some(prepared) = in_flight.prepared(state) else { continue };
-            let spheres = state.may_hit::<L>(token, prepared, spread, leaf);
+            let spheres = state.may_hit(tests, prepared, leaf);
             round.leaves.append(step, spheres != 0);
         }
         for at in 0..round.leaves.count {
@@ -126,9 +123,7 @@ fn by_boxes<L: Lanes, Q: Query>(
             let Some(state) = states.get_mut(step.state as usize) else { continue };
             let Some(leaf) = bvh.leaves.get(step.child as usize) else { continue };
             let Some(prepared) = in_flight.prepared(state) else { continue };
-            let (rays, leaf) = ((packets, bvh), (leaf, step.child * WIDTH as u32));
-            state.meet::<L, Q>(tier, token, prepared, rays, leaf, &mut deferred, answers);
+            state.meet(tests, prepared, (leaf, step.child * WIDTH as u32));
         }
     }
-    deferred.test::<Q>(tier, token, answers);
 }
