@@ -16,4 +16,5 @@ mod survey;
 pub(crate) mod tree_source;
 pub(crate) mod view;
 
-pub use depth_list::{DepthList, Viewpoint};
+pub use depth_list::DepthList;
+pub use view::Viewpoint;

@@ -25,6 +25,7 @@ mod numeric;
 mod query;
 mod slices;
 mod stages;
+mod structures;
 #[cfg(test)]
 mod testing;
 mod trace;

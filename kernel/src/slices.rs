@@ -5,9 +5,9 @@ use crate::dispatch::Level;
 use crate::geometry::hit::{Hit, HitPacket};
 use crate::geometry::ray::{Ray, RayPacket};
 use crate::geometry::sphere::{Sphere, SpherePacket};
-use crate::intersect::sealed::{LevelQuery, Traverse};
 #[cfg(not(feature = "std"))]
 use crate::linear;
+use crate::structures::{LevelQuery, Traverse};
 use crate::trace::Trace;
 
 /// How many packets are traced at a time: enough that preparing 128 spheres of a list for them is a

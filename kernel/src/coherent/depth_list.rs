@@ -14,19 +14,9 @@
 
 use super::depth_sort;
 use super::listed::{COLUMNS, Listed, column_length};
-use super::view::View;
+use super::view::{View, Viewpoint};
 use crate::geometry::sphere::Spheres;
 use crate::memory::TooSmall;
-use glam::Vec3;
-
-/// What the rays of a run have in common.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Viewpoint {
-    /// All start here: a perspective camera's eye, a point light.
-    Origin(Vec3),
-    /// All have this direction, of any length: a parallel projection, a directional light.
-    Direction(Vec3),
-}
 
 /// The spheres of a list in the order of their depth, in memory of the caller's.
 ///

@@ -12,7 +12,7 @@ use crate::Accuracy;
 use crate::accuracy::{RayLanes, test_lanes};
 use crate::bvh::traverse::prepared_ray::{PreparedLanes, far_away};
 use crate::bvh::traverse::root_interval::{Pass, RootInterval, SphereColumns};
-use crate::bvh::traverse::source::{SphereSource, test_outside};
+use crate::bvh::traverse::source::{SphereLanes, SphereSource, test_outside};
 use crate::geometry::hit::HitPacket;
 use crate::geometry::ray::RayPacket;
 use crate::lanes::{LaneArray, LaneMask, Lanes, WIDTH};
@@ -190,7 +190,8 @@ impl<'a, L: Lanes> PacketState<'a, L> {
     ) {
         let token = self.token();
         let rays = RayLanes::load(token, self.packet);
-        let Pending { center, radius, index } = Pending::new(source, self.place, self.shared);
+        let SphereLanes { center, radius, index } =
+            SphereLanes::gather(source, self.place, self.shared);
         let t = test_lanes(tier, &rays, center, radius, asked, self.t);
         self.take(asked, t, index);
         self.entry = L::select(asked, self.entry.like(f32::NAN), self.entry);
@@ -307,47 +308,4 @@ pub(super) fn approach<L: Lanes>(states: &mut [PacketState<'_, L>], extent: f32,
             }
         },
     );
-}
-
-/// One sphere a lane.
-struct Pending<L: Lanes> {
-    center: [L; 3],
-    radius: L,
-    /// As bits.
-    index: L,
-}
-
-impl<L: Lanes> Pending<L> {
-    /// The spheres whose places are the bits of `places`, or the `shared` one.
-    #[inline(always)]
-    fn new(source: &impl SphereSource, places: L, shared: Option<u32>) -> Self {
-        let token = places.token();
-        if let Some(place) = shared
-            && let Some((sphere, index)) = source.sphere_at(place)
-        {
-            return Self {
-                center: axes!(i => L::splat(token, sphere.center[i])),
-                radius: L::splat(token, sphere.radius),
-                index: L::splat(token, f32::from_bits(index)),
-            };
-        }
-
-        let places = places.store();
-        let none = L::Array::filled(0.0);
-        let (mut center, mut radius, mut index) = ([none; 3], none, none);
-        for lane in 0..L::COUNT {
-            let place = places.get(lane).to_bits();
-            let Some((sphere, number)) = source.sphere_at(place) else { continue };
-            for axis in 0..3 {
-                center[axis].set(lane, sphere.center[axis]);
-            }
-            radius.set(lane, sphere.radius);
-            index.set(lane, f32::from_bits(number));
-        }
-        Self {
-            center: axes!(i => L::load(token, &center[i])),
-            radius: L::load(token, &radius),
-            index: L::load(token, &index),
-        }
-    }
 }

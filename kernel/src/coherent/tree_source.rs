@@ -22,6 +22,7 @@ use crate::bvh::tree::Bvh;
 use crate::geometry::ray::RayPacket;
 use crate::lanes::{LaneMask, Lanes};
 use crate::query::Query;
+use crate::trace::Coherence;
 
 /// The widest range of slopes that is traced as one.
 const NARROW: f32 = 0.5;
@@ -32,16 +33,20 @@ const _: () = assert!(STACK >= (WIDTH - 1) * DEPTH + WIDTH);
 /// tried.
 const TRIES: usize = 4;
 
-/// Answers every ray; with `detect`, groups that follow many others without a fit are seldom tried.
+/// Answers every ray: incoherent ones ray by ray; of others the groups that fit together. If coherence is
+/// detected, groups that follow many others without a fit are seldom tried.
 #[inline(always)]
 pub(crate) fn traverse<L: Lanes, Q: Query>(
     tier: impl Accuracy,
     token: L::Token,
     bvh: &Bvh<'_>,
-    detect: bool,
+    coherence: Coherence,
     rays: &[RayPacket<L::Array>],
     answers: &mut [Q::Packet<L::Array>],
 ) {
+    if coherence == Coherence::Incoherent {
+        return wavefront::traverse::<L, Q>(tier, token, bvh, rays, answers);
+    }
     let mut boxes = Boxes::new();
     let nobody = RayPacket::inactive();
     let count = rays.len().min(answers.len());
@@ -50,7 +55,7 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
     while at < count {
         let end = (at + GROUP).min(count);
         let group = rays.get(at..end).unwrap_or_default();
-        let tried = !detect || misfits < TRIES || misfits % TRIES == 0;
+        let tried = coherence == Coherence::Coherent || misfits < TRIES || misfits % TRIES == 0;
         let mut states = states_of::<L>(token, group, &nobody);
         let states = states.get_mut(..group.len()).unwrap_or_default();
         if tried && boxes.trace::<L, Q>(tier, token, states, bvh) {

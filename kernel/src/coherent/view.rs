@@ -6,12 +6,21 @@
 //! direction are seen where they are. Depth is the distance from the common origin, or how far a point
 //! lies along the common direction.
 
-use super::depth_list::Viewpoint;
 use crate::accuracy::RayLanes;
 use crate::geometry::sphere::Sphere;
 use crate::lanes::Lanes;
 use crate::numeric::axes::{axes, dot};
 use crate::numeric::rounding::{LARGEST, LEAST_COMPONENT, LONGEST, U};
+use glam::Vec3;
+
+/// What the rays of a run have in common.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Viewpoint {
+    /// All start here: a perspective camera's eye, a point light.
+    Origin(Vec3),
+    /// All have this direction, of any length: a parallel projection, a directional light.
+    Direction(Vec3),
+}
 
 /// A viewpoint that the bounds cover.
 #[derive(Clone, Copy, Debug)]

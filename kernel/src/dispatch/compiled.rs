@@ -7,7 +7,6 @@
 
 use super::Level;
 use crate::accuracy::Tier;
-use crate::bvh::traverse::wavefront;
 use crate::bvh::tree::Bvh;
 use crate::coherent::depth_list::DepthList;
 use crate::coherent::{list_source, tree_source};
@@ -49,122 +48,58 @@ macro_rules! at_level {
     };
 }
 
-/// The traversals of a query, for packets of sixteen lanes.
-pub trait Compiled: Answers {
-    /// Of a list of spheres.
-    fn list(
-        level: Level,
-        tier: Tier,
-        spheres: Spheres<'_>,
-        rays: &[RayPacket],
-        answers: &mut [Self::Packet<[f32; 16]>],
-    );
-
-    /// Of a tree, as the rays are `coherent` or not.
-    fn tree(
-        level: Level,
-        tier: Tier,
-        bvh: &Bvh<'_>,
-        coherence: Coherence,
-        rays: &[RayPacket],
-        answers: &mut [Self::Packet<[f32; 16]>],
-    );
-
-    /// Of a depth list.
-    fn depth_list(
-        level: Level,
-        tier: Tier,
-        list: &DepthList<'_>,
-        scratch: &mut [f32],
-        rays: &[RayPacket],
-        answers: &mut [Self::Packet<[f32; 16]>],
-    );
-}
-
+/// The traversals of a query, for packets of sixteen lanes: a trait, and its implementation for both queries
+/// by functions that are generic over lanes and query.
 macro_rules! compiled {
-    ($query:ident, $packet:ty) => {
+    ($($(#[$doc:meta])* fn $name:ident($structure:ident: $type:ty $(, $more:ident: $kind:ty)*) = $traverse:path;)*) => {
+        /// The traversals of a query, for packets of sixteen lanes.
+        pub trait Compiled: Answers {
+            $(
+                $(#[$doc])*
+                fn $name(
+                    level: Level,
+                    tier: Tier,
+                    $structure: $type,
+                    $($more: $kind,)*
+                    rays: &[RayPacket],
+                    answers: &mut [Self::Packet<[f32; 16]>],
+                );
+            )*
+        }
+
+        compiled!(@query ClosestHit, HitPacket, $($name($structure: $type $(, $more: $kind)*) = $traverse;)*);
+        compiled!(@query AnyHit, u32, $($name($structure: $type $(, $more: $kind)*) = $traverse;)*);
+    };
+    (@query $query:ident, $packet:ty, $($name:ident($structure:ident: $type:ty $(, $more:ident: $kind:ty)*) = $traverse:path;)*) => {
         impl Compiled for $query {
-            #[inline(never)]
-            fn list(
-                level: Level,
-                tier: Tier,
-                spheres: Spheres<'_>,
-                rays: &[RayPacket],
-                answers: &mut [$packet],
-            ) {
-                #[inline(always)]
-                fn at<S: Simd>(
-                    simd: S,
+            $(
+                #[inline(never)]
+                fn $name(
+                    level: Level,
                     tier: Tier,
-                    spheres: Spheres<'_>,
+                    $structure: $type,
+                    $($more: $kind,)*
                     rays: &[RayPacket],
                     answers: &mut [$packet],
                 ) {
-                    linear::traverse::<f32x16<S>, $query>(tier, simd, spheres, rays, answers);
+                    use $traverse as traverse;
+                    at_level!(level.0, simd => {
+                        traverse::<f32x16<_>, Self>(tier, simd, $structure, $($more,)* rays, answers)
+                    });
                 }
-                at_level!(level.0, simd => at(simd, tier, spheres, rays, answers));
-            }
-
-            #[inline(never)]
-            fn tree(
-                level: Level,
-                tier: Tier,
-                bvh: &Bvh<'_>,
-                coherence: Coherence,
-                rays: &[RayPacket],
-                answers: &mut [$packet],
-            ) {
-                #[inline(always)]
-                fn at<S: Simd>(
-                    simd: S,
-                    tier: Tier,
-                    bvh: &Bvh<'_>,
-                    coherence: Coherence,
-                    rays: &[RayPacket],
-                    answers: &mut [$packet],
-                ) {
-                    if coherence == Coherence::Incoherent {
-                        wavefront::traverse::<f32x16<S>, $query>(tier, simd, bvh, rays, answers);
-                    } else {
-                        let detect = coherence == Coherence::Detect;
-                        tree_source::traverse::<f32x16<S>, $query>(
-                            tier, simd, bvh, detect, rays, answers,
-                        );
-                    }
-                }
-                at_level!(level.0, simd => at(simd, tier, bvh, coherence, rays, answers));
-            }
-
-            #[inline(never)]
-            fn depth_list(
-                level: Level,
-                tier: Tier,
-                list: &DepthList<'_>,
-                scratch: &mut [f32],
-                rays: &[RayPacket],
-                answers: &mut [$packet],
-            ) {
-                #[inline(always)]
-                fn at<S: Simd>(
-                    simd: S,
-                    tier: Tier,
-                    list: &DepthList<'_>,
-                    scratch: &mut [f32],
-                    rays: &[RayPacket],
-                    answers: &mut [$packet],
-                ) {
-                    list_source::traverse::<f32x16<S>, $query>(
-                        tier, simd, list, scratch, rays, answers,
-                    );
-                }
-                at_level!(level.0, simd => at(simd, tier, list, scratch, rays, answers));
-            }
+            )*
         }
     };
 }
 
-compiled!(ClosestHit, HitPacket);
-compiled!(AnyHit, u32);
+compiled! {
+    /// Of a list of spheres.
+    fn list(spheres: Spheres<'_>) = linear::traverse;
+    /// Of a tree, as the rays are coherent or not.
+    fn tree(bvh: &Bvh<'_>, coherence: Coherence) = tree_source::traverse;
+    /// Of a depth list.
+    fn depth_list(list: &DepthList<'_>, scratch: &mut [f32]) = list_source::traverse;
+}
 
 /// [`pair_lanes`](crate::pair_lanes), packet by packet.
 #[inline(never)]

@@ -49,6 +49,8 @@ macro_rules! lane_array {
     ($count:literal) => {
         impl sealed::Sealed for [f32; $count] {}
 
+        // Of one lane.
+        #[allow(clippy::modulo_one)]
         impl LaneArray for [f32; $count] {
             const COUNT: usize = $count;
             type Ids = [u32; $count];

@@ -1,4 +1,4 @@
-//! 4, 8 and 16 lanes of the crate `fearless_simd`, whose instruction set is chosen at run time.
+//! Sixteen lanes of the crate `fearless_simd`, whose instruction set is chosen at run time.
 //!
 //! The token is the crate's own: a value of it is the proof that the CPU has the instructions, so
 //! that all this needs no `unsafe` here. What is computed with such lanes must be inlined into a
@@ -12,8 +12,8 @@ use super::{DoubleLanes, LaneMask, Lanes};
 use core::fmt::Debug;
 use core::ops::{BitAnd, BitOr, Not};
 use fearless_simd::{
-    Select, Simd, SimdBase, SimdFloat, SimdMask, SimdNarrow, SimdWiden, f32x4, f32x8, f32x16,
-    f64x2, f64x4, f64x8, mask32x4, mask32x8, mask32x16, mask64x2, mask64x4, mask64x8,
+    Select, Simd, SimdBase, SimdFloat, SimdMask, SimdNarrow, SimdWiden, f32x16, f64x8, mask32x16,
+    mask64x8,
 };
 
 /// A mask of `fearless_simd`.
@@ -51,7 +51,7 @@ fn vectorized_call<S: Simd, R>(simd: S, work: impl FnOnce() -> R) -> R {
 
 /// What single and double precision share.
 macro_rules! shared_lane_operations {
-    ($vector:ident, $mask:ident, $element:ident) => {
+    ($element:ident) => {
         #[inline(always)]
         fn token(self) -> S {
             fearless_simd::ExtractToken::token(&self)
@@ -105,98 +105,82 @@ macro_rules! dispatched_mask {
     };
 }
 
-macro_rules! dispatched_lanes {
-    ($vector:ident, $mask:ident, $count:literal, $double:ident, $double_mask:ident, $half:literal $(, $own:item)?) => {
-        dispatched_mask!($mask);
-        dispatched_mask!($double_mask);
+dispatched_mask!(mask32x16);
+dispatched_mask!(mask64x8);
 
-        impl<S: Simd> Lanes for $vector<S> {
-            const COUNT: usize = $count;
-            type Token = S;
-            type Array = [f32; $count];
-            type Mask = DispatchedMask<$mask<S>>;
-            type Double = $double<S>;
+impl<S: Simd> Lanes for f32x16<S> {
+    const COUNT: usize = 16;
+    type Token = S;
+    type Array = [f32; 16];
+    type Mask = DispatchedMask<mask32x16<S>>;
+    type Double = f64x8<S>;
 
-            shared_lane_operations!($vector, $mask, f32);
+    shared_lane_operations!(f32);
 
-            #[inline(always)]
-            fn load(token: S, array: &[f32; $count]) -> Self {
-                SimdBase::load_array_ref(token, array)
-            }
+    #[inline(always)]
+    fn load(token: S, array: &[f32; 16]) -> Self {
+        SimdBase::load_array_ref(token, array)
+    }
 
-            #[inline(always)]
-            fn store(self) -> [f32; $count] {
-                self.to_array()
-            }
+    #[inline(always)]
+    fn store(self) -> [f32; 16] {
+        self.to_array()
+    }
 
-            #[inline(always)]
-            fn mask(token: S, bits: u32) -> Self::Mask {
-                // Bits past the last lane are not looked at.
-                DispatchedMask(SimdMask::from_bitmask(token, u64::from(bits) & ((1 << $count) - 1)))
-            }
+    #[inline(always)]
+    fn mask(token: S, bits: u32) -> Self::Mask {
+        // Bits past the last lane are not looked at.
+        DispatchedMask(SimdMask::from_bitmask(token, u64::from(bits) & 0xffff))
+    }
 
-            #[inline(always)]
-            fn filter_mul_add(self, factor: Self, addend: Self) -> Self {
-                SimdFloat::mul_add(self, factor, addend)
-            }
+    #[inline(always)]
+    fn filter_mul_add(self, factor: Self, addend: Self) -> Self {
+        SimdFloat::mul_add(self, factor, addend)
+    }
 
-            #[inline(always)]
-            fn filter_max(self, other: Self) -> Self {
-                SimdBase::max(self, other)
-            }
+    #[inline(always)]
+    fn filter_max(self, other: Self) -> Self {
+        SimdBase::max(self, other)
+    }
 
-            #[inline(always)]
-            fn compress(self, mask: Self::Mask) -> Self {
-                SimdBase::compress(self, mask.0)
-            }
+    #[inline(always)]
+    fn compress(self, mask: Self::Mask) -> Self {
+        SimdBase::compress(self, mask.0)
+    }
 
-            $($own)?
-
-            #[inline(always)]
-            fn filter_greatest(self) -> f32 {
-                SimdBase::reduce_max(self)
-            }
-
-            #[inline(always)]
-            fn widen(self, part: usize) -> $double<S> {
-                let (low, high) = SimdWiden::widen(self);
-                if part == 0 { low } else { high }
-            }
-
-            #[inline(always)]
-            fn narrow(array: &mut [f32; $count], part: usize, doubles: $double<S>) {
-                let singles = SimdNarrow::narrow(doubles, doubles).to_array();
-                let first = part * $half % $count;
-                array[first..first + $half].copy_from_slice(&singles[..$half]);
-            }
-
-            #[inline(always)]
-            fn out_of_line<R>(token: S, work: impl FnOnce() -> R) -> R {
-                vectorized_call(token, work)
-            }
-        }
-
-        impl<S: Simd> DoubleLanes for $double<S> {
-            const COUNT: usize = $half;
-            type Token = S;
-            type Mask = DispatchedMask<$double_mask<S>>;
-
-            shared_lane_operations!($double, $double_mask, f64);
-        }
-    };
-}
-
-dispatched_lanes!(f32x4, mask32x4, 4, f64x2, mask64x2, 2);
-dispatched_lanes!(f32x8, mask32x8, 8, f64x4, mask64x4, 4);
-dispatched_lanes!(
-    f32x16,
-    mask32x16,
-    16,
-    f64x8,
-    mask64x8,
-    8,
     #[inline(always)]
     fn in_order(self, order: u64) -> Self {
         in_order::sixteen(self, order)
     }
-);
+
+    #[inline(always)]
+    fn filter_greatest(self) -> f32 {
+        SimdBase::reduce_max(self)
+    }
+
+    #[inline(always)]
+    fn widen(self, part: usize) -> f64x8<S> {
+        let (low, high) = SimdWiden::widen(self);
+        if part == 0 { low } else { high }
+    }
+
+    #[inline(always)]
+    fn narrow(array: &mut [f32; 16], part: usize, doubles: f64x8<S>) {
+        let singles = SimdNarrow::narrow(doubles, doubles).to_array();
+        let first = part * 8 % 16;
+        array[first..first + 8].copy_from_slice(&singles[..8]);
+    }
+
+    #[inline(always)]
+    fn out_of_line<R>(token: S, work: impl FnOnce() -> R) -> R {
+        vectorized_call(token, work)
+    }
+}
+
+impl<S: Simd> DoubleLanes for f64x8<S> {
+    const COUNT: usize = 8;
+    type Token = S;
+    type Mask = DispatchedMask<mask64x8<S>>;
+
+    shared_lane_operations!(f64);
+}

@@ -45,3 +45,46 @@ pub(crate) fn test_outside<L: Lanes, Q: Query>(
         }
     }
 }
+
+/// One sphere a lane.
+pub(crate) struct SphereLanes<L: Lanes> {
+    pub(crate) center: [L; 3],
+    pub(crate) radius: L,
+    /// As bits.
+    pub(crate) index: L,
+}
+
+impl<L: Lanes> SphereLanes<L> {
+    /// The spheres whose places are the bits of `places`, or the `shared` one.
+    #[inline(always)]
+    pub(crate) fn gather(source: &impl SphereSource, places: L, shared: Option<u32>) -> Self {
+        let token = places.token();
+        if let Some(place) = shared
+            && let Some((sphere, index)) = source.sphere_at(place)
+        {
+            return Self {
+                center: axes!(i => L::splat(token, sphere.center[i])),
+                radius: L::splat(token, sphere.radius),
+                index: L::splat(token, f32::from_bits(index)),
+            };
+        }
+
+        let places = places.store();
+        let none = L::Array::filled(0.0);
+        let (mut center, mut radius, mut index) = ([none; 3], none, none);
+        for lane in 0..L::COUNT {
+            let place = places.get(lane).to_bits();
+            let Some((sphere, number)) = source.sphere_at(place) else { continue };
+            for axis in 0..3 {
+                center[axis].set(lane, sphere.center[axis]);
+            }
+            radius.set(lane, sphere.radius);
+            index.set(lane, f32::from_bits(number));
+        }
+        Self {
+            center: axes!(i => L::load(token, &center[i])),
+            radius: L::load(token, &radius),
+            index: L::load(token, &index),
+        }
+    }
+}
