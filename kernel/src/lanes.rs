@@ -208,3 +208,6 @@ fn plain_call<R>(work: impl FnOnce() -> R) -> R {
 
 #[cfg(test)]
 mod bit_for_bit;
+
+#[cfg(test)]
+mod moves;
