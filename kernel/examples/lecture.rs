@@ -1,7 +1,6 @@
 //! The lecture's loop: for each pixel make the viewing ray, intersect, store. White where a ray hits.
 
-use spherule_kernel::camera::Projection;
-use spherule_kernel::{Camera, Exact, Intersect, SphereList, Vec3};
+use spherule_kernel::{Camera, Exact, Intersect, Projection, SphereList, Vec3};
 
 const WIDTH: u32 = 72;
 const HEIGHT: u32 = 24;

@@ -1,7 +1,8 @@
 //! Rays that are kept as packets, sixteen to a packet, are traced without a copy.
 
-use spherule_kernel::camera::Projection;
-use spherule_kernel::{Camera, Exact, HitPacket, Intersect, RayPacket, SphereTree, Trace, Vec3};
+use spherule_kernel::{
+    Camera, Exact, HitPacket, Intersect, Projection, RayPacket, SphereTree, Trace, Vec3,
+};
 
 const SIDE: u32 = 64;
 

@@ -1,7 +1,8 @@
 //! A tree, the closest hits of a camera's rays, and shadow rays from there to a light.
 
-use spherule_kernel::camera::Projection;
-use spherule_kernel::{Camera, Exact, Intersect, Ray, Sphere, SphereList, SphereTree, Trace, Vec3};
+use spherule_kernel::{
+    Camera, Exact, Intersect, Projection, Ray, Sphere, SphereList, SphereTree, Trace, Vec3,
+};
 
 const WIDTH: u32 = 72;
 const HEIGHT: u32 = 24;
@@ -36,7 +37,8 @@ fn main() {
         .iter()
         .zip(&hits)
         .map(|(ray, hit)| {
-            match hit.and_then(|hit| Some((hit.t, tree.spheres().get(hit.sphere as usize)?))) {
+            match hit.and_then(|hit| Some((hit.t, tree.list().spheres().get(hit.sphere as usize)?)))
+            {
                 Some((t, sphere)) => Ray::new(off_the_surface(ray, &sphere, t), towards_light),
                 None => Ray::INACTIVE,
             }

@@ -2,10 +2,9 @@
 //!
 //! `compare` builds this in several profiles and holds their rates against each other.
 
-use spherule_kernel::camera::Projection;
 use spherule_kernel::{
-    Bvh, Camera, DepthList, Exact, Hit, HitPacket, Intersect, Level, LevelName, Ray, RayPacket,
-    SphereList, SphereTree, Trace, Vec3, Viewpoint,
+    Bvh, Camera, DepthList, Exact, Hit, HitPacket, Intersect, Level, LevelName, Projection, Ray,
+    RayPacket, SphereList, SphereTree, Trace, Vec3, Viewpoint,
 };
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -55,7 +54,7 @@ fn diffuse() -> Vec<RayPacket> {
 fn race(
     name: &str,
     level: Level,
-    scratch: &mut [u32],
+    scratch: &mut [f32],
     structure: &impl Intersect,
     rays: &[RayPacket],
 ) {
@@ -94,8 +93,8 @@ fn best(mut pass: impl FnMut()) -> f64 {
 fn main() {
     let (few, many) = (cloud(64, 0.1), cloud(10_000, 0.02));
     let tree = SphereTree::new(many.clone());
-    let mut memory = vec![0; DepthList::needed(many.len())];
-    let mut scratch = vec![0; DepthList::scratch(many.len())];
+    let mut memory = vec![0.0; DepthList::needed(many.len())];
+    let mut scratch = vec![0.0; DepthList::scratch(many.len())];
     let sorted = DepthList::sort(many.spheres(), Viewpoint::Origin(EYE), &mut memory)
         .expect("memory as long as it is needed");
     let tree: Bvh<'_> = tree.bvh();
