@@ -53,3 +53,9 @@ pub use slices::{pair_packets, pairs};
 pub use stages::{Stages, stages};
 pub use trace::{Coherence, Trace};
 pub use wide::{f32x4, f32x8, f32x16};
+
+/// The READMEs' examples are tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+#[doc = include_str!("../../README.md")]
+struct Readmes;

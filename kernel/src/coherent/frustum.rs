@@ -12,7 +12,7 @@
 //! is bounded by its origins, and by how far its rays still go.
 //!
 //! Slopes are moved by 16 u |w| + u, D by 16 u (F + 2^-11 T) (1 + |w|) and 2^-57, the lengths of normals by
-//! 48 u: `docs/traversal-margins.md` proves that this is enough, and `tests/bvh/far.rs` guards it.
+//! 64 u: `docs/traversal-margins.md` proves that this is enough, and `tests/bvh/far.rs` guards it.
 
 use crate::bvh::node::{BvhNode, WIDTH};
 use crate::bvh::traverse::root_interval::SphereColumns;
@@ -52,8 +52,8 @@ pub(super) fn turn(slope: f32) -> f32 {
     16.0 * U * slope + U
 }
 
-/// How much larger a radius counts: 48u.
-const LARGER: f32 = 1.0 + 48.0 * U;
+/// How much larger a radius counts: 64u.
+const LARGER: f32 = 1.0 + 64.0 * U;
 
 /// The four planes: two lines for each of the axes across.
 #[derive(Clone, Copy, Debug)]

@@ -1,0 +1,108 @@
+//! The rates of every traversal, a line each: level, structure and storey, million rays a second.
+//!
+//! `compare` builds this in several profiles and holds their rates against each other.
+
+use spherule_kernel::{
+    Bvh, Camera, DepthList, Exact, Hit, HitPacket, Intersect, Level, LevelName, Projection, Ray,
+    RayPacket, SphereList, SphereTree, Trace, Vec3, Viewpoint,
+};
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+const SIDE: u32 = 64;
+const EYE: Vec3 = Vec3::new(0.0, 0.0, -3.0);
+
+/// A number in [-1, 1): a linear congruence.
+fn number(state: &mut u64) -> f32 {
+    *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+    (*state >> 40) as f32 / (1 << 23) as f32 - 1.0
+}
+
+fn point(state: &mut u64) -> Vec3 {
+    Vec3::new(number(state), number(state), number(state))
+}
+
+fn cloud(count: usize, radius: f32) -> SphereList {
+    let mut state = 1;
+    (0..count).map(|_| (point(&mut state), radius * (1.5 + number(&mut state)))).collect()
+}
+
+/// The rays of a camera, packet by packet, each a tile of the picture.
+fn primary() -> Vec<RayPacket> {
+    let step = 1.0 / SIDE as f32;
+    let camera = Camera {
+        projection: Projection::Perspective { eye: EYE },
+        corner: Vec3::new(-0.5, -0.5, 1.2),
+        step_x: Vec3::new(step, 0.0, 0.0),
+        step_y: Vec3::new(0.0, step, 0.0),
+    };
+    let (width, height) = Camera::tile::<[f32; 16]>();
+    let columns =
+        move |y| (0..SIDE).step_by(width as usize).map(move |x| camera.packet(x, y, SIDE, SIDE));
+    (0..SIDE).step_by(height as usize).flat_map(columns).collect()
+}
+
+/// Rays that have nothing in common.
+fn diffuse() -> Vec<RayPacket> {
+    let mut state = 2;
+    let rays: Vec<Ray> =
+        (0..SIDE * SIDE).map(|_| Ray::new(point(&mut state), point(&mut state))).collect();
+    rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect()
+}
+
+/// Prints the best of some rates, by packets and by slices.
+fn race(
+    name: &str,
+    level: Level,
+    scratch: &mut [f32],
+    structure: &impl Intersect,
+    rays: &[RayPacket],
+) {
+    let singles: Vec<Ray> =
+        rays.iter().flat_map(|packet| (0..RayPacket::COUNT).map(|lane| packet.ray(lane))).collect();
+    let mut packets = vec![HitPacket::none(); rays.len()];
+    let mut slices: Vec<Option<Hit>> = vec![None; singles.len()];
+    let mut trace = Trace::new().at(level).with_scratch(scratch);
+    trace = if name == "tree-single" { trace.incoherent() } else { trace.coherent() };
+    let by_packets = best(|| {
+        structure.closest_hit_packets(Exact, &mut trace, black_box(rays), &mut packets);
+    });
+    let by_slices = best(|| {
+        structure.closest_hits_with(Exact, &mut trace, black_box(&singles), &mut slices);
+    });
+    assert!(packets.iter().flat_map(HitPacket::hits).eq(slices.iter().copied()));
+    let million = singles.len() as f64 / 1e6;
+    println!("{}/{name}/packets {:.4}", level.name().as_str(), million / by_packets);
+    println!("{}/{name}/slices {:.4}", level.name().as_str(), million / by_slices);
+}
+
+/// The least of some times of a pass, in seconds.
+fn best(mut pass: impl FnMut()) -> f64 {
+    let mut best = f64::INFINITY;
+    for _ in 0..7 {
+        let (start, mut passes) = (Instant::now(), 0_u32);
+        while passes == 0 || start.elapsed() < Duration::from_millis(4) {
+            pass();
+            passes += 1;
+        }
+        best = best.min(start.elapsed().as_secs_f64() / f64::from(passes));
+    }
+    best
+}
+
+fn main() {
+    let (few, many) = (cloud(64, 0.1), cloud(10_000, 0.02));
+    let tree = SphereTree::new(many.clone());
+    let mut memory = vec![0.0; DepthList::needed(many.len())];
+    let mut scratch = vec![0.0; DepthList::scratch(many.len())];
+    let sorted = DepthList::sort(many.spheres(), Viewpoint::Origin(EYE), &mut memory)
+        .expect("memory as long as it is needed");
+    let tree: Bvh<'_> = tree.bvh();
+    let (primary, diffuse) = (primary(), diffuse());
+    for level in LevelName::ALL.into_iter().filter_map(Level::named) {
+        race("list", level, &mut [], &few, &primary);
+        race("depth-list", level, &mut scratch, &sorted, &primary);
+        race("tree-packets", level, &mut [], &tree, &primary);
+        race("tree-single", level, &mut [], &tree, &diffuse);
+    }
+}
