@@ -4,27 +4,20 @@
 //! After a change that is meant, `SPHERULE_GOLDEN=write cargo test -p spherule-tests --test golden`
 //! writes the files in `tui/tests/golden` anew; read the diff before committing it.
 
-use spherule_kernel::{Sphere, Vec3};
+use spherule_kernel::{Sphere, Tier, Vec3};
 use spherule_tests::oracle;
-use spherule_tui::draw::{
-    AccuracyChoice, Charset, ColorDepth, Style, draw, picture_aspect, sample_grid,
-};
-use spherule_tui::view::{LensKind, orbited, with_projection};
-use spherule_tui::{encode, scene};
+use spherule::draw::{draw, sample_grid};
+use spherule::style::{Charset, ColorDepth, Style};
+use spherule::view::{LensKind, orbited, with_projection};
+use spherule::{encode, scene};
 use std::path::PathBuf;
 
-const ASCII: Style = Style {
-    accuracy: AccuracyChoice::Exact,
-    charset: Charset::Ascii,
-    depth: ColorDepth::Never,
-    samples: 4,
-    cell_aspect: 0.5,
-};
+const ASCII: Style = Style::PLAIN;
 
 /// The picture as it would be written to a pipe, with `\e` for escape.
 fn picture(name: &str, style: &Style, columns: u16, rows: u16) -> String {
     let scene = scene::builtin::builtin(name).expect("a built-in scene");
-    let view = scene.first_view(picture_aspect(style, columns, rows) as f32);
+    let view = scene.first_view(style.picture_aspect(columns, rows) as f32);
     let mut bytes = Vec::new();
     encode::full(&draw(&scene, &view, style, columns, rows).cells, &mut bytes);
     String::from_utf8(bytes).expect("UTF-8").replace('\x1b', "\\e")
@@ -51,7 +44,7 @@ fn scenes_in_ascii() {
 
 #[test]
 fn edge_as_fast_sees_it() {
-    let fast = Style { accuracy: AccuracyChoice::Fast, ..ASCII };
+    let fast = Style { accuracy: Tier::Fast, ..ASCII };
     check("edge-fast.txt", &picture("edge", &fast, 60, 24));
 }
 
@@ -87,7 +80,7 @@ fn every_sample_of_unit_is_what_the_oracle_says() {
             for kind in [LensKind::Perspective, LensKind::Parallel] {
                 for turn in [0.0, 0.7] {
                     let style = Style { charset, samples: 1, ..ASCII };
-                    let aspect = picture_aspect(&style, columns, rows) as f32;
+                    let aspect = style.picture_aspect(columns, rows) as f32;
                     let view = orbited(&scene.first_view(aspect), turn, turn / 2.0);
                     let view = with_projection(&view, kind);
                     let (camera, width, height) = sample_grid(&view, &style, columns, rows);

@@ -18,8 +18,8 @@ use pty::look::last_row;
 use pty::modes::is_cooked;
 use pty::picture::once;
 use pty::viewer::{COLUMNS, PICTURE_ROWS, ROWS, VIEW, Viewer, shows_a_frame};
-use spherule_tui::view::{LensKind, orbited, with_projection, zoomed};
-use spherule_tui::viewer::{ORBIT_STEP, ZOOM_STEP};
+use spherule::view::{LensKind, orbited, with_projection, zoomed};
+use spherule::viewer::{ORBIT_STEP, ZOOM_STEP};
 use std::f32::consts::PI;
 
 #[test]
@@ -41,7 +41,7 @@ fn it_starts_and_draws_what_once_draws() {
 fn s_goes_through_the_structures_and_the_picture_stays() {
     let mut viewer = Viewer::start();
     let expected = once(&VIEW, COLUMNS, PICTURE_ROWS);
-    for structure in ["brute", "tiles", "bvh"] {
+    for structure in ["brute", "depth-list", "bvh"] {
         viewer.session.type_in("s");
         viewer.session.wait_for(structure, |output| {
             let named = last_row(output.screen()).contains(structure);

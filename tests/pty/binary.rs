@@ -28,7 +28,7 @@ fn find() -> PathBuf {
             Some(name) => name,
         };
         let built = Command::new(cargo)
-            .args(["build", "--quiet", "--package", "spherule-tui", "--bin", "spherule"])
+            .args(["build", "--quiet", "--package", "spherule", "--bin", "spherule"])
             .args(["--profile", profile])
             .arg("--target-dir")
             .arg(target)

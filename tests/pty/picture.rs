@@ -2,7 +2,7 @@
 
 use super::binary::spherule;
 use super::look::{Look, look};
-use spherule_tui::view::{Lens, View};
+use spherule::view::{Lens, View};
 use std::fs;
 use std::num::NonZeroU16;
 use std::path::PathBuf;

@@ -5,7 +5,7 @@ use super::look::{Look, last_row, look};
 use super::picture::{OPTIONS, SceneFile};
 use super::session::{Output, Session};
 use spherule_kernel::Vec3;
-use spherule_tui::view::{Lens, View};
+use spherule::view::{Lens, View};
 
 pub(crate) const COLUMNS: u16 = 72;
 pub(crate) const ROWS: u16 = 20;

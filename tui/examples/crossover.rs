@@ -1,21 +1,25 @@
 //! Where one structure overtakes another: the table on which the constants of
 //! `tui/src/structure/choose.rs` rest, and what their choice costs over the best one.
-//! `cargo run --release -p spherule-tui --example crossover [LEVEL]`.
+//! `cargo run --release -p spherule --example crossover [LEVEL]`.
 //!
-//! One thread; clouds of spheres that fill a seventh of a cube; nearest hits by `Exact`, for a
-//! camera's rays in the order of a picture, and for rays from anywhere to anywhere. The structures
-//! are timed in turns, medians of several rounds of the thread's own clock.
+//! One thread; clouds of spheres that fill a seventh of a cube; closest hits by `Exact`, for a camera's
+//! rays in the order of a picture, and for rays from anywhere to anywhere. The structures are timed in
+//! turns, medians of several rounds of the thread's own clock.
 
+use clap::ValueEnum;
 use rustix::time::{ClockId, clock_gettime};
-use spherule_kernel::camera::Projection;
-use spherule_kernel::dispatch::{Level, LevelName, Packet};
-use spherule_kernel::tiles::Viewpoint;
-use spherule_kernel::{Camera, Exact, HitPacket, Lanes, Ray, RayPacket, Spheres, Vec3};
-use spherule_tui::draw::tile_order;
-use spherule_tui::structure::{
-    RaysKind, SceneStructures, Search, Structure, TileLists, TreeMemory, Workload, choose,
+use spherule::choice::name;
+use spherule::draw::packet_corners;
+use spherule::structure::Structure;
+use spherule::structure::choose::{Workload, choose};
+use spherule::structure::scene::SceneStructures;
+use spherule::structure::search::{Scratch, Search, Tracing};
+use spherule::threads::Threads;
+use spherule_kernel::{
+    Camera, Coherence, HitPacket, Level, LevelName, Projection, Ray, RayPacket, Sphere, SphereList,
+    Tier, Vec3, Viewpoint,
 };
-use spherule_tui::threads::Threads;
+use spherule_tests::random::Random;
 use std::hint::black_box;
 
 /// How many spheres.
@@ -43,23 +47,23 @@ fn main() {
         level.name().as_str()
     );
     println!(
-        "{:10} {:>8} {:>10} {:>8} {:>8} {:>7} {:>7} {:>9} {:>9} {:>8} {:>8}   {:11}   without end",
+        "{:10} {:>8} {:>10} {:>8} {:>8} {:>7} {:>7} {:>9} {:>9} {:>8} {:>8}   {:16}   without end",
         "rays",
         "spheres",
         "brute",
-        "tiles",
+        "depth",
         "bvh",
         "sort",
         "build",
-        "tiles/t",
+        "depth/t",
         "bvh/t",
         "sort/t",
         "build/t",
         "one"
     );
-    for kind in [RaysKind::Coherent, RaysKind::Incoherent] {
+    for coherent in [true, false] {
         for count in SPHERES {
-            measure(kind, count, level);
+            measure(coherent, count, level);
         }
     }
 }
@@ -70,30 +74,13 @@ fn cpu_ns() -> f64 {
     time.tv_sec as f64 * 1e9 + time.tv_nsec as f64
 }
 
-/// Numbers in [-1, 1) (splitmix64).
-struct Numbers(u64);
-
-impl Numbers {
-    fn next(&mut self) -> f32 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 40) as f32 / (1 << 23) as f32 - 1.0
-    }
-
-    fn vector(&mut self) -> Vec3 {
-        Vec3::new(self.next(), self.next(), self.next())
-    }
-}
-
 /// A camera's rays of a square picture from outside the cube, or rays in the cube.
-fn rays(kind: RaysKind, count: usize) -> Vec<RayPacket<Packet>> {
-    if kind == RaysKind::Incoherent {
-        let mut numbers = Numbers(7);
-        let rays: Vec<_> =
-            (0..count).map(|_| Ray::new(numbers.vector(), numbers.vector())).collect();
-        return rays.chunks(Packet::COUNT).map(RayPacket::<Packet>::new).collect();
+fn rays(coherent: bool, count: usize) -> Vec<RayPacket> {
+    if !coherent {
+        let mut random = Random::seeded(7);
+        let mut ray = || Ray::new(random.in_cube(1.0), random.in_cube(1.0));
+        let rays: Vec<_> = (0..count).map(|_| ray()).collect();
+        return rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect();
     }
     let side = (count as f32).sqrt() as u32;
     let step = 2.0 * 0.364 / side as f32;
@@ -103,93 +90,93 @@ fn rays(kind: RaysKind, count: usize) -> Vec<RayPacket<Packet>> {
         step_x: Vec3::new(step, 0.0, 0.0),
         step_y: Vec3::new(0.0, -step, 0.0),
     };
-    let (across, down) = Camera::tile::<Packet>();
-    tile_order(side / across, side / down)
-        .map(|(x, y)| camera.packet::<Packet>(x * across, y * down, side, side))
-        .collect()
+    packet_corners(side, side).map(|(x, y)| camera.packet(x, y, side, side)).collect()
 }
 
-fn measure(kind: RaysKind, count: usize, level: Level) {
-    let mut numbers = Numbers(3);
+fn measure(coherent: bool, count: usize, level: Level) {
+    let mut random = Random::seeded(3);
     let size = (count as f32).powf(-1.0 / 3.0);
-    let columns: [Vec<f32>; 3] = [(); 3].map(|()| (0..count).map(|_| numbers.next()).collect());
-    let radii: Vec<f32> = (0..count).map(|_| size * (0.5 + 0.25 * numbers.next())).collect();
-    let [x, y, z] = &columns;
-    let spheres = Spheres::new(x, y, z, &radii).expect("as many of each");
-    let rays = rays(kind, RAYS);
+    let mut sphere = || {
+        let center = random.in_cube(1.0);
+        Sphere { center, radius: size * random.between(0.25, 0.75) }
+    };
+    let list: SphereList = (0..count).map(|_| sphere()).collect();
+    let rays = rays(coherent, RAYS);
     // Brute force takes a part, from the middle, where most spheres are.
-    let part = (MOST_TESTS / count / Packet::COUNT).clamp(16, rays.len());
+    let part = (MOST_TESTS / count / RayPacket::COUNT).clamp(16, rays.len());
     let middle = (rays.len() - part) / 2;
     let few = &rays[middle..middle + part];
 
+    let coherence = if coherent { Coherence::Coherent } else { Coherence::Incoherent };
+    let tracing = Tracing { tier: Tier::Exact, level, coherence };
     let threads = Threads::default();
     let mut times = Times::default();
-    let mut hits = vec![HitPacket::<Packet>::none(); rays.len()];
-    let mut lists = TileLists::default();
+    let mut hits = vec![HitPacket::none(); rays.len()];
+    let mut scratch = Scratch::default();
     for _ in 0..ROUNDS {
-        let mut memory = TreeMemory::default();
-        let mut structures = SceneStructures::new(spheres, &threads, &mut memory);
-        let mut time = |search: Search<'_>, rays: &[RayPacket<Packet>]| {
+        let mut structures = SceneStructures::new(&list, &threads);
+        let mut time = |search: Search<'_>, rays: &[RayPacket]| {
             let start = cpu_ns();
             for (rays, hits) in rays.chunks(BAND).zip(hits.chunks_mut(BAND)) {
-                search.nearest::<Exact>(level, kind, rays, &mut lists, hits);
+                search.closest_hits(tracing, &mut scratch, rays, hits);
             }
             black_box(&hits);
-            (cpu_ns() - start) / (rays.len() * Packet::COUNT) as f64
+            (cpu_ns() - start) / (rays.len() * RayPacket::COUNT) as f64
         };
-        times.brute.push(time(Search::brute(spheres), few));
-        let viewpoint = (kind == RaysKind::Coherent).then_some(Viewpoint::Origin(EYE));
+        times.brute.push(time(Search::Brute(list.spheres()), few));
+        let viewpoint = coherent.then_some(Viewpoint::Origin(EYE));
         let start = cpu_ns();
-        let order = structures.search(Structure::Tiles, viewpoint).expect("memory");
+        let sorted = structures.search(Structure::DepthList, viewpoint).expect("memory");
         times.sort.push((cpu_ns() - start) / count as f64);
-        let part = if viewpoint.is_some() { &rays } else { few };
-        times.tiles.push(time(order, part));
+        let part = if coherent { &rays } else { few };
+        times.depth_list.push(time(sorted, part));
         let start = cpu_ns();
         let tree = structures.search(Structure::Bvh, None).expect("memory");
         times.build.push((cpu_ns() - start) / count as f64);
         times.bvh.push(time(tree, &rays));
     }
-    times.print(kind, count);
+    times.print(coherent, count);
 }
 
 /// Nanoseconds, a round each: a ray, or a sphere of the sort and of the build.
 #[derive(Default)]
 struct Times {
     brute: Vec<f64>,
-    tiles: Vec<f64>,
+    depth_list: Vec<f64>,
     bvh: Vec<f64>,
     sort: Vec<f64>,
     build: Vec<f64>,
 }
 
 impl Times {
-    fn print(&mut self, kind: RaysKind, count: usize) {
+    fn print(&mut self, coherent: bool, count: usize) {
         let median = |list: &mut Vec<f64>| {
             list.sort_by(f64::total_cmp);
             list[list.len() / 2]
         };
-        let (brute, tiles, bvh) =
-            (median(&mut self.brute), median(&mut self.tiles), median(&mut self.bvh));
+        let (brute, depth_list, bvh) =
+            (median(&mut self.brute), median(&mut self.depth_list), median(&mut self.bvh));
         let (sort, build) = (median(&mut self.sort), median(&mut self.build));
         let test = brute / count as f64;
         // What was chosen, and how much longer it takes than the best.
         let choice = |pictures: f64| {
-            let chosen = choose(count, &Workload { rays: PICTURE, pictures, kind });
+            let chosen = choose(count, &Workload { rays: PICTURE, pictures, coherent });
             let a_ray = count as f64 / PICTURE as f64;
             let taken = |structure| match structure {
                 Structure::Brute => brute,
-                Structure::Tiles if kind == RaysKind::Incoherent => brute,
-                Structure::Tiles => tiles + sort * a_ray,
+                Structure::DepthList if !coherent => brute,
+                Structure::DepthList => depth_list + sort * a_ray,
                 Structure::Bvh => bvh + build * a_ray / pictures,
             };
-            let best = Structure::ALL.map(taken).into_iter().fold(f64::INFINITY, f64::min);
-            format!("{:5} x{:.2}", chosen.as_str(), taken(chosen) / best)
+            let all = Structure::value_variants().iter();
+            let best = all.map(|&structure| taken(structure)).fold(f64::INFINITY, f64::min);
+            format!("{:10} x{:.2}", name(&chosen), taken(chosen) / best)
         };
         println!(
-            "{:10} {count:8} {brute:10.2} {tiles:8.2} {bvh:8.2} {sort:7.1} {build:7.1} {:9.1} \
+            "{:10} {count:8} {brute:10.2} {depth_list:8.2} {bvh:8.2} {sort:7.1} {build:7.1} {:9.1} \
              {:9.1} {:8.1} {:8.1}   {}   {}",
-            format!("{kind:?}").to_lowercase(),
-            tiles / test,
+            if coherent { "coherent" } else { "incoherent" },
+            depth_list / test,
             bvh / test,
             sort / test,
             build / test,

@@ -1,20 +1,22 @@
 //! Milliseconds of CPU a frame of the built-in scenes, 200 x 60 cells in half blocks and
 //! truecolor, 4 samples a cell, drawn and encoded in full, and their ratio to work that is known:
-//! `cargo run --release -p spherule-tui --example frame_time [FRAMES [SCENE [LEVEL [STRUCTURE]]]]`.
+//! `cargo run --release -p spherule --example frame_time [FRAMES [SCENE [LEVEL [STRUCTURE]]]]`.
 //!
 //! A shared machine is slower than its CPU. So the clock is that of the thread, which stands while
 //! others run, and a probe, the same work on every machine, is timed in turns with the frames: what
 //! shares the core slows both. A quiet core takes the ratio times the least time of the probe.
 
+use clap::ValueEnum;
 use rustix::time::{ClockId, clock_gettime};
-use spherule_kernel::dispatch::{Level, LevelName};
-use spherule_tui::draw::{
-    AccuracyChoice, Charset, ColorDepth, Renderer, Style, picture_aspect, picture_workload,
-};
-use spherule_tui::scene::{Scene, builtin::BUILTINS};
-use spherule_tui::structure::{SceneStructures, Structure, StructureChoice, TreeMemory};
-use spherule_tui::threads::Threads;
-use spherule_tui::{encode, view};
+use spherule::choice::{self, Auto};
+use spherule::draw::{Renderer, picture_workload};
+use spherule::scene::{Scene, builtin::BUILTINS};
+use spherule::structure::Structure;
+use spherule::structure::scene::SceneStructures;
+use spherule::style::{Charset, ColorDepth, Style};
+use spherule::threads::Threads;
+use spherule::{encode, view};
+use spherule_kernel::{Level, LevelName, Tier};
 use std::hint::black_box;
 
 /// Multiply-adds in chains, as many side by side as keep a core busy without wide registers.
@@ -28,11 +30,9 @@ fn main() {
     let only = words.next();
     let named = |word: String| LevelName::ALL.into_iter().find(|name| name.as_str() == word);
     let level = words.next().and_then(named).and_then(Level::named).unwrap_or_else(Level::best);
-    let structure = words.next().unwrap_or_else(|| "auto".to_owned());
-    let named = Structure::ALL.into_iter().find(|known| known.as_str() == structure);
-    let structure = named.map_or(StructureChoice::Auto, StructureChoice::Only);
+    let structure = words.next().and_then(|name| Structure::from_str(&name, false).ok());
     println!("{}: medians of {frames} rounds in turns", level.name().as_str());
-    for accuracy in AccuracyChoice::ALL {
+    for accuracy in Tier::ALL {
         for entry in BUILTINS {
             if only.as_ref().is_some_and(|name| name != entry.name) {
                 continue;
@@ -63,24 +63,18 @@ fn cpu_ms() -> f64 {
 fn time(
     name: &str,
     scene: &Scene,
-    accuracy: AccuracyChoice,
+    accuracy: Tier,
     level: Level,
-    structure: StructureChoice,
+    structure: Auto<Structure>,
     frames: u32,
 ) {
-    let style = Style {
-        accuracy,
-        charset: Charset::Half,
-        depth: ColorDepth::Truecolor,
-        samples: 4,
-        cell_aspect: 0.5,
-    };
-    let mut view = scene.first_view(picture_aspect(&style, 200, 60) as f32);
-    let mut memory = TreeMemory::default();
+    let style =
+        Style { accuracy, charset: Charset::Half, depth: ColorDepth::Truecolor, ..Style::PLAIN };
+    let mut view = scene.first_view(style.picture_aspect(200, 60) as f32);
     let threads = Threads::default();
-    let mut structures = SceneStructures::new(scene.spheres(), &threads, &mut memory);
+    let mut structures = SceneStructures::new(scene.list(), &threads);
     let workload = picture_workload(scene.spheres().len(), &style, 200, 60, f64::INFINITY);
-    let structure = structures.structure(structure, &workload);
+    let searched = choice::name(&structures.structure(structure, &workload));
     let (mut renderer, mut bytes) = (Renderer::new(level, &threads), Vec::new());
     let (mut draw, mut encoding, mut probes) = (Vec::new(), Vec::new(), Vec::new());
     let (mut sums, mut ratios, mut rays) = (Vec::new(), Vec::new(), 0);
@@ -90,7 +84,7 @@ fn time(
         black_box(probe());
         let known = cpu_ms() - start;
         let start = cpu_ms();
-        let search = structures.picture(structure, workload.kind, view.viewpoint(), &scene.lights);
+        let search = structures.picture(structure, &workload, view.viewpoint(), &scene.lights);
         let search = search.expect("memory for a structure");
         let drawn = black_box(renderer.draw(scene, &search, &view, &style, 200, 60));
         let drawing = cpu_ms() - start;
@@ -115,7 +109,7 @@ fn time(
         "{name:8} {:6} {:5}: {both:.2} ms (least {:.2}; draw {draw:.2}, encode {encoding:.2}), probe \
          {known:.2} ms (least {:.2}), ratio {ratio:.2}: {:.2} ms on a quiet core; {rays} rays, {} bytes",
         accuracy.as_str(),
-        structure.as_str(),
+        searched,
         sums[0],
         probes[0],
         ratio * probes[0],

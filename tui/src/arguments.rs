@@ -1,19 +1,27 @@
-//! The command line, as DESIGN.md states it.
+//! The command line.
 
-mod values;
-
-use crate::color_depth::ColorChoice;
-use crate::draw::{AccuracyChoice, Charset};
-use crate::failure::Failure;
+use crate::choice::{Auto, auto_or, one_of};
+use crate::error::Error;
+use crate::samples::MOST_SAMPLES;
+use crate::scene::Scene;
 use crate::scene::builtin::DEFAULT;
-use crate::scene::open::Format;
-use crate::structure::StructureChoice;
-use crate::view::LensKind;
-use clap::{Args, Parser, Subcommand};
-use spherule_kernel::dispatch::Level;
+use crate::scene::open::{Format, open};
+use crate::structure::Structure;
+use crate::style::Charset;
+use crate::terminal::color_depth::ColorChoice;
+use crate::threads::MOST_THREADS;
+use crate::view::{LensKind, View, with_projection};
+use clap::builder::TypedValueParser;
+use clap::{Args, Parser, Subcommand, value_parser};
+use spherule_kernel::{Level, LevelName, Tier};
 use std::ffi::OsString;
-use std::num::NonZeroUsize;
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
+
+/// The largest picture, in columns or rows.
+const LARGEST_SIDE: u16 = 4096;
+/// The widest and the narrowest cell, width over height.
+const ASPECTS: RangeInclusive<f32> = 0.05..=20.0;
 
 /// Spheres in a terminal, by packets of rays.
 ///
@@ -23,7 +31,7 @@ use std::path::PathBuf;
 #[command(name = "spherule", version, args_conflicts_with_subcommands = true)]
 #[command(disable_help_subcommand = true)]
 pub struct Arguments {
-    /// Something else than a picture.
+    /// Something other than a picture.
     #[command(subcommand)]
     pub command: Option<Command>,
     /// The picture.
@@ -45,32 +53,21 @@ pub enum Command {
 /// A scene, and how to draw it.
 #[derive(Args, Clone, Debug)]
 pub struct PictureArguments {
-    /// A built-in scene, a file (.toml, .xyz), or - for standard input
-    #[arg(value_name = "SCENE", default_value = DEFAULT)]
-    pub scene: String,
-    /// How far hits may be trusted: fast, stable or exact
-    #[arg(long, value_name = "TIER", default_value = AccuracyChoice::default().as_str(), value_parser = values::accuracy)]
-    pub accuracy: AccuracyChoice,
-    /// Picture size in cells, each 1 to 4096 [default: the terminal's, 80x24 in a pipe]
-    #[arg(long, value_name = "COLSxROWS", value_parser = values::size)]
-    pub size: Option<(u16, u16)>,
-    /// Characters: auto (half with colour, else ascii), ascii or half
-    #[arg(long, value_name = "SET", default_value = "auto", value_parser = values::charset)]
-    pub charset: CharsetChoice,
-    /// Colours: auto, always, never, 16, 256 or truecolor
-    #[arg(long, value_name = "WHEN", default_value = "auto", value_parser = values::color)]
+    /// The scene, and its rays.
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// How far hits may be trusted
+    #[arg(long, value_name = "TIER", default_value = Tier::Exact.as_str())]
+    #[arg(value_parser = one_of(&Tier::ALL, Tier::as_str))]
+    pub accuracy: Tier,
+    /// Characters; auto: half with colour, else ascii
+    #[arg(long, value_name = "SET", default_value = "auto", value_parser = auto_or::<Charset>())]
+    pub charset: Auto<Charset>,
+    /// Colours
+    #[arg(long, value_name = "WHEN", default_value = "auto")]
     pub color: ColorChoice,
-    /// Rays a cell, 1 to 256
-    #[arg(long, value_name = "N", default_value = "4", value_parser = values::samples)]
-    pub samples: u32,
-    /// perspective or parallel, whatever the scene says
-    #[arg(long, value_name = "KIND", value_parser = values::projection)]
-    pub projection: Option<LensKind>,
-    /// Format of the scene: toml or xyz [default: by name; from standard input by first line]
-    #[arg(long, value_name = "FORMAT", value_parser = values::format)]
-    pub format: Option<Format>,
-    /// Shape of a cell, width to height [default: asked of the terminal, else 1:2]
-    #[arg(long, value_name = "W:H", value_parser = values::aspect)]
+    /// Shape of a cell, width to height [default: the terminal's, else 1:2]
+    #[arg(long, value_name = "W:H", value_parser = aspect)]
     pub cell_aspect: Option<f32>,
     /// How it is computed.
     #[command(flatten)]
@@ -80,17 +77,56 @@ pub struct PictureArguments {
     pub once: bool,
 }
 
+/// A scene, and the rays of a picture of it.
+#[derive(Args, Clone, Debug)]
+pub struct SceneArguments {
+    /// A built-in scene, a file (.toml, .xyz), or - for standard input
+    #[arg(value_name = "SCENE", default_value = DEFAULT)]
+    pub name: String,
+    /// Picture size in cells, each 1 to 4096 [default: 80x24; a picture on a terminal fills it]
+    #[arg(long, value_name = "COLSxROWS", value_parser = size)]
+    pub size: Option<(u16, u16)>,
+    /// Rays a cell, 1 to 256
+    #[arg(long, value_name = "N", default_value = "4")]
+    #[arg(value_parser = value_parser!(u32).range(1..=i64::from(MOST_SAMPLES)))]
+    pub samples: u32,
+    /// The projection, whatever the scene says
+    #[arg(long, value_name = "KIND")]
+    pub projection: Option<LensKind>,
+    /// Format of the scene [default: by name; of standard input by its first line]
+    #[arg(long, value_name = "FORMAT")]
+    pub format: Option<Format>,
+}
+
+impl SceneArguments {
+    /// The scene.
+    ///
+    /// # Errors
+    /// [`Error::Input`] if there is no such scene, or it cannot be read.
+    pub fn open(&self) -> Result<Scene, Error> {
+        open(&self.name, self.format).map_err(|error| Error::Input(error.to_string()))
+    }
+
+    /// Where the scene is first seen from, in a picture of `aspect`, width over height.
+    #[must_use]
+    pub fn view(&self, scene: &Scene, aspect: f64) -> View {
+        let view = scene.first_view(aspect as f32);
+        self.projection.map_or(view, |kind| with_projection(&view, kind))
+    }
+}
+
 /// How answers are computed: they do not depend on it.
 #[derive(Args, Clone, Copy, Debug)]
 pub struct ComputingArguments {
-    /// How spheres are searched: auto, brute, tiles or bvh
-    #[arg(long, value_name = "HOW", default_value = "auto", value_parser = values::structure)]
-    pub structure: StructureChoice,
+    /// How spheres are searched
+    #[arg(long, value_name = "HOW", default_value = "auto", value_parser = auto_or::<Structure>())]
+    pub structure: Auto<Structure>,
     /// Threads, 1 to 1024 [default: all that the machine has]
-    #[arg(long, value_name = "N", value_parser = values::threads)]
-    pub threads: Option<NonZeroUsize>,
-    /// Instructions: baseline, avx2 or avx512 [default: the best that the CPU has]
-    #[arg(long, value_name = "LEVEL", value_parser = values::level)]
+    #[arg(long, value_name = "N")]
+    #[arg(value_parser = value_parser!(u16).range(1..=i64::from(MOST_THREADS)))]
+    pub threads: Option<u16>,
+    /// Instructions [default: the best that the CPU has]
+    #[arg(long, value_name = "LEVEL", value_parser = level())]
     pub level: Option<Level>,
 }
 
@@ -106,24 +142,25 @@ pub struct TraceArguments {
     /// Ray i meets sphere i alone
     #[arg(long)]
     pub pairs: bool,
-    /// Ask only whether a ray meets anything
+    /// Only whether a ray meets anything
     #[arg(long, conflicts_with = "out_t")]
     pub any: bool,
-    /// Where to write t: .npy, float32, (M,), +inf where nothing was hit
+    /// Where to write t: .npy, float32, (M,), +inf if a ray has no hit
     #[arg(long, value_name = "T.npy")]
     pub out_t: Option<PathBuf>,
-    /// Where to write the sphere: .npy, int32, (M,), -1 where nothing was hit; with --any 1 or 0
+    /// Where to write the sphere: .npy, int32, (M,), -1 if a ray has no hit; with --any 1 or 0
     #[arg(long, value_name = "I.npy")]
     pub out_id: Option<PathBuf>,
-    /// Trace so often and report the median speed
-    #[arg(long, value_name = "N", default_value = "1", value_parser = values::repeat)]
+    /// Passes, 1 or more; the speed is that of their median
+    #[arg(long, value_name = "N", default_value = "1", value_parser = value_parser!(u32).range(1..))]
     pub repeat: u32,
     /// Report as a JSON object
     #[arg(long)]
     pub json: bool,
-    /// How far hits may be trusted: fast, stable or exact
-    #[arg(long, value_name = "TIER", default_value = AccuracyChoice::default().as_str(), value_parser = values::accuracy)]
-    pub accuracy: AccuracyChoice,
+    /// How far hits may be trusted
+    #[arg(long, value_name = "TIER", default_value = Tier::Exact.as_str())]
+    #[arg(value_parser = one_of(&Tier::ALL, Tier::as_str))]
+    pub accuracy: Tier,
     /// How it is computed.
     #[command(flatten)]
     pub computing: ComputingArguments,
@@ -132,36 +169,15 @@ pub struct TraceArguments {
 /// A scene whose rays are timed and judged.
 #[derive(Args, Clone, Debug)]
 pub struct TradeoffArguments {
-    /// A built-in scene, a file (.toml, .xyz), or - for standard input
-    #[arg(value_name = "SCENE", default_value = DEFAULT)]
-    pub scene: String,
+    /// The scene, and its rays.
+    #[command(flatten)]
+    pub scene: SceneArguments,
     /// Report as a JSON object
     #[arg(long)]
     pub json: bool,
-    /// The picture whose rays they are, in cells, each 1 to 4096 [default: 80x24]
-    #[arg(long, value_name = "COLSxROWS", value_parser = values::size)]
-    pub size: Option<(u16, u16)>,
-    /// Rays a cell, 1 to 256
-    #[arg(long, value_name = "N", default_value = "4", value_parser = values::samples)]
-    pub samples: u32,
-    /// perspective or parallel, whatever the scene says
-    #[arg(long, value_name = "KIND", value_parser = values::projection)]
-    pub projection: Option<LensKind>,
-    /// Format of the scene: toml or xyz [default: by name; from standard input by first line]
-    #[arg(long, value_name = "FORMAT", value_parser = values::format)]
-    pub format: Option<Format>,
     /// How it is computed.
     #[command(flatten)]
     pub computing: ComputingArguments,
-}
-
-/// What `--charset` says.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CharsetChoice {
-    /// Half blocks with colour, ASCII without.
-    Auto,
-    /// This one.
-    Only(Charset),
 }
 
 /// What the arguments ask for.
@@ -176,12 +192,12 @@ pub enum Request {
 /// Reads a command line, the name of the program first.
 ///
 /// # Errors
-/// [`Failure::Input`] in one line where it is wrong.
-pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, Failure> {
+/// [`Error::Input`], in one line, if it is wrong.
+pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, Error> {
     match Arguments::try_parse_from(arguments) {
         Ok(arguments) => Ok(Request::Run(Box::new(arguments))),
         Err(error) if error.exit_code() == 0 => Ok(Request::Print(error.to_string())),
-        Err(error) => Err(Failure::Input(in_one_line(&error.to_string()))),
+        Err(error) => Err(Error::Input(in_one_line(&error.to_string()))),
     }
 }
 
@@ -192,13 +208,36 @@ fn in_one_line(message: &str) -> String {
     first.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
+fn size(text: &str) -> Result<(u16, u16), String> {
+    let (columns, rows) = text.split_once(['x', 'X']).ok_or("COLSxROWS, such as 80x24")?;
+    let side = |text: &str| {
+        let side = text.parse().ok().filter(|side| (1..=LARGEST_SIDE).contains(side));
+        side.ok_or_else(|| format!("COLSxROWS, each 1 to {LARGEST_SIDE}"))
+    };
+    Ok((side(columns)?, side(rows)?))
+}
+
+fn aspect(text: &str) -> Result<f32, &'static str> {
+    let ratio = || {
+        let (width, height) = text.split_once(':')?;
+        Some(width.parse::<f32>().ok()? / height.parse::<f32>().ok()?)
+    };
+    ratio().filter(|ratio| ASPECTS.contains(ratio)).ok_or("W:H, such as 1:2; from 1:20 to 20:1")
+}
+
+fn level() -> impl TypedValueParser<Value = Level> {
+    one_of(&LevelName::ALL, LevelName::as_str).try_map(|name| {
+        Level::named(name).ok_or_else(|| format!("this CPU has no {}", name.as_str()))
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::draw::ColorDepth;
-    use crate::structure::Structure;
+    use crate::choice::name;
+    use clap::ValueEnum;
 
-    fn parsed(line: &str) -> Result<Request, Failure> {
+    fn parsed(line: &str) -> Result<Request, Error> {
         parse(std::iter::once("spherule").chain(line.split_whitespace()).map(Into::into))
     }
 
@@ -212,12 +251,12 @@ mod tests {
     #[test]
     fn what_is_not_said_has_a_default() {
         let arguments = picture("");
-        assert_eq!(arguments.scene, "marbles");
-        assert_eq!(arguments.accuracy, AccuracyChoice::Exact);
-        assert_eq!((arguments.size, arguments.samples), (None, 4));
+        assert_eq!(arguments.scene.name, "marbles");
+        assert_eq!(arguments.accuracy, Tier::Exact);
+        assert_eq!((arguments.scene.size, arguments.scene.samples), (None, 4));
         assert_eq!(arguments.color, ColorChoice::Auto);
-        assert_eq!(arguments.charset, CharsetChoice::Auto);
-        assert_eq!(arguments.computing.structure, StructureChoice::Auto);
+        assert_eq!(arguments.charset, None);
+        assert_eq!(arguments.computing.structure, None);
         assert_eq!(arguments.computing.threads, None);
         assert!(!arguments.once);
     }
@@ -229,16 +268,16 @@ mod tests {
              --projection parallel --format xyz --cell-aspect 3:4 --structure bvh \
              --threads 3 --once",
         );
-        assert_eq!(arguments.scene, "a.xyz");
-        assert_eq!(arguments.accuracy, AccuracyChoice::Fast);
-        assert_eq!((arguments.size, arguments.samples), (Some((200, 60)), 9));
-        assert_eq!(arguments.charset, CharsetChoice::Only(Charset::Half));
-        assert_eq!(arguments.color, ColorChoice::Depth(ColorDepth::Ansi256));
-        assert_eq!(arguments.projection, Some(LensKind::Parallel));
-        assert_eq!(arguments.format, Some(Format::Xyz));
+        assert_eq!(arguments.scene.name, "a.xyz");
+        assert_eq!(arguments.accuracy, Tier::Fast);
+        assert_eq!((arguments.scene.size, arguments.scene.samples), (Some((200, 60)), 9));
+        assert_eq!(arguments.charset, Some(Charset::Half));
+        assert_eq!(arguments.color, ColorChoice::Ansi256);
+        assert_eq!(arguments.scene.projection, Some(LensKind::Parallel));
+        assert_eq!(arguments.scene.format, Some(Format::Xyz));
         assert_eq!(arguments.cell_aspect, Some(0.75));
-        assert_eq!(arguments.computing.structure, StructureChoice::Only(Structure::Bvh));
-        assert_eq!(arguments.computing.threads.map(NonZeroUsize::get), Some(3));
+        assert_eq!(arguments.computing.structure, Some(Structure::Bvh));
+        assert_eq!(arguments.computing.threads, Some(3));
         assert!(arguments.once);
     }
 
@@ -248,28 +287,46 @@ mod tests {
             ("--size 0x0", "each 1 to 4096"),
             ("--size 1000000x1000000", "each 1 to 4096"),
             ("--size 80", "COLSxROWS"),
-            ("--samples 0", "1 to 256"),
-            ("--accuracy sloppy", "fast, stable or exact"),
-            ("--structure octree", "auto, brute, tiles or bvh"),
-            ("--threads 0", "1 to 1024"),
-            ("tradeoff --threads 1025", "1 to 1024"),
-            ("trace --threads two", "1 to 1024"),
-            ("--level sse", "baseline, avx2 or avx512"),
+            ("--samples 0", "1..=256"),
+            ("--accuracy sloppy", "fast, stable, exact"),
+            ("--structure octree", "auto, brute, depth-list, bvh"),
+            ("--threads 0", "1..=1024"),
+            ("tradeoff --threads 1025", "1..=1024"),
+            ("trace --threads two", "--threads <N>"),
+            ("--level sse", "baseline, avx2, avx512"),
             ("--cell-aspect 1:0", "W:H"),
             ("--cell-aspect nan:1", "W:H"),
             ("a b", "'b'"),
             ("trace", "--spheres <S.npy> --rays <R.npy>"),
             ("trace --spheres s --rays r --any --out-t t", "cannot be used with"),
-            ("trace --spheres s --rays r --repeat 0", "1 or more"),
+            ("trace --spheres s --rays r --repeat 0", "1.."),
             ("scenes --once", "--once"),
         ] {
             match parsed(line) {
-                Err(Failure::Input(message)) => {
+                Err(Error::Input(message)) => {
                     assert!(message.contains(part), "{line}: {message}");
                     assert!(!message.contains('\n') && !message.contains("Usage"), "{message}");
                 }
                 other => panic!("{line}: {other:?}"),
             }
+        }
+    }
+
+    /// Scripts say `tiles`, the name that the depth list had first.
+    #[test]
+    fn names_are_accepted_and_listed() {
+        for (word, expected) in [
+            ("auto", None),
+            ("depth-list", Some(Structure::DepthList)),
+            ("tiles", Some(Structure::DepthList)),
+        ] {
+            assert_eq!(picture(&format!("--structure {word}")).computing.structure, expected);
+        }
+        for depth in ColorChoice::value_variants() {
+            assert_eq!(picture(&format!("--color {}", name(depth))).color, *depth);
+        }
+        for tier in Tier::ALL {
+            assert_eq!(picture(&format!("--accuracy {}", tier.as_str())).accuracy, tier);
         }
     }
 

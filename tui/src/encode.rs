@@ -1,5 +1,5 @@
-//! Cells to bytes, by a writer of our own: whoever calls has already decided about colour, and a
-//! library that asks the environment again would decide otherwise.
+//! Cells to bytes, by a writer of our own: the caller has already decided about colour, and a
+//! library that reads the environment again would decide otherwise.
 //!
 //! [`full`] writes lines for a pipe or a file. [`Encoder`] writes what changed, for a terminal in
 //! raw mode; it knows what that terminal shows.
@@ -10,7 +10,7 @@ mod sgr;
 mod tests;
 
 use crate::cells::{Cell, CellGrid};
-use cursor::Cursor;
+use cursor::{Cursor, push_glyph};
 use sgr::Pen;
 
 /// From here on a terminal that can hold back its picture does.
@@ -92,15 +92,6 @@ fn look_same(a: &Cell, b: &Cell) -> bool {
     a.background == b.background
         && a.glyph == b.glyph
         && (a.foreground == b.foreground || a.glyph == ' ')
-}
-
-/// A control character, say from the name of a file, must not reach the terminal as one.
-fn printable(glyph: char) -> char {
-    if glyph.is_control() { '?' } else { glyph }
-}
-
-fn push_glyph(glyph: char, out: &mut Vec<u8>) {
-    out.extend_from_slice(printable(glyph).encode_utf8(&mut [0; 4]).as_bytes());
 }
 
 /// Remembers what the terminal shows, so that a frame costs only what it changes.

@@ -3,11 +3,11 @@
 
 pub mod arguments;
 pub mod cells;
+pub mod choice;
 pub mod color;
-pub mod color_depth;
 pub mod draw;
 pub mod encode;
-pub mod failure;
+pub mod error;
 pub mod machine;
 pub mod npy;
 pub mod palette;
@@ -17,6 +17,8 @@ pub mod scene;
 pub mod shade;
 pub mod show;
 pub mod structure;
+pub mod style;
+pub mod tally;
 pub mod terminal;
 pub mod threads;
 pub mod trace;

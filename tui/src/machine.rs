@@ -5,7 +5,7 @@ use std::fs;
 /// The compiler that built the program.
 pub const RUSTC: &str = env!("SPHERULE_RUSTC");
 
-/// The name of the CPU; `unknown` where the system does not tell.
+/// The name of the CPU; `unknown` if the system does not tell.
 #[must_use]
 pub fn cpu() -> String {
     let text = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();

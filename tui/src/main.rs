@@ -1,19 +1,19 @@
 //! The program `spherule`: arguments in, exit code out. Everything else is in the library.
 #![forbid(unsafe_code)]
 
-use spherule_tui::arguments::{self, Command, Request};
-use spherule_tui::failure::{Failure, write_stdout};
-use spherule_tui::{show, trace, tradeoff};
+use spherule::arguments::{self, Command, Request};
+use spherule::error::{Error, write_stdout};
+use spherule::{show, trace, tradeoff};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
     match run() {
         Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => failure.report(),
+        Err(error) => error.report(),
     }
 }
 
-fn run() -> Result<(), Failure> {
+fn run() -> Result<(), Error> {
     match arguments::parse(std::env::args_os())? {
         Request::Print(text) => write_stdout(text.as_bytes()),
         Request::Run(arguments) => match &arguments.command {

@@ -1,7 +1,7 @@
 //! Arrays in numpy's `.npy` files, written and read by the crate `npyz`, behind checks that it
 //! does not make: a header may lie about its own length and about the array's.
 
-use crate::failure::{Failure, cause};
+use crate::error::{Error, cause};
 use npyz::{DType, NpyFile, NpyHeader, Order, Serialize, WriteOptions, WriterBuilder};
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Read, Write};
@@ -13,16 +13,15 @@ const LONGEST_HEADER: usize = 1024;
 /// The most digits in a header: of so many the product of the shape cannot overflow.
 const MOST_DIGITS: usize = 19;
 
-/// Reads a little-endian `float32` array in C order with `columns` columns: its rows, one after
-/// the other.
+/// The rows of a little-endian `float32` array in C order with `N` columns.
 ///
 /// Memory grows with the file, not with what its header claims.
 ///
 /// # Errors
-/// [`Failure::Input`] where the file cannot be read, or is something else.
-pub fn read_rows(path: &Path, columns: u64) -> Result<Vec<f32>, Failure> {
+/// [`Error::Input`] if the file cannot be read, or is something else.
+pub fn read_rows<const N: usize>(path: &Path) -> Result<Vec<[f32; N]>, Error> {
     let name = path.display();
-    let wrong = |what: String| Failure::Input(format!("{name}: {what}"));
+    let wrong = |what: String| Error::Input(format!("{name}: {what}"));
     let failed = |error: io::Error| wrong(cause(&error));
     let mut reader = BufReader::new(File::open(path).map_err(failed)?);
 
@@ -35,34 +34,36 @@ pub fn read_rows(path: &Path, columns: u64) -> Result<Vec<f32>, Failure> {
         return Err(wrong("in Fortran order, not in C order".to_owned()));
     }
     let &[rows, width] = header.shape() else {
-        return Err(wrong(format!("shape {:?}, not (N, {columns})", header.shape())));
+        return Err(wrong(format!("shape {:?}, not (N, {N})", header.shape())));
     };
-    if width != columns {
-        return Err(wrong(format!("shape ({rows}, {width}), not (N, {columns})")));
+    if width != N as u64 {
+        return Err(wrong(format!("shape ({rows}, {width}), not (N, {N})")));
     }
 
     // Read what is there, at most a byte more than announced.
-    let length = rows.checked_mul(columns * 4).filter(|&length| length < u64::MAX);
+    let length = rows.checked_mul(4 * N as u64).filter(|&length| length < u64::MAX);
     let length = length.ok_or_else(|| wrong(format!("{rows} rows are more than any file has")))?;
     let mut bytes = Vec::new();
     reader.take(length + 1).read_to_end(&mut bytes).map_err(failed)?;
     if bytes.len() as u64 != length {
         let relation = if (bytes.len() as u64) < length { "fewer" } else { "more" };
-        let what = format!("{relation} bytes than the {length} of its shape ({rows}, {columns})");
+        let what = format!("{relation} bytes than the {length} of its shape ({rows}, {N})");
         return Err(wrong(what));
     }
-    NpyFile::with_header(header, bytes.as_slice()).into_vec().map_err(failed)
+    let values: Vec<f32> =
+        NpyFile::with_header(header, bytes.as_slice()).into_vec().map_err(failed)?;
+    Ok(values.as_chunks().0.to_vec())
 }
 
 /// Writes a one-dimensional array of the type that numpy calls `dtype`.
 ///
 /// # Errors
-/// [`Failure::Running`] where the file cannot be written.
+/// [`Error::Running`] if the file cannot be written.
 pub fn write_column<T: Serialize>(
     path: &Path,
     dtype: &str,
     values: impl ExactSizeIterator<Item = T>,
-) -> Result<(), Failure> {
+) -> Result<(), Error> {
     let write = || {
         let dtype = dtype.parse().map_err(io::Error::other)?;
         let mut file = BufWriter::new(File::create(path)?);
@@ -72,7 +73,7 @@ pub fn write_column<T: Serialize>(
         writer.finish()?;
         file.flush()
     };
-    write().map_err(|error| Failure::of_output(&path.display().to_string(), &error))
+    write().map_err(|error| Error::of_output(&path.display().to_string(), &error))
 }
 
 /// The header, once it is known to be harmless.

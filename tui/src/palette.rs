@@ -4,7 +4,7 @@
 
 use crate::cells::Color;
 use crate::color::{Srgb, oklab};
-use crate::draw::ColorDepth;
+use crate::style::ColorDepth;
 use spherule_kernel::Vec3;
 
 /// The 16 colours as xterm shows them; a user's theme may differ.
@@ -45,7 +45,7 @@ pub struct Palette {
     depth: ColorDepth,
     /// The colours to choose from, with the index that names them, in `OKLab`.
     choices: Vec<(u8, Vec3)>,
-    /// The choice for each colour of 6 bits a channel; none yet where it is `u8::MAX`.
+    /// The choice for each colour of 6 bits a channel; `u8::MAX` if it is not known yet.
     found: Vec<u8>,
 }
 
@@ -71,7 +71,7 @@ impl Palette {
         self.depth
     }
 
-    /// The colour nearest to linear light; [`Color::Default`] where there are none.
+    /// The colour nearest to linear light; [`Color::Default`] if there are none.
     ///
     /// The palettes are searched for the encoded colour rounded to 6 bits a channel.
     #[must_use]

@@ -1,4 +1,4 @@
-//! A picture in linear light: what shading adds up to, before anyone asks for characters.
+//! A picture in linear light: the sum of shading, before it becomes characters.
 
 use spherule_kernel::Vec3;
 

@@ -1,6 +1,6 @@
 //! Where in a picture of cells the rays go: every cell gets the same small grid of samples.
 
-use crate::draw::{Charset, Style};
+use crate::style::{Charset, Style};
 
 /// The most rays a cell: 16 x 16.
 pub const MOST_SAMPLES: u32 = 256;
@@ -19,9 +19,9 @@ pub struct CellSamples {
 impl CellSamples {
     /// A grid of `style.samples` samples whose spacing is as square as can be.
     ///
-    /// Where no grid of that number comes near a square (a prime number of samples; an odd
-    /// number in half blocks, whose halves get as many each), the next larger that does is
-    /// taken. 0 counts as 1, more than [`MOST_SAMPLES`] as that.
+    /// If no grid of that number comes near a square (a prime number of samples; an odd number in
+    /// half blocks, whose halves get as many each), it is the next larger that does. 0 counts as 1,
+    /// more than [`MOST_SAMPLES`] as that.
     #[must_use]
     pub fn new(style: &Style) -> Self {
         let pixels = match style.charset {
@@ -56,11 +56,9 @@ impl CellSamples {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::draw::{AccuracyChoice, ColorDepth};
 
     fn grid(charset: Charset, samples: u32, cell_aspect: f32) -> (u32, u32) {
-        let (accuracy, depth) = (AccuracyChoice::Stable, ColorDepth::Never);
-        let grid = CellSamples::new(&Style { accuracy, charset, depth, samples, cell_aspect });
+        let grid = CellSamples::new(&Style { charset, samples, cell_aspect, ..Style::PLAIN });
         (grid.across, grid.down)
     }
 

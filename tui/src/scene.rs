@@ -13,7 +13,7 @@ pub use read_error::ReadError;
 
 use crate::color::Srgb;
 use crate::view::View;
-use spherule_kernel::{Sphere, Spheres, Vec3};
+use spherule_kernel::{Sphere, SphereList, Spheres, Vec3};
 
 /// Where light comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,23 +37,18 @@ pub struct Light {
 }
 
 /// Spheres, lights and a first view.
-///
-/// The spheres lie in arrays, coordinate by coordinate, as the kernel reads them.
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
-    x: Vec<f32>,
-    y: Vec<f32>,
-    z: Vec<f32>,
-    radius: Vec<f32>,
+    list: SphereList,
     colors: Vec<Srgb>,
     labels: Vec<Option<Box<str>>>,
-    /// What is seen where no sphere is.
+    /// The colour of what no sphere covers.
     pub background: Srgb,
     /// Whether spheres cast shadows.
     pub shadows: bool,
-    /// None: no shading, the plain colour where a sphere is.
+    /// If there is none: no shading, the plain colour of the spheres.
     pub lights: Vec<Light>,
-    /// Where the scene wants to be seen from; none: framed automatically.
+    /// The scene's own view; `None`: framed automatically.
     pub view: Option<View>,
 }
 
@@ -66,21 +61,21 @@ impl Scene {
 
     /// Adds a sphere after the others.
     pub fn push(&mut self, sphere: Sphere, color: Srgb, label: Option<&str>) {
-        self.x.push(sphere.center.x);
-        self.y.push(sphere.center.y);
-        self.z.push(sphere.center.z);
-        self.radius.push(sphere.radius);
+        self.list.push(sphere);
         self.colors.push(color);
         self.labels.push(label.map(Into::into));
     }
 
-    /// The spheres, as the kernel reads them.
+    /// The spheres.
+    #[must_use]
+    pub fn list(&self) -> &SphereList {
+        &self.list
+    }
+
+    /// The spheres, borrowed as the kernel reads them.
     #[must_use]
     pub fn spheres(&self) -> Spheres<'_> {
-        match Spheres::new(&self.x, &self.y, &self.z, &self.radius) {
-            Ok(spheres) => spheres,
-            Err(_) => unreachable!("push keeps the lengths equal, memory keeps them below 2^32"),
-        }
+        self.list.spheres()
     }
 
     /// The colours, one a sphere.
@@ -89,7 +84,7 @@ impl Scene {
         &self.colors
     }
 
-    /// What sphere `index` is called; nothing where it has no label, or there is no such sphere.
+    /// The label of sphere `index`; `None` if it has none, or there is no such sphere.
     #[must_use]
     pub fn label(&self, index: usize) -> Option<&str> {
         self.labels.get(index)?.as_deref()

@@ -1,4 +1,4 @@
-//! From hits to light: what the scene asks for and no more.
+//! From hits to light, by no more than the scene requires.
 //!
 //! No light, no shading: the plain colour of the sphere. With lights, Lambert's law in linear
 //! light, and a little that comes from everywhere. With shadows, a ray from the surface to the
@@ -10,11 +10,11 @@ pub use surface::SurfacePoint;
 
 use crate::picture::Picture;
 use crate::scene::Scene;
-use crate::structure::{PictureSearch, RaysKind, Search, TileLists};
-use spherule_kernel::dispatch::{Level, Packet};
-use spherule_kernel::{Accuracy, Lanes, Ray, RayPacket, Vec3};
+use crate::structure::scene::PictureSearch;
+use crate::structure::search::{Scratch, Search, Tracing};
+use spherule_kernel::{Ray, RayPacket, Vec3};
 
-/// How much of a surface's colour is seen where no light reaches it.
+/// How much of a surface's colour is seen if no light reaches it.
 const AMBIENT: f32 = 0.06;
 
 /// A surface point and what it adds to the picture.
@@ -37,15 +37,15 @@ pub struct Shader {
 /// Shadow rays of one light.
 #[derive(Clone, Debug, Default)]
 struct Shadows {
-    rays: Vec<RayPacket<Packet>>,
+    rays: Vec<RayPacket>,
     /// What each ray adds, and to which pixel, if nothing is in its way.
     waiting: Vec<(u32, Vec3)>,
     met: Vec<u32>,
 }
 
 impl Shader {
-    /// Adds a sample that met a sphere of `color` (times the sample's share) to `pixel`, at once
-    /// where the scene has no light.
+    /// Adds a sample that met a sphere of `color` (times the sample's share) to `pixel`; at once
+    /// if the scene has no light.
     #[inline]
     pub fn add(
         &mut self,
@@ -64,12 +64,12 @@ impl Shader {
 
     /// Lights what was added since the last call; `search` is that of the picture.
     /// Returns how many shadow rays that took.
-    pub fn light<A: Accuracy>(
+    pub fn light(
         &mut self,
-        level: Level,
+        tracing: Tracing,
+        scratch: &mut Scratch,
         scene: &Scene,
         search: &PictureSearch<'_>,
-        lists: &mut TileLists,
         picture: &mut Picture,
     ) -> u64 {
         for shaded in &self.shaded {
@@ -87,7 +87,7 @@ impl Shader {
                     picture.add(shaded.pixel as usize, received);
                 }
             }
-            shadow_rays += self.shadows.cast::<A>(level, search.kind, towards, lists, picture);
+            shadow_rays += self.shadows.cast(tracing, scratch, towards, picture);
         }
         self.shaded.clear();
         shadow_rays
@@ -98,9 +98,9 @@ impl Shadows {
     /// Puts a ray into the next free lane.
     #[inline]
     fn push(&mut self, ray: &Ray, pixel: u32, received: Vec3) {
-        let lane = self.waiting.len() % Packet::COUNT;
+        let lane = self.waiting.len() % RayPacket::COUNT;
         if lane == 0 {
-            self.rays.push(RayPacket::<Packet>::inactive());
+            self.rays.push(RayPacket::inactive());
         }
         if let Some(packet) = self.rays.last_mut() {
             packet.set(lane, ray);
@@ -108,20 +108,19 @@ impl Shadows {
         self.waiting.push((pixel, received));
     }
 
-    /// Traces the rays, adds what those bring that nothing stops, and returns how many they were.
-    fn cast<A: Accuracy>(
+    /// Traces the rays, adds the light of those that meet nothing, and returns how many there were.
+    fn cast(
         &mut self,
-        level: Level,
-        kind: RaysKind,
+        tracing: Tracing,
+        scratch: &mut Scratch,
         search: &Search<'_>,
-        lists: &mut TileLists,
         picture: &mut Picture,
     ) -> u64 {
         self.met.clear();
         self.met.resize(self.rays.len(), 0);
-        search.any::<A>(level, kind, &self.rays, lists, &mut self.met);
+        search.any_hits(tracing, scratch, &self.rays, &mut self.met);
         for (index, &(pixel, received)) in self.waiting.iter().enumerate() {
-            if self.met[index / Packet::COUNT] >> (index % Packet::COUNT) & 1 == 0 {
+            if self.met[index / RayPacket::COUNT] >> (index % RayPacket::COUNT) & 1 == 0 {
                 picture.add(pixel as usize, received);
             }
         }

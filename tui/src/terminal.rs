@@ -4,37 +4,18 @@
 //! comes before the message of a panic, and a thread watches for signals (see `signals`). Giving
 //! back twice does no harm.
 
+pub mod color_depth;
 mod input;
+mod screen;
 mod signals;
 
 use crossterm::event::Event;
 use crossterm::terminal;
 use input::Input;
 use std::io;
-use std::os::fd::AsFd;
 use std::panic;
-use std::sync::atomic::{AtomicBool, Ordering::SeqCst};
-use std::sync::{Mutex, MutexGuard, Once, TryLockError};
-use std::thread;
-use std::time::{Duration, Instant};
-
-/// The alternate screen; no cursor; no wrapping, so that a terminal that has just shrunk does not
-/// scroll; presses, drags and the wheel of the mouse in decimal coordinates.
-const ENTER: &[u8] = b"\x1b[?1049h\x1b[?25l\x1b[?7l\x1b[?1000h\x1b[?1002h\x1b[?1006h";
-/// The reverse, whatever a broken-off frame has left behind.
-const LEAVE: &[u8] =
-    b"\x1b[?2026l\x1b[m\x1b[?1006l\x1b[?1002l\x1b[?1000l\x1b[?7h\x1b[?25h\x1b[?1049l";
-/// A thread that is stuck in writing must not keep the others from giving the terminal back.
-const PATIENCE: Duration = Duration::from_millis(500);
-
-/// Between [`Terminal::enter`] and the last restoration, suspended or not.
-static RUNNING: AtomicBool = AtomicBool::new(false);
-/// The alternate screen is up and the modes are ours.
-static SHOWN: AtomicBool = AtomicBool::new(false);
-/// The screen was taken back after a suspension, and nothing has been drawn since.
-static RESUMED: AtomicBool = AtomicBool::new(false);
-/// Held while bytes or modes go to the terminal.
-static OUTPUT: Mutex<()> = Mutex::new(());
+use std::sync::Once;
+use std::time::Duration;
 
 /// The terminal in raw mode, on its alternate screen. Dropping it gives it back.
 #[derive(Debug)]
@@ -50,15 +31,13 @@ impl Terminal {
     pub fn enter() -> io::Result<Self> {
         signals::watch()?;
         restore_before_panic_message();
-        let this = Self { input: Input::open().map_err(|error| no_terminal(&error))? };
-        let _output = output();
-        RUNNING.store(true, SeqCst);
-        take()?;
+        let this = Self { input: Input::open().map_err(|error| screen::no_terminal(&error))? };
+        screen::enter()?;
         Ok(this)
     }
 
     /// The next thing that the terminal has to say, if it does within `wait`; without, whenever
-    /// it does. A resize tells that the size must be asked for, not what it is.
+    /// it does. A resize tells that the size must be read, not what it is.
     ///
     /// # Errors
     /// If the terminal cannot be read.
@@ -79,11 +58,7 @@ impl Terminal {
     /// # Errors
     /// If the terminal is gone.
     pub fn show(&self, bytes: &[u8]) -> io::Result<()> {
-        let _output = output();
-        if bytes.is_empty() || !SHOWN.load(SeqCst) {
-            return Ok(());
-        }
-        write(bytes)
+        screen::show(bytes)
     }
 
     /// Gives the terminal back and stops the process group, as Ctrl-Z does outside of raw mode.
@@ -92,7 +67,7 @@ impl Terminal {
     /// # Errors
     /// If the group cannot be stopped.
     pub fn suspend(&self) -> io::Result<()> {
-        leave();
+        screen::leave();
         // SIGTSTP sent to oneself is dropped where the group is orphaned; SIGSTOP never is.
         rustix::process::kill_current_process_group(rustix::process::Signal::STOP)?;
         Ok(())
@@ -101,91 +76,14 @@ impl Terminal {
     /// Whether the screen was taken again since the last call: nothing drawn before is on it.
     #[must_use]
     pub fn was_resumed(&self) -> bool {
-        RESUMED.swap(false, SeqCst)
+        screen::was_resumed()
     }
 }
 
 impl Drop for Terminal {
     fn drop(&mut self) {
-        restore();
+        screen::restore();
     }
-}
-
-/// Gives the terminal back for good.
-fn restore() {
-    RUNNING.store(false, SeqCst);
-    leave();
-}
-
-/// Gives the terminal back, if we have it. Whoever gets an error here is on the way out.
-fn leave() {
-    let _output = output();
-    if SHOWN.swap(false, SeqCst) {
-        let _ = write(LEAVE);
-        let _ = terminal::disable_raw_mode();
-    }
-}
-
-fn no_terminal(error: &io::Error) -> io::Error {
-    io::Error::new(error.kind(), format!("no terminal to read keys from: {error}"))
-}
-
-/// Takes the terminal; the output is held by the caller.
-fn take() -> io::Result<()> {
-    terminal::enable_raw_mode().map_err(|error| no_terminal(&error))?;
-    SHOWN.store(true, SeqCst);
-    write(ENTER)
-}
-
-/// After SIGCONT: takes the terminal again and wakes the viewer up.
-fn resume() {
-    {
-        let _output = output();
-        if !RUNNING.load(SeqCst) {
-            return;
-        }
-        // Stopped by SIGSTOP from outside, nothing was given back; who knows what the modes are.
-        if SHOWN.load(SeqCst) {
-            let _ = write(LEAVE);
-            let _ = terminal::disable_raw_mode();
-        }
-        if take().is_err() {
-            return;
-        }
-        RESUMED.store(true, SeqCst);
-    }
-    // A resize wakes up the viewer, which may be waiting for a key.
-    let _ = signal_hook::low_level::raise(signal_hook::consts::SIGWINCH);
-}
-
-/// The right to write, or after a while no right but still the need.
-fn output() -> Option<MutexGuard<'static, ()>> {
-    let deadline = Instant::now() + PATIENCE;
-    loop {
-        match OUTPUT.try_lock() {
-            Ok(guard) => return Some(guard),
-            Err(TryLockError::Poisoned(poisoned)) => return Some(poisoned.into_inner()),
-            Err(TryLockError::WouldBlock) if Instant::now() >= deadline => return None,
-            Err(TryLockError::WouldBlock) => thread::sleep(Duration::from_millis(1)),
-        }
-    }
-}
-
-/// One `write(2)`, unless the terminal takes less at once. Not through `io::Stdout`: its buffer
-/// cuts a frame at the last newline.
-fn write(mut bytes: &[u8]) -> io::Result<()> {
-    let stdout = io::stdout();
-    while !bytes.is_empty() {
-        match rustix::io::write(stdout.as_fd(), bytes) {
-            Ok(0) => return Err(io::ErrorKind::WriteZero.into()),
-            Ok(written) => bytes = &bytes[written..],
-            Err(rustix::io::Errno::INTR) => {}
-            // Someone who shares the terminal has made it non-blocking.
-            Err(rustix::io::Errno::AGAIN) => thread::sleep(Duration::from_millis(1)),
-            Err(error) => return Err(error.into()),
-        }
-    }
-    Ok(())
 }
 
 /// The message of a panic on the alternate screen would vanish with it.
@@ -194,7 +92,7 @@ fn restore_before_panic_message() {
     HOOK.call_once(|| {
         let print = panic::take_hook();
         panic::set_hook(Box::new(move |panic| {
-            restore();
+            screen::restore();
             print(panic);
         }));
     });

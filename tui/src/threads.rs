@@ -1,26 +1,27 @@
 //! Work for all cores: tasks handed out one by one, so that a thread whose tasks are short takes
 //! more of them.
 
-use crate::failure::Failure;
-use rayon::{ThreadPool, ThreadPoolBuilder};
-use spherule_kernel::bvh::Join;
+use crate::error::Error;
+use rayon::iter::{ParallelBridge, ParallelIterator};
+use rayon::{ThreadPool, ThreadPoolBuilder, current_thread_index};
+use spherule_kernel::Join;
 use std::num::NonZeroUsize;
 use std::sync::{Mutex, PoisonError};
 use std::thread::available_parallelism;
 
-/// The most threads that can be asked for.
-pub const MOST_THREADS: usize = 1024;
+/// The most threads that there can be.
+pub const MOST_THREADS: u16 = 1024;
 
 /// The fewest packets a task and the most: enough that brute force prepares its spheres for many
 /// at a time, few enough that they stay in the cache.
 const PACKETS: (usize, usize) = (16, 1024);
-/// Tasks, where there are packets for them: so many that threads end at about the same time.
+/// Tasks, if there are packets for them: so many that threads end at about the same time.
 const TASKS: usize = 128;
 
 /// How many of so many packets a task should have.
 ///
-/// Not a matter of the number of threads: so the packets that go through a structure together are
-/// always the same ones.
+/// Independent of the number of threads, so that the packets that go through a structure together
+/// are always the same ones.
 #[must_use]
 pub fn packets_a_task(packets: usize) -> usize {
     (packets / TASKS).next_multiple_of(PACKETS.0).clamp(PACKETS.0, PACKETS.1)
@@ -33,17 +34,18 @@ pub struct Threads {
 }
 
 impl Threads {
-    /// So many threads; all that the machine has where that is not said.
+    /// So many threads; as many as the machine has if that is `None`.
     ///
     /// # Errors
-    /// [`Failure::Running`] where the system does not give them.
-    pub fn new(count: Option<NonZeroUsize>) -> Result<Self, Failure> {
-        let count = count.or_else(|| available_parallelism().ok()).map_or(1, NonZeroUsize::get);
-        if count == 1 {
+    /// [`Error::Running`] if the system does not give them.
+    pub fn new(count: Option<u16>) -> Result<Self, Error> {
+        let available = || available_parallelism().map_or(1, NonZeroUsize::get);
+        let count = count.map_or_else(available, usize::from);
+        if count <= 1 {
             return Ok(Self::default());
         }
         let pool = ThreadPoolBuilder::new().num_threads(count).build();
-        let pool = pool.map_err(|error| Failure::Running(format!("{count} threads: {error}")))?;
+        let pool = pool.map_err(|error| Error::Running(format!("{count} threads: {error}")))?;
         Ok(Self { pool: Some(pool) })
     }
 
@@ -53,36 +55,29 @@ impl Threads {
         self.pool.as_ref().map_or(1, ThreadPool::current_num_threads)
     }
 
-    /// Calls `work` with every task, from all threads at once; each thread has a memory of its
-    /// own, of which there are made as many as there are threads.
+    /// Calls `work` with every task, on all threads at once. Each thread has one of the `memories`,
+    /// which grow to the number of threads.
     ///
-    /// Which thread gets which task is left to chance: what a task leads to must not depend on
-    /// the memory's contents.
+    /// The thread that gets a task is left to chance: the result of a task must not depend on the
+    /// contents of the memory.
     pub fn share<M: Default + Send, T: Send>(
         &self,
         memories: &mut Vec<M>,
-        mut tasks: impl Iterator<Item = T> + Send,
+        tasks: impl Iterator<Item = T> + Send,
         work: impl Fn(&mut M, T) + Sync,
     ) {
         memories.resize_with(self.count(), M::default);
-        let Some(pool) = &self.pool else {
-            for memory in memories {
-                tasks.by_ref().for_each(|task| work(memory, task));
-            }
-            return;
+        // Not `for_each_init`, which makes a memory a piece of work: memories outlive a picture.
+        let memories: Vec<_> = memories.iter_mut().map(Mutex::new).collect();
+        let work = |task| {
+            // Never waits: no two threads have the same index, and one does a task at a time.
+            let own = &memories[current_thread_index().unwrap_or(0)];
+            work(&mut own.lock().unwrap_or_else(PoisonError::into_inner), task);
         };
-        let tasks = Mutex::new(tasks);
-        let next = || tasks.lock().unwrap_or_else(PoisonError::into_inner).next();
-        let (next, work) = (&next, &work);
-        pool.scope(|scope| {
-            for memory in memories {
-                scope.spawn(move |_| {
-                    while let Some(task) = next() {
-                        work(memory, task);
-                    }
-                });
-            }
-        });
+        match &self.pool {
+            Some(pool) => pool.install(|| tasks.par_bridge().for_each(work)),
+            None => tasks.for_each(work),
+        }
     }
 }
 
@@ -104,17 +99,17 @@ mod tests {
     use super::*;
     use std::sync::Barrier;
 
-    fn threads(count: usize) -> Threads {
-        Threads::new(NonZeroUsize::new(count)).expect("threads")
+    fn threads(count: u16) -> Threads {
+        Threads::new(Some(count)).expect("threads")
     }
 
     #[test]
     fn every_task_is_done_once() {
         for count in [1, 2, 5] {
             let (threads, mut done) = (threads(count), Vec::new());
-            assert_eq!(threads.count(), count);
+            assert_eq!(threads.count(), usize::from(count));
             threads.share(&mut done, 0..1000, |done: &mut Vec<i32>, task| done.push(task));
-            assert_eq!(done.len(), count);
+            assert_eq!(done.len(), threads.count());
             let mut all = done.concat();
             all.sort_unstable();
             assert!(all.into_iter().eq(0..1000), "{count}");

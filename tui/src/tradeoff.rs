@@ -2,88 +2,71 @@
 //!
 //! The rays are those that a picture of the scene takes; the truth is what `Exact` says.
 
-mod errors;
 mod progress;
 mod rays;
 mod report;
 mod speed;
 
 use crate::arguments::{ComputingArguments, TradeoffArguments};
-use crate::draw::{
-    AccuracyChoice, Charset, ColorDepth, Style, picture_aspect, picture_workload, sample_grid,
-};
-use crate::failure::{Failure, write_stdout};
-use crate::show::{PIPE_SIZE, USUAL_ASPECT};
-use crate::structure::{RaysKind, SceneStructures, Search, Structure, TileLists, TreeMemory};
+use crate::draw::{picture_workload, sample_grid};
+use crate::error::{Error, write_stdout};
+use crate::machine;
+use crate::structure::Structure;
+use crate::structure::scene::SceneStructures;
+use crate::structure::search::{Scratch, Search, Tracing};
+use crate::style::{PIPE_SIZE, Style};
+use crate::tally::Tally;
 use crate::threads::{Threads, packets_a_task};
-use crate::{machine, scene, view};
-use errors::Errors;
 use progress::Progress;
-use rays::{Rays, most_rays};
-use report::{Report, Tier};
-use spherule_kernel::dispatch::{Level, Packet};
+use rays::{Kind, Rays, most_rays};
+use report::{Report, TierReport};
 use spherule_kernel::{
-    Accuracy, Exact, Fast, HitPacket, Lanes, Question, RayPacket, Spheres, Stable, Stages, stages,
+    AnyHit, ClosestHit, Coherence, HitPacket, Level, RayPacket, Spheres, Stages, Tier, stages,
 };
 use std::hint::black_box;
 
 /// Measures, and prints what was found.
 ///
 /// # Errors
-/// [`Failure`] where there is no such scene, or nobody to tell.
-pub fn tradeoff(arguments: &TradeoffArguments) -> Result<(), Failure> {
-    let scene = scene::open::open(&arguments.scene, arguments.format)
-        .map_err(|error| Failure::Input(error.to_string()))?;
+/// [`Error`] if there is no such scene, or the report cannot be written.
+pub fn tradeoff(arguments: &TradeoffArguments) -> Result<(), Error> {
+    let scene = arguments.scene.open()?;
     let ComputingArguments { structure, threads, level } = arguments.computing;
     let threads = Threads::new(threads)?;
     let level = level.unwrap_or_else(Level::best);
-    let (columns, rows) = arguments.size.unwrap_or(PIPE_SIZE);
-    let style = Style {
-        accuracy: AccuracyChoice::Exact,
-        charset: Charset::Ascii,
-        depth: ColorDepth::Never,
-        samples: arguments.samples,
-        cell_aspect: USUAL_ASPECT,
-    };
-    let mut view = scene.first_view(picture_aspect(&style, columns, rows) as f32);
-    if let Some(kind) = arguments.projection {
-        view = view::with_projection(&view, kind);
-    }
+    let (columns, rows) = arguments.scene.size.unwrap_or(PIPE_SIZE);
+    let style = Style { samples: arguments.scene.samples, ..Style::PLAIN };
+    let view = arguments.scene.view(&scene, style.picture_aspect(columns, rows));
 
     let spheres = scene.spheres();
-    let mut memory = TreeMemory::default();
-    let mut structures = SceneStructures::new(spheres, &threads, &mut memory);
-    // What is built is not timed here, as if there were pictures without end.
+    let mut structures = SceneStructures::new(scene.list(), &threads);
+    // Building is not timed here, as if there were pictures without end.
     let workload = picture_workload(spheres.len(), &style, columns, rows, f64::INFINITY);
-    let structure = structures.structure(structure, &workload);
-    let search = structures.picture(structure, workload.kind, view.viewpoint(), &scene.lights)?;
+    let search = structures.picture(structure, &workload, view.viewpoint(), &scene.lights)?;
     let (camera, width, height) = sample_grid(&view, &style, columns, rows);
-    let most = most_rays(spheres.len(), structure);
+    let most = most_rays(spheres.len(), search.structure);
     let camera = Rays::of_camera(&camera, width, height, most);
-    let for_camera =
-        Machine { level, threads: &threads, kind: search.kind, searches: &[search.camera] };
+    let coherence = search.coherence;
+    let for_camera = Machine { level, threads: &threads, coherence, searches: &[search.camera] };
     let for_shadow = Machine { searches: &search.lights, ..for_camera };
-    let shadow = Rays::of_shadows(&camera, &for_camera.hits::<Exact>(&camera), &scene, most);
+    let shadow = Rays::of_shadows(&camera, &for_camera.hits(Tier::Exact, &camera), &scene, most);
     let mut progress = Progress::new();
     let mut tiers = Vec::new();
-    for (machine, rays, kind, question) in [
-        (&for_camera, &camera, "camera", Question::Nearest),
-        (&for_shadow, &shadow, "shadow", Question::Any),
-    ] {
+    for (machine, rays) in [(&for_camera, &camera), (&for_shadow, &shadow)] {
         if rays.count > 0 {
-            tiers.extend(machine.measure(rays, kind, question, spheres, &mut progress));
+            tiers.extend(machine.measure(rays, spheres, &mut progress));
         }
     }
     drop(progress);
 
     let report = Report {
-        scene: arguments.scene.clone(),
+        scene: arguments.scene.name.clone(),
         spheres: spheres.len(),
         cpu: machine::cpu(),
         rustc: machine::RUSTC,
-        structure,
+        structure: search.structure,
         level: level.name(),
-        lanes: Packet::COUNT,
+        lanes: RayPacket::COUNT,
         threads: threads.count(),
         tiers,
     };
@@ -96,7 +79,7 @@ pub fn tradeoff(arguments: &TradeoffArguments) -> Result<(), Failure> {
 struct Machine<'a> {
     level: Level,
     threads: &'a Threads,
-    kind: RaysKind,
+    coherence: Coherence,
     /// One for every part of the rays.
     searches: &'a [Search<'a>],
 }
@@ -106,77 +89,75 @@ impl Machine<'_> {
     fn measure(
         &self,
         rays: &Rays,
-        kind: &'static str,
-        question: Question,
         spheres: Spheres<'_>,
         progress: &mut Progress,
-    ) -> [Tier; 3] {
-        let mut passes = (
-            self.pass::<Fast>(rays, question),
-            self.pass::<Stable>(rays, question),
-            self.pass::<Exact>(rays, question),
-        );
-        let seconds = speed::medians([&mut passes.0, &mut passes.1, &mut passes.2], |share| {
-            progress.show(&format!("{kind} rays"), share);
+    ) -> [TierReport; 3] {
+        let passes = Tier::ALL.map(|tier| self.pass(tier, rays));
+        let seconds = speed::medians(passes, |share| {
+            progress.show(&format!("{} rays", rays.kind.name()), share);
         });
-        let truth = self.hits::<Exact>(rays);
-        let errors = [
-            Errors::new(&self.hits::<Fast>(rays), &truth),
-            Errors::new(&self.hits::<Stable>(rays), &truth),
-            Errors::new(&truth, &truth),
-        ];
+        let hits = Tier::ALL.map(|tier| self.hits(tier, rays));
+        let errors = hits.each_ref().map(|found| {
+            let [found, truth] =
+                [found, &hits[2]].map(|hits| hits.iter().flat_map(HitPacket::hits));
+            Tally::of(found, truth).summary()
+        });
         // Of every test there is, as if by brute force; of some rays, if those are too many.
-        let some = most_rays(spheres.len(), Structure::Brute) / Packet::COUNT;
+        let some = most_rays(spheres.len(), Structure::Brute) / RayPacket::COUNT;
         let step = rays.packets.len().div_ceil(some).max(1);
         let some: Vec<_> = rays.packets.iter().step_by(step).copied().collect();
-        let exact = stages::<Packet>((), &some, spheres, question);
+        let exact = match rays.kind {
+            Kind::Camera => stages(ClosestHit, &some, spheres),
+            Kind::Shadow => stages(AnyHit, &some, spheres),
+        };
         // The other tiers know single precision alone.
         let single = Stages { double: 0, expansions: 0, ..exact };
-        let [fast_errors, stable_errors, exact_errors] = errors;
-        let tier = |accuracy, seconds, errors, stages| Tier {
-            accuracy,
-            rays_kind: kind,
-            rays: rays.count,
-            seconds,
-            errors,
-            stages,
-        };
-        [
-            tier(AccuracyChoice::Fast, seconds[0], fast_errors, single),
-            tier(AccuracyChoice::Stable, seconds[1], stable_errors, single),
-            tier(AccuracyChoice::Exact, seconds[2], exact_errors, exact),
-        ]
+        [0, 1, 2].map(|index| {
+            let tier = Tier::ALL[index];
+            TierReport {
+                tier,
+                rays_kind: rays.kind.name(),
+                rays: rays.count,
+                seconds: seconds[index],
+                errors: errors[index],
+                stages: if tier == Tier::Exact { exact } else { single },
+            }
+        })
     }
 
-    /// What is timed: the kernel's calls that answer the question for all rays.
-    fn pass<'a, A: Accuracy>(&'a self, rays: &'a Rays, question: Question) -> impl FnMut() + 'a {
-        let mut hits = vec![HitPacket::<Packet>::none(); rays.packets.len()];
+    /// What is timed: the kernel's calls for all rays.
+    fn pass<'a>(&'a self, tier: Tier, rays: &'a Rays) -> impl FnMut() + 'a {
+        let mut hits = vec![HitPacket::none(); rays.packets.len()];
         let mut met = vec![0; rays.packets.len()];
-        move || match question {
-            Question::Nearest => {
-                self.nearest::<A>(rays, &mut hits);
+        move || match rays.kind {
+            Kind::Camera => {
+                self.closest_hits(tier, rays, &mut hits);
                 black_box(&hits);
             }
-            Question::Any => {
-                self.trace(rays, &mut met, |search, rays, lists, met| {
-                    search.any::<A>(self.level, self.kind, rays, lists, met);
+            Kind::Shadow => {
+                self.trace(rays, &mut met, |search, rays, scratch, met| {
+                    search.any_hits(self.tracing(tier), scratch, rays, met);
                 });
                 black_box(&met);
             }
         }
     }
 
-    /// The nearest hits of a tier.
-    fn hits<A: Accuracy>(&self, rays: &Rays) -> Vec<HitPacket<Packet>> {
-        let mut hits = vec![HitPacket::<Packet>::none(); rays.packets.len()];
-        self.nearest::<A>(rays, &mut hits);
+    /// The closest hits of a tier.
+    fn hits(&self, tier: Tier, rays: &Rays) -> Vec<HitPacket> {
+        let mut hits = vec![HitPacket::none(); rays.packets.len()];
+        self.closest_hits(tier, rays, &mut hits);
         hits
     }
 
-    fn nearest<A: Accuracy>(&self, rays: &Rays, hits: &mut [HitPacket<Packet>]) {
-        self.trace(rays, hits, |search, rays, lists, hits| {
-            search.nearest::<A>(self.level, self.kind, rays, lists, hits);
+    fn closest_hits(&self, tier: Tier, rays: &Rays, hits: &mut [HitPacket]) {
+        self.trace(rays, hits, |search, rays, scratch, hits| {
+            search.closest_hits(self.tracing(tier), scratch, rays, hits);
         });
+    }
+
+    fn tracing(&self, tier: Tier) -> Tracing {
+        Tracing { tier, level: self.level, coherence: self.coherence }
     }
 
     /// Hands packets and results to the threads, part by part.
@@ -184,7 +165,7 @@ impl Machine<'_> {
         &self,
         rays: &Rays,
         results: &mut [R],
-        trace: impl Fn(&Search<'_>, &[RayPacket<Packet>], &mut TileLists, &mut [R]) + Sync,
+        trace: impl Fn(&Search<'_>, &[RayPacket], &mut Scratch, &mut [R]) + Sync,
     ) {
         let (mut packets, mut results) = (&*rays.packets, results);
         let mut tasks = Vec::new();
@@ -196,8 +177,8 @@ impl Machine<'_> {
             tasks.extend(pieces.map(|(rays, results)| (search, rays, results)));
         }
         let tasks = tasks.into_iter();
-        self.threads.share(&mut Vec::new(), tasks, |lists, (search, rays, results)| {
-            trace(search, rays, lists, results);
+        self.threads.share(&mut Vec::new(), tasks, |scratch, (search, rays, results)| {
+            trace(search, rays, scratch, results);
         });
     }
 }

@@ -1,9 +1,10 @@
 //! Where a scene is looked at from, in the words of a person: angles and points, not vectors of a
 //! plane. A view becomes the kernel's camera when the size of the picture is known.
 
-use spherule_kernel::camera::Projection;
-use spherule_kernel::tiles::Viewpoint;
-use spherule_kernel::{Camera, Vec3};
+use clap::ValueEnum;
+use glam::DVec3;
+use serde::Deserialize;
+use spherule_kernel::{Camera, Projection, Vec3, Viewpoint};
 
 /// Perspective by its vertical angle, parallel by its height.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,11 +22,13 @@ pub enum Lens {
 }
 
 /// A lens without its angle or height.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq, ValueEnum)]
+#[serde(rename_all = "lowercase")]
 pub enum LensKind {
-    /// Far things look smaller.
+    /// Far things look smaller
+    #[default]
     Perspective,
-    /// They do not.
+    /// They do not
     Parallel,
 }
 
@@ -46,7 +49,7 @@ pub struct View {
 const POLE: f32 = 0.017;
 /// The fields of view, in degrees, that changing the projection keeps the eye in place for.
 const NATURAL_FOV: std::ops::RangeInclusive<f32> = 10.0..=90.0;
-/// The field of view, in degrees, where it does not.
+/// The field of view, in degrees, if it does not.
 const USUAL_FOV: f32 = 40.0;
 
 impl View {
@@ -59,7 +62,7 @@ impl View {
         }
     }
 
-    /// The height of the picture where the target is, in the units of the scene.
+    /// The height of the picture at the target, in the units of the scene.
     #[must_use]
     pub fn height_at_target(&self) -> f32 {
         match self.lens {
@@ -75,29 +78,26 @@ impl View {
     ///
     /// Computed in double precision and rounded once. Directions have a length of about one at
     /// the middle of the picture. A view without a direction (the eye on the target) looks along
-    /// -z; where up is parallel to the line of sight, another is taken.
+    /// -z; if up is parallel to the line of sight, another is taken.
     #[must_use]
     pub fn camera(&self, width: u32, height: u32, aspect: f64) -> Camera {
         let [forward, right, up] = self.axes();
         let (lift, start) = match self.lens {
             Lens::Perspective { fov } => ((f64::from(fov) / 2.0).to_radians().tan(), forward),
-            Lens::Parallel { height } => {
-                (f64::from(height) / 2.0, self.eye.to_array().map(f64::from))
-            }
+            Lens::Parallel { height } => (f64::from(height) / 2.0, self.eye.as_dvec3()),
         };
         let step_x = 2.0 * lift * aspect / f64::from(width);
         let step_y = 2.0 * lift / f64::from(height);
         let left = (f64::from(width) - 1.0) / 2.0 * step_x;
         let top = (f64::from(height) - 1.0) / 2.0 * step_y;
-        let rounded = |vector: [f64; 3]| Vec3::from_array(vector.map(|x| x as f32));
         Camera {
             projection: match self.lens {
                 Lens::Perspective { .. } => Projection::Perspective { eye: self.eye },
-                Lens::Parallel { .. } => Projection::Parallel { direction: rounded(forward) },
+                Lens::Parallel { .. } => Projection::Parallel { direction: forward.as_vec3() },
             },
-            corner: rounded([0, 1, 2].map(|i| start[i] - left * right[i] + top * up[i])),
-            step_x: rounded(right.map(|x| x * step_x)),
-            step_y: rounded(up.map(|x| -x * step_y)),
+            corner: (start - left * right + top * up).as_vec3(),
+            step_x: (right * step_x).as_vec3(),
+            step_y: (-up * step_y).as_vec3(),
         }
     }
 
@@ -111,15 +111,13 @@ impl View {
     }
 
     /// Unit vectors: the line of sight, to the right, upwards.
-    fn axes(&self) -> [[f64; 3]; 3] {
-        let difference = |a: Vec3, b: Vec3| [0, 1, 2].map(|i| f64::from(a[i]) - f64::from(b[i]));
-        let forward = unit(difference(self.target, self.eye)).unwrap_or([0.0, 0.0, -1.0]);
-        let ups = [self.up, Vec3::Y, Vec3::Z].map(|up| difference(up, Vec3::ZERO));
-        let right = ups
-            .into_iter()
-            .find_map(|up| unit(cross(forward, unit(up)?)))
-            .unwrap_or([1.0, 0.0, 0.0]);
-        [forward, right, cross(right, forward)]
+    fn axes(&self) -> [DVec3; 3] {
+        let sight = self.target.as_dvec3() - self.eye.as_dvec3();
+        let forward = unit(sight).unwrap_or(DVec3::NEG_Z);
+        let ups = [self.up.as_dvec3(), DVec3::Y, DVec3::Z].into_iter();
+        let right = ups.filter_map(unit).find_map(|up| unit(forward.cross(up)));
+        let right = right.unwrap_or(DVec3::X);
+        [forward, right, right.cross(forward)]
     }
 }
 
@@ -188,14 +186,10 @@ pub fn with_projection(view: &View, kind: LensKind) -> View {
     }
 }
 
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-/// The vector of length one; nothing where it has no direction, or its length is rounding noise.
-fn unit(vector: [f64; 3]) -> Option<[f64; 3]> {
-    let length = vector.iter().map(|x| x * x).sum::<f64>().sqrt();
-    (length > 1e-12 && length.is_finite()).then(|| vector.map(|x| x / length))
+/// The vector of length one; `None` if it has no direction, or its length is rounding noise.
+fn unit(vector: DVec3) -> Option<DVec3> {
+    let length = vector.length_squared().sqrt();
+    (length > 1e-12 && length.is_finite()).then(|| vector / length)
 }
 
 #[cfg(test)]

@@ -10,16 +10,19 @@ mod state;
 mod status;
 
 use crate::cells::CellGrid;
-use crate::draw::{Renderer, Style, picture_workload};
+use crate::choice::Auto;
+use crate::draw::{Renderer, picture_workload};
 use crate::encode::Encoder;
-use crate::failure::{Failure, cause};
+use crate::error::{Error, cause};
 use crate::scene::Scene;
-use crate::structure::{SceneStructures, StructureChoice};
+use crate::structure::Structure;
+use crate::structure::scene::SceneStructures;
+use crate::style::Style;
 use crate::terminal::Terminal;
 use crate::view::View;
 use meter::{Frame, Meter};
 pub use state::{ORBIT_STEP, ZOOM_STEP};
-use state::{Outcome, State};
+use state::{Outcome, Shown, State};
 use std::env;
 use std::io;
 use std::time::{Duration, Instant};
@@ -36,20 +39,20 @@ const LARGEST_SIZE: u16 = 4096;
 /// the real program; it harms nobody who does not ask for it.
 const PANIC_SWITCH: &str = "SPHERULE_TEST_PANIC";
 
-/// Shows `scene` on the terminal, from `view` on, drawn by `renderer` with the structure of its
-/// own that `structure` says, until the user quits.
+/// Shows `scene` on the terminal, from `view` on, drawn by `renderer` with the chosen one of its
+/// `structures`, until the user quits.
 ///
 /// # Errors
-/// [`Failure::Running`] if there is no terminal to read keys from, or it goes away, or there is no
+/// [`Error::Running`] if there is no terminal to read keys from, or it goes away, or there is no
 /// memory for a structure.
 pub fn run(
     scene: &Scene,
     structures: SceneStructures<'_>,
-    structure: StructureChoice,
+    structure: Auto<Structure>,
     view: View,
     style: Style,
     renderer: Renderer<'_>,
-) -> Result<(), Failure> {
+) -> Result<(), Error> {
     let rate = if env::var_os("SSH_CONNECTION").is_some() { REMOTE_RATE } else { LOCAL_RATE };
     let mut viewer = Viewer {
         scene,
@@ -66,7 +69,7 @@ pub fn run(
     let mut last_frame = None;
     let mut stale = true;
     loop {
-        let moving = stale || viewer.state.is_spinning();
+        let moving = stale || viewer.state.shown.spinning;
         let wait = moving.then(|| {
             last_frame.map_or(Duration::ZERO, |at: Instant| interval.saturating_sub(at.elapsed()))
         });
@@ -77,7 +80,7 @@ pub fn run(
         }
         let now = Instant::now();
         let due = last_frame.is_none_or(|at| now - at >= interval);
-        if due && (stale || viewer.state.is_spinning()) {
+        if due && (stale || viewer.state.shown.spinning) {
             if let Some(last_frame) = last_frame {
                 viewer.state.advance(now - last_frame);
             }
@@ -89,8 +92,8 @@ pub fn run(
 }
 
 /// The terminal is not there.
-fn lost(error: &io::Error) -> Failure {
-    Failure::Running(format!("terminal: {}", cause(error)))
+fn lost(error: &io::Error) -> Error {
+    Error::Running(format!("terminal: {}", cause(error)))
 }
 
 struct Viewer<'a> {
@@ -139,7 +142,7 @@ impl Viewer<'_> {
     }
 
     /// Draws and sends one frame, in one write.
-    fn show_frame(&mut self, now: Instant) -> Result<(), Failure> {
+    fn show_frame(&mut self, now: Instant) -> Result<(), Error> {
         let (columns, rows) = self.terminal.size().map_err(|error| lost(&error))?;
         let (columns, rows) = (columns.min(LARGEST_SIZE), rows.min(LARGEST_SIZE));
         if columns == 0 || rows == 0 {
@@ -148,18 +151,18 @@ impl Viewer<'_> {
         let status_row = if rows >= 2 { rows - 1 } else { rows };
         self.state.set_height(status_row);
         let started = Instant::now();
-        let State { view, style, structure, .. } = &self.state;
+        let Shown { view, style, structure, .. } = &self.state.shown;
         let count = self.scene.spheres().len();
         let workload = picture_workload(count, style, columns, status_row, f64::INFINITY);
-        let structure = self.structures.structure(*structure, &workload);
-        let (kind, viewpoint) = (workload.kind, view.viewpoint());
-        let search = self.structures.picture(structure, kind, viewpoint, &self.scene.lights)?;
+        let (viewpoint, lights) = (view.viewpoint(), &self.scene.lights);
+        let search = self.structures.picture(*structure, &workload, viewpoint, lights)?;
+        let searched = search.structure;
         let drawn = self.renderer.draw(self.scene, &search, view, style, columns, status_row);
         let drawing = started.elapsed();
 
         let mut cells = CellGrid::new(columns, rows);
         cells.cells_mut()[..drawn.cells.cells().len()].copy_from_slice(drawn.cells.cells());
-        if self.state.help {
+        if self.state.shown.help {
             help::write(&mut cells, status_row);
         }
         // The picture first: then the status line can tell what it cost.
@@ -174,7 +177,7 @@ impl Viewer<'_> {
         let frame =
             Frame { drawing, making: started.elapsed(), rays: drawn.rays, bytes: self.bytes.len() };
         let figures = self.meter.count(frame, now);
-        status::write(&mut cells, status_row, &self.state, structure, figures);
+        status::write(&mut cells, status_row, &self.state, searched, figures);
         self.encoder.encode(cells, &mut self.bytes);
         self.terminal.show(&self.bytes).map_err(|error| lost(&error))
     }

@@ -2,8 +2,8 @@
 
 use crate::cells::{Cell, Color};
 use crate::color::{lightness, luminance};
-use crate::draw::ColorDepth;
 use crate::palette::Palette;
+use crate::style::ColorDepth;
 use spherule_kernel::Vec3;
 
 /// Characters from little ink to much, and the part of the cell that their ink covers, in

@@ -2,8 +2,8 @@
 
 use crate::cells::{Cell, Color};
 use crate::color::luminance;
-use crate::draw::ColorDepth;
 use crate::palette::Palette;
+use crate::style::ColorDepth;
 use spherule_kernel::Vec3;
 
 /// The cells of two rows of pixels.

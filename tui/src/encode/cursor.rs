@@ -1,8 +1,17 @@
 //! Where the cursor is, and the shortest way to where it should be.
 
-use super::push_glyph;
 use super::sgr::Pen;
 use crate::cells::Cell;
+
+/// A control character, say from the name of a file, must not reach the terminal as one.
+pub(super) fn printable(glyph: char) -> char {
+    if glyph.is_control() { '?' } else { glyph }
+}
+
+/// Appends a glyph, which moves the cursor.
+pub(super) fn push_glyph(glyph: char, out: &mut Vec<u8>) {
+    out.extend_from_slice(printable(glyph).encode_utf8(&mut [0; 4]).as_bytes());
+}
 
 /// A position from the top left, as far as it is known.
 #[derive(Clone, Copy, Debug)]
@@ -111,18 +120,7 @@ impl Way {
     }
 
     fn number(&mut self, number: u16) {
-        let mut digits = [0; 5];
-        let mut start = digits.len();
-        let mut rest = number;
-        loop {
-            start -= 1;
-            digits[start] = b'0' + (rest % 10) as u8;
-            rest /= 10;
-            if rest == 0 {
-                break;
-            }
-        }
-        self.push(&digits[start..]);
+        self.push(itoa::Buffer::new().format(number).as_bytes());
     }
 
     /// Parameters that are 1 can be left out.
@@ -138,14 +136,18 @@ impl Way {
         self.push(b"H");
     }
 
+    /// `ESC [ count last`.
+    fn sequence(&mut self, count: u16, last: u8) {
+        self.push(b"\x1b[");
+        self.number(count);
+        self.push(&[last]);
+    }
+
     /// In raw mode a line feed only moves down; it never leaves the last row here.
     fn down(&mut self, count: u16) {
-        if count > 8 {
-            self.push(b"\x1b[");
-            self.number(count);
-            self.push(b"B");
-        } else {
-            self.push(&[b'\n'; 8][..usize::from(count)]);
+        match count {
+            0..=8 => self.push(&[b'\n'; 8][..usize::from(count)]),
+            _ => self.sequence(count, b'B'),
         }
     }
 
@@ -153,21 +155,14 @@ impl Way {
         match count {
             0 => {}
             1 => self.push(b"\x1b[C"),
-            _ => {
-                self.push(b"\x1b[");
-                self.number(count);
-                self.push(b"C");
-            }
+            _ => self.sequence(count, b'C'),
         }
     }
 
     fn left(&mut self, count: u16) {
-        if count > 4 {
-            self.push(b"\x1b[");
-            self.number(count);
-            self.push(b"D");
-        } else {
-            self.push(&b"\x08\x08\x08\x08"[..usize::from(count)]);
+        match count {
+            0..=4 => self.push(&[b'\x08'; 4][..usize::from(count)]),
+            _ => self.sequence(count, b'D'),
         }
     }
 

@@ -1,4 +1,4 @@
-//! Colours as SGR parameters, from pieces made at compile time: a frame has tens of thousands.
+//! Colours as SGR parameters.
 
 use crate::cells::{Cell, Color};
 
@@ -88,34 +88,7 @@ fn push_color(color: Color, layer: &Layer, out: &mut Vec<u8>) {
     }
 }
 
-/// A byte in decimal, a semicolon behind it, and how many of the four are used.
-type Number = ([u8; 4], u8);
-
-const NUMBERS: [Number; 256] = {
-    let mut numbers = [([b';'; 4], 0); 256];
-    let mut value = 0;
-    while value < 256 {
-        let digits =
-            [b'0' + (value / 100) as u8, b'0' + (value / 10 % 10) as u8, b'0' + (value % 10) as u8];
-        let skipped = if value >= 100 {
-            0
-        } else if value >= 10 {
-            1
-        } else {
-            2
-        };
-        let mut digit = skipped;
-        while digit < 3 {
-            numbers[value].0[digit - skipped] = digits[digit];
-            digit += 1;
-        }
-        numbers[value].1 = 4 - skipped as u8;
-        value += 1;
-    }
-    numbers
-};
-
 fn push_number(value: u8, out: &mut Vec<u8>) {
-    let (bytes, used) = &NUMBERS[usize::from(value)];
-    out.extend_from_slice(&bytes[..usize::from(*used)]);
+    out.extend_from_slice(itoa::Buffer::new().format(value).as_bytes());
+    out.push(b';');
 }

@@ -33,7 +33,7 @@ fn assert_shows(terminal: &vt100::Parser, grid: &CellGrid) {
                 background: color(shown.bgcolor()),
             };
             let expected = Cell {
-                glyph: super::printable(expected.glyph),
+                glyph: super::cursor::printable(expected.glyph),
                 foreground: as_the_model_names_it(expected.foreground),
                 background: as_the_model_names_it(expected.background),
             };

@@ -48,11 +48,10 @@ pub fn framed(spheres: Spheres<'_>, aspect: f32) -> View {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use spherule_kernel::SphereList;
 
     fn of(list: &[[f32; 4]]) -> Sphere {
-        let column = |i: usize| list.iter().map(|s| s[i]).collect::<Vec<_>>();
-        let (x, y, z, r) = (column(0), column(1), column(2), column(3));
-        bounding_sphere(Spheres::new(&x, &y, &z, &r).expect("equal lengths"))
+        bounding_sphere(SphereList::from(list).spheres())
     }
 
     #[test]
@@ -66,16 +65,14 @@ mod tests {
     #[test]
     fn nothing_and_points_are_framed_too() {
         assert_eq!(of(&[]), Sphere { center: Vec3::ZERO, radius: 1.0 });
-        let point = [7.0];
-        let view = framed(Spheres::new(&point, &point, &point, &[0.0]).expect("one"), 1.0);
+        let view = framed(SphereList::from([[7.0, 7.0, 7.0, 0.0]]).spheres(), 1.0);
         assert!(view.eye.is_finite() && view.eye != view.target);
     }
 
     #[test]
     fn a_narrow_picture_is_framed_from_further_away() {
-        let (zero, one) = ([0.0], [1.0]);
-        let spheres = Spheres::new(&zero, &zero, &zero, &one).expect("one");
-        let distance = |aspect| framed(spheres, aspect).eye.length();
+        let unit = SphereList::from([[0.0, 0.0, 0.0, 1.0]]);
+        let distance = |aspect| framed(unit.spheres(), aspect).eye.length();
         assert!((distance(1.0) - 1.0 / 20_f32.to_radians().sin()).abs() < 1e-5);
         assert_eq!(distance(3.0), distance(1.0));
         assert!(distance(0.5) > 1.9 * distance(1.0));

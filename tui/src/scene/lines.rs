@@ -26,11 +26,11 @@ impl<'a, R: BufRead> Lines<'a, R> {
         self.number
     }
 
-    /// The next line without its end, nothing after the last. What is no UTF-8 is replaced; a
+    /// The next line without its end, `None` after the last. What is no UTF-8 is replaced; a
     /// byte order mark before the first line is left out.
     ///
     /// # Errors
-    /// [`ReadError`] where reading fails, or the line is longer than [`LONGEST_LINE`].
+    /// [`ReadError`] if reading fails, or the line is longer than [`LONGEST_LINE`].
     pub(super) fn next(&mut self) -> Result<Option<String>, ReadError> {
         self.bytes.clear();
         let mut limited = self.reader.by_ref().take(LONGEST_LINE + 1);

@@ -2,17 +2,18 @@
 
 use super::read_error::ReadError;
 use super::{Scene, builtin, lines, toml, xyz};
-use crate::failure::cause;
+use crate::error::cause;
+use clap::ValueEnum;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 
 /// The formats that scenes are read from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Format {
-    /// Described in `scene/toml.rs`.
+    /// Spheres, lights and a camera, as in the README
     Toml,
-    /// Described in `scene/xyz.rs`.
+    /// A molecule
     Xyz,
 }
 
@@ -23,7 +24,7 @@ const LONGEST_TOML: u64 = 64 << 20;
 /// `-` standard input. `format` overrides what the name or the first line tells.
 ///
 /// # Errors
-/// [`ReadError`] where there is no such scene, or it cannot be read.
+/// [`ReadError`] if there is no such scene, or it cannot be read.
 pub fn open(name: &str, format: Option<Format>) -> Result<Scene, ReadError> {
     if name == "-" {
         return read(io::stdin().lock(), "-", format);
@@ -56,7 +57,7 @@ pub fn open(name: &str, format: Option<Format>) -> Result<Scene, ReadError> {
 /// Reads a scene; without a format, one whose first line is an integer is XYZ, else TOML.
 ///
 /// # Errors
-/// [`ReadError`] where it is none.
+/// [`ReadError`] if it is none.
 pub fn read(
     mut reader: impl BufRead,
     source: &str,
@@ -100,13 +101,7 @@ fn is_plain_word(name: &str) -> bool {
 
 fn format_of(name: &str) -> Option<Format> {
     let ending = Path::new(name).extension()?.to_str()?;
-    if ending.eq_ignore_ascii_case("toml") {
-        Some(Format::Toml)
-    } else if ending.eq_ignore_ascii_case("xyz") {
-        Some(Format::Xyz)
-    } else {
-        None
-    }
+    Format::from_str(ending, true).ok()
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use std::fmt;
 pub struct ReadError {
     /// The file as the user named it; `-` for standard input.
     pub source: String,
-    /// The line, from 1; none where the whole file is meant.
+    /// The line, from 1; `None` for the whole file.
     pub line: Option<usize>,
     /// The column in characters, from 1.
     pub column: Option<usize>,

@@ -3,7 +3,7 @@
 use super::read_error::ReadError;
 use super::{Light, Scene, Source};
 use crate::color::Srgb;
-use crate::view::{Lens, View};
+use crate::view::{Lens, LensKind, View};
 use serde::Deserialize;
 use spherule_kernel::{Sphere, Vec3};
 use std::ops::Range;
@@ -33,17 +33,9 @@ struct CameraTable {
     target: Vector,
     up: Option<Vector>,
     #[serde(default)]
-    projection: ProjectionName,
+    projection: LensKind,
     fov: Option<Number>,
     height: Option<Number>,
-}
-
-#[derive(Clone, Copy, Default, Deserialize, PartialEq)]
-#[serde(rename_all = "lowercase")]
-enum ProjectionName {
-    #[default]
-    Perspective,
-    Parallel,
 }
 
 #[derive(Deserialize)]
@@ -184,22 +176,22 @@ fn lens(table: &Spanned<CameraTable>, place: &Place<'_>) -> Result<Lens, ReadErr
     let camera = table.get_ref();
     let in_vain = |number: &Number, what| Err(place.error(number.span(), what));
     match (camera.projection, &camera.fov, &camera.height) {
-        (ProjectionName::Perspective, _, Some(height)) => {
+        (LensKind::Perspective, _, Some(height)) => {
             in_vain(height, "height is for projection = \"parallel\"; perspective has fov")
         }
-        (ProjectionName::Parallel, Some(fov), _) => {
+        (LensKind::Parallel, Some(fov), _) => {
             in_vain(fov, "fov is for projection = \"perspective\"; parallel has height")
         }
-        (ProjectionName::Perspective, None, None) => Ok(Lens::Perspective { fov: USUAL_FOV }),
-        (ProjectionName::Perspective, Some(number), None) => match place.number(number, "fov")? {
+        (LensKind::Perspective, None, None) => Ok(Lens::Perspective { fov: USUAL_FOV }),
+        (LensKind::Perspective, Some(number), None) => match place.number(number, "fov")? {
             fov if fov > 0.0 && fov < 180.0 => Ok(Lens::Perspective { fov }),
             fov => in_vain(number, &format!("fov is {fov}: above 0 and below 180 degrees")),
         },
-        (ProjectionName::Parallel, None, Some(number)) => match place.number(number, "height")? {
+        (LensKind::Parallel, None, Some(number)) => match place.number(number, "height")? {
             height if height > 0.0 => Ok(Lens::Parallel { height }),
             height => in_vain(number, &format!("height is {height}: above 0")),
         },
-        (ProjectionName::Parallel, None, None) => {
+        (LensKind::Parallel, None, None) => {
             Err(place.error(table.span(), "a parallel camera has a height"))
         }
     }

@@ -117,7 +117,7 @@ fn atom(
     Ok((Sphere { center, radius: element.radius }, element.color, element.symbol))
 }
 
-/// `text` in quotes, cut where it is long.
+/// `text` in quotes, cut if it is long.
 fn excerpt(text: &str) -> String {
     match text.char_indices().nth(40) {
         Some((end, _)) => format!("{:?}...", &text[..end]),

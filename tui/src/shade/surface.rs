@@ -1,9 +1,9 @@
 //! The point of a sphere that a hit stands for, and one just off it for secondary rays.
 //!
-//! The hit point o + t d in `f32` lies inside the sphere as often as outside (NUMERICS.md, section
-//! 7), and so a ray from it may meet the sphere that it starts on. Here the point is computed in
-//! double precision, put back onto the sphere along the radius, and moved off it along the normal
-//! by a distance for which no tier sees the sphere again.
+//! The hit point o + t d in `f32` lies inside the sphere as often as outside, and so a ray from it may
+//! meet the sphere that it starts on. Here the point is computed in double precision, put back onto
+//! the sphere along the radius, and moved off it along the normal by a distance for which no tier
+//! sees the sphere again.
 //!
 //! # The distance
 //!
@@ -12,7 +12,8 @@
 //! add up to less than 8 u r^2: 2u for the coordinates of p, 3u for products and sums on each
 //! side, 1u for the difference. That is a height of at most 4 u r. Rounding the starting point to
 //! `f32` costs at most sqrt 3 u |P|. [`LIFT`] covers both with a factor to spare; the test that
-//! no tier shadows itself, a ground of radius 10^6 among its spheres, is in `tests/shadows.rs`.
+//! no tier shadows itself, a ground of radius 10^6 among its spheres, is in
+//! `tui/tests/program/shadows.rs`.
 
 use crate::scene::{Light, Source};
 use spherule_kernel::{Ray, Sphere, Vec3};
@@ -36,30 +37,22 @@ impl SurfacePoint {
     #[must_use]
     #[inline]
     pub fn new(ray: &Ray, t: f32, sphere: &Sphere) -> Self {
-        let wide = |v: Vec3| v.to_array().map(f64::from);
-        let narrow = |v: [f64; 3]| Vec3::from_array(v.map(|x| x as f32));
-        let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-        let (center, direction) = (wide(sphere.center), wide(ray.direction));
-        let (origin, t, radius) = (wide(ray.origin), f64::from(t), f64::from(sphere.radius));
+        let (center, direction) = (sphere.center.as_dvec3(), ray.direction.as_dvec3());
+        let (origin, t, radius) = (ray.origin.as_dvec3(), f64::from(t), f64::from(sphere.radius));
 
         // The unit normal that points out of the sphere, and the point under it.
-        let outward = if radius > 0.0 {
-            [0, 1, 2].map(|i| origin[i] - center[i] + t * direction[i])
-        } else {
-            direction.map(|x| -x)
-        };
-        let scale = 1.0 / dot(outward, outward).sqrt();
-        let point = [0, 1, 2].map(|i| center[i] + radius * scale * outward[i]);
+        let outward = if radius > 0.0 { origin - center + t * direction } else { -direction };
+        let scale = 1.0 / outward.length_squared().sqrt();
+        let point = center + radius * scale * outward;
 
         // Turn it to the viewer, and step off the sphere to that side.
-        let scale = if dot(outward, direction) > 0.0 { -scale } else { scale };
-        let normal = outward.map(|x| x * scale);
-        let size = point.iter().fold(radius, |size, x| size.max(x.abs()));
-        let lifted = [0, 1, 2].map(|i| point[i] + LIFT * size * normal[i]);
-        Self { origin: narrow(lifted), normal: narrow(normal) }
+        let normal = outward * if outward.dot(direction) > 0.0 { -scale } else { scale };
+        let size = point.abs().max_element().max(radius);
+        let lifted = point + LIFT * size * normal;
+        Self { origin: lifted.as_vec3(), normal: normal.as_vec3() }
     }
 
-    /// The ray to the light and the cosine of its angle to the normal; nothing where the surface
+    /// The ray to the light and the cosine of its angle to the normal; `None` if the surface
     /// faces away.
     #[must_use]
     #[inline]
@@ -70,7 +63,7 @@ impl SurfacePoint {
         };
         let cosine = self.normal.dot(direction) / direction.length();
         // The point lies off its sphere, so that has no root above zero; zero itself could be one
-        // where the difference of two roots is lost.
+        // if the difference of two roots is lost.
         let ray = Ray { origin: self.origin, direction, t_min: f32::MIN_POSITIVE, t_max };
         (cosine > 0.0).then_some((ray, cosine))
     }

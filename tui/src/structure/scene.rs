@@ -1,116 +1,76 @@
-//! The structures over the spheres of a scene, and their memory.
+//! The structures over the spheres of a scene, built when they are first used.
 
-use super::{RaysKind, Search, Structure, StructureChoice, Workload, choose};
-use crate::failure::Failure;
+use super::Structure;
+use super::choose::{Workload, choose};
+use super::search::Search;
+use crate::choice::Auto;
+use crate::error::Error;
 use crate::scene::{Light, Source};
 use crate::threads::Threads;
-use spherule_kernel::tiles::Viewpoint;
-use spherule_kernel::{Bvh, BvhLeaf, BvhNode, DepthOrder, Spheres};
+use spherule_kernel::{Coherence, DepthList, SphereList, SphereTree, Spheres, Viewpoint};
 use std::time::{Duration, Instant};
-
-/// Room for a tree.
-#[derive(Clone, Debug, Default)]
-pub struct TreeMemory {
-    nodes: Vec<BvhNode>,
-    leaves: Vec<BvhLeaf>,
-}
-
-impl TreeMemory {
-    /// Room for a tree over so many spheres.
-    fn grow(&mut self, spheres: usize) -> Result<(), Failure> {
-        let needed = Bvh::needed(spheres);
-        grow(&mut self.nodes, needed.nodes, BvhNode::EMPTY, "a tree", spheres)?;
-        grow(&mut self.leaves, needed.leaves, BvhLeaf::EMPTY, "a tree", spheres)
-    }
-}
-
-/// Makes a vector at least so long.
-fn grow<T: Copy>(
-    memory: &mut Vec<T>,
-    length: usize,
-    value: T,
-    what: &str,
-    spheres: usize,
-) -> Result<(), Failure> {
-    let missing = length.saturating_sub(memory.len());
-    let reserved = memory.try_reserve_exact(missing);
-    reserved.map_err(|_| Failure::Running(format!("no memory for {what} of {spheres} spheres")))?;
-    memory.resize(memory.len() + missing, value);
-    Ok(())
-}
 
 /// How the rays of a picture find spheres.
 #[derive(Clone, Debug)]
 pub struct PictureSearch<'a> {
-    /// What all of them have in common.
-    pub kind: RaysKind,
+    /// What is searched.
+    pub structure: Structure,
+    /// Whether its rays lie close together.
+    pub coherence: Coherence,
     /// Those of the camera.
     pub camera: Search<'a>,
     /// Those to the lights, one a light.
     pub lights: Vec<Search<'a>>,
 }
 
-/// The spheres of a scene, and what has been built over them because somebody asked for it.
+/// The spheres of a scene, and what has been built over them.
 #[derive(Debug)]
 pub struct SceneStructures<'a> {
-    spheres: Spheres<'a>,
+    list: &'a SphereList,
     threads: &'a Threads,
-    /// Until the tree is there.
-    memory: Option<&'a mut TreeMemory>,
-    tree: Option<Bvh<'a>>,
-    /// Room for orders of the spheres, one a viewpoint.
-    orders: Vec<Vec<u32>>,
+    tree: Option<SphereTree>,
+    /// The memory of depth lists, one a viewpoint.
+    depth_lists: Vec<Vec<f32>>,
     build: Duration,
 }
 
 impl<'a> SceneStructures<'a> {
-    /// Nothing is built yet; a tree will be built in `memory`, by `threads`.
-    pub fn new(spheres: Spheres<'a>, threads: &'a Threads, memory: &'a mut TreeMemory) -> Self {
-        Self {
-            spheres,
-            threads,
-            memory: Some(memory),
-            tree: None,
-            orders: Vec::new(),
-            build: Duration::ZERO,
-        }
-    }
-
-    /// What `choice` comes to for this work.
+    /// Builds nothing yet; a tree will be built by `threads`.
     #[must_use]
-    pub fn structure(&self, choice: StructureChoice, workload: &Workload) -> Structure {
-        match choice {
-            StructureChoice::Only(structure) => structure,
-            StructureChoice::Auto => choose(self.spheres.len(), workload),
-        }
+    pub fn new(list: &'a SphereList, threads: &'a Threads) -> Self {
+        Self { list, threads, tree: None, depth_lists: Vec::new(), build: Duration::ZERO }
     }
 
-    /// `structure` for rays of one viewpoint or none, built where it is not there yet.
+    /// The structure for this work, if `choice` leaves it open.
+    #[must_use]
+    pub fn structure(&self, choice: Auto<Structure>, workload: &Workload) -> Structure {
+        choice.unwrap_or_else(|| choose(self.list.len(), workload))
+    }
+
+    /// `structure` for rays of a viewpoint, or of none: then all spheres stand in for a depth list.
     ///
     /// # Errors
-    /// [`Failure::Running`] where there is no memory for it.
+    /// [`Error::Running`] if there is no memory for it.
     pub fn search(
         &mut self,
         structure: Structure,
         viewpoint: Option<Viewpoint>,
-    ) -> Result<Search<'_>, Failure> {
-        let brute = Search::brute(self.spheres);
-        let searches = self.searches(structure, &[viewpoint])?;
-        Ok(searches.into_iter().next().unwrap_or(brute))
+    ) -> Result<Search<'_>, Error> {
+        Ok(self.searches(structure, &[viewpoint])?.remove(0))
     }
 
-    /// `structure` for a picture of rays of this kind from `viewpoint`, whose shadow rays go to
-    /// `lights`.
+    /// The structure of `choice` for a picture from `viewpoint`, whose shadow rays go to `lights`.
     ///
     /// # Errors
-    /// [`Failure::Running`] where there is no memory for it.
+    /// [`Error::Running`] if there is no memory for it.
     pub fn picture(
         &mut self,
-        structure: Structure,
-        kind: RaysKind,
+        choice: Auto<Structure>,
+        workload: &Workload,
         viewpoint: Viewpoint,
         lights: &[Light],
-    ) -> Result<PictureSearch<'_>, Failure> {
+    ) -> Result<PictureSearch<'_>, Error> {
+        let (structure, coherence) = (self.structure(choice, workload), workload.coherence());
         let towards = lights.iter().map(|light| match light.source {
             Source::Direction(direction) => Some(Viewpoint::Direction(direction)),
             Source::Position(_) => None,
@@ -118,7 +78,7 @@ impl<'a> SceneStructures<'a> {
         let viewpoints: Vec<_> = std::iter::once(Some(viewpoint)).chain(towards).collect();
         let mut lights = self.searches(structure, &viewpoints)?;
         let camera = lights.remove(0);
-        Ok(PictureSearch { kind, camera, lights })
+        Ok(PictureSearch { structure, coherence, camera, lights })
     }
 
     /// One search a viewpoint.
@@ -126,43 +86,37 @@ impl<'a> SceneStructures<'a> {
         &mut self,
         structure: Structure,
         viewpoints: &[Option<Viewpoint>],
-    ) -> Result<Vec<Search<'_>>, Failure> {
-        let spheres = self.spheres;
+    ) -> Result<Vec<Search<'_>>, Error> {
+        let (start, spheres) = (Instant::now(), self.list.spheres());
         match structure {
-            Structure::Brute => Ok(vec![Search::brute(spheres); viewpoints.len()]),
-            Structure::Bvh => Ok(vec![Search::tree(spheres, self.tree()?); viewpoints.len()]),
-            Structure::Tiles => {
-                let start = Instant::now();
-                if self.orders.len() < viewpoints.len() {
-                    self.orders.resize_with(viewpoints.len(), Vec::new);
-                }
-                let sorted = |(viewpoint, memory): (&Option<Viewpoint>, _)| match viewpoint {
-                    Some(viewpoint) => order(spheres, *viewpoint, memory),
-                    None => Ok(Search::brute(spheres)),
+            Structure::Brute => Ok(vec![Search::Brute(spheres); viewpoints.len()]),
+            Structure::Bvh => {
+                let tree = match self.tree.take() {
+                    Some(tree) => tree,
+                    None => {
+                        let tree = SphereTree::build_with(self.threads, self.list.clone());
+                        let tree = tree.map_err(|_| no_memory("a tree", spheres))?;
+                        self.build += start.elapsed();
+                        tree
+                    }
                 };
-                let searches = viewpoints.iter().zip(&mut self.orders).map(sorted).collect();
+                Ok(vec![Search::Bvh(self.tree.insert(tree).bvh()); viewpoints.len()])
+            }
+            Structure::DepthList => {
+                self.depth_lists
+                    .resize_with(viewpoints.len().max(self.depth_lists.len()), Vec::new);
+                let sorted = |(viewpoint, memory): (&Option<Viewpoint>, _)| match viewpoint {
+                    Some(viewpoint) => depth_list(spheres, *viewpoint, memory),
+                    None => Ok(Search::Brute(spheres)),
+                };
+                let searches = viewpoints.iter().zip(&mut self.depth_lists).map(sorted).collect();
                 self.build += start.elapsed();
                 searches
             }
         }
     }
 
-    fn tree(&mut self) -> Result<Bvh<'a>, Failure> {
-        let memory = match (self.tree, self.memory.take()) {
-            (Some(tree), _) => return Ok(tree),
-            (None, Some(memory)) => memory,
-            (None, None) => unreachable!("a failure has ended the program"),
-        };
-        let start = Instant::now();
-        memory.grow(self.spheres.len())?;
-        let tree =
-            Bvh::build_with(self.threads, self.spheres, &mut memory.nodes, &mut memory.leaves);
-        let tree = tree.map_err(|error| Failure::Running(error.to_string()))?;
-        self.build += start.elapsed();
-        Ok(*self.tree.insert(tree))
-    }
-
-    /// How long it took to build what was asked for, all together.
+    /// How long building has taken, all together.
     #[must_use]
     pub fn build_time(&self) -> Duration {
         self.build
@@ -170,14 +124,18 @@ impl<'a> SceneStructures<'a> {
 }
 
 /// Sorts the spheres in the memory given.
-fn order<'a>(
+fn depth_list<'a>(
     spheres: Spheres<'a>,
     viewpoint: Viewpoint,
-    memory: &'a mut Vec<u32>,
-) -> Result<Search<'a>, Failure> {
-    let count = spheres.len();
-    grow(memory, DepthOrder::needed(count), 0, "the order", count)?;
-    let order = DepthOrder::new(spheres, viewpoint, memory);
-    let order = order.map_err(|error| Failure::Running(error.to_string()))?;
-    Ok(Search::tiles(spheres, order))
+    memory: &'a mut Vec<f32>,
+) -> Result<Search<'a>, Error> {
+    let missing = DepthList::needed(spheres.len()).saturating_sub(memory.len());
+    memory.try_reserve_exact(missing).map_err(|_| no_memory("a depth list", spheres))?;
+    memory.resize(memory.len() + missing, 0.0);
+    let list = DepthList::sort(spheres, viewpoint, memory);
+    list.map(Search::DepthList).map_err(|error| Error::Running(error.to_string()))
+}
+
+fn no_memory(what: &str, spheres: Spheres<'_>) -> Error {
+    Error::Running(format!("no memory for {what} of {} spheres", spheres.len()))
 }

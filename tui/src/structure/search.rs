@@ -1,114 +1,78 @@
-//! A structure that is ready to be searched.
+//! A scene structure that is chosen at run time.
 
-use super::{RaysKind, Structure};
-use spherule_kernel::dispatch::{self, Level, Packet};
-use spherule_kernel::{Accuracy, Bvh, DepthOrder, HitPacket, RayPacket, Spheres};
+use spherule_kernel::{
+    Bvh, Coherence, DepthList, HitPacket, Intersect, Level, RayPacket, Spheres, Tier, Trace,
+};
 
 /// Spheres, and how rays find them. Threads may share it.
 #[derive(Clone, Copy, Debug)]
-pub struct Search<'a> {
-    spheres: Spheres<'a>,
-    index: Index<'a>,
+pub enum Search<'a> {
+    /// From end to end.
+    Brute(Spheres<'a>),
+    /// By their depth, for rays of one viewpoint.
+    DepthList(DepthList<'a>),
+    /// By a tree.
+    Bvh(Bvh<'a>),
 }
 
-/// What leads to the spheres.
+/// What all rays of a call have in common.
 #[derive(Clone, Copy, Debug)]
-enum Index<'a> {
-    None,
-    Order(DepthOrder<'a>),
-    Tree(Bvh<'a>),
+pub struct Tracing {
+    /// Which tier decides hits.
+    pub tier: Tier,
+    /// The instructions.
+    pub level: Level,
+    /// Whether the rays lie close together.
+    pub coherence: Coherence,
 }
 
-/// The lists of tiles that one thread is at work on.
+/// The memory that one thread lends to depth lists.
 #[derive(Clone, Debug, Default)]
-pub struct TileLists(Vec<u32>);
+pub struct Scratch(Vec<f32>);
 
-impl TileLists {
-    /// As long as they can become for so many spheres; shorter where there is no memory, which
-    /// takes longer.
-    fn of(&mut self, spheres: usize) -> &mut [u32] {
-        let missing = DepthOrder::lists(spheres).saturating_sub(self.0.len());
-        if self.0.try_reserve_exact(missing).is_ok() {
-            self.0.resize(self.0.len() + missing, 0);
+impl Scratch {
+    /// As long as `search` has a use for; shorter if there is no memory, which takes longer.
+    fn of(&mut self, search: &Search<'_>) -> &mut [f32] {
+        if let Search::DepthList(list) = search {
+            let missing = DepthList::scratch(list.spheres().len()).saturating_sub(self.0.len());
+            if self.0.try_reserve_exact(missing).is_ok() {
+                self.0.resize(self.0.len() + missing, 0.0);
+            }
         }
         &mut self.0
     }
 }
 
-impl<'a> Search<'a> {
-    /// From end to end.
-    #[must_use]
-    pub fn brute(spheres: Spheres<'a>) -> Self {
-        Self { spheres, index: Index::None }
-    }
-
-    /// By the order of these spheres, for rays of its viewpoint.
-    pub(super) fn tiles(spheres: Spheres<'a>, order: DepthOrder<'a>) -> Self {
-        Self { spheres, index: Index::Order(order) }
-    }
-
-    /// By the tree that was built over these spheres.
-    pub(super) fn tree(spheres: Spheres<'a>, tree: Bvh<'a>) -> Self {
-        Self { spheres, index: Index::Tree(tree) }
-    }
-
-    /// What is searched.
-    #[must_use]
-    pub fn structure(&self) -> Structure {
-        match self.index {
-            Index::None => Structure::Brute,
-            Index::Order(_) => Structure::Tiles,
-            Index::Tree(_) => Structure::Bvh,
-        }
-    }
-
-    /// The nearest hit of every ray, as [`spherule_kernel::nearest`] finds it.
-    pub fn nearest<A: Accuracy>(
+impl Search<'_> {
+    /// The closest hit of every ray.
+    pub fn closest_hits(
         &self,
-        level: Level,
-        kind: RaysKind,
-        rays: &[RayPacket<Packet>],
-        lists: &mut TileLists,
-        hits: &mut [HitPacket<Packet>],
+        Tracing { tier, level, coherence }: Tracing,
+        scratch: &mut Scratch,
+        rays: &[RayPacket],
+        hits: &mut [HitPacket],
     ) {
-        let Self { spheres, index } = *self;
-        match (index, kind) {
-            (Index::None, _) => dispatch::nearest::<A>(level, rays, spheres, hits),
-            (Index::Order(order), _) => {
-                let lists = lists.of(spheres.len());
-                dispatch::tiles::nearest::<A>(level, rays, spheres, &order, lists, hits);
-            }
-            (Index::Tree(tree), RaysKind::Coherent) => {
-                dispatch::bvh::nearest_coherent::<A>(level, rays, spheres, &tree, hits);
-            }
-            (Index::Tree(tree), RaysKind::Incoherent) => {
-                dispatch::bvh::nearest::<A>(level, rays, spheres, &tree, hits);
-            }
+        let trace = &mut Trace { level, coherence, scratch: scratch.of(self) };
+        match self {
+            Self::Brute(spheres) => spheres.closest_hit_packets(tier, trace, rays, hits),
+            Self::DepthList(list) => list.closest_hit_packets(tier, trace, rays, hits),
+            Self::Bvh(tree) => tree.closest_hit_packets(tier, trace, rays, hits),
         }
     }
 
-    /// Whether every ray meets anything, as [`spherule_kernel::any`] finds it.
-    pub fn any<A: Accuracy>(
+    /// Whether every ray meets anything: lane i in bit i.
+    pub fn any_hits(
         &self,
-        level: Level,
-        kind: RaysKind,
-        rays: &[RayPacket<Packet>],
-        lists: &mut TileLists,
+        Tracing { tier, level, coherence }: Tracing,
+        scratch: &mut Scratch,
+        rays: &[RayPacket],
         met: &mut [u32],
     ) {
-        let Self { spheres, index } = *self;
-        match (index, kind) {
-            (Index::None, _) => dispatch::any::<A>(level, rays, spheres, met),
-            (Index::Order(order), _) => {
-                let lists = lists.of(spheres.len());
-                dispatch::tiles::any::<A>(level, rays, spheres, &order, lists, met);
-            }
-            (Index::Tree(tree), RaysKind::Coherent) => {
-                dispatch::bvh::any_coherent::<A>(level, rays, spheres, &tree, met);
-            }
-            (Index::Tree(tree), RaysKind::Incoherent) => {
-                dispatch::bvh::any::<A>(level, rays, spheres, &tree, met);
-            }
+        let trace = &mut Trace { level, coherence, scratch: scratch.of(self) };
+        match self {
+            Self::Brute(spheres) => spheres.any_hit_packets(tier, trace, rays, met),
+            Self::DepthList(list) => list.any_hit_packets(tier, trace, rays, met),
+            Self::Bvh(tree) => tree.any_hit_packets(tier, trace, rays, met),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Bytes from the terminal to events.
 //!
-//! Not crossterm's reader: it asks for edges, and of two that come together, a key and a resize,
+//! Not crossterm's reader: it waits for edges, and of two that come together, a key and a resize,
 //! it takes one and never hears of the other again; and it reads the end of its input for ever.
 
 mod parse;

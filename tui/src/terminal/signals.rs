@@ -2,7 +2,7 @@
 //!
 //! A thread of its own takes them, so that a long frame does not hold them up.
 
-use super::{leave, restore, resume};
+use super::screen::{leave, restore, resume};
 use crossterm::terminal;
 use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP};
 use signal_hook::iterator::Signals;

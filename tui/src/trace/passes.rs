@@ -1,126 +1,95 @@
 //! The part of `spherule trace` that is timed: packets through the kernel, by all threads.
 
-use super::batches::{Batch, Task};
-use crate::failure::Failure;
-use crate::structure::{SceneStructures, Search, TileLists};
+use super::batches::Batch;
+use crate::error::Error;
+use crate::structure::scene::SceneStructures;
+use crate::structure::search::{Scratch, Search, Tracing};
 use crate::threads::Threads;
-use spherule_kernel::dispatch::{Level, Packet, pairs};
-use spherule_kernel::{Accuracy, HitPacket, Lanes, Ray, RayPacket, Sphere, SpherePacket, Spheres};
+use spherule_kernel::{Hit, HitPacket, Ray, RayPacket, SphereList, SpherePacket, pair_packets};
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
-/// What is asked.
+/// What is computed for every ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Question {
-    /// What every ray meets first.
-    Nearest,
-    /// Whether every ray meets anything.
+pub(super) enum Query {
+    /// Its closest hit.
+    Closest,
+    /// Whether there is any hit.
     Any,
-    /// Where ray i meets sphere i.
+    /// Its hit with the sphere of its index.
     Pairs,
-}
-
-/// What the rays met.
-pub(super) struct Met {
-    /// A t a ray, `+inf` where nothing was hit; none where only any hit was asked for.
-    pub(super) t: Vec<f32>,
-    /// A sphere a ray (of pairs, its lane), or [`Met::NOTHING`]; where any hit was asked for, 1
-    /// or that.
-    pub(super) sphere: Vec<u32>,
-    /// How long the kernel took, a pass.
-    pub(super) passes: Vec<Duration>,
-}
-
-impl Met {
-    /// No sphere has that index.
-    pub(super) const NOTHING: u32 = u32::MAX;
 }
 
 /// What is done, as often as it is repeated.
 pub(super) struct Passes<'a> {
-    pub(super) level: Level,
+    pub(super) tracing: Tracing,
     pub(super) threads: &'a Threads,
     pub(super) batches: &'a [Batch],
-    pub(super) question: Question,
+    pub(super) query: Query,
     pub(super) repeat: u32,
 }
 
 impl Passes<'_> {
-    /// Traces with one tier. Packets are made once; only the kernel's calls are timed, and what
-    /// `structures` build for them is not.
+    /// Traces, and returns the hit of every ray (of any hit, sphere 0 without a t) and the time of
+    /// every pass. Packets are made once; only the kernel's calls are timed, and no building.
     ///
     /// # Errors
-    /// [`Failure::Running`] where there is no memory for a structure.
-    pub(super) fn run<A: Accuracy>(
+    /// [`Error::Running`] if there is no memory for a structure.
+    pub(super) fn run(
         &self,
         structures: &mut SceneStructures<'_>,
-        spheres: Spheres<'_>,
+        list: &SphereList,
         rays: &[Ray],
-    ) -> Result<Met, Failure> {
-        let packets: Vec<RayPacket<Packet>> =
-            rays.chunks(Packet::COUNT).map(RayPacket::<Packet>::new).collect();
-        let level = self.level;
-        if self.question == Question::Any {
+    ) -> Result<(Vec<Option<Hit>>, Vec<Duration>), Error> {
+        let packets: Vec<_> = rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect();
+        let tracing = self.tracing;
+        if self.query == Query::Any {
             let mut met = vec![0; packets.len()];
-            let any = |search: &Search<'_>, task: &Task, lists: &mut TileLists, met: &mut [u32]| {
-                let rays = &packets[task.packets.clone()];
-                search.any::<A>(level, task.kind, rays, lists, met);
-            };
-            let passes = self.timed(structures, &mut met, any)?;
-            let bit = |index: usize| met[index / Packet::COUNT] >> (index % Packet::COUNT) & 1;
-            let sphere = |index| if bit(index) == 1 { 1 } else { Met::NOTHING };
-            let sphere = (0..rays.len()).map(sphere).collect();
-            return Ok(Met { t: Vec::new(), sphere, passes });
+            let passes = self.timed(structures, &mut met, |search, task, scratch, met| {
+                search.any_hits(tracing, scratch, &packets[task], met);
+            })?;
+            let bit = |i: usize| met[i / RayPacket::COUNT] >> (i % RayPacket::COUNT) & 1 == 1;
+            let hit = |index| bit(index).then_some(Hit { t: f32::NAN, sphere: 0 });
+            return Ok(((0..rays.len()).map(hit).collect(), passes));
         }
-        let mut hits = vec![HitPacket::<Packet>::none(); packets.len()];
-        let passes = if self.question == Question::Pairs {
-            let spheres: Vec<Sphere> = spheres.iter().collect();
-            let spheres: Vec<SpherePacket<Packet>> =
-                spheres.chunks(Packet::COUNT).map(SpherePacket::<Packet>::new).collect();
+        let mut hits = vec![HitPacket::none(); packets.len()];
+        let passes = if self.query == Query::Pairs {
+            let spheres: Vec<_> = list.spheres().iter().collect();
+            let spheres: Vec<_> = spheres.chunks(RayPacket::COUNT).map(SpherePacket::new).collect();
             self.timed(structures, &mut hits, |_, task, _, hits| {
-                let (rays, spheres) =
-                    (&packets[task.packets.clone()], &spheres[task.packets.clone()]);
-                pairs::<A>(level, rays, spheres, hits);
+                let (rays, spheres) = (&packets[task.clone()], &spheres[task]);
+                pair_packets(tracing.tier, tracing.level, rays, spheres, hits);
             })?
         } else {
-            self.timed(structures, &mut hits, |search, task, lists, hits| {
-                let rays = &packets[task.packets.clone()];
-                search.nearest::<A>(level, task.kind, rays, lists, hits);
+            self.timed(structures, &mut hits, |search, task, scratch, hits| {
+                search.closest_hits(tracing, scratch, &packets[task], hits);
             })?
         };
-        let hit = |index: usize| hits[index / Packet::COUNT].hit(index % Packet::COUNT);
-        let t = |ray| hit(ray).map_or(f32::INFINITY, |hit| hit.t);
-        let sphere = |ray| hit(ray).map_or(Met::NOTHING, |hit| hit.sphere);
-        Ok(Met {
-            t: (0..rays.len()).map(t).collect(),
-            sphere: (0..rays.len()).map(sphere).collect(),
-            passes,
-        })
+        Ok((hits.iter().flat_map(HitPacket::hits).take(rays.len()).collect(), passes))
     }
 
-    /// Hands the tasks to the threads, as often as asked, and says how long each time took; a
-    /// structure for a batch is built once.
+    /// Hands the tasks to the threads, as often as they are repeated, and returns how long each pass
+    /// took; the structure of a batch is built once.
     fn timed<R: Send>(
         &self,
         structures: &mut SceneStructures<'_>,
         results: &mut [R],
-        trace: impl Fn(&Search<'_>, &Task, &mut TileLists, &mut [R]) + Sync,
-    ) -> Result<Vec<Duration>, Failure> {
+        trace: impl Fn(&Search<'_>, Range<usize>, &mut Scratch, &mut [R]) + Sync,
+    ) -> Result<Vec<Duration>, Error> {
         let mut passes = vec![Duration::ZERO; self.repeat as usize];
-        let mut lists = Vec::new();
+        let mut scratches = Vec::new();
         for batch in self.batches {
             let search = structures.search(batch.structure, batch.viewpoint)?;
             for pass in &mut passes {
                 let (mut rest, mut from) = (&mut *results, 0);
                 let tasks = batch.tasks.iter().map(|task| {
-                    let Range { start, end } = task.packets;
-                    let _other_batches = rest.split_off_mut(..start - from);
-                    from = end;
-                    (task, rest.split_off_mut(..end - start).unwrap_or_default())
+                    let _other_batches = rest.split_off_mut(..task.start - from);
+                    from = task.end;
+                    (task.clone(), rest.split_off_mut(..task.len()).unwrap_or_default())
                 });
                 let start = Instant::now();
-                self.threads.share(&mut lists, tasks, |lists, (task, results)| {
-                    trace(&search, task, lists, results);
+                self.threads.share(&mut scratches, tasks, |scratch, (task, results)| {
+                    trace(&search, task, scratch, results);
                 });
                 *pass += start.elapsed();
             }

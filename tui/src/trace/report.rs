@@ -1,9 +1,8 @@
 //! What `spherule trace` prints: the keys that scripts rely on.
 
-use crate::draw::AccuracyChoice;
 use crate::structure::Structure;
 use serde_json::{Map, Value, json};
-use spherule_kernel::dispatch::LevelName;
+use spherule_kernel::{LevelName, Tier};
 use std::time::Duration;
 
 /// What was traced, and how fast.
@@ -12,7 +11,7 @@ pub(super) struct Report {
     pub(super) spheres: usize,
     pub(super) hits: usize,
     pub(super) structure: Structure,
-    pub(super) accuracy: AccuracyChoice,
+    pub(super) accuracy: Tier,
     pub(super) level: LevelName,
     pub(super) lanes: usize,
     pub(super) threads: usize,
@@ -28,7 +27,7 @@ impl Report {
             ("rays", json!(self.rays)),
             ("spheres", json!(self.spheres)),
             ("hits", json!(self.hits)),
-            ("structure", json!(self.structure.as_str())),
+            ("structure", json!(self.structure.in_reports())),
             ("accuracy", json!(self.accuracy.as_str())),
             ("level", json!(self.level.as_str())),
             ("lanes", json!(self.lanes)),
@@ -38,7 +37,7 @@ impl Report {
         ]
     }
 
-    /// Of the median pass; 0 where it took no time that can be measured.
+    /// Of the median pass; 0 if it took no time that can be measured.
     fn mega_rays_a_second(&self) -> f64 {
         let mut seconds: Vec<f64> = self.passes.iter().map(Duration::as_secs_f64).collect();
         seconds.sort_by(f64::total_cmp);
@@ -72,26 +71,27 @@ impl Report {
 mod tests {
     use super::*;
 
-    #[test]
-    fn the_keys_are_all_there() {
-        let report = Report {
-            rays: 8_000_000,
+    fn report(rays: usize, passes: &[u64]) -> Report {
+        Report {
+            rays,
             spheres: 2,
             hits: 3,
-            structure: Structure::Bvh,
-            accuracy: AccuracyChoice::Fast,
+            structure: Structure::DepthList,
+            accuracy: Tier::Fast,
             level: LevelName::Avx2,
             lanes: 8,
             threads: 2,
             build: Duration::from_micros(1500),
-            passes: [3, 1, 2].map(Duration::from_secs).to_vec(),
-        };
-        let line = report.line();
-        assert!(line.starts_with("rays=8000000 spheres=2 hits=3 structure=bvh accuracy=fast "));
-        assert!(
-            line.ends_with(" level=avx2 lanes=8 threads=2 build_ms=1.5 mrays_per_s=4.0\n"),
-            "{line}"
-        );
+            passes: passes.iter().copied().map(Duration::from_secs).collect(),
+        }
+    }
+
+    #[test]
+    fn the_keys_are_all_there() {
+        let report = report(8_000_000, &[3, 1, 2]);
+        let line = "rays=8000000 spheres=2 hits=3 structure=tiles accuracy=fast level=avx2 lanes=8 \
+                    threads=2 build_ms=1.5 mrays_per_s=4.0\n";
+        assert_eq!(report.line(), line);
         let object: Value = serde_json::from_str(&report.json()).expect("JSON");
         assert_eq!(object["mrays_per_s"], json!(4.0));
         assert_eq!(object.as_object().map(Map::len), Some(10));
@@ -99,20 +99,8 @@ mod tests {
 
     #[test]
     fn the_median_of_an_even_number_is_between() {
-        let report = |passes: &[u64]| Report {
-            rays: 3_000_000,
-            spheres: 0,
-            hits: 0,
-            structure: Structure::Brute,
-            accuracy: AccuracyChoice::Stable,
-            level: LevelName::Avx2,
-            lanes: 8,
-            threads: 2,
-            build: Duration::ZERO,
-            passes: passes.iter().copied().map(Duration::from_secs).collect(),
-        };
-        assert_eq!(report(&[1, 2]).mega_rays_a_second(), 2.0);
-        assert_eq!(report(&[0]).mega_rays_a_second(), 0.0);
-        assert_eq!(report(&[]).mega_rays_a_second(), 0.0);
+        assert_eq!(report(3_000_000, &[1, 2]).mega_rays_a_second(), 2.0);
+        assert_eq!(report(3_000_000, &[0]).mega_rays_a_second(), 0.0);
+        assert_eq!(report(3_000_000, &[]).mega_rays_a_second(), 0.0);
     }
 }

@@ -2,15 +2,14 @@
 
 use std::io::{self, IsTerminal, Write};
 
-/// A line on standard error that is written over, and gone in the end; nothing where that is no
-/// terminal.
+/// A line on standard error that is written over, and gone in the end; on a terminal alone.
 pub(super) struct Progress {
     on_terminal: bool,
     shown: Option<String>,
 }
 
 impl Progress {
-    /// Nothing shown yet.
+    /// Shows nothing yet.
     pub(super) fn new() -> Self {
         Self { on_terminal: io::stderr().is_terminal(), shown: None }
     }
@@ -22,7 +21,7 @@ impl Progress {
         }
         let text = format!("measuring {what}: {:3.0} %", 100.0 * share);
         if self.shown.as_ref() != Some(&text) {
-            // Where it cannot be shown, the figures still come.
+            // If it cannot be shown, the figures still come.
             let _ = write!(io::stderr(), "\r{text}\x1b[K");
             self.shown = Some(text);
         }

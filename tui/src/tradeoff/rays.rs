@@ -1,20 +1,41 @@
 //! The rays that a picture of a scene takes: from the camera, and from there to the lights.
 
-use crate::draw::tile_order;
+use crate::draw::packet_corners;
 use crate::scene::Scene;
 use crate::shade::SurfacePoint;
 use crate::structure::Structure;
-use spherule_kernel::dispatch::Packet;
-use spherule_kernel::{Camera, HitPacket, Lanes, Ray, RayPacket};
+use spherule_kernel::{Camera, HitPacket, Ray, RayPacket};
 
 /// The most rays, so that their memory is a cache's, not a machine's.
 const MOST_RAYS: usize = 1 << 17;
 /// The most tests of a ray against a sphere a pass of brute force: some 0.1 s at the least level.
 const MOST_TESTS: usize = 1 << 27;
+/// The side in packets of the part of a picture that is measured or left out.
+const BLOCK: u32 = 4;
+
+/// Where rays come from.
+#[derive(Clone, Copy)]
+pub(super) enum Kind {
+    /// The camera: the closest hit counts.
+    Camera,
+    /// Surfaces, towards a light: any hit counts.
+    Shadow,
+}
+
+impl Kind {
+    /// The name in reports.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Camera => "camera",
+            Self::Shadow => "shadow",
+        }
+    }
+}
 
 /// Packets of rays, and how many rays they hold.
 pub(super) struct Rays {
-    pub(super) packets: Vec<RayPacket<Packet>>,
+    pub(super) kind: Kind,
+    pub(super) packets: Vec<RayPacket>,
     /// How many packets share an origin, a direction or an end, one part after the other.
     pub(super) parts: Vec<usize>,
     pub(super) count: usize,
@@ -23,63 +44,57 @@ pub(super) struct Rays {
 /// The most rays against so many spheres.
 pub(super) fn most_rays(spheres: usize, structure: Structure) -> usize {
     match structure {
-        Structure::Brute => (MOST_TESTS / spheres.max(1)).clamp(Packet::COUNT, MOST_RAYS),
-        Structure::Tiles | Structure::Bvh => MOST_RAYS,
+        Structure::Brute => (MOST_TESTS / spheres.max(1)).clamp(RayPacket::COUNT, MOST_RAYS),
+        Structure::DepthList | Structure::Bvh => MOST_RAYS,
     }
 }
 
-/// The side in tiles of the part of a picture that is measured or left out.
-const BLOCK: u32 = 4;
-
 impl Rays {
-    fn new(parts: impl Iterator<Item = Vec<RayPacket<Packet>>>) -> Self {
+    fn new(kind: Kind, parts: impl Iterator<Item = Vec<RayPacket>>) -> Self {
         let parts: Vec<_> = parts.collect();
         let lengths = parts.iter().map(Vec::len).collect();
         let packets = parts.concat();
-        let live = |packet: &RayPacket<Packet>| {
-            (0..Packet::COUNT).filter(|&lane| packet.ray(lane).is_live()).count()
+        let live = |packet: &RayPacket| {
+            (0..RayPacket::COUNT).filter(|&lane| packet.ray(lane).is_live()).count()
         };
-        Self { count: packets.iter().map(live).sum(), packets, parts: lengths }
+        Self { kind, count: packets.iter().map(live).sum(), packets, parts: lengths }
     }
 
     /// The rays of a picture of `width` x `height` samples, in the order in which it is drawn; of
-    /// more than `most`, those of every n-th block of tiles.
+    /// more than `most`, those of every n-th block of packets.
     pub(super) fn of_camera(camera: &Camera, width: u32, height: u32, most: usize) -> Self {
-        let (across, down) = Camera::tile::<Packet>();
-        let (columns, rows) = (width.div_ceil(across), height.div_ceil(down));
-        let blocks_across = u64::from(columns.div_ceil(BLOCK));
-        let blocks = blocks_across * u64::from(rows.div_ceil(BLOCK));
-        let most_packets = most / Packet::COUNT;
+        let (across, down) = Camera::tile::<[f32; 16]>();
+        let (across, down) = (BLOCK * across, BLOCK * down);
+        let blocks_across = u64::from(width.div_ceil(across));
+        let blocks = blocks_across * u64::from(height.div_ceil(down));
+        let most_packets = most / RayPacket::COUNT;
         let mut step = (blocks * u64::from(BLOCK * BLOCK)).div_ceil(most_packets as u64).max(1);
         // A step that goes well with the width would see a few columns alone.
         while step > 1 && common_divisor(step, blocks_across) > 1 {
             step += 1;
         }
         let packets = (0..blocks).step_by(step as usize).flat_map(|index| {
-            let left = (index % blocks_across) as u32 * BLOCK;
-            let top = (index / blocks_across) as u32 * BLOCK;
-            tile_order((columns - left).min(BLOCK), (rows - top).min(BLOCK)).map(move |tile| {
-                let (ix, iy) = ((left + tile.0) * across, (top + tile.1) * down);
-                camera.packet::<Packet>(ix, iy, width, height)
-            })
+            let left = (index % blocks_across) as u32 * across;
+            let top = (index / blocks_across) as u32 * down;
+            packet_corners((width - left).min(across), (height - top).min(down))
+                .map(move |(x, y)| camera.packet(left + x, top + y, width, height))
         });
-        Self::new(std::iter::once(packets.take(most_packets).collect()))
+        Self::new(Kind::Camera, std::iter::once(packets.take(most_packets).collect()))
     }
 
-    /// The rays from what `camera` rays meet to every light that the surface faces, light by
-    /// light, where `hits` are what they meet; where those are more than `most`, from every n-th
-    /// point.
+    /// The rays from the `hits` of the `camera` rays to every light that the surface faces, light by
+    /// light; if those are more than `most`, from every n-th point.
     pub(super) fn of_shadows(
         camera: &Self,
-        hits: &[HitPacket<Packet>],
+        hits: &[HitPacket],
         scene: &Scene,
         most: usize,
     ) -> Self {
         let spheres = scene.spheres();
         let mut points = Vec::new();
         for (rays, hits) in camera.packets.iter().zip(hits) {
-            for lane in 0..Packet::COUNT {
-                let Some(hit) = hits.hit(lane) else { continue };
+            for (lane, hit) in hits.hits().enumerate() {
+                let Some(hit) = hit else { continue };
                 if let Some(sphere) = spheres.get(hit.sphere as usize) {
                     points.push(SurfacePoint::new(&rays.ray(lane), hit.t, &sphere));
                 }
@@ -87,11 +102,12 @@ impl Rays {
         }
         let wanted = points.len() * scene.lights.len();
         let step = wanted.div_ceil(most).max(1);
-        Self::new(scene.lights.iter().map(|light| {
+        let of_light = |light| {
             let towards = |point: &SurfacePoint| point.towards(light).map(|(ray, _)| ray);
             let rays: Vec<Ray> = points.iter().step_by(step).filter_map(towards).collect();
-            rays.chunks(Packet::COUNT).map(RayPacket::<Packet>::new).collect()
-        }))
+            rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect()
+        };
+        Self::new(Kind::Shadow, scene.lights.iter().map(of_light))
     }
 }
 
@@ -104,8 +120,7 @@ fn common_divisor(a: u64, b: u64) -> u64 {
 mod tests {
     use super::*;
     use crate::scene::builtin::builtin;
-    use spherule_kernel::Exact;
-    use spherule_kernel::dispatch::{Level, nearest};
+    use spherule_kernel::{Exact, Intersect, Trace};
 
     #[test]
     fn a_picture_of_any_size_is_some_rays_from_everywhere() {
@@ -120,11 +135,11 @@ mod tests {
         }
         let camera = scene.first_view(1.0).camera(4096, 4096, 1.0);
         let rays = Rays::of_camera(&camera, 4096, 4096, MOST_RAYS);
-        let mut hits = vec![HitPacket::<Packet>::none(); rays.packets.len()];
-        nearest::<Exact>(Level::best(), &rays.packets, scene.spheres(), &mut hits);
+        let mut hits = vec![HitPacket::none(); rays.packets.len()];
+        scene.spheres().closest_hit_packets(Exact, &mut Trace::new(), &rays.packets, &mut hits);
         let shadow = Rays::of_shadows(&rays, &hits, &scene, MOST_RAYS);
         assert!(rays.count > MOST_RAYS / 4 && shadow.count > 0 && shadow.count <= MOST_RAYS);
-        let across = |packet: &RayPacket<Packet>| packet.ray(0).direction.x.to_bits();
+        let across = |packet: &RayPacket| packet.ray(0).direction.x.to_bits();
         let mut columns: Vec<u32> = rays.packets.iter().map(across).collect();
         columns.sort_unstable();
         columns.dedup();

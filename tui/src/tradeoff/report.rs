@@ -1,11 +1,10 @@
 //! What `spherule tradeoff` prints: a table for people, or the keys that scripts rely on.
 
-use super::errors::Errors;
-use crate::draw::AccuracyChoice;
+use crate::choice::name;
 use crate::structure::Structure;
+use crate::tally::{Summary, Ulp};
 use serde_json::{Value, json};
-use spherule_kernel::Stages;
-use spherule_kernel::dispatch::LevelName;
+use spherule_kernel::{LevelName, Stages, Tier};
 
 /// Everything that was measured.
 pub(super) struct Report {
@@ -17,26 +16,26 @@ pub(super) struct Report {
     pub(super) level: LevelName,
     pub(super) lanes: usize,
     pub(super) threads: usize,
-    pub(super) tiers: Vec<Tier>,
+    pub(super) tiers: Vec<TierReport>,
 }
 
 /// One tier on one kind of rays.
-pub(super) struct Tier {
-    pub(super) accuracy: AccuracyChoice,
+pub(super) struct TierReport {
+    pub(super) tier: Tier,
     pub(super) rays_kind: &'static str,
     pub(super) rays: usize,
     /// Of a pass over all rays.
     pub(super) seconds: f64,
-    pub(super) errors: Errors,
+    pub(super) errors: Summary,
     pub(super) stages: Stages,
 }
 
-impl Tier {
+impl TierReport {
     fn ns_per_ray(&self) -> f64 {
         1e9 * self.seconds / self.rays as f64
     }
 
-    /// Rays a microsecond; 0 where a pass took no time that can be measured.
+    /// Rays a microsecond; 0 if a pass took no time that can be measured.
     fn mrays_per_s(&self) -> f64 {
         if self.seconds > 0.0 { self.rays as f64 / self.seconds / 1e6 } else { 0.0 }
     }
@@ -55,19 +54,19 @@ fn rounded(number: f64) -> f64 {
 impl Report {
     /// One JSON object.
     pub(super) fn json(&self) -> String {
-        let tier = |tier: &Tier| {
+        let tier = |tier: &TierReport| {
             json!({
-                "accuracy": tier.accuracy.as_str(),
+                "accuracy": tier.tier.as_str(),
                 "rays_kind": tier.rays_kind,
                 "ns_per_ray": rounded(tier.ns_per_ray()),
                 "ns_per_test": rounded(tier.ns_per_ray() / self.spheres as f64),
                 "mrays_per_s": rounded(tier.mrays_per_s()),
                 "wrong_hits": tier.errors.wrong_hits,
                 "wrong_misses": tier.errors.wrong_misses,
-                "wrong_sphere": tier.errors.wrong_sphere,
-                "ulp_median": tier.errors.ulp_at(500),
-                "ulp_p999": tier.errors.ulp_at(999),
-                "ulp_max": tier.errors.ulp_at(1000),
+                "wrong_sphere": tier.errors.wrong_places,
+                "ulp_median": tier.errors.ulp.map(|ulp| ulp.median),
+                "ulp_p999": tier.errors.ulp.map(|ulp| ulp.p999),
+                "ulp_max": tier.errors.ulp.map(|ulp| ulp.max),
                 "f64_share": tier.share(tier.stages.double),
                 "expansion_share": tier.share(tier.stages.expansions),
             })
@@ -79,7 +78,7 @@ impl Report {
             "level": self.level.as_str(),
             "lanes": self.lanes,
             "threads": self.threads,
-            "structure": self.structure.as_str(),
+            "structure": self.structure.in_reports(),
             "tiers": self.tiers.iter().map(tier).collect::<Vec<Value>>(),
         });
         report.to_string() + "\n"
@@ -88,7 +87,7 @@ impl Report {
     /// A table.
     pub(super) fn table(&self) -> String {
         let Self { scene, spheres, cpu, rustc, lanes, threads, .. } = self;
-        let (level, structure) = (self.level.as_str(), self.structure.as_str());
+        let (level, structure) = (self.level.as_str(), name(&self.structure));
         // A scene is a file's name, and that is no line.
         let scene = scene.escape_debug();
         let plural = |count: usize| if count == 1 { "" } else { "s" };
@@ -106,22 +105,20 @@ impl Report {
                     text += &row(&words.map(str::to_owned));
                 }
             }
-            let ulp = |thousandths| {
-                tier.errors
-                    .ulp_at(thousandths)
-                    .map_or_else(|| "-".to_owned(), |ulp| ulp.to_string())
+            let ulp = |of: fn(Ulp) -> u64| {
+                tier.errors.ulp.map_or_else(|| "-".to_owned(), |ulp| of(ulp).to_string())
             };
             text += &row(&[
-                tier.accuracy.as_str().to_owned(),
+                tier.tier.as_str().to_owned(),
                 format!("{:.3}", tier.ns_per_ray()),
                 format!("{:.4}", tier.ns_per_ray() / *spheres as f64),
                 format!("{:.1}", tier.mrays_per_s()),
                 tier.errors.wrong_hits.to_string(),
                 tier.errors.wrong_misses.to_string(),
-                tier.errors.wrong_sphere.to_string(),
-                ulp(500),
-                ulp(999),
-                ulp(1000),
+                tier.errors.wrong_places.to_string(),
+                ulp(|ulp| ulp.median),
+                ulp(|ulp| ulp.p999),
+                ulp(|ulp| ulp.max),
                 format!("{:.4}", 100.0 * tier.share(tier.stages.double)),
                 format!("{:.5}", 100.0 * tier.share(tier.stages.expansions)),
             ]);
@@ -150,7 +147,7 @@ const HEAD: [[&str; 12]; 2] = [
 /// How wide they are.
 const WIDTHS: [usize; 12] = [7, 9, 9, 9, 10, 8, 8, 9, 9, 11, 9, 9];
 const FOOT: &str = "
-Wrong: the nearest hit differs from that of exact, counted in rays. ulp: of t, where both meet the
-same sphere. Times are medians of passes in turns, without the building of a structure; shadow rays are timed
-asking for any hit. A test is a ray and a sphere, whether a structure asks for it or not.
+Wrong: the closest hit differs from that of exact, counted in rays. ulp: of t, where both meet the
+same sphere. Times are medians of passes in turns, without the building of a structure, for shadow
+rays those of any hit. A test is a ray and a sphere, whether a structure makes it or not.
 ";

@@ -3,14 +3,14 @@
 
 use std::time::{Duration, Instant};
 
-/// How long the tiers are timed for, together, where a round does not take longer.
+/// How long the tiers are timed for, together, unless a round takes longer.
 const LONG_ENOUGH: Duration = Duration::from_millis(1500);
 /// The fewest rounds and the most, after one that is thrown away.
 const ROUNDS: (usize, usize) = (5, 501);
 
-/// The median of the seconds that each of `passes` takes; `progress` is told the share done.
+/// The median of the seconds that each of `passes` takes; `progress` gets the share done.
 pub(super) fn medians<const N: usize>(
-    mut passes: [&mut dyn FnMut(); N],
+    mut passes: [impl FnMut(); N],
     mut progress: impl FnMut(f64),
 ) -> [f64; N] {
     let mut seconds = [const { Vec::new() }; N];
@@ -53,10 +53,11 @@ mod tests {
         };
         let mut quick = || *quick_count += 1;
         let mut last = 0.0;
-        let [slow_time, quick_time] = medians([&mut slow, &mut quick], |share| {
-            assert!(share >= last && share <= 1.0);
-            last = share;
-        });
+        let [slow_time, quick_time] =
+            medians([&mut slow as &mut dyn FnMut(), &mut quick], |share| {
+                assert!(share >= last && share <= 1.0);
+                last = share;
+            });
         assert!(slow_time >= 0.03 && quick_time < slow_time);
         assert!(counts[0] == counts[1] && counts[0] > ROUNDS.0);
     }

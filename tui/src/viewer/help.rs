@@ -12,7 +12,7 @@ const LINES: [&str; 15] = [
     "                                         ",
     "  1 2 3                   fast, stable, exact ",
     "  c                       half blocks, ascii  ",
-    "  s                       auto, brute, tiles, bvh ",
+    "  s                       auto, brute, depth-list, bvh ",
     "                                         ",
     "  ?                       this            ",
     "  Ctrl-Z                  stop, fg goes on",
@@ -20,7 +20,7 @@ const LINES: [&str; 15] = [
     "                                         ",
 ];
 
-/// Writes the keys into the middle of the first `rows` rows, cut where there is no room.
+/// Writes the keys into the middle of the first `rows` rows, cut if there is no room.
 pub(super) fn write(cells: &mut CellGrid, rows: u16) {
     let width = LINES.iter().map(|line| line.len()).max().unwrap_or(0);
     let left = usize::from(cells.columns()).saturating_sub(width) / 2;

@@ -3,6 +3,7 @@
 use crossterm::event::{
     Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers, MouseButton, MouseEvent, MouseEventKind,
 };
+use spherule_kernel::Tier;
 
 /// One thing that the user or the terminal wants.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,12 +16,8 @@ pub(super) enum Input {
     Grab(u16, u16),
     /// ... and has pulled to this one.
     Drag(u16, u16),
-    /// Use the textbook form.
-    Fast,
-    /// Use the best plain form.
-    Stable,
-    /// Use the exact tier.
-    Exact,
+    /// Use this tier.
+    Accuracy(Tier),
     /// The other projection.
     Projection,
     /// The next charset.
@@ -39,7 +36,7 @@ pub(super) enum Input {
     Quit,
     /// Give the terminal back and stop, until continued.
     Suspend,
-    /// Another size, or one that must be asked for again.
+    /// Another size, or one that must be read again.
     Resize,
 }
 
@@ -68,9 +65,9 @@ fn key_input(key: &KeyEvent) -> Option<Input> {
         KeyCode::Down | KeyCode::Char('j') => Input::Orbit(0, -1),
         KeyCode::Char('+' | '=') => Input::Zoom(1),
         KeyCode::Char('-' | '_') => Input::Zoom(-1),
-        KeyCode::Char('1') => Input::Fast,
-        KeyCode::Char('2') => Input::Stable,
-        KeyCode::Char('3') => Input::Exact,
+        KeyCode::Char('1') => Input::Accuracy(Tier::Fast),
+        KeyCode::Char('2') => Input::Accuracy(Tier::Stable),
+        KeyCode::Char('3') => Input::Accuracy(Tier::Exact),
         KeyCode::Char('o') => Input::Projection,
         KeyCode::Char('c') => Input::Charset,
         KeyCode::Char('s') => Input::Structure,
@@ -93,7 +90,7 @@ fn mouse_input(mouse: &MouseEvent) -> Option<Input> {
     }
 }
 
-/// The key that panics where a test has asked for it.
+/// The key that panics if a test has set the switch.
 pub(super) fn is_panic(event: &Event) -> bool {
     matches!(event, Event::Key(KeyEvent { code: KeyCode::Char('!'), .. }))
 }

@@ -1,8 +1,9 @@
 //! What the viewer shows and how it moves. No terminal, no clock: input and durations come in.
 
 use super::keys::Input;
-use crate::draw::{AccuracyChoice, Charset, Style};
-use crate::structure::StructureChoice;
+use crate::choice::{Auto, next};
+use crate::structure::Structure;
+use crate::style::{Charset, Style};
 use crate::view::{LensKind, View, orbited, with_projection, zoomed};
 use std::f32::consts::PI;
 use std::time::Duration;
@@ -34,15 +35,21 @@ impl Outcome {
     }
 }
 
+/// What is shown: a frame is drawn when it changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Shown {
+    pub(super) view: View,
+    pub(super) style: Style,
+    pub(super) structure: Auto<Structure>,
+    pub(super) help: bool,
+    pub(super) spinning: bool,
+}
+
 /// The state between frames.
 #[derive(Clone, Debug)]
 pub(super) struct State {
     home: View,
-    pub(super) view: View,
-    pub(super) style: Style,
-    pub(super) structure: StructureChoice,
-    pub(super) help: bool,
-    spinning: bool,
+    pub(super) shown: Shown,
     /// Where the mouse took hold, or was led to since.
     held: Option<(u16, u16)>,
     /// Rows of the picture: a drag over all of them is half a turn.
@@ -50,21 +57,9 @@ pub(super) struct State {
 }
 
 impl State {
-    pub(super) fn new(view: View, style: Style, structure: StructureChoice) -> Self {
-        Self {
-            home: view,
-            view,
-            style,
-            structure,
-            help: false,
-            spinning: false,
-            held: None,
-            height: 1,
-        }
-    }
-
-    pub(super) fn is_spinning(&self) -> bool {
-        self.spinning
+    pub(super) fn new(view: View, style: Style, structure: Auto<Structure>) -> Self {
+        let shown = Shown { view, style, structure, help: false, spinning: false };
+        Self { home: view, shown, held: None, height: 1 }
     }
 
     pub(super) fn set_height(&mut self, rows: u16) {
@@ -73,71 +68,57 @@ impl State {
 
     /// Lets time pass.
     pub(super) fn advance(&mut self, time: Duration) {
-        if self.spinning {
+        if self.shown.spinning {
             let seconds = time.min(LONGEST_STEP).as_secs_f32();
-            self.view = orbited(&self.view, SPIN * seconds, 0.0);
+            self.shown.view = orbited(&self.shown.view, SPIN * seconds, 0.0);
         }
     }
 
     pub(super) fn apply(&mut self, input: Input) -> Outcome {
+        let before = self.shown;
+        let Shown { view, style, structure, help, spinning } = &mut self.shown;
         match input {
             Input::Quit => return Outcome::Quit,
-            Input::Escape if !self.help => return Outcome::Quit,
-            Input::Grab(column, row) => {
-                self.held = Some((column, row));
-                return Outcome::Unchanged;
-            }
-            // What concerns the terminal alone.
-            Input::Suspend | Input::Resize => return Outcome::Unchanged,
-            _ => {}
-        }
-        let (view, style, help) = (self.view, self.style, self.help);
-        let structure = self.structure;
-        let was_spinning = self.spinning;
-        match input {
+            Input::Escape if !*help => return Outcome::Quit,
+            Input::Grab(column, row) => self.held = Some((column, row)),
+            Input::Drag(column, row) => self.drag_to(column, row),
             Input::Orbit(right, up) => {
                 let step = |count| f32::from(count) * ORBIT_STEP;
-                self.view = orbited(&view, step(right), step(up));
+                *view = orbited(view, step(right), step(up));
             }
-            Input::Zoom(steps) => self.view = zoomed(&view, ZOOM_STEP.powi(steps.into())),
-            Input::Drag(column, row) => self.drag_to(column, row),
-            Input::Fast => self.style.accuracy = AccuracyChoice::Fast,
-            Input::Stable => self.style.accuracy = AccuracyChoice::Stable,
-            Input::Exact => self.style.accuracy = AccuracyChoice::Exact,
+            Input::Zoom(steps) => *view = zoomed(view, ZOOM_STEP.powi(steps.into())),
+            Input::Accuracy(tier) => style.accuracy = tier,
             Input::Projection => {
                 let other = match view.lens_kind() {
                     LensKind::Perspective => LensKind::Parallel,
                     LensKind::Parallel => LensKind::Perspective,
                 };
-                self.view = with_projection(&view, other);
+                *view = with_projection(view, other);
             }
             Input::Charset => {
-                self.style.charset = match style.charset {
+                style.charset = match style.charset {
                     Charset::Ascii => Charset::Half,
                     Charset::Half => Charset::Ascii,
                 };
             }
-            Input::Structure => self.structure = structure.next(),
-            Input::Spin => self.spinning = !self.spinning,
-            Input::Reset => {
-                self.view = self.home;
-                self.spinning = false;
-            }
-            Input::Help | Input::Escape => self.help = !self.help,
-            Input::Quit | Input::Grab(..) | Input::Suspend | Input::Resize => {}
+            Input::Structure => *structure = next(*structure),
+            Input::Spin => *spinning = !*spinning,
+            Input::Reset => (*view, *spinning) = (self.home, false),
+            Input::Help | Input::Escape => *help = !*help,
+            // What concerns the terminal alone.
+            Input::Suspend | Input::Resize => {}
         }
-        let same = (view, style, help) == (self.view, self.style, self.help)
-            && (structure, was_spinning) == (self.structure, self.spinning);
-        if same { Outcome::Unchanged } else { Outcome::Changed }
+        if self.shown == before { Outcome::Unchanged } else { Outcome::Changed }
     }
 
     /// The scene follows the hand, so the eye goes the other way.
     fn drag_to(&mut self, column: u16, row: u16) {
         if let Some((from_column, from_row)) = self.held {
             let a_row = PI / f32::from(self.height);
-            let right = (f32::from(column) - f32::from(from_column)) * self.style.cell_aspect;
+            let right = f32::from(column) - f32::from(from_column);
+            let right = right * self.shown.style.cell_aspect;
             let down = f32::from(row) - f32::from(from_row);
-            self.view = orbited(&self.view, -right * a_row, down * a_row);
+            self.shown.view = orbited(&self.shown.view, -right * a_row, down * a_row);
         }
         self.held = Some((column, row));
     }
@@ -146,10 +127,8 @@ impl State {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::draw::ColorDepth;
-    use crate::structure::Structure;
     use crate::view::Lens;
-    use spherule_kernel::Vec3;
+    use spherule_kernel::{Tier, Vec3};
 
     fn state() -> State {
         let view = View {
@@ -158,14 +137,8 @@ mod tests {
             up: Vec3::Y,
             lens: Lens::Perspective { fov: 40.0 },
         };
-        let style = Style {
-            accuracy: AccuracyChoice::Stable,
-            charset: Charset::Half,
-            depth: ColorDepth::Truecolor,
-            samples: 4,
-            cell_aspect: 0.5,
-        };
-        let mut state = State::new(view, style, StructureChoice::Auto);
+        let style = Style { accuracy: Tier::Stable, charset: Charset::Half, ..Style::PLAIN };
+        let mut state = State::new(view, style, None);
         state.set_height(36);
         state
     }
@@ -174,11 +147,11 @@ mod tests {
     fn right_leads_the_eye_right_and_left_back() {
         let mut state = state();
         assert_eq!(state.apply(Input::Orbit(1, 0)), Outcome::Changed);
-        assert!(state.view.eye.x > 0.4);
+        assert!(state.shown.view.eye.x > 0.4);
         assert_eq!(state.apply(Input::Orbit(-1, 0)), Outcome::Changed);
-        assert!(state.view.eye.distance(state.home.eye) < 1e-5);
+        assert!(state.shown.view.eye.distance(state.home.eye) < 1e-5);
         assert_eq!(state.apply(Input::Orbit(0, 1)), Outcome::Changed);
-        assert!(state.view.eye.y > 0.4);
+        assert!(state.shown.view.eye.y > 0.4);
     }
 
     #[test]
@@ -191,10 +164,10 @@ mod tests {
         for _ in 0..5 {
             led.apply(Input::Orbit(-1, 0));
         }
-        assert!(dragged.view.eye.distance(led.view.eye) < 1e-4);
+        assert!(dragged.shown.view.eye.distance(led.shown.view.eye) < 1e-4);
         assert_eq!(dragged.apply(Input::Drag(20, 10)), Outcome::Unchanged);
         dragged.apply(Input::Drag(20, 12));
-        assert!(dragged.view.eye.y > 0.5);
+        assert!(dragged.shown.view.eye.y > 0.5);
     }
 
     #[test]
@@ -207,30 +180,30 @@ mod tests {
     #[test]
     fn what_is_chosen_already_changes_nothing() {
         let mut state = state();
-        assert_eq!(state.apply(Input::Stable), Outcome::Unchanged);
-        assert_eq!(state.apply(Input::Fast), Outcome::Changed);
-        assert_eq!(state.style.accuracy, AccuracyChoice::Fast);
-        assert_eq!(state.apply(Input::Exact), Outcome::Changed);
-        assert_eq!(state.style.accuracy, AccuracyChoice::Exact);
+        assert_eq!(state.apply(Input::Accuracy(Tier::Stable)), Outcome::Unchanged);
+        for tier in [Tier::Fast, Tier::Exact] {
+            assert_eq!(state.apply(Input::Accuracy(tier)), Outcome::Changed);
+            assert_eq!(state.shown.style.accuracy, tier);
+        }
         assert_eq!(state.apply(Input::Charset), Outcome::Changed);
-        assert_eq!(state.style.charset, Charset::Ascii);
+        assert_eq!(state.shown.style.charset, Charset::Ascii);
         assert_eq!(state.apply(Input::Projection), Outcome::Changed);
-        assert_eq!(state.view.lens_kind(), LensKind::Parallel);
+        assert_eq!(state.shown.view.lens_kind(), LensKind::Parallel);
         assert_eq!(state.apply(Input::Structure), Outcome::Changed);
-        assert_eq!(state.structure, StructureChoice::Only(Structure::Brute));
+        assert_eq!(state.shown.structure, Some(Structure::Brute));
     }
 
     #[test]
     fn it_spins_only_when_told_and_does_not_catch_up() {
         let mut state = state();
         state.advance(Duration::from_millis(50));
-        assert_eq!(state.view, state.home);
+        assert_eq!(state.shown.view, state.home);
         state.apply(Input::Spin);
         state.advance(Duration::from_secs(3600));
         let step = SPIN * LONGEST_STEP.as_secs_f32();
-        assert!(state.view.eye.distance(orbited(&state.home, step, 0.0).eye) < 1e-5);
+        assert!(state.shown.view.eye.distance(orbited(&state.home, step, 0.0).eye) < 1e-5);
         state.apply(Input::Reset);
-        assert_eq!((state.view, state.is_spinning()), (state.home, false));
+        assert_eq!((state.shown.view, state.shown.spinning), (state.home, false));
     }
 
     #[test]
@@ -238,7 +211,7 @@ mod tests {
         let mut state = state();
         assert_eq!(state.apply(Input::Help), Outcome::Changed);
         assert_eq!(state.apply(Input::Escape), Outcome::Changed);
-        assert!(!state.help);
+        assert!(!state.shown.help);
         assert_eq!(state.apply(Input::Escape), Outcome::Quit);
         assert_eq!(state.apply(Input::Quit), Outcome::Quit);
     }

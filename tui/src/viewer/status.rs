@@ -3,15 +3,14 @@
 use super::meter::Figures;
 use super::state::State;
 use crate::cells::{CellGrid, Color};
-use crate::draw::Charset;
-use crate::structure::{Structure, StructureChoice};
-use crate::view::LensKind;
+
+use crate::choice::name;
+use crate::structure::Structure;
 
 const HINT: &str = "? help  q quit ";
 
-/// Writes the status line into `row`: figures from the left; from the right, if there is room, how
-/// to go on. What `structure` was searched stands there too, if there is room beside, or if the
-/// user has chosen it.
+/// Writes the status line into `row`: figures from the left; from the right, if there is room, the
+/// hint. The `structure` stands there too if there is room for both, or if the user has chosen it.
 pub(super) fn write(
     cells: &mut CellGrid,
     row: u16,
@@ -21,8 +20,8 @@ pub(super) fn write(
 ) {
     let columns = usize::from(cells.columns());
     let mut line = figures_line(state, "", figures);
-    let word = format!(" {}", structure.as_str());
-    let taken = if state.structure == StructureChoice::Auto { HINT.len() + 1 } else { 0 };
+    let word = format!(" {}", name(&structure));
+    let taken = if state.shown.structure.is_none() { HINT.len() + 1 } else { 0 };
     if line.len() + word.len() + taken <= columns {
         line = figures_line(state, &word, figures);
     }
@@ -34,15 +33,8 @@ pub(super) fn write(
 }
 
 fn figures_line(state: &State, structure: &str, figures: Figures) -> String {
-    let accuracy = state.style.accuracy.as_str();
-    let lens = match state.view.lens_kind() {
-        LensKind::Perspective => "perspective",
-        LensKind::Parallel => "parallel",
-    };
-    let charset = match state.style.charset {
-        Charset::Ascii => "ascii",
-        Charset::Half => "half",
-    };
+    let accuracy = state.shown.style.accuracy.as_str();
+    let (lens, charset) = (name(&state.shown.view.lens_kind()), name(&state.shown.style.charset));
     let rate =
         figures.frames_per_second.map_or_else(|| "--".to_owned(), |rate| format!("{rate:.0}"));
     format!(
@@ -56,24 +48,19 @@ fn figures_line(state: &State, structure: &str, figures: Figures) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::draw::{AccuracyChoice, ColorDepth, Style};
+    use crate::choice::Auto;
+    use crate::style::{Charset, Style};
     use crate::view::{Lens, View};
-    use spherule_kernel::Vec3;
+    use spherule_kernel::{Tier, Vec3};
 
-    fn line(columns: u16, choice: StructureChoice) -> String {
+    fn line(columns: u16, choice: Auto<Structure>) -> String {
         let view = View {
             eye: Vec3::Z,
             target: Vec3::ZERO,
             up: Vec3::Y,
             lens: Lens::Perspective { fov: 40.0 },
         };
-        let style = Style {
-            accuracy: AccuracyChoice::Stable,
-            charset: Charset::Half,
-            depth: ColorDepth::Never,
-            samples: 1,
-            cell_aspect: 0.5,
-        };
+        let style = Style { accuracy: Tier::Stable, charset: Charset::Half, ..Style::PLAIN };
         let state = State::new(view, style, choice);
         let figures = Figures {
             frames_per_second: Some(59.94),
@@ -86,8 +73,8 @@ mod tests {
         cells.row(1).iter().map(|cell| cell.glyph).collect()
     }
 
-    const AUTO: StructureChoice = StructureChoice::Auto;
-    const CHOSEN: StructureChoice = StructureChoice::Only(Structure::Bvh);
+    const AUTO: Auto<Structure> = None;
+    const CHOSEN: Auto<Structure> = Some(Structure::Bvh);
 
     #[test]
     fn it_fills_the_row() {

@@ -1,42 +1,31 @@
 //! Spheres and rays as rows of numbers, the same in every run.
 
-/// Numbers in [-1, 1) (splitmix64).
-pub(crate) struct Numbers(pub(crate) u64);
+use spherule_tests::random::Random;
 
-impl Numbers {
-    pub(crate) fn next(&mut self) -> f32 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 40) as f32 / (1 << 23) as f32 - 1.0
-    }
-
-    fn triple(&mut self) -> [f32; 3] {
-        [(); 3].map(|()| self.next())
-    }
+fn triple(random: &mut Random) -> [f32; 3] {
+    random.in_cube(1.0).to_array()
 }
 
 /// Spheres in a cube, that fill about a seventh of it however many they are.
 pub(crate) fn cloud(count: usize, seed: u64) -> Vec<f32> {
-    let mut numbers = Numbers(seed);
+    let mut random = Random::seeded(seed);
     let size = (count as f32).powf(-1.0 / 3.0);
     let mut rows = Vec::new();
     for _ in 0..count {
-        rows.extend(numbers.triple());
-        rows.push(size * (0.5 + 0.25 * numbers.next()));
+        rows.extend(triple(&mut random));
+        rows.push(size * (0.5 + 0.25 * random.between(-1.0, 1.0)));
     }
     rows
 }
 
 /// Spheres on spheres, a third as large: touching, nested at the joints, of many sizes.
 pub(crate) fn flake(count: usize) -> Vec<f32> {
-    let mut numbers = Numbers(5);
+    let mut random = Random::seeded(5);
     let mut rows = vec![0.0, 0.0, 0.0, 0.5];
     for child in 1..count {
         let parent = &rows[(child - 1) / 9 * 4..][..4];
         let (center, radius) = ([parent[0], parent[1], parent[2]], parent[3]);
-        let way = numbers.triple();
+        let way = triple(&mut random);
         let length = way.iter().map(|x| x * x).sum::<f32>().sqrt();
         let reach = radius * 4.0 / 3.0 / length;
         rows.extend([0, 1, 2].map(|axis| center[axis] + way[axis] * reach));
@@ -73,11 +62,11 @@ pub(crate) fn camera(side: usize) -> Vec<f32> {
 
 /// Rays from anywhere to anywhere, hostile ones among them.
 pub(crate) fn scattered(count: usize) -> Vec<f32> {
-    let mut numbers = Numbers(23);
+    let mut random = Random::seeded(23);
     let mut rows = Vec::new();
     for index in 0..count {
-        rows.extend(numbers.triple());
-        rows.extend(numbers.triple());
+        rows.extend(triple(&mut random));
+        rows.extend(triple(&mut random));
         rows.extend([0.0, f32::INFINITY]);
         let row = &mut rows[8 * index..];
         match index % 64 {
@@ -91,6 +80,19 @@ pub(crate) fn scattered(count: usize) -> Vec<f32> {
             57 => row[6] = -f32::INFINITY,
             _ => {}
         }
+    }
+    rows
+}
+
+/// Rays from around the origin to near it.
+pub(crate) fn inward(count: usize) -> Vec<f32> {
+    let mut random = Random::seeded(9);
+    let mut rows = Vec::new();
+    for _ in 0..count {
+        let origin = 3.0 * random.in_cube(1.0);
+        rows.extend(origin.to_array());
+        rows.extend((0.5 * random.in_cube(1.0) - origin).to_array());
+        rows.extend([0.0, f32::INFINITY]);
     }
     rows
 }

@@ -1,103 +1,52 @@
 //! `spherule trace` against a scalar loop, and its refusals.
 
-mod program;
-
-use program::{array, file, npy, printed, refusal, run};
-use spherule_kernel::{Exact, Fast, Ray, Spheres, Stable, Vec3, nearest_hit};
-use std::path::{Path, PathBuf};
-
-/// 4-byte elements after the header of a file that the program wrote.
-fn column(path: &Path) -> Vec<[u8; 4]> {
-    let bytes = std::fs::read(path).expect("an output");
-    let start = 10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
-    bytes[start..].chunks_exact(4).map(|chunk| chunk.try_into().expect("four")).collect()
-}
+use crate::run::{array, file, npy, refusal, run, spherule};
+use crate::scenes::inward;
+use crate::traced::traced;
+use spherule_kernel::{Intersect, Ray, SphereList, Tier, Vec3};
+use spherule_tests::random::Random;
 
 /// 7 spheres and 101 rays (so that the last packet is not full), hostile ones among them.
 fn data() -> (Vec<f32>, Vec<f32>) {
-    let mut state = 1_u32;
-    let mut number = move || {
-        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        (state >> 8) as f32 / (1 << 23) as f32 - 1.0
-    };
-    let mut spheres: Vec<f32> = (0..7 * 4).map(|_| number()).collect();
+    let mut random = Random::seeded(1);
+    let mut spheres: Vec<f32> = (0..7 * 4).map(|_| random.between(-1.0, 1.0)).collect();
     spheres.iter_mut().skip(3).step_by(4).for_each(|radius| *radius = radius.abs());
     spheres[4 * 2 + 3] = -1.0;
     spheres[4 * 3] = f32::NAN;
-    let mut rays = Vec::new();
-    for _ in 0..101 {
-        let origin = [3.0 * number(), 3.0 * number(), 3.0 * number()];
-        rays.extend(origin);
-        rays.extend(origin.map(|x| 0.5 * number() - x));
-        rays.extend([0.0, f32::INFINITY]);
-    }
+    let mut rays = inward(101);
     rays[8 * 5 + 3] = f32::NAN;
     rays[8 * 6 + 6] = 1e9;
     (spheres, rays)
 }
 
-fn ray(row: &[f32]) -> Ray {
-    let (origin, direction) = (Vec3::from_slice(&row[0..3]), Vec3::from_slice(&row[3..6]));
-    Ray { origin, direction, t_min: row[6], t_max: row[7] }
-}
-
-/// The answer for one ray by the one-lane kernel, as bits of t and an index.
-fn scalar(tier: &str, ray: &Ray, spheres: &[f32]) -> (u32, i32) {
-    let column = |i: usize| spheres.iter().skip(i).step_by(4).copied().collect::<Vec<_>>();
-    let (x, y, z, r) = (column(0), column(1), column(2), column(3));
-    let spheres = Spheres::new(&x, &y, &z, &r).expect("equal lengths");
-    let hit = match tier {
-        "fast" => nearest_hit::<Fast>(ray, spheres),
-        "stable" => nearest_hit::<Stable>(ray, spheres),
-        _ => nearest_hit::<Exact>(ray, spheres),
+/// The answer for each ray by itself: the bits of t, and an index.
+fn scalar(tier: Tier, rays: &[f32], spheres: &[f32]) -> Vec<(u32, i32)> {
+    let spheres = SphereList::from(spheres.as_chunks::<4>().0);
+    let answer = |row: &[f32]| {
+        let (origin, direction) = (Vec3::from_slice(&row[0..3]), Vec3::from_slice(&row[3..6]));
+        let ray = Ray { origin, direction, t_min: row[6], t_max: row[7] };
+        let hit = spheres.closest_hit(tier, &ray);
+        hit.map_or((f32::INFINITY.to_bits(), -1), |hit| (hit.t.to_bits(), hit.sphere as i32))
     };
-    hit.map_or((f32::INFINITY.to_bits(), -1), |hit| (hit.t.to_bits(), hit.sphere as i32))
-}
-
-fn inputs(name: &str, spheres: &[f32], rays: &[f32]) -> (PathBuf, PathBuf) {
-    (
-        file(&format!("{name}.s.npy"), &array(spheres.len() / 4, 4, spheres)),
-        file(&format!("{name}.r.npy"), &array(rays.len() / 8, 8, rays)),
-    )
-}
-
-/// Runs `trace` on data and returns what it printed, the bits of t, and the indices.
-fn trace(name: &str, spheres: &[f32], rays: &[f32], words: &str) -> (String, Vec<u32>, Vec<i32>) {
-    let (spheres, rays) = inputs(name, spheres, rays);
-    let (t, id) = (file(&format!("{name}.t.npy"), b""), file(&format!("{name}.i.npy"), b""));
-    let mut arguments = vec!["trace".into(), "--spheres".into(), spheres.into_os_string()];
-    arguments.extend(["--rays".into(), rays.into_os_string()]);
-    arguments.extend(["--out-id".into(), id.clone().into_os_string()]);
-    if !words.contains("--any") {
-        arguments.extend(["--out-t".into(), t.clone().into_os_string()]);
-    }
-    arguments.extend(words.split_whitespace().map(Into::into));
-    let text = printed(&run(arguments));
-    let t = if words.contains("--any") { Vec::new() } else { column(&t) };
-    (
-        text,
-        t.into_iter().map(u32::from_le_bytes).collect(),
-        column(&id).into_iter().map(i32::from_le_bytes).collect(),
-    )
+    rays.chunks(8).map(answer).collect()
 }
 
 #[test]
-fn nearest_hits_are_those_of_a_scalar_loop() {
+fn closest_hits_are_those_of_a_scalar_loop() {
     let (spheres, rays) = data();
-    for tier in ["fast", "stable", "exact"] {
-        let words = format!("--accuracy {tier} --repeat 3");
-        let (text, t, id) = trace(tier, &spheres, &rays, &words);
-        let expected: Vec<_> =
-            rays.chunks(8).map(|row| scalar(tier, &ray(row), &spheres)).collect();
-        let met: Vec<_> = t.into_iter().zip(id).collect();
+    for tier in Tier::ALL {
+        let name = tier.as_str();
+        let found = traced(name, &spheres, &rays, &format!("--accuracy {name} --repeat 3"));
+        let expected = scalar(tier, &rays, &spheres);
+        let met: Vec<_> = found.t().into_iter().zip(found.id()).collect();
         assert_eq!(met, expected);
         let hits = expected.iter().filter(|(_, id)| *id >= 0).count();
         assert!(hits > 20 && hits < 101);
         let start =
-            format!("rays=101 spheres=7 hits={hits} structure=brute accuracy={tier} level=");
-        assert!(text.starts_with(&start) && text.ends_with('\n'), "{text}");
-        for key in ["lanes=", "threads=", "build_ms=", "mrays_per_s="] {
-            assert!(text.contains(&format!(" {key}")), "{text}");
+            format!("rays=101 spheres=7 hits={hits} structure=brute accuracy={name} level=");
+        assert!(found.text.starts_with(&start) && found.text.ends_with('\n'), "{}", found.text);
+        for key in ["lanes", "threads", "build_ms", "mrays_per_s"] {
+            assert!(!found.value(key).is_empty());
         }
     }
 }
@@ -105,56 +54,48 @@ fn nearest_hits_are_those_of_a_scalar_loop() {
 #[test]
 fn any_is_one_or_nought() {
     let (spheres, rays) = data();
-    let (_, t, id) = trace("any", &spheres, &rays, "--any");
-    let expected: Vec<_> =
-        rays.chunks(8).map(|row| i32::from(scalar("exact", &ray(row), &spheres).1 >= 0)).collect();
-    assert_eq!((t.len(), id), (0, expected));
+    let found = traced("any", &spheres, &rays, "--any");
+    let expected = scalar(Tier::Exact, &rays, &spheres);
+    assert!(found.id().into_iter().eq(expected.into_iter().map(|(_, id)| i32::from(id >= 0))));
+    assert!(found.files[0].is_empty());
 }
 
 #[test]
 fn pairs_meet_their_own_sphere_alone() {
     let (spheres, rays) = data();
     let spheres: Vec<f32> = spheres.iter().copied().cycle().take(101 * 4).collect();
-    for words in ["--pairs", "--pairs --any --json"] {
-        let (text, t, id) = trace("pairs", &spheres, &rays, words);
-        let mut hits = 0;
-        for (index, (row, sphere)) in rays.chunks(8).zip(spheres.chunks(4)).enumerate() {
-            let (expected, met) = scalar("exact", &ray(row), sphere);
-            let is_hit = met >= 0;
-            hits += i32::from(is_hit);
-            if words == "--pairs" {
-                assert_eq!(
-                    (t[index], id[index]),
-                    (expected, if is_hit { index as i32 } else { -1 })
-                );
-            } else {
-                assert_eq!(id[index], i32::from(is_hit));
-            }
-        }
-        assert!(hits > 5);
-        if words.contains("json") {
-            let report: serde_json::Value = serde_json::from_str(&text).expect("JSON");
-            assert_eq!((&report["hits"], &report["rays"]), (&hits.into(), &101.into()));
-            assert_eq!(report["structure"], "brute");
-            assert!(report["threads"].as_u64() > Some(0));
-        }
+    let pairs = rays.chunks(8).zip(spheres.chunks(4));
+    let expected: Vec<_> = pairs.map(|(ray, sphere)| scalar(Tier::Exact, ray, sphere)[0]).collect();
+    let hits = expected.iter().filter(|(_, id)| *id >= 0).count();
+    assert!(hits > 5);
+
+    let found = traced("pairs", &spheres, &rays, "--pairs");
+    for (index, (t, id)) in expected.iter().enumerate() {
+        let id = if *id >= 0 { index as i32 } else { -1 };
+        assert_eq!((found.t()[index], found.id()[index]), (*t, id));
     }
+    let any = traced("pairs", &spheres, &rays, "--pairs --any --json");
+    assert!(any.id().into_iter().eq(expected.iter().map(|(_, id)| i32::from(*id >= 0))));
+    let report: serde_json::Value = serde_json::from_str(&any.text).expect("JSON");
+    assert_eq!((&report["hits"], &report["rays"]), (&hits.into(), &101.into()));
+    assert_eq!(report["structure"], "brute");
+    assert!(report["threads"].as_u64() > Some(0));
 }
 
 #[test]
 fn nothing_meets_nothing() {
     let (spheres, rays) = data();
-    let (_, t, id) = trace("no-spheres", &[], &rays, "");
-    assert!(t.iter().all(|&t| t == f32::INFINITY.to_bits()) && id.iter().all(|&id| id == -1));
-    let (text, t, _) = trace("no-rays", &spheres, &[], "--repeat 2");
-    assert!(t.is_empty() && text.starts_with("rays=0 spheres=7 hits=0 "));
+    let found = traced("no-spheres", &[], &rays, "");
+    assert_eq!((found.t(), found.id()), (vec![f32::INFINITY.to_bits(); 101], vec![-1; 101]));
+    let found = traced("no-rays", &spheres, &[], "--repeat 2");
+    assert!(found.t().is_empty() && found.text.starts_with("rays=0 spheres=7 hits=0 "));
 }
 
 #[test]
 fn a_single_sphere_by_hand() {
     let rays = [0.0, 0.0, -3.0, 0.0, 0.0, 2.0, 0.0, f32::INFINITY];
-    let (_, t, id) = trace("hand", &[0.0, 0.0, 0.0, 1.0], &rays, "");
-    assert_eq!((t, id), (vec![1.0_f32.to_bits()], vec![0]));
+    let found = traced("hand", &[0.0, 0.0, 0.0, 1.0], &rays, "");
+    assert_eq!((found.t(), found.id()), (vec![1.0_f32.to_bits()], vec![0]));
 }
 
 /// What is said about this file of rays, after its name.
@@ -221,7 +162,8 @@ fn a_header_that_lies_about_its_shape_or_length() {
 #[test]
 fn rays_and_spheres_that_do_not_fit() {
     let (spheres, rays) = data();
-    let (spheres, rays) = inputs("unpaired", &spheres, &rays);
+    let spheres = file("unpaired.s.npy", &array(7, 4, &spheres));
+    let rays = file("unpaired.r.npy", &array(101, 8, &rays));
     let words = ["trace".as_ref(), "--pairs".as_ref(), "--spheres".as_ref(), spheres.as_os_str()];
     let message = refusal(&run(words.into_iter().chain(["--rays".as_ref(), rays.as_os_str()])));
     assert!(message.ends_with("101 rays and 7 spheres are no pairs"), "{message}");
@@ -235,9 +177,10 @@ fn rays_and_spheres_that_do_not_fit() {
 #[test]
 fn an_output_that_cannot_be_written_is_a_failure() {
     let (spheres, rays) = data();
-    let (spheres, rays) = inputs("unwritable", &spheres, &rays);
+    let spheres = file("unwritable.s.npy", &array(7, 4, &spheres));
+    let rays = file("unwritable.r.npy", &array(101, 8, &rays));
     for target in ["/dev/full", "no/such/folder/t.npy"] {
-        let output = program::spherule()
+        let output = spherule()
             .args(["trace", "--out-t", target, "--spheres"])
             .arg(&spheres)
             .arg("--rays")

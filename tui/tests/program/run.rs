@@ -1,9 +1,5 @@
 //! The real program, run and its outcome checked.
 
-#![allow(dead_code, reason = "every test program uses a part of it")]
-
-pub(crate) mod scenes;
-
 use std::ffi::OsStr;
 use std::io::Write;
 use std::path::PathBuf;

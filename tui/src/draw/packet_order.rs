@@ -1,14 +1,23 @@
-//! The order in which the tiles of a band are traced.
+//! The order in which the packets of a picture are traced.
+
+use spherule_kernel::Camera;
 
 /// The side of the largest block, in tiles.
 const BLOCK: u32 = 4;
 
-/// The places, column and row, of `columns` x `rows` tiles, so that neighbours in the order are
-/// neighbours in the picture: where there is room, four from a multiple of four on are a square,
-/// and so are sixteen (Morton order within blocks, the blocks from left to right).
+/// The samples in the top left of the packets of a grid of `width` x `height` samples, so that
+/// neighbours in the order are neighbours in the picture.
+pub fn packet_corners(width: u32, height: u32) -> impl Iterator<Item = (u32, u32)> {
+    let (across, down) = Camera::tile::<[f32; 16]>();
+    let tiles = tile_order(width.div_ceil(across), height.div_ceil(down));
+    tiles.map(move |(column, row)| (column * across, row * down))
+}
+
+/// The places, column and row, of `columns` x `rows` tiles: if there is room, four from a multiple of
+/// four on are a square, and so are sixteen (Morton order in blocks, the blocks from left to right).
 ///
-/// What walks a structure with several packets at a time looks into the less of it.
-pub fn tile_order(columns: u32, rows: u32) -> impl Iterator<Item = (u32, u32)> {
+/// So packets that traverse a structure together look into less of it.
+fn tile_order(columns: u32, rows: u32) -> impl Iterator<Item = (u32, u32)> {
     let blocks = (0..columns.div_ceil(BLOCK))
         .flat_map(move |column| (0..rows.div_ceil(BLOCK)).map(move |row| (column, row)));
     blocks

@@ -1,8 +1,6 @@
 //! One picture: its lines, its colours, and where it goes.
 
-mod program;
-
-use program::{printed, run, run_with_input, spherule};
+use crate::run::{printed, run, run_with_input, spherule};
 use std::fs::OpenOptions;
 use std::process::Stdio;
 
@@ -52,7 +50,9 @@ fn the_flag_then_no_color_then_clicolor_force() {
     assert!(!coloured(&[], &[]));
     assert!(coloured(&[], &[("CLICOLOR_FORCE", "1")]));
     assert!(!coloured(&[], &[("CLICOLOR_FORCE", "0")]));
+    assert!(!coloured(&[], &[("CLICOLOR_FORCE", "")]));
     assert!(!coloured(&[], &[("CLICOLOR_FORCE", "1"), ("NO_COLOR", "1")]));
+    assert!(!coloured(&[], &[("CLICOLOR_FORCE", "1"), ("NO_COLOR", "0")]));
     assert!(coloured(&[], &[("CLICOLOR_FORCE", "1"), ("NO_COLOR", "")]));
     assert!(coloured(&["--color", "always"], &[("NO_COLOR", "1")]));
     assert!(coloured(&["--color", "256"], &[("NO_COLOR", "1")]));
@@ -68,7 +68,9 @@ fn the_depth_is_what_the_environment_says() {
         printed(&command.output().expect("the program runs"))
     };
     assert!(text("xterm", "truecolor").contains("8;2;"));
+    assert!(text("xterm-256color", "24bit").contains("8;2;"));
     assert!(text("xterm-256color", "").contains("8;5;"));
+    assert!(text("xterm-256color", "yes").contains("8;5;"));
     let sixteen = text("xterm", "");
     assert!(!sixteen.contains("8;2;") && !sixteen.contains("8;5;"));
 }
@@ -123,7 +125,7 @@ fn marbles_is_what_is_shown_without_a_name() {
 #[test]
 fn a_molecule_from_its_name_its_file_and_standard_input() {
     let shipped = printed(&run(["caffeine.xyz"]));
-    let text = include_bytes!("../scenes/caffeine.xyz");
+    let text = include_bytes!("../../scenes/caffeine.xyz");
     assert_eq!(shipped, printed(&run(["caffeine"])));
     assert_eq!(
         shipped,

@@ -1,12 +1,12 @@
 //! `spherule tradeoff`: its keys, its counts against a scalar loop, and its refusals.
 
-mod program;
-
-use program::{file, printed, refusal, run};
+use crate::run::{file, printed, refusal, run};
 use serde_json::Value;
-use spherule_kernel::{Fast, Ray, Sphere, nearest_hit};
-use spherule_tui::draw::{AccuracyChoice, Charset, ColorDepth, Style, picture_aspect, sample_grid};
-use spherule_tui::scene::{builtin::builtin, open::open};
+use spherule::draw::sample_grid;
+use spherule::scene::{builtin::builtin, open::open};
+use spherule::style::Style;
+use spherule_kernel::{Fast, Intersect, Ray, Sphere};
+use std::sync::LazyLock;
 
 fn measured(words: &[&str]) -> Value {
     let text = printed(&run(["tradeoff", "--json"].iter().chain(words)));
@@ -14,13 +14,16 @@ fn measured(words: &[&str]) -> Value {
     serde_json::from_str(&text).expect("JSON")
 }
 
+/// `edge` in 60 x 24 cells.
+static EDGE: LazyLock<Value> = LazyLock::new(|| measured(&["edge", "--size", "60x24"]));
+
 fn tier<'a>(report: &'a Value, accuracy: &str, kind: &str) -> &'a Value {
     let tiers = report["tiers"].as_array().expect("a list");
     let is = |tier: &&Value| tier["accuracy"] == accuracy && tier["rays_kind"] == kind;
     tiers.iter().find(is).expect("the tier")
 }
 
-/// Whether the ray meets any sphere, in double precision; nothing where that is too close to say.
+/// Whether the ray meets any sphere, in double precision; `None` if that is too close to say.
 fn meets(ray: &Ray, spheres: &[Sphere]) -> Option<bool> {
     let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let (o, d) = (ray.origin.to_array().map(f64::from), ray.direction.to_array().map(f64::from));
@@ -74,13 +77,12 @@ fn the_keys_and_their_types() {
 
 #[test]
 fn edge_is_where_fast_is_wrong_and_exact_is_right() {
-    let report = measured(&["edge", "--size", "60x24"]);
     let count = |tier: &Value| {
         ["wrong_hits", "wrong_misses", "wrong_sphere"].map(|key| tier[key].as_u64().expect(key))
     };
-    let [hits, misses, spheres] = count(tier(&report, "fast", "camera"));
+    let [hits, misses, spheres] = count(tier(&EDGE, "fast", "camera"));
     assert!(hits > 100 && misses > 100, "{hits} hits, {misses} misses, {spheres} spheres");
-    let exact = tier(&report, "exact", "camera");
+    let exact = tier(&EDGE, "exact", "camera");
     assert_eq!((count(exact), exact["ulp_max"].as_u64()), ([0; 3], Some(0)));
 }
 
@@ -88,23 +90,16 @@ fn edge_is_where_fast_is_wrong_and_exact_is_right() {
 #[test]
 fn the_counts_are_those_of_a_scalar_loop() {
     let (columns, rows) = (60, 24);
-    let report = measured(&["edge", "--size", "60x24"]);
-    let style = Style {
-        accuracy: AccuracyChoice::Exact,
-        charset: Charset::Ascii,
-        depth: ColorDepth::Never,
-        samples: 4,
-        cell_aspect: 0.5,
-    };
+    let style = Style::PLAIN;
     let scene = builtin("edge").expect("edge");
-    let view = scene.first_view(picture_aspect(&style, columns, rows) as f32);
+    let view = scene.first_view(style.picture_aspect(columns, rows) as f32);
     let (camera, width, height) = sample_grid(&view, &style, columns, rows);
     let spheres: Vec<Sphere> = scene.spheres().iter().collect();
     let (mut hits, mut misses, mut unsure) = (0, 0, 0);
     for iy in 0..height {
         for ix in 0..width {
             let ray = camera.get_ray(ix, iy);
-            let found = nearest_hit::<Fast>(&ray, scene.spheres()).is_some();
+            let found = scene.spheres().closest_hit(Fast, &ray).is_some();
             match meets(&ray, &spheres) {
                 None => unsure += 1,
                 Some(truth) => {
@@ -114,7 +109,7 @@ fn the_counts_are_those_of_a_scalar_loop() {
             }
         }
     }
-    let fast = tier(&report, "fast", "camera");
+    let fast = tier(&EDGE, "fast", "camera");
     for (key, count) in [("wrong_hits", hits), ("wrong_misses", misses)] {
         let said = fast[key].as_u64().expect(key);
         assert!(said >= count && said <= count + unsure, "{key}: {said}, {count} + {unsure}");
@@ -160,9 +155,9 @@ fn bad_use() {
         ("tradeoff marble", "no such scene"),
         ("tradeoff --size 0x1", "each 1 to 4096"),
         ("tradeoff --accuracy fast", "--accuracy"),
-        ("tradeoff --threads 0", "1 to 1024"),
-        ("tradeoff --structure tree", "auto, brute, tiles or bvh"),
-        ("tradeoff --level sse", "baseline, avx2 or avx512"),
+        ("tradeoff --threads 0", "1..=1024"),
+        ("tradeoff --structure tree", "auto, brute, depth-list, bvh"),
+        ("tradeoff --level sse", "baseline, avx2, avx512"),
         ("tradeoff unit unit", "unit"),
     ] {
         let message = refusal(&run(words.split(' ')));

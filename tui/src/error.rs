@@ -1,21 +1,21 @@
-//! How the program ends when it does not succeed: the exit codes, and the one line on stderr.
+//! How the program ends without success: the exit codes, and the one line on stderr.
 
 use std::io::{self, Write};
 use std::process::ExitCode;
 
 /// Why the program ends.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Failure {
+pub enum Error {
     /// Bad use, or input that cannot be read: exit code 2.
     Input(String),
-    /// Something failed while running, an output that cannot be written among it: exit code 1.
+    /// A failure while running, such as an output that cannot be written: exit code 1.
     Running(String),
-    /// Whoever read the output wants no more of it: a success.
+    /// The reader of the output closed it: a success.
     ReaderGone,
 }
 
-impl Failure {
-    /// An output called `name` that cannot be written.
+impl Error {
+    /// The error of an output called `name` that cannot be written.
     #[must_use]
     pub fn of_output(name: &str, error: &io::Error) -> Self {
         match error.kind() {
@@ -24,8 +24,7 @@ impl Failure {
         }
     }
 
-    /// Says on stderr what went wrong, in one line whatever names it holds, and returns the code
-    /// to exit with.
+    /// Writes the error to stderr, in one line whatever names it holds, and returns the exit code.
     #[must_use]
     pub fn report(&self) -> ExitCode {
         let (message, code) = match self {
@@ -36,7 +35,7 @@ impl Failure {
         let printable =
             |c: char| if c.is_control() { c.escape_default().collect() } else { c.to_string() };
         let line: String = message.chars().map(printable).collect();
-        // Where stderr is closed too, the exit code must do.
+        // If stderr is closed too, the exit code must do.
         let _ = writeln!(io::stderr(), "spherule: {line}");
         ExitCode::from(code)
     }
@@ -49,12 +48,12 @@ pub fn cause(error: &io::Error) -> String {
     text.split(" (os error").next().unwrap_or_default().to_lowercase()
 }
 
-/// Writes `bytes` to standard output, at once and to the end.
+/// Writes all `bytes` to standard output, and flushes it.
 ///
 /// # Errors
-/// [`Failure`] where that cannot be done.
-pub fn write_stdout(bytes: &[u8]) -> Result<(), Failure> {
+/// [`Error`] if that fails.
+pub fn write_stdout(bytes: &[u8]) -> Result<(), Error> {
     let mut stdout = io::stdout().lock();
     let written = stdout.write_all(bytes).and_then(|()| stdout.flush());
-    written.map_err(|error| Failure::of_output("standard output", &error))
+    written.map_err(|error| Error::of_output("standard output", &error))
 }

@@ -1,0 +1,47 @@
+//! Values that have names on the command line.
+
+use clap::ValueEnum;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+
+/// A value that the program chooses itself if it is `None`: `auto` on the command line.
+///
+/// Not spelled `Option` in arguments, which clap takes for an option that may be missing.
+pub type Auto<T> = Option<T>;
+
+/// Reads `auto`, or the name of a value.
+pub fn auto_or<T>() -> impl TypedValueParser<Value = Auto<T>>
+where
+    T: ValueEnum + Send + Sync + 'static,
+{
+    let names = T::value_variants().iter().filter_map(T::to_possible_value);
+    let auto = PossibleValue::new("auto").help("Whatever suits");
+    PossibleValuesParser::new([auto].into_iter().chain(names))
+        .map(|text| T::from_str(&text, false).ok())
+}
+
+/// Reads the name of a value that is no [`ValueEnum`], because another crate defines it.
+pub fn one_of<T>(all: &'static [T], name: fn(T) -> &'static str) -> impl TypedValueParser<Value = T>
+where
+    T: Copy + Send + Sync,
+{
+    PossibleValuesParser::new(all.iter().map(|&value| name(value))).try_map(move |text| {
+        let named = all.iter().find(|&&value| name(value) == text);
+        named.copied().ok_or("a name that has no value")
+    })
+}
+
+/// The name of a value.
+#[must_use]
+pub fn name(value: &impl ValueEnum) -> String {
+    value.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
+}
+
+/// The choice after `this`, around in a circle: `None`, then every value.
+#[must_use]
+pub fn next<T: ValueEnum + Copy + PartialEq>(this: Auto<T>) -> Auto<T> {
+    let mut after = T::value_variants().iter();
+    if this.is_some() {
+        after.find(|&&value| this == Some(value));
+    }
+    after.next().copied()
+}

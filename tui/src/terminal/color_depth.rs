@@ -1,0 +1,149 @@
+//! How many colours: what the user asks for, then what the environment says.
+
+use crate::style::ColorDepth;
+use clap::ValueEnum;
+use std::env;
+
+/// What `--color` says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ColorChoice {
+    /// As the environment and the terminal say
+    Auto,
+    /// No colour
+    Never,
+    /// As many colours as the terminal has, also into a pipe
+    Always,
+    /// The 16 of the user's theme
+    #[value(name = "16")]
+    Ansi16,
+    /// The xterm palette
+    #[value(name = "256")]
+    Ansi256,
+    /// 24 bits
+    Truecolor,
+}
+
+/// What decides besides the flag.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Surroundings {
+    /// Whether standard output is a terminal.
+    pub is_terminal: bool,
+    /// `NO_COLOR` (<https://no-color.org>) is set, and not empty: no colour.
+    pub no_color: bool,
+    /// `CLICOLOR_FORCE` (<https://bixense.com/clicolors>) is set, and neither empty nor 0: colour
+    /// also into a pipe.
+    pub force: bool,
+    /// `TERM`.
+    pub term: String,
+    /// `COLORTERM` promises 24 bits.
+    pub truecolor: bool,
+}
+
+impl Surroundings {
+    /// Those of this process.
+    #[must_use]
+    pub fn of_process(is_terminal: bool) -> Self {
+        let text = |name| env::var_os(name).unwrap_or_default().to_string_lossy().into_owned();
+        Self {
+            is_terminal,
+            no_color: anstyle_query::no_color(),
+            // Not `anstyle_query::clicolor_force`, which takes 0 for a yes.
+            force: !["", "0"].contains(&text("CLICOLOR_FORCE").as_str()),
+            // Not `anstyle_query::term_supports_color`: an empty name promises no colour.
+            term: text("TERM"),
+            truecolor: anstyle_query::truecolor(),
+        }
+    }
+
+    /// How many colours a picture gets: by the flag, else `NO_COLOR`, else `CLICOLOR_FORCE`, else
+    /// whether there is a terminal, and what it says it has.
+    #[must_use]
+    pub fn depth(&self, choice: ColorChoice) -> ColorDepth {
+        let forced = || match self.terminal_depth() {
+            ColorDepth::Never => ColorDepth::Ansi16,
+            depth => depth,
+        };
+        match choice {
+            ColorChoice::Never => ColorDepth::Never,
+            ColorChoice::Ansi16 => ColorDepth::Ansi16,
+            ColorChoice::Ansi256 => ColorDepth::Ansi256,
+            ColorChoice::Truecolor => ColorDepth::Truecolor,
+            ColorChoice::Always => forced(),
+            ColorChoice::Auto if self.no_color => ColorDepth::Never,
+            ColorChoice::Auto if self.force => forced(),
+            ColorChoice::Auto if self.is_terminal => self.terminal_depth(),
+            ColorChoice::Auto => ColorDepth::Never,
+        }
+    }
+
+    /// What `TERM` and `COLORTERM` promise. ssh does not send `COLORTERM`, so some terminals are
+    /// known by name; GNU screen hands it on but cannot keep the promise.
+    fn terminal_depth(&self) -> ColorDepth {
+        const KNOWN: [&str; 7] =
+            ["-direct", "-truecolor", "kitty", "alacritty", "foot", "wezterm", "ghostty"];
+        let of_palette =
+            if self.term.contains("256color") { ColorDepth::Ansi256 } else { ColorDepth::Ansi16 };
+        match self.term.as_str() {
+            "" | "dumb" => ColorDepth::Never,
+            term if term.starts_with("screen") => of_palette,
+            term if self.truecolor || KNOWN.iter().any(|known| term.contains(known)) => {
+                ColorDepth::Truecolor
+            }
+            _ => of_palette,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::ColorChoice::{Always, Auto, Never};
+    use super::*;
+
+    #[test]
+    fn the_order_of_precedence() {
+        use ColorDepth::{Ansi16, Ansi256, Truecolor};
+        let none = ColorDepth::Never;
+        // Flag, `NO_COLOR`, `CLICOLOR_FORCE`, terminal, `TERM`, `COLORTERM`, and the depth.
+        let rows = [
+            // The flag rules.
+            (Never, 0, 1, 1, "xterm-256color", 1, none),
+            (ColorChoice::Ansi16, 1, 0, 0, "dumb", 0, Ansi16),
+            (ColorChoice::Ansi256, 1, 0, 0, "dumb", 0, Ansi256),
+            (ColorChoice::Truecolor, 1, 0, 1, "xterm", 0, Truecolor),
+            (Always, 1, 0, 0, "xterm-256color", 0, Ansi256),
+            (Always, 1, 0, 0, "xterm", 1, Truecolor),
+            (Always, 0, 0, 0, "", 0, Ansi16),
+            // Then NO_COLOR.
+            (Auto, 1, 1, 1, "xterm-256color", 1, none),
+            (Auto, 1, 0, 1, "xterm", 0, none),
+            (Auto, 0, 0, 1, "xterm", 0, Ansi16),
+            // Then CLICOLOR_FORCE.
+            (Auto, 0, 1, 0, "xterm-256color", 0, Ansi256),
+            (Auto, 0, 1, 0, "dumb", 0, Ansi16),
+            // Then whether there is a terminal.
+            (Auto, 0, 0, 0, "xterm-256color", 1, none),
+            // Then TERM and COLORTERM.
+            (Auto, 0, 0, 1, "", 0, none),
+            (Auto, 0, 0, 1, "dumb", 1, none),
+            (Auto, 0, 0, 1, "linux", 0, Ansi16),
+            (Auto, 0, 0, 1, "xterm-256color", 0, Ansi256),
+            (Auto, 0, 0, 1, "xterm-256color", 1, Truecolor),
+            (Auto, 0, 0, 1, "tmux-256color", 1, Truecolor),
+            (Auto, 0, 0, 1, "screen-256color", 1, Ansi256),
+            (Auto, 0, 0, 1, "screen", 1, Ansi16),
+            (Auto, 0, 0, 1, "xterm-kitty", 0, Truecolor),
+            (Auto, 0, 0, 1, "xterm-direct", 0, Truecolor),
+        ];
+        for row in rows {
+            let (choice, no_color, force, is_terminal, term, truecolor, depth) = row;
+            let surroundings = Surroundings {
+                is_terminal: is_terminal == 1,
+                no_color: no_color == 1,
+                force: force == 1,
+                term: term.to_owned(),
+                truecolor: truecolor == 1,
+            };
+            assert_eq!(surroundings.depth(choice), depth, "{row:?}");
+        }
+    }
+}

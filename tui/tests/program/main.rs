@@ -1,0 +1,12 @@
+//! The program, run as its users run it; and what of its library needs the kernel's answers.
+#![forbid(unsafe_code)]
+
+mod bad_input;
+mod output;
+mod run;
+mod scenes;
+mod shadows;
+mod structures;
+mod trace;
+mod traced;
+mod tradeoff;

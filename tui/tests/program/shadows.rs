@@ -1,0 +1,92 @@
+//! No tier sees a sphere in the shadow of itself (acne), whatever its size and place.
+
+use spherule::color::Srgb;
+use spherule::scene::{Light, Source};
+use spherule::shade::SurfacePoint;
+use spherule_kernel::{Intersect, Ray, Sphere, SphereList, Tier, Vec3};
+use spherule_tests::random::Random;
+
+/// How many shadow rays from points of spheres of this radius and place meet their own sphere,
+/// and how many were cast.
+fn acne(tier: Tier, radius: f32, place: f32) -> (u32, u32) {
+    let seed = u64::from(radius.to_bits()) << 32 | u64::from(place.to_bits());
+    let mut random = Random::seeded(seed);
+    let (mut own, mut cast) = (0, 0);
+    for _ in 0..4000 {
+        let center = place * random.in_cube(1.0);
+        let sphere = Sphere { center, radius };
+        // From up to ten radii away, towards a point of the ball.
+        let origin =
+            center + radius * (1.0 + 9.0 * random.between(-1.0, 1.0).abs()) * random.in_cube(1.0);
+        let ray = Ray::new(origin, center + radius * random.in_cube(1.0) - origin);
+        if (origin - center).length() < 1.001 * radius {
+            continue; // From inside every shadow ray meets the sphere.
+        }
+        let spheres = SphereList::from([sphere]);
+        let Some(hit) = spheres.closest_hit(tier, &ray) else { continue };
+        let point = SurfacePoint::new(&ray, hit.t, &sphere);
+        // A light anywhere above the surface, and one that grazes it.
+        let across = point.normal.cross(random.in_cube(1.0)).normalize();
+        let grazing = across + 10_f32.powf(random.between(-1.0, 1.0) * 3.0 - 3.0) * point.normal;
+        for direction in [random.in_cube(1.0), grazing] {
+            let light = Light { source: Source::Direction(direction), color: Srgb::WHITE };
+            let Some((ray, _)) = point.towards(&light) else { continue };
+            own += u32::from(spheres.any_hit(tier, &ray));
+            cast += 1;
+        }
+    }
+    (own, cast)
+}
+
+fn no_acne(tier: Tier) {
+    let mut total = 0;
+    for radius in [1e-6, 1e-3, 0.3, 1.0, 17.0, 1e4, 1e6, 4e6] {
+        for place in [0.0, 1.0, 1e3, 1e6] {
+            let (own, cast) = acne(tier, radius, place);
+            assert_eq!(own, 0, "{tier:?}: radius {radius}, place {place}, of {cast}");
+            total += cast;
+        }
+    }
+    assert!(total > 50_000, "{total}");
+}
+
+#[test]
+fn fast_has_no_acne() {
+    no_acne(Tier::Fast);
+}
+
+#[test]
+fn stable_has_no_acne() {
+    no_acne(Tier::Stable);
+}
+
+#[test]
+fn exact_has_no_acne() {
+    no_acne(Tier::Exact);
+}
+
+/// The ground of `marbles`, seen from a little above it as far as the eye reaches.
+#[test]
+fn a_huge_ground_has_no_acne() {
+    for (tier, radius) in
+        Tier::ALL.map(|tier| [1e4, 1e6, 4e6].map(|radius| (tier, radius))).concat()
+    {
+        let sphere = Sphere { center: Vec3::new(0.0, -radius, 0.0), radius };
+        let ground = SphereList::from([sphere]);
+        let mut random = Random::seeded(7);
+        let mut lit = 0;
+        for _ in 0..20_000 {
+            let (x, y) = (random.between(-1.0, 1.0), random.between(-1.0, 1.0));
+            let ray = Ray::new(Vec3::new(0.0, 2.0, 8.0), Vec3::new(x, -y.abs(), -1.0));
+            let Some(hit) = ground.closest_hit(tier, &ray) else { continue };
+            let point = SurfacePoint::new(&ray, hit.t, &sphere);
+            let source = Source::Direction(Vec3::new(-0.55, 0.9, 0.6));
+            let light = Light { source, color: Srgb::WHITE };
+            // If `Fast` errs it may see the far side of the ground, which has no light.
+            let Some((ray, _)) = point.towards(&light) else { continue };
+            assert_eq!(ground.closest_hit(tier, &ray), None, "{tier:?} {radius}");
+            lit += 1;
+        }
+        assert!(lit > 10_000);
+    }
+}
