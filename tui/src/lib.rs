@@ -17,6 +17,7 @@ pub mod scene;
 pub mod shade;
 pub mod show;
 pub mod structure;
+pub mod tally;
 pub mod terminal;
 pub mod threads;
 pub mod trace;

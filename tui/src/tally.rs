@@ -1,0 +1,159 @@
+//! What answers come to when they are held against the truth: wrong decisions, and the error of t in ulp.
+
+use spherule_kernel::Hit;
+
+/// Answers against the truth, ray by ray.
+#[derive(Clone, Debug, Default)]
+pub struct Tally {
+    counts: Summary,
+    /// The error of every right hit.
+    ulp: Vec<u64>,
+}
+
+/// What a [`Tally`] comes to, in rays.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Summary {
+    /// All rays.
+    pub rays: u64,
+    /// Rays that hit in truth.
+    pub hits: u64,
+    /// Hits that are misses in truth.
+    pub wrong_hits: u64,
+    /// Misses that are hits in truth.
+    pub wrong_misses: u64,
+    /// Hits at another place than the true one: of another sphere, or at the other root of the same.
+    pub wrong_places: u64,
+    /// Right hits whose t has the bits of the true one.
+    pub rounded: u64,
+    /// The error of t of the right hits; `None` if there are none.
+    pub ulp: Option<Ulp>,
+}
+
+/// Quantiles of errors in ulp, each an error that occurred.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Ulp {
+    /// Half of the errors do not exceed it.
+    pub median: u64,
+    /// 999 of 1000 errors do not exceed it.
+    pub p999: u64,
+    /// The largest error.
+    pub max: u64,
+}
+
+impl Tally {
+    /// Compares the closest hits of many rays, `answers[i]` with `truths[i]`.
+    pub fn of(
+        answers: impl IntoIterator<Item = Option<Hit>>,
+        truths: impl IntoIterator<Item = Option<Hit>>,
+    ) -> Self {
+        let mut tally = Self::default();
+        for (answer, truth) in answers.into_iter().zip(truths) {
+            let elsewhere = answer.zip(truth).is_some_and(|(a, b)| a.sphere != b.sphere);
+            tally.record(answer.map(|hit| hit.t), truth.map(|hit| hit.t), elsewhere);
+        }
+        tally
+    }
+
+    /// Adds one ray: the t of the answer, the t of the truth, and, if both are hits, whether they are of different
+    /// places.
+    pub fn record(&mut self, answer: Option<f32>, truth: Option<f32>, elsewhere: bool) {
+        let counts = &mut self.counts;
+        counts.rays += 1;
+        counts.hits += u64::from(truth.is_some());
+        match (answer, truth) {
+            (None, None) => {}
+            (Some(_), None) => counts.wrong_hits += 1,
+            (None, Some(_)) => counts.wrong_misses += 1,
+            (Some(_), Some(_)) if elsewhere => counts.wrong_places += 1,
+            (Some(answer), Some(truth)) => {
+                counts.rounded += u64::from(answer.to_bits() == truth.to_bits());
+                self.ulp.push(ulp_between(answer, truth));
+            }
+        }
+    }
+
+    /// Counts and quantiles of the rays so far.
+    #[must_use]
+    pub fn summary(&self) -> Summary {
+        let mut errors = self.ulp.clone();
+        errors.sort_unstable();
+        // The least error that so many thousandths of all do not exceed.
+        let quantile = |thousandths: usize| {
+            errors[(errors.len() * thousandths).div_ceil(1000).saturating_sub(1)]
+        };
+        let ulp = (!errors.is_empty()).then(|| Ulp {
+            median: quantile(500),
+            p999: quantile(999),
+            max: quantile(1000),
+        });
+        Summary { ulp, ..self.counts }
+    }
+}
+
+/// How many `f32` steps apart two numbers are, across zero too; zeros of either sign are one place.
+#[must_use]
+pub const fn ulp_between(a: f32, b: f32) -> u64 {
+    const fn place(x: f32) -> i64 {
+        let magnitude = (x.to_bits() & 0x7fff_ffff) as i64;
+        if x.is_sign_negative() { -magnitude } else { magnitude }
+    }
+    place(a).abs_diff(place(b))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn neighbours_are_one_apart() {
+        let tiny = f32::from_bits(1);
+        for (a, b, apart) in [
+            (1.0, 1.0, 0),
+            (1.0, 1.0 + f32::EPSILON, 1),
+            (1.0, 1.0 - f32::EPSILON / 2.0, 1),
+            (1.0_f32.next_down(), 1.0_f32.next_up(), 2),
+            (0.0, -0.0, 0),
+            (0.0, tiny, 1),
+            (-tiny, tiny, 2),
+            (f32::MIN_POSITIVE, f32::from_bits(0x007f_ffff), 1),
+            (f32::MAX, f32::INFINITY, 1),
+            (1.0, 2.0, 1 << 23),
+            (-1.0, 1.0, 2 * 0x3f80_0000),
+        ] {
+            assert_eq!(ulp_between(a, b), apart, "{a:e} {b:e}");
+            assert_eq!(ulp_between(b, a), apart, "{b:e} {a:e}");
+        }
+    }
+
+    #[test]
+    fn wrong_decisions_are_counted_by_their_kind() {
+        let hit = |t, sphere| Some(Hit { t, sphere });
+        let answers =
+            [None, hit(1.0, 0), None, hit(1.0, 2), hit(1.0, 3), hit(1.0_f32.next_up(), 3)];
+        let truths = [None, None, hit(1.0, 0), hit(1.0, 3), hit(1.0, 3), hit(1.0, 3)];
+        let expected = Summary {
+            rays: 6,
+            hits: 4,
+            wrong_hits: 1,
+            wrong_misses: 1,
+            wrong_places: 1,
+            rounded: 1,
+            ulp: Some(Ulp { median: 0, p999: 1, max: 1 }),
+        };
+        assert_eq!(Tally::of(answers, truths).summary(), expected);
+    }
+
+    #[test]
+    fn quantiles_are_errors_that_occurred() {
+        let ulp = |count: u32| {
+            let mut tally = Tally::default();
+            for error in 0..count {
+                tally.record(Some(f32::from_bits(1.0_f32.to_bits() + error)), Some(1.0), false);
+            }
+            tally.summary().ulp
+        };
+        assert_eq!(ulp(0), None);
+        assert_eq!(ulp(1), Some(Ulp::default()));
+        assert_eq!(ulp(2000), Some(Ulp { median: 999, p999: 1997, max: 1999 }));
+    }
+}
