@@ -17,39 +17,10 @@
 //! kappa (|c|^2 + r^2), once a sphere, and |o|^2 lowered by kappa |o|^2, once a ray, so that the bound
 //! costs the loop no operation, and a huge or far sphere widens no bound but its own.
 //!
-//! # Why nothing is dropped
-//!
-//! u = 2^-24; C = |c|, O = |o|, both as rounded; first order in u throughout (the second order is
-//! below 1e-5 of it, and covered by rounding 98 up to 104). Roundings are counted as if nothing
-//! were fused: fusing removes some. In the reals over the given numbers, D/a = r^2 - l^2, with l
-//! the distance of the line from the centre.
-//!
-//! | step | error of D/a at most, in u |
-//! |---|---|
-//! | c, o rounded: p moves by u (C + O), l^2 by 2 (C + O) u (C + O) | 4 C^2 + 4 O^2 |
-//! | unit d: 1.5u (a) + 1u (root) + 1u (division) + 1u (product) = 4.5u of b; b <= C + O | 18 C^2 + 18 O^2 |
-//! | b = d.c - e: 3u (e) + 3u, times O; 4u, times C; then 2 b | 18 C^2 + 22 O^2 |
-//! | w: 5 C^2 + 4 r^2; f.c: 4 (2 O C); three sums of w | 12 C^2 + 4 O^2 + 7 r^2 |
-//! | b^2 and its difference with the rest | 6 C^2 + 5 O^2 + r^2 |
-//! | the threshold: \|o\|^2 3u, the widening 2u | 5 O^2 |
-//! | **the filter** | **58 C^2 + 58 O^2 + 8 r^2** |
-//! | `Fast` calls it a hit at D/a >= -(20 \|p\|^2 + 10 r^2), \|p\|^2 <= 2 (C^2 + O^2) | 40 C^2 + 40 O^2 + 10 r^2 |
-//! | **together** | **98 C^2 + 98 O^2 + 18 r^2** |
-//!
-//! The row of `Fast`: p 1u, so b 4u |p| and |p|^2 6u; b^2 8u + 1u, the product a c 3u (a) + 6u + 1u,
-//! their difference 1u, all times |p|^2 a; r^2 1u, its difference with |p|^2 3u, and the same
-//! 3u + 1u + 1u. `Stable` errs less: its first discriminant, within 26 |q|^2 + 10 r^2 with
-//! |q| <= |p|, is believed only where it exceeds 2^-5 (|q|^2 + r^2), and its second is within
-//! 2^-40 (|p|^2 + r^2). Hence kappa = 104 u: a tier's hit passes.
-//!
-//! The table holds where the filter neither over- nor underflows, and `Fast` does not underflow
-//! (where it overflows it finds no finite t). That is so for |centre|, r, |K|, |origin| up to 2^40
-//! and a in [2^-60, 2^100]: the filter's squares stay below 2^84; what underflows in its smallest
-//! is below 2^-148, and kappa times the least |c|^2 + r^2 that is counted, 2^-60, above 2^-78; what
-//! underflows in the D of `Fast` is below 2^-148, and a times that above 2^-138. A sphere outside
-//! that range passes always (w = +inf), as does a ray (threshold -inf); an invalid sphere never
-//! does, and an inactive ray only beside a sphere out of range. Within those rules no NaN can
-//! arise, so the maximum of four means what it says.
+//! The bound, kappa = 104 u, and the sizes for which it holds, are proven in `docs/numerics.md`;
+//! `filter/worst.rs` climbs towards it. A sphere outside of those sizes passes always (w = +inf), as does a
+//! ray (threshold -inf); an invalid sphere never does, and an inactive ray only beside a sphere out of
+//! range. Within those rules no NaN can arise, so the maximum of four means what it says.
 
 use crate::accuracy::RayLanes;
 use crate::geometry::sphere::{Sphere, Spheres};

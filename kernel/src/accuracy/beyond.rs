@@ -32,13 +32,7 @@ impl<L: Lanes> Beyond<L> {
 
     /// Where both roots are surely larger than `limit`.
     ///
-    /// Of the entry, b is within 4v |d| |p|, v = 2^-24. Of a component of d x p the error is 3v of its
-    /// two products, so that of |d x p|^2 below 25v of (|d| |p|_1)^2; a r^2 is within 5v of itself, the
-    /// difference adds 1v: together below the 64v of size^2, size = |d| (|p|_1 + r), by which D is
-    /// raised; what underflows in it is below 2^-145, and 2^-120 is added. The root, the product
-    /// limit a and the differences are within 8v of themselves. So the margin is 16v of the sum of
-    /// size and |limit a|, and 2^-120 again. What overflows makes the entry or the margin infinite or
-    /// NaN: not told.
+    /// The margin is proven in `docs/numerics.md`. What overflows is not told.
     #[inline(always)]
     pub(super) fn limit(&self, rays: &RayLanes<L>, center: [L; 3], radius: L, limit: L) -> L::Mask {
         let bounded = limit.lt(limit.like(f32::INFINITY));

@@ -9,32 +9,7 @@
 //! start on the surface - go one by one through [`Quadratic`], which is always right. So is, then,
 //! every lane: the bound decides what is spent, never what is answered.
 //!
-//! # The bound
-//!
-//! u = 2^-53, first order; every constant below is rounded up by at least an eighth, which covers
-//! the second order, the rounding of the bound itself, and that it is computed from rounded
-//! quantities. The inputs are `f32`, so products of two of them are exact, and nothing over- or
-//! underflows (the table in `exact/quadratic.rs`). G = |d|_1 |p|_1, X = |d x p|_1,
-//! L = |d x p|^2, A = a r^2.
-//!
-//! | quantity | error at most |
-//! |---|---|
-//! | p | u, relative |
-//! | x_k = d_i p_j - d_j p_i; M_k = \|d_i p_j\| + \|d_j p_i\|, sum of M at most G | 1u (p) + 1u (product) + 1u (difference) = 3u M_k |
-//! | L, from x | 2 * 3u X G + (3u)^2 G^2 |
-//! | L, squares and sums | 3u L |
-//! | A: two sums, one product | 3u A |
-//! | D = A - L | u (A + L) |
-//! | **D, together** | 4u (A + L) + 6u X G + 9u^2 G^2, of computed X: + 18u^2 G^2; **E = 5u (A + L) + 8u X G + 32u^2 G^2** |
-//! | sqrt D, where D > E | E / sqrt D + u sqrt D |
-//! | b = d.p | 4u G |
-//! | n = b -+ sqrt D | 4u G + E / sqrt D + u sqrt D + u \|n\| |
-//! | 1/a = sqrt D * i, i = 1 / (a sqrt D): one division serves E / (a sqrt D) too | 2u (a) + 1u + 1u + 1u, relative |
-//! | t = n / a | the error of n over a, + 5u \|t\| + u \|t\| (product) |
-//! | t -+ the bound, in `f64` | u \|t\| |
-//! | **t, together** | **T = (5u G + 2u sqrt D) / a + E i + 11u \|t\|** |
-//!
-//! E enters T with its own slack of an eighth, which covers the 5u of E i.
+//! The bound is proven in `docs/numerics.md`; `exact/estimate/worst.rs` climbs towards it.
 
 mod estimate;
 

@@ -37,7 +37,7 @@ use crate::{LaneMask, Lanes, Ray, Sphere};
 ///
 /// Domain: r and |p| (p the centre less the origin) zero or within [2^-40, 2^40]; any direction
 /// whose largest component is a normal number. Inside it, for distance/r up to 1e6: decisions
-/// right but for tangents closer than some 2^-40 r; t within a few ulp where the ray starts a radius
+/// right except for tangents closer than some 2^-40 r; t within a few ulp where the ray starts a radius
 /// or more from the surface (4 is the most that is measured), nearer than that within 2^-17 r of
 /// distance. Outside it: answers in the same bits on every target, but no promise. The measured
 /// figures stand in the budget table of the tests.
@@ -150,7 +150,7 @@ const GRAZING: f32 = 1.0 / 32.0;
 /// A root this small beside half the chord is computed again.
 const CANCELLED: f32 = 1.0 / 8.0;
 
-/// Moves from p - steps on by `offset` d, to the closest point but for some 2^-45 of |p|, and
+/// Moves from p - steps on by `offset` d, to the closest point except some 2^-45 of |p|, and
 /// solves there: the new offset from the middle, and the discriminant.
 #[inline(always)]
 fn about_closest_point<L: Lanes>(

@@ -16,26 +16,8 @@
 //! m = t1  iff f = 0 and g <= 0       m = t2  iff f = 0 and g >= 0
 //! ```
 //!
-//! # Why the expansions are exact
-//!
-//! A finite `f32` is k 2^-149 with |k| < 2^277, so that
-//!
-//! | quantity | a multiple of | magnitude below | terms |
-//! |---|---|---|---|
-//! | d c, d o, d^2, r^2: products of two `f32`, 48 bits, one double each | 2^-298 | 2^256 | 1 |
-//! | a component of d x p = d x c - d x o: four such products | 2^-298 | 2^258 | 4 |
-//! | D: three squares of four terms, and three products d^2 r^2 | 2^-596 | 2^520 | 3 * 20 + 3 * 2 = 66 |
-//! | b = d.c - d.o | 2^-298 | 2^259 | 6 |
-//! | a component of p | 2^-149 | 2^129 | 2 |
-//! | k: three squares of two terms, and r^2 | 2^-298 | 2^261 | 3 * 6 + 1 = 19 |
-//! | m, a midpoint of neighbours: 25 bits; m d, 49 bits | 2^-150; 2^-299 | 2^128; 2^256 | 1 |
-//! | a component of v = m d - c + o | 2^-299 | 2^257 | 3 |
-//! | f: three squares of three terms, and r^2 | 2^-598 | 2^517 | 3 * 12 + 1 = 37 |
-//! | g: nine products | 2^-448 | 2^387 | 18 |
-//!
-//! All partial results are multiples of the same unit and bounded alike, so none leaves the range
-//! of normal doubles, [2^-1022, 2^1024), and Veltkamp's splitting, which multiplies by 2^27 + 1,
-//! does not either.
+//! Every partial result is a multiple of 2^-598 and below 2^520, so no double over- or underflows:
+//! `docs/numerics.md` counts the terms and exponents.
 
 use super::expansion::{Expansion, Float};
 use core::cmp::Ordering;
@@ -63,7 +45,7 @@ pub(crate) struct Quadratic<F> {
 }
 
 impl<F: Float> Quadratic<F> {
-    /// Nothing where the line misses the sphere; a tangent does not.
+    /// `None` if the line misses the sphere; a tangent does not miss it.
     ///
     /// Domain: a valid ray and a valid sphere. Anything else returns too, with no meaning.
     pub(crate) fn new(
@@ -113,7 +95,7 @@ impl<F: Float> Quadratic<F> {
         self.center.into_iter().zip(self.origin).map(|(c, o)| (exactly(c), exactly(o)))
     }
 
-    /// D = a r^2 - |d x p|^2, estimated; nothing where it is negative.
+    /// D = a r^2 - |d x p|^2, estimated; `None` if it is negative.
     #[inline(never)]
     fn discriminant(&self) -> Option<f64> {
         let mut sum = Expansion::<F, 66>::zero();

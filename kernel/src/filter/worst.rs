@@ -42,7 +42,7 @@ fn with_filter<R>(
     ask(&FilterRays::widened((), &rays, &block, kappa), &block)
 }
 
-/// The kappa that the case needs, over KAPPA; nothing where the tier sees no hit.
+/// The kappa that the case needs, over KAPPA; `-inf` if the tier sees no hit.
 fn needed<A: TierFormula>(numbers: &Numbers) -> f64 {
     let (line, sphere, _) = case(numbers);
     if roots(A::TIER, &line, &sphere).is_none() {

@@ -50,7 +50,7 @@ impl From<(Vec3, f32)> for Sphere {
 /// A list of spheres in the caller's memory, coordinate by coordinate.
 ///
 /// Sphere `i` is `(x[i], y[i], z[i])` with radius `r[i]`, and `i` is the index that a hit names.
-/// No padding or alignment is asked for.
+/// No padding or alignment is needed.
 #[derive(Clone, Copy, Debug)]
 pub struct Spheres<'a> {
     x: &'a [f32],

@@ -28,7 +28,7 @@ pub(super) struct Part {
     pub(super) first: usize,
     pub(super) leaves: usize,
     pub(super) bounds: Bounds,
-    /// What a ray pays here, but for a constant; nothing for a leaf.
+    /// What a ray pays here, except a constant; nothing for a leaf.
     cost: f32,
     /// Whether its leaves become children of the node itself.
     opened: bool,

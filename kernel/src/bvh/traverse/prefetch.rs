@@ -3,7 +3,7 @@
 //! Rays in flight look into nodes and leaves all over the tree, one after the other, and each
 //! has several lines of memory. Before they do, one number of every line is read, for all rays: then
 //! all lines are on their way at once, and the latency is paid once a round, not once a ray. (A
-//! million spheres, incoherent rays: 1.2 times as fast for the nearest hit, 1.3 times for any. An
+//! million spheres, incoherent rays: 1.2 times as fast for the closest hit, 1.3 times for any. An
 //! instruction for it would do the same and need `unsafe`.)
 
 use crate::bvh::node::{BvhLeaf, BvhNode};
@@ -28,7 +28,7 @@ pub(crate) fn node(node: &BvhNode) -> u32 {
     bits
 }
 
-/// The same of a leaf, but for the indices, which few rays need.
+/// The same of a leaf, except the indices, which few rays need.
 #[inline(always)]
 pub(crate) fn leaf(leaf: &BvhLeaf) -> u32 {
     let mut bits = leaf.radius[0].to_bits();
