@@ -28,11 +28,6 @@ fn error(text: &str) -> String {
     read(text, "s.toml").expect_err(text).to_string()
 }
 
-/// A scene with `line` as the sphere's second.
-fn sphere_error(line: &str) -> String {
-    error(&format!("[[sphere]]\n{line}\n"))
-}
-
 #[test]
 fn everything_that_can_be_said() {
     let scene = read(EVERYTHING, "s.toml").expect("a scene");
@@ -67,68 +62,56 @@ fn a_parallel_camera_has_a_height() {
 }
 
 #[test]
-fn wrong_types_and_keys_have_a_line_and_a_column() {
-    assert!(error("shadows = 1\n").starts_with("s.toml:1:11: invalid type"));
-    assert!(error("\nshadow = true\n").starts_with("s.toml:2:1: unknown field `shadow`"));
-    assert!(sphere_error("radius = \"big\"").starts_with("s.toml:2:10: invalid type"));
-    assert!(sphere_error("center = [0, 0]\nradius = 1").starts_with("s.toml:2:10: "));
-    assert!(sphere_error("colour = \"#ffffff\"").starts_with("s.toml:2:1: unknown field"));
-    assert!(sphere_error("center = [0, 0, 0]").contains("missing field `radius`"));
-    assert!(error("é = [[[\n").starts_with("s.toml:1:"));
-    for text in ["shadows = 1\n", "[[sphere]\n", "a = \"\"\"\n", "\u{0}"] {
+fn every_mistake_has_a_line_and_a_column() {
+    let sphere = |lines: &str| format!("[[sphere]]\n{lines}\n");
+    let light =
+        |lines: &str| format!("[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n[[light]]\n{lines}\n");
+    let camera = |lines: &str| {
+        let first = "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n[camera]\neye = [0, 0, 5]\n";
+        format!("{first}{lines}\n")
+    };
+    let radius = |value: &str| sphere(&format!("center = [0, 0, 0]\nradius = {value}"));
+    let target = |line: &str| camera(&format!("target = [0, 0, 0]\n{line}"));
+    for (text, message) in [
+        ("shadows = 1\n".to_owned(), "1:11: invalid type"),
+        ("\nshadow = true\n".to_owned(), "2:1: unknown field `shadow`"),
+        ("é = [[[\n".to_owned(), "1:"),
+        (sphere("radius = \"big\""), "2:10: invalid type"),
+        (sphere("center = [0, 0]\nradius = 1"), "2:10: "),
+        (sphere("colour = \"#ffffff\""), "2:1: unknown field"),
+        (radius("-1.0"), "3:10: radius is -1: negative"),
+        (radius("nan"), "3:10: radius is NaN: not finite in single precision"),
+        (radius("inf"), "3:10: radius is inf: not finite in single precision"),
+        (radius("-inf"), "3:10: radius is -inf"),
+        (radius("1e39"), "3:10: radius is 1000"),
+        (
+            sphere("center = [0, 1, nan]\nradius = 1"),
+            "2:17: center is NaN: not finite in single precision",
+        ),
+        (
+            sphere("center = [0, 0, 0]\nradius = 1\ncolor = \"red\""),
+            "4:9: \"red\" is no colour: write \"#rrggbb\"",
+        ),
+        (light(""), "4:1: a light has a direction or a position"),
+        (light("direction = [1, 0, 0]\nposition = [1, 0, 0]"), "4:1: "),
+        (light("direction = [0, 0, 0]"), "5:13: direction has no direction"),
+        (camera("target = [0, 0, 5]"), "6:10: the camera's target"),
+        (target("fov = 180"), "7:7: fov is 180"),
+        (target("up = [0, 0, 0]"), "7:6: up has no"),
+        (target("projection = \"fish\""), "7:14: unknown"),
+    ] {
+        let found = error(&text);
+        assert!(found.starts_with(&format!("s.toml:{message}")), "{text}: {found}");
+        assert_eq!(found.lines().count(), 1, "{text}");
+    }
+    assert!(error(&sphere("center = [0, 0, 0]")).contains("missing field `radius`"));
+    for text in ["[[sphere]\n", "a = \"\"\"\n", "\u{0}"] {
         assert_eq!(error(text).lines().count(), 1, "{text}");
     }
-}
-
-#[test]
-fn a_radius_is_finite_and_not_negative() {
-    let radius = |value| sphere_error(&format!("center = [0, 0, 0]\nradius = {value}"));
-    assert_eq!(radius("-1.0"), "s.toml:3:10: radius is -1: negative");
-    assert_eq!(radius("nan"), "s.toml:3:10: radius is NaN: not finite in single precision");
-    assert_eq!(radius("inf"), "s.toml:3:10: radius is inf: not finite in single precision");
-    assert!(radius("-inf").starts_with("s.toml:3:10: radius is -inf"));
-    assert!(radius("1e39").starts_with("s.toml:3:10: radius is 1000"));
-}
-
-#[test]
-fn a_centre_is_finite() {
-    let center = sphere_error("center = [0, 1, nan]\nradius = 1");
-    assert_eq!(center, "s.toml:2:17: center is NaN: not finite in single precision");
-}
-
-#[test]
-fn colours_are_written_in_six_digits() {
-    let color = sphere_error("center = [0, 0, 0]\nradius = 1\ncolor = \"red\"");
-    assert_eq!(color, "s.toml:4:9: \"red\" is no colour: write \"#rrggbb\"");
 }
 
 #[test]
 fn a_scene_is_not_empty() {
     assert_eq!(error(""), "s.toml: an empty scene: at least one [[sphere]]");
     assert!(error("sphere = []\n").ends_with("at least one [[sphere]]"));
-}
-
-#[test]
-fn a_light_comes_from_somewhere() {
-    let light = |body: &str| {
-        error(&format!("[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n[[light]]\n{body}\n"))
-    };
-    assert!(light("").starts_with("s.toml:4:1: a light has a direction or a position"));
-    assert!(light("direction = [1, 0, 0]\nposition = [1, 0, 0]").starts_with("s.toml:4:1: "));
-    assert!(light("direction = [0, 0, 0]").starts_with("s.toml:5:13: direction has no direction"));
-}
-
-#[test]
-fn a_camera_sees() {
-    let camera = |line: &str| {
-        error(&format!(
-            "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n[camera]\neye = [0, 0, 5]\n{line}\n"
-        ))
-    };
-    assert!(camera("target = [0, 0, 5]").starts_with("s.toml:6:10: the camera's target"));
-    assert!(camera("target = [0, 0, 0]\nfov = 180").starts_with("s.toml:7:7: fov is 180"));
-    assert!(camera("target = [0, 0, 0]\nup = [0, 0, 0]").starts_with("s.toml:7:6: up has no"));
-    assert!(
-        camera("target = [0, 0, 0]\nprojection = \"fish\"").starts_with("s.toml:7:14: unknown")
-    );
 }
