@@ -19,15 +19,15 @@ use crate::slices;
 use crate::structures::Traverse;
 use crate::trace::Trace;
 
-/// Spheres that rays are intersected with: [`Spheres`] tests every ray against every sphere; a
-/// [`Bvh`] is for many spheres; a [`DepthList`] for rays of a common origin or direction, without a tree.
+/// Spheres that rays are intersected with: [`Spheres`](crate::Spheres) tests every ray against every
+/// sphere; a [`Bvh`](crate::Bvh) is for many spheres; a [`DepthList`](crate::DepthList) for rays of a common origin or direction, without a tree.
 /// `SphereList` and `SphereTree` own what `Spheres` and `Bvh` borrow.
 ///
 /// # Guarantee
 ///
 /// The closest hit is the smallest accepted t, and among equals the lowest index; t counts in multiples of
-/// each ray's own direction. Every structure returns bit for bit what [`Spheres`] returns ([`Bvh`] and
-/// [`DepthList`] say what that means for `Fast`, and for `Stable` outside its domain), at every level, in
+/// each ray's own direction. Every structure returns bit for bit what the list returns (`Bvh` and
+/// `DepthList` say what that means for `Fast`, and for `Stable` outside its domain), at every level, in
 /// every lane width, alone or beside any other ray. [`any_hit`](Intersect::any_hit) is true exactly if there
 /// is a closest hit, and cheaper, since a ray that has hit something is done.
 ///

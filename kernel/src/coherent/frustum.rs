@@ -17,6 +17,7 @@
 use crate::bvh::node::{BvhNode, WIDTH};
 use crate::bvh::traverse::root_interval::SphereColumns;
 use crate::lanes::{LaneArray, LaneMask, Lanes};
+use crate::numeric::axes::axes;
 use crate::numeric::rounding::U;
 
 /// A line that bounds x_i in terms of x_k: `slope * x_k + offset`.
@@ -73,13 +74,19 @@ pub(super) fn across(along: usize) -> [usize; 2] {
 impl Sides {
     pub(super) const NONE: Self = Self { along: 0, lines: [[Line::NONE; 2]; 2] };
 
-    /// Which of sixteen spheres may be between the planes.
+    /// Which of sixteen spheres may be between the planes; each counts as larger by `spread` times its
+    /// distance.
     #[inline(always)]
-    pub(super) fn look<L: Lanes>(&self, token: L::Token, spheres: &SphereColumns<'_>) -> u32 {
+    pub(super) fn look<L: Lanes>(
+        &self,
+        token: L::Token,
+        spheres: &SphereColumns<'_>,
+        spread: f32,
+    ) -> u32 {
         let k = self.along % 3;
         let mut places = 0;
         for part in 0..WIDTH / L::COUNT {
-            let radius = L::load_part(token, spheres.radius, part);
+            let radius = spread_radius::<L>(token, spheres, part, spread);
             let along = L::load_part(token, spheres.center[k], part);
             let mut met = L::splat(token, 0.0).le(radius);
             let axes = across(k);
@@ -152,19 +159,40 @@ impl Frustum {
         }
     }
 
-    /// Which of sixteen spheres may be hit.
+    /// Which of sixteen spheres may be hit; each counts as larger by `spread` times its distance.
     #[inline(always)]
-    pub(super) fn look<L: Lanes>(&self, token: L::Token, spheres: &SphereColumns<'_>) -> u32 {
+    pub(super) fn look<L: Lanes>(
+        &self,
+        token: L::Token,
+        spheres: &SphereColumns<'_>,
+        spread: f32,
+    ) -> u32 {
         let sign = L::splat(token, self.sign);
         let (start, end) = (L::splat(token, self.start), L::splat(token, self.end));
         let mut places = 0;
         for part in 0..WIDTH / L::COUNT {
-            let radius = L::load_part(token, spheres.radius, part);
+            let radius = spread_radius::<L>(token, spheres, part, spread);
             let radius = radius * radius.like(LARGER);
             let depth = L::load_part(token, spheres.center[self.sides.along % 3], part) * sign;
             let met = (depth - radius).le(end) & start.le(depth + radius);
             places |= met.bits() << (part * L::COUNT);
         }
-        places & self.sides.look::<L>(token, spheres)
+        places & self.sides.look::<L>(token, spheres, spread)
     }
+}
+
+/// The radii of part `part` of sixteen spheres, each larger by `spread` times the distance.
+#[inline(always)]
+fn spread_radius<L: Lanes>(
+    token: L::Token,
+    spheres: &SphereColumns<'_>,
+    part: usize,
+    spread: f32,
+) -> L {
+    let radius = L::load_part(token, spheres.radius, part);
+    if spread == 0.0 {
+        return radius;
+    }
+    let [x, y, z] = axes!(i => L::load_part(token, spheres.center[i], part).abs());
+    (x + y + z + radius).filter_mul_add(radius.like(spread), radius)
 }

@@ -156,7 +156,7 @@ impl ListSource<'_> {
                 let block = (number as u32, &spheres, depth);
                 number += 1;
                 // What lies before the rays is left out of short lists already.
-                let places = frustum.sides.look::<L>(token, &spheres);
+                let places = frustum.sides.look::<L>(token, &spheres, tier.spread());
                 if places == 0 {
                     continue;
                 }
@@ -165,7 +165,7 @@ impl ListSource<'_> {
                     self,
                     states,
                     block,
-                    places,
+                    (places, tier.spread()),
                     #[inline(always)]
                     |state| self.depth_of(state, slack),
                     &mut reach,

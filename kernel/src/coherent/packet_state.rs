@@ -249,14 +249,15 @@ impl<'a, L: Lanes> PacketState<'a, L> {
     }
 }
 
-/// Tests sixteen spheres, those in `places`, from `depth` on, with every packet that goes there; `end` becomes the greatest depth that any of them still goes to, if that changes.
+/// Tests sixteen spheres, those in `places`, from `depth` on, with every packet that goes there and whose
+/// planes, for spheres that are larger by `spread`, leave them in; `end` becomes the greatest depth that any of them still goes to, if that changes.
 #[inline(always)]
 pub(super) fn meet_block<L: Lanes, Q: Query>(
     tier: impl Accuracy,
     source: &impl SphereSource,
     states: &mut [PacketState<'_, L>],
     (number, spheres, depth): (u32, &SphereColumns<'_>, f32),
-    places: u32,
+    (places, spread): (u32, f32),
     depth_of: impl Fn(&PacketState<'_, L>) -> f32,
     end: &mut f32,
 ) {
@@ -266,7 +267,7 @@ pub(super) fn meet_block<L: Lanes, Q: Query>(
         if depth > state.depth {
             continue;
         }
-        let mut places = places & state.sides.look::<L>(state.token(), spheres);
+        let mut places = places & state.sides.look::<L>(state.token(), spheres, spread);
         let mut changed = false;
         while places != 0 {
             let place = places.trailing_zeros() as usize;

@@ -16,6 +16,8 @@ pub(super) struct Survey {
     /// What their rays cannot leave, and the greatest depth of the list that one goes to.
     pub(super) frustum: Frustum,
     pub(super) reach: f32,
+    /// Of the tier.
+    pub(super) spread: f32,
 }
 
 /// How deep the rays of a packet go, raised by the margin: their s beyond that at which they start.
@@ -100,6 +102,6 @@ impl Survey {
             end: f32::INFINITY,
         };
         let reach = reach.filter_greatest() + spread_of(spread, extent, error);
-        Self { packets, frustum, reach }
+        Self { packets, frustum, reach, spread }
     }
 }

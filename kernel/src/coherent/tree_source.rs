@@ -171,7 +171,7 @@ impl Boxes {
             let number = child & !LEAF;
             let Some(leaf) = bvh.leaves.get(number as usize) else { continue };
             let (spheres, mut end) = (leaf.columns(), frustum.end);
-            let places = frustum.look::<L>(token, &spheres);
+            let places = frustum.look::<L>(token, &spheres, 0.0);
             if places == 0 {
                 continue;
             }
@@ -180,7 +180,7 @@ impl Boxes {
                 bvh,
                 states,
                 (number, &spheres, depth),
-                places,
+                (places, 0.0),
                 #[inline(always)]
                 |state| fit.end(core::slice::from_ref(state)),
                 &mut end,
