@@ -65,9 +65,10 @@ pub trait Intersect: Traverse {
     /// assert_eq!(hit.map(|hit| hit.t), Some(4.0));
     /// ```
     fn closest_hit(&self, tier: impl Accuracy, ray: &Ray) -> Option<Hit> {
-        let mut hit = [None];
-        self.closest_hits(tier, core::slice::from_ref(ray), &mut hit);
-        hit[0]
+        let mut hits = [HitPacket::none()];
+        let rays = [RayPacket::new(core::slice::from_ref(ray))];
+        self.closest_hit_packets(tier, &mut Trace::new(), &rays, &mut hits);
+        hits[0].hit(0)
     }
 
     /// Whether one ray hits anything: a slice of one.
@@ -81,9 +82,10 @@ pub trait Intersect: Traverse {
     /// assert!(!spheres.any_hit(Exact, &Ray { t_max: 3.9, ..ray }));
     /// ```
     fn any_hit(&self, tier: impl Accuracy, ray: &Ray) -> bool {
-        let mut hit = [false];
-        self.any_hits(tier, core::slice::from_ref(ray), &mut hit);
-        hit[0]
+        let mut met = [0];
+        let rays = [RayPacket::new(core::slice::from_ref(ray))];
+        self.any_hit_packets(tier, &mut Trace::new(), &rays, &mut met);
+        met[0] & 1 == 1
     }
 
     /// The closest hit of every ray: `hits[i]` becomes what `rays[i]` hits, `None` if that is nothing.

@@ -50,6 +50,18 @@ mod sealed {
         fn limit<A: LaneArray>(packet: &Self::Packet<A>, lane: usize) -> f32;
         /// The answers of t, `+inf` if there is no hit, and indices, as bits.
         fn from_lanes<L: Lanes>(t: L, sphere: L) -> Self::Packet<L::Array>;
+        /// The answers of rays that were packed one after the other. Not generic, so that it is compiled
+        /// with this crate: in a user's dev build it took longer than the rays.
+        fn unpack(packets: &[Self::Packet<[f32; 16]>], answers: &mut [Self::One]);
+    }
+}
+
+#[inline(always)]
+fn unpack<Q: Answers>(packets: &[Q::Packet<[f32; 16]>], answers: &mut [Q::One]) {
+    for (packet, answers) in packets.iter().zip(answers.chunks_mut(16)) {
+        for (lane, answer) in answers.iter_mut().enumerate() {
+            *answer = Q::one(packet, lane);
+        }
     }
 }
 
@@ -119,6 +131,11 @@ impl Answers for ClosestHit {
         }
         hits
     }
+
+    #[inline(never)]
+    fn unpack(packets: &[HitPacket], answers: &mut [Option<Hit>]) {
+        unpack::<Self>(packets, answers);
+    }
 }
 
 impl Answers for AnyHit {
@@ -165,5 +182,10 @@ impl Answers for AnyHit {
     #[inline(always)]
     fn from_lanes<L: Lanes>(t: L, _: L) -> u32 {
         t.lt(t.like(f32::INFINITY)).bits()
+    }
+
+    #[inline(never)]
+    fn unpack(packets: &[u32], answers: &mut [bool]) {
+        unpack::<Self>(packets, answers);
     }
 }

@@ -28,11 +28,8 @@ pub(crate) fn traverse<S: Traverse + ?Sized, Q: LevelQuery>(
     for (rays, answers) in rays.chunks(AT_ONCE).zip(answers.chunks_mut(AT_ONCE)) {
         let packed = RayPacket::pack(rays, &mut packets);
         structure.in_packets::<Q>(tier, trace, packed, &mut answered);
-        for (place, answer) in answers.iter_mut().take(rays.len()).enumerate() {
-            if let Some(packet) = answered.get(place / RayPacket::COUNT) {
-                *answer = Q::one(packet, place % RayPacket::COUNT);
-            }
-        }
+        let count = rays.len().min(answers.len());
+        Q::unpack(&answered, answers.get_mut(..count).unwrap_or_default());
     }
 }
 
