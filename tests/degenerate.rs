@@ -1,13 +1,13 @@
-//! Each degenerate input by its name, in every tier, lane width, lane and door.
+//! Each degenerate input by its name, in every variant and every lane.
 //!
 //! The numbers are small integers, so that every tier computes the roots exactly, and what is
 //! tested is how they are judged.
 
-use spherule_kernel::{Ray, Sphere, Vec3};
+use spherule_kernel::{Ray, Sphere, Tier, Vec3, Viewpoint, roots};
 use spherule_tests::case::Case;
-use spherule_tests::doors::{DOORS, Door};
 use spherule_tests::inputs::SPECIALS;
 use spherule_tests::oracle;
+use spherule_tests::variants::{Memory, Storey, pair_storeys, pairs_of, variants};
 
 const NAN: f32 = f32::NAN;
 const INF: f32 = f32::INFINITY;
@@ -25,31 +25,35 @@ fn straight(change: impl Fn(&mut Ray, &mut Sphere)) -> Case {
     case
 }
 
-/// The case has this answer in every lane of every door, beside lanes that hit and lanes that
+/// The case has this answer in every lane of every variant, beside lanes that hit and lanes that
 /// are full of NaN; and the oracle agrees that it should.
 fn answers(case: &Case, expected: Option<f32>) {
     assert_eq!(oracle::intersect(&case.ray, &case.sphere), expected, "the oracle: {case:?}");
     let bits = expected.map(f32::to_bits);
     let poison = Case::from_numbers([NAN; Case::NUMBERS]);
-    for door in DOORS {
+    Memory::new(&[case.sphere]).sorted(Viewpoint::Origin(case.ray.origin), |structures| {
         for neighbour in [STRAIGHT, poison] {
-            for lane in 0..door.lanes {
-                let mut cases = vec![neighbour; door.lanes];
+            for lane in 0..16 {
+                let mut cases = [neighbour; 16];
                 cases[lane] = *case;
-                let rays: Vec<Ray> = cases.iter().map(|case| case.ray).collect();
-                let Door { tier, lanes, .. } = door;
-                let place = format!("{tier}, lane {lane} of {lanes}: {case:?}");
-
-                let t = (door.pairs)(&cases)[lane];
-                assert_eq!(t.map(f32::to_bits), bits, "pairs, {place}");
-                let hit = (door.nearest)(&rays, &[case.sphere])[lane];
-                assert_eq!(hit.map(|hit| hit.t.to_bits()), bits, "nearest, {place}");
-                assert!(hit.is_none_or(|hit| hit.sphere == 0), "nearest, {place}");
-                let met = (door.any)(&rays, &[case.sphere])[lane];
-                assert_eq!(met, expected.is_some(), "any, {place}");
+                let rays = cases.map(|case| case.ray);
+                for variant in variants().filter(|variant| lane < variant.storey.lanes()) {
+                    let place = format!("{variant:?}, lane {lane}: {case:?}");
+                    let answers = variant.ask(structures, &rays);
+                    let (hit, met) = (answers.hits[lane], answers.met[lane]);
+                    assert_eq!(hit.map(|hit| hit.t.to_bits()), bits, "closest, {place}");
+                    assert!(hit.is_none_or(|hit| hit.sphere == 0), "closest, {place}");
+                    assert_eq!(met, expected.is_some(), "any, {place}");
+                }
+                for storey in pair_storeys().filter(|storey| lane < storey.lanes()) {
+                    for tier in Tier::ALL {
+                        let t = pairs_of(tier, storey, &cases)[lane];
+                        assert_eq!(t.map(f32::to_bits), bits, "{tier:?}, {storey:?}: {case:?}");
+                    }
+                }
             }
         }
-    }
+    });
 }
 
 fn misses(change: impl Fn(&mut Ray, &mut Sphere)) {
@@ -60,89 +64,41 @@ fn hits_at(t: f32, change: impl Fn(&mut Ray, &mut Sphere)) {
     answers(&straight(change), Some(t));
 }
 
-/// The coordinates, one after the other, set to each of `values`: no hit.
-fn misses_with(values: &[f32], place: impl Fn(&mut Ray, &mut Sphere, usize, f32)) {
-    for axis in 0..3 {
-        for &value in values {
-            misses(|ray, sphere| place(ray, sphere, axis, value));
-        }
-    }
-}
-
 #[test]
 fn a_common_hit() {
     hits_at(2.0, |_, _| {});
 }
 
 #[test]
-fn nan_in_the_origin() {
-    misses_with(&[NAN, -NAN], |ray, _, axis, value| ray.origin[axis] = value);
+fn nan_and_infinity_in_origin_direction_and_center() {
+    for value in [NAN, -NAN, INF, -INF] {
+        for axis in 0..3 {
+            misses(|ray, _| ray.origin[axis] = value);
+            misses(|ray, _| ray.direction[axis] = value);
+            misses(|_, sphere| sphere.center[axis] = value);
+        }
+        // The difference is NaN, or infinite.
+        misses(|ray, sphere| (ray.origin.z, sphere.center.z) = (value, INF));
+    }
 }
 
 #[test]
-fn infinity_in_the_origin() {
-    misses_with(&[INF, -INF], |ray, _, axis, value| ray.origin[axis] = value);
-}
-
-#[test]
-fn nan_in_the_direction() {
-    misses_with(&[NAN, -NAN], |ray, _, axis, value| ray.direction[axis] = value);
-}
-
-#[test]
-fn infinity_in_the_direction() {
-    misses_with(&[INF, -INF], |ray, _, axis, value| ray.direction[axis] = value);
-}
-
-#[test]
-fn nan_in_the_center() {
-    misses_with(&[NAN, -NAN], |_, sphere, axis, value| sphere.center[axis] = value);
-}
-
-#[test]
-fn infinity_in_the_center() {
-    misses_with(&[INF, -INF], |_, sphere, axis, value| sphere.center[axis] = value);
-}
-
-#[test]
-fn nan_in_the_radius() {
-    misses(|_, sphere| sphere.radius = NAN);
-    misses(|_, sphere| sphere.radius = -NAN);
-}
-
-#[test]
-fn infinite_radius() {
-    misses(|_, sphere| sphere.radius = INF);
-    misses(|_, sphere| sphere.radius = -INF);
-}
-
-#[test]
-fn infinity_in_origin_and_center() {
-    // The difference is NaN, or infinite.
-    misses(|ray, sphere| (ray.origin.z, sphere.center.z) = (INF, INF));
-    misses(|ray, sphere| (ray.origin.z, sphere.center.z) = (-INF, INF));
+fn a_radius_that_is_none() {
+    for radius in [NAN, -NAN, INF, -INF, -1.0, -LEAST, f32::MIN] {
+        misses(|_, sphere| sphere.radius = radius);
+    }
 }
 
 #[test]
 fn direction_zero() {
     misses(|ray, _| ray.direction = Vec3::ZERO);
     misses(|ray, _| ray.direction = -Vec3::ZERO);
-}
-
-#[test]
-fn direction_zero_from_the_center_and_from_the_surface() {
+    // From the centre and from the surface.
     misses(|ray, _| (ray.direction, ray.origin) = (Vec3::ZERO, Vec3::ZERO));
     misses(|ray, _| (ray.direction, ray.origin) = (Vec3::ZERO, Vec3::X));
     misses(|ray, sphere| {
         (ray.direction, ray.origin, sphere.radius) = (Vec3::ZERO, Vec3::ZERO, 0.0);
     });
-}
-
-#[test]
-fn negative_radius() {
-    misses(|_, sphere| sphere.radius = -1.0);
-    misses(|_, sphere| sphere.radius = -LEAST);
-    misses(|_, sphere| sphere.radius = f32::MIN);
 }
 
 #[test]
@@ -163,41 +119,34 @@ fn subnormal_radius() {
 }
 
 #[test]
-fn empty_interval() {
-    misses(|ray, _| (ray.t_min, ray.t_max) = (5.0, 1.0));
-    misses(|ray, _| (ray.t_min, ray.t_max) = (INF, -INF));
-    misses(|ray, _| (ray.t_min, ray.t_max) = (2.0_f32.next_up(), 2.0));
-}
-
-#[test]
-fn interval_of_one_number() {
-    hits_at(2.0, |ray, _| (ray.t_min, ray.t_max) = (2.0, 2.0));
-    hits_at(4.0, |ray, _| (ray.t_min, ray.t_max) = (4.0, 4.0));
-    misses(|ray, _| (ray.t_min, ray.t_max) = (3.0, 3.0));
-}
-
-#[test]
-fn interval_closed_at_both_ends() {
-    hits_at(2.0, |ray, _| ray.t_max = 2.0);
-    misses(|ray, _| ray.t_max = 2.0_f32.next_down());
-    hits_at(4.0, |ray, _| ray.t_min = 2.0_f32.next_up());
-    hits_at(4.0, |ray, _| ray.t_min = 4.0);
-    misses(|ray, _| ray.t_min = 4.0_f32.next_up());
-}
-
-#[test]
-fn nan_bounds() {
-    misses(|ray, _| ray.t_min = NAN);
-    misses(|ray, _| ray.t_max = NAN);
-    misses(|ray, _| (ray.t_min, ray.t_max) = (NAN, NAN));
-    misses(|ray, _| (ray.t_min, ray.t_max) = (-INF, -NAN));
-}
-
-#[test]
-fn infinite_bounds() {
-    hits_at(2.0, |ray, _| (ray.t_min, ray.t_max) = (-INF, INF));
-    misses(|ray, _| (ray.t_min, ray.t_max) = (INF, INF));
-    misses(|ray, _| (ray.t_min, ray.t_max) = (-INF, -INF));
+fn intervals() {
+    let (before, after) = (f32::next_down, f32::next_up);
+    for (t_min, t_max, expected) in [
+        // Empty.
+        (5.0, 1.0, None),
+        (INF, -INF, None),
+        (after(2.0), 2.0, None),
+        // Of one number.
+        (2.0, 2.0, Some(2.0)),
+        (4.0, 4.0, Some(4.0)),
+        (3.0, 3.0, None),
+        // Closed at both ends.
+        (0.0, 2.0, Some(2.0)),
+        (0.0, before(2.0), None),
+        (after(2.0), INF, Some(4.0)),
+        (4.0, INF, Some(4.0)),
+        (after(4.0), INF, None),
+        // That end in no number.
+        (NAN, INF, None),
+        (0.0, NAN, None),
+        (NAN, NAN, None),
+        (-INF, -NAN, None),
+        (-INF, INF, Some(2.0)),
+        (INF, INF, None),
+        (-INF, -INF, None),
+    ] {
+        answers(&straight(|ray, _| (ray.t_min, ray.t_max) = (t_min, t_max)), expected);
+    }
 }
 
 #[test]
@@ -247,9 +196,9 @@ fn zero_has_no_sign() {
             let direction = Vec3::new(zeros[x], zeros[y], z);
             let case = straight(|ray, _| (ray.origin, ray.direction) = (origin, direction));
             answers(&case, Some(0.0));
-            for door in Door::references() {
-                let roots = (door.roots)(&case.ray, &case.sphere).expect("a tangent");
-                assert_eq!(roots.map(f32::to_bits), [0, 0], "{}: {case:?}", door.tier);
+            for tier in Tier::ALL {
+                let roots = roots(tier, &case.ray, &case.sphere).expect("a tangent");
+                assert_eq!(roots.map(f32::to_bits), [0, 0], "{tier:?}: {case:?}");
             }
         }
     }
@@ -275,16 +224,16 @@ fn directions_of_any_length() {
 
 #[test]
 fn both_roots_whatever_the_interval() {
-    for door in Door::references() {
+    for tier in Tier::ALL {
         let interval = straight(|ray, _| (ray.t_min, ray.t_max) = (NAN, -7.0));
-        let roots = (door.roots)(&interval.ray, &interval.sphere);
-        assert_eq!(roots, Some([2.0, 4.0]), "{}", door.tier);
+        let both = roots(tier, &interval.ray, &interval.sphere);
+        assert_eq!(both, Some([2.0, 4.0]), "{tier:?}");
         let wide = straight(|ray, _| ray.origin.x = 2.0);
-        assert_eq!((door.roots)(&wide.ray, &wide.sphere), None, "{}", door.tier);
+        assert_eq!(roots(tier, &wide.ray, &wide.sphere), None, "{tier:?}");
         let invalid = straight(|_, sphere| sphere.radius = -1.0);
-        assert_eq!((door.roots)(&invalid.ray, &invalid.sphere), None, "{}", door.tier);
+        assert_eq!(roots(tier, &invalid.ray, &invalid.sphere), None, "{tier:?}");
         let invalid = straight(|ray, _| ray.direction = Vec3::ZERO);
-        assert_eq!((door.roots)(&invalid.ray, &invalid.sphere), None, "{}", door.tier);
+        assert_eq!(roots(tier, &invalid.ray, &invalid.sphere), None, "{tier:?}");
     }
 }
 
@@ -301,16 +250,20 @@ fn special_numbers_in_any_two_places() {
                 Case::from_numbers(numbers)
             };
             let cases: Vec<Case> = (0..SPECIALS.len() * SPECIALS.len()).map(pair).collect();
-            for door in DOORS {
-                let ts = (door.pairs)(&cases);
-                let reference = (door.reference().pairs)(&cases);
-                for ((case, t), reference) in cases.iter().zip(ts).zip(reference) {
-                    assert_eq!(t.map(f32::to_bits), reference.map(f32::to_bits), "{case:?}");
+            for tier in Tier::ALL {
+                let reference = pairs_of(tier, Storey::Lanes(1), &cases);
+                for storey in pair_storeys() {
+                    let bits = |t: &Option<f32>| t.map(f32::to_bits);
+                    let ts = pairs_of(tier, storey, &cases);
+                    let same = ts.iter().map(bits).eq(reference.iter().map(bits));
+                    assert!(same, "{tier:?}, {storey:?}, places {first} and {second}");
+                }
+                for (case, t) in cases.iter().zip(reference) {
                     let Some(t) = t else { continue };
                     let valid = oracle::discriminant_sign(&case.ray, &case.sphere).is_some();
-                    assert!(valid, "{}: {case:?}", door.tier);
+                    assert!(valid, "{tier:?}: {case:?}");
                     let within = case.ray.t_min <= t && t <= case.ray.t_max && t.is_finite();
-                    assert!(within && t.to_bits() != 0x8000_0000, "{}: {case:?}", door.tier);
+                    assert!(within && t.to_bits() != 0x8000_0000, "{tier:?}: {case:?}");
                 }
             }
         }

@@ -1,21 +1,30 @@
-//! `Exact` against the truth: in every lane width, alone and through the filter, t bit for bit.
+//! `Exact` against the truth: in every variant, alone and through the filter, t bit for bit.
 //!
 //! `cargo test` takes a fixed number of cases. The nightly run takes 10^6 a regime and 10^7 of the
 //! lattice, some ten minutes on a core:
 //!
 //! ```text
-//! SPHERULE_CASES=1000000 cargo test -p spherule-tests --test exact -- --nocapture
+//! SPHERULE_CASES=1000000 cargo test -p spherule-tests exact -- --nocapture
 //! ```
 //!
 //! `SPHERULE_SEED=N` draws others.
 
-use spherule_kernel::{Exact, Hit, Ray, Sphere, roots};
+use proptest::prelude::*;
+use proptest::test_runner::TestCaseError;
+use spherule_kernel::{Hit, Ray, Sphere, Tier, Vec3, roots};
 use spherule_tests::case::Case;
-use spherule_tests::oracle;
+use spherule_tests::inputs::{self, Scene};
 use spherule_tests::random::Random;
 use spherule_tests::regimes::REGIMES;
-use spherule_tests::vectors;
-use spherule_tests::widths::WIDTHS;
+use spherule_tests::variants::{
+    Memory, Variant, bits as hit_bits, lists, pair_storeys, pairs_of, variants, viewpoint_of,
+};
+use spherule_tests::{oracle, vectors};
+
+/// The variants of lists in the tier.
+fn exact_lists() -> impl Iterator<Item = Variant> {
+    lists().filter(|variant| variant.tier == Tier::Exact)
+}
 
 /// Cases a regime.
 fn count() -> u64 {
@@ -37,16 +46,6 @@ fn bits(t: Option<f32>) -> Option<u32> {
     t.map(f32::to_bits)
 }
 
-fn hit_bits(hit: Option<Hit>) -> Option<(u32, u32)> {
-    hit.map(|hit| (hit.t.to_bits(), hit.sphere))
-}
-
-/// Rules 3 and 4 on correctly rounded roots.
-fn accepted(ray: &Ray, roots: Option<[f32; 2]>) -> Option<f32> {
-    let within = |t: &f32| t.is_finite() && ray.t_min <= *t && *t <= ray.t_max;
-    roots?.into_iter().find(within)
-}
-
 fn dot(v: [i64; 3], w: [i64; 3]) -> i64 {
     v[0] * w[0] + v[1] * w[1] + v[2] * w[2]
 }
@@ -54,15 +53,17 @@ fn dot(v: [i64; 3], w: [i64; 3]) -> i64 {
 /// 16 cases with their answers, as pairs and each sphere as a list of its own for all 16 rays.
 fn check(cases: &[Case], expected: &[Option<f32>]) {
     let rays: Vec<Ray> = cases.iter().map(|case| case.ray).collect();
-    for width in WIDTHS {
-        let found = (width.pairs)(cases);
+    for storey in pair_storeys() {
+        let found = pairs_of(Tier::Exact, storey, cases);
         for index in 0..cases.len() {
-            let (lanes, case) = (width.lanes, cases[index]);
-            let expected = bits(expected[index]);
-            assert_eq!(bits(found[index]), expected, "pairs, {lanes} lanes: {case:?}");
-            let filtered = (width.nearest)(&rays, &[case.sphere])[index];
-            let filtered = bits(filtered.map(|hit| hit.t));
-            assert_eq!(filtered, expected, "list, {lanes} lanes: {case:?}");
+            let case = cases[index];
+            assert_eq!(bits(found[index]), bits(expected[index]), "{storey:?}: {case:?}");
+        }
+    }
+    for (index, case) in cases.iter().enumerate() {
+        for variant in exact_lists() {
+            let found = variant.closest(&[case.sphere], &rays)[index].map(|hit| hit.t);
+            assert_eq!(bits(found), bits(expected[index]), "{variant:?}: {case:?}");
         }
     }
 }
@@ -84,7 +85,7 @@ fn the_vectors_are_answered_bit_for_bit() {
         let expected: Vec<Option<f32>> = vectors.iter().map(|vector| vector.expected).collect();
         check(&cases, &expected);
     }
-    println!("{} cases, 0 mismatches, pairs and lists in 1, 4, 8, 16 lanes", vectors.len());
+    println!("{} cases, 0 mismatches", vectors.len());
 }
 
 #[test]
@@ -98,12 +99,12 @@ fn fresh_cases_of_every_regime_are_answered_as_the_oracle_does() {
             for case in &cases {
                 let truth = oracle::roots_and_ties(&case.ray, &case.sphere);
                 let rounded = truth.map(|roots| roots.map(|(root, _)| root));
-                let found = roots::<Exact>(&case.ray, &case.sphere);
+                let found = roots(Tier::Exact, &case.ray, &case.sphere);
                 let root_bits =
                     |roots: Option<[f32; 2]>| roots.map(|roots| roots.map(f32::to_bits));
                 // Roots are those of the line: an empty interval changes nothing.
                 assert_eq!(root_bits(found), root_bits(rounded), "roots: {case:?}");
-                let t = accepted(&case.ray, rounded);
+                let t = rounded.and_then(|roots| oracle::accepted(&case.ray, roots));
                 hits += u64::from(t.is_some());
                 ties += u64::from(truth.is_some_and(|roots| roots.iter().any(|root| root.1)));
                 expected.push(t);
@@ -144,40 +145,22 @@ fn expansions_and_filter_agree_on_a_lattice_rich_in_tangents() {
             continue;
         }
         let behind = random.one_in(4);
-        let cases: Vec<Case> = (0..16)
-            .map(|index| {
-                let single = |v: [i64; 3]| v.map(|x| x as f32);
-                let ([ox, oy, oz], [dx, dy, dz]) = (single(origin), single(direction));
-                let [cx, cy, cz] = single(centers[index]);
-                let t_min = if behind { f32::NEG_INFINITY } else { 0.0 };
-                let radius = radii[index] as f32;
-                Case::from_numbers([
-                    ox,
-                    oy,
-                    oz,
-                    dx,
-                    dy,
-                    dz,
-                    t_min,
-                    f32::INFINITY,
-                    cx,
-                    cy,
-                    cz,
-                    radius,
-                ])
-            })
-            .collect();
+        let single = |v: [i64; 3]| Vec3::from_array(v.map(|x| x as f32));
+        let t_min = if behind { f32::NEG_INFINITY } else { 0.0 };
+        let ray = Ray { t_min, ..Ray::new(single(origin), single(direction)) };
+        let sphere = |i: usize| Sphere { center: single(centers[i]), radius: radii[i] as f32 };
+        let cases: Vec<Case> = (0..16).map(|i| Case { ray, sphere: sphere(i) }).collect();
         let pure: Vec<Option<f32>> = cases
             .iter()
             .zip(centers.iter().zip(radii))
             .map(|(case, (center, radius))| {
-                let roots = roots::<Exact>(&case.ray, &case.sphere);
+                let roots = roots(Tier::Exact, &case.ray, &case.sphere);
                 let p: [i64; 3] = core::array::from_fn(|i| center[i] - origin[i]);
                 let b = dot(direction, p);
                 let d = b * b - dot(direction, direction) * (dot(p, p) - radius * radius);
                 assert_eq!(roots.is_some(), d >= 0, "{case:?}");
                 tangents += u64::from(d == 0);
-                accepted(&case.ray, roots)
+                roots.and_then(|roots| oracle::accepted(&case.ray, roots))
             })
             .collect();
         hits += pure.iter().flatten().count() as u64;
@@ -191,13 +174,15 @@ fn expansions_and_filter_agree_on_a_lattice_rich_in_tangents() {
                 expected = Some(Hit { t, sphere: index as u32 });
             }
         }
-        for width in WIDTHS {
-            let found = (width.pairs)(&cases);
+        for storey in pair_storeys() {
+            let found = pairs_of(Tier::Exact, storey, &cases);
             for (index, case) in cases.iter().enumerate() {
-                assert_eq!(bits(found[index]), bits(pure[index]), "{case:?}");
+                assert_eq!(bits(found[index]), bits(pure[index]), "{storey:?}: {case:?}");
             }
-            let nearest = (width.nearest)(&[cases[0].ray], &spheres)[0];
-            assert_eq!(hit_bits(nearest), hit_bits(expected), "{cases:?}");
+        }
+        for variant in exact_lists() {
+            let closest = variant.closest(&spheres, &[cases[0].ray])[0];
+            assert_eq!(hit_bits(closest), hit_bits(expected), "{variant:?}: {cases:?}");
         }
         done += 16;
     }
@@ -206,7 +191,7 @@ fn expansions_and_filter_agree_on_a_lattice_rich_in_tangents() {
 }
 
 #[test]
-fn the_nearest_of_many_hard_spheres_is_the_oracles() {
+fn the_closest_of_many_hard_spheres_is_the_oracles() {
     let scenes = count() / 30;
     let (mut hits, mut equal) = (0, 0);
     for regime in REGIMES {
@@ -216,25 +201,56 @@ fn the_nearest_of_many_hard_spheres_is_the_oracles() {
             let rays: Vec<Ray> = cases.iter().map(|case| case.ray).collect();
             // Every sphere twice, groups of four apart: equal t, of which the first must win.
             let spheres: Vec<Sphere> = (0..18).map(|i| cases[i * 7 % 9].sphere).collect();
-            let expected: Vec<_> = rays.iter().map(|ray| oracle::nearest(ray, &spheres)).collect();
+            let expected: Vec<_> = rays.iter().map(|ray| oracle::closest(ray, &spheres)).collect();
             hits += expected.iter().flatten().count();
             equal += expected.iter().flatten().filter(|hit| hit.sphere < 9).count();
-            for width in WIDTHS {
-                let found = (width.nearest)(&rays, &spheres);
-                for ((found, expected), ray) in found.iter().zip(&expected).zip(&rays) {
-                    assert_eq!(
-                        hit_bits(*found),
-                        hit_bits(*expected),
-                        "{regime:?}, {} lanes: {:?} {spheres:?}",
-                        width.lanes,
-                        spherule_tests::case::HexRay(ray)
-                    );
-                }
+            if let Err(difference) = check_scene(&Scene { rays, spheres }, &expected) {
+                panic!("{regime:?}: {difference}");
             }
         }
     }
     println!("{} rays against 18 spheres, {hits} hits, 0 mismatches", scenes * 9 * 22);
     assert_eq!(hits, equal, "the lower index of twins wins");
+}
+
+/// Every variant of the tier gives the expected hits.
+fn check_scene(scene: &Scene, expected: &[Option<Hit>]) -> Result<(), TestCaseError> {
+    let Scene { rays, spheres } = scene;
+    let expected: Vec<_> = expected.iter().copied().map(hit_bits).collect();
+    Memory::new(spheres).sorted(viewpoint_of(rays), |structures| {
+        for variant in variants().filter(|variant| variant.tier == Tier::Exact) {
+            let found: Vec<_> =
+                variant.ask(structures, rays).hits.into_iter().map(hit_bits).collect();
+            prop_assert_eq!(&found, &expected, "{:?}: {:?}", variant, scene);
+        }
+        Ok(())
+    })
+}
+
+proptest! {
+    #![proptest_config(inputs::config(256))]
+
+    /// What fails is shrunk to a case that can be read.
+    #[test]
+    fn a_drawn_pair_is_the_oracles(case in inputs::case()) {
+        let t = oracle::intersect(&case.ray, &case.sphere);
+        for storey in pair_storeys() {
+            let found = pairs_of(Tier::Exact, storey, &[case])[0];
+            prop_assert_eq!(bits(found), bits(t), "{:?}", storey);
+        }
+        let hit = t.map(|t| Hit { t, sphere: 0 });
+        check_scene(&Scene { rays: vec![case.ray], spheres: vec![case.sphere] }, &[hit])?;
+        let bits = |roots: Option<[f32; 2]>| roots.map(|roots| roots.map(f32::to_bits));
+        let found = roots(Tier::Exact, &case.ray, &case.sphere);
+        prop_assert_eq!(bits(found), bits(oracle::roots(&case.ray, &case.sphere)));
+    }
+
+    #[test]
+    fn the_closest_of_a_drawn_scene_is_the_oracles(scene in inputs::scene(inputs::case)) {
+        let expected: Vec<_> =
+            scene.rays.iter().map(|ray| oracle::closest(ray, &scene.spheres)).collect();
+        check_scene(&scene, &expected)?;
+    }
 }
 
 /// Whatever stands in one lane, the others answer the same bits.
@@ -252,29 +268,25 @@ fn any_bits_change_nothing_for_their_neighbours() {
             let other = random.pick(&REGIMES);
             other.case(random.bits())
         };
-        let list = |cases: &[Case]| {
-            let rays: Vec<Ray> = cases.iter().map(|case| case.ray).collect();
-            // The list stays: only the rays of one lane change.
-            let spheres: Vec<Sphere> = disturbed.iter().map(|case| case.sphere).collect();
-            WIDTHS.map(|width| (width.nearest)(&rays, &spheres))
-        };
-        let (before, after) = (list(&cases), list(&disturbed));
-        for (which, width) in WIDTHS.iter().enumerate() {
-            let pairs = [(width.pairs)(&cases), (width.pairs)(&disturbed)];
-            for index in (0..16).filter(|&index| index != lane) {
-                let lanes = width.lanes;
-                let [alone, beside] = pairs.each_ref().map(|t| bits(t[index]));
-                assert_eq!(
-                    alone, beside,
-                    "{lanes} lanes: {:?} beside {:?}",
-                    cases[index], disturbed[lane]
-                );
-                let [alone, beside] = [&before, &after].map(|hits| hit_bits(hits[which][index]));
-                assert_eq!(
-                    alone, beside,
-                    "{lanes} lanes: {:?} beside {:?}",
-                    cases[index], disturbed[lane]
-                );
+        let rays = [&cases, &disturbed]
+            .map(|cases| -> Vec<Ray> { cases.iter().map(|case| case.ray).collect() });
+        let others = || (0..16).filter(|&index| index != lane);
+        for storey in pair_storeys() {
+            let [alone, beside] =
+                [&cases, &disturbed].map(|cases| pairs_of(Tier::Exact, storey, cases));
+            for i in others() {
+                let (case, disturbed) = (cases[i], disturbed[lane]);
+                assert_eq!(bits(alone[i]), bits(beside[i]), "{storey:?}: {case:?} {disturbed:?}");
+            }
+        }
+        // The list stays: only the ray of one lane changes.
+        let list: Vec<Sphere> = disturbed.iter().map(|case| case.sphere).collect();
+        for variant in exact_lists() {
+            let [alone, beside] = rays.each_ref().map(|rays| variant.closest(&list, rays));
+            for i in others() {
+                let (case, disturbed) = (cases[i], disturbed[lane]);
+                let [alone, beside] = [alone[i], beside[i]].map(hit_bits);
+                assert_eq!(alone, beside, "{variant:?}: {case:?} {disturbed:?}");
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Pictures: the built-in scenes against files that a person can read in a diff, and the samples
 //! of `unit` against the exact oracle, so that the files are not the program's own word alone.
 //!
-//! After a change that is meant, `SPHERULE_GOLDEN=write cargo test -p spherule-tests --test golden`
+//! After a change that is meant, `SPHERULE_GOLDEN=write cargo test -p spherule-tests golden`
 //! writes the files in `tui/tests/golden` anew; read the diff before committing it.
 
 use spherule_kernel::{Sphere, Tier, Vec3};

@@ -1,10 +1,7 @@
-//! What moves lanes - masks, compression, another order, the greatest - against plain loops: every
-//! width of `wide`, and of the lanes that are chosen at run time at every level of this CPU. (What
-//! computes is tested beside its source, and by the walks.)
+//! What moves lanes - masks, compression, another order, the greatest - against plain loops, in
+//! every width of `wide`. (What computes is tested beside its source, and by the traversals.)
 
-use spherule_kernel::dispatch::{Level, LevelName};
-use spherule_kernel::fearless_simd::{self, Simd, dispatch};
-use spherule_kernel::{LaneMask, Lanes, f32x4, f32x8, f32x16};
+use spherule_kernel::{LaneArray, LaneMask, Lanes, f32x4, f32x8, f32x16};
 use spherule_tests::random::Random;
 
 fn moves<L: Lanes>(token: L::Token) {
@@ -13,7 +10,7 @@ fn moves<L: Lanes>(token: L::Token) {
         let bits = random.bits();
         let mask = bits as u32 & ((1_u64 << L::COUNT) - 1) as u32;
         let order = random.bits();
-        let mut array = L::Array::default();
+        let mut array = L::Array::filled(0.0);
         for element in array.as_mut() {
             // Any pattern, NaN and subnormals too: lanes are moved as they are.
             *element = f32::from_bits(random.bits() as u32);
@@ -49,30 +46,4 @@ fn lanes_of_the_build() {
     moves::<f32x4>(());
     moves::<f32x8>(());
     moves::<f32x16>(());
-}
-
-fn all_widths<S: Simd>(token: S) {
-    moves::<fearless_simd::f32x4<S>>(token);
-    moves::<fearless_simd::f32x8<S>>(token);
-    moves::<fearless_simd::f32x16<S>>(token);
-}
-
-#[test]
-fn lanes_of_every_level() {
-    let widest = fearless_simd::Level::new();
-    dispatch!(widest, token => all_widths(token));
-    let named = LevelName::ALL.into_iter().filter(|&name| Level::named(name).is_some());
-    println!("levels: {:?}", named.collect::<Vec<_>>());
-    #[cfg(target_arch = "x86_64")]
-    {
-        if let Some(token) = widest.as_avx2() {
-            all_widths(token);
-        }
-        if let Some(token) = widest.as_sse4_2() {
-            all_widths(token);
-        }
-        if let Some(token) = widest.as_sse2() {
-            all_widths(token);
-        }
-    }
 }

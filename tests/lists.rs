@@ -1,29 +1,41 @@
-//! Lists of spheres by name: empty, of any length, full of equals, with invalid members.
+//! Spheres by name, in every variant: none, any number of them, full of equals, with invalid members.
 
-use spherule_kernel::{Hit, Ray, Sphere, Spheres, SpheresError, Vec3};
-use spherule_tests::doors::DOORS;
+use spherule_kernel::{Hit, Ray, Sphere, Vec3};
+use spherule_tests::variants::{Memory, variants, viewpoint_of};
 
 /// From (0, 0, -3) upwards, and the sphere of radius 1 about zero: hit at 2.
 const RAY: Ray = Ray::new(Vec3::new(0.0, 0.0, -3.0), Vec3::Z);
 const SPHERE: Sphere = Sphere { center: Vec3::ZERO, radius: 1.0 };
 
-#[test]
-fn inactive_rays() {
-    for door in DOORS {
-        let hits = (door.nearest)(&[Ray::INACTIVE; 16], &[SPHERE]);
-        assert_eq!(hits, [None; 16], "{} in {} lanes", door.tier, door.lanes);
-        let met = (door.any)(&[Ray::INACTIVE; 16], &[SPHERE]);
-        assert_eq!(met, [false; 16], "{} in {} lanes", door.tier, door.lanes);
-    }
+/// Every variant gives these answers.
+#[track_caller]
+fn answers(spheres: &[Sphere], rays: &[Ray], expected: &[Option<Hit>]) {
+    let met: Vec<bool> = expected.iter().map(Option::is_some).collect();
+    Memory::new(spheres).sorted(viewpoint_of(rays), |structures| {
+        for variant in variants() {
+            let answers = variant.ask(structures, rays);
+            assert_eq!((&answers.hits[..], &answers.met), (expected, &met), "{variant:?}");
+        }
+    });
+}
+
+/// [`RAY`] hits this sphere.
+#[track_caller]
+fn hits(spheres: &[Sphere], sphere: usize) {
+    answers(spheres, &[RAY], &[Some(Hit { t: 2.0, sphere: sphere as u32 })]);
 }
 
 #[test]
-fn empty_list() {
-    for door in DOORS {
-        assert_eq!(door.nearest_one(&RAY, &[]), None);
-        assert_eq!((door.any)(&[RAY], &[]), [false]);
-        assert_eq!((door.nearest)(&[], &[SPHERE]), []);
-    }
+fn inactive_rays() {
+    answers(&[SPHERE], &[Ray::INACTIVE; 16], &[None; 16]);
+}
+
+#[test]
+fn no_spheres_and_no_rays() {
+    answers(&[], &[RAY], &[None]);
+    answers(&[], &[RAY; 40], &[None; 40]);
+    answers(&[SPHERE], &[], &[]);
+    answers(&[], &[], &[]);
 }
 
 /// The one that is hit last in its list, whatever the length: no sphere of a begun group of four,
@@ -34,40 +46,46 @@ fn lists_of_any_length() {
     for length in (1..=20).chain([127, 128, 129, 255, 257]) {
         let mut spheres = vec![far; length];
         spheres[length - 1] = SPHERE;
-        let expected = Some(Hit { t: 2.0, sphere: length as u32 - 1 });
-        for door in DOORS {
-            let hit = door.nearest_one(&RAY, &spheres);
-            assert_eq!(hit, expected, "{} in {} lanes, {length} spheres", door.tier, door.lanes);
-            assert_eq!((door.any)(&[RAY], &spheres), [true]);
-        }
+        hits(&spheres, length - 1);
     }
 }
 
 /// A ray that is done does not end the search for its neighbours.
 #[test]
 fn each_lane_meets_its_own_sphere() {
-    let count = 40;
-    let at = |index: usize| Vec3::new(10.0 * index as f32, 0.0, 0.0);
-    let spheres: Vec<Sphere> = (0..count).map(|i| Sphere { center: at(i), ..SPHERE }).collect();
-    let rays: Vec<Ray> =
-        (0..count).map(|i| Ray { origin: RAY.origin + at(i), ..RAY }).rev().collect();
-    let expected: Vec<Option<Hit>> =
-        (0..count as u32).rev().map(|sphere| Some(Hit { t: 2.0, sphere })).collect();
-    for door in DOORS {
-        let hits = (door.nearest)(&rays, &spheres);
-        assert_eq!(hits, expected, "{} in {} lanes", door.tier, door.lanes);
-        let met = (door.any)(&rays, &spheres);
-        assert_eq!(met, vec![true; count], "{} in {} lanes", door.tier, door.lanes);
+    let at = |index: u32| Vec3::new(10.0 * index as f32, 0.0, 0.0);
+    let spheres: Vec<Sphere> = (0..40).map(|i| Sphere { center: at(i), ..SPHERE }).collect();
+    let rays: Vec<Ray> = (0..40).map(|i| Ray { origin: RAY.origin + at(i), ..RAY }).rev().collect();
+    let expected: Vec<_> = (0..40).rev().map(|sphere| Some(Hit { t: 2.0, sphere })).collect();
+    answers(&spheres, &rays, &expected);
+}
+
+/// A ray that is none does not disturb its neighbours.
+#[test]
+fn rays_that_are_none_among_others() {
+    let nan = Vec3::splat(f32::NAN);
+    let none = [
+        Ray { origin: nan, ..RAY },
+        Ray { direction: nan, ..RAY },
+        Ray { t_min: f32::NAN, ..RAY },
+        Ray { t_max: f32::NAN, ..RAY },
+        Ray { direction: Vec3::ZERO, ..RAY },
+        Ray { origin: Vec3::splat(f32::INFINITY), ..RAY },
+        Ray::INACTIVE,
+    ];
+    for place in [0, 1, 7, 15, 16, 39] {
+        for none in none {
+            let (mut rays, mut expected) = ([RAY; 40], [Some(Hit { t: 2.0, sphere: 0 }); 40]);
+            (rays[place], expected[place]) = (none, None);
+            answers(&[SPHERE; 3], &rays, &expected);
+        }
     }
+    answers(&[SPHERE; 3], &[none[0]; 40], &[None; 40]);
 }
 
 #[test]
 fn a_million_spheres_in_one_place() {
-    let spheres = vec![SPHERE; 1_000_000];
-    for door in DOORS {
-        let hit = door.nearest_one(&RAY, &spheres);
-        assert_eq!(hit, Some(Hit { t: 2.0, sphere: 0 }), "{} in {} lanes", door.tier, door.lanes);
-    }
+    hits(&vec![SPHERE; 1_000_000], 0);
 }
 
 #[test]
@@ -75,11 +93,7 @@ fn the_lowest_index_of_equals() {
     let near = Sphere { center: Vec3::new(0.0, 0.0, -0.5), radius: 0.5 };
     let miss = Sphere { center: Vec3::new(9.0, 0.0, 0.0), radius: 1.0 };
     // Different spheres that are met at 2, from the third on.
-    let equals = [miss, Sphere { radius: -1.0, ..near }, near, SPHERE, near];
-    for door in DOORS {
-        let hit = door.nearest_one(&RAY, &equals);
-        assert_eq!(hit, Some(Hit { t: 2.0, sphere: 2 }), "{} in {} lanes", door.tier, door.lanes);
-    }
+    hits(&[miss, Sphere { radius: -1.0, ..near }, near, SPHERE, near], 2);
 }
 
 #[test]
@@ -92,24 +106,6 @@ fn invalid_spheres_among_others() {
         SPHERE,
         Sphere { radius: -1.0, ..SPHERE },
     ];
-    for door in DOORS {
-        let hit = door.nearest_one(&RAY, &invalid);
-        assert_eq!(hit, Some(Hit { t: 2.0, sphere: 4 }), "{} in {} lanes", door.tier, door.lanes);
-        assert_eq!(door.nearest_one(&RAY, &invalid[..4]), None);
-    }
-}
-
-#[test]
-fn unequal_slices() {
-    let (one, two) = ([1.0], [1.0, 2.0]);
-    for (x, y, z, r) in [
-        (&two[..], &one[..], &one[..], &one[..]),
-        (&one, &two, &one, &one),
-        (&one, &one, &two, &one),
-        (&one, &one, &one, &two),
-        (&one, &one, &one, &[]),
-    ] {
-        assert_eq!(Spheres::new(x, y, z, r).err(), Some(SpheresError::UnequalLengths));
-    }
-    assert!(Spheres::new(&one, &one, &one, &one).is_ok());
+    hits(&invalid, 4);
+    answers(&invalid[..4], &[RAY], &[None]);
 }

@@ -2,15 +2,11 @@
 //! ray and sphere that no tier may lose.
 
 use proptest::prelude::*;
-use spherule_kernel::{Hit, Ray, Sphere, Vec3};
+use spherule_kernel::{Hit, Ray, Sphere, Tier, Vec3, roots};
 use spherule_tests::case::Case;
-use spherule_tests::doors::{DOORS, Door};
 use spherule_tests::inputs::{self, Scene};
 use spherule_tests::random::power_of_two;
-
-fn bits(hit: Option<Hit>) -> Option<(u32, u32)> {
-    hit.map(|hit| (hit.t.to_bits(), hit.sphere))
-}
+use spherule_tests::variants::{Storey, bits, lists, pairs_of};
 
 fn all_bits(hits: Vec<Option<Hit>>) -> Vec<Option<(u32, u32)>> {
     hits.into_iter().map(bits).collect()
@@ -32,6 +28,26 @@ fn any_scene() -> impl Strategy<Value = Scene> {
     inputs::scene(inputs::case)
 }
 
+/// The scene with other points and directions, and radii times `by`.
+fn moved(scene: &Scene, vector: impl Fn(Vec3) -> Vec3, by: f32) -> Scene {
+    let ray =
+        |ray: &Ray| Ray { origin: vector(ray.origin), direction: vector(ray.direction), ..*ray };
+    let sphere = |s: &Sphere| Sphere { center: vector(s.center), radius: s.radius * by };
+    Scene {
+        rays: scene.rays.iter().map(ray).collect(),
+        spheres: scene.spheres.iter().map(sphere).collect(),
+    }
+}
+
+fn keeps_answers(scene: &Scene, moved: &Scene) -> Result<(), TestCaseError> {
+    for variant in lists() {
+        let expected = all_bits(variant.closest(&scene.spheres, &scene.rays));
+        let found = all_bits(variant.closest(&moved.spheres, &moved.rays));
+        prop_assert_eq!(found, expected, "{:?}", variant);
+    }
+    Ok(())
+}
+
 fn scaled(t: f32, exponent: i64) -> f32 {
     t * power_of_two(exponent) as f32
 }
@@ -48,12 +64,12 @@ proptest! {
             t_max: scaled(ray.t_max, -exponent),
             ..*ray
         }).collect();
-        for door in DOORS {
+        for variant in lists() {
             let scale = |hit: Hit| Hit { t: scaled(hit.t, -exponent), ..hit };
-            let expected = (door.nearest)(&scene.rays, &scene.spheres);
+            let expected = variant.closest(&scene.spheres, &scene.rays);
             let expected = all_bits(expected.into_iter().map(|hit| hit.map(scale)).collect());
-            let found = all_bits((door.nearest)(&scaled_rays, &scene.spheres));
-            prop_assert_eq!(found, expected, "{} in {} lanes", door.tier, door.lanes);
+            let found = all_bits(variant.closest(&scene.spheres, &scaled_rays));
+            prop_assert_eq!(found, expected, "{:?}", variant);
         }
     }
 
@@ -61,57 +77,29 @@ proptest! {
     #[test]
     fn scaling_the_world_keeps_t(scene in common(), exponent in -10_i64..=10) {
         let by = power_of_two(exponent) as f32;
-        let rays: Vec<Ray> = scene.rays.iter().map(|ray| Ray {
-            origin: ray.origin * by,
-            direction: ray.direction * by,
-            ..*ray
-        }).collect();
-        let spheres: Vec<Sphere> = scene.spheres.iter().map(|sphere| Sphere {
-            center: sphere.center * by,
-            radius: sphere.radius * by,
-        }).collect();
-        for door in DOORS {
-            let expected = all_bits((door.nearest)(&scene.rays, &scene.spheres));
-            let found = all_bits((door.nearest)(&rays, &spheres));
-            prop_assert_eq!(found, expected, "{} in {} lanes", door.tier, door.lanes);
-        }
+        keeps_answers(&scene, &moved(&scene, |v| v * by, by))?;
     }
 
     /// A mirror turns signs of products, and no rounding.
     #[test]
     fn mirrors_keep_t(scene in any_scene(), mirrored in any::<[bool; 3]>()) {
-        let mirror = |v: Vec3| {
-            Vec3::from_array(std::array::from_fn(|i| if mirrored[i] { -v[i] } else { v[i] }))
-        };
-        let rays: Vec<Ray> = scene.rays.iter().map(|ray| Ray {
-            origin: mirror(ray.origin),
-            direction: mirror(ray.direction),
-            ..*ray
-        }).collect();
-        let spheres: Vec<Sphere> = scene.spheres.iter().map(|sphere| Sphere {
-            center: mirror(sphere.center),
-            ..*sphere
-        }).collect();
-        for door in DOORS {
-            let expected = all_bits((door.nearest)(&scene.rays, &scene.spheres));
-            let found = all_bits((door.nearest)(&rays, &spheres));
-            prop_assert_eq!(found, expected, "{} in {} lanes", door.tier, door.lanes);
-        }
+        let signs = mirrored.map(|mirrored| if mirrored { -1.0 } else { 1.0 });
+        keeps_answers(&scene, &moved(&scene, |v| v * Vec3::from_array(signs), 1.0))?;
     }
 
     /// Looking back along a line: entry and exit change places and signs.
     #[test]
     fn looking_back_turns_the_roots(case in inputs::case()) {
         let back = Ray { direction: -case.ray.direction, ..case.ray };
-        for door in Door::references() {
-            let forth = (door.roots)(&case.ray, &case.sphere);
-            let back = (door.roots)(&back, &case.sphere);
-            prop_assert_eq!(forth.is_some(), back.is_some(), "{}", door.tier);
+        for tier in Tier::ALL {
+            let forth = roots(tier, &case.ray, &case.sphere);
+            let back = roots(tier, &back, &case.sphere);
+            prop_assert_eq!(forth.is_some(), back.is_some(), "{:?}", tier);
             let (Some([near, far]), Some([back_near, back_far])) = (forth, back) else { continue };
             let numbers = [near, far, back_near, back_far].iter().all(|t| !t.is_nan());
             if numbers {
                 // Not bits: zero has no sign to turn.
-                prop_assert_eq!([near, far], [-back_far, -back_near], "{}", door.tier);
+                prop_assert_eq!([near, far], [-back_far, -back_near], "{:?}", tier);
             }
         }
     }
@@ -119,15 +107,15 @@ proptest! {
     /// The interval is closed at its end: cut at t, the hit is still there.
     #[test]
     fn an_interval_that_ends_at_the_hit_finds_it_again(scene in any_scene()) {
-        for door in DOORS {
-            let hits = (door.nearest)(&scene.rays, &scene.spheres);
+        for variant in lists() {
+            let hits = variant.closest(&scene.spheres, &scene.rays);
             let cut = |(ray, hit): (&Ray, &Option<Hit>)| Ray {
                 t_max: hit.map_or(ray.t_max, |hit| hit.t),
                 ..*ray
             };
             let rays: Vec<Ray> = scene.rays.iter().zip(&hits).map(cut).collect();
-            let found = all_bits((door.nearest)(&rays, &scene.spheres));
-            prop_assert_eq!(found, all_bits(hits), "{} in {} lanes", door.tier, door.lanes);
+            let found = all_bits(variant.closest(&scene.spheres, &rays));
+            prop_assert_eq!(found, all_bits(hits), "{:?}", variant);
         }
     }
 
@@ -135,8 +123,8 @@ proptest! {
     /// and what is found is further.
     #[test]
     fn an_interval_that_starts_after_the_hit_finds_another(scene in any_scene()) {
-        for door in DOORS {
-            let hits = (door.nearest)(&scene.rays, &scene.spheres);
+        for variant in lists() {
+            let hits = variant.closest(&scene.spheres, &scene.rays);
             for open in [false, true] {
                 let start = |hit: &Hit| if open { hit.t.next_up() } else { hit.t };
                 let begun = |(ray, hit): (&Ray, &Option<Hit>)| Ray {
@@ -144,7 +132,7 @@ proptest! {
                     ..*ray
                 };
                 let rays: Vec<Ray> = scene.rays.iter().zip(&hits).map(begun).collect();
-                let found = (door.nearest)(&rays, &scene.spheres);
+                let found = variant.closest(&scene.spheres, &rays);
                 for (hit, found) in hits.iter().zip(found) {
                     let Some(hit) = hit else {
                         prop_assert_eq!(found, None);
@@ -156,7 +144,7 @@ proptest! {
                     };
                     prop_assert!(
                         as_it_should,
-                        "{} in {} lanes: {:?}, then {:?}", door.tier, door.lanes, hit, found
+                        "{:?}: {:?}, then {:?}", variant, hit, found
                     );
                 }
             }
@@ -172,11 +160,11 @@ proptest! {
         })
     ) {
         let rays: Vec<Ray> = order.iter().map(|&index| scene.rays[index]).collect();
-        for door in DOORS {
-            let hits = (door.nearest)(&scene.rays, &scene.spheres);
+        for variant in lists() {
+            let hits = variant.closest(&scene.spheres, &scene.rays);
             let expected: Vec<_> = order.iter().map(|&index| bits(hits[index])).collect();
-            let found = all_bits((door.nearest)(&rays, &scene.spheres));
-            prop_assert_eq!(found, expected, "{} in {} lanes", door.tier, door.lanes);
+            let found = all_bits(variant.closest(&scene.spheres, &rays));
+            prop_assert_eq!(found, expected, "{:?}", variant);
         }
     }
 
@@ -189,32 +177,21 @@ proptest! {
         })
     ) {
         let spheres: Vec<Sphere> = order.iter().map(|&index| scene.spheres[index]).collect();
-        for door in DOORS {
-            let hits = (door.nearest)(&scene.rays, &scene.spheres);
-            let found = (door.nearest)(&scene.rays, &spheres);
+        for variant in lists() {
+            let hits = variant.closest(&scene.spheres, &scene.rays);
+            let found = variant.closest(&spheres, &scene.rays);
             for ((ray, hit), found) in scene.rays.iter().zip(hits).zip(found) {
                 let t = |hit: Option<Hit>| hit.map(|hit| hit.t.to_bits());
-                prop_assert_eq!(t(found), t(hit), "{} in {} lanes", door.tier, door.lanes);
+                prop_assert_eq!(t(found), t(hit), "{:?}", variant);
                 let Some(found) = found else { continue };
                 // The first in the new order that is met at this t.
                 let same_t = |&sphere: &Sphere| {
-                    let t = (door.reference().pairs)(&[Case { ray: *ray, sphere }])[0];
+                    let t = pairs_of(variant.tier, Storey::Lanes(1), &[Case { ray: *ray, sphere }])[0];
                     t == Some(found.t)
                 };
                 let lowest = spheres.iter().position(same_t);
                 prop_assert_eq!(lowest, Some(found.sphere as usize));
             }
-        }
-    }
-
-    /// Anything is hit where something is nearest.
-    #[test]
-    fn any_is_whether_there_is_a_nearest(scene in any_scene()) {
-        for door in DOORS {
-            let nearest = (door.nearest)(&scene.rays, &scene.spheres);
-            let expected: Vec<bool> = nearest.iter().map(Option::is_some).collect();
-            let found = (door.any)(&scene.rays, &scene.spheres);
-            prop_assert_eq!(found, expected, "{} in {} lanes", door.tier, door.lanes);
         }
     }
 }

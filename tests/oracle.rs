@@ -125,14 +125,14 @@ fn roots_round_to_even_and_zero_has_no_sign() {
 }
 
 #[test]
-fn the_nearest_of_many_and_the_lowest_of_equals() {
+fn the_closest_of_many_and_the_lowest_of_equals() {
     let Case { ray, sphere } = straight();
     let behind = Sphere { center: Vec3::new(0.0, 0.0, -9.0), ..sphere };
     let further = Sphere { center: Vec3::new(0.0, 0.0, 1.0), ..sphere };
     let spheres = [behind, further, sphere, further, sphere];
-    assert_eq!(oracle::nearest(&ray, &spheres), Some(Hit { t: 2.0, sphere: 2 }));
-    assert_eq!(oracle::nearest(&ray, &spheres[..1]), None);
-    assert_eq!(oracle::nearest(&ray, &[]), None);
+    assert_eq!(oracle::closest(&ray, &spheres), Some(Hit { t: 2.0, sphere: 2 }));
+    assert_eq!(oracle::closest(&ray, &spheres[..1]), None);
+    assert_eq!(oracle::closest(&ray, &[]), None);
 }
 
 /// The number at place `place` of all `f32`, in units of 2^-149; infinity as 2^128.

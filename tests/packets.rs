@@ -1,8 +1,8 @@
 //! Packets of rays, spheres and hits as memory: what goes in comes out, in every lane width.
 
 use spherule_kernel::{
-    Camera, Fast, HitPacket, Lanes, Ray, RayPacket, Sphere, SpherePacket, Spheres, Vec3, any,
-    camera::Projection, f32x4, f32x8, f32x16, nearest, pairs,
+    Camera, HitPacket, Lanes, Projection, Ray, RayPacket, Sphere, SpherePacket, Tier, Vec3, f32x4,
+    f32x8, f32x16, pair_lanes,
 };
 use spherule_tests::regimes::REGIMES;
 
@@ -19,7 +19,7 @@ fn bits(ray: &Ray) -> [u32; 8] {
 fn packs_and_unpacks<L: Lanes>() {
     let rays = rays(40);
     for count in 0..=40 {
-        let packet = RayPacket::<L>::new(&rays[..count]);
+        let packet = RayPacket::<L::Array>::new(&rays[..count]);
         for (lane, ray) in rays.iter().enumerate() {
             let expected = if lane < count.min(L::COUNT) { ray } else { &Ray::INACTIVE };
             assert_eq!(bits(&packet.ray(lane)), bits(expected), "lane {lane} of {}", L::COUNT);
@@ -29,7 +29,7 @@ fn packs_and_unpacks<L: Lanes>() {
 
 fn sets_one_lane_and_no_other<L: Lanes>() {
     let rays = rays(40);
-    let before = RayPacket::<L>::new(&rays);
+    let before = RayPacket::<L::Array>::new(&rays);
     for lane in 0..40 {
         let mut packet = before;
         packet.set(lane, &rays[39]);
@@ -43,36 +43,17 @@ fn sets_one_lane_and_no_other<L: Lanes>() {
 fn has_no_hit_without_a_lane<L: Lanes<Token = ()>>() {
     let ray = Ray::new(Vec3::new(0.0, 0.0, -3.0), Vec3::Z);
     let sphere = Sphere { center: Vec3::ZERO, radius: 1.0 };
-    let rays = RayPacket::<L>::new(&[ray; 40]);
-    let hits = pairs::<Fast, L>((), &rays, &SpherePacket::<L>::new(&[sphere; 40]));
+    let rays = RayPacket::<L::Array>::new(&[ray; 40]);
+    let hits =
+        pair_lanes::<L>(Tier::Fast, (), &rays, &SpherePacket::<L::Array>::new(&[sphere; 40]));
     assert_eq!((hits.t().len(), hits.spheres().len()), (L::COUNT, L::COUNT));
     for lane in 0..40 {
         assert_eq!(hits.hit(lane).is_some(), lane < L::COUNT, "lane {lane} of {}", L::COUNT);
     }
     // Lanes without a sphere hit nothing, and say so in both arrays.
-    let hits = pairs::<Fast, L>((), &rays, &SpherePacket::<L>::new(&[]));
+    let hits = pair_lanes::<L>(Tier::Fast, (), &rays, &SpherePacket::<L::Array>::new(&[]));
     assert!(hits.t().iter().all(|&t| t == f32::INFINITY));
-    assert!(hits.spheres().iter().all(|&sphere| sphere == HitPacket::<L>::NO_SPHERE));
-}
-
-/// The shorter slice counts; what is past its end is left alone, and what is not is overwritten.
-fn leaves_what_is_past_the_end_alone<L: Lanes<Token = ()>>() {
-    let hitting = RayPacket::<L>::new(&[Ray::new(Vec3::new(0.0, 0.0, -3.0), Vec3::Z); 16]);
-    let missing = RayPacket::<L>::new(&[Ray::new(Vec3::new(0.0, 0.0, -3.0), Vec3::X); 16]);
-    let (zero, one) = ([0.0], [1.0]);
-    let spheres = Spheres::new(&zero, &zero, &zero, &one).expect("one sphere");
-    let mut hits = [HitPacket::<L>::none(); 3];
-    nearest::<Fast, L>((), &[hitting; 3], spheres, &mut hits[..2]);
-    assert_eq!(hits.map(|hit| hit.hit(0).is_some()), [true, true, false]);
-    nearest::<Fast, L>((), &[missing], spheres, &mut hits);
-    assert_eq!(hits.map(|hit| hit.hit(0).is_some()), [false, true, false]);
-
-    let all = if L::COUNT == 32 { u32::MAX } else { (1 << L::COUNT) - 1 };
-    let mut met = [7; 3];
-    any::<Fast, L>((), &[hitting; 3], spheres, &mut met[..2]);
-    assert_eq!(met, [all, all, 7]);
-    any::<Fast, L>((), &[missing], spheres, &mut met);
-    assert_eq!(met, [0, all, 7]);
+    assert!(hits.spheres().iter().all(|&sphere| sphere == HitPacket::<L::Array>::NO_SPHERE));
 }
 
 /// The rays of a tile are those of its pixels, row by row; outside the picture there is none.
@@ -82,11 +63,11 @@ fn holds_the_rays_of_a_tile<L: Lanes>() {
         [Projection::Perspective { eye: vector(1) }, Projection::Parallel { direction: vector(2) }]
     {
         let camera = Camera { projection, corner: vector(3), step_x: vector(4), step_y: vector(5) };
-        let (width, height) = Camera::tile::<L>();
+        let (width, height) = Camera::tile::<L::Array>();
         assert_eq!((width * height) as usize, L::COUNT);
         assert!(width == height || width == 2 * height, "{width} x {height}");
         for (ix, iy) in [(0, 0), (8, 4), (11, 6), (13, 9), (40, 40)] {
-            let packet = camera.packet::<L>(ix, iy, 13, 8);
+            let packet = camera.packet::<L::Array>(ix, iy, 13, 8);
             for lane in 0..L::COUNT as u32 {
                 let (x, y) = (ix + lane % width, iy + lane / width);
                 let inside = x < 13 && y < 8;
@@ -115,6 +96,5 @@ in_every_width! {
     a_packet_packs_and_unpacks: packs_and_unpacks;
     a_packet_sets_one_lane_and_no_other: sets_one_lane_and_no_other;
     a_packet_has_no_hit_without_a_lane: has_no_hit_without_a_lane;
-    a_search_leaves_what_is_past_the_end_alone: leaves_what_is_past_the_end_alone;
     a_packet_holds_the_rays_of_a_tile: holds_the_rays_of_a_tile;
 }

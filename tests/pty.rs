@@ -1,26 +1,22 @@
 //! The real program in a pseudo-terminal: what it shows, and how it leaves the terminal.
 //!
-//! Needs no controlling terminal: `setsid -w cargo test --test pty </dev/null` passes as well.
-#![cfg(target_os = "linux")]
-#![forbid(unsafe_code)]
+//! Needs no controlling terminal: `setsid -w cargo test -p spherule-tests pty </dev/null` passes as well.
 
-mod pty {
-    pub(crate) mod binary;
-    mod leaving;
-    pub(crate) mod look;
-    pub(crate) mod modes;
-    pub(crate) mod picture;
-    pub(crate) mod session;
-    pub(crate) mod viewer;
-}
+mod binary;
+mod leaving;
+mod look;
+mod modes;
+mod picture;
+mod session;
+mod viewer;
 
-use pty::look::last_row;
-use pty::modes::is_cooked;
-use pty::picture::once;
-use pty::viewer::{COLUMNS, PICTURE_ROWS, ROWS, VIEW, Viewer, shows_a_frame};
-use spherule::view::{LensKind, orbited, with_projection, zoomed};
-use spherule::viewer::{ORBIT_STEP, ZOOM_STEP};
+use look::last_row;
+use modes::is_cooked;
+use picture::once;
+use spherule_tui::view::{LensKind, orbited, with_projection, zoomed};
+use spherule_tui::viewer::{ORBIT_STEP, ZOOM_STEP};
 use std::f32::consts::PI;
+use viewer::{COLUMNS, PICTURE_ROWS, ROWS, VIEW, Viewer, shows_a_frame};
 
 #[test]
 fn it_starts_and_draws_what_once_draws() {

@@ -1,137 +1,104 @@
-//! Every width against one lane, bit for bit; and the rules of the contract, on the answers of the
+//! Every variant against one lane, bit for bit; and the rules of the contract, on the answers of the
 //! tier itself. These hold whatever bits come in, in the tier's domain or not.
 
 use crate::geometry::Scene;
-use crate::promise::Promise;
-use spherule_kernel::{
-    Exact, Fast, Hit, HitPacket, Lanes, Ray, RayPacket, Sphere, SpherePacket, Spheres, Stable, any,
-    f32x4, f32x8, f32x16, nearest, nearest_hit, pairs, roots,
+use crate::promise;
+use spherule_kernel::{Hit, Ray, Sphere, Tier, Viewpoint, roots};
+use spherule_tests::case::Case;
+use spherule_tests::oracle::accepted;
+use spherule_tests::variants::{
+    Answers, Memory, Structure, Structures, bits, pair_storeys, pairs_of, reference, variants,
 };
 
 /// Judges everything that the kernel answers about a scene.
 ///
 /// # Panics
-/// Where an answer is wrong.
+/// If an answer is wrong.
 pub fn check(scene: &Scene) {
-    tier::<Fast>(scene);
-    tier::<Stable>(scene);
-    tier::<Exact>(scene);
+    let Ray { origin, direction, .. } = scene.rays[0];
+    let mut memory = Memory::new(&scene.spheres);
+    for viewpoint in [Viewpoint::Origin(origin), Viewpoint::Direction(direction)] {
+        memory.sorted(viewpoint, |structures| {
+            for tier in Tier::ALL {
+                check_tier(tier, scene, structures);
+            }
+        });
+    }
 }
 
-fn tier<A: Promise>(scene: &Scene) {
-    let list = List::new(&scene.spheres);
-    let single: Vec<_> =
-        scene.rays.iter().map(|ray| nearest_hit::<A>(ray, list.spheres())).collect();
-    for (ray, &hit) in scene.rays.iter().zip(&single) {
-        rules::<A>(ray, &scene.spheres, hit);
+fn check_tier(tier: Tier, scene: &Scene, structures: Structures<'_>) {
+    let Scene { rays, aims, spheres } = scene;
+    let single = reference(tier).closest(spheres, rays);
+    for (ray, &hit) in rays.iter().zip(&single) {
+        check_rules(tier, ray, spheres, hit);
+        // Rule 3: the interval is closed, so the t that was returned finds the same hit again.
+        if let Some(Hit { t, .. }) = hit {
+            assert!(!(t == 0.0 && t.is_sign_negative()), "-0: {ray:?}");
+            let again = reference(tier).closest(spheres, &[Ray { t_max: t, ..*ray }])[0];
+            assert_eq!(bits(again), bits(hit), "{tier:?}: {ray:?}");
+        }
     }
-    for (ray, &aim) in scene.rays.iter().zip(&scene.aims) {
-        let sphere = &scene.spheres[aim];
-        A::judge(ray, sphere, roots::<A>(ray, sphere));
+    for variant in variants().filter(|variant| variant.tier == tier) {
+        let Answers { hits, met } = variant.ask(structures, rays);
+        let same = tier == Tier::Exact || variant.structure == Structure::List;
+        for (index, (ray, expected)) in rays.iter().zip(&single).enumerate() {
+            let (hit, met) = (hits[index], met[index]);
+            let say = || format!("{variant:?}, ray {index} of {scene:?}");
+            if same {
+                assert_eq!(bits(hit), bits(*expected), "closest: {}", say());
+                assert_eq!(met, expected.is_some(), "any: {}", say());
+            } else {
+                // Lists alone keep the false hits of these tiers, and a false hit may hide another.
+                assert!(!met || expected.is_some(), "any: {}", say());
+                let Some(Hit { t, sphere }) = hit else { continue };
+                let own = roots(tier, ray, &spheres[sphere as usize]);
+                let own = own.and_then(|roots| accepted(ray, roots));
+                assert_eq!(own.map(f32::to_bits), Some(t.to_bits()), "no hit: {}", say());
+                assert!(expected.is_some_and(|expected| expected.t <= t), "too close: {}", say());
+            }
+        }
     }
-    width::<A, f32>(scene, &list, &single);
-    width::<A, f32x4>(scene, &list, &single);
-    width::<A, f32x8>(scene, &list, &single);
-    width::<A, f32x16>(scene, &list, &single);
+
+    // Ray i and the sphere that it was made for.
+    let case = |(&ray, &aim): (&Ray, &usize)| Case { ray, sphere: spheres[aim] };
+    let cases: Vec<Case> = rays.iter().zip(aims).map(case).collect();
+    let answer = |case: &Case| {
+        let roots = roots(tier, &case.ray, &case.sphere);
+        promise::judge(tier, &case.ray, &case.sphere, roots);
+        roots.and_then(|roots| accepted(&case.ray, roots)).map(f32::to_bits)
+    };
+    let expected: Vec<_> = cases.iter().map(answer).collect();
+    for storey in pair_storeys() {
+        let found: Vec<_> =
+            pairs_of(tier, storey, &cases).into_iter().map(|t| t.map(f32::to_bits)).collect();
+        assert_eq!(found, expected, "pairs: {tier:?}, {storey:?}: {cases:?}");
+    }
 }
 
 /// Rules 1 and 3 to 5, on a one-lane answer.
-fn rules<A: Promise>(ray: &Ray, spheres: &[Sphere], hit: Option<Hit>) {
-    let accepted = |t: &f32| t.is_finite() && ray.t_min <= *t && *t <= ray.t_max;
+fn check_rules(tier: Tier, ray: &Ray, spheres: &[Sphere], hit: Option<Hit>) {
     let mut expected: Option<Hit> = None;
     for (index, sphere) in spheres.iter().enumerate() {
-        let both = roots::<A>(ray, sphere);
+        let both = roots(tier, ray, sphere);
         // Rule 1: what is no sphere and what is no ray is never hit.
         let ray_is_valid = ray.origin.is_finite()
             && ray.direction.is_finite()
             && ray.direction.to_array() != [0.0; 3];
         assert!(both.is_none() || (ray_is_valid && sphere.is_valid()), "{ray:?} {sphere:?}");
         // Rules 3 and 4: the first accepted root. Rule 5: the smallest t, the lowest index.
-        let Some(t) = both.and_then(|both| both.into_iter().find(accepted)) else { continue };
+        let Some(t) = both.and_then(|both| accepted(ray, both)) else { continue };
         if expected.is_none_or(|hit| t < hit.t) {
             expected = Some(Hit { t, sphere: index as u32 });
         }
     }
-    assert_eq!(bits(hit), bits(expected), "{}: {hit:?}, rules {expected:?}: {ray:?}", A::NAME);
-
-    // Rule 3: the interval is closed, so the t that was returned finds the same hit again.
-    if let Some(Hit { t, .. }) = hit {
-        assert!(!(t == 0.0 && t.is_sign_negative()), "-0: {ray:?}");
-        let again = nearest_hit::<A>(&Ray { t_max: t, ..*ray }, List::new(spheres).spheres());
-        assert_eq!(bits(again), bits(hit), "{}: {ray:?}", A::NAME);
-    }
+    assert_eq!(bits(hit), bits(expected), "{tier:?}: {hit:?}, rules {expected:?}: {ray:?}");
 }
 
-/// Lanes of `L` against one lane.
-fn width<A: Promise, L: Lanes<Token = ()>>(scene: &Scene, list: &List, single: &[Option<Hit>]) {
-    let packets: Vec<RayPacket<L>> = scene.rays.chunks(L::COUNT).map(RayPacket::<L>::new).collect();
-    let mut hits = vec![HitPacket::<L>::none(); packets.len()];
-    nearest::<A, L>((), &packets, list.spheres(), &mut hits);
-    let mut met = vec![u32::MAX; packets.len()];
-    any::<A, L>((), &packets, list.spheres(), &mut met);
-
-    for index in 0..packets.len() * L::COUNT {
-        let (packet, lane) = (index / L::COUNT, index % L::COUNT);
-        let expected = single.get(index).copied().flatten();
-        let say = || format!("{}, {} lanes, ray {index} of {scene:?}", A::NAME, L::COUNT);
-        let hit = hits[packet].hit(lane);
-        assert_eq!(bits(hit), bits(expected), "nearest: {}", say());
-        assert_eq!(met[packet] >> lane & 1 == 1, expected.is_some(), "any: {}", say());
-    }
-
-    // Ray i and the sphere that it was made for.
-    let aims: Vec<_> = scene.aims.iter().map(|&aim| scene.spheres[aim]).collect();
-    let chunks = packets.iter().zip(scene.rays.chunks(L::COUNT).zip(aims.chunks(L::COUNT)));
-    for (packet, (rays, aims)) in chunks {
-        let hits = pairs::<A, L>((), packet, &SpherePacket::<L>::new(aims));
-        for lane in 0..L::COUNT {
-            let alone = rays
-                .get(lane)
-                .zip(aims.get(lane))
-                .and_then(|(ray, sphere)| nearest_hit::<A>(ray, List::new(&[*sphere]).spheres()));
-            let expected = alone.map(|hit| Hit { sphere: lane as u32, ..hit });
-            assert_eq!(
-                bits(hits.hit(lane)),
-                bits(expected),
-                "pairs: {}, {} lanes, lane {lane} of {rays:?} {aims:?}",
-                A::NAME,
-                L::COUNT
-            );
-        }
-    }
-}
-
-fn bits(hit: Option<Hit>) -> Option<(u32, u32)> {
-    hit.map(|hit| (hit.t.to_bits(), hit.sphere))
-}
-
-/// Spheres, coordinate by coordinate.
-struct List([Vec<f32>; 4]);
-
-impl List {
-    fn new(spheres: &[Sphere]) -> Self {
-        let of = |number: &dyn Fn(&Sphere) -> f32| spheres.iter().map(number).collect();
-        let axis = |axis: usize| of(&|sphere| sphere.center[axis]);
-        Self([axis(0), axis(1), axis(2), of(&|sphere| sphere.radius)])
-    }
-
-    fn spheres(&self) -> Spheres<'_> {
-        let [x, y, z, r] = &self.0;
-        Spheres::new(x, y, z, r).expect("equal lengths")
-    }
-}
-
-/// Bytes for the tests, from xorshift.
+/// Bytes for the tests.
 #[cfg(test)]
 pub(crate) fn random_bytes(seed: u64) -> Vec<u8> {
-    let mut state = (seed + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    let mut next = || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        (state >> 32) as u8
-    };
-    (0..700).map(|_| next()).collect()
+    let mut random = spherule_tests::random::Random::new(seed, 0);
+    (0..700).map(|_| random.bits() as u8).collect()
 }
 
 #[cfg(test)]
@@ -163,6 +130,7 @@ mod tests {
     #[should_panic(expected = "rules")]
     fn a_hit_that_breaks_the_rules_is_seen() {
         let scene = Scene::from_bytes(&[]);
-        rules::<Stable>(&scene.rays[0], &scene.spheres, Some(Hit { t: 1.0, sphere: 0 }));
+        let hit = Some(Hit { t: 1.0, sphere: 0 });
+        check_rules(Tier::Stable, &scene.rays[0], &scene.spheres, hit);
     }
 }

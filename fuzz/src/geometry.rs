@@ -109,6 +109,11 @@ impl Bytes<'_> {
                 direction: self.walked(last.direction),
                 ..last
             },
+            // From where the ray before starts, or beside it: what depth lists and coherent packets are for.
+            (7, Some(last)) => match self.next() % 2 {
+                0 => Ray::new(last.origin, self.vector()),
+                _ => Ray::new(self.vector(), last.direction),
+            },
             _ => Ray::new(self.vector(), self.vector()),
         };
         match self.next() % 8 {

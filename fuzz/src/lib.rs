@@ -3,7 +3,7 @@
 //! | room | holds |
 //! |---|---|
 //! | [`geometry`] | how bytes become rays and spheres that are worth intersecting |
-//! | [`agreement`] | lanes against one lane, and the rules of the contract on a tier's own answers |
+//! | [`agreement`] | every variant against one lane, and the rules of the contract on a tier's own answers |
 //! | [`promise`] | a tier's roots against the exact ones, within what the tier promises |
 
 #![forbid(unsafe_code)]

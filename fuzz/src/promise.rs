@@ -2,12 +2,12 @@
 //!
 //! What a tier promises is put as a backward error: its answer must be an exact answer for a
 //! sphere whose squared radius differs by no more than the tier's error, and t may besides be off
-//! by a few roundings. So the exact oracle is asked twice, for a sphere a little smaller and one a
-//! little larger: where both are missed the tier must miss, where both are met it must hit, and
+//! by a few roundings. So the exact oracle answers twice, for a sphere a little smaller and one a
+//! little larger: if both are missed the tier must miss, if both are met it must hit, and
 //! its roots must lie between theirs. That holds from head-on to grazing, and asks nothing of the
 //! float arithmetic that is on trial. `Exact` gets no such band.
 
-use spherule_kernel::{Accuracy, Exact, Fast, Ray, Sphere, Stable};
+use spherule_kernel::{Ray, Sphere, Tier};
 use spherule_tests::oracle;
 
 /// Half an ulp of 1.
@@ -16,46 +16,34 @@ const U: f64 = 1.0 / 16_777_216.0;
 const REACH: f64 = 1_099_511_627_776.0;
 const LENGTH: f64 = 1_048_576.0;
 
-/// What a tier promises of the roots of a line.
-pub trait Promise: Accuracy {
-    /// Judges the roots that the tier found.
-    ///
-    /// # Panics
-    /// Where the promise is broken.
-    fn judge(ray: &Ray, sphere: &Sphere, found: Option<[f32; 2]>);
-}
-
-/// The textbook form: p.p - r^2 and b^2 are rounded at the size of |p|^2.
-impl Promise for Fast {
-    fn judge(ray: &Ray, sphere: &Sphere, found: Option<[f32; 2]>) {
-        let band = Band {
+/// Judges the roots of a line that the tier found.
+///
+/// # Panics
+/// If they break what the tier promises.
+pub fn judge(tier: Tier, ray: &Ray, sphere: &Sphere, found: Option<[f32; 2]>) {
+    let band = match tier {
+        // The textbook form: p.p - r^2 and b^2 are rounded at the size of |p|^2.
+        Tier::Fast => Band {
             radii: f64::INFINITY,
             square_error: |radius, distance| 24.0 * U * (radius * radius + distance * distance),
             further_error: |distance| 8.0 * U * distance,
-        };
-        band.judge(Self::NAME, ray, sphere, found);
-    }
-}
-
-/// Closest point first: whatever the distance, up to 2^20 radii, the error is one of r^2 alone.
-impl Promise for Stable {
-    fn judge(ray: &Ray, sphere: &Sphere, found: Option<[f32; 2]>) {
-        let band = Band {
+        },
+        // Closest point first: whatever the distance, up to 2^20 radii, the error is one of r^2 alone.
+        Tier::Stable => Band {
             radii: LENGTH,
             square_error: |radius, _| 32.0 * U * radius * radius,
             further_error: |_| 0.0,
-        };
-        band.judge(Self::NAME, ray, sphere, found);
-    }
-}
-
-/// The roots of real arithmetic, correctly rounded, whatever the input.
-impl Promise for Exact {
-    fn judge(ray: &Ray, sphere: &Sphere, found: Option<[f32; 2]>) {
-        let exact = oracle::roots(ray, sphere);
-        let bits = |roots: Option<[f32; 2]>| roots.map(|roots| roots.map(f32::to_bits));
-        assert_eq!(bits(found), bits(exact), "exact: {found:?} for {exact:?}: {ray:?} {sphere:?}");
-    }
+        },
+        // The roots of real arithmetic, correctly rounded, whatever the input.
+        Tier::Exact => {
+            let exact = oracle::roots(ray, sphere);
+            let bits = |roots: Option<[f32; 2]>| roots.map(|roots| roots.map(f32::to_bits));
+            let place = || format!("{found:?} for {exact:?}: {ray:?} {sphere:?}");
+            assert_eq!(bits(found), bits(exact), "exact: {}", place());
+            return;
+        }
+    };
+    band.judge(tier.as_str(), ray, sphere, found);
 }
 
 /// How far a tier may be from the exact roots in the domain that is common to `f32` tiers.
@@ -132,45 +120,45 @@ mod tests {
 
     #[test]
     fn the_exact_roots_pass() {
-        Stable::judge(&RAY, &BALL, Some([2.0, 3.0]));
-        Stable::judge(&RAY, &Sphere { center: Vec3::X * 2.0, ..BALL }, None);
+        judge(Tier::Stable, &RAY, &BALL, Some([2.0, 3.0]));
+        judge(Tier::Stable, &RAY, &Sphere { center: Vec3::X * 2.0, ..BALL }, None);
     }
 
     #[test]
     fn at_a_tangent_both_decisions_pass() {
         let tangent = Sphere { center: Vec3::X, ..BALL };
-        Stable::judge(&RAY, &tangent, Some([2.5, 2.5]));
-        Stable::judge(&RAY, &tangent, None);
+        judge(Tier::Stable, &RAY, &tangent, Some([2.5, 2.5]));
+        judge(Tier::Stable, &RAY, &tangent, None);
     }
 
     #[test]
     #[should_panic(expected = "false miss")]
     fn a_false_miss_is_seen() {
-        Stable::judge(&RAY, &BALL, None);
+        judge(Tier::Stable, &RAY, &BALL, None);
     }
 
     #[test]
     #[should_panic(expected = "false hit")]
     fn a_false_hit_is_seen() {
         let beside = Sphere { center: Vec3::X * 1.0001, ..BALL };
-        Stable::judge(&RAY, &beside, Some([2.5, 2.5]));
+        judge(Tier::Stable, &RAY, &beside, Some([2.5, 2.5]));
     }
 
     #[test]
     #[should_panic(expected = "entry")]
     fn an_entry_sixteen_ulps_off_is_seen() {
-        Stable::judge(&RAY, &BALL, Some([2.0 + 16.0 * f32::EPSILON * 2.0, 3.0]));
+        judge(Tier::Stable, &RAY, &BALL, Some([2.0 + 16.0 * f32::EPSILON * 2.0, 3.0]));
     }
 
     #[test]
     #[should_panic(expected = "exact")]
     fn an_exact_root_one_ulp_off_is_seen() {
-        Exact::judge(&RAY, &BALL, Some([2.0_f32.next_up(), 3.0]));
+        judge(Tier::Exact, &RAY, &BALL, Some([2.0_f32.next_up(), 3.0]));
     }
 
     #[test]
     #[should_panic(expected = "exit")]
     fn an_exit_that_is_the_entry_is_seen() {
-        Fast::judge(&RAY, &BALL, Some([2.0, 2.0]));
+        judge(Tier::Fast, &RAY, &BALL, Some([2.0, 2.0]));
     }
 }

@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 use std::time::SystemTime;
 
 /// Where `spherule` is. Cargo names the binaries of another package to nobody, but it puts them
-/// two levels above the test: `target/PROFILE/deps/pty-HASH`.
+/// two levels above the test: `target/PROFILE/deps/main-HASH`.
 pub(crate) fn spherule() -> PathBuf {
     static BINARY: OnceLock<PathBuf> = OnceLock::new();
     BINARY.get_or_init(find).clone()

@@ -93,8 +93,9 @@ impl Session {
         let pair = native_pty_system().openpty(size(columns, rows)).expect("a pseudo-terminal");
         let name = pair.master.tty_name().expect("it has a name");
         // Not as the test's own controlling terminal, should the test have none.
-        let line = rustix::fs::open(name, OFlags::RDWR | OFlags::NOCTTY, Mode::empty())
-            .expect("the program's side opens");
+        // Nor a program's that another test starts meanwhile.
+        let flags = OFlags::RDWR | OFlags::NOCTTY | OFlags::CLOEXEC;
+        let line = rustix::fs::open(name, flags, Mode::empty()).expect("the program's side opens");
         let modes_before = modes::line_discipline(&tcgetattr(&line).expect("it is a terminal"));
 
         let command = command(program, arguments, variables);

@@ -63,30 +63,3 @@ fn normalized(v: [f64; 3]) -> Option<[f64; 3]> {
     let length = dot(v, v).sqrt();
     (length > 0.0 && length.is_finite()).then(|| v.map(|x| x / length))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::oracle;
-
-    #[test]
-    fn offsets_below_one_hit_and_above_one_miss() {
-        let mut random = Random::new(4, 0);
-        for _ in 0..1000 {
-            let offset = random.uniform(0.0, 2.0);
-            let aim = Aim {
-                origin: random.unit(),
-                length: random.log_uniform(-10, 10),
-                distance: random.uniform(3.0, 10.0),
-                radius: random.uniform(0.5, 1.5),
-                offset,
-            };
-            let case = aim.case(&mut random);
-            assert!((line_distance(&case) - offset * aim.radius).abs() < 1e-5, "{case:?}");
-            if (offset - 1.0).abs() > 1e-4 {
-                let hit = oracle::intersect(&case.ray, &case.sphere).is_some();
-                assert_eq!(hit, offset < 1.0, "{case:?}");
-            }
-        }
-    }
-}

@@ -115,36 +115,3 @@ impl fmt::Display for HexPoint {
         write!(formatter, "({x}, {y}, {z})")
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_are_printed_in_hexadecimal_with_their_bits() {
-        for (value, printed) in [
-            (1.5, "0x1.800000p0 [3fc00000]"),
-            (-0.0, "-0 [80000000]"),
-            (f32::from_bits(1), "0x0.000002p-126 [00000001]"),
-            (f32::MAX, "0x1.fffffep127 [7f7fffff]"),
-            (f32::NEG_INFINITY, "-inf [ff800000]"),
-            (f32::from_bits(0xffc0_0001), "-nan [ffc00001]"),
-        ] {
-            assert_eq!(Hex(value).to_string(), printed);
-        }
-    }
-
-    #[test]
-    fn a_failing_case_can_be_read_and_pasted() {
-        let numbers = [0.0, 0.0, -3.0, 0.0, 0.0, 1.0, 0.0, f32::INFINITY, 0.0, 0.0, 0.0, 1.0];
-        let printed = format!("{:?}", Case::from_numbers(numbers));
-        assert!(printed.contains("-0x1.800000p1 [c0400000]"), "{printed}");
-        assert!(printed.contains("inf [7f800000]"), "{printed}");
-    }
-
-    #[test]
-    fn bits_go_round() {
-        let bits = core::array::from_fn(|i| 0x7fc0_0000 ^ (i as u32 * 0x0101_0101));
-        assert_eq!(Case::from_bits(bits).bits(), bits);
-    }
-}

@@ -4,18 +4,18 @@
 //! | room | holds |
 //! |---|---|
 //! | [`oracle`] | the exact answers, from big integers |
-//! | [`ulp`], [`tally`] | distance in ulp, and what a tier's answers come to |
+//! | [`variants`] | the one table of tiers, structures and storeys of the door |
+//! | [`ulp`] | steps between neighbouring numbers |
+//! | [`tally`] | what a tier's answers come to |
 //! | [`case`] | one ray and one sphere, printed so that no bit is hidden |
 //! | [`random`] | random numbers that never change |
 //! | [`aim`] | rays aimed at spheres |
 //! | [`regimes`] | cases of the 22 hard regimes |
 //! | [`inputs`] | what proptest draws |
-//! | [`kept`] | some of them with their answers, in a file |
+//! | [`kept`] | some of the regimes' cases with their answers, in a file |
 //! | [`measured`] | cases of the regimes in which error is measured |
 //! | [`budget`] | the one table of what each tier gets wrong, and where |
-//! | [`doors`] | every tier in every lane width, as plain functions |
-//! | [`tree_ways`] | every way through a tree, as plain functions |
-//! | [`vectors`] | the 100,000 hard cases that lie beside the workspace, where they do |
+//! | [`vectors`] | the 100,000 hard cases that lie beside the workspace, if they do |
 //!
 //! `PROPTEST_CASES=100000 cargo test -p spherule-tests` looks longer for counterexamples;
 //! `SPHERULE_VECTORS=<folder>` says where the vectors are, and makes their absence a failure.
@@ -23,21 +23,22 @@
 //! generator the kept cases are written anew as the head of their file says.
 
 pub mod aim;
+#[cfg(feature = "tally")]
 pub mod budget;
 pub mod case;
-pub mod doors;
+#[cfg(feature = "inputs")]
 pub mod inputs;
 pub mod kept;
 pub mod measured;
 pub mod oracle;
 pub mod random;
 pub mod regimes;
+#[cfg(feature = "tally")]
 pub mod tally;
-#[cfg(feature = "dispatch")]
-pub mod tree_ways;
 pub mod ulp;
+pub mod variants;
+#[cfg(feature = "tally")]
 pub mod vectors;
-pub mod widths;
 
 /// The README's Rust, compiled and run.
 #[cfg(doctest)]

@@ -158,35 +158,3 @@ fn near_surface(random: &mut Random, side: f64) -> Case {
         };
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::oracle;
-
-    /// The rates of true hits of the first measurements, within the noise of 2,000 cases.
-    #[test]
-    fn as_many_hit_as_there_should() {
-        for measured in MEASURED {
-            let hits = measured
-                .cases(2000)
-                .filter(|case| oracle::intersect(&case.ray, &case.sphere).is_some())
-                .count();
-            let expected = match measured.kind {
-                Kind::Grazing { .. } => 1000,
-                Kind::Planet => 990,
-                Kind::Inside => 2000,
-                Kind::Outside => 1930,
-                _ => 1333,
-            };
-            assert!(hits.abs_diff(expected) < 80, "{}: {hits} hits of 2000", measured.name);
-        }
-    }
-
-    #[test]
-    fn names_are_different() {
-        for (index, measured) in MEASURED.iter().enumerate() {
-            assert!(MEASURED[..index].iter().all(|other| other.name != measured.name));
-        }
-    }
-}

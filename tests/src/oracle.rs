@@ -31,7 +31,7 @@ struct Quadratic {
 }
 
 impl Quadratic {
-    /// Nothing where rule 1 applies.
+    /// `None` if rule 1 applies.
     fn new(ray: &Ray, sphere: &Sphere) -> Option<Self> {
         let finite = ray.origin.is_finite()
             && ray.direction.is_finite()
@@ -106,7 +106,7 @@ impl CutRoot {
 /// `x` in units of 2^-149.
 ///
 /// # Panics
-/// Where `x` is NaN or infinite.
+/// If `x` is NaN or infinite.
 #[must_use]
 pub fn units(x: f32) -> BigInt {
     assert!(x.is_finite(), "{x} is no multiple of anything");
@@ -131,7 +131,7 @@ pub fn dot(v: &[BigInt; 3], w: &[BigInt; 3]) -> BigInt {
     &v[0] * &w[0] + &v[1] * &w[1] + &v[2] * &w[2]
 }
 
-/// How D compares with zero: `Less` misses, `Equal` is a tangent. Nothing for invalid input.
+/// How D compares with zero: `Less` misses, `Equal` is a tangent. `None` for invalid input.
 #[must_use]
 pub fn discriminant_sign(ray: &Ray, sphere: &Sphere) -> Option<Ordering> {
     Quadratic::new(ray, sphere).map(|quadratic| quadratic.discriminant.cmp(&BigInt::zero()))
@@ -145,7 +145,7 @@ pub fn meets(ray: &Ray, sphere: &Sphere) -> bool {
 
 /// Rules 1 and 2, and both roots of the line, correctly rounded, the smaller first.
 ///
-/// Whatever the interval; infinite where a root overflows.
+/// Whatever the interval; infinite if a root overflows.
 #[must_use]
 pub fn roots(ray: &Ray, sphere: &Sphere) -> Option<[f32; 2]> {
     roots_and_ties(ray, sphere).map(|roots| roots.map(|(root, _)| root))
@@ -172,18 +172,18 @@ pub fn accepted(ray: &Ray, roots: [f32; 2]) -> Option<f32> {
     roots.into_iter().find(accepted)
 }
 
-/// Rules 1 to 5: the nearest hit, the lowest index among equals.
+/// Rules 1 to 5: the closest hit, the lowest index among equals.
 ///
 /// # Panics
-/// Where there are 2^32 spheres or more.
+/// If there are 2^32 spheres or more.
 #[must_use]
-pub fn nearest(ray: &Ray, spheres: &[Sphere]) -> Option<Hit> {
-    let mut nearest: Option<Hit> = None;
+pub fn closest(ray: &Ray, spheres: &[Sphere]) -> Option<Hit> {
+    let mut closest: Option<Hit> = None;
     for (index, sphere) in spheres.iter().enumerate() {
         let Some(t) = intersect(ray, sphere) else { continue };
-        if nearest.is_none_or(|hit| t < hit.t) {
-            nearest = Some(Hit { t, sphere: u32::try_from(index).expect("a 32-bit index") });
+        if closest.is_none_or(|hit| t < hit.t) {
+            closest = Some(Hit { t, sphere: u32::try_from(index).expect("a 32-bit index") });
         }
     }
-    nearest
+    closest
 }

@@ -1,5 +1,7 @@
-//! Random numbers that never change: our own generator, and only operations whose last bit is
-//! the same on every machine (no powers, logarithms or sines).
+//! Random numbers that never change: our own generator, and, except in [`Random::normal`], only operations whose last
+//! bit is the same on every machine (no powers, logarithms or sines).
+
+use spherule_kernel::Vec3;
 
 /// `SplitMix64` (Steele, Lea, Flood 2014), and what geometry draws from it.
 #[derive(Clone, Debug)]
@@ -8,16 +10,22 @@ pub struct Random(u64);
 impl Random {
     /// The stream of `seed`, and within it of `index`: any case can be made again on its own.
     #[must_use]
-    pub fn new(seed: u64, index: u64) -> Self {
-        let mut random = Self(seed);
+    pub const fn new(seed: u64, index: u64) -> Self {
+        let mut random = Self::seeded(seed);
         // Without mixing, the stream of a near seed would be the same stream, a step on.
         random.0 = random.bits() ^ index;
         random.0 = random.bits();
         random
     }
 
+    /// The stream of the published generator for `seed`.
+    #[must_use]
+    pub const fn seeded(seed: u64) -> Self {
+        Self(seed)
+    }
+
     /// 64 random bits.
-    pub fn bits(&mut self) -> u64 {
+    pub const fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -71,6 +79,34 @@ impl Random {
         }
     }
 
+    /// Uniform in `[low, high]`, on a grid of 2^-24 of it.
+    pub fn between(&mut self, low: f32, high: f32) -> f32 {
+        let unit = (self.bits() >> 40) as f32 / (1_u64 << 24) as f32;
+        low + unit * (high - low)
+    }
+
+    /// Uniform in a cube around the origin, `half` from the centre to a side.
+    pub fn in_cube(&mut self, half: f32) -> Vec3 {
+        Vec3::from_array([(); 3].map(|()| self.between(-half, half)))
+    }
+
+    /// [`Random::unit`] in single precision throughout.
+    pub fn direction(&mut self) -> Vec3 {
+        loop {
+            let point = self.in_cube(1.0);
+            let square = point.length_squared();
+            if (0.01..=1.0).contains(&square) {
+                return point / square.sqrt();
+            }
+        }
+    }
+
+    /// Normal, of mean 0 and variance 1 (Box and Muller); the last bits are those of the machine's logarithm and cosine.
+    pub fn normal(&mut self) -> f64 {
+        let (radius, angle) = (1.0 - self.uniform(0.0, 1.0), self.uniform(0.0, 1.0));
+        (-2.0 * radius.ln()).sqrt() * (angle * core::f64::consts::TAU).cos()
+    }
+
     /// A unit vector at right angles (but for rounding) to the unit vector `u`.
     pub fn perpendicular(&mut self, u: [f64; 3]) -> [f64; 3] {
         loop {
@@ -103,66 +139,4 @@ pub fn dot(v: [f64; 3], w: [f64; 3]) -> f64 {
 #[must_use]
 pub fn cross(v: [f64; 3], w: [f64; 3]) -> [f64; 3] {
     [v[1] * w[2] - v[2] * w[1], v[2] * w[0] - v[0] * w[2], v[0] * w[1] - v[1] * w[0]]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The first numbers of the reference implementation for seed 1234567.
-    #[test]
-    fn is_splitmix64() {
-        let mut random = Random(1_234_567);
-        let expected: [u64; 3] =
-            [6_457_827_717_110_365_317, 3_203_168_211_198_807_973, 9_817_491_932_198_370_423];
-        assert_eq!([(); 3].map(|()| random.bits()), expected);
-    }
-
-    #[test]
-    fn both_signs_and_both_ends_occur() {
-        let mut random = Random::new(1, 0);
-        let draws: Vec<_> = (0..1000).map(|_| (random.sign(), random.integer(-3, 3))).collect();
-        for sign in [-1.0, 1.0] {
-            assert!(draws.iter().filter(|draw| draw.0 == sign).count() > 400);
-        }
-        for integer in -3..=3 {
-            assert!(draws.iter().filter(|draw| draw.1 == integer).count() > 100);
-        }
-        assert!(draws.iter().all(|draw| (-3..=3).contains(&draw.1)));
-    }
-
-    #[test]
-    fn sizes_are_spread_over_the_powers_of_two() {
-        let mut random = Random::new(2, 0);
-        let mut counts = [0; 5];
-        for _ in 0..5000 {
-            let size = random.log_uniform(-2, 2);
-            let power = (0..5).find(|&i| size < power_of_two(i - 1)).expect("below 2^3");
-            counts[power as usize] += 1;
-        }
-        assert!(counts.iter().all(|count| (850..1150).contains(count)), "{counts:?}");
-    }
-
-    #[test]
-    fn units_have_length_one_and_perpendiculars_no_part_along_them() {
-        let mut random = Random::new(3, 0);
-        let mut octants = [0; 8];
-        for _ in 0..8000 {
-            let u = random.unit();
-            let v = random.perpendicular(u);
-            assert!((dot(u, u) - 1.0).abs() < 1e-14 && (dot(v, v) - 1.0).abs() < 1e-14);
-            assert!(dot(u, v).abs() < 1e-14);
-            let octant = u.iter().fold(0, |bits, &x| bits << 1 | usize::from(x < 0.0));
-            octants[octant] += 1;
-        }
-        assert!(octants.iter().all(|count| (850..1150).contains(count)), "{octants:?}");
-    }
-
-    #[test]
-    fn a_stream_is_its_own() {
-        let first = |seed, index| Random::new(seed, index).bits();
-        assert_eq!(first(1, 1), first(1, 1));
-        assert_ne!(first(1, 1), first(1, 2));
-        assert_ne!(first(1, 1), first(2, 1));
-    }
 }

@@ -2,15 +2,15 @@
 //!
 //! The cases are those of `tests/cases/regimes.txt`, given as bits, and others a few ulp away;
 //! nothing here computes with floats but the kernel. The digest is FNV-1a over the bits of every t
-//! and every index: of the pairs, of the nearest hits in the list of all spheres, of both roots.
+//! and every index: of the pairs, of the closest hits in the list of all spheres, of both roots.
 //! With `--control` one bit of the radius of the first sphere that is met is another.
 
 mod cases;
 
 use cases::Case;
 use spherule_kernel::{
-    Accuracy, Exact, Fast, HitPacket, Lanes, RayPacket, Sphere, SpherePacket, Spheres, Stable, any,
-    f32x4, f32x8, f32x16, nearest, pairs, roots,
+    HitPacket, Intersect, Lanes, RayPacket, Sphere, SpherePacket, Spheres, Tier, Trace, f32x4,
+    f32x8, f32x16, pair_lanes, roots,
 };
 use std::process::ExitCode;
 
@@ -36,13 +36,13 @@ impl Fnv {
 
 /// The digest of a tier in a width; the index of a pair's sphere is its lane, so that it is left
 /// out.
-fn digest<A: Accuracy, L: Lanes<Token = ()>>(cases: &[Case]) -> u64 {
+fn digest<L: Lanes<Token = ()>>(tier: Tier, cases: &[Case]) -> u64 {
     let mut fnv = Fnv::new();
-    let rays =
-        |cases: &[Case]| RayPacket::<L>::new(&cases.iter().map(|c| c.ray).collect::<Vec<_>>());
     for cases in cases.chunks(L::COUNT) {
+        let rays: Vec<_> = cases.iter().map(|case| case.ray).collect();
         let spheres: Vec<Sphere> = cases.iter().map(|case| case.sphere).collect();
-        let hits = pairs::<A, L>((), &rays(cases), &SpherePacket::<L>::new(&spheres));
+        let (rays, spheres) = (RayPacket::new(&rays), SpherePacket::new(&spheres));
+        let hits = pair_lanes::<L>(tier, (), &rays, &spheres);
         hits.t().iter().take(cases.len()).for_each(|&t| fnv.t(t));
     }
 
@@ -55,19 +55,18 @@ fn digest<A: Accuracy, L: Lanes<Token = ()>>(cases: &[Case]) -> u64 {
     for first in (0..kept.len()).step_by(60) {
         let end = first + 60;
         let part = Spheres::new(&x[first..end], &y[first..end], &z[first..end], &r[first..end]);
-        lists::<A, L>(&mut fnv, &kept[first..end], part.unwrap_or(list));
+        lists::<L>(&mut fnv, tier, &kept[first..end], part.unwrap_or(list));
     }
-    lists::<A, L>(&mut fnv, kept, list);
+    lists::<L>(&mut fnv, tier, kept, list);
     fnv.0
 }
 
-fn lists<A: Accuracy, L: Lanes<Token = ()>>(fnv: &mut Fnv, cases: &[Case], spheres: Spheres<'_>) {
+fn lists<L: Lanes<Token = ()>>(fnv: &mut Fnv, tier: Tier, cases: &[Case], spheres: Spheres<'_>) {
     let rays: Vec<_> = cases.iter().map(|case| case.ray).collect();
-    let packets: Vec<_> = rays.chunks(L::COUNT).map(RayPacket::<L>::new).collect();
-    let mut hits = vec![HitPacket::<L>::none(); packets.len()];
-    nearest::<A, L>((), &packets, spheres, &mut hits);
-    let mut met = vec![0; packets.len()];
-    any::<A, L>((), &packets, spheres, &mut met);
+    let packets: Vec<_> = rays.chunks(L::COUNT).map(RayPacket::<L::Array>::new).collect();
+    let (mut hits, mut met) = (vec![HitPacket::none(); packets.len()], vec![0; packets.len()]);
+    spheres.closest_hit_lanes::<L>(tier, (), &mut Trace::new(), &packets, &mut hits);
+    spheres.any_hit_lanes::<L>(tier, (), &mut Trace::new(), &packets, &mut met);
     // Ray by ray: a packet by a packet would be another order in every width.
     for ray in 0..rays.len() {
         let (packet, lane) = (ray / L::COUNT, ray % L::COUNT);
@@ -78,35 +77,36 @@ fn lists<A: Accuracy, L: Lanes<Token = ()>>(fnv: &mut Fnv, cases: &[Case], spher
 }
 
 /// The digests of all widths, which must be one.
-fn tier<A: Accuracy>(cases: &[Case]) -> bool {
+fn widths(tier: Tier, cases: &[Case]) -> bool {
+    let name = tier.as_str();
     let digests = [
-        digest::<A, f32>(cases),
-        digest::<A, f32x4>(cases),
-        digest::<A, f32x8>(cases),
-        digest::<A, f32x16>(cases),
+        digest::<f32>(tier, cases),
+        digest::<f32x4>(tier, cases),
+        digest::<f32x8>(tier, cases),
+        digest::<f32x16>(tier, cases),
     ];
     for (lanes, digest) in [1, 4, 8, 16].into_iter().zip(digests) {
-        println!("digest: {} {lanes} lanes {digest:016x}", A::NAME);
+        println!("digest: {name} {lanes} lanes {digest:016x}");
     }
     let mut fnv = Fnv::new();
     for case in cases {
-        match roots::<A>(&case.ray, &case.sphere) {
+        match roots(tier, &case.ray, &case.sphere) {
             Some(roots) => roots.into_iter().for_each(|t| fnv.t(t)),
             None => fnv.word(0),
         }
     }
-    println!("digest: {} roots {:016x}", A::NAME, fnv.0);
+    println!("digest: {name} roots {:016x}", fnv.0);
     digests.iter().all(|digest| *digest == digests[0])
 }
 
 fn main() -> ExitCode {
     let mut cases = cases::all();
     if std::env::args().nth(1).as_deref() == Some("--control") {
-        let hit = cases.iter_mut().find(|c| roots::<Exact>(&c.ray, &c.sphere).is_some());
+        let hit = cases.iter_mut().find(|c| roots(Tier::Exact, &c.ray, &c.sphere).is_some());
         let radius = &mut hit.expect("a hit").sphere.radius;
         *radius = f32::from_bits(radius.to_bits() ^ 1 << 12);
     }
-    let agree = [tier::<Fast>(&cases), tier::<Stable>(&cases), tier::<Exact>(&cases)];
+    let agree = [Tier::Fast, Tier::Stable, Tier::Exact].map(|tier| widths(tier, &cases));
     if agree.contains(&false) {
         eprintln!("digest: FAILED: a lane width differs from another");
         return ExitCode::FAILURE;

@@ -2,7 +2,8 @@
 
 use crate::painted_stack::used;
 use spherule_kernel::{
-    Exact, Lanes, Ray, RayPacket, Sphere, SpherePacket, Vec3, f32x4, f32x8, f32x16, pairs, roots,
+    Exact, Lanes, Ray, RayPacket, Sphere, SpherePacket, Vec3, f32x4, f32x8, f32x16, pair_lanes,
+    roots,
 };
 use std::hint::black_box;
 use std::sync::LazyLock;
@@ -40,17 +41,14 @@ static HARD: LazyLock<[(Ray, Sphere); 3]> = LazyLock::new(hard);
 
 extern "C" fn both_roots() {
     for (ray, sphere) in black_box(&*HARD) {
-        black_box(roots::<Exact>(ray, sphere));
+        black_box(roots(Exact, ray, sphere));
     }
 }
 
 fn all_pairs<L: Lanes<Token = ()>>(cases: &[(Ray, Sphere)]) {
     for (ray, sphere) in black_box(cases) {
-        black_box(pairs::<Exact, L>(
-            (),
-            &RayPacket::<L>::new(&[*ray]),
-            &SpherePacket::<L>::new(&[*sphere]),
-        ));
+        let (rays, spheres) = (RayPacket::new(&[*ray]), SpherePacket::new(&[*sphere]));
+        black_box(pair_lanes::<L>(Exact, (), &rays, &spheres));
     }
 }
 
@@ -81,7 +79,7 @@ fn report<L: Lanes<Token = ()>>() {
 /// Prints the figures.
 ///
 /// # Panics
-/// Where the fallback uses more than its documentation says, or the control is not seen to.
+/// If the fallback uses more than its documentation says, or the control is not seen to.
 pub(crate) fn measure() {
     LazyLock::force(&HARD);
     let call = used(nothing);

@@ -12,9 +12,9 @@ extern crate std;
 use core::hint::black_box;
 use spherule_kernel::camera::Projection;
 use spherule_kernel::{
-    Accuracy, Bvh, BvhLeaf, BvhNode, Camera, DepthOrder, Exact, Fast, Hit, HitPacket, Lanes, Ray,
-    RayPacket, Sphere, SpherePacket, Spheres, Stable, Vec3, Viewpoint, any, bvh, f32x4, f32x8,
-    f32x16, float_environment_is_sound, nearest, nearest_hit, pairs, roots, tiles,
+    AnyHit, Bvh, BvhLeaf, BvhNode, Camera, ClosestHit, DepthList, Hit, HitPacket, Intersect, Lanes,
+    Level, Ray, RayPacket, Sphere, SpherePacket, Spheres, Tier, Trace, Vec3, Viewpoint, f32x4,
+    f32x8, f32x16, float_environment_is_sound, pair_lanes, pair_packets, pairs, roots, stages,
 };
 
 /// What a firmware does in its own way; without `std` there must be one.
@@ -25,7 +25,7 @@ fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
 
 /// Takes every public way through the kernel, with numbers that the optimiser does not know.
 ///
-/// Answers a digest of the hits, so that nothing can be left out.
+/// Returns a digest of the answers, so that nothing can be left out.
 ///
 /// # Safety
 /// `numbers` points to `count` numbers that nobody writes meanwhile, or is null.
@@ -55,103 +55,131 @@ pub unsafe extern "C" fn spherule_no_std(numbers: *const f32, count: usize) -> u
     };
     let camera = Camera { projection, corner: vector(4), step_x: vector(7), step_y: vector(10) };
 
-    let mut digest = 0;
-    digest ^= tier::<Fast>(&camera, spheres, &vector);
-    digest ^= tier::<Stable>(&camera, spheres, &vector);
-    digest ^= tier::<Exact>(&camera, spheres, &vector);
-    // The same source in every tier and width: of each one.
-    digest ^= tree::<Fast, f32>(&camera, spheres);
-    digest ^= tree::<Stable, f32x4>(&camera, spheres);
-    digest ^= tree::<Exact, f32x16>(&camera, spheres);
-    digest ^= u32::from(float_environment_is_sound());
-    black_box(digest)
-}
-
-fn tier<A: Accuracy>(
-    camera: &Camera,
-    spheres: Spheres<'_>,
-    vector: &impl Fn(usize) -> Vec3,
-) -> u32 {
-    let ray = Ray { t_max: vector(3).x, ..camera.get_ray(1, 2) };
-    let sphere = Sphere { center: vector(5), radius: vector(6).x };
-    let root = roots::<A>(&ray, &sphere).map_or(0, |[near, far]| near.to_bits() ^ far.to_bits());
-    let single = nearest_hit::<A>(&ray, spheres).map_or(0, digest);
-    root ^ single
-        ^ width::<A, f32>(camera, spheres, &sphere)
-        ^ width::<A, f32x4>(camera, spheres, &sphere)
-        ^ width::<A, f32x8>(camera, spheres, &sphere)
-        ^ width::<A, f32x16>(camera, spheres, &sphere)
-}
-
-fn width<A: Accuracy, L: Lanes<Token = ()>>(
-    camera: &Camera,
-    spheres: Spheres<'_>,
-    sphere: &Sphere,
-) -> u32 {
-    let mut rays = [camera.packet::<L>(0, 0, 8, 8), camera.packet::<L>(4, 4, 8, 8)];
-    rays[1].set(1, &camera.get_ray(7, 7));
-    rays[0].set(0, &rays[1].ray(L::COUNT - 1));
-    let mut hits = [HitPacket::<L>::none(); 2];
-    nearest::<A, L>((), &rays, spheres, &mut hits);
-    let mut met = [0; 2];
-    any::<A, L>((), &rays, spheres, &mut met);
-    let beside = pairs::<A, L>(
-        (),
-        &RayPacket::<L>::new(&[rays[0].ray(0)]),
-        &SpherePacket::<L>::new(&[*sphere]),
-    );
+    let tier = match number(13) {
+        0.0 => Tier::Fast,
+        1.0 => Tier::Stable,
+        _ => Tier::Exact,
+    };
+    let rays = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19]
+        .map(|i| Ray { t_max: number(i), ..camera.get_ray(i as u32, 2) });
+    let sphere = Sphere { center: vector(5), radius: number(6) };
 
     // More memory than most lists of spheres need: too little is a value, too.
-    let (mut memory, mut lists) = ([0; 1024], [0; 1000]);
+    let (mut words, mut scratch) = ([0; 1024], [0; 1000]);
+    let (mut nodes, mut leaves) = ([BvhNode::EMPTY; 3], [BvhLeaf::EMPTY; 5]);
     let viewpoint = match camera.projection {
         Projection::Perspective { eye } => Viewpoint::Origin(eye),
         Projection::Parallel { direction } => Viewpoint::Direction(direction),
     };
-    let (mut listed, mut listed_met) = ([HitPacket::<L>::none(); 2], [0; 2]);
-    let needed = match DepthOrder::new(spheres, viewpoint, &mut memory) {
-        Ok(order) => {
-            tiles::nearest::<A, L>((), &rays, spheres, &order, &mut lists, &mut listed);
-            tiles::any::<A, L>((), &rays, spheres, &order, &mut lists, &mut listed_met);
-            DepthOrder::lists(spheres.len())
-        }
-        Err(error) => error.needed,
-    };
-
-    let mut sum = met[0] ^ met[1] ^ listed_met[0] ^ listed_met[1] ^ needed as u32;
-    for packet in hits.iter().chain(&listed).chain([&beside]) {
-        for lane in 0..L::COUNT {
-            sum ^= packet.hit(lane).map_or(0, digest).rotate_left(lane as u32);
-        }
+    let mut sum = Sum(0);
+    sum.structure(tier, &camera, &rays, &mut [], &spheres);
+    match DepthList::sort(spheres, viewpoint, &mut words) {
+        Ok(depth_list) => sum.structure(tier, &camera, &rays, &mut scratch, &depth_list),
+        Err(error) => sum.word(error.needed as u32),
     }
-    sum
+    match Bvh::build(spheres, &mut nodes, &mut leaves) {
+        Ok(tree) => {
+            sum.structure(tier, &camera, &rays, &mut [], &tree);
+            sum.word((tree.depth() + tree.size().nodes) as u32);
+        }
+        Err(error) => sum.word(error.needed as u32),
+    }
+    sum.pairs(tier, &rays, &sphere);
+    sum.word(
+        roots(tier, &rays[1], &sphere).map_or(0, |[near, far]| near.to_bits() ^ far.to_bits()),
+    );
+    let packets = [RayPacket::new(&rays)];
+    sum.word(stages(ClosestHit, &packets, spheres).tests as u32);
+    sum.word(stages(AnyHit, &packets, spheres).tests as u32);
+    sum.word(u32::from(float_environment_is_sound()));
+    black_box(sum.0)
 }
 
-/// By a tree, in memory for some sixty spheres.
-fn tree<A: Accuracy, L: Lanes<Token = ()>>(camera: &Camera, spheres: Spheres<'_>) -> u32 {
-    let (mut nodes, mut leaves) = ([BvhNode::EMPTY; 3], [BvhLeaf::EMPTY; 5]);
-    let tree = match Bvh::build(spheres, &mut nodes, &mut leaves) {
-        Ok(tree) => tree,
-        Err(error) => return error.needed.leaves as u32,
-    };
-    let rays = [camera.packet::<L>(0, 0, 8, 8), camera.packet::<L>(4, 4, 8, 8)];
-    let (mut hits, mut coherent) = ([HitPacket::<L>::none(); 2], [HitPacket::<L>::none(); 2]);
-    bvh::nearest::<A, L>((), &rays, spheres, &tree, &mut hits);
-    bvh::nearest_coherent::<A, L>((), &rays, spheres, &tree, &mut coherent);
-    let (mut met, mut coherently) = ([0; 2], [0; 2]);
-    bvh::any::<A, L>((), &rays, spheres, &tree, &mut met);
-    bvh::any_coherent::<A, L>((), &rays, spheres, &tree, &mut coherently);
+/// A digest of answers.
+struct Sum(u32);
 
-    let mut sum = met[0] ^ met[1] ^ coherently[0] ^ coherently[1] ^ tree.depth() as u32;
-    for packet in hits.iter().chain(&coherent) {
-        for lane in 0..L::COUNT {
-            sum ^= packet.hit(lane).map_or(0, digest).rotate_left(lane as u32);
+impl Sum {
+    fn word(&mut self, word: u32) {
+        self.0 = self.0.rotate_left(1) ^ word;
+    }
+
+    fn hits(&mut self, hits: impl IntoIterator<Item = Option<Hit>>) {
+        for hit in hits {
+            self.word(hit.map_or(0, |hit| hit.t.to_bits() ^ hit.sphere));
         }
     }
-    sum ^ tree.size().nodes as u32
-}
 
-fn digest(hit: Hit) -> u32 {
-    hit.t.to_bits() ^ hit.sphere
+    /// Every storey of the door.
+    fn structure(
+        &mut self,
+        tier: Tier,
+        camera: &Camera,
+        rays: &[Ray],
+        scratch: &mut [u32],
+        structure: &impl Intersect,
+    ) {
+        let (mut hits, mut met) = ([None; 20], [false; 20]);
+        self.hits([structure.closest_hit(tier, &rays[0])]);
+        self.word(u32::from(structure.any_hit(tier, &rays[0])));
+        structure.closest_hits(tier, rays, &mut hits);
+        self.hits(hits);
+        structure.any_hits(tier, rays, &mut met);
+        met.map(|met| self.word(u32::from(met)));
+        for trace in [Trace::new().coherent(), Trace::new().incoherent()] {
+            let mut trace = Trace { scratch: &mut *scratch, ..trace };
+            structure.closest_hits_with(tier, &mut trace, rays, &mut hits);
+            self.hits(hits);
+            structure.any_hits_with(tier, &mut trace, rays, &mut met);
+            met.map(|met| self.word(u32::from(met)));
+            let packets = [camera.packet(0, 0, 8, 8), camera.packet(4, 4, 8, 8)];
+            let (mut hits, mut met) = ([HitPacket::none(); 2], [0; 2]);
+            structure.closest_hit_packets(tier, &mut trace, &packets, &mut hits);
+            self.hits(hits.iter().flat_map(HitPacket::hits));
+            structure.any_hit_packets(tier, &mut trace, &packets, &mut met);
+            met.map(|met| self.word(met));
+            self.lanes::<f32>(tier, camera, &mut trace, structure);
+            self.lanes::<f32x4>(tier, camera, &mut trace, structure);
+            self.lanes::<f32x8>(tier, camera, &mut trace, structure);
+            self.lanes::<f32x16>(tier, camera, &mut trace, structure);
+        }
+    }
+
+    fn lanes<L: Lanes<Token = ()>>(
+        &mut self,
+        tier: Tier,
+        camera: &Camera,
+        trace: &mut Trace<'_>,
+        structure: &impl Intersect,
+    ) {
+        let mut rays: [RayPacket<L::Array>; 2] =
+            [camera.packet(0, 0, 8, 8), camera.packet(4, 4, 8, 8)];
+        rays[1].set(1, &camera.get_ray(7, 7));
+        rays[0].set(0, &rays[1].ray(L::COUNT - 1));
+        let (mut hits, mut met) = ([HitPacket::none(); 2], [0; 2]);
+        structure.closest_hit_lanes::<L>(tier, (), trace, &rays, &mut hits);
+        self.hits(hits.iter().flat_map(HitPacket::hits));
+        structure.any_hit_lanes::<L>(tier, (), trace, &rays, &mut met);
+        met.map(|met| self.word(met));
+    }
+
+    fn pairs(&mut self, tier: Tier, rays: &[Ray], sphere: &Sphere) {
+        let mut hits = [None; 20];
+        pairs(tier, rays, &[*sphere; 20], &mut hits);
+        self.hits(hits);
+        let mut hits = [HitPacket::none()];
+        let packets = ([RayPacket::new(rays)], [SpherePacket::new(&[*sphere; 16])]);
+        pair_packets(tier, Level::best(), &packets.0, &packets.1, &mut hits);
+        self.hits(hits[0].hits());
+        self.pair_lanes::<f32>(tier, rays, sphere);
+        self.pair_lanes::<f32x4>(tier, rays, sphere);
+        self.pair_lanes::<f32x8>(tier, rays, sphere);
+        self.pair_lanes::<f32x16>(tier, rays, sphere);
+    }
+
+    fn pair_lanes<L: Lanes<Token = ()>>(&mut self, tier: Tier, rays: &[Ray], sphere: &Sphere) {
+        let (rays, spheres) = (RayPacket::new(rays), SpherePacket::new(&[*sphere; 16]));
+        self.hits(pair_lanes::<L>(tier, (), &rays, &spheres).hits());
+    }
 }
 
 /// Negative control: memory from the heap, with no allocator in the program.

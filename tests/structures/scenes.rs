@@ -1,16 +1,25 @@
-//! Scenes and rays that tile lists may stumble over.
+//! Scenes and rays that structures may stumble over.
 
-use spherule_kernel::{Ray, Sphere, Vec3};
+use spherule_kernel::{Ray, Sphere, Tier, Vec3};
+use spherule_tests::aim::single;
 use spherule_tests::random::Random;
+use spherule_tests::variants::brute;
 
-pub(crate) fn point(random: &mut Random, size: f64) -> Vec3 {
+/// Where most pictures are seen from.
+pub(super) const EYE: Vec3 = Vec3::new(0.3, 0.4, 4.0);
+
+pub(super) fn point(random: &mut Random, size: f64) -> Vec3 {
     let mut coordinate = || random.uniform(-size, size) as f32;
     Vec3::new(coordinate(), coordinate(), coordinate())
 }
 
+pub(super) fn unit(random: &mut Random) -> Vec3 {
+    single(random.unit())
+}
+
 /// Centres in [-1, 1]^3, some eight radii apart.
-pub(crate) fn uniform(count: usize) -> Vec<Sphere> {
-    let mut random = Random::new(80, count as u64);
+pub(super) fn uniform(count: usize) -> Vec<Sphere> {
+    let mut random = Random::new(70, count as u64);
     let size = 0.5 * (count as f64).powf(-1.0 / 3.0);
     let mut sphere = || Sphere {
         center: point(&mut random, 1.0),
@@ -39,7 +48,7 @@ fn flake(depth: u32) -> Vec<Sphere> {
 }
 
 /// Every scene, by name.
-pub(crate) fn all() -> Vec<(&'static str, Vec<Sphere>)> {
+pub(super) fn all() -> Vec<(&'static str, Vec<Sphere>)> {
     let mut random = Random::new(81, 0);
     let here = Sphere { center: Vec3::new(0.1, 0.2, 0.3), radius: 0.25 };
     let shells = (0..200).map(|i| Sphere { radius: 1.2 - i as f32 / 200.0, ..here }).collect();
@@ -67,7 +76,7 @@ pub(crate) fn all() -> Vec<(&'static str, Vec<Sphere>)> {
 
 /// A picture of `size` x `size` pixels in tiles of 4 x 4, from `eye` towards `target`; the slopes at
 /// its edges are -+`slope`.
-pub(crate) fn camera(eye: Vec3, target: Vec3, slope: f32, size: usize) -> Vec<Ray> {
+pub(super) fn camera(eye: Vec3, target: Vec3, slope: f32, size: usize) -> Vec<Ray> {
     let way = (target - eye).normalize();
     let (right, up) = screen(way);
     let ray = |[x, y]: [f32; 2]| Ray::new(eye, way + slope * (x * right + y * up));
@@ -75,7 +84,7 @@ pub(crate) fn camera(eye: Vec3, target: Vec3, slope: f32, size: usize) -> Vec<Ra
 }
 
 /// The same of parallel rays, from a square of `reach` to each side.
-pub(crate) fn parallel(eye: Vec3, direction: Vec3, reach: f32, size: usize) -> Vec<Ray> {
+pub(super) fn parallel(eye: Vec3, direction: Vec3, reach: f32, size: usize) -> Vec<Ray> {
     let (right, up) = screen(direction.normalize());
     let ray = |[x, y]: [f32; 2]| Ray::new(eye + reach * (x * right + y * up), direction);
     pixels(size).map(ray).collect()
@@ -94,7 +103,24 @@ fn pixels(size: usize) -> impl Iterator<Item = [f32; 2]> {
 }
 
 /// Rays that have nothing in common.
-pub(crate) fn diffuse(count: usize) -> Vec<Ray> {
-    let mut random = Random::new(82, 0);
-    (0..count).map(|_| Ray::new(point(&mut random, 1.0), point(&mut random, 1.0))).collect()
+pub(super) fn diffuse(count: usize) -> Vec<Ray> {
+    let mut random = Random::new(71, 0);
+    (0..count).map(|_| Ray::new(point(&mut random, 1.0), unit(&mut random))).collect()
+}
+
+/// Such rays, and a picture from [`EYE`].
+pub(super) fn mixed(count: usize, size: usize) -> Vec<Ray> {
+    let picture = camera(EYE, Vec3::ZERO, 0.364, size);
+    diffuse(count).into_iter().chain(picture).collect()
+}
+
+/// Ends of intervals that are answers, and their neighbours.
+pub(super) fn end_at_answers(random: &mut Random, rays: &mut [Ray], spheres: &[Sphere]) {
+    let hits = brute(Tier::Exact).closest(spheres, rays);
+    for (ray, hit) in rays.iter_mut().zip(hits) {
+        let Some(hit) = hit else { continue };
+        let end = random.pick(&[hit.t, hit.t.next_up(), hit.t.next_down()]);
+        let before = random.one_in(2) || end < 0.0 && random.one_in(2);
+        if before { ray.t_max = end } else { ray.t_min = end }
+    }
 }

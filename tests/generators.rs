@@ -1,11 +1,16 @@
-//! The generators hit what they claim to hit, by the oracle's word.
+//! The generators of cases hit what they claim to hit, by the oracle's word.
 
-use spherule_kernel::Vec3;
-use spherule_tests::aim::{double, line_distance};
+use proptest::strategy::{Strategy, ValueTree};
+use proptest::test_runner::TestRunner;
+use spherule_kernel::{Sphere, Vec3};
+use spherule_tests::aim::{Aim, double, line_distance};
 use spherule_tests::case::Case;
+use spherule_tests::inputs::{SPECIALS, Scene, lattice, number, scene, walked};
+use spherule_tests::measured::MEASURED;
 use spherule_tests::oracle::{self, dot as dot_exact, units, units3};
-use spherule_tests::random::dot;
+use spherule_tests::random::{Random, dot};
 use spherule_tests::regimes::REGIMES;
+use spherule_tests::ulp::step;
 use std::cmp::Ordering;
 
 const COUNT: u64 = 400;
@@ -195,4 +200,110 @@ fn exponents_are_wide() {
     let exponents = REGIMES[20].cases(COUNT).map(|case| case.sphere.radius.to_bits() >> 23);
     let distinct: std::collections::BTreeSet<u32> = exponents.collect();
     assert!(distinct.len() > 100, "{} exponents of the radius", distinct.len());
+}
+
+#[test]
+fn offsets_below_one_hit_and_above_one_miss() {
+    let mut random = Random::new(4, 0);
+    for _ in 0..1000 {
+        let offset = random.uniform(0.0, 2.0);
+        let aim = Aim {
+            origin: random.unit(),
+            length: random.log_uniform(-10, 10),
+            distance: random.uniform(3.0, 10.0),
+            radius: random.uniform(0.5, 1.5),
+            offset,
+        };
+        let case = aim.case(&mut random);
+        assert!((line_distance(&case) - offset * aim.radius).abs() < 1e-5, "{case:?}");
+        if (offset - 1.0).abs() > 1e-4 {
+            let hit = oracle::intersect(&case.ray, &case.sphere).is_some();
+            assert_eq!(hit, offset < 1.0, "{case:?}");
+        }
+    }
+}
+
+/// The rates of true hits of the first measurements, within the noise of 2,000 cases.
+#[test]
+fn as_many_hit_as_there_should() {
+    for measured in MEASURED {
+        let hits = measured
+            .cases(2000)
+            .filter(|case| oracle::intersect(&case.ray, &case.sphere).is_some())
+            .count();
+        let expected = match measured.name {
+            name if name.starts_with("grazing") => 1000,
+            "planet r 6.4e6" => 990,
+            "inside near surface" => 2000,
+            "outside near surface" => 1930,
+            _ => 1333,
+        };
+        assert!(hits.abs_diff(expected) < 80, "{}: {hits} hits of 2000", measured.name);
+    }
+}
+
+#[test]
+fn names_are_different() {
+    for (index, measured) in MEASURED.iter().enumerate() {
+        assert!(MEASURED[..index].iter().all(|other| other.name != measured.name));
+    }
+}
+
+fn draw<S: Strategy>(strategy: &S, count: usize) -> Vec<S::Value> {
+    let mut runner = TestRunner::deterministic();
+    let tree = |_| strategy.new_tree(&mut runner).expect("no filter").current();
+    (0..count).map(tree).collect()
+}
+
+#[test]
+fn numbers_are_of_every_kind_and_sign() {
+    let numbers = draw(&number(), 5000);
+    for special in SPECIALS {
+        let drawn = numbers.iter().any(|x| x.to_bits() == special.to_bits());
+        assert!(drawn, "{special:e} is never drawn");
+    }
+    for sign in [false, true] {
+        let of_sign = |x: &&f32| x.is_sign_negative() == sign;
+        let count =
+            |kind: fn(&f32) -> bool| numbers.iter().filter(of_sign).filter(|x| kind(x)).count();
+        assert!(count(|x| x.is_subnormal()) > 100);
+        assert!(count(|x| x.is_nan()) > 10);
+        assert!(count(|x| x.is_normal() && x.abs() < 1e-20) > 100);
+        assert!(count(|x| x.is_normal() && x.abs() > 1e20) > 100);
+    }
+}
+
+#[test]
+fn lattices_are_rich_in_tangents_hits_and_misses() {
+    let cases = draw(&lattice(), 5000);
+    let of = |sign| {
+        let is = |case: &&Case| oracle::discriminant_sign(&case.ray, &case.sphere) == Some(sign);
+        cases.iter().filter(is).count()
+    };
+    let counts = [Ordering::Less, Ordering::Equal, Ordering::Greater].map(of);
+    assert!(counts[0] > 1000 && counts[1] > 25 && counts[2] > 1000, "{counts:?}");
+}
+
+#[test]
+fn walks_stay_within_two_ulp_and_leave_the_lattice() {
+    let cases = draw(&walked(), 1000);
+    let whole = |case: &&Case| case.numbers().iter().all(|x| x.is_infinite() || x.fract() == 0.0);
+    assert!(cases.iter().filter(whole).count() < 100);
+    let near = |x: &f32| x.is_infinite() || (-2..=2).any(|by| step(x.round(), by) == *x);
+    assert!(cases.iter().all(|case| case.numbers().iter().all(near)));
+}
+
+#[test]
+fn scenes_have_hits_of_equal_t_and_all_lengths() {
+    let scenes = draw(&scene(lattice), 300);
+    let mut equal = 0;
+    for Scene { rays, spheres } in &scenes {
+        let Some(hit) = oracle::closest(&rays[0], spheres) else { continue };
+        let same = |s: &&Sphere| oracle::intersect(&rays[0], s) == Some(hit.t);
+        equal += usize::from(spheres.iter().filter(same).count() > 1);
+    }
+    assert!(equal > 10, "{equal} scenes whose first ray meets two spheres at once");
+    let lengths: std::collections::BTreeSet<_> =
+        scenes.iter().map(|scene| scene.spheres.len()).collect();
+    assert!(lengths.len() > 35 && lengths.contains(&0));
 }

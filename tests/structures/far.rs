@@ -1,11 +1,12 @@
 //! As brute force does: rays that start far away, or meet what is large beside what is small. The
-//! margins of the tree (`kernel/src/bvh/approach.rs`) are narrow there, and everything is next to them.
+//! margins of boxes are narrow there, and everything is next to them.
 
-use crate::scenes::{point, uniform, unit};
-use crate::{BOTH, EXACT, assert_same, brute};
+use super::scenes::{end_at_answers, point, uniform, unit};
+use super::{BOTH, EXACT};
 use spherule_kernel::{Ray, Sphere, Vec3};
 use spherule_tests::aim::{double, single};
 use spherule_tests::random::{Random, dot, power_of_two};
+use spherule_tests::variants::assert_same;
 
 /// Rays of a bundle.
 const BUNDLE: usize = 64;
@@ -100,16 +101,6 @@ fn through_one_point(random: &mut Random, rays: &[Ray], middle: Vec3, count: usi
         }
     }
     spheres
-}
-
-/// Ends of intervals that are answers, and their neighbours.
-fn end_at_answers(random: &mut Random, rays: &mut [Ray], spheres: &[Sphere]) {
-    let hits = (brute("exact").nearest)(rays, spheres);
-    for (ray, hit) in rays.iter_mut().zip(hits) {
-        let Some(hit) = hit else { continue };
-        let end = random.pick(&[hit.t, hit.t.next_up(), hit.t.next_down()]);
-        if random.one_in(2) || end < 0.0 { ray.t_max = end } else { ray.t_min = end }
-    }
 }
 
 /// All of the above, at `middle` and looked at from `distance`.

@@ -1,18 +1,19 @@
 //! As brute force does: the places where boxes, margins and intervals end.
 
-use crate::scenes::{camera, diffuse, point, uniform, unit};
-use crate::{BOTH, EXACT, assert_same, bits, brute, difference};
-use spherule_kernel::{Exact, Ray, Sphere, Vec3, roots};
+use super::scenes::{diffuse, end_at_answers, mixed, point, uniform, unit};
+use super::{BOTH, EXACT};
+use spherule_kernel::{Ray, Sphere, Tier, Vec3, roots};
 use spherule_tests::case::{Case, HexRay};
-use spherule_tests::doors::Columns;
 use spherule_tests::inputs::SPECIALS;
 use spherule_tests::random::Random;
 use spherule_tests::regimes::REGIMES;
-use spherule_tests::tree_ways::{Memory, ways};
+use spherule_tests::variants::{
+    Memory, assert_same, bits, brute, difference, variants, viewpoint_of,
+};
 
 #[test]
 fn any_number_of_spheres() {
-    let rays: Vec<Ray> = diffuse(500).into_iter().chain(camera(16)).collect();
+    let rays = mixed(500, 16);
     for count in [0, 1, 2, 15, 16, 17, 31, 33, 255, 257, 272, 273, 4097] {
         assert_same(BOTH, &rays, &uniform(count));
     }
@@ -30,12 +31,7 @@ fn intervals() {
     assert_same(BOTH, &rays, &uniform(500));
     // Ends that are answers, and their neighbours.
     let spheres = uniform(500);
-    let hits = (brute("exact").nearest)(&rays, &spheres);
-    for (ray, hit) in rays.iter_mut().zip(hits) {
-        let Some(hit) = hit else { continue };
-        let end = random.pick(&[hit.t, hit.t.next_up(), hit.t.next_down()]);
-        if random.one_in(2) { ray.t_max = end } else { ray.t_min = end }
-    }
+    end_at_answers(&mut random, &mut rays, &spheres);
     assert_same(BOTH, &rays, &spheres);
 }
 
@@ -127,7 +123,7 @@ fn regimes() {
         let cases: Vec<Case> = regime.cases(400).collect();
         let rays: Vec<Ray> = cases.iter().map(|case| case.ray).collect();
         let spheres: Vec<Sphere> = cases.iter().map(|case| case.sphere).collect();
-        if let Some(difference) = difference(EXACT, &rays, &spheres) {
+        if let Some(difference) = difference(EXACT, &rays, &spheres, viewpoint_of(&rays)) {
             panic!("{regime:?}: {difference}");
         }
         // Beside a scene, moved to where it is.
@@ -178,23 +174,20 @@ fn fast_loses_false_hits_alone() {
     let rays: Vec<Ray> = (0..4000)
         .map(|_| Ray::new(Vec3::ZERO, point(&mut random, 1.3) - Vec3::new(0.0, 0.0, 300.0)))
         .collect();
-    let columns = Columns::new(&spheres);
-    let mut memory = Memory::new(spheres.len());
-    let tree = memory.build(&columns);
-    let expected = (brute("fast").nearest)(&rays, &spheres);
     let mut lost = 0;
-    for way in ways().filter(|way| way.tier == "fast") {
-        for (hits, _) in
-            [way.one_by_one(&rays, &columns, &tree), way.coherent(&rays, &columns, &tree)]
-        {
+    Memory::new(&spheres).sorted(viewpoint_of(&rays), |structures| {
+        let expected = brute(Tier::Fast).closest(&spheres, &rays);
+        for variant in variants().filter(|variant| variant.tier == Tier::Fast) {
+            let hits = variant.ask(structures, &rays).hits;
             for ((ray, hit), expected) in rays.iter().zip(hits).zip(&expected) {
                 if bits(hit) != bits(*expected) {
                     lost += 1;
                     let sphere = &spheres[expected.expect("a hit was lost").sphere as usize];
-                    assert_eq!(roots::<Exact>(ray, sphere), None, "{} {hit:?}", HexRay(ray));
+                    let exact = roots(Tier::Exact, ray, sphere);
+                    assert_eq!(exact, None, "{variant:?}: {} {hit:?}", HexRay(ray));
                 }
             }
         }
-    }
+    });
     println!("{lost} false hits lost");
 }

@@ -1,0 +1,20 @@
+//! All tests that cross crates, in one binary, so that what they share is compiled and linked once.
+#![forbid(unsafe_code)]
+
+mod accuracy;
+mod agreement;
+mod degenerate;
+mod door;
+mod exact;
+mod generators;
+mod golden;
+mod kept;
+mod lanes;
+mod lists;
+mod metamorphic;
+mod numbers;
+mod oracle;
+mod packets;
+#[cfg(target_os = "linux")]
+mod pty;
+mod structures;

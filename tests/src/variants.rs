@@ -1,0 +1,400 @@
+//! The table of variants: tier, structure and storey of the door, each as a plain function from rays to answers, so
+//! that a test says "all of them" in one loop, and that each is compiled once, here.
+//!
+//! `Exact` gives the same bits in all of them, `Stable` in its domain; `Fast` in all lists of spheres, while depth list
+//! and tree may lose false hits of it.
+
+use crate::case::{Case, HexRay};
+use spherule_kernel::{
+    Coherence, DepthList, Hit, HitPacket, Intersect, LaneArray, Lanes, Level, LevelName, Ray,
+    RayPacket, Sphere, SphereList, SpherePacket, SphereTree, Tier, Trace, Vec3, Viewpoint, f32x4,
+    f32x8, f32x16, pair_lanes, pair_packets, pairs,
+};
+
+/// What holds the spheres.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Structure {
+    /// The spheres in their order.
+    List,
+    /// The spheres by depth, with this part of the scratch memory that a trace can use, in sevenths.
+    DepthList(usize),
+    /// A tree, and what is said of its rays.
+    Tree(Coherence),
+}
+
+/// How rays come to the door, and in which lanes they go on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Storey {
+    /// One ray a call.
+    Ray,
+    /// A slice of rays, and nothing said of them.
+    Slice,
+    /// A slice of rays at a level.
+    SliceAt(LevelName),
+    /// Packets of sixteen at a level.
+    Packets(LevelName),
+    /// Packets of the caller's own vectors: of 1, 4, 8 or 16 lanes.
+    Lanes(usize),
+}
+
+impl Storey {
+    /// How many rays may share a packet.
+    #[must_use]
+    pub const fn lanes(self) -> usize {
+        match self {
+            Self::Ray => 1,
+            Self::Slice | Self::SliceAt(_) | Self::Packets(_) => 16,
+            Self::Lanes(lanes) => lanes,
+        }
+    }
+}
+
+/// A row of the table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Variant {
+    /// The tier.
+    pub tier: Tier,
+    /// The structure.
+    pub structure: Structure,
+    /// The storey.
+    pub storey: Storey,
+}
+
+/// The levels that this CPU has.
+pub fn levels() -> impl Iterator<Item = LevelName> {
+    LevelName::ALL.into_iter().filter(|&name| Level::named(name).is_some())
+}
+
+/// The whole table: of a list every lane width; of the larger structures, whose source is the same in every width, two.
+pub fn variants() -> impl Iterator<Item = Variant> {
+    let of = |structure, storeys: Vec<Storey>| {
+        let variant = move |tier| {
+            let storeys = storeys.clone().into_iter();
+            storeys.map(move |storey| Variant { tier, structure, storey })
+        };
+        Tier::ALL.into_iter().flat_map(variant)
+    };
+    let plain = [Storey::Ray, Storey::Slice];
+    let leveled = || {
+        let packets = levels().map(Storey::Packets);
+        [Storey::SliceAt(LevelName::Baseline)].into_iter().chain(packets)
+    };
+    let all = |lanes: &[usize]| {
+        let lanes = lanes.iter().copied().map(Storey::Lanes);
+        leveled().chain(lanes).collect::<Vec<_>>()
+    };
+    of(Structure::List, [plain.to_vec(), all(&[1, 4, 8, 16])].concat())
+        .chain(of(Structure::DepthList(0), plain.to_vec()))
+        .chain(of(Structure::DepthList(7), all(&[1, 8])))
+        .chain(of(Structure::DepthList(1), vec![Storey::Packets(Level::best().name())]))
+        .chain(of(Structure::Tree(Coherence::Detect), plain.to_vec()))
+        .chain(of(Structure::Tree(Coherence::Coherent), all(&[1, 8])))
+        .chain(of(Structure::Tree(Coherence::Incoherent), all(&[1, 8])))
+}
+
+/// The variants of lists.
+pub fn lists() -> impl Iterator<Item = Variant> {
+    variants().filter(|variant| variant.structure == Structure::List)
+}
+
+/// The readable form of a tier: a list, one lane.
+#[must_use]
+pub const fn reference(tier: Tier) -> Variant {
+    Variant { tier, structure: Structure::List, storey: Storey::Lanes(1) }
+}
+
+/// Brute force for large scenes: a list, sixteen lanes.
+#[must_use]
+pub const fn brute(tier: Tier) -> Variant {
+    Variant { tier, structure: Structure::List, storey: Storey::Lanes(16) }
+}
+
+/// Spheres, and memory for every structure of them.
+#[derive(Clone, Debug)]
+pub struct Memory {
+    tree: SphereTree,
+    list: SphereList,
+    words: Vec<f32>,
+}
+
+/// The same spheres in every structure.
+#[derive(Clone, Copy, Debug)]
+pub struct Structures<'a> {
+    /// The list.
+    pub list: &'a SphereList,
+    /// The depth list.
+    pub depth_list: &'a DepthList<'a>,
+    /// The tree.
+    pub tree: &'a SphereTree,
+}
+
+impl Memory {
+    /// A list and a tree of these spheres, and memory for a depth list.
+    #[must_use]
+    pub fn new(spheres: &[Sphere]) -> Self {
+        let list = SphereList::from(spheres);
+        let words = vec![f32::NAN; DepthList::needed(spheres.len())];
+        Self { tree: SphereTree::new(list.clone()), list, words }
+    }
+
+    /// Calls `ask` with every structure, the depth list sorted from `viewpoint`.
+    ///
+    /// # Panics
+    /// Never: the memory is enough.
+    pub fn sorted<R>(&mut self, viewpoint: Viewpoint, ask: impl FnOnce(Structures<'_>) -> R) -> R {
+        let Self { tree, list, words } = self;
+        let depth_list = &DepthList::sort(list.spheres(), viewpoint, words).expect("enough memory");
+        ask(Structures { list, depth_list, tree })
+    }
+}
+
+/// What rays hit.
+#[derive(Clone, Debug)]
+pub struct Answers {
+    /// The closest hit of each ray.
+    pub hits: Vec<Option<Hit>>,
+    /// Whether each ray hits anything.
+    pub met: Vec<bool>,
+}
+
+impl Variant {
+    /// What these rays hit.
+    #[must_use]
+    pub fn ask(&self, structures: Structures<'_>, rays: &[Ray]) -> Answers {
+        let Structures { list, depth_list, tree } = structures;
+        match self.structure {
+            Structure::List => self.ask_list(list, rays),
+            Structure::DepthList(sevenths) => {
+                let words = DepthList::scratch(list.spheres().len()) * sevenths / 7;
+                let mut scratch = vec![f32::NAN; words];
+                self.ask_of(depth_list, Trace::new().with_scratch(&mut scratch), rays)
+            }
+            Structure::Tree(coherence) => {
+                self.ask_of(tree, Trace { coherence, ..Trace::new() }, rays)
+            }
+        }
+    }
+
+    /// The closest hits in a list, whatever the structure.
+    ///
+    /// # Panics
+    /// If a ray that hits anything has no closest hit, or the reverse.
+    #[must_use]
+    pub fn closest(&self, spheres: &[Sphere], rays: &[Ray]) -> Vec<Option<Hit>> {
+        let Answers { hits, met } = self.ask_list(&SphereList::from(spheres), rays);
+        assert!(hits.iter().map(Option::is_some).eq(met), "{self:?}: closest hits and any hits");
+        hits
+    }
+
+    fn ask_list(&self, list: &SphereList, rays: &[Ray]) -> Answers {
+        match self.storey {
+            Storey::Lanes(4) => self.lanes::<_, f32x4>(list, Trace::new(), rays),
+            Storey::Lanes(16) => self.lanes::<_, f32x16>(list, Trace::new(), rays),
+            _ => self.ask_of(list, Trace::new(), rays),
+        }
+    }
+
+    fn ask_of(&self, structure: &impl Intersect, mut trace: Trace<'_>, rays: &[Ray]) -> Answers {
+        let tier = self.tier;
+        // What was there before must not show; nothing past the rays is touched.
+        let stale = Some(Hit { t: -7.0, sphere: 7 });
+        let mut hits = vec![stale; rays.len() + 1];
+        let mut met: Vec<bool> = (0..=rays.len()).map(|i| i % 3 == 0).collect();
+        let past = met[rays.len()];
+        match self.storey {
+            Storey::Ray => {
+                for (index, ray) in rays.iter().enumerate() {
+                    hits[index] = structure.closest_hit(tier, ray);
+                    met[index] = structure.any_hit(tier, ray);
+                }
+            }
+            Storey::Slice => {
+                structure.closest_hits(tier, rays, &mut hits);
+                structure.any_hits(tier, rays, &mut met);
+            }
+            Storey::SliceAt(name) => {
+                trace.level = level(name);
+                structure.closest_hits_with(tier, &mut trace, rays, &mut hits);
+                structure.any_hits_with(tier, &mut trace, rays, &mut met);
+            }
+            Storey::Packets(name) => {
+                trace.level = level(name);
+                let packets = packed(rays);
+                let mut found = vec![stale_packet::<f32x16>(); packets.len() + 1];
+                let mut bits = vec![u32::MAX; packets.len() + 1];
+                structure.closest_hit_packets(tier, &mut trace, &packets, &mut found);
+                structure.any_hit_packets(tier, &mut trace, &packets, &mut bits);
+                return unpacked::<f32x16>(rays.len(), &found, &bits);
+            }
+            Storey::Lanes(1) => return self.lanes::<_, f32>(structure, trace, rays),
+            Storey::Lanes(_) => return self.lanes::<_, f32x8>(structure, trace, rays),
+        }
+        assert_eq!((hits.pop(), met.pop()), (Some(stale), Some(past)), "{self:?}: past the rays");
+        Answers { hits, met }
+    }
+
+    fn lanes<S: Intersect, L: Lanes<Token = ()>>(
+        &self,
+        structure: &S,
+        mut trace: Trace<'_>,
+        rays: &[Ray],
+    ) -> Answers {
+        let packets = packed(rays);
+        let mut found = vec![stale_packet::<L>(); packets.len() + 1];
+        let mut bits = vec![u32::MAX; packets.len() + 1];
+        structure.closest_hit_lanes::<L>(self.tier, (), &mut trace, &packets, &mut found);
+        structure.any_hit_lanes::<L>(self.tier, (), &mut trace, &packets, &mut bits);
+        unpacked::<L>(rays.len(), &found, &bits)
+    }
+}
+
+/// The first ray's origin.
+#[must_use]
+pub fn viewpoint_of(rays: &[Ray]) -> Viewpoint {
+    Viewpoint::Origin(rays.first().map_or(Vec3::ZERO, |ray| ray.origin))
+}
+
+fn level(name: LevelName) -> Level {
+    Level::named(name).expect("a level of this CPU")
+}
+
+fn packed<A: LaneArray>(rays: &[Ray]) -> Vec<RayPacket<A>> {
+    rays.chunks(A::COUNT).map(RayPacket::new).collect()
+}
+
+/// The answers to `count` rays, and a packet more that was left alone.
+fn unpacked<L: Lanes<Token = ()>>(
+    count: usize,
+    found: &[HitPacket<L::Array>],
+    bits: &[u32],
+) -> Answers {
+    let past = count.div_ceil(L::COUNT);
+    assert!(found[past].hits().eq(stale_packet::<L>().hits()) && bits[past] == u32::MAX);
+    Answers {
+        hits: found.iter().flat_map(HitPacket::hits).take(count).collect(),
+        met: (0..count).map(|ray| bits[ray / L::COUNT] >> (ray % L::COUNT) & 1 == 1).collect(),
+    }
+}
+
+/// A packet that is full of hits.
+fn stale_packet<L: Lanes<Token = ()>>() -> HitPacket<L::Array> {
+    let ray = Ray::new(Vec3::new(0.0, 0.0, -3.0), Vec3::Z);
+    let sphere = Sphere { center: Vec3::ZERO, radius: 1.0 };
+    let (rays, spheres) = (RayPacket::new(&[ray; 16]), SpherePacket::new(&[sphere; 16]));
+    pair_lanes::<L>(Tier::Fast, (), &rays, &spheres)
+}
+
+/// The storeys at which pairs are intersected.
+pub fn pair_storeys() -> impl Iterator<Item = Storey> {
+    let lanes = [1, 4, 8, 16].map(Storey::Lanes).into_iter();
+    lanes.chain([Storey::Slice]).chain(levels().map(Storey::Packets))
+}
+
+/// The t of each case on its own.
+///
+/// # Panics
+/// If a hit does not name its sphere: the lane of a packet, the index of a slice.
+#[must_use]
+pub fn pairs_of(tier: Tier, storey: Storey, cases: &[Case]) -> Vec<Option<f32>> {
+    let (rays, spheres): (Vec<Ray>, Vec<Sphere>) =
+        cases.iter().map(|case| (case.ray, case.sphere)).unzip();
+    let (hits, lanes) = match storey {
+        Storey::Packets(name) => {
+            let (rays, spheres) = (packed(&rays), sphere_packets(&spheres));
+            let mut hits = vec![stale_packet::<f32x16>(); rays.len()];
+            pair_packets(tier, level(name), &rays, &spheres, &mut hits);
+            (hits.iter().flat_map(HitPacket::hits).take(cases.len()).collect(), 16)
+        }
+        Storey::Lanes(lanes) => {
+            let pairs = match lanes {
+                1 => pairs_in_lanes::<f32>,
+                4 => pairs_in_lanes::<f32x4>,
+                8 => pairs_in_lanes::<f32x8>,
+                _ => pairs_in_lanes::<f32x16>,
+            };
+            (pairs(tier, &rays, &spheres), lanes)
+        }
+        _ => {
+            let mut hits = vec![Some(Hit { t: -7.0, sphere: 7 }); cases.len()];
+            pairs(tier, &rays, &spheres, &mut hits);
+            (hits, usize::MAX)
+        }
+    };
+    let t = |(index, hit): (usize, Option<Hit>)| {
+        let Hit { t, sphere } = hit?;
+        assert_eq!(sphere as usize, index % lanes, "a pair's sphere, {storey:?}");
+        Some(t)
+    };
+    hits.into_iter().enumerate().map(t).collect()
+}
+
+fn pairs_in_lanes<L: Lanes<Token = ()>>(
+    tier: Tier,
+    rays: &[Ray],
+    spheres: &[Sphere],
+) -> Vec<Option<Hit>> {
+    let packets = packed(rays).into_iter().zip(sphere_packets(spheres));
+    let pair = |(rays, spheres)| pair_lanes::<L>(tier, (), &rays, &spheres);
+    let hits = packets.flat_map(|packets| pair(packets).hits().collect::<Vec<_>>());
+    hits.take(rays.len()).collect()
+}
+
+fn sphere_packets<A: LaneArray>(spheres: &[Sphere]) -> Vec<SpherePacket<A>> {
+    spheres.chunks(A::COUNT).map(SpherePacket::new).collect()
+}
+
+/// The bits of a hit: -0 is not 0 here, and a NaN is itself.
+#[must_use]
+pub fn bits(hit: Option<Hit>) -> Option<(u32, u32)> {
+    hit.map(|hit| (hit.t.to_bits(), hit.sphere))
+}
+
+/// The first ray for which a variant of one of `tiers` does not answer, bit for bit, as brute force does.
+#[must_use]
+pub fn difference(
+    tiers: &[Tier],
+    rays: &[Ray],
+    spheres: &[Sphere],
+    viewpoint: Viewpoint,
+) -> Option<String> {
+    let different = |structures: Structures<'_>, tier: Tier| {
+        let Answers { hits: expected, .. } = brute(tier).ask(structures, rays);
+        for variant in variants().filter(|variant| variant.tier == tier) {
+            let Answers { hits, met } = variant.ask(structures, rays);
+            for (i, ray) in rays.iter().enumerate() {
+                if bits(hits[i]) != bits(expected[i]) || met[i] != expected[i].is_some() {
+                    let (hit, met, expected) = (hits[i], met[i], expected[i]);
+                    let (rays, spheres) = (rays.len(), spheres.len());
+                    return Some(format!(
+                        "{variant:?}, ray {i} of {rays}, {spheres} spheres, {viewpoint:?}: {hit:?} \
+                         any {met}, by brute force {expected:?}; {}",
+                        HexRay(ray)
+                    ));
+                }
+            }
+        }
+        None
+    };
+    Memory::new(spheres)
+        .sorted(viewpoint, |structures| tiers.iter().find_map(|&tier| different(structures, tier)))
+}
+
+/// [`difference`] as a panic, the depth list sorted from the first ray's origin.
+///
+/// # Panics
+/// If there is one.
+#[track_caller]
+pub fn assert_same(tiers: &[Tier], rays: &[Ray], spheres: &[Sphere]) {
+    assert_same_from(viewpoint_of(rays), tiers, rays, spheres);
+}
+
+/// [`assert_same`] with a depth list sorted from `viewpoint`.
+///
+/// # Panics
+/// If there is a difference.
+#[track_caller]
+pub fn assert_same_from(viewpoint: Viewpoint, tiers: &[Tier], rays: &[Ray], spheres: &[Sphere]) {
+    if let Some(difference) = difference(tiers, rays, spheres, viewpoint) {
+        panic!("{difference}");
+    }
+}

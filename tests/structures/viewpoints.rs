@@ -1,0 +1,128 @@
+//! As brute force does: rays that share an origin or a direction, and those that do not quite.
+
+use super::scenes::{self, EYE, camera, diffuse, end_at_answers, parallel, point, uniform};
+use super::{BOTH, EXACT};
+use spherule_kernel::{Ray, Sphere, Vec3, Viewpoint};
+use spherule_tests::inputs::SPECIALS;
+use spherule_tests::random::Random;
+use spherule_tests::variants::assert_same_from;
+
+/// Every scene from afar, from its middle and along parallels.
+#[test]
+fn scenes_from_every_side() {
+    for (_, spheres) in scenes::all() {
+        for eye in [EYE, Vec3::new(0.01, 0.02, 0.03), Vec3::new(1.5, 0.0, 0.0)] {
+            let rays = camera(eye, Vec3::ZERO, 0.364, 96);
+            assert_same_from(Viewpoint::Origin(eye), BOTH, &rays, &spheres);
+            let direction = -eye;
+            let rays = parallel(eye, direction, 1.2, 64);
+            assert_same_from(Viewpoint::Direction(direction), BOTH, &rays, &spheres);
+        }
+    }
+}
+
+/// Every scene from so far that it is a point; and a camera that sees all but what is behind.
+#[test]
+fn long_and_wide_lenses() {
+    for (_, spheres) in scenes::all() {
+        let eye = Vec3::new(3e3, -4e3, 9e3);
+        assert_same_from(
+            Viewpoint::Origin(eye),
+            BOTH,
+            &camera(eye, Vec3::ZERO, 1e-4, 48),
+            &spheres,
+        );
+        let eye = Vec3::new(0.1, 0.2, 0.9);
+        assert_same_from(Viewpoint::Origin(eye), BOTH, &camera(eye, Vec3::ZERO, 4.0, 48), &spheres);
+        let direction = Vec3::new(-3.0, 4.0, -9.0);
+        let rays = parallel(-1e4 * direction, direction, 1.2, 48);
+        assert_same_from(Viewpoint::Direction(direction), BOTH, &rays, &spheres);
+    }
+}
+
+#[test]
+fn lengths_and_intervals() {
+    let mut random = Random::new(83, 0);
+    let eye = Vec3::new(0.1, 0.2, 2.0);
+    let spheres = uniform(500);
+    let mut rays = camera(eye, Vec3::ZERO, 0.364, 64);
+    let ends = [f32::NEG_INFINITY, f32::INFINITY, -0.5, 0.0, -0.0, 0.5, 1.0, 1.9, 2.5, f32::NAN];
+    for ray in &mut rays {
+        let length = 2.0_f32.powi(random.integer(-60, 60) as i32);
+        ray.direction *= length;
+        if random.one_in(8) {
+            (ray.t_min, ray.t_max) = (random.pick(&ends) / length, random.pick(&ends) / length);
+        } else if random.one_in(2) {
+            ray.t_max = random.pick(&ends).max(0.0) / length;
+        }
+    }
+    assert_same_from(Viewpoint::Origin(eye), EXACT, &rays, &spheres);
+    // No end is negative, so that depth lists are used.
+    let mut rays = camera(eye, Vec3::ZERO, 0.364, 64);
+    end_at_answers(&mut random, &mut rays, &spheres);
+    assert_same_from(Viewpoint::Origin(eye), EXACT, &rays, &spheres);
+    // Shadow rays from a point light: they end where something begins.
+    for ray in &mut rays {
+        (ray.t_min, ray.t_max) = (0.0, random.uniform(0.3, 0.6) as f32);
+    }
+    assert_same_from(Viewpoint::Origin(eye), BOTH, &rays, &spheres);
+}
+
+/// Exactly tangent along an axis, from one eye: among spheres that touch the same lines.
+#[test]
+fn tangents() {
+    let mut random = Random::new(84, 0);
+    let eye = Vec3::new(0.0, 0.0, 8.0);
+    let mut spheres = Vec::new();
+    for _ in 0..400 {
+        let radius = random.integer(1, 32) as f32 / 64.0;
+        let z = random.integer(-256, 256) as f32 / 64.0;
+        let (x, y) = random.pick(&[(radius, 0.0), (0.0, radius), (-radius, 0.0), (0.0, -radius)]);
+        spheres.push(Sphere { center: Vec3::new(x, y, z), radius });
+    }
+    let rays: Vec<Ray> = (0..400)
+        .map(|_| {
+            let tiny = random.pick(&[0.0, -0.0, 1e-45, -1e-38, 1e-25, 1e-9]);
+            let other = random.pick(&[0.0, -0.0, 1e-45, -1e-38, 1e-25, -1e-9]);
+            Ray::new(eye, Vec3::new(tiny, other, -(random.integer(1, 3) as f32)))
+        })
+        .collect();
+    assert_same_from(Viewpoint::Origin(eye), EXACT, &rays, &spheres);
+    let straight: Vec<Ray> = (0..400)
+        .map(|i| Ray::new(Vec3::new(0.0, (i % 5) as f32 / 64.0, 8.0), Vec3::NEG_Z))
+        .collect();
+    assert_same_from(Viewpoint::Direction(Vec3::NEG_Z), EXACT, &straight, &spheres);
+}
+
+/// Runs in which some rays have another origin, another direction, or numbers that are none.
+#[test]
+fn rays_that_do_not_fit() {
+    let mut random = Random::new(85, 0);
+    let eye = EYE;
+    let spheres = uniform(300);
+    for rate in [3, 40, 400] {
+        let mut rays = camera(eye, Vec3::ZERO, 0.364, 80);
+        let mut along = parallel(eye, -eye, 1.2, 80);
+        for ray in rays.iter_mut().chain(&mut along) {
+            if !random.one_in(rate) {
+                continue;
+            }
+            let axis = random.integer(0, 2) as usize;
+            match random.integer(0, 4) {
+                0 => ray.origin[axis] = random.pick(&SPECIALS),
+                1 => ray.direction[axis] = random.pick(&SPECIALS),
+                2 => ray.direction = Vec3::ZERO,
+                3 => ray.direction = -ray.direction,
+                _ => *ray = Ray::new(point(&mut random, 1.0), point(&mut random, 1.0)),
+            }
+        }
+        assert_same_from(Viewpoint::Origin(eye), EXACT, &rays, &spheres);
+        assert_same_from(Viewpoint::Direction(-eye), EXACT, &along, &spheres);
+        // Nobody's viewpoint, and another's.
+        for odd in [f32::NAN, f32::INFINITY, 3e38, 0.0, 1e-30] {
+            assert_same_from(Viewpoint::Origin(Vec3::splat(odd)), EXACT, &rays[..600], &spheres);
+            assert_same_from(Viewpoint::Direction(Vec3::splat(odd)), EXACT, &rays[..600], &spheres);
+        }
+    }
+    assert_same_from(Viewpoint::Origin(eye), EXACT, &diffuse(500), &spheres);
+}
