@@ -10,10 +10,9 @@ extern crate alloc;
 extern crate std;
 
 use core::hint::black_box;
-use spherule_kernel::camera::Projection;
 use spherule_kernel::{
     AnyHit, Bvh, BvhLeaf, BvhNode, Camera, ClosestHit, DepthList, Hit, HitPacket, Intersect, Lanes,
-    Level, Ray, RayPacket, Sphere, SpherePacket, Spheres, Tier, Trace, Vec3, Viewpoint, f32x4,
+    Level, Projection, Ray, RayPacket, Sphere, SpherePacket, Spheres, Tier, Trace, Vec3, Viewpoint, f32x4,
     f32x8, f32x16, float_environment_is_sound, pair_lanes, pair_packets, pairs, roots, stages,
 };
 
@@ -65,7 +64,7 @@ pub unsafe extern "C" fn spherule_no_std(numbers: *const f32, count: usize) -> u
     let sphere = Sphere { center: vector(5), radius: number(6) };
 
     // More memory than most lists of spheres need: too little is a value, too.
-    let (mut words, mut scratch) = ([0; 1024], [0; 1000]);
+    let (mut words, mut scratch) = ([0.0; 1024], [0.0; 1000]);
     let (mut nodes, mut leaves) = ([BvhNode::EMPTY; 3], [BvhLeaf::EMPTY; 5]);
     let viewpoint = match camera.projection {
         Projection::Perspective { eye } => Viewpoint::Origin(eye),
@@ -115,7 +114,7 @@ impl Sum {
         tier: Tier,
         camera: &Camera,
         rays: &[Ray],
-        scratch: &mut [u32],
+        scratch: &mut [f32],
         structure: &impl Intersect,
     ) {
         let (mut hits, mut met) = ([None; 20], [false; 20]);
