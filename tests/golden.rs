@@ -4,12 +4,12 @@
 //! After a change that is meant, `SPHERULE_GOLDEN=write cargo test -p spherule-tests golden`
 //! writes the files in `tui/tests/golden` anew; read the diff before committing it.
 
-use spherule_kernel::{Sphere, Tier, Vec3};
-use spherule_tests::oracle;
 use spherule::draw::{draw, sample_grid};
 use spherule::style::{Charset, ColorDepth, Style};
 use spherule::view::{LensKind, orbited, with_projection};
 use spherule::{encode, scene};
+use spherule_kernel::{Sphere, Tier, Vec3};
+use spherule_tests::oracle;
 use std::path::PathBuf;
 
 const ASCII: Style = Style::PLAIN;

@@ -13,8 +13,8 @@ mod viewer;
 use look::last_row;
 use modes::is_cooked;
 use picture::once;
-use spherule_tui::view::{LensKind, orbited, with_projection, zoomed};
-use spherule_tui::viewer::{ORBIT_STEP, ZOOM_STEP};
+use spherule::view::{LensKind, orbited, with_projection, zoomed};
+use spherule::viewer::{ORBIT_STEP, ZOOM_STEP};
 use std::f32::consts::PI;
 use viewer::{COLUMNS, PICTURE_ROWS, ROWS, VIEW, Viewer, shows_a_frame};
 

@@ -4,8 +4,8 @@ use super::binary::spherule;
 use super::look::{Look, last_row, look};
 use super::picture::{OPTIONS, SceneFile};
 use super::session::{Output, Session};
-use spherule_kernel::Vec3;
 use spherule::view::{Lens, View};
+use spherule_kernel::Vec3;
 
 pub(crate) const COLUMNS: u16 = 72;
 pub(crate) const ROWS: u16 = 20;

@@ -1,11 +1,11 @@
-//! Answers to single cases, held against the oracle's by the program's own [engine](spherule_tui::tally).
+//! Answers to single cases, held against the oracle's by the program's own [engine](spherule::tally).
 
 use crate::aim::double;
 use crate::case::Case;
 use crate::oracle;
 use crate::random::{dot, power_of_two};
-use spherule_tui::tally::Tally;
-pub use spherule_tui::tally::{Summary, Ulp};
+use spherule::tally::Tally;
+pub use spherule::tally::{Summary, Ulp};
 
 /// What one engine gets wrong.
 #[derive(Clone, Debug, Default)]
