@@ -23,7 +23,7 @@ fn picture(name: &str, style: &Style, columns: u16, rows: u16) -> String {
     String::from_utf8(bytes).expect("UTF-8").replace('\x1b', "\\e")
 }
 
-/// Compares with the file, or writes it where that is asked for.
+/// Compares with the file, or writes it if `SPHERULE_GOLDEN` says so.
 fn check(file: &str, actual: &str) {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../tui/tests/golden");
     let path = folder.join(file);

@@ -9,7 +9,6 @@ mod exact;
 mod generators;
 mod golden;
 mod kept;
-mod lanes;
 mod lists;
 mod metamorphic;
 mod numbers;

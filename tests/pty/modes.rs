@@ -22,7 +22,7 @@ pub(crate) fn is_cooked(modes: &Termios) -> bool {
 }
 
 /// What is otherwise than in a fresh terminal; nothing if all is well. By two witnesses: vt100's
-/// model of the terminal, and the bytes, where the model knows not every mode.
+/// model of the terminal, and the bytes, since the model does not know every mode.
 pub(crate) fn left_behind(screen: &Screen, sent: &[u8]) -> Vec<String> {
     let mut found = Vec::new();
     let mut complain = |is_wrong: bool, what: &str| {

@@ -58,7 +58,7 @@ pub fn double(v: Vec3) -> [f64; 3] {
     v.to_array().map(f64::from)
 }
 
-/// Of length one, where the length is neither zero nor infinite.
+/// Of length one; `None` if the length is zero or infinite.
 fn normalized(v: [f64; 3]) -> Option<[f64; 3]> {
     let length = dot(v, v).sqrt();
     (length > 0.0 && length.is_finite()).then(|| v.map(|x| x / length))

@@ -84,7 +84,7 @@ impl Row {
     }
 }
 
-/// Where the table is.
+/// The path of the table.
 const PATH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/cases/budget.txt");
 
 /// The table's file.

@@ -25,7 +25,7 @@ pub struct Kept {
     pub expected: Option<f32>,
 }
 
-/// Where the file is.
+/// The path of the file.
 #[must_use]
 pub fn path() -> PathBuf {
     [env!("CARGO_MANIFEST_DIR"), "cases", "regimes.txt"].iter().collect()
@@ -34,7 +34,7 @@ pub fn path() -> PathBuf {
 /// The file as it is in the project.
 ///
 /// # Panics
-/// Where it cannot be read.
+/// If it cannot be read.
 #[must_use]
 pub fn read() -> String {
     std::fs::read_to_string(path()).expect("tests/cases/regimes.txt")
@@ -69,7 +69,7 @@ pub fn write() -> String {
 /// The cases of such a text.
 ///
 /// # Panics
-/// With the number of the line, where one is not as documented.
+/// With the number of the line, if one is not as documented.
 #[must_use]
 pub fn parse(text: &str) -> Vec<Kept> {
     let lines = text.lines().enumerate().filter(|(_, line)| !line.starts_with('#'));

@@ -7,8 +7,8 @@
 //! a = d.d    b = d.p    D = b^2 - a (p.p - r^2)    t = (b -+ sqrt D) / a
 //! ```
 //!
-//! the first three are integers too. The unit cancels in t. Rounding a real number to `f32` asks
-//! only where it lies among the multiples of 2^-150 (every `f32` and every midpoint between two is
+//! the first three are integers too. The unit cancels in t. Rounding a real number to `f32` depends
+//! only on where it lies among the multiples of 2^-150 (every `f32` and every midpoint between two is
 //! one): so the largest multiple not above t, and whether t exceeds it, say everything.
 //!
 //! The rules are those of the contract: 1 invalid input hits nothing; 2 D = 0 is a hit; 3 a root
@@ -69,7 +69,7 @@ impl Quadratic {
     }
 }
 
-/// A real number in halves of 2^-150: even where it is a multiple of 2^-150, else the odd number
+/// A real number in halves of 2^-150: even if it is a multiple of 2^-150, else the odd number
 /// between the two multiples around it.
 struct CutRoot(BigInt);
 
@@ -94,7 +94,7 @@ impl CutRoot {
         let odd = kept.bit(0);
         let up = against_half == Ordering::Greater || (against_half == Ordering::Equal && odd);
         let significand = u64::try_from(kept).expect("at most 24 bits") + u64::from(up);
-        // The leading bit of the significand, where there is one, counts as one more exponent; a
+        // The leading bit of the significand, if there is one, counts as one more exponent; a
         // carry out of it as another.
         let bits = ((dropped - 2) << 23).saturating_add(significand).min(0x7f80_0000);
         let value = f32::from_bits(u32::try_from(bits).expect("at most infinity"));

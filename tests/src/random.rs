@@ -68,7 +68,7 @@ impl Random {
         self.uniform(1.0, 2.0) * power_of_two(exponent)
     }
 
-    /// A direction of length one (but for rounding), uniform on the sphere.
+    /// A direction of length one, up to rounding, uniform on the sphere.
     pub fn unit(&mut self) -> [f64; 3] {
         loop {
             let v = [(); 3].map(|()| self.uniform(-1.0, 1.0));
@@ -107,7 +107,7 @@ impl Random {
         (-2.0 * radius.ln()).sqrt() * (angle * core::f64::consts::TAU).cos()
     }
 
-    /// A unit vector at right angles (but for rounding) to the unit vector `u`.
+    /// A unit vector at right angles, up to rounding, to the unit vector `u`.
     pub fn perpendicular(&mut self, u: [f64; 3]) -> [f64; 3] {
         loop {
             let v = cross(u, self.unit());
@@ -122,7 +122,7 @@ impl Random {
 /// 2^exponent, exactly.
 ///
 /// # Panics
-/// Where it is no normal `f64`.
+/// If it is no normal `f64`.
 #[must_use]
 pub fn power_of_two(exponent: i64) -> f64 {
     assert!((-1022..=1023).contains(&exponent), "2^{exponent} is no normal f64");

@@ -34,7 +34,7 @@ fn looks(random: &mut Random, middle: Vec3, distance: f64, bundles: usize) -> Ve
     rays
 }
 
-/// Where the line of the ray, as it was rounded, is nearest to `middle`, and its direction of length one.
+/// The point of the line of the ray, as it was rounded, that is closest to `middle`, and its direction of length one.
 fn line(ray: &Ray, middle: Vec3) -> ([f64; 3], [f64; 3]) {
     let (o, d, m) = (double(ray.origin), double(ray.direction), double(middle));
     let length = dot(d, d).sqrt();
@@ -47,7 +47,7 @@ fn plus(a: [f64; 3], factor: f64, b: [f64; 3]) -> [f64; 3] {
     [a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]]
 }
 
-/// Spheres that a ray passes at their radius but for some roundings; half of them touch the outermost
+/// Spheres that a ray passes at their radius, give or take some roundings; half of them touch the outermost
 /// ray of a packet, or bundle, from outside.
 fn beside(random: &mut Random, rays: &[Ray], middle: Vec3, count: usize) -> Vec<Sphere> {
     let sphere = |_| {
@@ -86,7 +86,7 @@ fn outermost(random: &mut Random, rays: &[Ray]) -> (Ray, [f64; 3]) {
     (ray, across.map(|x| x * outward))
 }
 
-/// Spheres that a ray enters in one point, but for some roundings: any may be the nearest.
+/// Spheres that a ray enters in one point, give or take some roundings: any may be the nearest.
 fn through_one_point(random: &mut Random, rays: &[Ray], middle: Vec3, count: usize) -> Vec<Sphere> {
     let mut spheres = Vec::new();
     while spheres.len() < count {
@@ -184,7 +184,7 @@ fn exact_tangents_from_any_distance() {
     }
 }
 
-/// Rays in a face of a box, or nearly, where it is touched by all of its spheres: small boxes far from where
+/// Rays in a face of a box, or nearly, that all of its spheres touch: small boxes far from where
 /// a ray begins, and far from where coordinates do.
 #[test]
 fn in_the_faces_of_boxes() {

@@ -12,7 +12,7 @@
 //! is bounded by its origins, and by how far its rays still go.
 //!
 //! Slopes are moved by 16 u |w| + u, D by 16 u (F + 2^-11 T) (1 + |w|) and 2^-57, the lengths of normals by
-//! 64 u: `docs/traversal-margins.md` proves that this is enough, and `tests/bvh/far.rs` guards it.
+//! 64 u: `docs/traversal-margins.md` proves that this is enough, and `tests/structures/far.rs` guards it.
 
 use crate::bvh::node::{BvhNode, WIDTH};
 use crate::bvh::traverse::root_interval::SphereColumns;

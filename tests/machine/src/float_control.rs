@@ -22,7 +22,7 @@ fn sound_under(control: u32) -> bool {
 /// Sound by default, and in no other environment.
 ///
 /// # Panics
-/// Where the kernel says otherwise.
+/// If the kernel says otherwise.
 pub(crate) fn prove() {
     assert!(sound_under(DEFAULT), "the control: the default is sound");
     for (name, bits) in [

@@ -10,11 +10,11 @@ extern crate alloc;
 extern crate std;
 
 use core::hint::black_box;
-use spherule_kernel::camera::Projection;
 use spherule_kernel::{
     AnyHit, Bvh, BvhLeaf, BvhNode, Camera, ClosestHit, DepthList, Hit, HitPacket, Intersect, Lanes,
-    Level, Ray, RayPacket, Sphere, SpherePacket, Spheres, Tier, Trace, Vec3, Viewpoint, f32x4,
-    f32x8, f32x16, float_environment_is_sound, pair_lanes, pair_packets, pairs, roots, stages,
+    Level, Projection, Ray, RayPacket, Sphere, SpherePacket, Spheres, Tier, Trace, Vec3, Viewpoint,
+    f32x4, f32x8, f32x16, float_environment_is_sound, pair_lanes, pair_packets, pairs, roots,
+    stages,
 };
 
 /// What a firmware does in its own way; without `std` there must be one.
@@ -65,7 +65,7 @@ pub unsafe extern "C" fn spherule_no_std(numbers: *const f32, count: usize) -> u
     let sphere = Sphere { center: vector(5), radius: number(6) };
 
     // More memory than most lists of spheres need: too little is a value, too.
-    let (mut words, mut scratch) = ([0; 1024], [0; 1000]);
+    let (mut words, mut scratch) = ([0.0; 1024], [0.0; 1000]);
     let (mut nodes, mut leaves) = ([BvhNode::EMPTY; 3], [BvhLeaf::EMPTY; 5]);
     let viewpoint = match camera.projection {
         Projection::Perspective { eye } => Viewpoint::Origin(eye),
@@ -73,6 +73,8 @@ pub unsafe extern "C" fn spherule_no_std(numbers: *const f32, count: usize) -> u
     };
     let mut sum = Sum(0);
     sum.structure(tier, &camera, &rays, &mut [], &spheres);
+    sum.lanes::<f32x4>(tier, &camera, &mut Trace::new(), &spheres);
+    sum.lanes::<f32x16>(tier, &camera, &mut Trace::new(), &spheres);
     match DepthList::sort(spheres, viewpoint, &mut words) {
         Ok(depth_list) => sum.structure(tier, &camera, &rays, &mut scratch, &depth_list),
         Err(error) => sum.word(error.needed as u32),
@@ -103,6 +105,10 @@ impl Sum {
         self.0 = self.0.rotate_left(1) ^ word;
     }
 
+    fn bits(&mut self, words: impl IntoIterator<Item = impl Into<u32>>) {
+        words.into_iter().for_each(|word| self.word(word.into()));
+    }
+
     fn hits(&mut self, hits: impl IntoIterator<Item = Option<Hit>>) {
         for hit in hits {
             self.word(hit.map_or(0, |hit| hit.t.to_bits() ^ hit.sphere));
@@ -115,7 +121,7 @@ impl Sum {
         tier: Tier,
         camera: &Camera,
         rays: &[Ray],
-        scratch: &mut [u32],
+        scratch: &mut [f32],
         structure: &impl Intersect,
     ) {
         let (mut hits, mut met) = ([None; 20], [false; 20]);
@@ -124,23 +130,22 @@ impl Sum {
         structure.closest_hits(tier, rays, &mut hits);
         self.hits(hits);
         structure.any_hits(tier, rays, &mut met);
-        met.map(|met| self.word(u32::from(met)));
+        self.bits(met);
         for trace in [Trace::new().coherent(), Trace::new().incoherent()] {
             let mut trace = Trace { scratch: &mut *scratch, ..trace };
             structure.closest_hits_with(tier, &mut trace, rays, &mut hits);
             self.hits(hits);
             structure.any_hits_with(tier, &mut trace, rays, &mut met);
-            met.map(|met| self.word(u32::from(met)));
+            self.bits(met);
             let packets = [camera.packet(0, 0, 8, 8), camera.packet(4, 4, 8, 8)];
             let (mut hits, mut met) = ([HitPacket::none(); 2], [0; 2]);
             structure.closest_hit_packets(tier, &mut trace, &packets, &mut hits);
             self.hits(hits.iter().flat_map(HitPacket::hits));
             structure.any_hit_packets(tier, &mut trace, &packets, &mut met);
-            met.map(|met| self.word(met));
+            self.bits(met);
+            // The same source in every width: the others below, of a list.
             self.lanes::<f32>(tier, camera, &mut trace, structure);
-            self.lanes::<f32x4>(tier, camera, &mut trace, structure);
             self.lanes::<f32x8>(tier, camera, &mut trace, structure);
-            self.lanes::<f32x16>(tier, camera, &mut trace, structure);
         }
     }
 
@@ -159,7 +164,7 @@ impl Sum {
         structure.closest_hit_lanes::<L>(tier, (), trace, &rays, &mut hits);
         self.hits(hits.iter().flat_map(HitPacket::hits));
         structure.any_hit_lanes::<L>(tier, (), trace, &rays, &mut met);
-        met.map(|met| self.word(met));
+        self.bits(met);
     }
 
     fn pairs(&mut self, tier: Tier, rays: &[Ray], sphere: &Sphere) {

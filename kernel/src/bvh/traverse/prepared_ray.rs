@@ -14,7 +14,7 @@
 //! near, or the start of the interval, is at most the least far, or the best s so far: closed, so that
 //! equal t are never culled.
 //!
-//! Why nothing is lost, and what every constant covers: `docs/traversal-margins.md`. `tests/bvh/far.rs`
+//! Why nothing is lost, and what every constant covers: `docs/traversal-margins.md`. `tests/structures/far.rs`
 //! guards it.
 
 use crate::accuracy::RayLanes;

@@ -12,7 +12,7 @@
 //!
 //! Let S = |m| + r and delta = 48 u S + the absolute error of the ray. A hit has l <= r + delta, and l^2 within
 //! r^2 + W, W = (delta / 4) (2 r + 5 delta / 4); l^2 <= r^2 - W is surely a hit. The proof:
-//! `docs/traversal-margins.md`, which `tests/bvh/far.rs` guards.
+//! `docs/traversal-margins.md`, which `tests/structures/far.rs` guards.
 //!
 //! A far root that is surely in the interval is a bound too where the near one is not: the answer is one
 //! of them.
