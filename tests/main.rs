@@ -16,4 +16,5 @@ mod oracle;
 mod packets;
 #[cfg(target_os = "linux")]
 mod pty;
+mod scenes;
 mod structures;

@@ -1,27 +1,33 @@
-//! What the benchmarks share: workloads, the check before the clock, probes of the machine, and
-//! the way in which times are taken.
+//! What the kernel costs, and what it gets wrong: beside plain code, Embree, and other crates.
 //!
-//! | target | prints |
+//! | command | does |
 //! |---|---|
-//! | `nearest` | criterion: tier x lane width x spheres x kind of rays |
-//! | `peers` | criterion: the same rays through other people's code |
-//! | `limit` | a table: the share of the machine's arithmetic that brute force reaches |
-//! | `report` | tables and a plot: speed against error for every tier; see [`report`] |
-//! | `structures` | tables and a plot: scene structures and other programs, scene by scene; see [`mod@structures`] |
+//! | `cargo bench --bench closest_hit` | criterion: the small scenes by brute force, every tier and lane width, and another crate |
+//! | `cargo bench --bench report` | prints tables: `-- tiers` speed against error, `-- structures` the large scenes, or both |
+//! | `... --features embree ... -- --write` | with Embree (Debian: `libembree-dev`); and writes `docs/benchmarks` |
 //!
-//! Nothing is timed before its answers are checked: [`check`].
+//! Speed is written for one build at a time: once more with `RUSTFLAGS="-C target-cpu=native"`. `--scene NAME` runs one
+//! large scene alone, `--quick` takes minutes, `--test` runs everything once.
+//!
+//! Data flows one way: [scenes](spherule_tests::scenes), [engines](engine), [the check before the clock](agreement), [times](measure),
+//! [pages](page). Nothing is timed before its answers are checked.
 
 // Not forbidden, for one file: a foreign interface behind the feature `embree`.
 #![deny(unsafe_code)]
+#![allow(rustdoc::private_intra_doc_links)]
 
-pub mod check;
-#[cfg(feature = "embree")]
-pub mod embree;
-pub mod probe;
-pub mod random;
-pub mod report;
-pub mod rounds;
-pub mod scenes;
-pub mod settings;
-pub mod structures;
-pub mod workload;
+mod agreement;
+mod builds;
+mod criterion_groups;
+mod engine;
+mod errors;
+mod lists;
+mod measure;
+mod page;
+mod plot;
+mod report;
+mod rounds;
+mod structures;
+
+pub use criterion_groups::closest_hit;
+pub use report::report;

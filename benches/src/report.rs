@@ -1,23 +1,81 @@
-//! Speed against error: what the benchmark `report` measures, judges and prints.
-//!
-//! | room | holds |
-//! |---|---|
-//! | [`contender`] | the one list of what is compared: every tier in every lane width |
-//! | [`mod@reference`] | two forms that are no tier: the lecture's with unit directions, and plain `f64` |
-//! | [`error`] | wrong decisions and ulp of t, regime by regime, against the integer oracle |
-//! | [`speed`] | nanoseconds a ray-sphere test, workload by workload |
-//! | [`target`] | the ratios that were asked for, met or missed |
-//! | [`dominance`] | which tier nobody needs |
-//! | [`machine`] | CPU, compiler, flags, commit and date |
-//! | [`page`] | all that as Markdown |
-//! | [`plot`] | all that as a picture |
+//! The command line of the reports, and where they are written.
 
-pub mod contender;
-pub mod dominance;
-pub mod error;
-pub mod machine;
-pub mod page;
-pub mod plot;
-pub mod reference;
-pub mod speed;
-pub mod target;
+use crate::measure::Effort;
+use crate::page::{self, build, origin};
+use crate::{errors, lists, plot, structures};
+use clap::{Parser, ValueEnum};
+use spherule_tests::scenes::LARGE;
+use std::path::Path;
+use std::{error, fs};
+
+#[derive(Parser)]
+struct Arguments {
+    /// What is measured; both unless said.
+    part: Option<Part>,
+    /// One large scene alone; nothing is written.
+    #[arg(long, value_parser = LARGE)]
+    scene: Option<String>,
+    /// Writes docs/benchmarks.
+    #[arg(long)]
+    write: bool,
+    /// A first impression.
+    #[arg(long)]
+    quick: bool,
+    /// That everything runs; nothing is written.
+    #[arg(long)]
+    test: bool,
+    /// What cargo says to every benchmark.
+    #[arg(long, hide = true)]
+    bench: bool,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Part {
+    Tiers,
+    Structures,
+}
+
+/// Measures, prints, and writes if told to.
+///
+/// # Errors
+/// If a file cannot be written.
+///
+/// # Panics
+/// If an answer is wrong.
+pub fn report() -> Result<(), Box<dyn error::Error>> {
+    let Arguments { part, scene, write, quick, test, .. } = Arguments::parse();
+    let effort = match (test, quick) {
+        (true, _) => Effort::Test,
+        (_, true) => Effort::Quick,
+        _ => Effort::Full,
+    };
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/benchmarks");
+    let put = |name: &str, text: &str| -> Result<(), Box<dyn error::Error>> {
+        if name.ends_with(".md") {
+            println!("{text}");
+        }
+        if write && !test && scene.is_none() {
+            fs::create_dir_all(&folder)?;
+            fs::write(folder.join(name), text)?;
+        }
+        Ok(())
+    };
+    let origin = origin();
+    if part != Some(Part::Structures) && scene.is_none() {
+        let (errors, lists) = (errors::measure(effort), lists::measure(effort));
+        put("trade.md", &page::tiers::trade(&origin, &errors, &lists))?;
+        put("errors.md", &page::tiers::errors(&origin, &errors))?;
+        put(&format!("speed-{}.md", build()), &page::tiers::speed(&origin, &lists))?;
+    }
+    if part != Some(Part::Tiers) {
+        let results = structures::measure(effort, scene.as_deref());
+        put("structures.md", &page::structures::page(&origin, &results))?;
+        if scene.is_none() {
+            put("growth.svg", &plot::growth(&origin, &results.growth)?)?;
+            put("embree.svg", &plot::embree(&origin, &results.scenes)?)?;
+        }
+    }
+    let is_sound = spherule_kernel::float_environment_is_sound();
+    assert!(is_sound, "something changed the floating-point environment");
+    Ok(())
+}

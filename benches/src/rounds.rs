@@ -1,167 +1,130 @@
 //! Times of several things that are to be compared, taken in turns.
 //!
-//! On a shared machine the clock and the neighbours change from second to second. So the time is
-//! the thread's own, which stands still while others use the CPU; everything runs once a round, and what is reported is the median over the rounds, of times and of ratios
-//! within a round; the quartiles beside it say how far to trust it.
+//! On a shared machine the clock and the neighbours change from second to second. So the time is the thread's own,
+//! everything runs once a round, and what is reported is the median of times, and of ratios within a round.
 
 use rustix::time::{ClockId, clock_gettime};
+use std::fmt;
 use std::ops::RangeInclusive;
 use std::time::{Duration, Instant};
 
-/// Something to time: a name, and what takes a sample of nanoseconds a unit of work.
-pub struct Subject<'a> {
-    name: String,
-    sample: Box<dyn FnMut() -> f64 + 'a>,
-}
-
-impl core::fmt::Debug for Subject<'_> {
-    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        formatter.debug_struct("Subject").field("name", &self.name).finish_non_exhaustive()
-    }
-}
-
-impl<'a> Subject<'a> {
-    /// A subject; `run` does some work, is timed, and answers how many units of work that was.
-    pub fn new(name: impl Into<String>, mut run: impl FnMut() -> usize + 'a) -> Self {
-        Self::timing_itself(name, move || {
-            let start = busy();
-            let units = run();
-            (busy() - start) / units as f64
-        })
-    }
-
-    /// A subject of whose work not all is to be timed; `sample` answers nanoseconds a unit.
-    pub fn timing_itself(name: impl Into<String>, sample: impl FnMut() -> f64 + 'a) -> Self {
-        Self { name: name.into(), sample: Box::new(sample) }
-    }
-}
-
-/// Nanoseconds a unit of every subject, a round each.
-#[derive(Clone, Debug)]
-pub struct Samples {
-    names: Vec<String>,
-    by_subject: Vec<Vec<f64>>,
-}
-
-/// A median and the quartiles around it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Median {
-    /// The lower quartile.
-    pub low: f64,
-    /// The median.
-    pub middle: f64,
-    /// The upper quartile.
-    pub high: f64,
-}
-
-/// Times every subject once a round, after one round that is thrown away.
-pub fn take(subjects: &mut [Subject<'_>], rounds: usize) -> Samples {
-    take_within(subjects, Duration::MAX, rounds..=rounds)
-}
-
-/// The same, with as many rounds as fit into `time`, by what the first one took, of those allowed.
-pub fn take_within(
-    subjects: &mut [Subject<'_>],
-    time: Duration,
-    rounds: RangeInclusive<usize>,
-) -> Samples {
-    let mut round =
-        || -> Vec<f64> { subjects.iter_mut().map(|subject| (subject.sample)()).collect() };
-    let start = Instant::now();
-    round();
-    let fit = (time.as_secs_f64() / start.elapsed().as_secs_f64()) as usize;
-    let rounds = fit.clamp(*rounds.start(), *rounds.end());
-    let by_round: Vec<_> = (0..rounds).map(|_| round()).collect();
-    let of_subject = |index: usize| by_round.iter().map(|round| round[index]).collect();
-    Samples {
-        names: subjects.iter().map(|subject| subject.name.clone()).collect(),
-        by_subject: (0..subjects.len()).map(of_subject).collect(),
-    }
-}
+/// Takes a sample: nanoseconds a unit of work.
+pub(crate) type Sampler<'a> = Box<dyn FnMut() -> f64 + 'a>;
 
 /// For how many nanoseconds this thread has had a CPU.
-#[must_use]
-pub fn busy() -> f64 {
-    busy_nanoseconds() as f64
-}
-
-/// The same, whole.
-#[must_use]
-pub fn busy_nanoseconds() -> u64 {
+pub(crate) fn thread_time() -> u64 {
     let time = clock_gettime(ClockId::ThreadCPUTime);
     time.tv_sec as u64 * 1_000_000_000 + time.tv_nsec as u64
 }
 
-impl Samples {
-    /// How often every subject was timed.
-    #[must_use]
-    pub fn rounds(&self) -> usize {
-        self.by_subject.first().map_or(0, Vec::len)
+/// How many nanoseconds of this thread's time `work` takes.
+pub(crate) fn timed(work: impl FnOnce()) -> f64 {
+    let start = thread_time();
+    work();
+    (thread_time() - start) as f64
+}
+
+/// A median and the quartiles around it; `{:.2}` prints `1.50 [1.25, 1.75]`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Median {
+    pub(crate) low: f64,
+    pub(crate) middle: f64,
+    pub(crate) high: f64,
+}
+
+/// Samples, one a round, of what has the name `K`.
+pub(crate) struct Samples<K> {
+    pub(crate) names: Vec<K>,
+    rounds: Vec<Vec<f64>>,
+}
+
+impl<K: PartialEq> Samples<K> {
+    /// Takes a sample of each a round, after one round that does not count: as many rounds as fit into `time`, judged by
+    /// the first, within `rounds`.
+    pub(crate) fn take(
+        all: Vec<(K, Sampler<'_>)>,
+        time: Duration,
+        rounds: RangeInclusive<usize>,
+    ) -> Self {
+        let (names, mut samplers): (Vec<_>, Vec<_>) = all.into_iter().unzip();
+        let mut round = || -> Vec<f64> { samplers.iter_mut().map(|sampler| sampler()).collect() };
+        let start = Instant::now();
+        round();
+        let fit = (time.as_secs_f64() / start.elapsed().as_secs_f64()) as usize;
+        let count = fit.clamp(*rounds.start(), *rounds.end());
+        Self { names, rounds: (0..count).map(|_| round()).collect() }
     }
 
-    /// Every sample of a subject.
-    ///
-    /// # Panics
-    /// Where there is no such subject.
-    #[must_use]
-    pub fn of(&self, name: &str) -> &[f64] {
-        let index = self.names.iter().position(|n| n == name);
-        &self.by_subject[index.unwrap_or_else(|| panic!("no subject {name}"))]
+    pub(crate) fn rounds(&self) -> usize {
+        self.rounds.len()
     }
 
-    /// Nanoseconds a unit.
-    #[must_use]
-    pub fn median(&self, name: &str) -> Median {
-        median(self.of(name).to_vec())
+    fn index(&self, name: &K) -> Option<usize> {
+        self.names.iter().position(|other| other == name)
+    }
+
+    /// Nanoseconds a unit; `None` for what did not take part.
+    pub(crate) fn median(&self, name: &K) -> Option<Median> {
+        let index = self.index(name)?;
+        Some(Median::of(self.rounds.iter().map(|round| round[index]).collect()))
     }
 
     /// How many times the time of `other` is that of `name`, round by round.
-    #[must_use]
-    pub fn ratio(&self, name: &str, other: &str) -> Median {
-        let pairs = self.of(name).iter().zip(self.of(other));
-        median(pairs.map(|(name, other)| name / other).collect())
-    }
-
-    /// The shortest time: what neighbours disturb least.
-    #[must_use]
-    pub fn least(&self, name: &str) -> f64 {
-        self.of(name).iter().copied().fold(f64::INFINITY, f64::min)
+    pub(crate) fn ratio(&self, name: &K, other: &K) -> Option<Median> {
+        let (own, other) = (self.index(name)?, self.index(other)?);
+        Some(Median::of(self.rounds.iter().map(|round| round[own] / round[other]).collect()))
     }
 }
 
-fn median(mut values: Vec<f64>) -> Median {
-    values.sort_by(f64::total_cmp);
-    let at = |share: f64| values[((values.len() - 1) as f64 * share).round() as usize];
-    Median { low: at(0.25), middle: at(0.5), high: at(0.75) }
+impl Median {
+    fn of(mut values: Vec<f64>) -> Self {
+        values.sort_by(f64::total_cmp);
+        let at = |share: f64| values[((values.len() - 1) as f64 * share).round() as usize];
+        Self { low: at(0.25), middle: at(0.5), high: at(0.75) }
+    }
+
+    pub(crate) fn times(self, factor: f64) -> Self {
+        let Self { low, middle, high } = self;
+        Self { low: low * factor, middle: middle * factor, high: high * factor }
+    }
+}
+
+impl fmt::Display for Median {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let digits = formatter.precision().unwrap_or(2);
+        let Self { low, middle, high } = self;
+        write!(formatter, "{middle:.digits$} [{low:.digits$}, {high:.digits$}]")
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::cell::RefCell;
 
     #[test]
     fn medians_and_quartiles() {
-        let of = |values: &[f64]| median(values.to_vec());
+        let of = |values: &[f64]| Median::of(values.to_vec());
         assert_eq!(of(&[3.0]), Median { low: 3.0, middle: 3.0, high: 3.0 });
         assert_eq!(of(&[5.0, 1.0, 2.0, 4.0, 3.0]), Median { low: 2.0, middle: 3.0, high: 4.0 });
+        assert_eq!(format!("{:.1}", of(&[5.0, 1.0, 3.0]).times(2.0)), "6.0 [6.0, 10.0]");
     }
 
     #[test]
-    fn subjects_take_turns_and_the_first_round_does_not_count() {
-        let order = std::cell::RefCell::new(Vec::new());
-        let subject = |name: &'static str| {
+    fn samplers_take_turns_and_the_first_round_does_not_count() {
+        let order = RefCell::new(Vec::new());
+        let sampler = |name: usize| -> (usize, Sampler<'_>) {
             let order = &order;
-            Subject::new(name, move || {
+            let sample = move || {
                 order.borrow_mut().push(name);
-                1
-            })
+                name as f64
+            };
+            (name, Box::new(sample))
         };
-        let samples = take(&mut [subject("a"), subject("b")], 2);
-        assert_eq!(*order.borrow(), ["a", "b", "a", "b", "a", "b"]);
-        assert_eq!(samples.of("a").len(), 2);
-        assert!(samples.least("b") <= samples.median("b").middle);
-        let mut sleeper = [Subject::timing_itself("c", || 1.0)];
-        assert_eq!(take_within(&mut sleeper, Duration::ZERO, 3..=9).rounds(), 3);
-        assert_eq!(take_within(&mut sleeper, Duration::MAX, 3..=9).rounds(), 9);
+        let samples = Samples::take(vec![sampler(1), sampler(2)], Duration::ZERO, 2..=9);
+        assert_eq!(*order.borrow(), [1, 2, 1, 2, 1, 2]);
+        assert_eq!((samples.rounds(), samples.ratio(&2, &1).map(|m| m.middle)), (2, Some(2.0)));
+        assert_eq!(samples.median(&3), None);
+        assert_eq!(Samples::take(vec![sampler(1)], Duration::MAX, 3..=9).rounds(), 9);
     }
 }

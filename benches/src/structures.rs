@@ -1,32 +1,161 @@
-//! Scene structures against each other and against other programs: what the benchmark `structures`
-//! measures, judges and prints.
-//!
-//! | room | holds |
-//! |---|---|
-//! | [`contender`] | who takes part: ways through a scene, tiers, levels, peers |
-//! | [`ours`] | the kernel's brute force and walks, by tier and level |
-//! | [`peer`] | what another tree must offer, and the one sphere test of all of them |
-//! | [`agreement`] | the checks before the clock |
-//! | [`measure`] | a scene, checked and timed; [`measured`] what comes of it |
-//! | [`mod@build`] | times of builds, bytes of ours |
-//! | [`growth`] | the same for more and more spheres |
-//! | [`threads`] | two threads against one |
-//! | [`target`] | what was asked for |
-//! | [`page`] | all that as Markdown |
-//! | [`plot`] | the growth as a picture |
-//!
-//! Embree itself is in `embree.rs`, behind the feature of that name.
+//! Many spheres: the kernel's ways through the large scenes, against Embree and the trees of other crates.
 
-pub mod agreement;
-pub mod build;
-pub mod contender;
-pub mod growth;
-pub mod measure;
-pub mod measured;
-pub mod ours;
-pub mod page;
-pub mod peer;
-pub mod plot;
-mod race;
-pub mod target;
-pub mod threads;
+use crate::builds::{Builds, EMBREE, Trees};
+use crate::engine::kernel::{Kernel, Way, levels};
+use crate::engine::{Label, Query, Rays};
+use crate::measure::{Effort, Measured, Plan};
+use crate::rounds::{Median, Sampler, Samples};
+use spherule_kernel::{HitPacket, Intersect, Level, SphereTree, Tier, Trace};
+use spherule_tests::scenes::{Kind, LARGE, Scene, Size};
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+/// Scenes that every level is timed on.
+const AT_EVERY_LEVEL: [&str; 3] = ["flake4", "u10k", "u1m"];
+/// The scene that threads are timed on.
+pub(crate) const FOR_THREADS: &str = "u10k";
+
+/// A scene's builds, and the times of both kinds of its rays.
+pub(crate) struct OfScene {
+    pub(crate) name: &'static str,
+    pub(crate) spheres: usize,
+    pub(crate) builds: Builds,
+    pub(crate) measured: [Measured; 2],
+}
+
+/// All that was measured.
+pub(crate) struct Structures {
+    pub(crate) scenes: Vec<OfScene>,
+    /// How many times as fast two threads are as one, in [`FOR_THREADS`].
+    pub(crate) two_threads: Option<Median>,
+    /// More and more uniform spheres.
+    pub(crate) growth: Vec<OfScene>,
+}
+
+/// Measures all of it, or `one` scene alone.
+pub(crate) fn measure(effort: Effort, one: Option<&str>) -> Structures {
+    let levels = levels();
+    // Of growth: pixels enough for a time, few enough for brute force to be shown; and the powers of ten.
+    let (size, seconds, rounds, builds, (pixels, most)) = match effort {
+        Effort::Test => (Size::SMALL, 0, 1..=1, 1, (32, 4)),
+        Effort::Quick => (Size::FULL, 2, 3..=9, 1, (512, 6)),
+        Effort::Full => (Size::FULL, 14, 5..=31, 5, (512, 8)),
+    };
+    let (time, sample) = (Duration::from_secs(seconds), Duration::ZERO);
+    let plan = Plan { queries: &Query::ALL, time, rounds: rounds.clone(), sample };
+    let of_scene = |name| {
+        let scene = Scene::large(name, size).expect("listed");
+        let all = effort == Effort::Test || AT_EVERY_LEVEL.contains(&name);
+        let levels = if all { &levels[..] } else { &levels[..1] };
+        OfScene::measure(&scene, Some(builds), (levels, &Tier::ALL), &plan)
+    };
+    let growth = Plan { time: time.min(Duration::from_secs(3)), ..plan.clone() };
+    let step = |power| {
+        let scene = Scene::uniform(10_usize.pow(power), pixels);
+        OfScene::measure(&scene, None, (&levels[..1], &[Tier::Stable]), &growth)
+    };
+    let chosen = LARGE.into_iter().filter(|name| one.is_none_or(|one| one == *name));
+    let threads = || {
+        let scene = Scene::large(FOR_THREADS, size).expect("listed");
+        two_threads_by_one(&scene, levels[0], *rounds.end())
+    };
+    Structures {
+        scenes: chosen.map(of_scene).collect(),
+        two_threads: one.is_none().then(threads).flatten(),
+        growth: (2..most).filter(|_| one.is_none()).map(step).collect(),
+    }
+}
+
+impl OfScene {
+    /// `rounds` of builds, with other crates; or one without.
+    fn measure(
+        scene: &Scene,
+        rounds: Option<usize>,
+        (levels, tiers): (&[Level], &[Tier]),
+        plan: &Plan<'_>,
+    ) -> Self {
+        let spheres = scene.spheres.len();
+        eprintln!("{}, {spheres} spheres", scene.name);
+        let trees = Trees::build(scene, rounds.is_some());
+        let builds = Builds::measure(scene, &trees, rounds.is_some(), rounds.unwrap_or(1));
+        let kernel = Kernel::new(scene, &trees.ours);
+        let measured = Kind::ALL.map(|kind| {
+            let ours = kernel.ways(kind, levels, tiers);
+            let engines: Vec<_> = ours.iter().chain(&trees.others).collect();
+            Measured::take((scene, kind), &engines, &kernel.truth(), plan)
+        });
+        Self { name: scene.name, spheres, builds, measured }
+    }
+
+    /// How many times as fast as Embree the primary and the diffuse rays are.
+    pub(crate) fn times_embree(&self) -> (&'static str, [Option<f64>; 2]) {
+        let times = |of: &Measured| of.times_embree(Query::ClosestHit).map(|times| times.middle);
+        (self.name, self.measured.each_ref().map(times))
+    }
+
+    /// What growth is shown of: a million rays a second, if it took part.
+    pub(crate) fn rates(&self) -> [(&'static str, Option<f64>); 6] {
+        let [primary, diffuse] = &self.measured;
+        let ours = |measured: &Measured, way: Way| {
+            let label = measured.labels().find(|label| label.way == way.as_str())?;
+            measured.rate(label, Query::ClosestHit)
+        };
+        let embree = |measured: &Measured| {
+            measured.rate(measured.embree(Query::ClosestHit)?, Query::ClosestHit)
+        };
+        [
+            ("tree, primary", ours(primary, Way::Packets)),
+            ("depth list, primary", ours(primary, Way::DepthList)),
+            ("Embree, primary", embree(primary)),
+            ("tree, diffuse", ours(diffuse, Way::RayByRay)),
+            ("Embree, diffuse", embree(diffuse)),
+            ("brute force, primary", ours(primary, Way::BruteForce)),
+        ]
+    }
+}
+
+impl Measured {
+    /// The kernel's quickest way in a tier, at the best level.
+    pub(crate) fn quickest(&self, tier: Tier, query: Query) -> Option<&Label> {
+        let best = self.labels().next()?.lanes;
+        self.fastest(query, |label| label.name == tier.as_str() && label.lanes == best)
+    }
+
+    /// Embree's quickest call.
+    pub(crate) fn embree(&self, query: Query) -> Option<&Label> {
+        self.fastest(query, |label| label.name == EMBREE)
+    }
+
+    /// How many times as fast as Embree's quickest call `Stable` is in its quickest way.
+    pub(crate) fn times_embree(&self, query: Query) -> Option<Median> {
+        self.ratio(self.embree(query)?, self.quickest(Tier::Stable, query)?, query)
+    }
+}
+
+/// How many times as fast two threads find the closest hits of the primary rays as one, with `Stable`: the same packets,
+/// handed out in pieces. By the wall's clock, so that it needs a machine with two free cores.
+fn two_threads_by_one(scene: &Scene, level: Level, rounds: usize) -> Option<Median> {
+    /// Packets that a thread takes at a time.
+    const PIECE: usize = 256;
+    let tree = &SphereTree::new((*scene.spheres).clone());
+    let packets = &Rays::new(scene.rays(Kind::Primary)).packets();
+    let samplers = [1, 2].map(|threads| -> (usize, Sampler<'_>) {
+        let mut hits = vec![HitPacket::none(); packets.len()];
+        let sample = move || {
+            let start = Instant::now();
+            let pieces = Mutex::new(packets.chunks(PIECE).zip(hits.chunks_mut(PIECE)));
+            let work = || {
+                // The lock is free again before a piece is worked on.
+                let next = || pieces.lock().ok()?.next();
+                while let Some((rays, hits)) = next() {
+                    let mut trace = Trace::new().at(level).coherent();
+                    tree.closest_hit_packets(Tier::Stable, &mut trace, rays, hits);
+                }
+            };
+            std::thread::scope(|scope| (0..threads).for_each(|_| drop(scope.spawn(work))));
+            start.elapsed().as_nanos() as f64
+        };
+        (threads, Box::new(sample))
+    });
+    Samples::take(samplers.into(), Duration::ZERO, rounds..=rounds).ratio(&1, &2)
+}

@@ -11,6 +11,7 @@
 //! | [`random`] | random numbers that never change |
 //! | [`aim`] | rays aimed at spheres |
 //! | [`regimes`] | cases of the 22 hard regimes |
+//! | [`scenes`] | scenes that are measured |
 //! | [`inputs`] | what proptest draws |
 //! | [`kept`] | some of the regimes' cases with their answers, in a file |
 //! | [`measured`] | cases of the regimes in which error is measured |
@@ -33,6 +34,7 @@ pub mod measured;
 pub mod oracle;
 pub mod random;
 pub mod regimes;
+pub mod scenes;
 #[cfg(feature = "tally")]
 pub mod tally;
 pub mod ulp;

@@ -1,0 +1,5 @@
+//! Criterion: see the crate's documentation.
+
+fn main() {
+    spherule_benches::closest_hit();
+}

@@ -1,0 +1,139 @@
+//! The check before the clock: a fast wrong answer is no answer.
+//!
+//! The kernel's ways are held to brute force bit for bit, brute force on the small scenes to `Exact` within what a tier
+//! promises, `Exact` there to the oracle, and everyone else to `Exact`.
+
+use crate::engine::{Engine, Promise, Query, Rays, Ready, Run};
+use spherule::tally::ulp_between;
+use spherule_kernel::{Hit, Sphere};
+use spherule_tests::oracle;
+use spherule_tests::scenes::{Kind, Scene, sample};
+use std::cell::OnceCell;
+
+/// Tests of brute force that a check of bits may cost, in some of which all is a candidate.
+const TESTS: usize = 1 << 26;
+/// Tests by big integers.
+const ORACLE_TESTS: usize = 1 << 14;
+
+/// Rays, and what `Exact` says of them.
+pub(crate) struct WithTruth {
+    pub(crate) rays: Rays,
+    truth: OnceCell<Vec<Option<Hit>>>,
+}
+
+impl WithTruth {
+    /// About `count` rays of a scene.
+    pub(crate) fn new((scene, kind): (&Scene, Kind), count: usize) -> Self {
+        Self { rays: Rays::new(&sample(scene.rays(kind), count)), truth: OnceCell::new() }
+    }
+
+    /// So many that brute force answers them in a moment.
+    pub(crate) fn few((scene, kind): (&Scene, Kind)) -> Self {
+        Self::new((scene, kind), (TESTS / scene.spheres.len().max(1)).min(1 << 16))
+    }
+
+    /// The answers of `exact`, the first of which the oracle gives too.
+    fn truth(&self, spheres: &[Sphere], exact: &Ready) -> &[Option<Hit>] {
+        self.truth.get_or_init(|| {
+            let truth = answers(&mut *exact(&self.rays), Query::ClosestHit);
+            let some = self.rays.list.iter().zip(&truth).take(ORACLE_TESTS / spheres.len().max(1));
+            some.for_each(|(ray, hit)| assert_eq!(*hit, oracle::closest(ray, spheres), "{ray:?}"));
+            truth
+        })
+    }
+}
+
+fn answers(run: &mut dyn Run, query: Query) -> Vec<Option<Hit>> {
+    run.run(query);
+    run.hits()
+}
+
+/// Asserts that `run`, the engine with the rays of `own`, answers as it promises.
+pub(crate) fn check(
+    (scene, engine): (&Scene, &Engine),
+    (few, own): (&WithTruth, &WithTruth),
+    run: &mut dyn Run,
+    exact: &Ready,
+) {
+    let name = format!("{}, {}", scene.name, engine.label);
+    match &engine.promise {
+        Promise::Nothing => {}
+        Promise::SameBits(other) => {
+            let truth = answers(&mut *other(&few.rays), Query::ClosestHit);
+            let mut run = (engine.ready)(&few.rays);
+            let [closest, any] = Query::ALL.map(|query| answers(&mut *run, query));
+            same_bits(&closest, &any, &truth, &name);
+        }
+        &Promise::Near(wrong, ulp) => {
+            let spheres: Vec<_> = scene.spheres.spheres().iter().collect();
+            let truth = own.truth(&spheres, exact);
+            let [closest, any] = Query::ALL.map(|query| answers(run, query));
+            near(&closest, &any, truth, (wrong, ulp), &name);
+        }
+    }
+}
+
+fn same_bits(closest: &[Option<Hit>], any: &[Option<Hit>], truth: &[Option<Hit>], name: &str) {
+    let bits = |hit: &Option<Hit>| hit.map(|hit| (hit.t.to_bits(), hit.sphere));
+    assert_eq!((closest.len(), any.len()), (truth.len(), truth.len()), "{name}");
+    for (ray, (truth, (closest, any))) in truth.iter().zip(closest.iter().zip(any)).enumerate() {
+        assert_eq!(bits(closest), bits(truth), "{name}, ray {ray}: closest hit");
+        assert_eq!(any.is_some(), truth.is_some(), "{name}, ray {ray}: any hit");
+    }
+}
+
+fn near(
+    closest: &[Option<Hit>],
+    any: &[Option<Hit>],
+    truth: &[Option<Hit>],
+    (wrong, ulp): (f64, u64),
+    name: &str,
+) {
+    assert_eq!((closest.len(), any.len()), (truth.len(), truth.len()), "{name}");
+    let agree = |hit: &Option<Hit>, truth: &Option<Hit>| match (hit, truth) {
+        (Some(hit), Some(truth)) => {
+            hit.sphere == truth.sphere && ulp_between(hit.t, truth.t) <= ulp
+        }
+        _ => hit.is_none() && truth.is_none(),
+    };
+    let differ = closest.iter().zip(truth).filter(|(hit, truth)| !agree(hit, truth)).count();
+    let others = any.iter().zip(truth).filter(|(any, truth)| any.is_some() != truth.is_some());
+    let (others, most) = (others.count(), (wrong * truth.len() as f64) as usize);
+    assert!(differ.max(others) <= most, "{name}: {differ} closest hits, {others} any hits differ");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::kernel::Kernel;
+    use spherule_tests::scenes::small;
+    use std::panic::catch_unwind;
+
+    #[test]
+    fn a_wrong_answer_is_seen() {
+        let scene = small::cube("64", 64);
+        for kind in Kind::ALL {
+            let all = WithTruth::few((&scene, kind));
+            let spheres: Vec<_> = scene.spheres.spheres().iter().collect();
+            let truth = all.truth(&spheres, &Kernel::new(&scene, &scene.tree()).truth());
+            let hits = truth.iter().flatten().count();
+            assert!((40..900).contains(&hits), "{hits} rays of 1024 hit something");
+            let passes = |change: fn(Hit) -> Option<Hit>, bounds| {
+                let own: Vec<_> = truth.iter().map(|hit| hit.and_then(change)).collect();
+                let any = catch_unwind(|| near(truth, &own, truth, bounds, "")).is_ok();
+                let same = catch_unwind(|| same_bits(&own, truth, truth, "")).is_ok();
+                [catch_unwind(|| near(&own, truth, truth, bounds, "")).is_ok(), any, same]
+            };
+            let (textbook, exact) = ((8.0 / 1024.0, 1 << 13), (0.0, 0));
+            assert_eq!(passes(Some, exact), [true, true, true]);
+            assert_eq!(passes(|_| None, textbook), [false, false, false]);
+            let another = |hit: Hit| Some(Hit { sphere: hit.sphere + 1, ..hit });
+            assert_eq!(passes(another, textbook), [false, true, false]);
+            let stretched = |hit: Hit| Some(Hit { t: hit.t * 1.01, ..hit });
+            assert_eq!(passes(stretched, textbook), [false, true, false]);
+            let next = |hit: Hit| Some(Hit { t: hit.t.next_up(), ..hit });
+            assert_eq!(passes(next, exact), [false, true, false]);
+            assert_eq!(passes(next, textbook), [true, true, false]);
+        }
+    }
+}

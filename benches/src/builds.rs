@@ -1,0 +1,81 @@
+//! All trees over a scene: how long they take to be built, how large ours is, and who searches them.
+
+#[cfg(feature = "embree")]
+use crate::engine::embree::{self, Embree};
+use crate::engine::{Engine, bvh, obvhs, parry};
+use crate::rounds::{Sampler, Samples, timed};
+use spherule_kernel::{BvhLeaf, BvhNode, InTurn, SphereTree, Spheres};
+use spherule_tests::scenes::Scene;
+use std::rc::Rc;
+use std::time::Duration;
+
+/// The name of Embree, among builds and engines.
+pub(crate) const EMBREE: &str = "Embree";
+/// The kernel's name among builds.
+pub(crate) const OURS: &str = "ours";
+
+/// What builds the tree of another crate.
+type Build = fn(Spheres<'_>) -> Engine;
+
+const OTHERS: [(&str, Build); 3] =
+    [("obvhs, cwbvh", obvhs::build), ("bvh", bvh::build), ("parry3d, Bvh", parry::build)];
+
+pub(crate) struct Trees {
+    pub(crate) ours: Rc<SphereTree>,
+    /// Embree's, with the feature of that name, and those of other crates.
+    pub(crate) others: Vec<Engine>,
+}
+
+impl Trees {
+    /// All; or without the other crates.
+    pub(crate) fn build(scene: &Scene, crates: bool) -> Self {
+        let spheres = scene.spheres.spheres();
+        let others = OTHERS.iter().filter(|_| crates).map(|(_, build)| build(spheres)).collect();
+        #[cfg(feature = "embree")]
+        let others = {
+            let embree = Rc::new(Embree::build(spheres));
+            embree::engines(&embree).into_iter().chain::<Vec<_>>(others).collect()
+        };
+        Self { ours: scene.tree(), others }
+    }
+}
+
+/// Times of builds, and the size of ours.
+pub(crate) struct Builds {
+    /// Bytes a sphere, beyond the caller's list.
+    pub(crate) bytes: f64,
+    /// Nodes below each other.
+    pub(crate) depth: usize,
+    /// In turns, one thread each.
+    pub(crate) times: Samples<&'static str>,
+}
+
+impl Builds {
+    /// Memory is part of it for all: ours is allocated, filled and freed.
+    pub(crate) fn measure(scene: &Scene, trees: &Trees, crates: bool, rounds: usize) -> Self {
+        let spheres = scene.spheres.spheres();
+        let ours = || {
+            let list = (*scene.spheres).clone();
+            timed(|| drop(std::hint::black_box(SphereTree::build_with(&InTurn, list))))
+        };
+        let mut all: Vec<(_, Sampler<'_>)> = vec![(OURS, Box::new(ours))];
+        #[cfg(feature = "embree")]
+        all.push((EMBREE, Box::new(|| Embree::build(spheres).build_nanoseconds)));
+        for &(name, build) in OTHERS.iter().filter(|_| crates) {
+            let sample = move || {
+                let mut built = None;
+                timed(|| built = Some(build(spheres)))
+            };
+            all.push((name, Box::new(sample)));
+        }
+        let (size, depth) = (trees.ours.bvh().size(), trees.ours.bvh().depth());
+        let bytes = size.nodes * size_of::<BvhNode>() + size.leaves * size_of::<BvhLeaf>();
+        let bytes = bytes as f64 / spheres.len().max(1) as f64;
+        Self { bytes, depth, times: Samples::take(all, Duration::ZERO, rounds..=rounds) }
+    }
+
+    /// Milliseconds; `None` for who did not take part.
+    pub(crate) fn milliseconds(&self, name: &'static str) -> Option<f64> {
+        self.times.median(&name).map(|time| time.middle * 1e-6)
+    }
+}

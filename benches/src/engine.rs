@@ -1,0 +1,110 @@
+//! What is compared: an engine finds what rays meet. It is the kernel in one of its ways, the tree of another crate, or a
+//! loop that stands here as a mark.
+
+pub(crate) mod bvh;
+#[cfg(feature = "embree")]
+pub(crate) mod embree;
+pub(crate) mod kernel;
+pub(crate) mod marks;
+pub(crate) mod obvhs;
+pub(crate) mod one_by_one;
+pub(crate) mod parry;
+pub(crate) mod probes;
+pub(crate) mod ultraviolet;
+
+use crate::rounds::timed;
+use spherule_kernel::{Hit, Ray, RayPacket};
+use std::cell::OnceCell;
+use std::fmt;
+use std::rc::Rc;
+
+/// The most rays of what takes single rays, if that is not what it is for: enough for a time.
+const SOME_RAYS: usize = 1 << 15;
+
+/// What rays want to know.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Query {
+    ClosestHit,
+    AnyHit,
+}
+
+impl Query {
+    pub(crate) const ALL: [Self; 2] = [Self::ClosestHit, Self::AnyHit];
+}
+
+/// Finds what rays meet in a list of spheres.
+pub(crate) struct Engine {
+    pub(crate) label: Label,
+    pub(crate) promise: Promise,
+    /// How many rays a sample takes: fewer than all if that would take too long, none if it is checked and not timed.
+    pub(crate) most_rays: usize,
+    pub(crate) ready: Ready,
+}
+
+/// Brings rays into the memory that an engine wants.
+pub(crate) type Ready = Box<dyn Fn(&Rays) -> Box<dyn Run>>;
+
+/// An engine with rays.
+pub(crate) trait Run {
+    /// Answers for every ray. An engine without code of its own for any hit finds the closest.
+    fn run(&mut self, query: Query);
+    /// The answers of the last run; after a query for any hit, which sphere and where mean nothing.
+    fn hits(&self) -> Vec<Option<Hit>>;
+    /// Nanoseconds of so many runs.
+    fn time(&mut self, query: Query, runs: usize) -> f64 {
+        timed(|| (0..runs).for_each(|_| self.run(query)))
+    }
+}
+
+/// What an engine is called; no two that are compared are called the same.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Label {
+    /// The way to the hits; empty if the name says it.
+    pub(crate) way: &'static str,
+    /// A tier, a mark, or a crate.
+    pub(crate) name: &'static str,
+    /// Lanes, the level of instructions, or rays a call; may be empty.
+    pub(crate) lanes: &'static str,
+}
+
+impl fmt::Display for Label {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let parts = [self.way, self.name, self.lanes];
+        let parts: Vec<_> = parts.into_iter().filter(|part| !part.is_empty()).collect();
+        formatter.write_str(&parts.join(", "))
+    }
+}
+
+/// What answers must be like, before they are timed.
+pub(crate) enum Promise {
+    /// The probes answer nothing.
+    Nothing,
+    /// Another engine's, bit for bit.
+    SameBits(Ready),
+    /// Those of `Exact`, except for a part of the rays, and for an error of t in ulp.
+    Near(f64, u64),
+}
+
+impl Promise {
+    /// The textbook form in single precision: p.p - r^2 cancels some thousandfold in the small scenes.
+    pub(crate) const TEXTBOOK: Self = Self::Near(8.0 / 1024.0, 1 << 14);
+    /// Another program's, which may think otherwise of grazed spheres, of a start on a surface, and of cancelled digits.
+    pub(crate) const OTHERS: Self = Self::Near(1e-2, 1 << 14);
+}
+
+/// Rays, and the same in packets, which all levels of the kernel share: so that they are as warm for each.
+pub(crate) struct Rays {
+    pub(crate) list: Rc<[Ray]>,
+    packets: OnceCell<Rc<[RayPacket]>>,
+}
+
+impl Rays {
+    pub(crate) fn new(list: &[Ray]) -> Self {
+        Self { list: list.into(), packets: OnceCell::new() }
+    }
+
+    pub(crate) fn packets(&self) -> Rc<[RayPacket]> {
+        let packets = || self.list.chunks(RayPacket::COUNT).map(RayPacket::new).collect();
+        Rc::clone(self.packets.get_or_init(packets))
+    }
+}

@@ -1,0 +1,132 @@
+//! A scene's rays: every engine checked, then all timed in turns.
+
+use crate::agreement::{WithTruth, check};
+use crate::engine::{Engine, Label, Query, Ready, Run};
+use crate::rounds::{Median, Sampler, Samples};
+use spherule_tests::scenes::{Kind, Scene};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
+use std::rc::Rc;
+use std::time::Duration;
+
+/// How much is measured.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Effort {
+    Test,
+    Quick,
+    Full,
+}
+
+/// How long and how often everything is timed.
+#[derive(Clone)]
+pub(crate) struct Plan<'a> {
+    pub(crate) queries: &'a [Query],
+    /// For one kind of a scene's rays.
+    pub(crate) time: Duration,
+    pub(crate) rounds: RangeInclusive<usize>,
+    /// How long a sample takes at least.
+    pub(crate) sample: Duration,
+}
+
+/// An engine with so many rays, checked.
+pub(crate) struct Checked {
+    pub(crate) label: Label,
+    rays: usize,
+    pub(crate) run: Box<dyn Run>,
+}
+
+/// Checks every engine on these rays, and keeps those that are to be timed.
+///
+/// # Panics
+/// If an answer is wrong.
+pub(crate) fn checked(
+    (scene, kind): (&Scene, Kind),
+    engines: &[&Engine],
+    exact: &Ready,
+) -> Vec<Checked> {
+    let few = WithTruth::few((scene, kind));
+    let mut sets = BTreeMap::new();
+    let mut timed = Vec::new();
+    for &engine in engines {
+        let count = engine.most_rays.min(scene.rays(kind).len());
+        let own = sets.entry(count).or_insert_with(|| WithTruth::new((scene, kind), count));
+        let mut run = (engine.ready)(&own.rays);
+        check((scene, engine), (&few, own), &mut *run, exact);
+        if count > 0 {
+            timed.push(Checked { label: engine.label.clone(), rays: own.rays.list.len(), run });
+        }
+    }
+    timed
+}
+
+/// Times of a scene's rays of a kind.
+pub(crate) struct Measured {
+    pub(crate) scene: &'static str,
+    pub(crate) kind: Kind,
+    /// How many spheres.
+    pub(crate) spheres: usize,
+    /// Nanoseconds a ray, in the order of the line-up.
+    times: Samples<(Label, Query)>,
+}
+
+impl Measured {
+    /// Checks the engines, then times them in turns.
+    pub(crate) fn take(
+        (scene, kind): (&Scene, Kind),
+        engines: &[&Engine],
+        exact: &Ready,
+        plan: &Plan<'_>,
+    ) -> Self {
+        let mut samplers = Vec::<(_, Sampler<'_>)>::new();
+        for Checked { label, rays, run } in checked((scene, kind), engines, exact) {
+            let run = Rc::new(RefCell::new(run));
+            for &query in plan.queries {
+                let run = Rc::clone(&run);
+                let time = move |runs| run.borrow_mut().time(query, runs);
+                let runs = plan.sample.as_secs_f64() * 1e9 / time(1).max(100.0);
+                let runs = runs.ceil().max(1.0);
+                let sample = move || time(runs as usize) / (runs * rays as f64);
+                samplers.push(((label.clone(), query), Box::new(sample)));
+            }
+        }
+        let times = Samples::take(samplers, plan.time, plan.rounds.clone());
+        Self { scene: scene.name, kind, spheres: scene.spheres.len(), times }
+    }
+
+    pub(crate) fn rounds(&self) -> usize {
+        self.times.rounds()
+    }
+
+    /// What was timed.
+    pub(crate) fn labels(&self) -> impl Iterator<Item = &Label> {
+        let names = self.times.names.iter();
+        names.filter(|(_, query)| *query == Query::ClosestHit).map(|(label, _)| label)
+    }
+
+    /// Nanoseconds a ray; `None` if that was not timed.
+    fn time(&self, label: &Label, query: Query) -> Option<Median> {
+        self.times.median(&(label.clone(), query))
+    }
+
+    /// Nanoseconds until a ray is tested against a sphere, closest hit.
+    pub(crate) fn time_a_test(&self, label: &Label) -> Option<Median> {
+        Some(self.time(label, Query::ClosestHit)?.times(1.0 / self.spheres as f64))
+    }
+
+    /// A million rays a second.
+    pub(crate) fn rate(&self, label: &Label, query: Query) -> Option<f64> {
+        self.time(label, query).map(|time| 1e3 / time.middle)
+    }
+
+    /// How many times the time of `other` is that of `label`, round by round.
+    pub(crate) fn ratio(&self, label: &Label, other: &Label, query: Query) -> Option<Median> {
+        self.times.ratio(&(label.clone(), query), &(other.clone(), query))
+    }
+
+    /// The fastest of those that `chosen` keeps.
+    pub(crate) fn fastest(&self, query: Query, chosen: impl Fn(&Label) -> bool) -> Option<&Label> {
+        let time = |label: &&Label| self.time(label, query).map_or(f64::INFINITY, |t| t.middle);
+        self.labels().filter(|label| chosen(label)).min_by(|a, b| time(a).total_cmp(&time(b)))
+    }
+}

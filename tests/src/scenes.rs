@@ -1,0 +1,189 @@
+//! Scenes that are measured: spheres, and the rays that meet them. What they draw never changes.
+//!
+//! | large scene | spheres | camera | diffuse rays |
+//! |---|---|---|---|
+//! | `one` | the unit sphere | 40 degrees, 3 away | in the cube |
+//! | `u64`, `u10k`, `u1m` | uniform in the cube from -1 to 1, radii uniform, by the cube root of their number | 40 degrees, 4 away | in the cube |
+//! | `flake4` | Eric Haines' sphereflake, four generations, 7,381 | 40 degrees, near | in the cube |
+//! | `ground` | a ground of radius 1000, a million of log-normal radii above it | from the side, low | in the layer |
+//! | `cloud` | 200,000, so large that most meet a neighbour | 60 degrees, from the middle | in the cube |
+//! | `parallel` | 100,000 uniform | parallel, aslant | in the cube |
+//! | `long lens` | 10,000 uniform | 10^4 scene sizes away, the scene fills the picture | from as far, all around, towards points in the scene |
+//!
+//! A picture has 1024 x 1024 primary rays in tiles of 4 x 4, tiles row by row, so that sixteen rays that follow each
+//! other are a coherent packet. Directions have no unit length. Of diffuse rays, which have nothing in common, there are
+//! a quarter as many; "in the cube" means origins uniform in it, directions uniform. The [small] scenes are lists.
+
+mod point;
+mod rays;
+pub mod small;
+mod spheres;
+
+use spherule_kernel::{Ray, Sphere, SphereList, SphereTree, Viewpoint};
+use std::f64::consts::PI;
+use std::rc::Rc;
+
+/// The large scenes, in the order of the tables.
+pub const LARGE: [&str; 9] =
+    ["one", "u64", "flake4", "u10k", "u1m", "ground", "cloud", "parallel", "long lens"];
+
+/// Spheres and rays.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// As it stands in tables.
+    pub name: &'static str,
+    /// The spheres.
+    pub spheres: Rc<SphereList>,
+    /// Whether it is one of the [small] ones.
+    pub is_small: bool,
+    primary: Vec<Ray>,
+    diffuse: Vec<Ray>,
+}
+
+/// Which of a scene's rays.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Those of the camera.
+    Primary,
+    /// Those that have nothing in common.
+    Diffuse,
+}
+
+impl Kind {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Primary, Self::Diffuse];
+
+    /// As it stands in tables.
+    #[must_use]
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::Primary => "primary",
+            Self::Diffuse => "diffuse",
+        }
+    }
+}
+
+/// How large scenes may be: the side of the picture in pixels, a multiple of 4, and the most spheres of a scene whose
+/// number is not part of its shape.
+#[derive(Clone, Copy, Debug)]
+pub struct Size(pub usize, pub usize);
+
+impl Size {
+    /// What is measured.
+    pub const FULL: Self = Self(1024, usize::MAX);
+    /// For a trial run.
+    pub const SMALL: Self = Self(32, 3_000);
+}
+
+impl Scene {
+    /// The large scene of that name; `None` if there is none.
+    #[must_use]
+    pub fn large(name: &str, Size(pixels, most): Size) -> Option<Self> {
+        let name = LARGE.into_iter().find(|other| *other == name)?;
+        let count = pixels * pixels / 4;
+        let at_most = |count: usize| count.min(most);
+        let camera = |eye, target, angle| rays::perspective(eye, target, angle, pixels);
+        let from = |z: f64| camera([0.0, 0.0, z], [0.0; 3], 40.0);
+        let in_cube = || rays::scattered([-1.0; 3], [1.0; 3], count);
+        let (spheres, primary, diffuse) = match name {
+            "one" => (spheres::one(), from(3.0), in_cube()),
+            "u64" => (spheres::uniform(64, 1), from(4.0), in_cube()),
+            "flake4" => (spheres::flake(4), camera([2.1, 1.3, 1.7], [0.0; 3], 40.0), in_cube()),
+            "u10k" => (spheres::uniform(at_most(10_000), 2), from(4.0), in_cube()),
+            "u1m" => (spheres::uniform(at_most(1_000_000), 3), from(4.0), in_cube()),
+            "ground" => {
+                let [low, high] = spheres::LAYER;
+                let primary = camera([0.0, 3.0, 14.0], [0.0, 0.3, 0.0], 40.0);
+                let diffuse = rays::scattered(low, high, count);
+                (spheres::over_ground(at_most(1_000_000)), primary, diffuse)
+            }
+            "cloud" => {
+                let primary = camera([0.0; 3], [1.0, 0.4, 0.7], 60.0);
+                (spheres::dense(at_most(200_000)), primary, in_cube())
+            }
+            "parallel" => {
+                let primary = rays::parallel([2.0, 3.0, 4.0], [0.0; 3], 3.2, pixels);
+                (spheres::uniform(at_most(100_000), 4), primary, in_cube())
+            }
+            _ => {
+                // The cube's side is 2; the picture is 2.6 high there.
+                let distance = 2.0e4;
+                let angle = (1.3_f64 / distance).atan() * 2.0 * 180.0 / PI;
+                let diffuse = rays::from_afar(distance, count);
+                (
+                    spheres::uniform(at_most(10_000), 2),
+                    camera([0.0, 0.0, distance], [0.0; 3], angle),
+                    diffuse,
+                )
+            }
+        };
+        Some(Self { name, spheres: Rc::new(spheres.into()), is_small: false, primary, diffuse })
+    }
+
+    /// Whether there is a sphere of radius 1000.
+    #[must_use]
+    pub fn has_ground(&self) -> bool {
+        self.spheres.spheres().iter().any(|sphere| sphere.radius == 1000.0)
+    }
+
+    /// `count` uniform spheres, for growth: the rays of the uniform scenes.
+    #[must_use]
+    pub fn uniform(count: usize, pixels: usize) -> Self {
+        Self {
+            name: "uniform",
+            spheres: Rc::new(spheres::uniform(count, 5).into()),
+            is_small: false,
+            primary: rays::perspective([0.0, 0.0, 4.0], [0.0; 3], 40.0, pixels),
+            diffuse: rays::scattered([-1.0; 3], [1.0; 3], pixels * pixels / 4),
+        }
+    }
+
+    /// The kernel's tree over the spheres.
+    #[must_use]
+    pub fn tree(&self) -> Rc<SphereTree> {
+        Rc::new(SphereTree::new((*self.spheres).clone()))
+    }
+
+    /// A sphere, and no rays.
+    #[must_use]
+    pub fn of_case(sphere: Sphere) -> Self {
+        let spheres = Rc::new(SphereList::from([sphere]));
+        Self { name: "", spheres, is_small: true, primary: Vec::new(), diffuse: Vec::new() }
+    }
+
+    /// Its rays, in the order in which they fill packets.
+    #[must_use]
+    pub fn rays(&self, kind: Kind) -> &[Ray] {
+        match kind {
+            Kind::Primary => &self.primary,
+            Kind::Diffuse => &self.diffuse,
+        }
+    }
+}
+
+/// What all of the rays have in common, which a depth list needs; `None` for diffuse rays.
+#[must_use]
+pub fn viewpoint(rays: &[Ray]) -> Option<Viewpoint> {
+    let first = rays.first()?;
+    if rays.iter().all(|ray| ray.origin == first.origin) {
+        return Some(Viewpoint::Origin(first.origin));
+    }
+    let parallel = rays.iter().all(|ray| ray.direction == first.direction);
+    parallel.then_some(Viewpoint::Direction(first.direction))
+}
+
+/// About `count` of the rays, in runs that start every so often, so that packets stay together.
+#[must_use]
+pub fn sample(rays: &[Ray], count: usize) -> Vec<Ray> {
+    /// Packets that go together in the tree, and more.
+    const RUN: usize = 256;
+    if rays.len() <= count.max(RUN) {
+        return rays.to_vec();
+    }
+    let runs = (count / RUN).max(1);
+    let stride = rays.len() / runs;
+    // Anywhere in each stretch, by the golden ratio: at the same place they would all be of one column of a picture.
+    let within = |run: usize| (run as f64 * 0.618_034).fract() * (stride - RUN) as f64;
+    let start = |run: usize| run * stride + within(run) as usize / RUN * RUN;
+    (0..runs).flat_map(|run| rays[start(run)..].iter().take(RUN)).copied().collect()
+}
