@@ -7,7 +7,7 @@ use super::session::{Output, Session};
 use spherule::view::{Lens, View};
 use spherule_kernel::Vec3;
 
-pub(crate) const COLUMNS: u16 = 72;
+pub(crate) const COLUMNS: u16 = 80;
 pub(crate) const ROWS: u16 = 20;
 /// The last row is the status line's.
 pub(crate) const PICTURE_ROWS: u16 = ROWS - 1;
