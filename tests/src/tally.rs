@@ -48,11 +48,11 @@ impl Errors {
     }
 }
 
+/// What an engine answers in a case.
+pub type Answer<'a> = &'a dyn Fn(&Case) -> Option<f32>;
+
 /// The answers of each engine to all cases.
-pub fn measure(
-    cases: impl Iterator<Item = Case>,
-    engines: &[&dyn Fn(&Case) -> Option<f32>],
-) -> Vec<Errors> {
+pub fn measure(cases: impl Iterator<Item = Case>, engines: &[Answer<'_>]) -> Vec<Errors> {
     let mut errors = vec![Errors::default(); engines.len()];
     for case in cases {
         let roots = oracle::roots(&case.ray, &case.sphere);
