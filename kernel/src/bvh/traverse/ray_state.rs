@@ -39,8 +39,9 @@ impl Candidates {
         let mut kept = 0;
         for at in 0..MOST {
             if self.entries[at] <= best {
-                self.entries[kept] = self.entries[at];
-                self.places[kept] = self.places[at];
+                // The remainder tells the compiler that it is there.
+                self.entries[kept % MOST] = self.entries[at];
+                self.places[kept % MOST] = self.places[at];
                 kept += 1;
             }
         }
@@ -50,9 +51,11 @@ impl Candidates {
 
     #[inline(always)]
     fn push(&mut self, place: u32, entry: f32) {
-        if self.count < MOST {
-            self.places[self.count] = place;
-            self.entries[self.count] = entry;
+        // `get_mut`, since the compiler loses the bound of an index by `count` on its way here.
+        if let (Some(to), Some(at)) =
+            (self.places.get_mut(self.count), self.entries.get_mut(self.count))
+        {
+            (*to, *at) = (place, entry);
             self.count += 1;
         }
     }
