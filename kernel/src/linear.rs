@@ -232,20 +232,20 @@ pub fn roots(tier: impl Accuracy, ray: &Ray, sphere: &Sphere) -> Option<[f32; 2]
     if !line.is_live() || !sphere.is_valid() {
         return None;
     }
-    tier.with_formula(LineRoots { line, sphere: *sphere })
+    tier.with_formula(LineRoots { line: &line, sphere })
 }
 
 /// The arguments of [`roots`].
-struct LineRoots {
-    line: Ray,
-    sphere: Sphere,
+struct LineRoots<'a> {
+    line: &'a Ray,
+    sphere: &'a Sphere,
 }
 
-impl TierWork for LineRoots {
+impl TierWork for LineRoots<'_> {
     type Output = Option<[f32; 2]>;
 
     #[inline(always)]
     fn run<F: TierFormula>(self) -> Option<[f32; 2]> {
-        F::line_roots(&self.line, &self.sphere)
+        F::line_roots(self.line, self.sphere)
     }
 }
