@@ -145,6 +145,18 @@ impl<S: Simd> Lanes for f32x16<S> {
 
     #[inline(always)]
     fn compress(self, mask: Self::Mask) -> Self {
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        if fearless_simd::ExtractToken::token(&self).level().as_avx2().is_none() {
+            // SSE2 moves bytes one by one, by way of calls in a build without link-time optimisation.
+            let array = self.to_array();
+            let (mut compressed, mut count, mut bits) = (array, 0, mask.bits());
+            while bits != 0 {
+                compressed[count % 16] = array[bits.trailing_zeros() as usize % 16];
+                bits &= bits - 1;
+                count += 1;
+            }
+            return SimdBase::load_array(Lanes::token(self), compressed);
+        }
         SimdBase::compress(self, mask.0)
     }
 
@@ -167,8 +179,13 @@ impl<S: Simd> Lanes for f32x16<S> {
     #[inline(always)]
     fn narrow(array: &mut [f32; 16], part: usize, doubles: f64x8<S>) {
         let singles = SimdNarrow::narrow(doubles, doubles).to_array();
+        // Not `copy_from_slice`, which is a call in a build without link-time optimisation.
         let first = part * 8 % 16;
-        array[first..first + 8].copy_from_slice(&singles[..8]);
+        let mut lane = 0;
+        while lane < 8 {
+            array[first + lane] = singles[lane];
+            lane += 1;
+        }
     }
 
     #[inline(always)]
