@@ -4,11 +4,15 @@
 //! `Exact` gives the same bits in all of them, `Stable` in its domain; `Fast` in all lists of spheres, while depth list
 //! and tree may lose false hits of it.
 
-use crate::case::{Case, HexRay};
+mod difference;
+mod pairs;
+
+pub use difference::{assert_same, assert_same_from, bits, difference};
+pub use pairs::{pair_storeys, pairs_of};
 use spherule_kernel::{
     Coherence, DepthList, Hit, HitPacket, Intersect, LaneArray, Lanes, Level, LevelName, Ray,
     RayPacket, Sphere, SphereList, SpherePacket, SphereTree, Tier, Trace, Vec3, Viewpoint, f32x4,
-    f32x8, f32x16, pair_lanes, pair_packets, pairs,
+    f32x8, f32x16, pair_lanes,
 };
 
 /// What holds the spheres.
@@ -283,128 +287,4 @@ fn stale_packet<L: Lanes<Token = ()>>() -> HitPacket<L::Array> {
     let sphere = Sphere { center: Vec3::ZERO, radius: 1.0 };
     let (rays, spheres) = (RayPacket::new(&[ray; 16]), SpherePacket::new(&[sphere; 16]));
     pair_lanes::<L>(Tier::Fast, (), &rays, &spheres)
-}
-
-/// The storeys at which pairs are intersected.
-pub fn pair_storeys() -> impl Iterator<Item = Storey> {
-    let lanes = [1, 4, 8, 16].map(Storey::Lanes).into_iter();
-    lanes.chain([Storey::Slice]).chain(levels().map(Storey::Packets))
-}
-
-/// The t of each case on its own.
-///
-/// # Panics
-/// If a hit does not name its sphere: the lane of a packet, the index of a slice.
-#[must_use]
-pub fn pairs_of(tier: Tier, storey: Storey, cases: &[Case]) -> Vec<Option<f32>> {
-    let (rays, spheres): (Vec<Ray>, Vec<Sphere>) =
-        cases.iter().map(|case| (case.ray, case.sphere)).unzip();
-    let (hits, lanes) = match storey {
-        Storey::Packets(name) => {
-            let (rays, spheres) = (packed(&rays), sphere_packets(&spheres));
-            let mut hits = vec![stale_packet::<f32x16>(); rays.len()];
-            pair_packets(tier, level(name), &rays, &spheres, &mut hits);
-            (hits.iter().flat_map(HitPacket::hits).take(cases.len()).collect(), 16)
-        }
-        Storey::Lanes(lanes) => {
-            let pairs = match lanes {
-                1 => pairs_in_lanes::<f32>,
-                4 => pairs_in_lanes::<f32x4>,
-                8 => pairs_in_lanes::<f32x8>,
-                _ => pairs_in_lanes::<f32x16>,
-            };
-            (pairs(tier, &rays, &spheres), lanes)
-        }
-        _ => {
-            let mut hits = vec![Some(Hit { t: -7.0, sphere: 7 }); cases.len()];
-            pairs(tier, &rays, &spheres, &mut hits);
-            (hits, usize::MAX)
-        }
-    };
-    let t = |(index, hit): (usize, Option<Hit>)| {
-        let Hit { t, sphere } = hit?;
-        assert_eq!(sphere as usize, index % lanes, "a pair's sphere, {storey:?}");
-        Some(t)
-    };
-    hits.into_iter().enumerate().map(t).collect()
-}
-
-fn pairs_in_lanes<L: Lanes<Token = ()>>(
-    tier: Tier,
-    rays: &[Ray],
-    spheres: &[Sphere],
-) -> Vec<Option<Hit>> {
-    let packets = packed(rays).into_iter().zip(sphere_packets(spheres));
-    let pair = |(rays, spheres)| pair_lanes::<L>(tier, (), &rays, &spheres);
-    let hits = packets.flat_map(|packets| pair(packets).hits().collect::<Vec<_>>());
-    hits.take(rays.len()).collect()
-}
-
-fn sphere_packets<A: LaneArray>(spheres: &[Sphere]) -> Vec<SpherePacket<A>> {
-    spheres.chunks(A::COUNT).map(SpherePacket::new).collect()
-}
-
-/// The bits of a hit: -0 is not 0 here, and a NaN is itself.
-#[must_use]
-pub fn bits(hit: Option<Hit>) -> Option<(u32, u32)> {
-    hit.map(|hit| (hit.t.to_bits(), hit.sphere))
-}
-
-/// The first ray for which a tree or depth list of one of `tiers` does not answer, bit for bit, as brute force does.
-///
-/// Large scenes are left to the variants that have loops of their own.
-#[must_use]
-pub fn difference(
-    tiers: &[Tier],
-    rays: &[Ray],
-    spheres: &[Sphere],
-    viewpoint: Viewpoint,
-) -> Option<String> {
-    let different = |structures: Structures<'_>, tier: Tier| {
-        let Answers { hits: expected, .. } = brute(tier).ask(structures, rays);
-        let asked = |variant: &Variant| match variant.storey {
-            _ if variant.tier != tier || variant.structure == Structure::List => false,
-            Storey::Ray | Storey::SliceAt(_) => rays.len() * spheres.len() < 20_000,
-            // Baseline's loops, of other width.
-            Storey::Lanes(1) => tier == Tier::Exact,
-            _ => true,
-        };
-        for variant in variants().filter(asked) {
-            let Answers { hits, met } = variant.ask(structures, rays);
-            for (i, ray) in rays.iter().enumerate() {
-                if bits(hits[i]) != bits(expected[i]) || met[i] != expected[i].is_some() {
-                    let (hit, met, expected) = (hits[i], met[i], expected[i]);
-                    let (rays, spheres) = (rays.len(), spheres.len());
-                    return Some(format!(
-                        "{variant:?}, ray {i} of {rays}, {spheres} spheres, {viewpoint:?}: {hit:?} \
-                         any {met}, by brute force {expected:?}; {}",
-                        HexRay(ray)
-                    ));
-                }
-            }
-        }
-        None
-    };
-    Memory::new(spheres)
-        .sorted(viewpoint, |structures| tiers.iter().find_map(|&tier| different(structures, tier)))
-}
-
-/// [`difference`] as a panic, the depth list sorted from the first ray's origin.
-///
-/// # Panics
-/// If there is one.
-#[track_caller]
-pub fn assert_same(tiers: &[Tier], rays: &[Ray], spheres: &[Sphere]) {
-    assert_same_from(viewpoint_of(rays), tiers, rays, spheres);
-}
-
-/// [`assert_same`] with a depth list sorted from `viewpoint`.
-///
-/// # Panics
-/// If there is a difference.
-#[track_caller]
-pub fn assert_same_from(viewpoint: Viewpoint, tiers: &[Tier], rays: &[Ray], spheres: &[Sphere]) {
-    if let Some(difference) = difference(tiers, rays, spheres, viewpoint) {
-        panic!("{difference}");
-    }
 }

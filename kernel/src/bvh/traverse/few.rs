@@ -29,36 +29,55 @@ pub(crate) fn is_few(bvh: &Bvh<'_>) -> bool {
 /// Answers every ray by testing it against all spheres of such a tree.
 #[inline(always)]
 pub(crate) fn traverse<T: Accuracy, L: Lanes, Q: Query>(tests: &mut DeferredTests<'_, T, L, Q>) {
-    let bvh = tests.bvh;
     let mut prepared = PreparedPacket::none();
-    let mut state = RayState::NEW;
     for packet in 0..tests.packets.len() {
         begin(tests, packet, &mut prepared);
-        let mut waiting = prepared.covered;
-        while waiting != 0 {
-            let ray = RayPlace { packet, lane: waiting.trailing_zeros() as usize };
-            waiting &= waiting - 1;
-            state.begin(&prepared, 0, ray, bvh.root);
-
-            let mut candidates = 0;
-            for number in 0..bvh.leaves.len().min(FEW) {
-                let here = state.may_hit(tests, &prepared, &bvh.leaves[number]);
-                candidates |= u64::from(here) << (number * WIDTH);
-            }
-            if candidates.count_ones() <= AT_ONCE {
-                while candidates != 0 {
-                    tests.add(ray, candidates.trailing_zeros());
-                    candidates &= candidates - 1;
-                }
-                continue;
-            }
-            for number in 0..bvh.leaves.len().min(FEW) {
-                let first = number * WIDTH;
-                if candidates >> first & 0xffff != 0 {
-                    state.meet(tests, &prepared, (&bvh.leaves[number], first as u32));
-                }
-            }
-            state.end(tests);
+        if tests.tier.spread() == 0.0 {
+            all_leaves::<T, L, Q, false>(tests, packet, &prepared);
+        } else {
+            L::out_of_line(
+                tests.token,
+                #[inline(always)]
+                || all_leaves::<T, L, Q, true>(tests, packet, &prepared),
+            );
         }
+    }
+}
+
+/// Answers the rays of a packet.
+#[inline(always)]
+fn all_leaves<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
+    tests: &mut DeferredTests<'_, T, L, Q>,
+    packet: usize,
+    prepared: &PreparedPacket<L::Array>,
+) {
+    let bvh = tests.bvh;
+    let mut state = RayState::NEW;
+    let mut waiting = prepared.covered;
+    while waiting != 0 {
+        let ray = RayPlace { packet, lane: waiting.trailing_zeros() as usize };
+        waiting &= waiting - 1;
+        state.begin(prepared, 0, ray, bvh.root);
+
+        let mut candidates = 0;
+        for number in 0..bvh.leaves.len().min(FEW) {
+            let here = state.may_hit::<T, L, Q, SPREADS>(tests, prepared, &bvh.leaves[number]);
+            candidates |= u64::from(here) << (number * WIDTH);
+        }
+        if candidates.count_ones() <= AT_ONCE {
+            while candidates != 0 {
+                tests.add(ray, candidates.trailing_zeros());
+                candidates &= candidates - 1;
+            }
+            continue;
+        }
+        for number in 0..bvh.leaves.len().min(FEW) {
+            let first = number * WIDTH;
+            if candidates >> first & 0xffff != 0 {
+                let leaf = (&bvh.leaves[number], first as u32);
+                state.meet::<T, L, Q, SPREADS>(tests, prepared, leaf);
+            }
+        }
+        state.end(tests);
     }
 }

@@ -183,24 +183,7 @@ impl RayState {
 
     /// Which spheres of a leaf to look at.
     #[inline(always)]
-    pub(crate) fn may_hit<T: Accuracy, L: Lanes, Q: Query>(
-        &self,
-        tests: &DeferredTests<'_, T, L, Q>,
-        prepared: &PreparedPacket<L::Array>,
-        leaf: &BvhLeaf,
-    ) -> u32 {
-        if tests.tier.spread() == 0.0 {
-            return self.may_hit_as::<T, L, Q, false>(tests, prepared, leaf);
-        }
-        L::out_of_line(
-            tests.token,
-            #[inline(always)]
-            || self.may_hit_as::<T, L, Q, true>(tests, prepared, leaf),
-        )
-    }
-
-    #[inline(always)]
-    fn may_hit_as<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
+    pub(crate) fn may_hit<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
         &self,
         tests: &DeferredTests<'_, T, L, Q>,
         prepared: &PreparedPacket<L::Array>,
@@ -216,24 +199,7 @@ impl RayState {
 
     /// Looks at the spheres of a leaf, the first of which is at `place`.
     #[inline(always)]
-    pub(crate) fn meet<T: Accuracy, L: Lanes, Q: Query>(
-        &mut self,
-        tests: &mut DeferredTests<'_, T, L, Q>,
-        prepared: &PreparedPacket<L::Array>,
-        leaf: (&BvhLeaf, u32),
-    ) {
-        if tests.tier.spread() == 0.0 {
-            return self.meet_as::<T, L, Q, false>(tests, prepared, leaf);
-        }
-        L::out_of_line(
-            tests.token,
-            #[inline(always)]
-            || self.meet_as::<T, L, Q, true>(tests, prepared, leaf),
-        );
-    }
-
-    #[inline(always)]
-    fn meet_as<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
+    pub(crate) fn meet<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
         &mut self,
         tests: &mut DeferredTests<'_, T, L, Q>,
         prepared: &PreparedPacket<L::Array>,

@@ -1,0 +1,72 @@
+//! Where a structure does not answer as brute force does.
+
+use super::{
+    Answers, Memory, Storey, Structure, Structures, Variant, brute, variants, viewpoint_of,
+};
+use crate::case::HexRay;
+use spherule_kernel::{Hit, Ray, Sphere, Tier, Viewpoint};
+
+/// The bits of a hit: -0 is not 0 here, and a NaN is itself.
+#[must_use]
+pub fn bits(hit: Option<Hit>) -> Option<(u32, u32)> {
+    hit.map(|hit| (hit.t.to_bits(), hit.sphere))
+}
+
+/// The first ray for which a tree or depth list of one of `tiers` does not answer, bit for bit, as brute force does.
+///
+/// Large scenes are left to the variants that have loops of their own.
+#[must_use]
+pub fn difference(
+    tiers: &[Tier],
+    rays: &[Ray],
+    spheres: &[Sphere],
+    viewpoint: Viewpoint,
+) -> Option<String> {
+    let different = |structures: Structures<'_>, tier: Tier| {
+        let Answers { hits: expected, .. } = brute(tier).ask(structures, rays);
+        let asked = |variant: &Variant| match variant.storey {
+            _ if variant.tier != tier || variant.structure == Structure::List => false,
+            Storey::Ray | Storey::SliceAt(_) => rays.len() * spheres.len() < 20_000,
+            // Baseline's loops, of other width.
+            Storey::Lanes(1) => tier == Tier::Exact,
+            _ => true,
+        };
+        for variant in variants().filter(asked) {
+            let Answers { hits, met } = variant.ask(structures, rays);
+            for (i, ray) in rays.iter().enumerate() {
+                if bits(hits[i]) != bits(expected[i]) || met[i] != expected[i].is_some() {
+                    let (hit, met, expected) = (hits[i], met[i], expected[i]);
+                    let (rays, spheres) = (rays.len(), spheres.len());
+                    return Some(format!(
+                        "{variant:?}, ray {i} of {rays}, {spheres} spheres, {viewpoint:?}: {hit:?} \
+                         any {met}, by brute force {expected:?}; {}",
+                        HexRay(ray)
+                    ));
+                }
+            }
+        }
+        None
+    };
+    Memory::new(spheres)
+        .sorted(viewpoint, |structures| tiers.iter().find_map(|&tier| different(structures, tier)))
+}
+
+/// [`difference`] as a panic, the depth list sorted from the first ray's origin.
+///
+/// # Panics
+/// If there is one.
+#[track_caller]
+pub fn assert_same(tiers: &[Tier], rays: &[Ray], spheres: &[Sphere]) {
+    assert_same_from(viewpoint_of(rays), tiers, rays, spheres);
+}
+
+/// [`assert_same`] with a depth list sorted from `viewpoint`.
+///
+/// # Panics
+/// If there is a difference.
+#[track_caller]
+pub fn assert_same_from(viewpoint: Viewpoint, tiers: &[Tier], rays: &[Ray], spheres: &[Sphere]) {
+    if let Some(difference) = difference(tiers, rays, spheres, viewpoint) {
+        panic!("{difference}");
+    }
+}

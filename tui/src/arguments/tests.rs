@@ -1,0 +1,105 @@
+//! What a command line becomes.
+
+use super::*;
+use crate::choice::name;
+use clap::ValueEnum;
+
+fn parsed(line: &str) -> Result<Request, Error> {
+    parse(std::iter::once("spherule").chain(line.split_whitespace()).map(Into::into))
+}
+
+fn picture(line: &str) -> PictureArguments {
+    match parsed(line) {
+        Ok(Request::Run(arguments)) => arguments.picture,
+        other => panic!("{line}: {other:?}"),
+    }
+}
+
+#[test]
+fn what_is_not_said_has_a_default() {
+    let arguments = picture("");
+    assert_eq!(arguments.scene.name, "marbles");
+    assert_eq!(arguments.accuracy, Tier::Exact);
+    assert_eq!((arguments.scene.size, arguments.scene.samples), (None, 4));
+    assert_eq!(arguments.color, ColorChoice::Auto);
+    assert_eq!(arguments.charset, None);
+    assert_eq!(arguments.computing.structure, None);
+    assert_eq!(arguments.computing.threads, None);
+    assert!(!arguments.once);
+}
+
+#[test]
+fn every_option_is_read() {
+    let arguments = picture(
+        "a.xyz --accuracy fast --size 200x60 --charset half --color 256 --samples 9 \
+         --projection parallel --format xyz --cell-aspect 3:4 --structure bvh \
+         --threads 3 --once",
+    );
+    assert_eq!(arguments.scene.name, "a.xyz");
+    assert_eq!(arguments.accuracy, Tier::Fast);
+    assert_eq!((arguments.scene.size, arguments.scene.samples), (Some((200, 60)), 9));
+    assert_eq!(arguments.charset, Some(Charset::Half));
+    assert_eq!(arguments.color, ColorChoice::Ansi256);
+    assert_eq!(arguments.scene.projection, Some(LensKind::Parallel));
+    assert_eq!(arguments.scene.format, Some(Format::Xyz));
+    assert_eq!(arguments.cell_aspect, Some(0.75));
+    assert_eq!(arguments.computing.structure, Some(Structure::Bvh));
+    assert_eq!(arguments.computing.threads, Some(3));
+    assert!(arguments.once);
+}
+
+#[test]
+fn what_is_wrong_is_said_in_one_line() {
+    for (line, part) in [
+        ("--size 0x0", "each 1 to 4096"),
+        ("--size 1000000x1000000", "each 1 to 4096"),
+        ("--size 80", "COLSxROWS"),
+        ("--samples 0", "1..=256"),
+        ("--accuracy sloppy", "fast, stable, exact"),
+        ("--structure octree", "auto, brute, depth-list, bvh"),
+        ("--threads 0", "1..=1024"),
+        ("tradeoff --threads 1025", "1..=1024"),
+        ("trace --threads two", "--threads <N>"),
+        ("--level sse", "baseline, avx2, avx512"),
+        ("--cell-aspect 1:0", "W:H"),
+        ("--cell-aspect nan:1", "W:H"),
+        ("a b", "'b'"),
+        ("trace", "--spheres <S.npy> --rays <R.npy>"),
+        ("trace --spheres s --rays r --any --out-t t", "cannot be used with"),
+        ("trace --spheres s --rays r --repeat 0", "1.."),
+        ("scenes --once", "--once"),
+    ] {
+        match parsed(line) {
+            Err(Error::Input(message)) => {
+                assert!(message.contains(part), "{line}: {message}");
+                assert!(!message.contains('\n') && !message.contains("Usage"), "{message}");
+            }
+            other => panic!("{line}: {other:?}"),
+        }
+    }
+}
+
+/// Scripts say `tiles`, the name that the depth list had first.
+#[test]
+fn names_are_accepted_and_listed() {
+    for (word, expected) in [
+        ("auto", None),
+        ("depth-list", Some(Structure::DepthList)),
+        ("tiles", Some(Structure::DepthList)),
+    ] {
+        assert_eq!(picture(&format!("--structure {word}")).computing.structure, expected);
+    }
+    for depth in ColorChoice::value_variants() {
+        assert_eq!(picture(&format!("--color {}", name(depth))).color, *depth);
+    }
+    for tier in Tier::ALL {
+        assert_eq!(picture(&format!("--accuracy {}", tier.as_str())).accuracy, tier);
+    }
+}
+
+#[test]
+fn help_and_version_are_no_errors() {
+    for line in ["--help", "-h", "--version", "trace --help"] {
+        assert!(matches!(parsed(line), Ok(Request::Print(_))), "{line}");
+    }
+}
