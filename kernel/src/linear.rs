@@ -69,7 +69,9 @@ pub(crate) fn for_candidates<L: Lanes, R>(
     done: impl Fn(&R) -> L::Mask,
     test: impl Fn(&mut R, Candidates<'_, L>),
 ) {
-    for first in (0..spheres.len()).step_by(BLOCK_SPHERES) {
+    // Nothing is prepared for nobody: a depth list comes here with every run of packets that do not fit, most of them empty.
+    let spheres_to_meet = if rays.is_empty() { 0 } else { spheres.len() };
+    for first in (0..spheres_to_meet).step_by(BLOCK_SPHERES) {
         // The spheres are prepared once for all packets.
         let block = FilterBlock::new(spheres, first);
         for (packet, result) in rays.iter().zip(results.iter_mut()) {

@@ -113,28 +113,45 @@ impl<'a, L: Lanes> PacketState<'a, L> {
         self.shorten::<Q>();
     }
 
-    /// Meets sphere `place` of block `number` of sixteen; returns whether any ray may end sooner than
+    /// Meets the spheres `places` of block `number` of sixteen; returns whether any ray may end sooner than
     /// before.
     #[inline(always)]
-    pub(super) fn meet<Q: Query>(
+    fn meet<Q: Query>(
         &mut self,
         tier: impl Accuracy,
         source: &impl SphereSource,
         block: (u32, &SphereColumns<'_>),
-        place: usize,
+        places: u32,
     ) -> bool {
         if tier.spread() == 0.0 {
-            return self.meet_as::<Q, false>(tier, source, block, place);
+            return self.meet_each::<Q, false>(tier, source, block, places);
         }
         L::out_of_line(
             self.token(),
             #[inline(always)]
-            || self.meet_as::<Q, true>(tier, source, block, place),
+            || self.meet_each::<Q, true>(tier, source, block, places),
         )
     }
 
     #[inline(always)]
-    fn meet_as<Q: Query, const SPREADS: bool>(
+    fn meet_each<Q: Query, const SPREADS: bool>(
+        &mut self,
+        tier: impl Accuracy,
+        source: &impl SphereSource,
+        block: (u32, &SphereColumns<'_>),
+        mut places: u32,
+    ) -> bool {
+        let mut changed = false;
+        while places != 0 {
+            let place = places.trailing_zeros() as usize;
+            places &= places - 1;
+            changed |= self.meet_one::<Q, SPREADS>(tier, source, block, place);
+        }
+        changed
+    }
+
+    #[inline(always)]
+    fn meet_one<Q: Query, const SPREADS: bool>(
         &mut self,
         tier: impl Accuracy,
         source: &impl SphereSource,
@@ -250,7 +267,8 @@ impl<'a, L: Lanes> PacketState<'a, L> {
 }
 
 /// Tests sixteen spheres, those in `places`, from `depth` on, with every packet that goes there and whose
-/// planes, for spheres that are larger by `spread`, leave them in; `end` becomes the greatest depth that any of them still goes to, if that changes.
+/// planes, for spheres that are larger by `spread`, leave them in; `end` becomes the greatest depth that any of them still
+/// goes to, if that changes.
 #[inline(always)]
 pub(super) fn meet_block<L: Lanes, Q: Query>(
     tier: impl Accuracy,
@@ -267,14 +285,8 @@ pub(super) fn meet_block<L: Lanes, Q: Query>(
         if depth > state.depth {
             continue;
         }
-        let mut places = places & state.sides.look::<L>(state.token(), spheres, spread);
-        let mut changed = false;
-        while places != 0 {
-            let place = places.trailing_zeros() as usize;
-            places &= places - 1;
-            changed |= state.meet::<Q>(tier, source, (number, spheres), place);
-        }
-        if changed {
+        let places = places & state.sides.look::<L>(state.token(), spheres, spread);
+        if places != 0 && state.meet::<Q>(tier, source, (number, spheres), places) {
             state.depth = depth_of(state);
             any_changed = true;
         }
