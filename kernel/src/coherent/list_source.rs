@@ -23,6 +23,8 @@ use crate::query::Query;
 const LARGE: usize = 1024;
 /// How many share the shorter one.
 const MIDDLE: usize = 64;
+/// A list of so many spheres is short enough: looking at its blocks costs less than a survey.
+const SHORT: usize = 64;
 /// The widest range of slopes that goes through a list together.
 const NARROW: f32 = 2.0;
 
@@ -59,14 +61,14 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
             }
         }
         let mut listed = list.listed;
-        if survey.packets > MIDDLE {
+        if survey.packets > MIDDLE && listed.count > SHORT {
             listed = listed.inside::<L>(token, &survey, longer).unwrap_or(listed);
         }
         while from < end {
             let to = end.min(from + MIDDLE);
             let middle = rays.get(from..to).unwrap_or_default();
             let mut shorter_list = listed;
-            if middle.len() > GROUP {
+            if middle.len() > GROUP && listed.count > SHORT {
                 let survey = Survey::new::<L>(token, view, middle, size);
                 // The first ray of these may show another way, which not all of them run.
                 if survey.packets == middle.len() {
