@@ -29,8 +29,9 @@ fn by_rule_5(tier: Tier, ray: &Ray, spheres: &[Sphere]) -> Option<Hit> {
     let mut closest: Option<Hit> = None;
     for (index, t) in pairs_of(tier, Storey::Lanes(1), &cases).into_iter().enumerate() {
         let Some(t) = t else { continue };
-        if closest.is_none_or(|hit| t < hit.t) {
-            closest = Some(Hit { t, sphere: index as u32 });
+        let hit = Hit { t, sphere: index as u32 };
+        if closest.is_none_or(|known| oracle::is_closer(tier, ray, spheres, hit, known)) {
+            closest = Some(hit);
         }
     }
     closest

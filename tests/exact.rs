@@ -116,7 +116,7 @@ fn fresh_cases_of_every_regime_are_answered_as_the_oracle_does() {
     }
 }
 
-/// The pure expansion path, which every root takes in `roots`, against the filtered one, on small
+/// The exact path alone, which every root takes in `roots`, against the filtered one, on small
 /// integers; hit or miss also against D in `i64`.
 #[test]
 fn expansions_and_filter_agree_on_a_lattice_rich_in_tangents() {

@@ -86,7 +86,7 @@ fn rays_that_are_none_among_others() {
 #[test]
 fn a_million_spheres_in_one_place() {
     let spheres = vec![SPHERE; 1_000_000];
-    // In `Exact`, every sphere is a case for expansions.
+    // In `Exact`, every sphere is a case for exact sums.
     for variant in lists().filter(|variant| matches!(variant.storey, Storey::Lanes(_))) {
         assert_eq!(variant.closest(&spheres, &[RAY]), [Some(Hit { t: 2.0, sphere: 0 })]);
     }

@@ -13,6 +13,7 @@ mod lists;
 mod metamorphic;
 mod numbers;
 mod oracle;
+mod order;
 mod packets;
 #[cfg(target_os = "linux")]
 mod pty;

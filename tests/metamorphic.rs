@@ -5,6 +5,7 @@ use proptest::prelude::*;
 use spherule_kernel::{Hit, Ray, Sphere, Tier, Vec3, roots};
 use spherule_tests::case::Case;
 use spherule_tests::inputs::{self, Scene};
+use spherule_tests::oracle::is_closer;
 use spherule_tests::random::power_of_two;
 use spherule_tests::variants::{Storey, bits, lists, pairs_of};
 
@@ -168,7 +169,7 @@ proptest! {
         }
     }
 
-    /// The order of the list decides nothing but which of equals has the lowest index.
+    /// The order of the list decides nothing but which of equal roots has the lowest index.
     #[test]
     fn permuted_spheres_keep_t(
         (scene, order) in any_scene().prop_flat_map(|scene| {
@@ -189,8 +190,12 @@ proptest! {
                     let t = pairs_of(variant.tier, Storey::Lanes(1), &[Case { ray: *ray, sphere }])[0];
                     t == Some(found.t)
                 };
-                let lowest = spheres.iter().position(same_t);
-                prop_assert_eq!(lowest, Some(found.sphere as usize));
+                let tied = spheres.iter().enumerate().filter(|(_, sphere)| same_t(sphere));
+                let tied = tied.map(|(index, _)| Hit { sphere: index as u32, ..found });
+                let closer = |known: Hit, hit: Hit| {
+                    if is_closer(variant.tier, ray, &spheres, hit, known) { hit } else { known }
+                };
+                prop_assert_eq!(tied.reduce(closer), Some(found));
             }
         }
     }

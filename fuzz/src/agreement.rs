@@ -5,7 +5,7 @@ use crate::geometry::Scene;
 use crate::promise;
 use spherule_kernel::{Hit, Ray, Sphere, Tier, Viewpoint, roots};
 use spherule_tests::case::Case;
-use spherule_tests::oracle::accepted;
+use spherule_tests::oracle::{accepted, is_closer};
 use spherule_tests::variants::{
     Answers, Memory, Structure, Structures, Variant, bits, pair_storeys, pairs_of, reference,
     variants,
@@ -78,10 +78,11 @@ fn check_rules(tier: Tier, ray: &Ray, spheres: &[Sphere], hit: Option<Hit>) {
             && ray.direction.is_finite()
             && ray.direction.to_array() != [0.0; 3];
         assert!(both.is_none() || (ray_is_valid && sphere.is_valid()), "{ray:?} {sphere:?}");
-        // Rules 3 and 4: the first accepted root. Rule 5: the smallest t, the lowest index.
+        // Rules 3 and 4: the first accepted root. Rule 5: the smallest root, the lowest index.
         let Some(t) = both.and_then(|both| accepted(ray, both)) else { continue };
-        if expected.is_none_or(|hit| t < hit.t) {
-            expected = Some(Hit { t, sphere: index as u32 });
+        let hit = Hit { t, sphere: index as u32 };
+        if expected.is_none_or(|known| is_closer(tier, ray, spheres, hit, known)) {
+            expected = Some(hit);
         }
     }
     assert_eq!(bits(hit), bits(expected), "{tier:?}: {hit:?}, rules {expected:?}: {ray:?}");

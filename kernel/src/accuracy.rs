@@ -23,4 +23,4 @@ pub use stable::Stable;
 pub use tier::{Accuracy, Tier};
 
 pub(crate) use roots::{RayLanes, all_finite};
-pub(crate) use tier::{TierFormula, TierWork, test_lanes};
+pub(crate) use tier::{TierFormula, TierWork, is_closer, test_lanes};

@@ -1,11 +1,13 @@
-//! One line and one sphere, decided as in real arithmetic.
+//! One line and its spheres, decided as in real arithmetic.
 //!
-//! What double precision cannot prove, a few tangents and rounding ties, comes here: slow, scalar,
-//! and right for every finite `f32`.
+//! What double precision cannot prove, a few tangents, rounding ties and roots that nearly coincide, comes here:
+//! slow, scalar, and right for every finite `f32`.
 
-mod expansion;
+mod long_accumulator;
+mod order;
 mod quadratic;
 
 #[cfg(test)]
-pub(crate) use expansion::Expansion;
-pub(crate) use quadratic::{Quadratic, Root};
+pub(crate) use long_accumulator::{LongAccumulator, Product};
+pub(crate) use order::compare_roots;
+pub(crate) use quadratic::{Quadratic, QuadraticTerms, Root};

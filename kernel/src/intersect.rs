@@ -25,8 +25,8 @@ use crate::trace::Trace;
 ///
 /// # Guarantee
 ///
-/// The closest hit is the smallest accepted t, and among equals the lowest index; t counts in multiples of
-/// each ray's own direction. Every structure returns bit for bit what the list returns (`Bvh` and
+/// The closest hit is that of the smallest accepted root, by [`Exact`](crate::Exact) as a real number, by the other
+/// tiers as t; among equals that of the lowest index. t counts in multiples of each ray's own direction. Every structure returns bit for bit what the list returns (`Bvh` and
 /// `DepthList` say what that means for `Fast`, and for `Stable` outside its domain), at every level, in
 /// every lane width, alone or beside any other ray. [`any_hit`](Intersect::any_hit) is true exactly if there
 /// is a closest hit, and cheaper, since a ray that has hit something is done.

@@ -45,7 +45,7 @@ pub use geometry::sphere_list::SphereList;
 pub use glam::{Vec3, Vec4};
 pub use intersect::Intersect;
 pub use lanes::{DoubleLanes, LaneArray, LaneMask, Lanes};
-pub use linear::{pair_lanes, roots};
+pub use linear::{compare_hits, pair_lanes, roots};
 pub use memory::TooSmall;
 pub use numeric::float_environment::float_environment_is_sound;
 pub use query::{AnyHit, ClosestHit, Query};

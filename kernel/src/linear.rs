@@ -1,14 +1,15 @@
 //! Rays against a list of spheres, from end to end; pairs; and both roots of one line.
 
 use crate::Accuracy;
-use crate::accuracy::{RayLanes, TierFormula, TierWork, all_finite};
+use crate::accuracy::{RayLanes, TierFormula, TierWork, all_finite, is_closer};
 use crate::filter::{BLOCK_SPHERES, FilterBlock, FilterGroup, FilterRays, GROUP};
-use crate::geometry::hit::HitPacket;
+use crate::geometry::hit::{Hit, HitPacket};
 use crate::geometry::ray::{Ray, RayPacket};
 use crate::geometry::sphere::{Sphere, SpherePacket, Spheres};
-use crate::lanes::{LaneMask, Lanes};
+use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::axes;
 use crate::query::Query;
+use core::cmp::Ordering;
 
 /// Answers every ray by testing it against all spheres.
 ///
@@ -50,6 +51,7 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
 /// A packet, and a group of spheres that the filter could not rule out for it.
 #[derive(Clone, Copy)]
 pub(crate) struct Candidates<'a, L: Lanes> {
+    pub(crate) packet: &'a RayPacket<L::Array>,
     pub(crate) rays: &'a RayLanes<L>,
     pub(crate) filter: &'a FilterRays<L>,
     pub(crate) group: &'a FilterGroup,
@@ -83,7 +85,7 @@ pub(crate) fn for_candidates<L: Lanes, R>(
                 if filter.may_meet_any(group) {
                     test(
                         result,
-                        Candidates { rays: &rays, filter: &filter, group, spheres, first },
+                        Candidates { packet, rays: &rays, filter: &filter, group, spheres, first },
                     );
                     let live = rays.live & !done(result);
                     if !live.any() {
@@ -122,7 +124,7 @@ impl<L: Lanes, Q: Query> GroupTest<'_, '_, L, Q> {
     #[inline(always)]
     fn test<F: TierFormula>(self) {
         let Self { token, candidates, answer } = self;
-        let Candidates { rays, filter, group, spheres, first } = candidates;
+        let Candidates { packet, rays, filter, group, spheres, first } = candidates;
         let infinity = L::splat(token, f32::INFINITY);
         let mut limits = Q::limits::<L>(token, answer);
         // Keeping this from one group to the next costs Fast 6 % and gains the others 2 %.
@@ -135,9 +137,36 @@ impl<L: Lanes, Q: Query> GroupTest<'_, '_, L, Q> {
                 let radius = L::splat(token, sphere.radius);
                 let t = F::first_root(rays, &prepared, center, radius, asked, limits);
                 let t = L::select(asked, t, infinity);
-                limits = Q::accept::<L>(answer, (first + slot) as u32, t, limits);
+                let index = (first + slot) as u32;
+                if F::ORDERS_ROOTS && !Q::ANY {
+                    let tied = (t.le(limits) & limits.le(t) & t.lt(infinity)).bits();
+                    if tied != 0 {
+                        take_closer::<F, L, Q>(packet, *spheres, index, tied, &t.store(), answer);
+                    }
+                }
+                limits = Q::accept::<L>(answer, index, t, limits);
             }
         }
+    }
+}
+
+/// Takes sphere `index` in those of the lanes `tied`, where it is hit at the t that is known, in which it is closer.
+#[cold]
+#[inline(never)]
+fn take_closer<F: TierFormula, L: Lanes, Q: Query>(
+    packet: &RayPacket<L::Array>,
+    spheres: Spheres<'_>,
+    index: u32,
+    mut tied: u32,
+    t: &L::Array,
+    answer: &mut Q::Packet<L::Array>,
+) {
+    while tied != 0 {
+        let lane = tied.trailing_zeros() as usize;
+        tied &= tied - 1;
+        let t = t.get(lane);
+        let is_closer = |old| is_closer(F::THIS, spheres, &packet.ray(lane), t, [index, old]);
+        Q::take::<L::Array>(answer, lane, Hit { t, sphere: index }, is_closer);
     }
 }
 
@@ -249,5 +278,32 @@ impl TierWork for LineRoots<'_> {
     #[inline(always)]
     fn run<F: TierFormula>(self) -> Option<[f32; 2]> {
         F::line_roots(self.line, self.sphere)
+    }
+}
+
+/// Which of two hits of one ray comes first, for callers who keep their own closest hit: each is the t of a `tier`'s
+/// answer, and its sphere.
+///
+/// By [`Exact`](crate::Exact) the roots are compared as real numbers, which may differ where t are equal; `Equal` means
+/// that they are the same number, and the lower index is the closer hit. The other tiers compare t. If t is not the
+/// tier's answer for its sphere, the result has no meaning. Cost: nothing if t differ; else some 50 ns, and some
+/// microseconds where double precision cannot tell.
+///
+/// ```
+/// use spherule_kernel::{Exact, Ray, Sphere, Vec3, compare_hits, roots};
+///
+/// // A million away, f32 tells nothing less than 1/16 apart.
+/// let ray = Ray::new(Vec3::new(0.0, 0.0, -1e6), Vec3::Z);
+/// let spheres = [1.0, 1.015625].map(|radius| Sphere { center: Vec3::ZERO, radius });
+/// let [Some([t, _]), Some([u, _])] = spheres.map(|sphere| roots(Exact, &ray, &sphere)) else { panic!() };
+/// assert_eq!(t, u);
+/// assert!(compare_hits(Exact, &ray, [(t, &spheres[0]), (u, &spheres[1])]).is_gt());
+/// ```
+#[must_use]
+pub fn compare_hits(tier: impl Accuracy, ray: &Ray, hits: [(f32, &Sphere); 2]) -> Ordering {
+    let [(t, first), (other, second)] = hits;
+    match t.partial_cmp(&other) {
+        Some(Ordering::Equal) => tier.compare_at(ray, t, [first, second]),
+        order => order.unwrap_or(Ordering::Equal),
     }
 }

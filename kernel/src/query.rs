@@ -10,7 +10,7 @@ use core::fmt::Debug;
 /// A query: [`ClosestHit`] or [`AnyHit`]. Sealed.
 pub trait Query: Answers {}
 
-/// The closest hit of every ray: the smallest accepted t, and among equals the lowest index.
+/// The closest hit of every ray: the smallest accepted root, and among equals the lowest index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ClosestHit;
 
@@ -41,11 +41,18 @@ mod sealed {
         fn done<L: Lanes>(token: L::Token, packet: &Self::Packet<L::Array>) -> L::Mask;
         /// In every lane the t above which nothing matters any more.
         fn limits<L: Lanes>(token: L::Token, packet: &Self::Packet<L::Array>) -> L;
-        /// Takes the t of one sphere in every lane, `+inf` if there is no hit, where spheres come in the order
-        /// of their indices; returns the new limits.
+        /// Takes the t of one sphere in every lane, `+inf` if there is no hit, where it is below the limit; returns the
+        /// new limits.
         fn accept<L: Lanes>(packet: &mut Self::Packet<L::Array>, index: u32, t: L, limits: L) -> L;
-        /// Takes a hit if it is closer than the one known, or as close and of a lower index.
-        fn take<A: LaneArray>(packet: &mut Self::Packet<A>, lane: usize, hit: Hit);
+        /// Takes a hit if it is closer than the one known; of two with the same t `is_closer` says which, by the index
+        /// of the known one.
+        fn take<A: LaneArray>(
+            packet: &mut Self::Packet<A>,
+            lane: usize,
+            hit: Hit,
+            is_closer: impl FnOnce(u32) -> bool,
+        );
+
         /// The t above which nothing matters any more in a lane: `-inf` if it is done.
         fn limit<A: LaneArray>(packet: &Self::Packet<A>, lane: usize) -> f32;
         /// The answers of t, `+inf` if there is no hit, and indices, as bits.
@@ -94,7 +101,6 @@ impl Answers for ClosestHit {
 
     #[inline(always)]
     fn accept<L: Lanes>(packet: &mut HitPacket<L::Array>, index: u32, t: L, limits: L) -> L {
-        // Spheres come in the order of their indices, so an equal t is no improvement.
         let closer = t.lt(limits);
         let best = L::select(closer, t, limits);
         packet.t = best.store();
@@ -109,8 +115,13 @@ impl Answers for ClosestHit {
     }
 
     #[inline(always)]
-    fn take<A: LaneArray>(packet: &mut HitPacket<A>, lane: usize, hit: Hit) {
-        packet.take(lane, hit);
+    fn take<A: LaneArray>(
+        packet: &mut HitPacket<A>,
+        lane: usize,
+        hit: Hit,
+        is_closer: impl FnOnce(u32) -> bool,
+    ) {
+        packet.take(lane, hit, is_closer);
     }
 
     #[inline(always)]
@@ -170,7 +181,7 @@ impl Answers for AnyHit {
     }
 
     #[inline(always)]
-    fn take<A: LaneArray>(packet: &mut u32, lane: usize, _: Hit) {
+    fn take<A: LaneArray>(packet: &mut u32, lane: usize, _: Hit, _: impl FnOnce(u32) -> bool) {
         *packet |= 1 << (lane % 32);
     }
 

@@ -23,7 +23,7 @@ pub struct Stages {
     pub tests: u64,
     /// Those that needed double precision, or more.
     pub double: u64,
-    /// Those that needed expansions.
+    /// Those that needed exact sums.
     pub expansions: u64,
 }
 
@@ -80,7 +80,7 @@ fn count<L: Lanes, Q: Query>(
     answer: &Q::Packet<L::Array>,
     stages: &mut Stages,
 ) {
-    let Candidates { rays, filter, group, spheres, first } = candidates;
+    let Candidates { rays, filter, group, spheres, first, .. } = candidates;
     let mut limit = Q::limits::<L>(token, answer);
     for slot in 0..GROUP {
         let Some(sphere) = spheres.get(first + slot) else { return };

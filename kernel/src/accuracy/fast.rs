@@ -27,6 +27,7 @@ pub struct FastRays<L> {
 }
 
 impl TierFormula for Fast {
+    const THIS: Self = Self;
     const TIER: Tier = Tier::Fast;
     /// D/a is off by 20 u |p|^2 + 10 u r^2 (`docs/numerics.md`); this is 2^-9, whose square is 64 u.
     const SPREAD: f32 = 1.0 / 512.0;

@@ -58,6 +58,7 @@ pub struct StableRays<L> {
 }
 
 impl TierFormula for Stable {
+    const THIS: Self = Self;
     const TIER: Tier = Tier::Stable;
     type Prepared<L: Lanes> = StableRays<L>;
 

@@ -6,17 +6,23 @@
 
 use super::roots::RayLanes;
 use super::{Exact, Fast, Stable};
+use crate::geometry::sphere::Spheres;
 use crate::{Lanes, Ray, Sphere};
+use core::cmp::Ordering;
 use core::fmt::{Debug, Formatter};
 
 /// The formula of a tier.
 pub trait TierFormula: Copy + Debug {
-    /// The tier as a value.
+    /// The tier as a value, of its own type and of all.
+    const THIS: Self;
     const TIER: Tier;
 
     /// How far off the tier may be beside the few ulp of s that are allowed to all: as if r^2
     /// were changed by up to (`SPREAD` (|p| + r))^2. Zero except for [`Fast`].
     const SPREAD: f32 = 0.0;
+
+    /// Whether the roots themselves are in order, where t are equal: rule 5.
+    const ORDERS_ROOTS: bool = false;
 
     /// What the tier computes once a packet.
     type Prepared<L: Lanes>: Copy;
@@ -39,6 +45,11 @@ pub trait TierFormula: Copy + Debug {
 
     /// Both roots of the line of a valid ray and a valid sphere, the smaller first, never -0.
     fn line_roots(ray: &Ray, sphere: &Sphere) -> Option<[f32; 2]>;
+
+    /// How two spheres compare that `ray` hits at the same `t`: `Equal` if the tier knows no more than t.
+    fn compare_at(_ray: &Ray, _t: f32, _spheres: [&Sphere; 2]) -> Ordering {
+        Ordering::Equal
+    }
 }
 
 /// Work that is compiled once a tier.
@@ -56,6 +67,13 @@ mod sealed {
         fn spread(self) -> f32;
         /// Does `work` by the formula of the tier.
         fn with_formula<W: super::TierWork>(self, work: W) -> W::Output;
+        /// [`TierFormula::compare_at`](super::TierFormula::compare_at).
+        fn compare_at(
+            self,
+            ray: &super::Ray,
+            t: f32,
+            spheres: [&super::Sphere; 2],
+        ) -> super::Ordering;
     }
 }
 
@@ -76,6 +94,11 @@ impl<F: TierFormula> sealed::Chosen for F {
     #[inline(always)]
     fn with_formula<W: TierWork>(self, work: W) -> W::Output {
         work.run::<F>()
+    }
+
+    #[inline(always)]
+    fn compare_at(self, ray: &Ray, t: f32, spheres: [&Sphere; 2]) -> Ordering {
+        F::compare_at(ray, t, spheres)
     }
 }
 
@@ -144,6 +167,14 @@ impl sealed::Chosen for Tier {
             Self::Exact => work.run::<Exact>(),
         }
     }
+
+    #[inline(always)]
+    fn compare_at(self, ray: &Ray, t: f32, spheres: [&Sphere; 2]) -> Ordering {
+        match self {
+            Self::Fast | Self::Stable => Ordering::Equal,
+            Self::Exact => <Exact as TierFormula>::compare_at(ray, t, spheres),
+        }
+    }
 }
 
 impl Accuracy for Tier {
@@ -151,6 +182,24 @@ impl Accuracy for Tier {
     fn tier(self) -> Tier {
         self
     }
+}
+
+/// Rule 5 for two spheres of a list that `ray` hits at the same `t`: whether `new` is the closer one, as real numbers
+/// if the tier tells them apart, else by its index.
+#[cold]
+#[inline(never)]
+pub(crate) fn is_closer(
+    tier: impl Accuracy,
+    spheres: Spheres<'_>,
+    ray: &Ray,
+    t: f32,
+    [new, old]: [u32; 2],
+) -> bool {
+    let compared = match [new, old].map(|index| spheres.get(index as usize)) {
+        [Some(new), Some(old)] => tier.compare_at(ray, t, [&new, &old]),
+        _ => Ordering::Equal,
+    };
+    compared.then(new.cmp(&old)).is_lt()
 }
 
 /// Tests one sphere a lane: t if there is a hit in a lane that is `asked`, else `+inf`.

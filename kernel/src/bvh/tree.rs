@@ -49,6 +49,11 @@ pub struct Bvh<'a> {
 
 impl SphereSource for Bvh<'_> {
     #[inline(always)]
+    fn spheres(&self) -> Spheres<'_> {
+        self.spheres
+    }
+
+    #[inline(always)]
     fn sphere_at(&self, place: u32) -> Option<(Sphere, u32)> {
         match self.leaves.get(place as usize / WIDTH) {
             Some(leaf) => Some(leaf.sphere(place as usize)),

@@ -101,6 +101,11 @@ struct ListSource<'a> {
 
 impl SphereSource for ListSource<'_> {
     #[inline(always)]
+    fn spheres(&self) -> Spheres<'_> {
+        self.list.spheres
+    }
+
+    #[inline(always)]
     fn sphere_at(&self, place: u32) -> Option<(Sphere, u32)> {
         sphere_of(&self.list.spheres, self.listed.indices().get(place as usize))
     }

@@ -9,7 +9,7 @@
 
 use super::frustum::Sides;
 use crate::Accuracy;
-use crate::accuracy::{RayLanes, test_lanes};
+use crate::accuracy::{RayLanes, is_closer, test_lanes};
 use crate::bvh::traverse::prepared_ray::{PreparedLanes, far_away};
 use crate::bvh::traverse::root_interval::{Pass, RootInterval, SphereColumns};
 use crate::bvh::traverse::source::{SphereLanes, SphereSource, test_outside};
@@ -99,8 +99,14 @@ impl<'a, L: Lanes> PacketState<'a, L> {
     ) {
         let token = self.token();
         let mut hits = HitPacket::none();
-        let rays = RayLanes::load(token, self.packet);
-        test_outside::<L, ClosestHit>(tier, &rays, source, self.live.bits(), &mut hits);
+        test_outside::<L, ClosestHit>(
+            tier,
+            token,
+            self.packet,
+            source,
+            self.live.bits(),
+            &mut hits,
+        );
         self.t = L::load(token, &hits.t);
         let mut spheres = L::Array::filled(0.0);
         let indices = hits.sphere.as_ref();
@@ -210,27 +216,36 @@ impl<'a, L: Lanes> PacketState<'a, L> {
         let SphereLanes { center, radius, index } =
             SphereLanes::gather(source, self.place, self.shared);
         let t = test_lanes(tier, &rays, center, radius, asked, self.t);
-        self.take(asked, t, index);
+        self.take(tier, source, asked, t, index);
         self.entry = L::select(asked, self.entry.like(f32::NAN), self.entry);
         self.shorten::<Q>();
     }
 
-    /// Takes the answers of the lanes `asked` that are nearer, or as near and of a lower index.
+    /// Takes the answers of the lanes `asked` that are closer.
     #[inline(always)]
-    fn take(&mut self, asked: L::Mask, t: L, sphere: L) {
+    fn take(
+        &mut self,
+        tier: impl Accuracy,
+        source: &impl SphereSource,
+        asked: L::Mask,
+        t: L,
+        sphere: L,
+    ) {
         let found = asked & t.lt(t.like(f32::INFINITY));
         let mut nearer = found & t.lt(self.t);
-        let equal = (found & t.le(self.t) & self.t.le(t)).bits();
+        let mut equal = (found & t.le(self.t) & self.t.le(t)).bits();
         if equal != 0 {
-            let (ours, theirs) = (self.sphere.store(), sphere.store());
-            let mut lower = L::Array::filled(0.0);
-            for lane in 0..L::COUNT {
-                if theirs.get(lane).to_bits() < ours.get(lane).to_bits() {
-                    lower.set(lane, 1.0);
-                }
+            let (tied, ours, theirs) = (t.store(), self.sphere.store(), sphere.store());
+            let mut closer = 0_u32;
+            while equal != 0 {
+                let lane = equal.trailing_zeros() as usize;
+                equal &= equal - 1;
+                let indices = [theirs.get(lane).to_bits(), ours.get(lane).to_bits()];
+                let (ray, t) = (self.packet.ray(lane), tied.get(lane));
+                let is_closer = is_closer(tier, source.spheres(), &ray, t, indices);
+                closer |= u32::from(is_closer) << lane;
             }
-            let lower = t.like(0.0).lt(L::load(t.token(), &lower));
-            nearer = nearer | (found & t.le(self.t) & lower);
+            nearer = nearer | L::mask(t.token(), closer);
         }
         self.t = L::select(nearer, t, self.t);
         self.sphere = L::select(nearer, sphere, self.sphere);

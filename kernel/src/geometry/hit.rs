@@ -31,12 +31,13 @@ impl<A: LaneArray> HitPacket<A> {
         Self { t: A::filled(f32::INFINITY), sphere: A::ids(Self::NO_SPHERE) }
     }
 
-    /// Takes a hit in `lane` if it is closer than the one known, or as close and of a lower index.
+    /// Takes a hit in `lane` if it is closer than the one known; of two with the same t `is_closer` says which, by the
+    /// index of the known one.
     #[inline(always)]
-    pub(crate) fn take(&mut self, lane: usize, hit: Hit) {
+    pub(crate) fn take(&mut self, lane: usize, hit: Hit, is_closer: impl FnOnce(u32) -> bool) {
         if let (Some(t), Some(sphere)) =
             (self.t.as_mut().get_mut(lane), self.sphere.as_mut().get_mut(lane))
-            && (hit.t < *t || (hit.t == *t && hit.sphere < *sphere))
+            && (hit.t < *t || (hit.t == *t && is_closer(*sphere)))
         {
             *t = hit.t;
             *sphere = hit.sphere;

@@ -1,7 +1,7 @@
 //! How much of the margin a root at the limit uses, as far as a search finds it.
 //!
 //! A sphere may be told to lie beyond only where both roots do. So with the nearer root as the
-//! limit - correctly rounded by expansions, or as `Stable` computes it - b - sqrt D must exceed
+//! limit - correctly rounded, or as `Stable` computes it - b - sqrt D must exceed
 //! limit a by less than the margin.
 
 extern crate std;

@@ -5,7 +5,7 @@
 
 use super::source::SphereSource;
 use crate::Accuracy;
-use crate::accuracy::{RayLanes, test_lanes};
+use crate::accuracy::{RayLanes, is_closer, test_lanes};
 use crate::bvh::tree::Bvh;
 use crate::geometry::hit::Hit;
 use crate::geometry::ray::RayPacket;
@@ -113,7 +113,20 @@ impl<'a, T: Accuracy, L: Lanes, Q: Query> DeferredTests<'a, T, L, Q> {
                     (self.index.as_ref().get(lane), self.whose.as_ref().get(lane))
                 && let Some(answer) = self.answers.get_mut(ray.packet)
             {
-                Q::take::<L::Array>(answer, ray.lane, Hit { t, sphere });
+                let (tier, spheres, packets) = (self.tier, self.bvh.spheres, self.packets);
+                Q::take::<L::Array>(
+                    answer,
+                    ray.lane,
+                    Hit { t, sphere },
+                    #[inline(always)]
+                    |old| match packets.get(ray.packet) {
+                        Some(packet) => {
+                            let ray = packet.ray(ray.lane);
+                            is_closer(tier, spheres, &ray, t, [sphere, old])
+                        }
+                        None => false,
+                    },
+                );
             }
         }
     }

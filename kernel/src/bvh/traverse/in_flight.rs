@@ -114,7 +114,8 @@ pub(crate) fn begin<T: Accuracy, L: Lanes, Q: Query>(
             if t < f32::INFINITY
                 && let Some(&sphere) = found.sphere.as_ref().get(lane)
             {
-                Q::take::<L::Array>(answer, lane, Hit { t, sphere });
+                // There is no other answer yet.
+                Q::take::<L::Array>(answer, lane, Hit { t, sphere }, |_| false);
             }
         }
     }
@@ -123,7 +124,7 @@ pub(crate) fn begin<T: Accuracy, L: Lanes, Q: Query>(
         L::out_of_line(
             token,
             #[inline(always)]
-            || test_outside::<L, Q>(tier, &rays, bvh, covered, answer),
+            || test_outside::<L, Q>(tier, token, packet, bvh, covered, answer),
         );
         for lane in 0..L::COUNT {
             prepared.shorten(lane, Q::limit::<L::Array>(answer, lane));

@@ -217,7 +217,8 @@ impl RayState {
                 let (entry, bound) = (entries.get(lane), bounds.get(lane));
                 if Q::ANY && bound < f32::INFINITY {
                     if let Some(answer) = tests.answers.get_mut(self.ray.packet) {
-                        Q::take::<L::Array>(answer, self.ray.lane, Hit { t: 0.0, sphere: 0 });
+                        let any = Hit { t: 0.0, sphere: 0 };
+                        Q::take::<L::Array>(answer, self.ray.lane, any, |_| false);
                     }
                     self.candidates.count = 0;
                     self.stack.clear();

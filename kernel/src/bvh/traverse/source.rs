@@ -1,15 +1,18 @@
 //! Where spheres lie until a tier tests them, and the tests of those that every ray must meet.
 
 use crate::Accuracy;
-use crate::accuracy::{RayLanes, test_lanes};
+use crate::accuracy::{RayLanes, is_closer, test_lanes};
 use crate::geometry::hit::Hit;
-use crate::geometry::sphere::Sphere;
+use crate::geometry::ray::RayPacket;
+use crate::geometry::sphere::{Sphere, Spheres};
 use crate::lanes::{LaneArray, Lanes};
 use crate::numeric::axes::axes;
 use crate::query::Query;
 
 /// Where spheres lie until a tier tests them: by place in a structure, each with its index.
 pub(crate) trait SphereSource {
+    /// The list that the structure is made of.
+    fn spheres(&self) -> Spheres<'_>;
     /// The sphere at a place, and its index.
     fn sphere_at(&self, place: u32) -> Option<(Sphere, u32)>;
     /// Sphere `number` of those that every ray must be tested against; `None` past the last.
@@ -20,12 +23,13 @@ pub(crate) trait SphereSource {
 #[inline(always)]
 pub(crate) fn test_outside<L: Lanes, Q: Query>(
     tier: impl Accuracy,
-    rays: &RayLanes<L>,
+    token: L::Token,
+    packet: &RayPacket<L::Array>,
     source: &impl SphereSource,
     lanes: u32,
     answer: &mut Q::Packet<L::Array>,
 ) {
-    let token = rays.t_min.token();
+    let rays = &RayLanes::<L>::load(token, packet);
     let asked = rays.live & L::mask(token, lanes);
     let mut number = 0;
     while let Some((sphere, index)) = source.outside(number) {
@@ -40,7 +44,13 @@ pub(crate) fn test_outside<L: Lanes, Q: Query>(
         for lane in 0..L::COUNT {
             let t = t.get(lane);
             if t < f32::INFINITY {
-                Q::take::<L::Array>(answer, lane, Hit { t, sphere: index });
+                Q::take::<L::Array>(
+                    answer,
+                    lane,
+                    Hit { t, sphere: index },
+                    #[inline(always)]
+                    |old| is_closer(tier, source.spheres(), &packet.ray(lane), t, [index, old]),
+                );
             }
         }
     }

@@ -1,6 +1,6 @@
 //! The largest error for its bound that a search finds, and what each constant is worth.
 //!
-//! The truth is an expansion: the error of D is the exact D less the computed one. That of t is
+//! The truth is an exact sum: the error of D is the exact D less the computed one. That of t is
 //! told by f(t) = |t d - p|^2 - r^2 at the computed t, exact as well: t + e is the root where
 //! a e^2 + 2 g e + f = 0, g = d.(t d - p), of which e = -f / (g -+ sqrt D) is the small solution.
 //!
@@ -20,7 +20,7 @@
 extern crate std;
 
 use super::{Constants, Estimate};
-use crate::exact::Expansion;
+use crate::exact::{LongAccumulator, Product};
 use crate::testing::climb::{Random, climb};
 use std::println;
 
@@ -37,39 +37,36 @@ fn estimate(numbers: &Numbers, constants: &Constants) -> Option<Estimate<f64>> {
     (d != [0.0; 3]).then(|| Estimate::new(o, d, c, r, constants))
 }
 
-/// D less `known`, within 4u of itself.
+/// D less `known`, within 2u of itself.
 fn discriminant_less(numbers: &Numbers, known: f64) -> f64 {
-    let (o, d, c, r) = parts(numbers);
-    let mut sum = Expansion::<f64, 67>::zero();
+    let [ox, oy, oz, dx, dy, dz, cx, cy, cz, r] = numbers.map(Product::of);
+    let (o, d, c) = ([ox, oy, oz], [dx, dy, dz], [cx, cy, cz]);
+    let mut sum = LongAccumulator::zero();
     for (i, j) in [(1, 2), (2, 0), (0, 1)] {
-        let mut x = Expansion::<f64, 4>::zero();
-        x.add(d[i] * c[j]);
-        x.add(-(d[i] * o[j]));
-        x.add(-(d[j] * c[i]));
-        x.add(d[j] * o[i]);
-        sum.add_square(x.terms());
+        let (i_c, j_c) = (d[j].times(c[i]).negated(), d[i].times(c[j]));
+        let (i_o, j_o) = (d[j].times(o[i]), d[i].times(o[j]).negated());
+        sum.add_square(&[j_c, j_o, i_c, i_o], Product::ONE);
     }
     for d in d {
-        sum.add_product(d * d, -(r * r));
+        sum.add_product(r.times(r).negated(), d.times(d));
     }
-    sum.add(known);
+    sum.add(Product::of_double(known));
     -sum.estimate()
 }
 
 /// How far the root lies from `t`, which is close to it.
 fn root_less(numbers: &Numbers, t: f64, outward: f64) -> f64 {
-    let (o, d, c, r) = parts(numbers);
-    let (mut f, mut g) = (Expansion::<f64, 64>::zero(), Expansion::<f64, 24>::zero());
-    f.add(-(r * r));
+    let [ox, oy, oz, dx, dy, dz, cx, cy, cz, r] = numbers.map(Product::of);
+    let (o, d, c) = ([ox, oy, oz], [dx, dy, dz], [cx, cy, cz]);
+    // Halves, so that the squares of products have room.
+    let high = f64::from_bits(t.to_bits() & !0x03ff_ffff);
+    let halves = [high, t - high].map(Product::of_double);
+    let (mut f, mut g) = (LongAccumulator::zero(), LongAccumulator::zero());
+    f.add(r.times(r).negated());
     for i in 0..3 {
-        let mut v = Expansion::<f64, 4>::zero();
-        v.add_product(t, d[i]);
-        v.add(-c[i]);
-        v.add(o[i]);
-        f.add_square(v.terms());
-        for &term in v.terms() {
-            g.add_product(d[i], term);
-        }
+        let v = [halves[0].times(d[i]), halves[1].times(d[i]), c[i].negated(), o[i]];
+        f.add_square(&v, Product::ONE);
+        g.add_products(&v, &[d[i]]);
     }
     // At the near root the line enters: the slope is negative there.
     let root = discriminant_less(numbers, 0.0).max(0.0).sqrt() * outward;

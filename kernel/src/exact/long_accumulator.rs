@@ -1,0 +1,183 @@
+//! Sums of products of `f32` that are never rounded: a fixed-point number as wide as all of them, a long
+//! accumulator (Kulisch and Miranker 1986, The Arithmetic of the Digital Computer: A New Approach).
+//!
+//! A finite `f32` is an integer below 2^24 times 2^e, with e from -149 to 104. So a product of six, and four
+//! times that, is a multiple of 2^-894 and below 2^770: the accumulator counts in units of 2^-896, and holds
+//! 2^61 such products before it reaches 2^831, where its sign is. Nothing is rounded, nothing overflows, and no
+//! floating-point environment matters.
+
+use core::cmp::Ordering;
+
+/// The lowest bit of an accumulator is worth 2 to this power.
+const LOWEST: i32 = -896;
+/// How many bits wide it is, in limbs of 64.
+const LIMBS: usize = 27;
+
+/// A product of numbers, exactly: `mantissa * 2^exponent`, or that negated.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Product {
+    negative: bool,
+    mantissa: u128,
+    exponent: i32,
+}
+
+impl Product {
+    const ZERO: Self = Self { negative: false, mantissa: 0, exponent: 0 };
+    /// 1.
+    pub(crate) const ONE: Self = Self { mantissa: 1, ..Self::ZERO };
+
+    /// A finite number.
+    pub(crate) fn of(x: f32) -> Self {
+        let bits = x.to_bits();
+        let (exponent, fraction) = (bits >> 23 & 0xff, bits & 0x007f_ffff);
+        // A subnormal has the exponent of the least normal number, and no leading bit.
+        let (mantissa, exponent) =
+            if exponent == 0 { (fraction, 1) } else { (fraction | 1 << 23, exponent as i32) };
+        Self { negative: bits >> 31 == 1, mantissa: u128::from(mantissa), exponent: exponent - 150 }
+    }
+
+    /// A double that is finite and no subnormal: as few bits of mantissa as it has.
+    pub(crate) fn of_double(x: f64) -> Self {
+        let bits = x.to_bits();
+        let (exponent, fraction) = ((bits >> 52 & 0x7ff) as i32, bits & ((1 << 52) - 1));
+        if exponent == 0 {
+            return Self::ZERO;
+        }
+        let mantissa = fraction | 1 << 52;
+        let zeros = mantissa.trailing_zeros();
+        Self {
+            negative: bits >> 63 == 1,
+            mantissa: u128::from(mantissa >> zeros),
+            exponent: exponent - 1075 + zeros as i32,
+        }
+    }
+
+    /// Both together; their mantissas have 128 bits at most.
+    pub(crate) fn times(self, other: Self) -> Self {
+        Self {
+            negative: self.negative != other.negative,
+            mantissa: self.mantissa.wrapping_mul(other.mantissa),
+            exponent: self.exponent + other.exponent,
+        }
+    }
+
+    /// The same with the other sign.
+    pub(crate) fn negated(self) -> Self {
+        Self { negative: !self.negative, ..self }
+    }
+
+    /// Times 2 to a small power.
+    pub(crate) fn scaled(self, power: i32) -> Self {
+        Self { exponent: self.exponent + power, ..self }
+    }
+}
+
+/// A sum of products, exactly.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LongAccumulator {
+    /// Two's complement, the lowest first.
+    limbs: [u64; LIMBS],
+}
+
+impl LongAccumulator {
+    /// The empty sum.
+    pub(crate) const fn zero() -> Self {
+        Self { limbs: [0; LIMBS] }
+    }
+
+    /// Adds a product.
+    pub(crate) fn add(&mut self, product: Product) {
+        let Product { negative, mantissa, exponent } = product;
+        self.add_shifted([mantissa as u64, (mantissa >> 64) as u64, 0], exponent, negative);
+    }
+
+    /// Adds a product of two, whose mantissas have 192 bits at most together, and the second 64.
+    pub(crate) fn add_product(&mut self, a: Product, b: Product) {
+        let b_mantissa = b.mantissa & u128::from(u64::MAX);
+        let low = (a.mantissa & u128::from(u64::MAX)) * b_mantissa;
+        let high = (a.mantissa >> 64) * b_mantissa + (low >> 64);
+        let limbs = [low as u64, high as u64, (high >> 64) as u64];
+        self.add_shifted(limbs, a.exponent + b.exponent, a.negative != b.negative);
+    }
+
+    /// Adds the square of a sum, times `factor`.
+    pub(crate) fn add_square(&mut self, terms: &[Product], factor: Product) {
+        for (index, &term) in terms.iter().enumerate() {
+            self.add_product(term.times(term), factor);
+            for &other in terms.iter().skip(index + 1) {
+                self.add_product(term.times(other).scaled(1), factor);
+            }
+        }
+    }
+
+    /// Adds the product of two sums.
+    pub(crate) fn add_products(&mut self, some: &[Product], others: &[Product]) {
+        for &term in some {
+            for &other in others {
+                self.add_product(term, other);
+            }
+        }
+    }
+
+    /// Adds 192 bits times 2^exponent, or takes them away.
+    fn add_shifted(&mut self, [a, b, c]: [u64; 3], exponent: i32, negative: bool) {
+        let place = (exponent - LOWEST).max(0).unsigned_abs();
+        let (limb, shift) = (place as usize / 64, place % 64);
+        // Bits that leave a limb at its top come in at the next one's bottom.
+        let over = |limb: u64| limb >> 1 >> (63 - shift);
+        let shifted = [a << shift, b << shift | over(a), c << shift | over(b), over(c)];
+        let mut carry = false;
+        for (number, place) in self.limbs.iter_mut().skip(limb).enumerate() {
+            let more = shifted.get(number).copied().unwrap_or(0);
+            if number >= shifted.len() && !carry {
+                return;
+            }
+            let (sum, first, second);
+            if negative {
+                (sum, first) = place.overflowing_sub(more);
+                (*place, second) = sum.overflowing_sub(u64::from(carry));
+            } else {
+                (sum, first) = place.overflowing_add(more);
+                (*place, second) = sum.overflowing_add(u64::from(carry));
+            }
+            carry = first | second;
+        }
+    }
+
+    /// How the sum compares with zero.
+    pub(crate) fn sign(&self) -> Ordering {
+        match self.limbs {
+            [.., top] if top >> 63 == 1 => Ordering::Less,
+            limbs if limbs.iter().all(|&limb| limb == 0) => Ordering::Equal,
+            _ => Ordering::Greater,
+        }
+    }
+
+    /// The sum within 2 u of itself, u = 2^-53; for sums of products of four, which no double over- or
+    /// underflows.
+    pub(crate) fn estimate(&self) -> f64 {
+        let negative = self.sign() == Ordering::Less;
+        let mut magnitude = self.limbs;
+        if negative {
+            let mut carry = true;
+            for limb in &mut magnitude {
+                (*limb, carry) = (!*limb).overflowing_add(u64::from(carry));
+            }
+        }
+        let Some(top) = magnitude.iter().rposition(|&limb| limb != 0) else { return 0.0 };
+        // 65 bits or more: what is cut off is below 2^-64 of the sum.
+        let limb = |number: usize| magnitude.get(number).copied().unwrap_or(0);
+        let below = if top == 0 { 0 } else { limb(top - 1) };
+        let bits = u128::from(limb(top)) << 64 | u128::from(below);
+        let value = bits as f64 * power_of_two(64 * (top as i32 - 1) + LOWEST);
+        if negative { -value } else { value }
+    }
+}
+
+/// 2 to a power that a normal double can be.
+fn power_of_two(power: i32) -> f64 {
+    f64::from_bits(((power + 1023).clamp(1, 2046) as u64) << 52)
+}
+
+#[cfg(test)]
+mod against_integers;
