@@ -248,8 +248,8 @@ impl<L: Lanes> TierWork for PairTest<'_, L> {
 
 /// Entry and exit of the whole line, whatever the ray's interval: the smaller root first.
 ///
-/// Returns `None` if the line misses the sphere, or if either is invalid. t counts in multiples of the
-/// ray's direction.
+/// Returns `None` if the line misses the sphere, or if either is invalid. A root that is too large for a number is an
+/// infinity of its sign. t counts in multiples of the ray's direction.
 ///
 /// ```
 /// use spherule_kernel::{Exact, Ray, Sphere, Vec3, roots};

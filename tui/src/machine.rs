@@ -1,5 +1,7 @@
-//! What figures were measured on.
+//! What the machine is, and whether it computes as `exact` needs.
 
+use crate::error::Error;
+use spherule_kernel::{Tier, float_environment_is_sound};
 use std::fs;
 
 /// The compiler that built the program.
@@ -12,6 +14,23 @@ pub fn cpu() -> String {
     model_name(&text).unwrap_or("unknown").to_owned()
 }
 
+/// Refuses `exact` where floats are not what it needs.
+///
+/// # Errors
+/// [`Error::Running`] if this process rounds in another way, or takes subnormals for zero.
+pub fn check_floats(tier: Tier) -> Result<(), Error> {
+    check(tier, float_environment_is_sound())
+}
+
+fn check(tier: Tier, is_sound: bool) -> Result<(), Error> {
+    if tier != Tier::Exact || is_sound {
+        return Ok(());
+    }
+    let why =
+        "this process does not round to nearest, or takes subnormals for zero: exact would not be";
+    Err(Error::Running(format!("{why}; --accuracy stable needs neither")))
+}
+
 /// From the text of `/proc/cpuinfo`.
 fn model_name(text: &str) -> Option<&str> {
     let line = text.lines().find(|line| line.starts_with("model name"))?;
@@ -22,6 +41,16 @@ fn model_name(text: &str) -> Option<&str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn exact_is_refused_where_floats_are_not_sound() {
+        assert_eq!(check(Tier::Exact, true), Ok(()));
+        assert_eq!(check(Tier::Stable, false), Ok(()));
+        assert!(
+            matches!(check(Tier::Exact, false), Err(Error::Running(line)) if line.contains("subnormals"))
+        );
+        assert_eq!(check_floats(Tier::Exact), Ok(()));
+    }
 
     #[test]
     fn the_name_is_found_or_not() {

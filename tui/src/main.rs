@@ -3,7 +3,8 @@
 
 use spherule::arguments::{self, Command, Request};
 use spherule::error::{Error, write_stdout};
-use spherule::{show, trace, tradeoff};
+use spherule::{machine, show, trace, tradeoff};
+use spherule_kernel::Tier;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -17,9 +18,19 @@ fn run() -> Result<(), Error> {
     match arguments::parse(std::env::args_os())? {
         Request::Print(text) => write_stdout(text.as_bytes()),
         Request::Run(arguments) => match &arguments.command {
-            None => show::show(&arguments.picture),
-            Some(Command::Trace(trace)) => trace::trace(trace),
-            Some(Command::Tradeoff(arguments)) => tradeoff::tradeoff(arguments),
+            None => {
+                machine::check_floats(arguments.picture.accuracy)?;
+                show::show(&arguments.picture)
+            }
+            Some(Command::Trace(arguments)) => {
+                machine::check_floats(arguments.accuracy)?;
+                trace::trace(arguments)
+            }
+            Some(Command::Tradeoff(arguments)) => {
+                // What is wrong is what differs from exact.
+                machine::check_floats(Tier::Exact)?;
+                tradeoff::tradeoff(arguments)
+            }
             Some(Command::Scenes) => write_stdout(show::scenes().as_bytes()),
         },
     }

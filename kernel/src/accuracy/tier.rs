@@ -7,6 +7,7 @@
 use super::roots::RayLanes;
 use super::{Exact, Fast, Stable};
 use crate::geometry::sphere::Spheres;
+use crate::numeric::rounding::U;
 use crate::{Lanes, Ray, Sphere};
 use core::cmp::Ordering;
 use core::fmt::{Debug, Formatter};
@@ -65,6 +66,8 @@ mod sealed {
     pub trait Chosen: Copy {
         /// [`TierFormula::SPREAD`](super::TierFormula::SPREAD).
         fn spread(self) -> f32;
+        /// How far two answers may be in another order than their roots, in units of T: zero if roots are ordered.
+        fn answer_error(self) -> f32;
         /// Does `work` by the formula of the tier.
         fn with_formula<W: super::TierWork>(self, work: W) -> W::Output;
         /// [`TierFormula::compare_at`](super::TierFormula::compare_at).
@@ -89,6 +92,11 @@ impl<F: TierFormula> sealed::Chosen for F {
     #[inline(always)]
     fn spread(self) -> f32 {
         F::SPREAD
+    }
+
+    #[inline(always)]
+    fn answer_error(self) -> f32 {
+        if F::ORDERS_ROOTS { 0.0 } else { 8.0 * U }
     }
 
     #[inline(always)]
@@ -157,6 +165,11 @@ impl sealed::Chosen for Tier {
             Self::Stable => Stable::SPREAD,
             Self::Exact => Exact::SPREAD,
         }
+    }
+
+    #[inline(always)]
+    fn answer_error(self) -> f32 {
+        if self == Self::Exact { 0.0 } else { 8.0 * U }
     }
 
     #[inline(always)]

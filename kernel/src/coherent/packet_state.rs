@@ -175,7 +175,7 @@ impl<'a, L: Lanes> PacketState<'a, L> {
         }
 
         let RootInterval { candidates, entry, bound } =
-            pass.root_interval::<SPREADS>(start, [end[0], self.best], time.t_error(), spread);
+            pass.root_interval::<SPREADS>(start, [end[0], self.best], time.raise(tier), spread);
         let mut candidates = near & candidates;
         if Q::ANY {
             let sure = candidates & bound.lt(bound.like(f32::INFINITY));

@@ -17,6 +17,7 @@
 //! Why nothing is lost, and what every constant covers: `docs/traversal-margins.md`. `tests/structures/far.rs`
 //! guards it.
 
+use crate::Accuracy;
 use crate::accuracy::RayLanes;
 use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::{axes, dot};
@@ -54,8 +55,15 @@ impl<L: Lanes> RayTime<L> {
     /// What the s of an answer may be off, for all spheres alike: 4 u T. (Kept in memory instead: a packet's
     /// beginning loses what its hits gain.)
     #[inline(always)]
-    pub(crate) fn t_error(&self) -> L {
+    fn t_error(&self) -> L {
         self.shift * self.length * self.shift.like(4.0 * U)
+    }
+
+    /// What a bound that the root of one sphere sets is raised by: twice the t error, from root to answer and from
+    /// answer to root, unless the tier orders the roots themselves.
+    #[inline(always)]
+    pub(crate) fn raise(&self, tier: impl Accuracy) -> L {
+        self.shift * self.length * self.shift.like(tier.answer_error())
     }
 
     /// At least the s of a root that is answered by t.

@@ -176,7 +176,7 @@ impl RayState {
             start: [L::splat(token, start[0].get(lane)), L::splat(token, start[1].get(lane))],
             end: [L::splat(token, prepared.end[0].get(lane)), L::splat(token, self.best)],
             absolute_error: L::splat(token, prepared.absolute_error.get(lane)),
-            t_error: L::splat(token, prepared.time(lane).t_error()),
+            raise: L::splat(token, prepared.time(lane).raise(tests.tier)),
             spread: tests.tier.spread(),
         }
     }

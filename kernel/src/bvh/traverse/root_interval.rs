@@ -50,8 +50,8 @@ pub(crate) struct RayProbe<L: Lanes> {
     pub(crate) end: [L; 2],
     /// As [`PreparedLanes::absolute_error`](super::prepared_ray::PreparedLanes::absolute_error).
     pub(crate) absolute_error: L,
-    /// As [`RayTime::t_error`](super::prepared_ray::RayTime::t_error).
-    pub(crate) t_error: L,
+    /// As [`RayTime::raise`](super::prepared_ray::RayTime::raise).
+    pub(crate) raise: L,
     /// Of the tier.
     pub(crate) spread: f32,
 }
@@ -83,8 +83,8 @@ impl<L: Lanes> RayProbe<L> {
         spheres: &SphereColumns<'_>,
         part: usize,
     ) -> RootInterval<L> {
-        let Self { start, end, t_error, spread, .. } = *self;
-        self.pass(spheres, part).root_interval::<SPREADS>(start, end, t_error, spread)
+        let Self { start, end, raise, spread, .. } = *self;
+        self.pass(spheres, part).root_interval::<SPREADS>(start, end, raise, spread)
     }
 }
 
@@ -141,7 +141,7 @@ impl<L: Lanes> Pass<L> {
         &self,
         start: [L; 2],
         end: [L; 2],
-        t_error: L,
+        raise: L,
         spread: f32,
     ) -> RootInterval<L> {
         let Self { middle, radius, delta, ll, size } = *self;
@@ -167,6 +167,6 @@ impl<L: Lanes> Pass<L> {
         let far = hit & start[1].le(leaving) & left.le(end[0]);
         let infinity = radius.like(f32::INFINITY);
         let bound = L::select(near, entered, L::select(far, left, infinity));
-        RootInterval { candidates, entry, bound: bound + (t_error + t_error) }
+        RootInterval { candidates, entry, bound: bound + raise }
     }
 }

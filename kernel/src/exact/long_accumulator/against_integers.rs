@@ -84,10 +84,10 @@ fn squares_and_products_of_sums_are_exact() {
         let total = |numbers: &[f32]| numbers.iter().map(|&x| units(x)).sum::<BigInt>();
         let mut sum = LongAccumulator::zero();
         sum.add_square(&a, b[0]);
-        let exact = total(&some).pow(2) * units(others[0]) << (896 - 3 * 149);
+        let exact = (total(&some).pow(2) * units(others[0])) << (896 - 3 * 149);
         check(&sum, &exact);
         sum.add_products(&a, &b);
-        check(&sum, &(exact + (total(&some) * total(&others) << (896 - 2 * 149))));
+        check(&sum, &(exact + ((total(&some) * total(&others)) << (896 - 2 * 149))));
     }
 }
 

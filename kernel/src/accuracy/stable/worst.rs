@@ -1,0 +1,143 @@
+//! What [`Stable`](super::Stable) promises in its domain, against searches that climb.
+
+extern crate std;
+
+use super::Stable;
+use crate::accuracy::TierFormula;
+use crate::exact::{Quadratic, Root};
+use crate::testing::climb::{Random, climb};
+use crate::{Ray, Sphere, Vec3};
+use std::println;
+
+/// o, d, c, r.
+type Numbers = [f32; 10];
+
+/// Ulp of t, stated in the documentation of the tier.
+const ULPS: f64 = 8.0;
+/// How far a tangent is decided wrong, as a part of |p| + r: stated too, and proven in `docs/traversal-margins.md`.
+const GRAZE: f64 = 1.0 / (1_u64 << 41) as f64;
+/// The largest |p| / r of the domain.
+const FARTHEST: f64 = 1e6;
+
+fn parts(numbers: &Numbers) -> (Ray, Sphere) {
+    let [ox, oy, oz, dx, dy, dz, cx, cy, cz, r] = *numbers;
+    let ray =
+        Ray { t_min: f32::NEG_INFINITY, ..Ray::new(Vec3::new(ox, oy, oz), Vec3::new(dx, dy, dz)) };
+    (ray, Sphere { center: Vec3::new(cx, cy, cz), radius: r.abs() })
+}
+
+/// |p| and the ulp-close truth, if the case is in the domain.
+fn in_domain(numbers: &Numbers) -> Option<(f64, Ray, Sphere)> {
+    let (ray, sphere) = parts(numbers);
+    let p = sphere.center.to_array().map(f64::from);
+    let o = ray.origin.to_array().map(f64::from);
+    let away = libm::hypot(libm::hypot(p[0] - o[0], p[1] - o[1]), p[2] - o[2]);
+    let r = f64::from(sphere.radius);
+    (ray.is_live() && sphere.is_valid() && r > 0.0 && away <= FARTHEST * r)
+        .then_some((away, ray, sphere))
+}
+
+fn exact(ray: &Ray, sphere: &Sphere) -> Option<Quadratic> {
+    let (o, d) = (ray.origin.to_array(), ray.direction.to_array());
+    Quadratic::new(o, d, sphere.center.to_array(), sphere.radius)
+}
+
+/// The larger error of both roots, for rays that start a radius or more from the surface.
+fn ulps(numbers: &Numbers) -> f64 {
+    let Some((away, ray, sphere)) = in_domain(numbers) else { return 0.0 };
+    let (Some(stable), Some(exact)) = (Stable::line_roots(&ray, &sphere), exact(&ray, &sphere))
+    else {
+        return 0.0;
+    };
+    if away < 2.0 * f64::from(sphere.radius) {
+        return 0.0;
+    }
+    let mut worst = 0.0_f64;
+    for (t, root) in stable.into_iter().zip([Root::Near, Root::Far]) {
+        let truth = exact.rounded(root);
+        let ulp = f64::from(truth.abs().next_up()) - f64::from(truth.abs());
+        let off = (f64::from(t) - f64::from(truth)).abs() / ulp;
+        worst = worst.max(if truth.is_normal() { off } else { 0.0 });
+    }
+    worst
+}
+
+/// How far from a tangent, as a part of |p| + r, a line is that is decided wrong; zero if it is decided right.
+fn graze(numbers: &Numbers) -> f64 {
+    let Some((away, ray, sphere)) = in_domain(numbers) else { return 0.0 };
+    let meets = exact(&ray, &sphere).is_some();
+    if Stable::line_roots(&ray, &sphere).is_some() == meets {
+        return 0.0;
+    }
+    let r = f64::from(sphere.radius);
+    (distance(numbers) - r).abs() / (away + r)
+}
+
+/// l, in double precision, of which some 2^-52 |p| is lost.
+fn distance(numbers: &Numbers) -> f64 {
+    let [ox, oy, oz, dx, dy, dz, cx, cy, cz, _] = numbers.map(f64::from);
+    let (d, p) = ([dx, dy, dz], [cx - ox, cy - oy, cz - oz]);
+    let x = [d[1] * p[2] - d[2] * p[1], d[2] * p[0] - d[0] * p[2], d[0] * p[1] - d[1] * p[0]];
+    let square = |v: [f64; 3]| v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    libm::sqrt(square(x) / square(d))
+}
+
+/// A sphere up to a million radii ahead of a ray that passes its centre by `part` of its radius.
+fn start(random: &mut Random, part: f64) -> Numbers {
+    let mut d = random.point(0).map(f64::from);
+    if d == [0.0; 3] {
+        d[0] = 1.0;
+    }
+    let length = libm::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    let other = [(); 3].map(|()| f64::from(random.about(0)));
+    let side = [
+        d[1] * other[2] - d[2] * other[1],
+        d[2] * other[0] - d[0] * other[2],
+        d[0] * other[1] - d[1] * other[0],
+    ];
+    let width = libm::sqrt(side[0] * side[0] + side[1] * side[1] + side[2] * side[2]);
+    let r = random.wide(-8, 8).abs();
+    let farthest = 1 + random.below(19) as i32;
+    let ahead = f64::from(r) * f64::from(random.wide(0, farthest));
+    let (along, aside) = (ahead / length, f64::from(r) * part / width);
+    let size = random.below(40) as i32 - 20;
+    let o = random.point(size);
+    let mut numbers = [0.0; 10];
+    for i in 0..3 {
+        let c = f64::from(o[i]) + d[i] * along + side[i] * aside;
+        (numbers[i], numbers[3 + i], numbers[6 + i]) = (o[i], d[i] as f32, c as f32);
+    }
+    numbers[9] = r;
+    numbers
+}
+
+#[test]
+fn t_is_within_its_ulps() {
+    let anywhere = |random: &mut Random| {
+        let part = 1.0 - f64::from(random.wide(-24, -1).abs());
+        start(random, part)
+    };
+    let (worst, numbers) = climb(41, 3000, 500, anywhere, ulps);
+    println!("Stable is {worst} ulp off at most: {numbers:?}");
+    assert!(ULPS / 2.0 < worst && worst <= ULPS, "{worst} at {numbers:?}");
+}
+
+#[test]
+fn a_tangent_is_decided_right_from_its_distance_on() {
+    let grazing = |random: &mut Random| {
+        // The radius that is nearest to l: the best of many beginnings.
+        let near = |random: &mut Random| {
+            let mut numbers = start(random, 1.0);
+            numbers[9] = distance(&numbers) as f32;
+            numbers
+        };
+        let draws = [(); 100].map(|()| near(random));
+        draws.into_iter().max_by(|a, b| graze(a).total_cmp(&graze(b))).unwrap_or([1.0; 10])
+    };
+    let (worst, numbers) = climb(42, 300, 300, grazing, graze);
+    println!(
+        "Stable decides wrong 2^{:.1} (|p| + r) from a tangent: {numbers:?}",
+        libm::log2(worst)
+    );
+    assert!(GRAZE / 4096.0 < worst && worst <= GRAZE, "2^{} at {numbers:?}", libm::log2(worst));
+}
