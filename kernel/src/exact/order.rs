@@ -102,7 +102,10 @@ impl TwoSpheres {
             *place = term;
         }
         Self {
-            square: first.direction.map(|d| d.times(d)),
+            square: [0, 1, 2].map(|axis| {
+                let [d, ..] = first.axis(axis);
+                d.times(d)
+            }),
             half_slope,
             slopes: [a, b, c, d.negated(), e.negated(), f.negated()],
             power: [one, other],

@@ -39,67 +39,132 @@ pub(crate) struct Quadratic {
     estimates: [f64; 2],
 }
 
-/// What the coefficients of a quadratic are sums of.
+/// A line and a sphere, as what the coefficients of their quadratic are sums of.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct QuadraticTerms {
-    /// d, c and -o, axis by axis.
-    pub(super) direction: [Product; 3],
-    pub(super) center: [Product; 3],
-    pub(super) minus_origin: [Product; 3],
-    /// -r^2.
-    pub(super) minus_square: Product,
+    origin: [f32; 3],
+    direction: [f32; 3],
+    center: [f32; 3],
+    radius: f32,
 }
 
 impl QuadraticTerms {
     /// Domain: a valid ray and a valid sphere. Anything else returns too, with no meaning.
-    pub(crate) fn new(
+    pub(crate) const fn new(
         origin: [f32; 3],
         direction: [f32; 3],
         center: [f32; 3],
         radius: f32,
     ) -> Self {
-        let radius = Product::of(radius);
-        Self {
-            direction: direction.map(Product::of),
-            center: center.map(Product::of),
-            minus_origin: origin.map(|o| Product::of(o).negated()),
-            minus_square: radius.times(radius).negated(),
-        }
+        Self { origin, direction, center, radius }
     }
 
-    /// -D = |d x p|^2 - a r^2.
-    fn minus_discriminant(&self) -> LongAccumulator {
-        let mut sum = LongAccumulator::zero();
-        let Self { direction: d, center: c, minus_origin: o, minus_square } = self;
-        // Each component of d x p from the two axes after its own.
-        for (i, j) in [(1, 2), (2, 0), (0, 1)] {
-            let minus = d[j].negated();
-            let component =
-                [d[i].times(c[j]), d[i].times(o[j]), minus.times(c[i]), minus.times(o[i])];
+    /// d, c and -o along an axis. (Made anew where they are needed: kept, they are most of the stack.)
+    pub(super) fn axis(&self, axis: usize) -> [Product; 3] {
+        let axis = axis % 3;
+        let [d, c, o] = [self.direction[axis], self.center[axis], self.origin[axis]];
+        [Product::of(d), Product::of(c), Product::of(o).negated()]
+    }
+
+    /// -r^2.
+    pub(super) fn minus_square(&self) -> Product {
+        let radius = Product::of(self.radius);
+        radius.times(radius).negated()
+    }
+
+    /// Adds -D = |d x p|^2 - a r^2.
+    #[inline(never)]
+    fn add_minus_discriminant(&self, sum: &mut LongAccumulator) {
+        let minus_square = self.minus_square();
+        for k in 0..3 {
+            // A component of d x p from the two axes after its own.
+            let ([di, ci, oi], [dj, cj, oj]) = (self.axis(k + 1), self.axis(k + 2));
+            let minus = dj.negated();
+            let component = [di.times(cj), di.times(oj), minus.times(ci), minus.times(oi)];
             sum.add_square(&component, Product::ONE);
+            sum.add(minus_square.times(di.times(di)));
         }
-        for d in d {
-            sum.add_product(*minus_square, d.times(*d));
-        }
-        sum
     }
 
-    /// What b = d.p is the sum of.
+    /// What b = d.p is the sum of: the terms with c, then those with o.
     pub(super) fn half_slope(&self) -> [Product; 6] {
-        let Self {
-            direction: [dx, dy, dz], center: [cx, cy, cz], minus_origin: [ox, oy, oz], ..
-        } = *self;
+        let [[dx, cx, ox], [dy, cy, oy], [dz, cz, oz]] = [0, 1, 2].map(|axis| self.axis(axis));
         [dx.times(cx), dy.times(cy), dz.times(cz), dx.times(ox), dy.times(oy), dz.times(oz)]
     }
 
-    /// What k = p.p - r^2 is the sum of: what the sphere alone decides, and |o|^2.
+    /// What k = p.p - r^2 is the sum of: what depends on the sphere, and |o|^2.
     pub(super) fn power(&self) -> ([Product; 7], [Product; 3]) {
-        let Self { center: [cx, cy, cz], minus_origin: [ox, oy, oz], minus_square, .. } = *self;
+        let [[_, cx, ox], [_, cy, oy], [_, cz, oz]] = [0, 1, 2].map(|axis| self.axis(axis));
         let twice = |c: Product, o: Product| c.times(o).scaled(1);
-        let squares = [cx.times(cx), cy.times(cy), cz.times(cz)];
-        let [x, y, z] = squares;
-        let of_sphere = [x, y, z, twice(cx, ox), twice(cy, oy), twice(cz, oz), minus_square];
+        let of_sphere = [
+            cx.times(cx),
+            cy.times(cy),
+            cz.times(cz),
+            twice(cx, ox),
+            twice(cy, oy),
+            twice(cz, oz),
+            self.minus_square(),
+        ];
         (of_sphere, [ox.times(ox), oy.times(oy), oz.times(oz)])
+    }
+
+    /// D, estimated; `None` if it is negative.
+    #[inline(never)]
+    fn discriminant(&self) -> Option<f64> {
+        let mut sum = LongAccumulator::zero();
+        self.add_minus_discriminant(&mut sum);
+        (sum.sign() != Ordering::Greater).then(|| -sum.estimate())
+    }
+
+    /// b = d.p, estimated.
+    #[inline(never)]
+    fn half_slope_estimate(&self) -> f64 {
+        let mut sum = LongAccumulator::zero();
+        for axis in 0..3 {
+            let [d, c, o] = self.axis(axis);
+            sum.add(d.times(c));
+            sum.add(d.times(o));
+        }
+        sum.estimate()
+    }
+
+    /// k = p.p - r^2, estimated.
+    #[inline(never)]
+    fn power_estimate(&self) -> f64 {
+        let mut sum = LongAccumulator::zero();
+        sum.add(self.minus_square());
+        for axis in 0..3 {
+            let [_, c, o] = self.axis(axis);
+            sum.add_square(&[c, o], Product::ONE);
+        }
+        sum.estimate()
+    }
+
+    /// m d - p along an axis.
+    fn beside(&self, axis: usize, m: Product) -> [Product; 3] {
+        let [d, c, o] = self.axis(axis);
+        [m.times(d), c.negated(), o.negated()]
+    }
+
+    /// The sign of f = |m d - p|^2 - r^2.
+    #[inline(never)]
+    fn sign_of_power_at(&self, m: Product) -> Ordering {
+        let mut sum = LongAccumulator::zero();
+        sum.add(self.minus_square());
+        for axis in 0..3 {
+            sum.add_square(&self.beside(axis, m), Product::ONE);
+        }
+        sum.sign()
+    }
+
+    /// The sign of g = d.(m d - p).
+    #[inline(never)]
+    fn sign_of_slope_at(&self, m: Product) -> Ordering {
+        let mut sum = LongAccumulator::zero();
+        for axis in 0..3 {
+            sum.add_products(&self.beside(axis, m), &self.axis(axis)[..1]);
+        }
+        sum.sign()
     }
 }
 
@@ -114,19 +179,11 @@ impl Quadratic {
         radius: f32,
     ) -> Option<Self> {
         let terms = QuadraticTerms::new(origin, direction, center, radius);
-        let minus_discriminant = terms.minus_discriminant();
-        if minus_discriminant.sign() == Ordering::Greater {
-            return None;
-        }
 
         // q = b + sign(b) sqrt D does not cancel: 2 u of b, 2 u of the root, 1 u of the sum.
         // a is within 2 u, k within 2 u; so q / a within 8 u, k / q within 8 u.
-        let root = libm::sqrt(-minus_discriminant.estimate());
-        let (mut b, mut k) = (LongAccumulator::zero(), LongAccumulator::zero());
-        terms.half_slope().into_iter().for_each(|term| b.add(term));
-        let (of_sphere, of_origin) = terms.power();
-        of_sphere.into_iter().chain(of_origin).for_each(|term| k.add(term));
-        let (b, k) = (b.estimate(), k.estimate());
+        let root = libm::sqrt(terms.discriminant()?);
+        let (b, k) = (terms.half_slope_estimate(), terms.power_estimate());
         let a: f64 = direction.iter().map(|&d| f64::from(d) * f64::from(d)).sum();
         let q = if b < 0.0 { b - root } else { b + root };
         // q is zero only where b and D are, and then so is k: both roots are zero.
@@ -156,21 +213,11 @@ impl Quadratic {
     }
 
     /// How a root compares with `t`, a number of at most 25 significant bits.
-    #[inline(never)]
     fn compare_with(&self, t: f64, root: Root) -> Ordering {
-        let QuadraticTerms { direction, center, minus_origin, minus_square } = self.terms;
         // 25 bits and 24, squared, are no more than 128.
-        let t = Product::of_double(t);
-        let (mut f, mut g) = (LongAccumulator::zero(), LongAccumulator::zero());
-        f.add(minus_square);
-        for ((d, c), o) in direction.into_iter().zip(center).zip(minus_origin) {
-            // m d - p, with p = c - o.
-            let component = [t.times(d), c.negated(), o.negated()];
-            f.add_square(&component, Product::ONE);
-            g.add_products(&component, &[d]);
-        }
+        let m = Product::of_double(t);
         let outward = if root == Root::Near { Ordering::Less } else { Ordering::Greater };
-        match (f.sign(), g.sign()) {
+        match (self.terms.sign_of_power_at(m), self.terms.sign_of_slope_at(m)) {
             (Ordering::Greater, slope) if slope == outward => outward.reverse(),
             (Ordering::Equal, slope) if slope == outward || slope == Ordering::Equal => {
                 Ordering::Equal

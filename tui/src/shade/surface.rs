@@ -1,9 +1,20 @@
 //! The point of a sphere that a hit stands for, and one just off it for secondary rays.
 //!
 //! The hit point o + t d in `f32` lies inside the sphere as often as outside, and so a ray from it may
-//! meet the sphere that it starts on. Here the point is computed in double precision, put back onto
-//! the sphere along the radius, and moved off it along the normal by a distance for which no tier
-//! sees the sphere again.
+//! meet the sphere that it starts on; and from afar t is rounded to more than the sphere's size. So t only says
+//! which of the two roots was hit. The point is computed from the sphere's centre, in double precision, and moved off
+//! the sphere along the normal by a distance for which no tier sees the sphere again.
+//!
+//! # The point
+//!
+//! With p = c - o, a = d.d, b = d.p and D = a r^2 - |d x p|^2, the roots are t = (b -+ sqrt D) / a, and
+//!
+//! ```text
+//! t d - p = (d x (d x p) -+ d sqrt D) / a
+//! ```
+//!
+//! is the point as seen from the centre. d x p loses some 2^-51 |d| |p|, so a normal is off by some 2^-50 |p| / r: 2^-27 from
+//! 10^7 radii away.
 //!
 //! # The distance
 //!
@@ -38,10 +49,25 @@ impl SurfacePoint {
     #[inline]
     pub fn new(ray: &Ray, t: f32, sphere: &Sphere) -> Self {
         let (center, direction) = (sphere.center.as_dvec3(), ray.direction.as_dvec3());
-        let (origin, t, radius) = (ray.origin.as_dvec3(), f64::from(t), f64::from(sphere.radius));
+        let radius = f64::from(sphere.radius);
 
         // The unit normal that points out of the sphere, and the point under it.
-        let outward = if radius > 0.0 { origin - center + t * direction } else { -direction };
+        let outward = if radius > 0.0 {
+            let from_origin = center - ray.origin.as_dvec3();
+            let across = direction.cross(from_origin);
+            let a = direction.length_squared();
+            // `Fast` may hit what the line misses.
+            let half_chord = (a * (radius * radius) - across.length_squared()).max(0.0).sqrt();
+            // The near root, if t is what that is rounded to, or nearer to it than to the far one.
+            let b = direction.dot(from_origin);
+            let [near, far] = [(b - half_chord) / a, (b + half_chord) / a];
+            let off = |root: f64| (f64::from(t) - root).abs();
+            let is_near = near as f32 == t || off(near) <= off(far);
+            let half_chord = if is_near { -half_chord } else { half_chord };
+            (direction.cross(across) + half_chord * direction) / a
+        } else {
+            -direction
+        };
         let scale = 1.0 / outward.length_squared().sqrt();
         let point = center + radius * scale * outward;
 

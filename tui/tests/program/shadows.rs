@@ -1,9 +1,10 @@
-//! No tier sees a sphere in the shadow of itself (acne), whatever its size and place.
+//! No tier sees a sphere in the shadow of itself (acne), whatever its size and place; and normals are right from afar.
 
 use spherule::color::Srgb;
 use spherule::scene::{Light, Source};
 use spherule::shade::SurfacePoint;
 use spherule_kernel::{Intersect, Ray, Sphere, SphereList, Tier, Vec3};
+use spherule_tests::oracle;
 use spherule_tests::random::Random;
 
 /// How many shadow rays from points of spheres of this radius and place meet their own sphere,
@@ -89,4 +90,41 @@ fn a_huge_ground_has_no_acne() {
         }
         assert!(lit > 10_000);
     }
+}
+
+/// From up to 10^7 radii away, where t is rounded to a radius: against integers, and nothing in its own shadow.
+#[test]
+fn from_afar_normals_are_right_and_nothing_shadows_itself() {
+    let mut random = Random::seeded(8);
+    let (mut hits, mut lit) = (0, 0);
+    for distance in [3.0, 1e3, 1e5, 1e6, 3e6, 1e7] {
+        for _ in 0..3000 {
+            let radius = random.between(0.5, 4.0);
+            let sphere = Sphere { center: random.in_cube(8.0), radius };
+            let origin = sphere.center + distance * radius * random.direction();
+            let target = sphere.center + radius * random.in_cube(1.0);
+            let ray = Ray::new(origin, target - origin);
+            let spheres = SphereList::from([sphere]);
+            let Some(hit) = spheres.closest_hit(Tier::Exact, &ray) else { continue };
+            let point = SurfacePoint::new(&ray, hit.t, &sphere);
+            let truth = oracle::normal(&ray, &sphere, false).expect("a hit");
+            let off = (0..3).map(|i| (f64::from(point.normal[i]) - truth[i]).abs());
+            let off = off.fold(0.0, f64::max);
+            // Rounded to f32; near the rim the root of what is lost.
+            let facing = (truth[0] * f64::from(ray.direction.x)
+                + truth[1] * f64::from(ray.direction.y)
+                + truth[2] * f64::from(ray.direction.z))
+                / f64::from(ray.direction.length());
+            let allowed = 2e-7 + f64::from(distance) * 4e-16 / facing.abs().max(1e-5);
+            assert!(off <= allowed, "{off} at {distance}: {ray:?} {sphere:?}");
+            hits += 1;
+            let light =
+                Light { source: Source::Direction(random.in_cube(1.0)), color: Srgb::WHITE };
+            if let Some((ray, _)) = point.towards(&light) {
+                assert!(!spheres.any_hit(Tier::Exact, &ray), "{ray:?} {sphere:?}");
+                lit += 1;
+            }
+        }
+    }
+    assert!(hits > 5000 && lit > 2000, "{hits} {lit}");
 }
