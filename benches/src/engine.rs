@@ -88,8 +88,9 @@ pub(crate) enum Promise {
 impl Promise {
     /// The textbook form in single precision: p.p - r^2 cancels some thousandfold in the small scenes.
     pub(crate) const TEXTBOOK: Self = Self::Near(8.0 / 1024.0, 1 << 14);
-    /// Another program's, which may think otherwise of grazed spheres, of a start on a surface, and of cancelled digits.
-    pub(crate) const OTHERS: Self = Self::Near(1e-2, 1 << 14);
+    /// Another program's, which may think otherwise of grazed spheres, of a start on a surface, of cancelled digits, and, from
+    /// 10^4 scene sizes away, of which sphere is in front.
+    pub(crate) const OTHERS: Self = Self::Near(2e-2, 1 << 14);
 }
 
 /// Rays, and the same in packets, which all levels of the kernel share: so that they are as warm for each.
