@@ -1,9 +1,9 @@
 //! Packets that look the same way, traced together: down a tree (`tree_source`), or through spheres in the
 //! order of their depth (`list_source`).
 //!
-//! Both go the same way: `packet_state` holds what a packet knows, `fit` lays planes around a group of
-//! packets, `frustum` tells which boxes and spheres are between the planes. One proof of the margins
-//! serves both: `docs/traversal-margins.md`.
+//! Both go the same way: `packet_state` holds what a packet knows, `packet_group` what four do together,
+//! `fit` lays planes around a group of packets, `frustum` tells which boxes and spheres are between the
+//! planes. One proof of the margins serves both: `docs/traversal-margins.md`.
 
 pub(crate) mod depth_list;
 mod depth_sort;
@@ -11,6 +11,7 @@ mod fit;
 mod frustum;
 pub(crate) mod list_source;
 mod listed;
+mod packet_group;
 mod packet_state;
 mod survey;
 pub(crate) mod tree_source;

@@ -3,6 +3,8 @@
 //! What double precision cannot prove, a few tangents, rounding ties and roots that nearly coincide, comes here:
 //! slow, scalar, and right for every finite `f32`.
 
+#[cfg(test)]
+mod cost;
 mod long_accumulator;
 mod order;
 mod quadratic;

@@ -1,15 +1,21 @@
-//! Rays against a list of spheres, from end to end; pairs; and both roots of one line.
+//! Rays against a list of spheres, from end to end.
+
+mod line;
+mod pairs;
 
 use crate::Accuracy;
-use crate::accuracy::{RayLanes, TierFormula, TierWork, all_finite, is_closer};
+use crate::accuracy::{RayLanes, TierFormula, TierWork, is_closer};
 use crate::filter::{BLOCK_SPHERES, FilterBlock, FilterGroup, FilterRays, GROUP};
-use crate::geometry::hit::{Hit, HitPacket};
-use crate::geometry::ray::{Ray, RayPacket};
-use crate::geometry::sphere::{Sphere, SpherePacket, Spheres};
+use crate::geometry::hit::Hit;
+use crate::geometry::ray::RayPacket;
+use crate::geometry::sphere::Spheres;
 use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::axes;
 use crate::query::Query;
-use core::cmp::Ordering;
+
+pub use line::{compare_hits, roots};
+pub(crate) use pairs::each_pair;
+pub use pairs::pair_lanes;
 
 /// Answers every ray by testing it against all spheres.
 ///
@@ -167,143 +173,5 @@ fn take_closer<F: TierFormula, L: Lanes, Q: Query>(
         let t = t.get(lane);
         let is_closer = |old| is_closer(F::THIS, spheres, &packet.ray(lane), t, [index, old]);
         Q::take::<L::Array>(answer, lane, Hit { t, sphere: index }, is_closer);
-    }
-}
-
-/// Ray `i` against sphere `i` alone; the sphere index of a hit is its lane.
-///
-/// Returns bit for bit what [`Intersect::closest_hit_lanes`](crate::Intersect::closest_hit_lanes)
-/// finds for that ray in a list of that sphere. Cost: no filter; the tier's price for every packet.
-///
-/// ```
-/// use spherule_kernel::{Exact, Ray, RayPacket, SpherePacket, Vec3, f32x8, pair_lanes};
-///
-/// let rays = RayPacket::<[f32; 8]>::new(&[Ray::new(Vec3::ZERO, Vec3::Z)]);
-/// let spheres = SpherePacket::<[f32; 8]>::new(&[[0.0, 0.0, 5.0, 1.0].into()]);
-/// assert_eq!(pair_lanes::<f32x8>(Exact, (), &rays, &spheres).t()[0], 4.0);
-/// ```
-#[must_use]
-#[inline(always)]
-pub fn pair_lanes<L: Lanes>(
-    tier: impl Accuracy,
-    token: L::Token,
-    rays: &RayPacket<L::Array>,
-    spheres: &SpherePacket<L::Array>,
-) -> HitPacket<L::Array> {
-    tier.with_formula(PairTest::<L> { token, rays, spheres })
-}
-
-/// [`pair_lanes`], packet by packet.
-#[inline(always)]
-pub(crate) fn each_pair<L: Lanes>(
-    tier: impl Accuracy,
-    token: L::Token,
-    rays: &[RayPacket<L::Array>],
-    spheres: &[SpherePacket<L::Array>],
-    hits: &mut [HitPacket<L::Array>],
-) {
-    let count = rays.len().min(spheres.len()).min(hits.len());
-    for place in 0..count {
-        if let (Some(rays), Some(spheres), Some(hits)) =
-            (rays.get(place), spheres.get(place), hits.get_mut(place))
-        {
-            *hits = pair_lanes::<L>(tier, token, rays, spheres);
-        }
-    }
-}
-
-/// The arguments of [`pair_lanes`].
-struct PairTest<'a, L: Lanes> {
-    token: L::Token,
-    rays: &'a RayPacket<L::Array>,
-    spheres: &'a SpherePacket<L::Array>,
-}
-
-impl<L: Lanes> TierWork for PairTest<'_, L> {
-    type Output = HitPacket<L::Array>;
-
-    #[inline(always)]
-    fn run<F: TierFormula>(self) -> HitPacket<L::Array> {
-        let Self { token, rays, spheres } = self;
-        let rays = RayLanes::<L>::load(token, rays);
-        let center = axes!(i => L::load(token, &spheres.center[i]));
-        let radius = L::load(token, &spheres.radius);
-        let (zero, infinity) = (radius.like(0.0), radius.like(f32::INFINITY));
-        let asked = rays.live & all_finite(center) & zero.le(radius) & radius.lt(infinity);
-        let t = F::first_root(&rays, &F::prepare(&rays), center, radius, asked, infinity);
-        let t = L::select(asked, t, infinity);
-        let mut hits = HitPacket::none();
-        hits.t = t.store();
-        let (met, indices) = (t.lt(infinity).bits(), hits.sphere.as_mut());
-        for lane in 0..L::COUNT {
-            if met >> lane & 1 == 1
-                && let Some(index) = indices.get_mut(lane)
-            {
-                *index = lane as u32;
-            }
-        }
-        hits
-    }
-}
-
-/// Entry and exit of the whole line, whatever the ray's interval: the smaller root first.
-///
-/// Returns `None` if the line misses the sphere, or if either is invalid. A root that is too large for a number is an
-/// infinity of its sign. t counts in multiples of the ray's direction.
-///
-/// ```
-/// use spherule_kernel::{Exact, Ray, Sphere, Vec3, roots};
-///
-/// let sphere = Sphere::from([0.0, 0.0, 5.0, 1.0]);
-/// assert_eq!(roots(Exact, &Ray::new(Vec3::ZERO, Vec3::Z), &sphere), Some([4.0, 6.0]));
-/// ```
-#[must_use]
-pub fn roots(tier: impl Accuracy, ray: &Ray, sphere: &Sphere) -> Option<[f32; 2]> {
-    let line = Ray { t_min: f32::NEG_INFINITY, t_max: f32::INFINITY, ..*ray };
-    if !line.is_live() || !sphere.is_valid() {
-        return None;
-    }
-    tier.with_formula(LineRoots { line: &line, sphere })
-}
-
-/// The arguments of [`roots`].
-struct LineRoots<'a> {
-    line: &'a Ray,
-    sphere: &'a Sphere,
-}
-
-impl TierWork for LineRoots<'_> {
-    type Output = Option<[f32; 2]>;
-
-    #[inline(always)]
-    fn run<F: TierFormula>(self) -> Option<[f32; 2]> {
-        F::line_roots(self.line, self.sphere)
-    }
-}
-
-/// Which of two hits of one ray comes first, for callers who keep their own closest hit: each is the t of a `tier`'s
-/// answer, and its sphere.
-///
-/// By [`Exact`](crate::Exact) the roots are compared as real numbers, which may differ where t are equal; `Equal` means
-/// that they are the same number, and the lower index is the closer hit. The other tiers compare t. If t is not the
-/// tier's answer for its sphere, the result has no meaning. Cost: nothing if t differ; else some 50 ns, and some
-/// microseconds where double precision cannot tell.
-///
-/// ```
-/// use spherule_kernel::{Exact, Ray, Sphere, Vec3, compare_hits, roots};
-///
-/// // A million away, f32 tells nothing less than 1/16 apart.
-/// let ray = Ray::new(Vec3::new(0.0, 0.0, -1e6), Vec3::Z);
-/// let spheres = [1.0, 1.015625].map(|radius| Sphere { center: Vec3::ZERO, radius });
-/// let [Some([t, _]), Some([u, _])] = spheres.map(|sphere| roots(Exact, &ray, &sphere)) else { panic!() };
-/// assert_eq!(t, u);
-/// assert!(compare_hits(Exact, &ray, [(t, &spheres[0]), (u, &spheres[1])]).is_gt());
-/// ```
-#[must_use]
-pub fn compare_hits(tier: impl Accuracy, ray: &Ray, hits: [(f32, &Sphere); 2]) -> Ordering {
-    let [(t, first), (other, second)] = hits;
-    match t.partial_cmp(&other) {
-        Some(Ordering::Equal) => tier.compare_at(ray, t, [first, second]),
-        order => order.unwrap_or(Ordering::Equal),
     }
 }

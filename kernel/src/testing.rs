@@ -1,3 +1,5 @@
 //! What the unit tests share.
 
 pub(crate) mod climb;
+pub(crate) mod integers;
+pub(crate) mod limbs;

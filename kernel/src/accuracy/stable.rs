@@ -36,11 +36,15 @@ use crate::{LaneMask, Lanes, Ray, Sphere};
 /// The best form that plain `f32` allows: few-ulp answers without wider arithmetic.
 ///
 /// Domain: r and |p| (p the centre less the origin) zero or within [2^-40, 2^40]; any direction
-/// whose largest component is a normal number. Inside it, for |p|/r up to 1e6: decisions
-/// right except for tangents closer than 2^-41 (|p| + r) (2^-48 is the most that a search finds); t within 8 ulp
-/// if the ray starts a radius or more from the surface (7 is the most that searches find; 36 follows from the margins
-/// of the traversal), nearer than that within
-/// 2^-17 r of distance. Outside it: answers in the same bits on every target, but no promise. Which of several hits with
+/// whose largest component is a normal number. Inside it, for |p|/r up to 1e6:
+///
+/// - Decisions are right except for tangents closer than 2^-41 (|p| + r). The most that a search
+///   found is 2^-49.
+/// - t is within 8 ulp if the ray starts a radius or more from the surface. The most that a search
+///   found is 7; 36 follows from the margins of the traversal.
+/// - Nearer than that, t is within 2^-17 r of distance.
+///
+/// Outside it: answers in the same bits on every target, but no promise. Which of several hits with
 /// the same t is the closest is not known.
 #[derive(Clone, Copy, Debug)]
 pub struct Stable;

@@ -14,8 +14,9 @@ use core::fmt::{Debug, Formatter};
 
 /// The formula of a tier.
 pub trait TierFormula: Copy + Debug {
-    /// The tier as a value, of its own type and of all.
+    /// The tier as a value of its own type.
     const THIS: Self;
+    /// The same as a value of all tiers' type.
     const TIER: Tier;
 
     /// How far off the tier may be beside the few ulp of s that are allowed to all: as if r^2

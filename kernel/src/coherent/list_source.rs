@@ -6,7 +6,8 @@
 use super::depth_list::DepthList;
 use super::fit::{Fit, greatest_of, spread_of};
 use super::listed::Listed;
-use super::packet_state::{GROUP, PacketState, meet_block};
+use super::packet_group::{GROUP, meet_block};
+use super::packet_state::PacketState;
 use super::survey::{Survey, reaches};
 use super::view::View;
 use crate::Accuracy;

@@ -13,7 +13,8 @@
 
 use super::fit::Fit;
 use super::frustum::Inside;
-use super::packet_state::{GROUP, PacketState, approach, meet_block};
+use super::packet_group::{GROUP, approach, meet_block};
+use super::packet_state::PacketState;
 use crate::Accuracy;
 use crate::accuracy::RayLanes;
 use crate::bvh::node::{DEPTH, LEAF, NO_CHILD, WIDTH};

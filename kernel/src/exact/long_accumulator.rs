@@ -139,6 +139,8 @@ impl LongAccumulator {
             if number >= shifted.len() && !carry {
                 return;
             }
+            #[cfg(test)]
+            crate::testing::limbs::touch();
             let (sum, first, second);
             if negative {
                 (sum, first) = place.overflowing_sub(more);

@@ -4,19 +4,10 @@ extern crate std;
 
 use super::{LongAccumulator, Product};
 use crate::testing::climb::Random;
+use crate::testing::integers::units;
 use core::cmp::Ordering;
 use num_bigint::BigInt;
 use std::vec::Vec;
-
-/// `value` in units of 2^-149.
-fn units(value: f32) -> BigInt {
-    let (exponent, fraction) = (value.to_bits() >> 23 & 0xff, value.to_bits() & 0x007f_ffff);
-    let units = match exponent {
-        0 => BigInt::from(fraction),
-        _ => BigInt::from(fraction | 0x0080_0000) << (exponent - 1),
-    };
-    if value < 0.0 { -units } else { units }
-}
 
 fn check(sum: &LongAccumulator, exact: &BigInt) {
     assert_eq!(sum.sign(), exact.cmp(&BigInt::ZERO));

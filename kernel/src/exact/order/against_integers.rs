@@ -5,6 +5,7 @@ extern crate std;
 use super::{QuadraticTerms, Root, compare_roots};
 use crate::exact::Quadratic;
 use crate::testing::climb::Random;
+use crate::testing::integers::units;
 use core::cmp::Ordering;
 use num_bigint::BigInt;
 use std::vec::Vec;
@@ -13,16 +14,6 @@ const ROOTS: [Root; 2] = [Root::Near, Root::Far];
 
 /// Ray and two spheres: o, d, c and r, c and r.
 type Numbers = [f32; 14];
-
-/// In units of 2^-149.
-fn units(x: f32) -> BigInt {
-    let (exponent, fraction) = (x.to_bits() >> 23 & 0xff, x.to_bits() & 0x007f_ffff);
-    let units = match exponent {
-        0 => BigInt::from(fraction),
-        _ => BigInt::from(fraction | 0x0080_0000) << (exponent - 1),
-    };
-    if x < 0.0 { -units } else { units }
-}
 
 /// Both numerators b -+ sqrt D in 2^-2000, cut; `None` if the line misses.
 fn numerators(o: &[BigInt], d: &[BigInt], c: &[BigInt], r: &BigInt) -> Option<[BigInt; 2]> {

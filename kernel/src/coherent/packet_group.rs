@@ -1,0 +1,70 @@
+//! The packets of a group: how they begin, and meet a block of spheres together.
+
+use super::packet_state::PacketState;
+use crate::Accuracy;
+use crate::bvh::traverse::prepared_ray::far_away;
+use crate::bvh::traverse::root_interval::SphereColumns;
+use crate::bvh::traverse::source::SphereSource;
+use crate::lanes::{LaneMask, Lanes};
+use crate::numeric::rounding::most;
+use crate::query::Query;
+
+/// How many packets go together.
+pub(super) const GROUP: usize = 4;
+
+/// Tests sixteen spheres, those in `places`, from `depth` on, with every packet that goes there and whose
+/// planes, for spheres that are larger by `spread`, leave them in; `end` becomes the greatest depth that any of them still
+/// goes to, if that changes.
+#[inline(always)]
+pub(super) fn meet_block<L: Lanes, Q: Query>(
+    tier: impl Accuracy,
+    source: &impl SphereSource,
+    states: &mut [PacketState<'_, L>],
+    (number, spheres, depth): (u32, &SphereColumns<'_>, f32),
+    (places, spread): (u32, f32),
+    depth_of: impl Fn(&PacketState<'_, L>) -> f32,
+    end: &mut f32,
+) {
+    let mut any_changed = false;
+    for state in &mut *states {
+        // (3 % of the time of u10k, 6 % of u1m's.)
+        if depth > state.depth {
+            continue;
+        }
+        let places = places & state.sides.look::<L>(state.token(), spheres, spread);
+        if places != 0 && state.meet::<Q>(tier, source, (number, spheres), places) {
+            state.depth = depth_of(state);
+            any_changed = true;
+        }
+    }
+    if any_changed {
+        *end = f32::NEG_INFINITY;
+        for state in &*states {
+            *end = most(*end, state.depth);
+        }
+    }
+}
+
+/// Lets new packets begin nearer to a scene of that extent, if any of their rays are far away: in place,
+/// since a choice between two states costs a tenth of a group's time.
+#[inline(always)]
+pub(super) fn approach<L: Lanes>(states: &mut [PacketState<'_, L>], extent: f32, spread: f32) {
+    let Some(first) = states.first() else { return };
+    let token = first.token();
+    let mut far = far_away(first.live, first.rays.absolute_error, extent);
+    for state in states.iter() {
+        far = far | far_away(state.live, state.rays.absolute_error, extent);
+    }
+    if spread > 0.0 || !far.any() {
+        return;
+    }
+    L::out_of_line(
+        token,
+        #[inline(always)]
+        || {
+            for state in states {
+                state.approach(extent);
+            }
+        },
+    );
+}
