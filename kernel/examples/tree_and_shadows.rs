@@ -1,7 +1,7 @@
 //! A tree, the closest hits of a camera's rays, and shadow rays from there to a light.
 
 use spherule_kernel::{
-    Camera, Exact, Intersect, Projection, Ray, Sphere, SphereList, SphereTree, Trace, Vec3,
+    Camera, Exact, Intersect, Projection, Ray, Side, SphereList, SphereTree, Trace, Vec3, surface,
 };
 
 const WIDTH: u32 = 72;
@@ -28,21 +28,16 @@ fn main() {
     let mut hits = vec![None; rays.len()];
     tree.closest_hits_with(Exact, &mut Trace::new().coherent(), &rays, &mut hits);
 
-    // A rounded hit point lies inside its sphere half of the time: put it back, and a little off.
-    let off_the_surface = |ray: &Ray, sphere: &Sphere, t: f32| {
-        let normal = (ray.at(t) - sphere.center).normalize();
-        sphere.center + normal * (sphere.radius * (1.0 + 1e-5))
-    };
+    // From the surface itself: no distance to choose, and nothing shadows itself.
     let shadow_rays: Vec<Ray> = rays
         .iter()
         .zip(&hits)
         .map(|(ray, hit)| {
-            match hit.and_then(|hit| Some((hit.t, tree.list().spheres().get(hit.sphere as usize)?)))
-            {
-                Some((t, sphere)) => Ray::new(off_the_surface(ray, &sphere, t), towards_light),
-                None => Ray::INACTIVE,
-            }
+            let hit = hit.as_ref()?;
+            let sphere = tree.list().spheres().get(hit.sphere as usize)?;
+            surface(Exact, ray, hit.t, &sphere).leave(Exact, &sphere, Side::Outside, towards_light)
         })
+        .map(|ray| ray.unwrap_or(Ray::INACTIVE))
         .collect();
     let mut in_shadow = vec![false; rays.len()];
     tree.any_hits(Exact, &shadow_rays, &mut in_shadow);

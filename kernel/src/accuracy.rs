@@ -15,6 +15,7 @@ mod exact;
 mod fast;
 mod roots;
 mod stable;
+mod surface;
 mod tier;
 
 pub use exact::Exact;

@@ -8,8 +8,10 @@ mod cost;
 mod long_accumulator;
 mod order;
 mod quadratic;
+mod surface;
 
 #[cfg(test)]
-pub(crate) use long_accumulator::{LongAccumulator, Product};
+pub(crate) use long_accumulator::{Product, SumOfSixes};
 pub(crate) use order::compare_roots;
 pub(crate) use quadratic::{Quadratic, QuadraticTerms, Root};
+pub(crate) use surface::{SurfaceCoordinate, Surveyed};

@@ -6,3 +6,4 @@ pub(crate) mod ray;
 pub(crate) mod sphere;
 #[cfg(feature = "alloc")]
 pub(crate) mod sphere_list;
+pub(crate) mod surface;

@@ -19,6 +19,7 @@ mod filter;
 mod geometry;
 mod intersect;
 mod lanes;
+mod leave;
 mod linear;
 mod memory;
 mod numeric;
@@ -26,6 +27,7 @@ mod query;
 mod slices;
 mod stages;
 mod structures;
+mod surface;
 #[cfg(test)]
 mod testing;
 mod trace;
@@ -42,15 +44,18 @@ pub use geometry::ray::{Ray, RayPacket};
 pub use geometry::sphere::{Sphere, SpherePacket, Spheres, SpheresError};
 #[cfg(feature = "alloc")]
 pub use geometry::sphere_list::SphereList;
+pub use geometry::surface::{Surface, SurfacePacket};
 pub use glam::{Vec3, Vec4};
 pub use intersect::Intersect;
 pub use lanes::{DoubleLanes, LaneArray, LaneMask, Lanes};
+pub use leave::{Side, side};
 pub use linear::{compare_hits, pair_lanes, roots};
 pub use memory::TooSmall;
 pub use numeric::float_environment::float_environment_is_sound;
 pub use query::{AnyHit, ClosestHit, Query};
-pub use slices::{pair_packets, pairs};
+pub use slices::{pair_packets, pairs, surface_packets};
 pub use stages::{Stages, stages};
+pub use surface::{surface, surface_lanes};
 pub use trace::{Coherence, Trace};
 pub use wide::{f32x4, f32x8, f32x16};
 

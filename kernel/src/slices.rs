@@ -4,11 +4,12 @@ use crate::Accuracy;
 use crate::dispatch::Level;
 use crate::geometry::hit::{Hit, HitPacket};
 use crate::geometry::ray::{Ray, RayPacket};
-use crate::geometry::sphere::{Sphere, SpherePacket};
-#[cfg(not(feature = "std"))]
-use crate::linear;
+use crate::geometry::sphere::{Sphere, SpherePacket, Spheres};
+use crate::geometry::surface::SurfacePacket;
 use crate::structures::{LevelQuery, Traverse};
 use crate::trace::Trace;
+#[cfg(not(feature = "std"))]
+use crate::{linear, surface};
 
 /// How many packets are traced at a time: enough that preparing 128 spheres of a list for them is a
 /// hundredth of the work; for firmware as many as its stack holds.
@@ -60,6 +61,42 @@ pub fn pair_packets(
     {
         let _ = level;
         linear::each_pair::<wide::f32x16>(tier, (), rays, spheres, hits);
+    }
+}
+
+/// [`surface`](crate::surface()) for the rays of every packet, and what they hit among `spheres`.
+///
+/// As [`surface_lanes`](crate::surface_lanes), at `level`. Packets past the end of the shortest slice are left as
+/// they are.
+///
+/// ```
+/// use spherule_kernel::{
+///     Exact, HitPacket, Intersect, Level, Ray, RayPacket, SphereTree, SurfacePacket, Trace, Vec3,
+///     surface_packets,
+/// };
+///
+/// let tree = SphereTree::new([[0.0, 0.0, 5.0, 1.0]]);
+/// let rays = [RayPacket::new(&[Ray::new(Vec3::ZERO, Vec3::Z)])];
+/// let mut hits = [HitPacket::none()];
+/// tree.closest_hit_packets(Exact, &mut Trace::new(), &rays, &mut hits);
+/// let mut surfaces = [SurfacePacket::none()];
+/// surface_packets(Exact, Level::best(), tree.list().spheres(), &rays, &hits, &mut surfaces);
+/// assert_eq!(surfaces[0].normal(0), -Vec3::Z);
+/// ```
+pub fn surface_packets(
+    tier: impl Accuracy,
+    level: Level,
+    spheres: Spheres<'_>,
+    rays: &[RayPacket],
+    hits: &[HitPacket],
+    surfaces: &mut [SurfacePacket],
+) {
+    #[cfg(feature = "std")]
+    crate::dispatch::compiled::surfaces(level, tier.tier(), spheres, (rays, hits), surfaces);
+    #[cfg(not(feature = "std"))]
+    {
+        let _ = level;
+        surface::each_packet::<wide::f32x16>(tier, (), spheres, rays, hits, surfaces);
     }
 }
 

@@ -137,34 +137,36 @@ pub fn discriminant_sign(ray: &Ray, sphere: &Sphere) -> Option<Ordering> {
     Quadratic::new(ray, sphere).map(|quadratic| quadratic.discriminant.cmp(&BigInt::zero()))
 }
 
-/// The unit normal that points out of the sphere, where the line enters it, or where it leaves it: within an ulp of a
-/// double. `None` for invalid input, a line that misses, and a point.
+/// The unit normal that points out of the sphere, and the point as seen from its centre, where the line enters it, or where
+/// it leaves it, correctly rounded. `None` for invalid input, a line that misses, and a point.
 ///
-/// With a t = b -+ sqrt D it is (a t d - a p) / (a r) = (d b - a p -+ d sqrt D) / (a r).
+/// With a t = b -+ sqrt D the point is t d - p = (d b - a p -+ d sqrt D) / a.
 #[must_use]
-pub fn normal(ray: &Ray, sphere: &Sphere, leaves: bool) -> Option<[f64; 3]> {
+pub fn surface(ray: &Ray, sphere: &Sphere, leaves: bool) -> Option<[[f32; 3]; 2]> {
     const BITS: u32 = 2000;
     let Quadratic { a, b, discriminant } = Quadratic::new(ray, sphere)?;
     if discriminant.sign() == Sign::Minus || sphere.radius == 0.0 {
         return None;
     }
-    let root = (discriminant << (2 * BITS)).sqrt();
-    let root = if leaves { root } else { -root };
+    let square = discriminant << (2 * BITS);
+    let root = square.sqrt();
+    let is_cut = &root * &root != square;
     let (o, d, c) = (units3(ray.origin), units3(ray.direction), units3(sphere.center));
-    let scale = (&a * units(sphere.radius)) << BITS;
-    let component = |i: usize| {
-        let whole = &d[i] * &b - &a * (&c[i] - &o[i]);
-        ratio(&((whole << BITS) + &d[i] * &root), &scale)
+    let r = units(sphere.radius);
+    let coordinate = |i: usize, of_normal: bool| {
+        let whole: BigInt = (&d[i] * &b - &a * (&c[i] - &o[i])) << BITS;
+        let along = if leaves { d[i].clone() } else { -d[i].clone() };
+        // Cut downwards: where the square root is taken away, it is cut upwards.
+        let up = is_cut && along.sign() == Sign::Minus;
+        let numerator = whole + along * (&root + i32::from(up));
+        let is_cut = is_cut && d[i].sign() != Sign::NoSign;
+        // A point is in units of 2^-149, a normal in ones.
+        let (numerator, scale) =
+            if of_normal { (numerator << CUT, &a * &r) } else { (numerator << 1_u32, a.clone()) };
+        CutRoot::quotient(&numerator, &(scale << BITS), is_cut).round().0
     };
-    Some([component(0), component(1), component(2)])
-}
-
-/// A fraction as a double.
-fn ratio(numerator: &BigInt, positive: &BigInt) -> f64 {
-    // 60 bits of it, as many as there are.
-    let shift = positive.bits() + 60 - numerator.bits().min(positive.bits());
-    let quotient = i128::try_from((numerator << shift) / positive).expect("at most 61 bits");
-    quotient as f64 * 2.0_f64.powi(-i32::try_from(shift).expect("a small shift"))
+    let all = |of_normal| [0, 1, 2].map(|i| coordinate(i, of_normal));
+    Some([all(true), all(false)])
 }
 
 /// Rules 1 and 2: whether the line (not only the ray's interval) meets the sphere.

@@ -6,6 +6,7 @@
 
 mod difference;
 mod pairs;
+mod surfaces;
 
 pub use difference::{assert_same, assert_same_from, bits, difference};
 pub use pairs::{pair_storeys, pairs_of};
@@ -14,6 +15,7 @@ use spherule_kernel::{
     RayPacket, Sphere, SphereList, SpherePacket, SphereTree, Tier, Trace, Vec3, Viewpoint, f32x4,
     f32x8, f32x16, pair_lanes,
 };
+pub use surfaces::{surface_storeys, surfaces_of};
 
 /// What holds the spheres.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

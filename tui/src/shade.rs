@@ -79,10 +79,12 @@ impl Shader {
         for (light, towards) in scene.lights.iter().zip(&search.lights) {
             let brightness = light.color.to_linear();
             for shaded in &self.shaded {
-                let Some((ray, cosine)) = shaded.point.towards(light) else { continue };
+                let Some(cosine) = shaded.point.cosine(light) else { continue };
                 let received = cosine * brightness * shaded.color;
                 if scene.shadows {
-                    self.shadows.push(&ray, shaded.pixel, received);
+                    if let Some(ray) = shaded.point.ray_to(tracing.tier, light) {
+                        self.shadows.push(&ray, shaded.pixel, received);
+                    }
                 } else {
                     picture.add(shaded.pixel as usize, received);
                 }

@@ -11,14 +11,17 @@
 //!
 //! The bound is proven in `docs/numerics.md`; `exact/estimate/worst.rs` climbs towards it.
 
-mod estimate;
+pub(super) mod estimate;
 mod order;
+mod surface;
 
 use self::estimate::{Constants, Estimate};
 use super::beyond::Beyond;
 use super::roots::RayLanes;
+use super::surface::SurfaceLanes;
 use super::tier::{Tier, TierFormula};
 use crate::exact::{Quadratic, Root};
+use crate::geometry::surface::Surface;
 use crate::lanes::{DoubleLanes, LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::axes;
 use crate::{Ray, Sphere};
@@ -101,6 +104,21 @@ impl TierFormula for Exact {
 
     fn compare_at(ray: &Ray, t: f32, spheres: [&Sphere; 2]) -> Ordering {
         order::compare(ray, t, spheres)
+    }
+
+    fn surface_at(ray: &Ray, t: f32, sphere: &Sphere) -> Surface {
+        surface::at(ray, t, sphere)
+    }
+
+    #[inline(always)]
+    fn surfaces<L: Lanes>(
+        rays: &RayLanes<L>,
+        t: L,
+        center: [L; 3],
+        radius: L,
+        asked: L::Mask,
+    ) -> (SurfaceLanes<L>, L::Mask) {
+        surface::in_lanes(rays, t, center, radius, asked)
     }
 }
 
@@ -186,7 +204,7 @@ impl<L: Lanes> Brackets<L> {
         radius: L::Double,
     ) {
         let estimate = Estimate::new(origin, d, center, radius, &Constants::PROVEN);
-        let Estimate { discriminant, error, near, far } = estimate;
+        let Estimate { discriminant, error, near, far, .. } = estimate;
         let meets = error.lt(discriminant);
         let misses = discriminant.lt(-error);
         let infinity = error.like(f64::INFINITY);

@@ -5,8 +5,10 @@
 //! and the tier chooses among them: at build time if it is a type, by one branch if it is a [`Tier`].
 
 use super::roots::RayLanes;
+use super::surface::{self, SurfaceLanes};
 use super::{Exact, Fast, Stable};
 use crate::geometry::sphere::Spheres;
+use crate::geometry::surface::Surface;
 use crate::numeric::rounding::U;
 use crate::{Lanes, Ray, Sphere};
 use core::cmp::Ordering;
@@ -51,6 +53,23 @@ pub trait TierFormula: Copy + Debug {
     /// How two spheres compare that `ray` hits at the same `t`: `Equal` if the tier knows no more than t.
     fn compare_at(_ray: &Ray, _t: f32, _spheres: [&Sphere; 2]) -> Ordering {
         Ordering::Equal
+    }
+
+    /// The surface of a sphere of positive radius that a valid ray hits at `t`.
+    fn surface_at(ray: &Ray, t: f32, sphere: &Sphere) -> Surface {
+        surface::at(ray, t, sphere)
+    }
+
+    /// The same in lanes, and those of the lanes `asked` in which that is [`TierFormula::surface_at`].
+    #[inline(always)]
+    fn surfaces<L: Lanes>(
+        rays: &RayLanes<L>,
+        t: L,
+        center: [L; 3],
+        radius: L,
+        asked: L::Mask,
+    ) -> (SurfaceLanes<L>, L::Mask) {
+        (surface::in_lanes(rays, t, center, radius), asked)
     }
 }
 

@@ -13,9 +13,10 @@ use crate::coherent::{list_source, tree_source};
 use crate::geometry::hit::HitPacket;
 use crate::geometry::ray::RayPacket;
 use crate::geometry::sphere::{SpherePacket, Spheres};
-use crate::linear;
+use crate::geometry::surface::SurfacePacket;
 use crate::query::{Answers, AnyHit, ClosestHit};
 use crate::trace::Coherence;
+use crate::{linear, surface};
 use fearless_simd::{Simd, f32x16};
 
 /// Does `work` in a function that is compiled for `level`, with its token: of the levels of x86
@@ -111,4 +112,18 @@ pub(crate) fn pairs(
     hits: &mut [HitPacket],
 ) {
     at_level!(level.0, simd => linear::each_pair::<f32x16<_>>(tier, simd, rays, spheres, hits));
+}
+
+/// [`surface_lanes`](crate::surface_lanes), packet by packet.
+#[inline(never)]
+pub(crate) fn surfaces(
+    level: Level,
+    tier: Tier,
+    spheres: Spheres<'_>,
+    (rays, hits): (&[RayPacket], &[HitPacket]),
+    surfaces: &mut [SurfacePacket],
+) {
+    at_level!(level.0, simd => {
+        surface::each_packet::<f32x16<_>>(tier, simd, spheres, rays, hits, surfaces);
+    });
 }

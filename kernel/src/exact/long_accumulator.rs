@@ -2,16 +2,17 @@
 //! accumulator (Kulisch and Miranker 1986, The Arithmetic of the Digital Computer: A New Approach).
 //!
 //! A finite `f32` is an integer below 2^24 times 2^e, with e from -149 to 104. So a product of six, and four
-//! times that, is a multiple of 2^-894 and below 2^770: the accumulator counts in units of 2^-896, and holds
-//! 2^61 such products before it reaches 2^831, where its sign is. Nothing is rounded, nothing overflows, and no
+//! times that, is a multiple of 2^-894 and below 2^770; times the square of a midpoint, of which `surface.rs` has one
+//! where lengths cancel, a multiple of 2^-1194. Accumulators count in units of 2^-896 or of 2^-1216, and hold
+//! 2^50 such products before they reach 2^831, where the sign is. Nothing is rounded, nothing overflows, and no
 //! floating-point environment matters.
 
 use core::cmp::Ordering;
 
-/// The lowest bit of an accumulator is worth 2 to this power.
-const LOWEST: i32 = -896;
-/// How many bits wide it is, in limbs of 64.
-const LIMBS: usize = 27;
+/// For products of six.
+pub(crate) type SumOfSixes = LongAccumulator<27>;
+/// For products of six times the square of a midpoint.
+pub(crate) type SumOfEights = LongAccumulator<32>;
 
 /// A product of numbers, exactly: `mantissa * 2^exponent`, or that negated.
 #[derive(Clone, Copy, Debug)]
@@ -23,7 +24,8 @@ pub(crate) struct Product {
 }
 
 impl Product {
-    const ZERO: Self = Self { negative: false, exponent: 0, mantissa: [0; 2] };
+    /// 0.
+    pub(crate) const ZERO: Self = Self { negative: false, exponent: 0, mantissa: [0; 2] };
     /// 1.
     pub(crate) const ONE: Self = Self { mantissa: [1, 0], ..Self::ZERO };
 
@@ -73,6 +75,15 @@ impl Product {
         Self { negative: !self.negative, ..self }
     }
 
+    /// How it compares with zero.
+    pub(crate) fn sign(self) -> Ordering {
+        match self.negative {
+            _ if self.mantissa == [0; 2] => Ordering::Equal,
+            true => Ordering::Less,
+            false => Ordering::Greater,
+        }
+    }
+
     /// Times 2 to a small power.
     pub(crate) fn scaled(self, power: i32) -> Self {
         Self { exponent: self.exponent + power, ..self }
@@ -81,12 +92,15 @@ impl Product {
 
 /// A sum of products, exactly.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct LongAccumulator {
+pub(crate) struct LongAccumulator<const LIMBS: usize> {
     /// Two's complement, the lowest first.
     limbs: [u64; LIMBS],
 }
 
-impl LongAccumulator {
+impl<const LIMBS: usize> LongAccumulator<LIMBS> {
+    /// The lowest bit is worth 2 to this power, the highest 2^831.
+    const LOWEST: i32 = 832 - 64 * LIMBS as i32;
+
     /// The empty sum.
     pub(crate) const fn zero() -> Self {
         Self { limbs: [0; LIMBS] }
@@ -95,16 +109,31 @@ impl LongAccumulator {
     /// Adds a product.
     pub(crate) fn add(&mut self, product: Product) {
         let Product { negative, exponent, mantissa: [low, high] } = product;
-        self.add_shifted([low, high, 0], exponent, negative);
+        self.add_shifted([low, high, 0, 0], exponent, negative);
     }
 
-    /// Adds a product of two, the second of which has 64 bits at most.
+    /// Adds a product of two.
     pub(crate) fn add_product(&mut self, a: Product, b: Product) {
-        let ([low, high], [by, _]) = (a.mantissa.map(u128::from), b.mantissa.map(u128::from));
-        let low = low * by;
-        let high = high * by + (low >> 64);
-        let limbs = [low as u64, high as u64, (high >> 64) as u64];
+        let halves = |number: u128| (number & u128::from(u64::MAX), number >> 64);
+        let ([a_low, a_high], [b_low, b_high]) =
+            (a.mantissa.map(u128::from), b.mantissa.map(u128::from));
+        // No sum overflows: a product of two limbs leaves room for two limbs.
+        let (first, low) = halves(a_low * b_low);
+        let (second, high) = halves(a_high * b_low + low);
+        let (middle, carry) = halves(a_low * b_high + second);
+        let (third, fourth) = halves(a_high * b_high + high + carry);
+        let limbs = [first as u64, middle as u64, third as u64, fourth as u64];
         self.add_shifted(limbs, a.exponent + b.exponent, a.negative != b.negative);
+    }
+
+    /// Adds the square of a sum whose terms have 128 bits at most.
+    pub(crate) fn add_wide_square(&mut self, terms: &[Product]) {
+        for (index, &term) in terms.iter().enumerate() {
+            self.add_product(term, term);
+            for &other in terms.iter().skip(index + 1) {
+                self.add_product(term.scaled(1), other);
+            }
+        }
     }
 
     /// Adds the square of a sum whose terms have 64 bits at most, times `factor`.
@@ -126,13 +155,14 @@ impl LongAccumulator {
         }
     }
 
-    /// Adds 192 bits times 2^exponent, or takes them away.
-    fn add_shifted(&mut self, [a, b, c]: [u64; 3], exponent: i32, negative: bool) {
-        let place = (exponent - LOWEST).max(0).unsigned_abs();
+    /// Adds 256 bits times 2^exponent, or takes them away.
+    fn add_shifted(&mut self, [a, b, c, d]: [u64; 4], exponent: i32, negative: bool) {
+        let place = (exponent - Self::LOWEST).max(0).unsigned_abs();
         let (limb, shift) = (place as usize / 64, place % 64);
         // Bits that leave a limb at its top come in at the next one's bottom.
         let over = |limb: u64| limb >> 1 >> (63 - shift);
-        let shifted = [a << shift, b << shift | over(a), c << shift | over(b), over(c)];
+        let [first, second] = [a << shift, b << shift | over(a)];
+        let shifted = [first, second, c << shift | over(b), d << shift | over(c), over(d)];
         let mut carry = false;
         for (number, place) in self.limbs.iter_mut().skip(limb).enumerate() {
             let more = shifted.get(number).copied().unwrap_or(0);
@@ -155,9 +185,9 @@ impl LongAccumulator {
 
     /// How the sum compares with zero.
     pub(crate) fn sign(&self) -> Ordering {
-        match self.limbs {
-            [.., top] if top >> 63 == 1 => Ordering::Less,
-            limbs if limbs.iter().all(|&limb| limb == 0) => Ordering::Equal,
+        match self.limbs.last() {
+            Some(top) if top >> 63 == 1 => Ordering::Less,
+            _ if self.limbs.iter().all(|&limb| limb == 0) => Ordering::Equal,
             _ => Ordering::Greater,
         }
     }
@@ -178,7 +208,7 @@ impl LongAccumulator {
         let limb = |number: usize| magnitude.get(number).copied().unwrap_or(0);
         let below = if top == 0 { 0 } else { limb(top - 1) };
         let bits = u128::from(limb(top)) << 64 | u128::from(below);
-        let value = bits as f64 * power_of_two(64 * (top as i32 - 1) + LOWEST);
+        let value = bits as f64 * power_of_two(64 * (top as i32 - 1) + Self::LOWEST);
         if negative { -value } else { value }
     }
 }

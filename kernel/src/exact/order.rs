@@ -24,9 +24,9 @@
 //! ```
 //!
 //! zero exactly if they share a root. So four signs of polynomials decide, the last of degree six, and each is a sum in
-//! a [`LongAccumulator`].
+//! a [`LongAccumulator`](super::long_accumulator::LongAccumulator).
 
-use super::long_accumulator::{LongAccumulator, Product};
+use super::long_accumulator::{Product, SumOfSixes};
 use super::quadratic::{QuadraticTerms, Root};
 use core::cmp::Ordering;
 
@@ -116,14 +116,14 @@ impl TwoSpheres {
 
     /// B.
     fn difference_of_slopes(&self) -> Ordering {
-        let mut sum = LongAccumulator::zero();
+        let mut sum = SumOfSixes::zero();
         self.slopes.into_iter().for_each(|term| sum.add(term));
         sum.sign()
     }
 
     /// D_1 - D_2 = B (b_1 + b_2) - a (k_1 - k_2).
     fn difference_of_discriminants(&self) -> Ordering {
-        let mut sum = LongAccumulator::zero();
+        let mut sum = SumOfSixes::zero();
         for half_slope in &self.half_slope {
             sum.add_products(&self.slopes, half_slope);
         }
@@ -133,7 +133,7 @@ impl TwoSpheres {
 
     /// M.
     fn middle(&self) -> Ordering {
-        let mut sum = LongAccumulator::zero();
+        let mut sum = SumOfSixes::zero();
         for power in &self.power {
             sum.add_products(power, &self.square);
         }
@@ -145,7 +145,7 @@ impl TwoSpheres {
 
     /// R. The products of four are whole, the other two factors come last.
     fn resultant(&self) -> Ordering {
-        let mut sum = LongAccumulator::zero();
+        let mut sum = SumOfSixes::zero();
         for square in self.square {
             sum.add_square(&self.powers, square);
         }

@@ -19,7 +19,7 @@
 //! All sums are exact, in a [`LongAccumulator`]. Two roots of one line are compared by the same means
 //! (`order.rs`).
 
-use super::long_accumulator::{LongAccumulator, Product};
+use super::long_accumulator::{LongAccumulator, Product, SumOfSixes};
 use core::cmp::Ordering;
 
 /// Which of the two roots.
@@ -72,17 +72,21 @@ impl QuadraticTerms {
         radius.times(radius).negated()
     }
 
-    /// Adds -D = |d x p|^2 - a r^2.
+    /// Adds -D = |d x p|^2 - a r^2, times `factor`, of 64 bits at most.
     #[inline(never)]
-    fn add_minus_discriminant(&self, sum: &mut LongAccumulator) {
+    pub(super) fn add_minus_discriminant<const LIMBS: usize>(
+        &self,
+        sum: &mut LongAccumulator<LIMBS>,
+        factor: Product,
+    ) {
         let minus_square = self.minus_square();
         for k in 0..3 {
             // A component of d x p from the two axes after its own.
             let ([di, ci, oi], [dj, cj, oj]) = (self.axis(k + 1), self.axis(k + 2));
             let minus = dj.negated();
             let component = [di.times(cj), di.times(oj), minus.times(ci), minus.times(oi)];
-            sum.add_square(&component, Product::ONE);
-            sum.add(minus_square.times(di.times(di)));
+            sum.add_square(&component, factor);
+            sum.add_product(minus_square.times(di.times(di)), factor);
         }
     }
 
@@ -111,15 +115,15 @@ impl QuadraticTerms {
     /// D, estimated; `None` if it is negative.
     #[inline(never)]
     fn discriminant(&self) -> Option<f64> {
-        let mut sum = LongAccumulator::zero();
-        self.add_minus_discriminant(&mut sum);
+        let mut sum = SumOfSixes::zero();
+        self.add_minus_discriminant(&mut sum, Product::ONE);
         (sum.sign() != Ordering::Greater).then(|| -sum.estimate())
     }
 
     /// b = d.p, estimated.
     #[inline(never)]
     fn half_slope_estimate(&self) -> f64 {
-        let mut sum = LongAccumulator::zero();
+        let mut sum = SumOfSixes::zero();
         for axis in 0..3 {
             let [d, c, o] = self.axis(axis);
             sum.add(d.times(c));
@@ -131,13 +135,19 @@ impl QuadraticTerms {
     /// k = p.p - r^2, estimated.
     #[inline(never)]
     fn power_estimate(&self) -> f64 {
-        let mut sum = LongAccumulator::zero();
+        let mut sum = SumOfSixes::zero();
         sum.add(self.minus_square());
         for axis in 0..3 {
             let [_, c, o] = self.axis(axis);
             sum.add_square(&[c, o], Product::ONE);
         }
         sum.estimate()
+    }
+
+    /// Whether the origin is outside of the sphere, and whether the line goes away from its centre there: the signs of
+    /// |o - c|^2 - r^2 and d.(o - c).
+    pub(crate) fn start(&self) -> [Ordering; 2] {
+        [self.sign_of_power_at(Product::ZERO), self.sign_of_slope_at(Product::ZERO)]
     }
 
     /// m d - p along an axis.
@@ -149,7 +159,7 @@ impl QuadraticTerms {
     /// The sign of f = |m d - p|^2 - r^2.
     #[inline(never)]
     fn sign_of_power_at(&self, m: Product) -> Ordering {
-        let mut sum = LongAccumulator::zero();
+        let mut sum = SumOfSixes::zero();
         sum.add(self.minus_square());
         for axis in 0..3 {
             sum.add_square(&self.beside(axis, m), Product::ONE);
@@ -160,7 +170,7 @@ impl QuadraticTerms {
     /// The sign of g = d.(m d - p).
     #[inline(never)]
     fn sign_of_slope_at(&self, m: Product) -> Ordering {
-        let mut sum = LongAccumulator::zero();
+        let mut sum = SumOfSixes::zero();
         for axis in 0..3 {
             sum.add_products(&self.beside(axis, m), &self.axis(axis)[..1]);
         }
@@ -229,7 +239,7 @@ impl Quadratic {
 
 /// The number half-way between neighbours, exactly; an infinity stands for the `f32` that would
 /// come next, 2^128, as it does in rounding.
-fn midpoint(low: f32, high: f32) -> f64 {
+pub(super) fn midpoint(low: f32, high: f32) -> f64 {
     let end = |single: f32| {
         if single.is_finite() { f64::from(single) } else { TWO_128.copysign(f64::from(single)) }
     };

@@ -100,7 +100,7 @@ impl BandPainter {
     /// Hands the hits to the shader, and the background to the picture if a ray has no hit; in the
     /// order of the packets.
     fn gather(&mut self, frame: &Frame<'_>, samples: CellSamples, rows: Range<u32>) {
-        let &Frame { scene, width, .. } = frame;
+        let &Frame { tracing, scene, width, .. } = frame;
         let (across, _) = Camera::tile::<[f32; 16]>();
         let share = 1.0 / samples.per_pixel() as f32;
         let background = share * scene.background.to_linear();
@@ -125,7 +125,7 @@ impl BandPainter {
                 };
                 let color = share * color.to_linear();
                 self.shader.add(scene, &mut self.picture, pixel, color, || {
-                    SurfacePoint::new(&rays.ray(lane), t, &sphere)
+                    SurfacePoint::new(tracing.tier, &rays.ray(lane), t, &sphere)
                 });
             }
         }

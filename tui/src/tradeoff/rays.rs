@@ -4,7 +4,7 @@ use crate::draw::packet_corners;
 use crate::scene::Scene;
 use crate::shade::SurfacePoint;
 use crate::structure::Structure;
-use spherule_kernel::{Camera, HitPacket, Ray, RayPacket};
+use spherule_kernel::{Camera, HitPacket, Ray, RayPacket, Tier};
 
 /// The most rays, so that their memory is a cache's, not a machine's.
 const MOST_RAYS: usize = 1 << 17;
@@ -96,15 +96,16 @@ impl Rays {
             for (lane, hit) in hits.hits().enumerate() {
                 let Some(hit) = hit else { continue };
                 if let Some(sphere) = spheres.get(hit.sphere as usize) {
-                    points.push(SurfacePoint::new(&rays.ray(lane), hit.t, &sphere));
+                    points.push(SurfacePoint::new(Tier::Exact, &rays.ray(lane), hit.t, &sphere));
                 }
             }
         }
         let wanted = points.len() * scene.lights.len();
         let step = wanted.div_ceil(most).max(1);
         let of_light = |light| {
-            let towards = |point: &SurfacePoint| point.towards(light).map(|(ray, _)| ray);
-            let rays: Vec<Ray> = points.iter().step_by(step).filter_map(towards).collect();
+            let facing = points.iter().step_by(step).filter(|point| point.cosine(light).is_some());
+            let ray = |point: &SurfacePoint| point.ray_to(Tier::Exact, light);
+            let rays: Vec<Ray> = facing.filter_map(ray).collect();
             rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect()
         };
         Self::new(Kind::Shadow, scene.lights.iter().map(of_light))

@@ -7,6 +7,11 @@ use spherule_kernel::{Intersect, Ray, Sphere, SphereList, Tier, Vec3};
 use spherule_tests::oracle;
 use spherule_tests::random::Random;
 
+/// The shadow ray, if the surface faces the light.
+fn ray_to(tier: Tier, point: &SurfacePoint, light: &Light) -> Option<Ray> {
+    point.cosine(light).and_then(|_| point.ray_to(tier, light))
+}
+
 /// How many shadow rays from points of spheres of this radius and place meet their own sphere,
 /// and how many were cast.
 fn acne(tier: Tier, radius: f32, place: f32) -> (u32, u32) {
@@ -25,13 +30,13 @@ fn acne(tier: Tier, radius: f32, place: f32) -> (u32, u32) {
         }
         let spheres = SphereList::from([sphere]);
         let Some(hit) = spheres.closest_hit(tier, &ray) else { continue };
-        let point = SurfacePoint::new(&ray, hit.t, &sphere);
+        let point = SurfacePoint::new(tier, &ray, hit.t, &sphere);
         // A light anywhere above the surface, and one that grazes it.
-        let across = point.normal.cross(random.in_cube(1.0)).normalize();
-        let grazing = across + 10_f32.powf(random.between(-1.0, 1.0) * 3.0 - 3.0) * point.normal;
+        let across = point.normal().cross(random.in_cube(1.0)).normalize();
+        let grazing = across + 10_f32.powf(random.between(-1.0, 1.0) * 3.0 - 3.0) * point.normal();
         for direction in [random.in_cube(1.0), grazing] {
             let light = Light { source: Source::Direction(direction), color: Srgb::WHITE };
-            let Some((ray, _)) = point.towards(&light) else { continue };
+            let Some(ray) = ray_to(tier, &point, &light) else { continue };
             own += u32::from(spheres.any_hit(tier, &ray));
             cast += 1;
         }
@@ -80,11 +85,11 @@ fn a_huge_ground_has_no_acne() {
             let (x, y) = (random.between(-1.0, 1.0), random.between(-1.0, 1.0));
             let ray = Ray::new(Vec3::new(0.0, 2.0, 8.0), Vec3::new(x, -y.abs(), -1.0));
             let Some(hit) = ground.closest_hit(tier, &ray) else { continue };
-            let point = SurfacePoint::new(&ray, hit.t, &sphere);
+            let point = SurfacePoint::new(tier, &ray, hit.t, &sphere);
             let source = Source::Direction(Vec3::new(-0.55, 0.9, 0.6));
             let light = Light { source, color: Srgb::WHITE };
             // If `Fast` errs it may see the far side of the ground, which has no light.
-            let Some((ray, _)) = point.towards(&light) else { continue };
+            let Some(ray) = ray_to(tier, &point, &light) else { continue };
             assert_eq!(ground.closest_hit(tier, &ray), None, "{tier:?} {radius}");
             lit += 1;
         }
@@ -106,9 +111,10 @@ fn from_afar_normals_are_right_and_nothing_shadows_itself() {
             let ray = Ray::new(origin, target - origin);
             let spheres = SphereList::from([sphere]);
             let Some(hit) = spheres.closest_hit(Tier::Exact, &ray) else { continue };
-            let point = SurfacePoint::new(&ray, hit.t, &sphere);
-            let truth = oracle::normal(&ray, &sphere, false).expect("a hit");
-            let off = (0..3).map(|i| (f64::from(point.normal[i]) - truth[i]).abs());
+            let point = SurfacePoint::new(Tier::Exact, &ray, hit.t, &sphere);
+            let [truth, _] = oracle::surface(&ray, &sphere, false).expect("a hit");
+            let truth = truth.map(f64::from);
+            let off = (0..3).map(|i| (f64::from(point.normal()[i]) - truth[i]).abs());
             let off = off.fold(0.0, f64::max);
             // Rounded to f32; near the rim the root of what is lost.
             let facing = (truth[0] * f64::from(ray.direction.x)
@@ -120,7 +126,7 @@ fn from_afar_normals_are_right_and_nothing_shadows_itself() {
             hits += 1;
             let light =
                 Light { source: Source::Direction(random.in_cube(1.0)), color: Srgb::WHITE };
-            if let Some((ray, _)) = point.towards(&light) {
+            if let Some(ray) = ray_to(Tier::Exact, &point, &light) {
                 assert!(!spheres.any_hit(Tier::Exact, &ray), "{ray:?} {sphere:?}");
                 lit += 1;
             }

@@ -9,7 +9,7 @@ const U: f64 = f64::EPSILON / 2.0;
 
 /// What the terms of the two bounds are multiplied by.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Constants {
+pub(in crate::accuracy) struct Constants {
     /// Of A + L, in the bound of D.
     pub(super) sums: f64,
     /// Of X G, in the bound of D.
@@ -26,7 +26,7 @@ pub(super) struct Constants {
 
 impl Constants {
     /// Those of the proof.
-    pub(super) const PROVEN: Self = Self {
+    pub(in crate::accuracy) const PROVEN: Self = Self {
         sums: 5.0 * U,
         cross: 8.0 * U,
         square: 32.0 * U * U,
@@ -36,21 +36,29 @@ impl Constants {
     };
 }
 
-/// D and the roots as computed, each with a bound on its error.
+/// D and the roots as computed, each with a bound on its error; and what they were computed from.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Estimate<D> {
-    pub(super) discriminant: D,
+pub(in crate::accuracy) struct Estimate<D> {
+    pub(in crate::accuracy) discriminant: D,
     /// E.
-    pub(super) error: D,
+    pub(in crate::accuracy) error: D,
     /// t and T of the smaller root; no number where D is not above E.
-    pub(super) near: (D, D),
+    pub(in crate::accuracy) near: (D, D),
     /// Of the larger root.
-    pub(super) far: (D, D),
+    pub(in crate::accuracy) far: (D, D),
+    /// d x p.
+    pub(in crate::accuracy) cross: [D; 3],
+    /// a.
+    pub(in crate::accuracy) a: D,
+    /// |d|_1 and G = |d|_1 |p|_1.
+    pub(in crate::accuracy) sizes: [D; 2],
+    /// sqrt D; NaN below zero.
+    pub(in crate::accuracy) root: D,
 }
 
 impl<D: DoubleLanes> Estimate<D> {
     #[inline(always)]
-    pub(super) fn new(
+    pub(in crate::accuracy) fn new(
         origin: [D; 3],
         d: [D; 3],
         center: [D; 3],
@@ -64,7 +72,8 @@ impl<D: DoubleLanes> Estimate<D> {
         let a = dot(d, d);
         let (reach, square) = (a * (radius * radius), dot(x, x));
         let discriminant = reach - square;
-        let g = sum_of_magnitudes(d) * sum_of_magnitudes(p);
+        let length = sum_of_magnitudes(d);
+        let g = length * sum_of_magnitudes(p);
         let error = a.like(constants.sums) * (reach + square)
             + a.like(constants.cross) * (sum_of_magnitudes(x) * g)
             + a.like(constants.square) * (g * g);
@@ -83,6 +92,10 @@ impl<D: DoubleLanes> Estimate<D> {
             error,
             near: (near, shared + t * near.abs()),
             far: (far, shared + t * far.abs()),
+            cross: x,
+            a,
+            sizes: [length, g],
+            root,
         }
     }
 }

@@ -1,19 +1,19 @@
-//! Accumulators against integers of any size: every product of six `f32` is a multiple of 2^-896.
+//! Accumulators against integers of any size: every product of six `f32` is a multiple of 2^-1216.
 
 extern crate std;
 
-use super::{LongAccumulator, Product};
+use super::{Product, SumOfEights};
 use crate::testing::climb::Random;
 use crate::testing::integers::units;
 use core::cmp::Ordering;
 use num_bigint::BigInt;
 use std::vec::Vec;
 
-fn check(sum: &LongAccumulator, exact: &BigInt) {
+fn check(sum: &SumOfEights, exact: &BigInt) {
     assert_eq!(sum.sign(), exact.cmp(&BigInt::ZERO));
     // Limb by limb, two's complement.
-    let bits = (BigInt::from(1) << 1728_u32) + exact;
-    let limbs: Vec<u64> = bits.iter_u64_digits().take(27).collect();
+    let bits = (BigInt::from(1) << 2048_u32) + exact;
+    let limbs: Vec<u64> = bits.iter_u64_digits().take(32).collect();
     assert_eq!(sum.limbs[..], limbs[..], "{exact}");
 }
 
@@ -29,10 +29,10 @@ fn single(random: &mut Random) -> f32 {
     if value.is_finite() { value } else { f32::MIN }
 }
 
-/// The product of numbers, and the same in units of 2^-896.
+/// The product of numbers, and the same in units of 2^-1216.
 fn product(numbers: &[f32]) -> BigInt {
     let units = numbers.iter().map(|&number| units(number));
-    let places = 896 - 149 * numbers.len();
+    let places = 1216 - 149 * numbers.len();
     units.fold(BigInt::from(1), |product, factor| product * factor) << places
 }
 
@@ -40,7 +40,7 @@ fn product(numbers: &[f32]) -> BigInt {
 fn sums_of_products_are_exact() {
     let mut random = Random(11);
     for _ in 0..3000 {
-        let (mut sum, mut exact) = (LongAccumulator::zero(), BigInt::ZERO);
+        let (mut sum, mut exact) = (SumOfEights::zero(), BigInt::ZERO);
         let mut added = Vec::new();
         for _ in 0..random.below(24) {
             let numbers = match added.len() {
@@ -73,12 +73,16 @@ fn squares_and_products_of_sums_are_exact() {
         let others = [(); 3].map(|()| single(&mut random));
         let (a, b) = (some.map(Product::of), others.map(Product::of));
         let total = |numbers: &[f32]| numbers.iter().map(|&x| units(x)).sum::<BigInt>();
-        let mut sum = LongAccumulator::zero();
+        let mut sum = SumOfEights::zero();
         sum.add_square(&a, b[0]);
-        let exact = (total(&some).pow(2) * units(others[0])) << (896 - 3 * 149);
+        let exact = (total(&some).pow(2) * units(others[0])) << (1216 - 3 * 149);
         check(&sum, &exact);
         sum.add_products(&a, &b);
-        check(&sum, &(exact + ((total(&some) * total(&others)) << (896 - 2 * 149))));
+        let wide = a.map(|term| term.times(b[1]).times(b[2]));
+        let exact = exact
+            + ((total(&some) * units(others[1]) * units(others[2])).pow(2) << (1216 - 6 * 149));
+        sum.add_wide_square(&wide);
+        check(&sum, &(exact + ((total(&some) * total(&others)) << (1216 - 2 * 149))));
     }
 }
 
@@ -86,19 +90,19 @@ fn squares_and_products_of_sums_are_exact() {
 fn estimates_are_close() {
     let mut random = Random(13);
     for _ in 0..5000 {
-        let (mut sum, mut exact) = (LongAccumulator::zero(), BigInt::ZERO);
+        let (mut sum, mut exact) = (SumOfEights::zero(), BigInt::ZERO);
         for _ in 0..random.below(4) {
             let numbers = [(); 4].map(|()| single(&mut random));
             let [a, b, c, d] = numbers.map(Product::of);
             sum.add_product(a.times(b), c.times(d));
             exact += product(&numbers);
         }
-        // In units of 2^-896, an estimate is a double times 2^896.
+        // In units of 2^-1216, an estimate is a double times 2^1216.
         let bits = sum.estimate().to_bits();
         let (exponent, fraction) = (bits >> 52 & 0x7ff, bits & ((1 << 52) - 1));
         let magnitude = match exponent {
             0 => BigInt::ZERO,
-            _ => (BigInt::from(fraction | 1 << 52) << 896_u32 << exponent) >> 1075_u32,
+            _ => (BigInt::from(fraction | 1 << 52) << 1216_u32 << exponent) >> 1075_u32,
         };
         let estimate = if bits >> 63 == 1 { -magnitude } else { magnitude };
         let off = estimate - &exact;
@@ -113,13 +117,13 @@ fn midpoints_have_25_bits() {
         let low = f32::from_bits(random.below(0x7f7f_ffff) as u32);
         let midpoint = (f64::from(low) + f64::from(low.next_up())) * 0.5;
         for (midpoint, sign) in [(midpoint, 1), (-midpoint, -1)] {
-            let mut sum = LongAccumulator::zero();
+            let mut sum = SumOfEights::zero();
             sum.add(Product::of_double(midpoint));
             let both = (units(low) + units(low.next_up())) * sign;
-            check(&sum, &(both << (896 - 150)));
+            check(&sum, &(both << (1216 - 150)));
         }
     }
-    let mut zero = LongAccumulator::zero();
+    let mut zero = SumOfEights::zero();
     zero.add(Product::of_double(0.0));
     assert_eq!(zero.sign(), Ordering::Equal);
 }

@@ -20,7 +20,7 @@
 extern crate std;
 
 use super::{Constants, Estimate};
-use crate::exact::{LongAccumulator, Product};
+use crate::exact::{Product, SumOfSixes};
 use crate::testing::climb::{Random, climb};
 use std::println;
 
@@ -41,7 +41,7 @@ fn estimate(numbers: &Numbers, constants: &Constants) -> Option<Estimate<f64>> {
 fn discriminant_less(numbers: &Numbers, known: f64) -> f64 {
     let [ox, oy, oz, dx, dy, dz, cx, cy, cz, r] = numbers.map(Product::of);
     let (o, d, c) = ([ox, oy, oz], [dx, dy, dz], [cx, cy, cz]);
-    let mut sum = LongAccumulator::zero();
+    let mut sum = SumOfSixes::zero();
     for (i, j) in [(1, 2), (2, 0), (0, 1)] {
         let (i_c, j_c) = (d[j].times(c[i]).negated(), d[i].times(c[j]));
         let (i_o, j_o) = (d[j].times(o[i]), d[i].times(o[j]).negated());
@@ -61,7 +61,7 @@ fn root_less(numbers: &Numbers, t: f64, outward: f64) -> f64 {
     // Halves, so that the squares of products have room.
     let high = f64::from_bits(t.to_bits() & !0x03ff_ffff);
     let halves = [high, t - high].map(Product::of_double);
-    let (mut f, mut g) = (LongAccumulator::zero(), LongAccumulator::zero());
+    let (mut f, mut g) = (SumOfSixes::zero(), SumOfSixes::zero());
     f.add(r.times(r).negated());
     for i in 0..3 {
         let v = [halves[0].times(d[i]), halves[1].times(d[i]), c[i].negated(), o[i]];

@@ -1,0 +1,71 @@
+//! The surface that a ray has hit.
+
+use crate::lanes::LaneArray;
+use glam::Vec3;
+
+/// The surface of a sphere where a ray hits it: made by [`surface`](crate::surface()).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Surface {
+    /// The unit normal, which points out of the sphere.
+    pub normal: Vec3,
+    /// The point as seen from the sphere's centre, in the units of the scene.
+    pub point: Vec3,
+    /// The same in double precision.
+    pub(crate) from_center: [f64; 3],
+}
+
+/// A [`Surface`] for every lane of a packet, in plain arrays: sixteen lanes unless `A` says otherwise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(64))]
+pub struct SurfacePacket<A: LaneArray = [f32; 16]> {
+    pub(crate) normal: [A; 3],
+    pub(crate) point: [A; 3],
+}
+
+impl<A: LaneArray> SurfacePacket<A> {
+    /// Zeros in every lane, as of rays that hit nothing.
+    #[must_use]
+    #[inline(always)]
+    pub fn none() -> Self {
+        Self { normal: [A::filled(0.0); 3], point: [A::filled(0.0); 3] }
+    }
+
+    /// The unit normal of every lane, coordinate by coordinate; zeros if the ray hits nothing.
+    #[must_use]
+    pub fn normals(&self) -> [&[f32]; 3] {
+        self.normal.each_ref().map(A::as_ref)
+    }
+
+    /// The point of every lane as seen from the sphere's centre, coordinate by coordinate.
+    #[must_use]
+    pub fn points(&self) -> [&[f32]; 3] {
+        self.point.each_ref().map(A::as_ref)
+    }
+
+    /// The unit normal in `lane`; zero if there is no such lane.
+    #[must_use]
+    #[inline(always)]
+    pub fn normal(&self, lane: usize) -> Vec3 {
+        at(&self.normal, lane)
+    }
+
+    /// The point in `lane` as seen from the sphere's centre; zero if there is no such lane.
+    #[must_use]
+    #[inline(always)]
+    pub fn point(&self, lane: usize) -> Vec3 {
+        at(&self.point, lane)
+    }
+
+    #[inline(always)]
+    pub(crate) fn set(&mut self, lane: usize, surface: &Surface) {
+        for axis in 0..3 {
+            self.normal[axis].set(lane, surface.normal[axis]);
+            self.point[axis].set(lane, surface.point[axis]);
+        }
+    }
+}
+
+#[inline(always)]
+fn at<A: LaneArray>([x, y, z]: &[A; 3], lane: usize) -> Vec3 {
+    if lane < A::COUNT { Vec3::new(x.get(lane), y.get(lane), z.get(lane)) } else { Vec3::ZERO }
+}

@@ -1,0 +1,216 @@
+//! Rays that leave a sphere, without an epsilon.
+//!
+//! # Method
+//!
+//! A point of a surface, rounded to `f32`, lies on either side of it, and a ray from there may meet the sphere that it
+//! leaves. So the point is computed in double precision, rounded, and asked on which side it is, exactly: by the sign of
+//! |x - c|^2 - r^2. If that is the wrong one, it is taken half a step, a step, two along the normal, a step being an ulp of its
+//! largest coordinate. A step is enough if r is more than some 14 of them: rounding moves a point by 0.87 steps at most, and the
+//! sphere curves away by 1.87^2 / 2r.
+//!
+//! From outside, a ray that goes away from the centre meets the sphere nowhere: where |x - c|^2 > r^2 and d.(x - c) >= 0, both
+//! roots are below zero. From inside one root is below zero, and one above. The interval begins at the least number above zero,
+//! so that no root below it is rounded into it. Tiers that know less are asked whether they see the sphere; if they do, the ray begins a
+//! step farther away, two, four.
+
+use crate::accuracy::{Accuracy, Tier};
+use crate::exact::QuadraticTerms;
+use crate::geometry::ray::Ray;
+use crate::geometry::sphere::Sphere;
+use crate::geometry::surface::Surface;
+use crate::linear::roots;
+use crate::numeric::axes::{axes, dot};
+use core::cmp::Ordering;
+use glam::Vec3;
+
+/// A side of a sphere.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// Where |x - c| > r.
+    Outside,
+    /// Where |x - c| < r.
+    Inside,
+}
+
+/// u, of double precision.
+const U: f64 = f64::EPSILON / 2.0;
+
+/// The side of `sphere` on which `point` lies, exactly; `None` if it lies on the surface, or either is not valid.
+///
+/// Cost: some 20 double-precision operations; half a microsecond if they cannot tell.
+///
+/// ```
+/// use spherule_kernel::{Side, Sphere, Vec3, side};
+///
+/// let sphere = Sphere::from([0.0, 0.0, 0.0, 1.0]);
+/// let least = f32::from_bits(1);
+/// assert_eq!(side(Vec3::new(1.0, 0.0, least), &sphere), Some(Side::Outside));
+/// assert_eq!(side(Vec3::X, &sphere), None);
+/// ```
+#[must_use]
+pub fn side(point: Vec3, sphere: &Sphere) -> Option<Side> {
+    if !point.is_finite() || !sphere.is_valid() {
+        return None;
+    }
+    let q = from_center(point, sphere);
+    let (square, radius) = (dot(q, q), f64::from(sphere.radius));
+    let power = square - radius * radius;
+    // A coordinate of q is u off, |q|^2 so by 5u, r^2 and the difference by u.
+    let sign = if power.abs() > 8.0 * U * (square + radius * radius) {
+        power.total_cmp(&0.0)
+    } else {
+        terms(point, Vec3::ZERO, sphere).start()[0]
+    };
+    match sign {
+        Ordering::Less => Some(Side::Inside),
+        Ordering::Equal => None,
+        Ordering::Greater => Some(Side::Outside),
+    }
+}
+
+impl Surface {
+    /// A ray from here, to `side` of the sphere and along `direction`: it does not meet `sphere` where it starts.
+    ///
+    /// Its origin is proven to be on that side by [`side`](crate::side()): an ulp or two of its largest coordinate from the point, if r
+    /// is at least 2^10 of these and `tier` is `Exact`; for the others so far that they do not see the sphere there. Its interval begins above
+    /// zero and has no end. If `direction` points to `side`, an outside ray never meets the sphere again, and an inside ray meets
+    /// its far side; else it meets what is there.
+    ///
+    /// `sphere` is the one that was hit. Returns `None` if there is no such origin: inside of a sphere that is smaller than the
+    /// spacing of numbers, or past their end. Cost: some 100 double-precision operations; by the other tiers a test of the sphere more.
+    ///
+    /// ```
+    /// use spherule_kernel::{Exact, Intersect, Ray, Side, SphereList, Vec3, surface};
+    ///
+    /// let spheres = SphereList::from([[4.0e5, 3.0e5, 0.0, 1.0], [4.0e5, 3.0e5, 4.0, 1.0]]);
+    /// let ray = Ray::new(Vec3::new(4.0e5, 3.0e5, -9.0), Vec3::new(0.01, 0.0, 1.0));
+    /// let hit = spheres.closest_hit(Exact, &ray).expect("a hit");
+    /// let sphere = spheres.spheres().get(hit.sphere as usize).expect("its sphere");
+    /// let surface = surface(Exact, &ray, hit.t, &sphere);
+    /// let shadow = surface.leave(Exact, &sphere, Side::Outside, Vec3::NEG_Z).expect("an origin");
+    /// assert!(!spheres.any_hit(Exact, &shadow));
+    /// ```
+    #[must_use]
+    pub fn leave(
+        &self,
+        tier: impl Accuracy,
+        sphere: &Sphere,
+        side: Side,
+        direction: Vec3,
+    ) -> Option<Ray> {
+        self.depart(tier.tier(), sphere, side, |origin| Ray::new(origin, direction))
+    }
+
+    /// As [`leave`](Surface::leave), along the way to `target`, which is at t = 1, where the interval ends.
+    ///
+    /// ```
+    /// use spherule_kernel::{Exact, Ray, Side, Sphere, Vec3, surface};
+    ///
+    /// let sphere = Sphere::from([0.0, 0.0, 5.0, 1.0]);
+    /// let surface = surface(Exact, &Ray::new(Vec3::ZERO, Vec3::Z), 4.0, &sphere);
+    /// let ray = surface.leave_to(Exact, &sphere, Side::Outside, Vec3::Y).expect("an origin");
+    /// assert_eq!((ray.at(1.0), ray.t_max), (Vec3::Y, 1.0));
+    /// ```
+    #[must_use]
+    pub fn leave_to(
+        &self,
+        tier: impl Accuracy,
+        sphere: &Sphere,
+        side: Side,
+        target: Vec3,
+    ) -> Option<Ray> {
+        let ray = |origin| Ray { t_max: 1.0, ..Ray::new(origin, target - origin) };
+        self.depart(tier.tier(), sphere, side, ray)
+    }
+
+    /// The point in the frame of the scene, every coordinate rounded once from double precision. It lies on either side of `sphere`,
+    /// the one that was hit: rays start from [`leave`](Surface::leave).
+    ///
+    /// ```
+    /// use spherule_kernel::{Exact, Ray, Sphere, Vec3, surface};
+    ///
+    /// let sphere = Sphere::from([0.0, 0.0, 5.0, 1.0]);
+    /// let surface = surface(Exact, &Ray::new(Vec3::ZERO, Vec3::Z), 4.0, &sphere);
+    /// assert_eq!(surface.position(&sphere), Vec3::new(0.0, 0.0, 4.0));
+    /// ```
+    #[must_use]
+    pub fn position(&self, sphere: &Sphere) -> Vec3 {
+        Vec3::from_array(self.in_scene(sphere).map(|x| x as f32))
+    }
+
+    fn in_scene(&self, sphere: &Sphere) -> [f64; 3] {
+        axes!(i => f64::from(sphere.center[i]) + self.from_center[i])
+    }
+
+    fn depart(
+        &self,
+        tier: Tier,
+        sphere: &Sphere,
+        to: Side,
+        from: impl Fn(Vec3) -> Ray,
+    ) -> Option<Ray> {
+        let point = self.in_scene(sphere);
+        let outward = self.normal.to_array().map(f64::from);
+        let largest = point[0].abs().max(point[1].abs()).max(point[2].abs()) as f32;
+        let ulp = f64::from(largest.next_up()) - f64::from(largest);
+        let step = ulp.max(f64::from(sphere.radius) * (64.0 * U));
+        let step = if to == Side::Outside { step } else { -step };
+
+        let mut steps = 0.0;
+        for _ in 0..MOST_STEPS {
+            let origin =
+                Vec3::from_array(axes!(i => (point[i] + steps * step * outward[i]) as f32));
+            let ray = Ray { t_min: f32::from_bits(1), ..from(origin) };
+            if side(origin, sphere) == Some(to) && !sees_start(tier, &ray, sphere, to, outward) {
+                return Some(ray);
+            }
+            steps = if steps == 0.0 { 0.5 } else { 2.0 * steps };
+        }
+        None
+    }
+}
+
+/// 2^-20: the cosine from which on a ray goes back.
+const BACK: f64 = 8.0 * f32::EPSILON as f64;
+/// Half a step, doubled 62 times: past the size of any sphere.
+const MOST_STEPS: u32 = 64;
+
+/// Whether `tier` sees `sphere` where a ray starts that begins on a side of it, `to`.
+fn sees_start(tier: Tier, ray: &Ray, sphere: &Sphere, to: Side, outward: [f64; 3]) -> bool {
+    let d = ray.direction.to_array().map(f64::from);
+    match to {
+        // What goes back meets the sphere, as it should. (Less than this, it passes over it from a step above.)
+        Side::Outside if dot(d, outward) < -BACK * libm::sqrt(dot(d, d)) => false,
+        Side::Outside => {
+            (tier != Tier::Exact || !goes_away(ray, sphere))
+                && roots(tier, ray, sphere).is_some_and(|[_, far]| ray.t_min <= far)
+        }
+        Side::Inside => {
+            tier != Tier::Exact
+                && roots(tier, ray, sphere).is_some_and(|[near, _]| ray.t_min <= near)
+        }
+    }
+}
+
+/// Whether a ray goes away from the centre of `sphere` where it starts, or around it: d.(o - c) >= 0.
+fn goes_away(ray: &Ray, sphere: &Sphere) -> bool {
+    let d = ray.direction.to_array().map(f64::from);
+    let q = from_center(ray.origin, sphere);
+    let (slope, size) = (dot(d, q), dot(d.map(f64::abs), q.map(f64::abs)));
+    // A coordinate of q is u off, a product and two sums by 3u.
+    if slope.abs() > 8.0 * U * size {
+        slope > 0.0
+    } else {
+        terms(ray.origin, ray.direction, sphere).start()[1] != Ordering::Less
+    }
+}
+
+/// A point as seen from the centre, every coordinate rounded once.
+fn from_center(point: Vec3, sphere: &Sphere) -> [f64; 3] {
+    axes!(i => f64::from(point[i]) - f64::from(sphere.center[i]))
+}
+
+fn terms(origin: Vec3, direction: Vec3, sphere: &Sphere) -> QuadraticTerms {
+    let [o, d, c] = [origin, direction, sphere.center].map(|v| v.to_array());
+    QuadraticTerms::new(o, d, c, sphere.radius)
+}

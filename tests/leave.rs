@@ -1,0 +1,299 @@
+//! Rays that leave a sphere: where they start, and that they do not meet it there.
+
+use spherule_kernel::{
+    Exact, Intersect, Ray, Side, Sphere, SphereList, Surface, Tier, Vec3, roots, side, surface,
+};
+use spherule_tests::oracle::{self, units, units3};
+use spherule_tests::random::{Random, power_of_two};
+use spherule_tests::ulp::step;
+use std::cmp::Ordering;
+
+/// The side in integers.
+fn true_side(point: Vec3, sphere: &Sphere) -> Option<Side> {
+    let (x, c, r) = (units3(point), units3(sphere.center), units(sphere.radius));
+    let q = [0, 1, 2].map(|i| &x[i] - &c[i]);
+    match oracle::dot(&q, &q).cmp(&(&r * &r)) {
+        Ordering::Less => Some(Side::Inside),
+        Ordering::Equal => None,
+        Ordering::Greater => Some(Side::Outside),
+    }
+}
+
+#[test]
+fn sides_are_decided_as_in_integers() {
+    let mut random = Random::seeded(21);
+    let mut seen = [0; 3];
+    for index in 0..60_000 {
+        let (point, sphere) = match index % 3 {
+            0 => {
+                let [a, b, c, d, e, f, g] = [(); 7].map(|()| random.any_f32());
+                (Vec3::new(a, b, c), Sphere { center: Vec3::new(d, e, f), radius: g.abs() })
+            }
+            // Pythagorean: on the surface, or an ulp beside it.
+            1 => {
+                let scale = power_of_two(random.integer(-30, 30)) as f32;
+                let quadruple = random.pick(&[[1.0, 2.0, 2.0, 3.0], [2.0, 3.0, 6.0, 7.0]]);
+                let [x, y, z, radius] = quadruple.map(|x: f32| x * scale);
+                let center = scale * Vec3::new(random.integer(-4, 4) as f32, 0.0, 8.0);
+                let mut point = center + Vec3::new(x, y, z);
+                point.x = step(point.x, random.integer(-1, 1));
+                (point, Sphere { center, radius })
+            }
+            // As near as rounding puts it.
+            _ => {
+                let radius = random.log_uniform(-10, 10) as f32;
+                let center = radius * random.in_cube(3.0);
+                (center + radius * random.direction(), Sphere { center, radius })
+            }
+        };
+        if !point.is_finite() || !sphere.is_valid() {
+            assert_eq!(side(point, &sphere), None);
+            continue;
+        }
+        let truth = true_side(point, &sphere);
+        assert_eq!(side(point, &sphere), truth, "{point:?} {sphere:?}");
+        seen[truth.map_or(0, |side| 1 + side as usize)] += 1;
+    }
+    assert!(seen.iter().all(|&count| count > 3000), "{seen:?}");
+}
+
+/// A sphere of at least 2^10 ulp of its coordinates, up to 6.4e6, translated up to 1e7; a ray that hits it from up to 1e7 radii away.
+fn view(random: &mut Random) -> (Ray, Sphere) {
+    let radius = random.log_uniform(-13, 22) as f32;
+    let place = (f64::from(radius) * power_of_two(random.integer(0, 13))).min(1e7) as f32;
+    let center = match random.integer(0, 3) {
+        0 => Vec3::ZERO,
+        // The ground: the origin is a point of it.
+        1 => radius * random.direction(),
+        _ => place * random.direction(),
+    };
+    let sphere = Sphere { center, radius };
+    let distance = radius * 10_f32.powf(random.between(0.05, 7.0));
+    let origin = center + distance * random.direction();
+    (Ray::new(origin, center + radius * random.in_cube(1.0) - origin), sphere)
+}
+
+/// The spacing of numbers at the largest coordinate of a point.
+fn spacing(point: Vec3) -> f64 {
+    let largest = point.abs().max_element();
+    f64::from(largest.next_up()) - f64::from(largest)
+}
+
+fn hit(tier: Tier, ray: &Ray, sphere: &Sphere) -> Option<Surface> {
+    let [near, _] = roots(tier, ray, sphere)?;
+    (near >= 0.0).then(|| surface(tier, ray, near, sphere))
+}
+
+/// A direction to the side of `normal`, of any angle and length, nearly along the surface often.
+fn departing(random: &mut Random, normal: Vec3) -> Vec3 {
+    let across = normal.cross(random.direction()).normalize_or(random.direction());
+    let rise = if random.one_in(2) {
+        10_f32.powf(random.between(-9.0, 0.0))
+    } else {
+        random.between(0.0, 2.0)
+    };
+    let direction = power_of_two(random.integer(-20, 20)) as f32 * (across + rise * normal);
+    if along(direction, normal) < 0.0 { -direction } else { direction }
+}
+
+#[test]
+fn origins_are_within_two_steps_of_the_point() {
+    let mut random = Random::seeded(22);
+    let (mut count, mut farthest, mut total) = (0, 0.0_f64, 0.0_f64);
+    while count < 100_000 {
+        let (ray, sphere) = view(&mut random);
+        let Some(surface) = hit(Tier::Exact, &ray, &sphere) else { continue };
+        for to in [Side::Outside, Side::Inside] {
+            let outward = if to == Side::Outside { surface.normal } else { -surface.normal };
+            let direction = departing(&mut random, outward);
+            let left = surface.leave(Exact, &sphere, to, direction).expect("an origin");
+            assert_eq!((left.direction, left.t_max), (direction, f32::INFINITY));
+            assert_eq!(true_side(left.origin, &sphere), Some(to), "{ray:?} {sphere:?}");
+            // The height over the surface, and how far from the point, whose coordinates are half an ulp of r off.
+            let q = left.origin.as_dvec3() - sphere.center.as_dvec3();
+            let r = f64::from(sphere.radius);
+            let height = ((q.length() - r) / spacing(left.origin)).abs();
+            let off = (q - surface.point.as_dvec3()).abs().max_element();
+            let from_afar = 2.0_f64.powi(-50) * f64::from((ray.origin - sphere.center).length());
+            assert!(
+                off <= 2.0 * spacing(left.origin) + 2.0_f64.powi(-23) * r + from_afar,
+                "{off}: {ray:?} {sphere:?}"
+            );
+            // Near zero numbers are closer than double precision knows the point.
+            if spacing(left.origin) > 2.0_f64.powi(-45) * r + from_afar {
+                (farthest, total) = (farthest.max(height), total + height);
+                count += 1;
+            }
+        }
+    }
+    println!(
+        "{farthest:.2} ulp over the surface at most, {:.2} on average",
+        total / f64::from(count)
+    );
+    assert!(farthest <= 2.0, "{farthest}");
+}
+
+/// The cosine times both lengths.
+fn along(direction: Vec3, normal: Vec3) -> f64 {
+    direction.as_dvec3().dot(normal.as_dvec3())
+}
+
+/// Returns how many rays left.
+fn leaves_unmet(tier: Tier, seed: u64, count: u32) -> u32 {
+    let mut random = Random::seeded(seed);
+    let (mut left, mut lost) = (0, 0);
+    while left < count {
+        let (ray, sphere) = view(&mut random);
+        let Some(surface) = hit(tier, &ray, &sphere) else { continue };
+        let list = SphereList::from([sphere]);
+        for to in [Side::Outside, Side::Inside] {
+            let outward = if to == Side::Outside { surface.normal } else { -surface.normal };
+            let direction = departing(&mut random, outward);
+            let leaving = if random.one_in(4) {
+                let target = surface.point + sphere.center + direction;
+                surface.leave_to(tier, &sphere, to, target)
+            } else {
+                surface.leave(tier, &sphere, to, direction)
+            };
+            let Some(leaving) = leaving else {
+                lost += 1;
+                continue;
+            };
+            let found = list.closest_hit(tier, &leaving);
+            match to {
+                Side::Outside if along(leaving.direction, outward) >= 0.0 => {
+                    assert_eq!(found, None, "{tier:?} {leaving:?} {sphere:?}");
+                }
+                Side::Outside => {}
+                Side::Inside => {
+                    let far = roots(tier, &leaving, &sphere).map(|[_, far]| far);
+                    let met = far.filter(|far| leaving.t_min <= *far && *far <= leaving.t_max);
+                    assert_eq!(found.map(|hit| hit.t), met, "{tier:?} {leaving:?} {sphere:?}");
+                    assert!(tier != Tier::Exact || met.is_some() || leaving.t_max == 1.0);
+                }
+            }
+            left += 1;
+        }
+    }
+    assert!(lost * 1000 <= left, "{lost} of {left} found no origin");
+    left
+}
+
+#[test]
+fn no_tier_meets_the_sphere_where_a_ray_leaves_it() {
+    for (tier, seed) in [(Tier::Fast, 31), (Tier::Stable, 32)] {
+        leaves_unmet(tier, seed, 200_000);
+    }
+    leaves_unmet(Tier::Exact, 33, 600_000);
+}
+
+/// An hour: `cargo test --release --test main leave -- --ignored`.
+#[test]
+#[ignore = "a billion rays"]
+fn a_billion_rays_leave() {
+    for seed in 0..2000 {
+        leaves_unmet(Tier::Exact, 1000 + seed, 500_000);
+    }
+}
+
+/// Spheres that touch, overlap, lie one in the other and twice in one place, moved by `offset`.
+fn crowd(random: &mut Random, offset: Vec3) -> Vec<Sphere> {
+    let mut spheres = vec![Sphere { center: offset - 100.0 * Vec3::Y, radius: 100.0 }];
+    for index in 0..14 {
+        let Sphere { center, radius } = random.pick(&spheres);
+        let sphere = match index % 5 {
+            // As good as touching.
+            0 => {
+                let other = random.between(0.25, 1.5);
+                Sphere { center: center + (radius + other) * random.direction(), radius: other }
+            }
+            1 if index > 5 => Sphere { center, radius },
+            2 if radius < 50.0 => Sphere { center, radius: 0.75 * radius },
+            _ => Sphere {
+                center: offset + random.in_cube(2.0) + Vec3::Y,
+                radius: random.between(0.25, 1.0),
+            },
+        };
+        spheres.push(sphere);
+    }
+    spheres
+}
+
+#[test]
+fn shadows_are_those_of_integers() {
+    let mut random = Random::seeded(23);
+    let (mut rays, mut dark) = (0, 0);
+    for place in [0.0, 4096.0, 65_536.0, 262_144.0, 1_048_576.0, 1e7] {
+        let offset = place * Vec3::new(1.0, -0.5, 0.75);
+        // At 10^7 numbers are an ulp of 1 apart: larger spheres.
+        let scale = if place > 1e5 { 4096.0 } else { 1.0 };
+        let spheres: Vec<_> = crowd(&mut random, offset / scale)
+            .into_iter()
+            .map(|Sphere { center, radius }| Sphere {
+                center: scale * center,
+                radius: scale * radius,
+            })
+            .collect();
+        let list = SphereList::from(&spheres[..]);
+        for _ in 0..2000 {
+            let eye = offset + scale * 10_f32.powf(random.between(0.8, 6.0)) * random.direction();
+            let ray = Ray::new(eye, offset + scale * random.in_cube(2.5) - eye);
+            let Some(hit) = list.closest_hit(Exact, &ray) else { continue };
+            let sphere = spheres[hit.sphere as usize];
+            let surface = surface(Exact, &ray, hit.t, &sphere);
+            let inside = surface.normal.dot(ray.direction) > 0.0;
+            let (to, outward) = if inside {
+                (Side::Inside, -surface.normal)
+            } else {
+                (Side::Outside, surface.normal)
+            };
+            let direction = departing(&mut random, outward);
+            let leaving = surface.leave(Exact, &sphere, to, direction).expect("an origin");
+            let others = spheres.iter().enumerate();
+            let met = others
+                .filter(|&(index, _)| index != hit.sphere as usize || to == Side::Inside)
+                .any(|(_, sphere)| oracle::intersect(&leaving, sphere).is_some());
+            assert_eq!(list.any_hit(Exact, &leaving), met, "{leaving:?} of {spheres:?}");
+            rays += 1;
+            dark += u32::from(met);
+        }
+    }
+    assert!(rays > 4000 && dark > 800 && dark < rays - 800, "{dark} of {rays}");
+}
+
+#[test]
+fn what_has_no_such_origin_is_none() {
+    // Smaller than the spacing of numbers where it lies: only its centre is inside.
+    let sphere = Sphere { center: Vec3::splat(1e7), radius: 0.25 };
+    let ray = Ray::new(Vec3::new(1e7, 1e7, 0.0), Vec3::Z);
+    let surface = hit(Tier::Exact, &ray, &sphere).expect("a hit");
+    let left = surface.leave(Exact, &sphere, Side::Inside, Vec3::Z).expect("an origin");
+    assert_eq!(left.origin, sphere.center);
+    let left = surface.leave(Exact, &sphere, Side::Outside, -Vec3::Z).expect("an origin");
+    assert_eq!(true_side(left.origin, &sphere), Some(Side::Outside));
+
+    // Past the end of numbers.
+    let sphere = Sphere { center: Vec3::new(0.0, 0.0, f32::MAX), radius: f32::MAX };
+    let surface = spherule_kernel::surface(Exact, &Ray::new(Vec3::ZERO, Vec3::Z), 0.0, &sphere);
+    assert!(surface.leave(Exact, &sphere, Side::Outside, -Vec3::Z).is_some());
+
+    // A point: nothing is inside, and a ray starts beside it.
+    let sphere = Sphere { center: Vec3::Z, radius: 0.0 };
+    let surface = hit(Tier::Exact, &Ray::new(Vec3::ZERO, Vec3::Z), &sphere).expect("a hit");
+    assert_eq!(surface.leave(Exact, &sphere, Side::Inside, Vec3::Z), None);
+    let left = surface.leave(Exact, &sphere, Side::Outside, -Vec3::Z).expect("an origin");
+    assert!(!SphereList::from([sphere]).any_hit(Exact, &left));
+
+    // What is not valid returns, whatever it returns.
+    for bits in [0x7fc0_0000, 0x7f80_0000, 0xff80_0000, 0x7f7f_ffff, 1, 0x8000_0001] {
+        let bad = f32::from_bits(bits);
+        let sphere = Sphere { center: Vec3::splat(bad), radius: bad };
+        let ray = Ray::new(Vec3::splat(bad), Vec3::splat(bad));
+        let surface = spherule_kernel::surface(Exact, &ray, bad, &sphere);
+        for to in [Side::Outside, Side::Inside] {
+            if let Some(left) = surface.leave(Exact, &sphere, to, Vec3::splat(bad)) {
+                assert_eq!(side(left.origin, &sphere), Some(to));
+            }
+        }
+    }
+}

@@ -1,0 +1,70 @@
+//! The surface at every hit, at every storey.
+
+use super::{Storey, level, levels, packed};
+use spherule_kernel::{
+    HitPacket, Intersect, LaneArray, Lanes, Ray, RayPacket, SphereList, Surface, SurfacePacket,
+    Tier, Trace, Vec3, f32x4, f32x8, f32x16, surface, surface_lanes, surface_packets,
+};
+
+/// The storeys at which surfaces are computed.
+pub fn surface_storeys() -> impl Iterator<Item = Storey> {
+    let lanes = [1, 4, 8, 16].map(Storey::Lanes).into_iter();
+    lanes.chain([Storey::Ray]).chain(levels().map(Storey::Packets))
+}
+
+/// The normal and the point of every ray's closest hit in a list, zeros if there is none.
+#[must_use]
+pub fn surfaces_of(tier: Tier, storey: Storey, list: &SphereList, rays: &[Ray]) -> Vec<[Vec3; 2]> {
+    match storey {
+        Storey::Packets(name) => {
+            let (rays, level) = (packed::<[f32; 16]>(rays), level(name));
+            let hits = hits(&rays, |rays, hits| {
+                list.closest_hit_packets(tier, &mut Trace::new().at(level), rays, hits);
+            });
+            let mut surfaces = vec![SurfacePacket::none(); rays.len()];
+            surface_packets(tier, level, list.spheres(), &rays, &hits, &mut surfaces);
+            unpacked(&surfaces)
+        }
+        Storey::Lanes(1) => in_lanes::<f32>(tier, list, rays),
+        Storey::Lanes(4) => in_lanes::<f32x4>(tier, list, rays),
+        Storey::Lanes(8) => in_lanes::<f32x8>(tier, list, rays),
+        Storey::Lanes(_) => in_lanes::<f32x16>(tier, list, rays),
+        Storey::Ray | Storey::Slice | Storey::SliceAt(_) => {
+            let one = |ray: &Ray| {
+                let hit = list.closest_hit(tier, ray)?;
+                let sphere = list.spheres().get(hit.sphere as usize)?;
+                let Surface { normal, point, .. } = surface(tier, ray, hit.t, &sphere);
+                Some([normal, point])
+            };
+            rays.iter().map(|ray| one(ray).unwrap_or_default()).collect()
+        }
+    }
+}
+
+fn in_lanes<L: Lanes<Token = ()>>(tier: Tier, list: &SphereList, rays: &[Ray]) -> Vec<[Vec3; 2]> {
+    let rays = packed::<L::Array>(rays);
+    let hits = hits(&rays, |rays, hits| {
+        list.closest_hit_lanes::<L>(tier, (), &mut Trace::new(), rays, hits);
+    });
+    let packets = rays.iter().zip(&hits);
+    let surfaces: Vec<_> = packets
+        .map(|(rays, hits)| surface_lanes::<L>(tier, (), list.spheres(), rays, hits))
+        .collect();
+    unpacked(&surfaces)
+}
+
+fn hits<A: LaneArray>(
+    rays: &[RayPacket<A>],
+    trace: impl FnOnce(&[RayPacket<A>], &mut [HitPacket<A>]),
+) -> Vec<HitPacket<A>> {
+    let mut hits = vec![HitPacket::none(); rays.len()];
+    trace(rays, &mut hits);
+    hits
+}
+
+fn unpacked<A: LaneArray>(surfaces: &[SurfacePacket<A>]) -> Vec<[Vec3; 2]> {
+    let lanes = |packet: &SurfacePacket<A>| {
+        (0..A::COUNT).map(|lane| [packet.normal(lane), packet.point(lane)]).collect::<Vec<_>>()
+    };
+    surfaces.iter().flat_map(lanes).collect()
+}
