@@ -92,7 +92,9 @@ fn departing(random: &mut Random, normal: Vec3) -> Vec3 {
     } else {
         random.between(0.0, 2.0)
     };
-    let direction = power_of_two(random.integer(-20, 20)) as f32 * (across + rise * normal);
+    // So long that a root below zero may be rounded to zero.
+    let power = if random.one_in(8) { 120 } else { random.integer(-20, 20) };
+    let direction = power_of_two(power) as f32 * (across + rise * normal);
     if along(direction, normal) < 0.0 { -direction } else { direction }
 }
 

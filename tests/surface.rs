@@ -4,7 +4,7 @@ use spherule_kernel::{Exact, Ray, Sphere, SphereList, Stable, Tier, Vec3, roots,
 use spherule_tests::aim::line_distance;
 use spherule_tests::case::Case;
 use spherule_tests::oracle;
-use spherule_tests::random::Random;
+use spherule_tests::random::{Random, power_of_two};
 use spherule_tests::regimes::REGIMES;
 use spherule_tests::variants::{Storey, surface_storeys, surfaces_of};
 
@@ -49,7 +49,7 @@ fn exact_surfaces_are_correctly_rounded_from_afar_and_for_any_bits() {
     let mut random = Random::seeded(6);
     let mut checked = 0;
     for index in 0..12_000 {
-        let (ray, sphere) = match index % 3 {
+        let (ray, sphere) = match index % 4 {
             0 => {
                 let far = 10_f32.powf(random.between(-1.0, 1.0) * 4.0 + 4.0);
                 let sphere =
@@ -64,6 +64,15 @@ fn exact_surfaces_are_correctly_rounded_from_afar_and_for_any_bits() {
                 let radius = random.integer(1, 4) as f32;
                 let sphere = Sphere { center: Vec3::new(a, b, c), radius };
                 (Ray::new(Vec3::new(d, e, f), Vec3::new(g, h, i)), sphere)
+            }
+            // Half-way between numbers: the ray goes along an axis, and o - c has 25 bits.
+            2 => {
+                let tie =
+                    |random: &mut Random| random.pick(&[-1.0, 1.0]) * power_of_two(-24) as f32;
+                let center = Vec3::new(tie(&mut random), tie(&mut random), 0.0);
+                let sphere = Sphere { center, radius: random.pick(&[4.0, 8.0, 5.0]) };
+                let origin = Vec3::new(random.between(1.0, 2.0), -random.between(1.0, 2.0), -9.0);
+                (Ray::new(origin, Vec3::Z), sphere)
             }
             _ => {
                 let [a, b, c, d, e, f] = [(); 6].map(|()| random.any_f32());
@@ -81,27 +90,27 @@ fn exact_surfaces_are_correctly_rounded_from_afar_and_for_any_bits() {
 #[test]
 fn surfaces_are_the_same_at_every_storey() {
     let mut random = Random::seeded(7);
-    for far in [3.0, 1e3, 1e7] {
+    for (far, size) in [(3.0, 1.0), (1e3, 1.0), (1e6, 0.1), (1e7, 1.0)] {
         let sphere = |random: &mut Random| Sphere {
             center: random.in_cube(4.0),
-            radius: if random.one_in(20) { 0.0 } else { random.between(0.2, 1.0) },
+            radius: if random.one_in(20) { 0.0 } else { size * random.between(0.2, 1.0) },
         };
         let spheres: Vec<_> = (0..40).map(|_| sphere(&mut random)).collect();
         let ray = |random: &mut Random| {
             let origin = far * random.direction();
-            let target = match random.integer(0, 2) {
-                0 => random.pick(&spheres).center,
-                1 => random.in_cube(4.0),
-                _ => 3.0 * origin,
+            let target = match random.integer(0, 3) {
+                0 => random.in_cube(4.0),
+                1 => 3.0 * origin,
+                _ => random.pick(&spheres).center + 0.5 * size * random.in_cube(1.0),
             };
             Ray::new(origin, target - origin)
         };
-        let rays: Vec<_> = (0..301).map(|_| ray(&mut random)).collect();
+        let rays: Vec<_> = (0..2001).map(|_| ray(&mut random)).collect();
         let list = SphereList::from(&spheres[..]);
         for tier in Tier::ALL {
             let bits = |surfaces: Vec<[Vec3; 2]>| -> Vec<_> {
                 let bits = |v: Vec3| v.to_array().map(f32::to_bits);
-                surfaces.into_iter().take(301).map(|surface| surface.map(bits)).collect()
+                surfaces.into_iter().take(2001).map(|surface| surface.map(bits)).collect()
             };
             let expected = bits(surfaces_of(tier, Storey::Ray, &list, &rays));
             assert!(expected.iter().filter(|&&surface| surface != [[0; 3]; 2]).count() > 50);
@@ -143,7 +152,7 @@ fn other_tiers_are_within_what_is_stated() {
         hits += 1;
     }
     println!("{used:.3} of what is stated used");
-    assert!(hits > 30_000 && used > 0.15, "{hits} {used}");
+    assert!(hits > 30_000 && used > 0.1, "{hits} {used}");
 }
 
 #[test]
