@@ -2,7 +2,7 @@
 //! tier itself. These hold whatever bits come in, in the tier's domain or not.
 
 use crate::geometry::Scene;
-use crate::promise;
+use crate::{promise, surfaces};
 use spherule_kernel::{Hit, Ray, Sphere, Tier, Viewpoint, roots};
 use spherule_tests::case::Case;
 use spherule_tests::oracle::{accepted, is_closer};
@@ -24,6 +24,9 @@ pub fn check(scene: &Scene) {
                 check_tier(tier, scene, structures);
             }
         });
+    }
+    for tier in Tier::ALL {
+        surfaces::check(tier, scene);
     }
 }
 

@@ -11,3 +11,4 @@
 pub mod agreement;
 pub mod geometry;
 pub mod promise;
+pub mod surfaces;

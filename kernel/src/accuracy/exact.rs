@@ -204,7 +204,7 @@ impl<L: Lanes> Brackets<L> {
         radius: L::Double,
     ) {
         let estimate = Estimate::new(origin, d, center, radius, &Constants::PROVEN);
-        let Estimate { discriminant, error, near, far, .. } = estimate;
+        let Estimate { discriminant, error, near, far } = estimate;
         let meets = error.lt(discriminant);
         let misses = discriminant.lt(-error);
         let infinity = error.like(f64::INFINITY);

@@ -9,14 +9,16 @@
 //! t d - p = (d x (d x p) -+ d sqrt D) / a.
 //! ```
 //!
-//! In double precision d x p loses some 2^-51 |d| |p|: a normal is off by some 2^-50 |p| / r, 2^-27 from 10^7 radii away.
-//! By `Exact` that has a bound (`docs/numerics.md`).
+//! In double precision d x p loses some 2^-51 |d| |p|: a normal is off by some 2^-50 |p| / r, 2^-27 from 10^7 radii away. Without
+//! that loss, where it matters: the products of single precision are exact, and so is the sum of two of them in two terms. By `Exact` both
+//! have bounds (`docs/numerics.md`).
 
-use super::exact::estimate::{Constants, Estimate};
+use super::exact::estimate::Constants;
 use super::roots::RayLanes;
 use crate::geometry::surface::Surface;
 use crate::lanes::{DoubleLanes, LaneArray, Lanes};
 use crate::numeric::axes::{axes, dot};
+use crate::numeric::error_free::two_sum;
 use crate::{Ray, Sphere};
 use glam::Vec3;
 
@@ -29,31 +31,94 @@ pub struct SurfaceLanes<L> {
 
 /// 16 ulp of t, at least.
 const NEAR: f64 = 16.0 / 8_388_608.0;
+/// u, of double precision.
+const U: f64 = f64::EPSILON / 2.0;
+
+/// Of the bound of D, where d x p is in two terms.
+const TWO_TERMS: Constants = Constants {
+    sums: 10.0 * U,
+    cross: 8.0 * U * U,
+    square: 64.0 * U * U * U * U,
+    ..Constants::PROVEN
+};
 
 /// A line and a sphere in double precision.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Line<D> {
     direction: [D; 3],
     radius: D,
-    pub(super) estimate: Estimate<D>,
+    /// d x p.
+    cross: [D; 3],
+    pub(super) a: D,
+    /// b.
+    pub(super) slope: D,
+    pub(super) discriminant: D,
+    /// The bound of D.
+    pub(super) error: D,
+    /// |d|_1, and G = |d|_1 |p|_1.
+    length: D,
+    pub(super) size: D,
+    /// What d x (d x p) may be off, in units of |d|_1.
+    loss: D,
 }
 
 impl<D: DoubleLanes> Line<D> {
+    /// With d x p rounded to 3u of its products, or, if `IN_TWO_TERMS`, to 2u of itself.
     #[inline(always)]
-    pub(super) fn new(origin: [D; 3], direction: [D; 3], center: [D; 3], radius: D) -> Self {
-        let estimate = Estimate::new(origin, direction, center, radius, &Constants::PROVEN);
-        Self { direction, radius, estimate }
+    pub(super) fn new<const IN_TWO_TERMS: bool>(
+        o: [D; 3],
+        d: [D; 3],
+        c: [D; 3],
+        radius: D,
+    ) -> Self {
+        let p = axes!(i => c[i] - o[i]);
+        let x = if IN_TWO_TERMS {
+            [
+                cross_in_two_terms([d[1], d[2]], [c[1], c[2]], [o[1], o[2]]),
+                cross_in_two_terms([d[2], d[0]], [c[2], c[0]], [o[2], o[0]]),
+                cross_in_two_terms([d[0], d[1]], [c[0], c[1]], [o[0], o[1]]),
+            ]
+        } else {
+            cross(d, p)
+        };
+        let a = dot(d, d);
+        let (reach, square) = (a * (radius * radius), dot(x, x));
+        let (length, lost) = (sum_of_magnitudes(d), sum_of_magnitudes(x));
+        let size = length * sum_of_magnitudes(p);
+
+        let Constants { sums, cross, square: squared, .. } =
+            if IN_TWO_TERMS { TWO_TERMS } else { Constants::PROVEN };
+        let error = a.like(sums) * (reach + square)
+            + a.like(cross) * (lost * size)
+            + a.like(squared) * (size * size);
+        let loss = if IN_TWO_TERMS {
+            a.like(8.0 * U) * lost + a.like(8.0 * U * U) * size
+        } else {
+            a.like(8.0 * U) * size
+        };
+        Self {
+            direction: d,
+            radius,
+            cross: x,
+            a,
+            slope: dot(d, p),
+            discriminant: reach - square,
+            error,
+            length,
+            size,
+            loss,
+        }
     }
 
     /// Part `part` of the lanes.
     #[inline(always)]
-    pub(super) fn of_part<L: Lanes<Double = D>>(
+    pub(super) fn of_part<L: Lanes<Double = D>, const IN_TWO_TERMS: bool>(
         rays: &RayLanes<L>,
         center: [L; 3],
         radius: L,
         part: usize,
     ) -> Self {
-        Self::new(
+        Self::new::<IN_TWO_TERMS>(
             axes!(i => rays.origin[i].widen(part)),
             axes!(i => rays.direction[i].widen(part)),
             axes!(i => center[i].widen(part)),
@@ -61,35 +126,34 @@ impl<D: DoubleLanes> Line<D> {
         )
     }
 
-    /// The point of the near root in the lanes `is_near`, else of the far one, as seen from the centre; where the line
-    /// misses, the point of it that is closest to the centre.
+    /// The point of the near root in the lanes `is_near`, else of the far one, as seen from the centre, and what every coordinate may be off, if
+    /// D is above its bound. Where the line misses, the point of it that is closest to the centre.
     #[inline(always)]
-    pub(super) fn point(&self, is_near: D::Mask) -> [D; 3] {
-        let (d, x) = (self.direction, self.estimate.cross);
-        let Estimate { a, root, .. } = self.estimate;
-        let zero = a.like(0.0);
-        let root = D::select(zero.le(root), root, zero);
-        let root = D::select(is_near, -root, root);
-        let per_a = a.like(1.0) / a;
-        let across =
-            [d[1] * x[2] - d[2] * x[1], d[2] * x[0] - d[0] * x[2], d[0] * x[1] - d[1] * x[0]];
-        axes!(i => (across[i] + d[i] * root) * per_a)
-    }
+    pub(super) fn point(&self, is_near: D::Mask) -> ([D; 3], D) {
+        let (d, zero) = (self.direction, self.a.like(0.0));
+        let positive = zero.lt(self.discriminant);
+        let root = D::select(positive, self.discriminant, zero).sqrt();
+        // One division for both.
+        let per_both = root.like(1.0) / (self.a * D::select(positive, root, root.like(1.0)));
+        let per_a = D::select(positive, root * per_both, per_both);
+        let signed = D::select(is_near, -root, root);
+        let across = cross(d, self.cross);
+        let point = axes!(i => (across[i] + d[i] * signed) * per_a);
 
-    /// What every coordinate of that point may be off, where D is above its bound: `docs/numerics.md`.
-    #[inline(always)]
-    pub(super) fn error(&self) -> D {
-        let Estimate { error, a, sizes: [length, g], root, .. } = self.estimate;
-        let u = |count: f64| a.like(count * f64::EPSILON / 2.0);
-        length * (u(8.0) * g + a.like(1.25) * error / root + u(4.0) * root) / a
-            + u(16.0) * self.radius
+        let of_root =
+            root.like(1.25) * self.error * (per_both * self.a) + root.like(4.0 * U) * root;
+        let error = self.length * (self.loss + of_root) * per_a + root.like(16.0 * U) * self.radius;
+        (point, error)
     }
 
     /// Where `t` is near the near root, as near as a tier gets, or nearer to it than to the far one.
     #[inline(always)]
     fn answers_near(&self, t: D) -> D::Mask {
-        let from_near = (t - self.estimate.near.0).abs();
-        from_near.le((t - self.estimate.far.0).abs()) | from_near.le(t.abs() * t.like(NEAR))
+        let zero = t.like(0.0);
+        let root = D::select(zero.lt(self.discriminant), self.discriminant, zero).sqrt();
+        let past_middle = t * self.a - self.slope;
+        let from_near = (past_middle + root).abs();
+        past_middle.le(zero) | from_near.le((t * self.a).abs() * t.like(NEAR))
     }
 
     /// The unit normal, and the point at the radius over it: `point` may be off the sphere, where a tier saw
@@ -105,16 +169,34 @@ impl<D: DoubleLanes> Line<D> {
     }
 }
 
+#[inline(always)]
+fn cross<D: DoubleLanes>(u: [D; 3], v: [D; 3]) -> [D; 3] {
+    [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+}
+
+/// d_0 (c_1 - o_1) - d_1 (c_0 - o_0) of numbers of single precision, whose products are exact.
+#[inline(always)]
+fn cross_in_two_terms<D: DoubleLanes>(d: [D; 2], c: [D; 2], o: [D; 2]) -> D {
+    let (high, low) = two_sum(d[0] * c[1], -(d[0] * o[1]));
+    let (other_high, other_low) = two_sum(d[1] * c[0], -(d[1] * o[0]));
+    (high - other_high) + (low - other_low)
+}
+
+#[inline(always)]
+fn sum_of_magnitudes<D: DoubleLanes>(v: [D; 3]) -> D {
+    v[0].abs() + v[1].abs() + v[2].abs()
+}
+
 /// One ray and one sphere.
-pub(super) fn line(ray: &Ray, sphere: &Sphere) -> Line<f64> {
+pub(super) fn line<const IN_TWO_TERMS: bool>(ray: &Ray, sphere: &Sphere) -> Line<f64> {
     let [o, d, c] = [ray.origin, ray.direction, sphere.center].map(|v| v.to_array().map(f64::from));
-    Line::new(o, d, c, f64::from(sphere.radius))
+    Line::new::<IN_TWO_TERMS>(o, d, c, f64::from(sphere.radius))
 }
 
 /// Where `ray` hits a sphere of positive radius at `t`, in double precision.
 pub(super) fn at(ray: &Ray, t: f32, sphere: &Sphere) -> Surface {
-    let line = line(ray, sphere);
-    let [normal, point] = line.projected(line.point(line.answers_near(f64::from(t))));
+    let line = line::<false>(ray, sphere);
+    let [normal, point] = line.projected(line.point(line.answers_near(f64::from(t))).0);
     let single = |v: [f64; 3]| Vec3::from_array(v.map(|x| x as f32 + 0.0));
     Surface { normal: single(normal), point: single(point), from_center: point }
 }
@@ -130,8 +212,8 @@ pub(super) fn in_lanes<L: Lanes>(
     let zeros = L::Array::filled(0.0);
     let mut surfaces = [[zeros; 3]; 2];
     for part in 0..L::PARTS {
-        let line = Line::of_part(rays, center, radius, part);
-        let found = line.projected(line.point(line.answers_near(t.widen(part))));
+        let line = Line::of_part::<L, false>(rays, center, radius, part);
+        let found = line.projected(line.point(line.answers_near(t.widen(part))).0);
         for i in 0..3 {
             L::narrow(&mut surfaces[0][i], part, found[0][i]);
             L::narrow(&mut surfaces[1][i], part, found[1][i]);

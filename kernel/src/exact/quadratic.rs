@@ -66,10 +66,14 @@ impl QuadraticTerms {
         [Product::of(d), Product::of(c), Product::of(o).negated()]
     }
 
+    /// r.
+    pub(super) fn radius(&self) -> Product {
+        Product::of(self.radius)
+    }
+
     /// -r^2.
     pub(super) fn minus_square(&self) -> Product {
-        let radius = Product::of(self.radius);
-        radius.times(radius).negated()
+        self.radius().times(self.radius()).negated()
     }
 
     /// Adds -D = |d x p|^2 - a r^2, times `factor`, of 64 bits at most.

@@ -28,44 +28,15 @@ pub(crate) enum Surveyed {
 
 /// A coordinate of the surface where a line enters or leaves a sphere of positive radius.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct SurfaceCoordinate {
-    terms: QuadraticTerms,
-    /// What alpha is the sum of, and what a is, times r for a normal.
-    alpha: [Product; 8],
-    scale: [Product; 3],
-    /// d_i, and whether the root of D counts with its sign: at the far root.
-    along: Product,
-    root: Root,
+pub(crate) struct SurfaceCoordinate<'a> {
+    pub(crate) terms: &'a QuadraticTerms,
+    /// 0, 1 or 2.
+    pub(crate) axis: usize,
+    pub(crate) root: Root,
+    pub(crate) of: Surveyed,
 }
 
-impl SurfaceCoordinate {
-    /// Coordinate `axis` for a line that meets the sphere.
-    pub(crate) fn new(
-        terms: &QuadraticTerms,
-        radius: f32,
-        axis: usize,
-        root: Root,
-        of: Surveyed,
-    ) -> Self {
-        let [[di, ci, oi], [dj, cj, oj], [dk, ck, ok]] =
-            [axis, axis + 1, axis + 2].map(|axis| terms.axis(axis));
-        let (ij, ik) = (di.times(dj), di.times(dk));
-        let (jj, kk) = (dj.times(dj).negated(), dk.times(dk).negated());
-        let alpha = [
-            ij.times(cj),
-            ij.times(oj),
-            ik.times(ck),
-            ik.times(ok),
-            jj.times(ci),
-            jj.times(oi),
-            kk.times(ci),
-            kk.times(oi),
-        ];
-        let by = if of == Surveyed::Normal { Product::of(radius) } else { Product::ONE };
-        let scale = [di, dj, dk].map(|d| d.times(d).times(by).negated());
-        Self { terms: *terms, alpha, scale, along: di, root }
-    }
-
+impl SurfaceCoordinate<'_> {
     /// The coordinate, correctly rounded, which is from `low` to `high`.
     pub(crate) fn rounded(&self, low: f32, high: f32) -> f32 {
         // What is rounded to the lowest may lie below it.
@@ -90,28 +61,66 @@ impl SurfaceCoordinate {
 
     /// How the coordinate compares with a number of at most 25 significant bits.
     fn compare_with(&self, number: f64) -> Ordering {
-        let m = Product::of_double(number);
-        let [x, y, z] = self.scale.map(|scale| scale.times(m));
-        let [a, b, c, d, e, f, g, h] = self.alpha;
-        let terms = [a, b, c, d, e, f, g, h, x, y, z];
-        let mut sum = SumOfSixes::zero();
-        terms.into_iter().for_each(|term| sum.add(term));
-        let (whole, mut along) = (sum.sign(), self.along.sign());
+        let whole_terms = self.whole(Product::of_double(number));
+        let [along, ..] = self.terms.axis(self.axis);
+        let whole = sign_of_sum(&whole_terms);
+        let mut part = along.sign();
         if self.root == Root::Near {
-            along = along.reverse();
+            part = part.reverse();
         }
-        if whole == along || along == Ordering::Equal {
+        if whole == part || part == Ordering::Equal {
             return whole;
         }
-        let mut difference = SumOfEights::zero();
-        difference.add_wide_square(&terms);
-        self.terms.add_minus_discriminant(&mut difference, self.along.times(self.along));
-        match difference.sign() {
+        match self.sign_of_difference(&whole_terms, along.times(along)) {
             Ordering::Greater => whole,
-            Ordering::Less => along,
+            Ordering::Less => part,
             Ordering::Equal => Ordering::Equal,
         }
     }
+
+    /// What A is the sum of. (Made anew for each number: kept, it is most of the stack.)
+    fn whole(&self, m: Product) -> [Product; 11] {
+        let [[di, ci, oi], [dj, cj, oj], [dk, ck, ok]] =
+            [0, 1, 2].map(|next| self.terms.axis(self.axis + next));
+        let (ij, ik) = (di.times(dj), di.times(dk));
+        let (jj, kk) = (dj.times(dj).negated(), dk.times(dk).negated());
+        let scale = match self.of {
+            Surveyed::Normal => m.times(self.terms.radius()),
+            Surveyed::Point => m,
+        };
+        let scale = scale.negated();
+        [
+            ij.times(cj),
+            ij.times(oj),
+            ik.times(ck),
+            ik.times(ok),
+            jj.times(ci),
+            jj.times(oi),
+            kk.times(ci),
+            kk.times(oi),
+            di.times(di).times(scale),
+            dj.times(dj).times(scale),
+            dk.times(dk).times(scale),
+        ]
+    }
+
+    /// The sign of A^2 - d_i^2 D.
+    #[inline(never)]
+    fn sign_of_difference(&self, whole: &[Product; 11], square: Product) -> Ordering {
+        let mut sum = SumOfEights::zero();
+        sum.add_wide_square(whole);
+        self.terms.add_minus_discriminant(&mut sum, square);
+        sum.sign()
+    }
+}
+
+#[inline(never)]
+fn sign_of_sum(terms: &[Product; 11]) -> Ordering {
+    let mut sum = SumOfSixes::zero();
+    for &term in terms {
+        sum.add(term);
+    }
+    sum.sign()
 }
 
 /// The place of a number among all, in their order; both zeros at 0.

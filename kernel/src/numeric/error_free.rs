@@ -4,12 +4,13 @@
 //! target, and where it is not the error term would silently be zero.
 
 use crate::Lanes;
+use core::ops::{Add, Sub};
 
 /// `high + low = a + b` exactly, with `high` the rounded sum (Knuth; Møller 1965).
 ///
 /// Domain: no overflow. Underflow does no harm: sums that small are exact.
 #[inline(always)]
-pub(crate) fn two_sum<L: Lanes>(a: L, b: L) -> (L, L) {
+pub(crate) fn two_sum<T: Copy + Add<Output = T> + Sub<Output = T>>(a: T, b: T) -> (T, T) {
     let high = a + b;
     let b_part = high - a;
     let a_part = high - b_part;

@@ -2,15 +2,15 @@
 //!
 //! The cases are those of `tests/cases/regimes.txt`, given as bits, and others a few ulp away;
 //! nothing here computes with floats but the kernel. The digest is FNV-1a over the bits of every t
-//! and every index: of the pairs, of the closest hits in the list of all spheres, of both roots.
+//! and every index: of the pairs, of the closest hits in the list of all spheres and the surfaces there, of both roots.
 //! With `--control` one bit of the radius of the first sphere that is met is another.
 
 mod cases;
 
 use cases::Case;
 use spherule_kernel::{
-    HitPacket, Intersect, Lanes, RayPacket, Sphere, SpherePacket, Spheres, Tier, Trace, f32x4,
-    f32x8, f32x16, pair_lanes, roots,
+    HitPacket, Intersect, Lanes, RayPacket, Sphere, SpherePacket, Spheres, SurfacePacket, Tier,
+    Trace, f32x4, f32x8, f32x16, pair_lanes, roots, surface_lanes,
 };
 use std::process::ExitCode;
 
@@ -67,12 +67,19 @@ fn lists<L: Lanes<Token = ()>>(fnv: &mut Fnv, tier: Tier, cases: &[Case], sphere
     let (mut hits, mut met) = (vec![HitPacket::none(); packets.len()], vec![0; packets.len()]);
     spheres.closest_hit_lanes::<L>(tier, (), &mut Trace::new(), &packets, &mut hits);
     spheres.any_hit_lanes::<L>(tier, (), &mut Trace::new(), &packets, &mut met);
+    let mut surfaces = SurfacePacket::none();
     // Ray by ray: a packet by a packet would be another order in every width.
     for ray in 0..rays.len() {
         let (packet, lane) = (ray / L::COUNT, ray % L::COUNT);
         fnv.t(hits[packet].t()[lane]);
         fnv.word(hits[packet].spheres()[lane]);
         fnv.word(met[packet] >> lane & 1);
+        let (rays, hits) = (&packets[packet], &hits[packet]);
+        if lane == 0 {
+            surfaces = surface_lanes::<L>(tier, (), spheres, rays, hits);
+        }
+        let (normal, point) = (surfaces.normal(lane), surfaces.point(lane));
+        normal.to_array().into_iter().chain(point.to_array()).for_each(|x| fnv.t(x));
     }
 }
 

@@ -1,9 +1,9 @@
-//! The stack of Exact's fallback: less than 1 KiB, as its documentation says.
+//! The stack of Exact's fallbacks: less than 1 KiB for a hit, 2.5 KiB for a surface, as their documentation says.
 
 use crate::painted_stack::used;
 use spherule_kernel::{
     Exact, Lanes, Ray, RayPacket, Sphere, SpherePacket, Vec3, f32x4, f32x8, f32x16, pair_lanes,
-    roots,
+    roots, surface,
 };
 use std::hint::black_box;
 use std::sync::LazyLock;
@@ -42,6 +42,14 @@ static HARD: LazyLock<[(Ray, Sphere); 3]> = LazyLock::new(hard);
 extern "C" fn both_roots() {
     for (ray, sphere) in black_box(&*HARD) {
         black_box(roots(Exact, ray, sphere));
+    }
+}
+
+/// Tangents, and a point half-way between numbers: every coordinate is compared exactly.
+extern "C" fn surfaces() {
+    for (ray, sphere) in black_box(&*HARD) {
+        let t = roots(Exact, ray, sphere).map_or(0.0, |[near, _]| near);
+        black_box(surface(Exact, ray, t, sphere));
     }
 }
 
@@ -87,6 +95,9 @@ pub(crate) fn measure() {
     println!("machine: stack of the fallback: {fallback} bytes; of the control: {control}");
     assert!(control >= LIMIT, "the control was not seen");
     assert!(fallback < LIMIT, "{fallback} bytes");
+    let of_surfaces = used(surfaces) - call;
+    println!("machine: stack of a surface by the fallback: {of_surfaces} bytes");
+    assert!(of_surfaces < LIMIT * 5 / 2, "{of_surfaces} bytes");
     report::<f32>();
     report::<f32x4>();
     report::<f32x8>();

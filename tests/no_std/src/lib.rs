@@ -12,9 +12,9 @@ extern crate std;
 use core::hint::black_box;
 use spherule_kernel::{
     AnyHit, Bvh, BvhLeaf, BvhNode, Camera, ClosestHit, DepthList, Hit, HitPacket, Intersect, Lanes,
-    Level, Projection, Ray, RayPacket, Sphere, SpherePacket, Spheres, Tier, Trace, Vec3, Viewpoint,
-    f32x4, f32x8, f32x16, float_environment_is_sound, pair_lanes, pair_packets, pairs, roots,
-    stages,
+    Level, Projection, Ray, RayPacket, Side, Sphere, SpherePacket, Spheres, SurfacePacket, Tier,
+    Trace, Vec3, Viewpoint, f32x4, f32x8, f32x16, float_environment_is_sound, pair_lanes,
+    pair_packets, pairs, roots, side, stages, surface, surface_packets,
 };
 
 /// What a firmware does in its own way; without `std` there must be one.
@@ -87,6 +87,7 @@ pub unsafe extern "C" fn spherule_no_std(numbers: *const f32, count: usize) -> u
         Err(error) => sum.word(error.needed as u32),
     }
     sum.pairs(tier, &rays, &sphere);
+    sum.surfaces(tier, &rays, spheres);
     sum.word(
         roots(tier, &rays[1], &sphere).map_or(0, |[near, far]| near.to_bits() ^ far.to_bits()),
     );
@@ -112,6 +113,29 @@ impl Sum {
     fn hits(&mut self, hits: impl IntoIterator<Item = Option<Hit>>) {
         for hit in hits {
             self.word(hit.map_or(0, |hit| hit.t.to_bits() ^ hit.sphere));
+        }
+    }
+
+    /// Normals and points at every storey, and rays that leave.
+    fn surfaces(&mut self, tier: Tier, rays: &[Ray], spheres: Spheres<'_>) {
+        let packets = [RayPacket::new(rays)];
+        let mut hits = [HitPacket::none()];
+        spheres.closest_hit_packets(tier, &mut Trace::new(), &packets, &mut hits);
+        let mut surfaces = [SurfacePacket::none()];
+        surface_packets(tier, Level::best(), spheres, &packets, &hits, &mut surfaces);
+        for lane in 0..16 {
+            let (normal, point) = (surfaces[0].normal(lane), surfaces[0].point(lane));
+            self.bits(normal.to_array().map(f32::to_bits));
+            self.bits(point.to_array().map(f32::to_bits));
+        }
+        let (Some(hit), Some(ray)) = (hits[0].hit(0), rays.first()) else { return };
+        let Some(sphere) = spheres.get(hit.sphere as usize) else { return };
+        let surface = surface(tier, ray, hit.t, &sphere);
+        let outside = surface.leave(tier, &sphere, Side::Outside, ray.origin);
+        let inside = surface.leave_to(tier, &sphere, Side::Inside, ray.origin);
+        for ray in [outside, inside].into_iter().flatten() {
+            self.word(u32::from(side(ray.origin, &sphere) == Some(Side::Outside)));
+            self.bits(ray.origin.to_array().map(f32::to_bits));
         }
     }
 

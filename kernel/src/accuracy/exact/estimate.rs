@@ -11,17 +11,17 @@ const U: f64 = f64::EPSILON / 2.0;
 #[derive(Clone, Copy, Debug)]
 pub(in crate::accuracy) struct Constants {
     /// Of A + L, in the bound of D.
-    pub(super) sums: f64,
+    pub(in crate::accuracy) sums: f64,
     /// Of X G, in the bound of D.
-    pub(super) cross: f64,
+    pub(in crate::accuracy) cross: f64,
     /// Of G^2, in the bound of D.
-    pub(super) square: f64,
+    pub(in crate::accuracy) square: f64,
     /// Of G / a, in the bound of t.
-    pub(super) slope: f64,
+    pub(in crate::accuracy) slope: f64,
     /// Of sqrt D / a, in the bound of t.
-    pub(super) root: f64,
+    pub(in crate::accuracy) root: f64,
     /// Of |t|, in the bound of t.
-    pub(super) t: f64,
+    pub(in crate::accuracy) t: f64,
 }
 
 impl Constants {
@@ -36,29 +36,21 @@ impl Constants {
     };
 }
 
-/// D and the roots as computed, each with a bound on its error; and what they were computed from.
+/// D and the roots as computed, each with a bound on its error.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::accuracy) struct Estimate<D> {
-    pub(in crate::accuracy) discriminant: D,
+pub(super) struct Estimate<D> {
+    pub(super) discriminant: D,
     /// E.
-    pub(in crate::accuracy) error: D,
+    pub(super) error: D,
     /// t and T of the smaller root; no number where D is not above E.
-    pub(in crate::accuracy) near: (D, D),
+    pub(super) near: (D, D),
     /// Of the larger root.
-    pub(in crate::accuracy) far: (D, D),
-    /// d x p.
-    pub(in crate::accuracy) cross: [D; 3],
-    /// a.
-    pub(in crate::accuracy) a: D,
-    /// |d|_1 and G = |d|_1 |p|_1.
-    pub(in crate::accuracy) sizes: [D; 2],
-    /// sqrt D; NaN below zero.
-    pub(in crate::accuracy) root: D,
+    pub(super) far: (D, D),
 }
 
 impl<D: DoubleLanes> Estimate<D> {
     #[inline(always)]
-    pub(in crate::accuracy) fn new(
+    pub(super) fn new(
         origin: [D; 3],
         d: [D; 3],
         center: [D; 3],
@@ -72,8 +64,7 @@ impl<D: DoubleLanes> Estimate<D> {
         let a = dot(d, d);
         let (reach, square) = (a * (radius * radius), dot(x, x));
         let discriminant = reach - square;
-        let length = sum_of_magnitudes(d);
-        let g = length * sum_of_magnitudes(p);
+        let g = sum_of_magnitudes(d) * sum_of_magnitudes(p);
         let error = a.like(constants.sums) * (reach + square)
             + a.like(constants.cross) * (sum_of_magnitudes(x) * g)
             + a.like(constants.square) * (g * g);
@@ -92,10 +83,6 @@ impl<D: DoubleLanes> Estimate<D> {
             error,
             near: (near, shared + t * near.abs()),
             far: (far, shared + t * far.abs()),
-            cross: x,
-            a,
-            sizes: [length, g],
-            root,
         }
     }
 }

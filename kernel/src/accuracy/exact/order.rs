@@ -21,7 +21,7 @@ impl Answered {
     /// By rule 4 the near root, if it is rounded to t, which the interval accepts.
     pub(super) fn new(ray: &Ray, t: f32, sphere: &Sphere) -> Self {
         let (o, d, c) = (ray.origin.to_array(), ray.direction.to_array(), sphere.center.to_array());
-        let Estimate { discriminant, error, near, far, .. } = Estimate::new(
+        let Estimate { discriminant, error, near, far } = Estimate::new(
             axes!(i => f64::from(o[i])),
             axes!(i => f64::from(d[i])),
             axes!(i => f64::from(c[i])),

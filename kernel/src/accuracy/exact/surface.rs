@@ -2,7 +2,6 @@
 //!
 //! In double precision with its bound; then exactly, a coordinate at a time.
 
-use super::estimate::Estimate;
 use super::order::Answered;
 use crate::accuracy::RayLanes;
 use crate::accuracy::surface::{Line, SurfaceLanes, line};
@@ -19,10 +18,9 @@ const U: f64 = f64::EPSILON / 2.0;
 /// The surface of a sphere of positive radius where `ray` hits it at `t`.
 pub(super) fn at(ray: &Ray, t: f32, sphere: &Sphere) -> Surface {
     let root = Answered::new(ray, t, sphere).root;
-    let line = line(ray, sphere);
-    let from_center = line.point(root == Root::Near);
-    let known = line.estimate.error < line.estimate.discriminant;
-    let of_point = if known { line.error() } else { f64::INFINITY };
+    let line = line::<true>(ray, sphere);
+    let (from_center, error) = line.point(root == Root::Near);
+    let of_point = if line.error < line.discriminant { error } else { f64::INFINITY };
     let per_radius = 1.0 / f64::from(sphere.radius);
 
     let terms = QuadraticTerms::new(
@@ -42,7 +40,7 @@ pub(super) fn at(ray: &Ray, t: f32, sphere: &Sphere) -> Surface {
             return low + 0.0;
         }
         let (low, high) = (low.max(-most), high.min(most));
-        SurfaceCoordinate::new(&terms, sphere.radius, axis, root, of).rounded(low, high)
+        SurfaceCoordinate { terms: &terms, axis, root, of }.rounded(low, high)
     };
     let all = |of: Surveyed| Vec3::from_array([0, 1, 2].map(|axis| rounded(axis, of)));
     Surface { normal: all(Surveyed::Normal), point: all(Surveyed::Point), from_center }
@@ -63,16 +61,49 @@ pub(super) fn in_lanes<L: Lanes>(
     radius: L,
     asked: L::Mask,
 ) -> (SurfaceLanes<L>, L::Mask) {
+    let (first, known) = estimated::<L, false>(rays, t, center, radius, asked);
+    let rest = asked & !known;
+    if !rest.any() {
+        return (first, known);
+    }
+    let (rays, token) = (*rays, t.token());
+    L::out_of_line(
+        token,
+        #[inline(always)]
+        move || {
+            let (second, of_rest) = estimated::<L, true>(&rays, t, center, radius, rest);
+            let surfaces = SurfaceLanes {
+                normal: axes!(i => L::select(known, first.normal[i], second.normal[i])),
+                point: axes!(i => L::select(known, first.point[i], second.point[i])),
+            };
+            (surfaces, known | of_rest)
+        },
+    )
+}
+
+#[inline(always)]
+fn estimated<L: Lanes, const IN_TWO_TERMS: bool>(
+    rays: &RayLanes<L>,
+    t: L,
+    center: [L; 3],
+    radius: L,
+    asked: L::Mask,
+) -> (SurfaceLanes<L>, L::Mask) {
     let (token, zeros) = (t.token(), L::Array::filled(0.0));
     // From below and from above.
     let [mut normal, mut point] = [[[zeros; 2]; 3]; 2];
     let mut known = 0_u32;
+    let lanes = asked.bits();
     for part in 0..L::PARTS {
-        let line = Line::of_part(rays, center, radius, part);
+        let first = part * L::Double::COUNT;
+        if (lanes >> first) & ((1 << L::Double::COUNT) - 1) == 0 {
+            continue;
+        }
+        let line = Line::of_part::<L, IN_TWO_TERMS>(rays, center, radius, part);
         let (is_near, is_known) = root_of(&line, t.widen(part));
-        known |= is_known.bits() << (part * L::Double::COUNT);
+        known |= is_known.bits() << first;
 
-        let (value, error) = (line.point(is_near), line.error());
+        let (value, error) = line.point(is_near);
         let per_radius = error.like(1.0) / radius.widen(part);
         let of_normal = normal_error(error, per_radius);
         for i in 0..3 {
@@ -86,10 +117,11 @@ pub(super) fn in_lanes<L: Lanes>(
 
     let mut known = asked & L::mask(token, known);
     let zero = t.like(0.0);
-    for ends in [&normal, &point] {
-        for [low, high] in ends {
-            known = known & L::load(token, high).le(L::load(token, low));
-        }
+    for i in 0..3 {
+        let [low, high] = &normal[i];
+        known = known & L::load(token, high).le(L::load(token, low));
+        let [low, high] = &point[i];
+        known = known & L::load(token, high).le(L::load(token, low));
     }
     let surfaces = SurfaceLanes {
         normal: axes!(i => L::load(token, &normal[i][0]) + zero),
@@ -98,16 +130,16 @@ pub(super) fn in_lanes<L: Lanes>(
     (surfaces, known)
 }
 
-/// Where `t` answers the near root, and where it is known which root it answers: by rule 4 the near one, if that is rounded
-/// to t.
+/// Where `t` answers the near root, and where it is known which root it answers: by its side of b / a, where the line is closest to
+/// the centre. What is rounded to t is within 2^-24 |t| of it, or 2^-149.
 #[inline(always)]
 fn root_of<D: DoubleLanes>(line: &Line<D>, t: D) -> (D::Mask, D::Mask) {
-    let Estimate { discriminant, error, near: (near, of_near), far: (far, of_far), .. } =
-        line.estimate;
-    // What rounds to t lies within half an ulp: 2^-25 |t| at least; 2^-24 |t| at most, or 2^-150.
-    let most = t.abs() * t.like(1.001 / 16_777_216.0) + t.like(f64::from(f32::from_bits(1)));
-    let least = t.abs() * t.like(0.499 / 16_777_216.0);
-    let (from_near, from_far) = ((t - near).abs(), (t - far).abs());
-    let is_near = (from_near + of_near).lt(least) | (most + of_far).lt(from_far);
-    (is_near, error.lt(discriminant) & (is_near | (most + of_near).lt(from_near)))
+    let at_t = t * line.a;
+    let off = line.slope - at_t;
+    // b is 5u G off, and the least number of single precision is allowed for too.
+    let margin = t.like(f64::from(f32::EPSILON)) * at_t.abs()
+        + t.like(8.0 * U) * line.size
+        + t.like(f64::from(f32::from_bits(1))) * line.a;
+    let is_near = margin.lt(off);
+    (is_near, line.error.lt(line.discriminant) & (is_near | margin.lt(-off)))
 }

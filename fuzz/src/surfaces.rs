@@ -1,0 +1,80 @@
+//! Surfaces and the rays that leave them: the same bits at every storey, by `Exact` those of integers, and nothing is met where a
+//! ray leaves.
+
+use crate::geometry::Scene;
+use spherule_kernel::{Intersect, Ray, Side, Sphere, SphereList, Tier, Vec3, roots, side, surface};
+use spherule_tests::aim::double;
+use spherule_tests::oracle;
+use spherule_tests::random::dot;
+use spherule_tests::variants::{Storey, surface_storeys, surfaces_of};
+
+/// Judges the surfaces that the rays of a scene hit.
+///
+/// # Panics
+/// If one is wrong.
+pub fn check(tier: Tier, scene: &Scene) {
+    let Scene { rays, spheres, .. } = scene;
+    let list = SphereList::from(&spheres[..]);
+    let one_by_one = surfaces_of(tier, Storey::Ray, &list, rays);
+    for storey in surface_storeys() {
+        let found = surfaces_of(tier, storey, &list, rays);
+        for (index, (found, expected)) in found.iter().zip(&one_by_one).enumerate() {
+            assert_eq!(
+                bits(*found),
+                bits(*expected),
+                "{tier:?} {storey:?}, ray {index} of {scene:?}"
+            );
+        }
+    }
+    for (ray, surface) in rays.iter().zip(&one_by_one) {
+        let Some(hit) = list.closest_hit(tier, ray) else { continue };
+        let sphere = spheres[hit.sphere as usize];
+        if tier == Tier::Exact {
+            is_that_of_integers(ray, hit.t, &sphere, *surface);
+        }
+        for to in [Side::Outside, Side::Inside] {
+            leaves_unmet(tier, ray, hit.t, &sphere, to);
+        }
+    }
+}
+
+/// By bits: a coordinate may be NaN where a tier's arithmetic overflows.
+fn bits(surface: [Vec3; 2]) -> [[u32; 3]; 2] {
+    let bits = |x: f32| if x.is_nan() { u32::MAX } else { x.to_bits() };
+    surface.map(|v| v.to_array().map(bits))
+}
+
+fn is_that_of_integers(ray: &Ray, t: f32, sphere: &Sphere, found: [Vec3; 2]) {
+    // By rule 4 the near root, if it is rounded to t.
+    let leaves = oracle::roots(ray, sphere).is_some_and(|[near, _]| near != t);
+    if let Some(truth) = oracle::surface(ray, sphere, leaves) {
+        let truth = truth.map(|v| Vec3::from_array(v.map(|x| x + 0.0)));
+        assert_eq!(bits(found), bits(truth), "{ray:?} {sphere:?}");
+    }
+}
+
+fn leaves_unmet(tier: Tier, ray: &Ray, t: f32, sphere: &Sphere, to: Side) {
+    let surface = surface(tier, ray, t, sphere);
+    let outward = if to == Side::Outside { surface.normal } else { -surface.normal };
+    // Away, by the ray's own direction turned, and along the normal.
+    let turned = if dot(double(ray.direction), double(outward)) < 0.0 {
+        -ray.direction
+    } else {
+        ray.direction
+    };
+    for direction in [turned, outward] {
+        let Some(left) = surface.leave(tier, sphere, to, direction) else { continue };
+        assert_eq!(side(left.origin, sphere), Some(to), "{left:?} {sphere:?}");
+        let met = roots(tier, &left, sphere);
+        match to {
+            Side::Outside => {
+                let seen = SphereList::from([*sphere]).any_hit(tier, &left);
+                assert!(!seen, "{tier:?} {left:?} {sphere:?}");
+            }
+            Side::Inside => {
+                let near = met.is_some_and(|[near, _]| left.t_min <= near);
+                assert!(!near, "{tier:?} {left:?} {sphere:?}");
+            }
+        }
+    }
+}
