@@ -5,8 +5,9 @@
 //! writes the files in `tui/tests/golden` anew; read the diff before committing it.
 
 use spherule::draw::{draw, sample_grid};
+use spherule::scene::Scene;
 use spherule::style::{Charset, ColorDepth, Style};
-use spherule::view::{LensKind, orbited, with_projection};
+use spherule::view::{LensKind, View, orbited, with_projection};
 use spherule::{encode, scene};
 use spherule_kernel::{Sphere, Tier, Vec3};
 use spherule_tests::oracle;
@@ -37,7 +38,7 @@ fn check(file: &str, actual: &str) {
 
 #[test]
 fn scenes_in_ascii() {
-    for name in ["unit", "marbles", "flake", "edge", "caffeine"] {
+    for name in ["unit", "marbles", "flake", "edge", "far", "caffeine"] {
         check(&format!("{name}.txt"), &picture(name, &ASCII, 60, 24));
     }
 }
@@ -109,4 +110,43 @@ fn every_sample_of_unit_is_what_the_oracle_says() {
         }
     }
     assert!(hits > 20_000 && misses > 20_000, "{hits} hits, {misses} misses");
+}
+
+/// The spheres of `far` from 10^6 and 10^7 diameters and from a few: through a parallel lens along an axis the lines are the same, and so
+/// is every cell, shadows and colours included.
+#[test]
+fn far_looks_as_from_near() {
+    let far = scene::builtin::builtin("far").expect("far");
+    let view = far.first_view(1.0);
+    for depth in [-2_097_152.0, -20_971_520.0] {
+        // The spheres at that depth alone: those before them are not to hide them from afar.
+        let mut group = Scene::new();
+        (group.lights, group.shadows) = (far.lights.clone(), true);
+        for (sphere, &color) in far.spheres().iter().zip(far.colors()) {
+            if (sphere.center.z - depth).abs() < 100.0 {
+                group.push(sphere, color, None);
+            }
+        }
+        assert_eq!(group.spheres().len(), 6);
+        let near =
+            View { eye: view.eye.with_z(depth + 64.0), target: view.eye.with_z(depth), ..view };
+        for accuracy in [Tier::Exact, Tier::Stable] {
+            let style =
+                Style { accuracy, charset: Charset::Half, depth: ColorDepth::Truecolor, ..ASCII };
+            let cells = |view| draw(&group, view, &style, 120, 40).cells;
+            let (near, far) = (cells(&near), cells(&view));
+            let differ = (0..40)
+                .flat_map(|row| near.row(row).iter().zip(far.row(row)))
+                .filter(|(near, far)| near != far)
+                .count();
+            let lit =
+                (0..40).flat_map(|row| near.row(row)).filter(|cell| cell.glyph != ' ').count();
+            assert!(lit > 1000, "{lit} cells show something");
+            match accuracy {
+                Tier::Exact => assert_eq!(differ, 0, "of {lit} cells at {depth}"),
+                // The control.
+                _ => assert!(differ > 5, "Stable tells the spheres apart: {differ}"),
+            }
+        }
+    }
 }

@@ -189,7 +189,7 @@ fn no_tier_meets_the_sphere_where_a_ray_leaves_it() {
     leaves_unmet(Tier::Exact, 33, 600_000);
 }
 
-/// An hour: `cargo test --release --test main leave -- --ignored`.
+/// Some half an hour: `cargo test --test main a_billion -- --ignored`.
 #[test]
 #[ignore = "a billion rays"]
 fn a_billion_rays_leave() {

@@ -2,6 +2,7 @@
 //!
 //! The rays are those that a picture of the scene takes; the truth is what `Exact` says.
 
+mod lighting;
 mod progress;
 mod rays;
 mod report;
@@ -11,12 +12,14 @@ use crate::arguments::{ComputingArguments, TradeoffArguments};
 use crate::draw::{picture_workload, sample_grid};
 use crate::error::{Error, write_stdout};
 use crate::machine;
+use crate::scene::Scene;
 use crate::structure::Structure;
 use crate::structure::scene::SceneStructures;
 use crate::structure::search::{Scratch, Search, Tracing};
 use crate::style::{PIPE_SIZE, Style};
 use crate::tally::Tally;
 use crate::threads::{Threads, packets_a_task};
+use lighting::{Lighting, LightingErrors};
 use progress::Progress;
 use rays::{Kind, Rays, most_rays};
 use report::{Report, TierReport};
@@ -51,6 +54,7 @@ pub fn tradeoff(arguments: &TradeoffArguments) -> Result<(), Error> {
     let for_shadow = Machine { searches: &search.lights, ..for_camera };
     let shadow = Rays::of_shadows(&camera, &for_camera.hits(Tier::Exact, &camera), &scene, most);
     let mut progress = Progress::new();
+    let lighting = for_shadow.lighting(&for_camera, &camera, &scene, most);
     let mut tiers = Vec::new();
     for (machine, rays) in [(&for_camera, &camera), (&for_shadow, &shadow)] {
         if rays.count > 0 {
@@ -69,6 +73,7 @@ pub fn tradeoff(arguments: &TradeoffArguments) -> Result<(), Error> {
         lanes: RayPacket::COUNT,
         threads: threads.count(),
         tiers,
+        lighting,
     };
     let text = if arguments.json { report.json() } else { report.table() };
     write_stdout(text.as_bytes())
@@ -123,6 +128,34 @@ impl Machine<'_> {
                 stages: if tier == Tier::Exact { exact } else { single },
             }
         })
+    }
+
+    /// What is wrong with how every tier lights the points that it hits, if there is a light.
+    fn lighting(
+        &self,
+        for_camera: &Self,
+        camera: &Rays,
+        scene: &Scene,
+        most: usize,
+    ) -> Option<[LightingErrors; 3]> {
+        if scene.lights.is_empty() {
+            return None;
+        }
+        let step = (camera.count * scene.lights.len()).div_ceil(most).max(1);
+        let lighting = Tier::ALL.map(|tier| {
+            let hits = for_camera.hits(tier, camera);
+            Lighting::new(tier, (camera, &hits), step, scene, self)
+        });
+        Some(lighting.each_ref().map(|of_tier| of_tier.errors(&lighting[2])))
+    }
+
+    /// Which rays meet anything by a tier.
+    fn any_hits(&self, tier: Tier, rays: &Rays) -> Vec<u32> {
+        let mut met = vec![0; rays.packets.len()];
+        self.trace(rays, &mut met, |search, rays, scratch, met| {
+            search.any_hits(self.tracing(tier), scratch, rays, met);
+        });
+        met
     }
 
     /// What is timed: the kernel's calls for all rays.

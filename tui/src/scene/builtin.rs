@@ -20,7 +20,7 @@ pub struct Builtin {
 pub const DEFAULT: &str = "marbles";
 
 /// All of them.
-pub const BUILTINS: [Builtin; 5] = [
+pub const BUILTINS: [Builtin; 6] = [
     Builtin {
         name: "marbles",
         description: "lit spheres with shadows on a huge ground sphere",
@@ -40,6 +40,11 @@ pub const BUILTINS: [Builtin; 5] = [
         name: "edge",
         description: "far, tiny, huge and grazing spheres, where single precision ends",
         scene: edge,
+    },
+    Builtin {
+        name: "far",
+        description: "spheres and their shadows from 10^6 and 10^7 diameters, where t is coarser than they are",
+        scene: far,
     },
     Builtin {
         name: "caffeine",
@@ -70,6 +75,10 @@ fn marbles() -> Scene {
 
 fn edge() -> Scene {
     of_toml(include_str!("../../scenes/edge.toml"))
+}
+
+fn far() -> Scene {
+    of_toml(include_str!("../../scenes/far.toml"))
 }
 
 fn caffeine() -> Scene {

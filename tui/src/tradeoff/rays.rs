@@ -82,6 +82,11 @@ impl Rays {
         Self::new(Kind::Camera, std::iter::once(packets.take(most_packets).collect()))
     }
 
+    /// Rays to every light, packets light by light.
+    pub(super) fn of_lights(parts: impl Iterator<Item = Vec<RayPacket>>) -> Self {
+        Self::new(Kind::Shadow, parts)
+    }
+
     /// The rays from the `hits` of the `camera` rays to every light that the surface faces, light by
     /// light; if those are more than `most`, from every n-th point.
     pub(super) fn of_shadows(

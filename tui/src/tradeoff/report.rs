@@ -1,5 +1,6 @@
 //! What `spherule tradeoff` prints: a table for people, or the keys that scripts rely on.
 
+use super::lighting::LightingErrors;
 use crate::choice::name;
 use crate::structure::Structure;
 use crate::tally::{Summary, Ulp};
@@ -17,6 +18,8 @@ pub(super) struct Report {
     pub(super) lanes: usize,
     pub(super) threads: usize,
     pub(super) tiers: Vec<TierReport>,
+    /// Of every tier; `None` if the scene has no light.
+    pub(super) lighting: Option<[LightingErrors; 3]>,
 }
 
 /// One tier on one kind of rays.
@@ -80,6 +83,10 @@ impl Report {
             "threads": self.threads,
             "structure": self.structure.in_reports(),
             "tiers": self.tiers.iter().map(tier).collect::<Vec<Value>>(),
+            "lighting": self.lighting.map(|errors| {
+                let tiers = Tier::ALL.into_iter().zip(errors);
+                tiers.map(|(tier, errors)| lighting(tier, errors)).collect::<Vec<Value>>()
+            }),
         });
         report.to_string() + "\n"
     }
@@ -123,8 +130,22 @@ impl Report {
                 format!("{:.5}", 100.0 * tier.share(tier.stages.expansions)),
             ]);
         }
+        if let Some(errors) = self.lighting {
+            text += &format!("\n{} points and their lights\n", errors[2].points);
+            text += "           wrong    wrong\ntier     normals  shadows\n";
+            for (tier, LightingErrors { normals, shadows, .. }) in Tier::ALL.into_iter().zip(errors)
+            {
+                text += &format!("{:<7}{normals:>9}{shadows:>9}\n", tier.as_str());
+            }
+        }
         text + FOOT
     }
+}
+
+fn lighting(tier: Tier, errors: LightingErrors) -> Value {
+    let LightingErrors { points, normals, shadows } = errors;
+    let accuracy = tier.as_str();
+    json!({ "accuracy": accuracy, "points": points, "wrong_normals": normals, "wrong_shadows": shadows })
 }
 
 /// A row of the table: the first column from the left, the others from the right.
@@ -149,5 +170,7 @@ const WIDTHS: [usize; 12] = [7, 9, 9, 9, 10, 8, 8, 9, 9, 11, 9, 9];
 const FOOT: &str = "
 Wrong: the closest hit differs from that of exact, counted in rays. ulp: of t, where both meet the
 same sphere. Times are medians of passes in turns, without the building of a structure, for shadow
-rays those of any hit. A test is a ray and a sphere, whether a structure makes it or not.
+rays those of any hit. A test is a ray and a sphere, whether a structure makes it or not. Shadow
+rays are those of exact; the other tiers' own start farther from the surface. A normal is wrong if
+it differs by 1/256; a shadow if a point receives a light by one of both tiers alone.
 ";

@@ -113,7 +113,14 @@ fn scenes_are_listed_a_line_each() {
         text.lines().map(|line| line.split_whitespace().take(2).collect()).collect();
     assert_eq!(
         words,
-        [["marbles", "10"], ["unit", "1"], ["flake", "7381"], ["edge", "19"], ["caffeine", "24"]]
+        [
+            ["marbles", "10"],
+            ["unit", "1"],
+            ["flake", "7381"],
+            ["edge", "19"],
+            ["far", "12"],
+            ["caffeine", "24"]
+        ]
     );
 }
 

@@ -47,7 +47,10 @@ fn meets(ray: &Ray, spheres: &[Sphere]) -> Option<bool> {
 fn the_keys_and_their_types() {
     let report = measured(&["marbles", "--size", "20x8"]);
     let keys: Vec<_> = report.as_object().expect("an object").keys().collect();
-    assert_eq!(keys, ["cpu", "lanes", "level", "rustc", "scene", "structure", "threads", "tiers"]);
+    assert_eq!(
+        keys,
+        ["cpu", "lanes", "level", "lighting", "rustc", "scene", "structure", "threads", "tiers"]
+    );
     assert_eq!((&report["scene"], &report["lanes"]), (&"marbles".into(), &16.into()));
     assert!(report["cpu"].is_string() && report["level"].is_string());
     assert!(report["rustc"].as_str().expect("text").starts_with("rustc 1."));
@@ -73,6 +76,26 @@ fn the_keys_and_their_types() {
         let exact = tier(&report, "exact", kind);
         assert!(exact["f64_share"].as_f64() > exact["expansion_share"].as_f64());
     }
+}
+
+/// Points, wrong normals and wrong shadows of every tier.
+fn lighting(report: &Value) -> [[u64; 3]; 3] {
+    let tiers = report["lighting"].as_array().expect("a list");
+    ["fast", "stable", "exact"].map(|accuracy| {
+        let tier = tiers.iter().find(|tier| tier["accuracy"] == accuracy).expect("the tier");
+        ["points", "wrong_normals", "wrong_shadows"].map(|key| tier[key].as_u64().expect(key))
+    })
+}
+
+#[test]
+fn far_is_where_the_others_light_the_wrong_spheres() {
+    let [fast, stable, exact] = lighting(&measured(&["far", "--size", "60x24"]));
+    assert!(fast[1] > 1000 && fast[2] > 1000, "{fast:?}");
+    assert!(stable[1] > 5 && stable[2] > 5, "{stable:?}");
+    assert!(exact[0] > 1000 && exact[1..] == [0, 0], "{exact:?}");
+    let [fast, stable, exact] = lighting(&measured(&["marbles", "--size", "60x24"]));
+    assert!(exact[0] > 1000 && [fast, stable, exact].iter().all(|tier| tier[1..] == [0, 0]));
+    assert!(measured(&["unit", "--size", "9x4"])["lighting"].is_null());
 }
 
 #[test]
