@@ -221,9 +221,9 @@ fn crowd(random: &mut Random, offset: Vec3) -> Vec<Sphere> {
     spheres
 }
 
-#[test]
-fn shadows_are_those_of_integers() {
-    let mut random = Random::seeded(23);
+/// Shadows of such crowds against integers; returns how many there were, and how many rays.
+fn shadows(seed: u64, rays_a_place: u32) -> [u32; 2] {
+    let mut random = Random::seeded(seed);
     let (mut rays, mut dark) = (0, 0);
     for place in [0.0, 4096.0, 65_536.0, 262_144.0, 1_048_576.0, 1e7] {
         let offset = place * Vec3::new(1.0, -0.5, 0.75);
@@ -237,7 +237,7 @@ fn shadows_are_those_of_integers() {
             })
             .collect();
         let list = SphereList::from(&spheres[..]);
-        for _ in 0..2000 {
+        for _ in 0..rays_a_place {
             let eye = offset + scale * 10_f32.powf(random.between(0.8, 6.0)) * random.direction();
             let ray = Ray::new(eye, offset + scale * random.in_cube(2.5) - eye);
             let Some(hit) = list.closest_hit(Exact, &ray) else { continue };
@@ -260,7 +260,23 @@ fn shadows_are_those_of_integers() {
             dark += u32::from(met);
         }
     }
+    [dark, rays]
+}
+
+#[test]
+fn shadows_are_those_of_integers() {
+    let [dark, rays] = shadows(23, 2000);
     assert!(rays > 4000 && dark > 800 && dark < rays - 800, "{dark} of {rays}");
+}
+
+/// Some ten minutes: `cargo test --test main a_million_shadows -- --ignored --nocapture`.
+#[test]
+#[ignore = "a million shadows"]
+fn a_million_shadows_are_those_of_integers() {
+    let of_all = (0..140).map(|seed| shadows(2000 + seed, 2000));
+    let [dark, rays] = of_all.fold([0; 2], |[a, b], [dark, rays]| [a + dark, b + rays]);
+    println!("{dark} of {rays} in shadow");
+    assert!(rays > 1_000_000, "{rays}");
 }
 
 #[test]

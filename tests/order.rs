@@ -1,7 +1,7 @@
 //! Rule 5: the closest hit is that of the smallest root as a real number, whatever rounding makes of t.
 
 use proptest::prelude::*;
-use spherule_kernel::{Exact, Hit, Ray, Sphere, Tier, Vec3, compare_hits};
+use spherule_kernel::{Exact, Hit, Intersect, Ray, Sphere, SphereTree, Tier, Vec3, compare_hits};
 use spherule_tests::oracle;
 use spherule_tests::random::Random;
 use spherule_tests::variants::{Memory, bits, variants, viewpoint_of};
@@ -75,6 +75,39 @@ fn translated_doubled_and_nested_spheres_keep_their_order() {
         }
     }
     assert!(differ > 30, "{differ} rays on which index and order differ");
+}
+
+/// Some half an hour: `cargo test --test main ten_million_pixels -- --ignored --nocapture`.
+#[test]
+#[ignore = "ten million pixels"]
+fn ten_million_pixels_show_the_spheres_of_integers() {
+    let mut random = Random::seeded(95);
+    let (mut pixels, mut hits) = (0, 0);
+    for round in 0..2000 {
+        let mut spheres = ball(&mut random, 12);
+        // Doubled, nested, and an ulp aside; moved.
+        let power = random.pick(&[0, 10, 16, 20]);
+        for index in 0..4 {
+            let Sphere { center, radius } = spheres[index];
+            spheres.push(spheres[index]);
+            spheres.push(Sphere { center, radius: radius.next_down() });
+            spheres.push(Sphere { center: Vec3 { y: center.y.next_up(), ..center }, radius });
+        }
+        let offset = Vec3::new(1.0, -1.0, 1.0) * 2.0_f32.powi(power);
+        for sphere in &mut spheres {
+            sphere.center += offset;
+        }
+        let distance = [1e3, 1e4, 1e5, 1e6, 1e7][round % 5];
+        let rays = rays_from(&mut random, distance, 5000, offset);
+        let mut found = vec![None; rays.len()];
+        SphereTree::new(&spheres[..]).closest_hits(Exact, &rays, &mut found);
+        for (ray, found) in rays.iter().zip(found) {
+            assert_eq!(bits(found), bits(oracle::closest(ray, &spheres)), "{ray:?} of {spheres:?}");
+            hits += u32::from(found.is_some());
+        }
+        pixels += rays.len();
+    }
+    println!("{hits} of {pixels} pixels show a sphere");
 }
 
 /// Spheres on a lattice that touch each other, and cross, in points that rays go through: real ties, of which the lowest
