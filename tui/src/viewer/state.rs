@@ -2,6 +2,7 @@
 
 use super::keys::Input;
 use crate::choice::{Auto, next};
+use crate::machine::check_floats;
 use crate::structure::Structure;
 use crate::style::{Charset, Style};
 use crate::view::{LensKind, View, orbited, with_projection, zoomed};
@@ -87,6 +88,8 @@ impl State {
                 *view = orbited(view, step(right), step(up));
             }
             Input::Zoom(steps) => *view = zoomed(view, ZOOM_STEP.powi(steps.into())),
+            // A key that asks for what this process cannot compute does nothing.
+            Input::Accuracy(tier) if check_floats(tier).is_err() => {}
             Input::Accuracy(tier) => style.accuracy = tier,
             Input::Projection => {
                 let other = match view.lens_kind() {
