@@ -74,7 +74,7 @@ impl Surface {
     /// Its origin is proven to be on that side by [`side`](crate::side()): an ulp or two of its largest coordinate from the point, if r
     /// is at least 2^10 of these and `tier` is `Exact`; for the others so far that they do not see the sphere there. Its interval begins above
     /// zero and has no end. If `direction` points to `side`, an outside ray never meets the sphere again, and an inside ray meets
-    /// its far side; else it meets what is there.
+    /// its far side, unless the t of that is rounded to zero; else it meets what is there.
     ///
     /// `sphere` is the one that was hit. Returns `None` if there is no such origin: inside of a sphere that is smaller than the
     /// spacing of numbers, or past their end. Cost: some 100 double-precision operations; by the other tiers a test of the sphere more.

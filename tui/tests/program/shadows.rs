@@ -127,3 +127,49 @@ fn from_afar_normals_are_right_and_nothing_shadows_itself() {
     }
     assert!(hits > 5000 && lit > 2000, "{hits} {lit}");
 }
+
+/// Shadows of balls on the ground that they touch, wherever the scene is moved to: every coordinate stays a number, and so do the rays.
+#[test]
+fn contact_shadows_stay_where_a_scene_is_moved() {
+    let shadowed = |place: f32| {
+        let offset = Vec3::splat(place);
+        let ball = |x: f32, z: f32, radius: f32| {
+            // Touching, or overlapping by less than an eighth.
+            let away = 64.0 + radius;
+            let height = (away * away - x * x - z * z).sqrt();
+            let center = offset + Vec3::new(x, (height * 8.0).floor() / 8.0, z);
+            Sphere { center, radius }
+        };
+        let spheres = [
+            Sphere { center: offset, radius: 64.0 },
+            ball(0.0, 0.0, 4.0),
+            ball(-9.5, 3.0, 5.0),
+            ball(8.25, -2.5, 3.0),
+            ball(3.5, 8.75, 2.0),
+        ];
+        let list = SphereList::from(&spheres[..]);
+        let towards = Source::Direction(Vec3::new(0.5, 1.0, 0.25));
+        let light = Light { source: towards, color: Srgb::WHITE };
+        let mut count = 0;
+        for x in -64..64_i16 {
+            for z in -64..64_i16 {
+                // From above, an eighth beside the lattice of the centres.
+                let from = Vec3::new(f32::from(x) / 4.0 + 0.125, 128.0, f32::from(z) / 4.0 + 0.125);
+                let ray = Ray::new(offset + from, -Vec3::Y);
+                let Some(hit) = list.closest_hit(Tier::Exact, &ray) else { continue };
+                let point =
+                    SurfacePoint::new(Tier::Exact, &ray, hit.t, &spheres[hit.sphere as usize]);
+                let ray = ray_to(Tier::Exact, &point, &light);
+                count += u32::from(ray.is_some_and(|ray| list.any_hit(Tier::Exact, &ray)));
+            }
+        }
+        f64::from(count)
+    };
+    let at_home = shadowed(0.0);
+    assert!(at_home > 1000.0, "{at_home}");
+    for (place, part) in [(65_536.0, 0.01), (262_144.0, 0.02), (1_048_576.0, 0.05)] {
+        let moved = shadowed(place);
+        println!("{moved} of {at_home} pixels in shadow at {place}");
+        assert!((moved - at_home).abs() <= part * at_home, "{moved} of {at_home} at {place}");
+    }
+}
