@@ -53,6 +53,10 @@ pub trait Lanes:
 {
     /// How many lanes; 1 to 32, a multiple of [`DoubleLanes::COUNT`] of [`Lanes::Double`].
     const COUNT: usize;
+    /// u, half a unit in the last place of 1: margins are multiples of it. Leave it as it is: lanes hold `f32`. (The
+    /// tests run the kernel over shorter floats.)
+    #[doc(hidden)]
+    const UNIT_ROUNDOFF: f32 = f32::EPSILON / 2.0;
     /// What must be held to make lanes: `()` where the instruction set is fixed at build time.
     type Token: Copy + Debug;
     /// `[f32; COUNT]`: what packets in memory are made of.
@@ -168,6 +172,9 @@ pub trait DoubleLanes:
 {
     /// How many lanes; divides [`Lanes::COUNT`] of every type that names this its partner.
     const COUNT: usize;
+    /// As [`Lanes::UNIT_ROUNDOFF`], of `f64`.
+    #[doc(hidden)]
+    const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
     /// What must be held to make lanes.
     type Token: Copy + Debug;
     /// One truth value a lane.

@@ -3,3 +3,4 @@
 pub(crate) mod climb;
 pub(crate) mod integers;
 pub(crate) mod limbs;
+pub(crate) mod toy;

@@ -15,7 +15,7 @@ pub(super) mod estimate;
 mod order;
 mod surface;
 
-use self::estimate::{Constants, Estimate};
+use self::estimate::Estimate;
 use super::beyond::Beyond;
 use super::roots::RayLanes;
 use super::surface::SurfaceLanes;
@@ -203,7 +203,8 @@ impl<L: Lanes> Brackets<L> {
         center: [L::Double; 3],
         radius: L::Double,
     ) {
-        let estimate = Estimate::new(origin, d, center, radius, &Constants::PROVEN);
+        let proven = &Estimate::<L::Double>::PROVEN;
+        let estimate = Estimate::new(origin, d, center, radius, proven);
         let Estimate { discriminant, error, near, far } = estimate;
         let meets = error.lt(discriminant);
         let misses = discriminant.lt(-error);
@@ -273,3 +274,6 @@ impl<L: Lanes> Unsettled<L> {
         [Root::Near, Root::Far].into_iter().map(|root| quadratic.rounded(root)).find(accepted)
     }
 }
+
+#[cfg(test)]
+mod toy;

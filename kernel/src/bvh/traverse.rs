@@ -11,3 +11,6 @@ pub(crate) mod root_interval;
 pub(crate) mod source;
 mod stack;
 pub(crate) mod wavefront;
+
+#[cfg(test)]
+mod toy;

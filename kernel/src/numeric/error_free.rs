@@ -8,13 +8,20 @@ use core::ops::{Add, Sub};
 
 /// `high + low = a + b` exactly, with `high` the rounded sum (Knuth; Møller 1965).
 ///
-/// Domain: no overflow. Underflow does no harm: sums that small are exact.
+/// Domain: the sum does not overflow, and neither number is `f32::MAX` or its opposite. Underflow does no harm: sums that
+/// small are exact.
 #[inline(always)]
 pub(crate) fn two_sum<T: Copy + Add<Output = T> + Sub<Output = T>>(a: T, b: T) -> (T, T) {
     let high = a + b;
     let b_part = high - a;
     let a_part = high - b_part;
     (high, (a - a_part) + (b - b_part))
+}
+
+/// 2^s + 1 with s half of the bits of a precision, rounded up; u is 2^-bits.
+const fn splitter(unit_roundoff: f32) -> f32 {
+    let bits = 127 - (unit_roundoff.to_bits() >> 23);
+    f32::from_bits((127 + bits.div_ceil(2)) << 23) + 1.0
 }
 
 /// A number and its two halves of at most 12 significant bits each, so that products of halves
@@ -27,17 +34,20 @@ pub(crate) struct VeltkampSplit<L> {
 }
 
 impl<L: Lanes> VeltkampSplit<L> {
+    /// 2^12 + 1.
+    const SPLITTER: f32 = splitter(L::UNIT_ROUNDOFF);
+
     /// Domain: `|value|` below 2^115.
     #[inline(always)]
     pub(crate) fn new(value: L) -> Self {
-        let scaled = value * value.like(4097.0);
+        let scaled = value * value.like(Self::SPLITTER);
         let high = scaled - (scaled - value);
         Self { value, high, low: value - high }
     }
 
     /// `high + low = self * other` exactly, with `high` the rounded product (Dekker 1971).
     ///
-    /// Domain: the product does not overflow, and is zero or at least 2^-102.
+    /// Domain: the product is below 2^127, and zero or at least 2^-102.
     #[inline(always)]
     pub(crate) fn times(self, other: Self) -> (L, L) {
         let product = self.value * other.value;
@@ -56,6 +66,9 @@ impl<L: Lanes> VeltkampSplit<L> {
         ((square), (self.high * self.high - square) + (cross + cross) + self.low * self.low)
     }
 }
+
+#[cfg(test)]
+mod toy;
 
 #[cfg(test)]
 mod tests {

@@ -22,7 +22,8 @@ pub(crate) fn lowered<L: Lanes>(s: L) -> L {
 /// At least s, where `s` was computed from a t with an error of up to 8 u.
 #[inline(always)]
 pub(crate) fn raised<L: Lanes>(s: L) -> L {
-    let (more, less) = (s * s.like(1.0 + 8.0 * U), s * s.like(1.0 - 8.0 * U));
+    let (more, less) =
+        (s * s.like(1.0 + 8.0 * L::UNIT_ROUNDOFF), s * s.like(1.0 - 8.0 * L::UNIT_ROUNDOFF));
     more.filter_max(less) + s.like(LEAST_PAD)
 }
 

@@ -4,9 +4,6 @@
 use crate::DoubleLanes;
 use crate::numeric::axes::{axes, dot};
 
-/// u, of double precision.
-const U: f64 = f64::EPSILON / 2.0;
-
 /// What the terms of the two bounds are multiplied by.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::accuracy) struct Constants {
@@ -25,15 +22,20 @@ pub(in crate::accuracy) struct Constants {
 }
 
 impl Constants {
-    /// Those of the proof.
-    pub(in crate::accuracy) const PROVEN: Self = Self {
-        sums: 5.0 * U,
-        cross: 8.0 * U,
-        square: 32.0 * U * U,
-        slope: 5.0 * U,
-        root: 2.0 * U,
-        t: 11.0 * U,
-    };
+    /// Those of the proof, of double precision.
+    pub(in crate::accuracy) const PROVEN: Self = Self::of(f64::EPSILON / 2.0);
+
+    /// Those of the proof, in a precision with that u.
+    pub(in crate::accuracy) const fn of(u: f64) -> Self {
+        Self {
+            sums: 5.0 * u,
+            cross: 8.0 * u,
+            square: 32.0 * u * u,
+            slope: 5.0 * u,
+            root: 2.0 * u,
+            t: 11.0 * u,
+        }
+    }
 }
 
 /// D and the roots as computed, each with a bound on its error.
@@ -49,6 +51,9 @@ pub(super) struct Estimate<D> {
 }
 
 impl<D: DoubleLanes> Estimate<D> {
+    /// [`Constants::of`] the precision of these lanes.
+    pub(super) const PROVEN: Constants = Constants::of(D::UNIT_ROUNDOFF);
+
     #[inline(always)]
     pub(super) fn new(
         origin: [D; 3],

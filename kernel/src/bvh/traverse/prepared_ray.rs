@@ -22,7 +22,7 @@ use crate::accuracy::RayLanes;
 use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::{axes, dot};
 use crate::numeric::error_free::{VeltkampSplit, two_sum};
-use crate::numeric::rounding::{LARGEST, LEAST_COMPONENT, LONGEST, U, lowered, raised};
+use crate::numeric::rounding::{LARGEST, LEAST_COMPONENT, LONGEST, lowered, raised};
 
 /// The rays of a packet, prepared, in registers.
 #[derive(Clone, Copy, Debug)]
@@ -56,7 +56,7 @@ impl<L: Lanes> RayTime<L> {
     /// beginning loses what its hits gain.)
     #[inline(always)]
     fn t_error(&self) -> L {
-        self.shift * self.length * self.shift.like(4.0 * U)
+        self.shift * self.length * self.shift.like(4.0 * L::UNIT_ROUNDOFF)
     }
 
     /// What a bound that the root of one sphere sets is raised by: twice the t error, from root to answer and from
@@ -115,7 +115,7 @@ impl<L: Lanes> PreparedLanes<L> {
     pub(crate) fn nearer(self, rays: &RayLanes<L>, extent: f32) -> Self {
         let far = largest(rays.origin);
         let (zero, length) = (far.like(0.0), self.time.length);
-        let left = far.filter_mul_add(far.like(32.0 * U), far.like(2.0 * extent));
+        let left = far.filter_mul_add(far.like(32.0 * L::UNIT_ROUNDOFF), far.like(2.0 * extent));
         let closest = -dot(rays.origin, self.direction);
         let moved = self.covered & (left * far.like(WORTH_IT)).lt(closest);
 
@@ -144,13 +144,13 @@ impl<L: Lanes> PreparedLanes<L> {
 /// the coordinates' origin is farther from where it begins than sqrt 3 F.
 #[inline(always)]
 pub(crate) fn far_away<L: Lanes>(rays: L::Mask, absolute_error: L, extent: f32) -> L::Mask {
-    rays & absolute_error.like(WORTH_IT * 8.0 * U * extent).lt(absolute_error)
+    rays & absolute_error.like(WORTH_IT * 8.0 * L::UNIT_ROUNDOFF * extent).lt(absolute_error)
 }
 
 /// The absolute error for rays of that size, F + 2^-11 T.
 #[inline(always)]
 fn absolute_error<L: Lanes>(size: L) -> L {
-    size.filter_mul_add(size.like(8.0 * U), size.like(LEAST_ERROR))
+    size.filter_mul_add(size.like(8.0 * L::UNIT_ROUNDOFF), size.like(LEAST_ERROR))
 }
 
 /// The largest coordinate.
@@ -262,7 +262,8 @@ impl<A: LaneArray> PreparedPacket<A> {
         self.shift = time.shift.store();
         self.length = time.length.store();
         self.absolute_error = absolute_error.store();
-        let size = absolute_error.filter_mul_add(zero.like(0.125 / U), zero.like(extent));
+        let size =
+            absolute_error.filter_mul_add(zero.like(0.125 / L::UNIT_ROUNDOFF), zero.like(extent));
         self.spread = (size * size.like(4.0 * spread)).store();
     }
 

@@ -19,7 +19,6 @@
 
 use crate::lanes::{LaneMask, Lanes, WIDTH};
 use crate::numeric::axes::axes;
-use crate::numeric::rounding::U;
 
 /// Between which s spheres are hit.
 #[derive(Clone, Copy, Debug)]
@@ -119,7 +118,7 @@ impl<L: Lanes> Pass<L> {
         let ll = q[2].filter_mul_add(q[2], q[1].filter_mul_add(q[1], q[0] * q[0]));
 
         let size = middle.abs() + radius;
-        let delta = size.filter_mul_add(radius.like(48.0 * U), absolute_error);
+        let delta = size.filter_mul_add(radius.like(48.0 * L::UNIT_ROUNDOFF), absolute_error);
         Self { radius, middle, ll, size, delta }
     }
 
