@@ -23,5 +23,7 @@ pub use fast::Fast;
 pub use stable::Stable;
 pub use tier::{Accuracy, Tier};
 
+#[cfg(test)]
+pub(crate) use fast::derived::fast_row;
 pub(crate) use roots::{RayLanes, all_finite};
 pub(crate) use tier::{TierFormula, TierWork, is_closer, test_lanes};

@@ -67,12 +67,18 @@ impl FilterGroup {
             return;
         }
         let [x, y, z] = axes!(i => sphere.center[i] - shift[i]);
-        let (cc, rr) = (x * x + y * y + z * z, sphere.radius * sphere.radius);
         self.center[0][slot] = x;
         self.center[1][slot] = y;
         self.center[2][slot] = z;
-        self.excess[slot] = (rr - cc) + kappa * (cc + rr).max(LEAST_SIZE);
+        self.excess[slot] = excess([x, y, z], sphere.radius, kappa);
     }
+}
+
+/// r^2 - |c|^2, raised by the bound.
+#[inline(always)]
+fn excess<L: Lanes>(c: [L; 3], r: L, kappa: f32) -> L {
+    let (cc, rr) = (dot(c, c), r * r);
+    (rr - cc) + r.like(kappa) * (cc + rr).filter_max(r.like(LEAST_SIZE))
 }
 
 /// The next spheres of a list, prepared on the stack.
@@ -205,5 +211,7 @@ impl<L: Lanes> FilterRays<L> {
     }
 }
 
+#[cfg(test)]
+mod derived;
 #[cfg(test)]
 mod worst;

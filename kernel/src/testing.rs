@@ -3,4 +3,7 @@
 pub(crate) mod climb;
 pub(crate) mod integers;
 pub(crate) mod limbs;
+pub(crate) mod polynomial;
+pub(crate) mod recorded;
+pub(crate) mod running_error;
 pub(crate) mod toy;

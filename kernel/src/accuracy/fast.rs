@@ -68,3 +68,6 @@ fn roots<L: Lanes>(rays: &FastRays<L>, center: [L; 3], radius: L) -> Roots<L> {
     let root = discriminant.sqrt();
     Roots { meets: a.like(0.0).le(discriminant), near: (b - root) * per_a, far: (b + root) * per_a }
 }
+
+#[cfg(test)]
+pub(crate) mod derived;

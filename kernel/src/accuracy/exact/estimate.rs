@@ -98,4 +98,6 @@ fn sum_of_magnitudes<D: DoubleLanes>(v: [D; 3]) -> D {
 }
 
 #[cfg(test)]
+mod derived;
+#[cfg(test)]
 mod worst;

@@ -169,3 +169,6 @@ impl<L: Lanes> Pass<L> {
         RootInterval { candidates, entry, bound: bound + raise }
     }
 }
+
+#[cfg(test)]
+mod derived;

@@ -1,0 +1,125 @@
+//! The least kappa that lets every hit pass, as it follows from the source of the filter and of `Fast`.
+//!
+//! With F = D/a + |o|^2 in real arithmetic, what is computed is at least F, and what the widening adds, less the error; the
+//! threshold is at most |o|^2, less what it is lowered by, and its error. A hit of `Fast` has D/a above its row. So a
+//! hit passes if both widenings exceed both errors and the row, term by term in |c|^2, |o|^2 and r^2.
+
+extern crate std;
+
+use super::{BLOCK, FilterBlock, FilterGroup, FilterRays, KAPPA, excess};
+use crate::accuracy::{RayLanes, fast_row};
+use crate::testing::polynomial::Polynomial;
+use crate::testing::recorded::{Operation, Recorded, record};
+use crate::testing::running_error::{Input, RunningError};
+use std::println;
+use std::vec::Vec;
+
+const U: f64 = 1.0 / 16_777_216.0;
+
+/// In u, of |c|^2, |o|^2 and r^2.
+#[derive(Clone, Copy, Debug)]
+struct Derived {
+    need: [f64; 3],
+    have: [f64; 3],
+}
+
+impl Derived {
+    fn holds(&self) -> bool {
+        (0..3).all(|i| self.need[i] * (1.0 + 1e-9) <= self.have[i])
+    }
+}
+
+fn derive(kappa: f32) -> Derived {
+    derive_of(kappa, |c, _| c)
+}
+
+/// With an operation more on one coordinate of a centre.
+fn derive_of(kappa: f32, more: impl FnOnce(Recorded, Recorded) -> Recorded) -> Derived {
+    let names = ["ox", "oy", "oz", "dx", "dy", "dz", "cx", "cy", "cz", "r", "kx", "ky", "kz"];
+    let witness = [0.5, 0.1, 0.2, 1.0, 0.5, 0.25, 3.0, 2.0, 1.0, 1.5, 0.1, 0.1, 0.1];
+    let ((filter, raised), graph) = record(witness, |inputs| {
+        let [ox, oy, oz, dx, dy, dz, cx, cy, cz, r, kx, ky, kz] = inputs;
+        let (origin, direction) = ([ox, oy, oz], [dx, dy, dz]);
+        let rays = RayLanes { origin, direction, t_min: ox, t_max: r, live: true };
+        let shift = [kx, ky, kz].map(Recorded::tag);
+        let block = FilterBlock { groups: [FilterGroup::EMPTY; BLOCK], count: 1, shift };
+        let filter = FilterRays::widened((), &rays, &block, kappa);
+        let c = [more(cx, r), cy, cz];
+        let mut group = FilterGroup::EMPTY;
+        for axis in 0..3 {
+            group.center[axis][0] = c[axis].tag();
+        }
+        group.excess[0] = excess(c, r, kappa).tag();
+        let raised = filter.raised(&group, 0);
+        (filter, raised)
+    });
+
+    // c is the centre less K, rounded.
+    let inputs = names.map(|name| {
+        let off = if name.starts_with('c') { U } else { 0.0 };
+        Input { off, ..Input::named(name) }
+    });
+    let mut rules = RunningError::new(24, &inputs);
+    for axis in 0..3 {
+        rules.name(filter.direction[axis].0, ["nx", "ny", "nz"][axis]);
+        let Operation::Sum(origin, _) = graph[filter.twice_origin[axis].0] else {
+            unreachable!("2 o")
+        };
+        rules.name(origin, ["px", "py", "pz"][axis]);
+    }
+    let Operation::Sum(bb, _) = graph[raised.0] else { unreachable!("b^2 and the rest") };
+    let Operation::Product(b, _) = graph[bb] else { unreachable!("b^2") };
+    rules.name(b, "b");
+    // What kappa adds and takes away is no error.
+    let constant = Operation::Constant(f64::from(kappa));
+    let widenings: Vec<usize> = (0..graph.len())
+        .filter(|node| matches!(graph[*node], Operation::Product(a, _) if graph[a] == constant))
+        .collect();
+    for node in &widenings {
+        rules.free(*node);
+    }
+    let n = rules.vector(["nx", "ny", "nz"], "|n|");
+    let o = rules.vector(["px", "py", "pz"], "|o|");
+    let c = rules.vector(["cx", "cy", "cz"], "|c|");
+    rules.run(&graph);
+
+    let [b, nx, r] = ["b", "nx", "r"].map(|name| rules.symbol(name));
+    let mut error = rules.bound(raised.0).error() + rules.bound(filter.threshold.0).error();
+    error = rules.in_lengths(&error.with(b, &rules.in_lengths(&rules.upper[&b])));
+    // |v| = 1, and n is v but for its error.
+    error = error.with(n, &Polynomial::constant(1.0 + 2.0 * rules.off_by(nx)));
+    assert_eq!(error.terms().count(), 4, "{error:?}");
+    // 2 |c| |o| <= |c|^2 + |o|^2; so |p|^2 <= 2 (|c|^2 + |o|^2), before c and o were rounded.
+    let mixed = error.coefficient(&[(c, 1), (o, 1)]) / 2.0;
+    let [fast_p, fast_r] = fast_row().map(|part| part * U * (1.0 + 8.0 * U));
+    let need = [
+        error.coefficient(&[(c, 2)]) + mixed + 2.0 * fast_p,
+        error.coefficient(&[(o, 2)]) + mixed + 2.0 * fast_p,
+        error.coefficient(&[(r, 2)]) + fast_r,
+    ];
+    let have = ["cx", "px", "r"].map(|name| {
+        let square = [(rules.symbol(name), 2)];
+        let lows = widenings.iter().map(|node| rules.bound(*node).low.coefficient(&square));
+        lows.fold(0.0, f64::max)
+    });
+    Derived { need: need.map(|x| x / U), have: have.map(|x| x / U) }
+}
+
+#[test]
+fn kappa_is_no_smaller_than_what_the_source_needs() {
+    let derived = derive(KAPPA);
+    println!("{derived:?}");
+    assert!(derived.holds(), "{derived:?}");
+    // As published in `docs/proofs.md`.
+    for (found, published) in derived.need.into_iter().zip([102.0, 101.0, 14.0]) {
+        assert!((found - published).abs() < 1e-3, "{derived:?}");
+    }
+}
+
+#[test]
+fn smaller_kappas_and_longer_formulas_are_refused() {
+    assert!(!derive(KAPPA / 2.0).holds());
+    assert!(!derive(KAPPA * (102.0 / 104.0)).holds());
+    let longer = derive_of(KAPPA, |c, r| c * r / r);
+    assert!(!longer.holds(), "two operations more: {longer:?}");
+}
