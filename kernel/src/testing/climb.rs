@@ -2,6 +2,8 @@
 
 extern crate std;
 
+use std::println;
+
 /// Random numbers that never change: `SplitMix64` (Steele, Lea, Flood 2014).
 #[derive(Clone, Debug)]
 pub(crate) struct Random(pub(crate) u64);
@@ -43,10 +45,13 @@ impl Random {
 }
 
 /// The largest `score` found from `starts` beginnings, `steps` small changes each, and where.
+///
+/// A change is of the last few bits of a number or two, or of some more, or of all of the fraction; or of the exponent,
+/// within `exponents`, unless sizes are to stay. Zero stays zero: a subnormal would be outside of most domains.
 pub(crate) fn climb<const N: usize>(
     seed: u64,
-    starts: u32,
-    steps: u32,
+    [starts, steps]: [u32; 2],
+    exponents: Option<[i32; 2]>,
     mut start: impl FnMut(&mut Random) -> [f32; N],
     mut score: impl FnMut(&[f32; N]) -> f64,
 ) -> (f64, [f32; N]) {
@@ -59,13 +64,16 @@ pub(crate) fn climb<const N: usize>(
             let mut there = here;
             for _ in 0..=random.below(2) {
                 let number = &mut there[random.below(N as u64) as usize];
-                // The last few bits, or some more, or all of the fraction; the size stays,
-                // and so does zero: a subnormal would be outside most domains.
                 let kept = random.below(24);
-                if *number != 0.0 {
-                    let flipped = random.bits() as u32 >> 9 >> kept;
-                    *number = f32::from_bits(number.to_bits() ^ flipped);
+                if *number == 0.0 {
+                    continue;
                 }
+                *number = match exponents {
+                    Some(exponents) if random.below(4) == 0 => {
+                        resized(&mut random, *number, exponents)
+                    }
+                    _ => f32::from_bits(number.to_bits() ^ (random.bits() as u32 >> 9 >> kept)),
+                };
             }
             let reached = score(&there);
             if reached >= height || height.is_nan() {
@@ -77,4 +85,36 @@ pub(crate) fn climb<const N: usize>(
         }
     }
     worst
+}
+
+/// The higher of two climbs: one that keeps sizes, and one from half as many beginnings that does not.
+pub(crate) fn climb_twice<const N: usize>(
+    seed: u64,
+    [starts, steps]: [u32; 2],
+    exponents: [i32; 2],
+    start: impl Fn(&mut Random) -> [f32; N],
+    score: impl Fn(&[f32; N]) -> f64,
+) -> (f64, [f32; N]) {
+    let kept = climb(seed, [starts, steps], None, &start, &score);
+    let changed = climb(seed, [starts / 2, steps], Some(exponents), &start, &score);
+    if kept.0 > changed.0 { kept } else { changed }
+}
+
+/// Fails if what a search has found is not what is published, in `docs/proofs.md` or at the test: a tenth more or less. More
+/// is a better search, and worth publishing.
+pub(crate) fn assert_published(what: &str, found: f64, published: f64) {
+    println!("{what}: {found:.3} found, {published} published");
+    assert!((found / published - 1.0).abs() <= 0.1, "{what}: {found} found, {published} published");
+}
+
+/// With another exponent: mostly the next.
+fn resized(random: &mut Random, number: f32, [least, greatest]: [i32; 2]) -> f32 {
+    let bits = number.to_bits();
+    let by = [1, 1, 1, 2, 3, 1 + random.below(24) as i32][random.below(6) as usize];
+    let by = if random.below(2) == 0 { by } else { -by };
+    let exponent = (bits >> 23 & 0xff) as i32 - 127 + by;
+    if (least..=greatest).contains(&exponent) {
+        return f32::from_bits(bits & 0x807f_ffff | ((exponent + 127) as u32) << 23);
+    }
+    number
 }

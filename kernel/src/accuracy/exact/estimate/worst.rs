@@ -4,24 +4,24 @@
 //! told by f(t) = |t d - p|^2 - r^2 at the computed t, exact as well: t + e is the root where
 //! a e^2 + 2 g e + f = 0, g = d.(t d - p), of which e = -f / (g -+ sqrt D) is the small solution.
 //!
-//! Found: an error of D of 0.62 E, of t of 0.33 T; with all constants divided by four both fail.
-//! One by one, those that stay right are so for a reason: the proof counts every rounding at its
+//! Found: an error of D of 0.67 E, of t of 0.35 T; with all constants divided by four both fail.
+//! (Where sizes were kept, 0.62 and 0.33.) One by one, those that stay right are so for a reason: the proof counts every rounding at its
 //! largest, as if they could be so together, and the terms overlap.
 //!
 //! | constant | a quarter of it | because |
 //! |---|---|---|
-//! | 5u (A + L) | fails, 2.39 | through the centre, A is all there is |
-//! | 8u X G | holds, 0.63 | where X is far below G, the products of x cancel, so that their difference is exact, and M is at most G/2: 2u X G remain; where X is not, 5u L helps |
-//! | 32u^2 G^2 | holds, 0.62 | x computed as zero is off by at most u G in truth: u^2 G^2; what is larger shows in X |
+//! | 5u (A + L) | fails, 2.68 | through the centre, A is all there is |
+//! | 8u X G | fails, 1.02 | where X is small beside G, but not so small that the products of x cancel without a rounding |
+//! | 32u^2 G^2 | holds, 0.67 | x computed as zero is off by at most u G in truth: u^2 G^2; what is larger shows in X |
 //! | 5u G | holds, 0.43 | E i is at least 5u (A + L) / (a sqrt D), about as large wherever b is |
-//! | 2u sqrt D | holds, 0.33 | E i again, at least 5u sqrt D / a |
-//! | 11u \|t\| | holds, 0.71 | \|t\| is at most G / a and half a chord, which 5u G and E i have counted |
+//! | 2u sqrt D | holds, 0.38 | E i again, at least 5u sqrt D / a |
+//! | 11u \|t\| | holds, 0.69 | \|t\| is at most G / a and half a chord, which 5u G and E i have counted |
 
 extern crate std;
 
 use super::{Constants, Estimate};
 use crate::exact::{Product, SumOfSixes};
-use crate::testing::climb::{Random, climb};
+use crate::testing::climb::{Random, assert_published, climb};
 use std::println;
 
 type Numbers = [f32; 10];
@@ -145,7 +145,7 @@ fn start(random: &mut Random) -> Numbers {
 }
 
 fn search(score: impl Fn(&Numbers) -> f64) -> f64 {
-    let (worst, _) = climb(3, 1500, 250, start, score);
+    let (worst, _) = climb(3, [1500, 250], Some([-30, 30]), start, score);
     worst
 }
 
@@ -154,9 +154,8 @@ fn errors_stay_below_their_bounds_and_constants_are_worth_something() {
     let proven = Constants::PROVEN;
     let d = search(|numbers| of_discriminant(numbers, &proven));
     let t = search(|numbers| of_roots(numbers, &proven));
-    println!("largest error / bound found: D {d:.3}, t {t:.3}");
-    assert!(0.0 < d && d <= 1.0, "D: {d}");
-    assert!(0.0 < t && t <= 1.0, "t: {t}");
+    assert_published("the error of D over E", d, 0.67);
+    assert_published("the error of t over T", t, 0.35);
 
     let quarter = |set: fn(&mut Constants) -> &mut f64| {
         let mut constants = proven;
@@ -165,29 +164,22 @@ fn errors_stay_below_their_bounds_and_constants_are_worth_something() {
     };
     type Score = fn(&Numbers, &Constants) -> f64;
     type Set = fn(&mut Constants) -> &mut f64;
-    let table: [(&str, Set, Score, bool); 6] = [
-        ("5u (A + L)", |c| &mut c.sums, of_discriminant, true),
-        ("8u X G", |c| &mut c.cross, of_discriminant, false),
-        ("32u^2 G^2", |c| &mut c.square, of_discriminant, false),
-        ("5u G", |c| &mut c.slope, of_roots, false),
-        ("2u sqrt D", |c| &mut c.root, of_roots, false),
-        ("11u |t|", |c| &mut c.t, of_roots, false),
+    let table: [(&str, Set, Score, f64); 6] = [
+        ("5u (A + L)", |c| &mut c.sums, of_discriminant, 2.68),
+        ("8u X G", |c| &mut c.cross, of_discriminant, 1.02),
+        ("32u^2 G^2", |c| &mut c.square, of_discriminant, 0.67),
+        ("5u G", |c| &mut c.slope, of_roots, 0.43),
+        ("2u sqrt D", |c| &mut c.root, of_roots, 0.38),
+        ("11u |t|", |c| &mut c.t, of_roots, 0.69),
     ];
-    for (name, set, score, fails) in table {
+    for (name, set, score, published) in table {
         let constants = quarter(set);
         let worst = search(|numbers| score(numbers, &constants));
-        println!("a quarter of {name}: {worst:.3}");
-        assert_eq!(worst > 1.0, fails, "{name}: {worst}: the table above says otherwise");
+        assert_published(name, worst, published);
+        assert_eq!(worst > 1.0, published > 1.0, "{name}: {worst}");
     }
     // All of a bound at once: the search is able to find an error that a quarter does not cover.
-    let all = Constants {
-        sums: proven.sums / 4.0,
-        cross: proven.cross / 4.0,
-        square: proven.square / 4.0,
-        slope: proven.slope / 4.0,
-        root: proven.root / 4.0,
-        t: proven.t / 4.0,
-    };
+    let all = Constants::of(f64::EPSILON / 8.0);
     let (d, t) = (search(|n| of_discriminant(n, &all)), search(|n| of_roots(n, &all)));
     println!("a quarter of all: D {d:.3}, t {t:.3}");
     assert!(d > 1.0 && t > 1.0, "a quarter of all: D {d}, t {t}");
