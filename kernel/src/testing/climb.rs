@@ -57,7 +57,7 @@ pub(crate) fn climb<const N: usize>(
 ) -> (f64, [f32; N]) {
     let mut random = Random(seed);
     let mut worst = (f64::NEG_INFINITY, [0.0; N]);
-    for _ in 0..starts {
+    for _ in 0..starts * times() {
         let mut here = start(&mut random);
         let mut height = score(&here);
         for _ in 0..steps {
@@ -101,10 +101,19 @@ pub(crate) fn climb_twice<const N: usize>(
 }
 
 /// Fails if what a search has found is not what is published, in `docs/proofs.md` or at the test: a tenth more or less. More
-/// is a better search, and worth publishing.
+/// is a better search, and worth publishing; a longer one may find it.
 pub(crate) fn assert_published(what: &str, found: f64, published: f64) {
     println!("{what}: {found:.3} found, {published} published");
-    assert!((found / published - 1.0).abs() <= 0.1, "{what}: {found} found, {published} published");
+    let part = found / published;
+    assert!(
+        part >= 0.9 && (part <= 1.1 || times() > 1),
+        "{what}: {found} found, {published} published"
+    );
+}
+
+/// How many times as many beginnings there are as usual: `SPHERULE_CLIMB`.
+fn times() -> u32 {
+    std::env::var("SPHERULE_CLIMB").ok().and_then(|times| times.parse().ok()).unwrap_or(1)
 }
 
 /// With another exponent: mostly the next.

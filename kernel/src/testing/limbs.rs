@@ -11,12 +11,12 @@ thread_local! {
 
 /// Counts a limb.
 pub(crate) fn touch() {
-    COUNT.set(COUNT.get() + 1);
+    COUNT.set(COUNT.get().wrapping_add(1));
 }
 
 /// How many limbs `work` touches, and what it returns.
 pub(crate) fn touched<R>(work: impl FnOnce() -> R) -> (u32, R) {
     let before = COUNT.get();
     let result = work();
-    (COUNT.get() - before, result)
+    (COUNT.get().wrapping_sub(before), result)
 }

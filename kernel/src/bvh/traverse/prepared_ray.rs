@@ -282,3 +282,6 @@ impl<A: LaneArray> PreparedPacket<A> {
         }
     }
 }
+
+#[cfg(test)]
+mod worst;

@@ -172,3 +172,6 @@ impl<L: Lanes> Pass<L> {
 
 #[cfg(test)]
 mod derived;
+
+#[cfg(test)]
+mod worst;
