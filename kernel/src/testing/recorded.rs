@@ -131,9 +131,8 @@ impl Lanes for Recorded {
     common!();
 
     fn splat((): (), value: f32) -> Self {
-        if value.is_nan() {
-            let node = Self((value.to_bits() & 0x003f_ffff) as usize);
-            assert_eq!(node.tag().to_bits(), value.to_bits(), "no node");
+        let node = Self((value.to_bits() & 0x003f_ffff) as usize);
+        if value.to_bits() == node.tag().to_bits() {
             return node;
         }
         push(Operation::Constant(f64::from(value)), f64::from(value))

@@ -284,4 +284,6 @@ impl<A: LaneArray> PreparedPacket<A> {
 }
 
 #[cfg(test)]
+mod derived;
+#[cfg(test)]
 mod worst;

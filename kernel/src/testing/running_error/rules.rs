@@ -163,8 +163,10 @@ impl RunningError {
 
     /// With a constant it is the other one: where that is smaller, the proofs say so by themselves.
     pub(super) fn larger(&self, a: usize, b: usize, graph: &[Operation]) -> Bound {
-        if matches!(graph[b], Operation::Constant(_)) {
-            return Bound { positive: true, form: None, ..self.bounds[a].clone() };
+        for (constant, other) in [(a, b), (b, a)] {
+            if matches!(graph[constant], Operation::Constant(_)) {
+                return Bound { positive: true, ..self.bounds[other].clone() };
+            }
         }
         let (a, b) = (&self.bounds[a], &self.bounds[b]);
         Bound {
