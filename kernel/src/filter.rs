@@ -214,4 +214,6 @@ impl<L: Lanes> FilterRays<L> {
 #[cfg(test)]
 mod derived;
 #[cfg(test)]
+mod toy;
+#[cfg(test)]
 mod worst;
