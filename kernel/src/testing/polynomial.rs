@@ -77,6 +77,15 @@ impl Polynomial {
         self.0.iter().map(|(monomial, coefficient)| (monomial, *coefficient))
     }
 
+    /// What it is where symbols stand for these numbers.
+    pub(crate) fn value(&self, of: impl Fn(Symbol) -> f64) -> f64 {
+        let power = |(symbol, power): &(Symbol, i32)| of(*symbol).powi(*power);
+        let term = |(monomial, coefficient): (&Monomial, &f64)| {
+            coefficient * monomial.0.iter().map(power).product::<f64>()
+        };
+        self.0.iter().map(term).sum()
+    }
+
     /// The coefficient of a product of powers.
     pub(crate) fn coefficient(&self, powers: &[(Symbol, i32)]) -> f64 {
         self.0.get(&Monomial::of(powers)).copied().unwrap_or(0.0)

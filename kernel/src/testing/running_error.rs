@@ -13,6 +13,7 @@
 
 extern crate std;
 
+mod against_numbers;
 mod rules;
 mod uses;
 
@@ -88,6 +89,8 @@ pub(crate) struct RunningError {
     free: BTreeSet<usize>,
     given: BTreeMap<usize, Polynomial>,
     bounds: Vec<Bound>,
+    /// By symbol: the node whose magnitude it is.
+    nodes: BTreeMap<Symbol, usize>,
 }
 
 impl RunningError {
@@ -107,6 +110,7 @@ impl RunningError {
             free: BTreeSet::new(),
             given: BTreeMap::new(),
             bounds: Vec::new(),
+            nodes: BTreeMap::new(),
         };
         for input in inputs {
             let symbol = new.symbol(input.name);
@@ -213,6 +217,7 @@ impl RunningError {
 
     fn named(&mut self, bound: Bound, name: &str) -> Bound {
         let symbol = self.symbol(name);
+        self.nodes.insert(symbol, self.bounds.len());
         let it = Polynomial::symbol(symbol);
         let off = self
             .relative(&bound)

@@ -19,6 +19,7 @@ impl RunningError {
     pub(super) fn input(&mut self, number: usize) -> Bound {
         let Input { name, bits, off, positive } = self.inputs[number];
         let symbol = self.symbol(name);
+        self.nodes.insert(symbol, self.bounds.len());
         let it = Polynomial::symbol(symbol);
         Bound {
             error: Some(it.scaled(off)),
@@ -137,6 +138,7 @@ impl RunningError {
     pub(super) fn root(&mut self, node: usize, a: usize) -> Bound {
         let name = self.names.get(&node).copied();
         let symbol = self.symbol(name.unwrap_or(&format!("node {node}")));
+        self.nodes.insert(symbol, node);
         let (it, a) = (Polynomial::symbol(symbol), &self.bounds[a]);
         let rounding = it.scaled(self.u);
         let error = a.error.as_ref().map(|error| match self.relative(a) {
