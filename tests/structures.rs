@@ -1,9 +1,11 @@
 //! Depth list and tree answer as brute force does, bit for bit, in every variant; no input makes a tree deep, slow or
 //! large.
 
+mod counted;
 mod equality;
 mod far;
 mod limits;
+mod scales;
 mod scenes;
 mod viewpoints;
 mod worst_cases;

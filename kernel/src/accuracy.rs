@@ -26,4 +26,4 @@ pub use tier::{Accuracy, Tier};
 #[cfg(test)]
 pub(crate) use fast::derived::fast_row;
 pub(crate) use roots::{RayLanes, all_finite};
-pub(crate) use tier::{TierFormula, TierWork, is_closer, test_lanes};
+pub(crate) use tier::{TierFormula, TierWork, Underflow, is_closer, test_lanes};

@@ -15,10 +15,15 @@
 //! Bit for bit what the list of spheres answers: by [`Exact`](crate::Exact) for every input, by
 //! [`Stable`](crate::Stable) in its domain, by [`Fast`](crate::Fast) except for hits that the textbook form
 //! finds on lines that pass a sphere's box by. Boxes and filters only decide what is skipped, under bounds
-//! that `docs/traversal-margins.md` proves; every t is a tier's. What the bounds do not cover is not
-//! skipped: spheres with a coordinate or radius above 2^40 are kept apart and tested by every ray; rays
-//! that start beyond 2^40, or whose squared length lies outside [2^-100, 2^100], are tested against all
-//! spheres.
+//! that `docs/traversal-margins.md` proves; every t is a tier's.
+//!
+//! # Units
+//!
+//! Boxes and leaves hold the spheres times a power of two, that of most spheres' sizes, and rays are scaled in the same way
+//! (`scale`): a scene times 2^k has the same tree, and takes the same time, as has a ray of any length. Tiers get both as they
+//! were given. What the bounds do not cover is not skipped: spheres of other sizes than most, by 2^40 or more, are kept
+//! apart, and met as a list is; rays that start beyond 2^56 times the scene's size are tested against all spheres, if they
+//! come near any.
 //!
 //! # Depth
 //!

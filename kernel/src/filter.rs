@@ -3,8 +3,8 @@
 //!
 //! # Method
 //!
-//! Shift space by some point K near the spheres and scale the direction to unit length. With
-//! c = centre - K, o = origin - K and e = d.o, f = 2 o, all known before the loop, the
+//! Scale space by a power of two, shift it by some point K near the spheres and scale the direction to
+//! unit length. With c = centre - K, o = origin - K and e = d.o, f = 2 o, all known before the loop, the
 //! discriminant over d.d is
 //!
 //! ```text
@@ -18,14 +18,20 @@
 //! costs the loop no operation, and a huge or far sphere widens no bound but its own.
 //!
 //! The bound, kappa = 104 u, and the sizes for which it holds, are proven in `docs/numerics.md`;
-//! `filter/worst.rs` climbs towards it. A sphere outside of those sizes passes always (w = +inf), as does a
+//! `filter/worst.rs` climbs towards it. Sizes are those in the units of a block of spheres; and where a tier's own
+//! squares underflow, what it finds is left to it. A sphere outside of those sizes passes always (w = +inf), as does a
 //! ray (threshold -inf); an invalid sphere never does, and an inactive ray only beside a sphere out of
 //! range. Within those rules no NaN can arise, so the maximum of four means what it says.
 
-use crate::accuracy::RayLanes;
-use crate::geometry::sphere::{Sphere, Spheres};
+use crate::accuracy::{RayLanes, Underflow};
+use crate::geometry::sphere::Sphere;
+use crate::geometry::sphere_run::SphereRun;
 use crate::lanes::{LaneMask, Lanes};
 use crate::numeric::axes::{axes, dot};
+use crate::numeric::power_of_two::inverse_powers_of_two;
+use crate::numeric::rounding::{LARGEST, LONGEST};
+use crate::scale::rays::largest;
+use crate::scale::scene::{size, to_one};
 
 /// How many spheres share one branch.
 pub(crate) const GROUP: usize = 4;
@@ -36,15 +42,10 @@ pub(crate) const BLOCK_SPHERES: usize = BLOCK * GROUP;
 
 /// 104 u.
 const KAPPA: f32 = 104.0 / 16_777_216.0;
-/// 2^40: above it a coordinate or radius is not judged.
-const LARGEST: f32 = 1_099_511_627_776.0;
-/// 2^-60: no sphere counts as smaller than this squared size.
-const LEAST_SIZE: f32 = 1.0 / (1_073_741_824.0 * 1_073_741_824.0);
-/// 2^100: above it a squared direction is not judged.
-const LONGEST: f32 = LARGEST * LARGEST * 1_048_576.0;
-/// 2^-60: below it a squared direction is not judged. (2^-100 dropped hits that `Fast` owes to
-/// underflow.)
-const SHORTEST: f32 = LEAST_SIZE;
+/// 2^-120: no sphere counts as smaller than this squared size.
+const LEAST_SQUARE: f32 = 1.0 / (1_u128 << 120) as f32;
+/// 2^-60: a squared direction below, or above 2^100, is not used: the direction is scaled before.
+const SHORTEST: f32 = 1.0 / (1_u64 << 60) as f32;
 
 /// Four spheres as the filter reads them.
 #[derive(Clone, Copy, Debug)]
@@ -58,27 +59,71 @@ impl FilterGroup {
     const EMPTY: Self = Self { center: [[0.0; GROUP]; 3], excess: [f32::NEG_INFINITY; GROUP] };
 
     #[inline(always)]
-    fn put(&mut self, slot: usize, sphere: &Sphere, shift: [f32; 3], kappa: f32) {
+    fn put(&mut self, slot: usize, sphere: &Sphere, frame: &Frame, kappa: f32) {
         if !sphere.is_valid() {
             return;
         }
-        if sphere.center.abs().max_element().max(sphere.radius) > LARGEST {
+        if size(sphere) * frame.scale > LARGEST {
             self.excess[slot] = f32::INFINITY;
             return;
         }
-        let [x, y, z] = axes!(i => sphere.center[i] - shift[i]);
+        let [x, y, z] = axes!(i => sphere.center[i] * frame.scale - frame.shift[i]);
+        let radius = sphere.radius * frame.scale;
         self.center[0][slot] = x;
         self.center[1][slot] = y;
         self.center[2][slot] = z;
-        self.excess[slot] = excess([x, y, z], sphere.radius, kappa);
+        self.excess[slot] = excess([x, y, z], radius, kappa, frame.least_square);
     }
 }
 
 /// r^2 - |c|^2, raised by the bound.
 #[inline(always)]
-fn excess<L: Lanes>(c: [L; 3], r: L, kappa: f32) -> L {
+fn excess<L: Lanes>(c: [L; 3], r: L, kappa: f32, least_square: f32) -> L {
     let (cc, rr) = (dot(c, c), r * r);
-    (rr - cc) + r.like(kappa) * (cc + rr).filter_max(r.like(LEAST_SIZE))
+    (rr - cc) + r.like(kappa) * (cc + rr).filter_max(r.like(least_square))
+}
+
+/// The space that a block of spheres is seen in.
+#[derive(Clone, Copy, Debug)]
+struct Frame {
+    /// The power of two that lengths are multiplied by.
+    scale: f32,
+    /// K, scaled.
+    shift: [f32; 3],
+    /// No sphere counts as smaller than this squared size, scaled.
+    least_square: f32,
+    /// A direction without a larger component is not judged.
+    least_length: f32,
+}
+
+impl Frame {
+    /// Around a point among the spheres of a block, that one sphere far away cannot move far: coordinate by
+    /// coordinate the median of three of them; scaled so that the median of their sizes is some 1. Any finite
+    /// point, and any scale, would be right.
+    fn of(spheres: &impl SphereRun, first: usize, underflow: Underflow) -> Self {
+        let count = (spheres.count() - first).min(BLOCK_SPHERES);
+        let samples = [0, count / 2, count.saturating_sub(1)]
+            .map(|offset| spheres.sphere(first + offset).unwrap_or(Sphere::from([0.0; 4])));
+        let sizes = [0, 1, 2].map(|sample| size(&samples[sample]));
+        let typical = median(sizes);
+        let largest = sizes[0].max(sizes[1]).max(sizes[2]);
+        let scale = match (typical > 0.0, largest > 0.0) {
+            (true, _) => to_one(typical),
+            (_, true) => to_one(largest),
+            _ => 1.0,
+        };
+        let shift = [0, 1, 2].map(|axis| {
+            let middle = median([0, 1, 2].map(|sample| samples[sample].center[axis] * scale));
+            if middle.abs() <= LARGEST { middle } else { 0.0 }
+        });
+        let least_square = (underflow.square * scale * scale).max(LEAST_SQUARE);
+        Self { scale, shift, least_square, least_length: underflow.length }
+    }
+}
+
+/// The median of three numbers.
+fn median([a, b, c]: [f32; 3]) -> f32 {
+    a.max(b).min(a.min(b).max(c))
 }
 
 /// The next spheres of a list, prepared on the stack.
@@ -86,29 +131,29 @@ fn excess<L: Lanes>(c: [L; 3], r: L, kappa: f32) -> L {
 pub(crate) struct FilterBlock {
     groups: [FilterGroup; BLOCK],
     count: usize,
-    shift: [f32; 3],
+    frame: Frame,
 }
 
 impl FilterBlock {
     /// Spheres `first ..` of the list, as many as a block takes.
-    pub(crate) fn new(spheres: &Spheres<'_>, first: usize) -> Self {
-        Self::widened(spheres, first, KAPPA)
+    pub(crate) fn new(spheres: &impl SphereRun, first: usize, underflow: Underflow) -> Self {
+        Self::widened(spheres, first, underflow, KAPPA)
     }
 
     #[inline(always)]
-    fn widened(spheres: &Spheres<'_>, first: usize, kappa: f32) -> Self {
-        let shift = middle(spheres, first);
+    fn widened(spheres: &impl SphereRun, first: usize, underflow: Underflow, kappa: f32) -> Self {
+        let frame = Frame::of(spheres, first, underflow);
         let mut groups = [FilterGroup::EMPTY; BLOCK];
         let mut count = 0;
-        for (group, start) in groups.iter_mut().zip((first..spheres.len()).step_by(GROUP)) {
+        for (group, start) in groups.iter_mut().zip((first..spheres.count()).step_by(GROUP)) {
             for slot in 0..GROUP {
-                if let Some(sphere) = spheres.get(start + slot) {
-                    group.put(slot, &sphere, shift, kappa);
+                if let Some(sphere) = spheres.sphere(start + slot) {
+                    group.put(slot, &sphere, &frame, kappa);
                 }
             }
             count += 1;
         }
-        Self { groups, count, shift }
+        Self { groups, count, frame }
     }
 
     /// The groups, in the order of the list.
@@ -116,19 +161,6 @@ impl FilterBlock {
     pub(crate) fn groups(&self) -> &[FilterGroup] {
         self.groups.get(..self.count).unwrap_or(&[])
     }
-}
-
-/// A point among the spheres of a block, that one sphere far away cannot move far: coordinate by
-/// coordinate the median of three of them. Any finite point would be right.
-fn middle(spheres: &Spheres<'_>, first: usize) -> [f32; 3] {
-    let count = (spheres.len() - first).min(BLOCK_SPHERES);
-    let [a, b, c] = [0, count / 2, count.saturating_sub(1)].map(|offset| {
-        spheres.get(first + offset).map_or([0.0; 3], |sphere| sphere.center.to_array())
-    });
-    [0, 1, 2].map(|axis| {
-        let median = a[axis].max(b[axis]).min(a[axis].min(b[axis]).max(c[axis]));
-        if median.abs() <= LARGEST { median } else { 0.0 }
-    })
 }
 
 /// The rays of a packet as the filter reads them, for one block.
@@ -147,22 +179,28 @@ pub(crate) struct FilterRays<L: Lanes> {
 impl<L: Lanes> FilterRays<L> {
     #[inline(always)]
     pub(crate) fn new(token: L::Token, rays: &RayLanes<L>, block: &FilterBlock) -> Self {
-        Self::widened(token, rays, block, KAPPA)
+        Self::widened(token, rays, &block.frame, KAPPA)
     }
 
     #[inline(always)]
-    fn widened(token: L::Token, rays: &RayLanes<L>, block: &FilterBlock, kappa: f32) -> Self {
+    fn widened(token: L::Token, rays: &RayLanes<L>, frame: &Frame, kappa: f32) -> Self {
+        let Frame { scale, shift, least_length, .. } = *frame;
+        let (mut direction, mut a) = (rays.direction, dot(rays.direction, rays.direction));
         // Rays that the bound does not cover are replaced by one that it does.
-        let a = dot(rays.direction, rays.direction);
-        let far = rays.origin[0].abs().filter_max(rays.origin[1].abs());
-        let far = far.filter_max(rays.origin[2].abs());
-        let judged =
-            rays.live & a.like(SHORTEST).le(a) & a.le(a.like(LONGEST)) & far.le(a.like(LARGEST));
+        let mut judged = rays.live & (largest(rays.origin) * a.like(scale)).le(a.like(LARGEST));
+        let usual = a.like(SHORTEST).le(a) & a.le(a.like(LONGEST));
+        if (rays.live & !usual).any() {
+            let longest = largest(direction);
+            let to_one = inverse_powers_of_two(longest);
+            direction = axes!(i => direction[i] * to_one);
+            a = dot(direction, direction);
+            judged = judged & a.like(least_length).le(longest);
+        }
         let (zero, one) = (a.like(0.0), a.like(1.0));
         let per_length = one / L::select(judged, a, one).sqrt();
-        let direction = axes!(i => L::select(judged, rays.direction[i] * per_length, zero));
+        let direction = axes!(i => L::select(judged, direction[i] * per_length, zero));
         let origin = axes!(i => {
-            let shifted = rays.origin[i] - L::splat(token, block.shift[i]);
+            let shifted = rays.origin[i] * a.like(scale) - L::splat(token, shift[i]);
             L::select(judged, shifted, zero)
         });
         let along = dot(direction, origin);
@@ -209,6 +247,21 @@ impl<L: Lanes> FilterRays<L> {
     pub(crate) fn may_meet(&self, group: &FilterGroup, slot: usize) -> L::Mask {
         self.threshold.le(self.raised(group, slot))
     }
+}
+
+/// Which rays may come within `radius` of the coordinates' origin, from however far away.
+#[inline(always)]
+pub(crate) fn may_come_near<L: Lanes>(token: L::Token, rays: &RayLanes<L>, radius: f32) -> L::Mask {
+    let ball = Sphere::from([0.0, 0.0, 0.0, radius]);
+    if !ball.is_valid() {
+        return rays.live;
+    }
+    let far = L::select(rays.live, largest(rays.origin), L::splat(token, 0.0)).filter_greatest();
+    let scale = to_one(far);
+    let frame = Frame { scale, shift: [0.0; 3], least_square: LEAST_SQUARE, least_length: 0.0 };
+    let mut group = FilterGroup::EMPTY;
+    group.put(0, &ball, &frame, KAPPA);
+    FilterRays::widened(token, rays, &frame, KAPPA).may_meet(&group, 0)
 }
 
 #[cfg(test)]

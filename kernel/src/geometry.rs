@@ -6,4 +6,5 @@ pub(crate) mod ray;
 pub(crate) mod sphere;
 #[cfg(feature = "alloc")]
 pub(crate) mod sphere_list;
+pub(crate) mod sphere_run;
 pub(crate) mod surface;

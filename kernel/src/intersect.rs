@@ -41,8 +41,9 @@ use crate::trace::Trace;
 ///
 /// A list: some 8 operations a ray and sphere that miss each other, and the tier's price for the
 /// others; preparing 128 spheres costs as much as testing one packet against them, so pass many rays in
-/// one call. A tree: by the logarithm of the number of spheres, if they do not overlap much; rays that the
-/// bounds do not cover, and spheres above 2^40, cost as in a list.
+/// one call. A tree: by the logarithm of the number of spheres, if they do not overlap much; spheres of other sizes
+/// than most, by 2^40 or more, cost as in a list, as do rays from beyond 2^56 times that size. Units do not matter, nor do
+/// the lengths of directions, for any structure.
 ///
 /// ```
 /// use spherule_kernel::{Exact, Hit, Intersect, Ray, SphereList, Vec3};

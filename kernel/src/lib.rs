@@ -24,6 +24,7 @@ mod linear;
 mod memory;
 mod numeric;
 mod query;
+mod scale;
 mod slices;
 mod stages;
 mod structures;

@@ -57,6 +57,8 @@ mod sealed {
         fn limit<A: LaneArray>(packet: &Self::Packet<A>, lane: usize) -> f32;
         /// The answers of t, `+inf` if there is no hit, and indices, as bits.
         fn from_lanes<L: Lanes>(t: L, sphere: L) -> Self::Packet<L::Array>;
+        /// t and the index, as bits, in every lane: what [`from_lanes`](Answers::from_lanes) makes answers of.
+        fn lanes<L: Lanes>(token: L::Token, packet: &Self::Packet<L::Array>) -> [L; 2];
         /// The answers of rays that were packed one after the other. Not generic, so that it is compiled
         /// with this crate: in a user's dev build it took longer than the rays.
         fn unpack(packets: &[Self::Packet<[f32; 16]>], answers: &mut [Self::One]);
@@ -143,6 +145,18 @@ impl Answers for ClosestHit {
         hits
     }
 
+    #[inline(always)]
+    fn lanes<L: Lanes>(token: L::Token, packet: &HitPacket<L::Array>) -> [L; 2] {
+        let mut bits = L::Array::filled(0.0);
+        let indices = packet.sphere.as_ref();
+        for lane in 0..L::COUNT {
+            if let Some(&index) = indices.get(lane) {
+                bits.set(lane, f32::from_bits(index));
+            }
+        }
+        [L::load(token, &packet.t), L::load(token, &bits)]
+    }
+
     #[inline(never)]
     fn unpack(packets: &[HitPacket], answers: &mut [Option<Hit>]) {
         unpack::<Self>(packets, answers);
@@ -193,6 +207,12 @@ impl Answers for AnyHit {
     #[inline(always)]
     fn from_lanes<L: Lanes>(t: L, _: L) -> u32 {
         t.lt(t.like(f32::INFINITY)).bits()
+    }
+
+    #[inline(always)]
+    fn lanes<L: Lanes>(token: L::Token, packet: &u32) -> [L; 2] {
+        let (zero, infinity) = (L::splat(token, 0.0), L::splat(token, f32::INFINITY));
+        [L::select(L::mask(token, *packet), zero, infinity), zero]
     }
 
     #[inline(never)]

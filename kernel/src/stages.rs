@@ -5,7 +5,7 @@
 //! counted; so the kernel itself holds no counters.
 
 use crate::accuracy::Exact;
-use crate::accuracy::TierWork;
+use crate::accuracy::{TierFormula, TierWork};
 use crate::filter::GROUP;
 use crate::geometry::ray::RayPacket;
 use crate::geometry::sphere::Spheres;
@@ -56,15 +56,16 @@ pub fn stages<Q: Query>(_query: Q, rays: &[RayPacket], spheres: Spheres<'_>) -> 
         let live = (0..RayPacket::COUNT).filter(|&lane| packet.ray(lane).is_live()).count();
         sum.tests += live as u64 * spheres.len() as u64;
         let mut counted = [(Q::none::<[f32; 16]>(), Stages::default())];
-        for_candidates::<f32x16, _>(
+        for_candidates::<f32x16, _, _>(
             (),
             core::slice::from_ref(packet),
             &mut counted,
             &spheres,
+            Exact::UNDERFLOW,
             |(answer, _)| Q::done::<f32x16>((), answer),
             |(answer, stages), candidates| {
                 count::<f32x16, Q>((), candidates, answer, stages);
-                GroupTest::<f32x16, Q> { token: (), candidates, answer }.run::<Exact>();
+                GroupTest::<f32x16, Q, _> { token: (), candidates, answer }.run::<Exact>();
             },
         );
         sum += counted[0].1;
@@ -76,14 +77,14 @@ pub fn stages<Q: Query>(_query: Q, rays: &[RayPacket], spheres: Spheres<'_>) -> 
 /// do when it is.
 fn count<L: Lanes, Q: Query>(
     token: L::Token,
-    candidates: Candidates<'_, L>,
+    candidates: Candidates<'_, L, Spheres<'_>>,
     answer: &Q::Packet<L::Array>,
     stages: &mut Stages,
 ) {
-    let Candidates { rays, filter, group, spheres, first, .. } = candidates;
+    let Candidates { rays, filter, group, .. } = candidates;
     let mut limit = Q::limits::<L>(token, answer);
     for slot in 0..GROUP {
-        let Some(sphere) = spheres.get(first + slot) else { return };
+        let Some((sphere, _)) = candidates.sphere(slot) else { return };
         let asked = rays.live & filter.may_meet(group, slot);
         if !sphere.is_valid() || !asked.any() {
             continue;

@@ -28,15 +28,16 @@
 
 use super::beyond::Beyond;
 use super::roots::{RayLanes, Roots, line_roots_of};
-use super::tier::{Tier, TierFormula};
+use super::tier::{Tier, TierFormula, Underflow};
 use crate::numeric::axes::{axes, dot};
 use crate::numeric::error_free::{VeltkampSplit, two_sum};
+use crate::numeric::power_of_two::inverse_powers_of_two;
 use crate::{LaneMask, Lanes, Ray, Sphere};
 
 /// The best form that plain `f32` allows: few-ulp answers without wider arithmetic.
 ///
-/// Domain: r and |p| (p the centre less the origin) zero or within [2^-40, 2^40]; any direction
-/// whose largest component is a normal number. Inside it, for |p|/r up to 1e6:
+/// Domain: r and |p| (p the centre less the origin) zero or within [2^-40, 2^40], |p| from 2^-32 on
+/// if r is zero; any direction whose largest component is a normal number. Inside it, for |p|/r up to 1e6:
 ///
 /// - Decisions are right except for tangents closer than 2^-41 (|p| + r). The most that a search
 ///   found is 2^-49.
@@ -65,6 +66,9 @@ pub struct StableRays<L> {
 impl TierFormula for Stable {
     const THIS: Self = Self;
     const TIER: Tier = Tier::Stable;
+    /// A normal number, and 2^-120: what underflows in D / a is below 2^-144.
+    const UNDERFLOW: Underflow =
+        Underflow { length: f32::MIN_POSITIVE, square: 1.0 / (1_u128 << 120) as f32 };
     type Prepared<L: Lanes> = StableRays<L>;
 
     #[inline(always)]
@@ -194,17 +198,6 @@ fn squares_less_square<L: Lanes>(v: [(L, L); 3], radius: L) -> L {
     let (zr, zr_low) = two_sum(z.0, -rr);
     let (sum, sum_low) = two_sum(xy, zr);
     sum + ((sum_low + (xy_low + zr_low)) + ((x.1 + y.1) + (z.1 - rr_low)))
-}
-
-/// 2^-e for a number in [2^e, 2^(e+1)), as far as that is a normal number.
-#[inline(always)]
-fn inverse_powers_of_two<L: Lanes>(lengths: L) -> L {
-    let mut powers = lengths.store();
-    for power in powers.as_mut() {
-        let exponent = (power.to_bits() >> 23) & 0xff;
-        *power = f32::from_bits((254 - exponent.min(253)) << 23);
-    }
-    L::load(lengths.token(), &powers)
 }
 
 #[cfg(test)]

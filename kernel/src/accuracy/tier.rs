@@ -28,6 +28,9 @@ pub trait TierFormula: Copy + Debug {
     /// Whether the roots themselves are in order, where t are equal: rule 5.
     const ORDERS_ROOTS: bool = false;
 
+    /// Below which sizes the tier may see hits that it owes to underflow.
+    const UNDERFLOW: Underflow = Underflow::NONE;
+
     /// What the tier computes once a packet.
     type Prepared<L: Lanes>: Copy;
 
@@ -73,6 +76,20 @@ pub trait TierFormula: Copy + Debug {
     }
 }
 
+/// Below which sizes a tier may see hits where there are none, since its squares underflow: a filter leaves such to it.
+#[derive(Clone, Copy, Debug)]
+pub struct Underflow {
+    /// Of the largest component of a direction.
+    pub length: f32,
+    /// Of |p|^2 + r^2.
+    pub square: f32,
+}
+
+impl Underflow {
+    /// The tier sees none.
+    pub const NONE: Self = Self { length: 0.0, square: 0.0 };
+}
+
 /// Work that is compiled once a tier.
 pub trait TierWork {
     /// What comes of it.
@@ -88,6 +105,8 @@ mod sealed {
         fn spread(self) -> f32;
         /// How far two answers may be in another order than their roots, in units of T: zero if roots are ordered.
         fn answer_error(self) -> f32;
+        /// [`TierFormula::UNDERFLOW`](super::TierFormula::UNDERFLOW).
+        fn underflow(self) -> super::Underflow;
         /// Does `work` by the formula of the tier.
         fn with_formula<W: super::TierWork>(self, work: W) -> W::Output;
         /// [`TierFormula::compare_at`](super::TierFormula::compare_at).
@@ -112,6 +131,11 @@ impl<F: TierFormula> sealed::Chosen for F {
     #[inline(always)]
     fn spread(self) -> f32 {
         F::SPREAD
+    }
+
+    #[inline(always)]
+    fn underflow(self) -> Underflow {
+        F::UNDERFLOW
     }
 
     #[inline(always)]
@@ -184,6 +208,15 @@ impl sealed::Chosen for Tier {
             Self::Fast => Fast::SPREAD,
             Self::Stable => Stable::SPREAD,
             Self::Exact => Exact::SPREAD,
+        }
+    }
+
+    #[inline(always)]
+    fn underflow(self) -> Underflow {
+        match self {
+            Self::Fast => Fast::UNDERFLOW,
+            Self::Stable => Stable::UNDERFLOW,
+            Self::Exact => Exact::UNDERFLOW,
         }
     }
 

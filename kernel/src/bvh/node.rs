@@ -60,7 +60,7 @@ impl BvhLeaf {
         SphereColumns { center: [x, y, z], radius: &self.radius }
     }
 
-    /// The sphere at a place of the leaf, and its index.
+    /// The sphere at a place of the leaf, as bounds see it, and its index.
     #[inline(always)]
     pub(crate) fn sphere(&self, place: usize) -> (Sphere, u32) {
         let place = place % WIDTH;

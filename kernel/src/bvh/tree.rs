@@ -4,9 +4,10 @@ use super::build::join::{InTurn, Join};
 use super::build::top_down;
 use super::built::Built;
 use super::node::{BvhLeaf, BvhNode, DEPTH, LEAF, NO_CHILD, WIDTH};
-use super::traverse::source::SphereSource;
+use super::traverse::source::{InsideSpheres, OutsideLeaves, SphereSource};
 use crate::geometry::sphere::{Sphere, Spheres};
 use crate::memory::TooSmall;
+use crate::scale::scene::SceneScale;
 
 /// How much memory a tree takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,13 +38,15 @@ pub struct Bvh<'a> {
     /// The list that it was built from.
     pub(crate) spheres: Spheres<'a>,
     pub(crate) nodes: &'a [BvhNode],
-    /// Those of the tree, in its order.
+    /// Those of the tree, in its order, scaled.
     pub(crate) leaves: &'a [BvhLeaf],
-    /// Leaves of no node: spheres above 2^40, which every ray must be tested against.
+    /// Leaves of no node: spheres that no bound sees, as they were given.
     pub(crate) outside: &'a [BvhLeaf],
     /// A node, a leaf with [`LEAF`] set, or [`NO_CHILD`].
     pub(crate) root: u32,
-    /// No coordinate of a box is larger.
+    /// How bounds see lengths.
+    pub(crate) scale: SceneScale,
+    /// No coordinate of a box is larger, as bounds see it.
     pub(crate) extent: f32,
 }
 
@@ -56,15 +59,10 @@ impl SphereSource for Bvh<'_> {
     #[inline(always)]
     fn sphere_at(&self, place: u32) -> Option<(Sphere, u32)> {
         match self.leaves.get(place as usize / WIDTH) {
-            Some(leaf) => Some(leaf.sphere(place as usize)),
-            None => None,
-        }
-    }
-
-    #[inline(always)]
-    fn outside(&self, number: usize) -> Option<(Sphere, u32)> {
-        match self.outside.get(number / WIDTH) {
-            Some(leaf) => Some(leaf.sphere(number)),
+            Some(leaf) => {
+                let (scaled, index) = leaf.sphere(place as usize);
+                Some((self.scale.restored(&scaled), index))
+            }
             None => None,
         }
     }
@@ -73,8 +71,8 @@ impl SphereSource for Bvh<'_> {
 impl<'a> Bvh<'a> {
     /// The memory that any list of `count` spheres needs: 38 bytes a sphere at most, and 832 bytes.
     ///
-    /// All leaves except one are full, and one more keeps the spheres above 2^40: count/16, rounded
-    /// up, and one; of nodes 8/15 of the leaves are enough (`docs/traversal-margins.md`).
+    /// All leaves except one are full, and one more keeps the spheres of other sizes than the rest: count/16,
+    /// rounded up, and one; of nodes 8/15 of the leaves are enough (`docs/traversal-margins.md`).
     ///
     /// ```
     /// use spherule_kernel::{Bvh, BvhSize};
@@ -141,8 +139,27 @@ impl<'a> Bvh<'a> {
             leaves,
             outside: rest.get(..built.outside).unwrap_or_default(),
             root: built.root,
+            scale: built.scale,
             extent: built.extent,
         }
+    }
+
+    /// No sphere of the tree is farther from the coordinates' origin: twice the extent is more than its diagonal.
+    #[inline(always)]
+    pub(crate) fn radius(&self) -> f32 {
+        2.0 * self.extent / self.scale.factor
+    }
+
+    /// The spheres that are in the tree, in the order of their list.
+    #[inline(always)]
+    pub(crate) fn inside(&self) -> InsideSpheres<'a> {
+        InsideSpheres { spheres: self.spheres, scale: self.scale }
+    }
+
+    /// The spheres that no bound sees.
+    #[inline(always)]
+    pub(crate) fn outside(&self) -> OutsideLeaves<'a> {
+        OutsideLeaves { spheres: self.spheres, leaves: self.outside }
     }
 
     /// The list that the tree was built from.

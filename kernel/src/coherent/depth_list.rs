@@ -16,7 +16,9 @@ use super::depth_sort;
 use super::listed::{COLUMNS, Listed, column_length};
 use super::view::{View, Viewpoint};
 use crate::geometry::sphere::Spheres;
+use crate::geometry::sphere_run::SphereRun;
 use crate::memory::TooSmall;
+use crate::scale::scene::SceneScale;
 
 /// The spheres of a list in the order of their depth, in memory of the caller's.
 ///
@@ -25,11 +27,11 @@ use crate::memory::TooSmall;
 /// Bit for bit what the list of spheres answers: by [`Exact`](crate::Exact) for every input, by
 /// [`Stable`](crate::Stable) in its domain, by [`Fast`](crate::Fast) except for hits that the textbook form
 /// finds on lines that pass a sphere by. Lists and filters only decide what is skipped, under the
-/// bounds of the tree (`docs/traversal-margins.md`); every t is a tier's. What the bounds
-/// do not cover is not skipped: spheres with a coordinate or radius above 2^40 are tested by every
-/// ray; packets with a ray that does not fit the [`Viewpoint`], starts at t < 0, whose squared length
-/// lies outside [2^-100, 2^100], or whose rays look in different directions, are tested against all
-/// spheres.
+/// bounds of the tree (`docs/traversal-margins.md`); every t is a tier's. No units are better than others: bounds
+/// see spheres and rays multiplied by powers of two. What the bounds
+/// do not cover is not skipped: spheres of other sizes than most, by 2^40 or more, are met as a list is; packets with a ray
+/// that does not fit the [`Viewpoint`] or starts at t < 0, or whose rays look in different directions, are tested
+/// against all spheres.
 ///
 /// # Cost
 ///
@@ -52,11 +54,12 @@ use crate::memory::TooSmall;
 pub struct DepthList<'a> {
     /// The list that was sorted.
     pub(super) spheres: Spheres<'a>,
+    /// How bounds see lengths.
+    pub(super) scale: SceneScale,
     /// `None` if the bounds do not cover it.
     pub(super) view: Option<View>,
     pub(super) listed: Listed<'a>,
-    /// How many places behind those of the list are those of spheres above 2^40, which every ray
-    /// must be tested against.
+    /// How many places behind those of the list are those of spheres that no bound sees.
     pub(super) outside: usize,
     /// For no sphere of the list is |x_i| + r larger, in the frame of the view.
     pub(super) extent: f32,
@@ -88,7 +91,8 @@ impl<'a> DepthList<'a> {
     /// Sorts `spheres` for rays of `viewpoint`, in the memory given, whose contents do not matter.
     ///
     /// Spheres that are not valid are left out. With a viewpoint that is no one's - NaN, infinity,
-    /// a zero direction - or one beyond 2^40, the list can be used, and saves nothing.
+    /// a zero direction - or one beyond 2^56 times the size of most spheres, the list can be used, and saves
+    /// nothing.
     ///
     /// Cost: a radix sort, some 20 ns a sphere. Stack: 2 KiB. No other memory.
     ///
@@ -101,25 +105,58 @@ impl<'a> DepthList<'a> {
     ) -> Result<Self, TooSmall> {
         let needed = Self::needed(spheres.len());
         TooSmall::check(needed, memory.len())?;
-        let view = View::new(viewpoint);
+        let scale = SceneScale::of(&spheres);
+        let view = View::new(viewpoint, scale.factor);
         let memory = memory.get_mut(..needed).unwrap_or_default();
         let sorted = match &view {
-            Some(view) => depth_sort::sort(&spheres, view, memory),
+            Some(view) => depth_sort::sort(&spheres, scale, view, memory),
             None => depth_sort::Sorted::default(),
         };
         let listed = Listed::new(memory, sorted.listed);
-        Ok(Self { spheres, view, listed, outside: sorted.outside, extent: sorted.extent })
+        Ok(Self { spheres, scale, view, listed, outside: sorted.outside, extent: sorted.extent })
     }
 
-    /// The indices, as bits, of spheres above 2^40.
-    pub(super) fn outside(&self) -> &'a [f32] {
+    /// The spheres that no bound sees.
+    #[inline(always)]
+    pub(super) fn outside(&self) -> OutsidePlaces<'a> {
         let behind = self.listed.indices().get(self.listed.count..).unwrap_or_default();
-        behind.get(..self.outside).unwrap_or_default()
+        OutsidePlaces {
+            spheres: self.spheres,
+            indices: behind.get(..self.outside).unwrap_or_default(),
+        }
     }
 
     /// The list that was sorted.
     #[must_use]
     pub const fn spheres(&self) -> Spheres<'a> {
         self.spheres
+    }
+}
+
+/// The spheres of a list that no bound sees, by rising index.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OutsidePlaces<'a> {
+    spheres: Spheres<'a>,
+    /// As bits.
+    indices: &'a [f32],
+}
+
+impl SphereRun for OutsidePlaces<'_> {
+    #[inline(always)]
+    fn list(&self) -> Spheres<'_> {
+        self.spheres
+    }
+
+    #[inline(always)]
+    fn count(&self) -> usize {
+        self.indices.len()
+    }
+
+    #[inline(always)]
+    fn index(&self, number: usize) -> u32 {
+        match self.indices.get(number) {
+            Some(index) => index.to_bits(),
+            None => u32::MAX,
+        }
     }
 }

@@ -8,7 +8,7 @@ use super::listed::{column_length, columns};
 use super::view::View;
 use crate::geometry::sphere::{Sphere, Spheres};
 use crate::numeric::axes::axes;
-use crate::numeric::rounding::LARGEST;
+use crate::scale::scene::SceneScale;
 
 /// The key of a sphere that nothing hits, above all others.
 const NOTHING: u32 = u32::MAX;
@@ -26,13 +26,18 @@ pub(super) struct Sorted {
 }
 
 /// Sorts in memory as large as `DepthList::needed` says.
-pub(super) fn sort(spheres: &Spheres<'_>, view: &View, memory: &mut [f32]) -> Sorted {
+pub(super) fn sort(
+    spheres: &Spheres<'_>,
+    scale: SceneScale,
+    view: &View,
+    memory: &mut [f32],
+) -> Sorted {
     let count = spheres.len();
     let mut columns = columns(memory, column_length(count));
 
     let [spare, _, _, _, keys, indices] = &mut columns;
     for (key, sphere) in keys.iter_mut().zip(spheres.iter()) {
-        *key = f32::from_bits(key_of(view, &sphere));
+        *key = f32::from_bits(key_of(scale, view, &sphere));
     }
     for (index, number) in indices.iter_mut().zip(0..) {
         *index = f32::from_bits(number);
@@ -50,6 +55,7 @@ pub(super) fn sort(spheres: &Spheres<'_>, view: &View, memory: &mut [f32]) -> So
     let mut extent = 0.0_f32;
     for (place, ((((x, y), z), radius), depth)) in but_index.enumerate() {
         let sphere = index.get(place).and_then(|index| spheres.get(index.to_bits() as usize));
+        let sphere = sphere.and_then(|sphere| scale.scaled(&sphere));
         match sphere {
             Some(sphere) if place < listed => {
                 let (center, least) = view.see(&sphere);
@@ -64,14 +70,12 @@ pub(super) fn sort(spheres: &Spheres<'_>, view: &View, memory: &mut [f32]) -> So
 }
 
 /// An integer in the order of the depths.
-fn key_of(view: &View, sphere: &Sphere) -> u32 {
+fn key_of(scale: SceneScale, view: &View, sphere: &Sphere) -> u32 {
     if !sphere.is_valid() {
         return NOTHING;
     }
-    if sphere.center.abs().max_element().max(sphere.radius) > LARGEST {
-        return OUTSIDE;
-    }
-    let (_, depth) = view.see(sphere);
+    let Some(scaled) = scale.scaled(sphere) else { return OUTSIDE };
+    let (_, depth) = view.see(&scaled);
     let bits = depth.to_bits();
     if bits >> 31 == 1 { !bits } else { bits | 1 << 31 }
 }

@@ -127,6 +127,9 @@ pub(super) struct Inside {
 }
 
 impl Frustum {
+    pub(super) const NONE: Self =
+        Self { sides: Sides::NONE, sign: 1.0, start: f32::INFINITY, end: f32::NEG_INFINITY };
+
     /// Which children of a node may be entered.
     #[inline(always)]
     pub(super) fn enter<L: Lanes>(&self, token: L::Token, node: &BvhNode, inside: &mut Inside) {

@@ -43,7 +43,7 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
         return linear::traverse::<L, Q>(tier, token, list.spheres, rays, answers);
     };
     let (longer, shorter) = scratch.split_at_mut(scratch.len() / 2);
-    let size = (list.extent, tier.spread());
+    let size = (list.scale.factor, list.extent, tier.spread());
     let count = rays.len().min(answers.len());
     let (mut from, mut unfit) = (0, 0);
     while from < count {
@@ -60,6 +60,12 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
             {
                 linear::traverse::<L, Q>(tier, token, list.spheres, rays, answers);
             }
+        }
+        // What no bound sees is met first: packets begin with what they have hit of it.
+        if list.outside > 0
+            && let (Some(rays), Some(answers)) = (rays.get(from..end), answers.get_mut(from..end))
+        {
+            linear::traverse_some::<L, Q>(tier, token, &list.outside(), rays, answers);
         }
         let mut listed = list.listed;
         if survey.packets > MIDDLE && listed.count > SHORT {
@@ -108,20 +114,9 @@ impl SphereSource for ListSource<'_> {
 
     #[inline(always)]
     fn sphere_at(&self, place: u32) -> Option<(Sphere, u32)> {
-        sphere_of(&self.list.spheres, self.listed.indices().get(place as usize))
+        let index = self.listed.indices().get(place as usize)?.to_bits();
+        Some((self.list.spheres.get(index as usize)?, index))
     }
-
-    #[inline(always)]
-    fn outside(&self, number: usize) -> Option<(Sphere, u32)> {
-        sphere_of(&self.list.spheres, self.list.outside().get(number))
-    }
-}
-
-/// The sphere of an index that is given as bits.
-#[inline(always)]
-fn sphere_of(spheres: &Spheres<'_>, index: Option<&f32>) -> Option<(Sphere, u32)> {
-    let index = index?.to_bits();
-    Some((spheres.get(index as usize)?, index))
 }
 
 impl ListSource<'_> {
@@ -136,12 +131,25 @@ impl ListSource<'_> {
     ) {
         let nobody = RayPacket::inactive();
         let mut states = [self.state_of::<L>(token, &nobody); GROUP];
-        let mut live = false;
+        let (mut live, mut covered) = (false, true);
         for place in 0..rays.len().min(GROUP) {
             states[place] = self.state_of(token, &rays[place]);
             live |= states[place].live.any();
+            covered &= states[place].covered;
         }
         let states = states.get_mut(..rays.len()).unwrap_or_default();
+        if !covered {
+            L::out_of_line(
+                token,
+                #[inline(always)]
+                || {
+                    for place in 0..states.len().min(rays.len()) {
+                        let rays = self.view.in_frame(&RayLanes::load(token, &rays[place]));
+                        states[place].begin_again(&rays, self.list.scale.factor, None);
+                    }
+                },
+            );
+        }
         if live {
             let Some(fit) = Fit::of(states, self.list.extent, tier.spread()) else {
                 return linear::traverse::<L, Q>(tier, token, self.list.spheres, rays, answers);
@@ -151,9 +159,12 @@ impl ListSource<'_> {
             };
             let slack = spread_of(tier.spread(), self.list.extent, fit.absolute_error);
             let mut reach = f32::NEG_INFINITY;
-            for state in &mut *states {
-                if self.list.outside > 0 {
-                    state.test_outside::<Q>(tier, self);
+            for place in 0..states.len() {
+                let state = &mut states[place];
+                if self.list.outside > 0
+                    && let Some(known) = answers.get(place)
+                {
+                    state.take_known::<Q>(known);
                 }
                 state.depth = self.depth_of(state, slack);
                 reach = most(reach, state.depth);
@@ -206,6 +217,7 @@ impl ListSource<'_> {
         token: L::Token,
         packet: &'a RayPacket<L::Array>,
     ) -> PacketState<'a, L> {
-        PacketState::new(packet, &self.view.in_frame(&RayLanes::load(token, packet)))
+        let rays = self.view.in_frame(&RayLanes::load(token, packet));
+        PacketState::new(packet, &rays, self.list.scale.factor)
     }
 }

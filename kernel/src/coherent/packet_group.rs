@@ -45,17 +45,24 @@ pub(super) fn meet_block<L: Lanes, Q: Query>(
     }
 }
 
-/// Lets new packets begin nearer to a scene of that extent, if any of their rays are far away: in place,
-/// since a choice between two states costs a tenth of a group's time.
+/// Lets new packets of a tree that is scaled by `factor` begin once more: nearer to a scene of that extent, if any of
+/// their rays are far away, or of any length. In place, since a choice between two states costs a tenth of a group's
+/// time.
 #[inline(always)]
-pub(super) fn approach<L: Lanes>(states: &mut [PacketState<'_, L>], extent: f32, spread: f32) {
+pub(super) fn approach<L: Lanes>(
+    states: &mut [PacketState<'_, L>],
+    factor: f32,
+    extent: f32,
+    spread: f32,
+) {
     let Some(first) = states.first() else { return };
-    let token = first.token();
-    let mut far = far_away(first.live, first.rays.absolute_error, extent);
+    let (token, moves) = (first.token(), spread == 0.0);
+    let (mut covered, mut far) = (true, far_away(first.live, first.rays.absolute_error, extent));
     for state in states.iter() {
+        covered &= state.covered;
         far = far | far_away(state.live, state.rays.absolute_error, extent);
     }
-    if spread > 0.0 || !far.any() {
+    if covered && !(moves && far.any()) {
         return;
     }
     L::out_of_line(
@@ -63,7 +70,7 @@ pub(super) fn approach<L: Lanes>(states: &mut [PacketState<'_, L>], extent: f32,
         #[inline(always)]
         || {
             for state in states {
-                state.approach(extent);
+                state.approach(factor, if moves { Some(extent) } else { None });
             }
         },
     );

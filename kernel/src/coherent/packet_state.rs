@@ -12,12 +12,13 @@ use crate::Accuracy;
 use crate::accuracy::{RayLanes, is_closer, test_lanes};
 use crate::bvh::traverse::prepared_ray::PreparedLanes;
 use crate::bvh::traverse::root_interval::{Pass, RootInterval, SphereColumns};
-use crate::bvh::traverse::source::{SphereLanes, SphereSource, test_outside};
+use crate::bvh::traverse::source::{SphereLanes, SphereSource};
 use crate::geometry::hit::HitPacket;
 use crate::geometry::ray::RayPacket;
 use crate::lanes::{LaneArray, LaneMask, Lanes, WIDTH};
 use crate::numeric::axes::axes;
-use crate::query::{ClosestHit, Query};
+use crate::query::Query;
+use crate::scale::rays::ScaledRays;
 
 /// A packet in flight.
 #[derive(Clone, Copy)]
@@ -26,7 +27,7 @@ pub(super) struct PacketState<'a, L: Lanes> {
     packet: &'a RayPacket<L::Array>,
     /// The same, prepared; the end of the interval from above is `best`.
     pub(super) rays: PreparedLanes<L>,
-    /// Whether the bounds cover all of its rays, and all start at t >= 0.
+    /// Whether the bounds cover all of its rays, and all are [`forward`](PreparedLanes::forward).
     pub(super) covered: bool,
     /// Whether its rays may begin elsewhere than they say.
     pub(super) moved: bool,
@@ -50,16 +51,15 @@ pub(super) struct PacketState<'a, L: Lanes> {
 }
 
 impl<'a, L: Lanes> PacketState<'a, L> {
-    /// Of a packet, whose rays in the frame of the structure are `rays`.
+    /// Of a packet, whose rays in the frame of the structure, which is scaled by `factor`, are `rays`.
     #[inline(always)]
-    pub(super) fn new(packet: &'a RayPacket<L::Array>, rays: &RayLanes<L>) -> Self {
-        let (live, zero) = (rays.live, rays.t_min.like(0.0));
-        let forward = zero.le(rays.t_min);
-        let rays = PreparedLanes::as_they_are(rays);
+    pub(super) fn new(packet: &'a RayPacket<L::Array>, rays: &RayLanes<L>, factor: f32) -> Self {
+        let (live, t_min, zero) = (rays.live, rays.t_min, rays.t_min.like(0.0));
+        let rays = PreparedLanes::as_they_are(&ScaledRays::new(rays, factor));
         Self {
             packet,
             rays,
-            covered: !(live & !(rays.covered & forward)).any(),
+            covered: !(live & !(rays.covered & zero.le(t_min))).any(),
             moved: false,
             sides: Sides::NONE,
             depth: f32::INFINITY,
@@ -78,40 +78,25 @@ impl<'a, L: Lanes> PacketState<'a, L> {
         self.best.token()
     }
 
-    /// Begins nearer to a scene of that extent, before all else.
+    /// Begins once more, before all else, as [`PreparedLanes::of_any_length`] says.
     #[inline(always)]
-    pub(super) fn approach(&mut self, extent: f32) {
-        let rays = RayLanes::load(self.token(), self.packet);
-        self.rays = PreparedLanes::as_they_are(&rays).nearer(&rays, extent);
-        (self.best, self.moved) = (self.rays.end[1], true);
+    pub(super) fn begin_again(&mut self, rays: &RayLanes<L>, factor: f32, extent: Option<f32>) {
+        self.rays = PreparedLanes::of_any_length(rays, factor, extent);
+        let shift = self.rays.time.shift;
+        (self.best, self.moved) = (self.rays.end[1], shift.like(0.0).lt(shift).any());
+        self.covered = !(self.live & !(self.rays.covered & self.rays.forward(rays.t_min))).any();
     }
 
-    /// Tests the spheres that every ray must be tested against.
+    /// As [`begin_again`](Self::begin_again), for rays that are seen as they are.
     #[inline(always)]
-    pub(super) fn test_outside<Q: Query>(
-        &mut self,
-        tier: impl Accuracy,
-        source: &impl SphereSource,
-    ) {
-        let token = self.token();
-        let mut hits = HitPacket::none();
-        test_outside::<L, ClosestHit>(
-            tier,
-            token,
-            self.packet,
-            source,
-            self.live.bits(),
-            &mut hits,
-        );
-        self.t = L::load(token, &hits.t);
-        let mut spheres = L::Array::filled(0.0);
-        let indices = hits.sphere.as_ref();
-        for lane in 0..L::COUNT {
-            if let Some(&index) = indices.get(lane) {
-                spheres.set(lane, f32::from_bits(index));
-            }
-        }
-        self.sphere = L::load(token, &spheres);
+    pub(super) fn approach(&mut self, factor: f32, extent: Option<f32>) {
+        self.begin_again(&RayLanes::load(self.token(), self.packet), factor, extent);
+    }
+
+    /// Takes answers that are known, after all else.
+    #[inline(always)]
+    pub(super) fn take_known<Q: Query>(&mut self, answer: &Q::Packet<L::Array>) {
+        [self.t, self.sphere] = Q::lanes::<L>(self.token(), answer);
         self.shorten::<Q>();
     }
 

@@ -8,6 +8,7 @@ use crate::bvh::traverse::prepared_ray::PreparedLanes;
 use crate::geometry::ray::RayPacket;
 use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::axes;
+use crate::scale::rays::ScaledRays;
 
 /// A survey of packets that follow each other.
 pub(super) struct Survey {
@@ -27,22 +28,46 @@ pub(super) fn reaches<L: Lanes>(view: &View, best: L, origin: [L; 3], absolute_e
 }
 
 impl Survey {
-    /// Of packets against spheres of that extent, by a tier of that spread; of no packet, if the first does
-    /// not fit.
+    /// Of no packet.
+    const NONE: Self = Self { packets: 0, frustum: Frustum::NONE, reach: 0.0, spread: 0.0 };
+
+    /// Of packets against spheres that are scaled by that factor and have that extent, by a tier of that spread; of
+    /// no packet, if the first does not fit.
     #[inline(always)]
     pub(super) fn new<L: Lanes>(
         token: L::Token,
         view: &View,
         rays: &[RayPacket<L::Array>],
-        (extent, spread): (f32, f32),
+        size: (f32, f32, f32),
     ) -> Self {
+        match Self::of::<L, false>(token, view, rays, size) {
+            Some(survey) => survey,
+            None => L::out_of_line(
+                token,
+                #[inline(always)]
+                || match Self::of::<L, true>(token, view, rays, size) {
+                    Some(survey) => survey,
+                    None => Self::NONE,
+                },
+            ),
+        }
+    }
+
+    /// `None` if a direction has no usual length, unless `ANY_LENGTH` will do.
+    #[inline(always)]
+    fn of<L: Lanes, const ANY_LENGTH: bool>(
+        token: L::Token,
+        view: &View,
+        rays: &[RayPacket<L::Array>],
+        (factor, extent, spread): (f32, f32, f32),
+    ) -> Option<Self> {
         // The first live ray shows the way.
         let mut first = axes!(_i => f32::NAN);
         for packet in rays {
             let rays = RayLanes::<L>::load(token, packet);
             if rays.live.any() {
                 let (n, lane) = (
-                    PreparedLanes::as_they_are(&rays).direction,
+                    prepared::<L, ANY_LENGTH>(&rays, factor).direction,
                     rays.live.bits().trailing_zeros(),
                 );
                 first = axes!(i => n[i].store().get(lane as usize));
@@ -62,10 +87,18 @@ impl Survey {
         let mut packets = 0;
         for packet in rays {
             let rays = RayLanes::<L>::load(token, packet);
-            let prepared = PreparedLanes::as_they_are(&view.in_frame(&rays));
+            let prepared = prepared::<L, ANY_LENGTH>(&view.in_frame(&rays), factor);
+            if !ANY_LENGTH && (rays.live & !prepared.covered).any() {
+                return None;
+            }
             let PreparedLanes { origin, direction: n, absolute_error, covered, end, .. } = prepared;
             let (live, forward) = (rays.live, n[k] * none.like(sign));
-            let fits = view.shares(&rays) & covered & none.like(0.0).le(rays.t_min);
+            let forward_in_time = if ANY_LENGTH {
+                prepared.forward(rays.t_min)
+            } else {
+                none.like(0.0).le(rays.t_min)
+            };
+            let fits = view.shares(&rays) & covered & forward_in_time;
             if (live & !(fits & none.like(ALONG).le(forward))).any() {
                 break;
             }
@@ -102,6 +135,16 @@ impl Survey {
             end: f32::INFINITY,
         };
         let reach = reach.filter_greatest() + spread_of(spread, extent, error);
-        Self { packets, frustum, reach, spread }
+        Some(Self { packets, frustum, reach, spread })
+    }
+}
+
+/// Rays from where they begin, of usual lengths unless `ANY_LENGTH` will do.
+#[inline(always)]
+fn prepared<L: Lanes, const ANY_LENGTH: bool>(rays: &RayLanes<L>, factor: f32) -> PreparedLanes<L> {
+    if ANY_LENGTH {
+        PreparedLanes::of_any_length(rays, factor, None)
+    } else {
+        PreparedLanes::as_they_are(&ScaledRays::new(rays, factor))
     }
 }

@@ -22,6 +22,7 @@ use crate::bvh::traverse::wavefront;
 use crate::bvh::tree::Bvh;
 use crate::geometry::ray::RayPacket;
 use crate::lanes::{LaneMask, Lanes};
+use crate::linear;
 use crate::query::Query;
 use crate::trace::Coherence;
 
@@ -45,6 +46,11 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
     rays: &[RayPacket<L::Array>],
     answers: &mut [Q::Packet<L::Array>],
 ) {
+    // What no bound sees is met first, by all packets: all begin with what they have hit of it.
+    if !bvh.outside.is_empty() && !rays.is_empty() {
+        let answers = answers.get_mut(..rays.len()).unwrap_or_default();
+        linear::traverse_some::<L, Q>(tier, token, &bvh.outside(), rays, answers);
+    }
     if coherence == Coherence::Incoherent {
         return wavefront::traverse::<L, Q>(tier, token, bvh, rays, answers);
     }
@@ -57,9 +63,10 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
         let end = (at + GROUP).min(count);
         let group = rays.get(at..end).unwrap_or_default();
         let tried = coherence == Coherence::Coherent || misfits < TRIES || misfits % TRIES == 0;
-        let mut states = states_of::<L>(token, group, &nobody);
+        let mut states = states_of::<L>(token, group, &nobody, bvh.scale.factor);
         let states = states.get_mut(..group.len()).unwrap_or_default();
-        if tried && boxes.trace::<L, Q>(tier, token, states, bvh) {
+        let known = answers.get(at..end).unwrap_or_default();
+        if tried && boxes.trace::<L, Q>(tier, token, states, known, bvh) {
             by_rays::<L, Q>(tier, token, bvh, (unfit, at), rays, answers);
             for place in 0..group.len() {
                 if let (Some(state), Some(answer)) =
@@ -100,6 +107,7 @@ fn states_of<'a, L: Lanes>(
     token: L::Token,
     rays: &'a [RayPacket<L::Array>],
     nobody: &'a RayPacket<L::Array>,
+    factor: f32,
 ) -> [PacketState<'a, L>; GROUP] {
     let [a, b, c, d] = match *rays {
         [ref a, ref b, ref c, ref d] => [a, b, c, d],
@@ -108,12 +116,21 @@ fn states_of<'a, L: Lanes>(
         [ref a] => [a, nobody, nobody, nobody],
         _ => [nobody; GROUP],
     };
-    [state_of(token, a), state_of(token, b), state_of(token, c), state_of(token, d)]
+    [
+        state_of(token, a, factor),
+        state_of(token, b, factor),
+        state_of(token, c, factor),
+        state_of(token, d, factor),
+    ]
 }
 
 #[inline(always)]
-fn state_of<L: Lanes>(token: L::Token, packet: &RayPacket<L::Array>) -> PacketState<'_, L> {
-    PacketState::new(packet, &RayLanes::load(token, packet))
+fn state_of<L: Lanes>(
+    token: L::Token,
+    packet: &RayPacket<L::Array>,
+    factor: f32,
+) -> PacketState<'_, L> {
+    PacketState::new(packet, &RayLanes::load(token, packet), factor)
 }
 
 /// The boxes that are yet to be looked into, the nearest on top.
@@ -129,21 +146,23 @@ impl Boxes {
         Self { depths: [0.0; STACK], children: [NO_CHILD; STACK], top: 0 }
     }
 
-    /// Traces one group; returns false, and does nothing, if its rays do not look the same way.
+    /// Traces one group, of which the answers outside of the tree are `known`, if there are any; returns false, and
+    /// does nothing, if its rays do not look the same way.
     #[inline(always)]
     fn trace<L: Lanes, Q: Query>(
         &mut self,
         tier: impl Accuracy,
         token: L::Token,
         states: &mut [PacketState<'_, L>],
+        known: &[Q::Packet<L::Array>],
         bvh: &Bvh<'_>,
     ) -> bool {
-        approach(states, bvh.extent, tier.spread());
+        approach(states, bvh.scale.factor, bvh.extent, tier.spread());
         let Some(fit) = Fit::of(states, bvh.extent, tier.spread()) else { return false };
         let Some(mut frustum) = fit.enclose(states, NARROW) else { return false };
         if !bvh.outside.is_empty() {
-            for state in &mut *states {
-                state.test_outside::<Q>(tier, bvh);
+            for place in 0..states.len().min(known.len()) {
+                states[place].take_known::<Q>(&known[place]);
             }
             frustum.end = fit.end(states);
         }

@@ -10,7 +10,8 @@ use crate::accuracy::RayLanes;
 use crate::geometry::sphere::Sphere;
 use crate::lanes::Lanes;
 use crate::numeric::axes::{axes, dot};
-use crate::numeric::rounding::{LARGEST, LEAST_COMPONENT, LONGEST, U};
+use crate::numeric::power_of_two::inverse_power_of_two;
+use crate::numeric::rounding::{LARGEST, LEAST_COMPONENT, U};
 use glam::Vec3;
 
 /// What the rays of a run have in common.
@@ -25,41 +26,41 @@ pub enum Viewpoint {
 /// A viewpoint that the bounds cover.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum View {
-    /// All rays start here.
-    Perspective { eye: [f32; 3] },
+    /// All rays start here; the same as bounds see it.
+    Perspective { eye: [f32; 3], scaled: [f32; 3] },
     /// All rays have this direction; the same of unit length.
     Parallel { direction: [f32; 3], unit: [f32; 3] },
 }
 
 impl View {
-    /// `None` if the bounds do not cover the viewpoint.
-    pub(super) fn new(viewpoint: Viewpoint) -> Option<Self> {
+    /// For spheres that are scaled by `factor`; `None` if the bounds do not cover the viewpoint.
+    pub(super) fn new(viewpoint: Viewpoint, factor: f32) -> Option<Self> {
         match viewpoint {
             Viewpoint::Origin(eye) => {
-                let eye = eye.to_array();
-                let [x, y, z] = axes!(i => eye[i].abs() <= LARGEST);
-                (x && y && z).then_some(Self::Perspective { eye })
+                let scaled = (eye * factor).to_array();
+                let [x, y, z] = axes!(i => scaled[i].abs() <= LARGEST);
+                (x && y && z).then_some(Self::Perspective { eye: eye.to_array(), scaled })
             }
             Viewpoint::Direction(direction) => {
-                let direction = direction.to_array();
-                let a = dot(direction, direction);
-                let per_length = 1.0 / libm::sqrtf(a);
-                let unit = axes!(i => direction[i] * per_length);
-                let covered = (1.0 / LONGEST..=LONGEST).contains(&a);
+                let covered = direction.is_finite() && direction != Vec3::ZERO;
+                let scaled = direction * inverse_power_of_two(direction.abs().max_element());
+                let (direction, scaled) = (direction.to_array(), scaled.to_array());
+                let per_length = 1.0 / libm::sqrtf(dot(scaled, scaled));
+                let unit = axes!(i => scaled[i] * per_length);
                 covered.then_some(Self::Parallel { direction, unit })
             }
         }
     }
 
-    /// The centre of a sphere in the frame, and a depth that no ray hits it before.
+    /// The centre of a scaled sphere in the frame, and a depth that no ray hits it before.
     ///
     /// The distance is 4u off, |x| - r one more, x.n 5u; an answer lies at |s| >= |p| - r, |s| >= r - |p|
     /// and s >= p.n - r, except for 32 u (|p| + r) (`docs/traversal-margins.md`).
     pub(super) fn see(&self, sphere: &Sphere) -> ([f32; 3], f32) {
         let margin = |away: f32| 64.0 * U * (away + sphere.radius) + LEAST_COMPONENT;
         match self {
-            Self::Perspective { eye } => {
-                let center = axes!(i => sphere.center[i] - eye[i]);
+            Self::Perspective { scaled, .. } => {
+                let center = axes!(i => sphere.center[i] - scaled[i]);
                 let away = libm::sqrtf(dot(center, center));
                 (center, (away - sphere.radius).abs() - margin(away))
             }
@@ -75,7 +76,7 @@ impl View {
     #[inline(always)]
     pub(super) fn shares<L: Lanes>(&self, rays: &RayLanes<L>) -> L::Mask {
         let (has, common) = match self {
-            Self::Perspective { eye } => (rays.origin, eye),
+            Self::Perspective { eye, .. } => (rays.origin, eye),
             Self::Parallel { direction, .. } => (rays.direction, direction),
         };
         let [x, y, z] = axes!(i => {

@@ -6,7 +6,7 @@
 
 extern crate std;
 
-use super::{BLOCK, FilterBlock, FilterGroup, FilterRays, KAPPA, excess};
+use super::{FilterGroup, FilterRays, Frame, KAPPA, LEAST_SQUARE, excess};
 use crate::accuracy::{RayLanes, fast_row};
 use crate::testing::polynomial::Polynomial;
 use crate::testing::recorded::{Operation, Recorded, record};
@@ -42,14 +42,14 @@ fn derive_of(kappa: f32, more: impl FnOnce(Recorded, Recorded) -> Recorded) -> D
         let (origin, direction) = ([ox, oy, oz], [dx, dy, dz]);
         let rays = RayLanes { origin, direction, t_min: ox, t_max: r, live: true };
         let shift = [kx, ky, kz].map(Recorded::tag);
-        let block = FilterBlock { groups: [FilterGroup::EMPTY; BLOCK], count: 1, shift };
-        let filter = FilterRays::widened((), &rays, &block, kappa);
+        let frame = Frame { scale: 1.0, shift, least_square: LEAST_SQUARE, least_length: 0.0 };
+        let filter = FilterRays::widened((), &rays, &frame, kappa);
         let c = [more(cx, r), cy, cz];
         let mut group = FilterGroup::EMPTY;
         for axis in 0..3 {
             group.center[axis][0] = c[axis].tag();
         }
-        group.excess[0] = excess(c, r, kappa).tag();
+        group.excess[0] = excess(c, r, kappa, LEAST_SQUARE).tag();
         let raised = filter.raised(&group, 0);
         (filter, raised)
     });

@@ -5,7 +5,7 @@
 
 extern crate std;
 
-use super::{BLOCK, FilterBlock, FilterGroup, FilterRays, excess};
+use super::{FilterGroup, FilterRays, Frame, LEAST_SQUARE, excess};
 use crate::Fast;
 use crate::accuracy::{RayLanes, TierFormula};
 use crate::testing::toy::{Format, Toy};
@@ -60,10 +60,10 @@ impl Case {
         for i in 0..3 {
             group.center[i][0] = shifted[i].get() as f32;
         }
-        group.excess[0] = excess(shifted, r, kappa).get() as f32;
+        group.excess[0] = excess(shifted, r, kappa, LEAST_SQUARE).get() as f32;
         let shift = shift.map(|k| k.get() as f32);
-        let block = FilterBlock { groups: [FilterGroup::EMPTY; BLOCK], count: 1, shift };
-        let passes = FilterRays::widened((), &rays, &block, kappa).may_meet(&group, 0);
+        let frame = Frame { scale: 1.0, shift, least_square: LEAST_SQUARE, least_length: 0.0 };
+        let passes = FilterRays::widened((), &rays, &frame, kappa).may_meet(&group, 0);
         let t = Fast::first_root(&rays, &Fast::prepare(&rays), center, r, true, infinity);
         [t.get().is_finite(), passes]
     }

@@ -4,27 +4,25 @@ use crate::Lanes;
 
 /// u = 2^-24, the unit roundoff of `f32`.
 pub(crate) const U: f32 = f32::EPSILON / 2.0;
-/// 2^40: spheres with a coordinate or radius above, and rays that start beyond, are tested without bounds.
-pub(crate) const LARGEST: f32 = 1_099_511_627_776.0;
-/// 2^100: so are rays whose squared direction is above, or below the inverse.
-pub(crate) const LONGEST: f32 = LARGEST * LARGEST * 1_048_576.0;
+/// 2^56: rays that start beyond, in the units in which bounds see a scene, are tested without bounds.
+pub(crate) const LARGEST: f32 = 72_057_594_037_927_936.0;
+/// 2^100: a squared direction above, or below the inverse, is not used: the direction is scaled before.
+pub(crate) const LONGEST: f32 = LARGEST * 17_592_186_044_416.0;
 /// 2^-60.
 pub(crate) const LEAST_COMPONENT: f32 = 1.0 / (1_073_741_824.0 * 1_073_741_824.0);
-/// 2^-80: what is added for underflow.
-const LEAST_PAD: f32 = LEAST_COMPONENT / 1_048_576.0;
 
 /// At most s, as [`raised`].
 #[inline(always)]
-pub(crate) fn lowered<L: Lanes>(s: L) -> L {
-    -raised(-s)
+pub(crate) fn lowered<L: Lanes>(s: L, error: L) -> L {
+    -raised(-s, error)
 }
 
-/// At least s, where `s` was computed from a t with an error of up to 8 u.
+/// At least s, where `s` was computed from a t with an error of up to 8 u of itself, and `error`.
 #[inline(always)]
-pub(crate) fn raised<L: Lanes>(s: L) -> L {
+pub(crate) fn raised<L: Lanes>(s: L, error: L) -> L {
     let (more, less) =
         (s * s.like(1.0 + 8.0 * L::UNIT_ROUNDOFF), s * s.like(1.0 - 8.0 * L::UNIT_ROUNDOFF));
-    more.filter_max(less) + s.like(LEAST_PAD)
+    more.filter_max(less) + error
 }
 
 /// The smaller of two numbers; the second if either is NaN.

@@ -68,6 +68,18 @@ impl Recorded {
         NODES.with_borrow(|nodes| nodes[self.0].witness)
     }
 
+    /// What a product with 1 is, which is not rounded: structures scale by powers of two, here by none.
+    fn same_as_product(self, other: Self, operation: Operation) -> Option<Self> {
+        let is_one = |node: Self| {
+            NODES.with_borrow(|nodes| nodes[node.0].operation == Operation::Constant(1.0))
+        };
+        match operation {
+            Operation::Product(..) if is_one(other) => Some(self),
+            Operation::Product(..) if is_one(self) => Some(other),
+            _ => None,
+        }
+    }
+
     /// The node as a number that can lie among others in memory: a NaN that tells which one.
     pub(crate) fn tag(self) -> f32 {
         f32::from_bits(f32::NAN.to_bits() | self.0 as u32)
@@ -79,6 +91,9 @@ macro_rules! operations {
         impl $operation for Recorded {
             type Output = Self;
             fn $name(self, other: Self) -> Self {
+                if let Some(same) = self.same_as_product(other, Operation::$record(0, 0)) {
+                    return same;
+                }
                 push(Operation::$record(self.0, other.0), self.witness() $sign other.witness())
             }
         }

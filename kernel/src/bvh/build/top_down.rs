@@ -13,7 +13,7 @@ use super::join::Join;
 use crate::bvh::built::Built;
 use crate::bvh::node::{BvhLeaf, BvhNode, DEPTH, LEAF, NO_CHILD, WIDTH};
 use crate::geometry::sphere::{Sphere, Spheres};
-use crate::numeric::rounding::LARGEST;
+use crate::scale::scene::SceneScale;
 
 /// A run that waits to become node `node`.
 #[derive(Clone, Copy)]
@@ -29,10 +29,13 @@ pub(crate) fn build(
     nodes: &mut [BvhNode],
     leaves: &mut [BvhLeaf],
 ) -> Built {
-    let inside = fill(leaves, spheres, is_inside);
+    let scale = SceneScale::of(spheres);
+    let inside = fill(leaves, spheres, |sphere| scale.scaled(sphere));
     let full = inside.div_ceil(WIDTH);
     let (leaves, rest) = leaves.split_at_mut(full.min(leaves.len()));
-    let outside = fill(rest, spheres, |sphere| sphere.is_valid() && !is_inside(sphere));
+    let outside = fill(rest, spheres, |sphere| {
+        (sphere.is_valid() && scale.scaled(sphere).is_none()).then_some(*sphere)
+    });
     let outside = outside.div_ceil(WIDTH).min(rest.len());
 
     let root = Part::new(join, leaves, inside, 0, full);
@@ -51,21 +54,19 @@ pub(crate) fn build(
             extent = extent.max(root.bounds.low[axis].abs()).max(root.bounds.high[axis].abs());
         }
     }
-    Built { nodes: used, leaves: leaves.len(), outside, root: child, extent }
+    Built { nodes: used, leaves: leaves.len(), outside, root: child, scale, extent }
 }
 
-fn is_inside(sphere: &Sphere) -> bool {
-    sphere.is_valid() && sphere.center.abs().max_element().max(sphere.radius) <= LARGEST
-}
-
-/// Puts the spheres that are `wanted` into leaves, in the order of their indices, and empties the
+/// Puts the spheres that are `wanted`, as they are, into leaves, in the order of their indices, and empties the
 /// rest of the last; returns their number.
-fn fill(leaves: &mut [BvhLeaf], spheres: &Spheres<'_>, wanted: impl Fn(&Sphere) -> bool) -> usize {
+fn fill(
+    leaves: &mut [BvhLeaf],
+    spheres: &Spheres<'_>,
+    wanted: impl Fn(&Sphere) -> Option<Sphere>,
+) -> usize {
     let mut count = 0;
     for (index, sphere) in spheres.iter().enumerate() {
-        if !wanted(&sphere) {
-            continue;
-        }
+        let Some(sphere) = wanted(&sphere) else { continue };
         if let Some(leaf) = leaves.get_mut(count / WIDTH) {
             let lane = count % WIDTH;
             if lane == 0 {

@@ -4,14 +4,16 @@
 use super::deferred::{DeferredTests, RayPlace};
 use super::prepared_ray::PreparedPacket;
 use super::ray_state::RayState;
-use super::source::test_outside;
 use crate::Accuracy;
-use crate::accuracy::RayLanes;
+use crate::accuracy::{RayLanes, is_closer};
 use crate::bvh::node::{LEAF, NO_CHILD};
-use crate::geometry::hit::{Hit, HitPacket};
+use crate::bvh::tree::Bvh;
+use crate::filter::may_come_near;
+use crate::geometry::hit::Hit;
+use crate::geometry::ray::RayPacket;
 use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::linear;
-use crate::query::{ClosestHit, Query};
+use crate::query::Query;
 
 /// The packets whose rays are in flight.
 pub(crate) struct PacketsInFlight<A: LaneArray> {
@@ -97,41 +99,60 @@ pub(crate) fn begin<T: Accuracy, L: Lanes, Q: Query>(
     else {
         return;
     };
-    *answer = Q::none::<L::Array>();
+    // What is outside has been met.
+    if bvh.outside.is_empty() {
+        *answer = Q::none::<L::Array>();
+    }
     let rays = RayLanes::<L>::load(token, packet);
-    prepared.prepare::<L>(&rays, bvh.extent, tier.spread());
+    prepared.prepare::<L>(&rays, bvh.scale.factor, bvh.extent, tier.spread());
     let rest = rays.live.bits() & !prepared.covered;
     if rest != 0 {
-        // The bounds do not cover these rays: they are tested against all spheres.
-        let (asked, never) = (L::mask(token, rest), L::splat(token, f32::NAN));
-        let mut rays = *packet;
-        rays.t_min = L::select(asked, L::load(token, &rays.t_min), never).store();
-        let mut found = [HitPacket::none()];
-        linear::traverse::<L, ClosestHit>(tier, token, bvh.spheres, &[rays], &mut found);
-        let [found] = found;
-        for lane in 0..L::COUNT {
-            let t = found.t.get(lane);
-            if t < f32::INFINITY
-                && let Some(&sphere) = found.sphere.as_ref().get(lane)
-            {
-                // There is no other answer yet.
-                Q::take::<L::Array>(answer, lane, Hit { t, sphere }, |_| false);
-            }
-        }
+        let mut rays = rays;
+        rays.live = L::mask(token, rest) & !Q::done::<L>(token, answer);
+        test_from_afar::<L, Q>(tier, token, bvh, (packet, &rays), answer);
     }
     if !bvh.outside.is_empty() {
-        let covered = prepared.covered;
-        L::out_of_line(
-            token,
-            #[inline(always)]
-            || test_outside::<L, Q>(tier, token, packet, bvh, covered, answer),
-        );
         for lane in 0..L::COUNT {
             prepared.shorten(lane, Q::limit::<L::Array>(answer, lane));
         }
     }
     if bvh.root == NO_CHILD {
         prepared.covered = 0;
+    }
+}
+
+/// Tests rays of a packet, those that live, that the bounds do not cover: they begin so far away that a tree is a ball to
+/// them. Those that come near it are tested against all of its spheres.
+#[inline(always)]
+fn test_from_afar<L: Lanes, Q: Query>(
+    tier: impl Accuracy,
+    token: L::Token,
+    bvh: &Bvh<'_>,
+    (packet, rays): (&RayPacket<L::Array>, &RayLanes<L>),
+    answer: &mut Q::Packet<L::Array>,
+) {
+    let near = rays.live & may_come_near(token, rays, bvh.radius());
+    if !near.any() {
+        return;
+    }
+    let mut those = *packet;
+    let never = L::splat(token, f32::NAN);
+    those.t_min = L::select(near, L::load(token, &those.t_min), never).store();
+    let mut found = [Q::none::<L::Array>()];
+    linear::traverse_some::<L, Q>(tier, token, &bvh.inside(), &[those], &mut found);
+    let [t, spheres] = Q::lanes::<L>(token, &found[0]);
+    let (t, spheres) = (t.store(), spheres.store());
+    for lane in 0..L::COUNT {
+        let hit = Hit { t: t.get(lane), sphere: spheres.get(lane).to_bits() };
+        if hit.t < f32::INFINITY {
+            Q::take::<L::Array>(
+                answer,
+                lane,
+                hit,
+                #[inline(always)]
+                |old| is_closer(tier, bvh.spheres, &packet.ray(lane), hit.t, [hit.sphere, old]),
+            );
+        }
     }
 }
 

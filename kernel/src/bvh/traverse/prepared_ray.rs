@@ -2,10 +2,11 @@
 //!
 //! # Method
 //!
-//! The direction is brought to unit length, n = d / |d|, and t becomes s = |d| (t - tau). A ray that starts
+//! The ray is scaled by powers of two (`scale/rays.rs`): f of its t are one multiple of its scaled direction.
+//! The direction is brought to unit length, n = d / |d|, and t becomes s = |d| (f t - tau). A ray that starts
 //! far from the scene is taken from o' = o + tau d, two scene sizes before the point where it is closest
 //! to the coordinates' origin, since what a filter computes from an origin is off by some u of the
-//! distance to it. Other rays have tau = 0 and o' = o. The tiers test the ray as it is: no answer changes.
+//! distance to it. Other rays have tau = 0 and o' = o. The tiers test the ray as it was given: no answer changes.
 //!
 //! A slab low <= o'_i + s n_i <= high is entered at (low - o'_i) / n_i; with 1 / n_i and o'_i / n_i known
 //! that is one multiply-add. The pad, which makes it safe, is part of o'_i / n_i and costs nothing: near =
@@ -23,6 +24,7 @@ use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::{axes, dot};
 use crate::numeric::error_free::{VeltkampSplit, two_sum};
 use crate::numeric::rounding::{LARGEST, LEAST_COMPONENT, LONGEST, lowered, raised};
+use crate::scale::rays::{ScaledRays, largest, step_of};
 
 /// The rays of a packet, prepared, in registers.
 #[derive(Clone, Copy, Debug)]
@@ -34,8 +36,8 @@ pub(crate) struct PreparedLanes<L: Lanes> {
     /// n.
     pub(crate) direction: [L; 3],
     pub(crate) time: RayTime<L>,
-    /// 8 u (F + 2^-11 T) and 2^-58, F the largest coordinate of o', T = |tau d|: four times what o', and a
-    /// tier by T, may be off.
+    /// 8 u (F + 2^-11 T), 2^-58 and four steps of t, F the largest coordinate of o', T = |tau d|: four times what
+    /// o', and a tier by T, may be off.
     pub(crate) absolute_error: L,
     /// The interval as s: start and end, each from below and from above.
     pub(crate) start: [L; 2],
@@ -45,6 +47,8 @@ pub(crate) struct PreparedLanes<L: Lanes> {
 /// From t to s.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RayTime<L> {
+    /// f; NaN where nothing can be said of t.
+    pub(crate) per_t: L,
     /// tau.
     pub(crate) shift: L,
     /// |d|.
@@ -59,6 +63,12 @@ impl<L: Lanes> RayTime<L> {
         self.shift * self.length * self.shift.like(4.0 * L::UNIT_ROUNDOFF)
     }
 
+    /// Where something can be said of t.
+    #[inline(always)]
+    fn is_known(&self) -> L::Mask {
+        self.per_t.lt(self.per_t.like(f32::INFINITY))
+    }
+
     /// What a bound that the root of one sphere sets is raised by: twice the t error, from root to answer and from
     /// answer to root, unless the tier orders the roots themselves.
     #[inline(always)]
@@ -69,13 +79,22 @@ impl<L: Lanes> RayTime<L> {
     /// At least the s of a root that is answered by t.
     #[inline(always)]
     pub(crate) fn after(&self, t: L) -> L {
-        raised((t - self.shift) * self.length) + self.t_error()
+        raised(
+            (t * self.per_t - self.shift) * self.length,
+            self.t_error() + step_of(self.per_t) * self.length,
+        )
     }
 
-    /// At most the s of a root that is answered by t.
+    /// The least and the greatest s of a root that is answered by t, the ends of an interval, given what s may be off.
     #[inline(always)]
-    fn before(&self, t: L) -> L {
-        lowered((t - self.shift) * self.length) - self.t_error()
+    fn around(&self, [t_min, t_max]: [L; 2], error: L) -> [[L; 2]; 2] {
+        // A t that is no number is no hit.
+        let most = error.like(f32::MAX);
+        let (t_min, t_max) = (t_min.filter_max(-most), L::select(t_max.lt(most), t_max, most));
+        let [start, end] = [t_min, t_max];
+        let start = (start * self.per_t - self.shift) * self.length;
+        let end = (end * self.per_t - self.shift) * self.length;
+        [[lowered(start, error), raised(start, error)], [lowered(end, error), raised(end, error)]]
     }
 }
 
@@ -87,7 +106,7 @@ const LEAST_ERROR: f32 = 1.0 / (1_u64 << 58) as f32;
 impl<L: Lanes> PreparedLanes<L> {
     /// From where the rays begin.
     #[inline(always)]
-    pub(crate) fn as_they_are(rays: &RayLanes<L>) -> Self {
+    pub(crate) fn as_they_are(ScaledRays { rays, per_t, step, .. }: &ScaledRays<L>) -> Self {
         let far = largest(rays.origin);
         let d = rays.direction;
         let a = dot(d, d);
@@ -98,26 +117,45 @@ impl<L: Lanes> PreparedLanes<L> {
         let (zero, one) = (a.like(0.0), a.like(1.0));
         let length = L::select(covered, a, one).sqrt();
         let per_length = one / length;
-        let (start, end) = (rays.t_min * length, rays.t_max * length);
+        let time = RayTime { per_t: *per_t, shift: zero, length };
+        let step = *step * length;
+        let [start, end] = time.around([rays.t_min, rays.t_max], step);
         Self {
             covered,
             origin: rays.origin,
             direction: axes!(i => d[i] * per_length),
-            time: RayTime { shift: zero, length },
-            absolute_error: absolute_error(far),
-            start: [lowered(start), raised(start)],
-            end: [lowered(end), raised(end)],
+            time,
+            absolute_error: absolute_error(far, step),
+            start,
+            end,
         }
+    }
+
+    /// Of any length; from nearer, where the rays begin far away from a scene of that `extent`, if it is given.
+    #[inline(always)]
+    pub(crate) fn of_any_length(rays: &RayLanes<L>, factor: f32, extent: Option<f32>) -> Self {
+        let scaled = ScaledRays::of_any_length(rays, factor);
+        let mut prepared = Self::as_they_are(&scaled);
+        if let Some(extent) = extent
+            && far_away(prepared.covered, prepared.absolute_error, extent).any()
+        {
+            prepared = prepared.nearer(&scaled, extent);
+        }
+        let (known, reach) = (prepared.time.is_known(), scaled.reach);
+        prepared.start[0] = L::select(known, prepared.start[0], -reach);
+        prepared.end[1] = L::select(known, prepared.end[1], reach);
+        prepared
     }
 
     /// From nearer, where the rays begin far away from a scene of that extent.
     #[inline(always)]
-    pub(crate) fn nearer(self, rays: &RayLanes<L>, extent: f32) -> Self {
+    fn nearer(self, ScaledRays { rays, step, .. }: &ScaledRays<L>, extent: f32) -> Self {
         let far = largest(rays.origin);
-        let (zero, length) = (far.like(0.0), self.time.length);
+        let (zero, RayTime { per_t, length, .. }) = (far.like(0.0), self.time);
         let left = far.filter_mul_add(far.like(32.0 * L::UNIT_ROUNDOFF), far.like(2.0 * extent));
         let closest = -dot(rays.origin, self.direction);
-        let moved = self.covered & (left * far.like(WORTH_IT)).lt(closest);
+        let moved = self.covered & self.time.is_known();
+        let moved = moved & (left * far.like(WORTH_IT)).lt(closest);
 
         let shift = L::select(moved, (closest - left) / length, zero);
         let split_shift = VeltkampSplit::new(shift);
@@ -126,17 +164,18 @@ impl<L: Lanes> PreparedLanes<L> {
             let (sum, error) = two_sum(rays.origin[i], high);
             L::select(moved, sum + (error + low), rays.origin[i])
         });
-        let (by, time) = (shift * length, RayTime { shift, length });
-        Self {
-            origin,
-            time,
-            absolute_error: absolute_error(
-                by.filter_mul_add(by.like(1.0 / 2048.0), largest(origin)),
-            ),
-            start: [time.before(rays.t_min), time.after(rays.t_min)],
-            end: [time.before(rays.t_max), time.after(rays.t_max)],
-            ..self
-        }
+        let (by, time) = (shift * length, RayTime { per_t, shift, length });
+        let size = by.filter_mul_add(by.like(1.0 / 2048.0), largest(origin));
+        let step = *step * length;
+        let [start, end] = time.around([rays.t_min, rays.t_max], time.t_error() + step);
+        Self { origin, time, absolute_error: absolute_error(size, step), start, end, ..self }
+    }
+
+    /// The rays that start at t >= 0, if anything can be said of t, which it can of usual lengths.
+    #[inline(always)]
+    pub(crate) fn forward(&self, t_min: L) -> L::Mask {
+        let zero = t_min.like(0.0);
+        zero.le(t_min) & zero.like(f32::NEG_INFINITY).lt(self.start[0])
     }
 }
 
@@ -147,16 +186,11 @@ pub(crate) fn far_away<L: Lanes>(rays: L::Mask, absolute_error: L, extent: f32) 
     rays & absolute_error.like(WORTH_IT * 8.0 * L::UNIT_ROUNDOFF * extent).lt(absolute_error)
 }
 
-/// The absolute error for rays of that size, F + 2^-11 T.
+/// The absolute error for rays of that size, F + 2^-11 T, and that step.
 #[inline(always)]
-fn absolute_error<L: Lanes>(size: L) -> L {
-    size.filter_mul_add(size.like(8.0 * L::UNIT_ROUNDOFF), size.like(LEAST_ERROR))
-}
-
-/// The largest coordinate.
-#[inline(always)]
-fn largest<L: Lanes>(v: [L; 3]) -> L {
-    v[0].abs().filter_max(v[1].abs()).filter_max(v[2].abs())
+fn absolute_error<L: Lanes>(size: L, step: L) -> L {
+    let least = step.filter_mul_add(step.like(4.0), step.like(LEAST_ERROR));
+    size.filter_mul_add(size.like(8.0 * L::UNIT_ROUNDOFF), least)
 }
 
 /// The rays of a packet, prepared, in memory: to be traced one by one.
@@ -178,6 +212,7 @@ pub(crate) struct PreparedPacket<A: LaneArray> {
     pub(crate) start: [A; 2],
     pub(crate) end: [A; 2],
     /// As in [`RayTime`].
+    per_t: A,
     shift: A,
     length: A,
     /// As [`PreparedLanes::absolute_error`].
@@ -203,6 +238,7 @@ impl<A: LaneArray> PreparedPacket<A> {
             far: [zeros; 3],
             start: [zeros; 2],
             end: [zeros; 2],
+            per_t: zeros,
             shift: zeros,
             length: zeros,
             absolute_error: zeros,
@@ -211,18 +247,25 @@ impl<A: LaneArray> PreparedPacket<A> {
         }
     }
 
-    /// Prepares the rays of a packet, in the place of others. (As a value it was copied: 3 % of a
+    /// Prepares the rays of a packet for a scene that is scaled by `factor`, in the place of others. (As a value it was copied: 3 % of a
     /// traversal.)
     #[inline(always)]
     pub(crate) fn prepare<L: Lanes<Array = A>>(
         &mut self,
         rays: &RayLanes<L>,
+        factor: f32,
         extent: f32,
         spread: f32,
     ) {
-        let prepared = PreparedLanes::as_they_are(rays);
+        let prepared = PreparedLanes::as_they_are(&ScaledRays::new(rays, factor));
         // Fast is off by so much more that nothing is gained: its rays are not moved.
-        if spread > 0.0 || !far_away(prepared.covered, prepared.absolute_error, extent).any() {
+        let unusual = rays.live & !prepared.covered;
+        let again = if spread > 0.0 {
+            unusual
+        } else {
+            unusual | far_away(prepared.covered, prepared.absolute_error, extent)
+        };
+        if !again.any() {
             return self.set(prepared, extent, spread);
         }
         // A copy, so that others stay in registers.
@@ -231,7 +274,8 @@ impl<A: LaneArray> PreparedPacket<A> {
             prepared.absolute_error.token(),
             #[inline(always)]
             move || {
-                let prepared = PreparedLanes::as_they_are(&rays).nearer(&rays, extent);
+                let extent_if_moved = if spread > 0.0 { None } else { Some(extent) };
+                let prepared = PreparedLanes::of_any_length(&rays, factor, extent_if_moved);
                 self.set(prepared, extent, spread);
             },
         );
@@ -259,6 +303,7 @@ impl<A: LaneArray> PreparedPacket<A> {
         }
         self.start = [start[0].store(), start[1].store()];
         self.end = [end[0].store(), end[1].store()];
+        self.per_t = time.per_t.store();
         self.shift = time.shift.store();
         self.length = time.length.store();
         self.absolute_error = absolute_error.store();
@@ -270,7 +315,8 @@ impl<A: LaneArray> PreparedPacket<A> {
     /// From t to s, for one ray.
     #[inline(always)]
     pub(crate) fn time(&self, lane: usize) -> RayTime<f32> {
-        RayTime { shift: self.shift.get(lane), length: self.length.get(lane) }
+        let (per_t, shift) = (self.per_t.get(lane), self.shift.get(lane));
+        RayTime { per_t, shift, length: self.length.get(lane) }
     }
 
     /// Takes a t that a ray surely has as its end.

@@ -1,57 +1,81 @@
-//! Where spheres lie until a tier tests them, and the tests of those that every ray must meet.
+//! Where spheres lie until a tier tests them.
 
-use crate::Accuracy;
-use crate::accuracy::{RayLanes, is_closer, test_lanes};
-use crate::geometry::hit::Hit;
-use crate::geometry::ray::RayPacket;
+use crate::bvh::node::{BvhLeaf, WIDTH};
 use crate::geometry::sphere::{Sphere, Spheres};
+use crate::geometry::sphere_run::SphereRun;
 use crate::lanes::{LaneArray, Lanes};
 use crate::numeric::axes::axes;
-use crate::query::Query;
+use crate::scale::scene::SceneScale;
 
-/// Where spheres lie until a tier tests them: by place in a structure, each with its index.
+/// Where spheres lie until a tier tests them: by place in a structure, each as it was given, with its index.
 pub(crate) trait SphereSource {
     /// The list that the structure is made of.
     fn spheres(&self) -> Spheres<'_>;
     /// The sphere at a place, and its index.
     fn sphere_at(&self, place: u32) -> Option<(Sphere, u32)>;
-    /// Sphere `number` of those that every ray must be tested against; `None` past the last.
-    fn outside(&self, number: usize) -> Option<(Sphere, u32)>;
 }
 
-/// Tests the spheres that every ray must be tested against, for the rays of a packet in `lanes`.
-#[inline(always)]
-pub(crate) fn test_outside<L: Lanes, Q: Query>(
-    tier: impl Accuracy,
-    token: L::Token,
-    packet: &RayPacket<L::Array>,
-    source: &impl SphereSource,
-    lanes: u32,
-    answer: &mut Q::Packet<L::Array>,
-) {
-    let rays = &RayLanes::<L>::load(token, packet);
-    let asked = rays.live & L::mask(token, lanes);
-    let mut number = 0;
-    while let Some((sphere, index)) = source.outside(number) {
-        number += 1;
-        if !sphere.is_valid() {
-            continue;
+/// The spheres of a list that are in its tree; in the place of others is one that nothing hits.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct InsideSpheres<'a> {
+    pub(crate) spheres: Spheres<'a>,
+    pub(crate) scale: SceneScale,
+}
+
+impl SphereRun for InsideSpheres<'_> {
+    #[inline(always)]
+    fn list(&self) -> Spheres<'_> {
+        self.spheres
+    }
+
+    #[inline(always)]
+    fn count(&self) -> usize {
+        self.spheres.len()
+    }
+
+    #[inline(always)]
+    fn index(&self, number: usize) -> u32 {
+        number as u32
+    }
+
+    #[inline(always)]
+    fn sphere(&self, number: usize) -> Option<Sphere> {
+        let sphere = self.spheres.get(number)?;
+        let radius = if self.scale.scaled(&sphere).is_some() { sphere.radius } else { -1.0 };
+        Some(Sphere { radius, ..sphere })
+    }
+}
+
+/// The spheres of a tree that no bound sees, by rising index.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OutsideLeaves<'a> {
+    /// The list that the tree was built from.
+    pub(crate) spheres: Spheres<'a>,
+    pub(crate) leaves: &'a [BvhLeaf],
+}
+
+impl SphereRun for OutsideLeaves<'_> {
+    #[inline(always)]
+    fn list(&self) -> Spheres<'_> {
+        self.spheres
+    }
+
+    #[inline(always)]
+    fn count(&self) -> usize {
+        // All leaves but the last are full.
+        let Some((last, full)) = self.leaves.split_last() else { return 0 };
+        let mut count = full.len() * WIDTH;
+        for lane in 0..WIDTH {
+            count += usize::from(last.index[lane] != u32::MAX);
         }
-        let center = axes!(i => L::splat(token, sphere.center[i]));
-        let radius = L::splat(token, sphere.radius);
-        let infinity = L::splat(token, f32::INFINITY);
-        let t = test_lanes(tier, rays, center, radius, asked, infinity).store();
-        for lane in 0..L::COUNT {
-            let t = t.get(lane);
-            if t < f32::INFINITY {
-                Q::take::<L::Array>(
-                    answer,
-                    lane,
-                    Hit { t, sphere: index },
-                    #[inline(always)]
-                    |old| is_closer(tier, source.spheres(), &packet.ray(lane), t, [index, old]),
-                );
-            }
+        count
+    }
+
+    #[inline(always)]
+    fn index(&self, number: usize) -> u32 {
+        match self.leaves.get(number / WIDTH) {
+            Some(leaf) => leaf.index[number % WIDTH],
+            None => u32::MAX,
         }
     }
 }

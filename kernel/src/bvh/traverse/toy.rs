@@ -16,6 +16,7 @@ use super::root_interval::Pass;
 use crate::accuracy::RayLanes;
 use crate::bvh::node::BvhNode;
 use crate::query::ClosestHit;
+use crate::scale::rays::ScaledRays;
 use crate::testing::toy::{Format, Toy};
 use std::println;
 use std::vec::Vec;
@@ -91,7 +92,7 @@ impl Case {
     /// Whether a ray whose interval is no more than that answer enters the box.
     fn enters<F: Format>(&self, t: f64, pad: f64) -> bool {
         let mut packet = PreparedPacket::<[f32; 1]>::none();
-        packet.prepare(&self.rays::<F>([t, t]), 1_048_576.0, 0.0);
+        packet.prepare(&self.rays::<F>([t, t]), 1.0, 1_048_576.0, 0.0);
         let mut state = RayState::NEW;
         state.begin(&packet, 0, RayPlace::FIRST, 0);
         state.stack.clear();
@@ -103,7 +104,7 @@ impl Case {
     /// candidate; its entry is later; a bound is sooner, or without an answer.
     fn leaf<F: Format>(&self, interval: [f64; 2], roots: Option<[f64; 2]>) -> u32 {
         let rays = self.rays::<F>(interval);
-        let prepared = PreparedLanes::as_they_are(&rays);
+        let prepared = PreparedLanes::as_they_are(&ScaledRays::new(&rays, 1.0));
         let center = [self.c[0], self.c[1], 0].map(|x| Toy::new(x as f64));
         let pass = Pass::new(
             prepared.origin,

@@ -44,7 +44,7 @@ fn derive(multiple: f64) -> Derived {
         let (origin, direction) = ([ox, oy, oz], [dx, dy, dz]);
         let rays = RayLanes { origin, direction, t_min, t_max, live: true };
         let mut packet = PreparedPacket::<[f32; 1]>::none();
-        packet.prepare::<Recorded>(&rays, 1e12, 0.0);
+        packet.prepare::<Recorded>(&rays, 1.0, 1e12, 0.0);
         let mut node = BvhNode::EMPTY;
         (node.low[0][0], node.high[0][0]) = (low.tag(), high.tag());
         let mut state = RayState::NEW;

@@ -21,7 +21,7 @@ fn used<A: TierFormula>(numbers: &Numbers) -> f64 {
     let Some([near, far]) = A::line_roots(&line, &sphere) else { return -1.0 };
     let rays = RayLanes::<f32>::load((), &RayPacket::<[f32; 1]>::new(&[line]));
     let mut packet = PreparedPacket::<[f32; 1]>::none();
-    packet.prepare(&rays, 1e12, 0.0);
+    packet.prepare(&rays, 1.0, 1e12, 0.0);
     if packet.covered == 0 {
         return -1.0;
     }

@@ -11,6 +11,7 @@ extern crate std;
 use super::Pass;
 use crate::accuracy::RayLanes;
 use crate::bvh::traverse::prepared_ray::PreparedLanes;
+use crate::scale::rays::ScaledRays;
 use crate::testing::polynomial::Polynomial;
 use crate::testing::recorded::{Operation, record};
 use crate::testing::running_error::{Input, RunningError};
@@ -176,7 +177,7 @@ fn length_off() -> f64 {
                 t_max,
                 live: true,
             };
-            PreparedLanes::as_they_are(&rays)
+            PreparedLanes::as_they_are(&ScaledRays::new(&rays, 1.0))
         },
     );
     let names = ["dx", "dy", "dz", "ox", "oy", "oz", "t_min", "t_max"];

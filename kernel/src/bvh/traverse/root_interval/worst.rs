@@ -6,6 +6,7 @@ extern crate std;
 use super::Pass;
 use crate::accuracy::{RayLanes, TierFormula};
 use crate::bvh::traverse::prepared_ray::PreparedLanes;
+use crate::scale::rays::ScaledRays;
 use crate::testing::climb::{Random, assert_published, climb_twice};
 use crate::{Exact, Ray, RayPacket, Sphere, Stable, Vec3};
 
@@ -35,7 +36,7 @@ impl Case {
         let line = Ray { t_min: f32::NEG_INFINITY, ..line };
         let sphere = Sphere { center: Vec3::new(cx, cy, cz), radius: r.abs() };
         let rays = RayLanes::<f32>::load((), &RayPacket::<[f32; 1]>::new(&[line]));
-        let prepared = PreparedLanes::as_they_are(&rays);
+        let prepared = PreparedLanes::as_they_are(&ScaledRays::new(&rays, 1.0));
         if !prepared.covered {
             return None;
         }

@@ -1,0 +1,41 @@
+//! Spheres that are tested one after the other.
+
+use super::sphere::{Sphere, Spheres};
+
+/// Spheres of a list that are tested one after the other, by rising index: all, or some of them.
+pub(crate) trait SphereRun: Copy {
+    /// The list that they are of.
+    fn list(&self) -> Spheres<'_>;
+    /// How many.
+    fn count(&self) -> usize;
+    /// The index of number `number`; that of no sphere past the last.
+    fn index(&self, number: usize) -> u32;
+
+    /// Sphere `number`; `None` past the last.
+    #[inline(always)]
+    fn sphere(&self, number: usize) -> Option<Sphere> {
+        self.list().get(self.index(number) as usize)
+    }
+}
+
+impl SphereRun for Spheres<'_> {
+    #[inline(always)]
+    fn list(&self) -> Spheres<'_> {
+        *self
+    }
+
+    #[inline(always)]
+    fn count(&self) -> usize {
+        self.len()
+    }
+
+    #[inline(always)]
+    fn index(&self, number: usize) -> u32 {
+        number as u32
+    }
+
+    #[inline(always)]
+    fn sphere(&self, number: usize) -> Option<Sphere> {
+        self.get(number)
+    }
+}

@@ -1,0 +1,101 @@
+//! The power of two by which a structure sees lengths.
+//!
+//! A sphere's size is the largest magnitude among its centre and radius. Of all ranges of 80 powers of two the one that
+//! holds the sizes of most spheres is chosen; its largest is brought to some 1, or above, if the least would be below
+//! 2^-40. Spheres outside of it, and those that the power would round, are seen by no bound.
+
+use crate::geometry::sphere::{Sphere, Spheres};
+use crate::numeric::power_of_two::inverse_power_of_two;
+
+/// 2^126: a larger power has no normal inverse.
+const MOST: f32 = 1.0 / f32::MIN_POSITIVE;
+/// 2^-40: no sphere that is scaled is smaller, except for one of size zero.
+const SMALLEST: f32 = 1.0 / (1_u64 << 40) as f32;
+/// 2^41: nor is any larger.
+const LARGEST: f32 = (1_u64 << 41) as f32;
+/// How many powers of two are in a range.
+const RANGE: usize = 80;
+/// How many of them are below 1 where a range is full.
+const BELOW: usize = 40;
+/// How many exponents there are.
+const EXPONENTS: usize = 256;
+
+/// The power of two by which a structure sees lengths.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SceneScale {
+    /// At least 2^-126 and at most 2^126.
+    pub(crate) factor: f32,
+    /// 1 over it.
+    inverse: f32,
+}
+
+impl SceneScale {
+    /// Of the spheres of a list.
+    pub(crate) fn of(spheres: &Spheres<'_>) -> Self {
+        let mut counts = [0_u32; EXPONENTS];
+        for sphere in spheres.iter() {
+            let size = size(&sphere);
+            if size > 0.0 {
+                counts[exponent_of(size)] += 1;
+            }
+        }
+
+        // The fullest range; of equals the one with the smallest spheres, since larger ones outside cost less.
+        let (mut first, mut most, mut held) = (0, 0, 0_u32);
+        for (last, count) in counts.iter().enumerate() {
+            held = held.wrapping_add(*count);
+            if let Some(from) = last.checked_sub(RANGE) {
+                if held > most {
+                    (first, most) = (from, held);
+                }
+                held = held.wrapping_sub(counts[from % EXPONENTS]);
+            }
+        }
+        let held = || (first..=first + RANGE).filter(|&at| counts.get(at).is_some_and(|&n| n > 0));
+        let (Some(least), Some(largest)) = (held().next(), held().next_back()) else {
+            return Self { factor: 1.0, inverse: 1.0 };
+        };
+        let above = (largest - least).saturating_sub(BELOW);
+        // 127 is the exponent of 1. A sum of at most 294, less one of at most 254.
+        let exponent = (254 + above).saturating_sub(largest).clamp(1, 253);
+        let factor = f32::from_bits((exponent as u32) << 23);
+        Self { factor, inverse: 1.0 / factor }
+    }
+
+    /// The sphere as bounds see it, exactly; `None` if they do not.
+    #[inline(always)]
+    pub(crate) fn scaled(&self, sphere: &Sphere) -> Option<Sphere> {
+        let scaled = times(sphere, self.factor);
+        let seen_size = size(&scaled);
+        let inside = seen_size <= LARGEST && (seen_size >= SMALLEST || size(sphere) == 0.0);
+        (sphere.is_valid() && inside && self.restored(&scaled) == *sphere).then_some(scaled)
+    }
+
+    /// A scaled sphere as it was given.
+    #[inline(always)]
+    pub(crate) fn restored(&self, scaled: &Sphere) -> Sphere {
+        times(scaled, self.inverse)
+    }
+}
+
+#[inline(always)]
+fn times(sphere: &Sphere, factor: f32) -> Sphere {
+    Sphere { center: sphere.center * factor, radius: sphere.radius * factor }
+}
+
+/// The largest magnitude among centre and radius; zero of a sphere that is not valid.
+#[inline(always)]
+pub(crate) fn size(sphere: &Sphere) -> f32 {
+    if sphere.is_valid() { sphere.center.abs().max_element().max(sphere.radius) } else { 0.0 }
+}
+
+/// The power of two that brings a size to some 1, as far as its inverse is a normal number.
+#[inline(always)]
+pub(crate) fn to_one(size: f32) -> f32 {
+    inverse_power_of_two(size).min(MOST)
+}
+
+#[inline(always)]
+fn exponent_of(size: f32) -> usize {
+    (size.to_bits() >> 23) as usize % EXPONENTS
+}

@@ -1,0 +1,334 @@
+//! Nothing depends on the units: a scene, or the directions of its rays, multiplied by powers of two have the answers
+//! multiplied, and cost the same; spheres of all sizes in one scene cost no more than brute force.
+
+use super::counted::{COUNT, Counted, operations};
+use super::scenes::{EYE, camera, point, uniform, unit};
+use super::{BOTH, EXACT};
+use proptest::prelude::*;
+use spherule_kernel::{
+    Coherence, DepthList, HitPacket, Intersect, Ray, RayPacket, Sphere, SphereList, SphereTree,
+    Tier, Trace, Vec3, Viewpoint,
+};
+use spherule_tests::inputs;
+use spherule_tests::random::{Random, power_of_two};
+use spherule_tests::variants::{assert_same, assert_same_from, bits, difference};
+
+/// Exponents of scenes: what structures saw before scaling ended at 2^40 and 2^-58.
+const SCENES: [i64; 9] = [-100, -75, -60, -41, 0, 41, 64, 75, 100];
+/// Exponents of directions; squares overflow from 2^64 on, and underflow below 2^-63.
+const LENGTHS: [i64; 7] = [-110, -100, -51, 0, 51, 100, 126];
+
+fn times(vector: Vec3, exponent: i64) -> Vec3 {
+    Vec3::from_array(vector.to_array().map(|x| (f64::from(x) * power_of_two(exponent)) as f32))
+}
+
+fn scaled(spheres: &[Sphere], exponent: i64) -> Vec<Sphere> {
+    let radius = |r: f32| (f64::from(r) * power_of_two(exponent)) as f32;
+    let scaled =
+        |s: &Sphere| Sphere { center: times(s.center, exponent), radius: radius(s.radius) };
+    spheres.iter().map(scaled).collect()
+}
+
+/// Origins by one power of two, directions by another.
+fn scaled_rays(rays: &[Ray], exponent: i64, length: i64) -> Vec<Ray> {
+    let scaled = |ray: &Ray| Ray::new(times(ray.origin, exponent), times(ray.direction, length));
+    rays.iter().map(scaled).collect()
+}
+
+/// From everywhere, to everywhere.
+fn diffuse(count: usize) -> Vec<Ray> {
+    let mut random = Random::new(100, 0);
+    (0..count).map(|_| Ray::new(point(&mut random, 1.0), unit(&mut random))).collect()
+}
+
+/// A structure, and what is said of the rays.
+const WAYS: [&str; 4] = ["list", "depth list", "packets", "ray by ray"];
+
+/// How many operations each way takes to answer the rays, closest hit and any hit.
+fn costs(tier: Tier, spheres: &[Sphere], rays: &[Ray]) -> [[u64; 2]; 4] {
+    let list = SphereList::from(spheres);
+    let tree = SphereTree::new(list.clone());
+    let mut memory = vec![0.0; DepthList::needed(spheres.len())];
+    let viewpoint = Viewpoint::Origin(rays[0].origin);
+    let depth = DepthList::sort(list.spheres(), viewpoint, &mut memory).expect("enough memory");
+    let packets: Vec<_> = rays.chunks(COUNT).map(RayPacket::<[f32; COUNT]>::new).collect();
+    let mut scratch = vec![0.0; DepthList::scratch(spheres.len())];
+    WAYS.map(|way| {
+        let coherence = if way == "packets" { Coherence::Coherent } else { Coherence::Incoherent };
+        let mut trace = Trace { coherence, ..Trace::new().with_scratch(&mut scratch) };
+        match way {
+            "list" => counted(tier, &list, &mut trace, &packets),
+            "depth list" => counted(tier, &depth, &mut trace, &packets),
+            _ => counted(tier, &tree, &mut trace, &packets),
+        }
+    })
+}
+
+fn counted(
+    tier: Tier,
+    structure: &impl Intersect,
+    trace: &mut Trace<'_>,
+    packets: &[RayPacket<[f32; COUNT]>],
+) -> [u64; 2] {
+    let mut hits = vec![HitPacket::none(); packets.len()];
+    let mut met = vec![0; packets.len()];
+    let closest = operations(|| {
+        structure.closest_hit_lanes::<Counted<f32>>(tier, (), trace, packets, &mut hits);
+    });
+    let any = operations(|| {
+        structure.any_hit_lanes::<Counted<f32>>(tier, (), trace, packets, &mut met);
+    });
+    [closest, any]
+}
+
+/// A cliff fails here: 300 to 1,000 times the operations.
+#[test]
+fn every_scale_costs_the_same() {
+    let spheres = uniform(1000);
+    let (mut worst, mut coherent) = (0.0_f64, true);
+    for rays in [camera(EYE, Vec3::ZERO, 0.364, 16), diffuse(256)] {
+        let plain = costs(Tier::Exact, &spheres, &rays);
+        let plain_stable = costs(Tier::Stable, &spheres, &rays);
+        for exponent in SCENES {
+            for length in LENGTHS {
+                // Else t are no numbers, or all zero.
+                if (exponent - length).abs() > 120 {
+                    continue;
+                }
+                let spheres = scaled(&spheres, exponent);
+                let rays = scaled_rays(&rays, exponent, length);
+                // In the domain of Stable: radii from 2^-6 on.
+                let stable = (-34..=34).contains(&exponent) && length >= -120;
+                for (tier, plain) in [(Tier::Exact, plain), (Tier::Stable, plain_stable)] {
+                    if tier == Tier::Stable && !stable {
+                        continue;
+                    }
+                    let costs = costs(tier, &spheres, &rays);
+                    for (way, (cost, plain)) in WAYS.iter().zip(costs.iter().zip(plain)) {
+                        // A depth list is for rays of a common origin.
+                        if *way == "depth list" && !coherent {
+                            continue;
+                        }
+                        for query in 0..2 {
+                            let ratio = cost[query] as f64 / plain[query] as f64;
+                            worst = worst.max(ratio);
+                            assert!(
+                                ratio <= 1.1,
+                                "{tier:?}, {way}, scene 2^{exponent}, |d| 2^{length}: {ratio:.2}"
+                            );
+                        }
+                    }
+                }
+            }
+        }
+        coherent = false;
+    }
+    println!("at most {worst:.3} times the operations");
+}
+
+/// Where t are no numbers, or all zero, which no bound can order: still no cliff in a tree.
+#[test]
+fn no_scale_costs_what_brute_force_does() {
+    let spheres = uniform(1000);
+    let rays = camera(EYE, Vec3::ZERO, 0.364, 16);
+    let plain = costs(Tier::Exact, &spheres, &rays);
+    for (exponent, length) in [(-100, 100), (100, -100), (-75, 126), (100, -149)] {
+        let costs =
+            costs(Tier::Exact, &scaled(&spheres, exponent), &scaled_rays(&rays, exponent, length));
+        for (way, (cost, plain)) in WAYS.iter().zip(costs.iter().zip(plain)).skip(2) {
+            for query in 0..2 {
+                let ratio = cost[query] as f64 / plain[query] as f64;
+                println!("{way}, scene 2^{exponent}, |d| 2^{length}: {ratio:.2}");
+                assert!(ratio <= 12.0, "{way}, scene 2^{exponent}, |d| 2^{length}: {ratio:.2}");
+            }
+        }
+    }
+}
+
+/// The same spheres, t multiplied, for every power of two; structures as the list.
+#[test]
+fn scaled_scenes_have_scaled_answers() {
+    let spheres = uniform(150);
+    let mut random = Random::new(101, 0);
+    let mut rays = camera(EYE, Vec3::ZERO, 0.364, 8);
+    rays.extend(diffuse(32));
+    let list = SphereList::from(spheres.as_slice());
+    let answers = |tier: Tier, list: &SphereList, rays: &[Ray]| {
+        let mut hits = vec![None; rays.len()];
+        list.closest_hits(tier, rays, &mut hits);
+        hits
+    };
+    for exponent in -100..=100 {
+        // t as it is, as the scene is, or by chance.
+        let random_length = random.integer(-100, 100);
+        for length in [0, exponent, random_length] {
+            let spheres = scaled(&spheres, exponent);
+            let rays_here = scaled_rays(&rays, exponent, length);
+            let stable = (-34..=34).contains(&exponent);
+            assert_same(if stable { BOTH } else { EXACT }, &rays_here, &spheres);
+            // Elsewhere t are subnormal, or infinite.
+            let by = exponent - length;
+            if by.abs() > 110 {
+                continue;
+            }
+            let scaled_list = SphereList::from(spheres.as_slice());
+            for tier in if stable { BOTH } else { EXACT } {
+                let expected = answers(*tier, &list, &rays);
+                let found = answers(*tier, &scaled_list, &rays_here);
+                for (expected, found) in expected.iter().zip(&found) {
+                    let expected = expected.map(|hit| {
+                        let t = f64::from(hit.t) * power_of_two(by);
+                        ((t as f32).to_bits(), hit.sphere)
+                    });
+                    assert_eq!(bits(*found), expected, "{tier:?}, 2^{exponent}, |d| 2^{length}");
+                }
+            }
+        }
+    }
+}
+
+/// Scenes of many sizes.
+fn mixed(random: &mut Random) -> Vec<(&'static str, Vec<Sphere>)> {
+    let ground = |exponent: i64| {
+        let radius = power_of_two(exponent) as f32;
+        Sphere { center: Vec3::new(0.0, -1.5 * radius, 0.0), radius }
+    };
+    let with = |sphere: Sphere| {
+        let mut spheres = uniform(1000);
+        spheres.insert(500, sphere);
+        spheres
+    };
+    let half = |exponent: i64| {
+        let mut spheres = uniform(1000);
+        let others = scaled(&spheres, exponent);
+        for place in (0..1000).step_by(2) {
+            spheres[place] = others[place];
+        }
+        spheres
+    };
+    let every = uniform(1000);
+    let every = every.chunks(1).flat_map(|sphere| scaled(sphere, random.integer(-120, 120)));
+    vec![
+        ("one of 2^60", with(ground(60))),
+        ("one of 2^100", with(ground(100))),
+        ("one of 2^-100", with(Sphere { center: Vec3::ZERO, radius: 1e-30 })),
+        ("half 2^60 times as large", half(60)),
+        ("half 2^100 times as large", half(100)),
+        ("half 2^-100 times as large", half(-100)),
+        ("every size", every.collect()),
+    ]
+}
+
+/// Rays among spheres of that size.
+fn rays_there(exponent: i64) -> Vec<Ray> {
+    let mut rays = camera(EYE, Vec3::ZERO, 0.364, 16);
+    rays.extend(diffuse(128));
+    scaled_rays(&rays, exponent, 0)
+}
+
+#[test]
+fn scenes_that_mix_sizes() {
+    for (name, spheres) in mixed(&mut Random::new(102, 0)) {
+        for exponent in [0, 60, 100, -100] {
+            let rays = rays_there(exponent);
+            assert_same(EXACT, &rays, &spheres);
+            for direction in [Vec3::Z, Vec3::new(1.0, 2.0, 2.0)] {
+                let parallel: Vec<Ray> = rays.iter().map(|ray| Ray { direction, ..*ray }).collect();
+                assert_same_from(Viewpoint::Direction(direction), EXACT, &parallel, &spheres);
+            }
+            // Not those of a common origin: diffuse rays fit no depth list.
+            let costs = costs(Tier::Exact, &spheres, &rays[..256]);
+            let [list, others @ ..] = costs;
+            for (way, cost) in WAYS.iter().skip(1).zip(others) {
+                for query in 0..2 {
+                    let ratio = cost[query] as f64 / list[query] as f64;
+                    println!("{name}, rays at 2^{exponent}, {way}: {ratio:.3} of the list's");
+                    let most = if name == "every size" { 1.5 } else { 1.1 };
+                    assert!(ratio <= most, "{name}, rays at 2^{exponent}, {way}: {ratio:.2}");
+                }
+            }
+        }
+    }
+}
+
+/// A sphere that no bound sees costs what it costs in a list: the others are not met one by one for it.
+#[test]
+fn one_large_sphere_leaves_the_others_in_the_tree() {
+    let rays = camera(EYE, Vec3::ZERO, 0.364, 16);
+    let plain = costs(Tier::Exact, &uniform(1000), &rays);
+    for (name, spheres) in mixed(&mut Random::new(102, 0)).iter().take(3) {
+        let costs = costs(Tier::Exact, spheres, &rays);
+        for (way, (cost, plain)) in WAYS.iter().zip(costs.iter().zip(plain)) {
+            for query in 0..2 {
+                let ratio = cost[query] as f64 / plain[query] as f64;
+                println!("{name}, {way}: {ratio:.3}");
+                assert!(ratio <= 1.3, "{name}, {way}: {ratio:.2}");
+            }
+        }
+    }
+}
+
+fn exponent() -> impl Strategy<Value = i64> {
+    prop_oneof![4 => Just(0_i64), 2 => -100_i64..=100, 1 => -149_i64..=127]
+}
+
+proptest! {
+    #![proptest_config(inputs::config(150))]
+
+    /// Spheres and rays of any size, directions of any length, and intervals of both.
+    #[test]
+    fn any_sizes_in_one_scene(
+        seed in any::<u64>(),
+        sizes in prop::collection::vec(exponent(), 1..4),
+        lengths in prop::collection::vec(exponent(), 1..4),
+        parallel in any::<bool>(),
+    ) {
+        let mut random = Random::new(103, seed);
+        let mut spheres = uniform(60);
+        for sphere in &mut spheres {
+            *sphere = scaled(&[*sphere], random.pick(&sizes))[0];
+        }
+        let mut rays = camera(EYE, Vec3::ZERO, 0.364, 4);
+        rays.extend(diffuse(16));
+        for ray in &mut rays {
+            *ray = scaled_rays(&[*ray], random.pick(&sizes), random.pick(&lengths))[0];
+            if random.one_in(4) {
+                ray.t_min = random.pick(&[f32::NEG_INFINITY, -1.0, 0.0, 1e-45, 1e-30, 1.0, 1e30]);
+                ray.t_max = random.pick(&[f32::INFINITY, 0.0, 1.0, 1e-45, 1e-30, 1e30, f32::MAX]);
+            }
+        }
+        let first = rays[0];
+        let viewpoint = if parallel {
+            rays.iter_mut().for_each(|ray| ray.direction = first.direction);
+            Viewpoint::Direction(first.direction)
+        } else {
+            Viewpoint::Origin(first.origin)
+        };
+        if let Some(difference) = difference(EXACT, &rays, &spheres, viewpoint) {
+            return Err(TestCaseError::fail(difference));
+        }
+    }
+}
+
+/// At the ends of t: what rounds to zero, or to the least number, counts as it is rounded, before the origin too.
+#[test]
+fn where_t_are_the_least_numbers() {
+    let mut random = Random::new(104, 0);
+    for exponent in [-100, -90, -80, -60] {
+        let spheres = scaled(&uniform(200), exponent);
+        let mut rays = Vec::new();
+        for by in 20..=60 {
+            // A t of 2^-149 is 2^(by - 40) of the scene.
+            let length = (by - 40 + exponent + 149).min(126);
+            let mut some = diffuse(8);
+            for ray in &mut some {
+                *ray = scaled_rays(&[*ray], exponent, length)[0];
+                ray.t_min =
+                    random.pick(&[0.0, f32::from_bits(1), -f32::from_bits(1), f32::NEG_INFINITY]);
+                ray.t_max = random.pick(&[f32::INFINITY, f32::from_bits(3), 0.0]);
+            }
+            rays.extend(some);
+        }
+        assert_same(EXACT, &rays, &spheres);
+    }
+}
