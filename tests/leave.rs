@@ -1,11 +1,13 @@
 //! Rays that leave a sphere: where they start, and that they do not meet it there.
 
 use spherule_kernel::{
-    Exact, Intersect, Ray, Side, Sphere, SphereList, Surface, Tier, Vec3, roots, side, surface,
+    Exact, Intersect, Ray, Side, Sphere, SphereList, Surface, Tier, Towards, Vec3, roots, side,
+    surface,
 };
 use spherule_tests::oracle::{self, units, units3};
 use spherule_tests::random::{Random, power_of_two};
 use spherule_tests::ulp::step;
+use spherule_tests::variants::{Storey, shadow_rays_of, surface_storeys};
 use std::cmp::Ordering;
 
 /// The side in integers.
@@ -278,6 +280,48 @@ fn a_million_shadows_are_those_of_integers() {
     let [dark, rays] = of_all.fold([0; 2], |[a, b], [dark, rays]| [a + dark, b + rays]);
     println!("{dark} of {rays} in shadow");
     assert!(rays > 1_000_000, "{rays}");
+}
+
+/// Towards a way and a point, from crowds near and far, moved, rays that came from inside among them.
+#[test]
+fn shadow_rays_of_packets_are_those_of_one_ray() {
+    let mut random = Random::seeded(24);
+    let mut left = 0;
+    for (place, far) in [(0.0, 1.0), (0.0, 4.0), (0.0, 1e6), (65_536.0, 5.0), (0.0, 1e7)] {
+        let offset = place * Vec3::new(1.0, -0.5, 0.75);
+        let spheres = crowd(&mut random, offset);
+        let list = SphereList::from(&spheres[..]);
+        let rays: Vec<_> = (0..600)
+            .map(|_| {
+                let eye = offset + far * random.direction() + Vec3::Y;
+                Ray::new(eye, offset + random.in_cube(2.5) - eye)
+            })
+            .collect();
+        let light = offset + 9.0 * random.direction() + 9.0 * Vec3::Y;
+        for towards in [Towards::Direction(random.direction()), Towards::Point(light)] {
+            for tier in Tier::ALL {
+                let of = |storey| {
+                    let rays = shadow_rays_of(tier, storey, &list, &rays, towards);
+                    let bits = |v: Vec3| v.to_array().map(f32::to_bits);
+                    let all = |ray: Ray| {
+                        let interval = [ray.t_min, ray.t_max].map(f32::to_bits);
+                        ray.is_live().then(|| (bits(ray.origin), bits(ray.direction), interval))
+                    };
+                    rays.into_iter().take(600).map(all).collect::<Vec<_>>()
+                };
+                let expected = of(Storey::Ray);
+                left += expected.iter().flatten().count();
+                for storey in surface_storeys() {
+                    let found = of(storey);
+                    for index in 0..600 {
+                        let say = (tier, storey, far, &rays[index]);
+                        assert_eq!(found[index], expected[index], "{say:?} {towards:?}");
+                    }
+                }
+            }
+        }
+    }
+    assert!(left > 3000, "{left}");
 }
 
 #[test]

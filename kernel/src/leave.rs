@@ -13,11 +13,14 @@
 //! so that no root below it is rounded into it. Tiers that know less are asked whether they see the sphere; if they do, the ray begins a
 //! step farther away, two, four.
 
+pub(crate) mod packets;
+
 use crate::accuracy::{Accuracy, Tier};
 use crate::exact::QuadraticTerms;
 use crate::geometry::ray::Ray;
 use crate::geometry::sphere::Sphere;
 use crate::geometry::surface::Surface;
+use crate::lanes::Lanes;
 use crate::linear::roots;
 use crate::numeric::axes::{axes, dot};
 use core::cmp::Ordering;
@@ -32,6 +35,8 @@ pub enum Side {
     Inside,
 }
 
+/// The least number above zero, where the intervals begin.
+const LEAST: f32 = f32::from_bits(1);
 /// u, of double precision.
 const U: f64 = f64::EPSILON / 2.0;
 
@@ -139,7 +144,7 @@ impl Surface {
     }
 
     fn in_scene(&self, sphere: &Sphere) -> [f64; 3] {
-        axes!(i => f64::from(sphere.center[i]) + self.from_center[i])
+        axes!(i => f64::from(sphere.center[i]) + (f64::from(self.point[i]) + f64::from(self.rest[i])))
     }
 
     fn depart(
@@ -151,16 +156,15 @@ impl Surface {
     ) -> Option<Ray> {
         let point = self.in_scene(sphere);
         let outward = self.normal.to_array().map(f64::from);
-        let largest = point[0].abs().max(point[1].abs()).max(point[2].abs()) as f32;
-        let ulp = f64::from(largest.next_up()) - f64::from(largest);
-        let step = ulp.max(f64::from(sphere.radius) * (64.0 * U));
-        let step = if to == Side::Outside { step } else { -step };
+        let rounded = point.map(|x| x as f32);
+        let step = step_of(rounded, sphere.radius);
+        let step = f64::from(if to == Side::Outside { step } else { -step });
 
         let mut steps = 0.0;
         for _ in 0..MOST_STEPS {
             let origin =
                 Vec3::from_array(axes!(i => (point[i] + steps * step * outward[i]) as f32));
-            let ray = Ray { t_min: f32::from_bits(1), ..from(origin) };
+            let ray = Ray { t_min: LEAST, ..from(origin) };
             if side(origin, sphere) == Some(to) && !sees_start(tier, &ray, sphere, to, outward) {
                 return Some(ray);
             }
@@ -172,22 +176,35 @@ impl Surface {
 
 /// 2^-20: the cosine from which on a ray goes back.
 const BACK: f64 = 8.0 * f32::EPSILON as f64;
+/// A step: an ulp of the largest coordinate, but for subnormal ones; near zero, where a point is not known so well, more.
+#[inline(always)]
+fn step_of<L: Lanes>(point: [L; 3], radius: L) -> L {
+    let largest = point[0].abs().filter_max(point[1].abs()).filter_max(point[2].abs());
+    // Between half an ulp and one, so that the sum is rounded to the next number.
+    let ulp = (largest + largest * largest.like(MORE_THAN_HALF)) - largest;
+    ulp.filter_max(radius * radius.like(LEAST_STEP))
+}
+
+/// 2^-24, and a little more.
+const MORE_THAN_HALF: f32 = f32::EPSILON * 0.500_5;
+/// 2^-47 of the radius.
+const LEAST_STEP: f32 = 1.0 / (1_u64 << 47) as f32;
 /// Half a step, doubled 62 times: past the size of any sphere.
 const MOST_STEPS: u32 = 64;
 
 /// Whether `tier` sees `sphere` where a ray starts that begins on a side of it, `to`.
 fn sees_start(tier: Tier, ray: &Ray, sphere: &Sphere, to: Side, outward: [f64; 3]) -> bool {
     let d = ray.direction.to_array().map(f64::from);
+    let is_seen = |t: f32| ray.t_min <= t && t < f32::INFINITY;
     match to {
         // What goes back meets the sphere, as it should. (Less than this, it passes over it from a step above.)
         Side::Outside if dot(d, outward) < -BACK * libm::sqrt(dot(d, d)) => false,
         Side::Outside => {
             (tier != Tier::Exact || !goes_away(ray, sphere))
-                && roots(tier, ray, sphere).is_some_and(|[_, far]| ray.t_min <= far)
+                && roots(tier, ray, sphere).is_some_and(|both| both.into_iter().any(is_seen))
         }
         Side::Inside => {
-            tier != Tier::Exact
-                && roots(tier, ray, sphere).is_some_and(|[near, _]| ray.t_min <= near)
+            tier != Tier::Exact && roots(tier, ray, sphere).is_some_and(|[near, _]| is_seen(near))
         }
     }
 }

@@ -6,10 +6,11 @@ use crate::geometry::hit::{Hit, HitPacket};
 use crate::geometry::ray::{Ray, RayPacket};
 use crate::geometry::sphere::{Sphere, SpherePacket, Spheres};
 use crate::geometry::surface::SurfacePacket;
+use crate::leave::packets::Towards;
 use crate::structures::{LevelQuery, Traverse};
 use crate::trace::Trace;
 #[cfg(not(feature = "std"))]
-use crate::{linear, surface};
+use crate::{leave::packets, linear, surface};
 
 /// How many packets are traced at a time: enough that preparing 128 spheres of a list for them is a
 /// hundredth of the work; for firmware as many as its stack holds.
@@ -97,6 +98,48 @@ pub fn surface_packets(
     {
         let _ = level;
         surface::each_packet::<wide::f32x16>(tier, (), spheres, rays, hits, surfaces);
+    }
+}
+
+/// Rays to a light from what the rays of every packet hit, each from the side that its ray came from, if that faces the light.
+///
+/// As [`shadow_lanes`](crate::shadow_lanes), at `level`. What is hit are rays, hits and surfaces; packets past the end of the
+/// shortest slice are left as they are.
+///
+/// ```
+/// use spherule_kernel::{
+///     Exact, HitPacket, Intersect, Level, Ray, RayPacket, SphereTree, SurfacePacket, Towards, Trace,
+///     Vec3, shadow_packets, surface_packets,
+/// };
+///
+/// let tree = SphereTree::new([[0.0, 0.0, 5.0, 1.0], [0.0, 0.0, -5.0, 1.0]]);
+/// let (rays, level) = ([RayPacket::new(&[Ray::new(Vec3::ZERO, Vec3::Z)])], Level::best());
+/// let (mut hits, mut surfaces) = ([HitPacket::none()], [SurfacePacket::none()]);
+/// tree.closest_hit_packets(Exact, &mut Trace::new(), &rays, &mut hits);
+/// let spheres = tree.list().spheres();
+/// surface_packets(Exact, level, spheres, &rays, &hits, &mut surfaces);
+///
+/// let mut shadow_rays = [RayPacket::inactive()];
+/// let light = Towards::Point(Vec3::new(0.0, 0.0, -20.0));
+/// shadow_packets(Exact, level, spheres, (&rays, &hits, &surfaces), light, &mut shadow_rays);
+/// let mut met = [0];
+/// tree.any_hit_packets(Exact, &mut Trace::new(), &shadow_rays, &mut met);
+/// assert_eq!(met, [1]); // the other sphere is in the way
+/// ```
+pub fn shadow_packets(
+    tier: impl Accuracy,
+    level: Level,
+    spheres: Spheres<'_>,
+    hit: (&[RayPacket], &[HitPacket], &[SurfacePacket]),
+    towards: Towards,
+    shadow_rays: &mut [RayPacket],
+) {
+    #[cfg(feature = "std")]
+    crate::dispatch::compiled::shadows(level, tier.tier(), spheres, hit, towards, shadow_rays);
+    #[cfg(not(feature = "std"))]
+    {
+        let _ = level;
+        packets::each_packet::<wide::f32x16>(tier, (), spheres, hit, towards, shadow_rays);
     }
 }
 

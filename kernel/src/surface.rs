@@ -45,7 +45,7 @@ fn of_a_point(ray: &Ray) -> Surface {
     let d = ray.direction.to_array().map(f64::from);
     let length = libm::sqrt(dot(d, d));
     let normal = axes!(i => (-d[i] / length) as f32 + 0.0);
-    Surface { normal: Vec3::from_array(normal), point: Vec3::ZERO, from_center: [0.0; 3] }
+    Surface { normal: Vec3::from_array(normal), point: Vec3::ZERO, rest: Vec3::ZERO }
 }
 
 /// The arguments of [`surface`].
@@ -59,7 +59,16 @@ impl TierWork for SurfaceOf<'_> {
     type Output = Surface;
 
     fn run<F: TierFormula>(self) -> Surface {
-        F::surface_at(self.ray, self.t, self.sphere)
+        let Self { ray, t, sphere } = self;
+        let rays =
+            RayLanes::<f32>::load((), &RayPacket::<[f32; 1]>::new(core::slice::from_ref(ray)));
+        let center = sphere.center.to_array();
+        let (found, known) = F::surfaces::<f32>(&rays, t, center, sphere.radius, true);
+        if !known {
+            return F::surface_at(ray, t, sphere);
+        }
+        let [normal, point, rest] = [found.normal, found.point, found.rest].map(Vec3::from_array);
+        Surface { normal, point, rest }
     }
 }
 
@@ -125,6 +134,44 @@ impl<L: Lanes> TierWork for Surfaces<'_, L> {
     #[inline(always)]
     fn run<F: TierFormula>(self) -> SurfacePacket<L::Array> {
         let Self { token, spheres, rays: packet, hits } = self;
+        let Some(HitSpheres { center, radius, hit }) = HitSpheres::gather(token, spheres, hits)
+        else {
+            return SurfacePacket::none();
+        };
+        let rays = RayLanes::<L>::load(token, packet);
+        let t = L::load(token, &hits.t);
+        let zero = t.like(0.0);
+        let asked = L::mask(token, hit) & zero.lt(radius);
+        let (found, known) = F::surfaces(&rays, t, center, radius, asked);
+        let mut surfaces = SurfacePacket {
+            normal: axes!(i => L::select(known, found.normal[i], zero).store()),
+            point: axes!(i => L::select(known, found.point[i], zero).store()),
+            rest: axes!(i => L::select(known, found.rest[i], zero).store()),
+        };
+        let unknown = hit & !known.bits();
+        if unknown != 0 {
+            one_by_one::<F, L::Array>(unknown, spheres, packet, hits, &mut surfaces);
+        }
+        surfaces
+    }
+}
+
+/// The spheres that the rays of a packet hit.
+pub(crate) struct HitSpheres<L: Lanes> {
+    pub(crate) center: [L; 3],
+    pub(crate) radius: L,
+    /// Which rays hit any, a bit a lane.
+    pub(crate) hit: u32,
+}
+
+impl<L: Lanes> HitSpheres<L> {
+    /// `None` if no ray hits anything.
+    #[inline(always)]
+    pub(crate) fn gather(
+        token: L::Token,
+        spheres: Spheres<'_>,
+        hits: &HitPacket<L::Array>,
+    ) -> Option<Self> {
         // Without a branch a lane: of a ray that hits nothing, the last sphere.
         let (mut center, mut radius) = ([L::Array::filled(0.0); 3], L::Array::filled(0.0));
         let (mut hit, indices, last) = (0_u32, hits.sphere.as_ref(), spheres.len().wrapping_sub(1));
@@ -139,24 +186,10 @@ impl<L: Lanes> TierWork for Surfaces<'_, L> {
             }
         }
         if hit == 0 || spheres.is_empty() {
-            return SurfacePacket::none();
+            return None;
         }
-
-        let rays = RayLanes::<L>::load(token, packet);
-        let (center, radius) = (axes!(i => L::load(token, &center[i])), L::load(token, &radius));
-        let t = L::load(token, &hits.t);
-        let zero = t.like(0.0);
-        let asked = L::mask(token, hit) & zero.lt(radius);
-        let (found, known) = F::surfaces(&rays, t, center, radius, asked);
-        let mut surfaces = SurfacePacket {
-            normal: axes!(i => L::select(known, found.normal[i], zero).store()),
-            point: axes!(i => L::select(known, found.point[i], zero).store()),
-        };
-        let unknown = hit & !known.bits();
-        if unknown != 0 {
-            one_by_one::<F, L::Array>(unknown, spheres, packet, hits, &mut surfaces);
-        }
-        surfaces
+        let center = axes!(i => L::load(token, &center[i]));
+        Some(Self { center, radius: L::load(token, &radius), hit })
     }
 }
 

@@ -15,7 +15,7 @@ use spherule_kernel::{
     RayPacket, Sphere, SphereList, SpherePacket, SphereTree, Tier, Trace, Vec3, Viewpoint, f32x4,
     f32x8, f32x16, pair_lanes,
 };
-pub use surfaces::{surface_storeys, surfaces_of};
+pub use surfaces::{shadow_rays_of, surface_storeys, surfaces_of};
 
 /// What holds the spheres.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

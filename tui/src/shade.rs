@@ -2,48 +2,104 @@
 //!
 //! No light, no shading: the plain colour of the sphere. With lights, Lambert's law in linear
 //! light, and a little that comes from everywhere. With shadows, a ray from the surface to the
-//! light decides whether it counts.
-
-mod surface;
-
-pub use surface::SurfacePoint;
+//! light decides whether it counts. Normals owe nothing to t, and shadow rays start where the kernel proves that they do
+//! not meet the sphere that they leave: there is no distance to choose, nothing shadows itself, and no shadow is lost.
 
 use crate::picture::Picture;
-use crate::scene::Scene;
+use crate::scene::{Light, Scene, Source};
 use crate::structure::scene::PictureSearch;
 use crate::structure::search::{Scratch, Search, Tracing};
-use spherule_kernel::{Ray, RayPacket, Vec3};
+use spherule_kernel::{
+    HitPacket, RayPacket, Spheres, SurfacePacket, Towards, Vec3, shadow_packets, surface_packets,
+};
 
 /// How much of a surface's colour is seen if no light reaches it.
 const AMBIENT: f32 = 0.06;
 
-/// A surface point and what it adds to the picture.
+/// What a ray of a packet adds to the picture.
 #[derive(Clone, Copy, Debug)]
-struct Shaded {
-    point: SurfacePoint,
+struct Sample {
+    lane: usize,
+    pixel: u32,
     /// The colour of the surface in linear light, times the sample's share of its pixel.
     color: Vec3,
-    pixel: u32,
 }
 
-/// Collects the hits of a part of the picture, then lights them, light by light, so that shadow
-/// rays of one light fill packets. Its memory is reused from part to part.
+/// Packets of rays, what they hit, and the surfaces there.
 #[derive(Clone, Debug, Default)]
-pub struct Shader {
-    shaded: Vec<Shaded>,
-    shadows: Shadows,
-}
+pub struct Surfaces(Vec<SurfacePacket>);
 
-/// Shadow rays of one light.
+/// Rays to a light, from the points that face it.
 #[derive(Clone, Debug, Default)]
-struct Shadows {
+pub struct ShadowRays {
     rays: Vec<RayPacket>,
-    /// What each ray adds, and to which pixel, if nothing is in its way.
-    waiting: Vec<(u32, Vec3)>,
     met: Vec<u32>,
 }
 
+impl Surfaces {
+    /// Of rays and what they hit.
+    pub fn compute(
+        &mut self,
+        tracing: Tracing,
+        spheres: Spheres<'_>,
+        rays: &[RayPacket],
+        hits: &[HitPacket],
+    ) -> &[SurfacePacket] {
+        self.0.resize(rays.len(), SurfacePacket::none());
+        surface_packets(tracing.tier, tracing.level, spheres, rays, hits, &mut self.0);
+        &self.0
+    }
+}
+
+impl ShadowRays {
+    /// From every point that faces `light`, as inactive rays from the others.
+    pub fn cast(
+        &mut self,
+        tracing: Tracing,
+        spheres: Spheres<'_>,
+        hit: (&[RayPacket], &[HitPacket], &[SurfacePacket]),
+        light: &Light,
+    ) -> &[RayPacket] {
+        let towards = match light.source {
+            Source::Direction(direction) => Towards::Direction(direction),
+            Source::Position(position) => Towards::Point(position),
+        };
+        self.rays.clear();
+        self.rays.resize(hit.0.len(), RayPacket::inactive());
+        let Tracing { tier, level, .. } = tracing;
+        shadow_packets(tier, level, spheres, hit, towards, &mut self.rays);
+        &self.rays
+    }
+
+    /// Which of them meet anything, a bit a lane; returns how many were traced.
+    fn trace(&mut self, tracing: Tracing, scratch: &mut Scratch, search: &Search<'_>) -> u64 {
+        self.met.clear();
+        self.met.resize(self.rays.len(), 0);
+        search.any_hits(tracing, scratch, &self.rays, &mut self.met);
+        let live = |rays: &RayPacket| {
+            (0..RayPacket::COUNT).filter(|&lane| rays.ray(lane).is_live()).count() as u64
+        };
+        self.rays.iter().map(live).sum()
+    }
+}
+
+/// Lights the hits of a part of the picture, light by light. Its memory is reused from part to part.
+#[derive(Clone, Debug, Default)]
+pub struct Shader {
+    /// Of packet after packet, and how many each has.
+    samples: Vec<Sample>,
+    counts: Vec<usize>,
+    surfaces: Surfaces,
+    shadow_rays: ShadowRays,
+}
+
 impl Shader {
+    /// Begins with the samples of the next packet.
+    #[inline]
+    pub fn begin_packet(&mut self) {
+        self.counts.push(0);
+    }
+
     /// Adds a sample that met a sphere of `color` (times the sample's share) to `pixel`; at once
     /// if the scene has no light.
     #[inline]
@@ -51,18 +107,19 @@ impl Shader {
         &mut self,
         scene: &Scene,
         picture: &mut Picture,
+        lane: usize,
         pixel: u32,
         color: Vec3,
-        point: impl FnOnce() -> SurfacePoint,
     ) {
         if scene.lights.is_empty() {
             picture.add(pixel as usize, color);
-        } else {
-            self.shaded.push(Shaded { point: point(), color, pixel });
+        } else if let Some(count) = self.counts.last_mut() {
+            *count += 1;
+            self.samples.push(Sample { lane, pixel, color });
         }
     }
 
-    /// Lights what was added since the last call; `search` is that of the picture.
+    /// Lights what was added since the last call: hits of these packets; `search` is that of the picture.
     /// Returns how many shadow rays that took.
     pub fn light(
         &mut self,
@@ -70,65 +127,40 @@ impl Shader {
         scratch: &mut Scratch,
         scene: &Scene,
         search: &PictureSearch<'_>,
+        (rays, hits): (&[RayPacket], &[HitPacket]),
         picture: &mut Picture,
     ) -> u64 {
-        for shaded in &self.shaded {
-            picture.add(shaded.pixel as usize, AMBIENT * shaded.color);
-        }
-        let mut shadow_rays = 0;
-        for (light, towards) in scene.lights.iter().zip(&search.lights) {
-            let brightness = light.color.to_linear();
-            for shaded in &self.shaded {
-                let Some(cosine) = shaded.point.cosine(light) else { continue };
-                let received = cosine * brightness * shaded.color;
+        let Self { samples, counts, surfaces, shadow_rays } = self;
+        let mut count = 0;
+        if !samples.is_empty() {
+            for sample in samples.iter() {
+                picture.add(sample.pixel as usize, AMBIENT * sample.color);
+            }
+            let surfaces = surfaces.compute(tracing, scene.spheres(), rays, hits);
+            for (light, towards) in scene.lights.iter().zip(&search.lights) {
+                shadow_rays.cast(tracing, scene.spheres(), (rays, hits, surfaces), light);
+                shadow_rays.met.clear();
+                shadow_rays.met.resize(rays.len(), 0);
                 if scene.shadows {
-                    if let Some(ray) = shaded.point.ray_to(tracing.tier, light) {
-                        self.shadows.push(&ray, shaded.pixel, received);
+                    count += shadow_rays.trace(tracing, scratch, towards);
+                }
+                let brightness = light.color.to_linear();
+                let mut samples = samples.iter();
+                for (packet, &count) in counts.iter().enumerate() {
+                    for sample in samples.by_ref().take(count) {
+                        let ray = shadow_rays.rays[packet].ray(sample.lane);
+                        if !ray.is_live() || shadow_rays.met[packet] >> sample.lane & 1 == 1 {
+                            continue;
+                        }
+                        let normal = surfaces[packet].normal(sample.lane);
+                        let cosine = normal.dot(ray.direction).abs() / ray.direction.length();
+                        picture.add(sample.pixel as usize, cosine * brightness * sample.color);
                     }
-                } else {
-                    picture.add(shaded.pixel as usize, received);
                 }
             }
-            shadow_rays += self.shadows.cast(tracing, scratch, towards, picture);
         }
-        self.shaded.clear();
-        shadow_rays
-    }
-}
-
-impl Shadows {
-    /// Puts a ray into the next free lane.
-    #[inline]
-    fn push(&mut self, ray: &Ray, pixel: u32, received: Vec3) {
-        let lane = self.waiting.len() % RayPacket::COUNT;
-        if lane == 0 {
-            self.rays.push(RayPacket::inactive());
-        }
-        if let Some(packet) = self.rays.last_mut() {
-            packet.set(lane, ray);
-        }
-        self.waiting.push((pixel, received));
-    }
-
-    /// Traces the rays, adds the light of those that meet nothing, and returns how many there were.
-    fn cast(
-        &mut self,
-        tracing: Tracing,
-        scratch: &mut Scratch,
-        search: &Search<'_>,
-        picture: &mut Picture,
-    ) -> u64 {
-        self.met.clear();
-        self.met.resize(self.rays.len(), 0);
-        search.any_hits(tracing, scratch, &self.rays, &mut self.met);
-        for (index, &(pixel, received)) in self.waiting.iter().enumerate() {
-            if self.met[index / RayPacket::COUNT] >> (index % RayPacket::COUNT) & 1 == 0 {
-                picture.add(pixel as usize, received);
-            }
-        }
-        let count = self.waiting.len() as u64;
-        self.rays.clear();
-        self.waiting.clear();
+        self.samples.clear();
+        self.counts.clear();
         count
     }
 }

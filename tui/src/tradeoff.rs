@@ -52,7 +52,10 @@ pub fn tradeoff(arguments: &TradeoffArguments) -> Result<(), Error> {
     let coherence = search.coherence;
     let for_camera = Machine { level, threads: &threads, coherence, searches: &[search.camera] };
     let for_shadow = Machine { searches: &search.lights, ..for_camera };
-    let shadow = Rays::of_shadows(&camera, &for_camera.hits(Tier::Exact, &camera), &scene, most);
+    let shadow = {
+        let hits = for_camera.hits(Tier::Exact, &camera);
+        Rays::of_shadows(for_shadow.tracing(Tier::Exact), &camera, &hits, &scene, most)
+    };
     let mut progress = Progress::new();
     let lighting = for_shadow.lighting(&for_camera, &camera, &scene, most);
     let mut tiers = Vec::new();

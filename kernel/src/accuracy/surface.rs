@@ -15,20 +15,21 @@
 
 use super::exact::estimate::Constants;
 use super::roots::RayLanes;
-use crate::geometry::surface::Surface;
 use crate::lanes::{DoubleLanes, LaneArray, Lanes};
 use crate::numeric::axes::{axes, dot};
 use crate::numeric::error_free::two_sum;
 use crate::{Ray, Sphere};
-use glam::Vec3;
 
 /// [`Surface`]s in registers.
 #[derive(Clone, Copy, Debug)]
 pub struct SurfaceLanes<L> {
     pub(crate) normal: [L; 3],
     pub(crate) point: [L; 3],
+    pub(crate) rest: [L; 3],
 }
 
+/// 2^29 + 1: leaves the bits of single precision.
+const SPLITTER: f64 = 536_870_913.0;
 /// 16 ulp of t, at least.
 const NEAR: f64 = 16.0 / 8_388_608.0;
 /// u, of double precision.
@@ -193,15 +194,14 @@ pub(super) fn line<const IN_TWO_TERMS: bool>(ray: &Ray, sphere: &Sphere) -> Line
     Line::new::<IN_TWO_TERMS>(o, d, c, f64::from(sphere.radius))
 }
 
-/// Where `ray` hits a sphere of positive radius at `t`, in double precision.
-pub(super) fn at(ray: &Ray, t: f32, sphere: &Sphere) -> Surface {
-    let line = line::<false>(ray, sphere);
-    let [normal, point] = line.projected(line.point(line.answers_near(f64::from(t))).0);
-    let single = |v: [f64; 3]| Vec3::from_array(v.map(|x| x as f32 + 0.0));
-    Surface { normal: single(normal), point: single(point), from_center: point }
+/// What a number is off if it is rounded to single precision (Veltkamp).
+#[inline(always)]
+pub(super) fn rest<D: DoubleLanes>(value: D) -> D {
+    let scaled = value * value.like(SPLITTER);
+    value - (scaled - (scaled - value))
 }
 
-/// The same in lanes.
+/// Where rays hit spheres of positive radius at `t`, in double precision.
 #[inline(always)]
 pub(super) fn in_lanes<L: Lanes>(
     rays: &RayLanes<L>,
@@ -210,18 +210,20 @@ pub(super) fn in_lanes<L: Lanes>(
     radius: L,
 ) -> SurfaceLanes<L> {
     let zeros = L::Array::filled(0.0);
-    let mut surfaces = [[zeros; 3]; 2];
+    let mut surfaces = [[zeros; 3]; 3];
     for part in 0..L::PARTS {
         let line = Line::of_part::<L, false>(rays, center, radius, part);
         let found = line.projected(line.point(line.answers_near(t.widen(part))).0);
         for i in 0..3 {
             L::narrow(&mut surfaces[0][i], part, found[0][i]);
             L::narrow(&mut surfaces[1][i], part, found[1][i]);
+            L::narrow(&mut surfaces[2][i], part, rest(found[1][i]));
         }
     }
     let zero = t.like(0.0);
     SurfaceLanes {
         normal: axes!(i => L::load(t.token(), &surfaces[0][i]) + zero),
         point: axes!(i => L::load(t.token(), &surfaces[1][i]) + zero),
+        rest: axes!(i => L::load(t.token(), &surfaces[2][i]) + zero),
     }
 }

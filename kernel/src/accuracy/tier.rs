@@ -13,6 +13,7 @@ use crate::numeric::rounding::U;
 use crate::{Lanes, Ray, Sphere};
 use core::cmp::Ordering;
 use core::fmt::{Debug, Formatter};
+use glam::Vec3;
 
 /// The formula of a tier.
 pub trait TierFormula: Copy + Debug {
@@ -58,12 +59,12 @@ pub trait TierFormula: Copy + Debug {
         Ordering::Equal
     }
 
-    /// The surface of a sphere of positive radius that a valid ray hits at `t`.
-    fn surface_at(ray: &Ray, t: f32, sphere: &Sphere) -> Surface {
-        surface::at(ray, t, sphere)
+    /// The surface of a sphere of positive radius that a valid ray hits at `t`, where [`TierFormula::surfaces`] does not know it.
+    fn surface_at(_ray: &Ray, _t: f32, _sphere: &Sphere) -> Surface {
+        Surface { normal: Vec3::ZERO, point: Vec3::ZERO, rest: Vec3::ZERO }
     }
 
-    /// The same in lanes, and those of the lanes `asked` in which that is [`TierFormula::surface_at`].
+    /// The surfaces of spheres of positive radius that rays hit at `t`, and those of the lanes `asked` in which they are known.
     #[inline(always)]
     fn surfaces<L: Lanes>(
         rays: &RayLanes<L>,

@@ -14,6 +14,7 @@ use crate::geometry::hit::HitPacket;
 use crate::geometry::ray::RayPacket;
 use crate::geometry::sphere::{SpherePacket, Spheres};
 use crate::geometry::surface::SurfacePacket;
+use crate::leave::packets::{self, Towards};
 use crate::query::{Answers, AnyHit, ClosestHit};
 use crate::trace::Coherence;
 use crate::{linear, surface};
@@ -125,5 +126,20 @@ pub(crate) fn surfaces(
 ) {
     at_level!(level.0, simd => {
         surface::each_packet::<f32x16<_>>(tier, simd, spheres, rays, hits, surfaces);
+    });
+}
+
+/// [`shadow_lanes`](crate::shadow_lanes), packet by packet.
+#[inline(never)]
+pub(crate) fn shadows(
+    level: Level,
+    tier: Tier,
+    spheres: Spheres<'_>,
+    hit: (&[RayPacket], &[HitPacket], &[SurfacePacket]),
+    towards: Towards,
+    shadow_rays: &mut [RayPacket],
+) {
+    at_level!(level.0, simd => {
+        packets::each_packet::<f32x16<_>>(tier, simd, spheres, hit, towards, shadow_rays);
     });
 }

@@ -10,8 +10,8 @@ pub struct Surface {
     pub normal: Vec3,
     /// The point as seen from the sphere's centre, in the units of the scene.
     pub point: Vec3,
-    /// The same in double precision.
-    pub(crate) from_center: [f64; 3],
+    /// What the point is off, in double precision.
+    pub(crate) rest: Vec3,
 }
 
 /// A [`Surface`] for every lane of a packet, in plain arrays: sixteen lanes unless `A` says otherwise.
@@ -20,6 +20,8 @@ pub struct Surface {
 pub struct SurfacePacket<A: LaneArray = [f32; 16]> {
     pub(crate) normal: [A; 3],
     pub(crate) point: [A; 3],
+    /// What the point is off, in double precision.
+    pub(crate) rest: [A; 3],
 }
 
 impl<A: LaneArray> SurfacePacket<A> {
@@ -27,7 +29,8 @@ impl<A: LaneArray> SurfacePacket<A> {
     #[must_use]
     #[inline(always)]
     pub fn none() -> Self {
-        Self { normal: [A::filled(0.0); 3], point: [A::filled(0.0); 3] }
+        let zeros = [A::filled(0.0); 3];
+        Self { normal: zeros, point: zeros, rest: zeros }
     }
 
     /// The unit normal of every lane, coordinate by coordinate; zeros if the ray hits nothing.
@@ -56,11 +59,20 @@ impl<A: LaneArray> SurfacePacket<A> {
         at(&self.point, lane)
     }
 
+    /// The surface in `lane`; zeros if the ray hits nothing, or there is no such lane.
+    #[must_use]
+    #[inline(always)]
+    pub fn surface(&self, lane: usize) -> Surface {
+        let rest = at(&self.rest, lane);
+        Surface { normal: self.normal(lane), point: self.point(lane), rest }
+    }
+
     #[inline(always)]
     pub(crate) fn set(&mut self, lane: usize, surface: &Surface) {
         for axis in 0..3 {
             self.normal[axis].set(lane, surface.normal[axis]);
             self.point[axis].set(lane, surface.point[axis]);
+            self.rest[axis].set(lane, surface.rest[axis]);
         }
     }
 }

@@ -2,8 +2,9 @@
 
 use super::{Storey, level, levels, packed};
 use spherule_kernel::{
-    HitPacket, Intersect, LaneArray, Lanes, Ray, RayPacket, SphereList, Surface, SurfacePacket,
-    Tier, Trace, Vec3, f32x4, f32x8, f32x16, surface, surface_lanes, surface_packets,
+    HitPacket, Intersect, LaneArray, Lanes, Ray, RayPacket, Side, SphereList, Surface,
+    SurfacePacket, Tier, Towards, Trace, Vec3, f32x4, f32x8, f32x16, shadow_lanes, shadow_packets,
+    surface, surface_lanes, surface_packets,
 };
 
 /// The storeys at which surfaces are computed.
@@ -67,4 +68,83 @@ fn unpacked<A: LaneArray>(surfaces: &[SurfacePacket<A>]) -> Vec<[Vec3; 2]> {
         (0..A::COUNT).map(|lane| [packet.normal(lane), packet.point(lane)]).collect::<Vec<_>>()
     };
     surfaces.iter().flat_map(lanes).collect()
+}
+
+/// The shadow rays from what every ray hits in a list, as one ray at a time leaves or as packets do; inactive if none does.
+#[must_use]
+pub fn shadow_rays_of(
+    tier: Tier,
+    storey: Storey,
+    list: &SphereList,
+    rays: &[Ray],
+    towards: Towards,
+) -> Vec<Ray> {
+    match storey {
+        Storey::Packets(name) => {
+            let (rays, level) = (packed::<[f32; 16]>(rays), level(name));
+            let hits = hits(&rays, |rays, hits| {
+                list.closest_hit_packets(tier, &mut Trace::new().at(level), rays, hits);
+            });
+            let mut surfaces = vec![SurfacePacket::none(); rays.len()];
+            surface_packets(tier, level, list.spheres(), &rays, &hits, &mut surfaces);
+            let mut shadow_rays = vec![RayPacket::inactive(); rays.len()];
+            let hit = (&*rays, &*hits, &*surfaces);
+            shadow_packets(tier, level, list.spheres(), hit, towards, &mut shadow_rays);
+            unpacked_rays(&shadow_rays)
+        }
+        Storey::Lanes(1) => shadows_in_lanes::<f32>(tier, list, rays, towards),
+        Storey::Lanes(4) => shadows_in_lanes::<f32x4>(tier, list, rays, towards),
+        Storey::Lanes(8) => shadows_in_lanes::<f32x8>(tier, list, rays, towards),
+        Storey::Lanes(_) => shadows_in_lanes::<f32x16>(tier, list, rays, towards),
+        Storey::Ray | Storey::Slice | Storey::SliceAt(_) => {
+            let one = |ray: &Ray| {
+                let hit = list.closest_hit(tier, ray)?;
+                let sphere = list.spheres().get(hit.sphere as usize)?;
+                let surface = surface(tier, ray, hit.t, &sphere);
+                let inside = surface.normal.dot(ray.direction) > 0.0;
+                let (side, outward) = if inside {
+                    (Side::Inside, -surface.normal)
+                } else {
+                    (Side::Outside, surface.normal)
+                };
+                let direction = match towards {
+                    Towards::Direction(direction) => direction,
+                    Towards::Point(point) => point - surface.position(&sphere),
+                };
+                if outward.dot(direction) <= 0.0 {
+                    return None;
+                }
+                match towards {
+                    Towards::Direction(direction) => surface.leave(tier, &sphere, side, direction),
+                    Towards::Point(point) => surface.leave_to(tier, &sphere, side, point),
+                }
+            };
+            rays.iter().map(|ray| one(ray).unwrap_or(Ray::INACTIVE)).collect()
+        }
+    }
+}
+
+fn shadows_in_lanes<L: Lanes<Token = ()>>(
+    tier: Tier,
+    list: &SphereList,
+    rays: &[Ray],
+    towards: Towards,
+) -> Vec<Ray> {
+    let (rays, spheres) = (packed::<L::Array>(rays), list.spheres());
+    let hits = hits(&rays, |rays, hits| {
+        list.closest_hit_lanes::<L>(tier, (), &mut Trace::new(), rays, hits);
+    });
+    let shadow_rays: Vec<_> = rays
+        .iter()
+        .zip(&hits)
+        .map(|(rays, hits)| {
+            let surfaces = surface_lanes::<L>(tier, (), spheres, rays, hits);
+            shadow_lanes::<L>(tier, (), spheres, (rays, hits, &surfaces), towards)
+        })
+        .collect();
+    unpacked_rays(&shadow_rays)
+}
+
+fn unpacked_rays<A: LaneArray>(packets: &[RayPacket<A>]) -> Vec<Ray> {
+    packets.iter().flat_map(|rays| (0..A::COUNT).map(|lane| rays.ray(lane))).collect()
 }

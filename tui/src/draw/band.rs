@@ -6,7 +6,7 @@ use crate::palette::Palette;
 use crate::picture::Picture;
 use crate::samples::CellSamples;
 use crate::scene::Scene;
-use crate::shade::{Shader, SurfacePoint};
+use crate::shade::Shader;
 use crate::structure::scene::PictureSearch;
 use crate::structure::search::{Scratch, Tracing};
 use crate::style::{Charset, ColorDepth, Style};
@@ -78,7 +78,9 @@ impl BandPainter {
         self.picture.reset(columns, pixel_rows);
         self.gather(frame, samples, top..bottom);
         let scratch = &mut self.scratch;
-        let shadow_rays = self.shader.light(tracing, scratch, scene, search, &mut self.picture);
+        let hits = (&*self.rays, &*self.hits);
+        let shadow_rays =
+            self.shader.light(tracing, scratch, scene, search, hits, &mut self.picture);
 
         // Characters.
         if self.palette.depth() != style.depth {
@@ -100,15 +102,15 @@ impl BandPainter {
     /// Hands the hits to the shader, and the background to the picture if a ray has no hit; in the
     /// order of the packets.
     fn gather(&mut self, frame: &Frame<'_>, samples: CellSamples, rows: Range<u32>) {
-        let &Frame { tracing, scene, width, .. } = frame;
+        let &Frame { scene, width, .. } = frame;
         let (across, _) = Camera::tile::<[f32; 16]>();
         let share = 1.0 / samples.per_pixel() as f32;
         let background = share * scene.background.to_linear();
-        let spheres = scene.spheres();
         let columns = width / samples.across;
         let pixel_height = samples.down / samples.pixels;
         let corners = packet_corners(width, rows.end - rows.start);
-        for ((left, top), (rays, hits)) in corners.zip(self.rays.iter().zip(&self.hits)) {
+        for ((left, top), hits) in corners.zip(&self.hits) {
+            self.shader.begin_packet();
             for (lane, hit) in hits.hits().enumerate() {
                 let (x, y) = (left + lane as u32 % across, top + lane as u32 / across);
                 if x >= width || rows.start + y >= rows.end {
@@ -117,16 +119,14 @@ impl BandPainter {
                 let pixel = y / pixel_height * columns + x / samples.across;
                 let met = hit.and_then(|hit| {
                     let index = hit.sphere as usize;
-                    Some((hit.t, spheres.get(index)?, scene.colors().get(index)?))
+                    scene.colors().get(index)
                 });
-                let Some((t, sphere, color)) = met else {
+                let Some(color) = met else {
                     self.picture.add(pixel as usize, background);
                     continue;
                 };
                 let color = share * color.to_linear();
-                self.shader.add(scene, &mut self.picture, pixel, color, || {
-                    SurfacePoint::new(tracing.tier, &rays.ray(lane), t, &sphere)
-                });
+                self.shader.add(scene, &mut self.picture, lane, pixel, color);
             }
         }
     }

@@ -3,8 +3,8 @@
 use super::Machine;
 use super::rays::Rays;
 use crate::scene::Scene;
-use crate::shade::SurfacePoint;
-use spherule_kernel::{HitPacket, Ray, RayPacket, Tier, Vec3};
+use crate::shade::{ShadowRays, Surfaces};
+use spherule_kernel::{HitPacket, RayPacket, Tier, Vec3};
 
 /// The least difference of a coordinate that makes a normal wrong: a step of a colour of eight bits.
 const SHOWS: f32 = 1.0 / 256.0;
@@ -29,7 +29,7 @@ pub(super) struct LightingErrors {
 }
 
 impl Lighting {
-    /// Of every `step`-th of the `camera` rays, which have these `hits` by `tier`; `machine` finds what is between points and
+    /// Of every `step`-th packet of the `camera` rays, which have these `hits` by `tier`; `machine` finds what is between points and
     /// lights.
     pub(super) fn new(
         tier: Tier,
@@ -38,41 +38,28 @@ impl Lighting {
         scene: &Scene,
         machine: &Machine<'_>,
     ) -> Self {
-        let spheres = scene.spheres();
-        let rays = camera.packets.iter().zip(hits).flat_map(|(rays, hits)| {
-            hits.hits().enumerate().map(|(lane, hit)| (rays.ray(lane), hit))
+        let tracing = machine.tracing(tier);
+        let camera: Vec<_> = camera.packets.iter().step_by(step).copied().collect();
+        let hits: Vec<_> = hits.iter().step_by(step).copied().collect();
+        let (mut surfaces, mut shadow_rays) = (Surfaces::default(), ShadowRays::default());
+        let surfaces = surfaces.compute(tracing, scene.spheres(), &camera, &hits);
+        let normals = surfaces.iter().zip(&hits).flat_map(|(surfaces, hits)| {
+            hits.hits().enumerate().map(|(lane, hit)| hit.map(|_| surfaces.normal(lane)))
         });
-        let points: Vec<Option<SurfacePoint>> = rays
-            .step_by(step)
-            .map(|(ray, hit)| {
-                let hit = hit?;
-                let sphere = spheres.get(hit.sphere as usize)?;
-                Some(SurfacePoint::new(tier, &ray, hit.t, &sphere))
-            })
-            .collect();
-
-        // A ray a point and light; where a surface faces away, one that hits nothing.
-        let towards = |light| {
-            let ray = |point: &Option<SurfacePoint>| {
-                let point = point.as_ref()?;
-                point.cosine(light).and_then(|_| point.ray_to(tier, light))
-            };
-            points.iter().map(ray).collect::<Vec<Option<Ray>>>()
+        let of_light = |light| {
+            let hit = (&*camera, &*hits, surfaces);
+            shadow_rays.cast(tracing, scene.spheres(), hit, light).to_vec()
         };
-        let rays: Vec<_> = scene.lights.iter().map(towards).collect();
-        let packets = rays.iter().map(|rays| {
-            let rays: Vec<Ray> = rays.iter().map(|ray| ray.unwrap_or(Ray::INACTIVE)).collect();
-            rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect()
+        let rays = Rays::of_lights(scene.lights.iter().map(of_light));
+        let met = machine.any_hits(tier, &rays);
+        let lit = rays.packets.iter().zip(met).flat_map(|(rays, met)| {
+            (0..RayPacket::COUNT).map(move |lane| rays.ray(lane).is_live() && met >> lane & 1 == 0)
         });
-        let met = machine.any_hits(tier, &Rays::of_lights(packets));
-        let of_light = met.chunks(points.len().div_ceil(RayPacket::COUNT).max(1));
-        let lit = rays.iter().zip(of_light).map(|(rays, met)| {
-            let is_met = |i: usize| met[i / RayPacket::COUNT] >> (i % RayPacket::COUNT) & 1 == 1;
-            rays.iter().enumerate().map(|(i, ray)| ray.is_some() && !is_met(i)).collect()
-        });
+        let lit: Vec<bool> = lit.collect();
+        let of_light = camera.len() * RayPacket::COUNT;
         Self {
-            lit: lit.collect(),
-            normals: points.iter().map(|point| point.as_ref().map(SurfacePoint::normal)).collect(),
+            normals: normals.collect(),
+            lit: lit.chunks(of_light.max(1)).map(<[bool]>::to_vec).collect(),
         }
     }
 

@@ -2,9 +2,10 @@
 
 use crate::draw::packet_corners;
 use crate::scene::Scene;
-use crate::shade::SurfacePoint;
+use crate::shade::{ShadowRays, Surfaces};
 use crate::structure::Structure;
-use spherule_kernel::{Camera, HitPacket, Ray, RayPacket, Tier};
+use crate::structure::search::Tracing;
+use spherule_kernel::{Camera, HitPacket, Ray, RayPacket};
 
 /// The most rays, so that their memory is a cache's, not a machine's.
 const MOST_RAYS: usize = 1 << 17;
@@ -87,30 +88,25 @@ impl Rays {
         Self::new(Kind::Shadow, parts)
     }
 
-    /// The rays from the `hits` of the `camera` rays to every light that the surface faces, light by
-    /// light; if those are more than `most`, from every n-th point.
+    /// The rays from the `hits` of the `camera` rays by `tracing` to every light that the surface faces, light by
+    /// light; if those are more than `most`, from every n-th packet.
     pub(super) fn of_shadows(
+        tracing: Tracing,
         camera: &Self,
         hits: &[HitPacket],
         scene: &Scene,
         most: usize,
     ) -> Self {
-        let spheres = scene.spheres();
-        let mut points = Vec::new();
-        for (rays, hits) in camera.packets.iter().zip(hits) {
-            for (lane, hit) in hits.hits().enumerate() {
-                let Some(hit) = hit else { continue };
-                if let Some(sphere) = spheres.get(hit.sphere as usize) {
-                    points.push(SurfacePoint::new(Tier::Exact, &rays.ray(lane), hit.t, &sphere));
-                }
-            }
-        }
-        let wanted = points.len() * scene.lights.len();
-        let step = wanted.div_ceil(most).max(1);
+        let step = (camera.count * scene.lights.len()).div_ceil(most).max(1);
+        let camera: Vec<_> = camera.packets.iter().step_by(step).copied().collect();
+        let hits: Vec<_> = hits.iter().step_by(step).copied().collect();
+        let (mut surfaces, mut shadow_rays) = (Surfaces::default(), ShadowRays::default());
+        let surfaces = surfaces.compute(tracing, scene.spheres(), &camera, &hits);
         let of_light = |light| {
-            let facing = points.iter().step_by(step).filter(|point| point.cosine(light).is_some());
-            let ray = |point: &SurfacePoint| point.ray_to(Tier::Exact, light);
-            let rays: Vec<Ray> = facing.filter_map(ray).collect();
+            let hit = (&*camera, &*hits, surfaces);
+            let packets = shadow_rays.cast(tracing, scene.spheres(), hit, light).iter();
+            let rays = packets.flat_map(|rays| (0..RayPacket::COUNT).map(|lane| rays.ray(lane)));
+            let rays: Vec<Ray> = rays.filter(Ray::is_live).collect();
             rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect()
         };
         Self::new(Kind::Shadow, scene.lights.iter().map(of_light))
@@ -126,7 +122,7 @@ fn common_divisor(a: u64, b: u64) -> u64 {
 mod tests {
     use super::*;
     use crate::scene::builtin::builtin;
-    use spherule_kernel::{Exact, Intersect, Trace};
+    use spherule_kernel::{Coherence, Exact, Intersect, Level, Tier, Trace};
 
     #[test]
     fn a_picture_of_any_size_is_some_rays_from_everywhere() {
@@ -143,7 +139,9 @@ mod tests {
         let rays = Rays::of_camera(&camera, 4096, 4096, MOST_RAYS);
         let mut hits = vec![HitPacket::none(); rays.packets.len()];
         scene.spheres().closest_hit_packets(Exact, &mut Trace::new(), &rays.packets, &mut hits);
-        let shadow = Rays::of_shadows(&rays, &hits, &scene, MOST_RAYS);
+        let tracing =
+            Tracing { tier: Tier::Exact, level: Level::best(), coherence: Coherence::Detect };
+        let shadow = Rays::of_shadows(tracing, &rays, &hits, &scene, MOST_RAYS);
         assert!(rays.count > MOST_RAYS / 4 && shadow.count > 0 && shadow.count <= MOST_RAYS);
         let across = |packet: &RayPacket| packet.ray(0).direction.x.to_bits();
         let mut columns: Vec<u32> = rays.packets.iter().map(across).collect();

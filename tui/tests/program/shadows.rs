@@ -2,14 +2,49 @@
 
 use spherule::color::Srgb;
 use spherule::scene::{Light, Source};
-use spherule::shade::SurfacePoint;
-use spherule_kernel::{Intersect, Ray, Sphere, SphereList, Tier, Vec3};
+use spherule::shade::{ShadowRays, Surfaces};
+use spherule::structure::search::Tracing;
+use spherule_kernel::{
+    Coherence, HitPacket, Intersect, Level, Ray, RayPacket, Sphere, SphereList, Tier, Trace, Vec3,
+};
 use spherule_tests::oracle;
 use spherule_tests::random::Random;
 
-/// The shadow ray, if the surface faces the light.
-fn ray_to(tier: Tier, point: &SurfacePoint, light: &Light) -> Option<Ray> {
-    point.cosine(light).and_then(|_| point.ray_to(tier, light))
+/// What a ray hits, as shading sees it: one lane of a packet.
+struct Point {
+    tracing: Tracing,
+    spheres: SphereList,
+    rays: [RayPacket; 1],
+    hits: [HitPacket; 1],
+    surfaces: Surfaces,
+}
+
+impl Point {
+    fn new(tier: Tier, spheres: &SphereList, ray: &Ray) -> Option<Self> {
+        let tracing = Tracing { tier, level: Level::best(), coherence: Coherence::Detect };
+        let (rays, mut hits) = ([RayPacket::new(&[*ray])], [HitPacket::none()]);
+        spheres.closest_hit_packets(tier, &mut Trace::new(), &rays, &mut hits);
+        hits[0].hit(0)?;
+        let (surfaces, spheres) = (Surfaces::default(), spheres.clone());
+        Some(Self { tracing, spheres, rays, hits, surfaces })
+    }
+
+    /// Towards the side that the ray came from.
+    fn normal(&mut self) -> Vec3 {
+        let Self { tracing, spheres, rays, hits, surfaces } = self;
+        let normal = surfaces.compute(*tracing, spheres.spheres(), &*rays, &*hits)[0].normal(0);
+        if normal.dot(rays[0].ray(0).direction) > 0.0 { -normal } else { normal }
+    }
+
+    /// The shadow ray, if the surface faces the light.
+    fn ray_to(&mut self, light: &Light) -> Option<Ray> {
+        let Self { tracing, spheres, rays, hits, surfaces } = self;
+        let surfaces = surfaces.compute(*tracing, spheres.spheres(), &*rays, &*hits);
+        let hit = (&*rays as &[_], &*hits as &[_], surfaces);
+        let mut shadow_rays = ShadowRays::default();
+        let ray = shadow_rays.cast(*tracing, spheres.spheres(), hit, light)[0].ray(0);
+        ray.is_live().then_some(ray)
+    }
 }
 
 /// How many shadow rays from points of spheres of this radius and place meet their own sphere,
@@ -29,14 +64,14 @@ fn acne(tier: Tier, radius: f32, place: f32) -> (u32, u32) {
             continue; // From inside every shadow ray meets the sphere.
         }
         let spheres = SphereList::from([sphere]);
-        let Some(hit) = spheres.closest_hit(tier, &ray) else { continue };
-        let point = SurfacePoint::new(tier, &ray, hit.t, &sphere);
+        let Some(mut point) = Point::new(tier, &spheres, &ray) else { continue };
+        let normal = point.normal();
         // A light anywhere above the surface, and one that grazes it.
-        let across = point.normal().cross(random.in_cube(1.0)).normalize();
-        let grazing = across + 10_f32.powf(random.between(-1.0, 1.0) * 3.0 - 3.0) * point.normal();
+        let across = normal.cross(random.in_cube(1.0)).normalize();
+        let grazing = across + 10_f32.powf(random.between(-1.0, 1.0) * 3.0 - 3.0) * normal;
         for direction in [random.in_cube(1.0), grazing] {
             let light = Light { source: Source::Direction(direction), color: Srgb::WHITE };
-            let Some(ray) = ray_to(tier, &point, &light) else { continue };
+            let Some(ray) = point.ray_to(&light) else { continue };
             own += u32::from(spheres.any_hit(tier, &ray));
             cast += 1;
         }
@@ -84,12 +119,11 @@ fn a_huge_ground_has_no_acne() {
         for _ in 0..20_000 {
             let (x, y) = (random.between(-1.0, 1.0), random.between(-1.0, 1.0));
             let ray = Ray::new(Vec3::new(0.0, 2.0, 8.0), Vec3::new(x, -y.abs(), -1.0));
-            let Some(hit) = ground.closest_hit(tier, &ray) else { continue };
-            let point = SurfacePoint::new(tier, &ray, hit.t, &sphere);
+            let Some(mut point) = Point::new(tier, &ground, &ray) else { continue };
             let source = Source::Direction(Vec3::new(-0.55, 0.9, 0.6));
             let light = Light { source, color: Srgb::WHITE };
             // If `Fast` errs it may see the far side of the ground, which has no light.
-            let Some(ray) = ray_to(tier, &point, &light) else { continue };
+            let Some(ray) = point.ray_to(&light) else { continue };
             assert_eq!(ground.closest_hit(tier, &ray), None, "{tier:?} {radius}");
             lit += 1;
         }
@@ -110,8 +144,7 @@ fn from_afar_normals_are_right_and_nothing_shadows_itself() {
             let target = sphere.center + radius * random.in_cube(1.0);
             let ray = Ray::new(origin, target - origin);
             let spheres = SphereList::from([sphere]);
-            let Some(hit) = spheres.closest_hit(Tier::Exact, &ray) else { continue };
-            let point = SurfacePoint::new(Tier::Exact, &ray, hit.t, &sphere);
+            let Some(mut point) = Point::new(Tier::Exact, &spheres, &ray) else { continue };
             let [truth, _] = oracle::surface(&ray, &sphere, false).expect("a hit");
             let truth = Vec3::from_array(truth);
             let truth = if truth.dot(ray.direction) > 0.0 { -truth } else { truth };
@@ -119,7 +152,7 @@ fn from_afar_normals_are_right_and_nothing_shadows_itself() {
             hits += 1;
             let light =
                 Light { source: Source::Direction(random.in_cube(1.0)), color: Srgb::WHITE };
-            if let Some(ray) = ray_to(Tier::Exact, &point, &light) {
+            if let Some(ray) = point.ray_to(&light) {
                 assert!(!spheres.any_hit(Tier::Exact, &ray), "{ray:?} {sphere:?}");
                 lit += 1;
             }
@@ -156,10 +189,8 @@ fn contact_shadows_stay_where_a_scene_is_moved() {
                 // From above, an eighth beside the lattice of the centres.
                 let from = Vec3::new(f32::from(x) / 4.0 + 0.125, 128.0, f32::from(z) / 4.0 + 0.125);
                 let ray = Ray::new(offset + from, -Vec3::Y);
-                let Some(hit) = list.closest_hit(Tier::Exact, &ray) else { continue };
-                let point =
-                    SurfacePoint::new(Tier::Exact, &ray, hit.t, &spheres[hit.sphere as usize]);
-                let ray = ray_to(Tier::Exact, &point, &light);
+                let Some(mut point) = Point::new(Tier::Exact, &list, &ray) else { continue };
+                let ray = point.ray_to(&light);
                 count += u32::from(ray.is_some_and(|ray| list.any_hit(Tier::Exact, &ray)));
             }
         }

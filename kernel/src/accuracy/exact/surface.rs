@@ -4,7 +4,7 @@
 
 use super::order::Answered;
 use crate::accuracy::RayLanes;
-use crate::accuracy::surface::{Line, SurfaceLanes, line};
+use crate::accuracy::surface::{Line, SurfaceLanes, line, rest};
 use crate::exact::{QuadraticTerms, Root, SurfaceCoordinate, Surveyed};
 use crate::geometry::surface::Surface;
 use crate::lanes::{DoubleLanes, LaneArray, LaneMask, Lanes};
@@ -15,11 +15,11 @@ use glam::Vec3;
 /// u, of double precision.
 const U: f64 = f64::EPSILON / 2.0;
 
-/// The surface of a sphere of positive radius where `ray` hits it at `t`.
+/// The surface of a sphere of positive radius where `ray` hits it at `t`, exactly where double precision does not do.
 pub(super) fn at(ray: &Ray, t: f32, sphere: &Sphere) -> Surface {
     let root = Answered::new(ray, t, sphere).root;
     let line = line::<true>(ray, sphere);
-    let (from_center, error) = line.point(root == Root::Near);
+    let (value, error) = line.point(root == Root::Near);
     let of_point = if line.error < line.discriminant { error } else { f64::INFINITY };
     let per_radius = 1.0 / f64::from(sphere.radius);
 
@@ -30,7 +30,7 @@ pub(super) fn at(ray: &Ray, t: f32, sphere: &Sphere) -> Surface {
         sphere.radius,
     );
     let rounded = |axis: usize, of: Surveyed| {
-        let value = from_center[axis % 3];
+        let value = value[axis % 3];
         let (value, error, most) = match of {
             Surveyed::Point => (value, of_point, sphere.radius),
             Surveyed::Normal => (value * per_radius, normal_error(of_point, per_radius), 1.0),
@@ -43,7 +43,9 @@ pub(super) fn at(ray: &Ray, t: f32, sphere: &Sphere) -> Surface {
         SurfaceCoordinate { terms: &terms, axis, root, of }.rounded(low, high)
     };
     let all = |of: Surveyed| Vec3::from_array([0, 1, 2].map(|axis| rounded(axis, of)));
-    Surface { normal: all(Surveyed::Normal), point: all(Surveyed::Point), from_center }
+    let point = all(Surveyed::Point);
+    let rest = axes!(i => (value[i] - f64::from(point[i])) as f32);
+    Surface { normal: all(Surveyed::Normal), point, rest: Vec3::from_array(rest) }
 }
 
 /// What a coordinate of the normal may be off, by that of the point and 1/r.
@@ -62,8 +64,8 @@ pub(super) fn in_lanes<L: Lanes>(
     asked: L::Mask,
 ) -> (SurfaceLanes<L>, L::Mask) {
     let (first, known) = estimated::<L, false>(rays, t, center, radius, asked);
-    let rest = asked & !known;
-    if !rest.any() {
+    let open = asked & !known;
+    if !open.any() {
         return (first, known);
     }
     let (rays, token) = (*rays, t.token());
@@ -71,12 +73,13 @@ pub(super) fn in_lanes<L: Lanes>(
         token,
         #[inline(always)]
         move || {
-            let (second, of_rest) = estimated::<L, true>(&rays, t, center, radius, rest);
+            let (second, of_open) = estimated::<L, true>(&rays, t, center, radius, open);
             let surfaces = SurfaceLanes {
                 normal: axes!(i => L::select(known, first.normal[i], second.normal[i])),
                 point: axes!(i => L::select(known, first.point[i], second.point[i])),
+                rest: axes!(i => L::select(known, first.rest[i], second.rest[i])),
             };
-            (surfaces, known | of_rest)
+            (surfaces, known | of_open)
         },
     )
 }
@@ -92,6 +95,7 @@ fn estimated<L: Lanes, const IN_TWO_TERMS: bool>(
     let (token, zeros) = (t.token(), L::Array::filled(0.0));
     // From below and from above.
     let [mut normal, mut point] = [[[zeros; 2]; 3]; 2];
+    let mut rests = [zeros; 3];
     let mut known = 0_u32;
     let lanes = asked.bits();
     for part in 0..L::PARTS {
@@ -109,6 +113,7 @@ fn estimated<L: Lanes, const IN_TWO_TERMS: bool>(
         for i in 0..3 {
             L::narrow(&mut point[i][0], part, value[i] - error);
             L::narrow(&mut point[i][1], part, value[i] + error);
+            L::narrow(&mut rests[i], part, rest(value[i]));
             let value = value[i] * per_radius;
             L::narrow(&mut normal[i][0], part, value - of_normal);
             L::narrow(&mut normal[i][1], part, value + of_normal);
@@ -126,6 +131,7 @@ fn estimated<L: Lanes, const IN_TWO_TERMS: bool>(
     let surfaces = SurfaceLanes {
         normal: axes!(i => L::load(token, &normal[i][0]) + zero),
         point: axes!(i => L::load(token, &point[i][0]) + zero),
+        rest: axes!(i => L::load(token, &rests[i]) + zero),
     };
     (surfaces, known)
 }
