@@ -1,8 +1,8 @@
 //! Shadow rays from the hits of packets: in lanes what [`Surface::leave`](crate::Surface::leave) is for one ray.
 //!
-//! Three steps are tried in double-precision lanes; a ray that these cannot decide goes on alone.
+//! Steps are tried in double-precision lanes; a ray that these cannot decide goes on alone.
 
-use super::{LEAST, Side, U, step_of};
+use super::{Side, U, power_of, start_of, step_of};
 use crate::accuracy::{Accuracy, RayLanes, Tier, TierFormula, TierWork};
 use crate::geometry::hit::HitPacket;
 use crate::geometry::ray::{Ray, RayPacket};
@@ -87,7 +87,7 @@ struct Shadows<'a, L: Lanes> {
 }
 
 /// How many steps from the surface each try is.
-const STEPS: [f64; 3] = [0.0, 0.5, 1.0];
+const STEPS: [f64; 8] = [0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0];
 
 impl<L: Lanes> TierWork for Shadows<'_, L> {
     type Output = RayPacket<L::Array>;
@@ -126,7 +126,7 @@ impl<L: Lanes> TierWork for Shadows<'_, L> {
         let mut shadow_rays = RayPacket {
             origin: axes!(i => origin[i].store()),
             direction: axes!(i => direction[i].store()),
-            t_min: L::select(left, zero.like(LEAST), zero.like(f32::INFINITY)).store(),
+            t_min: L::select(left, start_of(direction, radius), zero.like(f32::INFINITY)).store(),
             t_max: L::select(left, zero.like(end), zero.like(f32::NEG_INFINITY)).store(),
         };
         let alone = (alone | waiting).bits();
@@ -263,14 +263,14 @@ impl<L: Lanes> Departure<L> {
         for part in 0..L::PARTS {
             let first = part * L::Double::COUNT;
             let d = axes!(i => direction[i].widen(part));
-            let q = axes!(i => origin[i].widen(part) - self.center[i].widen(part));
-            let (square, radius) = (dot(q, q), self.radius.widen(part));
-            let reach = radius * radius;
-            let (power, margin) = (square - reach, radius.like(8.0 * U) * (square + reach));
+            let x = axes!(i => origin[i].widen(part));
+            let c = axes!(i => self.center[i].widen(part));
+            let (power, margin) = power_of(x, c, self.radius.widen(part));
             inner |= power.lt(-margin).bits() << first;
             outer |= margin.lt(power).bits() << first;
+            let q = axes!(i => x[i] - c[i]);
             let size = dot(axes!(i => d[i].abs()), axes!(i => q[i].abs()));
-            away |= (radius.like(8.0 * U) * size).lt(dot(d, q)).bits() << first;
+            away |= (size.like(8.0 * U) * size).lt(dot(d, q)).bits() << first;
         }
         let (inner, outer) = (L::mask(token, inner), L::mask(token, outer));
         let on_side = (self.inside & inner) | (!self.inside & outer);
@@ -281,10 +281,15 @@ impl<L: Lanes> Departure<L> {
         }
 
         // The tier says whether it sees the sphere; from inside of which root, one by one.
-        let (zero, infinity) = (step.like(0.0), step.like(f32::INFINITY));
+        let infinity = step.like(f32::INFINITY);
         let outside = asked & on_side & !self.inside;
-        let rays =
-            RayLanes { origin, direction, t_min: zero.like(LEAST), t_max: infinity, live: outside };
+        let rays = RayLanes {
+            origin,
+            direction,
+            t_min: start_of(direction, self.radius),
+            t_max: infinity,
+            live: outside,
+        };
         let prepared = F::prepare(&rays);
         let t = F::first_root(&rays, &prepared, self.center, self.radius, outside, infinity);
         let leaves = outside & !t.lt(infinity);
