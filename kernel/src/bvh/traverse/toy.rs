@@ -4,7 +4,7 @@
 //! Margins are up to 48 u, so that floats of five bits would leave nothing to be tested: numbers are integers
 //! of few bits, and the floats have ten. The answer is the root, rounded as `Exact` does.
 //!
-//! Rays that are moved are left out: the 2^-11 T of their error covers u T, which is far less in `f32`. The build
+//! Rays that are moved, from far away, have twelve bits: the 2^-11 T of their error covers 2 u T from there on. The build
 //! of the tree is written for `f32` alone; its padding, 40 u C, is repeated here.
 
 extern crate std;
@@ -16,17 +16,16 @@ use super::root_interval::Pass;
 use crate::accuracy::RayLanes;
 use crate::bvh::node::BvhNode;
 use crate::query::ClosestHit;
-use crate::scale::rays::ScaledRays;
 use crate::testing::toy::{Format, Toy};
 use std::println;
 use std::vec::Vec;
 
 macro_rules! formats {
-    ($($name:ident $fused:literal $margin:literal),* $(,)?) => {$(
+    ($($name:ident $bits:literal $fused:literal $margin:literal),* $(,)?) => {$(
         #[derive(Clone, Copy, Debug)]
         struct $name;
         impl Format for $name {
-            const BITS: u32 = 10;
+            const BITS: u32 = $bits;
             const FUSED: bool = $fused;
             const MARGIN: f64 = $margin;
             type Double = Self;
@@ -34,7 +33,14 @@ macro_rules! formats {
     )*};
 }
 
-formats! { Fused true 1.0, Unfused false 1.0, Sixteenth false 0.0625, Without false 0.001 }
+formats! {
+    Fused 10 true 1.0, Unfused 10 false 1.0, Sixteenth 10 false 0.0625, Without 10 false 0.001,
+    FarFused 12 true 1.0, FarUnfused 12 false 1.0, FarWithout 12 false 0.001,
+}
+
+/// No ray is moved before a scene of that extent; and of the scenes here.
+const ENDLESS: f32 = 1_048_576.0;
+const EXTENT: f32 = 2048.0;
 
 /// A ray and a sphere in a plane.
 #[derive(Clone, Copy, Debug)]
@@ -43,12 +49,13 @@ struct Case {
     d: [i64; 2],
     c: [i64; 2],
     r: i64,
+    extent: f32,
 }
 
 impl Case {
     /// Both roots as real numbers: doubles are that, beside floats of ten bits.
     fn roots(&self) -> Option<[f64; 2]> {
-        let Self { o, d, c, r } = *self;
+        let Self { o, d, c, r, .. } = *self;
         let p = [c[0] - o[0], c[1] - o[1]];
         let (a, b, x) =
             (d[0] * d[0] + d[1] * d[1], d[0] * p[0] + d[1] * p[1], d[0] * p[1] - d[1] * p[0]);
@@ -92,7 +99,7 @@ impl Case {
     /// Whether a ray whose interval is no more than that answer enters the box.
     fn enters<F: Format>(&self, t: f64, pad: f64) -> bool {
         let mut packet = PreparedPacket::<[f32; 1]>::none();
-        packet.prepare(&self.rays::<F>([t, t]), 1.0, 1_048_576.0, 0.0);
+        packet.prepare(&self.rays::<F>([t, t]), 1.0, self.extent, 0.0);
         let mut state = RayState::NEW;
         state.begin(&packet, 0, RayPlace::FIRST, 0);
         state.stack.clear();
@@ -104,7 +111,9 @@ impl Case {
     /// candidate; its entry is later; a bound is sooner, or without an answer.
     fn leaf<F: Format>(&self, interval: [f64; 2], roots: Option<[f64; 2]>) -> u32 {
         let rays = self.rays::<F>(interval);
-        let prepared = PreparedLanes::as_they_are(&ScaledRays::new(&rays, 1.0));
+        let prepared = PreparedLanes::of_any_length(&rays, 1.0, Some(self.extent));
+        let shift = prepared.time.shift.get();
+        assert_eq!(shift > 0.0, self.extent < ENDLESS, "{self:?}");
         let center = [self.c[0], self.c[1], 0].map(|x| Toy::new(x as f64));
         let pass = Pass::new(
             prepared.origin,
@@ -118,18 +127,21 @@ impl Case {
         let may = pass.may_hit::<false>(prepared.start[0], prepared.end[1], 0.0);
         let accepted = |t: &f64| (interval[0]..=interval[1]).contains(&F::round(*t));
         let answer = roots.and_then(|roots| roots.into_iter().find(accepted));
-        let near = 1.0 + 1e-12;
         let Some(root) = answer else {
             return u32::from(found.bound.get() < f64::INFINITY) << 2;
         };
-        let (s, root) = (F::round(root) * self.length(), root * self.length());
+        // Of a ray that was moved the ends of the interval have the error of t; entry and bound are a root's.
+        let t = if shift == 0.0 { F::round(root) } else { root };
+        let [s, root] = [t, root].map(|t| (t - shift) * self.length());
+        // What doubles may be off.
+        let hair = (root.abs() + shift * self.length()) * 1e-12;
         u32::from(!found.candidates || !may)
-            | u32::from(found.entry.get() > s.min(root) + s.abs() * (near - 1.0)) << 1
-            | u32::from(found.bound.get() < s.max(root) - s.abs() * (near - 1.0)) << 2
+            | u32::from(found.entry.get() > s.min(root) + hair) << 1
+            | u32::from(found.bound.get() < s.max(root) - hair) << 2
     }
 }
 
-/// All cases of the sets: radii are about the distance of the line, so that lines are tangents, or miss or meet by little.
+/// All cases near the origin: radii are about the distance of the line, so that lines are tangents, or miss or meet by little.
 fn all(mut work: impl FnMut(&Case)) {
     let centers = [-1021, -777, -100, -3, 0, 1, 2, 33, 101, 701, 999];
     for dx in [4, 5, 6, 7] {
@@ -140,7 +152,7 @@ fn all(mut work: impl FnMut(&Case)) {
             for (d, (cx, cy)) in
                 pairs(&[[dx, dy], [dy, -dx]], &pairs(&centers, &centers).collect::<Vec<_>>())
             {
-                let mut case = Case { o: [ox, oy], d, c: [cx, cy], r: 0 };
+                let mut case = Case { o: [ox, oy], d, c: [cx, cy], r: 0, extent: ENDLESS };
                 let side = (d[0] * (cy - oy) - d[1] * (cx - ox)).abs();
                 let across = (side as f64 / case.length()).ceil() as i64;
                 for more in [-1, 0, 1, 3, across / 64, across / 8, across] {
@@ -158,10 +170,37 @@ fn pairs<'a, S: Copy, T: Copy>(one: &'a [S], other: &'a [T]) -> impl Iterator<It
     one.iter().flat_map(|x| other.iter().map(|y| (*x, *y)))
 }
 
+/// Cases from far away: the ray is moved.
+fn far(mut work: impl FnMut(&Case)) {
+    let centers = [-1021, -100, -3, 0, 2, 33, 701];
+    for (dx, dy) in pairs(&[4, 5, 6, 7], &[-6, -3, 0, 1, 2, 3, 5, 7]) {
+        for (d, (cx, cy)) in
+            pairs(&[[dx, dy], [dy, -dx]], &pairs(&centers, &centers).collect::<Vec<_>>())
+        {
+            // Lines beside the coordinates' origin have origins of more bits than few: a multiple of 64.
+            for (away, (ox, oy)) in
+                pairs(&[1 << 14, 3 << 14, 1 << 16], &[(0, 0), (64, -192), (-1024, 512)])
+            {
+                let o = [ox - away * d[0], oy - away * d[1]]
+                    .map(|x| Toy::<FarFused>::new(x as f64).get() as i64);
+                let mut case = Case { o, d, c: [cx, cy], r: 0, extent: EXTENT };
+                let side = (d[0] * (cy - o[1]) - d[1] * (cx - o[0])).abs();
+                let across = (side as f64 / case.length()).ceil() as i64;
+                for more in [-1, 0, 1, 3, across / 64, across / 8, across] {
+                    case.r = across + more;
+                    if (0..1024).contains(&case.r) {
+                        work(&case);
+                    }
+                }
+            }
+        }
+    }
+}
+
 /// Answers, and those whose box is not entered.
-fn boxes<F: Format>(pad: f64) -> [u64; 2] {
+fn boxes<F: Format>(pad: f64, set: impl Fn(&mut dyn FnMut(&Case))) -> [u64; 2] {
     let mut counts = [0; 2];
-    all(|case| {
+    set(&mut |case| {
         for root in case.roots().into_iter().flatten() {
             counts[0] += 1;
             counts[1] += u64::from(!case.enters::<F>(F::round(root), pad));
@@ -171,9 +210,9 @@ fn boxes<F: Format>(pad: f64) -> [u64; 2] {
 }
 
 /// Answers, and what leaves get wrong of them: [`Case::leaf`].
-fn leaves<F: Format>() -> (u64, [u64; 3]) {
+fn leaves<F: Format>(set: impl Fn(&mut dyn FnMut(&Case))) -> (u64, [u64; 3]) {
     let (mut count, mut wrong) = (0, [0; 3]);
-    all(|case| {
+    set(&mut |case| {
         let roots = case.roots();
         let [near, far] = roots.map_or([0.0, 1.0], |roots| roots.map(F::round));
         let behind = near + near.abs() * 2.1 * F::U;
@@ -193,26 +232,34 @@ fn leaves<F: Format>() -> (u64, [u64; 3]) {
 
 #[test]
 fn no_box_of_an_answer_is_passed() {
-    for (name, [answers, passed]) in
-        [("fused", boxes::<Fused>(40.0)), ("not fused", boxes::<Unfused>(40.0))]
-    {
+    for (name, [answers, passed]) in [
+        ("fused", boxes::<Fused>(40.0, |work| all(work))),
+        ("not fused", boxes::<Unfused>(40.0, |work| all(work))),
+        ("from afar, fused", boxes::<FarFused>(40.0, |work| far(work))),
+        ("from afar, not fused", boxes::<FarUnfused>(40.0, |work| far(work))),
+    ] {
         println!("{name}: {answers} answers, {passed} passed");
         assert!(passed == 0 && answers > 100_000, "{name}: {passed} of {answers}");
     }
     // Either pad covers for the other: without both, boxes are passed.
-    let [_, passed] = boxes::<Without>(0.0);
-    println!("without pads: {passed} passed");
-    assert!(passed > 0, "no box is hard");
+    let [_, passed] = boxes::<Without>(0.0, |work| all(work));
+    let [_, from_afar] = boxes::<FarWithout>(0.0, |work| far(work));
+    println!("without pads: {passed} passed, {from_afar} from afar");
+    assert!(passed > 0 && from_afar > 0, "no box is hard");
 }
 
 #[test]
 fn no_leaf_loses_an_answer() {
-    for (name, (tests, wrong)) in [("fused", leaves::<Fused>()), ("not fused", leaves::<Unfused>())]
-    {
+    for (name, (tests, wrong)) in [
+        ("fused", leaves::<Fused>(|work| all(work))),
+        ("not fused", leaves::<Unfused>(|work| all(work))),
+        ("from afar, fused", leaves::<FarFused>(|work| far(work))),
+        ("from afar, not fused", leaves::<FarUnfused>(|work| far(work))),
+    ] {
         println!("{name}: {tests} tests, wrong {wrong:?}");
         assert!(wrong == [0; 3] && tests > 100_000, "{name}: {wrong:?} of {tests}");
     }
-    let (_, wrong) = leaves::<Sixteenth>();
+    let (_, wrong) = leaves::<Sixteenth>(|work| all(work));
     println!("with a sixteenth of the margins: {wrong:?}");
     assert!(wrong.iter().all(|wrong| *wrong > 0), "nothing is hard: {wrong:?}");
 }
