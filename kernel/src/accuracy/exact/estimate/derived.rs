@@ -52,13 +52,10 @@ fn derive_of(constants: &Constants, radius: impl FnOnce(Recorded) -> Recorded) -
 
     // E.
     let mut rules = RunningError::new(53, &inputs);
-    for (name, node) in names.iter().map(|(name, node)| (*name, *node)) {
-        rules.name(node, name);
+    for (name, node) in &names {
+        rules.name(*node, name);
     }
     rules.run(&graph);
-    let need = rules.bound(estimate.discriminant.0).error();
-    let have = &rules.bound(estimate.error.0).low;
-    let part_of_e = need.over(have);
     let x = ["xx", "xy", "xz"].map(|name| rules.symbol(name));
     let degree = |monomial: Powers<'_>| -> i32 {
         monomial.iter().filter(|(symbol, _)| x.contains(symbol)).map(|(_, power)| power).sum()
@@ -66,6 +63,7 @@ fn derive_of(constants: &Constants, radius: impl FnOnce(Recorded) -> Recorded) -
     let r = rules.symbol("r");
     let need = rules.bound(estimate.discriminant.0).error();
     let have = &rules.bound(estimate.error.0).low;
+    let part_of_e = need.over(have);
     let of_e = |class: fn(i32, bool) -> bool| {
         worst(need, have, |monomial| {
             class(degree(monomial), monomial.iter().any(|(symbol, _)| *symbol == r))

@@ -190,6 +190,9 @@ fn length_off() -> f64 {
     per_length.error().over(&per_length.low)
 }
 
+/// What is counted of |p| is counted of |f|, |q| and |m n|, as computed: no more than this times |p|.
+const SECOND: f64 = 1.0 + 64.0 * U;
+
 /// Of each statement the part of the margin that is needed by the term that needs most: a hit passes the test of W; that
 /// of r + delta; what passes the test of -W is a hit; half the chord is in its interval; and the roots are in theirs.
 type Parts = [f64; 5];
@@ -202,7 +205,7 @@ fn derive(leaf: &Leaf) -> Parts {
     let roundings = leaf.roundings();
     let [middle, q, square, length] =
         [roundings.middle[1], roundings.q, roundings.square, roundings.length]
-            .map(|count| count * U);
+            .map(|count| count * U * SECOND);
     let mut rules = leaf.rules();
     rules.run(&leaf.graph);
     let [m, r, error] = ["M", "r", "error"].map(|name| Polynomial::symbol(rules.symbol(name)));
@@ -234,9 +237,8 @@ fn derive(leaf: &Leaf) -> Parts {
     let per_h = length + 3.0 * U;
     // |p| <= |m| + l and l^2 + h^2 = r^2.
     let of_r = libm::hypot(per_p, per_h) + 24.0 * U;
-    let second = 1.0 + 64.0 * U;
     let ends =
-        &(&m.scaled(per_p + U) + &r.scaled(of_r)).scaled(second) + &error.scaled(0.25 + per_p);
+        &(&m.scaled(per_p + U) + &r.scaled(of_r)).scaled(SECOND) + &error.scaled(0.25 + per_p);
     let ends = (&ends + &rules.bound(leaf.delta).high.scaled(2.0 * U)).over(delta);
     [met, may, sure, chord, ends]
 }
