@@ -72,4 +72,6 @@ const LEAST_SIZE: f32 = 1.0 / (1u64 << 38) as f32;
 const LEAST_A: f32 = 1.0 / (1u128 << 120) as f32;
 
 #[cfg(test)]
+mod derived;
+#[cfg(test)]
 mod worst;
