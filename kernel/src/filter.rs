@@ -83,7 +83,7 @@ fn excess<L: Lanes>(c: [L; 3], r: L, kappa: f32, least_square: f32) -> L {
     (rr - cc) + r.like(kappa) * (cc + rr).filter_max(r.like(least_square))
 }
 
-/// The space that a block of spheres is seen in.
+/// The space that a block of spheres, or a ball, is seen in.
 #[derive(Clone, Copy, Debug)]
 struct Frame {
     /// The power of two that lengths are multiplied by.
@@ -98,9 +98,9 @@ struct Frame {
 
 impl Frame {
     /// Around a point among the spheres of a block, that one sphere far away cannot move far: coordinate by
-    /// coordinate the median of three of them; scaled so that the median of their sizes is some 1. Any finite
-    /// point, and any scale, would be right.
-    fn of(spheres: &impl SphereRun, first: usize, underflow: Underflow) -> Self {
+    /// coordinate the median of three of them; scaled so that the median of their sizes is some 1, or, if rays that
+    /// start at `far` would be out of range then, so that `far` is. Any finite point, and any scale, would be right.
+    fn of(spheres: &impl SphereRun, first: usize, underflow: Underflow, far: f32) -> Self {
         let count = (spheres.count() - first).min(BLOCK_SPHERES);
         let samples = [0, count / 2, count.saturating_sub(1)]
             .map(|offset| spheres.sphere(first + offset).unwrap_or(Sphere::from([0.0; 4])));
@@ -112,6 +112,7 @@ impl Frame {
             (_, true) => to_one(largest),
             _ => 1.0,
         };
+        let scale = if far * scale <= LARGEST { scale } else { to_one(far) };
         let shift = [0, 1, 2].map(|axis| {
             let middle = median([0, 1, 2].map(|sample| samples[sample].center[axis] * scale));
             if middle.abs() <= LARGEST { middle } else { 0.0 }
@@ -132,17 +133,42 @@ pub(crate) struct FilterBlock {
     groups: [FilterGroup; BLOCK],
     count: usize,
     frame: Frame,
+    /// Whether it is seen in the units of rays that start far away.
+    from_afar: bool,
 }
 
 impl FilterBlock {
     /// Spheres `first ..` of the list, as many as a block takes.
     pub(crate) fn new(spheres: &impl SphereRun, first: usize, underflow: Underflow) -> Self {
-        Self::widened(spheres, first, underflow, KAPPA)
+        Self::in_frame(spheres, first, Frame::of(spheres, first, underflow, 0.0), KAPPA)
     }
 
+    /// Whether rays, those that live, may see the block better than it is now: they start out of its range, or others did.
     #[inline(always)]
-    fn widened(spheres: &impl SphereRun, first: usize, underflow: Underflow, kappa: f32) -> Self {
-        let frame = Frame::of(spheres, first, underflow);
+    pub(crate) fn is_elsewhere<L: Lanes>(&self, rays: &RayLanes<L>) -> bool {
+        let far = largest(rays.origin);
+        let near = (far * far.like(self.frame.scale)).le(far.like(LARGEST));
+        self.from_afar || (rays.live & !near).any()
+    }
+
+    /// Prepares the block once more, as these rays are to see it.
+    #[inline(always)]
+    pub(crate) fn see<L: Lanes>(
+        &mut self,
+        spheres: &impl SphereRun,
+        first: usize,
+        underflow: Underflow,
+        rays: &RayLanes<L>,
+    ) {
+        let frame = Frame::of(spheres, first, underflow, farthest(rays));
+        if frame.scale < self.frame.scale || self.frame.scale < frame.scale {
+            let usual = Frame::of(spheres, first, underflow, 0.0);
+            *self = Self::in_frame(spheres, first, frame, KAPPA);
+            self.from_afar = frame.scale < usual.scale;
+        }
+    }
+
+    fn in_frame(spheres: &impl SphereRun, first: usize, frame: Frame, kappa: f32) -> Self {
         let mut groups = [FilterGroup::EMPTY; BLOCK];
         let mut count = 0;
         for (group, start) in groups.iter_mut().zip((first..spheres.count()).step_by(GROUP)) {
@@ -153,7 +179,7 @@ impl FilterBlock {
             }
             count += 1;
         }
-        Self { groups, count, frame }
+        Self { groups, count, frame, from_afar: false }
     }
 
     /// The groups, in the order of the list.
@@ -249,6 +275,13 @@ impl<L: Lanes> FilterRays<L> {
     }
 }
 
+/// The largest coordinate of the origins of those that live.
+#[inline(always)]
+fn farthest<L: Lanes>(rays: &RayLanes<L>) -> f32 {
+    let far = largest(rays.origin);
+    L::select(rays.live, far, far.like(0.0)).filter_greatest()
+}
+
 /// Which rays may come within `radius` of the coordinates' origin, from however far away.
 #[inline(always)]
 pub(crate) fn may_come_near<L: Lanes>(token: L::Token, rays: &RayLanes<L>, radius: f32) -> L::Mask {
@@ -256,8 +289,7 @@ pub(crate) fn may_come_near<L: Lanes>(token: L::Token, rays: &RayLanes<L>, radiu
     if !ball.is_valid() {
         return rays.live;
     }
-    let far = L::select(rays.live, largest(rays.origin), L::splat(token, 0.0)).filter_greatest();
-    let scale = to_one(far);
+    let scale = to_one(farthest(rays));
     let frame = Frame { scale, shift: [0.0; 3], least_square: LEAST_SQUARE, least_length: 0.0 };
     let mut group = FilterGroup::EMPTY;
     group.put(0, &ball, &frame, KAPPA);

@@ -126,12 +126,15 @@ pub(crate) fn for_candidates<L: Lanes, R, S: SphereRun>(
     let spheres_to_meet = if rays.is_empty() { 0 } else { spheres.count() };
     for first in (0..spheres_to_meet).step_by(BLOCK_SPHERES) {
         // The spheres are prepared once for all packets.
-        let block = FilterBlock::new(spheres, first, underflow);
+        let mut block = FilterBlock::new(spheres, first, underflow);
         for (packet, result) in rays.iter().zip(results.iter_mut()) {
             let mut rays = RayLanes::<L>::load(token, packet);
             rays.live = rays.live & !done(result);
             if !rays.live.any() {
                 continue;
+            }
+            if block.is_elsewhere(&rays) {
+                block.see(spheres, first, underflow, &rays);
             }
             let mut filter = FilterRays::new(token, &rays, &block);
             let mut first = first;

@@ -243,8 +243,7 @@ fn scenes_that_mix_sizes() {
                 for query in 0..2 {
                     let ratio = cost[query] as f64 / list[query] as f64;
                     println!("{name}, rays at 2^{exponent}, {way}: {ratio:.3} of the list's");
-                    let most = if name == "every size" { 1.5 } else { 1.1 };
-                    assert!(ratio <= most, "{name}, rays at 2^{exponent}, {way}: {ratio:.2}");
+                    assert!(ratio <= 1.1, "{name}, rays at 2^{exponent}, {way}: {ratio:.2}");
                 }
             }
         }

@@ -217,7 +217,7 @@ impl ListSource<'_> {
         token: L::Token,
         packet: &'a RayPacket<L::Array>,
     ) -> PacketState<'a, L> {
-        let rays = self.view.in_frame(&RayLanes::load(token, packet));
-        PacketState::new(packet, &rays, self.list.scale.factor)
+        let rays = RayLanes::load(token, packet);
+        PacketState::new(packet, &self.view.scaled_in_frame(&rays, self.list.scale.factor))
     }
 }

@@ -51,11 +51,11 @@ pub(super) struct PacketState<'a, L: Lanes> {
 }
 
 impl<'a, L: Lanes> PacketState<'a, L> {
-    /// Of a packet, whose rays in the frame of the structure, which is scaled by `factor`, are `rays`.
+    /// Of a packet, whose rays as the structure sees them are `scaled`.
     #[inline(always)]
-    pub(super) fn new(packet: &'a RayPacket<L::Array>, rays: &RayLanes<L>, factor: f32) -> Self {
-        let (live, t_min, zero) = (rays.live, rays.t_min, rays.t_min.like(0.0));
-        let rays = PreparedLanes::as_they_are(&ScaledRays::new(rays, factor));
+    pub(super) fn new(packet: &'a RayPacket<L::Array>, scaled: &ScaledRays<L>) -> Self {
+        let (live, t_min) = (scaled.rays.live, scaled.rays.t_min);
+        let (zero, rays) = (t_min.like(0.0), PreparedLanes::as_they_are(scaled));
         Self {
             packet,
             rays,

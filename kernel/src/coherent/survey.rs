@@ -8,7 +8,6 @@ use crate::bvh::traverse::prepared_ray::PreparedLanes;
 use crate::geometry::ray::RayPacket;
 use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::axes;
-use crate::scale::rays::ScaledRays;
 
 /// A survey of packets that follow each other.
 pub(super) struct Survey {
@@ -67,7 +66,7 @@ impl Survey {
             let rays = RayLanes::<L>::load(token, packet);
             if rays.live.any() {
                 let (n, lane) = (
-                    prepared::<L, ANY_LENGTH>(&rays, factor).direction,
+                    prepared::<L, ANY_LENGTH>(view, &rays, factor).direction,
                     rays.live.bits().trailing_zeros(),
                 );
                 first = axes!(i => n[i].store().get(lane as usize));
@@ -87,10 +86,7 @@ impl Survey {
         let mut packets = 0;
         for packet in rays {
             let rays = RayLanes::<L>::load(token, packet);
-            let prepared = prepared::<L, ANY_LENGTH>(&view.in_frame(&rays), factor);
-            if !ANY_LENGTH && (rays.live & !prepared.covered).any() {
-                return None;
-            }
+            let prepared = prepared::<L, ANY_LENGTH>(view, &rays, factor);
             let PreparedLanes { origin, direction: n, absolute_error, covered, end, .. } = prepared;
             let (live, forward) = (rays.live, n[k] * none.like(sign));
             let forward_in_time = if ANY_LENGTH {
@@ -100,6 +96,9 @@ impl Survey {
             };
             let fits = view.shares(&rays) & covered & forward_in_time;
             if (live & !(fits & none.like(ALONG).le(forward))).any() {
+                if !ANY_LENGTH && (live & !covered).any() {
+                    return None;
+                }
                 break;
             }
             let per_depth = none.like(sign) / n[k];
@@ -139,12 +138,16 @@ impl Survey {
     }
 }
 
-/// Rays from where they begin, of usual lengths unless `ANY_LENGTH` will do.
+/// Rays in the frame, of usual lengths unless `ANY_LENGTH` will do.
 #[inline(always)]
-fn prepared<L: Lanes, const ANY_LENGTH: bool>(rays: &RayLanes<L>, factor: f32) -> PreparedLanes<L> {
+fn prepared<L: Lanes, const ANY_LENGTH: bool>(
+    view: &View,
+    rays: &RayLanes<L>,
+    factor: f32,
+) -> PreparedLanes<L> {
     if ANY_LENGTH {
-        PreparedLanes::of_any_length(rays, factor, None)
+        PreparedLanes::of_any_length(&view.in_frame(rays), factor, None)
     } else {
-        PreparedLanes::as_they_are(&ScaledRays::new(rays, factor))
+        PreparedLanes::as_they_are(&view.scaled_in_frame(rays, factor))
     }
 }

@@ -24,6 +24,7 @@ use crate::geometry::ray::RayPacket;
 use crate::lanes::{LaneMask, Lanes};
 use crate::linear;
 use crate::query::Query;
+use crate::scale::rays::ScaledRays;
 use crate::trace::Coherence;
 
 /// The widest range of slopes that is traced as one.
@@ -130,7 +131,7 @@ fn state_of<L: Lanes>(
     packet: &RayPacket<L::Array>,
     factor: f32,
 ) -> PacketState<'_, L> {
-    PacketState::new(packet, &RayLanes::load(token, packet), factor)
+    PacketState::new(packet, &ScaledRays::new(&RayLanes::load(token, packet), factor))
 }
 
 /// The boxes that are yet to be looked into, the nearest on top.

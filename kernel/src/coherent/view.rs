@@ -12,6 +12,7 @@ use crate::lanes::Lanes;
 use crate::numeric::axes::{axes, dot};
 use crate::numeric::power_of_two::inverse_power_of_two;
 use crate::numeric::rounding::{LARGEST, LEAST_COMPONENT, U};
+use crate::scale::rays::ScaledRays;
 use glam::Vec3;
 
 /// What the rays of a run have in common.
@@ -92,6 +93,19 @@ impl View {
         match self {
             Self::Perspective { .. } => RayLanes { origin: [rays.t_min.like(0.0); 3], ..*rays },
             Self::Parallel { .. } => *rays,
+        }
+    }
+
+    /// The same, of usual lengths, scaled by `factor`.
+    #[inline(always)]
+    pub(super) fn scaled_in_frame<L: Lanes>(
+        &self,
+        rays: &RayLanes<L>,
+        factor: f32,
+    ) -> ScaledRays<L> {
+        match self {
+            Self::Perspective { .. } => ScaledRays::from_zero(rays, factor),
+            Self::Parallel { .. } => ScaledRays::new(rays, factor),
         }
     }
 

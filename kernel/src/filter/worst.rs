@@ -6,7 +6,7 @@
 
 extern crate std;
 
-use super::{FilterBlock, FilterRays, KAPPA};
+use super::{FilterBlock, FilterRays, Frame, KAPPA};
 use crate::accuracy::{RayLanes, TierFormula, Underflow};
 use crate::testing::climb::{Random, assert_published, climb_twice};
 use crate::{Exact, Fast, Ray, RayPacket, Sphere, Spheres, Stable, Tier, Vec3, roots};
@@ -38,7 +38,7 @@ fn with_filter<R>(
     let z = column(sphere.center.z, neighbour.z);
     let r = column(sphere.radius, 0.0);
     let spheres = Spheres::new(&x, &y, &z, &r).expect("equal lengths");
-    let block = FilterBlock::widened(&spheres, 0, underflow, kappa);
+    let block = FilterBlock::in_frame(&spheres, 0, Frame::of(&spheres, 0, underflow, 0.0), kappa);
     let rays = RayLanes::<f32>::load((), &RayPacket::<[f32; 1]>::new(&[line]));
     ask(&FilterRays::widened((), &rays, &block.frame, kappa), &block)
 }

@@ -30,8 +30,19 @@ impl<L: Lanes> ScaledRays<L> {
     /// Of rays whose directions have any usual length.
     #[inline(always)]
     pub(crate) fn new(rays: &RayLanes<L>, factor: f32) -> Self {
+        let origin = axes!(i => rays.origin[i] * rays.t_min.like(factor));
+        Self::at(origin, rays, factor)
+    }
+
+    /// The same, as if they began in the coordinates' origin.
+    #[inline(always)]
+    pub(crate) fn from_zero(rays: &RayLanes<L>, factor: f32) -> Self {
+        Self::at([rays.t_min.like(0.0); 3], rays, factor)
+    }
+
+    #[inline(always)]
+    fn at(origin: [L; 3], rays: &RayLanes<L>, factor: f32) -> Self {
         let per_t = rays.t_min.like(factor);
-        let origin = axes!(i => rays.origin[i] * per_t);
         let (step, reach) = (step_of(per_t), per_t.like(f32::INFINITY));
         Self { rays: RayLanes { origin, ..*rays }, per_t, step, reach }
     }
