@@ -11,7 +11,7 @@ use spherule_kernel::{
 };
 use spherule_tests::inputs;
 use spherule_tests::random::{Random, power_of_two};
-use spherule_tests::variants::{assert_same, assert_same_from, bits, difference};
+use spherule_tests::variants::{assert_same, assert_same_from, bits, brute, difference};
 
 /// Exponents of scenes: what structures saw before scaling ended at 2^40 and 2^-58.
 const SCENES: [i64; 9] = [-100, -75, -60, -41, 0, 41, 64, 75, 100];
@@ -267,6 +267,26 @@ fn one_large_sphere_leaves_the_others_in_the_tree() {
     }
 }
 
+/// An output that is shorter than the rays, of a scene with spheres that no bound sees.
+#[test]
+fn shorter_outputs() {
+    let (_, spheres) = mixed(&mut Random::new(102, 0)).swap_remove(1);
+    let (tree, rays) = (SphereTree::new(spheres.as_slice()), rays_there(0));
+    let packets: Vec<_> = rays.chunks(16).map(RayPacket::<[f32; 16]>::new).collect();
+    let ask = |coherence: Coherence, count: usize| {
+        let mut trace = Trace { coherence, ..Trace::new() };
+        let (mut hits, mut met) = (vec![HitPacket::none(); count], vec![u32::MAX; count]);
+        tree.closest_hit_packets(Tier::Exact, &mut trace, &packets, &mut hits);
+        tree.any_hit_packets(Tier::Exact, &mut trace, &packets, &mut met);
+        (hits, met)
+    };
+    for coherence in [Coherence::Coherent, Coherence::Incoherent] {
+        let (all, met) = ask(coherence, packets.len());
+        let (some, some_met) = ask(coherence, 5);
+        assert_eq!((&some[..], &some_met[..]), (&all[..5], &met[..5]), "{coherence:?}");
+    }
+}
+
 fn exponent() -> impl Strategy<Value = i64> {
     prop_oneof![4 => Just(0_i64), 2 => -100_i64..=100, 1 => -149_i64..=127]
 }
@@ -307,6 +327,45 @@ proptest! {
             return Err(TestCaseError::fail(difference));
         }
     }
+}
+
+/// Numbers at which something is lost that decides.
+#[test]
+fn where_powers_of_two_lose_something() {
+    let size = power_of_two(100) as f32;
+    let at = |x: f32, y: f32, z: f32, radius: f32| Sphere { center: Vec3::new(x, y, z), radius };
+
+    // 2^-60 is zero in the units of a scene of 2^100, and makes a tangent a miss, or a hit through two points.
+    let mut spheres = scaled(&uniform(40), 100);
+    let little = power_of_two(-60) as f32;
+    for (place, y) in [-little, little, 0.0].into_iter().enumerate() {
+        spheres.push(at(8.0 * place as f32 * size, y, 4.0 * size, size));
+    }
+    let ray = |x: f32| Ray::new(Vec3::new(8.0 * x * size, size, 0.0), Vec3::Z);
+    let rays: Vec<Ray> = (0..48).map(|ray_number| ray((ray_number % 3) as f32)).collect();
+    assert_same(EXACT, &rays, &spheres);
+    let met = brute(Tier::Exact).closest(&spheres, &rays[..3]);
+    assert_eq!([0, 1, 2].map(|ray| met[ray].is_some()), [false, true, true]);
+
+    // A t of 2^127, where no t of the scene is a number: 2^-24 of the scene away.
+    let mut spheres = scaled(&uniform(40), 100);
+    spheres.push(at(0.0, 0.0, size, size * (1.0 - power_of_two(-24) as f32)));
+    let direction = Vec3::new(0.0, 0.0, power_of_two(-51) as f32);
+    let rays = [Ray::new(Vec3::ZERO, direction); 20];
+    assert_same(EXACT, &rays, &spheres);
+    let hit = brute(Tier::Exact).closest(&spheres, &rays[..1])[0];
+    assert_eq!(hit.map(|hit| hit.t), Some(power_of_two(127) as f32));
+
+    // A t of -2^-151, which is rounded to zero: 2^-31 of the scene before the origin.
+    let mut spheres = uniform(40);
+    spheres.retain(|sphere| sphere.center.length() > 0.5);
+    spheres.push(at(0.0, 0.0, -0.00390625 - power_of_two(-31) as f32, 0.00390625));
+    let spheres = scaled(&spheres, -100);
+    let rays: Vec<Ray> = camera(Vec3::ZERO, Vec3::Z, 0.1, 8);
+    let rays = scaled_rays(&rays, 0, 20);
+    assert_same(EXACT, &rays, &spheres);
+    let hit = brute(Tier::Exact).closest(&spheres, &rays[27..28])[0];
+    assert_eq!(hit.map(|hit| (hit.t, hit.sphere)), Some((0.0, spheres.len() as u32 - 1)));
 }
 
 /// At the ends of t: what rounds to zero, or to the least number, counts as it is rounded, before the origin too.

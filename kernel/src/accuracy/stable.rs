@@ -26,7 +26,7 @@
 //! The direction is scaled by a power of two to a length near one, which is exact, and t scaled
 //! back.
 
-use super::beyond::Beyond;
+use super::beyond::{Beyond, longest};
 use super::roots::{RayLanes, Roots, line_roots_of};
 use super::tier::{Tier, TierFormula, Underflow};
 use crate::numeric::axes::{axes, dot};
@@ -74,8 +74,7 @@ impl TierFormula for Stable {
     #[inline(always)]
     fn prepare<L: Lanes>(rays: &RayLanes<L>) -> StableRays<L> {
         let d = rays.direction;
-        let longest = d[0].abs().filter_max(d[1].abs()).filter_max(d[2].abs());
-        let scale = inverse_powers_of_two(longest);
+        let scale = inverse_powers_of_two(longest(d));
         let d = axes!(i => d[i] * scale);
         let a = dot(d, d);
         StableRays {
@@ -83,7 +82,7 @@ impl TierFormula for Stable {
             direction: axes!(i => VeltkampSplit::new(d[i])),
             a,
             per_a: a.like(1.0) / a,
-            beyond: Beyond::new(rays),
+            beyond: Beyond::of_scaled(d, a, scale),
             scale,
         }
     }

@@ -48,8 +48,10 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
     answers: &mut [Q::Packet<L::Array>],
 ) {
     // What no bound sees is met first, by all packets: all begin with what they have hit of it.
-    if !bvh.outside.is_empty() && !rays.is_empty() {
-        let answers = answers.get_mut(..rays.len()).unwrap_or_default();
+    let count = rays.len().min(answers.len());
+    if !bvh.outside.is_empty()
+        && let (Some(rays), Some(answers)) = (rays.get(..count), answers.get_mut(..count))
+    {
         linear::traverse_some::<L, Q>(tier, token, &bvh.outside(), rays, answers);
     }
     if coherence == Coherence::Incoherent {
@@ -57,7 +59,6 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
     }
     let mut boxes = Boxes::new();
     let nobody = RayPacket::inactive();
-    let count = rays.len().min(answers.len());
     // Groups from `unfit` on have not been answered: they go ray by ray, in one run.
     let (mut at, mut unfit, mut misfits) = (0, 0, 0);
     while at < count {

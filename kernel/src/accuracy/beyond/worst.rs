@@ -33,7 +33,7 @@ fn used<A: TierFormula>(numbers: &Numbers, which: usize) -> f64 {
     assert!(!told, "{} at {limit:e} is dropped: {numbers:?}", A::TIER.as_str());
     let terms = beyond.terms(&rays, sphere.center.to_array(), sphere.radius, limit);
     let [end, size, b, _] = terms.map(f64::from);
-    let entry = b - discriminant(&line, &sphere).max(0.0).sqrt();
+    let entry = b - discriminant(&line, &sphere).max(0.0).sqrt() / per_t(&beyond);
     let used = (entry - end - f64::from(LEAST_A)) / ((size + end.abs()) * f64::from(MARGIN));
     if used.is_nan() { f64::NEG_INFINITY } else { used }
 }
@@ -48,6 +48,11 @@ fn discriminant(line: &Ray, sphere: &Sphere) -> f64 {
     dot(d, d) * r * r - dot(x, x)
 }
 
+/// How many multiples of the scaled direction a t of 1 is.
+fn per_t(beyond: &Beyond<f32>) -> f64 {
+    f64::from(beyond.per_limit) / f64::from(beyond.a)
+}
+
 /// The part of what D is raised by that its error uses.
 fn raised(numbers: &Numbers) -> f64 {
     let (line, sphere) = case(numbers);
@@ -55,7 +60,8 @@ fn raised(numbers: &Numbers) -> f64 {
     let beyond = Beyond::new(&rays);
     let terms = beyond.terms(&rays, sphere.center.to_array(), sphere.radius, 0.0);
     let [_, size, _, computed] = terms.map(f64::from);
-    let error = discriminant(&line, &sphere) - computed - f64::from(LEAST_A);
+    let truth = discriminant(&line, &sphere) / (per_t(&beyond) * per_t(&beyond));
+    let error = truth - computed - f64::from(LEAST_A);
     let used = error / (size * size * f64::from(RAISE));
     if used.is_nan() { f64::NEG_INFINITY } else { used }
 }

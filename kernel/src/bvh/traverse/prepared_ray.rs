@@ -154,8 +154,7 @@ impl<L: Lanes> PreparedLanes<L> {
         let (zero, RayTime { per_t, length, .. }) = (far.like(0.0), self.time);
         let left = far.filter_mul_add(far.like(32.0 * L::UNIT_ROUNDOFF), far.like(2.0 * extent));
         let closest = -dot(rays.origin, self.direction);
-        let moved = self.covered & self.time.is_known();
-        let moved = moved & (left * far.like(WORTH_IT)).lt(closest);
+        let moved = self.covered & (left * far.like(WORTH_IT)).lt(closest);
 
         let shift = L::select(moved, (closest - left) / length, zero);
         let split_shift = VeltkampSplit::new(shift);
