@@ -49,7 +49,7 @@ pub use geometry::surface::{Surface, SurfacePacket};
 pub use glam::{Vec3, Vec4};
 pub use intersect::Intersect;
 pub use lanes::{DoubleLanes, LaneArray, LaneMask, Lanes};
-pub use leave::packets::{Towards, shadow_lanes};
+pub use leave::packets::{SurfaceHit, SurfaceHits, Towards, shadow_lanes};
 pub use leave::{Side, side};
 pub use linear::{compare_hits, pair_lanes, roots};
 pub use memory::TooSmall;

@@ -6,7 +6,7 @@ use crate::geometry::hit::{Hit, HitPacket};
 use crate::geometry::ray::{Ray, RayPacket};
 use crate::geometry::sphere::{Sphere, SpherePacket, Spheres};
 use crate::geometry::surface::SurfacePacket;
-use crate::leave::packets::Towards;
+use crate::leave::packets::{SurfaceHits, Towards};
 use crate::structures::{LevelQuery, Traverse};
 use crate::trace::Trace;
 #[cfg(not(feature = "std"))]
@@ -130,7 +130,7 @@ pub fn shadow_packets(
     tier: impl Accuracy,
     level: Level,
     spheres: Spheres<'_>,
-    hit: (&[RayPacket], &[HitPacket], &[SurfacePacket]),
+    hit: SurfaceHits<'_>,
     towards: Towards,
     shadow_rays: &mut [RayPacket],
 ) {

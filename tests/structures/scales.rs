@@ -359,7 +359,7 @@ fn where_powers_of_two_lose_something() {
     // A t of -2^-151, which is rounded to zero: 2^-31 of the scene before the origin.
     let mut spheres = uniform(40);
     spheres.retain(|sphere| sphere.center.length() > 0.5);
-    spheres.push(at(0.0, 0.0, -0.00390625 - power_of_two(-31) as f32, 0.00390625));
+    spheres.push(at(0.0, 0.0, -0.003_906_25 - power_of_two(-31) as f32, 0.003_906_25));
     let spheres = scaled(&spheres, -100);
     let rays: Vec<Ray> = camera(Vec3::ZERO, Vec3::Z, 0.1, 8);
     let rays = scaled_rays(&rays, 0, 20);

@@ -10,7 +10,8 @@ use crate::scene::{Light, Scene, Source};
 use crate::structure::scene::PictureSearch;
 use crate::structure::search::{Scratch, Search, Tracing};
 use spherule_kernel::{
-    HitPacket, RayPacket, Spheres, SurfacePacket, Towards, Vec3, shadow_packets, surface_packets,
+    HitPacket, RayPacket, Spheres, SurfaceHits, SurfacePacket, Towards, Vec3, shadow_packets,
+    surface_packets,
 };
 
 /// How much of a surface's colour is seen if no light reaches it.
@@ -57,7 +58,7 @@ impl ShadowRays {
         &mut self,
         tracing: Tracing,
         spheres: Spheres<'_>,
-        hit: (&[RayPacket], &[HitPacket], &[SurfacePacket]),
+        hit: SurfaceHits<'_>,
         light: &Light,
     ) -> &[RayPacket] {
         let towards = match light.source {

@@ -14,7 +14,7 @@ use crate::geometry::hit::HitPacket;
 use crate::geometry::ray::RayPacket;
 use crate::geometry::sphere::{SpherePacket, Spheres};
 use crate::geometry::surface::SurfacePacket;
-use crate::leave::packets::{self, Towards};
+use crate::leave::packets::{self, SurfaceHits, Towards};
 use crate::query::{Answers, AnyHit, ClosestHit};
 use crate::trace::Coherence;
 use crate::{linear, surface};
@@ -135,7 +135,7 @@ pub(crate) fn shadows(
     level: Level,
     tier: Tier,
     spheres: Spheres<'_>,
-    hit: (&[RayPacket], &[HitPacket], &[SurfacePacket]),
+    hit: SurfaceHits<'_>,
     towards: Towards,
     shadow_rays: &mut [RayPacket],
 ) {

@@ -22,6 +22,13 @@ pub enum Towards {
     Point(Vec3),
 }
 
+/// The rays of a packet, what they hit, and the surfaces there.
+pub type SurfaceHit<'a, A = [f32; 16]> = (&'a RayPacket<A>, &'a HitPacket<A>, &'a SurfacePacket<A>);
+
+/// The same of many packets.
+pub type SurfaceHits<'a, A = [f32; 16]> =
+    (&'a [RayPacket<A>], &'a [HitPacket<A>], &'a [SurfacePacket<A>]);
+
 /// Rays to a light from what the rays of a packet hit: from the side of the surface that each came from, if that faces the
 /// light; inactive in the other lanes.
 ///
@@ -50,10 +57,9 @@ pub fn shadow_lanes<L: Lanes>(
     tier: impl Accuracy,
     token: L::Token,
     spheres: Spheres<'_>,
-    hit: (&RayPacket<L::Array>, &HitPacket<L::Array>, &SurfacePacket<L::Array>),
+    (rays, hits, surfaces): SurfaceHit<'_, L::Array>,
     towards: Towards,
 ) -> RayPacket<L::Array> {
-    let (rays, hits, surfaces) = hit;
     tier.with_formula(Shadows::<L> { token, spheres, rays, hits, surfaces, towards })
 }
 
@@ -63,7 +69,7 @@ pub(crate) fn each_packet<L: Lanes>(
     tier: impl Accuracy,
     token: L::Token,
     spheres: Spheres<'_>,
-    hit: (&[RayPacket<L::Array>], &[HitPacket<L::Array>], &[SurfacePacket<L::Array>]),
+    hit: SurfaceHits<'_, L::Array>,
     towards: Towards,
     shadow_rays: &mut [RayPacket<L::Array>],
 ) {
@@ -149,7 +155,7 @@ impl<L: Lanes> TierWork for Shadows<'_, L> {
 fn one_by_one<F: TierFormula, A: LaneArray>(
     mut lanes: u32,
     spheres: Spheres<'_>,
-    (rays, hits, surfaces): (&RayPacket<A>, &HitPacket<A>, &SurfacePacket<A>),
+    (rays, hits, surfaces): SurfaceHit<'_, A>,
     towards: Towards,
     shadow_rays: &mut RayPacket<A>,
 ) {

@@ -13,8 +13,8 @@ use core::hint::black_box;
 use spherule_kernel::{
     AnyHit, Bvh, BvhLeaf, BvhNode, Camera, ClosestHit, DepthList, Hit, HitPacket, Intersect, Lanes,
     Level, Projection, Ray, RayPacket, Side, Sphere, SpherePacket, Spheres, SurfacePacket, Tier,
-    Trace, Vec3, Viewpoint, f32x4, f32x8, f32x16, float_environment_is_sound, pair_lanes,
-    pair_packets, pairs, roots, side, stages, surface, surface_packets,
+    Towards, Trace, Vec3, Viewpoint, f32x4, f32x8, f32x16, float_environment_is_sound, pair_lanes,
+    pair_packets, pairs, roots, shadow_packets, side, stages, surface, surface_packets,
 };
 
 /// What a firmware does in its own way; without `std` there must be one.
@@ -127,6 +127,12 @@ impl Sum {
             let (normal, point) = (surfaces[0].normal(lane), surfaces[0].point(lane));
             self.bits(normal.to_array().map(f32::to_bits));
             self.bits(point.to_array().map(f32::to_bits));
+        }
+        let hit = (&packets as &[_], &hits as &[_], &surfaces as &[_]);
+        let mut shadow_rays = [RayPacket::inactive()];
+        for towards in [Towards::Direction(Vec3::Y), Towards::Point(Vec3::ONE)] {
+            shadow_packets(tier, Level::best(), spheres, hit, towards, &mut shadow_rays);
+            self.bits(shadow_rays[0].ray(1).origin.to_array().map(f32::to_bits));
         }
         let (Some(hit), Some(ray)) = (hits[0].hit(0), rays.first()) else { return };
         let Some(sphere) = spheres.get(hit.sphere as usize) else { return };

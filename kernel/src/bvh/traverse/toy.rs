@@ -112,7 +112,8 @@ impl Case {
     fn leaf<F: Format>(&self, interval: [f64; 2], roots: Option<[f64; 2]>) -> u32 {
         let rays = self.rays::<F>(interval);
         let prepared = PreparedLanes::of_any_length(&rays, 1.0, Some(self.extent));
-        let shift = prepared.time.shift.get();
+        // In multiples of the direction as it was given.
+        let shift = prepared.time.shift.get() / prepared.time.per_t.get();
         assert_eq!(shift > 0.0, self.extent < ENDLESS, "{self:?}");
         let center = [self.c[0], self.c[1], 0].map(|x| Toy::new(x as f64));
         let pass = Pass::new(
