@@ -31,8 +31,9 @@ fn used<A: TierFormula>(numbers: &Numbers, which: usize) -> f64 {
     let limit = roots[which];
     let told = beyond.limit(&rays, sphere.center.to_array(), sphere.radius, limit);
     assert!(!told, "{} at {limit:e} is dropped: {numbers:?}", A::TIER.as_str());
-    let terms = beyond.terms(&rays, sphere.center.to_array(), sphere.radius, limit);
-    let [end, size, b, _] = terms.map(f64::from);
+    let (p, size) = beyond.size(&rays, sphere.center.to_array(), sphere.radius);
+    let [end, b, _] = beyond.terms(p, sphere.radius, limit).map(f64::from);
+    let size = f64::from(size);
     let entry = b - discriminant(&line, &sphere).max(0.0).sqrt() / per_t(&beyond);
     let used = (entry - end - f64::from(LEAST_A)) / ((size + end.abs()) * f64::from(MARGIN));
     if used.is_nan() { f64::NEG_INFINITY } else { used }
@@ -58,8 +59,9 @@ fn raised(numbers: &Numbers) -> f64 {
     let (line, sphere) = case(numbers);
     let rays = RayLanes::<f32>::load((), &RayPacket::<[f32; 1]>::new(&[line]));
     let beyond = Beyond::new(&rays);
-    let terms = beyond.terms(&rays, sphere.center.to_array(), sphere.radius, 0.0);
-    let [_, size, _, computed] = terms.map(f64::from);
+    let (p, size) = beyond.size(&rays, sphere.center.to_array(), sphere.radius);
+    let [_, _, computed] = beyond.terms(p, sphere.radius, 0.0).map(f64::from);
+    let size = f64::from(size);
     let truth = discriminant(&line, &sphere) / (per_t(&beyond) * per_t(&beyond));
     let error = truth - computed - f64::from(LEAST_A);
     let used = error / (size * size * f64::from(RAISE));
