@@ -9,6 +9,8 @@ use spherule_tests::random::{Random, power_of_two};
 use spherule_tests::ulp::step;
 use spherule_tests::variants::{Storey, shadow_rays_of, surface_storeys};
 use std::cmp::Ordering;
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
+use std::thread::{available_parallelism, scope};
 
 /// The side in integers.
 fn true_side(point: Vec3, sphere: &Sphere) -> Option<Side> {
@@ -192,13 +194,27 @@ fn no_tier_meets_the_sphere_where_a_ray_leaves_it() {
     leaves_unmet(Tier::Exact, 33, 600_000);
 }
 
-/// Some half an hour: `cargo test --test main a_billion -- --ignored`.
+/// Some half an hour: `cargo test --test main a_billion -- --ignored --nocapture`.
 #[test]
 #[ignore = "a billion rays"]
 fn a_billion_rays_leave() {
-    for seed in 0..2000 {
-        leaves_unmet(Tier::Exact, 1000 + seed, 500_000);
-    }
+    let (next, left) = (AtomicU64::new(0), AtomicU64::new(0));
+    let work = || {
+        loop {
+            let seed = next.fetch_add(1, Relaxed);
+            if seed >= 2000 {
+                return;
+            }
+            let more = u64::from(leaves_unmet(Tier::Exact, 1000 + seed, 500_000));
+            let so_far = left.fetch_add(more, Relaxed) + more;
+            if seed % 20 == 0 {
+                println!("{so_far} rays left");
+            }
+        }
+    };
+    let threads = available_parallelism().map_or(1, usize::from);
+    scope(|scope| (0..threads).for_each(|_| drop(scope.spawn(work))));
+    assert!(left.into_inner() >= 1_000_000_000);
 }
 
 /// Spheres that touch, overlap, lie one in the other and twice in one place, moved by `offset`.

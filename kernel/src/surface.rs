@@ -60,15 +60,21 @@ impl TierWork for SurfaceOf<'_> {
 
     fn run<F: TierFormula>(self) -> Surface {
         let Self { ray, t, sphere } = self;
+        self.known::<F>().unwrap_or_else(|| F::surface_at(ray, t, sphere))
+    }
+}
+
+impl SurfaceOf<'_> {
+    /// As lanes know it. (A function of its own: its stack is not that of exact sums.)
+    #[inline(never)]
+    fn known<F: TierFormula>(&self) -> Option<Surface> {
+        let &Self { ray, t, sphere } = self;
         let rays =
             RayLanes::<f32>::load((), &RayPacket::<[f32; 1]>::new(core::slice::from_ref(ray)));
         let center = sphere.center.to_array();
         let (found, known) = F::surfaces::<f32>(&rays, t, center, sphere.radius, true);
-        if !known {
-            return F::surface_at(ray, t, sphere);
-        }
         let [normal, point, rest] = [found.normal, found.point, found.rest].map(Vec3::from_array);
-        Surface { normal, point, rest }
+        known.then_some(Surface { normal, point, rest })
     }
 }
 
