@@ -1,13 +1,13 @@
 //! Rays that leave a sphere: where they start, and that they do not meet it there.
 
+mod shadows;
+
 use spherule_kernel::{
-    Exact, Intersect, Ray, Side, Sphere, SphereList, Surface, Tier, Towards, Vec3, roots, side,
-    surface,
+    Exact, Intersect, Ray, Side, Sphere, SphereList, Surface, Tier, Vec3, roots, side, surface,
 };
 use spherule_tests::oracle::{self, units, units3};
 use spherule_tests::random::{Random, power_of_two};
 use spherule_tests::ulp::step;
-use spherule_tests::variants::{Storey, shadow_rays_of, surface_storeys};
 use std::cmp::Ordering;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use std::thread::{available_parallelism, scope};
@@ -215,129 +215,6 @@ fn a_billion_rays_leave() {
     let threads = available_parallelism().map_or(1, usize::from);
     scope(|scope| (0..threads).for_each(|_| drop(scope.spawn(work))));
     assert!(left.into_inner() >= 1_000_000_000);
-}
-
-/// Spheres that touch, overlap, lie one in the other and twice in one place, moved by `offset`.
-fn crowd(random: &mut Random, offset: Vec3) -> Vec<Sphere> {
-    let mut spheres = vec![Sphere { center: offset - 100.0 * Vec3::Y, radius: 100.0 }];
-    for index in 0..14 {
-        let Sphere { center, radius } = random.pick(&spheres);
-        let sphere = match index % 5 {
-            // As good as touching.
-            0 => {
-                let other = random.between(0.25, 1.5);
-                Sphere { center: center + (radius + other) * random.direction(), radius: other }
-            }
-            1 if index > 5 => Sphere { center, radius },
-            2 if radius < 50.0 => Sphere { center, radius: 0.75 * radius },
-            _ => Sphere {
-                center: offset + random.in_cube(2.0) + Vec3::Y,
-                radius: random.between(0.25, 1.0),
-            },
-        };
-        spheres.push(sphere);
-    }
-    spheres
-}
-
-/// Shadows of such crowds against integers; returns how many there were, and how many rays.
-fn shadows(seed: u64, rays_a_place: u32) -> [u32; 2] {
-    let mut random = Random::seeded(seed);
-    let (mut rays, mut dark) = (0, 0);
-    for place in [0.0, 4096.0, 65_536.0, 262_144.0, 1_048_576.0, 1e7] {
-        let offset = place * Vec3::new(1.0, -0.5, 0.75);
-        // At 10^7 numbers are an ulp of 1 apart: larger spheres.
-        let scale = if place > 1e5 { 4096.0 } else { 1.0 };
-        let spheres: Vec<_> = crowd(&mut random, offset / scale)
-            .into_iter()
-            .map(|Sphere { center, radius }| Sphere {
-                center: scale * center,
-                radius: scale * radius,
-            })
-            .collect();
-        let list = SphereList::from(&spheres[..]);
-        for _ in 0..rays_a_place {
-            let eye = offset + scale * 10_f32.powf(random.between(0.8, 6.0)) * random.direction();
-            let ray = Ray::new(eye, offset + scale * random.in_cube(2.5) - eye);
-            let Some(hit) = list.closest_hit(Exact, &ray) else { continue };
-            let sphere = spheres[hit.sphere as usize];
-            let surface = surface(Exact, &ray, hit.t, &sphere);
-            let inside = surface.normal.dot(ray.direction) > 0.0;
-            let (to, outward) = if inside {
-                (Side::Inside, -surface.normal)
-            } else {
-                (Side::Outside, surface.normal)
-            };
-            let direction = departing(&mut random, outward);
-            let leaving = surface.leave(Exact, &sphere, to, direction).expect("an origin");
-            let others = spheres.iter().enumerate();
-            let met = others
-                .filter(|&(index, _)| index != hit.sphere as usize || to == Side::Inside)
-                .any(|(_, sphere)| oracle::intersect(&leaving, sphere).is_some());
-            assert_eq!(list.any_hit(Exact, &leaving), met, "{leaving:?} of {spheres:?}");
-            rays += 1;
-            dark += u32::from(met);
-        }
-    }
-    [dark, rays]
-}
-
-#[test]
-fn shadows_are_those_of_integers() {
-    let [dark, rays] = shadows(23, 2000);
-    assert!(rays > 4000 && dark > 800 && dark < rays - 800, "{dark} of {rays}");
-}
-
-/// Some ten minutes: `cargo test --test main a_million_shadows -- --ignored --nocapture`.
-#[test]
-#[ignore = "a million shadows"]
-fn a_million_shadows_are_those_of_integers() {
-    let of_all = (0..140).map(|seed| shadows(2000 + seed, 2000));
-    let [dark, rays] = of_all.fold([0; 2], |[a, b], [dark, rays]| [a + dark, b + rays]);
-    println!("{dark} of {rays} in shadow");
-    assert!(rays > 1_000_000, "{rays}");
-}
-
-/// Towards a way and a point, from crowds near and far, moved, rays that came from inside among them.
-#[test]
-fn shadow_rays_of_packets_are_those_of_one_ray() {
-    let mut random = Random::seeded(24);
-    let mut left = 0;
-    for (place, far) in [(0.0, 1.0), (0.0, 4.0), (0.0, 1e6), (65_536.0, 5.0), (0.0, 1e7)] {
-        let offset = place * Vec3::new(1.0, -0.5, 0.75);
-        let spheres = crowd(&mut random, offset);
-        let list = SphereList::from(&spheres[..]);
-        let rays: Vec<_> = (0..600)
-            .map(|_| {
-                let eye = offset + far * random.direction() + Vec3::Y;
-                Ray::new(eye, offset + random.in_cube(2.5) - eye)
-            })
-            .collect();
-        let light = offset + 9.0 * random.direction() + 9.0 * Vec3::Y;
-        for towards in [Towards::Direction(random.direction()), Towards::Point(light)] {
-            for tier in Tier::ALL {
-                let of = |storey| {
-                    let rays = shadow_rays_of(tier, storey, &list, &rays, towards);
-                    let bits = |v: Vec3| v.to_array().map(f32::to_bits);
-                    let all = |ray: Ray| {
-                        let interval = [ray.t_min, ray.t_max].map(f32::to_bits);
-                        ray.is_live().then(|| (bits(ray.origin), bits(ray.direction), interval))
-                    };
-                    rays.into_iter().take(600).map(all).collect::<Vec<_>>()
-                };
-                let expected = of(Storey::Ray);
-                left += expected.iter().flatten().count();
-                for storey in surface_storeys() {
-                    let found = of(storey);
-                    for index in 0..600 {
-                        let say = (tier, storey, far, &rays[index]);
-                        assert_eq!(found[index], expected[index], "{say:?} {towards:?}");
-                    }
-                }
-            }
-        }
-    }
-    assert!(left > 3000, "{left}");
 }
 
 #[test]

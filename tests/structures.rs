@@ -7,6 +7,7 @@ mod far;
 mod limits;
 mod scales;
 mod scenes;
+mod sizes;
 mod viewpoints;
 mod worst_cases;
 

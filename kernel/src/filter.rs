@@ -100,7 +100,12 @@ impl Frame {
     /// Around a point among the spheres of a block, that one sphere far away cannot move far: coordinate by
     /// coordinate the median of three of them; scaled so that the median of their sizes is some 1, or, if rays that
     /// start at `far` would be out of range then, so that `far` is. Any finite point, and any scale, would be right.
-    fn of(spheres: &impl SphereRun, first: usize, underflow: Underflow, far: f32) -> Self {
+    fn of(
+        spheres: &(impl SphereRun + ?Sized),
+        first: usize,
+        underflow: Underflow,
+        far: f32,
+    ) -> Self {
         let count = (spheres.count() - first).min(BLOCK_SPHERES);
         let samples = [0, count / 2, count.saturating_sub(1)]
             .map(|offset| spheres.sphere(first + offset).unwrap_or(Sphere::from([0.0; 4])));
@@ -139,7 +144,11 @@ pub(crate) struct FilterBlock {
 
 impl FilterBlock {
     /// Spheres `first ..` of the list, as many as a block takes.
-    pub(crate) fn new(spheres: &impl SphereRun, first: usize, underflow: Underflow) -> Self {
+    pub(crate) fn new(
+        spheres: &(impl SphereRun + ?Sized),
+        first: usize,
+        underflow: Underflow,
+    ) -> Self {
         Self::in_frame(spheres, first, Frame::of(spheres, first, underflow, 0.0), KAPPA)
     }
 
@@ -155,7 +164,7 @@ impl FilterBlock {
     #[inline(always)]
     pub(crate) fn see<L: Lanes>(
         &mut self,
-        spheres: &impl SphereRun,
+        spheres: &(impl SphereRun + ?Sized),
         first: usize,
         underflow: Underflow,
         rays: &RayLanes<L>,
@@ -168,7 +177,12 @@ impl FilterBlock {
         }
     }
 
-    fn in_frame(spheres: &impl SphereRun, first: usize, frame: Frame, kappa: f32) -> Self {
+    fn in_frame(
+        spheres: &(impl SphereRun + ?Sized),
+        first: usize,
+        frame: Frame,
+        kappa: f32,
+    ) -> Self {
         let mut groups = [FilterGroup::EMPTY; BLOCK];
         let mut count = 0;
         for (group, start) in groups.iter_mut().zip((first..spheres.count()).step_by(GROUP)) {

@@ -178,10 +178,16 @@ impl Surface {
             if side(origin, sphere) == Some(to) && !sees_start(tier, &ray, sphere, to, outward) {
                 return Some(ray);
             }
-            steps = if steps == 0.0 { 0.5 } else { 2.0 * steps };
+            steps = next(steps);
         }
         None
     }
+}
+
+/// How many steps from the surface the next origin is tried: 0, 1/2, 1, 2, 4 ...
+#[inline(always)]
+fn next(steps: f64) -> f64 {
+    if steps > 0.0 { 2.0 * steps } else { 0.5 }
 }
 
 /// 2^-20: the cosine from which on a ray goes back.

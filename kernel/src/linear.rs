@@ -39,17 +39,18 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
             for answer in answers.iter_mut() {
                 *answer = Q::none::<L::Array>();
             }
-            meet::<L, Q, _>(tier, token, &spheres, rays, answers);
+            meet::<L, Q, Spheres<'_>>(tier, token, &spheres, rays, answers);
         },
     );
 }
 
-/// Answers every ray by some spheres of a list alone, as [`traverse`] does by all.
+/// Answers every ray by some spheres of a list alone, as [`traverse`] does by all. (Compiled once for all kinds of runs,
+/// and the test of a group for runs and whole lists: else the kernel takes half as long again to compile.)
 #[inline(always)]
 pub(crate) fn traverse_some<L: Lanes, Q: Query>(
     tier: impl Accuracy,
     token: L::Token,
-    spheres: &impl SphereRun,
+    spheres: &dyn SphereRun,
     rays: &[RayPacket<L::Array>],
     answers: &mut [Q::Packet<L::Array>],
 ) {
@@ -60,14 +61,14 @@ pub(crate) fn traverse_some<L: Lanes, Q: Query>(
             for answer in answers.iter_mut() {
                 *answer = Q::none::<L::Array>();
             }
-            meet::<L, Q, _>(tier, token, spheres, rays, answers);
+            meet::<L, Q, dyn SphereRun + '_>(tier, token, spheres, rays, answers);
         },
     );
 }
 
 /// Takes what is closer than the answers so far.
 #[inline(always)]
-fn meet<L: Lanes, Q: Query, S: SphereRun>(
+fn meet<L: Lanes, Q: Query, S: SphereRun + ?Sized>(
     tier: impl Accuracy,
     token: L::Token,
     spheres: &S,
@@ -84,43 +85,44 @@ fn meet<L: Lanes, Q: Query, S: SphereRun>(
         |answer| Q::done::<L>(token, answer),
         #[inline(always)]
         |answer, candidates| {
-            tier.with_formula(GroupTest::<L, Q, S> { token, candidates, answer });
+            tier.with_formula(GroupTest::<L, Q> { token, candidates, answer });
         },
     );
 }
 
 /// A packet, and a group of spheres that the filter could not rule out for it.
 #[derive(Clone, Copy)]
-pub(crate) struct Candidates<'a, L: Lanes, S> {
+pub(crate) struct Candidates<'a, L: Lanes> {
     pub(crate) packet: &'a RayPacket<L::Array>,
     pub(crate) rays: &'a RayLanes<L>,
     pub(crate) filter: &'a FilterRays<L>,
     pub(crate) group: &'a FilterGroup,
-    pub(crate) spheres: &'a S,
-    /// The number of the group's first sphere.
-    pub(crate) first: usize,
+    /// The list that they are of.
+    pub(crate) spheres: Spheres<'a>,
+    /// Their indices; that of no sphere where there is none.
+    pub(crate) indices: [u32; GROUP],
 }
 
-impl<L: Lanes, S: SphereRun> Candidates<'_, L, S> {
-    /// A sphere of the group, and its index; `None` past the last.
+impl<L: Lanes> Candidates<'_, L> {
+    /// A sphere of the group, and its index; `None` where there is none.
     #[inline(always)]
     pub(crate) fn sphere(&self, slot: usize) -> Option<(Sphere, u32)> {
-        let number = self.first + slot;
-        Some((self.spheres.sphere(number)?, self.spheres.index(number)))
+        let index = self.indices[slot];
+        Some((self.spheres.get(index as usize)?, index))
     }
 }
 
 /// Calls `test` for each packet and group of spheres that the filter does not rule out, until
 /// all of the packet's live lanes are `done`.
 #[inline(always)]
-pub(crate) fn for_candidates<L: Lanes, R, S: SphereRun>(
+pub(crate) fn for_candidates<L: Lanes, R, S: SphereRun + ?Sized>(
     token: L::Token,
     rays: &[RayPacket<L::Array>],
     results: &mut [R],
     spheres: &S,
     underflow: Underflow,
     done: impl Fn(&R) -> L::Mask,
-    test: impl Fn(&mut R, Candidates<'_, L, S>),
+    test: impl Fn(&mut R, Candidates<'_, L>),
 ) {
     // Nothing is prepared for nobody: a depth list comes here with every run of packets that do not fit, most of them empty.
     let spheres_to_meet = if rays.is_empty() { 0 } else { spheres.count() };
@@ -140,10 +142,16 @@ pub(crate) fn for_candidates<L: Lanes, R, S: SphereRun>(
             let mut first = first;
             for group in block.groups() {
                 if filter.may_meet_any(group) {
-                    test(
-                        result,
-                        Candidates { packet, rays: &rays, filter: &filter, group, spheres, first },
-                    );
+                    let indices = [0, 1, 2, 3].map(|slot| spheres.index(first + slot));
+                    let candidates = Candidates {
+                        packet,
+                        rays: &rays,
+                        filter: &filter,
+                        group,
+                        spheres: spheres.list(),
+                        indices,
+                    };
+                    test(result, candidates);
                     let live = rays.live & !done(result);
                     if !live.any() {
                         break;
@@ -157,13 +165,13 @@ pub(crate) fn for_candidates<L: Lanes, R, S: SphereRun>(
 }
 
 /// Tests the spheres of a group that the filter does not rule out one by one.
-pub(crate) struct GroupTest<'a, 'b, L: Lanes, Q: Query, S> {
+pub(crate) struct GroupTest<'a, 'b, L: Lanes, Q: Query> {
     pub(crate) token: L::Token,
-    pub(crate) candidates: Candidates<'b, L, S>,
+    pub(crate) candidates: Candidates<'b, L>,
     pub(crate) answer: &'a mut Q::Packet<L::Array>,
 }
 
-impl<L: Lanes, Q: Query, S: SphereRun> TierWork for GroupTest<'_, '_, L, Q, S> {
+impl<L: Lanes, Q: Query> TierWork for GroupTest<'_, '_, L, Q> {
     type Output = ();
 
     #[inline(always)]
@@ -177,7 +185,7 @@ impl<L: Lanes, Q: Query, S: SphereRun> TierWork for GroupTest<'_, '_, L, Q, S> {
     }
 }
 
-impl<L: Lanes, Q: Query, S: SphereRun> GroupTest<'_, '_, L, Q, S> {
+impl<L: Lanes, Q: Query> GroupTest<'_, '_, L, Q> {
     #[inline(always)]
     fn test<F: TierFormula>(self) {
         let Self { token, candidates, answer } = self;
@@ -187,7 +195,7 @@ impl<L: Lanes, Q: Query, S: SphereRun> GroupTest<'_, '_, L, Q, S> {
         // Keeping this from one group to the next costs Fast 6 % and gains the others 2 %.
         let prepared = F::prepare(rays);
         for slot in 0..GROUP {
-            let Some((sphere, index)) = candidates.sphere(slot) else { return };
+            let Some((sphere, index)) = candidates.sphere(slot) else { continue };
             let asked = rays.live & filter.may_meet(group, slot);
             if sphere.is_valid() && asked.any() {
                 let center = axes!(i => L::splat(token, sphere.center[i]));
@@ -197,14 +205,7 @@ impl<L: Lanes, Q: Query, S: SphereRun> GroupTest<'_, '_, L, Q, S> {
                 if F::ORDERS_ROOTS && !Q::ANY {
                     let tied = (t.le(limits) & limits.le(t) & t.lt(infinity)).bits();
                     if tied != 0 {
-                        take_closer::<F, L, Q>(
-                            packet,
-                            spheres.list(),
-                            index,
-                            tied,
-                            &t.store(),
-                            answer,
-                        );
+                        take_closer::<F, L, Q>(packet, spheres, index, tied, &t.store(), answer);
                     }
                 }
                 limits = Q::accept::<L>(answer, index, t, limits);

@@ -65,7 +65,7 @@ pub fn stages<Q: Query>(_query: Q, rays: &[RayPacket], spheres: Spheres<'_>) -> 
             |(answer, _)| Q::done::<f32x16>((), answer),
             |(answer, stages), candidates| {
                 count::<f32x16, Q>((), candidates, answer, stages);
-                GroupTest::<f32x16, Q, _> { token: (), candidates, answer }.run::<Exact>();
+                GroupTest::<f32x16, Q> { token: (), candidates, answer }.run::<Exact>();
             },
         );
         sum += counted[0].1;
@@ -77,14 +77,14 @@ pub fn stages<Q: Query>(_query: Q, rays: &[RayPacket], spheres: Spheres<'_>) -> 
 /// do when it is.
 fn count<L: Lanes, Q: Query>(
     token: L::Token,
-    candidates: Candidates<'_, L, Spheres<'_>>,
+    candidates: Candidates<'_, L>,
     answer: &Q::Packet<L::Array>,
     stages: &mut Stages,
 ) {
     let Candidates { rays, filter, group, .. } = candidates;
     let mut limit = Q::limits::<L>(token, answer);
     for slot in 0..GROUP {
-        let Some((sphere, _)) = candidates.sphere(slot) else { return };
+        let Some((sphere, _)) = candidates.sphere(slot) else { continue };
         let asked = rays.live & filter.may_meet(group, slot);
         if !sphere.is_valid() || !asked.any() {
             continue;

@@ -1,17 +1,15 @@
 //! Nothing depends on the units: a scene, or the directions of its rays, multiplied by powers of two have the answers
-//! multiplied, and cost the same; spheres of all sizes in one scene cost no more than brute force.
+//! multiplied, and cost the same.
 
 use super::counted::{COUNT, Counted, operations};
 use super::scenes::{EYE, camera, point, uniform, unit};
 use super::{BOTH, EXACT};
-use proptest::prelude::*;
 use spherule_kernel::{
     Coherence, DepthList, HitPacket, Intersect, Ray, RayPacket, Sphere, SphereList, SphereTree,
     Tier, Trace, Vec3, Viewpoint,
 };
-use spherule_tests::inputs;
 use spherule_tests::random::{Random, power_of_two};
-use spherule_tests::variants::{assert_same, assert_same_from, bits, brute, difference};
+use spherule_tests::variants::{assert_same, bits, brute};
 
 /// Exponents of scenes: what structures saw before scaling ended at 2^40 and 2^-58.
 const SCENES: [i64; 9] = [-100, -75, -60, -41, 0, 41, 64, 75, 100];
@@ -22,7 +20,7 @@ fn times(vector: Vec3, exponent: i64) -> Vec3 {
     Vec3::from_array(vector.to_array().map(|x| (f64::from(x) * power_of_two(exponent)) as f32))
 }
 
-fn scaled(spheres: &[Sphere], exponent: i64) -> Vec<Sphere> {
+pub(super) fn scaled(spheres: &[Sphere], exponent: i64) -> Vec<Sphere> {
     let radius = |r: f32| (f64::from(r) * power_of_two(exponent)) as f32;
     let scaled =
         |s: &Sphere| Sphere { center: times(s.center, exponent), radius: radius(s.radius) };
@@ -30,22 +28,22 @@ fn scaled(spheres: &[Sphere], exponent: i64) -> Vec<Sphere> {
 }
 
 /// Origins by one power of two, directions by another.
-fn scaled_rays(rays: &[Ray], exponent: i64, length: i64) -> Vec<Ray> {
+pub(super) fn scaled_rays(rays: &[Ray], exponent: i64, length: i64) -> Vec<Ray> {
     let scaled = |ray: &Ray| Ray::new(times(ray.origin, exponent), times(ray.direction, length));
     rays.iter().map(scaled).collect()
 }
 
 /// From everywhere, to everywhere.
-fn diffuse(count: usize) -> Vec<Ray> {
+pub(super) fn diffuse(count: usize) -> Vec<Ray> {
     let mut random = Random::new(100, 0);
     (0..count).map(|_| Ray::new(point(&mut random, 1.0), unit(&mut random))).collect()
 }
 
 /// A structure, and what is said of the rays.
-const WAYS: [&str; 4] = ["list", "depth list", "packets", "ray by ray"];
+pub(super) const WAYS: [&str; 4] = ["list", "depth list", "packets", "ray by ray"];
 
 /// How many operations each way takes to answer the rays, closest hit and any hit.
-fn costs(tier: Tier, spheres: &[Sphere], rays: &[Ray]) -> [[u64; 2]; 4] {
+pub(super) fn costs(tier: Tier, spheres: &[Sphere], rays: &[Ray]) -> [[u64; 2]; 4] {
     let list = SphereList::from(spheres);
     let tree = SphereTree::new(list.clone());
     let mut memory = vec![0.0; DepthList::needed(spheres.len())];
@@ -183,148 +181,6 @@ fn scaled_scenes_have_scaled_answers() {
                     assert_eq!(bits(*found), expected, "{tier:?}, 2^{exponent}, |d| 2^{length}");
                 }
             }
-        }
-    }
-}
-
-/// Scenes of many sizes.
-fn mixed(random: &mut Random) -> Vec<(&'static str, Vec<Sphere>)> {
-    let ground = |exponent: i64| {
-        let radius = power_of_two(exponent) as f32;
-        Sphere { center: Vec3::new(0.0, -1.5 * radius, 0.0), radius }
-    };
-    let with = |sphere: Sphere| {
-        let mut spheres = uniform(1000);
-        spheres.insert(500, sphere);
-        spheres
-    };
-    let half = |exponent: i64| {
-        let mut spheres = uniform(1000);
-        let others = scaled(&spheres, exponent);
-        for place in (0..1000).step_by(2) {
-            spheres[place] = others[place];
-        }
-        spheres
-    };
-    let every = uniform(1000);
-    let every = every.chunks(1).flat_map(|sphere| scaled(sphere, random.integer(-120, 120)));
-    vec![
-        ("one of 2^60", with(ground(60))),
-        ("one of 2^100", with(ground(100))),
-        ("one of 2^-100", with(Sphere { center: Vec3::ZERO, radius: 1e-30 })),
-        ("half 2^60 times as large", half(60)),
-        ("half 2^100 times as large", half(100)),
-        ("half 2^-100 times as large", half(-100)),
-        ("every size", every.collect()),
-    ]
-}
-
-/// Rays among spheres of that size.
-fn rays_there(exponent: i64) -> Vec<Ray> {
-    let mut rays = camera(EYE, Vec3::ZERO, 0.364, 16);
-    rays.extend(diffuse(128));
-    scaled_rays(&rays, exponent, 0)
-}
-
-#[test]
-fn scenes_that_mix_sizes() {
-    for (name, spheres) in mixed(&mut Random::new(102, 0)) {
-        for exponent in [0, 60, 100, -100] {
-            let rays = rays_there(exponent);
-            assert_same(EXACT, &rays, &spheres);
-            for direction in [Vec3::Z, Vec3::new(1.0, 2.0, 2.0)] {
-                let parallel: Vec<Ray> = rays.iter().map(|ray| Ray { direction, ..*ray }).collect();
-                assert_same_from(Viewpoint::Direction(direction), EXACT, &parallel, &spheres);
-            }
-            // Not those of a common origin: diffuse rays fit no depth list.
-            let costs = costs(Tier::Exact, &spheres, &rays[..256]);
-            let [list, others @ ..] = costs;
-            for (way, cost) in WAYS.iter().skip(1).zip(others) {
-                for query in 0..2 {
-                    let ratio = cost[query] as f64 / list[query] as f64;
-                    println!("{name}, rays at 2^{exponent}, {way}: {ratio:.3} of the list's");
-                    assert!(ratio <= 1.1, "{name}, rays at 2^{exponent}, {way}: {ratio:.2}");
-                }
-            }
-        }
-    }
-}
-
-/// A sphere that no bound sees costs what it costs in a list: the others are not met one by one for it.
-#[test]
-fn one_large_sphere_leaves_the_others_in_the_tree() {
-    let rays = camera(EYE, Vec3::ZERO, 0.364, 16);
-    let plain = costs(Tier::Exact, &uniform(1000), &rays);
-    for (name, spheres) in mixed(&mut Random::new(102, 0)).iter().take(3) {
-        let costs = costs(Tier::Exact, spheres, &rays);
-        for (way, (cost, plain)) in WAYS.iter().zip(costs.iter().zip(plain)) {
-            for query in 0..2 {
-                let ratio = cost[query] as f64 / plain[query] as f64;
-                println!("{name}, {way}: {ratio:.3}");
-                assert!(ratio <= 1.3, "{name}, {way}: {ratio:.2}");
-            }
-        }
-    }
-}
-
-/// An output that is shorter than the rays, of a scene with spheres that no bound sees.
-#[test]
-fn shorter_outputs() {
-    let (_, spheres) = mixed(&mut Random::new(102, 0)).swap_remove(1);
-    let (tree, rays) = (SphereTree::new(spheres.as_slice()), rays_there(0));
-    let packets: Vec<_> = rays.chunks(16).map(RayPacket::<[f32; 16]>::new).collect();
-    let ask = |coherence: Coherence, count: usize| {
-        let mut trace = Trace { coherence, ..Trace::new() };
-        let (mut hits, mut met) = (vec![HitPacket::none(); count], vec![u32::MAX; count]);
-        tree.closest_hit_packets(Tier::Exact, &mut trace, &packets, &mut hits);
-        tree.any_hit_packets(Tier::Exact, &mut trace, &packets, &mut met);
-        (hits, met)
-    };
-    for coherence in [Coherence::Coherent, Coherence::Incoherent] {
-        let (all, met) = ask(coherence, packets.len());
-        let (some, some_met) = ask(coherence, 5);
-        assert_eq!((&some[..], &some_met[..]), (&all[..5], &met[..5]), "{coherence:?}");
-    }
-}
-
-fn exponent() -> impl Strategy<Value = i64> {
-    prop_oneof![4 => Just(0_i64), 2 => -100_i64..=100, 1 => -149_i64..=127]
-}
-
-proptest! {
-    #![proptest_config(inputs::config(150))]
-
-    /// Spheres and rays of any size, directions of any length, and intervals of both.
-    #[test]
-    fn any_sizes_in_one_scene(
-        seed in any::<u64>(),
-        sizes in prop::collection::vec(exponent(), 1..4),
-        lengths in prop::collection::vec(exponent(), 1..4),
-        parallel in any::<bool>(),
-    ) {
-        let mut random = Random::new(103, seed);
-        let mut spheres = uniform(60);
-        for sphere in &mut spheres {
-            *sphere = scaled(&[*sphere], random.pick(&sizes))[0];
-        }
-        let mut rays = camera(EYE, Vec3::ZERO, 0.364, 4);
-        rays.extend(diffuse(16));
-        for ray in &mut rays {
-            *ray = scaled_rays(&[*ray], random.pick(&sizes), random.pick(&lengths))[0];
-            if random.one_in(4) {
-                ray.t_min = random.pick(&[f32::NEG_INFINITY, -1.0, 0.0, 1e-45, 1e-30, 1.0, 1e30]);
-                ray.t_max = random.pick(&[f32::INFINITY, 0.0, 1.0, 1e-45, 1e-30, 1e30, f32::MAX]);
-            }
-        }
-        let first = rays[0];
-        let viewpoint = if parallel {
-            rays.iter_mut().for_each(|ray| ray.direction = first.direction);
-            Viewpoint::Direction(first.direction)
-        } else {
-            Viewpoint::Origin(first.origin)
-        };
-        if let Some(difference) = difference(EXACT, &rays, &spheres, viewpoint) {
-            return Err(TestCaseError::fail(difference));
         }
     }
 }

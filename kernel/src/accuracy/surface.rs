@@ -201,7 +201,7 @@ pub(super) fn rest<D: DoubleLanes>(value: D) -> D {
     value - (scaled - (scaled - value))
 }
 
-/// Where rays hit spheres of positive radius at `t`, in double precision.
+/// Where rays hit spheres of positive radius at `t`, in double precision: compiled once for the tiers that share it.
 #[inline(always)]
 pub(super) fn in_lanes<L: Lanes>(
     rays: &RayLanes<L>,
@@ -209,6 +209,15 @@ pub(super) fn in_lanes<L: Lanes>(
     center: [L; 3],
     radius: L,
 ) -> SurfaceLanes<L> {
+    L::out_of_line(
+        t.token(),
+        #[inline(always)]
+        || projected(rays, t, center, radius),
+    )
+}
+
+#[inline(always)]
+fn projected<L: Lanes>(rays: &RayLanes<L>, t: L, center: [L; 3], radius: L) -> SurfaceLanes<L> {
     let zeros = L::Array::filled(0.0);
     let mut surfaces = [[zeros; 3]; 3];
     for part in 0..L::PARTS {

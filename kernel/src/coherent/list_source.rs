@@ -217,7 +217,13 @@ impl ListSource<'_> {
         token: L::Token,
         packet: &'a RayPacket<L::Array>,
     ) -> PacketState<'a, L> {
-        let rays = RayLanes::load(token, packet);
-        PacketState::new(packet, &self.view.scaled_in_frame(&rays, self.list.scale.factor))
+        L::out_of_line(
+            token,
+            #[inline(always)]
+            || {
+                let rays = RayLanes::load(token, packet);
+                PacketState::new(packet, &self.view.scaled_in_frame(&rays, self.list.scale.factor))
+            },
+        )
     }
 }

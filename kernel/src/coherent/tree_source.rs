@@ -103,7 +103,8 @@ fn by_rays<L: Lanes, Q: Query>(
     }
 }
 
-/// The packets of a group; those past its end are `nobody`.
+/// The packets of a group; those past its end are `nobody`. (In a loop, or by a function of its own, the kernel takes a
+/// twentieth less to compile, and a tenth longer on u10k.)
 #[inline(always)]
 fn states_of<'a, L: Lanes>(
     token: L::Token,

@@ -3,15 +3,15 @@
 use super::sphere::{Sphere, Spheres};
 
 /// Spheres of a list that are tested one after the other, by rising index: all, or some of them.
-pub(crate) trait SphereRun: Copy {
+pub(crate) trait SphereRun {
     /// The list that they are of.
     fn list(&self) -> Spheres<'_>;
     /// How many.
     fn count(&self) -> usize;
-    /// The index of number `number`; that of no sphere past the last.
+    /// The index of number `number`; that of no sphere where there is none.
     fn index(&self, number: usize) -> u32;
 
-    /// Sphere `number`; `None` past the last.
+    /// Sphere `number`; `None` where there is none.
     #[inline(always)]
     fn sphere(&self, number: usize) -> Option<Sphere> {
         self.list().get(self.index(number) as usize)
@@ -32,10 +32,5 @@ impl SphereRun for Spheres<'_> {
     #[inline(always)]
     fn index(&self, number: usize) -> u32 {
         number as u32
-    }
-
-    #[inline(always)]
-    fn sphere(&self, number: usize) -> Option<Sphere> {
-        self.get(number)
     }
 }

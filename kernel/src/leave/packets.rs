@@ -2,8 +2,8 @@
 //!
 //! Steps are tried in double-precision lanes; a ray that these cannot decide goes on alone.
 
-use super::{Side, U, power_of, start_of, step_of};
-use crate::accuracy::{Accuracy, RayLanes, Tier, TierFormula, TierWork};
+use super::{Side, U, next, power_of, start_of, step_of};
+use crate::accuracy::{Accuracy, RayLanes, Tier, test_lanes};
 use crate::geometry::hit::HitPacket;
 use crate::geometry::ray::{Ray, RayPacket};
 use crate::geometry::sphere::Spheres;
@@ -60,8 +60,51 @@ pub fn shadow_lanes<L: Lanes>(
     (rays, hits, surfaces): SurfaceHit<'_, L::Array>,
     towards: Towards,
 ) -> RayPacket<L::Array> {
-    tier.with_formula(Shadows::<L> { token, spheres, rays, hits, surfaces, towards })
+    let Some(HitSpheres { center, radius, hit }) = HitSpheres::gather(token, spheres, hits) else {
+        return RayPacket::inactive();
+    };
+    let departure = Departure::<L>::new(rays, surfaces, center, radius);
+    let (zero, none) = (radius.like(0.0), L::mask(token, 0));
+    let from = departure.origin(surfaces, zero, 0.0);
+    let step = departure.step(from);
+    let faces = departure.faces(direction_from(from, towards));
+
+    let (mut waiting, mut left, mut alone) = (L::mask(token, hit) & faces, none, none);
+    let (mut origin, mut direction) = ([zero; 3], [zero; 3]);
+    let mut steps = 0.0;
+    for _ in 0..MOST_TRIES {
+        if !waiting.any() {
+            break;
+        }
+        let tried = departure.try_from(tier, surfaces, step, steps, towards, waiting);
+        let taken = waiting & tried.leaves;
+        for i in 0..3 {
+            origin[i] = L::select(taken, tried.origin[i], origin[i]);
+            direction[i] = L::select(taken, tried.direction[i], direction[i]);
+        }
+        left = left | taken;
+        alone = alone | (waiting & tried.unknown);
+        waiting = waiting & !taken & !tried.unknown;
+        steps = next(steps);
+    }
+
+    let end = if let Towards::Point(_) = towards { 1.0 } else { f32::INFINITY };
+    let mut shadow_rays = RayPacket {
+        origin: axes!(i => origin[i].store()),
+        direction: axes!(i => direction[i].store()),
+        t_min: L::select(left, start_of(direction, radius), zero.like(f32::INFINITY)).store(),
+        t_max: L::select(left, zero.like(end), zero.like(f32::NEG_INFINITY)).store(),
+    };
+    let alone = (alone | waiting).bits();
+    if alone != 0 {
+        let hit = (rays, hits, surfaces);
+        one_by_one(tier.tier(), alone, spheres, hit, towards, &mut shadow_rays);
+    }
+    shadow_rays
 }
+
+/// How many origins are tried in lanes.
+const MOST_TRIES: u32 = 8;
 
 /// [`shadow_lanes`], packet by packet.
 #[inline(always)]
@@ -82,77 +125,11 @@ pub(crate) fn each_packet<L: Lanes>(
     }
 }
 
-/// The arguments of [`shadow_lanes`].
-struct Shadows<'a, L: Lanes> {
-    token: L::Token,
-    spheres: Spheres<'a>,
-    rays: &'a RayPacket<L::Array>,
-    hits: &'a HitPacket<L::Array>,
-    surfaces: &'a SurfacePacket<L::Array>,
-    towards: Towards,
-}
-
-/// How many steps from the surface each try is.
-const STEPS: [f64; 8] = [0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0];
-
-impl<L: Lanes> TierWork for Shadows<'_, L> {
-    type Output = RayPacket<L::Array>;
-
-    #[inline(always)]
-    fn run<F: TierFormula>(self) -> RayPacket<L::Array> {
-        let Self { token, spheres, rays, hits, surfaces, towards } = self;
-        let Some(HitSpheres { center, radius, hit }) = HitSpheres::gather(token, spheres, hits)
-        else {
-            return RayPacket::inactive();
-        };
-        let departure = Departure::<L>::new(rays, surfaces, center, radius);
-        let from = departure.origin(surfaces, radius.like(0.0), 0.0);
-        let step = departure.step(from);
-        let faces = departure.faces(direction_from(from, towards));
-
-        let (zero, none) = (radius.like(0.0), L::mask(token, 0));
-        let (mut waiting, mut left, mut alone) = (L::mask(token, hit) & faces, none, none);
-        let (mut origin, mut direction) = ([zero; 3], [zero; 3]);
-        for steps in STEPS {
-            if !waiting.any() {
-                break;
-            }
-            let tried = departure.try_from::<F>(surfaces, step, steps, towards, waiting);
-            let taken = waiting & tried.leaves;
-            for i in 0..3 {
-                origin[i] = L::select(taken, tried.origin[i], origin[i]);
-                direction[i] = L::select(taken, tried.direction[i], direction[i]);
-            }
-            left = left | taken;
-            alone = alone | (waiting & tried.unknown);
-            waiting = waiting & !taken & !tried.unknown;
-        }
-
-        let end = if let Towards::Point(_) = towards { 1.0 } else { f32::INFINITY };
-        let mut shadow_rays = RayPacket {
-            origin: axes!(i => origin[i].store()),
-            direction: axes!(i => direction[i].store()),
-            t_min: L::select(left, start_of(direction, radius), zero.like(f32::INFINITY)).store(),
-            t_max: L::select(left, zero.like(end), zero.like(f32::NEG_INFINITY)).store(),
-        };
-        let alone = (alone | waiting).bits();
-        if alone != 0 {
-            one_by_one::<F, L::Array>(
-                alone,
-                spheres,
-                (rays, hits, surfaces),
-                towards,
-                &mut shadow_rays,
-            );
-        }
-        shadow_rays
-    }
-}
-
 /// The lanes whose bit is set.
 #[cold]
 #[inline(never)]
-fn one_by_one<F: TierFormula, A: LaneArray>(
+fn one_by_one<A: LaneArray>(
+    tier: Tier,
     mut lanes: u32,
     spheres: Spheres<'_>,
     (rays, hits, surfaces): SurfaceHit<'_, A>,
@@ -168,8 +145,8 @@ fn one_by_one<F: TierFormula, A: LaneArray>(
         let came = rays.ray(lane).direction;
         let side = if surface.normal.dot(came) > 0.0 { Side::Inside } else { Side::Outside };
         let ray = match towards {
-            Towards::Direction(direction) => surface.leave(F::THIS, &sphere, side, direction),
-            Towards::Point(target) => surface.leave_to(F::THIS, &sphere, side, target),
+            Towards::Direction(direction) => surface.leave(tier, &sphere, side, direction),
+            Towards::Point(target) => surface.leave_to(tier, &sphere, side, target),
         };
         shadow_rays.set(lane, &ray.unwrap_or(Ray::INACTIVE));
     }
@@ -252,8 +229,9 @@ impl<L: Lanes> Departure<L> {
 
     /// So many steps from the surface.
     #[inline(always)]
-    fn try_from<F: TierFormula>(
+    fn try_from(
         &self,
+        tier: impl Accuracy,
         surfaces: &SurfacePacket<L::Array>,
         step: L,
         steps: f64,
@@ -281,7 +259,7 @@ impl<L: Lanes> Departure<L> {
         let (inner, outer) = (L::mask(token, inner), L::mask(token, outer));
         let on_side = (self.inside & inner) | (!self.inside & outer);
         let unsure = !(inner | outer);
-        if F::TIER == Tier::Exact {
+        if tier.tier() == Tier::Exact {
             let leaves = on_side & (self.inside | L::mask(token, away));
             return Tried { origin, direction, leaves, unknown: unsure | (on_side & !leaves) };
         }
@@ -296,8 +274,7 @@ impl<L: Lanes> Departure<L> {
             t_max: infinity,
             live: outside,
         };
-        let prepared = F::prepare(&rays);
-        let t = F::first_root(&rays, &prepared, self.center, self.radius, outside, infinity);
+        let t = test_lanes(tier, &rays, self.center, self.radius, outside, infinity);
         let leaves = outside & !t.lt(infinity);
         Tried { origin, direction, leaves, unknown: unsure | (on_side & self.inside) }
     }

@@ -1,7 +1,7 @@
 //! Pairs: one sphere for each ray.
 
 use crate::Accuracy;
-use crate::accuracy::{RayLanes, TierFormula, TierWork, all_finite};
+use crate::accuracy::{RayLanes, all_finite, test_lanes};
 use crate::geometry::hit::HitPacket;
 use crate::geometry::ray::RayPacket;
 use crate::geometry::sphere::SpherePacket;
@@ -28,7 +28,23 @@ pub fn pair_lanes<L: Lanes>(
     rays: &RayPacket<L::Array>,
     spheres: &SpherePacket<L::Array>,
 ) -> HitPacket<L::Array> {
-    tier.with_formula(PairTest::<L> { token, rays, spheres })
+    let rays = RayLanes::<L>::load(token, rays);
+    let center = axes!(i => L::load(token, &spheres.center[i]));
+    let radius = L::load(token, &spheres.radius);
+    let (zero, infinity) = (radius.like(0.0), radius.like(f32::INFINITY));
+    let asked = rays.live & all_finite(center) & zero.le(radius) & radius.lt(infinity);
+    let t = test_lanes(tier, &rays, center, radius, asked, infinity);
+    let mut hits = HitPacket::none();
+    hits.t = t.store();
+    let (met, indices) = (t.lt(infinity).bits(), hits.sphere.as_mut());
+    for lane in 0..L::COUNT {
+        if met >> lane & 1 == 1
+            && let Some(index) = indices.get_mut(lane)
+        {
+            *index = lane as u32;
+        }
+    }
+    hits
 }
 
 /// [`pair_lanes`], packet by packet.
@@ -47,39 +63,5 @@ pub(crate) fn each_pair<L: Lanes>(
         {
             *hits = pair_lanes::<L>(tier, token, rays, spheres);
         }
-    }
-}
-
-/// The arguments of [`pair_lanes`].
-struct PairTest<'a, L: Lanes> {
-    token: L::Token,
-    rays: &'a RayPacket<L::Array>,
-    spheres: &'a SpherePacket<L::Array>,
-}
-
-impl<L: Lanes> TierWork for PairTest<'_, L> {
-    type Output = HitPacket<L::Array>;
-
-    #[inline(always)]
-    fn run<F: TierFormula>(self) -> HitPacket<L::Array> {
-        let Self { token, rays, spheres } = self;
-        let rays = RayLanes::<L>::load(token, rays);
-        let center = axes!(i => L::load(token, &spheres.center[i]));
-        let radius = L::load(token, &spheres.radius);
-        let (zero, infinity) = (radius.like(0.0), radius.like(f32::INFINITY));
-        let asked = rays.live & all_finite(center) & zero.le(radius) & radius.lt(infinity);
-        let t = F::first_root(&rays, &F::prepare(&rays), center, radius, asked, infinity);
-        let t = L::select(asked, t, infinity);
-        let mut hits = HitPacket::none();
-        hits.t = t.store();
-        let (met, indices) = (t.lt(infinity).bits(), hits.sphere.as_mut());
-        for lane in 0..L::COUNT {
-            if met >> lane & 1 == 1
-                && let Some(index) = indices.get_mut(lane)
-            {
-                *index = lane as u32;
-            }
-        }
-        hits
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{Storey, level, levels, packed};
 use spherule_kernel::{
-    HitPacket, Intersect, LaneArray, Lanes, Ray, RayPacket, Side, SphereList, Surface,
+    HitPacket, Intersect, LaneArray, Lanes, Level, Ray, RayPacket, Side, SphereList, Surface,
     SurfacePacket, Tier, Towards, Trace, Vec3, f32x4, f32x8, f32x16, shadow_lanes, shadow_packets,
     surface, surface_lanes, surface_packets,
 };
@@ -13,19 +13,46 @@ pub fn surface_storeys() -> impl Iterator<Item = Storey> {
     lanes.chain([Storey::Ray]).chain(levels().map(Storey::Packets))
 }
 
+/// Rays in packets, what they hit, and the surfaces there.
+struct Packets<A: LaneArray> {
+    rays: Vec<RayPacket<A>>,
+    hits: Vec<HitPacket<A>>,
+    surfaces: Vec<SurfacePacket<A>>,
+}
+
+impl Packets<[f32; 16]> {
+    fn at(level: Level, tier: Tier, list: &SphereList, rays: &[Ray]) -> Self {
+        let rays = packed(rays);
+        let mut hits = vec![HitPacket::none(); rays.len()];
+        list.closest_hit_packets(tier, &mut Trace::new().at(level), &rays, &mut hits);
+        let mut surfaces = vec![SurfacePacket::none(); rays.len()];
+        surface_packets(tier, level, list.spheres(), &rays, &hits, &mut surfaces);
+        Self { rays, hits, surfaces }
+    }
+}
+
+impl<A: LaneArray> Packets<A> {
+    fn of_lanes<L: Lanes<Array = A, Token = ()>>(
+        tier: Tier,
+        list: &SphereList,
+        rays: &[Ray],
+    ) -> Self {
+        let rays = packed(rays);
+        let mut hits = vec![HitPacket::none(); rays.len()];
+        list.closest_hit_lanes::<L>(tier, (), &mut Trace::new(), &rays, &mut hits);
+        let packets = rays.iter().zip(&hits);
+        let surfaces = packets
+            .map(|(rays, hits)| surface_lanes::<L>(tier, (), list.spheres(), rays, hits))
+            .collect();
+        Self { rays, hits, surfaces }
+    }
+}
+
 /// The normal and the point of every ray's closest hit in a list, zeros if there is none.
 #[must_use]
 pub fn surfaces_of(tier: Tier, storey: Storey, list: &SphereList, rays: &[Ray]) -> Vec<[Vec3; 2]> {
     match storey {
-        Storey::Packets(name) => {
-            let (rays, level) = (packed::<[f32; 16]>(rays), level(name));
-            let hits = hits(&rays, |rays, hits| {
-                list.closest_hit_packets(tier, &mut Trace::new().at(level), rays, hits);
-            });
-            let mut surfaces = vec![SurfacePacket::none(); rays.len()];
-            surface_packets(tier, level, list.spheres(), &rays, &hits, &mut surfaces);
-            unpacked(&surfaces)
-        }
+        Storey::Packets(name) => unpacked(&Packets::at(level(name), tier, list, rays).surfaces),
         Storey::Lanes(1) => in_lanes::<f32>(tier, list, rays),
         Storey::Lanes(4) => in_lanes::<f32x4>(tier, list, rays),
         Storey::Lanes(8) => in_lanes::<f32x8>(tier, list, rays),
@@ -43,24 +70,7 @@ pub fn surfaces_of(tier: Tier, storey: Storey, list: &SphereList, rays: &[Ray]) 
 }
 
 fn in_lanes<L: Lanes<Token = ()>>(tier: Tier, list: &SphereList, rays: &[Ray]) -> Vec<[Vec3; 2]> {
-    let rays = packed::<L::Array>(rays);
-    let hits = hits(&rays, |rays, hits| {
-        list.closest_hit_lanes::<L>(tier, (), &mut Trace::new(), rays, hits);
-    });
-    let packets = rays.iter().zip(&hits);
-    let surfaces: Vec<_> = packets
-        .map(|(rays, hits)| surface_lanes::<L>(tier, (), list.spheres(), rays, hits))
-        .collect();
-    unpacked(&surfaces)
-}
-
-fn hits<A: LaneArray>(
-    rays: &[RayPacket<A>],
-    trace: impl FnOnce(&[RayPacket<A>], &mut [HitPacket<A>]),
-) -> Vec<HitPacket<A>> {
-    let mut hits = vec![HitPacket::none(); rays.len()];
-    trace(rays, &mut hits);
-    hits
+    unpacked(&Packets::of_lanes::<L>(tier, list, rays).surfaces)
 }
 
 fn unpacked<A: LaneArray>(surfaces: &[SurfacePacket<A>]) -> Vec<[Vec3; 2]> {
@@ -81,12 +91,8 @@ pub fn shadow_rays_of(
 ) -> Vec<Ray> {
     match storey {
         Storey::Packets(name) => {
-            let (rays, level) = (packed::<[f32; 16]>(rays), level(name));
-            let hits = hits(&rays, |rays, hits| {
-                list.closest_hit_packets(tier, &mut Trace::new().at(level), rays, hits);
-            });
-            let mut surfaces = vec![SurfacePacket::none(); rays.len()];
-            surface_packets(tier, level, list.spheres(), &rays, &hits, &mut surfaces);
+            let level = level(name);
+            let Packets { rays, hits, surfaces } = Packets::at(level, tier, list, rays);
             let mut shadow_rays = vec![RayPacket::inactive(); rays.len()];
             let hit = (&*rays, &*hits, &*surfaces);
             shadow_packets(tier, level, list.spheres(), hit, towards, &mut shadow_rays);
@@ -130,16 +136,12 @@ fn shadows_in_lanes<L: Lanes<Token = ()>>(
     rays: &[Ray],
     towards: Towards,
 ) -> Vec<Ray> {
-    let (rays, spheres) = (packed::<L::Array>(rays), list.spheres());
-    let hits = hits(&rays, |rays, hits| {
-        list.closest_hit_lanes::<L>(tier, (), &mut Trace::new(), rays, hits);
-    });
-    let shadow_rays: Vec<_> = rays
-        .iter()
-        .zip(&hits)
-        .map(|(rays, hits)| {
-            let surfaces = surface_lanes::<L>(tier, (), spheres, rays, hits);
-            shadow_lanes::<L>(tier, (), spheres, (rays, hits, &surfaces), towards)
+    let Packets { rays, hits, surfaces } = Packets::of_lanes::<L>(tier, list, rays);
+    let hits = rays.iter().zip(&hits).zip(&surfaces);
+    let shadow_rays: Vec<_> = hits
+        .map(|((rays, hits), surfaces)| {
+            let hit = (rays, hits, surfaces);
+            shadow_lanes::<L>(tier, (), list.spheres(), hit, towards)
         })
         .collect();
     unpacked_rays(&shadow_rays)

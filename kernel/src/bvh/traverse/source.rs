@@ -15,7 +15,7 @@ pub(crate) trait SphereSource {
     fn sphere_at(&self, place: u32) -> Option<(Sphere, u32)>;
 }
 
-/// The spheres of a list that are in its tree; in the place of others is one that nothing hits.
+/// The spheres of a list that are in its tree; in the place of others is none.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct InsideSpheres<'a> {
     pub(crate) spheres: Spheres<'a>,
@@ -35,14 +35,10 @@ impl SphereRun for InsideSpheres<'_> {
 
     #[inline(always)]
     fn index(&self, number: usize) -> u32 {
-        number as u32
-    }
-
-    #[inline(always)]
-    fn sphere(&self, number: usize) -> Option<Sphere> {
-        let sphere = self.spheres.get(number)?;
-        let radius = if self.scale.scaled(&sphere).is_some() { sphere.radius } else { -1.0 };
-        Some(Sphere { radius, ..sphere })
+        match self.spheres.get(number) {
+            Some(sphere) if self.scale.scaled(&sphere).is_some() => number as u32,
+            _ => u32::MAX,
+        }
     }
 }
 
