@@ -3,7 +3,7 @@
 //! | command | does |
 //! |---|---|
 //! | `cargo bench --bench closest_hit` | criterion: the small scenes by brute force, every tier and lane width, and another crate |
-//! | `cargo bench --bench report` | prints tables: `-- tiers` speed against error, `-- structures` the large scenes, or both |
+//! | `cargo bench --bench report` | prints tables: `-- tiers` speed against error, `-- structures` the large scenes, `-- surfaces` what is seen there, `-- scales` other units; or all |
 //! | `... --features embree ... -- --write` | with Embree (Debian: `libembree-dev`); and writes `docs/benchmarks` |
 //!
 //! Speed is written for one build at a time: once more with `RUSTFLAGS="-C target-cpu=native"`. `--scene NAME` runs one
@@ -27,7 +27,9 @@ mod page;
 mod plot;
 mod report;
 mod rounds;
+mod scales;
 mod structures;
+mod surfaces;
 
 pub use criterion_groups::closest_hit;
 pub use report::report;

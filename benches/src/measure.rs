@@ -36,6 +36,24 @@ pub(crate) struct Checked {
     pub(crate) run: Box<dyn Run>,
 }
 
+impl Checked {
+    /// Takes nanoseconds a ray, query by query, in samples that take so long at least.
+    pub(crate) fn samplers(
+        self,
+        queries: &[Query],
+        least: Duration,
+    ) -> Vec<(Query, Sampler<'static>)> {
+        let run = Rc::new(RefCell::new(self.run));
+        let sampler = |query| -> Sampler<'static> {
+            let run = Rc::clone(&run);
+            let time = move |runs| run.borrow_mut().time(query, runs);
+            let runs = (least.as_secs_f64() * 1e9 / time(1).max(100.0)).ceil().max(1.0);
+            Box::new(move || time(runs as usize) / (runs * self.rays as f64))
+        };
+        queries.iter().map(|&query| (query, sampler(query))).collect()
+    }
+}
+
 /// Checks every engine on these rays, and keeps those that are to be timed.
 ///
 /// # Panics
@@ -79,16 +97,10 @@ impl Measured {
         plan: &Plan<'_>,
     ) -> Self {
         let mut samplers = Vec::<(_, Sampler<'_>)>::new();
-        for Checked { label, rays, run } in checked((scene, kind), engines, exact) {
-            let run = Rc::new(RefCell::new(run));
-            for &query in plan.queries {
-                let run = Rc::clone(&run);
-                let time = move |runs| run.borrow_mut().time(query, runs);
-                let runs = plan.sample.as_secs_f64() * 1e9 / time(1).max(100.0);
-                let runs = runs.ceil().max(1.0);
-                let sample = move || time(runs as usize) / (runs * rays as f64);
-                samplers.push(((label.clone(), query), Box::new(sample)));
-            }
+        for engine in checked((scene, kind), engines, exact) {
+            let label = engine.label.clone();
+            let named = engine.samplers(plan.queries, plan.sample).into_iter();
+            samplers.extend(named.map(|(query, sampler)| ((label.clone(), query), sampler)));
         }
         let times = Samples::take(samplers, plan.time, plan.rounds.clone());
         Self { scene: scene.name, kind, spheres: scene.spheres.len(), times }

@@ -1,6 +1,8 @@
 //! Pages in Markdown: what they have in common.
 
+pub(crate) mod scales;
 pub(crate) mod structures;
+pub(crate) mod surfaces;
 pub(crate) mod tiers;
 
 use spherule::machine::{RUSTC, cpu};

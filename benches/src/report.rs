@@ -2,7 +2,7 @@
 
 use crate::measure::Effort;
 use crate::page::{self, build, origin};
-use crate::{errors, lists, plot, structures};
+use crate::{errors, lists, plot, scales, structures, surfaces};
 use clap::{Parser, ValueEnum};
 use spherule_tests::scenes::LARGE;
 use std::path::Path;
@@ -10,7 +10,7 @@ use std::{error, fs};
 
 #[derive(Parser)]
 struct Arguments {
-    /// What is measured; both unless said.
+    /// What is measured; all unless said.
     part: Option<Part>,
     /// One large scene alone; nothing is written.
     #[arg(long, value_parser = LARGE)]
@@ -33,6 +33,8 @@ struct Arguments {
 enum Part {
     Tiers,
     Structures,
+    Surfaces,
+    Scales,
 }
 
 /// Measures, prints, and writes if told to.
@@ -61,19 +63,27 @@ pub fn report() -> Result<(), Box<dyn error::Error>> {
         Ok(())
     };
     let origin = origin();
-    if part != Some(Part::Structures) && scene.is_none() {
+    let chosen = |own| part.is_none_or(|part| part == own);
+    if chosen(Part::Tiers) && scene.is_none() {
         let (errors, lists) = (errors::measure(effort), lists::measure(effort));
         put("trade.md", &page::tiers::trade(&origin, &errors, &lists))?;
         put("errors.md", &page::tiers::errors(&origin, &errors))?;
         put(&format!("speed-{}.md", build()), &page::tiers::speed(&origin, &lists))?;
     }
-    if part != Some(Part::Tiers) {
+    if chosen(Part::Structures) {
         let results = structures::measure(effort, scene.as_deref());
         put("structures.md", &page::structures::page(&origin, &results))?;
         if scene.is_none() {
             put("growth.svg", &plot::growth(&origin, &results.growth)?)?;
             put("embree.svg", &plot::embree(&origin, &results.scenes)?)?;
         }
+    }
+    if chosen(Part::Surfaces) {
+        let results = surfaces::measure(effort, scene.as_deref());
+        put("surfaces.md", &page::surfaces::page(&origin, &results))?;
+    }
+    if chosen(Part::Scales) && scene.is_none() {
+        put("scales.md", &page::scales::page(&origin, &scales::measure(effort)))?;
     }
     let is_sound = spherule_kernel::float_environment_is_sound();
     assert!(is_sound, "something changed the floating-point environment");

@@ -19,7 +19,8 @@ mod rays;
 pub mod small;
 mod spheres;
 
-use spherule_kernel::{Ray, Sphere, SphereList, SphereTree, Viewpoint};
+use crate::random::power_of_two;
+use spherule_kernel::{Ray, Sphere, SphereList, SphereTree, Vec3, Viewpoint};
 use std::f64::consts::PI;
 use std::rc::Rc;
 
@@ -135,6 +136,25 @@ impl Scene {
             is_small: false,
             primary: rays::perspective([0.0, 0.0, 4.0], [0.0; 3], 40.0, pixels),
             diffuse: rays::scattered([-1.0; 3], [1.0; 3], pixels * pixels / 4),
+        }
+    }
+
+    /// The same, multiplied by a power of two, with directions multiplied by another.
+    #[must_use]
+    pub fn scaled(&self, [scene, length]: [i64; 2]) -> Self {
+        let times = |v: Vec3, exponent: i64| {
+            Vec3::from_array(v.to_array().map(|x| (f64::from(x) * power_of_two(exponent)) as f32))
+        };
+        let sphere = |s: Sphere| Sphere {
+            center: times(s.center, scene),
+            radius: (f64::from(s.radius) * power_of_two(scene)) as f32,
+        };
+        let ray = |ray: &Ray| Ray::new(times(ray.origin, scene), times(ray.direction, length));
+        Self {
+            spheres: Rc::new(self.spheres.spheres().iter().map(sphere).collect()),
+            primary: self.primary.iter().map(ray).collect(),
+            diffuse: self.diffuse.iter().map(ray).collect(),
+            ..self.clone()
         }
     }
 
