@@ -58,9 +58,9 @@ impl OfRays {
         let packets = Rays::new(scene.rays(kind)).packets();
         let passes = RefCell::new(Passes::new(tree, kind, &packets));
         let mut samplers = Vec::<(_, Sampler<'_>)>::new();
-        for tier in [Tier::Exact, Tier::Stable] {
-            passes.borrow_mut().run(tier, Pass::ShadowRays);
-            passes.borrow().check(tier);
+        let mut hit = 0;
+        for tier in [Tier::Stable, Tier::Exact] {
+            hit = passes.borrow_mut().checked(tier);
             for pass in Pass::ALL {
                 let (passes, rays) = (&passes, scene.rays(kind).len() as f64);
                 let sample = move || timed(|| passes.borrow_mut().run(tier, pass)) / rays;
@@ -68,7 +68,7 @@ impl OfRays {
             }
         }
         let times = Samples::take(samplers, Duration::ZERO, rounds..=rounds);
-        let hit = passes.borrow().hit() as f64 / scene.rays(kind).len() as f64;
+        let hit = hit as f64 / scene.rays(kind).len() as f64;
         Self { scene: scene.name, kind, hit, times }
     }
 
@@ -87,14 +87,17 @@ impl OfRays {
     }
 }
 
+/// How many packets are traced at a time, as pictures are made: what is found of them stays in the cache.
+const AT_ONCE: usize = 64;
+
 /// The rays, and memory for what is found.
 struct Passes<'a> {
     tree: &'a SphereTree,
     coherence: Coherence,
     rays: &'a [RayPacket],
-    hits: Vec<HitPacket>,
-    surfaces: Vec<SurfacePacket>,
-    shadow_rays: Vec<RayPacket>,
+    hits: [HitPacket; AT_ONCE],
+    surfaces: [SurfacePacket; AT_ONCE],
+    shadow_rays: [RayPacket; AT_ONCE],
 }
 
 impl<'a> Passes<'a> {
@@ -105,44 +108,46 @@ impl<'a> Passes<'a> {
             tree,
             coherence,
             rays,
-            hits: vec![HitPacket::none(); rays.len()],
-            surfaces: vec![SurfacePacket::none(); rays.len()],
-            shadow_rays: vec![RayPacket::inactive(); rays.len()],
+            hits: [HitPacket::none(); AT_ONCE],
+            surfaces: [SurfacePacket::none(); AT_ONCE],
+            shadow_rays: [RayPacket::inactive(); AT_ONCE],
         }
     }
 
-    /// 64 packets at a time, as pictures are made.
     fn run(&mut self, tier: Tier, pass: Pass) {
+        self.rays.chunks(AT_ONCE).for_each(|rays| self.some(rays, tier, pass));
+        std::hint::black_box(self);
+    }
+
+    fn some(&mut self, rays: &[RayPacket], tier: Tier, pass: Pass) {
+        let Self { hits, surfaces, shadow_rays, .. } = self;
         let (level, spheres) = (Level::best(), self.tree.list().spheres());
         let mut trace = Trace { coherence: self.coherence, ..Trace::new() };
-        let packets = self.rays.chunks(64).zip(self.hits.chunks_mut(64));
-        let found = self.surfaces.chunks_mut(64).zip(self.shadow_rays.chunks_mut(64));
-        for ((rays, hits), (surfaces, shadow_rays)) in packets.zip(found) {
-            self.tree.closest_hit_packets(tier, &mut trace, rays, hits);
-            if pass != Pass::Hits {
-                surface_packets(tier, level, spheres, rays, hits, surfaces);
-            }
-            if pass == Pass::ShadowRays {
-                shadow_packets(tier, level, spheres, (rays, hits, surfaces), LIGHT, shadow_rays);
-            }
+        self.tree.closest_hit_packets(tier, &mut trace, rays, hits);
+        if pass != Pass::Hits {
+            surface_packets(tier, level, spheres, rays, hits, surfaces);
+        }
+        if pass == Pass::ShadowRays {
+            shadow_packets(tier, level, spheres, (rays, hits, surfaces), LIGHT, shadow_rays);
         }
     }
 
-    fn hit(&self) -> usize {
-        self.hits.iter().map(|hits| (0..RayPacket::COUNT).filter_map(|i| hits.hit(i)).count()).sum()
-    }
-
-    /// Some thousand surfaces are those of one ray at a time.
-    fn check(&self, tier: Tier) {
-        let every = self.rays.len().div_ceil(256);
-        for place in (0..self.rays.len()).step_by(every) {
-            for lane in 0..RayPacket::COUNT {
-                let Some(hit) = self.hits[place].hit(lane) else { continue };
-                let sphere = self.tree.list().spheres().get(hit.sphere as usize).expect("listed");
-                let ray = self.rays[place].ray(lane);
-                let truth = surface(tier, &ray, hit.t, &sphere);
-                assert_eq!(self.surfaces[place].surface(lane), truth, "{tier:?} {ray:?}");
+    /// Returns how many rays hit anything, of which each surface is that of one ray at a time.
+    fn checked(&mut self, tier: Tier) -> usize {
+        let mut hit_rays = 0;
+        for rays in self.rays.chunks(AT_ONCE) {
+            self.some(rays, tier, Pass::Surfaces);
+            for (place, packet) in rays.iter().enumerate() {
+                for lane in 0..RayPacket::COUNT {
+                    let Some(hit) = self.hits[place].hit(lane) else { continue };
+                    let sphere = self.tree.list().spheres().get(hit.sphere as usize);
+                    let sphere = sphere.expect("a sphere of the list");
+                    let truth = surface(tier, &packet.ray(lane), hit.t, &sphere);
+                    assert_eq!(self.surfaces[place].surface(lane), truth, "{tier:?} {sphere:?}");
+                    hit_rays += 1;
+                }
             }
         }
+        hit_rays
     }
 }

@@ -127,15 +127,17 @@ impl<D: DoubleLanes> Line<D> {
         )
     }
 
-    /// The point of the near root in the lanes `is_near`, else of the far one, as seen from the centre, and what every coordinate may be off, if
-    /// D is above its bound. Where the line misses, the point of it that is closest to the centre.
+    /// The point of the near root in the lanes `is_near`, else of the far one, as seen from the centre; what every coordinate
+    /// may be off, if D is above its bound; and 1/r. Where the line misses, the point of it that is closest to the centre.
     #[inline(always)]
-    pub(super) fn point(&self, is_near: D::Mask) -> ([D; 3], D) {
+    pub(super) fn point(&self, is_near: D::Mask) -> ([D; 3], D, D) {
         let (d, zero) = (self.direction, self.a.like(0.0));
         let positive = zero.lt(self.discriminant);
         let root = D::select(positive, self.discriminant, zero).sqrt();
-        // One division for both.
-        let per_both = root.like(1.0) / (self.a * D::select(positive, root, root.like(1.0)));
+        // One division for all three.
+        let both = self.a * D::select(positive, root, root.like(1.0));
+        let per_all = root.like(1.0) / (both * self.radius);
+        let (per_both, per_radius) = (per_all * self.radius, per_all * both);
         let per_a = D::select(positive, root * per_both, per_both);
         let signed = D::select(is_near, -root, root);
         let across = cross(d, self.cross);
@@ -144,7 +146,7 @@ impl<D: DoubleLanes> Line<D> {
         let of_root =
             root.like(1.25) * self.error * (per_both * self.a) + root.like(4.0 * U) * root;
         let error = self.length * (self.loss + of_root) * per_a + root.like(16.0 * U) * self.radius;
-        (point, error)
+        (point, error, per_radius)
     }
 
     /// Where `t` is near the near root, as near as a tier gets, or nearer to it than to the far one.

@@ -60,7 +60,7 @@ pub fn shadow_lanes<L: Lanes>(
     (rays, hits, surfaces): SurfaceHit<'_, L::Array>,
     towards: Towards,
 ) -> RayPacket<L::Array> {
-    let Some(HitSpheres { center, radius, hit }) = HitSpheres::gather(token, spheres, hits) else {
+    let Some(HitSpheres { center, radius, hit }) = HitSpheres::gather(token, &spheres, hits) else {
         return RayPacket::inactive();
     };
     let departure = Departure::<L>::new(rays, surfaces, center, radius);

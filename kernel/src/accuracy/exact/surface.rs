@@ -19,9 +19,8 @@ const U: f64 = f64::EPSILON / 2.0;
 pub(super) fn at(ray: &Ray, t: f32, sphere: &Sphere) -> Surface {
     let root = Answered::new(ray, t, sphere).root;
     let line = line::<true>(ray, sphere);
-    let (value, error) = line.point(root == Root::Near);
+    let (value, error, per_radius) = line.point(root == Root::Near);
     let of_point = if line.error < line.discriminant { error } else { f64::INFINITY };
-    let per_radius = 1.0 / f64::from(sphere.radius);
 
     let terms = QuadraticTerms::new(
         ray.origin.to_array(),
@@ -51,7 +50,7 @@ pub(super) fn at(ray: &Ray, t: f32, sphere: &Sphere) -> Surface {
 /// What a coordinate of the normal may be off, by that of the point and 1/r.
 #[inline(always)]
 fn normal_error<D: DoubleLanes>(of_point: D, per_radius: D) -> D {
-    of_point * per_radius * per_radius.like(1.0 + 8.0 * U) + per_radius.like(4.0 * U)
+    of_point * per_radius * per_radius.like(1.0 + 8.0 * U) + per_radius.like(8.0 * U)
 }
 
 /// The same in lanes, and those of the lanes `asked` in which double precision knows it.
@@ -107,8 +106,7 @@ fn estimated<L: Lanes, const IN_TWO_TERMS: bool>(
         let (is_near, is_known) = root_of(&line, t.widen(part));
         known |= is_known.bits() << first;
 
-        let (value, error) = line.point(is_near);
-        let per_radius = error.like(1.0) / radius.widen(part);
+        let (value, error, per_radius) = line.point(is_near);
         let of_normal = normal_error(error, per_radius);
         for i in 0..3 {
             L::narrow(&mut point[i][0], part, value[i] - error);
