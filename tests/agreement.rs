@@ -1,6 +1,6 @@
-//! One answer, whatever the way to it: every variant gives the bits of one lane, whatever its
-//! neighbours; a list gives what its spheres give one at a time, whatever the filter skips; a tree and a depth list give
-//! what the list gives.
+//! One answer, whatever the way to it: every variant gives the bits of one lane, whatever its neighbours; a list
+//! gives what its spheres give one at a time, whatever the filter skips; a tree and a depth list give what the list
+//! gives.
 
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;

@@ -1,4 +1,5 @@
-//! The door's edges: slices of unequal length, nothing to do, and what is left alone, at every storey of every structure.
+//! The door's edges: slices of unequal length, nothing to do, and what is left alone, at every storey of every
+//! structure.
 
 use spherule_kernel::{
     Bvh, Coherence, DepthList, Hit, HitPacket, Intersect, Lanes, Level, Ray, RayPacket, Sphere,

@@ -112,8 +112,8 @@ fn every_sample_of_unit_is_what_the_oracle_says() {
     assert!(hits > 20_000 && misses > 20_000, "{hits} hits, {misses} misses");
 }
 
-/// The spheres of `far` from 10^6 and 10^7 diameters and from a few: through a parallel lens along an axis the lines are the same, and so
-/// is every cell, shadows and colours included.
+/// The spheres of `far` from 10^6 and 10^7 diameters and from a few: through a parallel lens along an axis the lines
+/// are the same, and so is every cell, shadows and colours included.
 #[test]
 fn far_looks_as_from_near() {
     let far = scene::builtin::builtin("far").expect("far");
@@ -149,4 +149,22 @@ fn far_looks_as_from_near() {
             }
         }
     }
+}
+
+/// `edge` through its parallel lens, and from a 64th of the distance, where origins are rounded otherwise: a few
+/// samples on outlines differ, and no glyph.
+#[test]
+fn edge_looks_as_from_near() {
+    let edge = scene::builtin::builtin("edge").expect("edge");
+    let far = edge.first_view(ASCII.picture_aspect(120, 40) as f32);
+    let near = View { eye: far.eye / 64.0, ..far };
+    let differ = |accuracy| {
+        let style = Style { accuracy, ..ASCII };
+        let [near, far] = [&near, &far].map(|view| draw(&edge, view, &style, 120, 40).cells);
+        let cells = (0..40).flat_map(|row| near.row(row).iter().zip(far.row(row)));
+        cells.filter(|(near, far)| near != far).count()
+    };
+    assert_eq!(differ(Tier::Exact), 0);
+    // The control.
+    assert!(differ(Tier::Fast) > 500);
 }

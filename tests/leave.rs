@@ -5,12 +5,12 @@ mod shadows;
 use spherule_kernel::{
     Exact, Intersect, Ray, Side, Sphere, SphereList, Surface, Tier, Vec3, roots, side, surface,
 };
+use spherule_tests::campaign::on_all_cores;
 use spherule_tests::oracle::{self, units, units3};
 use spherule_tests::random::{Random, power_of_two};
 use spherule_tests::ulp::step;
 use std::cmp::Ordering;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
-use std::thread::{available_parallelism, scope};
 
 /// The side in integers.
 fn true_side(point: Vec3, sphere: &Sphere) -> Option<Side> {
@@ -61,7 +61,8 @@ fn sides_are_decided_as_in_integers() {
     assert!(seen.iter().all(|&count| count > 3000), "{seen:?}");
 }
 
-/// A sphere of at least 2^10 ulp of its coordinates, up to 6.4e6, translated up to 1e7; a ray that hits it from up to 1e7 radii away.
+/// A sphere of at least 2^10 ulp of its coordinates, up to 6.4e6, translated up to 1e7; a ray that hits it from up to
+/// 1e7 radii away.
 fn view(random: &mut Random) -> (Ray, Sphere) {
     let radius = random.log_uniform(-13, 22) as f32;
     let place = (f64::from(radius) * power_of_two(random.integer(0, 13))).min(1e7) as f32;
@@ -198,22 +199,10 @@ fn no_tier_meets_the_sphere_where_a_ray_leaves_it() {
 #[test]
 #[ignore = "a billion rays"]
 fn a_billion_rays_leave() {
-    let (next, left) = (AtomicU64::new(0), AtomicU64::new(0));
-    let work = || {
-        loop {
-            let seed = next.fetch_add(1, Relaxed);
-            if seed >= 2000 {
-                return;
-            }
-            let more = u64::from(leaves_unmet(Tier::Exact, 1000 + seed, 500_000));
-            let so_far = left.fetch_add(more, Relaxed) + more;
-            if seed % 20 == 0 {
-                println!("{so_far} rays left");
-            }
-        }
-    };
-    let threads = available_parallelism().map_or(1, usize::from);
-    scope(|scope| (0..threads).for_each(|_| drop(scope.spawn(work))));
+    let left = AtomicU64::new(0);
+    on_all_cores(2000, |seed| {
+        left.fetch_add(leaves_unmet(Tier::Exact, 1000 + seed, 500_000).into(), Relaxed);
+    });
     assert!(left.into_inner() >= 1_000_000_000);
 }
 

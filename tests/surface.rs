@@ -122,7 +122,8 @@ fn surfaces_are_the_same_at_every_storey() {
     }
 }
 
-/// What the others promise: 2^-24, and 2^-50 (|p| + r) / r over the cosine of the normal and the ray, or the root of that.
+/// What the others promise: 2^-24, and 2^-50 (|p| + r) / r over the cosine of the normal and the ray, or the root of
+/// that.
 #[test]
 fn other_tiers_are_within_what_is_stated() {
     let mut random = Random::seeded(8);

@@ -1,5 +1,5 @@
-//! What is compared: an engine finds what rays meet. It is the kernel in one of its ways, the tree of another crate, or a
-//! loop that stands here as a mark.
+//! What is compared: an engine finds what rays meet. It is the kernel in one of its ways, the tree of another crate,
+//! or a loop that stands here as a mark.
 
 pub(crate) mod bvh;
 #[cfg(feature = "embree")]
@@ -88,8 +88,8 @@ pub(crate) enum Promise {
 impl Promise {
     /// The textbook form in single precision: p.p - r^2 cancels some thousandfold in the small scenes.
     pub(crate) const TEXTBOOK: Self = Self::Near(8.0 / 1024.0, 1 << 14);
-    /// Another program's, which may think otherwise of grazed spheres, of a start on a surface, of cancelled digits, and, from
-    /// 10^4 scene sizes away, of which sphere is in front.
+    /// Another program's, which may think otherwise of grazed spheres, of a start on a surface, of cancelled digits,
+    /// and, from 10^4 scene sizes away, of which sphere is in front.
     pub(crate) const OTHERS: Self = Self::Near(2e-2, 1 << 14);
 }
 

@@ -1,5 +1,5 @@
-//! How wrong tiers and marks are, regime by regime, against the oracle of big integers: one ray, one sphere. Lanes do not
-//! matter: the tests hold every width and level to the same bits.
+//! How wrong tiers and marks are, regime by regime, against the oracle of big integers: one ray, one sphere. Lanes do
+//! not matter: the tests hold every width and level to the same bits.
 
 use crate::engine::marks::{DOUBLE, LECTURE, marks};
 use crate::engine::{Query, Rays};

@@ -9,8 +9,8 @@
 //! Speed is written for one build at a time: once more with `RUSTFLAGS="-C target-cpu=native"`. `--scene NAME` runs one
 //! large scene alone, `--quick` takes minutes, `--test` runs everything once.
 //!
-//! Data flows one way: [scenes](spherule_tests::scenes), [engines](engine), [the check before the clock](agreement), [times](measure),
-//! [pages](page). Nothing is timed before its answers are checked.
+//! Data flows one way: [scenes](spherule_tests::scenes), [engines](engine), [the check before the clock](agreement),
+//! [times](measure), [pages](page). Nothing is timed before its answers are checked.
 
 // Not forbidden, for one file: a foreign interface behind the feature `embree`.
 #![deny(unsafe_code)]

@@ -39,8 +39,8 @@ pub(crate) struct Samples<K> {
 }
 
 impl<K: PartialEq> Samples<K> {
-    /// Takes a sample of each a round, after one round that does not count: as many rounds as fit into `time`, judged by
-    /// the first, within `rounds`.
+    /// Takes a sample of each a round, after one round that does not count: as many rounds as fit into `time`, judged
+    /// by the first, within `rounds`.
     pub(crate) fn take(
         all: Vec<(K, Sampler<'_>)>,
         time: Duration,

@@ -1,4 +1,5 @@
-//! Other units: a scene of 2,000 spheres multiplied by powers of two, and rays of other lengths, against the scene as it is.
+//! Other units: a scene of 2,000 spheres multiplied by powers of two, and rays of other lengths, against the scene as
+//! it is.
 
 use crate::engine::Query;
 use crate::engine::kernel::{Kernel, Way, levels};

@@ -8,6 +8,7 @@ use crate::rounds::{Median, Sampler, Samples};
 use spherule_kernel::{HitPacket, Intersect, Level, SphereTree, Tier, Trace};
 use spherule_tests::scenes::{Kind, LARGE, Scene, Size};
 use std::sync::Mutex;
+use std::thread::available_parallelism;
 use std::time::{Duration, Instant};
 
 /// Scenes that every level is timed on.
@@ -132,9 +133,12 @@ impl Measured {
     }
 }
 
-/// How many times as fast two threads find the closest hits of the primary rays as one, with `Stable`: the same packets,
-/// handed out in pieces. By the wall's clock, so that it needs a machine with two free cores.
+/// How many times as fast two threads find the closest hits of the primary rays as one, with `Stable`: the same
+/// packets, handed out in pieces. By the wall's clock, `None` on a machine with one core.
 fn two_threads_by_one(scene: &Scene, level: Level, rounds: usize) -> Option<Median> {
+    if available_parallelism().map_or(1, usize::from) < 2 {
+        return None;
+    }
     /// Packets that a thread takes at a time.
     const PIECE: usize = 256;
     let tree = &SphereTree::new((*scene.spheres).clone());

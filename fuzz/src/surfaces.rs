@@ -1,5 +1,5 @@
-//! Surfaces and the rays that leave them: the same bits at every storey, by `Exact` those of integers, and nothing is met where a
-//! ray leaves.
+//! Surfaces and the rays that leave them: the same bits at every storey, by `Exact` those of integers, and nothing is
+//! met where a ray leaves.
 
 use crate::geometry::Scene;
 use spherule_kernel::{Intersect, Ray, Side, Sphere, SphereList, Tier, Vec3, roots, side, surface};

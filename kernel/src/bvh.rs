@@ -19,11 +19,11 @@
 //!
 //! # Units
 //!
-//! Boxes and leaves hold the spheres times a power of two, that of most spheres' sizes, and rays are scaled in the same way
-//! (`scale`): a scene times 2^k has the same tree, and takes the same time, as has a ray of any length. Tiers get both as they
-//! were given. What the bounds do not cover is not skipped: spheres of other sizes than most, by 2^40 or more, are kept
-//! apart, and met as a list is; rays that start beyond 2^56 times the scene's size are tested against all spheres, if they
-//! come near any.
+//! Boxes and leaves hold the spheres times a power of two, that of most spheres' sizes, and rays are scaled in the
+//! same way (`scale`): a scene times 2^k has the same tree, and takes the same time, as has a ray of any length.
+//! Tiers get both as they were given. What the bounds do not cover is not skipped: spheres of other sizes than most,
+//! by 2^40 or more, are kept apart, and met as a list is; rays that start beyond 2^56 times the scene's size are
+//! tested against all spheres, if they come near any.
 //!
 //! # Depth
 //!

@@ -42,8 +42,8 @@ pub(crate) const BLOCK_SPHERES: usize = BLOCK * GROUP;
 
 /// 104 u.
 const KAPPA: f32 = 104.0 / 16_777_216.0;
-/// 2^-120: no sphere counts as smaller than this squared size.
-const LEAST_SQUARE: f32 = 1.0 / (1_u128 << 120) as f32;
+/// 2^-60: no sphere counts as smaller.
+const LEAST_SIZE: f32 = 1.0 / (1_u64 << 60) as f32;
 /// 2^-60: a squared direction below, or above 2^100, is not used: the direction is scaled before.
 const SHORTEST: f32 = 1.0 / (1_u64 << 60) as f32;
 
@@ -72,15 +72,15 @@ impl FilterGroup {
         self.center[0][slot] = x;
         self.center[1][slot] = y;
         self.center[2][slot] = z;
-        self.excess[slot] = excess([x, y, z], radius, kappa, frame.least_square);
+        self.excess[slot] = excess([x, y, z], radius, kappa, frame.least_size);
     }
 }
 
 /// r^2 - |c|^2, raised by the bound.
 #[inline(always)]
-fn excess<L: Lanes>(c: [L; 3], r: L, kappa: f32, least_square: f32) -> L {
+fn excess<L: Lanes>(c: [L; 3], r: L, kappa: f32, least_size: f32) -> L {
     let (cc, rr) = (dot(c, c), r * r);
-    (rr - cc) + r.like(kappa) * (cc + rr).filter_max(r.like(least_square))
+    (rr - cc) + r.like(kappa) * (cc + rr).filter_max(r.like(least_size * least_size))
 }
 
 /// The space that a block of spheres, or a ball, is seen in.
@@ -90,8 +90,9 @@ struct Frame {
     scale: f32,
     /// K, scaled.
     shift: [f32; 3],
-    /// No sphere counts as smaller than this squared size, scaled.
-    least_square: f32,
+    /// No sphere counts as smaller, scaled. (As a square it was seen that the compiler multiplies it by itself beside what
+    /// is needed, to a subnormal number: half of the time of `Fast`.)
+    least_size: f32,
     /// A direction without a larger component is not judged.
     least_length: f32,
 }
@@ -122,8 +123,8 @@ impl Frame {
             let middle = median([0, 1, 2].map(|sample| samples[sample].center[axis] * scale));
             if middle.abs() <= LARGEST { middle } else { 0.0 }
         });
-        let least_square = (underflow.square * scale * scale).max(LEAST_SQUARE);
-        Self { scale, shift, least_square, least_length: underflow.length }
+        let least_size = (underflow.size * scale).max(LEAST_SIZE);
+        Self { scale, shift, least_size, least_length: underflow.length }
     }
 }
 
@@ -152,7 +153,8 @@ impl FilterBlock {
         Self::in_frame(spheres, first, Frame::of(spheres, first, underflow, 0.0), KAPPA)
     }
 
-    /// Whether rays, those that live, may see the block better than it is now: they start out of its range, or others did.
+    /// Whether rays, those that live, may see the block better than it is now: they start out of its range, or others
+    /// did.
     #[inline(always)]
     pub(crate) fn is_elsewhere<L: Lanes>(&self, rays: &RayLanes<L>) -> bool {
         let far = largest(rays.origin);
@@ -304,7 +306,7 @@ pub(crate) fn may_come_near<L: Lanes>(token: L::Token, rays: &RayLanes<L>, radiu
         return rays.live;
     }
     let scale = to_one(farthest(rays));
-    let frame = Frame { scale, shift: [0.0; 3], least_square: LEAST_SQUARE, least_length: 0.0 };
+    let frame = Frame { scale, shift: [0.0; 3], least_size: LEAST_SIZE, least_length: 0.0 };
     let mut group = FilterGroup::EMPTY;
     group.put(0, &ball, &frame, KAPPA);
     FilterRays::widened(token, rays, &frame, KAPPA).may_meet(&group, 0)

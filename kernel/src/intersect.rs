@@ -19,17 +19,18 @@ use crate::slices;
 use crate::structures::Traverse;
 use crate::trace::Trace;
 
-/// Spheres that rays are intersected with: [`Spheres`](crate::Spheres) tests every ray against every
-/// sphere; a [`Bvh`](crate::Bvh) is for many spheres; a [`DepthList`](crate::DepthList) for rays of a common origin or direction, without a tree.
-/// `SphereList` and `SphereTree` own what `Spheres` and `Bvh` borrow.
+/// Spheres that rays are intersected with: [`Spheres`](crate::Spheres) tests every ray against every sphere; a
+/// [`Bvh`](crate::Bvh) is for many spheres; a [`DepthList`](crate::DepthList) for rays of a common origin or
+/// direction, without a tree. `SphereList` and `SphereTree` own what `Spheres` and `Bvh` borrow.
 ///
 /// # Guarantee
 ///
 /// The closest hit is that of the smallest accepted root, by [`Exact`](crate::Exact) as a real number, by the other
-/// tiers as t; among equals that of the lowest index. t counts in multiples of each ray's own direction. Every structure returns bit for bit what the list returns (`Bvh` and
-/// `DepthList` say what that means for `Fast`, and for `Stable` outside its domain), at every level, in
-/// every lane width, alone or beside any other ray. [`any_hit`](Intersect::any_hit) is true exactly if there
-/// is a closest hit, and cheaper, since a ray that has hit something is done.
+/// tiers as t; among equals that of the lowest index. t counts in multiples of each ray's own direction. Every
+/// structure returns bit for bit what the list returns (`Bvh` and `DepthList` say what that means for `Fast`, and for
+/// `Stable` outside its domain), at every level, in every lane width, alone or beside any other ray.
+/// [`any_hit`](Intersect::any_hit) is true exactly if there is a closest hit, and cheaper, since a ray that has hit
+/// something is done.
 ///
 /// # Domain
 ///
@@ -39,11 +40,11 @@ use crate::trace::Trace;
 ///
 /// # Cost
 ///
-/// A list: some 8 operations a ray and sphere that miss each other, and the tier's price for the
-/// others; preparing 128 spheres costs as much as testing one packet against them, so pass many rays in
-/// one call. A tree: by the logarithm of the number of spheres, if they do not overlap much; spheres of other sizes
-/// than most, by 2^40 or more, cost as in a list, as do rays from beyond 2^56 times that size. Units do not matter, nor do
-/// the lengths of directions, for any structure.
+/// A list: some 8 operations a ray and sphere that miss each other, and the tier's price for the others; preparing
+/// 128 spheres costs as much as testing one packet against them, so pass many rays in one call. A tree: by the
+/// logarithm of the number of spheres, if they do not overlap much; spheres of other sizes than most, by 2^40 or
+/// more, cost as in a list, as do rays from beyond 2^56 times that size. Units do not matter, nor do the lengths of
+/// directions, for any structure.
 ///
 /// ```
 /// use spherule_kernel::{Exact, Hit, Intersect, Ray, SphereList, Vec3};

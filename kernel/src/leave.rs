@@ -3,16 +3,16 @@
 //! # Method
 //!
 //! A point of a surface, rounded to `f32`, lies on either side of it, and a ray from there may meet the sphere that it
-//! leaves. So the point is computed in double precision, rounded, and asked on which side it is, exactly: by the sign of
-//! |x - c|^2 - r^2. If that is the wrong one, it is taken half a step, a step, two along the normal, a step being an ulp of its
-//! largest coordinate. A step is enough if r is more than some 14 of them: rounding moves a point by 0.87 steps at most, and the
-//! sphere curves away by 1.87^2 / 2r.
+//! leaves. So the point is computed in double precision and rounded, and the sign of |x - c|^2 - r^2 tells exactly on
+//! which side it lies. On the wrong side it is moved along the normal: half a step, a step, two steps, where a step is
+//! an ulp of its largest coordinate. A step is enough if r is more than some 14 of them: rounding moves a point by 0.87
+//! steps at most, and the sphere curves away by 1.87^2 / 2r.
 //!
-//! From outside, a ray that goes away from the centre meets the sphere nowhere: where |x - c|^2 > r^2 and d.(x - c) >= 0, both
-//! roots are below zero. From inside one root is below zero, and one above. The interval begins a little above zero, 2^-42 r from
-//! the origin, which rounding has moved by more: so double precision tells that the sphere is left. (From the least number
-//! above zero it does not: a picture of marbles took three times as long.) Tiers that know less are asked whether they see the sphere; if they do, the ray begins a
-//! step farther away, two, four.
+//! From outside, a ray that goes away from the centre meets the sphere nowhere: where |x - c|^2 > r^2 and
+//! d.(x - c) >= 0, both roots are below zero. From inside one root is below zero, and one above. The interval begins a
+//! little above zero, 2^-42 r from the origin, which rounding has moved by more: so double precision tells that the
+//! sphere is left. (From the least number above zero it does not: a picture of marbles took three times as long.) Tiers
+//! that know less are asked whether they see the sphere; if they do, the ray begins a step farther away, two, four.
 
 pub(crate) mod packets;
 
@@ -84,13 +84,15 @@ pub fn side(point: Vec3, sphere: &Sphere) -> Option<Side> {
 impl Surface {
     /// A ray from here, to `side` of the sphere and along `direction`: it does not meet `sphere` where it starts.
     ///
-    /// Its origin is proven to be on that side by [`side`](crate::side()): an ulp or two of its largest coordinate from the point, if r
-    /// is at least 2^10 of these and `tier` is `Exact`; for the others so far that they do not see the sphere there. Its interval begins 2^-42 r from there
-    /// and has no end. If `direction` points to `side`, an outside ray never meets the sphere again, and an inside ray meets
-    /// its far side, unless the t of that is rounded to zero; else it meets what is there.
+    /// Its origin is proven to be on that side by [`side`](crate::side()): an ulp or two of its largest coordinate
+    /// from the point, if r is at least 2^10 of these and `tier` is `Exact`; for the others so far that they do not
+    /// see the sphere there. Its interval begins 2^-42 r from there and has no end. If `direction` points to `side`,
+    /// an outside ray never meets the sphere again, and an inside ray meets its far side, unless the t of that is
+    /// rounded to zero; else it meets what is there.
     ///
-    /// `sphere` is the one that was hit. Returns `None` if there is no such origin: inside of a sphere that is smaller than the
-    /// spacing of numbers, or past their end. Cost: some 100 double-precision operations; by the other tiers a test of the sphere more.
+    /// `sphere` is the one that was hit. Returns `None` if there is no such origin: inside of a sphere that is
+    /// smaller than the spacing of numbers, or past their end. Cost: some 100 double-precision operations; by the
+    /// other tiers a test of the sphere more.
     ///
     /// ```
     /// use spherule_kernel::{Exact, Intersect, Ray, Side, SphereList, Vec3, surface};
@@ -136,8 +138,8 @@ impl Surface {
         self.depart(tier.tier(), sphere, side, ray)
     }
 
-    /// The point in the frame of the scene, every coordinate rounded once from double precision. It lies on either side of `sphere`,
-    /// the one that was hit: rays start from [`leave`](Surface::leave).
+    /// The point in the frame of the scene, every coordinate rounded once from double precision. It lies on either
+    /// side of `sphere`, the one that was hit: rays start from [`leave`](Surface::leave).
     ///
     /// ```
     /// use spherule_kernel::{Exact, Ray, Sphere, Vec3, surface};
@@ -194,9 +196,9 @@ fn next(steps: f64) -> f64 {
 const BACK: f64 = 8.0 * f32::EPSILON as f64;
 /// |x - c|^2 - r^2 of numbers of single precision, and what it may be off besides u of itself.
 ///
-/// All ten products are exact, and their sum is compensated: off by u of itself and 81 u^2 of their magnitudes (Ogita, Rump,
-/// Oishi 2005, Accurate Sum and Dot Product, Sum2). Plain double precision does not tell the points of a ground of
-/// radius 10^6 from each other.
+/// All ten products are exact, and their sum is compensated: off by u of itself and 81 u^2 of their magnitudes
+/// (Ogita, Rump, Oishi 2005, Accurate Sum and Dot Product, Sum2). Plain double precision does not tell the points of
+/// a ground of radius 10^6 from each other.
 #[inline(always)]
 fn power_of<D: DoubleLanes>(x: [D; 3], c: [D; 3], radius: D) -> (D, D) {
     let square = radius * radius;
@@ -210,7 +212,8 @@ fn power_of<D: DoubleLanes>(x: [D; 3], c: [D; 3], radius: D) -> (D, D) {
     (sum + error, radius.like(256.0 * U * U) * size)
 }
 
-/// A step: an ulp of the largest coordinate, but for subnormal ones; near zero, where a point is not known so well, more.
+/// A step: an ulp of the largest coordinate, but for subnormal ones; near zero, where a point is not known so well,
+/// more.
 #[inline(always)]
 fn step_of<L: Lanes>(point: [L; 3], radius: L) -> L {
     let largest = point[0].abs().filter_max(point[1].abs()).filter_max(point[2].abs());

@@ -44,8 +44,8 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
     );
 }
 
-/// Answers every ray by some spheres of a list alone, as [`traverse`] does by all. (Compiled once for all kinds of runs,
-/// and the test of a group for runs and whole lists: else the kernel takes half as long again to compile.)
+/// Answers every ray by some spheres of a list alone, as [`traverse`] does by all. (Compiled once for all kinds of
+/// runs, and the test of a group for runs and whole lists: else the kernel takes half as long again to compile.)
 #[inline(always)]
 pub(crate) fn traverse_some<L: Lanes, Q: Query>(
     tier: impl Accuracy,
@@ -97,8 +97,8 @@ pub(crate) struct Candidates<'a, L: Lanes> {
     pub(crate) rays: &'a RayLanes<L>,
     pub(crate) filter: &'a FilterRays<L>,
     pub(crate) group: &'a FilterGroup,
-    /// The list that they are of.
-    pub(crate) spheres: Spheres<'a>,
+    /// The list that they are of: its copy would be half of a test by `Fast`.
+    pub(crate) spheres: &'a Spheres<'a>,
     /// Their indices; that of no sphere where there is none.
     pub(crate) indices: [u32; GROUP],
 }
@@ -124,8 +124,10 @@ pub(crate) fn for_candidates<L: Lanes, R, S: SphereRun + ?Sized>(
     done: impl Fn(&R) -> L::Mask,
     test: impl Fn(&mut R, Candidates<'_, L>),
 ) {
-    // Nothing is prepared for nobody: a depth list comes here with every run of packets that do not fit, most of them empty.
+    // Nothing is prepared for nobody: a depth list comes here with every run of packets that do not fit, most of them
+    // empty.
     let spheres_to_meet = if rays.is_empty() { 0 } else { spheres.count() };
+    let list = spheres.list();
     for first in (0..spheres_to_meet).step_by(BLOCK_SPHERES) {
         // The spheres are prepared once for all packets.
         let mut block = FilterBlock::new(spheres, first, underflow);
@@ -148,7 +150,7 @@ pub(crate) fn for_candidates<L: Lanes, R, S: SphereRun + ?Sized>(
                         rays: &rays,
                         filter: &filter,
                         group,
-                        spheres: spheres.list(),
+                        spheres: &list,
                         indices,
                     };
                     test(result, candidates);
@@ -219,7 +221,7 @@ impl<L: Lanes, Q: Query> GroupTest<'_, '_, L, Q> {
 #[inline(never)]
 fn take_closer<F: TierFormula, L: Lanes, Q: Query>(
     packet: &RayPacket<L::Array>,
-    spheres: Spheres<'_>,
+    spheres: &Spheres<'_>,
     index: u32,
     mut tied: u32,
     t: &L::Array,
@@ -229,7 +231,7 @@ fn take_closer<F: TierFormula, L: Lanes, Q: Query>(
         let lane = tied.trailing_zeros() as usize;
         tied &= tied - 1;
         let t = t.get(lane);
-        let is_closer = |old| is_closer(F::THIS, spheres, &packet.ray(lane), t, [index, old]);
+        let is_closer = |old| is_closer(F::THIS, *spheres, &packet.ray(lane), t, [index, old]);
         Q::take::<L::Array>(answer, lane, Hit { t, sphere: index }, is_closer);
     }
 }

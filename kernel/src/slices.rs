@@ -101,10 +101,11 @@ pub fn surface_packets(
     }
 }
 
-/// Rays to a light from what the rays of every packet hit, each from the side that its ray came from, if that faces the light.
+/// Rays to a light from what the rays of every packet hit, each from the side that its ray came from, if that faces
+/// the light.
 ///
-/// As [`shadow_lanes`](crate::shadow_lanes), at `level`. What is hit are rays, hits and surfaces; packets past the end of the
-/// shortest slice are left as they are.
+/// As [`shadow_lanes`](crate::shadow_lanes), at `level`. What is hit are rays, hits and surfaces; packets past the
+/// end of the shortest slice are left as they are.
 ///
 /// ```
 /// use spherule_kernel::{

@@ -9,19 +9,19 @@ use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::{axes, dot};
 use glam::Vec3;
 
-/// The surface that `ray` hits at `t`, the answer of `tier` for `sphere`: its unit normal, and the point as seen from the
-/// centre.
+/// The surface that `ray` hits at `t`, the answer of `tier` for `sphere`: its unit normal, and the point as seen from
+/// the centre.
 ///
-/// By [`Exact`](crate::Exact) every coordinate is correctly rounded, of the point where the line really meets the sphere,
-/// however far away. By the other tiers a normal is off by at most 2^-24 and 2^-50 (|p| + r) / r, p the centre less the origin, over
-/// the cosine of normal and ray, or the root of that term if that is less. (A point o + t d is off by 2^-24 |p|, which from afar is
-/// more than r.)
+/// By [`Exact`](crate::Exact) every coordinate is correctly rounded, of the point where the line really meets the
+/// sphere, however far away. By the other tiers a normal is off by at most 2^-24 and 2^-50 (|p| + r) / r, p the
+/// centre less the origin, over the cosine of normal and ray, or the root of that term if that is less. (A point o +
+/// t d is off by 2^-24 |p|, which from afar is more than r.)
 ///
-/// A sphere of radius zero has the point zero, and a normal that points back along the ray. If `t` is not the tier's answer,
-/// it means the root that it is nearer to. If ray or sphere is not valid, the numbers have no meaning.
+/// A sphere of radius zero has the point zero, and a normal that points back along the ray. If `t` is not the tier's
+/// answer, it means the root that it is nearer to. If ray or sphere is not valid, the numbers have no meaning.
 ///
-/// Cost: some 150 double-precision operations, by `Exact` twice as many; 2 microseconds for a coordinate that these cannot tell,
-/// which is one of 10^7, in 2.5 KiB of stack.
+/// Cost: some 150 double-precision operations, by `Exact` twice as many; 2 microseconds for a coordinate that these
+/// cannot tell, which is one of 10^7, in 2.5 KiB of stack.
 ///
 /// ```
 /// use spherule_kernel::{Exact, Intersect, Ray, Sphere, SphereList, Vec3, surface};
@@ -78,10 +78,11 @@ impl SurfaceOf<'_> {
     }
 }
 
-/// [`surface`](crate::surface()) for the rays of a packet, and what they hit among `spheres`; zeros for those that hit nothing.
+/// [`surface`](crate::surface()) for the rays of a packet, and what they hit among `spheres`; zeros for those that
+/// hit nothing.
 ///
-/// Bit for bit what it returns for one ray, in every lane width. `hits` are the answers of `tier` for `rays`. Cost: in sixteen lanes
-/// some 6 ns a ray, hit or not.
+/// Bit for bit what it returns for one ray, in every lane width. `hits` are the answers of `tier` for `rays`. Cost:
+/// in sixteen lanes some 6 ns a ray, hit or not.
 ///
 /// ```
 /// use spherule_kernel::{
@@ -198,8 +199,8 @@ impl<L: Lanes> HitSpheres<L> {
         if hit == 0 {
             return None;
         }
-        // Sphere by sphere, since the rays of a packet hit few. (Lane by lane, which is the CPU's gather: a fifth more of a
-        // surface's time on u64.)
+        // Sphere by sphere, since the rays of a packet hit few. (Lane by lane, which is the CPU's gather: a fifth
+        // more of a surface's time on u64.)
         let zero = L::splat(token, 0.0);
         let (mut center, mut radius) = ([zero; 3], zero);
         let mut left = hit;

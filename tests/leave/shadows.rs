@@ -4,9 +4,11 @@ use super::departing;
 use spherule_kernel::{
     Exact, Intersect, Ray, Side, Sphere, SphereList, Tier, Towards, Vec3, surface,
 };
+use spherule_tests::campaign::on_all_cores;
 use spherule_tests::oracle;
 use spherule_tests::random::Random;
 use spherule_tests::variants::{Storey, shadow_rays_of, surface_storeys};
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// Spheres that touch, overlap, lie one in the other and twice in one place, moved by `offset`.
 fn crowd(random: &mut Random, offset: Vec3) -> Vec<Sphere> {
@@ -37,8 +39,8 @@ fn shadows(seed: u64, rays_a_place: u32) -> [u32; 2] {
     let (mut rays, mut dark) = (0, 0);
     for place in [0.0, 4096.0, 65_536.0, 262_144.0, 1_048_576.0, 1e7] {
         let offset = place * Vec3::new(1.0, -0.5, 0.75);
-        // At 10^7 numbers are an ulp of 1 apart: larger spheres.
-        let scale = if place > 1e5 { 4096.0 } else { 1.0 };
+        // At 10^7 numbers are 1 apart: larger spheres. The largest are some 6.5e6, as the Earth in metres.
+        let scale = random.pick(&[if place > 1e5 { 4096.0 } else { 1.0 }, 65_536.0]);
         let spheres: Vec<_> = crowd(&mut random, offset / scale)
             .into_iter()
             .map(|Sphere { center, radius }| Sphere {
@@ -48,7 +50,7 @@ fn shadows(seed: u64, rays_a_place: u32) -> [u32; 2] {
             .collect();
         let list = SphereList::from(&spheres[..]);
         for _ in 0..rays_a_place {
-            let eye = offset + scale * 10_f32.powf(random.between(0.8, 6.0)) * random.direction();
+            let eye = offset + scale * 10_f32.powf(random.between(0.8, 7.0)) * random.direction();
             let ray = Ray::new(eye, offset + scale * random.in_cube(2.5) - eye);
             let Some(hit) = list.closest_hit(Exact, &ray) else { continue };
             let sphere = spheres[hit.sphere as usize];
@@ -83,8 +85,13 @@ fn shadows_are_those_of_integers() {
 #[test]
 #[ignore = "a million shadows"]
 fn a_million_shadows_are_those_of_integers() {
-    let of_all = (0..140).map(|seed| shadows(2000 + seed, 2000));
-    let [dark, rays] = of_all.fold([0; 2], |[a, b], [dark, rays]| [a + dark, b + rays]);
+    let sums = [const { AtomicU32::new(0) }; 2];
+    on_all_cores(200, |seed| {
+        for (sum, more) in sums.iter().zip(shadows(2000 + seed, 2000)) {
+            sum.fetch_add(more, Relaxed);
+        }
+    });
+    let [dark, rays] = sums.map(AtomicU32::into_inner);
     println!("{dark} of {rays} in shadow");
     assert!(rays > 1_000_000, "{rays}");
 }

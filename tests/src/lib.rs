@@ -15,6 +15,7 @@
 //! | [`inputs`] | what proptest draws |
 //! | [`kept`] | some of the regimes' cases with their answers, in a file |
 //! | [`measured`] | cases of the regimes in which error is measured |
+//! | [`campaign`] | runs of many minutes |
 //! | [`budget`] | the one table of what each tier gets wrong, and where |
 //! | [`vectors`] | the 100,000 hard cases that lie beside the workspace, if they do |
 //!
@@ -26,6 +27,7 @@
 pub mod aim;
 #[cfg(feature = "tally")]
 pub mod budget;
+pub mod campaign;
 pub mod case;
 #[cfg(feature = "inputs")]
 pub mod inputs;

@@ -137,8 +137,8 @@ pub fn discriminant_sign(ray: &Ray, sphere: &Sphere) -> Option<Ordering> {
     Quadratic::new(ray, sphere).map(|quadratic| quadratic.discriminant.cmp(&BigInt::zero()))
 }
 
-/// The unit normal that points out of the sphere, and the point as seen from its centre, where the line enters it, or where
-/// it leaves it, correctly rounded. `None` for invalid input, a line that misses, and a point.
+/// The unit normal that points out of the sphere, and the point as seen from its centre, where the line enters it, or
+/// where it leaves it, correctly rounded. `None` for invalid input, a line that misses, and a point.
 ///
 /// With a t = b -+ sqrt D the point is t d - p = (d b - a p -+ d sqrt D) / a.
 #[must_use]

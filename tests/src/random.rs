@@ -101,7 +101,8 @@ impl Random {
         }
     }
 
-    /// Normal, of mean 0 and variance 1 (Box and Muller); the last bits are those of the machine's logarithm and cosine.
+    /// Normal, of mean 0 and variance 1 (Box and Muller); the last bits are those of the machine's logarithm and
+    /// cosine.
     pub fn normal(&mut self) -> f64 {
         let (radius, angle) = (1.0 - self.uniform(0.0, 1.0), self.uniform(0.0, 1.0));
         (-2.0 * radius.ln()).sqrt() * (angle * core::f64::consts::TAU).cos()

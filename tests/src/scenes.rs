@@ -11,8 +11,9 @@
 //! | `long lens` | 10,000 uniform | 10^4 scene sizes away, the scene fills the picture | from as far, all around, towards points in the scene |
 //!
 //! A picture has 1024 x 1024 primary rays in tiles of 4 x 4, tiles row by row, so that sixteen rays that follow each
-//! other are a coherent packet. Directions have no unit length. Of diffuse rays, which have nothing in common, there are
-//! a quarter as many; "in the cube" means origins uniform in it, directions uniform. The [small] scenes are lists.
+//! other are a coherent packet. Directions have no unit length. Of diffuse rays, which have nothing in common, there
+//! are a quarter as many; "in the cube" means origins uniform in it, directions uniform. The [small] scenes are
+//! lists.
 
 mod point;
 mod rays;

@@ -1,8 +1,8 @@
 //! The 100,000 hard cases that come with the project, made by another hand than ours.
 //!
-//! They are no part of the repository: `SPHERULE_VECTORS` names their folder, and then their absence is a failure. If it
-//! is not set, they are looked for in `shared/vectors` beside the workspace; a test that does not find them says so and
-//! goes on.
+//! They are no part of the repository: `SPHERULE_VECTORS` names their folder, and then their absence is a failure. If
+//! it is not set, they are looked for in `shared/vectors` beside the workspace; a test that does not find them says
+//! so and goes on.
 
 use crate::case::Case;
 use std::fs::File;

@@ -1,9 +1,9 @@
 //! From hits to light, by no more than the scene requires.
 //!
-//! No light, no shading: the plain colour of the sphere. With lights, Lambert's law in linear
-//! light, and a little that comes from everywhere. With shadows, a ray from the surface to the
-//! light decides whether it counts. Normals owe nothing to t, and shadow rays start where the kernel proves that they do
-//! not meet the sphere that they leave: there is no distance to choose, nothing shadows itself, and no shadow is lost.
+//! No light, no shading: the plain colour of the sphere. With lights, Lambert's law in linear light, and a little
+//! that comes from everywhere. With shadows, a ray from the surface to the light decides whether it counts. Normals
+//! owe nothing to t, and shadow rays start where the kernel proves that they do not meet the sphere that they leave:
+//! there is no distance to choose, nothing shadows itself, and no shadow is lost.
 
 use crate::picture::Picture;
 use crate::scene::{Light, Scene, Source};
@@ -34,6 +34,7 @@ pub struct Surfaces(Vec<SurfacePacket>);
 #[derive(Clone, Debug, Default)]
 pub struct ShadowRays {
     rays: Vec<RayPacket>,
+    /// Which of them meet anything, a bit a lane: none until they are traced.
     met: Vec<u32>,
 }
 
@@ -69,13 +70,13 @@ impl ShadowRays {
         self.rays.resize(hit.0.len(), RayPacket::inactive());
         let Tracing { tier, level, .. } = tracing;
         shadow_packets(tier, level, spheres, hit, towards, &mut self.rays);
+        self.met.clear();
+        self.met.resize(self.rays.len(), 0);
         &self.rays
     }
 
-    /// Which of them meet anything, a bit a lane; returns how many were traced.
+    /// Finds which of them meet anything; returns how many were traced.
     fn trace(&mut self, tracing: Tracing, scratch: &mut Scratch, search: &Search<'_>) -> u64 {
-        self.met.clear();
-        self.met.resize(self.rays.len(), 0);
         search.any_hits(tracing, scratch, &self.rays, &mut self.met);
         let live = |rays: &RayPacket| {
             (0..RayPacket::COUNT).filter(|&lane| rays.ray(lane).is_live()).count() as u64
@@ -140,8 +141,6 @@ impl Shader {
             let surfaces = surfaces.compute(tracing, scene.spheres(), rays, hits);
             for (light, towards) in scene.lights.iter().zip(&search.lights) {
                 shadow_rays.cast(tracing, scene.spheres(), (rays, hits, surfaces), light);
-                shadow_rays.met.clear();
-                shadow_rays.met.resize(rays.len(), 0);
                 if scene.shadows {
                     count += shadow_rays.trace(tracing, scratch, towards);
                 }

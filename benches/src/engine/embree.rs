@@ -3,10 +3,10 @@
 //! Behind the feature `embree`, since it links a C library that not every machine has (Debian: `libembree-dev`, 3.13).
 //! Declared by hand, from its headers `rtcore_{device,geometry,scene,ray,common}.h`.
 //!
-//! A call is timed as fairly as can be: rays are copied into Embree's records outside the clock (Embree overwrites them),
-//! block by block, so that a block is in the cache when it is traced; the clock sees nothing but calls of `rtcIntersect*`
-//! or `rtcOccluded*`. Embree asks its callers to flush subnormal numbers to zero, and is timed so; the kernel's `Exact`
-//! must not be, so the register is put back after every block, and that is asserted.
+//! A call is timed as fairly as can be: rays are copied into Embree's records outside the clock (Embree overwrites
+//! them), block by block, so that a block is in the cache when it is traced; the clock sees nothing but calls of
+//! `rtcIntersect*` or `rtcOccluded*`. Embree asks its callers to flush subnormal numbers to zero, and is timed so;
+//! the kernel's `Exact` must not be, so the register is put back after every block, and that is asserted.
 
 // A foreign interface and a control register: neither can be had without. Everything that is unsafe in this crate is in
 // this file.
@@ -98,8 +98,8 @@ impl Embree {
         let (buffer, count) = (spheres.as_ptr().cast(), spheres.len());
         let mut scene = null_mut();
         let nanoseconds = flushing(|| {
-            // SAFETY: the handles come from the library, the buffer has `count` elements of 16 bytes and is kept as long
-            // as the scene.
+            // SAFETY: the handles come from the library, the buffer has `count` elements of 16 bytes and is kept as
+            // long as the scene.
             unsafe {
                 let geometry = rtcNewGeometry(device, SPHERE_POINT);
                 let (kind, format) = (VERTEX_BUFFER, FLOAT4);
@@ -238,8 +238,8 @@ fn read(record: &[u32], n: usize, lane: usize, query: Query) -> Option<Hit> {
     }
 }
 
-/// How many nanoseconds calls of the library take with subnormal numbers flushed to zero, as it asks of its callers; the
-/// register is put back. `calls` must do no floating-point arithmetic of its own.
+/// How many nanoseconds calls of the library take with subnormal numbers flushed to zero, as it asks of its callers;
+/// the register is put back. `calls` must do no floating-point arithmetic of its own.
 fn flushing(calls: impl FnOnce()) -> u64 {
     /// Results (bit 15) and operands (bit 6) that are subnormal become zero.
     const FLUSH: u32 = 1 << 15 | 1 << 6;

@@ -57,8 +57,8 @@ impl<'a> Kernel<'a> {
         self.at_level(Way::RayByRay, Tier::Exact, Level::best())
     }
 
-    /// Every tier in brute force, in lanes of a fixed width, with the instructions that the build may use anywhere, and at
-    /// every level.
+    /// Every tier in brute force, in lanes of a fixed width, with the instructions that the build may use anywhere,
+    /// and at every level.
     pub(crate) fn brute_force(&self) -> Vec<Engine> {
         let mut all = Vec::new();
         for tier in Tier::ALL {

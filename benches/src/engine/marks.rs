@@ -5,9 +5,9 @@
 //! * `plain f64`: the textbook form in double precision, nothing proven: a = d.d, b = d.p, D = b^2 - a (p.p - r^2),
 //!   t = (b -+ sqrt D) / a.
 //!
-//! Both run in the same brute-force loop: four spheres under one branch, roots only behind it and out of line. What can be
-//! done before the clock starts is done before: rays widened, radii squared. Products and sums are fused if the build has
-//! that instruction.
+//! Both run in the same brute-force loop: four spheres under one branch, roots only behind it and out of line. What
+//! can be done before the clock starts is done before: rays widened, radii squared. Products and sums are fused if
+//! the build has that instruction.
 
 use super::{Engine, Label, Promise, Query, Run};
 use spherule_kernel::{Hit, Ray, Sphere, Spheres};

@@ -1,11 +1,11 @@
 //! What the machine's arithmetic can do at best, in registers: the mark for brute force.
 //!
-//! A test of a ray against a sphere by the textbook discriminant costs [`TEXTBOOK`] operations. [`FUSED`] is one fused
-//! operation a test; the **FMA limit** of a test is `TEXTBOOK * its time`: as if every operation took the slot of a fused
-//! one. On CPUs where all vector arithmetic shares two ports (Intel) it is a floor for the time. On AMD's Zen sums,
-//! differences and comparisons have ports of their own, so that a share above 1 is possible. [`MIX`] is the operations of
-//! a test, without memory: what a kernel would cost that loads, stores, counts and branches for nothing. If the target has
-//! no fused operation (a plain x86-64 build) a fused one is a product and a sum.
+//! A test of a ray against a sphere by the textbook discriminant costs [`TEXTBOOK`] operations. [`FUSED`] is one
+//! fused operation a test; the **FMA limit** of a test is `TEXTBOOK * its time`: as if every operation took the slot
+//! of a fused one. On CPUs where all vector arithmetic shares two ports (Intel) it is a floor for the time. On AMD's
+//! Zen sums, differences and comparisons have ports of their own, so that a share above 1 is possible. [`MIX`] is the
+//! operations of a test, without memory: what a kernel would cost that loads, stores, counts and branches for
+//! nothing. If the target has no fused operation (a plain x86-64 build) a fused one is a product and a sum.
 
 use super::{Engine, Label, Promise, Query, Run};
 use spherule_kernel::{Hit, LaneMask, Lanes, f32x4, f32x8, f32x16};

@@ -1,15 +1,15 @@
 //! Spheres that lie past a limit, told in single precision: where many are met one behind the
 //! other, that saves most of what a tier costs.
 //!
-//! Both roots are at least (b - sqrt D) / a, so both are past the limit where b - sqrt D > limit a,
-//! with D = a r^2 - |d x p|^2 raised by the most that it can be off. (With r |d| in place of sqrt D,
-//! a third of the operations, `Exact` was 3.3 times `Fast` where incoherent rays meet 64 large
-//! spheres, one through the other.) The test has a margin of 2^-20 of its terms, which also covers the 2^-22 (|p| + r) / |d| that the t
-//! of `Stable` is off where its squares do not underflow; where |p| + r might be so small, nothing
-//! is told. The t of `Fast` may be off by anything, so `Fast` does not use it.
+//! Both roots are at least (b - sqrt D) / a, so both are past the limit where b - sqrt D > limit a, with D = a r^2 -
+//! |d x p|^2 raised by the most that it can be off. (With r |d| in place of sqrt D, a third of the operations,
+//! `Exact` was 3.3 times `Fast` where incoherent rays meet 64 large spheres, one through the other.) The test has a
+//! margin of 2^-20 of its terms, which also covers the 2^-22 (|p| + r) / |d| that the t of `Stable` is off where its
+//! squares do not underflow; where |p| + r might be so small, nothing is told. The t of `Fast` may be off by
+//! anything, so `Fast` does not use it.
 //!
-//! Directions have any length; lengths as small as 2^-38, or so large that squares overflow, are not told of. (Divided by |p| + r
-//! they would be: a list of 100 spheres lost 5 % by it.)
+//! Directions have any length; lengths as small as 2^-38, or so large that squares overflow, are not told of.
+//! (Divided by |p| + r they would be: a list of 100 spheres lost 5 % by it.)
 
 use super::roots::RayLanes;
 use crate::numeric::axes::{axes, dot};

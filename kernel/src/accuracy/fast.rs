@@ -31,9 +31,9 @@ impl TierFormula for Fast {
     const TIER: Tier = Tier::Fast;
     /// D/a is off by 20 u |p|^2 + 10 u r^2 (`docs/numerics.md`); this is 2^-9, whose square is 64 u.
     const SPREAD: f32 = 1.0 / 512.0;
-    /// 2^-30 and 2^-60: what underflows in D is below 2^-148.
+    /// 2^-30: what underflows in D is below 2^-148.
     const UNDERFLOW: Underflow =
-        Underflow { length: 1.0 / (1 << 30) as f32, square: 1.0 / (1_u64 << 60) as f32 };
+        Underflow { length: 1.0 / (1 << 30) as f32, size: 1.0 / (1 << 30) as f32 };
     type Prepared<L: Lanes> = FastRays<L>;
 
     #[inline(always)]

@@ -66,9 +66,9 @@ pub struct StableRays<L> {
 impl TierFormula for Stable {
     const THIS: Self = Self;
     const TIER: Tier = Tier::Stable;
-    /// A normal number, and 2^-120: what underflows in D / a is below 2^-144.
+    /// A normal number, and 2^-60: what underflows in D / a is below 2^-144.
     const UNDERFLOW: Underflow =
-        Underflow { length: f32::MIN_POSITIVE, square: 1.0 / (1_u128 << 120) as f32 };
+        Underflow { length: f32::MIN_POSITIVE, size: 1.0 / (1_u64 << 60) as f32 };
     type Prepared<L: Lanes> = StableRays<L>;
 
     #[inline(always)]

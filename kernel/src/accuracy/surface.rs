@@ -1,17 +1,18 @@
-//! The surface at a hit, from the sphere's centre and never through t, which from afar is rounded to more than the sphere's size.
+//! The surface at a hit, from the sphere's centre and never through t, which from afar is rounded to more than the
+//! sphere's size.
 //!
 //! # Method
 //!
-//! With p = c - o, a = d.d and D = a r^2 - |d x p|^2, the roots are t = (b -+ sqrt D) / a, and the point as seen from the
-//! centre is
+//! With p = c - o, a = d.d and D = a r^2 - |d x p|^2, the roots are t = (b -+ sqrt D) / a, and the point as seen from
+//! the centre is
 //!
 //! ```text
 //! t d - p = (d x (d x p) -+ d sqrt D) / a.
 //! ```
 //!
-//! In double precision d x p loses some 2^-51 |d| |p|: a normal is off by some 2^-50 |p| / r, 2^-27 from 10^7 radii away. Without
-//! that loss, where it matters: the products of single precision are exact, and so is the sum of two of them in two terms. By `Exact` both
-//! have bounds (`docs/numerics.md`).
+//! In double precision d x p loses some 2^-51 |d| |p|: a normal is off by some 2^-50 |p| / r, 2^-27 from 10^7 radii
+//! away. Without that loss, where it matters: the products of single precision are exact, and so is the sum of two of
+//! them in two terms. By `Exact` both have bounds (`docs/numerics.md`).
 
 use super::exact::estimate::Constants;
 use super::roots::RayLanes;
@@ -127,8 +128,9 @@ impl<D: DoubleLanes> Line<D> {
         )
     }
 
-    /// The point of the near root in the lanes `is_near`, else of the far one, as seen from the centre; what every coordinate
-    /// may be off, if D is above its bound; and 1/r. Where the line misses, the point of it that is closest to the centre.
+    /// The point of the near root in the lanes `is_near`, else of the far one, as seen from the centre; what every
+    /// coordinate may be off, if D is above its bound; and 1/r. Where the line misses, the point of it that is
+    /// closest to the centre.
     #[inline(always)]
     pub(super) fn point(&self, is_near: D::Mask) -> ([D; 3], D, D) {
         let (d, zero) = (self.direction, self.a.like(0.0));

@@ -59,12 +59,14 @@ pub trait TierFormula: Copy + Debug {
         Ordering::Equal
     }
 
-    /// The surface of a sphere of positive radius that a valid ray hits at `t`, where [`TierFormula::surfaces`] does not know it.
+    /// The surface of a sphere of positive radius that a valid ray hits at `t`, where [`TierFormula::surfaces`] does
+    /// not know it.
     fn surface_at(_ray: &Ray, _t: f32, _sphere: &Sphere) -> Surface {
         Surface { normal: Vec3::ZERO, point: Vec3::ZERO, rest: Vec3::ZERO }
     }
 
-    /// The surfaces of spheres of positive radius that rays hit at `t`, and those of the lanes `asked` in which they are known.
+    /// The surfaces of spheres of positive radius that rays hit at `t`, and those of the lanes `asked` in which they
+    /// are known.
     #[inline(always)]
     fn surfaces<L: Lanes>(
         rays: &RayLanes<L>,
@@ -82,13 +84,13 @@ pub trait TierFormula: Copy + Debug {
 pub struct Underflow {
     /// Of the largest component of a direction.
     pub length: f32,
-    /// Of |p|^2 + r^2.
-    pub square: f32,
+    /// Of the root of |p|^2 + r^2.
+    pub size: f32,
 }
 
 impl Underflow {
     /// The tier sees none.
-    pub const NONE: Self = Self { length: 0.0, square: 0.0 };
+    pub const NONE: Self = Self { length: 0.0, size: 0.0 };
 }
 
 /// Work that is compiled once a tier.

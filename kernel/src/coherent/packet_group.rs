@@ -12,9 +12,9 @@ use crate::query::Query;
 /// How many packets go together.
 pub(super) const GROUP: usize = 4;
 
-/// Tests sixteen spheres, those in `places`, from `depth` on, with every packet that goes there and whose
-/// planes, for spheres that are larger by `spread`, leave them in; `end` becomes the greatest depth that any of them still
-/// goes to, if that changes.
+/// Tests sixteen spheres, those in `places`, from `depth` on, with every packet that goes there and whose planes, for
+/// spheres that are larger by `spread`, leave them in; `end` becomes the greatest depth that any of them still goes
+/// to, if that changes.
 #[inline(always)]
 pub(super) fn meet_block<L: Lanes, Q: Query>(
     tier: impl Accuracy,

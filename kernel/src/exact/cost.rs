@@ -1,4 +1,5 @@
-//! What exact sums cost at worst, in limbs touched: additions of 64 bits, carries included, which depend on the numbers.
+//! What exact sums cost at worst, in limbs touched: additions of 64 bits, carries included, which depend on the
+//! numbers.
 
 extern crate std;
 

@@ -9,8 +9,8 @@
 //! S = B + x,  B = b_1 - b_2,  x = e_1 sqrt D_1 - e_2 sqrt D_2
 //! ```
 //!
-//! with e = -1 for a near root and 1 for a far one. The sign of x is known from those of e, or of D_1 - D_2. Where B has
-//! the other sign, that of |B| - |x| decides, which is that of
+//! with e = -1 for a near root and 1 for a far one. The sign of x is known from those of e, or of D_1 - D_2. Where B
+//! has the other sign, that of |B| - |x| decides, which is that of
 //!
 //! ```text
 //! B^2 - x^2 = M + 2 e_1 e_2 sqrt(D_1 D_2),  M = B^2 - D_1 - D_2 = a (k_1 + k_2) - 2 b_1 b_2.

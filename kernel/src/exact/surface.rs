@@ -9,9 +9,9 @@
 //! t d - p = (alpha -+ d sqrt D) / a,  alpha = d x (d x p)
 //! ```
 //!
-//! as seen from the centre, and the normal that by r. So how a coordinate compares with a number m is the sign of
-//! A -+ d_i sqrt D, A = alpha_i - m a (times r for a normal): that of both parts, if they agree, else that of the larger one,
-//! by the sign of A^2 - d_i^2 D. All of these are sums of products.
+//! as seen from the centre, and the normal that by r. So how a coordinate compares with a number m is the sign of A
+//! -+ d_i sqrt D, A = alpha_i - m a (times r for a normal): that of both parts, if they agree, else that of the
+//! larger one, by the sign of A^2 - d_i^2 D. All of these are sums of products.
 
 use super::long_accumulator::{Product, SumOfEights, SumOfSixes};
 use super::quadratic::{QuadraticTerms, Root, midpoint};

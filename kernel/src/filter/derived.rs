@@ -1,12 +1,12 @@
 //! The least kappa that lets every hit pass, as it follows from the source of the filter and of `Fast`.
 //!
-//! With F = D/a + |o|^2 in real arithmetic, what is computed is at least F, and what the widening adds, less the error; the
-//! threshold is at most |o|^2, less what it is lowered by, and its error. A hit of `Fast` has D/a above its row. So a
-//! hit passes if both widenings exceed both errors and the row, term by term in |c|^2, |o|^2 and r^2.
+//! With F = D/a + |o|^2 in real arithmetic, what is computed is at least F, and what the widening adds, less the
+//! error; the threshold is at most |o|^2, less what it is lowered by, and its error. A hit of `Fast` has D/a above
+//! its row. So a hit passes if both widenings exceed both errors and the row, term by term in |c|^2, |o|^2 and r^2.
 
 extern crate std;
 
-use super::{FilterGroup, FilterRays, Frame, KAPPA, LEAST_SQUARE, excess};
+use super::{FilterGroup, FilterRays, Frame, KAPPA, LEAST_SIZE, excess};
 use crate::accuracy::{RayLanes, fast_row};
 use crate::testing::polynomial::Polynomial;
 use crate::testing::recorded::{Operation, Recorded, record};
@@ -42,14 +42,14 @@ fn derive_of(kappa: f32, more: impl FnOnce(Recorded, Recorded) -> Recorded) -> D
         let (origin, direction) = ([ox, oy, oz], [dx, dy, dz]);
         let rays = RayLanes { origin, direction, t_min: ox, t_max: r, live: true };
         let shift = [kx, ky, kz].map(Recorded::tag);
-        let frame = Frame { scale: 1.0, shift, least_square: LEAST_SQUARE, least_length: 0.0 };
+        let frame = Frame { scale: 1.0, shift, least_size: LEAST_SIZE, least_length: 0.0 };
         let filter = FilterRays::widened((), &rays, &frame, kappa);
         let c = [more(cx, r), cy, cz];
         let mut group = FilterGroup::EMPTY;
         for axis in 0..3 {
             group.center[axis][0] = c[axis].tag();
         }
-        group.excess[0] = excess(c, r, kappa, LEAST_SQUARE).tag();
+        group.excess[0] = excess(c, r, kappa, LEAST_SIZE).tag();
         let raised = filter.raised(&group, 0);
         (filter, raised)
     });

@@ -1,11 +1,12 @@
-//! The filter over toy floats: what `Fast` or real arithmetic calls a hit passes, for all rays and spheres of a set, in a plane.
+//! The filter over toy floats: what `Fast` or real arithmetic calls a hit passes, for all rays and spheres of a set,
+//! in a plane.
 //!
-//! kappa is 104 u, so that the floats have eleven bits: of fewer it would let everything pass. Spheres are prepared for `f32`
-//! alone; here their centres are shifted by a lane, as rays are.
+//! kappa is 104 u, so that the floats have eleven bits: of fewer it would let everything pass. Spheres are prepared
+//! for `f32` alone; here their centres are shifted by a lane, as rays are.
 
 extern crate std;
 
-use super::{FilterGroup, FilterRays, Frame, LEAST_SQUARE, excess};
+use super::{FilterGroup, FilterRays, Frame, LEAST_SIZE, excess};
 use crate::Fast;
 use crate::accuracy::{RayLanes, TierFormula};
 use crate::testing::toy::{Format, Toy};
@@ -60,16 +61,17 @@ impl Case {
         for i in 0..3 {
             group.center[i][0] = shifted[i].get() as f32;
         }
-        group.excess[0] = excess(shifted, r, kappa, LEAST_SQUARE).get() as f32;
+        group.excess[0] = excess(shifted, r, kappa, LEAST_SIZE).get() as f32;
         let shift = shift.map(|k| k.get() as f32);
-        let frame = Frame { scale: 1.0, shift, least_square: LEAST_SQUARE, least_length: 0.0 };
+        let frame = Frame { scale: 1.0, shift, least_size: LEAST_SIZE, least_length: 0.0 };
         let passes = FilterRays::widened((), &rays, &frame, kappa).may_meet(&group, 0);
         let t = Fast::first_root(&rays, &Fast::prepare(&rays), center, r, true, infinity);
         [t.get().is_finite(), passes]
     }
 }
 
-/// All cases of the sets: radii are less than the distance of the line, down to where `Fast` sees no hit any more, or as large.
+/// All cases of the sets: radii are less than the distance of the line, down to where `Fast` sees no hit any more, or
+/// as large.
 fn all(mut work: impl FnMut(&Case)) {
     let directions = [[4, 1], [5, 3], [7, 0], [6, -5], [3, 7], [-1, 5], [2047, 1023], [-999, 1]];
     let numbers = [-2001, -1021, -515, -100, -3, 0, 2, 33, 257, 701, 1501, 2047];

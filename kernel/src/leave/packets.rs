@@ -29,11 +29,11 @@ pub type SurfaceHit<'a, A = [f32; 16]> = (&'a RayPacket<A>, &'a HitPacket<A>, &'
 pub type SurfaceHits<'a, A = [f32; 16]> =
     (&'a [RayPacket<A>], &'a [HitPacket<A>], &'a [SurfacePacket<A>]);
 
-/// Rays to a light from what the rays of a packet hit: from the side of the surface that each came from, if that faces the
-/// light; inactive in the other lanes.
+/// Rays to a light from what the rays of a packet hit: from the side of the surface that each came from, if that
+/// faces the light; inactive in the other lanes.
 ///
-/// A ray is bit for bit that of [`Surface::leave`](crate::Surface::leave) or `leave_to`, in every lane width. `hits` and
-/// `surfaces` are the answers of `tier` for `rays` among `spheres`. Cost: in sixteen lanes some 10 ns a ray.
+/// A ray is bit for bit that of [`Surface::leave`](crate::Surface::leave) or `leave_to`, in every lane width. `hits`
+/// and `surfaces` are the answers of `tier` for `rays` among `spheres`. Cost: in sixteen lanes some 10 ns a ray.
 ///
 /// ```
 /// use spherule_kernel::{

@@ -8,8 +8,8 @@ use core::ops::{Add, Sub};
 
 /// `high + low = a + b` exactly, with `high` the rounded sum (Knuth; Møller 1965).
 ///
-/// Domain: the sum does not overflow, and neither number is `f32::MAX` or its opposite. Underflow does no harm: sums that
-/// small are exact.
+/// Domain: the sum does not overflow, and neither number is `f32::MAX` or its opposite. Underflow does no harm: sums
+/// that small are exact.
 #[inline(always)]
 pub(crate) fn two_sum<T: Copy + Add<Output = T> + Sub<Output = T>>(a: T, b: T) -> (T, T) {
     let high = a + b;

@@ -100,8 +100,8 @@ pub(crate) fn climb_twice<const N: usize>(
     if kept.0 > changed.0 { kept } else { changed }
 }
 
-/// Fails if what a search has found is not what is published, in `docs/proofs.md` or at the test: a tenth more or less. More
-/// is a better search, and worth publishing; a longer one may find it.
+/// Fails if what a search has found is not what is published, in `docs/proofs.md` or at the test: a tenth more or
+/// less. More is a better search, and worth publishing; a longer one may find it.
 pub(crate) fn assert_published(what: &str, found: f64, published: f64) {
     println!("{what}: {found:.3} found, {published} published");
     let part = found / published;

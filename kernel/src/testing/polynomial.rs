@@ -1,7 +1,7 @@
 //! Polynomials in magnitudes: no coefficient is negative, exponents may be.
 //!
-//! One with smaller coefficients, monomial by monomial, is smaller wherever the symbols stand for magnitudes. Coefficients
-//! are computed in `f64`, which loses less than 2^-40 of them: who compares leaves more than that.
+//! One with smaller coefficients, monomial by monomial, is smaller wherever the symbols stand for magnitudes.
+//! Coefficients are computed in `f64`, which loses less than 2^-40 of them: who compares leaves more than that.
 
 extern crate std;
 
@@ -115,8 +115,8 @@ impl Polynomial {
         sum
     }
 
-    /// What it is at most in terms of lengths of vectors, by Cauchy: the sum of k_i |v_i| |w_i| over the axes is at most the
-    /// largest k_i times |v| |w|. None if a monomial has components, but not two of one axis.
+    /// What it is at most in terms of lengths of vectors, by Cauchy: the sum of k_i |v_i| |w_i| over the axes is at
+    /// most the largest k_i times |v| |w|. None if a monomial has components, but not two of one axis.
     pub(crate) fn contracted(&self, vectors: &[([Symbol; 3], Symbol)]) -> Option<Self> {
         // What is left of a monomial, with lengths, and its coefficients axis by axis.
         let mut largest: BTreeMap<Monomial, [f64; 3]> = BTreeMap::new();

@@ -1,7 +1,7 @@
 //! Lanes that record the expression as it runs: the kernel's own formula as a graph of + - * / and roots.
 //!
-//! A lane is a node of the graph and carries a number besides, by which comparisons are answered: what is recorded is the
-//! way of a witness. A multiply-add is recorded as a product and a sum, which covers the fused one.
+//! A lane is a node of the graph and carries a number besides, by which comparisons are answered: what is recorded is
+//! the way of a witness. A multiply-add is recorded as a product and a sum, which covers the fused one.
 
 extern crate std;
 

@@ -1,12 +1,12 @@
 //! How far off a recorded expression may be: the sum of all roundings, of every order, for all inputs at once.
 //!
-//! Every node has three polynomials in magnitudes: its computed value is between `low` and `high`, and within `error` of
-//! what real arithmetic makes of the true inputs. So bounds are homogeneous, as those of the proofs are, and hold
+//! Every node has three polynomials in magnitudes: its computed value is between `low` and `high`, and within `error`
+//! of what real arithmetic makes of the true inputs. So bounds are homogeneous, as those of the proofs are, and hold
 //! for inputs of any size, as long as nothing over- or underflows.
 //!
-//! A difference that may cancel is *named*: where it is a factor later, its magnitude becomes a symbol of its own, and so
-//! does a root, a sum that is divided by, and what the caller names. The rounding of a named sum is u of that symbol, but of
-//! a difference of two products it is u of both: either is true, and the proofs choose so.
+//! A difference that may cancel is *named*: where it is a factor later, its magnitude becomes a symbol of its own,
+//! and so does a root, a sum that is divided by, and what the caller names. The rounding of a named sum is u of that
+//! symbol, but of a difference of two products it is u of both: either is true, and the proofs choose so.
 //!
 //! A product of symbols to powers, some roundings away from it, has a relative error: what cancels there, as in
 //! root / (a root), is not counted. Errors are then those of the symbols that are left.

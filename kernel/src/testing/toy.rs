@@ -1,12 +1,13 @@
 //! Toy floats: floats of a few bits, so that the kernel's own code runs over all of them.
 //!
-//! Every operation is done in `f64` and rounded to nearest, ties to even. Two roundings in a row are as good as the second
-//! alone if the first is to twice the bits of the second and two more (Figueroa 1995): that holds for `+ - * /` and
-//! the root, for all formats of at most 25 bits. A quotient among subnormals has fewer bits, and is no nearer to a tie.
-//! A fused multiply-add is computed by one rounding where `f64` holds the sum, which it does for a dozen bits.
+//! Every operation is done in `f64` and rounded to nearest, ties to even. Two roundings in a row are as good as the
+//! second alone if the first is to twice the bits of the second and two more (Figueroa 1995): that holds for `+ - *
+//! /` and the root, for all formats of at most 25 bits. A quotient among subnormals has fewer bits, and is no nearer
+//! to a tie. A fused multiply-add is computed by one rounding where `f64` holds the sum, which it does for a dozen
+//! bits.
 //!
-//! What a number of the kernel's source follows from u does so here, by `Lanes::UNIT_ROUNDOFF`. Other numbers (2^40, and
-//! what is added for underflow) are the same as in `f32`.
+//! What a number of the kernel's source follows from u does so here, by `Lanes::UNIT_ROUNDOFF`. Other numbers (2^40,
+//! and what is added for underflow) are the same as in `f32`.
 
 use crate::{DoubleLanes, Lanes};
 use core::fmt::Debug;

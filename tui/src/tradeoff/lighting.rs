@@ -29,8 +29,8 @@ pub(super) struct LightingErrors {
 }
 
 impl Lighting {
-    /// Of every `step`-th packet of the `camera` rays, which have these `hits` by `tier`; `machine` finds what is between points and
-    /// lights.
+    /// Of every `step`-th packet of the `camera` rays, which have these `hits` by `tier`; `machine` finds what is
+    /// between points and lights.
     pub(super) fn new(
         tier: Tier,
         (camera, hits): (&Rays, &[HitPacket]),

@@ -161,7 +161,8 @@ fn from_afar_normals_are_right_and_nothing_shadows_itself() {
     assert!(hits > 5000 && lit > 2000, "{hits} {lit}");
 }
 
-/// Shadows of balls on the ground that they touch, wherever the scene is moved to: every coordinate stays a number, and so do the rays.
+/// Shadows of balls on the ground that they touch, wherever the scene is moved to: every coordinate stays a number,
+/// and so do the rays.
 #[test]
 fn contact_shadows_stay_where_a_scene_is_moved() {
     let shadowed = |place: f32| {

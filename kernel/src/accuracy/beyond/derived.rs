@@ -1,6 +1,7 @@
 //! The raise of D and the margin of a limit as they follow from the source.
 //!
-//! Put in by hand: no component of d is longer than d; r |d| and |d.p| are no more than the size; and what `Stable` is off.
+//! Put in by hand: no component of d is longer than d; r |d| and |d.p| are no more than the size; and what `Stable`
+//! is off.
 
 extern crate std;
 

@@ -134,8 +134,8 @@ fn estimated<L: Lanes, const IN_TWO_TERMS: bool>(
     (surfaces, known)
 }
 
-/// Where `t` answers the near root, and where it is known which root it answers: by its side of b / a, where the line is closest to
-/// the centre. What is rounded to t is within 2^-24 |t| of it, or 2^-149.
+/// Where `t` answers the near root, and where it is known which root it answers: by its side of b / a, where the line
+/// is closest to the centre. What is rounded to t is within 2^-24 |t| of it, or 2^-149.
 #[inline(always)]
 fn root_of<D: DoubleLanes>(line: &Line<D>, t: D) -> (D::Mask, D::Mask) {
     let at_t = t * line.a;

@@ -1,9 +1,9 @@
 //! The double-precision stage over toy floats, against integers: D and t within their bounds, what is decided right,
 //! and two hits in their order.
 //!
-//! Rays and spheres have 3 or 4 bits, as integers, and the doubles twice as many and five more, as `f64` has: so that, as
-//! the proof assumes, products of two inputs are exact, and p = c - o is rounded where c and o are far apart. Twice as many
-//! bits are enough, too.
+//! Rays and spheres have 3 or 4 bits, as integers, and the doubles twice as many and five more, as `f64` has: so
+//! that, as the proof assumes, products of two inputs are exact, and p = c - o is rounded where c and o are far
+//! apart. Twice as many bits are enough, too.
 
 extern crate std;
 

@@ -246,8 +246,8 @@ impl<A: LaneArray> PreparedPacket<A> {
         }
     }
 
-    /// Prepares the rays of a packet for a scene that is scaled by `factor`, in the place of others. (As a value it was copied: 3 % of a
-    /// traversal.)
+    /// Prepares the rays of a packet for a scene that is scaled by `factor`, in the place of others. (As a value it
+    /// was copied: 3 % of a traversal.)
     #[inline(always)]
     pub(crate) fn prepare<L: Lanes<Array = A>>(
         &mut self,

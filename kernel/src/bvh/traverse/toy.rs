@@ -1,11 +1,11 @@
-//! Boxes and leaves over toy floats: what a ray is answered with is never left out, for all rays and spheres of small sets,
-//! in a plane.
+//! Boxes and leaves over toy floats: what a ray is answered with is never left out, for all rays and spheres of small
+//! sets, in a plane.
 //!
 //! Margins are up to 48 u, so that floats of five bits would leave nothing to be tested: numbers are integers
 //! of few bits, and the floats have ten. The answer is the root, rounded as `Exact` does.
 //!
-//! Rays that are moved, from far away, have twelve bits: the 2^-11 T of their error covers 2 u T from there on. The build
-//! of the tree is written for `f32` alone; its padding, 40 u C, is repeated here.
+//! Rays that are moved, from far away, have twelve bits: the 2^-11 T of their error covers 2 u T from there on. The
+//! build of the tree is written for `f32` alone; its padding, 40 u C, is repeated here.
 
 extern crate std;
 
@@ -142,7 +142,8 @@ impl Case {
     }
 }
 
-/// All cases near the origin: radii are about the distance of the line, so that lines are tangents, or miss or meet by little.
+/// All cases near the origin: radii are about the distance of the line, so that lines are tangents, or miss or meet
+/// by little.
 fn all(mut work: impl FnMut(&Case)) {
     let centers = [-1021, -777, -100, -3, 0, 1, 2, 33, 101, 701, 999];
     for dx in [4, 5, 6, 7] {

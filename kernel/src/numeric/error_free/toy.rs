@@ -68,8 +68,8 @@ fn sums<F: Format>() -> [u64; 3] {
     counts
 }
 
-/// Products and squares in the domain; how many of them are not exact; those below it; and the largest error of these, in
-/// the least number.
+/// Products and squares in the domain; how many of them are not exact; those below it; and the largest error of
+/// these, in the least number.
 fn products<F: Format>() -> ([u64; 3], f64) {
     let tiny = power_of_two(LEAST + 1 - F::BITS as i32);
     let half = F::BITS.div_ceil(2) as i32;
@@ -108,7 +108,8 @@ fn products<F: Format>() -> ([u64; 3], f64) {
     (counts, error)
 }
 
-/// A sum overflows within where one of the numbers is the greatest of all, or its opposite, though it is in range itself.
+/// A sum overflows within where one of the numbers is the greatest of all, or its opposite, though it is in range
+/// itself.
 #[test]
 fn sums_of_all_short_floats() {
     for (bits, [exact, over, within]) in

@@ -1,5 +1,5 @@
-//! The rules against numbers: at every node of a recorded formula what single precision computes is between the polynomials
-//! `low` and `high`, and within `error` of what double precision does, for random inputs.
+//! The rules against numbers: at every node of a recorded formula what single precision computes is between the
+//! polynomials `low` and `high`, and within `error` of what double precision does, for random inputs.
 
 use super::{Input, RunningError};
 use crate::testing::climb::Random;
@@ -32,8 +32,8 @@ fn values(graph: &[Operation], inputs: &[f32]) -> Vec<(f32, f64)> {
     values
 }
 
-/// The part of an error that is used at most, by nodes whose error is known, and how many comparisons there were; a formula is
-/// left out where it has no root.
+/// The part of an error that is used at most, by nodes whose error is known, and how many comparisons there were; a
+/// formula is left out where it has no root.
 fn used<const N: usize>(
     bits: u32,
     formula: impl Fn([Recorded; N]),

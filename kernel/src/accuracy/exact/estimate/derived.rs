@@ -1,5 +1,5 @@
-//! The bounds E and T as they follow from the source: the formula records itself, rule by rule its roundings are summed, and
-//! no constant may be smaller than what comes out.
+//! The bounds E and T as they follow from the source: the formula records itself, rule by rule its roundings are
+//! summed, and no constant may be smaller than what comes out.
 //!
 //! E is proven first. Then the error of D counts as that part of E, and T is.
 

@@ -4,9 +4,9 @@
 //! told by f(t) = |t d - p|^2 - r^2 at the computed t, exact as well: t + e is the root where
 //! a e^2 + 2 g e + f = 0, g = d.(t d - p), of which e = -f / (g -+ sqrt D) is the small solution.
 //!
-//! Found: an error of D of 0.67 E, of t of 0.35 T; with all constants divided by four both fail.
-//! (Where sizes were kept, 0.62 and 0.33.) One by one, those that stay right are so for a reason: the proof counts every rounding at its
-//! largest, as if they could be so together, and the terms overlap.
+//! Found: an error of D of 0.67 E, of t of 0.35 T; with all constants divided by four both fail. (Where sizes were
+//! kept, 0.62 and 0.33.) One by one, those that stay right are so for a reason: the proof counts every rounding at
+//! its largest, as if they could be so together, and the terms overlap.
 //!
 //! | constant | a quarter of it | because |
 //! |---|---|---|

@@ -134,8 +134,8 @@ pub(super) fn signed(numbers: &[i64]) -> Vec<i64> {
     numbers.iter().filter(|x| **x != 0).map(|x| -x).chain(numbers.iter().copied()).collect()
 }
 
-/// All cases in a plane, of numbers of `bits` bits: centres up to `end`, radii up to half as much again, and origins `far`
-/// from them.
+/// All cases in a plane, of numbers of `bits` bits: centres up to `end`, radii up to half as much again, and origins
+/// `far` from them.
 pub(super) fn plane(bits: u32, far: &[i64], end: i64, mut work: impl FnMut(&Case)) {
     let top = 1 << bits;
     let directions = short_integers(bits, 2 * top - 2);

@@ -1,5 +1,5 @@
-//! How much of the pads of boxes is used, as far as a search finds it: by the answer of a ray, in the slab of a box around
-//! one sphere.
+//! How much of the pads of boxes is used, as far as a search finds it: by the answer of a ray, in the slab of a box
+//! around one sphere.
 
 extern crate std;
 
@@ -12,7 +12,8 @@ use crate::{Exact, Ray, RayPacket, Sphere, Stable, Vec3};
 /// o, d, c, r.
 type Numbers = [f32; 10];
 
-/// Of what both pads widen a slab by, at either end: how far an answer's s is outside of the slab that is computed without.
+/// Of what both pads widen a slab by, at either end: how far an answer's s is outside of the slab that is computed
+/// without.
 fn used<A: TierFormula>(numbers: &Numbers) -> f64 {
     let [ox, oy, oz, dx, dy, dz, cx, cy, cz, r] = *numbers;
     let line = Ray::new(Vec3::new(ox, oy, oz), Vec3::new(dx, dy, dz));

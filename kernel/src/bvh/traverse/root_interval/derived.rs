@@ -1,8 +1,8 @@
 //! The margins of a leaf as they follow from the source.
 //!
-//! The roundings of the middle, of q and of l^2 are summed from the recorded formula. The geometry is put in by hand, as the
-//! proof does: the error of the middle is at right angles to l, and l^2 + h^2 = r^2. How far off o' and the tiers
-//! are is taken from the text.
+//! The roundings of the middle, of q and of l^2 are summed from the recorded formula. The geometry is put in by hand,
+//! as the proof does: the error of the middle is at right angles to l, and l^2 + h^2 = r^2. How far off o' and the
+//! tiers are is taken from the text.
 //!
 //! What is left are polynomials in M = |m|, r and the absolute error: those of the source must be larger, term by term.
 
@@ -193,8 +193,9 @@ fn length_off() -> f64 {
 /// What is counted of |p| is counted of |f|, |q| and |m n|, as computed: no more than this times |p|.
 const SECOND: f64 = 1.0 + 64.0 * U;
 
-/// Of each statement the part of the margin that is needed by the term that needs most: a hit passes the test of W; that
-/// of r + delta; what passes the test of -W is a hit; half the chord is in its interval; and the roots are in theirs.
+/// Of each statement the part of the margin that is needed by the term that needs most: a hit passes the test of W;
+/// that of r + delta; what passes the test of -W is a hit; half the chord is in its interval; and the roots are in
+/// theirs.
 type Parts = [f64; 5];
 
 fn holds(leaf: &Leaf) -> bool {

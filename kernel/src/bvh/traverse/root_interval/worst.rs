@@ -1,5 +1,5 @@
-//! How much of a leaf's margins is used, as far as a search finds it. Doubles are the truth: beside a margin of some 2^-20 their
-//! error is nothing.
+//! How much of a leaf's margins is used, as far as a search finds it. Doubles are the truth: beside a margin of some
+//! 2^-20 their error is nothing.
 
 extern crate std;
 

@@ -1,0 +1,26 @@
+//! Long runs, which a test does only if it is asked to.
+
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
+use std::thread::{available_parallelism, scope};
+
+/// Does `work` of the numbers below `count`, on all cores; prints how far it is. Fails if one of them does.
+///
+/// # Panics
+/// If `work` does.
+pub fn on_all_cores(count: u64, work: impl Fn(u64) + Sync) {
+    let next = AtomicU64::new(0);
+    let worker = || {
+        loop {
+            let number = next.fetch_add(1, Relaxed);
+            if number >= count {
+                return;
+            }
+            work(number);
+            if number % count.div_ceil(100) == 0 {
+                println!("{number} of {count}");
+            }
+        }
+    };
+    let threads = available_parallelism().map_or(1, usize::from);
+    scope(|scope| (0..threads).for_each(|_| drop(scope.spawn(worker))));
+}
