@@ -16,7 +16,7 @@ pub fn on_all_cores(count: u64, work: impl Fn(u64) + Sync) {
                 return;
             }
             work(number);
-            if number % count.div_ceil(100) == 0 {
+            if number.is_multiple_of(count.div_ceil(100)) {
                 println!("{number} of {count}");
             }
         }
