@@ -144,7 +144,10 @@ pub(crate) fn for_candidates<L: Lanes, R, S: SphereRun + ?Sized>(
             let mut first = first;
             for group in block.groups() {
                 if filter.may_meet_any(group) {
-                    let indices = [0, 1, 2, 3].map(|slot| spheres.index(first + slot));
+                    let mut indices = [u32::MAX; GROUP];
+                    for slot in 0..GROUP {
+                        indices[slot] = spheres.index(first + slot);
+                    }
                     let candidates = Candidates {
                         packet,
                         rays: &rays,
