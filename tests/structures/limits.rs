@@ -20,11 +20,11 @@ fn invalid_and_immense_spheres() {
     }
     // Nothing but such.
     let none = vec![Sphere { center: Vec3::ZERO, radius: f32::NAN }; 100];
-    let immense = vec![Sphere { center: Vec3::new(0.0, 3e12, 0.0), radius: 3e12 }; 100];
+    let immense = vec![Sphere { center: Vec3::new(0.0, 3e12, 0.0), radius: 3e12 }; 40];
     for (tiers, spheres) in [(EXACT, spheres), (BOTH, none), (EXACT, immense), (BOTH, Vec::new())] {
-        assert_same(tiers, &mixed(500, 16), &spheres);
-        assert_same(tiers, &camera(EYE, Vec3::ZERO, 0.364, 48), &spheres);
-        let parallel = parallel(EYE, -EYE, 1.2, 48);
+        assert_same(tiers, &mixed(250, 16), &spheres);
+        assert_same(tiers, &camera(EYE, Vec3::ZERO, 0.364, 32), &spheres);
+        let parallel = parallel(EYE, -EYE, 1.2, 32);
         assert_same_from(Viewpoint::Direction(-EYE), tiers, &parallel, &spheres);
     }
 }

@@ -58,7 +58,7 @@ fn spheres_on_spheres() {
 
 #[test]
 fn spheres_that_no_scene_should_have() {
-    the_same_files("hostile3000", &hostile(3000));
+    the_same_files("hostile1500", &hostile(1500));
 }
 
 #[test]
