@@ -2,6 +2,7 @@
 
 mod band;
 mod packet_order;
+mod tracer;
 
 pub use packet_order::packet_corners;
 
@@ -18,6 +19,7 @@ use crate::view::View;
 use band::{BAND, BandPainter, Frame};
 use spherule_kernel::{Camera, Coherence, Level};
 use std::sync::atomic::{AtomicU64, Ordering};
+use tracer::{SampleGrid, Traced};
 
 /// A drawn picture and what it took.
 #[derive(Clone, Debug)]
@@ -103,7 +105,8 @@ impl<'a> Renderer<'a> {
         let (camera, width, height) = sample_grid(view, style, columns, rows);
         let (tier, coherence) = (style.accuracy, search.coherence);
         let tracing = Tracing { tier, level: self.level, coherence };
-        let frame = Frame { tracing, scene, search, style, camera, width, height };
+        let traced = Traced { tracing, scene, search };
+        let frame = Frame { traced, style, grid: SampleGrid { camera, width, height } };
         let mut cells = CellGrid::new(columns, rows);
         let shadow_rays = AtomicU64::new(0);
         let band = usize::from(columns) * BAND;

@@ -2,30 +2,28 @@
 
 use spherule_kernel::Vec3;
 
-/// A rectangle of pixels in linear light, row by row from the top left.
+/// Pixels in linear light, in whatever order their owner counts them.
 #[derive(Clone, Debug, Default)]
 pub struct Picture {
-    width: usize,
     pixels: Vec<Vec3>,
 }
 
 impl Picture {
-    /// Black, and of this size; the memory is kept.
-    pub fn reset(&mut self, width: usize, height: usize) {
-        self.width = width;
+    /// So many black pixels; the memory is kept.
+    pub fn reset(&mut self, pixels: usize) {
         self.pixels.clear();
-        self.pixels.resize(width * height, Vec3::ZERO);
+        self.pixels.resize(pixels, Vec3::ZERO);
     }
 
-    /// Adds `light` to a pixel, counted row by row.
+    /// Adds `light` to a pixel.
     #[inline]
     pub fn add(&mut self, pixel: usize, light: Vec3) {
         self.pixels[pixel] += light;
     }
 
-    /// The pixels of `row`.
+    /// All pixels.
     #[must_use]
-    pub fn row(&self, row: usize) -> &[Vec3] {
-        &self.pixels[row * self.width..(row + 1) * self.width]
+    pub fn pixels(&self) -> &[Vec3] {
+        &self.pixels
     }
 }

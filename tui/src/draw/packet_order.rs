@@ -7,7 +7,7 @@ const BLOCK: u32 = 4;
 
 /// The samples in the top left of the packets of a grid of `width` x `height` samples, so that
 /// neighbours in the order are neighbours in the picture.
-pub fn packet_corners(width: u32, height: u32) -> impl Iterator<Item = (u32, u32)> {
+pub fn packet_corners(width: u32, height: u32) -> impl Iterator<Item = (u32, u32)> + Clone {
     let (across, down) = Camera::tile::<[f32; 16]>();
     let tiles = tile_order(width.div_ceil(across), height.div_ceil(down));
     tiles.map(move |(column, row)| (column * across, row * down))
@@ -17,7 +17,7 @@ pub fn packet_corners(width: u32, height: u32) -> impl Iterator<Item = (u32, u32
 /// four on are a square, and so are sixteen (Morton order in blocks, the blocks from left to right).
 ///
 /// So packets that traverse a structure together look into less of it.
-fn tile_order(columns: u32, rows: u32) -> impl Iterator<Item = (u32, u32)> {
+fn tile_order(columns: u32, rows: u32) -> impl Iterator<Item = (u32, u32)> + Clone {
     let blocks = (0..columns.div_ceil(BLOCK))
         .flat_map(move |column| (0..rows.div_ceil(BLOCK)).map(move |row| (column, row)));
     blocks

@@ -1,0 +1,89 @@
+//! From packets of camera rays to light: the work of one thread at a time.
+
+use crate::picture::Picture;
+use crate::scene::Scene;
+use crate::shade::Shader;
+use crate::structure::scene::PictureSearch;
+use crate::structure::search::{Scratch, Tracing};
+use spherule_kernel::{Camera, HitPacket, RayPacket, Vec3};
+
+/// What is traced, and how.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Traced<'a> {
+    pub(super) tracing: Tracing,
+    pub(super) scene: &'a Scene,
+    pub(super) search: &'a PictureSearch<'a>,
+}
+
+/// A grid of samples over the whole picture: sample `(x, y)` is the ray `camera.get_ray(x, y)`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SampleGrid {
+    pub(super) camera: Camera,
+    pub(super) width: u32,
+    pub(super) height: u32,
+}
+
+/// Traces, and keeps its memory from one call to the next.
+#[derive(Debug, Default)]
+pub(super) struct Tracer {
+    rays: Vec<RayPacket>,
+    hits: Vec<HitPacket>,
+    scratch: Scratch,
+    shader: Shader,
+    picture: Picture,
+}
+
+impl Tracer {
+    /// Traces the packets of `grid` whose top left samples are `corners`, and returns the light of so many `pixels`
+    /// and how many shadow rays it took.
+    ///
+    /// Every sample adds its `share` to the pixel that `place` names; one without a place adds nothing. In the order
+    /// of the packets, so that sums are the same whoever computes them.
+    pub(super) fn trace(
+        &mut self,
+        traced: &Traced<'_>,
+        grid: &SampleGrid,
+        corners: impl Iterator<Item = (u32, u32)> + Clone,
+        (pixels, share): (usize, f32),
+        place: impl Fn(u32, u32) -> Option<usize>,
+    ) -> (&[Vec3], u64) {
+        let &Traced { tracing, scene, search } = traced;
+        let &SampleGrid { camera, width, height } = grid;
+
+        // Rays, and what they meet.
+        self.rays.clear();
+        self.rays.extend(corners.clone().map(|(x, y)| camera.packet(x, y, width, height)));
+        self.hits.clear();
+        self.hits.resize(self.rays.len(), HitPacket::none());
+        search.camera.closest_hits(tracing, &mut self.scratch, &self.rays, &mut self.hits);
+
+        // The background is light already; what was met is noted for the shader.
+        self.picture.reset(pixels);
+        let (across, _) = Camera::tile::<[f32; 16]>();
+        let background = share * scene.background.to_linear();
+        for ((left, top), hits) in corners.zip(&self.hits) {
+            self.shader.begin_packet();
+            for (lane, hit) in hits.hits().enumerate() {
+                let (x, y) = (left + lane as u32 % across, top + lane as u32 / across);
+                if x >= width || y >= height {
+                    continue;
+                }
+                let Some(pixel) = place(x, y) else { continue };
+                let met = hit.and_then(|hit| scene.colors().get(hit.sphere as usize));
+                match met {
+                    Some(color) => {
+                        let color = share * color.to_linear();
+                        self.shader.add(scene, &mut self.picture, lane, pixel as u32, color);
+                    }
+                    None => self.picture.add(pixel, background),
+                }
+            }
+        }
+
+        // Light.
+        let hits = (&*self.rays, &*self.hits);
+        let shadow_rays =
+            self.shader.light(tracing, &mut self.scratch, scene, search, hits, &mut self.picture);
+        (self.picture.pixels(), shadow_rays)
+    }
+}
