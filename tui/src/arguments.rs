@@ -86,10 +86,9 @@ pub struct SceneArguments {
     /// Picture size in cells, each 1 to 4096 [default: 80x24; a picture on a terminal fills it]
     #[arg(long, value_name = "COLSxROWS", value_parser = size)]
     pub size: Option<(u16, u16)>,
-    /// Rays a cell, 1 to 256
-    #[arg(long, value_name = "N", default_value = "4")]
-    #[arg(value_parser = value_parser!(u32).range(1..=i64::from(MOST_SAMPLES)))]
-    pub samples: u32,
+    /// Rays a cell, 1 to 256; auto: more where they are needed
+    #[arg(long, value_name = "N", default_value = "auto", value_parser = samples)]
+    pub samples: Auto<u32>,
     /// The projection, whatever the scene says
     #[arg(long, value_name = "KIND")]
     pub projection: Option<LensKind>,
@@ -215,6 +214,14 @@ fn size(text: &str) -> Result<(u16, u16), String> {
         side.ok_or_else(|| format!("COLSxROWS, each 1 to {LARGEST_SIDE}"))
     };
     Ok((side(columns)?, side(rows)?))
+}
+
+fn samples(text: &str) -> Result<Auto<u32>, String> {
+    let number = || text.parse().ok().filter(|number| (1..=MOST_SAMPLES).contains(number));
+    match text {
+        "auto" => Ok(None),
+        _ => number().map(Some).ok_or_else(|| format!("auto, or 1 to {MOST_SAMPLES}")),
+    }
 }
 
 fn aspect(text: &str) -> Result<f32, &'static str> {

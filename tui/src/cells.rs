@@ -1,7 +1,12 @@
 //! Character cells: what a terminal shows, before any escape sequence.
 
-pub mod ascii;
-pub mod half;
+pub mod bins;
+pub mod fit;
+pub mod letters;
+pub mod masks;
+pub mod paint;
+pub mod residual;
+pub mod tone;
 
 /// A colour as a terminal names it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

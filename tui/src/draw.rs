@@ -1,7 +1,9 @@
 //! From a scene to cells: the whole pipeline in one page.
 
-mod band;
+mod need;
 mod packet_order;
+mod plan;
+mod strip;
 mod tracer;
 
 pub use packet_order::packet_corners;
@@ -16,9 +18,9 @@ use crate::structure::search::{Search, Tracing};
 use crate::style::Style;
 use crate::threads::Threads;
 use crate::view::View;
-use band::{BAND, BandPainter, Frame};
+use plan::Plan;
 use spherule_kernel::{Camera, Coherence, Level};
-use std::sync::atomic::{AtomicU64, Ordering};
+use strip::Strip;
 use tracer::{SampleGrid, Traced};
 
 /// A drawn picture and what it took.
@@ -53,9 +55,8 @@ pub fn draw(scene: &Scene, view: &View, style: &Style, columns: u16, rows: u16) 
 #[must_use]
 pub fn sample_grid(view: &View, style: &Style, columns: u16, rows: u16) -> (Camera, u32, u32) {
     let samples = CellSamples::new(style);
-    let (width, height) = (u32::from(columns) * samples.across, u32::from(rows) * samples.down);
-    let aspect = style.picture_aspect(columns, rows);
-    (view.camera(width, height, aspect), width, height)
+    let grid = SampleGrid::new(view, style, samples, columns, rows);
+    (grid.camera, grid.width, grid.height)
 }
 
 /// The camera rays of so many such pictures, against so many spheres.
@@ -71,23 +72,25 @@ pub fn picture_workload(
 ) -> Workload {
     let samples = CellSamples::new(style);
     let cells = usize::from(columns) * usize::from(rows);
-    Workload::of_pictures(pictures, cells * (samples.across * samples.down) as usize, spheres)
+    Workload::of_pictures(pictures, cells * samples.count() as usize, spheres)
 }
+
+/// Rows of cells that are drawn at a time, so that the largest picture fits into memory; of smaller ones, all.
+const STRIP: usize = 128;
 
 /// Draws, and keeps its memory from frame to frame.
 #[derive(Debug)]
 pub struct Renderer<'a> {
     level: Level,
     threads: &'a Threads,
-    /// One a thread.
-    painters: Vec<BandPainter>,
+    strip: Strip,
 }
 
 impl<'a> Renderer<'a> {
     /// `level` and `threads` change no picture, only how long it takes.
     #[must_use]
     pub fn new(level: Level, threads: &'a Threads) -> Self {
-        Self { level, threads, painters: Vec::new() }
+        Self { level, threads, strip: Strip::default() }
     }
 
     /// Draws `scene` as `view` sees it into `columns` x `rows` cells; `search` finds the spheres
@@ -102,19 +105,16 @@ impl<'a> Renderer<'a> {
         columns: u16,
         rows: u16,
     ) -> Drawn {
-        let (camera, width, height) = sample_grid(view, style, columns, rows);
-        let (tier, coherence) = (style.accuracy, search.coherence);
-        let tracing = Tracing { tier, level: self.level, coherence };
-        let traced = Traced { tracing, scene, search };
-        let frame = Frame { traced, style, grid: SampleGrid { camera, width, height } };
         let mut cells = CellGrid::new(columns, rows);
-        let shadow_rays = AtomicU64::new(0);
-        let band = usize::from(columns) * BAND;
-        let bands = cells.cells_mut().chunks_mut(band.max(1)).zip((0..).step_by(BAND));
-        self.threads.share(&mut self.painters, bands, |painter, (cells, first)| {
-            shadow_rays.fetch_add(painter.paint(&frame, first, cells), Ordering::Relaxed);
-        });
-        let camera_rays = u64::from(width) * u64::from(height);
-        Drawn { cells, rays: camera_rays + shadow_rays.into_inner() }
+        let tracing =
+            Tracing { tier: style.accuracy, level: self.level, coherence: search.coherence };
+        let traced = Traced { tracing, scene, search };
+        let plan = Plan::new(traced, view, style, columns, rows);
+        let mut rays = 0;
+        let strips = cells.cells_mut().chunks_mut((STRIP * usize::from(columns)).max(1));
+        for (cells, first) in strips.zip((0..).step_by(STRIP)) {
+            rays += self.strip.draw(&plan, self.threads, first, cells);
+        }
+        Drawn { cells, rays }
     }
 }

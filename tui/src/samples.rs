@@ -1,55 +1,71 @@
-//! Where in a picture of cells the rays go: every cell gets the same small grid of samples.
+//! Where in a picture of cells the rays go: every cell gets the same small grid of samples, and some a finer one.
 
 use crate::style::{Charset, Style};
 
-/// The most rays a cell: 16 x 16.
+/// The most rays a cell that can be asked for: 16 x 16.
 pub const MOST_SAMPLES: u32 = 256;
 
-/// The samples of a cell, and of its pixels.
+/// The samples of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CellSamples {
-    /// Samples side by side in a cell; a pixel is as wide as its cell.
+    /// Samples side by side.
     pub across: u32,
-    /// Samples one above the other in a cell: a multiple of `pixels`.
+    /// Samples one above the other.
     pub down: u32,
-    /// Pixels one above the other in a cell: two for half blocks.
-    pub pixels: u32,
 }
 
 impl CellSamples {
-    /// A grid of `style.samples` samples whose spacing is as square as can be.
+    /// What every cell gets if samples go where they are needed.
+    pub const FEW: Self = Self { across: 2, down: 2 };
+
+    /// What every cell gets: [`CellSamples::FEW`], unless `style` names a number. Then it is a grid of that number
+    /// whose spacing is as square as can be.
     ///
     /// If no grid of that number comes near a square (a prime number of samples; an odd number in
-    /// half blocks, whose halves get as many each), it is the next larger that does. 0 counts as 1,
+    /// blocks, whose halves get as many each), it is the next larger that does. 0 counts as 1,
     /// more than [`MOST_SAMPLES`] as that.
     #[must_use]
     pub fn new(style: &Style) -> Self {
-        let pixels = match style.charset {
+        let Some(samples) = style.samples else { return Self::FEW };
+        let halves = match style.charset {
             Charset::Ascii => 1,
-            Charset::Half => 2,
+            _ => 2,
         };
-        let wanted = style.samples.clamp(1, MOST_SAMPLES);
+        let wanted = samples.clamp(1, MOST_SAMPLES);
         // Half of the squareness is worth as much as a quarter more rays.
         let cost = |across: u32, down: u32| {
             let spacing = style.cell_aspect * down as f32 / across as f32;
             let excess = (across * down) as f32 / wanted as f32;
             spacing.ln().abs() + 3.0 * excess.ln()
         };
-        let mut best = (1, wanted.next_multiple_of(pixels));
+        let mut best = (1, wanted.next_multiple_of(halves));
         for across in 2..=wanted {
-            let down = wanted.div_ceil(across).next_multiple_of(pixels);
+            let down = wanted.div_ceil(across).next_multiple_of(halves);
             // Of two grids as good, the wider: edges that are nearly upright are the harder.
             if cost(across, down) <= cost(best.0, best.1) {
                 best = (across, down);
             }
         }
-        Self { across: best.0, down: best.1, pixels }
+        Self { across: best.0, down: best.1 }
     }
 
-    /// How many samples a pixel has.
+    /// What a cell gets that needs more than [`CellSamples::FEW`]; `None` if every cell gets the same.
+    ///
+    /// Whole packets, and as many as the glyphs are fine.
     #[must_use]
-    pub fn per_pixel(self) -> u32 {
-        self.across * self.down / self.pixels
+    pub fn many(style: &Style) -> Option<Self> {
+        let (across, down) = match style.charset {
+            Charset::Ascii | Charset::Half | Charset::Quadrant | Charset::Braille => (4, 8),
+            Charset::Sextant | Charset::Octant => (4, 12),
+            Charset::Block => (8, 12),
+        };
+        style.samples.is_none().then_some(Self { across, down })
+    }
+
+    /// How many they are.
+    #[must_use]
+    pub fn count(self) -> u32 {
+        self.across * self.down
     }
 }
 
@@ -58,7 +74,8 @@ mod tests {
     use super::*;
 
     fn grid(charset: Charset, samples: u32, cell_aspect: f32) -> (u32, u32) {
-        let grid = CellSamples::new(&Style { charset, samples, cell_aspect, ..Style::PLAIN });
+        let style = Style { charset, samples: Some(samples), cell_aspect, ..Style::PLAIN };
+        let grid = CellSamples::new(&style);
         (grid.across, grid.down)
     }
 
@@ -77,7 +94,7 @@ mod tests {
         assert_eq!(grid(Charset::Half, 1, 0.5), (1, 2));
         assert_eq!(grid(Charset::Half, 4, 0.5), (2, 2));
         for samples in 1..=MOST_SAMPLES {
-            let (across, down) = grid(Charset::Half, samples, 0.5);
+            let (across, down) = grid(Charset::Block, samples, 0.5);
             assert!(down % 2 == 0 && across * down >= samples, "{samples}: {across} x {down}");
         }
     }

@@ -1,5 +1,6 @@
 //! What a picture is to be: its tier, characters, colours and samples.
 
+use crate::choice::Auto;
 use clap::ValueEnum;
 use spherule_kernel::Tier;
 
@@ -19,10 +20,20 @@ pub enum ColorDepth {
 /// Which characters may be used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Charset {
-    /// Printable ASCII.
+    /// Printable ASCII
     Ascii,
-    /// Half blocks: two pixels a cell.
+    /// Halves of a cell; in every font
     Half,
+    /// Quarters; in most fonts
+    Quadrant,
+    /// Sixths; in fonts with Unicode 13
+    Sextant,
+    /// Eighths of two columns; in fonts with Unicode 16
+    Octant,
+    /// Dots, as plots have them
+    Braille,
+    /// All of these that are blocks, and bars; in fonts with Unicode 16
+    Block,
 }
 
 /// How a picture is made.
@@ -34,8 +45,8 @@ pub struct Style {
     pub charset: Charset,
     /// How many colours there are.
     pub depth: ColorDepth,
-    /// Rays a cell, at least one.
-    pub samples: u32,
+    /// Rays a cell, at least one; by need if `None`.
+    pub samples: Auto<u32>,
     /// Width of a cell over its height.
     pub cell_aspect: f32,
 }
@@ -44,12 +55,12 @@ pub struct Style {
 pub const PIPE_SIZE: (u16, u16) = (80, 24);
 
 impl Style {
-    /// A picture for a pipe: exact, in ASCII, without colour, 4 rays a cell of the usual shape.
+    /// A picture for a pipe: exact, in ASCII, without colour, in cells of the usual shape.
     pub const PLAIN: Self = Self {
         accuracy: Tier::Exact,
         charset: Charset::Ascii,
         depth: ColorDepth::Never,
-        samples: 4,
+        samples: None,
         cell_aspect: 0.5,
     };
 

@@ -1,10 +1,13 @@
 //! From packets of camera rays to light: the work of one thread at a time.
 
 use crate::picture::Picture;
+use crate::samples::CellSamples;
 use crate::scene::Scene;
 use crate::shade::Shader;
 use crate::structure::scene::PictureSearch;
 use crate::structure::search::{Scratch, Tracing};
+use crate::style::Style;
+use crate::view::View;
 use spherule_kernel::{Camera, HitPacket, RayPacket, Vec3};
 
 /// What is traced, and how.
@@ -21,6 +24,21 @@ pub(super) struct SampleGrid {
     pub(super) camera: Camera,
     pub(super) width: u32,
     pub(super) height: u32,
+}
+
+impl SampleGrid {
+    /// So many samples in every cell of a picture of `columns` x `rows`.
+    pub(super) fn new(
+        view: &View,
+        style: &Style,
+        samples: CellSamples,
+        columns: u16,
+        rows: u16,
+    ) -> Self {
+        let (width, height) = (u32::from(columns) * samples.across, u32::from(rows) * samples.down);
+        let camera = view.camera(width, height, style.picture_aspect(columns, rows));
+        Self { camera, width, height }
+    }
 }
 
 /// Traces, and keeps its memory from one call to the next.

@@ -99,10 +99,7 @@ impl State {
                 *view = with_projection(view, other);
             }
             Input::Charset => {
-                style.charset = match style.charset {
-                    Charset::Ascii => Charset::Half,
-                    Charset::Half => Charset::Ascii,
-                };
+                style.charset = next(Some(style.charset)).unwrap_or(Charset::Ascii);
             }
             Input::Structure => *structure = next(*structure),
             Input::Spin => *spinning = !*spinning,
