@@ -44,6 +44,8 @@ fn s_goes_through_the_structures_and_the_picture_stays() {
             (shows_a_frame(output) && named).then_some(())
         });
         viewer.wait_for_picture("the same picture", &expected);
+        let line = last_row(viewer.session.output().screen());
+        assert!(line.trim_end().ends_with("? help  q quit"), "{line}");
     }
     viewer.quit();
 }
