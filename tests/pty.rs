@@ -6,6 +6,7 @@ mod binary;
 mod leaving;
 mod look;
 mod modes;
+mod once;
 mod picture;
 mod session;
 mod viewer;

@@ -25,8 +25,8 @@ const ASPECTS: RangeInclusive<f32> = 0.05..=20.0;
 
 /// Spheres in a terminal, by packets of rays.
 ///
-/// On a terminal the viewer opens (? shows its keys); into a pipe or a file, or with --once, one
-/// picture is written.
+/// On a terminal the viewer opens (? shows its keys); into a pipe or a file, on a dumb terminal, or
+/// with --once, one picture is written.
 #[derive(Clone, Debug, Parser)]
 #[command(name = "spherule", version, args_conflicts_with_subcommands = true)]
 #[command(disable_help_subcommand = true)]
@@ -83,7 +83,7 @@ pub struct SceneArguments {
     /// A built-in scene, a file (.toml, .xyz), or - for standard input
     #[arg(value_name = "SCENE", default_value = DEFAULT)]
     pub name: String,
-    /// Picture size in cells, each 1 to 4096 [default: 80x24; a picture on a terminal fills it]
+    /// Picture size in cells, each 1 to 4096 [default: 80x24; on a terminal all rows but the last]
     #[arg(long, value_name = "COLSxROWS", value_parser = size)]
     pub size: Option<(u16, u16)>,
     /// Rays a cell, 1 to 256

@@ -16,19 +16,23 @@ use std::ops::RangeInclusive;
 /// The widest cell and the narrowest that a terminal is believed to have.
 const LIKELY_ASPECTS: RangeInclusive<f32> = 0.2..=2.0;
 
-/// Shows a scene: in the viewer if standard output is a terminal, except with `--once`.
+/// Shows a scene: in the viewer if standard output is a terminal that can, except with `--once`.
 ///
 /// # Errors
 /// [`Error`] if there is no such scene, or it cannot be shown.
 pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     let scene = arguments.scene.open()?;
     let is_terminal = std::io::stdout().is_terminal();
-    let depth = Surroundings::of_process(is_terminal).depth(arguments.color);
-    let (columns, rows) = arguments
-        .scene
-        .size
-        .or_else(|| terminal::size().ok().filter(|&size| is_terminal && is_usable(size)))
-        .unwrap_or(PIPE_SIZE);
+    let surroundings = Surroundings::of_process(is_terminal);
+    let in_viewer = is_terminal && !arguments.once && !surroundings.is_dumb();
+    let depth = surroundings.depth(arguments.color);
+    let on_terminal = || {
+        let (columns, rows) = terminal::size().ok().filter(|&size| is_usable(size))?;
+        // The prompt comes back below a picture, and pushes the top row out if there is no row left.
+        Some((columns, if in_viewer { rows } else { (rows - 1).max(1) }))
+    };
+    let size = arguments.scene.size.or_else(|| on_terminal().filter(|_| is_terminal));
+    let (columns, rows) = size.unwrap_or(PIPE_SIZE);
     let style = Style {
         accuracy: arguments.accuracy,
         charset: arguments.charset.unwrap_or(match depth {
@@ -47,7 +51,7 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     let threads = Threads::new(threads)?;
     let mut renderer = Renderer::new(level.unwrap_or_else(Level::best), &threads);
     let mut structures = SceneStructures::new(scene.list(), &threads);
-    if is_terminal && !arguments.once {
+    if in_viewer {
         return viewer::run(&scene, structures, structure, view, style, renderer);
     }
     let workload = picture_workload(scene.spheres().len(), &style, columns, rows, 1.0);
