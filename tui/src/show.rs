@@ -55,7 +55,7 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         return viewer::run(&scene, structures, structure, view, style, renderer);
     }
     let workload = picture_workload(scene.spheres().len(), &style, columns, rows, 1.0);
-    let search = structures.picture(structure, &workload, view.viewpoint(), &scene.lights)?;
+    let search = structures.picture(structure, &workload, &view, &scene.lighting)?;
     let drawn = renderer.draw(&scene, &search, &view, &style, columns, rows);
     let mut bytes = Vec::new();
     encode::full(&drawn.cells, &mut bytes);

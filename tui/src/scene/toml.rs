@@ -1,7 +1,7 @@
 //! Scenes in TOML: the format is stated in the README and, by example, in the tests below.
 
 use super::read_error::ReadError;
-use super::{Light, Scene, Source};
+use super::{Light, Lighting, Scene, Source};
 use crate::color::Srgb;
 use crate::view::{Lens, LensKind, View};
 use serde::Deserialize;
@@ -139,10 +139,16 @@ fn scene(table: SceneTable, place: &Place<'_>) -> Result<Scene, ReadError> {
     if table.sphere.is_empty() {
         return Err(ReadError::whole(place.source, "an empty scene: at least one [[sphere]]"));
     }
-    for light in &table.light {
-        scene.lights.push(self::light(light, place)?);
-    }
+    scene.lighting = lighting(&table.light, place)?;
     Ok(scene)
+}
+
+fn lighting(tables: &[Spanned<LightTable>], place: &Place<'_>) -> Result<Lighting, ReadError> {
+    if tables.is_empty() {
+        return Ok(Lighting::Plain);
+    }
+    let lights: Result<_, _> = tables.iter().map(|table| light(table, place)).collect();
+    lights.map(Lighting::World)
 }
 
 fn light(table: &Spanned<LightTable>, place: &Place<'_>) -> Result<Light, ReadError> {

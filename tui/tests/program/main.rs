@@ -3,6 +3,7 @@
 
 mod bad_input;
 mod cargo;
+mod light;
 mod output;
 mod run;
 mod scenes;

@@ -40,13 +40,14 @@ fn everything_that_can_be_said() {
     assert_eq!((scene.label(0), scene.label(1)), (Some("C 12"), None));
     let second = Sphere { center: Vec3::new(1e3, -0.5, 2.0), radius: 0.0 };
     assert_eq!(scene.spheres().get(1), Some(second));
-    assert_eq!(scene.lights[1].source, Source::Position(Vec3::new(0.0, 9.0, 0.0)));
+    let Lighting::World(lights) = scene.lighting else { panic!("{:?}", scene.lighting) };
+    assert_eq!(lights[1].source, Source::Position(Vec3::new(0.0, 9.0, 0.0)));
 }
 
 #[test]
 fn one_sphere_is_enough() {
     let scene = read("[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n", "").expect("a scene");
-    assert!(scene.view.is_none() && scene.lights.is_empty() && !scene.shadows);
+    assert!(scene.view.is_none() && scene.lighting.is_plain() && !scene.shadows);
     assert_eq!(scene.background, Srgb::BLACK);
 }
 
