@@ -63,6 +63,18 @@ fn a_parallel_camera_has_a_height() {
 }
 
 #[test]
+fn the_light_of_the_camera_is_asked_for_by_its_name() {
+    let sphere = "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n";
+    let scene = read(&format!("light = \"camera\"\n{sphere}"), "").expect("a scene");
+    assert_eq!(scene.lighting, Lighting::Camera);
+    let scene = read(&format!("light = []\n{sphere}"), "").expect("a scene");
+    assert_eq!(scene.lighting, Lighting::Plain);
+    // It goes with no other light: TOML has no key twice.
+    let both = error(&format!("light = \"camera\"\n{sphere}[[light]]\ndirection = [1, 0, 0]\n"));
+    assert!(both.starts_with("s.toml:5:3: duplicate key"), "{both}");
+}
+
+#[test]
 fn every_mistake_has_a_line_and_a_column() {
     let sphere = |lines: &str| format!("[[sphere]]\n{lines}\n");
     let light =
@@ -93,6 +105,12 @@ fn every_mistake_has_a_line_and_a_column() {
             sphere("center = [0, 0, 0]\nradius = 1\ncolor = \"red\""),
             "4:9: \"red\" is no colour: write \"#rrggbb\"",
         ),
+        (
+            "\nlight = \"sun\"\n".to_owned(),
+            "2:9: invalid value: string \"sun\", expected \"camera\" or tables [[light]]",
+        ),
+        ("light = 3\n".to_owned(), "1:9: invalid type: integer `3`, expected \"camera\" or"),
+        ("light = [3]\n".to_owned(), "1:10: invalid type: integer `3`"),
         (light(""), "4:1: a light has a direction or a position"),
         (light("direction = [1, 0, 0]\nposition = [1, 0, 0]"), "4:1: "),
         (light("direction = [0, 0, 0]"), "5:13: direction has no direction"),
