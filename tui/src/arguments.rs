@@ -1,6 +1,7 @@
 //! The command line.
 
 use crate::choice::{Auto, auto_or, one_of};
+use crate::color::Srgb;
 use crate::error::Error;
 use crate::samples::MOST_SAMPLES;
 use crate::scene::Scene;
@@ -66,6 +67,9 @@ pub struct PictureArguments {
     /// Colours
     #[arg(long, value_name = "WHEN", default_value = "auto")]
     pub color: ColorChoice,
+    /// The colour of what no sphere covers, unless the scene names one
+    #[arg(long, value_name = "#RRGGBB", value_parser = color)]
+    pub background: Option<Srgb>,
     /// Shape of a cell, width to height [default: the terminal's, else 1:2]
     #[arg(long, value_name = "W:H", value_parser = aspect)]
     pub cell_aspect: Option<f32>,
@@ -223,6 +227,11 @@ fn aspect(text: &str) -> Result<f32, &'static str> {
         Some(width.parse::<f32>().ok()? / height.parse::<f32>().ok()?)
     };
     ratio().filter(|ratio| ASPECTS.contains(ratio)).ok_or("W:H, such as 1:2; from 1:20 to 20:1")
+}
+
+/// As in scenes, and without the `#`, with which a shell begins a comment.
+fn color(text: &str) -> Result<Srgb, String> {
+    text.parse().or_else(|error| format!("#{text}").parse().map_err(|_: String| error))
 }
 
 fn level() -> impl TypedValueParser<Value = Level> {

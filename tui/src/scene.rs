@@ -25,6 +25,8 @@ pub struct Scene {
     labels: Vec<Option<Box<str>>>,
     /// The colour of what no sphere covers.
     pub background: Srgb,
+    /// Whether the scene itself says so: then it is not the user's to choose.
+    pub names_background: bool,
     /// Whether spheres cast shadows.
     pub shadows: bool,
     /// How the spheres are lit.

@@ -21,7 +21,10 @@ const LIKELY_ASPECTS: RangeInclusive<f32> = 0.2..=2.0;
 /// # Errors
 /// [`Error`] if there is no such scene, or it cannot be shown.
 pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
-    let scene = arguments.scene.open()?;
+    let mut scene = arguments.scene.open()?;
+    if let Some(background) = arguments.background.filter(|_| !scene.names_background) {
+        scene.background = background;
+    }
     let is_terminal = std::io::stdout().is_terminal();
     let surroundings = Surroundings::of_process(is_terminal);
     let in_viewer = is_terminal && !arguments.once && !surroundings.is_dumb();

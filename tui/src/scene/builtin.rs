@@ -101,7 +101,7 @@ const FLAKE_DEPTH: u32 = 4;
 /// Graphics and Applications 7(11), 1987.
 fn flake() -> Scene {
     let mut scene = Scene::new();
-    scene.background = Srgb([0x0c, 0x10, 0x1c]);
+    (scene.background, scene.names_background) = (Srgb([0x0c, 0x10, 0x1c]), true);
     scene.shadows = true;
     scene.lighting = Lighting::World(vec![
         Light { source: Source::Direction(Vec3::new(1.0, 0.5, 1.6)), color: Srgb([255, 240, 214]) },

@@ -170,6 +170,7 @@ impl Place<'_> {
 fn scene(table: SceneTable, place: &Place<'_>) -> Result<Scene, ReadError> {
     let mut scene = Scene::new();
     scene.background = place.color(table.background.as_ref(), Srgb::BLACK)?;
+    scene.names_background = table.background.is_some();
     scene.shadows = table.shadows;
     scene.view = table.camera.map(|camera| view(&camera, place)).transpose()?;
     for sphere in &table.sphere {

@@ -31,7 +31,7 @@ fn error(text: &str) -> String {
 #[test]
 fn everything_that_can_be_said() {
     let scene = read(EVERYTHING, "s.toml").expect("a scene");
-    assert_eq!(scene.background, Srgb([0x10, 0x10, 0x18]));
+    assert_eq!((scene.background, scene.names_background), (Srgb([0x10, 0x10, 0x18]), true));
     assert!(scene.shadows);
     let (eye, up) = (Vec3::new(0.0, 1.0, 5.0), Vec3::Y);
     let lens = Lens::Perspective { fov: 35.0 };
@@ -48,7 +48,7 @@ fn everything_that_can_be_said() {
 fn one_sphere_is_enough() {
     let scene = read("[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n", "").expect("a scene");
     assert!(scene.view.is_none() && scene.lighting.is_plain() && !scene.shadows);
-    assert_eq!(scene.background, Srgb::BLACK);
+    assert_eq!((scene.background, scene.names_background), (Srgb::BLACK, false));
 }
 
 #[test]
