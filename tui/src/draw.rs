@@ -2,6 +2,7 @@
 
 mod band;
 mod packet_order;
+pub mod pixels;
 mod tracer;
 
 pub use packet_order::packet_corners;
