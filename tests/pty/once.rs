@@ -48,3 +48,19 @@ fn a_dumb_terminal_gets_one_picture() {
     assert!(!output.sent.windows(3).any(|bytes| bytes == b"\x1b[?"), "a mode is set");
     assert_eq!(look(output.screen(), ROWS - 1), once(&VIEW, COLUMNS, ROWS - 1));
 }
+
+#[test]
+fn a_png_draws_nothing_and_does_not_go_to_a_terminal() {
+    let file = std::env::temp_dir().join(format!("spherule-{}.png", std::process::id()));
+    let name = file.to_str().expect("a path that is text");
+    let session = ended(&["--size", "4x2", "--png", name], &[], COLUMNS, ROWS);
+    let written = std::fs::read(&file).expect("a file");
+    std::fs::remove_file(&file).expect("it can be removed");
+    assert!(written.starts_with(b"\x89PNG"));
+    assert_eq!(session.output().screen().contents(), "");
+
+    let mut session = Session::start(spherule(), &["unit", "--png", "-"], &[], (COLUMNS, ROWS));
+    assert_eq!(session.wait_for_end().exit_code(), 2);
+    let shown = session.output().screen().contents();
+    assert_eq!(shown, "spherule: --png -: standard output is a terminal");
+}

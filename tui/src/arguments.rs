@@ -79,6 +79,9 @@ pub struct PictureArguments {
     /// Write one picture, also to a terminal
     #[arg(long)]
     pub once: bool,
+    /// Write one picture as a PNG of 8x16 pixels a cell; - for standard output
+    #[arg(long, value_name = "FILE")]
+    pub png: Option<PathBuf>,
 }
 
 /// A scene, and the rays of a picture of it.

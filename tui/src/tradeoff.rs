@@ -3,7 +3,6 @@
 //! The rays are those that a picture of the scene takes; the truth is what `Exact` says.
 
 mod lighting;
-mod progress;
 mod rays;
 mod report;
 mod speed;
@@ -12,6 +11,7 @@ use crate::arguments::{ComputingArguments, TradeoffArguments};
 use crate::draw::{picture_workload, sample_grid};
 use crate::error::{Error, write_stdout};
 use crate::machine;
+use crate::progress::Progress;
 use crate::scene::Light;
 use crate::structure::Structure;
 use crate::structure::scene::SceneStructures;
@@ -20,13 +20,13 @@ use crate::style::{PIPE_SIZE, Style};
 use crate::tally::Tally;
 use crate::threads::{Threads, packets_a_task};
 use lighting::{Lighting, LightingErrors};
-use progress::Progress;
 use rays::{Kind, Rays, most_rays};
 use report::{Report, TierReport};
 use spherule_kernel::{
     AnyHit, ClosestHit, Coherence, HitPacket, Level, RayPacket, Spheres, Stages, Tier, stages,
 };
 use std::hint::black_box;
+use std::time::Duration;
 
 /// Measures, and prints what was found.
 ///
@@ -57,7 +57,7 @@ pub fn tradeoff(arguments: &TradeoffArguments) -> Result<(), Error> {
         let tracing = for_shadow.tracing(Tier::Exact);
         Rays::of_shadows(tracing, (&camera, &hits), spheres, &search.lights, most)
     };
-    let mut progress = Progress::new();
+    let mut progress = Progress::after(Duration::ZERO);
     let lighting = for_shadow.lighting(&for_camera, &camera, (spheres, &search.lights), most);
     let mut tiers = Vec::new();
     for (machine, rays) in [(&for_camera, &camera), (&for_shadow, &shadow)] {
@@ -103,7 +103,7 @@ impl Machine<'_> {
     ) -> [TierReport; 3] {
         let passes = Tier::ALL.map(|tier| self.pass(tier, rays));
         let seconds = speed::medians(passes, |share| {
-            progress.show(&format!("{} rays", rays.kind.name()), share);
+            progress.show(&format!("measuring {} rays", rays.kind.name()), share);
         });
         let hits = Tier::ALL.map(|tier| self.hits(tier, rays));
         let errors = hits.each_ref().map(|found| {

@@ -26,7 +26,7 @@ fn what_is_not_said_has_a_default() {
     assert_eq!(arguments.background, None);
     assert_eq!(arguments.computing.structure, None);
     assert_eq!(arguments.computing.threads, None);
-    assert!(!arguments.once);
+    assert!(!arguments.once && arguments.png.is_none());
 }
 
 #[test]
@@ -34,7 +34,7 @@ fn every_option_is_read() {
     let arguments = picture(
         "a.xyz --accuracy fast --size 200x60 --charset half --color 256 --samples 9 \
          --projection parallel --format xyz --cell-aspect 3:4 --structure bvh \
-         --threads 3 --background #ffeedd --once",
+         --threads 3 --background #ffeedd --once --png a.png",
     );
     assert_eq!(arguments.scene.name, "a.xyz");
     assert_eq!(arguments.accuracy, Tier::Fast);
@@ -49,6 +49,7 @@ fn every_option_is_read() {
     assert_eq!(arguments.computing.structure, Some(Structure::Bvh));
     assert_eq!(arguments.computing.threads, Some(3));
     assert!(arguments.once);
+    assert_eq!(arguments.png, Some("a.png".into()));
 }
 
 #[test]
