@@ -121,7 +121,7 @@ fn far_looks_as_from_near() {
     for depth in [-2_097_152.0, -20_971_520.0] {
         // The spheres at that depth alone: those before them are not to hide them from afar.
         let mut group = Scene::new();
-        (group.lights, group.shadows) = (far.lights.clone(), true);
+        (group.lighting, group.shadows) = (far.lighting.clone(), true);
         for (sphere, &color) in far.spheres().iter().zip(far.colors()) {
             if (sphere.center.z - depth).abs() < 100.0 {
                 group.push(sphere, color, None);

@@ -6,13 +6,16 @@ mod binary;
 mod leaving;
 mod look;
 mod modes;
+mod once;
 mod picture;
 mod session;
 mod viewer;
 
+use binary::spherule;
 use look::last_row;
 use modes::is_cooked;
-use picture::once;
+use picture::{OPTIONS, once};
+use session::Session;
 use spherule::view::{LensKind, orbited, with_projection, zoomed};
 use spherule::viewer::{ORBIT_STEP, ZOOM_STEP};
 use std::f32::consts::PI;
@@ -34,6 +37,18 @@ fn it_starts_and_draws_what_once_draws() {
 }
 
 #[test]
+fn a_background_that_is_asked_for_is_behind_a_scene_that_names_none() {
+    let arguments = [&["unit", "--background", "#ffeedd"], OPTIONS.as_slice()].concat();
+    let mut session = Session::start(spherule(), &arguments, &[], (COLUMNS, ROWS));
+    session.wait_for("the background", |output| {
+        let corner = output.screen().cell(0, 0)?.bgcolor();
+        (corner == vt100::Color::Rgb(0xff, 0xee, 0xdd)).then_some(())
+    });
+    session.type_in("q");
+    assert!(session.wait_for_end().success());
+}
+
+#[test]
 fn s_goes_through_the_structures_and_the_picture_stays() {
     let mut viewer = Viewer::start();
     let expected = once(&VIEW, COLUMNS, PICTURE_ROWS);
@@ -44,6 +59,8 @@ fn s_goes_through_the_structures_and_the_picture_stays() {
             (shows_a_frame(output) && named).then_some(())
         });
         viewer.wait_for_picture("the same picture", &expected);
+        let line = last_row(viewer.session.output().screen());
+        assert!(line.trim_end().ends_with("? help  q quit"), "{line}");
     }
     viewer.quit();
 }

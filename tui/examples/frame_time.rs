@@ -54,7 +54,7 @@ fn time(scene: &Scene, accuracy: Tier, level: Level, structure: Auto<Structure>,
     for _ in 0..frames.max(1) {
         view = view::orbited(&view, 0.02, 0.0);
         let start = cpu_ms();
-        let search = structures.picture(structure, &workload, view.viewpoint(), &scene.lights);
+        let search = structures.picture(structure, &workload, &view, &scene.lighting);
         let search = search.expect("memory for a structure");
         let drawn = black_box(renderer.draw(scene, &search, &view, &style, 200, 60));
         let drawing = cpu_ms() - start;

@@ -1,6 +1,7 @@
 //! The command line.
 
 use crate::choice::{Auto, auto_or, one_of};
+use crate::color::Srgb;
 use crate::error::Error;
 use crate::samples::MOST_SAMPLES;
 use crate::scene::Scene;
@@ -25,8 +26,8 @@ const ASPECTS: RangeInclusive<f32> = 0.05..=20.0;
 
 /// Spheres in a terminal, by packets of rays.
 ///
-/// On a terminal the viewer opens (? shows its keys); into a pipe or a file, or with --once, one
-/// picture is written.
+/// On a terminal the viewer opens (? shows its keys); into a pipe or a file, on a dumb terminal, or
+/// with --once, one picture is written.
 #[derive(Clone, Debug, Parser)]
 #[command(name = "spherule", version, args_conflicts_with_subcommands = true)]
 #[command(disable_help_subcommand = true)]
@@ -66,6 +67,9 @@ pub struct PictureArguments {
     /// Colours
     #[arg(long, value_name = "WHEN", default_value = "auto")]
     pub color: ColorChoice,
+    /// The colour of what no sphere covers, unless the scene names one
+    #[arg(long, value_name = "#RRGGBB", value_parser = color)]
+    pub background: Option<Srgb>,
     /// Shape of a cell, width to height [default: the terminal's, else 1:2]
     #[arg(long, value_name = "W:H", value_parser = aspect)]
     pub cell_aspect: Option<f32>,
@@ -75,6 +79,9 @@ pub struct PictureArguments {
     /// Write one picture, also to a terminal
     #[arg(long)]
     pub once: bool,
+    /// Write one picture as a PNG of 8x16 pixels a cell; - for standard output
+    #[arg(long, value_name = "FILE")]
+    pub png: Option<PathBuf>,
 }
 
 /// A scene, and the rays of a picture of it.
@@ -83,7 +90,7 @@ pub struct SceneArguments {
     /// A built-in scene, a file (.toml, .xyz), or - for standard input
     #[arg(value_name = "SCENE", default_value = DEFAULT)]
     pub name: String,
-    /// Picture size in cells, each 1 to 4096 [default: 80x24; a picture on a terminal fills it]
+    /// Picture size in cells, each 1 to 4096 [default: 80x24; on a terminal all rows but the last]
     #[arg(long, value_name = "COLSxROWS", value_parser = size)]
     pub size: Option<(u16, u16)>,
     /// Rays a cell, 1 to 256; auto: more where they are needed
@@ -230,6 +237,11 @@ fn aspect(text: &str) -> Result<f32, &'static str> {
         Some(width.parse::<f32>().ok()? / height.parse::<f32>().ok()?)
     };
     ratio().filter(|ratio| ASPECTS.contains(ratio)).ok_or("W:H, such as 1:2; from 1:20 to 20:1")
+}
+
+/// As in scenes, and without the `#`, with which a shell begins a comment.
+fn color(text: &str) -> Result<Srgb, String> {
+    text.parse().or_else(|error| format!("#{text}").parse().map_err(|_: String| error))
 }
 
 fn level() -> impl TypedValueParser<Value = Level> {

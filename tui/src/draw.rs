@@ -2,6 +2,7 @@
 
 mod need;
 mod packet_order;
+pub mod pixels;
 mod plan;
 mod strip;
 mod tracer;
@@ -38,12 +39,14 @@ pub struct Drawn {
 #[must_use]
 pub fn draw(scene: &Scene, view: &View, style: &Style, columns: u16, rows: u16) -> Drawn {
     let camera = Search::Brute(scene.spheres());
-    let lights = vec![camera; scene.lights.len()];
+    let lights = scene.lighting.lights(view);
+    let to_lights = vec![camera; lights.len()];
     let search = PictureSearch {
         structure: Structure::Brute,
         coherence: Coherence::Coherent,
         camera,
         lights,
+        to_lights,
     };
     let threads = Threads::default();
     let mut renderer = Renderer::new(Level::best(), &threads);

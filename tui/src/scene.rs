@@ -1,42 +1,23 @@
-//! What there is to see: spheres, their colours, lights, and a first view.
+//! What there is to see: spheres, their colours, how they are lit, and a first view.
 
 pub mod builtin;
 pub mod elements;
 pub mod framing;
+mod lighting;
 mod lines;
 pub mod open;
 mod read_error;
 pub mod toml;
 pub mod xyz;
 
+pub use lighting::{Light, Lighting, Source};
 pub use read_error::ReadError;
 
 use crate::color::Srgb;
 use crate::view::View;
-use spherule_kernel::{Sphere, SphereList, Spheres, Vec3};
+use spherule_kernel::{Sphere, SphereList, Spheres};
 
-/// Where light comes from.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Source {
-    /// From infinitely far.
-    Direction(
-        /// Towards the light; any length but zero.
-        Vec3,
-    ),
-    /// From a point of the scene.
-    Position(Vec3),
-}
-
-/// A light. Its brightness does not fall with distance: a scene states none but its colour.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Light {
-    /// Where it comes from.
-    pub source: Source,
-    /// What a surface that faces it receives.
-    pub color: Srgb,
-}
-
-/// Spheres, lights and a first view.
+/// Spheres, how they are lit, and a first view.
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
     list: SphereList,
@@ -44,10 +25,12 @@ pub struct Scene {
     labels: Vec<Option<Box<str>>>,
     /// The colour of what no sphere covers.
     pub background: Srgb,
+    /// Whether the scene itself says so: then it is not the user's to choose.
+    pub names_background: bool,
     /// Whether spheres cast shadows.
     pub shadows: bool,
-    /// If there is none: no shading, the plain colour of the spheres.
-    pub lights: Vec<Light>,
+    /// How the spheres are lit.
+    pub lighting: Lighting,
     /// The scene's own view; `None`: framed automatically.
     pub view: Option<View>,
 }

@@ -1,21 +1,21 @@
 //! From hits to light, by no more than the scene requires.
 //!
-//! No light, no shading: the plain colour of the sphere. With lights, Lambert's law in linear light, and a little
-//! that comes from everywhere. With shadows, a ray from the surface to the light decides whether it counts. Normals
+//! No light, no shading: the plain colour of the sphere. With lights, Lambert's law in linear light, a little that
+//! comes from everywhere, and how all that is exposed. With shadows, a ray from the surface to the light decides whether it counts. Normals
 //! owe nothing to t, and shadow rays start where the kernel proves that they do not meet the sphere that they leave:
 //! there is no distance to choose, nothing shadows itself, and no shadow is lost.
+
+mod exposure;
 
 use crate::picture::Picture;
 use crate::scene::{Light, Scene, Source};
 use crate::structure::scene::PictureSearch;
 use crate::structure::search::{Scratch, Search, Tracing};
+use exposure::Exposure;
 use spherule_kernel::{
     HitPacket, RayPacket, Spheres, SurfaceHits, SurfacePacket, Towards, Vec3, shadow_packets,
     surface_packets,
 };
-
-/// How much of a surface's colour is seen if no light reaches it.
-const AMBIENT: f32 = 0.06;
 
 /// What a ray of a packet adds to the picture.
 #[derive(Clone, Copy, Debug)]
@@ -24,6 +24,8 @@ struct Sample {
     pixel: u32,
     /// The colour of the surface in linear light, times the sample's share of its pixel.
     color: Vec3,
+    /// The light that the surface receives.
+    received: Vec3,
 }
 
 /// Packets of rays, what they hit, and the surfaces there.
@@ -113,11 +115,11 @@ impl Shader {
         pixel: u32,
         color: Vec3,
     ) {
-        if scene.lights.is_empty() {
+        if scene.lighting.is_plain() {
             picture.add(pixel as usize, color);
         } else if let Some(count) = self.counts.last_mut() {
             *count += 1;
-            self.samples.push(Sample { lane, pixel, color });
+            self.samples.push(Sample { lane, pixel, color, received: Vec3::ZERO });
         }
     }
 
@@ -135,17 +137,14 @@ impl Shader {
         let Self { samples, counts, surfaces, shadow_rays } = self;
         let mut count = 0;
         if !samples.is_empty() {
-            for sample in samples.iter() {
-                picture.add(sample.pixel as usize, AMBIENT * sample.color);
-            }
             let surfaces = surfaces.compute(tracing, scene.spheres(), rays, hits);
-            for (light, towards) in scene.lights.iter().zip(&search.lights) {
+            for (light, towards) in search.lights.iter().zip(&search.to_lights) {
                 shadow_rays.cast(tracing, scene.spheres(), (rays, hits, surfaces), light);
                 if scene.shadows {
                     count += shadow_rays.trace(tracing, scratch, towards);
                 }
                 let brightness = light.color.to_linear();
-                let mut samples = samples.iter();
+                let mut samples = samples.iter_mut();
                 for (packet, &count) in counts.iter().enumerate() {
                     for sample in samples.by_ref().take(count) {
                         let ray = shadow_rays.rays[packet].ray(sample.lane);
@@ -154,9 +153,14 @@ impl Shader {
                         }
                         let normal = surfaces[packet].normal(sample.lane);
                         let cosine = normal.dot(ray.direction).abs() / ray.direction.length();
-                        picture.add(sample.pixel as usize, cosine * brightness * sample.color);
+                        sample.received += cosine * brightness;
                     }
                 }
+            }
+            let exposure = Exposure::of(&scene.lighting);
+            for sample in samples.iter() {
+                let seen = exposure.seen(sample.received + exposure.ambient);
+                picture.add(sample.pixel as usize, seen * sample.color);
             }
         }
         self.samples.clear();

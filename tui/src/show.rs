@@ -1,34 +1,50 @@
 //! One picture, or the viewer: what `spherule [SCENE]` does.
 
 use crate::arguments::{ComputingArguments, PictureArguments};
+use crate::draw::pixels::PixelGrid;
 use crate::draw::{Renderer, picture_workload};
 use crate::error::{Error, write_stdout};
-use crate::structure::scene::SceneStructures;
+use crate::progress::Progress;
+use crate::scene::Scene;
+use crate::structure::scene::{PictureSearch, SceneStructures};
 use crate::style::{Charset, ColorDepth, PIPE_SIZE, Style};
 use crate::terminal::color_depth::Surroundings;
 use crate::threads::Threads;
-use crate::{encode, scene, viewer};
+use crate::{encode, png_file, scene, viewer};
 use crossterm::terminal;
 use spherule_kernel::Level;
 use std::io::IsTerminal;
 use std::ops::RangeInclusive;
+use std::path::Path;
+use std::time::Duration;
 
 /// The widest cell and the narrowest that a terminal is believed to have.
 const LIKELY_ASPECTS: RangeInclusive<f32> = 0.2..=2.0;
 
-/// Shows a scene: in the viewer if standard output is a terminal, except with `--once`.
+/// How long a picture may take before there is a word about it.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// Shows a scene: in the viewer if standard output is a terminal that can, except with `--once` and `--png`.
 ///
 /// # Errors
 /// [`Error`] if there is no such scene, or it cannot be shown.
 pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
-    let scene = arguments.scene.open()?;
+    let mut scene = arguments.scene.open()?;
+    if let Some(background) = arguments.background.filter(|_| !scene.names_background) {
+        scene.background = background;
+    }
     let is_terminal = std::io::stdout().is_terminal();
-    let depth = Surroundings::of_process(is_terminal).depth(arguments.color);
-    let (columns, rows) = arguments
-        .scene
-        .size
-        .or_else(|| terminal::size().ok().filter(|&size| is_terminal && is_usable(size)))
-        .unwrap_or(PIPE_SIZE);
+    let surroundings = Surroundings::of_process(is_terminal);
+    let at_once = arguments.once || arguments.png.is_some();
+    let in_viewer = is_terminal && !at_once && !surroundings.is_dumb();
+    let depth = surroundings.depth(arguments.color);
+    let on_terminal = || {
+        let (columns, rows) = terminal::size().ok().filter(|&size| is_usable(size))?;
+        // The prompt comes back below a picture, and pushes the top row out if there is no row left.
+        Some((columns, if in_viewer { rows } else { (rows - 1).max(1) }))
+    };
+    let size = arguments.scene.size.or_else(|| on_terminal().filter(|_| is_terminal));
+    let (columns, rows) = size.unwrap_or(PIPE_SIZE);
     let style = Style {
         accuracy: arguments.accuracy,
         charset: arguments.charset.unwrap_or(match depth {
@@ -47,15 +63,43 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     let threads = Threads::new(threads)?;
     let mut renderer = Renderer::new(level.unwrap_or_else(Level::best), &threads);
     let mut structures = SceneStructures::new(scene.list(), &threads);
-    if is_terminal && !arguments.once {
+    if let Some(file) = &arguments.png {
+        if is_terminal && file == Path::new("-") {
+            return Err(Error::Input("--png -: standard output is a terminal".to_owned()));
+        }
+        let grid = PixelGrid::new(&view, &style, columns, rows);
+        let workload = grid.workload(scene.spheres().len());
+        let search = structures.picture(structure, &workload, &view, &scene.lighting)?;
+        return write_png(&scene, &search, &grid, &style, &renderer, file);
+    }
+    if in_viewer {
         return viewer::run(&scene, structures, structure, view, style, renderer);
     }
     let workload = picture_workload(scene.spheres().len(), &style, columns, rows, 1.0);
-    let search = structures.picture(structure, &workload, view.viewpoint(), &scene.lights)?;
+    let search = structures.picture(structure, &workload, &view, &scene.lighting)?;
     let drawn = renderer.draw(&scene, &search, &view, &style, columns, rows);
     let mut bytes = Vec::new();
     encode::full(&drawn.cells, &mut bytes);
     write_stdout(&bytes)
+}
+
+fn write_png(
+    scene: &Scene,
+    search: &PictureSearch<'_>,
+    grid: &PixelGrid,
+    style: &Style,
+    renderer: &Renderer<'_>,
+    file: &Path,
+) -> Result<(), Error> {
+    let (mut progress, mut done) = (Progress::after(PATIENCE), 0_u32);
+    png_file::write(file, grid.size(), |output| {
+        renderer.draw_pixels(scene, search, style.accuracy, grid, |row| {
+            output.write_all(row)?;
+            done += 1;
+            progress.show("drawing", f64::from(done) / f64::from(grid.size().1));
+            Ok(())
+        })
+    })
 }
 
 /// A terminal may not know its size, or lie.

@@ -3,7 +3,6 @@
 //! The rays are those that a picture of the scene takes; the truth is what `Exact` says.
 
 mod lighting;
-mod progress;
 mod rays;
 mod report;
 mod speed;
@@ -12,7 +11,8 @@ use crate::arguments::{ComputingArguments, TradeoffArguments};
 use crate::draw::{picture_workload, sample_grid};
 use crate::error::{Error, write_stdout};
 use crate::machine;
-use crate::scene::Scene;
+use crate::progress::Progress;
+use crate::scene::Light;
 use crate::structure::Structure;
 use crate::structure::scene::SceneStructures;
 use crate::structure::search::{Scratch, Search, Tracing};
@@ -20,13 +20,13 @@ use crate::style::{PIPE_SIZE, Style};
 use crate::tally::Tally;
 use crate::threads::{Threads, packets_a_task};
 use lighting::{Lighting, LightingErrors};
-use progress::Progress;
 use rays::{Kind, Rays, most_rays};
 use report::{Report, TierReport};
 use spherule_kernel::{
     AnyHit, ClosestHit, Coherence, HitPacket, Level, RayPacket, Spheres, Stages, Tier, stages,
 };
 use std::hint::black_box;
+use std::time::Duration;
 
 /// Measures, and prints what was found.
 ///
@@ -45,19 +45,20 @@ pub fn tradeoff(arguments: &TradeoffArguments) -> Result<(), Error> {
     let mut structures = SceneStructures::new(scene.list(), &threads);
     // Building is not timed here, as if there were pictures without end.
     let workload = picture_workload(spheres.len(), &style, columns, rows, f64::INFINITY);
-    let search = structures.picture(structure, &workload, view.viewpoint(), &scene.lights)?;
+    let search = structures.picture(structure, &workload, &view, &scene.lighting)?;
     let (camera, width, height) = sample_grid(&view, &style, columns, rows);
     let most = most_rays(spheres.len(), search.structure);
     let camera = Rays::of_camera(&camera, width, height, most);
     let coherence = search.coherence;
     let for_camera = Machine { level, threads: &threads, coherence, searches: &[search.camera] };
-    let for_shadow = Machine { searches: &search.lights, ..for_camera };
+    let for_shadow = Machine { searches: &search.to_lights, ..for_camera };
     let shadow = {
         let hits = for_camera.hits(Tier::Exact, &camera);
-        Rays::of_shadows(for_shadow.tracing(Tier::Exact), &camera, &hits, &scene, most)
+        let tracing = for_shadow.tracing(Tier::Exact);
+        Rays::of_shadows(tracing, (&camera, &hits), spheres, &search.lights, most)
     };
-    let mut progress = Progress::new();
-    let lighting = for_shadow.lighting(&for_camera, &camera, &scene, most);
+    let mut progress = Progress::after(Duration::ZERO);
+    let lighting = for_shadow.lighting(&for_camera, &camera, (spheres, &search.lights), most);
     let mut tiers = Vec::new();
     for (machine, rays) in [(&for_camera, &camera), (&for_shadow, &shadow)] {
         if rays.count > 0 {
@@ -102,7 +103,7 @@ impl Machine<'_> {
     ) -> [TierReport; 3] {
         let passes = Tier::ALL.map(|tier| self.pass(tier, rays));
         let seconds = speed::medians(passes, |share| {
-            progress.show(&format!("{} rays", rays.kind.name()), share);
+            progress.show(&format!("measuring {} rays", rays.kind.name()), share);
         });
         let hits = Tier::ALL.map(|tier| self.hits(tier, rays));
         let errors = hits.each_ref().map(|found| {
@@ -138,16 +139,16 @@ impl Machine<'_> {
         &self,
         for_camera: &Self,
         camera: &Rays,
-        scene: &Scene,
+        (spheres, lights): (Spheres<'_>, &[Light]),
         most: usize,
     ) -> Option<[LightingErrors; 3]> {
-        if scene.lights.is_empty() {
+        if lights.is_empty() {
             return None;
         }
-        let step = (camera.count * scene.lights.len()).div_ceil(most).max(1);
+        let step = (camera.count * lights.len()).div_ceil(most).max(1);
         let lighting = Tier::ALL.map(|tier| {
             let hits = for_camera.hits(tier, camera);
-            Lighting::new(tier, (camera, &hits), step, scene, self)
+            Lighting::new(tier, (camera, &hits), step, (spheres, lights), self)
         });
         Some(lighting.each_ref().map(|of_tier| of_tier.errors(&lighting[2])))
     }

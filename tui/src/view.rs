@@ -111,7 +111,8 @@ impl View {
     }
 
     /// Unit vectors: the line of sight, to the right, upwards.
-    fn axes(&self) -> [DVec3; 3] {
+    #[must_use]
+    pub fn axes(&self) -> [DVec3; 3] {
         let sight = self.target.as_dvec3() - self.eye.as_dvec3();
         let forward = unit(sight).unwrap_or(DVec3::NEG_Z);
         let ups = [self.up.as_dvec3(), DVec3::Y, DVec3::Z].into_iter();

@@ -154,8 +154,8 @@ impl Viewer<'_> {
         let Shown { view, style, structure, .. } = &self.state.shown;
         let count = self.scene.spheres().len();
         let workload = picture_workload(count, style, columns, status_row, f64::INFINITY);
-        let (viewpoint, lights) = (view.viewpoint(), &self.scene.lights);
-        let search = self.structures.picture(*structure, &workload, viewpoint, lights)?;
+        let lighting = &self.scene.lighting;
+        let search = self.structures.picture(*structure, &workload, view, lighting)?;
         let searched = search.structure;
         let drawn = self.renderer.draw(self.scene, &search, view, style, columns, status_row);
         let drawing = started.elapsed();

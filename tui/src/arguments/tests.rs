@@ -23,9 +23,10 @@ fn what_is_not_said_has_a_default() {
     assert_eq!((arguments.scene.size, arguments.scene.samples), (None, 4));
     assert_eq!(arguments.color, ColorChoice::Auto);
     assert_eq!(arguments.charset, None);
+    assert_eq!(arguments.background, None);
     assert_eq!(arguments.computing.structure, None);
     assert_eq!(arguments.computing.threads, None);
-    assert!(!arguments.once);
+    assert!(!arguments.once && arguments.png.is_none());
 }
 
 #[test]
@@ -33,7 +34,7 @@ fn every_option_is_read() {
     let arguments = picture(
         "a.xyz --accuracy fast --size 200x60 --charset half --color 256 --samples 9 \
          --projection parallel --format xyz --cell-aspect 3:4 --structure bvh \
-         --threads 3 --once",
+         --threads 3 --background #ffeedd --once --png a.png",
     );
     assert_eq!(arguments.scene.name, "a.xyz");
     assert_eq!(arguments.accuracy, Tier::Fast);
@@ -43,9 +44,12 @@ fn every_option_is_read() {
     assert_eq!(arguments.scene.projection, Some(LensKind::Parallel));
     assert_eq!(arguments.scene.format, Some(Format::Xyz));
     assert_eq!(arguments.cell_aspect, Some(0.75));
+    assert_eq!(arguments.background, Some(Srgb([0xff, 0xee, 0xdd])));
+    assert_eq!(picture("--background FFeedd").background, arguments.background);
     assert_eq!(arguments.computing.structure, Some(Structure::Bvh));
     assert_eq!(arguments.computing.threads, Some(3));
     assert!(arguments.once);
+    assert_eq!(arguments.png, Some("a.png".into()));
 }
 
 #[test]
@@ -63,6 +67,9 @@ fn what_is_wrong_is_said_in_one_line() {
         ("--level sse", "baseline, avx2, avx512"),
         ("--cell-aspect 1:0", "W:H"),
         ("--cell-aspect nan:1", "W:H"),
+        ("--background red", "\"red\" is no colour: write \"#rrggbb\""),
+        ("--background ##ffeedd", "is no colour"),
+        ("--background #ffeeddcc", "is no colour"),
         ("a b", "'b'"),
         ("trace", "--spheres <S.npy> --rays <R.npy>"),
         ("trace --spheres s --rays r --any --out-t t", "cannot be used with"),

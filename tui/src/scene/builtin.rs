@@ -1,6 +1,6 @@
 //! The scenes that come with the program.
 
-use super::{Light, ReadError, Scene, Source, toml, xyz};
+use super::{Light, Lighting, ReadError, Scene, Source, toml, xyz};
 use crate::color::Srgb;
 use crate::view::{Lens, View};
 use spherule_kernel::{Sphere, Vec3};
@@ -101,12 +101,12 @@ const FLAKE_DEPTH: u32 = 4;
 /// Graphics and Applications 7(11), 1987.
 fn flake() -> Scene {
     let mut scene = Scene::new();
-    scene.background = Srgb([0x0c, 0x10, 0x1c]);
+    (scene.background, scene.names_background) = (Srgb([0x0c, 0x10, 0x1c]), true);
     scene.shadows = true;
-    scene.lights = vec![
+    scene.lighting = Lighting::World(vec![
         Light { source: Source::Direction(Vec3::new(1.0, 0.5, 1.6)), color: Srgb([255, 240, 214]) },
         Light { source: Source::Direction(Vec3::new(-0.4, 1.0, 0.7)), color: Srgb([70, 96, 150]) },
-    ];
+    ]);
     add_flake(&mut scene, Vec3::ZERO, 0.5, Vec3::Z, 0);
     scene.view = Some(View {
         eye: Vec3::new(2.1, 1.3, 1.7),

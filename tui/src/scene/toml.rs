@@ -1,11 +1,13 @@
 //! Scenes in TOML: the format is stated in the README and, by example, in the tests below.
 
 use super::read_error::ReadError;
-use super::{Light, Scene, Source};
+use super::{Light, Lighting, Scene, Source};
 use crate::color::Srgb;
 use crate::view::{Lens, LensKind, View};
 use serde::Deserialize;
+use serde::de::{Deserializer, Error, SeqAccess, Unexpected, Visitor};
 use spherule_kernel::{Sphere, Vec3};
+use std::fmt;
 use std::ops::Range;
 use toml::Spanned;
 
@@ -23,7 +25,7 @@ struct SceneTable {
     #[serde(default)]
     sphere: Vec<SphereTable>,
     #[serde(default)]
-    light: Vec<Spanned<LightTable>>,
+    light: LightEntry,
 }
 
 #[derive(Deserialize)]
@@ -47,12 +49,56 @@ struct SphereTable {
     label: Option<String>,
 }
 
+/// What `light` is: tables, or the word for the lights that go with the eye. TOML does not allow both.
+enum LightEntry {
+    Tables(Vec<Spanned<LightTable>>),
+    Camera,
+}
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct LightTable {
     direction: Option<Vector>,
     position: Option<Vector>,
     color: Option<Spanned<String>>,
+}
+
+impl Default for LightEntry {
+    fn default() -> Self {
+        Self::Tables(Vec::new())
+    }
+}
+
+/// By hand: of an untagged enum serde says no more than that nothing matched.
+impl<'de> Deserialize<'de> for LightEntry {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(LightVisitor)
+    }
+}
+
+struct LightVisitor;
+
+impl<'de> Visitor<'de> for LightVisitor {
+    type Value = LightEntry;
+
+    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("\"camera\" or tables [[light]]")
+    }
+
+    fn visit_str<E: Error>(self, word: &str) -> Result<LightEntry, E> {
+        match word {
+            "camera" => Ok(LightEntry::Camera),
+            _ => Err(E::invalid_value(Unexpected::Str(word), &self)),
+        }
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut tables: A) -> Result<LightEntry, A::Error> {
+        let mut lights = Vec::new();
+        while let Some(light) = tables.next_element()? {
+            lights.push(light);
+        }
+        Ok(LightEntry::Tables(lights))
+    }
 }
 
 /// The field of view of a camera that states none, in degrees.
@@ -124,6 +170,7 @@ impl Place<'_> {
 fn scene(table: SceneTable, place: &Place<'_>) -> Result<Scene, ReadError> {
     let mut scene = Scene::new();
     scene.background = place.color(table.background.as_ref(), Srgb::BLACK)?;
+    scene.names_background = table.background.is_some();
     scene.shadows = table.shadows;
     scene.view = table.camera.map(|camera| view(&camera, place)).transpose()?;
     for sphere in &table.sphere {
@@ -139,10 +186,19 @@ fn scene(table: SceneTable, place: &Place<'_>) -> Result<Scene, ReadError> {
     if table.sphere.is_empty() {
         return Err(ReadError::whole(place.source, "an empty scene: at least one [[sphere]]"));
     }
-    for light in &table.light {
-        scene.lights.push(self::light(light, place)?);
-    }
+    scene.lighting = lighting(&table.light, place)?;
     Ok(scene)
+}
+
+fn lighting(entry: &LightEntry, place: &Place<'_>) -> Result<Lighting, ReadError> {
+    match entry {
+        LightEntry::Camera => Ok(Lighting::Camera),
+        LightEntry::Tables(tables) if tables.is_empty() => Ok(Lighting::Plain),
+        LightEntry::Tables(tables) => {
+            let lights: Result<_, _> = tables.iter().map(|table| light(table, place)).collect();
+            lights.map(Lighting::World)
+        }
+    }
 }
 
 fn light(table: &Spanned<LightTable>, place: &Place<'_>) -> Result<Light, ReadError> {

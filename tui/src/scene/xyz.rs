@@ -9,15 +9,18 @@
 //! ```
 //!
 //! Only the first frame is read. Memory grows with the atoms that are there, not with the number
-//! that the first line claims.
+//! that the first line claims. The format names no lights, so they go with the eye.
 
 use super::elements::element;
 use super::lines::Lines;
 use super::read_error::ReadError;
-use super::{Light, Scene, Source};
+use super::{Lighting, Scene};
 use crate::color::Srgb;
 use spherule_kernel::{Sphere, Vec3};
 use std::io::BufRead;
+
+/// What is behind a molecule.
+const BACKGROUND: Srgb = Srgb([0x10, 0x12, 0x1a]);
 
 /// Reads the first frame of `reader`; `source` is its name in errors.
 ///
@@ -34,7 +37,9 @@ pub fn read(reader: impl BufRead, source: &str) -> Result<Scene, ReadError> {
     if lines.next()?.is_none() {
         return Err(ends_early(&lines, source, count, 0));
     }
-    let mut scene = lit_molecule();
+    let mut scene = Scene::new();
+    scene.background = BACKGROUND;
+    scene.lighting = Lighting::Camera;
     for atoms in 0..count {
         let Some(line) = lines.next()? else {
             return Err(ends_early(&lines, source, count, atoms));
@@ -54,17 +59,6 @@ pub fn read(reader: impl BufRead, source: &str) -> Result<Scene, ReadError> {
         }
     }
     Ok(scene)
-}
-
-/// No spheres yet; a light from over the left shoulder, and a weaker one from the right.
-fn lit_molecule() -> Scene {
-    let mut scene = Scene::new();
-    scene.background = Srgb([0x10, 0x12, 0x1a]);
-    scene.lights = vec![
-        Light { source: Source::Direction(Vec3::new(-0.6, 0.8, 1.0)), color: Srgb::WHITE },
-        Light { source: Source::Direction(Vec3::new(1.0, 0.1, 0.4)), color: Srgb([80, 90, 110]) },
-    ];
-    scene
 }
 
 fn ends_early<R: BufRead>(
@@ -170,7 +164,7 @@ mod tests {
         assert_eq!(hydrogen.center, Vec3::new(0.0, -0.763, -0.477));
         assert_eq!(hydrogen.radius, 1.10);
         assert_eq!(scene.label(0), Some("O 1"));
-        assert!(!scene.lights.is_empty() && scene.view.is_none());
+        assert!(scene.lighting == Lighting::Camera && scene.view.is_none());
     }
 
     #[test]

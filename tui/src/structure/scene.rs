@@ -5,8 +5,9 @@ use super::choose::{Workload, choose};
 use super::search::Search;
 use crate::choice::Auto;
 use crate::error::Error;
-use crate::scene::{Light, Source};
+use crate::scene::{Light, Lighting, Source};
 use crate::threads::Threads;
+use crate::view::View;
 use spherule_kernel::{Coherence, DepthList, SphereList, SphereTree, Spheres, Viewpoint};
 use std::time::{Duration, Instant};
 
@@ -19,8 +20,10 @@ pub struct PictureSearch<'a> {
     pub coherence: Coherence,
     /// Those of the camera.
     pub camera: Search<'a>,
+    /// The lights of the picture.
+    pub lights: Vec<Light>,
     /// Those to the lights, one a light.
-    pub lights: Vec<Search<'a>>,
+    pub to_lights: Vec<Search<'a>>,
 }
 
 /// The spheres of a scene, and what has been built over them.
@@ -59,7 +62,7 @@ impl<'a> SceneStructures<'a> {
         Ok(self.searches(structure, &[viewpoint])?.remove(0))
     }
 
-    /// The structure of `choice` for a picture from `viewpoint`, whose shadow rays go to `lights`.
+    /// The structure of `choice` for a picture from `view`, lit by `lighting`.
     ///
     /// # Errors
     /// [`Error::Running`] if there is no memory for it.
@@ -67,18 +70,19 @@ impl<'a> SceneStructures<'a> {
         &mut self,
         choice: Auto<Structure>,
         workload: &Workload,
-        viewpoint: Viewpoint,
-        lights: &[Light],
+        view: &View,
+        lighting: &Lighting,
     ) -> Result<PictureSearch<'_>, Error> {
         let (structure, coherence) = (self.structure(choice, workload), workload.coherence());
+        let lights = lighting.lights(view);
         let towards = lights.iter().map(|light| match light.source {
             Source::Direction(direction) => Some(Viewpoint::Direction(direction)),
             Source::Position(_) => None,
         });
-        let viewpoints: Vec<_> = std::iter::once(Some(viewpoint)).chain(towards).collect();
-        let mut lights = self.searches(structure, &viewpoints)?;
-        let camera = lights.remove(0);
-        Ok(PictureSearch { structure, coherence, camera, lights })
+        let viewpoints: Vec<_> = std::iter::once(Some(view.viewpoint())).chain(towards).collect();
+        let mut to_lights = self.searches(structure, &viewpoints)?;
+        let camera = to_lights.remove(0);
+        Ok(PictureSearch { structure, coherence, camera, lights, to_lights })
     }
 
     /// One search a viewpoint.

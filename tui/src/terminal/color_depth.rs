@@ -76,6 +76,12 @@ impl Surroundings {
         }
     }
 
+    /// Whether the terminal knows no escape sequence, and so can show no viewer.
+    #[must_use]
+    pub fn is_dumb(&self) -> bool {
+        self.term == "dumb"
+    }
+
     /// What `TERM` and `COLORTERM` promise. ssh does not send `COLORTERM`, so some terminals are
     /// known by name; GNU screen hands it on but cannot keep the promise.
     fn terminal_depth(&self) -> ColorDepth {

@@ -2,9 +2,9 @@
 
 use super::Machine;
 use super::rays::Rays;
-use crate::scene::Scene;
+use crate::scene::Light;
 use crate::shade::{ShadowRays, Surfaces};
-use spherule_kernel::{HitPacket, RayPacket, Tier, Vec3};
+use spherule_kernel::{HitPacket, RayPacket, Spheres, Tier, Vec3};
 
 /// The least difference of a coordinate that makes a normal wrong: a step of a colour of eight bits.
 const SHOWS: f32 = 1.0 / 256.0;
@@ -35,22 +35,22 @@ impl Lighting {
         tier: Tier,
         (camera, hits): (&Rays, &[HitPacket]),
         step: usize,
-        scene: &Scene,
+        (spheres, lights): (Spheres<'_>, &[Light]),
         machine: &Machine<'_>,
     ) -> Self {
         let tracing = machine.tracing(tier);
         let camera: Vec<_> = camera.packets.iter().step_by(step).copied().collect();
         let hits: Vec<_> = hits.iter().step_by(step).copied().collect();
         let (mut surfaces, mut shadow_rays) = (Surfaces::default(), ShadowRays::default());
-        let surfaces = surfaces.compute(tracing, scene.spheres(), &camera, &hits);
+        let surfaces = surfaces.compute(tracing, spheres, &camera, &hits);
         let normals = surfaces.iter().zip(&hits).flat_map(|(surfaces, hits)| {
             hits.hits().enumerate().map(|(lane, hit)| hit.map(|_| surfaces.normal(lane)))
         });
         let of_light = |light| {
             let hit = (&*camera, &*hits, surfaces);
-            shadow_rays.cast(tracing, scene.spheres(), hit, light).to_vec()
+            shadow_rays.cast(tracing, spheres, hit, light).to_vec()
         };
-        let rays = Rays::of_lights(scene.lights.iter().map(of_light));
+        let rays = Rays::of_lights(lights.iter().map(of_light));
         let met = machine.any_hits(tier, &rays);
         let lit = rays.packets.iter().zip(met).flat_map(|(rays, met)| {
             (0..RayPacket::COUNT).map(move |lane| rays.ray(lane).is_live() && met >> lane & 1 == 0)

@@ -1,11 +1,11 @@
 //! The rays that a picture of a scene takes: from the camera, and from there to the lights.
 
 use crate::draw::packet_corners;
-use crate::scene::Scene;
+use crate::scene::Light;
 use crate::shade::{ShadowRays, Surfaces};
 use crate::structure::Structure;
 use crate::structure::search::Tracing;
-use spherule_kernel::{Camera, HitPacket, Ray, RayPacket};
+use spherule_kernel::{Camera, HitPacket, Ray, RayPacket, Spheres};
 
 /// The most rays, so that their memory is a cache's, not a machine's.
 const MOST_RAYS: usize = 1 << 17;
@@ -88,28 +88,28 @@ impl Rays {
         Self::new(Kind::Shadow, parts)
     }
 
-    /// The rays from the `hits` of the `camera` rays by `tracing` to every light that the surface faces, light by
-    /// light; if those are more than `most`, from every n-th packet.
+    /// The rays from the `hits` of the `camera` rays by `tracing` to those of the `lights` that the surface faces, light
+    /// by light; if those are more than `most`, from every n-th packet.
     pub(super) fn of_shadows(
         tracing: Tracing,
-        camera: &Self,
-        hits: &[HitPacket],
-        scene: &Scene,
+        (camera, hits): (&Self, &[HitPacket]),
+        spheres: Spheres<'_>,
+        lights: &[Light],
         most: usize,
     ) -> Self {
-        let step = (camera.count * scene.lights.len()).div_ceil(most).max(1);
+        let step = (camera.count * lights.len()).div_ceil(most).max(1);
         let camera: Vec<_> = camera.packets.iter().step_by(step).copied().collect();
         let hits: Vec<_> = hits.iter().step_by(step).copied().collect();
         let (mut surfaces, mut shadow_rays) = (Surfaces::default(), ShadowRays::default());
-        let surfaces = surfaces.compute(tracing, scene.spheres(), &camera, &hits);
+        let surfaces = surfaces.compute(tracing, spheres, &camera, &hits);
         let of_light = |light| {
             let hit = (&*camera, &*hits, surfaces);
-            let packets = shadow_rays.cast(tracing, scene.spheres(), hit, light).iter();
+            let packets = shadow_rays.cast(tracing, spheres, hit, light).iter();
             let rays = packets.flat_map(|rays| (0..RayPacket::COUNT).map(|lane| rays.ray(lane)));
             let rays: Vec<Ray> = rays.filter(Ray::is_live).collect();
             rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect()
         };
-        Self::new(Kind::Shadow, scene.lights.iter().map(of_light))
+        Self::new(Kind::Shadow, lights.iter().map(of_light))
     }
 }
 
@@ -141,7 +141,9 @@ mod tests {
         scene.spheres().closest_hit_packets(Exact, &mut Trace::new(), &rays.packets, &mut hits);
         let tracing =
             Tracing { tier: Tier::Exact, level: Level::best(), coherence: Coherence::Detect };
-        let shadow = Rays::of_shadows(tracing, &rays, &hits, &scene, MOST_RAYS);
+        let lights = scene.lighting.lights(&scene.first_view(1.0));
+        let (spheres, hit) = (scene.spheres(), (&rays, &*hits));
+        let shadow = Rays::of_shadows(tracing, hit, spheres, &lights, MOST_RAYS);
         assert!(rays.count > MOST_RAYS / 4 && shadow.count > 0 && shadow.count <= MOST_RAYS);
         let across = |packet: &RayPacket| packet.ray(0).direction.x.to_bits();
         let mut columns: Vec<u32> = rays.packets.iter().map(across).collect();

@@ -1,16 +1,19 @@
 //! The last row: what is shown and what it costs.
 
 use super::meter::Figures;
-use super::state::State;
+use super::state::{Shown, State};
 use crate::cells::{CellGrid, Color};
-
 use crate::choice::name;
 use crate::structure::Structure;
+use std::iter;
 
 const HINT: &str = "? help  q quit ";
 
-/// Writes the status line into `row`: figures from the left; from the right, if there is room, the
-/// hint. The `structure` stands there too if there is room for both, or if the user has chosen it.
+/// Writes the status line into `row`: names and figures from the left, the hint from the right.
+///
+/// Where there is no room for all of it, what goes first is the `structure` that the program chose itself, then the
+/// figures from the last; a structure that the user chose stays. The hint goes where there is no room for it beside
+/// the names.
 pub(super) fn write(
     cells: &mut CellGrid,
     row: u16,
@@ -19,30 +22,38 @@ pub(super) fn write(
     figures: Figures,
 ) {
     let columns = usize::from(cells.columns());
-    let mut line = figures_line(state, "", figures);
+    let (names, figures) = (names(state), figure_texts(figures));
     let word = format!(" {}", name(&structure));
-    let taken = if state.shown.structure.is_none() { HINT.len() + 1 } else { 0 };
-    if line.len() + word.len() + taken <= columns {
-        line = figures_line(state, &word, figures);
-    }
-    let room = columns.saturating_sub(line.len());
-    if room > HINT.len() {
-        line.push_str(&format!("{HINT:>room$}"));
-    }
+    let chosen = if state.shown.structure.is_some() { &*word } else { "" };
+    let line = |structure: &str, count: usize| {
+        format!(" {names}{structure}{} ", figures[..count].concat())
+    };
+    let most = figures.len();
+    let mut lines =
+        iter::once(line(&word, most)).chain((0..=most).rev().map(|count| line(chosen, count)));
+    let line = match lines.find(|line| line.len() + HINT.len() <= columns) {
+        Some(line) => format!("{line}{HINT:>room$}", room = columns - line.len()),
+        None => line(chosen, most),
+    };
     cells.write(0, row, &format!("{line:columns$}"), Color::Default, Color::Default);
 }
 
-fn figures_line(state: &State, structure: &str, figures: Figures) -> String {
-    let accuracy = state.shown.style.accuracy.as_str();
-    let (lens, charset) = (name(&state.shown.view.lens_kind()), name(&state.shown.style.charset));
+fn names(state: &State) -> String {
+    let Shown { view, style, .. } = &state.shown;
+    let (lens, charset) = (name(&view.lens_kind()), name(&style.charset));
+    format!("{} {lens} {charset}", style.accuracy.as_str())
+}
+
+/// From the one that is missed the most.
+fn figure_texts(figures: Figures) -> [String; 4] {
     let rate =
         figures.frames_per_second.map_or_else(|| "--".to_owned(), |rate| format!("{rate:.0}"));
-    format!(
-        " {accuracy} {lens} {charset}{structure}  {rate:>2} fps {:>5.1} ms {:>5.1} Mrays/s {:>5.1} kB ",
-        figures.milliseconds,
-        figures.megarays_per_second,
-        figures.bytes as f64 / 1e3,
-    )
+    [
+        format!("  {rate:>2} fps"),
+        format!(" {:>5.1} ms", figures.milliseconds),
+        format!(" {:>5.1} Mrays/s", figures.megarays_per_second),
+        format!(" {:>5.1} kB", figures.bytes as f64 / 1e3),
+    ]
 }
 
 #[cfg(test)]
@@ -51,9 +62,10 @@ mod tests {
     use crate::choice::Auto;
     use crate::style::{Charset, Style};
     use crate::view::{Lens, View};
+    use clap::ValueEnum;
     use spherule_kernel::{Tier, Vec3};
 
-    fn line(columns: u16, choice: Auto<Structure>) -> String {
+    fn state(choice: Auto<Structure>) -> State {
         let view = View {
             eye: Vec3::Z,
             target: Vec3::ZERO,
@@ -61,16 +73,23 @@ mod tests {
             lens: Lens::Perspective { fov: 40.0 },
         };
         let style = Style { accuracy: Tier::Stable, charset: Charset::Half, ..Style::PLAIN };
-        let state = State::new(view, style, choice);
+        State::new(view, style, choice)
+    }
+
+    fn text(columns: u16, state: &State, structure: Structure, figures: Figures) -> String {
+        let mut cells = CellGrid::new(columns, 2);
+        write(&mut cells, 1, state, structure, figures);
+        cells.row(1).iter().map(|cell| cell.glyph).collect()
+    }
+
+    fn line(columns: u16, choice: Auto<Structure>) -> String {
         let figures = Figures {
             frames_per_second: Some(59.94),
             milliseconds: 3.21,
             megarays_per_second: 12.34,
             bytes: 45_678,
         };
-        let mut cells = CellGrid::new(columns, 2);
-        write(&mut cells, 1, &state, Structure::Bvh, figures);
-        cells.row(1).iter().map(|cell| cell.glyph).collect()
+        text(columns, &state(choice), Structure::Bvh, figures)
     }
 
     const AUTO: Auto<Structure> = None;
@@ -85,15 +104,45 @@ mod tests {
     }
 
     #[test]
-    fn what_auto_chose_needs_room() {
+    fn what_auto_chose_goes_first() {
         assert_eq!(
-            line(84, AUTO),
-            " stable perspective half  60 fps   3.2 ms  12.3 Mrays/s  45.7 kB     ? help  q quit "
+            line(83, AUTO),
+            " stable perspective half  60 fps   3.2 ms  12.3 Mrays/s  45.7 kB    ? help  q quit "
         );
+    }
+
+    #[test]
+    fn then_the_figures_go() {
         assert_eq!(
-            line(75, CHOSEN),
-            " stable perspective half bvh  60 fps   3.2 ms  12.3 Mrays/s  45.7 kB       "
+            line(83, CHOSEN),
+            " stable perspective half bvh  60 fps   3.2 ms  12.3 Mrays/s         ? help  q quit "
         );
+        assert_eq!(line(44, CHOSEN), " stable perspective half bvh ? help  q quit ");
+        assert_eq!(line(43, CHOSEN), " stable perspective half bvh  60 fps   3.2 ");
+    }
+
+    /// The longest of every name, figures of a slow picture, and of a fast one.
+    #[test]
+    fn at_eighty_columns_there_is_always_the_hint() {
+        for choice in Structure::value_variants().iter().copied().map(Some).chain([None]) {
+            for charset in Charset::value_variants() {
+                let mut state = state(choice);
+                state.shown.style.charset = *charset;
+                for scale in [0.0, 1.0, 100.0, 1e4] {
+                    let figures = Figures {
+                        frames_per_second: Some(scale),
+                        milliseconds: scale,
+                        megarays_per_second: scale,
+                        bytes: (1e4 * scale) as usize,
+                    };
+                    let structure = choice.unwrap_or(Structure::DepthList);
+                    let text = text(80, &state, structure, figures);
+                    assert!(text.ends_with(&format!(" {HINT}")), "{text}");
+                    assert!(text.contains("fps"), "{text}");
+                    assert!(choice.is_none() || text.contains(&name(&structure)), "{text}");
+                }
+            }
+        }
     }
 
     #[test]

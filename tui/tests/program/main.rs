@@ -3,7 +3,9 @@
 
 mod bad_input;
 mod cargo;
+mod light;
 mod output;
+mod png;
 mod run;
 mod scenes;
 mod shadows;

@@ -1,6 +1,7 @@
 //! One picture: its lines, its colours, and where it goes.
 
-use crate::run::{printed, run, run_with_input, spherule};
+use crate::run::{file, printed, run, run_with_input, spherule};
+use std::ffi::OsStr;
 use std::fs::OpenOptions;
 use std::process::Stdio;
 
@@ -103,6 +104,32 @@ fn an_output_that_cannot_be_written_is_a_failure() {
         let stderr = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(1), "{words}");
         assert_eq!(stderr, "spherule: standard output: no space left on device\n");
+    }
+}
+
+/// Built in or not: a scene that names no background gets the one that is asked for.
+#[test]
+fn a_background_is_for_scenes_that_name_none() {
+    let plain = "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n";
+    let named = format!("background = \"#102030\"\n{plain}");
+    let (plain, named) =
+        (file("plain.toml", plain.as_bytes()), file("named.toml", named.as_bytes()));
+    for (scene, without, with) in [
+        (plain.as_os_str(), "0;0;0", "255;238;221"),
+        ("caffeine".as_ref(), "16;18;26", "255;238;221"),
+        (named.as_os_str(), "16;32;48", "16;32;48"),
+        ("flake".as_ref(), "12;16;28", "12;16;28"),
+        ("marbles".as_ref(), "134;172;212", "134;172;212"),
+    ] {
+        let corner = |more: &[&str]| {
+            let words = ["--size", "40x12", "--color", "truecolor", "--charset", "half"];
+            let words = words.iter().chain(more).map(|word| OsStr::new(*word));
+            let text = printed(&run([scene].into_iter().chain(words)));
+            let start = text.strip_prefix("\x1b[").expect("a colour");
+            start.split_once('m').expect("its end").0.trim_start_matches("48;2;").to_owned()
+        };
+        assert_eq!(corner(&[]), without, "{scene:?}");
+        assert_eq!(corner(&["--background", "#ffeedd"]), with, "{scene:?}");
     }
 }
 

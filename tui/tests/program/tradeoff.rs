@@ -144,7 +144,7 @@ fn the_counts_are_those_of_a_scalar_loop() {
 fn a_scene_without_light_has_camera_rays_alone() {
     let path = file("dark.toml", b"[[sphere]]\ncenter = [0, 0, 0]\nradius = 1.0\n");
     let path = path.to_str().expect("UTF-8");
-    assert_eq!(open(path, None).expect("a scene").lights.len(), 0);
+    assert!(open(path, None).expect("a scene").lighting.is_plain());
     let report = measured(&[path, "--size", "10x5"]);
     assert_eq!(report["tiers"].as_array().map(Vec::len), Some(3));
     // Nothing to see: rays that miss, and no ulp.

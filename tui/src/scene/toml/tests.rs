@@ -31,7 +31,7 @@ fn error(text: &str) -> String {
 #[test]
 fn everything_that_can_be_said() {
     let scene = read(EVERYTHING, "s.toml").expect("a scene");
-    assert_eq!(scene.background, Srgb([0x10, 0x10, 0x18]));
+    assert_eq!((scene.background, scene.names_background), (Srgb([0x10, 0x10, 0x18]), true));
     assert!(scene.shadows);
     let (eye, up) = (Vec3::new(0.0, 1.0, 5.0), Vec3::Y);
     let lens = Lens::Perspective { fov: 35.0 };
@@ -40,14 +40,15 @@ fn everything_that_can_be_said() {
     assert_eq!((scene.label(0), scene.label(1)), (Some("C 12"), None));
     let second = Sphere { center: Vec3::new(1e3, -0.5, 2.0), radius: 0.0 };
     assert_eq!(scene.spheres().get(1), Some(second));
-    assert_eq!(scene.lights[1].source, Source::Position(Vec3::new(0.0, 9.0, 0.0)));
+    let Lighting::World(lights) = scene.lighting else { panic!("{:?}", scene.lighting) };
+    assert_eq!(lights[1].source, Source::Position(Vec3::new(0.0, 9.0, 0.0)));
 }
 
 #[test]
 fn one_sphere_is_enough() {
     let scene = read("[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n", "").expect("a scene");
-    assert!(scene.view.is_none() && scene.lights.is_empty() && !scene.shadows);
-    assert_eq!(scene.background, Srgb::BLACK);
+    assert!(scene.view.is_none() && scene.lighting.is_plain() && !scene.shadows);
+    assert_eq!((scene.background, scene.names_background), (Srgb::BLACK, false));
 }
 
 #[test]
@@ -59,6 +60,18 @@ fn a_parallel_camera_has_a_height() {
     assert_eq!(error(&format!("{text}{sphere}")), "s.toml:1:1: a parallel camera has a height");
     assert!(error(&format!("{text}fov = 3\n{sphere}")).starts_with("s.toml:5:7: fov is for"));
     assert!(error(&format!("{text}height = 0\n{sphere}")).starts_with("s.toml:5:10: height is 0"));
+}
+
+#[test]
+fn the_light_of_the_camera_is_asked_for_by_its_name() {
+    let sphere = "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n";
+    let scene = read(&format!("light = \"camera\"\n{sphere}"), "").expect("a scene");
+    assert_eq!(scene.lighting, Lighting::Camera);
+    let scene = read(&format!("light = []\n{sphere}"), "").expect("a scene");
+    assert_eq!(scene.lighting, Lighting::Plain);
+    // It goes with no other light: TOML has no key twice.
+    let both = error(&format!("light = \"camera\"\n{sphere}[[light]]\ndirection = [1, 0, 0]\n"));
+    assert!(both.starts_with("s.toml:5:3: duplicate key"), "{both}");
 }
 
 #[test]
@@ -92,6 +105,12 @@ fn every_mistake_has_a_line_and_a_column() {
             sphere("center = [0, 0, 0]\nradius = 1\ncolor = \"red\""),
             "4:9: \"red\" is no colour: write \"#rrggbb\"",
         ),
+        (
+            "\nlight = \"sun\"\n".to_owned(),
+            "2:9: invalid value: string \"sun\", expected \"camera\" or tables [[light]]",
+        ),
+        ("light = 3\n".to_owned(), "1:9: invalid type: integer `3`, expected \"camera\" or"),
+        ("light = [3]\n".to_owned(), "1:10: invalid type: integer `3`"),
         (light(""), "4:1: a light has a direction or a position"),
         (light("direction = [1, 0, 0]\nposition = [1, 0, 0]"), "4:1: "),
         (light("direction = [0, 0, 0]"), "5:13: direction has no direction"),

@@ -1,0 +1,66 @@
+//! One picture on a terminal.
+
+use super::binary::spherule;
+use super::look::look;
+use super::picture::{OPTIONS, SceneFile, once};
+use super::session::Session;
+use super::viewer::{COLUMNS, ROWS, VIEW};
+
+/// What a terminal of `columns` x `rows` shows when the program has ended, and where the prompt comes.
+fn ended(more: &[&str], variables: &[(&str, &str)], columns: u16, rows: u16) -> Session {
+    let scene = SceneFile::new(&VIEW);
+    let arguments: Vec<&str> =
+        [scene.path()].into_iter().chain(OPTIONS).chain(more.iter().copied()).collect();
+    let mut session = Session::start(spherule(), &arguments, variables, (columns, rows));
+    let status = session.wait_for_end();
+    assert!(status.success(), "{status}");
+    assert_eq!(session.left_behind(), [""; 0]);
+    session
+}
+
+#[test]
+fn once_leaves_a_row_for_the_prompt() {
+    let session = ended(&["--once"], &[], COLUMNS, ROWS);
+    let output = session.output();
+    assert_eq!(look(output.screen(), ROWS - 1), once(&VIEW, COLUMNS, ROWS - 1));
+    assert_eq!(output.screen().cursor_position(), (ROWS - 1, 0));
+}
+
+#[test]
+fn a_size_that_is_asked_for_is_kept() {
+    let session = ended(&["--once", "--size", "30x7"], &[], COLUMNS, ROWS);
+    let output = session.output();
+    assert_eq!(output.screen().cursor_position(), (7, 0));
+}
+
+#[test]
+fn a_terminal_of_one_row_gets_a_row() {
+    let session = ended(&["--once"], &[], 12, 1);
+    let lines = session.output().sent.iter().filter(|&&byte| byte == b'\n').count();
+    assert_eq!(lines, 1);
+}
+
+/// A dumb terminal knows no escape sequences, so there is no viewer on it.
+#[test]
+fn a_dumb_terminal_gets_one_picture() {
+    let session = ended(&[], &[("TERM", "dumb")], COLUMNS, ROWS);
+    let output = session.output();
+    assert!(!output.sent.windows(3).any(|bytes| bytes == b"\x1b[?"), "a mode is set");
+    assert_eq!(look(output.screen(), ROWS - 1), once(&VIEW, COLUMNS, ROWS - 1));
+}
+
+#[test]
+fn a_png_draws_nothing_and_does_not_go_to_a_terminal() {
+    let file = std::env::temp_dir().join(format!("spherule-{}.png", std::process::id()));
+    let name = file.to_str().expect("a path that is text");
+    let session = ended(&["--size", "4x2", "--png", name], &[], COLUMNS, ROWS);
+    let written = std::fs::read(&file).expect("a file");
+    std::fs::remove_file(&file).expect("it can be removed");
+    assert!(written.starts_with(b"\x89PNG"));
+    assert_eq!(session.output().screen().contents(), "");
+
+    let mut session = Session::start(spherule(), &["unit", "--png", "-"], &[], (COLUMNS, ROWS));
+    assert_eq!(session.wait_for_end().exit_code(), 2);
+    let shown = session.output().screen().contents();
+    assert_eq!(shown, "spherule: --png -: standard output is a terminal");
+}

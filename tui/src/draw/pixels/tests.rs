@@ -1,0 +1,121 @@
+use super::*;
+use crate::scene::builtin::builtin;
+use crate::structure::scene::SceneStructures;
+use crate::threads::Threads;
+use crate::view::Lens;
+use spherule_kernel::{Level, Sphere, Vec3};
+use std::convert::Infallible;
+use std::f64::consts::PI;
+
+const VIEW: View = View {
+    eye: Vec3::new(0.0, 0.0, 5.0),
+    target: Vec3::ZERO,
+    up: Vec3::Y,
+    lens: Lens::Parallel { height: 4.0 },
+};
+
+/// The rows of a picture.
+fn rows(
+    scene: &Scene,
+    view: &View,
+    style: &Style,
+    (columns, rows): (u16, u16),
+    threads: u16,
+) -> Vec<Vec<u8>> {
+    let threads = Threads::new(Some(threads)).expect("threads");
+    let grid = PixelGrid::new(view, style, columns, rows);
+    let mut structures = SceneStructures::new(scene.list(), &threads);
+    let workload = grid.workload(scene.list().len());
+    let search = structures.picture(None, &workload, view, &scene.lighting).expect("memory");
+    let mut rows = Vec::new();
+    let renderer = Renderer::new(Level::best(), &threads);
+    let Ok(()) = renderer.draw_pixels(scene, &search, style.accuracy, &grid, |row| {
+        rows.push(row.to_vec());
+        Ok::<(), Infallible>(())
+    });
+    assert_eq!(rows.len(), grid.size().1 as usize);
+    assert!(rows.iter().all(|row| row.len() == 3 * grid.size().0 as usize));
+    rows
+}
+
+#[test]
+fn pixels_are_as_square_as_whole_numbers_are() {
+    let size =
+        |cell_aspect| PixelGrid::new(&VIEW, &Style { cell_aspect, ..Style::PLAIN }, 10, 3).size();
+    assert_eq!(size(0.5), (80, 48));
+    assert_eq!(size(1.0), (80, 24));
+    assert_eq!(size(0.75), (80, 33));
+    assert_eq!(size(0.05), (80, 480));
+    assert_eq!(size(20.0), (80, 3));
+}
+
+/// White on black, in whatever cells: as much light as the disc has area, in a square of its size.
+#[test]
+fn a_disc_is_round_and_has_its_area() {
+    let mut scene = Scene::new();
+    scene.push(Sphere { center: Vec3::ZERO, radius: 1.0 }, Srgb::WHITE, None);
+    for (cell_aspect, columns, count) in [(0.5, 20, 10), (0.75, 9, 11), (1.0, 13, 9)] {
+        let style = Style { cell_aspect, ..Style::PLAIN };
+        let rows = rows(&scene, &VIEW, &style, (columns, count), 1);
+        let width = rows[0].len() / 3;
+        let light = |pixel: &[u8]| f64::from(Srgb([pixel[0], pixel[1], pixel[2]]).to_linear().x);
+        let sum: f64 = rows.iter().flat_map(|row| row.chunks(3)).map(light).sum();
+        let picture = 4.0 * 4.0 * style.picture_aspect(columns, count);
+        let area = sum / (rows.len() * width) as f64 * picture;
+        assert!((area - PI).abs() < 0.01, "{cell_aspect}: {area}");
+
+        // From the first row, or column, with light to the last, in units of the scene.
+        let lit_rows = rows.iter().filter(|row| row.iter().any(|&byte| byte > 0)).count();
+        let is_lit = |x: &usize| rows.iter().any(|row| row[3 * x] > 0);
+        let lit_columns = (0..width).filter(is_lit).count();
+        let a_row = 4.0 / rows.len() as f64;
+        let a_column = 4.0 * style.picture_aspect(columns, count) / width as f64;
+        assert!((lit_rows as f64 * a_row - 2.0).abs() < 2.1 * a_row, "{cell_aspect}");
+        assert!((lit_columns as f64 * a_column - 2.0).abs() < 2.1 * a_column, "{cell_aspect}");
+    }
+}
+
+/// More than a strip, and tiles that the right and lower edges cut.
+#[test]
+fn strips_tiles_and_threads_do_not_show() {
+    let scene = builtin("marbles").expect("marbles");
+    let style = Style { cell_aspect: 0.75, ..Style::PLAIN };
+    let view = scene.first_view(style.picture_aspect(90, 39) as f32);
+    let expected = rows(&scene, &view, &style, (90, 39), 1);
+    assert!(expected.len() * expected[0].len() / 3 > STRIP as usize);
+    for threads in [2, 7] {
+        assert!(rows(&scene, &view, &style, (90, 39), threads) == expected, "{threads} threads");
+    }
+    // Each pixel alone.
+    let (grid, threads) = (PixelGrid::new(&view, &style, 90, 39), Threads::default());
+    let mut structures = SceneStructures::new(scene.list(), &threads);
+    let workload = grid.workload(scene.list().len());
+    let search = structures.picture(None, &workload, &view, &scene.lighting).expect("memory");
+    let level = Level::best();
+    let tracing = Tracing { tier: Tier::Exact, level, coherence: search.coherence };
+    let traced = Traced { tracing, scene: &scene, search: &search };
+    let mut tracer = Tracer::default();
+    for (x, y) in [(0, 0), (31, 15), (32, 16), (719, 428), (100, 370), (359, 200)] {
+        let corner = std::iter::once((x * SAMPLES, y * SAMPLES));
+        let (light, _) =
+            tracer.trace(&traced, &grid.samples, corner, (1, 1.0 / 16.0), |_, _| Some(0));
+        let found = &expected[y as usize][3 * x as usize..][..3];
+        assert_eq!(found, Srgb::from_linear(light[0]).0, "at {x}, {y}");
+    }
+}
+
+#[test]
+fn an_error_ends_it() {
+    let scene = Scene::new();
+    let threads = Threads::default();
+    let grid = PixelGrid::new(&VIEW, &Style::PLAIN, 4, 4);
+    let mut structures = SceneStructures::new(scene.list(), &threads);
+    let search = structures.picture(None, &grid.workload(0), &VIEW, &scene.lighting);
+    let (search, mut taken) = (search.expect("memory"), 0);
+    let renderer = Renderer::new(Level::best(), &threads);
+    let result = renderer.draw_pixels(&scene, &search, Tier::Exact, &grid, |_| {
+        taken += 1;
+        if taken == 3 { Err("full") } else { Ok(()) }
+    });
+    assert_eq!((result, taken), (Err("full"), 3));
+}

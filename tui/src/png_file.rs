@@ -1,0 +1,70 @@
+//! A picture as a PNG, written row by row as it is drawn.
+
+use crate::error::Error;
+use crate::whole_file::WholeFile;
+use png::{BitDepth, ColorType, Encoder, SrgbRenderingIntent};
+use std::io::{self, Write};
+use std::path::Path;
+
+/// Bytes a chunk of the file.
+const CHUNK: usize = 1 << 16;
+
+/// Writes a picture of `width` x `height` pixels to the file `name`, or to standard output if that is `-`; `draw` writes
+/// its rows, from the top: red, green and blue of every pixel, sRGB-encoded.
+///
+/// # Errors
+/// [`Error`] if the file cannot be written; then there is none of this name, or it is as it was.
+pub fn write(
+    name: &Path,
+    (width, height): (u32, u32),
+    draw: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), Error> {
+    let failed = |error: &io::Error| match name.to_str() {
+        Some("-") => Error::of_output("standard output", error),
+        _ => Error::of_output(&name.to_string_lossy(), error),
+    };
+    let file = WholeFile::create(name).map_err(|error| failed(&error))?;
+    let mut output = Output { file, error: None };
+    let encoded = encode(&mut output, (width, height), draw);
+    let Output { file, error } = output;
+    let written = error.map_or(encoded, Err).and_then(|()| file.finish());
+    written.map_err(|error| failed(&error))
+}
+
+fn encode(
+    output: &mut Output,
+    (width, height): (u32, u32),
+    draw: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut encoder = Encoder::new(output, width, height);
+    encoder.set_color(ColorType::Rgb);
+    encoder.set_depth(BitDepth::Eight);
+    encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
+    let mut writer = encoder.write_header()?;
+    let mut rows = writer.stream_writer_with_size(CHUNK)?;
+    draw(&mut rows)?;
+    rows.finish()?;
+    Ok(writer.finish()?)
+}
+
+/// Remembers why the file could not be written: of an error the encoder hands on the text alone.
+struct Output {
+    file: WholeFile,
+    error: Option<io::Error>,
+}
+
+impl Write for Output {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.file.write(bytes).map_err(|error| {
+            let kind = error.kind();
+            if kind != io::ErrorKind::Interrupted {
+                self.error.get_or_insert(error);
+            }
+            kind.into()
+        })
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}

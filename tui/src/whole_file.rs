@@ -1,0 +1,121 @@
+//! A file that is there whole or not at all.
+//!
+//! It is written under another name in the same folder, and renamed when it is done. Whatever is no file, such as a
+//! device or a pipe, is written in place.
+
+use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::iterator::{Handle, Signals};
+use signal_hook::low_level::emulate_default_handler;
+use std::fs::{self, File, OpenOptions, Permissions};
+use std::io::{self, Write};
+use std::os::fd::AsFd;
+use std::os::unix::fs::PermissionsExt;
+use std::path::{Path, PathBuf};
+use std::thread;
+use tempfile::NamedTempFile;
+
+/// A file that is being written.
+#[derive(Debug)]
+pub enum WholeFile {
+    /// What is no file.
+    InPlace(File),
+    /// Under its other name.
+    Unfinished {
+        /// Removed when it is dropped.
+        file: NamedTempFile,
+        /// The name to be.
+        name: PathBuf,
+        /// Until then a signal removes the file, too.
+        watch: Watch,
+    },
+}
+
+impl WholeFile {
+    /// What is to be called `name`; `-` is standard output. If there is a file of that name, it stays until the new one
+    /// is whole.
+    ///
+    /// # Errors
+    /// If it cannot be made.
+    pub fn create(name: &Path) -> io::Result<Self> {
+        if name == Path::new("-") {
+            let stdout = io::stdout().as_fd().try_clone_to_owned()?;
+            return Ok(Self::InPlace(stdout.into()));
+        }
+        // The file that a symbolic link leads to, not the link.
+        let name = fs::canonicalize(name).unwrap_or_else(|_| name.to_owned());
+        match fs::metadata(&name) {
+            Ok(data) if data.is_dir() => return Err(io::ErrorKind::IsADirectory.into()),
+            Ok(data) if !data.is_file() => {
+                return Ok(Self::InPlace(OpenOptions::new().write(true).open(name)?));
+            }
+            _ => {}
+        }
+        let folder = name.parent().filter(|folder| !folder.as_os_str().is_empty());
+        // As any new file: the system takes away what the user's mask says.
+        let file = tempfile::Builder::new()
+            .prefix(".spherule-")
+            .permissions(Permissions::from_mode(0o666))
+            .tempfile_in(folder.unwrap_or_else(|| Path::new(".")))?;
+        let watch = Watch::new(file.path().to_owned())?;
+        Ok(Self::Unfinished { file, name, watch })
+    }
+
+    /// Gives the file its name.
+    ///
+    /// # Errors
+    /// If not all of it is on the disk, or it cannot be renamed: then it is removed.
+    pub fn finish(self) -> io::Result<()> {
+        match self {
+            Self::InPlace(_) => Ok(()),
+            Self::Unfinished { file, name, watch: _watch } => {
+                // A disk over a network may be full only now.
+                file.as_file().sync_all()?;
+                file.persist(name).map(|_| ()).map_err(|error| error.error)
+            }
+        }
+    }
+
+    fn file(&mut self) -> &mut File {
+        match self {
+            Self::InPlace(file) => file,
+            Self::Unfinished { file, .. } => file.as_file_mut(),
+        }
+    }
+}
+
+impl Write for WholeFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.file().write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// Removes a file if the user or the system ends the process.
+#[derive(Debug)]
+pub struct Watch {
+    signals: Handle,
+}
+
+impl Watch {
+    /// Not on SIGHUP: whoever ignores it (nohup) wants the process to go on.
+    fn new(path: PathBuf) -> io::Result<Self> {
+        let mut signals = Signals::new([SIGINT, SIGTERM])?;
+        let handle = signals.handle();
+        thread::Builder::new().name("signals".into()).spawn(move || {
+            if let Some(signal) = signals.forever().next() {
+                let _ = fs::remove_file(path);
+                let _ = emulate_default_handler(signal);
+            }
+        })?;
+        Ok(Self { signals: handle })
+    }
+}
+
+impl Drop for Watch {
+    fn drop(&mut self) {
+        self.signals.close();
+    }
+}
