@@ -8,6 +8,7 @@ pub mod color;
 pub mod draw;
 pub mod encode;
 pub mod error;
+pub mod ink;
 pub mod machine;
 pub mod npy;
 pub mod palette;
