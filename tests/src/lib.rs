@@ -17,6 +17,7 @@
 //! | [`measured`] | cases of the regimes in which error is measured |
 //! | [`campaign`] | runs of many minutes |
 //! | [`budget`] | the one table of what each tier gets wrong, and where |
+//! | [`binary`] | the program itself |
 //! | [`vectors`] | the 100,000 hard cases that lie beside the workspace, if they do |
 //!
 //! `PROPTEST_CASES=100000 cargo test -p spherule-tests` looks longer for counterexamples;
@@ -25,6 +26,7 @@
 //! generator the kept cases are written anew as the head of their file says.
 
 pub mod aim;
+pub mod binary;
 #[cfg(feature = "tally")]
 pub mod budget;
 pub mod campaign;
