@@ -1,0 +1,3 @@
+//! Pictures in cells against the truth: that the scorer is right, and what the program reaches.
+
+mod scorer;
