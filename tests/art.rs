@@ -1,3 +1,4 @@
 //! Pictures in cells against the truth: that the scorer is right, and what the program reaches.
 
+mod ink;
 mod scorer;
