@@ -1,4 +1,5 @@
-//! What the program's pictures reach at least: a loss of half a decibel fails, and so does a gain that is not noted here.
+//! What the program's pictures reach at least: a loss of half a decibel fails, and so does a gain that
+//! is not noted here.
 
 use spherule::cells::{Cell, Color};
 use spherule::scene::Scene;

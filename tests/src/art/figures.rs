@@ -6,8 +6,8 @@ use super::light::Light;
 /// Higher is better.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Figures {
-    /// From reading distance, in dB: a blur of half a cell's width goes before the comparison, so that dots and letters
-    /// become tones.
+    /// From reading distance, in dB: a blur of half a cell's width goes before the comparison, so
+    /// that dots and letters become tones.
     pub far: f64,
     /// Nose to the screen, in dB: pixel by pixel.
     pub near: f64,

@@ -1,4 +1,5 @@
-//! The shapes of block characters, by Unicode's charts "Block Elements", "Symbols for Legacy Computing" and its supplement.
+//! The shapes of block characters, by Unicode's charts "Block Elements", "Symbols for Legacy Computing"
+//! and its supplement.
 
 use super::cell::{Coverage, even, rectangles};
 
@@ -51,8 +52,8 @@ pub fn coverage(character: char) -> Option<Coverage> {
 const QUADRANTS: [u8; 10] =
     [0b0100, 0b1000, 0b0001, 0b1101, 0b1001, 0b0111, 0b1011, 0b0010, 0b0110, 0b1110];
 
-/// Sextants and octants are in the order of their bits, without those that are other characters: none, the halves, all;
-/// and of octants, what is made of quadrants, and quarters of the cell.
+/// Sextants and octants are in the order of their bits, without those that are other characters: none,
+/// the halves, all; and of octants, what is made of quadrants, and quarters of the cell.
 const SEXTANTS_ELSEWHERE: [u8; 4] = [0b00_00_00, 0b01_01_01, 0b10_10_10, 0b11_11_11];
 const OCTANTS_ELSEWHERE: [u8; 26] = [
     // Of quadrants: both rows of an upper or a lower one.

@@ -86,8 +86,8 @@ impl Light {
         self.pixels.len().checked_div(self.width).unwrap_or(0)
     }
 
-    /// As seen from so far away that a point is as wide as a Gaussian of this deviation, in pixels. Beyond the edge the
-    /// picture goes on as at the edge.
+    /// As seen from so far away that a point is as wide as a Gaussian of this deviation, in pixels.
+    /// Beyond the edge the picture goes on as at the edge.
     #[must_use]
     pub fn blurred(&self, deviation: f32) -> Self {
         let reach = (3.0 * deviation + 0.5) as usize;

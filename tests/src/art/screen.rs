@@ -29,8 +29,8 @@ const INK: Rgb = [229; 3];
 const BEHIND: Rgb = [0; 3];
 
 impl Screen {
-    /// After lines as they are written to a file: each ends in a newline, which a terminal shows as carriage return and
-    /// line feed.
+    /// After lines as they are written to a file: each ends in a newline, which a terminal shows as
+    /// carriage return and line feed.
     ///
     /// # Errors
     /// If there are more or fewer lines than rows, and if anything is not understood: half a picture would be scored.
