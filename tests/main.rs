@@ -3,6 +3,7 @@
 
 mod accuracy;
 mod agreement;
+mod art;
 mod degenerate;
 mod door;
 mod exact;

@@ -2,7 +2,6 @@
 //!
 //! Needs no controlling terminal: `setsid -w cargo test -p spherule-tests pty </dev/null` passes as well.
 
-mod binary;
 mod leaving;
 mod look;
 mod modes;

@@ -1,12 +1,12 @@
 //! How the program stops, goes on and ends, and what it leaves behind.
 
-use super::binary::spherule;
 use super::modes::is_cooked;
 use super::picture::{SceneFile, once};
 use super::session::{Session, command, size};
 use super::viewer::{COLUMNS, PICTURE_ROWS, ROWS, VIEW, Viewer, shows_a_frame};
 use portable_pty::native_pty_system;
 use rustix::process::Signal;
+use spherule_tests::binary::spherule;
 use std::io::Read;
 
 /// After the program was stopped: the terminal is the shell's, and after SIGCONT the program's.

@@ -1,8 +1,8 @@
 //! The picture that a screen should show, by another way: `spherule --once` with its camera there.
 
-use super::binary::spherule;
 use super::look::{Look, look};
 use spherule::view::{Lens, View};
+use spherule_tests::binary::spherule;
 use std::fs;
 use std::num::NonZeroU16;
 use std::path::PathBuf;

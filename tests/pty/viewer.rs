@@ -1,11 +1,11 @@
 //! The viewer on a scene of the tests' own.
 
-use super::binary::spherule;
 use super::look::{Look, last_row, look};
 use super::picture::{OPTIONS, SceneFile};
 use super::session::{Output, Session};
 use spherule::view::{Lens, View};
 use spherule_kernel::Vec3;
+use spherule_tests::binary::spherule;
 
 pub(crate) const COLUMNS: u16 = 80;
 pub(crate) const ROWS: u16 = 20;

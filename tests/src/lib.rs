@@ -17,6 +17,8 @@
 //! | [`measured`] | cases of the regimes in which error is measured |
 //! | [`campaign`] | runs of many minutes |
 //! | [`budget`] | the one table of what each tier gets wrong, and where |
+//! | [`art`] | how near a picture in a terminal comes to the truth |
+//! | [`binary`] | the program itself |
 //! | [`vectors`] | the 100,000 hard cases that lie beside the workspace, if they do |
 //!
 //! `PROPTEST_CASES=100000 cargo test -p spherule-tests` looks longer for counterexamples;
@@ -25,6 +27,9 @@
 //! generator the kept cases are written anew as the head of their file says.
 
 pub mod aim;
+#[cfg(feature = "art")]
+pub mod art;
+pub mod binary;
 #[cfg(feature = "tally")]
 pub mod budget;
 pub mod campaign;

@@ -1,4 +1,4 @@
-//! The real binary, of the profile that the tests themselves are of.
+//! The program itself, of the profile that whoever asks for it is of.
 
 use std::env;
 use std::path::{Path, PathBuf};
@@ -6,9 +6,14 @@ use std::process::Command;
 use std::sync::OnceLock;
 use std::time::SystemTime;
 
-/// Where `spherule` is. Cargo names the binaries of another package to nobody, but it puts them
-/// two levels above the test: `target/PROFILE/deps/main-HASH`.
-pub(crate) fn spherule() -> PathBuf {
+/// Where `spherule` is, built if it is older than its sources. Cargo names the binaries of another
+/// package to nobody, but it puts them two levels above a test or an example:
+/// `target/PROFILE/deps/main-HASH`.
+///
+/// # Panics
+/// If it cannot be built.
+#[must_use]
+pub fn spherule() -> PathBuf {
     static BINARY: OnceLock<PathBuf> = OnceLock::new();
     BINARY.get_or_init(find).clone()
 }

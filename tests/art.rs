@@ -1,0 +1,5 @@
+//! Pictures in cells against the truth: that the scorer is right, and what the program reaches.
+
+mod floors;
+mod ink;
+mod scorer;

@@ -1,0 +1,47 @@
+//! How near a picture in a terminal comes to the picture that it stands for.
+//!
+//! The bytes that a program writes become a [screen], the screen's cells become pixels, 8x16 a cell,
+//! and these are compared with the truth: a picture of as many pixels. Nothing here is the
+//! program's: shapes of blocks are from Unicode's [charts](geometry), letters from
+//! [fonts](font), colours from [palettes](palette).
+//!
+//! | room | holds |
+//! |---|---|
+//! | [`screen`] | what a terminal shows after some bytes |
+//! | [`palette`] | what the 16 colours of themes are, and xterm's 256 |
+//! | [`cell`] | how much of each pixel of a cell a glyph covers |
+//! | [`geometry`] | that of blocks |
+//! | [`font`] | that of letters and dots |
+//! | [`ink`] | the program's tables of ink, measured again |
+//! | [`light`] | pictures in linear light: from a screen, from a PNG; blurred |
+//! | [`figures`] | the figures: what of the truth is seen from afar, from near, and its shapes alone |
+
+pub mod cell;
+pub mod figures;
+pub mod font;
+pub mod geometry;
+pub mod ink;
+pub mod light;
+pub mod palette;
+pub mod screen;
+
+use figures::{Figures, Truth};
+use font::Font;
+use light::Light;
+use palette::Sixteen;
+use screen::Screen;
+
+/// What the terminal shows after `bytes`, against `truth`, in a terminal of these colours and this font.
+///
+/// # Errors
+/// If the bytes are no picture of the truth's size, or have what no font or terminal here knows.
+pub fn score(
+    bytes: &[u8],
+    truth: &Truth,
+    palette: &Sixteen,
+    font: Font,
+) -> Result<Figures, String> {
+    let (columns, rows) = truth.cells();
+    let screen = Screen::read(bytes, columns, rows, palette)?;
+    Ok(truth.figures(&Light::of_screen(&screen, font)?))
+}

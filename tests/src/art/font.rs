@@ -1,0 +1,153 @@
+//! Letters and dots, as fonts draw them in a cell of 8x16 pixels.
+
+use super::cell::{Coverage, HEIGHT, WIDTH};
+use ab_glyph_rasterizer::{Point, Rasterizer, point};
+use skrifa::instance::{LocationRef, Size};
+use skrifa::outline::{DrawSettings, HintingInstance, HintingOptions, OutlinePen};
+use skrifa::{FontRef, MetadataProvider};
+use std::cell::RefCell;
+use unifont_bitmap::Unifont;
+
+/// A font of a terminal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Font {
+    /// GNU Unifont: bitmaps of 8x16 pixels.
+    Unifont,
+    /// `DejaVu` Sans Mono, antialiased and hinted.
+    DejaVuSansMono,
+}
+
+/// The size whose advance is 8 pixels.
+const SIZE: f32 = 13.0;
+/// Rows above the base line: 13 of ascent and 4 of descent are centred on 16, the odd half upwards.
+const BASE_LINE: f32 = 12.0;
+
+impl Font {
+    /// The name of the font.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Unifont => "GNU Unifont",
+            Self::DejaVuSansMono => "DejaVu Sans Mono",
+        }
+    }
+
+    /// What the font's glyph covers, `None` if it has none. Dots of braille are always Unifont's.
+    #[must_use]
+    pub fn coverage(self, character: char) -> Option<Coverage> {
+        match self {
+            Self::DejaVuSansMono if !('\u{2800}'..='\u{28ff}').contains(&character) => {
+                outline(character)
+            }
+            _ => bitmap(character),
+        }
+    }
+}
+
+fn bitmap(character: char) -> Option<Coverage> {
+    thread_local! {
+        static FONT: RefCell<Unifont> = RefCell::new(Unifont::open());
+    }
+    FONT.with_borrow_mut(|font| {
+        // What stands for characters that the font lacks.
+        let replacement =
+            font.load_bitmap(u32::from(char::REPLACEMENT_CHARACTER)).get_bytes().to_vec();
+        let glyph = font.load_bitmap(u32::from(character));
+        let bytes = glyph.get_bytes();
+        // A wide glyph is as narrow as the cell.
+        let dots = 8 * bytes.len() / (WIDTH * HEIGHT);
+        (bytes != replacement).then(|| {
+            std::array::from_fn(|pixel| {
+                let first = pixel * dots;
+                let is_on = |dot: &usize| bytes[dot / 8] >> (7 - dot % 8) & 1 == 1;
+                (first..first + dots).filter(is_on).count() as f32 / dots as f32
+            })
+        })
+    })
+}
+
+fn outline(character: char) -> Option<Coverage> {
+    let font = FontRef::new(dejavu::sans_mono::regular()).ok()?;
+    let outlines = font.outline_glyphs();
+    let glyph = outlines.get(font.charmap().map(character)?)?;
+    let (size, location) = (Size::new(SIZE), LocationRef::default());
+    let hinting =
+        HintingInstance::new(&outlines, size, location, HintingOptions::default()).ok()?;
+    let mut pen = Pen::default();
+    glyph.draw(DrawSettings::hinted(&hinting, false), &mut pen).ok()?;
+    let mut coverage = [0.0; WIDTH * HEIGHT];
+    // Overlapping contours count once.
+    pen.area.for_each_pixel(|pixel, share| coverage[pixel] = share.min(1.0));
+    Some(coverage)
+}
+
+/// Draws an outline into a cell; ink beyond its edges is lost.
+struct Pen {
+    area: Rasterizer,
+    start: Point,
+    at: Point,
+}
+
+impl Default for Pen {
+    fn default() -> Self {
+        let [start, at] = [point(0.0, 0.0); 2];
+        Self { area: Rasterizer::new(WIDTH, HEIGHT), start, at }
+    }
+}
+
+impl Pen {
+    /// In straight steps: the rasterizer's own are as wide as a small letter's bow.
+    fn curve(&mut self, at: impl Fn(f32) -> Point) {
+        for step in 1..=STEPS {
+            let to = at(f32::from(step) / f32::from(STEPS));
+            self.area.draw_line(self.at, to);
+            self.at = to;
+        }
+    }
+}
+
+/// Steps of a curve.
+const STEPS: u8 = 16;
+
+/// A share `t` of the way from `a` to `b`.
+fn mix(a: Point, b: Point, t: f32) -> Point {
+    point(a.x + t * (b.x - a.x), a.y + t * (b.y - a.y))
+}
+
+/// Rows count downwards.
+fn place(x: f32, y: f32) -> Point {
+    point(x, BASE_LINE - y)
+}
+
+impl OutlinePen for Pen {
+    fn move_to(&mut self, x: f32, y: f32) {
+        self.start = place(x, y);
+        self.at = self.start;
+    }
+
+    fn line_to(&mut self, x: f32, y: f32) {
+        let to = place(x, y);
+        self.area.draw_line(self.at, to);
+        self.at = to;
+    }
+
+    fn quad_to(&mut self, cx0: f32, cy0: f32, x: f32, y: f32) {
+        let to = place(x, y);
+        let (from, control) = (self.at, place(cx0, cy0));
+        self.curve(|t| mix(mix(from, control, t), mix(control, to, t), t));
+    }
+
+    fn curve_to(&mut self, cx0: f32, cy0: f32, cx1: f32, cy1: f32, x: f32, y: f32) {
+        let to = place(x, y);
+        let (from, first, second) = (self.at, place(cx0, cy0), place(cx1, cy1));
+        self.curve(|t| {
+            let [a, b, c] = [mix(from, first, t), mix(first, second, t), mix(second, to, t)];
+            mix(mix(a, b, t), mix(b, c, t), t)
+        });
+    }
+
+    fn close(&mut self) {
+        self.area.draw_line(self.at, self.start);
+        self.at = self.start;
+    }
+}
