@@ -11,7 +11,7 @@ mod status;
 
 use crate::cells::CellGrid;
 use crate::choice::Auto;
-use crate::draw::{Renderer, picture_workload};
+use crate::draw::{Renderer, Spending, picture_workload};
 use crate::encode::Encoder;
 use crate::error::{Error, cause};
 use crate::scene::Scene;
@@ -157,7 +157,9 @@ impl Viewer<'_> {
         let lighting = &self.scene.lighting;
         let search = self.structures.picture(*structure, &workload, view, lighting)?;
         let searched = search.structure;
-        let drawn = self.renderer.draw(self.scene, &search, view, style, columns, status_row);
+        let size = (columns, status_row);
+        let drawn =
+            self.renderer.draw(self.scene, &search, view, style, size, Spending::ByNeed);
         let drawing = started.elapsed();
 
         let mut cells = CellGrid::new(columns, rows);
@@ -175,7 +177,7 @@ impl Viewer<'_> {
         }
         self.encoder.encode(cells.clone(), &mut self.bytes);
         let frame =
-            Frame { drawing, making: started.elapsed(), rays: drawn.rays, bytes: self.bytes.len() };
+            Frame { drawing, making: started.elapsed(), rays: drawn.effort.rays, bytes: self.bytes.len() };
         let figures = self.meter.count(frame, now);
         status::write(&mut cells, status_row, &self.state, searched, figures);
         self.encoder.encode(cells, &mut self.bytes);
