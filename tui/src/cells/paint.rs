@@ -5,10 +5,13 @@ use super::fit::Fitted;
 use super::residual::Residual;
 use super::shades::Shades;
 use super::{Cell, Color};
-use crate::color::Srgb;
+use crate::color::{Srgb, oklab};
 use crate::palette::{Theme, entries};
 use crate::style::{Charset, ColorDepth, Style};
 use spherule_kernel::Vec3;
+
+/// The squared distance in `OKLab` below which a palette shows ink and paper as one colour, mixed.
+const ALIKE: f32 = 0.05 * 0.05;
 
 /// What light becomes.
 #[derive(Debug, Default)]
@@ -63,10 +66,21 @@ impl Painter {
                 }
             }
             Colors::Dither(dither) => {
+                let blend = blend(style.charset);
                 for (((cell, fit), &[ink, paper]), (column, row)) in cells.zip(colors).zip(places) {
-                    let ink = dither.color(ink, (column, 2 * row));
-                    let paper = dither.color(paper, (column, 2 * row + 1));
-                    *cell = two_colors(fit.glyph, ink, paper);
+                    let apart = (oklab(ink) - oklab(paper)).length_squared();
+                    *cell = match blend {
+                        Some(blend) if apart < ALIKE => {
+                            let mean = paper + fit.share() * (ink - paper);
+                            let [left, right] = dither.pair(mean, row);
+                            two_colors(blend, left, right)
+                        }
+                        _ => {
+                            let ink = dither.color(ink, (column, 2 * row));
+                            let paper = dither.color(paper, (column, 2 * row + 1));
+                            two_colors(fit.glyph, ink, paper)
+                        }
+                    };
                 }
             }
             Colors::All => {
@@ -91,6 +105,15 @@ impl Painter {
             ColorDepth::Truecolor => Colors::All,
         };
         self.made_for = key;
+    }
+}
+
+/// The glyph that mixes two colours best, if there is one: half the cell, in as small pieces as can be.
+fn blend(charset: Charset) -> Option<char> {
+    match charset {
+        Charset::Ascii | Charset::Braille => None,
+        Charset::Half => Some('▌'),
+        _ => Some('▚'),
     }
 }
 

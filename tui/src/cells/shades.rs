@@ -88,7 +88,7 @@ impl Shades {
     /// The cell that looks most like `fit` with these colours of ink and paper.
     #[must_use]
     pub fn cell(&self, fit: &Fitted, [ink, paper]: [Vec3; 2]) -> Cell {
-        let share = fit.cover.iter().sum::<f32>() / 8.0;
+        let share = fit.share();
         let (ink_look, paper_look) = (oklab(ink), oklab(paper));
         let whole = oklab(paper + share * (ink - paper));
         let mut best = (f32::INFINITY, Cell::BLANK);
