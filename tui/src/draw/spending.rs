@@ -26,7 +26,7 @@ pub struct Effort {
 
 impl Effort {
     /// Of a picture without a cell.
-    pub(super) const NONE: Self = Self { samples: 0, rays: 0, is_full: true };
+    pub const NONE: Self = Self { samples: 0, rays: 0, is_full: true };
 
     /// Of both.
     pub(super) fn and(self, other: Self) -> Self {
