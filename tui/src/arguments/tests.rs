@@ -58,7 +58,7 @@ fn what_is_wrong_is_said_in_one_line() {
         ("--size 0x0", "each 1 to 4096"),
         ("--size 1000000x1000000", "each 1 to 4096"),
         ("--size 80", "COLSxROWS"),
-        ("--samples 0", "1..=256"),
+        ("--samples 0", "auto, or 1 to 256"),
         ("--accuracy sloppy", "fast, stable, exact"),
         ("--structure octree", "auto, brute, depth-list, bvh"),
         ("--threads 0", "1..=1024"),
