@@ -151,8 +151,11 @@ fn table(rows: &[&str]) -> Vec<char> {
 }
 
 fn eighths() -> [Family; 2] {
-    let bars = |glyphs: &'static str, bits: fn(u8) -> u8| (1..).map(bits).zip(glyphs.chars());
-    let lines = |glyphs: &'static str| (1..).map(|bin| 1 << bin).zip(glyphs.chars());
+    let bars = |glyphs: &'static str, bits: fn(u8) -> u8| {
+        glyphs.chars().zip(1..).map(move |(glyph, count)| (bits(count), glyph))
+    };
+    let lines =
+        |glyphs: &'static str| glyphs.chars().zip(1..).map(|(glyph, bin)| (1_u8 << bin, glyph));
     let upright = bars(LEFT_EIGHTHS, |count| !(0xff << count)).chain(lines(UPRIGHT_LINES));
     let level = bars(LOWER_EIGHTHS, |count| !(0xff >> count)).chain(lines(LEVEL_LINES));
     [Family::new(8, 1, upright), Family::new(1, 8, level)]
@@ -189,3 +192,6 @@ pub fn repertoire(charset: Charset) -> &'static Repertoire {
         Charset::Block => 5,
     }]
 }
+
+#[cfg(test)]
+mod tests;
