@@ -20,7 +20,7 @@ fn what_is_not_said_has_a_default() {
     let arguments = picture("");
     assert_eq!(arguments.scene.name, "marbles");
     assert_eq!(arguments.accuracy, Tier::Exact);
-    assert_eq!((arguments.scene.size, arguments.scene.samples), (None, 4));
+    assert_eq!((arguments.scene.size, arguments.scene.samples), (None, None));
     assert_eq!(arguments.color, ColorChoice::Auto);
     assert_eq!(arguments.charset, None);
     assert_eq!(arguments.background, None);
@@ -38,7 +38,7 @@ fn every_option_is_read() {
     );
     assert_eq!(arguments.scene.name, "a.xyz");
     assert_eq!(arguments.accuracy, Tier::Fast);
-    assert_eq!((arguments.scene.size, arguments.scene.samples), (Some((200, 60)), 9));
+    assert_eq!((arguments.scene.size, arguments.scene.samples), (Some((200, 60)), Some(9)));
     assert_eq!(arguments.charset, Some(Charset::Half));
     assert_eq!(arguments.color, ColorChoice::Ansi256);
     assert_eq!(arguments.scene.projection, Some(LensKind::Parallel));
