@@ -151,3 +151,6 @@ fn best_mask<'a>(family: &'a Family, means: &[Vec3; 8]) -> (f32, &'a Mask) {
     }
     best
 }
+
+#[cfg(test)]
+mod tests;

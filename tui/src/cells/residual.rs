@@ -113,3 +113,6 @@ impl Residual {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -54,3 +54,6 @@ impl Looks<'_> {
         most.sqrt()
     }
 }
+
+#[cfg(test)]
+mod tests;
