@@ -3,6 +3,7 @@
 use crate::choice::{Auto, auto_or, one_of};
 use crate::color::Srgb;
 use crate::error::Error;
+use crate::palette::Theme;
 use crate::samples::MOST_SAMPLES;
 use crate::scene::Scene;
 use crate::scene::builtin::DEFAULT;
@@ -70,6 +71,9 @@ pub struct PictureArguments {
     /// The colour of what no sphere covers, unless the scene names one
     #[arg(long, value_name = "#RRGGBB", value_parser = color)]
     pub background: Option<Srgb>,
+    /// What the terminal's 16 colours are: xterm, vga, tango, solarized, or 16 of six digits, with commas
+    #[arg(long, value_name = "COLOURS", default_value = "xterm")]
+    pub palette: Theme,
     /// Shape of a cell, width to height [default: the terminal's, else 1:2]
     #[arg(long, value_name = "W:H", value_parser = aspect)]
     pub cell_aspect: Option<f32>,

@@ -1,11 +1,13 @@
 //! Character cells: what a terminal shows, before any escape sequence.
 
 pub mod bins;
+pub mod dither;
 pub mod fit;
 pub mod letters;
 pub mod masks;
 pub mod paint;
 pub mod residual;
+pub mod shades;
 pub mod tone;
 
 /// A colour as a terminal names it.

@@ -1,4 +1,4 @@
-//! From linear light to the colours that a terminal has.
+//! The colours that a terminal has, and what a person sees in them.
 //!
 //! In the palettes the nearest colour is the one that looks nearest: by distance in `OKLab`.
 
@@ -6,101 +6,116 @@ use crate::cells::Color;
 use crate::color::{Srgb, oklab};
 use crate::style::ColorDepth;
 use spherule_kernel::Vec3;
+use std::str::FromStr;
 
-/// The 16 colours as xterm shows them; a user's theme may differ.
-pub const XTERM_16: [Srgb; 16] = [
-    Srgb([0, 0, 0]),
-    Srgb([205, 0, 0]),
-    Srgb([0, 205, 0]),
-    Srgb([205, 205, 0]),
-    Srgb([0, 0, 238]),
-    Srgb([205, 0, 205]),
-    Srgb([0, 205, 205]),
-    Srgb([229, 229, 229]),
-    Srgb([127, 127, 127]),
-    Srgb([255, 0, 0]),
-    Srgb([0, 255, 0]),
-    Srgb([255, 255, 0]),
-    Srgb([92, 92, 255]),
-    Srgb([255, 0, 255]),
-    Srgb([0, 255, 255]),
-    Srgb([255, 255, 255]),
+/// What a terminal's 16 colours are: black, red, green, yellow, blue, magenta, cyan, white, and the same bright.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Theme(pub [Srgb; 16]);
+
+/// The themes that have names.
+pub const THEMES: [(&str, Theme); 4] = [
+    ("xterm", Theme::XTERM),
+    ("vga", Theme::VGA),
+    ("tango", Theme::TANGO),
+    ("solarized", Theme::SOLARIZED),
 ];
 
-/// The colour of the xterm palette of 256 at `index`: 16 of the theme, a cube of 6 x 6 x 6, and
-/// 24 greys.
+impl Theme {
+    /// Of xterm as it is built.
+    pub const XTERM: Self = Self::new([
+        0x00_0000, 0xcd_0000, 0x00_cd00, 0xcd_cd00, 0x00_00ee, 0xcd_00cd, 0x00_cdcd, 0xe5_e5e5,
+        0x7f_7f7f, 0xff_0000, 0x00_ff00, 0xff_ff00, 0x5c_5cff, 0xff_00ff, 0x00_ffff, 0xff_ffff,
+    ]);
+    /// Of the text modes of VGA, and of the Linux console.
+    pub const VGA: Self = Self::new([
+        0x00_0000, 0xaa_0000, 0x00_aa00, 0xaa_5500, 0x00_00aa, 0xaa_00aa, 0x00_aaaa, 0xaa_aaaa,
+        0x55_5555, 0xff_5555, 0x55_ff55, 0xff_ff55, 0x55_55ff, 0xff_55ff, 0x55_ffff, 0xff_ffff,
+    ]);
+    /// Of the Tango Desktop Project, as GNOME Terminal has it.
+    pub const TANGO: Self = Self::new([
+        0x2e_3436, 0xcc_0000, 0x4e_9a06, 0xc4_a000, 0x34_65a4, 0x75_507b, 0x06_989a, 0xd3_d7cf,
+        0x55_5753, 0xef_2929, 0x8a_e234, 0xfc_e94f, 0x72_9fcf, 0xad_7fa8, 0x34_e2e2, 0xee_eeec,
+    ]);
+    /// Of Ethan Schoonover's Solarized.
+    pub const SOLARIZED: Self = Self::new([
+        0x07_3642, 0xdc_322f, 0x85_9900, 0xb5_8900, 0x26_8bd2, 0xd3_3682, 0x2a_a198, 0xee_e8d5,
+        0x00_2b36, 0xcb_4b16, 0x58_6e75, 0x65_7b83, 0x83_9496, 0x6c_71c4, 0x93_a1a1, 0xfd_f6e3,
+    ]);
+
+    const fn new(colors: [u32; 16]) -> Self {
+        let mut theme = [Srgb::BLACK; 16];
+        let mut index = 0;
+        while index < 16 {
+            let [_, red, green, blue] = colors[index].to_be_bytes();
+            theme[index] = Srgb([red, green, blue]);
+            index += 1;
+        }
+        Self(theme)
+    }
+}
+
+impl FromStr for Theme {
+    type Err = String;
+
+    /// Reads a name, or 16 colours of six hexadecimal digits, `#` or not, with commas between them.
+    fn from_str(text: &str) -> Result<Self, String> {
+        if let Some((_, theme)) = THEMES.iter().find(|(name, _)| *name == text) {
+            return Ok(*theme);
+        }
+        let names = THEMES.map(|(name, _)| name).join(", ");
+        let colors = text.split(',').map(|color| {
+            let digits = color.trim();
+            let digits = digits.strip_prefix('#').unwrap_or(digits);
+            format!("#{digits}").parse::<Srgb>()
+        });
+        let colors = colors
+            .collect::<Result<Vec<_>, _>>()
+            .map_err(|_| format!("{names}, or 16 colours such as cd0000,00cd00"))?;
+        let count = colors.len();
+        let theme = colors.try_into().map_err(|_| format!("{count} colours in place of 16"))?;
+        Ok(Self(theme))
+    }
+}
+
+/// The colour of the xterm palette of 256 at `index`, from 16 on: a cube of 6 x 6 x 6, and 24 greys. Below is the
+/// theme: xterm's own.
 #[must_use]
 pub fn xterm_256(index: u8) -> Srgb {
     let level = |step: u8| if step == 0 { 0 } else { 55 + 40 * step };
     match index {
-        0..16 => XTERM_16[usize::from(index)],
+        0..16 => Theme::XTERM.0[usize::from(index)],
         16..232 => Srgb([(index - 16) / 36, (index - 16) / 6 % 6, (index - 16) % 6].map(level)),
         232.. => Srgb([8 + 10 * (index - 232); 3]),
     }
 }
 
-/// Finds colours, and remembers what it found.
-#[derive(Clone, Debug)]
-pub struct Palette {
-    depth: ColorDepth,
-    /// The colours to choose from, with the index that names them, in `OKLab`.
-    choices: Vec<(u8, Vec3)>,
-    /// The choice for each colour of 6 bits a channel; `u8::MAX` if it is not known yet.
-    found: Vec<u8>,
+/// A colour to choose.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry {
+    /// Its name.
+    pub color: Color,
+    /// In linear light.
+    pub light: Vec3,
+    /// In `OKLab`.
+    pub look: Vec3,
 }
 
-impl Palette {
-    /// The colours of `depth`.
-    #[must_use]
-    pub fn new(depth: ColorDepth) -> Self {
-        let indices = match depth {
-            ColorDepth::Never | ColorDepth::Truecolor => 0..0,
-            ColorDepth::Ansi16 => 0..16,
-            // The first 16 are the theme's: no one knows what they look like.
-            ColorDepth::Ansi256 => 16..256,
-        };
-        let choices: Vec<_> =
-            indices.map(|index| (index as u8, oklab(xterm_256(index as u8).to_linear()))).collect();
-        let found = if choices.is_empty() { Vec::new() } else { vec![u8::MAX; 1 << 18] };
-        Self { depth, choices, found }
-    }
-
-    /// Which colours these are.
-    #[must_use]
-    pub fn depth(&self) -> ColorDepth {
-        self.depth
-    }
-
-    /// The colour nearest to linear light; [`Color::Default`] if there are none.
-    ///
-    /// The palettes are searched for the encoded colour rounded to 6 bits a channel.
-    #[must_use]
-    #[inline]
-    pub fn nearest(&mut self, light: Vec3) -> Color {
-        match self.depth {
-            ColorDepth::Never => Color::Default,
-            ColorDepth::Truecolor => Color::Rgb(Srgb::from_linear(light).0),
-            ColorDepth::Ansi16 => Color::Ansi16(self.choice(Srgb::from_linear(light))),
-            ColorDepth::Ansi256 => Color::Ansi256(self.choice(Srgb::from_linear(light))),
+/// The colours of a depth; none if there are too many or too few to list.
+#[must_use]
+pub fn entries(depth: ColorDepth, theme: &Theme) -> Vec<Entry> {
+    let entry = |color, srgb: Srgb| {
+        let light = srgb.to_linear();
+        Entry { color, light, look: oklab(light) }
+    };
+    match depth {
+        ColorDepth::Never | ColorDepth::Truecolor => Vec::new(),
+        ColorDepth::Ansi16 => {
+            (0..).zip(theme.0).map(|(index, srgb)| entry(Color::Ansi16(index), srgb)).collect()
         }
-    }
-
-    fn choice(&mut self, color: Srgb) -> u8 {
-        let [red, green, blue] = color.0.map(|channel| usize::from(channel >> 2));
-        let slot = red << 12 | green << 6 | blue;
-        if self.found[slot] == u8::MAX {
-            // Replicate the upper bits, so that black and white stay what they are.
-            let rounded = Srgb(color.0.map(|channel| channel & !3 | channel >> 6));
-            let wanted = oklab(rounded.to_linear());
-            let distance = |choice: &Vec3| (*choice - wanted).length_squared();
-            let nearest = self
-                .choices
-                .iter()
-                .enumerate()
-                .min_by(|(_, a), (_, b)| distance(&a.1).total_cmp(&distance(&b.1)));
-            self.found[slot] = nearest.map_or(0, |(position, _)| position as u8);
+        // The first 16 are the theme's: where there are 240 others, none is worth the doubt.
+        ColorDepth::Ansi256 => {
+            (16..=255).map(|index| entry(Color::Ansi256(index), xterm_256(index))).collect()
         }
-        self.choices[usize::from(self.found[slot])].0
     }
 }
 
@@ -119,32 +134,30 @@ mod tests {
     }
 
     #[test]
-    fn palette_colours_are_their_own_nearest() {
-        let mut palette = Palette::new(ColorDepth::Ansi256);
-        for index in 16..=255 {
-            let Color::Ansi256(found) = palette.nearest(xterm_256(index).to_linear()) else {
-                panic!("not of the palette");
-            };
-            assert_eq!(xterm_256(found), xterm_256(index));
-        }
-        let mut palette = Palette::new(ColorDepth::Ansi16);
-        for (index, color) in XTERM_16.iter().enumerate() {
-            assert_eq!(palette.nearest(color.to_linear()), Color::Ansi16(index as u8));
-        }
+    fn themes_have_names_or_are_lists() {
+        assert_eq!("vga".parse(), Ok(Theme::VGA));
+        let list = Theme::TANGO.0.map(|Srgb([r, g, b])| format!("{r:02x}{g:02X}{b:02x}"));
+        assert_eq!(list.join(",").parse(), Ok(Theme::TANGO));
+        assert_eq!(list.map(|color| format!("#{color}")).join(", ").parse(), Ok(Theme::TANGO));
     }
 
     #[test]
-    fn the_nearest_looks_nearest() {
-        let mut palette = Palette::new(ColorDepth::Ansi16);
-        // A dark red is red, not the grey of its brightness.
-        let dark_red = Srgb([150, 10, 10]).to_linear();
-        assert_eq!(palette.nearest(dark_red), Color::Ansi16(1));
+    fn other_lists_are_none() {
+        let error = |text: &str| text.parse::<Theme>().expect_err(text);
+        assert!(error("amber").contains("solarized"));
+        assert!(error("").contains("16 colours"));
+        assert_eq!(error(&["000000"; 15].join(",")), "15 colours in place of 16");
+        assert_eq!(error(&["000000"; 17].join(",")), "17 colours in place of 16");
+        assert!(error(&["00000"; 16].join(",")).contains("such as"));
     }
 
     #[test]
-    fn without_a_palette() {
-        let light = Srgb([1, 2, 3]).to_linear();
-        assert_eq!(Palette::new(ColorDepth::Truecolor).nearest(light), Color::Rgb([1, 2, 3]));
-        assert_eq!(Palette::new(ColorDepth::Never).nearest(light), Color::Default);
+    fn entries_name_what_they_show() {
+        let theme = entries(ColorDepth::Ansi16, &Theme::VGA);
+        assert_eq!((theme.len(), theme[3].color), (16, Color::Ansi16(3)));
+        assert_eq!(Srgb::from_linear(theme[3].light), Srgb([0xaa, 0x55, 0]));
+        let cube = entries(ColorDepth::Ansi256, &Theme::VGA);
+        assert_eq!((cube.len(), cube[0].color), (240, Color::Ansi256(16)));
+        assert!(entries(ColorDepth::Truecolor, &Theme::VGA).is_empty());
     }
 }

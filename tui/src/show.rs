@@ -52,6 +52,7 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
             _ => Charset::Half,
         }),
         depth,
+        theme: arguments.palette,
         samples: arguments.scene.samples,
         cell_aspect: arguments
             .cell_aspect

@@ -1,6 +1,7 @@
 //! What a picture is to be: its tier, characters, colours and samples.
 
 use crate::choice::Auto;
+use crate::palette::Theme;
 use clap::ValueEnum;
 use spherule_kernel::Tier;
 
@@ -45,6 +46,8 @@ pub struct Style {
     pub charset: Charset,
     /// How many colours there are.
     pub depth: ColorDepth,
+    /// What the 16 are, if there are so many.
+    pub theme: Theme,
     /// Rays a cell, at least one; by need if `None`.
     pub samples: Auto<u32>,
     /// Width of a cell over its height.
@@ -60,6 +63,7 @@ impl Style {
         accuracy: Tier::Exact,
         charset: Charset::Ascii,
         depth: ColorDepth::Never,
+        theme: Theme::XTERM,
         samples: None,
         cell_aspect: 0.5,
     };

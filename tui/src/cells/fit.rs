@@ -43,6 +43,12 @@ impl Fitted {
         paper: Vec3::ZERO,
         parts: [Vec3::ZERO; 8],
     };
+
+    /// How much of the cell the glyph covers.
+    #[must_use]
+    pub fn share(&self) -> f32 {
+        self.cover.iter().sum::<f32>() / 8.0
+    }
 }
 
 /// Fits glyphs to cells that have so many samples.

@@ -27,7 +27,7 @@ pub(super) struct Letter {
     /// Of 2 x 4 parts.
     pub(super) cover: Cover,
     /// The share of the cell that is covered.
-    mean: f32,
+    pub(super) mean: f32,
     /// The share of each bin, less the mean; and the sum of its squares.
     shape: [f32; BINS],
     energy: f32,

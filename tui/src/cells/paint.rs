@@ -1,28 +1,40 @@
 //! From fitted glyphs to cells: the colours that the terminal has.
 
+use super::dither::Dither;
 use super::fit::Fitted;
 use super::residual::Residual;
+use super::shades::Shades;
 use super::{Cell, Color};
-use crate::palette::Palette;
-use crate::style::{ColorDepth, Style};
+use crate::color::{Srgb, oklab};
+use crate::palette::{Theme, entries};
+use crate::style::{Charset, ColorDepth, Style};
 use spherule_kernel::Vec3;
 
-/// Paints, and keeps its memory.
-#[derive(Debug)]
-pub struct Painter {
-    palette: Palette,
-    residual: Residual,
-    corrected: Vec<[Vec3; 2]>,
+/// The squared distance in `OKLab` below which a palette shows ink and paper as one colour, mixed.
+const ALIKE: f32 = 0.05 * 0.05;
+
+/// What light becomes.
+#[derive(Debug, Default)]
+enum Colors {
+    /// Nothing: letters and dots are what there is.
+    #[default]
+    None,
+    /// 16 of a theme.
+    Shades(Shades),
+    /// The xterm palette.
+    Dither(Dither),
+    /// 24 bits.
+    All,
 }
 
-impl Default for Painter {
-    fn default() -> Self {
-        Self {
-            palette: Palette::new(ColorDepth::Never),
-            residual: Residual::default(),
-            corrected: Vec::new(),
-        }
-    }
+/// Paints, and keeps its memory.
+#[derive(Debug, Default)]
+pub struct Painter {
+    /// What the colours are of.
+    made_for: Option<(ColorDepth, Theme, Charset)>,
+    colors: Colors,
+    residual: Residual,
+    corrected: Vec<[Vec3; 2]>,
 }
 
 impl Painter {
@@ -35,25 +47,81 @@ impl Painter {
         first: usize,
         cells: &mut [Cell],
     ) {
-        if self.palette.depth() != style.depth {
-            self.palette = Palette::new(style.depth);
-        }
+        self.make_for(style);
         let rows = first - known..first - known + cells.len() / columns;
         let own = &fits[rows.start * columns..rows.end * columns];
-        if style.depth == ColorDepth::Never {
-            for (cell, fit) in cells.iter_mut().zip(own) {
-                *cell = Cell { glyph: fit.glyph, ..Cell::BLANK };
+        if !matches!(self.colors, Colors::None) {
+            self.residual.correct(fits, columns, rows, &mut self.corrected);
+        }
+        let colors = self.corrected.iter();
+        let places = (first..).flat_map(|row| (0..columns).map(move |column| (column, row)));
+        let cells = cells.iter_mut().zip(own);
+        match &mut self.colors {
+            Colors::None => {
+                cells.for_each(|(cell, fit)| *cell = Cell { glyph: fit.glyph, ..Cell::BLANK });
             }
+            Colors::Shades(shades) => {
+                for ((cell, fit), &colors) in cells.zip(colors) {
+                    *cell = shades.cell(fit, colors);
+                }
+            }
+            Colors::Dither(dither) => {
+                let blend = blend(style.charset);
+                for (((cell, fit), &[ink, paper]), (column, row)) in cells.zip(colors).zip(places) {
+                    let apart = (oklab(ink) - oklab(paper)).length_squared();
+                    *cell = match blend {
+                        Some(blend) if apart < ALIKE => {
+                            let mean = paper + fit.share() * (ink - paper);
+                            let [left, right] = dither.pair(mean, row);
+                            two_colors(blend, left, right)
+                        }
+                        _ => {
+                            let ink = dither.color(ink, (column, 2 * row));
+                            let paper = dither.color(paper, (column, 2 * row + 1));
+                            two_colors(fit.glyph, ink, paper)
+                        }
+                    };
+                }
+            }
+            Colors::All => {
+                for ((cell, fit), colors) in cells.zip(colors) {
+                    let [ink, paper] = colors.map(|color| Color::Rgb(Srgb::from_linear(color).0));
+                    *cell = two_colors(fit.glyph, ink, paper);
+                }
+            }
+        }
+    }
+
+    fn make_for(&mut self, style: &Style) {
+        let key = Some((style.depth, style.theme, style.charset));
+        if self.made_for == key {
             return;
         }
-        self.residual.correct(fits, columns, rows, &mut self.corrected);
-        for ((cell, fit), colors) in cells.iter_mut().zip(own).zip(&self.corrected) {
-            let [foreground, background] = colors.map(|color| self.palette.nearest(color));
-            *cell = if foreground == background || fit.glyph == ' ' {
-                Cell { glyph: ' ', foreground: Color::Default, background }
-            } else {
-                Cell { glyph: fit.glyph, foreground, background }
-            };
-        }
+        let entries = entries(style.depth, &style.theme);
+        self.colors = match style.depth {
+            ColorDepth::Never => Colors::None,
+            ColorDepth::Ansi16 => Colors::Shades(Shades::new(entries, style.charset)),
+            ColorDepth::Ansi256 => Colors::Dither(Dither::new(entries)),
+            ColorDepth::Truecolor => Colors::All,
+        };
+        self.made_for = key;
+    }
+}
+
+/// The glyph that mixes two colours best, if there is one: half the cell, in as small pieces as can be.
+fn blend(charset: Charset) -> Option<char> {
+    match charset {
+        Charset::Ascii | Charset::Braille => None,
+        Charset::Half => Some('▌'),
+        _ => Some('▚'),
+    }
+}
+
+/// A cell; a space if there is nothing to tell apart.
+fn two_colors(glyph: char, foreground: Color, background: Color) -> Cell {
+    if foreground == background || glyph == ' ' {
+        Cell { glyph: ' ', foreground: Color::Default, background }
+    } else {
+        Cell { glyph, foreground, background }
     }
 }
