@@ -80,7 +80,7 @@ fn every_sample_of_unit_is_what_the_oracle_says() {
         for charset in [Charset::Ascii, Charset::Half] {
             for kind in [LensKind::Perspective, LensKind::Parallel] {
                 for turn in [0.0, 0.7] {
-                    let style = Style { charset, samples: 1, ..ASCII };
+                    let style = Style { charset, samples: Some(1), ..ASCII };
                     let aspect = style.picture_aspect(columns, rows) as f32;
                     let view = orbited(&scene.first_view(aspect), turn, turn / 2.0);
                     let view = with_projection(&view, kind);

@@ -10,13 +10,13 @@ mod picture;
 mod session;
 mod viewer;
 
-use binary::spherule;
 use look::last_row;
 use modes::is_cooked;
 use picture::{OPTIONS, once};
 use session::Session;
 use spherule::view::{LensKind, orbited, with_projection, zoomed};
 use spherule::viewer::{ORBIT_STEP, ZOOM_STEP};
+use spherule_tests::binary::spherule;
 use std::f32::consts::PI;
 use viewer::{COLUMNS, PICTURE_ROWS, ROWS, VIEW, Viewer, shows_a_frame};
 
@@ -96,12 +96,48 @@ fn the_mouse_drags_and_zooms() {
 #[test]
 fn the_status_line_tells_the_tier() {
     let mut viewer = Viewer::start();
-    for (key, text) in [("1", " fast "), ("2", " stable "), ("3", " exact "), ("c", " ascii ")] {
+    for (key, text) in [("1", " fast "), ("2", " stable "), ("3", " exact ")] {
         viewer.session.type_in(key);
         viewer
             .session
             .wait_for(text, |output| last_row(output.screen()).contains(text).then_some(()));
     }
+    viewer.quit();
+}
+
+#[test]
+fn c_goes_around_the_charsets() {
+    let mut viewer = Viewer::start();
+    let expected = once(&VIEW, COLUMNS, PICTURE_ROWS);
+    for charset in ["quadrant", "sextant", "octant", "braille", "block", "ascii", "half"] {
+        viewer.session.type_in("c");
+        let named = format!(" perspective {charset} ");
+        viewer
+            .session
+            .wait_for(charset, |output| last_row(output.screen()).contains(&named).then_some(()));
+    }
+    viewer.wait_for_picture("the first charset", &expected);
+    viewer.quit();
+}
+
+/// A picture so large that the frames of a movement are coarse.
+#[test]
+fn after_a_movement_the_picture_becomes_full_and_then_there_is_peace() {
+    let (columns, rows) = (200, 60);
+    let mut viewer = Viewer::start_at_size(columns, rows);
+    viewer.wait_for_frame();
+    viewer.session.type_in("l");
+    let view = orbited(&VIEW, ORBIT_STEP, 0.0);
+    let expected = once(&view, columns, rows - 1);
+    viewer.wait_for_picture("the full picture", &expected);
+    viewer.session.wait_for_peace();
+    viewer.wait_for_picture("the full picture still", &expected);
+
+    // Peace is not what any viewer has.
+    viewer.session.type_in(" ");
+    assert!(viewer.session.stirs(), "it spins, and nothing happens");
+    viewer.session.type_in(" ");
+    viewer.session.wait_for_peace();
     viewer.quit();
 }
 

@@ -74,8 +74,12 @@ fn marbles() -> Scene {
 /// `marbles` at 8x16 pixels a cell: half blocks of so many samples that each half is the mean of its pixel.
 static TRUTH: LazyLock<Truth> = LazyLock::new(|| {
     let (columns, halves) = (COLUMNS * WIDTH as u16, ROWS * HEIGHT as u16);
-    let style =
-        Style { charset: Charset::Half, depth: ColorDepth::Truecolor, samples: 32, ..Style::PLAIN };
+    let style = Style {
+        charset: Charset::Half,
+        depth: ColorDepth::Truecolor,
+        samples: Some(32),
+        ..Style::PLAIN
+    };
     let scene = marbles();
     let view = scene.first_view(style.picture_aspect(columns, halves / 2) as f32);
     let cells = draw::draw(&scene, &view, &style, columns, halves / 2).cells;

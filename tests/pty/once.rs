@@ -1,10 +1,10 @@
 //! One picture on a terminal.
 
-use super::binary::spherule;
 use super::look::look;
 use super::picture::{OPTIONS, SceneFile, once};
 use super::session::Session;
 use super::viewer::{COLUMNS, ROWS, VIEW};
+use spherule_tests::binary::spherule;
 
 /// What a terminal of `columns` x `rows` shows when the program has ended, and where the prompt comes.
 fn ended(more: &[&str], variables: &[(&str, &str)], columns: u16, rows: u16) -> Session {

@@ -1,7 +1,7 @@
 //! A program in a pseudo-terminal of its own, and what its screen shows.
 //!
-//! Nothing here sleeps for a fixed time: whatever is waited for is looked for until it is there,
-//! and a test fails when it has not come for [`PATIENCE`].
+//! Nothing here sleeps for a fixed time, except to see that nothing happens: whatever is waited for is looked for until
+//! it is there, and a test fails when it has not come for [`PATIENCE`].
 
 use super::modes;
 use portable_pty::{
@@ -12,6 +12,7 @@ use rustix::fs::{Mode, OFlags};
 use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, kill_process, waitid};
 use rustix::termios::{Action, Termios, tcflow, tcgetattr};
 use std::ffi::OsStr;
+use std::fs;
 use std::io::{Read, Write};
 use std::num::NonZeroU16;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard};
@@ -22,6 +23,8 @@ use std::time::{Duration, Instant};
 const PATIENCE: Duration = Duration::from_secs(60);
 /// Between two looks at something that does not tell when it changes.
 const GLANCE: Duration = Duration::from_millis(2);
+/// Far longer than the viewer puts anything off: if nothing happens for so long, nothing will.
+const STILLNESS: Duration = Duration::from_millis(400);
 /// Written by the test itself into the terminal: what has come out before it is all there is. No
 /// terminal knows this sequence, so none shows it.
 const END_MARK: &[u8] = b"\x1b]7777;all has been read\x07";
@@ -171,6 +174,36 @@ impl Session {
             }
             output = self.output.1.wait_timeout(output, left).expect("the reader lives").0;
         }
+    }
+
+    /// Waits until the program neither sends anything nor wakes up for a while.
+    pub(crate) fn wait_for_peace(&self) {
+        self.poll("peace", || (!self.stirs()).then_some(()));
+    }
+
+    /// Whether the program sends anything or wakes up within a while.
+    pub(crate) fn stirs(&self) -> bool {
+        let signs = || (self.output().sent.len(), self.sleeps());
+        let before = signs();
+        thread::sleep(STILLNESS);
+        signs() != before
+    }
+
+    /// How often the program's threads went to sleep, as often as they woke up. Only Linux tells.
+    fn sleeps(&self) -> u64 {
+        if !cfg!(target_os = "linux") {
+            return 0;
+        }
+        let tasks = format!("/proc/{}/task", self.pid);
+        let statuses = fs::read_dir(tasks).expect("it runs").map(|task| {
+            fs::read_to_string(task.expect("a thread").path().join("status")).expect("a status")
+        });
+        let sleeps = statuses.map(|status| {
+            let line =
+                status.lines().find_map(|line| line.strip_prefix("voluntary_ctxt_switches:"));
+            line.and_then(|count| count.trim().parse::<u64>().ok()).expect("a count")
+        });
+        sleeps.sum()
     }
 
     /// The modes of the program's side now.

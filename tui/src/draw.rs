@@ -4,10 +4,12 @@ mod need;
 mod packet_order;
 pub mod pixels;
 mod plan;
+mod spending;
 mod strip;
 mod tracer;
 
 pub use packet_order::packet_corners;
+pub use spending::{Effort, Spending};
 
 use crate::cells::CellGrid;
 use crate::samples::CellSamples;
@@ -24,13 +26,13 @@ use spherule_kernel::{Camera, Coherence, Level};
 use strip::Strip;
 use tracer::{SampleGrid, Traced};
 
-/// A drawn picture and what it took.
+/// A drawn picture.
 #[derive(Clone, Debug)]
 pub struct Drawn {
     /// The picture.
     pub cells: CellGrid,
-    /// How many rays were traced, shadow rays among them.
-    pub rays: u64,
+    /// What it took.
+    pub effort: Effort,
 }
 
 /// Draws `scene` as `view` sees it into `columns` x `rows` cells, on this thread and by brute force.
@@ -50,7 +52,7 @@ pub fn draw(scene: &Scene, view: &View, style: &Style, columns: u16, rows: u16) 
     };
     let threads = Threads::default();
     let mut renderer = Renderer::new(Level::best(), &threads);
-    renderer.draw(scene, &search, view, style, columns, rows)
+    renderer.draw(scene, &search, view, style, (columns, rows), Spending::ByNeed)
 }
 
 /// The camera of a picture and the size of its grid of samples: sample `(ix, iy)` is the ray
@@ -78,8 +80,8 @@ pub fn picture_workload(
     Workload::of_pictures(pictures, cells * samples.count() as usize, spheres)
 }
 
-/// Rows of cells that are drawn at a time, so that the largest picture fits into memory; of smaller ones, all.
-const STRIP: usize = 128;
+/// Cells that are drawn at a time, in whole rows, so that the largest picture fits into memory; of smaller ones, all.
+const STRIP: usize = 1 << 17;
 
 /// Draws, and keeps its memory from frame to frame.
 #[derive(Debug)]
@@ -87,17 +89,19 @@ pub struct Renderer<'a> {
     level: Level,
     threads: &'a Threads,
     strip: Strip,
+    /// The most cells of a strip, unless a row has more.
+    most_cells: usize,
 }
 
 impl<'a> Renderer<'a> {
     /// `level` and `threads` change no picture, only how long it takes.
     #[must_use]
     pub fn new(level: Level, threads: &'a Threads) -> Self {
-        Self { level, threads, strip: Strip::default() }
+        Self { level, threads, strip: Strip::default(), most_cells: STRIP }
     }
 
-    /// Draws `scene` as `view` sees it into `columns` x `rows` cells; `search` finds the spheres
-    /// of that scene from that view.
+    /// Draws `scene` as `view` sees it into so many columns and rows of cells, for no more than `spending`; `search`
+    /// finds the spheres of that scene from that view.
     #[must_use]
     pub fn draw(
         &mut self,
@@ -105,19 +109,62 @@ impl<'a> Renderer<'a> {
         search: &PictureSearch<'_>,
         view: &View,
         style: &Style,
-        columns: u16,
-        rows: u16,
+        (columns, rows): (u16, u16),
+        spending: Spending,
     ) -> Drawn {
         let mut cells = CellGrid::new(columns, rows);
+        let traced = self.traced(scene, search, style);
+        let plan = Plan::new(traced, view, style, (columns, rows), spending);
+        let height = usize::from(self.strip_rows(columns));
+        let strips = cells.cells_mut().chunks_mut((height * usize::from(columns)).max(1));
+        let effort = strips.zip((0..).step_by(height)).fold(Effort::NONE, |effort, strip| {
+            let (cells, first) = strip;
+            effort.and(self.strip.draw(&plan, self.threads, first, cells))
+        });
+        Drawn { cells, effort }
+    }
+
+    /// Draws the same by need, and hands strip after strip of whole rows on to `take`, from the top.
+    ///
+    /// # Errors
+    /// The first of `take`.
+    pub fn draw_strips<E>(
+        &mut self,
+        scene: &Scene,
+        search: &PictureSearch<'_>,
+        view: &View,
+        style: &Style,
+        (columns, rows): (u16, u16),
+        mut take: impl FnMut(&CellGrid) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let traced = self.traced(scene, search, style);
+        let plan = Plan::new(traced, view, style, (columns, rows), Spending::ByNeed);
+        let height = self.strip_rows(columns);
+        for first in (0..rows).step_by(height.into()) {
+            let mut cells = CellGrid::new(columns, height.min(rows - first));
+            self.strip.draw(&plan, self.threads, first.into(), cells.cells_mut());
+            take(&cells)?;
+        }
+        Ok(())
+    }
+
+    /// How many rows of so many cells are drawn at a time.
+    fn strip_rows(&self, columns: u16) -> u16 {
+        let rows = self.most_cells / usize::from(columns.max(1));
+        u16::try_from(rows).unwrap_or(u16::MAX).max(1)
+    }
+
+    fn traced<'b>(
+        &self,
+        scene: &'b Scene,
+        search: &'b PictureSearch<'b>,
+        style: &Style,
+    ) -> Traced<'b> {
         let tracing =
             Tracing { tier: style.accuracy, level: self.level, coherence: search.coherence };
-        let traced = Traced { tracing, scene, search };
-        let plan = Plan::new(traced, view, style, columns, rows);
-        let mut rays = 0;
-        let strips = cells.cells_mut().chunks_mut((STRIP * usize::from(columns)).max(1));
-        for (cells, first) in strips.zip((0..).step_by(STRIP)) {
-            rays += self.strip.draw(&plan, self.threads, first, cells);
-        }
-        Drawn { cells, rays }
+        Traced { tracing, scene, search }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -62,6 +62,12 @@ impl CellSamples {
         style.samples.is_none().then_some(Self { across, down })
     }
 
+    /// Fewer for the same cells, from the most: whole packets too.
+    pub fn coarser(self) -> impl Iterator<Item = Self> {
+        let grids = [(4, 12), (4, 8), (4, 4)].map(|(across, down)| Self { across, down });
+        grids.into_iter().filter(move |grid| grid.count() < self.count())
+    }
+
     /// How many they are.
     #[must_use]
     pub fn count(self) -> u32 {

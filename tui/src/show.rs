@@ -78,10 +78,19 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     }
     let workload = picture_workload(scene.spheres().len(), &style, columns, rows, 1.0);
     let search = structures.picture(structure, &workload, &view, &scene.lighting)?;
-    let drawn = renderer.draw(&scene, &search, &view, &style, columns, rows);
-    let mut bytes = Vec::new();
-    encode::full(&drawn.cells, &mut bytes);
-    write_stdout(&bytes)
+    // On the terminal that the picture is written to, the picture shows how far it is.
+    let mut progress = (!is_terminal).then(|| Progress::after(PATIENCE));
+    let (mut done, mut bytes) = (0_u32, Vec::new());
+    renderer.draw_strips(&scene, &search, &view, &style, (columns, rows), |cells| {
+        bytes.clear();
+        encode::full(cells, &mut bytes);
+        write_stdout(&bytes)?;
+        done += u32::from(cells.rows());
+        if let Some(progress) = &mut progress {
+            progress.show("drawing", f64::from(done) / f64::from(rows));
+        }
+        Ok(())
+    })
 }
 
 fn write_png(

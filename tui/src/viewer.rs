@@ -1,17 +1,19 @@
 //! The viewer: input to state, state to picture, picture to terminal, until somebody quits.
 //!
 //! All input that is there is taken before a frame is drawn, so a slow link gets fewer frames,
-//! not late ones. While nothing moves, nothing is drawn and nothing is sent.
+//! not late ones. A frame of a movement gets no more samples than there is time for; when it is over, a full one
+//! follows. Then nothing is drawn and nothing is sent.
 
 mod help;
 mod keys;
 mod meter;
+mod pace;
 mod state;
 mod status;
 
 use crate::cells::CellGrid;
 use crate::choice::Auto;
-use crate::draw::{Renderer, picture_workload};
+use crate::draw::{Effort, Renderer, picture_workload};
 use crate::encode::Encoder;
 use crate::error::{Error, cause};
 use crate::scene::Scene;
@@ -21,6 +23,7 @@ use crate::style::Style;
 use crate::terminal::Terminal;
 use crate::view::View;
 use meter::{Frame, Meter};
+use pace::Pace;
 pub use state::{ORBIT_STEP, ZOOM_STEP};
 use state::{Outcome, Shown, State};
 use std::env;
@@ -54,6 +57,7 @@ pub fn run(
     renderer: Renderer<'_>,
 ) -> Result<(), Error> {
     let rate = if env::var_os("SSH_CONNECTION").is_some() { REMOTE_RATE } else { LOCAL_RATE };
+    let interval = Duration::from_secs(1) / rate;
     let mut viewer = Viewer {
         scene,
         structures,
@@ -62,29 +66,26 @@ pub fn run(
         renderer,
         encoder: Encoder::new(),
         meter: Meter::default(),
+        pace: Pace::new(interval),
         bytes: Vec::new(),
         panic_key: env::var_os(PANIC_SWITCH).is_some(),
     };
-    let interval = Duration::from_secs(1) / rate;
-    let mut last_frame = None;
+    let mut last_frame: Option<Instant> = None;
     let mut stale = true;
     loop {
-        let moving = stale || viewer.state.shown.spinning;
-        let wait = moving.then(|| {
-            last_frame.map_or(Duration::ZERO, |at: Instant| interval.saturating_sub(at.elapsed()))
-        });
+        let wait = viewer.wait(stale, last_frame);
         match viewer.take_input(wait).map_err(|error| lost(&error))? {
             Outcome::Quit => return Ok(()),
             Outcome::Changed => stale = true,
             Outcome::Unchanged => {}
         }
-        let now = Instant::now();
-        let due = last_frame.is_none_or(|at| now - at >= interval);
-        if due && (stale || viewer.state.shown.spinning) {
+        if viewer.wait(stale, last_frame) == Some(Duration::ZERO) {
+            let now = Instant::now();
+            let moving = stale || viewer.state.shown.spinning;
             if let Some(last_frame) = last_frame {
                 viewer.state.advance(now - last_frame);
             }
-            viewer.show_frame(now)?;
+            viewer.show_frame(now, moving)?;
             last_frame = Some(now);
             stale = false;
         }
@@ -104,12 +105,19 @@ struct Viewer<'a> {
     renderer: Renderer<'a>,
     encoder: Encoder,
     meter: Meter,
+    pace: Pace,
     /// Kept from frame to frame for its memory.
     bytes: Vec<u8>,
     panic_key: bool,
 }
 
 impl Viewer<'_> {
+    /// How long until a frame is due; for ever if there is none to draw.
+    fn wait(&self, stale: bool, last_frame: Option<Instant>) -> Option<Duration> {
+        let moving = stale || self.state.shown.spinning;
+        self.pace.wait(moving, last_frame.map(|at| at.elapsed()))
+    }
+
     /// Waits for input, for ever without `wait`, and takes all there is.
     fn take_input(&mut self, wait: Option<Duration>) -> io::Result<Outcome> {
         let mut outcome = Outcome::Unchanged;
@@ -142,10 +150,11 @@ impl Viewer<'_> {
     }
 
     /// Draws and sends one frame, in one write.
-    fn show_frame(&mut self, now: Instant) -> Result<(), Error> {
+    fn show_frame(&mut self, now: Instant, moving: bool) -> Result<(), Error> {
         let (columns, rows) = self.terminal.size().map_err(|error| lost(&error))?;
         let (columns, rows) = (columns.min(LARGEST_SIZE), rows.min(LARGEST_SIZE));
         if columns == 0 || rows == 0 {
+            self.pace.drawn(Effort::NONE, Duration::ZERO);
             return Ok(());
         }
         let status_row = if rows >= 2 { rows - 1 } else { rows };
@@ -157,8 +166,11 @@ impl Viewer<'_> {
         let lighting = &self.scene.lighting;
         let search = self.structures.picture(*structure, &workload, view, lighting)?;
         let searched = search.structure;
-        let drawn = self.renderer.draw(self.scene, &search, view, style, columns, status_row);
+        let (size, spending) = ((columns, status_row), self.pace.spending(moving));
+        let found = started.elapsed();
+        let drawn = self.renderer.draw(self.scene, &search, view, style, size, spending);
         let drawing = started.elapsed();
+        self.pace.drawn(drawn.effort, drawing - found);
 
         let mut cells = CellGrid::new(columns, rows);
         cells.cells_mut()[..drawn.cells.cells().len()].copy_from_slice(drawn.cells.cells());
@@ -174,8 +186,12 @@ impl Viewer<'_> {
             }
         }
         self.encoder.encode(cells.clone(), &mut self.bytes);
-        let frame =
-            Frame { drawing, making: started.elapsed(), rays: drawn.rays, bytes: self.bytes.len() };
+        let frame = Frame {
+            drawing,
+            making: started.elapsed(),
+            rays: drawn.effort.rays,
+            bytes: self.bytes.len(),
+        };
         let figures = self.meter.count(frame, now);
         status::write(&mut cells, status_row, &self.state, searched, figures);
         self.encoder.encode(cells, &mut self.bytes);

@@ -12,11 +12,20 @@ pub(super) struct Looks<'a> {
 }
 
 impl Looks<'_> {
+    /// Writes the needs of the cells from row `first` on.
+    pub(super) fn judge(&self, first: usize, needs: &mut [f32]) {
+        for (needs, row) in needs.chunks_mut(self.columns).zip(first..) {
+            for (column, need) in needs.iter_mut().enumerate() {
+                *need = self.need(column, row);
+            }
+        }
+    }
+
     /// How far the samples in and around a cell are from a plane: the most, in `OKLab`.
     ///
     /// Four samples in the cell, and the twelve around it: an edge that runs between two of them is seen, and smooth
     /// shading, which two colours show well, is not. Past the edges of the picture the last samples count again.
-    pub(super) fn need(&self, column: usize, row: usize) -> f32 {
+    fn need(&self, column: usize, row: usize) -> f32 {
         let (width, height) = (2 * self.columns, 2 * self.rows);
         let xs: [usize; 4] =
             std::array::from_fn(|x| (2 * column + x).saturating_sub(1).min(width - 1));

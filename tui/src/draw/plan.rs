@@ -1,10 +1,12 @@
 //! What is decided about a picture before its first ray.
 
+use super::spending::Spending;
 use super::tracer::{SampleGrid, Traced};
 use crate::cells::fit::Fitter;
 use crate::samples::CellSamples;
 use crate::style::Style;
 use crate::view::View;
+use std::iter;
 
 /// Samples of every cell, and what is made of them.
 #[derive(Debug)]
@@ -23,8 +25,10 @@ pub(super) struct Plan<'a> {
     pub(super) rows: usize,
     /// Of every cell.
     pub(super) few: Sampling,
-    /// Of those where the few are not enough.
-    pub(super) many: Option<Sampling>,
+    /// Of those where the few are not enough: from the finest to the coarsest that may be made do with; none if the few
+    /// are all.
+    pub(super) many: Vec<Sampling>,
+    pub(super) spending: Spending,
 }
 
 impl<'a> Plan<'a> {
@@ -32,13 +36,18 @@ impl<'a> Plan<'a> {
         traced: Traced<'a>,
         view: &View,
         style: &'a Style,
-        columns: u16,
-        rows: u16,
+        (columns, rows): (u16, u16),
+        spending: Spending,
     ) -> Self {
         let sampling = |samples| Sampling {
             samples,
             grid: SampleGrid::new(view, style, samples, columns, rows),
             fitter: Fitter::new(style, samples),
+        };
+        let many = CellSamples::many(style);
+        let with_coarser = |finest: CellSamples| {
+            let coarser = finest.coarser().filter(move |_| spending != Spending::ByNeed);
+            iter::once(finest).chain(coarser)
         };
         Self {
             traced,
@@ -46,7 +55,8 @@ impl<'a> Plan<'a> {
             columns: columns.into(),
             rows: rows.into(),
             few: sampling(CellSamples::new(style)),
-            many: CellSamples::many(style).map(sampling),
+            many: many.into_iter().flat_map(with_coarser).map(sampling).collect(),
+            spending,
         }
     }
 }

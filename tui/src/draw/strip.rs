@@ -1,15 +1,17 @@
-//! Some rows of a picture, from rays to cells, in three passes over bands of rows; each needs what the one before made
+//! Some rows of a picture, from rays to cells, in four passes over bands of rows; each needs what the one before made
 //! of the rows around its own.
 //!
 //! 1. *Sample*: a few rays in every cell.
-//! 2. *Fit*: many where the few disagree, and the glyph and colours of each cell.
-//! 3. *Paint*: what a cell cannot show goes to its neighbours, and light becomes the colours that the terminal has.
+//! 2. *Judge*: how far the few disagree. Then it is known what all cells need, and decided what they get.
+//! 3. *Fit*: many rays where they are granted, and the glyph and colours of each cell.
+//! 4. *Paint*: what a cell cannot show goes to its neighbours, and light becomes the colours that the terminal has.
 //!
 //! What a band gets depends on nothing else, so the picture is the same for every number of threads.
 
 use super::need::Looks;
 use super::packet_order::packet_corners;
 use super::plan::{Plan, Sampling};
+use super::spending::{Effort, Grant};
 use super::tracer::Tracer;
 use crate::cells::Cell;
 use crate::cells::fit::Fitted;
@@ -35,6 +37,10 @@ pub(super) struct Strip {
     light: Vec<Vec3>,
     /// The same in `OKLab`.
     looks: Vec<Vec3>,
+    /// How far those of a cell disagree.
+    needs: Vec<f32>,
+    /// Of those in need.
+    sorted: Vec<f32>,
     fits: Vec<Fitted>,
     /// One a thread.
     workers: Vec<Worker>,
@@ -58,37 +64,52 @@ fn rows_around(rows: &Range<usize>, halo: usize, all: usize) -> Range<usize> {
 }
 
 impl Strip {
-    /// Fills `cells`, whole rows from `first` on; returns how many rays that took.
+    /// Fills `cells`, whole rows from `first` on.
     pub(super) fn draw(
         &mut self,
         plan: &Plan<'_>,
         threads: &Threads,
         first: usize,
         cells: &mut [Cell],
-    ) -> u64 {
+    ) -> Effort {
         let rows = first..first + cells.len() / plan.columns;
         let fitted = rows_around(&rows, 1, plan.rows);
         let sampled = rows_around(&fitted, 1, plan.rows);
         let band = BAND * plan.columns;
-        let rays = AtomicU64::new(0);
-        let Self { light, looks, fits, workers } = self;
+        let (samples, shadow_rays) = (AtomicU64::new(0), AtomicU64::new(0));
+        let count = |(traced, shadows)| {
+            samples.fetch_add(traced, Ordering::Relaxed);
+            shadow_rays.fetch_add(shadows, Ordering::Relaxed);
+        };
+        let Self { light, looks, needs, sorted, fits, workers } = self;
 
-        let count = plan.few.samples.count() as usize;
-        light.resize(sampled.len() * plan.columns * count, Vec3::ZERO);
+        let few = plan.few.samples.count() as usize;
+        light.resize(sampled.len() * plan.columns * few, Vec3::ZERO);
         looks.resize(light.len(), Vec3::ZERO);
-        let bands = light.chunks_mut(band * count).zip(looks.chunks_mut(band * count));
+        let bands = light.chunks_mut(band * few).zip(looks.chunks_mut(band * few));
         let bands = bands.zip(sampled.clone().step_by(BAND));
         threads.share(workers, bands, |worker, ((light, looks), first)| {
-            rays.fetch_add(worker.sample(plan, first, light), Ordering::Relaxed);
+            count(worker.sample(plan, first, light));
             looks.iter_mut().zip(light).for_each(|(look, &mut light)| *look = oklab(light));
         });
 
-        fits.resize(fitted.len() * plan.columns, Fitted::NONE);
-        let bands = fits.chunks_mut(band).zip(fitted.clone().step_by(BAND));
+        needs.resize(fitted.len() * plan.columns, 0.0);
         let known = Looks { looks, columns: plan.columns, rows: sampled.len() };
-        let known = (&**light, known, sampled.start);
-        threads.share(workers, bands, |worker, (fits, first)| {
-            rays.fetch_add(worker.fit(plan, known, first, fits), Ordering::Relaxed);
+        if !plan.many.is_empty() {
+            let bands = needs.chunks_mut(band).zip((fitted.start - sampled.start..).step_by(BAND));
+            threads.share(workers, bands, |_, (needs, first)| known.judge(first, needs));
+        }
+        let left = plan.spending.left(&rows, plan.rows, light.len() as u64);
+        let grids: Vec<_> = plan.many.iter().map(|sampling| sampling.samples.count()).collect();
+        let grant = left.grant(needs, &grids, sorted);
+        let many = plan.many.get(grant.grid).map(|sampling| (sampling, grant.above));
+
+        fits.resize(fitted.len() * plan.columns, Fitted::NONE);
+        let bands = fits.chunks_mut(band).zip(needs.chunks(band));
+        let bands = bands.zip(fitted.clone().step_by(BAND));
+        let known = (&**light, &*known.looks, sampled.start);
+        threads.share(workers, bands, |worker, ((fits, needs), first)| {
+            count(worker.fit(plan, many, known, first, (fits, needs)));
         });
 
         let bands = cells.chunks_mut(band).zip(rows.step_by(BAND));
@@ -96,13 +117,16 @@ impl Strip {
             let known = (&**fits, fitted.start);
             worker.painter.paint(plan.style, known, plan.columns, first, cells);
         });
-        rays.into_inner()
+        let samples = samples.into_inner();
+        let rays = samples + shadow_rays.into_inner();
+        Effort { samples, rays, is_full: grant == Grant::FULL }
     }
 }
 
 impl Worker {
-    /// Writes the light of the few samples of the cells from row `first` on; cell by cell.
-    fn sample(&mut self, plan: &Plan<'_>, first: usize, light: &mut [Vec3]) -> u64 {
+    /// Writes the light of the few samples of the cells from row `first` on, cell by cell; returns how many samples and
+    /// shadow rays that took.
+    fn sample(&mut self, plan: &Plan<'_>, first: usize, light: &mut [Vec3]) -> (u64, u64) {
         let Sampling { samples, grid, .. } = &plan.few;
         let (across, down, columns) = (samples.across, samples.down, plan.columns as u32);
         let rows = light.len() as u32 / samples.count() / columns;
@@ -117,35 +141,35 @@ impl Worker {
         let (traced, shadow_rays) =
             self.tracer.trace(&plan.traced, grid, corners, (light.len(), 1.0), place);
         light.copy_from_slice(traced);
-        light.len() as u64 + shadow_rays
+        (light.len() as u64, shadow_rays)
     }
 
-    /// Fits glyphs to the cells from row `first` on. What is known: the light of the few samples, how they look, and
-    /// which row they begin with.
+    /// Fits glyphs to the cells from row `first` on, of which those get `many` samples whose needs are above something.
+    /// What is known: the light of the few samples, how they look, and which row they begin with.
     fn fit(
         &mut self,
         plan: &Plan<'_>,
-        (light, looks, known): (&[Vec3], Looks<'_>, usize),
+        many: Option<(&Sampling, f32)>,
+        (light, looks, known): (&[Vec3], &[Vec3], usize),
         first: usize,
-        fits: &mut [Fitted],
-    ) -> u64 {
+        (fits, needs): (&mut [Fitted], &[f32]),
+    ) -> (u64, u64) {
         let columns = plan.columns;
         self.needy.clear();
         self.places.clear();
         let few = plan.few.samples.count() as usize;
-        for (cell, fit) in fits.iter_mut().enumerate() {
-            let (column, row) = (cell % columns, first + cell / columns - known);
-            if plan.many.is_some() && looks.need(column, row) > ENOUGH {
+        for (cell, (fit, &need)) in fits.iter_mut().zip(needs).enumerate() {
+            if many.is_some_and(|(_, above)| need > above) {
                 self.places.push(Some(self.needy.len()));
-                self.needy.push((column as u32, (first + cell / columns) as u32));
+                self.needy.push(((cell % columns) as u32, (first + cell / columns) as u32));
                 continue;
             }
             self.places.push(None);
-            let start = (row * columns + column) * few;
+            let start = ((first - known) * columns + cell) * few;
             let samples = start..start + few;
-            *fit = plan.few.fitter.fit(&light[samples.clone()], &looks.looks[samples]);
+            *fit = plan.few.fitter.fit(&light[samples.clone()], &looks[samples]);
         }
-        let Some(many) = plan.many.as_ref().filter(|_| !self.needy.is_empty()) else { return 0 };
+        let Some((many, _)) = many.filter(|_| !self.needy.is_empty()) else { return (0, 0) };
 
         // The packets of a cell one after the other.
         let Sampling { samples, grid, fitter } = many;
@@ -174,6 +198,6 @@ impl Worker {
             self.looks.extend(light.iter().map(|&light| oklab(light)));
             fits[cell] = fitter.fit(light, &self.looks);
         }
-        pixels as u64 + shadow_rays
+        (pixels as u64, shadow_rays)
     }
 }

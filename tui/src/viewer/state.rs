@@ -128,6 +128,7 @@ impl State {
 mod tests {
     use super::*;
     use crate::view::Lens;
+    use clap::ValueEnum;
     use spherule_kernel::{Tier, Vec3};
 
     fn state() -> State {
@@ -185,12 +186,22 @@ mod tests {
             assert_eq!(state.apply(Input::Accuracy(tier)), Outcome::Changed);
             assert_eq!(state.shown.style.accuracy, tier);
         }
-        assert_eq!(state.apply(Input::Charset), Outcome::Changed);
-        assert_eq!(state.shown.style.charset, Charset::Ascii);
         assert_eq!(state.apply(Input::Projection), Outcome::Changed);
         assert_eq!(state.shown.view.lens_kind(), LensKind::Parallel);
         assert_eq!(state.apply(Input::Structure), Outcome::Changed);
         assert_eq!(state.shown.structure, Some(Structure::Brute));
+    }
+
+    #[test]
+    fn the_charsets_go_around() {
+        let mut state = state();
+        let mut seen = Vec::new();
+        for _ in Charset::value_variants() {
+            assert_eq!(state.apply(Input::Charset), Outcome::Changed);
+            assert!(!seen.contains(&state.shown.style.charset), "{seen:?}");
+            seen.push(state.shown.style.charset);
+        }
+        assert_eq!(seen.last(), Some(&Charset::Half));
     }
 
     #[test]

@@ -1,0 +1,125 @@
+use super::*;
+use crate::cells::Cell;
+use crate::scene::builtin::builtin;
+use crate::structure::scene::SceneStructures;
+use crate::style::{Charset, ColorDepth};
+use clap::ValueEnum;
+use std::convert::Infallible;
+
+const SIZE: (u16, u16) = (60, 21);
+
+/// Marbles in blocks and truecolor, where cells need the most.
+const STYLE: Style =
+    Style { charset: Charset::Block, depth: ColorDepth::Truecolor, ..Style::PLAIN };
+
+/// What `draw` makes of marbles by so many threads, in strips of no more than so many cells.
+fn marbles<T>(
+    style: &Style,
+    threads: u16,
+    most_cells: usize,
+    draw: impl FnOnce(&mut Renderer<'_>, &Scene, &PictureSearch<'_>, &View) -> T,
+) -> T {
+    let scene = builtin("marbles").expect("marbles");
+    let threads = Threads::new(Some(threads)).expect("threads");
+    let view = scene.first_view(style.picture_aspect(SIZE.0, SIZE.1) as f32);
+    let mut structures = SceneStructures::new(scene.list(), &threads);
+    let workload = picture_workload(scene.list().len(), style, SIZE.0, SIZE.1, 1.0);
+    let search = structures.picture(None, &workload, &view, &scene.lighting).expect("memory");
+    let mut renderer = Renderer { most_cells, ..Renderer::new(Level::best(), &threads) };
+    draw(&mut renderer, &scene, &search, &view)
+}
+
+fn drawn(style: &Style, threads: u16, most_cells: usize, spending: Spending) -> Drawn {
+    marbles(style, threads, most_cells, |renderer, scene, search, view| {
+        renderer.draw(scene, search, view, style, SIZE, spending)
+    })
+}
+
+#[test]
+fn a_budget_that_suffices_is_not_seen() {
+    for charset in Charset::value_variants() {
+        let style = Style { charset: *charset, ..STYLE };
+        let expected = drawn(&style, 1, STRIP, Spending::ByNeed);
+        assert!(expected.effort.is_full);
+        assert!(expected.effort.samples > 4 * 60 * 21, "nothing is in need");
+        let most = expected.effort.samples;
+        let found = drawn(&style, 1, STRIP, Spending::AtMost(most));
+        assert_eq!(found.effort, expected.effort, "{charset:?}");
+        assert!(found.cells == expected.cells, "{charset:?}");
+        let less = drawn(&style, 1, STRIP, Spending::AtMost(most - 1));
+        assert!(!less.effort.is_full && less.effort.samples < most, "{charset:?}");
+        assert!(less.cells != expected.cells, "{charset:?}");
+    }
+}
+
+#[test]
+fn a_budget_is_kept_to_whatever_it_is() {
+    let few = 4 * 60 * 21;
+    let need = drawn(&STYLE, 1, STRIP, Spending::ByNeed).effort.samples;
+    let mut spent = Vec::new();
+    for budget in (0..need).step_by(997) {
+        let effort = drawn(&STYLE, 1, STRIP, Spending::AtMost(budget)).effort;
+        assert!(effort.samples <= budget.max(few), "{effort:?} of {budget}");
+        assert!(!effort.is_full && effort.rays > effort.samples, "{effort:?} of {budget}");
+        spent.push(effort.samples);
+    }
+    // From nothing but the few to nearly all, by some steps.
+    assert_eq!(spent.first(), Some(&few));
+    spent.dedup();
+    assert!(spent.len() > 5, "{spent:?}");
+}
+
+#[test]
+fn threads_do_not_show_whatever_the_budget() {
+    for spending in [0, 6000, 9000, 12_000, 20_000].map(Spending::AtMost) {
+        let expected = drawn(&STYLE, 1, STRIP, spending);
+        for threads in [2, 7] {
+            let found = drawn(&STYLE, threads, STRIP, spending);
+            assert_eq!(found.effort, expected.effort, "{spending:?}, {threads} threads");
+            assert!(found.cells == expected.cells, "{spending:?}, {threads} threads");
+        }
+    }
+}
+
+#[test]
+fn strips_do_not_show() {
+    for depth in [ColorDepth::Truecolor, ColorDepth::Ansi16, ColorDepth::Never] {
+        let style = Style { depth, ..STYLE };
+        let expected = drawn(&style, 1, STRIP, Spending::ByNeed).cells;
+        // Of a row, of rows that bands do not divide, of less than a row, and one that ends with the picture.
+        for (most_cells, height) in [(60, 1), (7 * 60 + 59, 7), (59, 1), (5 * 60, 5), (3 * 60, 3)] {
+            assert!(drawn(&style, 1, most_cells, Spending::ByNeed).cells == expected, "{height}");
+            let mut cells: Vec<Cell> = Vec::new();
+            let mut heights = Vec::new();
+            let Ok(()) = marbles(&style, 2, most_cells, |renderer, scene, search, view| {
+                renderer.draw_strips(scene, search, view, &style, SIZE, |strip| {
+                    heights.push(strip.rows());
+                    cells.extend_from_slice(strip.cells());
+                    Ok::<(), Infallible>(())
+                })
+            });
+            assert_eq!((heights[0], heights.iter().sum()), (height, 21_u16));
+            assert!(cells == expected.cells(), "{height} rows, {depth:?}");
+        }
+    }
+}
+
+#[test]
+fn strips_share_a_budget() {
+    let whole = drawn(&STYLE, 1, STRIP, Spending::AtMost(12_000)).effort;
+    let strips = drawn(&STYLE, 1, 7 * 60, Spending::AtMost(12_000)).effort;
+    assert!(!whole.is_full && !strips.is_full);
+    assert!(strips.samples <= 12_000 && strips.samples > whole.samples / 2, "{strips:?}");
+}
+
+#[test]
+fn an_error_ends_it() {
+    let mut taken = 0;
+    let result = marbles(&STYLE, 1, 5 * 60, |renderer, scene, search, view| {
+        renderer.draw_strips(scene, search, view, &STYLE, SIZE, |_| {
+            taken += 1;
+            if taken == 3 { Err("full") } else { Ok(()) }
+        })
+    });
+    assert_eq!((result, taken), (Err("full"), 3));
+}

@@ -1,0 +1,140 @@
+//! When a frame is drawn, and what it may cost: coarse while something moves if need be, full soon after.
+//!
+//! No clock: durations come in.
+
+use crate::draw::{Effort, Spending};
+use std::time::Duration;
+
+/// So long after the last frame of a movement it is over. A full frame follows if that one was not: most are drawn
+/// within the rest of 150 ms. Keys that are held down come closer together.
+const REST: Duration = Duration::from_millis(100);
+/// The part of an interval that is for drawing; then there are still the bytes, and a key may come just after a frame.
+const DRAWING: f64 = 0.4;
+/// What the last frame says of the rate, against all before it.
+const WEIGHT: f64 = 0.5;
+
+/// The pace of the frames.
+#[derive(Clone, Debug)]
+pub(super) struct Pace {
+    /// From one frame to the next, at least.
+    interval: Duration,
+    /// Samples a second, as far as is known.
+    rate: Option<f64>,
+    /// Whether what was drawn last is all there is to see.
+    is_full: bool,
+}
+
+impl Pace {
+    /// Nothing has been drawn yet.
+    pub(super) fn new(interval: Duration) -> Self {
+        Self { interval, rate: None, is_full: true }
+    }
+
+    /// How long it takes until a frame is due, `since_last` one began; none if all is shown and nothing moves.
+    pub(super) fn wait(&self, moving: bool, since_last: Option<Duration>) -> Option<Duration> {
+        let from_last = match (moving, self.is_full) {
+            (true, _) => self.interval,
+            (false, false) => REST,
+            (false, true) => return None,
+        };
+        Some(since_last.map_or(Duration::ZERO, |since| from_last.saturating_sub(since)))
+    }
+
+    /// What the next frame may cost. Before the first, nobody knows how long samples take; without a movement, there
+    /// is time.
+    pub(super) fn spending(&self, moving: bool) -> Spending {
+        let time = DRAWING * self.interval.as_secs_f64();
+        match self.rate {
+            Some(rate) if moving => Spending::AtMost((rate * time) as u64),
+            _ => Spending::ByNeed,
+        }
+    }
+
+    /// Takes note of a frame that took so long to draw.
+    pub(super) fn drawn(&mut self, effort: Effort, drawing: Duration) {
+        self.is_full = effort.is_full;
+        let rate = effort.samples as f64 / drawing.as_secs_f64();
+        // No samples, or a clock that stood.
+        if rate > 0.0 && rate.is_finite() {
+            self.rate = Some(self.rate.map_or(rate, |before| before + WEIGHT * (rate - before)));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MS: Duration = Duration::from_millis(1);
+    const INTERVAL: Duration = Duration::from_millis(20);
+
+    fn effort(samples: u64, is_full: bool) -> Effort {
+        Effort { samples, rays: 2 * samples, is_full }
+    }
+
+    /// A thousand samples a millisecond.
+    fn pace() -> Pace {
+        let mut pace = Pace::new(INTERVAL);
+        pace.drawn(effort(20_000, true), 20 * MS);
+        pace
+    }
+
+    #[test]
+    fn the_first_frame_is_full_and_comes_at_once() {
+        let pace = Pace::new(INTERVAL);
+        assert_eq!(pace.wait(true, None), Some(Duration::ZERO));
+        assert_eq!(pace.spending(true), Spending::ByNeed);
+    }
+
+    #[test]
+    fn a_movement_gets_what_its_time_allows() {
+        let mut pace = pace();
+        assert_eq!(pace.wait(true, Some(14 * MS)), Some(6 * MS));
+        assert_eq!(pace.wait(true, Some(21 * MS)), Some(Duration::ZERO));
+        assert_eq!(pace.spending(true), Spending::AtMost(8000));
+        pace.drawn(effort(8000, false), 4 * MS);
+        assert_eq!(pace.spending(true), Spending::AtMost(12_000));
+    }
+
+    #[test]
+    fn rest_after_a_coarse_frame_brings_a_full_one_and_then_peace() {
+        let mut pace = pace();
+        assert_eq!(pace.wait(false, Some(Duration::ZERO)), None);
+        pace.drawn(effort(8000, false), 8 * MS);
+        assert_eq!(pace.wait(false, Some(30 * MS)), Some(70 * MS));
+        // Another key in between.
+        assert_eq!(pace.wait(true, Some(30 * MS)), Some(Duration::ZERO));
+        pace.drawn(effort(8000, false), 8 * MS);
+        assert_eq!(pace.wait(false, Some(100 * MS)), Some(Duration::ZERO));
+        assert_eq!(pace.spending(false), Spending::ByNeed);
+        pace.drawn(effort(30_000, true), 30 * MS);
+        for since in [0, 100, 1000] {
+            assert_eq!(pace.wait(false, Some(since * MS)), None);
+        }
+    }
+
+    #[test]
+    fn a_frame_of_nothing_says_nothing() {
+        let mut pace = pace();
+        let before = pace.spending(true);
+        pace.drawn(effort(0, true), Duration::ZERO);
+        pace.drawn(effort(0, true), MS);
+        pace.drawn(effort(10, true), Duration::ZERO);
+        assert_eq!(pace.spending(true), before);
+    }
+
+    /// Every frame is as dear as its cells and its samples, and the next gets what it says: they settle at the target.
+    #[test]
+    fn frames_settle_where_time_allows() {
+        let (few, needed) = (40_000_u64, 200_000_u64);
+        let milliseconds = |samples: u64| 1.0 + few as f64 / 20e3 + (samples - few) as f64 / 10e3;
+        let mut pace = Pace::new(INTERVAL);
+        let mut samples = needed;
+        for _ in 0..30 {
+            pace.drawn(effort(samples, samples == needed), MS.mul_f64(milliseconds(samples)));
+            let Spending::AtMost(most) = pace.spending(true) else { panic!("a rate is known") };
+            samples = most.clamp(few, needed);
+        }
+        assert!((milliseconds(samples) - 8.0).abs() < 0.1, "{samples}");
+    }
+}
