@@ -11,6 +11,7 @@
 use super::bins::Bins;
 use super::letters::LetterFitter;
 use super::masks::{Cover, Family, Mask, repertoire};
+use crate::color::luminance;
 use crate::samples::CellSamples;
 use crate::style::{Charset, Style};
 use spherule_kernel::Vec3;
@@ -86,6 +87,8 @@ impl Fitter {
 pub struct MaskFitter {
     parts: Bins,
     families: Vec<(Bins, &'static Family)>,
+    /// Whether bins are dots, which fill only some of them.
+    dots: bool,
 }
 
 impl MaskFitter {
@@ -99,6 +102,7 @@ impl MaskFitter {
         Self {
             parts: Bins::new((2, 4), samples),
             families: families.map(|family| (bins(family), family)).collect(),
+            dots: charset == Charset::Braille,
         }
     }
 
@@ -128,8 +132,24 @@ impl MaskFitter {
         };
         let ink = sum(mask.bits) / filled;
         let paper = sum(!mask.bits) / (family.bins() as f32 - filled);
+        if self.dots {
+            return dots(mask.bits, [ink, paper], parts);
+        }
         Fitted { glyph: mask.glyph, cover: mask.cover, ink, paper, parts }
     }
+}
+
+/// The part of its bin that a dot of Braille fills, in most fonts.
+const DOT: f32 = 0.25;
+
+/// Dots where a cell is the lighter, so bright that they make up for what they leave, so far as a display can.
+fn dots(bits: u8, [ink, paper]: [Vec3; 2], parts: [Vec3; 8]) -> Fitted {
+    let darker = luminance(ink) < luminance(paper);
+    let (bits, ink, paper) = if darker { (!bits, paper, ink) } else { (bits, ink, paper) };
+    let glyphs = &repertoire(Charset::Braille).mosaic.2;
+    let cover = std::array::from_fn(|bin| if bits >> bin & 1 == 1 { DOT } else { 0.0 });
+    let ink = (paper + (ink - paper) / DOT).clamp(Vec3::ZERO, Vec3::ONE);
+    Fitted { glyph: glyphs[usize::from(bits)], cover, ink, paper, parts }
 }
 
 /// The mask that takes most of the variance away, and how much; the means of the bins are around 0.

@@ -27,6 +27,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// to the end, and a multiple of a packet's height whatever the samples.
 const BAND: usize = 4;
 
+/// How many rows of fits around a row have a part in its cells.
+const HALO: usize = 2;
+
 /// Above this distance from a plane, in `OKLab`, a cell's samples are too few.
 pub(super) const ENOUGH: f32 = 0.03;
 
@@ -73,7 +76,7 @@ impl Strip {
         cells: &mut [Cell],
     ) -> Effort {
         let rows = first..first + cells.len() / plan.columns;
-        let fitted = rows_around(&rows, 1, plan.rows);
+        let fitted = rows_around(&rows, HALO, plan.rows);
         let sampled = rows_around(&fitted, 1, plan.rows);
         let band = BAND * plan.columns;
         let (samples, shadow_rays) = (AtomicU64::new(0), AtomicU64::new(0));
