@@ -21,7 +21,7 @@ pub enum ColorDepth {
 /// Which characters may be used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Charset {
-    /// Printable ASCII
+    /// Printable ASCII; in every font
     Ascii,
     /// Halves of a cell; in every font
     Half,
@@ -31,7 +31,7 @@ pub enum Charset {
     Sextant,
     /// Eighths of two columns; in fonts with Unicode 16
     Octant,
-    /// Dots, as plots have them
+    /// Dots, as plots have them; in most fonts
     Braille,
     /// All of these that are blocks, and bars; in fonts with Unicode 16
     Block,

@@ -83,7 +83,8 @@ fn threads_do_not_show_whatever_the_budget() {
 
 #[test]
 fn strips_do_not_show() {
-    for depth in [ColorDepth::Truecolor, ColorDepth::Ansi16, ColorDepth::Never] {
+    for depth in [ColorDepth::Truecolor, ColorDepth::Ansi256, ColorDepth::Ansi16, ColorDepth::Never]
+    {
         let style = Style { depth, ..STYLE };
         let expected = drawn(&style, 1, STRIP, Spending::ByNeed).cells;
         // Of a row, of rows that bands do not divide, of less than a row, and one that ends with the picture.

@@ -2,7 +2,7 @@
 
 use crate::cells::{CellGrid, Color};
 
-const LINES: [&str; 15] = [
+const LINES: [&str; 16] = [
     "                                         ",
     "  arrows, h j k l, drag   around          ",
     "  + -, wheel              nearer, farther ",
@@ -11,7 +11,8 @@ const LINES: [&str; 15] = [
     "  o                       projection      ",
     "                                         ",
     "  1 2 3                   fast, stable, exact ",
-    "  c                       half blocks, ascii  ",
+    "  c                       ascii, half, quadrant, sextant, ",
+    "                          octant, braille, block ",
     "  s                       auto, brute, depth-list, bvh ",
     "                                         ",
     "  ?                       this            ",
@@ -34,6 +35,19 @@ pub(super) fn write(cells: &mut CellGrid, rows: u16) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::choice::name;
+    use crate::structure::Structure;
+    use crate::style::Charset;
+    use clap::ValueEnum;
+
+    #[test]
+    fn it_names_what_keys_go_through_within_eighty_columns() {
+        let charsets = Charset::value_variants().iter().map(name);
+        for name in charsets.chain(Structure::value_variants().iter().map(name)) {
+            assert!(LINES.concat().contains(&format!(" {name}")), "{name}");
+        }
+        assert!(LINES.iter().all(|line| line.len() <= 80));
+    }
 
     #[test]
     fn it_never_reaches_the_status_line() {

@@ -1,8 +1,12 @@
 //! One picture: its lines, its colours, and where it goes.
 
 use crate::run::{file, printed, run, run_with_input, spherule};
+use clap::ValueEnum;
+use spherule::choice::name;
+use spherule::style::Charset;
 use std::ffi::OsStr;
 use std::fs::OpenOptions;
+use std::io::{BufRead, BufReader};
 use std::process::Stdio;
 
 #[test]
@@ -16,6 +20,41 @@ fn a_picture_is_exactly_its_rows() {
             assert!(text.lines().all(|line| line.chars().count() == columns));
         }
     }
+}
+
+/// The least picture, and one of more than a strip.
+#[test]
+fn every_charset_and_depth_draws_any_size() {
+    for charset in Charset::value_variants().iter().map(name) {
+        for color in ["never", "16", "256", "truecolor"] {
+            let of_size = |size| {
+                let words = ["--size", size, "--charset", &charset, "--color", color, "--once"];
+                printed(&run(words))
+            };
+            let text = of_size("1x1");
+            assert_eq!(text.lines().count(), 1, "{charset} {color}");
+            assert_eq!(text.contains('\x1b'), color != "never", "{charset} {color}: {text:?}");
+        }
+    }
+    let text = printed(&run(["--size", "4096x33", "--charset", "half", "--color", "never"]));
+    assert_eq!(text.lines().count(), 33);
+    assert!(text.lines().all(|line| line.chars().count() == 4096));
+}
+
+/// Such a picture takes long, and more memory than there is unless it goes out as it is drawn.
+#[test]
+fn the_largest_picture_begins_at_once_and_ends_with_its_reader() {
+    let mut child = spherule()
+        .args(["--size", "4096x4096", "--once"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program runs");
+    let mut line = String::new();
+    BufReader::new(child.stdout.take().expect("piped")).read_line(&mut line).expect("a line");
+    assert_eq!(line.chars().count(), 4097);
+    let output = child.wait_with_output().expect("the program ends");
+    assert!(output.status.success() && output.stderr.is_empty(), "{output:?}");
 }
 
 #[test]
