@@ -85,6 +85,14 @@ pub fn oklab(light: Vec3) -> Vec3 {
     )
 }
 
+/// The square root of each channel of linear light, about as displays encode it: equal steps look alike more than in
+/// linear light, and it costs a tenth of [`oklab`]. Below 0 and NaN count as 0.
+#[must_use]
+#[inline]
+pub fn roots(light: Vec3) -> Vec3 {
+    light.max(Vec3::ZERO).map(f32::sqrt)
+}
+
 /// The cube root within 4 ulp, up to 1e38; 0 for what is not above 1e-30, where there is no light to speak of, and for
 /// NaN. Above 1e38 sums overflow, and it is NaN.
 ///

@@ -54,7 +54,8 @@ pub(super) struct Strip {
 struct Worker {
     tracer: Tracer,
     painter: Painter,
-    looks: Vec<Vec3>,
+    /// Of the fit.
+    memory: Vec<Vec3>,
     /// The cells of a band that need many samples.
     needy: Vec<(u32, u32)>,
     /// Where the samples of each cell of a band begin, if it is one of those.
@@ -110,7 +111,7 @@ impl Strip {
         fits.resize(fitted.len() * plan.columns, Fitted::NONE);
         let bands = fits.chunks_mut(band).zip(needs.chunks(band));
         let bands = bands.zip(fitted.clone().step_by(BAND));
-        let known = (&**light, &*known.looks, sampled.start);
+        let known = (&**light, sampled.start);
         threads.share(workers, bands, |worker, ((fits, needs), first)| {
             count(worker.fit(plan, many, known, first, (fits, needs)));
         });
@@ -148,12 +149,12 @@ impl Worker {
     }
 
     /// Fits glyphs to the cells from row `first` on, of which those get `many` samples whose needs are above something.
-    /// What is known: the light of the few samples, how they look, and which row they begin with.
+    /// What is known: the light of the few samples, and which row they begin with.
     fn fit(
         &mut self,
         plan: &Plan<'_>,
         many: Option<(&Sampling, f32)>,
-        (light, looks, known): (&[Vec3], &[Vec3], usize),
+        (light, known): (&[Vec3], usize),
         first: usize,
         (fits, needs): (&mut [Fitted], &[f32]),
     ) -> (u64, u64) {
@@ -170,7 +171,7 @@ impl Worker {
             self.places.push(None);
             let start = ((first - known) * columns + cell) * few;
             let samples = start..start + few;
-            *fit = plan.few.fitter.fit(&light[samples.clone()], &looks[samples]);
+            *fit = plan.few.fitter.fit(&light[samples], &mut self.memory);
         }
         let Some((many, _)) = many.filter(|_| !self.needy.is_empty()) else { return (0, 0) };
 
@@ -197,9 +198,7 @@ impl Worker {
             self.tracer.trace(&plan.traced, grid, corners, (pixels, 1.0), place);
         for (&(column, row), light) in self.needy.iter().zip(traced.chunks(count)) {
             let cell = (row as usize - first) * columns + column as usize;
-            self.looks.clear();
-            self.looks.extend(light.iter().map(|&light| oklab(light)));
-            fits[cell] = fitter.fit(light, &self.looks);
+            fits[cell] = fitter.fit(light, &mut self.memory);
         }
         (pixels as u64, shadow_rays)
     }
