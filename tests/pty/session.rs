@@ -1,7 +1,7 @@
 //! A program in a pseudo-terminal of its own, and what its screen shows.
 //!
-//! Nothing here sleeps for a fixed time, except to see that nothing happens: whatever is waited for is looked for until
-//! it is there, and a test fails when it has not come for [`PATIENCE`].
+//! Nothing here sleeps for a fixed time, except to see that nothing happens: whatever is waited for is looked for
+//! until it is there, and a test fails when it has not come for [`PATIENCE`].
 
 use super::modes;
 use portable_pty::{

@@ -2,6 +2,7 @@
 
 pub mod bins;
 pub mod dither;
+pub mod dots;
 pub mod fit;
 pub mod letters;
 pub mod masks;

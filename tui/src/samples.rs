@@ -78,6 +78,9 @@ impl CellSamples {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cells::masks::{Repertoire, repertoire};
+    use clap::ValueEnum;
+    use spherule_kernel::Camera;
 
     fn grid(charset: Charset, samples: u32, cell_aspect: f32) -> (u32, u32) {
         let style = Style { charset, samples: Some(samples), cell_aspect, ..Style::PLAIN };
@@ -114,5 +117,28 @@ mod tests {
         assert_eq!(grid(Charset::Ascii, 0, 0.5), (1, 1));
         assert_eq!(grid(Charset::Ascii, u32::MAX, 0.5), grid(Charset::Ascii, 256, 0.5));
         assert_eq!(grid(Charset::Ascii, 9, f32::NAN), (1, 9));
+    }
+
+    #[test]
+    fn many_are_whole_packets_and_as_fine_as_the_glyphs() {
+        let (width, height) = Camera::tile::<[f32; 16]>();
+        for &charset in Charset::value_variants() {
+            let style = Style { charset, samples: None, ..Style::PLAIN };
+            assert_eq!(CellSamples::new(&style), CellSamples::FEW);
+            let many = CellSamples::many(&style).expect("by need");
+            assert_eq!((many.across % width, many.down % height), (0, 0), "{charset:?}");
+            assert!(many.count() <= MOST_SAMPLES);
+            if charset != Charset::Ascii {
+                let Repertoire { families, mosaic } = repertoire(charset);
+                for family in families {
+                    let (across, down) = (family.across as u32, family.down as u32);
+                    assert!(across <= many.across && down <= many.down, "{charset:?}: {family:?}");
+                }
+                // No sample is cut by a bin of the mosaic.
+                let (across, down) = (mosaic.0 as u32, mosaic.1 as u32);
+                assert_eq!((many.across % across, many.down % down), (0, 0), "{charset:?}");
+            }
+            assert_eq!(CellSamples::many(&Style { samples: Some(4), ..style }), None);
+        }
     }
 }

@@ -3,9 +3,11 @@
 //! ```text
 //! cargo run --release -p spherule-tests --example art             # prints the page
 //! cargo run --release -p spherule-tests --example art -- --write  # and writes docs/benchmarks/art.md
+//! cargo run --release -p spherule-tests --example art -- --pictures # writes the README's pictures, tui/pictures
 //! ```
 #![forbid(unsafe_code)]
 
+mod cells;
 mod modes;
 mod page;
 mod pictures;
@@ -25,10 +27,16 @@ struct Arguments {
     /// Writes docs/benchmarks/art.md.
     #[arg(long)]
     write: bool,
+    /// Writes the README's pictures, and no scores.
+    #[arg(long, conflicts_with = "write")]
+    pictures: bool,
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let Arguments { write } = Arguments::parse();
+    let Arguments { write, pictures } = Arguments::parse();
+    if pictures {
+        return cells::write();
+    }
     let folder = Folder::new()?;
     let chafa = pictures::chafa_version();
     let mut rows: Vec<Row> = MODES.iter().map(|mode| Row { mode, scores: Vec::new() }).collect();

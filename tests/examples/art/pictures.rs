@@ -52,7 +52,7 @@ pub(crate) fn chafa_version() -> Option<String> {
 }
 
 /// What a program prints.
-fn output(command: &mut Command) -> Result<Vec<u8>, String> {
+pub(crate) fn output(command: &mut Command) -> Result<Vec<u8>, String> {
     // The options alone decide, not the terminal at hand.
     for variable in ["NO_COLOR", "COLORTERM", "COLUMNS", "LINES"] {
         command.env_remove(variable);

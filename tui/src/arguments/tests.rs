@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::choice::name;
+use crate::palette::THEMES;
 use clap::ValueEnum;
 
 fn parsed(line: &str) -> Result<Request, Error> {
@@ -59,6 +60,10 @@ fn what_is_wrong_is_said_in_one_line() {
         ("--size 1000000x1000000", "each 1 to 4096"),
         ("--size 80", "COLSxROWS"),
         ("--samples 0", "auto, or 1 to 256"),
+        ("--samples 257", "auto, or 1 to 256"),
+        ("--charset sixel", "auto, ascii, half, quadrant, sextant, octant, braille, block"),
+        ("--palette amber", "xterm, vga, tango, solarized"),
+        ("--palette 000000,ffffff", "2 colours in place of 16"),
         ("--accuracy sloppy", "fast, stable, exact"),
         ("--structure octree", "auto, brute, depth-list, bvh"),
         ("--threads 0", "1..=1024"),
@@ -95,6 +100,14 @@ fn names_are_accepted_and_listed() {
         ("tiles", Some(Structure::DepthList)),
     ] {
         assert_eq!(picture(&format!("--structure {word}")).computing.structure, expected);
+    }
+    for charset in Charset::value_variants() {
+        assert_eq!(picture(&format!("--charset {}", name(charset))).charset, Some(*charset));
+    }
+    assert_eq!(picture("--charset auto --samples auto").charset, None);
+    assert_eq!(picture("--charset auto --samples auto").scene.samples, None);
+    for (word, theme) in THEMES {
+        assert_eq!(picture(&format!("--palette {word}")).palette, theme);
     }
     for depth in ColorChoice::value_variants() {
         assert_eq!(picture(&format!("--color {}", name(depth))).color, *depth);

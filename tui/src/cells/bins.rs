@@ -37,3 +37,6 @@ impl Bins {
         means
     }
 }
+
+#[cfg(test)]
+mod tests;

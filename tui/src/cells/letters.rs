@@ -8,7 +8,7 @@
 use super::bins::Bins;
 use super::fit::Fitted;
 use super::masks::Cover;
-use super::tone::Tones;
+use super::tone;
 use crate::ink::{DEJAVU_SANS_MONO, UNIFONT, coverage};
 use crate::style::ColorDepth;
 use spherule_kernel::Vec3;
@@ -55,14 +55,13 @@ pub(super) static LETTERS: LazyLock<Vec<Letter>> = LazyLock::new(|| {
 #[derive(Clone, Debug)]
 pub struct LetterFitter {
     bins: Bins,
-    /// Without colour.
-    tones: Option<&'static Tones>,
+    /// Whether ink and paper have colours.
+    colored: bool,
 }
 
 impl LetterFitter {
     pub(super) fn new(depth: ColorDepth, samples: (u32, u32)) -> Self {
-        let tones = (depth == ColorDepth::Never).then(Tones::of_letters);
-        Self { bins: Bins::new((4, 8), samples), tones }
+        Self { bins: Bins::new((4, 8), samples), colored: depth != ColorDepth::Never }
     }
 
     pub(super) fn fit(&self, light: &[Vec3]) -> Fitted {
@@ -72,8 +71,8 @@ impl LetterFitter {
             (light[first] + light[first + 1] + light[first + 4] + light[first + 5]) / 4.0
         });
         let mean = light.iter().sum::<Vec3>() / BINS as f32;
-        if let Some(tones) = self.tones {
-            let letter = tones.nearest(&parts);
+        if !self.colored {
+            let letter = tone::alone(&parts);
             let (glyph, cover) = (letter.glyph, letter.cover);
             return Fitted { glyph, cover, ink: Vec3::ONE, paper: Vec3::ZERO, parts };
         }

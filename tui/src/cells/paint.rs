@@ -1,9 +1,11 @@
 //! From fitted glyphs to cells: the colours that the terminal has.
 
 use super::dither::Dither;
+use super::dots::Dots;
 use super::fit::Fitted;
 use super::residual::Residual;
 use super::shades::Shades;
+use super::tone::Tones;
 use super::{Cell, Color};
 use crate::color::{Srgb, oklab};
 use crate::palette::{Theme, entries};
@@ -16,9 +18,11 @@ const ALIKE: f32 = 0.05 * 0.05;
 /// What light becomes.
 #[derive(Debug, Default)]
 enum Colors {
-    /// Nothing: letters and dots are what there is.
+    /// Nothing: letters and their tones are what there is, ...
     #[default]
-    None,
+    Letters,
+    /// ... or parts of cells that are on or off.
+    Dots(Dots),
     /// 16 of a theme.
     Shades(Shades),
     /// The xterm palette.
@@ -35,6 +39,7 @@ pub struct Painter {
     colors: Colors,
     residual: Residual,
     corrected: Vec<[Vec3; 2]>,
+    tones: Tones,
 }
 
 impl Painter {
@@ -50,15 +55,23 @@ impl Painter {
         self.make_for(style);
         let rows = first - known..first - known + cells.len() / columns;
         let own = &fits[rows.start * columns..rows.end * columns];
-        if !matches!(self.colors, Colors::None) {
-            self.residual.correct(fits, columns, rows, &mut self.corrected);
+        if style.depth != ColorDepth::Never {
+            self.residual.correct(fits, columns, rows.clone(), &mut self.corrected);
         }
         let colors = self.corrected.iter();
         let places = (first..).flat_map(|row| (0..columns).map(move |column| (column, row)));
         let cells = cells.iter_mut().zip(own);
         match &mut self.colors {
-            Colors::None => {
-                cells.for_each(|(cell, fit)| *cell = Cell { glyph: fit.glyph, ..Cell::BLANK });
+            Colors::Letters => {
+                let glyphs = self.tones.choose(fits, columns, rows);
+                for ((cell, _), &glyph) in cells.zip(glyphs) {
+                    *cell = Cell { glyph, ..Cell::BLANK };
+                }
+            }
+            Colors::Dots(dots) => {
+                for ((cell, fit), place) in cells.zip(places) {
+                    *cell = Cell { glyph: dots.glyph(&fit.parts, place), ..Cell::BLANK };
+                }
             }
             Colors::Shades(shades) => {
                 for ((cell, fit), &colors) in cells.zip(colors) {
@@ -99,7 +112,8 @@ impl Painter {
         }
         let entries = entries(style.depth, &style.theme);
         self.colors = match style.depth {
-            ColorDepth::Never => Colors::None,
+            ColorDepth::Never if style.charset == Charset::Ascii => Colors::Letters,
+            ColorDepth::Never => Colors::Dots(Dots::new(style.charset)),
             ColorDepth::Ansi16 => Colors::Shades(Shades::new(entries, style.charset)),
             ColorDepth::Ansi256 => Colors::Dither(Dither::new(entries)),
             ColorDepth::Truecolor => Colors::All,

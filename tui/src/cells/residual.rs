@@ -11,7 +11,7 @@ use spherule_kernel::Vec3;
 use std::ops::Range;
 
 /// A Gaussian whose sigma is a part of a cell, that is half a cell's width, cut at three sigma; it adds up to one.
-const TAPS: [f32; 7] = [
+pub(super) const TAPS: [f32; 7] = [
     0.004_433_048,
     0.054_005_58,
     0.242_036_23,
@@ -113,3 +113,6 @@ impl Residual {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,61 +1,177 @@
 //! Letters without colour: tone and shape together, as they look from reading distance.
 //!
-//! From there an eye sees neither ink nor paper but their mean around each point, and the picture likewise. So letter
-//! and picture are blurred by half of a cell's width, as if the cells around were as this one is on average, and
-//! compared by lightness in each of 2 x 4 parts.
+//! From there an eye sees neither ink nor paper but their mean around each point, and the picture likewise. So letters
+//! and picture are blurred by half of a cell's width and compared by lightness in each of 2 x 4 parts of a cell. Each
+//! cell first gets the letter that looks most like its own light; then every other cell, and after that the rest,
+//! chooses again beside what its neighbours have: what is too dark here makes up for what is too light there.
+//!
+//! Source: J. Besag, "On the statistical analysis of dirty pictures", 1986, for the choice cell by cell.
 
+use super::fit::Fitted;
 use super::letters::{LETTERS, Letter};
 use super::masks::Cover;
+use super::residual::TAPS;
 use crate::color::{lightness, luminance};
 use spherule_kernel::Vec3;
+use std::array;
+use std::ops::Range;
 use std::sync::LazyLock;
 
 /// The luminance of the ink of most terminals: not white, but the grey of 229.
 const INK: f32 = 0.78;
 
-/// How each letter looks.
-#[derive(Debug)]
-pub struct Tones(Vec<Cover>);
+/// How far a part is seen in other parts.
+const REACH: usize = TAPS.len() / 2;
+/// The parts that are seen in a cell: its own 2 x 4 and those around it.
+const WIDE: usize = 2 + 2 * REACH;
+const HIGH: usize = 4 + 2 * REACH;
+/// How many rows of cells around a cell have a part in its letter.
+pub(super) const HALO: usize = 2;
 
-/// The weights with which a part sees those next to it in one direction, and the one after.
-const TAPS: [f32; 3] = [0.399_05, 0.242_04, 0.054_01];
+/// The lightness that a cell should have, given the picture's: letters reach 0.6. Below the first it is paper; then the
+/// tone is kept up to the second, and from there on it is compressed so far that white comes out as the third.
+///
+/// Of the values around these they are nearest to the truth where they also keep the order of tones: on flake and on
+/// marbles 0.97 and 0.93 of correlation. Without the first, dots in a dark background gain 2 dB and lose 0.03 of it.
+const TONE: [f32; 3] = [0.083, 0.35, 0.79];
 
-/// The parts of a cell, blurred.
-fn blurred(parts: Cover) -> Cover {
-    let mean = parts.iter().sum::<f32>() / 8.0;
-    let weight = |a: usize, b: usize| TAPS.get(a.abs_diff(b)).copied().unwrap_or(0.0);
-    std::array::from_fn(|part| {
-        let (mut sum, mut all) = (0.0, 0.0);
-        for (other, value) in parts.iter().enumerate() {
-            let weight = weight(part / 2, other / 2) * weight(part % 2, other % 2);
-            sum += weight * value;
-            all += weight;
+fn tone(lightness: f32) -> f32 {
+    let [black, knee, white] = TONE;
+    let tone = (lightness - black).max(0.0) / (1.0 - black);
+    if tone < knee { tone } else { knee + (tone - knee) * (white - knee) / (1.0 - knee) }
+}
+
+/// How much of a part `x`, `y` of what is around a cell is seen in each of the cell's parts.
+static SEEN: LazyLock<Vec<Cover>> = LazyLock::new(|| {
+    let weight = |own: usize, other: usize| TAPS.get(other.wrapping_sub(own)).copied();
+    let all = (0..WIDE * HIGH).map(|place| {
+        array::from_fn(|part| {
+            let across = weight(part % 2, place % WIDE).unwrap_or(0.0);
+            across * weight(part / 2, place / WIDE).unwrap_or(0.0)
+        })
+    });
+    all.collect()
+});
+
+/// The lightness of ink that covers so many 4096ths.
+static LIGHTNESS: LazyLock<Vec<f32>> =
+    LazyLock::new(|| (0..=4096).map(|cover| lightness(INK * cover as f32 / 4096.0)).collect());
+
+fn shown_lightness(cover: f32) -> f32 {
+    LIGHTNESS[((cover * 4096.0) as usize).min(4096)]
+}
+
+/// What each letter adds to the parts of its own cell.
+static OWN: LazyLock<Vec<Cover>> = LazyLock::new(|| {
+    let own = |letter: &Letter| {
+        let mut around = [0.0; WIDE * HIGH];
+        for (part, cover) in letter.cover.iter().enumerate() {
+            around[(part / 2 + REACH) * WIDE + part % 2 + REACH] = *cover;
         }
-        sum + (1.0 - all) * mean
-    })
+        seen(&around)
+    };
+    LETTERS.iter().map(own).collect()
+});
+
+fn seen(around: &[f32; WIDE * HIGH]) -> Cover {
+    let mut seen = [0.0; 8];
+    for (value, weights) in around.iter().zip(&*SEEN) {
+        for (seen, weight) in seen.iter_mut().zip(weights) {
+            *seen += weight * value;
+        }
+    }
+    seen
+}
+
+/// The letter that looks most like what is wanted, beside what is seen of others.
+fn nearest(wanted: &Cover, others: &Cover) -> usize {
+    let mut best = (f32::INFINITY, 0);
+    for (index, own) in OWN.iter().enumerate() {
+        let mut distance = 0.0;
+        for ((own, other), wanted) in own.iter().zip(others).zip(wanted) {
+            let apart = shown_lightness(own + other) - wanted;
+            distance += apart * apart;
+        }
+        if distance < best.0 {
+            best = (distance, index);
+        }
+    }
+    best.1
+}
+
+/// The letter for light of 2 x 4 parts, as if all around were as the cell is on average.
+pub(super) fn alone(parts: &[Vec3; 8]) -> &'static Letter {
+    let light = parts.map(luminance);
+    let mean = light.iter().sum::<f32>() / 8.0;
+    let mut around = [mean; WIDE * HIGH];
+    for (part, light) in light.iter().enumerate() {
+        around[(part / 2 + REACH) * WIDE + part % 2 + REACH] = *light;
+    }
+    let wanted = seen(&around).map(|light| tone(lightness(light)));
+    // The others have the ink that the mean wants, so far as letters have it.
+    let ink = (tone(lightness(mean)).powi(3) / INK).min(0.33);
+    for y in 0..4 {
+        around[(y + REACH) * WIDE + REACH..][..2].fill(0.0);
+    }
+    let others = seen(&around.map(|light| if light == 0.0 { 0.0 } else { ink }));
+    &LETTERS[nearest(&wanted, &others)]
+}
+
+/// Chooses letters beside each other, and keeps its memory.
+#[derive(Clone, Debug, Default)]
+pub struct Tones {
+    /// What is there of the rows that are looked at: what should be seen, and the letters.
+    wanted: Vec<Cover>,
+    covers: Vec<Cover>,
+    glyphs: Vec<char>,
 }
 
 impl Tones {
-    pub(super) fn of_letters() -> &'static Self {
-        static TONES: LazyLock<Tones> = LazyLock::new(|| {
-            let look = |letter: &Letter| blurred(letter.cover).map(|cover| lightness(INK * cover));
-            Tones(LETTERS.iter().map(look).collect())
-        });
-        &TONES
-    }
+    /// The letters of `rows` of a picture of so many `columns`; `fits` has those of cells alone.
+    pub fn choose(&mut self, fits: &[Fitted], columns: usize, rows: Range<usize>) -> &[char] {
+        let all = fits.len() / columns;
+        let near = rows.start.saturating_sub(HALO)..(rows.end + HALO).min(all);
+        let fits = &fits[near.start * columns..near.end * columns];
+        let height = near.len();
+        self.covers.clear();
+        self.covers.extend(fits.iter().map(|fit| fit.cover));
+        self.glyphs.clear();
+        self.glyphs.extend(fits.iter().map(|fit| fit.glyph));
+        let light: Vec<_> = fits.iter().map(|fit| fit.parts.map(luminance)).collect();
+        self.wanted.clear();
+        self.wanted.extend((0..fits.len()).map(|cell| {
+            let around = around(&light, columns, height, (cell % columns, cell / columns));
+            seen(&around).map(|light| tone(lightness(light)))
+        }));
 
-    /// The letter that looks most like the light of 2 x 4 parts.
-    pub(super) fn nearest(&self, parts: &[Vec3; 8]) -> &'static Letter {
-        let wanted = blurred(parts.map(luminance)).map(lightness);
-        let distance =
-            |look: &Cover| look.iter().zip(&wanted).map(|(a, b)| (a - b) * (a - b)).sum::<f32>();
-        let mut best = (f32::INFINITY, 0);
-        for (index, look) in self.0.iter().enumerate() {
-            let distance = distance(look);
-            if distance < best.0 {
-                best = (distance, index);
+        for turn in 0..2 {
+            for (row, place) in near.clone().enumerate() {
+                for column in 0..columns {
+                    if (place + column) % 2 != turn {
+                        continue;
+                    }
+                    let cell = row * columns + column;
+                    self.covers[cell] = [0.0; 8];
+                    let others = seen(&around(&self.covers, columns, height, (column, row)));
+                    let letter = &LETTERS[nearest(&self.wanted[cell], &others)];
+                    (self.covers[cell], self.glyphs[cell]) = (letter.cover, letter.glyph);
+                }
             }
         }
-        &LETTERS[best.1]
+        &self.glyphs[(rows.start - near.start) * columns..(rows.end - near.start) * columns]
     }
+}
+
+/// The parts in and around a cell; past the edges the last ones count again.
+fn around(
+    parts: &[Cover],
+    columns: usize,
+    rows: usize,
+    (column, row): (usize, usize),
+) -> [f32; WIDE * HIGH] {
+    array::from_fn(|place| {
+        let x = (2 * column + place % WIDE).saturating_sub(REACH).min(2 * columns - 1);
+        let y = (4 * row + place / WIDE).saturating_sub(REACH).min(4 * rows - 1);
+        parts[y / 4 * columns + x / 2][y % 4 * 2 + x % 2]
+    })
 }

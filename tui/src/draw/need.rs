@@ -63,3 +63,6 @@ impl Looks<'_> {
         most.sqrt()
     }
 }
+
+#[cfg(test)]
+mod tests;

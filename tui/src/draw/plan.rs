@@ -25,8 +25,8 @@ pub(super) struct Plan<'a> {
     pub(super) rows: usize,
     /// Of every cell.
     pub(super) few: Sampling,
-    /// Of those where the few are not enough: from the finest to the coarsest that may be made do with; none if the few
-    /// are all.
+    /// Of those where the few are not enough: from the finest to the coarsest that may be made do with; none if the
+    /// few are all.
     pub(super) many: Vec<Sampling>,
     pub(super) spending: Spending,
 }

@@ -53,7 +53,7 @@ impl Grant {
 }
 
 impl Spending {
-    /// What is left of it for some `rows` of a picture that has so many in `all`, after so many samples of these rows.
+    /// What is left of it for some `rows` of a picture that has so many in `all`, after so many samples of these.
     pub(super) fn left(self, rows: &Range<usize>, all: usize, samples: u64) -> Self {
         match self {
             Self::ByNeed => Self::ByNeed,
@@ -68,9 +68,9 @@ impl Spending {
 
     /// Shares it out among cells with these `needs`, of which each gets as many samples as one of the `grids` has.
     ///
-    /// The finest for all who are in need, or the finest that suffices for all of them. If there is none, the coarsest
-    /// for those who need it most: of equals either all or none get it, so the order does not matter. `sorted` is
-    /// memory.
+    /// The finest for all who are in need, or the finest that suffices for all of them. If there is none, the
+    /// coarsest for those who need it most: of equals either all or none get it, so the order does not matter.
+    /// `sorted` is memory.
     pub(super) fn grant(self, needs: &[f32], grids: &[u32], sorted: &mut Vec<f32>) -> Grant {
         let Self::AtMost(most) = self else { return Grant::FULL };
         let needy = || needs.iter().copied().filter(|&need| need > ENOUGH);

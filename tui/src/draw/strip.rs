@@ -27,8 +27,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// to the end, and a multiple of a packet's height whatever the samples.
 const BAND: usize = 4;
 
-/// Of the many samples, so many are traced at a time: as above, and no more memory than that if all cells are in need.
+/// Of the many samples, so many are traced at a time: as above, and no more memory if all cells are in need.
 const AT_ONCE: usize = 1 << 12;
+
+/// How many rows of fits around a row have a part in its cells.
+const HALO: usize = 2;
 
 /// Above this distance from a plane, in `OKLab`, a cell's samples are too few.
 pub(super) const ENOUGH: f32 = 0.03;
@@ -54,7 +57,8 @@ pub(super) struct Strip {
 struct Worker {
     tracer: Tracer,
     painter: Painter,
-    looks: Vec<Vec3>,
+    /// Of the fit.
+    memory: Vec<Vec3>,
     /// The cells of a band that need many samples.
     needy: Vec<(u32, u32)>,
     /// Which of those each cell of a band is, if it is one.
@@ -66,14 +70,14 @@ fn rows_around(rows: &Range<usize>, halo: usize, all: usize) -> Range<usize> {
     rows.start.saturating_sub(halo)..(rows.end + halo).min(all)
 }
 
-/// Hands on how every sample looks, in `OKLab`. Many are as the one before: background.
-fn looks_of(light: &[Vec3], mut take: impl FnMut(usize, Vec3)) {
+/// Writes how every sample looks, in `OKLab`. Many are as the one before: background.
+fn write_looks(light: &[Vec3], looks: &mut [Vec3]) {
     let mut last = (Vec3::ZERO, oklab(Vec3::ZERO));
-    for (at, &light) in light.iter().enumerate() {
+    for (look, &light) in looks.iter_mut().zip(light) {
         if light != last.0 {
             last = (light, oklab(light));
         }
-        take(at, last.1);
+        *look = last.1;
     }
 }
 
@@ -87,7 +91,7 @@ impl Strip {
         cells: &mut [Cell],
     ) -> Effort {
         let rows = first..first + cells.len() / plan.columns;
-        let fitted = rows_around(&rows, 1, plan.rows);
+        let fitted = rows_around(&rows, HALO, plan.rows);
         let sampled = rows_around(&fitted, 1, plan.rows);
         let band = BAND * plan.columns;
         let (samples, shadow_rays) = (AtomicU64::new(0), AtomicU64::new(0));
@@ -104,7 +108,7 @@ impl Strip {
         let bands = bands.zip(sampled.clone().step_by(BAND));
         threads.share(workers, bands, |worker, ((light, looks), first)| {
             count(worker.sample(plan, first, light));
-            looks_of(light, |at, look| looks[at] = look);
+            write_looks(light, looks);
         });
 
         needs.resize(fitted.len() * plan.columns, 0.0);
@@ -121,7 +125,7 @@ impl Strip {
         fits.resize(fitted.len() * plan.columns, Fitted::NONE);
         let bands = fits.chunks_mut(band).zip(needs.chunks(band));
         let bands = bands.zip(fitted.clone().step_by(BAND));
-        let known = (&**light, known.looks, sampled.start);
+        let known = (&**light, sampled.start);
         threads.share(workers, bands, |worker, ((fits, needs), first)| {
             count(worker.fit(plan, many, known, first, (fits, needs)));
         });
@@ -138,8 +142,8 @@ impl Strip {
 }
 
 impl Worker {
-    /// Writes the light of the few samples of the cells from row `first` on, cell by cell; returns how many samples and
-    /// shadow rays that took.
+    /// Writes the light of the few samples of the cells from row `first` on, cell by cell; returns how many samples
+    /// and shadow rays that took.
     fn sample(&mut self, plan: &Plan<'_>, first: usize, light: &mut [Vec3]) -> (u64, u64) {
         let Sampling { samples, grid, .. } = &plan.few;
         let (across, down, count) = (samples.across, samples.down, samples.count());
@@ -162,12 +166,12 @@ impl Worker {
     }
 
     /// Fits glyphs to the cells from row `first` on, of which those get `many` samples whose needs are above something.
-    /// What is known: the light of the few samples, how they look, and which row they begin with.
+    /// What is known: the light of the few samples, and which row they begin with.
     fn fit(
         &mut self,
         plan: &Plan<'_>,
         many: Option<(&Sampling, f32)>,
-        (light, looks, known): (&[Vec3], &[Vec3], usize),
+        (light, known): (&[Vec3], usize),
         first: usize,
         (fits, needs): (&mut [Fitted], &[f32]),
     ) -> (u64, u64) {
@@ -185,11 +189,11 @@ impl Worker {
             }
             self.places.push(usize::MAX);
             let start = ((first - known) * columns + cell) * few;
-            let (light, looks) = (&light[start..start + few], &looks[start..start + few]);
+            let light = &light[start..start + few];
             let is_flat = light.iter().all(|&other| other == light[0]);
             *fit = match flat {
                 Some((color, fit)) if is_flat && color == light[0] => fit,
-                _ => plan.few.fitter.fit(light, looks),
+                _ => plan.few.fitter.fit(light, &mut self.memory),
             };
             if is_flat {
                 flat = Some((light[0], *fit));
@@ -206,7 +210,7 @@ impl Worker {
         first: usize,
         fits: &mut [Fitted],
     ) -> (u64, u64) {
-        let Self { tracer, looks, needy, places, .. } = self;
+        let Self { tracer, memory, needy, places, .. } = self;
         let columns = plan.columns;
         let Sampling { samples, grid, fitter } = many;
         let (across, down, count) = (samples.across, samples.down, samples.count() as usize);
@@ -232,9 +236,7 @@ impl Worker {
             let (traced, shadow_rays) = tracer.trace(&plan.traced, grid, corners, pixels, at);
             for (&(column, row), light) in needy.iter().zip(traced.chunks(count)) {
                 let cell = (row as usize - first) * columns + column as usize;
-                looks.clear();
-                looks_of(light, |_, look| looks.push(look));
-                fits[cell] = fitter.fit(light, looks);
+                fits[cell] = fitter.fit(light, memory);
             }
             rays += shadow_rays;
         }

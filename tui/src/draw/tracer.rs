@@ -82,8 +82,8 @@ impl Tracer {
     /// Traces the packets of `grid` whose top left samples are `corners`, and returns the light of so many `pixels`
     /// and how many shadow rays it took.
     ///
-    /// Every sample adds its `share` to the pixel that `places` names. In the order of the packets, so that sums are the
-    /// same whoever computes them.
+    /// Every sample adds its `share` to the pixel that `places` names. In the order of the packets, so that sums are
+    /// the same whoever computes them.
     pub(super) fn trace(
         &mut self,
         traced: &Traced<'_>,

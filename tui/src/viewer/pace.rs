@@ -8,7 +8,7 @@ use std::time::Duration;
 /// So long after the last frame of a movement it is over. A full frame follows if that one was not: most are drawn
 /// within the rest of 150 ms. Keys that are held down come closer together.
 const REST: Duration = Duration::from_millis(100);
-/// The part of an interval that is for drawing; then there are still the bytes, and a key may come just after a frame.
+/// The part of an interval that is for drawing; then there are still the bytes, and what a slow frame takes more.
 const DRAWING: f64 = 0.4;
 /// What the last frame says of the rate, against all before it.
 const WEIGHT: f64 = 0.5;
@@ -123,7 +123,7 @@ mod tests {
         assert_eq!(pace.spending(true), before);
     }
 
-    /// Every frame is as dear as its cells and its samples, and the next gets what it says: they settle at the target.
+    /// Every frame is as dear as its cells and its samples, and the next gets what it says: they settle.
     #[test]
     fn frames_settle_where_time_allows() {
         let (few, needed) = (40_000_u64, 200_000_u64);

@@ -1,0 +1,121 @@
+//! What one step of back-projection does to pictures whose lack is known.
+
+use super::*;
+use crate::cells::masks::repertoire;
+use crate::style::Charset;
+use proptest::prelude::*;
+
+/// A cell by the number of its mask, and its colours.
+fn cell(mask: usize, [ink, paper]: [Vec3; 2]) -> Fitted {
+    let families = &repertoire(Charset::Block).families;
+    let masks: Vec<_> = families.iter().flat_map(|family| &family.masks).collect();
+    // Now and then a space.
+    let Some(mask) = masks.get(mask % (masks.len() + masks.len() / 8)) else {
+        return shown(Fitted { ink, paper, ..Fitted::NONE });
+    };
+    shown(Fitted { glyph: mask.glyph, cover: mask.cover, ink, paper, ..Fitted::NONE })
+}
+
+/// The same cell, of a picture that is just what it shows.
+fn shown(fit: Fitted) -> Fitted {
+    let parts = fit.cover.map(|cover| cover * fit.ink + (1.0 - cover) * fit.paper);
+    Fitted { parts, ..fit }
+}
+
+fn color(range: Range<f32>) -> impl Strategy<Value = Vec3> {
+    (range.clone(), range.clone(), range).prop_map(|(r, g, b)| Vec3::new(r, g, b))
+}
+
+/// Columns, and cells of whole rows, with colours in a range.
+fn pictures(range: Range<f32>) -> impl Strategy<Value = (usize, Vec<Fitted>)> {
+    (1..7_usize, 1..7_usize).prop_flat_map(move |(columns, rows)| {
+        let cell = (0..1000_usize, color(range.clone()), color(range.clone()));
+        let cell = cell.prop_map(|(mask, ink, paper)| self::cell(mask, [ink, paper]));
+        (Just(columns), prop::collection::vec(cell, columns * rows))
+    })
+}
+
+fn corrected(fits: &[Fitted], columns: usize, rows: Range<usize>) -> Vec<[Vec3; 2]> {
+    let mut corrected = Vec::new();
+    Residual::default().correct(fits, columns, rows, &mut corrected);
+    corrected
+}
+
+proptest! {
+    #[test]
+    fn a_picture_that_is_shown_exactly_stays((columns, fits) in pictures(0.0..1.0)) {
+        let rows = fits.len() / columns;
+        for (fit, [ink, paper]) in fits.iter().zip(corrected(&fits, columns, 0..rows)) {
+            prop_assert!((ink - fit.ink).abs().max_element() < 1e-5, "{ink} {}", fit.ink);
+            prop_assert!((paper - fit.paper).abs().max_element() < 1e-5, "{paper} {}", fit.paper);
+        }
+    }
+
+    #[test]
+    fn a_constant_lack_comes_back_in_full(
+        (columns, fits) in pictures(0.3..0.7),
+        lack in color(-0.25..0.25),
+    ) {
+        let rows = fits.len() / columns;
+        let lacking: Vec<Fitted> =
+            fits.iter().map(|fit| Fitted { parts: fit.parts.map(|part| part + lack), ..*fit }).collect();
+        for (fit, [ink, paper]) in lacking.iter().zip(corrected(&lacking, columns, 0..rows)) {
+            // A space has no ink to correct.
+            let more = if fit.cover == [0.0; 8] { Vec3::ZERO } else { lack };
+            prop_assert!((ink - fit.ink - more).abs().max_element() < 1e-5, "{ink} {}", fit.ink);
+            prop_assert!((paper - fit.paper - lack).abs().max_element() < 1e-5, "{paper} {}", fit.paper);
+        }
+    }
+
+    #[test]
+    fn colours_stay_what_a_display_has((columns, fits) in pictures(0.0..1.0), lack in color(-2.0..2.0)) {
+        let rows = fits.len() / columns;
+        let lacking: Vec<Fitted> =
+            fits.iter().map(|fit| Fitted { parts: fit.parts.map(|part| part + lack), ..*fit }).collect();
+        for color in corrected(&lacking, columns, 0..rows).iter().flatten() {
+            prop_assert!(color.cmpge(Vec3::ZERO).all() && color.cmple(Vec3::ONE).all(), "{color}");
+        }
+    }
+
+    #[test]
+    fn a_row_is_the_same_whatever_else_is_asked_for(
+        (columns, mut fits) in pictures(0.0..1.0),
+        lack in prop::collection::vec(color(-0.5..0.5), 36),
+    ) {
+        let rows = fits.len() / columns;
+        for (fit, &lack) in fits.iter_mut().zip(lack.iter().cycle()) {
+            fit.parts[3] += lack;
+        }
+        let all = corrected(&fits, columns, 0..rows);
+        for row in 0..rows {
+            let expected = &all[row * columns..][..columns];
+            prop_assert_eq!(&corrected(&fits, columns, row..row + 1)[..], expected);
+            // One row on each side is all that a row depends on: a strip knows no more.
+            let known = row.saturating_sub(1)..(row + 2).min(rows);
+            let strip = &fits[known.start * columns..known.end * columns];
+            let row = row - known.start;
+            prop_assert_eq!(&corrected(strip, columns, row..row + 1)[..], expected);
+        }
+    }
+}
+
+#[test]
+fn what_a_cell_lacks_goes_to_those_around_it() {
+    // One part of the middle cell of 5 x 5 lacks light. What comes back is a bell around it, and adds up
+    // to all of it.
+    let grey = Vec3::splat(0.5);
+    let mut fits = vec![shown(Fitted { ink: grey, paper: grey, ..Fitted::NONE }); 25];
+    fits[12].parts[2] += Vec3::splat(0.1);
+    let papers: Vec<f32> =
+        corrected(&fits, 5, 0..5).iter().map(|[_, paper]| paper.x - 0.5).collect();
+    assert!((8.0 * papers.iter().sum::<f32>() - 0.1).abs() < 1e-5, "{papers:?}");
+    for (cell, &more) in papers.iter().enumerate() {
+        let (column, row) = (cell % 5, cell / 5);
+        // Three parts away: in 2 x 4 a cell.
+        let near = (0..=3).contains(&column) && (1..=3).contains(&row);
+        assert!(near || more.abs() < 1e-7, "{column} {row}: {more}");
+        assert!(more <= papers[12]);
+    }
+    // The part is at the cell's left: more goes there than to the right.
+    assert!(papers[11] > papers[13] && papers[13] > 0.0, "{papers:?}");
+}
