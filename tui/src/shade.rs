@@ -77,13 +77,9 @@ impl ShadowRays {
         &self.rays
     }
 
-    /// Finds which of them meet anything; returns how many were traced.
-    fn trace(&mut self, tracing: Tracing, scratch: &mut Scratch, search: &Search<'_>) -> u64 {
+    /// Finds which of them meet anything.
+    fn trace(&mut self, tracing: Tracing, scratch: &mut Scratch, search: &Search<'_>) {
         search.any_hits(tracing, scratch, &self.rays, &mut self.met);
-        let live = |rays: &RayPacket| {
-            (0..RayPacket::COUNT).filter(|&lane| rays.ray(lane).is_live()).count() as u64
-        };
-        self.rays.iter().map(live).sum()
     }
 }
 
@@ -135,20 +131,24 @@ impl Shader {
         picture: &mut Picture,
     ) -> u64 {
         let Self { samples, counts, surfaces, shadow_rays } = self;
-        let mut count = 0;
+        let mut traced = 0;
         if !samples.is_empty() {
             let surfaces = surfaces.compute(tracing, scene.spheres(), rays, hits);
             for (light, towards) in search.lights.iter().zip(&search.to_lights) {
                 shadow_rays.cast(tracing, scene.spheres(), (rays, hits, surfaces), light);
                 if scene.shadows {
-                    count += shadow_rays.trace(tracing, scratch, towards);
+                    shadow_rays.trace(tracing, scratch, towards);
                 }
                 let brightness = light.color.to_linear();
                 let mut samples = samples.iter_mut();
                 for (packet, &count) in counts.iter().enumerate() {
                     for sample in samples.by_ref().take(count) {
                         let ray = shadow_rays.rays[packet].ray(sample.lane);
-                        if !ray.is_live() || shadow_rays.met[packet] >> sample.lane & 1 == 1 {
+                        if !ray.is_live() {
+                            continue;
+                        }
+                        traced += u64::from(scene.shadows);
+                        if shadow_rays.met[packet] >> sample.lane & 1 == 1 {
                             continue;
                         }
                         let normal = surfaces[packet].normal(sample.lane);
@@ -165,6 +165,6 @@ impl Shader {
         }
         self.samples.clear();
         self.counts.clear();
-        count
+        traced
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Renderer;
 use super::packet_order::packet_corners;
-use super::tracer::{SampleGrid, Traced, Tracer};
+use super::tracer::{Places, SampleGrid, Traced, Tracer};
 use crate::color::Srgb;
 use crate::scene::Scene;
 use crate::structure::choose::Workload;
@@ -111,10 +111,11 @@ fn trace_tile(
         packet_corners(TILE.0.min(width - left) * SAMPLES, TILE.1.min(height - top) * SAMPLES)
             .map(|(x, y)| (left * SAMPLES + x, top * SAMPLES + y));
     let share = 1.0 / (SAMPLES * SAMPLES) as f32;
-    let (light, _) = tracer.trace(traced, &grid.samples, corners, (pixels.len(), share), |x, y| {
-        let (x, y) = (x / SAMPLES - left, y / SAMPLES - top);
-        Some((y * TILE.0 + x) as usize)
-    });
+    let places = |corner| {
+        let of_column = |x| (x / SAMPLES - left) as usize;
+        Places::new(corner, of_column, |y| ((y / SAMPLES - top) * TILE.0) as usize)
+    };
+    let (light, _) = tracer.trace(traced, &grid.samples, corners, (pixels.len(), share), places);
     for (pixel, &light) in pixels.iter_mut().zip(light) {
         *pixel = Srgb::from_linear(light).0;
     }

@@ -12,7 +12,7 @@ use super::need::Looks;
 use super::packet_order::packet_corners;
 use super::plan::{Plan, Sampling};
 use super::spending::{Effort, Grant};
-use super::tracer::Tracer;
+use super::tracer::{Places, SampleGrid, Tracer};
 use crate::cells::Cell;
 use crate::cells::fit::Fitted;
 use crate::cells::paint::Painter;
@@ -29,6 +29,8 @@ const BAND: usize = 4;
 
 /// How many rows of fits around a row have a part in its cells.
 const HALO: usize = 2;
+/// Of the many samples, so many are traced at a time: as above, and no more memory than that if all cells are in need.
+const AT_ONCE: usize = 1 << 12;
 
 /// Above this distance from a plane, in `OKLab`, a cell's samples are too few.
 pub(super) const ENOUGH: f32 = 0.03;
@@ -58,13 +60,24 @@ struct Worker {
     memory: Vec<Vec3>,
     /// The cells of a band that need many samples.
     needy: Vec<(u32, u32)>,
-    /// Where the samples of each cell of a band begin, if it is one of those.
-    places: Vec<Option<usize>>,
+    /// Which of those each cell of a band is, if it is one.
+    places: Vec<usize>,
 }
 
 /// Rows of cells, from the first on, counted over the whole picture.
 fn rows_around(rows: &Range<usize>, halo: usize, all: usize) -> Range<usize> {
     rows.start.saturating_sub(halo)..(rows.end + halo).min(all)
+}
+
+/// Hands on how every sample looks, in `OKLab`. Many are as the one before: background.
+fn looks_of(light: &[Vec3], mut take: impl FnMut(usize, Vec3)) {
+    let mut last = (Vec3::ZERO, oklab(Vec3::ZERO));
+    for (at, &light) in light.iter().enumerate() {
+        if light != last.0 {
+            last = (light, oklab(light));
+        }
+        take(at, last.1);
+    }
 }
 
 impl Strip {
@@ -94,7 +107,7 @@ impl Strip {
         let bands = bands.zip(sampled.clone().step_by(BAND));
         threads.share(workers, bands, |worker, ((light, looks), first)| {
             count(worker.sample(plan, first, light));
-            looks.iter_mut().zip(light).for_each(|(look, &mut light)| *look = oklab(light));
+            looks_of(light, |at, look| looks[at] = look);
         });
 
         needs.resize(fitted.len() * plan.columns, 0.0);
@@ -132,18 +145,21 @@ impl Worker {
     /// shadow rays that took.
     fn sample(&mut self, plan: &Plan<'_>, first: usize, light: &mut [Vec3]) -> (u64, u64) {
         let Sampling { samples, grid, .. } = &plan.few;
-        let (across, down, columns) = (samples.across, samples.down, plan.columns as u32);
-        let rows = light.len() as u32 / samples.count() / columns;
+        let (across, down, count) = (samples.across, samples.down, samples.count());
+        let columns = plan.columns as u32;
         let top = first as u32 * down;
-        let bottom = top + rows * down;
-        let corners = packet_corners(grid.width, bottom - top).map(|(x, y)| (x, top + y));
-        let place = |x, y| {
-            let cell = (y - top) / down * columns + x / across;
-            let sample = y % down * across + x % across;
-            (y < bottom).then_some((cell * samples.count() + sample) as usize)
+        // As if the picture ended with these rows.
+        let grid = SampleGrid { height: top + light.len() as u32 / (columns * across), ..*grid };
+        let corners = packet_corners(grid.width, grid.height - top).map(|(x, y)| (x, top + y));
+        let places = |corner| {
+            let of_column = |x| (x / across * count + x % across) as usize;
+            Places::new(corner, of_column, |y: u32| {
+                let y = y - top;
+                (y / down * columns * count + y % down * across) as usize
+            })
         };
         let (traced, shadow_rays) =
-            self.tracer.trace(&plan.traced, grid, corners, (light.len(), 1.0), place);
+            self.tracer.trace(&plan.traced, &grid, corners, (light.len(), 1.0), places);
         light.copy_from_slice(traced);
         (light.len() as u64, shadow_rays)
     }
@@ -162,44 +178,67 @@ impl Worker {
         self.needy.clear();
         self.places.clear();
         let few = plan.few.samples.count() as usize;
+        // What was made of the last cell whose samples are all the same: of background there is much.
+        let mut flat: Option<(Vec3, Fitted)> = None;
         for (cell, (fit, &need)) in fits.iter_mut().zip(needs).enumerate() {
             if many.is_some_and(|(_, above)| need > above) {
-                self.places.push(Some(self.needy.len()));
+                self.places.push(self.needy.len());
                 self.needy.push(((cell % columns) as u32, (first + cell / columns) as u32));
                 continue;
             }
-            self.places.push(None);
+            self.places.push(usize::MAX);
             let start = ((first - known) * columns + cell) * few;
-            let samples = start..start + few;
-            *fit = plan.few.fitter.fit(&light[samples], &mut self.memory);
+            let light = &light[start..start + few];
+            let is_flat = light.iter().all(|&other| other == light[0]);
+            *fit = match flat {
+                Some((color, fit)) if is_flat && color == light[0] => fit,
+                _ => plan.few.fitter.fit(light, &mut self.memory),
+            };
+            if is_flat {
+                flat = Some((light[0], *fit));
+            }
         }
-        let Some((many, _)) = many.filter(|_| !self.needy.is_empty()) else { return (0, 0) };
+        many.map_or((0, 0), |(many, _)| self.fit_needy(plan, many, first, fits))
+    }
 
-        // The packets of a cell one after the other.
+    /// Fits glyphs to those of the cells from row `first` on that get many samples.
+    fn fit_needy(
+        &mut self,
+        plan: &Plan<'_>,
+        many: &Sampling,
+        first: usize,
+        fits: &mut [Fitted],
+    ) -> (u64, u64) {
+        let Self { tracer, memory, needy, places, .. } = self;
+        let columns = plan.columns;
         let Sampling { samples, grid, fitter } = many;
-        let (across, down) = (samples.across, samples.down);
+        let (across, down, count) = (samples.across, samples.down, samples.count() as usize);
         let (tile_width, tile_height) = Camera::tile::<[f32; 16]>();
-        let corners = self.needy.iter().flat_map(|&(column, row)| {
-            let tiles = (0..down).step_by(tile_height as usize);
-            tiles.flat_map(move |y| {
-                let tiles = (0..across).step_by(tile_width as usize);
-                tiles.map(move |x| (column * across + x, row * down + y))
-            })
-        });
-        let count = samples.count() as usize;
-        let places = &self.places;
-        let place = |x, y| {
-            let cell = (y / down) as usize - first;
-            let place = places[cell * columns + (x / across) as usize]?;
-            Some(place * count + (y % down * across + x % across) as usize)
-        };
-        let pixels = self.needy.len() * count;
-        let (traced, shadow_rays) =
-            self.tracer.trace(&plan.traced, grid, corners, (pixels, 1.0), place);
-        for (&(column, row), light) in self.needy.iter().zip(traced.chunks(count)) {
-            let cell = (row as usize - first) * columns + column as usize;
-            fits[cell] = fitter.fit(light, &mut self.memory);
+        let at_once = (AT_ONCE / count).max(1);
+        let mut rays = 0;
+        for (needy, begin) in needy.chunks(at_once).zip((0..).step_by(at_once)) {
+            // The packets of a cell one after the other.
+            let corners = needy.iter().flat_map(|&(column, row)| {
+                let tiles = (0..down).step_by(tile_height as usize);
+                tiles.flat_map(move |y| {
+                    let tiles = (0..across).step_by(tile_width as usize);
+                    tiles.map(move |x| (column * across + x, row * down + y))
+                })
+            });
+            let at = |(left, top): (u32, u32)| {
+                let cell = ((top / down) as usize - first) * columns + (left / across) as usize;
+                let start = (places[cell] - begin) * count;
+                let of_column = |x| start + (x % across) as usize;
+                Places::new((left, top), of_column, |y| (y % down * across) as usize)
+            };
+            let pixels = (needy.len() * count, 1.0);
+            let (traced, shadow_rays) = tracer.trace(&plan.traced, grid, corners, pixels, at);
+            for (&(column, row), light) in needy.iter().zip(traced.chunks(count)) {
+                let cell = (row as usize - first) * columns + column as usize;
+                fits[cell] = fitter.fit(light, memory);
+            }
+            rays += shadow_rays;
         }
-        (pixels as u64, shadow_rays)
+        ((needy.len() * count) as u64, rays)
     }
 }

@@ -9,6 +9,7 @@ use crate::structure::search::{Scratch, Tracing};
 use crate::style::Style;
 use crate::view::View;
 use spherule_kernel::{Camera, HitPacket, RayPacket, Vec3};
+use std::array;
 
 /// What is traced, and how.
 #[derive(Clone, Copy, Debug)]
@@ -41,6 +42,32 @@ impl SampleGrid {
     }
 }
 
+/// Columns and rows of samples in a packet.
+const TILE: (u32, u32) = Camera::tile::<[f32; 16]>();
+
+/// Which pixels the samples of a packet belong to: each to the sum of what its column and its row have here. So there
+/// are eight numbers to be found in place of sixteen, each by division.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Places {
+    columns: [usize; TILE.0 as usize],
+    rows: [usize; TILE.1 as usize],
+}
+
+impl Places {
+    /// Of the packet with this top left sample.
+    #[inline]
+    pub(super) fn new(
+        (left, top): (u32, u32),
+        of_column: impl Fn(u32) -> usize,
+        of_row: impl Fn(u32) -> usize,
+    ) -> Self {
+        Self {
+            columns: array::from_fn(|x| of_column(left + x as u32)),
+            rows: array::from_fn(|y| of_row(top + y as u32)),
+        }
+    }
+}
+
 /// Traces, and keeps its memory from one call to the next.
 #[derive(Debug, Default)]
 pub(super) struct Tracer {
@@ -55,15 +82,15 @@ impl Tracer {
     /// Traces the packets of `grid` whose top left samples are `corners`, and returns the light of so many `pixels`
     /// and how many shadow rays it took.
     ///
-    /// Every sample adds its `share` to the pixel that `place` names; one without a place adds nothing. In the order
-    /// of the packets, so that sums are the same whoever computes them.
+    /// Every sample adds its `share` to the pixel that `places` names. In the order of the packets, so that sums are the
+    /// same whoever computes them.
     pub(super) fn trace(
         &mut self,
         traced: &Traced<'_>,
         grid: &SampleGrid,
         corners: impl Iterator<Item = (u32, u32)> + Clone,
         (pixels, share): (usize, f32),
-        place: impl Fn(u32, u32) -> Option<usize>,
+        places: impl Fn((u32, u32)) -> Places,
     ) -> (&[Vec3], u64) {
         let &Traced { tracing, scene, search } = traced;
         let &SampleGrid { camera, width, height } = grid;
@@ -77,16 +104,16 @@ impl Tracer {
 
         // The background is light already; what was met is noted for the shader.
         self.picture.reset(pixels);
-        let (across, _) = Camera::tile::<[f32; 16]>();
         let background = share * scene.background.to_linear();
         for ((left, top), hits) in corners.zip(&self.hits) {
             self.shader.begin_packet();
+            let places = places((left, top));
             for (lane, hit) in hits.hits().enumerate() {
-                let (x, y) = (left + lane as u32 % across, top + lane as u32 / across);
-                if x >= width || y >= height {
+                let (x, y) = (lane as u32 % TILE.0, lane as u32 / TILE.0);
+                if left + x >= width || top + y >= height {
                     continue;
                 }
-                let Some(pixel) = place(x, y) else { continue };
+                let pixel = places.columns[x as usize] + places.rows[y as usize];
                 let met = hit.and_then(|hit| scene.colors().get(hit.sphere as usize));
                 match met {
                     Some(color) => {
