@@ -4,6 +4,7 @@
 //! After a change that is meant, `SPHERULE_GOLDEN=write cargo test -p spherule-tests golden`
 //! writes the files in `tui/tests/golden` anew; read the diff before committing it.
 
+use spherule::cells::masks::repertoire;
 use spherule::draw::{draw, sample_grid};
 use spherule::scene::Scene;
 use spherule::style::{Charset, ColorDepth, Style};
@@ -69,35 +70,33 @@ fn colours() {
     }
 }
 
-/// One sample a pixel: each pixel is on exactly where the oracle says that its ray meets the
-/// sphere.
+/// One sample a bin: each bin is on exactly where the oracle says that its ray meets the sphere.
 #[test]
 fn every_sample_of_unit_is_what_the_oracle_says() {
     let scene = scene::builtin::builtin("unit").expect("unit");
     let sphere = Sphere { center: Vec3::ZERO, radius: 1.0 };
     let (mut hits, mut misses) = (0, 0);
     for (columns, rows) in [(80, 24), (61, 33), (200, 60)] {
-        for charset in [Charset::Ascii, Charset::Half] {
+        for (charset, samples) in [(Charset::Half, 2), (Charset::Octant, 8), (Charset::Braille, 8)]
+        {
+            let (across, down, glyphs) = &repertoire(charset).mosaic;
             for kind in [LensKind::Perspective, LensKind::Parallel] {
                 for turn in [0.0, 0.7] {
-                    let style = Style { charset, samples: Some(1), ..ASCII };
+                    let style = Style { charset, samples: Some(samples), ..ASCII };
                     let aspect = style.picture_aspect(columns, rows) as f32;
                     let view = orbited(&scene.first_view(aspect), turn, turn / 2.0);
                     let view = with_projection(&view, kind);
                     let (camera, width, height) = sample_grid(&view, &style, columns, rows);
-                    let down = if charset == Charset::Half { 2 } else { 1 };
-                    assert_eq!((width, height), (u32::from(columns), u32::from(rows) * down));
+                    let (across, down) = (*across as u32, *down as u32);
+                    assert_eq!(width, u32::from(columns) * across);
+                    assert_eq!(height, u32::from(rows) * down);
                     let cells = draw(&scene, &view, &style, columns, rows).cells;
                     for iy in 0..height {
                         for ix in 0..width {
-                            let row = cells.row((iy / down) as u16);
-                            let on = match row[ix as usize].glyph {
-                                '@' | '█' => true,
-                                ' ' => false,
-                                '▀' => iy % 2 == 0,
-                                '▄' => iy % 2 == 1,
-                                other => panic!("{other} in a picture of on and off"),
-                            };
+                            let cell = cells.row((iy / down) as u16)[(ix / across) as usize];
+                            let bits = glyphs.iter().position(|&glyph| glyph == cell.glyph);
+                            let bits = bits.expect("a glyph of the charset");
+                            let on = bits >> (iy % down * across + ix % across) & 1 == 1;
                             let ray = camera.get_ray(ix, iy);
                             let met = oracle::intersect(&ray, &sphere).is_some();
                             assert_eq!(on, met, "{columns}x{rows} {kind:?} {turn} at {ix},{iy}");

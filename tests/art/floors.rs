@@ -71,35 +71,24 @@ fn marbles() -> Scene {
     builtin("marbles").expect("a built-in scene")
 }
 
-/// `marbles` at 8x16 pixels a cell: half blocks of so many samples that each half is the mean of its pixel.
+/// `marbles` in the pixels that `--png` writes.
 static TRUTH: LazyLock<Truth> = LazyLock::new(|| {
-    let (columns, halves) = (COLUMNS * WIDTH as u16, ROWS * HEIGHT as u16);
-    let style = Style {
-        charset: Charset::Half,
-        depth: ColorDepth::Truecolor,
-        samples: Some(32),
-        ..Style::PLAIN
-    };
     let scene = marbles();
-    let view = scene.first_view(style.picture_aspect(columns, halves / 2) as f32);
-    let cells = draw::draw(&scene, &view, &style, columns, halves / 2).cells;
-    let rows = (0..cells.rows()).flat_map(|row| {
-        let cells = cells.row(row);
-        cells
-            .iter()
-            .map(|cell| halves_of(cell)[0])
-            .chain(cells.iter().map(|cell| halves_of(cell)[1]))
-    });
-    Truth::new(&Light::of_colors(usize::from(columns), rows)).expect("whole cells")
+    let view = scene.first_view(Style::PLAIN.picture_aspect(COLUMNS, ROWS) as f32);
+    let threads = Threads::default();
+    let grid = PixelGrid::new(&view, &Style::PLAIN, COLUMNS, ROWS);
+    let search = brute_force(&scene, &view);
+    let mut pixels: Vec<Rgb> = Vec::new();
+    let take = |row: &[u8]| {
+        pixels.extend(row.as_chunks().0);
+        Ok::<_, Infallible>(())
+    };
+    let renderer = Renderer::new(Level::best(), &threads);
+    let Ok(()) = renderer.draw_pixels(&scene, &search, Tier::Exact, &grid, take);
+    let (width, _) = grid.size();
+    assert_eq!(width as usize, usize::from(COLUMNS) * WIDTH);
+    Truth::new(&Light::of_colors(width as usize, pixels.into_iter())).expect("whole cells")
 });
-
-fn halves_of(cell: &Cell) -> [Rgb; 2] {
-    match (cell.glyph, cell.foreground, cell.background) {
-        ('▀', Color::Rgb(upper), Color::Rgb(lower)) => [upper, lower],
-        (' ', _, Color::Rgb(both)) => [both; 2],
-        _ => panic!("no half block: {cell:?}"),
-    }
-}
 
 /// What `marbles` reaches.
 fn reached(charset: Charset, depth: ColorDepth, font: Font) -> Figures {

@@ -22,6 +22,11 @@ pub(super) const TAPS: [f32; 7] = [
 ];
 const RADIUS: usize = TAPS.len() / 2;
 
+/// How far beyond what was sampled a correction goes, as factors, and at black.
+const DARKER: f32 = 0.75;
+const BRIGHTER: f32 = 1.3;
+const SPARE: f32 = 0.003;
+
 /// Corrects colours, and keeps its memory.
 #[derive(Clone, Debug, Default)]
 pub struct Residual {
@@ -29,6 +34,19 @@ pub struct Residual {
     row: Vec<f32>,
     /// Rows of parts, blurred from left to right.
     blurred: Vec<f32>,
+}
+
+/// How dark and how bright a correction may make ink (0) or paper (1): not far beyond what was sampled under it, or a
+/// neighbour's edge is seen as a mark of its own.
+fn limits(fit: &Fitted, layer: usize, color: Vec3) -> [Vec3; 2] {
+    let (mut low, mut high) = (color, color);
+    for (&part, cover) in fit.parts.iter().zip(fit.cover) {
+        if (cover > 0.5) == (layer == 0) {
+            low = low.min(part);
+            high = high.max(part);
+        }
+    }
+    [low * DARKER, (high * BRIGHTER + Vec3::splat(SPARE)).min(Vec3::ONE)]
 }
 
 impl Residual {
@@ -75,12 +93,14 @@ impl Residual {
                 }
             }
             corrected.extend(fits.iter().zip(&sums).zip(&covers).map(|((fit, sums), covers)| {
-                let add = |color: Vec3, sum: Vec3, cover: f32| {
+                [0, 1].map(|layer| {
+                    let color = if layer == 0 { fit.ink } else { fit.paper };
                     // What is not there has no colour.
-                    let more = if cover > 0.0 { sum / cover } else { Vec3::ZERO };
-                    (color + more).clamp(Vec3::ZERO, Vec3::ONE)
-                };
-                [add(fit.ink, sums[0], covers[0]), add(fit.paper, sums[1], covers[1])]
+                    let cover = covers[layer];
+                    let more = if cover > 0.0 { sums[layer] / cover } else { Vec3::ZERO };
+                    let [low, high] = limits(fit, layer, color);
+                    (color + more).clamp(low, high)
+                })
             }));
         }
     }
