@@ -1,17 +1,21 @@
 //! What the program's pictures reach at least: a loss of half a decibel fails, and so does a gain that
 //! is not noted here.
 
-use spherule::cells::{Cell, Color};
+use spherule::draw::pixels::PixelGrid;
+use spherule::draw::{self, Renderer};
+use spherule::encode;
 use spherule::scene::Scene;
 use spherule::scene::builtin::builtin;
 use spherule::style::{Charset, ColorDepth, Style};
-use spherule::{draw, encode};
+use spherule::threads::Threads;
+use spherule_kernel::{Level, Tier};
 use spherule_tests::art::cell::{HEIGHT, WIDTH};
 use spherule_tests::art::figures::{Figures, Truth};
 use spherule_tests::art::font::Font;
 use spherule_tests::art::light::Light;
 use spherule_tests::art::palette::{Rgb, sixteen};
 use spherule_tests::art::score;
+use std::convert::Infallible;
 use std::sync::LazyLock;
 
 const COLUMNS: u16 = 40;
@@ -29,42 +33,36 @@ struct Mode {
     correlation: f64,
 }
 
-const MODES: [Mode; 4] = [
-    Mode {
-        charset: Charset::Half,
-        depth: ColorDepth::Truecolor,
-        font: Font::Unifont,
-        far: 35.7,
-        correlation: 0.99,
-    },
-    Mode {
-        charset: Charset::Half,
-        depth: ColorDepth::Ansi256,
-        font: Font::Unifont,
-        far: 29.6,
-        correlation: 0.98,
-    },
-    Mode {
-        charset: Charset::Ascii,
-        depth: ColorDepth::Never,
-        font: Font::Unifont,
-        far: 10.4,
-        correlation: 0.76,
-    },
-    Mode {
-        charset: Charset::Ascii,
-        depth: ColorDepth::Never,
-        font: Font::DejaVuSansMono,
-        far: 10.4,
-        correlation: 0.8,
-    },
+/// One.
+const fn mode(charset: Charset, depth: ColorDepth, font: Font, far: f64, correlation: f64) -> Mode {
+    Mode { charset, depth, font, far, correlation }
+}
+
+const MODES: [Mode; 11] = [
+    mode(Charset::Half, ColorDepth::Truecolor, Font::Unifont, 40.7, 0.99),
+    mode(Charset::Quadrant, ColorDepth::Truecolor, Font::Unifont, 41.2, 0.99),
+    mode(Charset::Sextant, ColorDepth::Truecolor, Font::Unifont, 44.2, 0.99),
+    mode(Charset::Octant, ColorDepth::Truecolor, Font::Unifont, 43.5, 0.99),
+    mode(Charset::Block, ColorDepth::Truecolor, Font::Unifont, 45.0, 0.99),
+    mode(Charset::Braille, ColorDepth::Truecolor, Font::Unifont, 32.5, 0.98),
+    mode(Charset::Ascii, ColorDepth::Truecolor, Font::Unifont, 35.5, 0.99),
+    mode(Charset::Half, ColorDepth::Ansi256, Font::Unifont, 32.6, 0.99),
+    mode(Charset::Half, ColorDepth::Ansi16, Font::Unifont, 26.3, 0.97),
+    mode(Charset::Ascii, ColorDepth::Never, Font::Unifont, 14.9, 0.91),
+    mode(Charset::Ascii, ColorDepth::Never, Font::DejaVuSansMono, 15.6, 0.92),
 ];
 
 /// Glyphs and colours, and glyphs and colours that have all of these.
-const CONTAINED: [[(Charset, ColorDepth); 2]; 3] = [
+const CONTAINED: [[(Charset, ColorDepth); 2]; 9] = [
     [(Charset::Half, ColorDepth::Ansi16), (Charset::Half, ColorDepth::Ansi256)],
     [(Charset::Half, ColorDepth::Ansi256), (Charset::Half, ColorDepth::Truecolor)],
     [(Charset::Ascii, ColorDepth::Never), (Charset::Ascii, ColorDepth::Truecolor)],
+    [(Charset::Half, ColorDepth::Truecolor), (Charset::Quadrant, ColorDepth::Truecolor)],
+    [(Charset::Quadrant, ColorDepth::Truecolor), (Charset::Sextant, ColorDepth::Truecolor)],
+    [(Charset::Quadrant, ColorDepth::Truecolor), (Charset::Octant, ColorDepth::Truecolor)],
+    [(Charset::Sextant, ColorDepth::Truecolor), (Charset::Block, ColorDepth::Truecolor)],
+    [(Charset::Octant, ColorDepth::Truecolor), (Charset::Block, ColorDepth::Truecolor)],
+    [(Charset::Half, ColorDepth::Ansi256), (Charset::Block, ColorDepth::Ansi256)],
 ];
 
 fn marbles() -> Scene {
@@ -77,7 +75,7 @@ static TRUTH: LazyLock<Truth> = LazyLock::new(|| {
     let view = scene.first_view(Style::PLAIN.picture_aspect(COLUMNS, ROWS) as f32);
     let threads = Threads::default();
     let grid = PixelGrid::new(&view, &Style::PLAIN, COLUMNS, ROWS);
-    let search = brute_force(&scene, &view);
+    let search = draw::brute_force(&scene, &view);
     let mut pixels: Vec<Rgb> = Vec::new();
     let take = |row: &[u8]| {
         pixels.extend(row.as_chunks().0);

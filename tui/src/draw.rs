@@ -40,19 +40,25 @@ pub struct Drawn {
 /// To draw more than once, keep a [`Renderer`].
 #[must_use]
 pub fn draw(scene: &Scene, view: &View, style: &Style, columns: u16, rows: u16) -> Drawn {
+    let threads = Threads::default();
+    let mut renderer = Renderer::new(Level::best(), &threads);
+    let search = brute_force(scene, view);
+    renderer.draw(scene, &search, view, style, (columns, rows), Spending::ByNeed)
+}
+
+/// The search of a picture without a structure.
+#[must_use]
+pub fn brute_force<'a>(scene: &'a Scene, view: &View) -> PictureSearch<'a> {
     let camera = Search::Brute(scene.spheres());
     let lights = scene.lighting.lights(view);
     let to_lights = vec![camera; lights.len()];
-    let search = PictureSearch {
+    PictureSearch {
         structure: Structure::Brute,
         coherence: Coherence::Coherent,
         camera,
         lights,
         to_lights,
-    };
-    let threads = Threads::default();
-    let mut renderer = Renderer::new(Level::best(), &threads);
-    renderer.draw(scene, &search, view, style, (columns, rows), Spending::ByNeed)
+    }
 }
 
 /// The camera of a picture and the size of its grid of samples: sample `(ix, iy)` is the ray

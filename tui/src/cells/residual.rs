@@ -46,7 +46,8 @@ fn limits(fit: &Fitted, layer: usize, color: Vec3) -> [Vec3; 2] {
             high = high.max(part);
         }
     }
-    [low * DARKER, (high * BRIGHTER + Vec3::splat(SPARE)).min(Vec3::ONE)]
+    [low * DARKER, high * BRIGHTER + Vec3::splat(SPARE)]
+        .map(|limit| limit.clamp(Vec3::ZERO, Vec3::ONE))
 }
 
 impl Residual {

@@ -54,7 +54,8 @@ proptest! {
     #[test]
     fn a_constant_lack_comes_back_in_full(
         (columns, fits) in pictures(0.3..0.7),
-        lack in color(-0.25..0.25),
+        // Within the limits of the darkest of these colours.
+        lack in color(-0.07..0.07),
     ) {
         let rows = fits.len() / columns;
         let lacking: Vec<Fitted> =
@@ -74,6 +75,21 @@ proptest! {
             fits.iter().map(|fit| Fitted { parts: fit.parts.map(|part| part + lack), ..*fit }).collect();
         for color in corrected(&lacking, columns, 0..rows).iter().flatten() {
             prop_assert!(color.cmpge(Vec3::ZERO).all() && color.cmple(Vec3::ONE).all(), "{color}");
+        }
+    }
+
+    #[test]
+    fn corrections_stay_near_what_was_sampled((columns, mut fits) in pictures(0.0..1.0), lack in color(-2.0..2.0)) {
+        fits[0].parts = fits[0].parts.map(|part| (part + lack).clamp(Vec3::ZERO, Vec3::ONE));
+        let rows = fits.len() / columns;
+        for (fit, [ink, paper]) in fits.iter().zip(corrected(&fits, columns, 0..rows)) {
+            let parts = fit.parts.iter().chain([&fit.ink, &fit.paper]);
+            let low = parts.clone().fold(Vec3::ONE, |low, &part| low.min(part));
+            let high = parts.fold(Vec3::ZERO, |high, &part| high.max(part));
+            for color in [ink, paper] {
+                prop_assert!(color.cmpge(0.75 * low - 1e-6).all(), "{color} {low}");
+                prop_assert!(color.cmple(1.3 * high + 0.004).all(), "{color} {high}");
+            }
         }
     }
 
