@@ -9,7 +9,7 @@ use spherule::scene::builtin::builtin;
 use spherule::style::{Charset, ColorDepth, Style};
 use spherule::threads::Threads;
 use spherule_kernel::{Level, Tier};
-use spherule_tests::art::cell::{HEIGHT, WIDTH};
+use spherule_tests::art::cell::WIDTH;
 use spherule_tests::art::figures::{Figures, Truth};
 use spherule_tests::art::font::Font;
 use spherule_tests::art::light::Light;
@@ -48,7 +48,7 @@ const MODES: [Mode; 11] = [
     mode(Charset::Ascii, ColorDepth::Truecolor, Font::Unifont, 35.5, 0.99),
     mode(Charset::Half, ColorDepth::Ansi256, Font::Unifont, 32.6, 0.99),
     mode(Charset::Half, ColorDepth::Ansi16, Font::Unifont, 26.3, 0.97),
-    mode(Charset::Ascii, ColorDepth::Never, Font::Unifont, 14.9, 0.91),
+    mode(Charset::Ascii, ColorDepth::Never, Font::Unifont, 14.9, 0.9),
     mode(Charset::Ascii, ColorDepth::Never, Font::DejaVuSansMono, 15.6, 0.92),
 ];
 
@@ -85,7 +85,7 @@ static TRUTH: LazyLock<Truth> = LazyLock::new(|| {
     let Ok(()) = renderer.draw_pixels(&scene, &search, Tier::Exact, &grid, take);
     let (width, _) = grid.size();
     assert_eq!(width as usize, usize::from(COLUMNS) * WIDTH);
-    Truth::new(&Light::of_colors(width as usize, pixels.into_iter())).expect("whole cells")
+    Truth::new(&Light::of_colors(width as usize, pixels)).expect("whole cells")
 });
 
 /// What `marbles` reaches.
