@@ -4,7 +4,8 @@
 //! like it; an entry that looks far from it costs something, since it is seen as a dot. Sorted by lightness, each of
 //! four neighbours in a square shows one; in a cell of one colour the halves side by side show the lightest and the
 //! darkest, and in the next row the other two, which is finer still. Which one depends on the place alone: a picture
-//! at rest stays as it is, and what moves takes no pattern along.
+//! at rest stays as it is, and what moves takes no pattern along. What moves in the viewer gets the nearest entries:
+//! there each mix would be sent again for every shade that passes, which doubles the bytes of a frame.
 //!
 //! Source: J. Yliluoma, "Arbitrary-palette positional dithering algorithm", 2011, the second; by distance in `OKLab`
 //! of means in linear light.
@@ -32,13 +33,15 @@ const MOST_KEPT: usize = 1 << 16;
 pub struct Dither {
     entries: Vec<Entry>,
     mixes: HashMap<Srgb, [Color; MIX]>,
+    /// By the upper 6 bits of a channel.
+    nearest: HashMap<Srgb, Color>,
 }
 
 impl Dither {
     /// Of these entries.
     #[must_use]
     pub fn new(entries: Vec<Entry>) -> Self {
-        Self { entries, mixes: HashMap::new() }
+        Self { entries, mixes: HashMap::new(), nearest: HashMap::new() }
     }
 
     /// What the place `(x, y)` shows of a colour, which is rounded to 8 bits a channel.
@@ -52,6 +55,19 @@ impl Dither {
     pub fn pair(&mut self, light: Vec3, y: usize) -> [Color; 2] {
         let mix = self.mix_of(light);
         if y.is_multiple_of(2) { [mix[0], mix[3]] } else { [mix[1], mix[2]] }
+    }
+
+    /// The entry that looks nearest to a colour, which is rounded to 6 bits a channel.
+    #[must_use]
+    pub fn nearest(&mut self, light: Vec3) -> Color {
+        // Replicate the upper bits, so that black and white stay what they are.
+        let rounded = Srgb(Srgb::from_linear(light).0.map(|channel| channel & !3 | channel >> 6));
+        *self.nearest.entry(rounded).or_insert_with(|| {
+            let look = oklab(rounded.to_linear());
+            let distance = |entry: &&Entry| (entry.look - look).length_squared();
+            let by_distance = |a: &&Entry, b: &&Entry| distance(a).total_cmp(&distance(b));
+            self.entries.iter().min_by(by_distance).map_or(Color::Default, |entry| entry.color)
+        })
     }
 
     fn mix_of(&mut self, light: Vec3) -> [Color; MIX] {
@@ -96,5 +112,75 @@ impl Dither {
         });
         mix.sort_by(|a, b| a.look.x.total_cmp(&b.look.x));
         mix.map(|entry| entry.color)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::palette::{Theme, entries, xterm_256};
+    use crate::style::ColorDepth;
+
+    fn dither() -> Dither {
+        Dither::new(entries(ColorDepth::Ansi256, &Theme::XTERM))
+    }
+
+    fn light(color: Color) -> Vec3 {
+        let Color::Ansi256(index) = color else { panic!("{color:?} is not of the palette") };
+        xterm_256(index).to_linear()
+    }
+
+    /// Colours of all kinds, dark ones too.
+    fn colors() -> impl Iterator<Item = Vec3> {
+        let levels = [0, 9, 40, 77, 120, 163, 208, 255];
+        let all = levels.map(|red| levels.map(|green| levels.map(|blue| Srgb([red, green, blue]))));
+        all.into_iter().flatten().flatten().map(Srgb::to_linear)
+    }
+
+    #[test]
+    fn entries_are_themselves() {
+        let mut dither = dither();
+        for index in 16..=255 {
+            let light = xterm_256(index).to_linear();
+            let shown = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|place| dither.color(light, place));
+            for color in
+                shown.into_iter().chain(dither.pair(light, 0)).chain([dither.nearest(light)])
+            {
+                // Some colours have two names.
+                assert_eq!(self::light(color), light);
+            }
+        }
+    }
+
+    #[test]
+    fn four_are_nearer_than_one_and_each_place_shows_one() {
+        let mut dither = dither();
+        let (mut mixed, mut single) = (0.0, 0.0);
+        for wanted in colors() {
+            let places = [(4, 6), (5, 6), (4, 7), (5, 7)];
+            let four = places.map(|place| dither.color(wanted, place));
+            let distance = |light: Vec3| (oklab(light) - oklab(wanted)).length();
+            mixed += distance(four.map(light).iter().sum::<Vec3>() / 4.0);
+            single += distance(light(dither.nearest(wanted)));
+            let mut rows = [dither.pair(wanted, 0), dither.pair(wanted, 1)].concat();
+            // The rows of pairs show the same four.
+            for color in four {
+                let place = rows.iter().position(|&other| other == color).expect("one of the mix");
+                rows.swap_remove(place);
+            }
+        }
+        assert!(mixed < 0.5 * single, "{mixed} of {single}");
+    }
+
+    #[test]
+    fn nothing_else_looks_nearer_than_the_nearest() {
+        let mut dither = dither();
+        for wanted in colors() {
+            let distance = |light: Vec3| (oklab(light) - oklab(wanted)).length();
+            let least = (16..=255).map(|index| distance(xterm_256(index).to_linear()));
+            let least = least.fold(f32::INFINITY, f32::min);
+            // Colours are rounded first.
+            assert!(distance(light(dither.nearest(wanted))) < least + 0.02);
+        }
     }
 }

@@ -44,9 +44,10 @@ pub struct Painter {
 
 impl Painter {
     /// Fills `cells`, whole rows of so many `columns` from row `first` on, by `fits` that begin with row `known`.
+    /// Unless the picture is `steady`, colours are not mixed.
     pub fn paint(
         &mut self,
-        style: &Style,
+        (style, steady): (&Style, bool),
         (fits, known): (&[Fitted], usize),
         columns: usize,
         first: usize,
@@ -76,6 +77,12 @@ impl Painter {
             Colors::Shades(shades) => {
                 for ((cell, fit), &colors) in cells.zip(colors) {
                     *cell = shades.cell(fit, colors);
+                }
+            }
+            Colors::Dither(dither) if !steady => {
+                for ((cell, fit), colors) in cells.zip(colors) {
+                    let [ink, paper] = colors.map(|color| dither.nearest(color));
+                    *cell = two_colors(fit.glyph, ink, paper);
                 }
             }
             Colors::Dither(dither) => {

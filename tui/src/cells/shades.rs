@@ -134,3 +134,65 @@ impl Shades {
         nearest.map(|(_, entry)| entry)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::Srgb;
+    use crate::palette::{Theme, entries};
+    use crate::style::ColorDepth;
+
+    fn shades(charset: Charset) -> Shades {
+        Shades::new(entries(ColorDepth::Ansi16, &Theme::XTERM), charset)
+    }
+
+    fn flat(shades: &Shades, light: Vec3) -> Cell {
+        shades.cell(&Fitted::NONE, [light; 2])
+    }
+
+    #[test]
+    fn a_colour_of_the_theme_is_a_space() {
+        for charset in [Charset::Ascii, Charset::Half, Charset::Block] {
+            let shades = shades(charset);
+            for (index, color) in (0..).zip(Theme::XTERM.0) {
+                let cell = flat(&shades, color.to_linear());
+                assert_eq!((cell.glyph, cell.background), (' ', Color::Ansi16(index)));
+            }
+        }
+    }
+
+    #[test]
+    fn between_two_colours_there_are_three_shades() {
+        let shades = shades(Charset::Half);
+        // Red and yellow: what is between them is orange, which the theme lacks.
+        let [red, yellow] = [1, 3].map(|index: usize| Theme::XTERM.0[index].to_linear());
+        for (glyph, share) in BLOCKS {
+            let cell = flat(&shades, red + share * (yellow - red));
+            let expected =
+                Cell { glyph, foreground: Color::Ansi16(3), background: Color::Ansi16(1) };
+            assert_eq!(cell, expected);
+        }
+    }
+
+    #[test]
+    fn halves_are_kept_where_they_differ() {
+        let shades = shades(Charset::Half);
+        let fit =
+            Fitted {
+                glyph: '▀', cover: [1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0], ..Fitted::NONE
+            };
+        let [green, blue] = [Srgb([0, 200, 10]), Srgb([10, 0, 230])].map(Srgb::to_linear);
+        let cell = shades.cell(&fit, [green, blue]);
+        let expected =
+            Cell { glyph: '▀', foreground: Color::Ansi16(2), background: Color::Ansi16(4) };
+        assert_eq!(cell, expected);
+    }
+
+    #[test]
+    fn two_greys_that_one_colour_is_nearest_to_are_told_apart() {
+        let shades = shades(Charset::Half);
+        let [one, other] = [Srgb([0x82; 3]), Srgb([0xa0; 3])].map(Srgb::to_linear);
+        assert_eq!(shades.nearest(oklab(one))[0].color, shades.nearest(oklab(other))[0].color);
+        assert_ne!(flat(&shades, one), flat(&shades, other));
+    }
+}

@@ -9,7 +9,7 @@ pub enum Spending {
     /// As many as it needs.
     ByNeed,
     /// No more than these. The few that every cell gets are taken whatever they sum up to, and nothing is saved on
-    /// samples whose number the style names.
+    /// samples whose number the style names. Of 256 colours the nearest are taken, unmixed: see [`crate::cells::dither`].
     AtMost(u64),
 }
 
@@ -20,7 +20,7 @@ pub struct Effort {
     pub samples: u64,
     /// How many rays, shadow rays among them.
     pub rays: u64,
-    /// Whether every cell got what it needs.
+    /// Whether every cell got what it needs, mixed colours among it.
     pub is_full: bool,
 }
 

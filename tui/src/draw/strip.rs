@@ -11,12 +11,13 @@
 use super::need::Looks;
 use super::packet_order::packet_corners;
 use super::plan::{Plan, Sampling};
-use super::spending::{Effort, Grant};
+use super::spending::{Effort, Grant, Spending};
 use super::tracer::{Places, SampleGrid, Tracer};
 use crate::cells::Cell;
 use crate::cells::fit::Fitted;
 use crate::cells::paint::Painter;
 use crate::color::oklab;
+use crate::style::ColorDepth;
 use crate::threads::Threads;
 use spherule_kernel::{Camera, Vec3};
 use std::ops::Range;
@@ -130,14 +131,16 @@ impl Strip {
             count(worker.fit(plan, many, known, first, (fits, needs)));
         });
 
+        // Dither costs bytes, and is for pictures that stay.
+        let steady = plan.spending == Spending::ByNeed || plan.style.depth != ColorDepth::Ansi256;
         let bands = cells.chunks_mut(band).zip(rows.step_by(BAND));
         threads.share(workers, bands, |worker, (cells, first)| {
             let known = (&**fits, fitted.start);
-            worker.painter.paint(plan.style, known, plan.columns, first, cells);
+            worker.painter.paint((plan.style, steady), known, plan.columns, first, cells);
         });
         let samples = samples.into_inner();
         let rays = samples + shadow_rays.into_inner();
-        Effort { samples, rays, is_full: grant == Grant::FULL }
+        Effort { samples, rays, is_full: steady && grant == Grant::FULL }
     }
 }
 

@@ -124,3 +124,18 @@ fn an_error_ends_it() {
     });
     assert_eq!((result, taken), (Err("full"), 3));
 }
+
+#[test]
+fn what_moves_is_not_mixed_of_256_colours() {
+    let style = Style { charset: Charset::Half, depth: ColorDepth::Ansi256, ..STYLE };
+    let steady = drawn(&style, 1, STRIP, Spending::ByNeed);
+    let moving = drawn(&style, 1, STRIP, Spending::AtMost(u64::MAX));
+    assert!(steady.effort.is_full && !moving.effort.is_full);
+    assert_eq!(moving.effort.samples, steady.effort.samples);
+    let changes = |drawn: &Drawn| {
+        let pairs = drawn.cells.cells().windows(2);
+        pairs.filter(|pair| pair[0].background != pair[1].background).count()
+    };
+    let (mixed, plain) = (changes(&steady), changes(&moving));
+    assert!(plain * 4 < mixed * 3, "{plain} changes of colour in place of {mixed}");
+}
