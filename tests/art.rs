@@ -3,3 +3,4 @@
 mod floors;
 mod ink;
 mod scorer;
+mod spin;

@@ -1,11 +1,13 @@
 //! What a screen looks like, to be compared.
 
+use spherule::cells::masks::opposite;
 use vt100::{Color, Screen};
 
 /// A glyph and its colours.
 pub(crate) type Look = (String, Color, Color);
 
-/// The first `rows` rows, every cell of them. The ink of a space cannot be seen.
+/// The first `rows` rows, every cell of them. The ink of a space cannot be seen; of two glyphs that fill what the
+/// other leaves it is the first, whichever the program sent.
 pub(crate) fn look(screen: &Screen, rows: u16) -> Vec<Vec<Look>> {
     let columns = screen.size().1.get();
     (0..rows.min(screen.size().0.get()))
@@ -17,6 +19,10 @@ fn cell_look(screen: &Screen, row: u16, column: u16) -> Option<Look> {
     let cell = screen.cell(row, column)?;
     Some(match cell.contents() {
         "" | " " => (" ".to_owned(), Color::Default, cell.bgcolor()),
+        "▄" | "▐" => {
+            let glyph = cell.contents().chars().find_map(opposite)?;
+            (glyph.to_string(), cell.bgcolor(), cell.fgcolor())
+        }
         glyph => (glyph.to_owned(), cell.fgcolor(), cell.bgcolor()),
     })
 }

@@ -79,7 +79,8 @@ fn changed_cells(
             if !cursor.rewrite_gap(row, column, cells, &pen, out) {
                 cursor.go_to(row, column, out);
             }
-            pen.take_up(cell, out);
+            let cell = pen.nearer_form(cell);
+            pen.take_up(&cell, out);
             push_glyph(cell.glyph, out);
             cursor.advance(next.columns());
         }

@@ -37,6 +37,20 @@ const OCTANTS: [&str; 16] = [
     "▄𜷛𜷜𜷝𜷞▙𜷟𜷠𜷡𜷢▟𜷣▆𜷤𜷥█",
 ];
 
+/// Halves and quadrants, each before what it leaves: these are in as many fonts, and as long.
+const OPPOSITES: &str = "▀▄▌▐▘▟▝▙▖▜▗▛▚▞";
+
+/// The glyph that fills what `glyph` leaves, if it is as common.
+#[must_use]
+pub fn opposite(glyph: char) -> Option<char> {
+    // Most are spaces, and few are anything else.
+    if !('▀'..='▟').contains(&glyph) {
+        return None;
+    }
+    let place = OPPOSITES.chars().position(|other| other == glyph)?;
+    OPPOSITES.chars().nth(place ^ 1)
+}
+
 /// Dots, of which a font fills some part of each bin.
 const BRAILLE: [&str; 16] = [
     "⠀⠁⠈⠉⠂⠃⠊⠋⠐⠑⠘⠙⠒⠓⠚⠛",

@@ -1,5 +1,6 @@
 //! Colours as SGR parameters.
 
+use crate::cells::masks::opposite;
 use crate::cells::{Cell, Color};
 
 /// The colours that the terminal will draw the next glyph with.
@@ -17,6 +18,22 @@ impl Pen {
     pub(super) fn suits(self, cell: &Cell) -> bool {
         self.background == cell.background
             && (self.foreground == cell.foreground || cell.glyph == ' ')
+    }
+
+    /// `cell`, or what looks the same with ink and paper exchanged, if that takes fewer colours.
+    pub(super) fn nearer_form(self, cell: &Cell) -> Cell {
+        let Cell { glyph, foreground, background } = *cell;
+        let kept =
+            |ink, paper| u8::from(self.foreground == ink) + u8::from(self.background == paper);
+        // The terminal's own ink is not its own paper, and of the 16 some have only eight for paper.
+        let is_free = |color| matches!(color, Color::Ansi256(_) | Color::Rgb(_));
+        let other = opposite(glyph).filter(|_| is_free(foreground) && is_free(background));
+        match other {
+            Some(glyph) if kept(background, foreground) > kept(foreground, background) => {
+                Cell { glyph, foreground: background, background: foreground }
+            }
+            _ => *cell,
+        }
     }
 
     /// Appends the shortest change that suits `cell`; whether there was one.

@@ -244,3 +244,17 @@ fn no_charset_has_glyphs_of_a_finer_one() {
     assert!(newest(Charset::Sextant) <= Some('🬻'));
     assert_eq!(Charset::value_variants().len(), GEOMETRY.len() + 1, "ASCII is no geometry");
 }
+
+#[test]
+fn opposites_fill_what_the_other_leaves() {
+    let all = table(&QUADRANTS);
+    let mut found = 0;
+    for (bits, &glyph) in all.iter().enumerate() {
+        if let Some(other) = opposite(glyph) {
+            assert_eq!(other, all[15 - bits], "{glyph}");
+            found += 1;
+        }
+    }
+    // All but nothing and everything.
+    assert_eq!((found, opposite(' '), opposite('█'), opposite('a')), (14, None, None, None));
+}
