@@ -49,7 +49,7 @@ fn exact_surfaces_are_correctly_rounded_from_afar_and_for_any_bits() {
     let mut random = Random::seeded(6);
     let mut checked = 0;
     for index in 0..12_000 {
-        let (ray, sphere) = match index % 4 {
+        let (ray, sphere) = match index % 5 {
             0 => {
                 let far = 10_f32.powf(random.between(-1.0, 1.0) * 4.0 + 4.0);
                 let sphere =
@@ -73,6 +73,14 @@ fn exact_surfaces_are_correctly_rounded_from_afar_and_for_any_bits() {
                 let sphere = Sphere { center, radius: random.pick(&[4.0, 8.0, 5.0]) };
                 let origin = Vec3::new(random.between(1.0, 2.0), -random.between(1.0, 2.0), -9.0);
                 (Ray::new(origin, Vec3::Z), sphere)
+            }
+            // A ground, seen from a little above it or below.
+            3 => {
+                let radius = 10_f32.powf(random.between(2.0, 7.0));
+                let sphere = Sphere { center: Vec3::new(0.0, -radius, 0.0), radius };
+                let near = 10_f32.powf(random.between(-3.0, 3.0));
+                let origin = random.in_cube(near);
+                (Ray::new(origin, random.direction()), sphere)
             }
             _ => {
                 let [a, b, c, d, e, f] = [(); 6].map(|()| random.any_f32());

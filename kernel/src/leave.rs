@@ -21,10 +21,10 @@ use crate::exact::QuadraticTerms;
 use crate::geometry::ray::Ray;
 use crate::geometry::sphere::Sphere;
 use crate::geometry::surface::Surface;
-use crate::lanes::{DoubleLanes, Lanes};
+use crate::lanes::Lanes;
 use crate::linear::roots;
 use crate::numeric::axes::{axes, dot};
-use crate::numeric::error_free::two_sum;
+use crate::numeric::power_of_point::power_of;
 use core::cmp::Ordering;
 use glam::Vec3;
 
@@ -194,24 +194,6 @@ fn next(steps: f64) -> f64 {
 
 /// 2^-20: the cosine from which on a ray goes back.
 const BACK: f64 = 8.0 * f32::EPSILON as f64;
-/// |x - c|^2 - r^2 of numbers of single precision, and what it may be off besides u of itself.
-///
-/// All ten products are exact, and their sum is compensated: off by u of itself and 81 u^2 of their magnitudes
-/// (Ogita, Rump, Oishi 2005, Accurate Sum and Dot Product, Sum2). Plain double precision does not tell the points of
-/// a ground of radius 10^6 from each other.
-#[inline(always)]
-fn power_of<D: DoubleLanes>(x: [D; 3], c: [D; 3], radius: D) -> (D, D) {
-    let square = radius * radius;
-    let (mut sum, mut error, mut size) = (-square, radius.like(0.0), square);
-    for i in 0..3 {
-        for term in [x[i] * x[i], c[i] * c[i], -((x[i] + x[i]) * c[i])] {
-            let (high, low) = two_sum(sum, term);
-            (sum, error, size) = (high, error + low, size + term.abs());
-        }
-    }
-    (sum + error, radius.like(256.0 * U * U) * size)
-}
-
 /// A step: an ulp of the largest coordinate, but for subnormal ones; near zero, where a point is not known so well,
 /// more.
 #[inline(always)]

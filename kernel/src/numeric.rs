@@ -1,8 +1,9 @@
-//! Arithmetic that knows no geometry: vectors of three, sums and products without error, rounding
-//! outward, powers of two, and whether the machine rounds as the proofs assume.
+//! Arithmetic: vectors of three, sums and products without error, the power of a point, rounding outward, powers of
+//! two, and whether the machine rounds as the proofs assume.
 
 pub(crate) mod axes;
 pub(crate) mod error_free;
 pub(crate) mod float_environment;
+pub(crate) mod power_of_point;
 pub(crate) mod power_of_two;
 pub(crate) mod rounding;

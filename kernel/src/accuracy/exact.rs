@@ -12,6 +12,7 @@
 //! The bound is proven in `docs/numerics.md`; `exact/estimate/worst.rs` climbs towards it.
 
 pub(super) mod estimate;
+mod from_start;
 mod order;
 mod surface;
 

@@ -2,7 +2,7 @@
 //!
 //! Steps are tried in double-precision lanes; a ray that these cannot decide goes on alone.
 
-use super::{Side, U, next, power_of, start_of, step_of};
+use super::{Side, U, next, start_of, step_of};
 use crate::accuracy::{Accuracy, RayLanes, Tier, test_lanes};
 use crate::geometry::hit::HitPacket;
 use crate::geometry::ray::{Ray, RayPacket};
@@ -10,6 +10,7 @@ use crate::geometry::sphere::Spheres;
 use crate::geometry::surface::SurfacePacket;
 use crate::lanes::{DoubleLanes, LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::{axes, dot};
+use crate::numeric::power_of_point::power_of;
 use crate::surface::HitSpheres;
 use glam::Vec3;
 

@@ -1,7 +1,9 @@
 //! The surface at a hit, correctly rounded.
 //!
-//! In double precision with its bound; then exactly, a coordinate at a time.
+//! In double precision with its bound, as seen from the centre; then as seen from the start of the ray; then exactly, a
+//! coordinate at a time.
 
+use super::from_start;
 use super::order::Answered;
 use crate::accuracy::RayLanes;
 use crate::accuracy::surface::{Line, SurfaceLanes, line, rest};
@@ -21,6 +23,12 @@ pub(super) fn at(ray: &Ray, t: f32, sphere: &Sphere) -> Surface {
     let line = line::<true>(ray, sphere);
     let (value, error, per_radius) = line.point(root == Root::Near);
     let of_point = if line.error < line.discriminant { error } else { f64::INFINITY };
+    let seen = from_start::point(ray, sphere, &line, root == Root::Near);
+    // Whichever is known better.
+    let estimated = |axis: usize| match seen {
+        Some((value, error)) if error[axis] < of_point => (value[axis], error[axis]),
+        _ => (value[axis], of_point),
+    };
 
     let terms = QuadraticTerms::new(
         ray.origin.to_array(),
@@ -29,10 +37,13 @@ pub(super) fn at(ray: &Ray, t: f32, sphere: &Sphere) -> Surface {
         sphere.radius,
     );
     let rounded = |axis: usize, of: Surveyed| {
-        let value = value[axis % 3];
+        let (value, of_point) = estimated(axis);
         let (value, error, most) = match of {
             Surveyed::Point => (value, of_point, sphere.radius),
-            Surveyed::Normal => (value * per_radius, normal_error(of_point, per_radius), 1.0),
+            Surveyed::Normal => {
+                let value = value * per_radius;
+                (value, of_point * per_radius * (1.0 + 8.0 * U) + 8.0 * U * value.abs(), 1.0)
+            }
         };
         let (low, high) = ((value - error) as f32, (value + error) as f32);
         if low == high {
@@ -43,7 +54,7 @@ pub(super) fn at(ray: &Ray, t: f32, sphere: &Sphere) -> Surface {
     };
     let all = |of: Surveyed| Vec3::from_array([0, 1, 2].map(|axis| rounded(axis, of)));
     let point = all(Surveyed::Point);
-    let rest = axes!(i => (value[i] - f64::from(point[i])) as f32);
+    let rest = axes!(i => (estimated(i).0 - f64::from(point[i])) as f32);
     Surface { normal: all(Surveyed::Normal), point, rest: Vec3::from_array(rest) }
 }
 
