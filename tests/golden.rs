@@ -45,9 +45,11 @@ fn scenes_in_ascii() {
 }
 
 #[test]
-fn edge_as_fast_sees_it() {
-    let fast = Style { accuracy: Tier::Fast, ..ASCII };
-    check("edge-fast.txt", &picture("edge", &fast, 60, 24));
+fn edge_as_the_lecture_s_forms_see_it() {
+    for (accuracy, file) in [(Tier::Fast, "edge-fast.txt"), (Tier::Geometric, "edge-geometric.txt")]
+    {
+        check(file, &picture("edge", &Style { accuracy, ..ASCII }, 60, 24));
+    }
 }
 
 #[test]

@@ -189,7 +189,7 @@ fn leaves_unmet(tier: Tier, seed: u64, count: u32) -> u32 {
 
 #[test]
 fn no_tier_meets_the_sphere_where_a_ray_leaves_it() {
-    for (tier, seed) in [(Tier::Fast, 31), (Tier::Stable, 32)] {
+    for (tier, seed) in [(Tier::Fast, 31), (Tier::Stable, 32), (Tier::Geometric, 34)] {
         leaves_unmet(tier, seed, 200_000);
     }
     leaves_unmet(Tier::Exact, 33, 600_000);

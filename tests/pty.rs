@@ -96,7 +96,8 @@ fn the_mouse_drags_and_zooms() {
 #[test]
 fn the_status_line_tells_the_tier() {
     let mut viewer = Viewer::start();
-    for (key, text) in [("1", " fast "), ("2", " stable "), ("3", " exact ")] {
+    for (key, text) in [("1", " fast "), ("2", " stable "), ("3", " exact "), ("4", " geometric ")]
+    {
         viewer.session.type_in(key);
         viewer
             .session

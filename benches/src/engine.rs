@@ -88,6 +88,9 @@ pub(crate) enum Promise {
 impl Promise {
     /// The textbook form in single precision: p.p - r^2 cancels some thousandfold in the small scenes.
     pub(crate) const TEXTBOOK: Self = Self::Near(8.0 / 1024.0, 1 << 14);
+    /// The geometric form over a ground: r^2 = 1e6 is known to some 0.1, which is some 1e-4 of length, and some of
+    /// the rays start as near to the ground as 0.1.
+    pub(crate) const GEOMETRIC_ON_GROUND: Self = Self::Near(8.0 / 1024.0, 1 << 17);
     /// Another program's, which may think otherwise of grazed spheres, of a start on a surface, of cancelled digits,
     /// and, from 10^4 scene sizes away, of which sphere is in front.
     pub(crate) const OTHERS: Self = Self::Near(2e-2, 1 << 14);

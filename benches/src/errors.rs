@@ -1,7 +1,7 @@
 //! How wrong tiers and marks are, regime by regime, against the oracle of big integers: one ray, one sphere. Lanes do
 //! not matter: the tests hold every width and level to the same bits.
 
-use crate::engine::marks::{DOUBLE, LECTURE, marks};
+use crate::engine::marks::{DOUBLE, GEOMETRIC, marks};
 use crate::engine::{Query, Rays};
 use crate::measure::Effort;
 use spherule_kernel::{Intersect, SphereList, Tier};
@@ -11,13 +11,19 @@ use spherule_tests::scenes::Scene;
 use spherule_tests::tally::{Summary, Ulp, measure as tally};
 
 /// The tiers and the marks, in the order of the tables.
-pub(crate) const NAMES: [&str; 5] =
-    [Tier::Fast.as_str(), Tier::Stable.as_str(), Tier::Exact.as_str(), LECTURE, DOUBLE];
+pub(crate) const NAMES: [&str; 6] = [
+    Tier::Fast.as_str(),
+    Tier::Geometric.as_str(),
+    Tier::Stable.as_str(),
+    Tier::Exact.as_str(),
+    GEOMETRIC,
+    DOUBLE,
+];
 
 /// What each of [`NAMES`] gets wrong in a regime.
 pub(crate) struct Errors {
     pub(crate) regime: &'static str,
-    pub(crate) of: [Summary; 5],
+    pub(crate) of: [Summary; NAMES.len()],
 }
 
 /// Cases of every regime.
@@ -64,16 +70,20 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_is_right_double_nearly_and_the_lecture_s_form_is_not() {
+    fn exact_is_right_double_nearly_and_the_lecture_s_forms_are_not() {
         let errors = measure(Effort::Test);
         let wrong = |summary: &Summary| wrong_in_a_million(summary).iter().sum::<f64>();
-        for Errors { regime, of: [_, _, exact, ..] } in &errors {
+        for Errors { regime, of: [_, _, _, exact, ..] } in &errors {
             assert_eq!((wrong(exact), exact.ulp.map(|ulp| ulp.max)), (0.0, Some(0)), "{regime}");
             assert_eq!(exact.rounded, exact.hits, "{regime}");
         }
-        let [_, _, _, lecture, double] = errors[0].of;
-        assert!(lecture.ulp.is_some_and(|ulp| ulp.p999 < 2000) && double.rounded == double.hits);
-        assert!(errors[2].regime == "dist/r 1e4" && wrong(&errors[2].of[3]) > 1e5);
+        let [fast, geometric, _, _, plain, double] = errors[0].of;
+        assert!(double.rounded == double.hits);
+        assert_eq!(errors[2].regime, "dist/r 1e4");
+        for (index, form) in [(0, fast), (1, geometric), (4, plain)] {
+            assert!(form.ulp.is_some_and(|ulp| ulp.p999 < 2000), "{}", NAMES[index]);
+            assert!(wrong(&errors[2].of[index]) > 1e5, "{}", NAMES[index]);
+        }
         assert_eq!(ulp(Ulp { median: 7, p999: 99_999, max: 888_586_229 }), "7 / 99999 / 9e8");
     }
 }

@@ -42,8 +42,8 @@ fn check_tier(tier: Tier, scene: &Scene, structures: Structures<'_>) {
             assert_eq!(bits(again), bits(hit), "{tier:?}: {ray:?}");
         }
     }
-    // Fast, and Stable outside its domain, answer by structures as bounds and not as their formula says: only lists are
-    // as the reference is.
+    // Fast, Geometric, and Stable outside its domain, answer by structures as bounds and not as their formula says:
+    // only lists are as the reference is.
     let same = |variant: &Variant| tier == Tier::Exact || variant.structure == Structure::List;
     for variant in variants().filter(|variant| variant.tier == tier).filter(same) {
         let Answers { hits, met } = variant.ask(structures, rays);

@@ -28,6 +28,12 @@ pub fn judge(tier: Tier, ray: &Ray, sphere: &Sphere, found: Option<[f32; 2]>) {
             square_error: |radius, distance| 24.0 * U * (radius * radius + distance * distance),
             further_error: |distance| 8.0 * U * distance,
         },
+        // The unit direction is rounded, too; t_m by more than b.
+        Tier::Geometric => Band {
+            radii: f64::INFINITY,
+            square_error: |radius, distance| 28.0 * U * (radius * radius + distance * distance),
+            further_error: |distance| 16.0 * U * distance,
+        },
         // Closest point first: whatever the distance, up to 2^20 radii, the error is one of r^2 alone.
         Tier::Stable => Band {
             radii: LENGTH,

@@ -2,7 +2,8 @@
 //!
 //! | tier | promise |
 //! |---|---|
-//! | [`Fast`] | the textbook form in single precision; wrong where that is wrong |
+//! | [`Fast`] | the lecture's algebraic form in single precision; wrong where that is wrong |
+//! | [`Geometric`] | the lecture's geometric form, likewise |
 //! | [`Stable`] | the best form that plain single precision allows |
 //! | [`Exact`] | decided as in real arithmetic, t correctly rounded, for every input |
 //!
@@ -13,6 +14,7 @@
 mod beyond;
 mod exact;
 mod fast;
+mod geometric;
 mod roots;
 mod stable;
 mod surface;
@@ -20,10 +22,13 @@ mod tier;
 
 pub use exact::Exact;
 pub use fast::Fast;
+pub use geometric::Geometric;
 pub use stable::Stable;
 pub use tier::{Accuracy, Tier};
 
 #[cfg(test)]
 pub(crate) use fast::derived::fast_row;
+#[cfg(test)]
+pub(crate) use geometric::derived::geometric_row;
 pub(crate) use roots::{RayLanes, all_finite};
 pub(crate) use tier::{TierFormula, TierWork, Underflow, is_closer, test_lanes};

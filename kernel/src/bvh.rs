@@ -13,9 +13,9 @@
 //! # What is guaranteed
 //!
 //! Bit for bit what the list of spheres answers: by [`Exact`](crate::Exact) for every input, by
-//! [`Stable`](crate::Stable) in its domain, by [`Fast`](crate::Fast) except for hits that the textbook form
-//! finds on lines that pass a sphere's box by. Boxes and filters only decide what is skipped, under bounds
-//! that `docs/traversal-margins.md` proves; every t is a tier's.
+//! [`Stable`](crate::Stable) in its domain, by [`Fast`](crate::Fast) and [`Geometric`](crate::Geometric)
+//! except for hits that their forms find on lines that pass a sphere's box by. Boxes and filters only decide what is
+//! skipped, under bounds that `docs/traversal-margins.md` proves; every t is a tier's.
 //!
 //! # Units
 //!

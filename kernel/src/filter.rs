@@ -17,7 +17,7 @@
 //! kappa (|c|^2 + r^2), once a sphere, and |o|^2 lowered by kappa |o|^2, once a ray, so that the bound
 //! costs the loop no operation, and a huge or far sphere widens no bound but its own.
 //!
-//! The bound, kappa = 104 u, and the sizes for which it holds, are proven in `docs/numerics.md`;
+//! The bound, kappa = 114 u, and the sizes for which it holds, are proven in `docs/numerics.md`;
 //! `filter/worst.rs` climbs towards it. Sizes are those in the units of a block of spheres; and where a tier's own
 //! squares underflow, what it finds is left to it. A sphere outside of those sizes passes always (w = +inf), as does a
 //! ray (threshold -inf); an invalid sphere never does, and an inactive ray only beside a sphere out of
@@ -40,8 +40,8 @@ const BLOCK: usize = 32;
 /// How many spheres are prepared at a time.
 pub(crate) const BLOCK_SPHERES: usize = BLOCK * GROUP;
 
-/// 104 u.
-const KAPPA: f32 = 104.0 / 16_777_216.0;
+/// 114 u.
+const KAPPA: f32 = 114.0 / 16_777_216.0;
 /// 2^-60: no sphere counts as smaller.
 const LEAST_SIZE: f32 = 1.0 / (1_u64 << 60) as f32;
 /// 2^-60: a squared direction below, or above 2^100, is not used: the direction is scaled before.

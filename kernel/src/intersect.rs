@@ -27,10 +27,10 @@ use crate::trace::Trace;
 ///
 /// The closest hit is that of the smallest accepted root, by [`Exact`](crate::Exact) as a real number, by the other
 /// tiers as t; among equals that of the lowest index. t counts in multiples of each ray's own direction. Every
-/// structure returns bit for bit what the list returns (`Bvh` and `DepthList` say what that means for `Fast`, and for
-/// `Stable` outside its domain), at every level, in every lane width, alone or beside any other ray.
-/// [`any_hit`](Intersect::any_hit) is true exactly if there is a closest hit, and cheaper, since a ray that has hit
-/// something is done.
+/// structure returns bit for bit what the list returns (`Bvh` and `DepthList` say what that means for `Fast` and
+/// `Geometric`, and for `Stable` outside its domain), at every level, in every lane width, alone or beside any other
+/// ray. [`any_hit`](Intersect::any_hit) is true exactly if there is a closest hit, and cheaper, since a ray that has
+/// hit something is done.
 ///
 /// # Domain
 ///

@@ -33,7 +33,7 @@ mod surface;
 mod testing;
 mod trace;
 
-pub use accuracy::{Accuracy, Exact, Fast, Stable, Tier};
+pub use accuracy::{Accuracy, Exact, Fast, Geometric, Stable, Tier};
 #[cfg(feature = "alloc")]
 pub use bvh::SphereTree;
 pub use bvh::{Bvh, BvhLeaf, BvhNode, BvhSize, InTurn, Join};

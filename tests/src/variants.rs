@@ -1,8 +1,8 @@
 //! The table of variants: tier, structure and storey of the door, each as a plain function from rays to answers, so
 //! that a test says "all of them" in one loop, and that each is compiled once, here.
 //!
-//! `Exact` gives the same bits in all of them, `Stable` in its domain; `Fast` in all lists of spheres, while depth list
-//! and tree may lose false hits of it.
+//! `Exact` gives the same bits in all of them, `Stable` in its domain; `Fast` and `Geometric` in all lists of
+//! spheres, while depth list and tree may lose false hits of them.
 
 mod difference;
 mod pairs;

@@ -33,7 +33,7 @@ fn main() {
     for (accuracy, charset) in tiers.into_iter().chain(exact) {
         for entry in BUILTINS {
             if only.as_ref().is_none_or(|name| name == entry.name) {
-                print!("{:8} {:6} {:8} ", entry.name, accuracy.as_str(), choice::name(&charset));
+                print!("{:8} {:9} {:8} ", entry.name, accuracy.as_str(), choice::name(&charset));
                 let depth = ColorDepth::Truecolor;
                 let style = Style { accuracy, charset, depth, ..Style::PLAIN };
                 time(&(entry.scene)(), &style, level, structure, frames);

@@ -58,9 +58,9 @@ pub struct PictureArguments {
     /// The scene, and its rays.
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// How far hits may be trusted
+    /// How far hits may be trusted; algebraic is another name for fast
     #[arg(long, value_name = "TIER", default_value = Tier::Exact.as_str())]
-    #[arg(value_parser = one_of(&Tier::ALL, Tier::as_str))]
+    #[arg(value_parser = tier())]
     pub accuracy: Tier,
     /// Characters; auto: half with colour, else ascii
     ///
@@ -171,9 +171,9 @@ pub struct TraceArguments {
     /// Report as a JSON object
     #[arg(long)]
     pub json: bool,
-    /// How far hits may be trusted
+    /// How far hits may be trusted; algebraic is another name for fast
     #[arg(long, value_name = "TIER", default_value = Tier::Exact.as_str())]
-    #[arg(value_parser = one_of(&Tier::ALL, Tier::as_str))]
+    #[arg(value_parser = tier())]
     pub accuracy: Tier,
     /// How it is computed.
     #[command(flatten)]
@@ -252,8 +252,13 @@ fn color(text: &str) -> Result<Srgb, String> {
     text.parse().or_else(|error| format!("#{text}").parse().map_err(|_: String| error))
 }
 
+/// `algebraic` is what the lecture calls the form that `fast` is.
+fn tier() -> impl TypedValueParser<Value = Tier> {
+    one_of(&Tier::ALL, Tier::as_str, |tier| (tier == Tier::Fast).then_some("algebraic"))
+}
+
 fn level() -> impl TypedValueParser<Value = Level> {
-    one_of(&LevelName::ALL, LevelName::as_str).try_map(|name| {
+    one_of(&LevelName::ALL, LevelName::as_str, |_| None).try_map(|name| {
         Level::named(name).ok_or_else(|| format!("this CPU has no {}", name.as_str()))
     })
 }

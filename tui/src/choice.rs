@@ -19,14 +19,21 @@ where
         .map(|text| T::from_str(&text, false).ok())
 }
 
-/// Reads the name of a value that is no [`ValueEnum`], because another crate defines it.
-pub fn one_of<T>(all: &'static [T], name: fn(T) -> &'static str) -> impl TypedValueParser<Value = T>
+/// Reads the name of a value that is no [`ValueEnum`], because another crate defines it; some have another name
+/// beside the one that lists of them have.
+pub fn one_of<T>(
+    all: &'static [T],
+    name: fn(T) -> &'static str,
+    other_name: fn(T) -> Option<&'static str>,
+) -> impl TypedValueParser<Value = T>
 where
     T: Copy + Send + Sync,
 {
-    PossibleValuesParser::new(all.iter().map(|&value| name(value))).try_map(move |text| {
-        let named = all.iter().find(|&&value| name(value) == text);
-        named.copied().ok_or("a name that has no value")
+    let names =
+        all.iter().map(move |&value| PossibleValue::new(name(value)).aliases(other_name(value)));
+    PossibleValuesParser::new(names).try_map(move |text| {
+        let is_meant = |value: T| name(value) == text || other_name(value) == Some(&*text);
+        all.iter().copied().find(|&value| is_meant(value)).ok_or("a name that has no value")
     })
 }
 

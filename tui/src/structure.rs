@@ -1,6 +1,6 @@
 //! How the spheres that a ray may meet are found: among all of them, or by a structure that is built
-//! over them first. That changes the time, and no answer except false hits of `Fast`, which a tree and
-//! a depth list may lose.
+//! over them first. That changes the time, and no answer except false hits of `Fast` and
+//! `Geometric`, which a tree and a depth list may lose.
 
 pub mod choose;
 pub mod scene;

@@ -25,6 +25,7 @@ use report::{Report, TierReport};
 use spherule_kernel::{
     AnyHit, ClosestHit, Coherence, HitPacket, Level, RayPacket, Spheres, Stages, Tier, stages,
 };
+use std::array;
 use std::hint::black_box;
 use std::time::Duration;
 
@@ -100,15 +101,15 @@ impl Machine<'_> {
         rays: &Rays,
         spheres: Spheres<'_>,
         progress: &mut Progress,
-    ) -> [TierReport; 3] {
+    ) -> [TierReport; Tier::ALL.len()] {
         let passes = Tier::ALL.map(|tier| self.pass(tier, rays));
         let seconds = speed::medians(passes, |share| {
             progress.show(&format!("measuring {} rays", rays.kind.name()), share);
         });
         let hits = Tier::ALL.map(|tier| self.hits(tier, rays));
+        let [.., exact] = &hits;
         let errors = hits.each_ref().map(|found| {
-            let [found, truth] =
-                [found, &hits[2]].map(|hits| hits.iter().flat_map(HitPacket::hits));
+            let [found, truth] = [found, exact].map(|hits| hits.iter().flat_map(HitPacket::hits));
             Tally::of(found, truth).summary()
         });
         // Of every test there is, as if by brute force; of some rays, if those are too many.
@@ -121,7 +122,7 @@ impl Machine<'_> {
         };
         // The other tiers know single precision alone.
         let single = Stages { double: 0, expansions: 0, ..exact };
-        [0, 1, 2].map(|index| {
+        array::from_fn(|index| {
             let tier = Tier::ALL[index];
             TierReport {
                 tier,
@@ -141,7 +142,7 @@ impl Machine<'_> {
         camera: &Rays,
         (spheres, lights): (Spheres<'_>, &[Light]),
         most: usize,
-    ) -> Option<[LightingErrors; 3]> {
+    ) -> Option<[LightingErrors; Tier::ALL.len()]> {
         if lights.is_empty() {
             return None;
         }
@@ -150,7 +151,8 @@ impl Machine<'_> {
             let hits = for_camera.hits(tier, camera);
             Lighting::new(tier, (camera, &hits), step, (spheres, lights), self)
         });
-        Some(lighting.each_ref().map(|of_tier| of_tier.errors(&lighting[2])))
+        let [.., exact] = &lighting;
+        Some(lighting.each_ref().map(|of_tier| of_tier.errors(exact)))
     }
 
     /// Which rays meet anything by a tier.

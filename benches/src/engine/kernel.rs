@@ -100,11 +100,12 @@ impl<'a> Kernel<'a> {
         let is_brute_force = way == Way::BruteForce;
         let is_reference = is_brute_force && level.name() == Level::best().name();
         let promise = match tier {
-            // It may lose false hits of its textbook form in a structure.
-            Tier::Fast if !is_brute_force => Promise::Nothing,
+            // They may lose false hits of their forms in a structure.
+            Tier::Fast | Tier::Geometric if !is_brute_force => Promise::Nothing,
             _ if !is_reference => self.like_brute_force(tier),
             _ if !self.scene.is_small => Promise::Nothing,
-            Tier::Fast => Promise::TEXTBOOK,
+            Tier::Geometric if self.scene.has_ground() => Promise::GEOMETRIC_ON_GROUND,
+            Tier::Fast | Tier::Geometric => Promise::TEXTBOOK,
             // The discriminant may cancel to a 32nd of its terms and the root to an 8th of half the chord before the
             // tier reaches for two-term arithmetic: 6 u of the terms (u = 2^-24) are 96 u of half the chord, and 768 u
             // of the root.

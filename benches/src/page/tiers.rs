@@ -10,7 +10,7 @@ use spherule_tests::tally::Summary;
 
 const QUERY: Query = Query::ClosestHit;
 
-/// Five rows: what a tier or mark costs, and what it gets wrong.
+/// A row each: what a tier or mark costs, and what it gets wrong.
 pub(crate) fn trade(origin: &str, errors: &[Errors], lists: &[Measured]) -> String {
     let mut table = Table::new(
         1,
@@ -30,7 +30,7 @@ pub(crate) fn trade(origin: &str, errors: &[Errors], lists: &[Measured]) -> Stri
     }
     format!(
         "{}\n{origin}. Brute force, {}, one thread, the quickest lanes. Grazing: 2^-20 of the radius. ulp: median / p99.9 / \
-         max where the decision is right. `lecture` and `plain f64` are no tiers but marks.\n",
+         max where the decision is right. `plain geometric` and `plain f64` are no tiers but marks.\n",
         table.0,
         name(&lists[0])
     )
@@ -62,7 +62,7 @@ pub(crate) fn errors(origin: &str, errors: &[Errors]) -> String {
     };
     format!(
         "# Error of the tiers\n\n{origin}\n\nOne ray, one sphere, {} cases a regime, held against an oracle of big integers; \
-         the same in all lanes and at all levels. `lecture` and `plain f64` are no tiers but marks.\n\n\
+         the same in all lanes and at all levels. `plain geometric` and `plain f64` are no tiers but marks.\n\n\
          Wrong decisions in a million rays: hits that are misses / misses that are hits / the other root.\n\n{}\n\
          Error of t in ulp where the decision is right: median / p99.9 / max (true hits whose t is correctly rounded).\n\n{}",
         errors[0].of[0].rays,
@@ -85,7 +85,8 @@ pub(crate) fn speed(origin: &str, lists: &[Measured]) -> String {
     let mut table = Table::new(2, &format!(" | lanes | {names}"));
     for label in lists[0].labels() {
         let fast = Label { name: Tier::Fast.as_str(), ..label.clone() };
-        let is_other_tier = [Tier::Stable, Tier::Exact].map(Tier::as_str).contains(&label.name);
+        let is_other_tier =
+            label.name != fast.name && Tier::ALL.map(Tier::as_str).contains(&label.name);
         let time = |list: &Measured| {
             let time = list.time_a_test(label).map(|time| format!("{:.3}", time.middle));
             let ratio = list.ratio(label, &fast, QUERY).filter(|_| is_other_tier);

@@ -5,8 +5,8 @@
 //! |d x p|^2 raised by the most that it can be off. (With r |d| in place of sqrt D, a third of the operations,
 //! `Exact` was 3.3 times `Fast` where incoherent rays meet 64 large spheres, one through the other.) The test has a
 //! margin of 2^-20 of its terms, which also covers the 2^-22 (|p| + r) / |d| that the t of `Stable` is off where its
-//! squares do not underflow; where |p| + r might be so small, nothing is told. The t of `Fast` may be off by
-//! anything, so `Fast` does not use it.
+//! squares do not underflow; where |p| + r might be so small, nothing is told. The t of `Fast` and `Geometric` may be
+//! off by anything, so they do not use it.
 //!
 //! Directions have any length; lengths as small as 2^-38, or so large that squares overflow, are not told of.
 //! (Divided by |p| + r they would be: a list of 100 spheres lost 5 % by it.)

@@ -9,7 +9,7 @@ use super::tier::{Tier, TierFormula, Underflow};
 use crate::numeric::axes::{axes, dot};
 use crate::{Lanes, Ray, Sphere};
 
-/// The textbook quadratic in `f32`: wrong where `f32` is wrong.
+/// The lecture's algebraic form, the textbook quadratic, in `f32`: wrong where `f32` is wrong.
 ///
 /// Away from those places (distance/radius up to some 10, not grazing) t is within some hundred
 /// ulp. At distance/radius 1e4 nearly half of all decisions are wrong. The measured errors stand

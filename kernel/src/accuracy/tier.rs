@@ -6,7 +6,7 @@
 
 use super::roots::RayLanes;
 use super::surface::{self, SurfaceLanes};
-use super::{Exact, Fast, Stable};
+use super::{Exact, Fast, Geometric, Stable};
 use crate::geometry::sphere::Spheres;
 use crate::geometry::surface::Surface;
 use crate::numeric::rounding::U;
@@ -23,7 +23,8 @@ pub trait TierFormula: Copy + Debug {
     const TIER: Tier;
 
     /// How far off the tier may be beside the few ulp of s that are allowed to all: as if r^2
-    /// were changed by up to (`SPREAD` (|p| + r))^2. Zero except for [`Fast`].
+    /// were changed by up to (`SPREAD` (|p| + r))^2. Zero except for [`Fast`] and
+    /// [`Geometric`].
     const SPREAD: f32 = 0.0;
 
     /// Whether the roots themselves are in order, where t are equal: rule 5.
@@ -122,7 +123,7 @@ mod sealed {
     }
 }
 
-/// A tier: [`Fast`], [`Stable`] or [`Exact`], known at build time, or a [`Tier`], known at run time.
+/// A tier: [`Fast`], [`Geometric`], [`Stable`] or [`Exact`], known at build time, or a [`Tier`], known at run time.
 ///
 /// Sealed: the scene structures prove their bounds tier by tier.
 pub trait Accuracy: sealed::Chosen + Copy + Debug {
@@ -169,13 +170,15 @@ impl<F: TierFormula> Accuracy for F {
 /// ```
 /// use spherule_kernel::{Accuracy, Exact, Tier};
 ///
-/// assert_eq!(Tier::ALL.map(Tier::as_str), ["fast", "stable", "exact"]);
+/// assert_eq!(Tier::ALL.map(Tier::as_str), ["fast", "geometric", "stable", "exact"]);
 /// assert_eq!(Exact.tier(), Tier::Exact);
 /// ```
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Tier {
     /// [`Fast`].
     Fast,
+    /// [`Geometric`].
+    Geometric,
     /// [`Stable`].
     Stable,
     /// [`Exact`].
@@ -183,14 +186,15 @@ pub enum Tier {
 }
 
 impl Tier {
-    /// Every tier, the fastest first.
-    pub const ALL: [Self; 3] = [Self::Fast, Self::Stable, Self::Exact];
+    /// Every tier: the two forms of the lecture, then what is more accurate.
+    pub const ALL: [Self; 4] = [Self::Fast, Self::Geometric, Self::Stable, Self::Exact];
 
     /// The name on the command line and in reports.
     #[must_use]
     pub const fn as_str(self) -> &'static str {
         match self {
             Self::Fast => "fast",
+            Self::Geometric => "geometric",
             Self::Stable => "stable",
             Self::Exact => "exact",
         }
@@ -209,6 +213,7 @@ impl sealed::Chosen for Tier {
     fn spread(self) -> f32 {
         match self {
             Self::Fast => Fast::SPREAD,
+            Self::Geometric => Geometric::SPREAD,
             Self::Stable => Stable::SPREAD,
             Self::Exact => Exact::SPREAD,
         }
@@ -218,6 +223,7 @@ impl sealed::Chosen for Tier {
     fn underflow(self) -> Underflow {
         match self {
             Self::Fast => Fast::UNDERFLOW,
+            Self::Geometric => Geometric::UNDERFLOW,
             Self::Stable => Stable::UNDERFLOW,
             Self::Exact => Exact::UNDERFLOW,
         }
@@ -232,6 +238,7 @@ impl sealed::Chosen for Tier {
     fn with_formula<W: TierWork>(self, work: W) -> W::Output {
         match self {
             Self::Fast => work.run::<Fast>(),
+            Self::Geometric => work.run::<Geometric>(),
             Self::Stable => work.run::<Stable>(),
             Self::Exact => work.run::<Exact>(),
         }
@@ -240,7 +247,7 @@ impl sealed::Chosen for Tier {
     #[inline(always)]
     fn compare_at(self, ray: &Ray, t: f32, spheres: [&Sphere; 2]) -> Ordering {
         match self {
-            Self::Fast | Self::Stable => Ordering::Equal,
+            Self::Fast | Self::Geometric | Self::Stable => Ordering::Equal,
             Self::Exact => <Exact as TierFormula>::compare_at(ray, t, spheres),
         }
     }

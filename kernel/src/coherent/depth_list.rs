@@ -25,12 +25,12 @@ use crate::scale::scene::SceneScale;
 /// # Guarantee
 ///
 /// Bit for bit what the list of spheres answers: by [`Exact`](crate::Exact) for every input, by
-/// [`Stable`](crate::Stable) in its domain, by [`Fast`](crate::Fast) except for hits that the textbook form finds on
-/// lines that pass a sphere by. Lists and filters only decide what is skipped, under the bounds of the tree
-/// (`docs/traversal-margins.md`); every t is a tier's. No units are better than others: bounds see spheres and rays
-/// multiplied by powers of two. What the bounds do not cover is not skipped: spheres of other sizes than most, by
-/// 2^40 or more, are met as a list is; packets with a ray that does not fit the [`Viewpoint`] or starts at t < 0, or
-/// whose rays look in different directions, are tested against all spheres.
+/// [`Stable`](crate::Stable) in its domain, by [`Fast`](crate::Fast) and [`Geometric`](crate::Geometric) except for
+/// hits that their forms find on lines that pass a sphere by. Lists and filters only decide what is skipped, under
+/// the bounds of the tree (`docs/traversal-margins.md`); every t is a tier's. No units are better than others: bounds
+/// see spheres and rays multiplied by powers of two. What the bounds do not cover is not skipped: spheres of other
+/// sizes than most, by 2^40 or more, are met as a list is; packets with a ray that does not fit the [`Viewpoint`] or
+/// starts at t < 0, or whose rays look in different directions, are tested against all spheres.
 ///
 /// # Cost
 ///

@@ -28,7 +28,7 @@ impl Fnv {
         }
     }
 
-    /// The bits of `t`; of a NaN, which the roots of `Fast` may be, only that it is one.
+    /// The bits of `t`; of a NaN, which the roots of `Fast` and `Geometric` may be, only that it is one.
     fn t(&mut self, t: f32) {
         self.word(if t.is_nan() { u32::MAX } else { t.to_bits() });
     }
@@ -113,7 +113,7 @@ fn main() -> ExitCode {
         let radius = &mut hit.expect("a hit").sphere.radius;
         *radius = f32::from_bits(radius.to_bits() ^ 1 << 12);
     }
-    let agree = [Tier::Fast, Tier::Stable, Tier::Exact].map(|tier| widths(tier, &cases));
+    let agree = [Tier::Fast, Tier::Stable, Tier::Exact, Tier::Geometric].map(|tier| widths(tier, &cases));
     if agree.contains(&false) {
         eprintln!("digest: FAILED: a lane width differs from another");
         return ExitCode::FAILURE;

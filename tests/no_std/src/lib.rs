@@ -58,6 +58,7 @@ pub unsafe extern "C" fn spherule_no_std(numbers: *const f32, count: usize) -> u
     let tier = match number(13) {
         0.0 => Tier::Fast,
         1.0 => Tier::Stable,
+        2.0 => Tier::Geometric,
         _ => Tier::Exact,
     };
     let rays = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19]

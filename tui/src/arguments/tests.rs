@@ -64,7 +64,7 @@ fn what_is_wrong_is_said_in_one_line() {
         ("--charset sixel", "auto, ascii, half, quadrant, sextant, octant, braille, block"),
         ("--palette amber", "xterm, vga, tango, solarized"),
         ("--palette 000000,ffffff", "2 colours in place of 16"),
-        ("--accuracy sloppy", "fast, stable, exact"),
+        ("--accuracy sloppy", "fast, geometric, stable, exact"),
         ("--structure octree", "auto, brute, depth-list, bvh"),
         ("--threads 0", "1..=1024"),
         ("tradeoff --threads 1025", "1..=1024"),
@@ -115,6 +115,7 @@ fn names_are_accepted_and_listed() {
     for tier in Tier::ALL {
         assert_eq!(picture(&format!("--accuracy {}", tier.as_str())).accuracy, tier);
     }
+    assert_eq!(picture("--accuracy algebraic").accuracy, Tier::Fast);
 }
 
 #[test]

@@ -19,7 +19,7 @@ pub(super) struct Report {
     pub(super) threads: usize,
     pub(super) tiers: Vec<TierReport>,
     /// Of every tier; `None` if the scene has no light.
-    pub(super) lighting: Option<[LightingErrors; 3]>,
+    pub(super) lighting: Option<[LightingErrors; Tier::ALL.len()]>,
 }
 
 /// One tier on one kind of rays.
@@ -131,11 +131,11 @@ impl Report {
             ]);
         }
         if let Some(errors) = self.lighting {
-            text += &format!("\n{} points and their lights\n", errors[2].points);
-            text += "           wrong    wrong\ntier     normals  shadows\n";
+            text += &format!("\n{} points and their lights\n", errors[0].points);
+            text += "              wrong    wrong\ntier        normals  shadows\n";
             for (tier, LightingErrors { normals, shadows, .. }) in Tier::ALL.into_iter().zip(errors)
             {
-                text += &format!("{:<7}{normals:>9}{shadows:>9}\n", tier.as_str());
+                text += &format!("{:<10}{normals:>9}{shadows:>9}\n", tier.as_str());
             }
         }
         text + FOOT
@@ -166,7 +166,7 @@ const HEAD: [[&str; 12]; 2] = [
     ],
 ];
 /// How wide they are.
-const WIDTHS: [usize; 12] = [7, 9, 9, 9, 10, 8, 8, 9, 9, 11, 9, 9];
+const WIDTHS: [usize; 12] = [10, 9, 9, 9, 10, 8, 8, 9, 9, 11, 9, 9];
 const FOOT: &str = "
 Wrong: the closest hit differs from that of exact, counted in rays. ulp: of t, where both meet the
 same sphere. Times are medians of passes in turns, without the building of a structure, for shadow

@@ -10,7 +10,7 @@ const LINES: [&str; 16] = [
     "  r                       first view      ",
     "  o                       projection      ",
     "                                         ",
-    "  1 2 3                   fast, stable, exact ",
+    "  1 2 3 4                 fast, stable, exact, geometric ",
     "  c                       ascii, half, quadrant, sextant, ",
     "                          octant, braille, block ",
     "  s                       auto, brute, depth-list, bvh ",
@@ -39,11 +39,13 @@ mod tests {
     use crate::structure::Structure;
     use crate::style::Charset;
     use clap::ValueEnum;
+    use spherule_kernel::Tier;
 
     #[test]
     fn it_names_what_keys_go_through_within_eighty_columns() {
         let charsets = Charset::value_variants().iter().map(name);
-        for name in charsets.chain(Structure::value_variants().iter().map(name)) {
+        let tiers = Tier::ALL.map(|tier| tier.as_str().to_owned());
+        for name in charsets.chain(Structure::value_variants().iter().map(name)).chain(tiers) {
             assert!(LINES.concat().contains(&format!(" {name}")), "{name}");
         }
         assert!(LINES.iter().all(|line| line.len() <= 80));

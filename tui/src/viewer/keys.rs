@@ -68,6 +68,7 @@ fn key_input(key: &KeyEvent) -> Option<Input> {
         KeyCode::Char('1') => Input::Accuracy(Tier::Fast),
         KeyCode::Char('2') => Input::Accuracy(Tier::Stable),
         KeyCode::Char('3') => Input::Accuracy(Tier::Exact),
+        KeyCode::Char('4') => Input::Accuracy(Tier::Geometric),
         KeyCode::Char('o') => Input::Projection,
         KeyCode::Char('c') => Input::Charset,
         KeyCode::Char('s') => Input::Structure,

@@ -182,7 +182,7 @@ mod tests {
     fn what_is_chosen_already_changes_nothing() {
         let mut state = state();
         assert_eq!(state.apply(Input::Accuracy(Tier::Stable)), Outcome::Unchanged);
-        for tier in [Tier::Fast, Tier::Exact] {
+        for tier in [Tier::Fast, Tier::Geometric, Tier::Exact] {
             assert_eq!(state.apply(Input::Accuracy(tier)), Outcome::Changed);
             assert_eq!(state.shown.style.accuracy, tier);
         }

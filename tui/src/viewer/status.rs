@@ -127,6 +127,7 @@ mod tests {
         for choice in Structure::value_variants().iter().copied().map(Some).chain([None]) {
             for charset in Charset::value_variants() {
                 let mut state = state(choice);
+                state.shown.style.accuracy = Tier::Geometric;
                 state.shown.style.charset = *charset;
                 for scale in [0.0, 1.0, 100.0, 1e4] {
                     let figures = Figures {

@@ -30,7 +30,7 @@ fn an_unknown_scene() {
 #[test]
 fn an_unknown_option() {
     refusal(&run(["--frobnicate"]));
-    assert!(refusal(&run(["--accuracy", "real"])).contains("fast, stable, exact"));
+    assert!(refusal(&run(["--accuracy", "real"])).contains("fast, geometric, stable, exact"));
 }
 
 #[test]

@@ -216,11 +216,15 @@ fn the_projection_can_be_chosen() {
 }
 
 #[test]
-fn fast_shows_its_faults_in_edge_and_the_others_do_not() {
+fn the_lecture_s_forms_show_their_faults_in_edge_and_the_others_do_not() {
     let picture = |tier| printed(&run(["edge", "--size", "80x24", "--accuracy", tier]));
-    let (fast, exact) = (picture("fast"), picture("exact"));
+    let exact = picture("exact");
     assert_eq!(picture("stable"), exact);
     assert_eq!(printed(&run(["edge", "--size", "80x24"])), exact, "the default");
-    let differing = fast.chars().zip(exact.chars()).filter(|(a, b)| a != b).count();
-    assert!(differing > 100, "{differing} of 1920 cells");
+    for tier in ["fast", "geometric"] {
+        let differing = picture(tier).chars().zip(exact.chars()).filter(|(a, b)| a != b).count();
+        assert!(differing > 100, "{tier}: {differing} of 1920 cells");
+    }
+    assert_ne!(picture("fast"), picture("geometric"));
+    assert_eq!(picture("fast"), picture("algebraic"));
 }

@@ -97,6 +97,11 @@ fn fast_has_no_acne() {
 }
 
 #[test]
+fn geometric_has_no_acne() {
+    no_acne(Tier::Geometric);
+}
+
+#[test]
 fn stable_has_no_acne() {
     no_acne(Tier::Stable);
 }
@@ -122,7 +127,7 @@ fn a_huge_ground_has_no_acne() {
             let Some(mut point) = Point::new(tier, &ground, &ray) else { continue };
             let source = Source::Direction(Vec3::new(-0.55, 0.9, 0.6));
             let light = Light { source, color: Srgb::WHITE };
-            // If `Fast` errs it may see the far side of the ground, which has no light.
+            // If `Fast` or `Geometric` errs it may see the far side of the ground, which has no light.
             let Some(ray) = point.ray_to(&light) else { continue };
             assert_eq!(ground.closest_hit(tier, &ray), None, "{tier:?} {radius}");
             lit += 1;

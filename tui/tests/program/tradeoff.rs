@@ -54,9 +54,9 @@ fn the_keys_and_their_types() {
     assert_eq!((&report["scene"], &report["lanes"]), (&"marbles".into(), &16.into()));
     assert!(report["cpu"].is_string() && report["level"].is_string());
     assert!(report["rustc"].as_str().expect("text").starts_with("rustc 1."));
-    assert_eq!(report["tiers"].as_array().map(Vec::len), Some(6));
+    assert_eq!(report["tiers"].as_array().map(Vec::len), Some(8));
     for kind in ["camera", "shadow"] {
-        for accuracy in ["fast", "stable", "exact"] {
+        for accuracy in ["fast", "geometric", "stable", "exact"] {
             let tier = tier(&report, accuracy, kind);
             assert_eq!(tier.as_object().map(serde_json::Map::len), Some(13));
             for key in ["ns_per_ray", "ns_per_test", "mrays_per_s"] {
@@ -79,9 +79,9 @@ fn the_keys_and_their_types() {
 }
 
 /// Points, wrong normals and wrong shadows of every tier.
-fn lighting(report: &Value) -> [[u64; 3]; 3] {
+fn lighting(report: &Value) -> [[u64; 3]; 4] {
     let tiers = report["lighting"].as_array().expect("a list");
-    ["fast", "stable", "exact"].map(|accuracy| {
+    ["fast", "geometric", "stable", "exact"].map(|accuracy| {
         let tier = tiers.iter().find(|tier| tier["accuracy"] == accuracy).expect("the tier");
         ["points", "wrong_normals", "wrong_shadows"].map(|key| tier[key].as_u64().expect(key))
     })
@@ -89,22 +89,28 @@ fn lighting(report: &Value) -> [[u64; 3]; 3] {
 
 #[test]
 fn far_is_where_the_others_light_the_wrong_spheres() {
-    let [fast, stable, exact] = lighting(&measured(&["far", "--size", "60x24"]));
-    assert!(fast[1] > 1000 && fast[2] > 1000, "{fast:?}");
+    let [fast, geometric, stable, exact] = lighting(&measured(&["far", "--size", "60x24"]));
+    for textbook in [fast, geometric] {
+        assert!(textbook[1] > 1000 && textbook[2] > 1000, "{textbook:?}");
+    }
     assert!(stable[1] > 5 && stable[2] > 5, "{stable:?}");
     assert!(exact[0] > 1000 && exact[1..] == [0, 0], "{exact:?}");
-    let [fast, stable, exact] = lighting(&measured(&["marbles", "--size", "60x24"]));
-    assert!(exact[0] > 1000 && [fast, stable, exact].iter().all(|tier| tier[1..] == [0, 0]));
+    let tiers = lighting(&measured(&["marbles", "--size", "60x24"]));
+    assert!(tiers.iter().all(|tier| tier[0] > 1000 && tier[1..] == [0, 0]), "{tiers:?}");
     assert!(measured(&["unit", "--size", "9x4"])["lighting"].is_null());
 }
 
 #[test]
-fn edge_is_where_fast_is_wrong_and_exact_is_right() {
+fn edge_is_where_the_lecture_s_forms_are_wrong_and_exact_is_right() {
     let count = |tier: &Value| {
         ["wrong_hits", "wrong_misses", "wrong_sphere"].map(|key| tier[key].as_u64().expect(key))
     };
-    let [hits, misses, spheres] = count(tier(&EDGE, "fast", "camera"));
-    assert!(hits > 100 && misses > 100, "{hits} hits, {misses} misses, {spheres} spheres");
+    let [fast, geometric] =
+        ["fast", "geometric"].map(|accuracy| count(tier(&EDGE, accuracy, "camera")));
+    for [hits, misses, spheres] in [fast, geometric] {
+        assert!(hits > 100 && misses > 100, "{hits} hits, {misses} misses, {spheres} spheres");
+    }
+    assert_ne!(fast, geometric, "each fails in its own way");
     let exact = tier(&EDGE, "exact", "camera");
     assert_eq!((count(exact), exact["ulp_max"].as_u64()), ([0; 3], Some(0)));
 }
@@ -146,21 +152,23 @@ fn a_scene_without_light_has_camera_rays_alone() {
     let path = path.to_str().expect("UTF-8");
     assert!(open(path, None).expect("a scene").lighting.is_plain());
     let report = measured(&[path, "--size", "10x5"]);
-    assert_eq!(report["tiers"].as_array().map(Vec::len), Some(3));
+    assert_eq!(report["tiers"].as_array().map(Vec::len), Some(4));
     // Nothing to see: rays that miss, and no ulp.
     let text = "[camera]\neye = [0, 0, 5]\ntarget = [0, 0, 9]\n\
                 [[sphere]]\ncenter = [0, 0, 0]\nradius = 1.0\n\
                 [[light]]\ndirection = [0, 1, 0]\n";
     let path = file("behind.toml", text.as_bytes());
     let report = measured(&[path.to_str().expect("UTF-8"), "--size", "10x5"]);
-    assert_eq!(report["tiers"].as_array().map(Vec::len), Some(3));
+    assert_eq!(report["tiers"].as_array().map(Vec::len), Some(4));
     assert!(tier(&report, "fast", "camera")["ulp_max"].is_null());
 }
 
 #[test]
 fn a_table_for_people() {
     let text = printed(&run(["tradeoff", "marbles", "--size", "20x8"]));
-    for part in ["marbles: 10 spheres", "rustc 1.", "640 camera rays", " shadow rays", "\nexact "] {
+    for part in
+        ["marbles: 10 spheres", "rustc 1.", "640 camera rays", " shadow rays", "\ngeometric "]
+    {
         assert!(text.contains(part), "{part}: {text}");
     }
     assert!(!text.contains('\x1b') && !text.contains('\r'));

@@ -257,7 +257,7 @@ impl<A: LaneArray> PreparedPacket<A> {
         spread: f32,
     ) {
         let prepared = PreparedLanes::as_they_are(&ScaledRays::new(rays, factor));
-        // Fast is off by so much more that nothing is gained: its rays are not moved.
+        // Fast and Geometric are off by so much more that nothing is gained: their rays are not moved.
         let unusual = rays.live & !prepared.covered;
         let again = if spread > 0.0 {
             unusual
