@@ -4,7 +4,6 @@ use super::*;
 use crate::view::Lens;
 use proptest::prelude::*;
 use spherule_kernel::{Tier, Vec3, pairs};
-use spherule_tests::inputs;
 
 const SIDES: (u32, u32) = (12, 8);
 
@@ -92,7 +91,7 @@ fn ratio() -> impl Strategy<Value = f64> {
 }
 
 proptest! {
-    #![proptest_config(inputs::config(4000))]
+    #![proptest_config(ProptestConfig { cases: 4000, failure_persistence: None, ..Default::default() })]
 
     #[test]
     fn no_hit_is_lost_whatever_the_sphere(
