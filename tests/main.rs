@@ -14,6 +14,7 @@ mod leave;
 mod lists;
 mod metamorphic;
 mod numbers;
+mod objects;
 mod oracle;
 mod order;
 mod packets;

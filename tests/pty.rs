@@ -65,6 +65,14 @@ fn s_goes_through_the_structures_and_the_picture_stays() {
 }
 
 #[test]
+fn object_order_draws_the_same_and_says_so() {
+    let viewer = Viewer::start_as(&["--order", "object"], &[], COLUMNS, ROWS);
+    viewer.wait_for_picture("the same picture", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    assert!(last_row(viewer.session.output().screen()).contains("exact perspective half object"));
+    viewer.quit();
+}
+
+#[test]
 fn keys_orbit_and_zoom() {
     let mut viewer = Viewer::start();
     viewer.session.type_in("lll\x1b[C\x1b[A-");

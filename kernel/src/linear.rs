@@ -1,6 +1,7 @@
 //! Rays against a list of spheres, from end to end.
 
 mod line;
+mod object;
 mod pairs;
 
 use crate::Accuracy;
@@ -15,6 +16,8 @@ use crate::numeric::axes::axes;
 use crate::query::Query;
 
 pub use line::{compare_hits, roots};
+pub(crate) use object::one_object;
+pub use object::{Writes, object_lanes};
 pub(crate) use pairs::each_pair;
 pub use pairs::pair_lanes;
 

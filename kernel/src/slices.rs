@@ -7,6 +7,7 @@ use crate::geometry::ray::{Ray, RayPacket};
 use crate::geometry::sphere::{Sphere, SpherePacket, Spheres};
 use crate::geometry::surface::SurfacePacket;
 use crate::leave::packets::{SurfaceHits, Towards};
+use crate::linear::Writes;
 use crate::structures::{LevelQuery, Traverse};
 use crate::trace::Trace;
 #[cfg(not(feature = "std"))]
@@ -63,6 +64,45 @@ pub fn pair_packets(
         let _ = level;
         linear::each_pair::<wide::f32x16>(tier, (), rays, spheres, hits);
     }
+}
+
+/// Sphere `index` of a list against the rays of those packets that `numbers` names, whose closest hits so far are
+/// `hits`: object order. Returns how many hits that stored.
+///
+/// As [`object_lanes`](crate::object_lanes), at `level`. A number past the end of rays or hits changes nothing.
+///
+/// ```
+/// use spherule_kernel::{Exact, HitPacket, Level, Ray, RayPacket, SphereList, Vec3, object_packets};
+///
+/// let list = SphereList::from([[0.0, 0.0, 9.0, 1.0], [0.0, 0.0, 5.0, 1.0]]);
+/// let packet = RayPacket::new(&[Ray::new(Vec3::ZERO, Vec3::Z)]);
+/// let (rays, mut hits) = ([packet; 3], [HitPacket::none(); 3]);
+/// for index in 0..2 {
+///     object_packets(Exact, Level::best(), list.spheres(), index, &[0, 2], &rays, &mut hits);
+/// }
+/// assert_eq!(hits.map(|hits| hits.t()[0]), [4.0, f32::INFINITY, 4.0]);
+/// ```
+pub fn object_packets(
+    tier: impl Accuracy,
+    level: Level,
+    spheres: Spheres<'_>,
+    index: u32,
+    numbers: &[u32],
+    rays: &[RayPacket],
+    hits: &mut [HitPacket],
+) -> Writes {
+    let (object, mut writes) = ((spheres, index), Writes::default());
+    #[cfg(feature = "std")]
+    {
+        let (tier, asked) = (tier.tier(), (numbers, rays));
+        crate::dispatch::compiled::object(level, tier, object, asked, hits, &mut writes);
+    }
+    #[cfg(not(feature = "std"))]
+    {
+        let _ = level;
+        writes += linear::one_object::<wide::f32x16>(tier, (), object, numbers, rays, hits);
+    }
+    writes
 }
 
 /// [`surface`](crate::surface()) for the rays of every packet, and what they hit among `spheres`.

@@ -31,9 +31,19 @@ impl Viewer {
     }
 
     pub(crate) fn start_with(variables: &[(&str, &str)], columns: u16, rows: u16) -> Self {
+        Self::start_as(&[], variables, columns, rows)
+    }
+
+    pub(crate) fn start_as(
+        more: &[&str],
+        variables: &[(&str, &str)],
+        columns: u16,
+        rows: u16,
+    ) -> Self {
         let scene = SceneFile::new(&VIEW);
         let mut arguments = vec![scene.path()];
         arguments.extend(OPTIONS);
+        arguments.extend(more);
         let session = Session::start(spherule(), &arguments, variables, (columns, rows));
         Self { session, _scene: scene }
     }

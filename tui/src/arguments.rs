@@ -8,13 +8,15 @@ use crate::samples::MOST_SAMPLES;
 use crate::scene::Scene;
 use crate::scene::builtin::DEFAULT;
 use crate::scene::open::{Format, open};
-use crate::structure::Structure;
+use crate::structure::{Order, Structure};
 use crate::style::Charset;
 use crate::terminal::color_depth::ColorChoice;
 use crate::threads::MOST_THREADS;
 use crate::view::{LensKind, View, with_projection};
 use clap::builder::TypedValueParser;
-use clap::{Args, Parser, Subcommand, value_parser};
+use clap::error::ErrorKind;
+use clap::parser::ValueSource;
+use clap::{ArgMatches, Args, CommandFactory, FromArgMatches, Parser, Subcommand, value_parser};
 use spherule_kernel::{Level, LevelName, Tier};
 use std::ffi::OsString;
 use std::ops::RangeInclusive;
@@ -107,6 +109,9 @@ pub struct SceneArguments {
     /// The projection, whatever the scene says
     #[arg(long, value_name = "KIND")]
     pub projection: Option<LensKind>,
+    /// Which loop is the outer one, over rays or spheres; with object there is no --structure
+    #[arg(long, value_name = "ORDER", default_value = "image")]
+    pub order: Order,
     /// Format of the scene [default: by name; of standard input by its first line]
     #[arg(long, value_name = "FORMAT")]
     pub format: Option<Format>,
@@ -208,11 +213,26 @@ pub enum Request {
 /// # Errors
 /// [`Error::Input`], in one line, if it is wrong.
 pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, Error> {
-    match Arguments::try_parse_from(arguments) {
+    let matches = Arguments::command().try_get_matches_from(arguments).and_then(|matches| {
+        check_order(&matches)?;
+        Arguments::from_arg_matches(&matches)
+    });
+    match matches {
         Ok(arguments) => Ok(Request::Run(Box::new(arguments))),
         Err(error) if error.exit_code() == 0 => Ok(Request::Print(error.to_string())),
         Err(error) => Err(Error::Input(in_one_line(&error.to_string()))),
     }
+}
+
+/// Object order searches no structure: whoever names one expects something else.
+fn check_order(matches: &ArgMatches) -> Result<(), clap::Error> {
+    let matches = matches.subcommand_matches("tradeoff").unwrap_or(matches);
+    let is_object = matches!(matches.try_get_one("order"), Ok(Some(Order::Object)));
+    if is_object && matches.value_source("structure") == Some(ValueSource::CommandLine) {
+        let message = "the argument '--order object' cannot be used with '--structure <HOW>'";
+        return Err(Arguments::command().error(ErrorKind::ArgumentConflict, message));
+    }
+    Ok(())
 }
 
 /// clap's message without its prefix, usage and tips, its lines joined.

@@ -63,7 +63,8 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     let ComputingArguments { structure, threads, level } = arguments.computing;
     let threads = Threads::new(threads)?;
     let mut renderer = Renderer::new(level.unwrap_or_else(Level::best), &threads);
-    let mut structures = SceneStructures::new(scene.list(), &threads);
+    let mut structures =
+        SceneStructures::new(scene.list(), &threads).in_order(arguments.scene.order);
     if let Some(file) = &arguments.png {
         if is_terminal && file == Path::new("-") {
             return Err(Error::Input("--png -: standard output is a terminal".to_owned()));

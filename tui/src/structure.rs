@@ -1,12 +1,24 @@
 //! How the spheres that a ray may meet are found: among all of them, or by a structure that is built
-//! over them first. That changes the time, and no answer except false hits of `Fast` and
-//! `Geometric`, which a tree and a depth list may lose.
+//! over them first. That changes the time, and no answer except false hits of `Fast` and `Geometric`,
+//! which a tree and a depth list may lose. Or the spheres find the rays: object order.
 
 pub mod choose;
+pub mod object_order;
 pub mod scene;
+pub mod screen;
 pub mod search;
 
 use clap::ValueEnum;
+
+/// Which of the two loops over rays and spheres is the outer one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Order {
+    /// For each ray the spheres, by a structure
+    #[default]
+    Image,
+    /// For each sphere the rays that may meet it
+    Object,
+}
 
 /// What is searched.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -3,6 +3,7 @@
 //! The rays are those that a picture of the scene takes; the truth is what `Exact` says.
 
 mod lighting;
+mod orders;
 mod rays;
 mod report;
 mod speed;
@@ -20,6 +21,7 @@ use crate::style::{PIPE_SIZE, Style};
 use crate::tally::Tally;
 use crate::threads::{Threads, packets_a_task};
 use lighting::{Lighting, LightingErrors};
+use orders::Orders;
 use rays::{Kind, Rays, most_rays};
 use report::{Report, TierReport};
 use spherule_kernel::{
@@ -43,7 +45,8 @@ pub fn tradeoff(arguments: &TradeoffArguments) -> Result<(), Error> {
     let view = arguments.scene.view(&scene, style.picture_aspect(columns, rows));
 
     let spheres = scene.spheres();
-    let mut structures = SceneStructures::new(scene.list(), &threads);
+    let mut structures =
+        SceneStructures::new(scene.list(), &threads).in_order(arguments.scene.order);
     // Building is not timed here, as if there were pictures without end.
     let workload = picture_workload(spheres.len(), &style, columns, rows, f64::INFINITY);
     let search = structures.picture(structure, &workload, &view, &scene.lighting)?;
@@ -58,6 +61,8 @@ pub fn tradeoff(arguments: &TradeoffArguments) -> Result<(), Error> {
         let tracing = for_shadow.tracing(Tier::Exact);
         Rays::of_shadows(tracing, (&camera, &hits), spheres, &search.lights, most)
     };
+    let tracing = for_camera.tracing(Tier::Exact);
+    let orders = Orders::count(tracing, &threads, spheres, &view, &camera);
     let mut progress = Progress::after(Duration::ZERO);
     let lighting = for_shadow.lighting(&for_camera, &camera, (spheres, &search.lights), most);
     let mut tiers = Vec::new();
@@ -73,10 +78,12 @@ pub fn tradeoff(arguments: &TradeoffArguments) -> Result<(), Error> {
         spheres: spheres.len(),
         cpu: machine::cpu(),
         rustc: machine::RUSTC,
+        order: search.order(),
         structure: search.structure,
         level: level.name(),
         lanes: RayPacket::COUNT,
         threads: threads.count(),
+        orders,
         tiers,
         lighting,
     };

@@ -165,7 +165,7 @@ impl Viewer<'_> {
         let workload = picture_workload(count, style, columns, status_row, f64::INFINITY);
         let lighting = &self.scene.lighting;
         let search = self.structures.picture(*structure, &workload, view, lighting)?;
-        let searched = search.structure;
+        let searched = (search.order(), search.structure);
         let (size, spending) = ((columns, status_row), self.pace.spending(moving));
         let found = started.elapsed();
         let drawn = self.renderer.draw(self.scene, &search, view, style, size, spending);

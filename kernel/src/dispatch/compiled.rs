@@ -15,6 +15,7 @@ use crate::geometry::ray::RayPacket;
 use crate::geometry::sphere::{SpherePacket, Spheres};
 use crate::geometry::surface::SurfacePacket;
 use crate::leave::packets::{self, SurfaceHits, Towards};
+use crate::linear::Writes;
 use crate::query::{Answers, AnyHit, ClosestHit};
 use crate::trace::Coherence;
 use crate::{linear, surface};
@@ -113,6 +114,22 @@ pub(crate) fn pairs(
     hits: &mut [HitPacket],
 ) {
     at_level!(level.0, simd => linear::each_pair::<f32x16<_>>(tier, simd, rays, spheres, hits));
+}
+
+/// [`object_lanes`](crate::object_lanes) for those packets that `numbers` names; adds to `writes`.
+#[inline(never)]
+pub(crate) fn object(
+    level: Level,
+    tier: Tier,
+    (spheres, index): (Spheres<'_>, u32),
+    (numbers, rays): (&[u32], &[RayPacket]),
+    hits: &mut [HitPacket],
+    writes: &mut Writes,
+) {
+    at_level!(level.0, simd => {
+        let object = (spheres, index);
+        *writes += linear::one_object::<f32x16<_>>(tier, simd, object, numbers, rays, hits);
+    });
 }
 
 /// [`surface_lanes`](crate::surface_lanes), packet by packet.

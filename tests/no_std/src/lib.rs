@@ -13,8 +13,9 @@ use core::hint::black_box;
 use spherule_kernel::{
     AnyHit, Bvh, BvhLeaf, BvhNode, Camera, ClosestHit, DepthList, Hit, HitPacket, Intersect, Lanes,
     Level, Projection, Ray, RayPacket, Side, Sphere, SpherePacket, Spheres, SurfacePacket, Tier,
-    Towards, Trace, Vec3, Viewpoint, f32x4, f32x8, f32x16, float_environment_is_sound, pair_lanes,
-    pair_packets, pairs, roots, shadow_packets, side, stages, surface, surface_packets,
+    Towards, Trace, Vec3, Viewpoint, f32x4, f32x8, f32x16, float_environment_is_sound,
+    object_lanes, object_packets, pair_lanes, pair_packets, pairs, roots, shadow_packets, side,
+    stages, surface, surface_packets,
 };
 
 /// What a firmware does in its own way; without `std` there must be one.
@@ -88,6 +89,7 @@ pub unsafe extern "C" fn spherule_no_std(numbers: *const f32, count: usize) -> u
         Err(error) => sum.word(error.needed as u32),
     }
     sum.pairs(tier, &rays, &sphere);
+    sum.objects(tier, &rays, spheres);
     sum.surfaces(tier, &rays, spheres);
     sum.word(
         roots(tier, &rays[1], &sphere).map_or(0, |[near, far]| near.to_bits() ^ far.to_bits()),
@@ -210,6 +212,30 @@ impl Sum {
         self.pair_lanes::<f32x4>(tier, rays, sphere);
         self.pair_lanes::<f32x8>(tier, rays, sphere);
         self.pair_lanes::<f32x16>(tier, rays, sphere);
+    }
+
+    fn objects(&mut self, tier: Tier, rays: &[Ray], spheres: Spheres<'_>) {
+        let (packets, mut hits) = ([RayPacket::new(rays)], [HitPacket::none()]);
+        let writes = object_packets(tier, Level::best(), spheres, 1, &[0, 1], &packets, &mut hits);
+        self.word((writes.stored + writes.overwritten) as u32);
+        self.hits(hits[0].hits());
+        self.object_lanes::<f32>(tier, rays, spheres);
+        self.object_lanes::<f32x4>(tier, rays, spheres);
+        self.object_lanes::<f32x8>(tier, rays, spheres);
+        self.object_lanes::<f32x16>(tier, rays, spheres);
+    }
+
+    fn object_lanes<L: Lanes<Token = ()>>(
+        &mut self,
+        tier: Tier,
+        rays: &[Ray],
+        spheres: Spheres<'_>,
+    ) {
+        let (rays, mut hits) = (RayPacket::new(rays), HitPacket::none());
+        for index in 0..3 {
+            object_lanes::<L>(tier, (), spheres, index, &rays, &mut hits);
+        }
+        self.hits(hits.hits());
     }
 
     fn pair_lanes<L: Lanes<Token = ()>>(&mut self, tier: Tier, rays: &[Ray], sphere: &Sphere) {

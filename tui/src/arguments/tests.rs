@@ -25,7 +25,7 @@ fn what_is_not_said_has_a_default() {
     assert_eq!(arguments.color, ColorChoice::Auto);
     assert_eq!(arguments.charset, None);
     assert_eq!(arguments.background, None);
-    assert_eq!(arguments.computing.structure, None);
+    assert_eq!((arguments.scene.order, arguments.computing.structure), (Order::Image, None));
     assert_eq!(arguments.computing.threads, None);
     assert!(!arguments.once && arguments.png.is_none());
 }
@@ -51,6 +51,8 @@ fn every_option_is_read() {
     assert_eq!(arguments.computing.threads, Some(3));
     assert!(arguments.once);
     assert_eq!(arguments.png, Some("a.png".into()));
+    assert_eq!(picture("--order object").scene.order, Order::Object);
+    assert_eq!(picture("--order image --structure bvh").scene.order, Order::Image);
 }
 
 #[test]
@@ -66,6 +68,9 @@ fn what_is_wrong_is_said_in_one_line() {
         ("--palette 000000,ffffff", "2 colours in place of 16"),
         ("--accuracy sloppy", "fast, geometric, stable, exact"),
         ("--structure octree", "auto, brute, depth-list, bvh"),
+        ("--order pixel", "image, object"),
+        ("--order object --structure bvh", "cannot be used with '--structure <HOW>'"),
+        ("tradeoff --structure auto --order object", "cannot be used with '--structure <HOW>'"),
         ("--threads 0", "1..=1024"),
         ("tradeoff --threads 1025", "1..=1024"),
         ("trace --threads two", "--threads <N>"),

@@ -1,8 +1,10 @@
 //! The structures over the spheres of a scene, built when they are first used.
 
-use super::Structure;
 use super::choose::{Workload, choose};
+use super::object_order::ObjectOrder;
+use super::screen::{Area, Screen};
 use super::search::Search;
+use super::{Order, Structure};
 use crate::choice::Auto;
 use crate::error::Error;
 use crate::scene::{Light, Lighting, Source};
@@ -14,7 +16,7 @@ use std::time::{Duration, Instant};
 /// How the rays of a picture find spheres.
 #[derive(Clone, Debug)]
 pub struct PictureSearch<'a> {
-    /// What is searched.
+    /// What is searched; in object order, by the rays to the lights alone.
     pub structure: Structure,
     /// Whether its rays lie close together.
     pub coherence: Coherence,
@@ -26,14 +28,28 @@ pub struct PictureSearch<'a> {
     pub to_lights: Vec<Search<'a>>,
 }
 
+impl PictureSearch<'_> {
+    /// That of the camera's rays.
+    #[must_use]
+    pub fn order(&self) -> Order {
+        match self.camera {
+            Search::Objects(_) => Order::Object,
+            Search::Brute(_) | Search::DepthList(_) | Search::Bvh(_) => Order::Image,
+        }
+    }
+}
+
 /// The spheres of a scene, and what has been built over them.
 #[derive(Debug)]
 pub struct SceneStructures<'a> {
     list: &'a SphereList,
     threads: &'a Threads,
+    order: Order,
     tree: Option<SphereTree>,
     /// The memory of depth lists, one a viewpoint.
     depth_lists: Vec<Vec<f32>>,
+    /// Where the spheres are on the screen.
+    areas: Vec<Area>,
     build: Duration,
 }
 
@@ -41,7 +57,21 @@ impl<'a> SceneStructures<'a> {
     /// Builds nothing yet; a tree will be built by `threads`.
     #[must_use]
     pub fn new(list: &'a SphereList, threads: &'a Threads) -> Self {
-        Self { list, threads, tree: None, depth_lists: Vec::new(), build: Duration::ZERO }
+        Self {
+            list,
+            threads,
+            order: Order::Image,
+            tree: None,
+            depth_lists: Vec::new(),
+            areas: Vec::new(),
+            build: Duration::ZERO,
+        }
+    }
+
+    /// The same, for pictures whose camera rays and spheres meet in this order.
+    #[must_use]
+    pub fn in_order(self, order: Order) -> Self {
+        Self { order, ..self }
     }
 
     /// The structure for this work, if `choice` leaves it open.
@@ -59,7 +89,7 @@ impl<'a> SceneStructures<'a> {
         structure: Structure,
         viewpoint: Option<Viewpoint>,
     ) -> Result<Search<'_>, Error> {
-        Ok(self.searches(structure, &[viewpoint])?.remove(0))
+        Ok(self.searches(structure, &[viewpoint], None)?.remove(0))
     }
 
     /// The structure of `choice` for a picture from `view`, lit by `lighting`.
@@ -79,20 +109,28 @@ impl<'a> SceneStructures<'a> {
             Source::Direction(direction) => Some(Viewpoint::Direction(direction)),
             Source::Position(_) => None,
         });
-        let viewpoints: Vec<_> = std::iter::once(Some(view.viewpoint())).chain(towards).collect();
-        let mut to_lights = self.searches(structure, &viewpoints)?;
+        let (camera, screen) = match self.order {
+            Order::Image => (Some(Some(view.viewpoint())), None),
+            Order::Object => (None, Some(Screen::new(view))),
+        };
+        let viewpoints: Vec<_> = camera.into_iter().chain(towards).collect();
+        let mut to_lights = self.searches(structure, &viewpoints, screen)?;
         let camera = to_lights.remove(0);
         Ok(PictureSearch { structure, coherence, camera, lights, to_lights })
     }
 
-    /// One search a viewpoint.
+    /// One search a viewpoint; before them, the spheres in object order if there is a screen.
     fn searches(
         &mut self,
         structure: Structure,
         viewpoints: &[Option<Viewpoint>],
+        screen: Option<Screen>,
     ) -> Result<Vec<Search<'_>>, Error> {
         let (start, spheres) = (Instant::now(), self.list.spheres());
-        match structure {
+        let areas = &mut self.areas;
+        let objects =
+            screen.map(|screen| Search::Objects(ObjectOrder::new(spheres, screen, areas)));
+        let searches = match structure {
             Structure::Brute => Ok(vec![Search::Brute(spheres); viewpoints.len()]),
             Structure::Bvh => {
                 let tree = match self.tree.take() {
@@ -117,7 +155,8 @@ impl<'a> SceneStructures<'a> {
                 self.build += start.elapsed();
                 searches
             }
-        }
+        };
+        Ok(objects.into_iter().chain(searches?).collect())
     }
 
     /// How long building has taken, all together.

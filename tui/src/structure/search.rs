@@ -1,5 +1,6 @@
 //! A scene structure that is chosen at run time.
 
+use super::object_order::{ObjectOrder, Raster};
 use spherule_kernel::{
     Bvh, Coherence, DepthList, HitPacket, Intersect, Level, RayPacket, Spheres, Tier, Trace,
 };
@@ -13,6 +14,8 @@ pub enum Search<'a> {
     DepthList(DepthList<'a>),
     /// By a tree.
     Bvh(Bvh<'a>),
+    /// Not at all: every sphere finds its rays.
+    Objects(ObjectOrder<'a>),
 }
 
 /// What all rays of a call have in common.
@@ -26,20 +29,24 @@ pub struct Tracing {
     pub coherence: Coherence,
 }
 
-/// The memory that one thread lends to depth lists.
+/// The memory that one thread lends to depth lists, and to object order.
 #[derive(Clone, Debug, Default)]
-pub struct Scratch(Vec<f32>);
+pub struct Scratch {
+    lists: Vec<f32>,
+    raster: Raster,
+}
 
 impl Scratch {
     /// As long as `search` has a use for; shorter if there is no memory, which takes longer.
-    fn of(&mut self, search: &Search<'_>) -> &mut [f32] {
+    fn of(&mut self, search: &Search<'_>) -> (&mut [f32], &mut Raster) {
+        let Self { lists, raster } = self;
         if let Search::DepthList(list) = search {
-            let missing = DepthList::scratch(list.spheres().len()).saturating_sub(self.0.len());
-            if self.0.try_reserve_exact(missing).is_ok() {
-                self.0.resize(self.0.len() + missing, 0.0);
+            let missing = DepthList::scratch(list.spheres().len()).saturating_sub(lists.len());
+            if lists.try_reserve_exact(missing).is_ok() {
+                lists.resize(lists.len() + missing, 0.0);
             }
         }
-        &mut self.0
+        (lists, raster)
     }
 }
 
@@ -47,20 +54,26 @@ impl Search<'_> {
     /// The closest hit of every ray.
     pub fn closest_hits(
         &self,
-        Tracing { tier, level, coherence }: Tracing,
+        tracing: Tracing,
         scratch: &mut Scratch,
         rays: &[RayPacket],
         hits: &mut [HitPacket],
     ) {
-        let trace = &mut Trace { level, coherence, scratch: scratch.of(self) };
+        let Tracing { tier, level, coherence } = tracing;
+        let (lists, raster) = scratch.of(self);
+        let trace = &mut Trace { level, coherence, scratch: lists };
         match self {
             Self::Brute(spheres) => spheres.closest_hit_packets(tier, trace, rays, hits),
             Self::DepthList(list) => list.closest_hit_packets(tier, trace, rays, hits),
             Self::Bvh(tree) => tree.closest_hit_packets(tier, trace, rays, hits),
+            Self::Objects(objects) => {
+                objects.closest_hits(tracing, raster, rays, hits);
+            }
         }
     }
 
-    /// Whether every ray meets anything: lane i in bit i.
+    /// Whether every ray meets anything: lane i in bit i. Rays that are not a camera's, so by object order all spheres
+    /// are searched.
     pub fn any_hits(
         &self,
         Tracing { tier, level, coherence }: Tracing,
@@ -68,11 +81,12 @@ impl Search<'_> {
         rays: &[RayPacket],
         met: &mut [u32],
     ) {
-        let trace = &mut Trace { level, coherence, scratch: scratch.of(self) };
+        let trace = &mut Trace { level, coherence, scratch: scratch.of(self).0 };
         match self {
             Self::Brute(spheres) => spheres.any_hit_packets(tier, trace, rays, met),
             Self::DepthList(list) => list.any_hit_packets(tier, trace, rays, met),
             Self::Bvh(tree) => tree.any_hit_packets(tier, trace, rays, met),
+            Self::Objects(objects) => objects.spheres().any_hit_packets(tier, trace, rays, met),
         }
     }
 }

@@ -1,8 +1,10 @@
 //! What `spherule tradeoff` prints: a table for people, or the keys that scripts rely on.
 
 use super::lighting::LightingErrors;
+use super::orders::Orders;
 use crate::choice::name;
-use crate::structure::Structure;
+use crate::structure::object_order::Counts;
+use crate::structure::{Order, Structure};
 use crate::tally::{Summary, Ulp};
 use serde_json::{Value, json};
 use spherule_kernel::{LevelName, Stages, Tier};
@@ -13,10 +15,13 @@ pub(super) struct Report {
     pub(super) spheres: usize,
     pub(super) cpu: String,
     pub(super) rustc: &'static str,
+    /// Of the camera's rays and the spheres.
+    pub(super) order: Order,
     pub(super) structure: Structure,
     pub(super) level: LevelName,
     pub(super) lanes: usize,
     pub(super) threads: usize,
+    pub(super) orders: Orders,
     pub(super) tiers: Vec<TierReport>,
     /// Of every tier; `None` if the scene has no light.
     pub(super) lighting: Option<[LightingErrors; Tier::ALL.len()]>,
@@ -81,7 +86,12 @@ impl Report {
             "level": self.level.as_str(),
             "lanes": self.lanes,
             "threads": self.threads,
+            "order": name(&self.order),
             "structure": self.structure.in_reports(),
+            "orders": {
+                "image": counts(self.orders.image),
+                "object": counts(self.orders.object),
+            },
             "tiers": self.tiers.iter().map(tier).collect::<Vec<Value>>(),
             "lighting": self.lighting.map(|errors| {
                 let tiers = Tier::ALL.into_iter().zip(errors);
@@ -97,10 +107,11 @@ impl Report {
         let (level, structure) = (self.level.as_str(), name(&self.structure));
         // A scene is a file's name, and that is no line.
         let scene = scene.escape_debug();
+        let order = if self.order == Order::Object { "object order, " } else { "" };
         let plural = |count: usize| if count == 1 { "" } else { "s" };
         let (some_spheres, some_threads) = (plural(*spheres), plural(*threads));
         let mut text = format!(
-            "{scene}: {spheres} sphere{some_spheres}, {structure}\n\
+            "{scene}: {spheres} sphere{some_spheres}, {order}{structure}\n\
              {cpu}, {level}, {lanes} lanes, {threads} thread{some_threads}; {rustc}\n"
         );
         let mut kind = "";
@@ -130,6 +141,13 @@ impl Report {
                 format!("{:.5}", 100.0 * tier.share(tier.stages.expansions)),
             ]);
         }
+        let Orders { image, object } = self.orders;
+        text += "\ncamera rays in both orders, by exact\n";
+        text += "order               tests       writes  overwritten\n";
+        for (order, Counts { tests, writes }) in [(Order::Image, image), (Order::Object, object)] {
+            let (order, stored) = (name(&order), writes.stored);
+            text += &format!("{order:<7}{tests:>18}{stored:>13}{:>13}\n", writes.overwritten);
+        }
         if let Some(errors) = self.lighting {
             text += &format!("\n{} points and their lights\n", errors[0].points);
             text += "              wrong    wrong\ntier        normals  shadows\n";
@@ -140,6 +158,10 @@ impl Report {
         }
         text + FOOT
     }
+}
+
+fn counts(Counts { tests, writes }: Counts) -> Value {
+    json!({ "tests": tests, "writes": writes.stored, "overwritten": writes.overwritten })
 }
 
 fn lighting(tier: Tier, errors: LightingErrors) -> Value {
@@ -172,5 +194,7 @@ Wrong: the closest hit differs from that of exact, counted in rays. ulp: of t, w
 same sphere. Times are medians of passes in turns, without the building of a structure, for shadow
 rays those of any hit. A test is a ray and a sphere, whether a structure makes it or not. Shadow
 rays are those of exact; the other tiers' own start farther from the surface. A normal is wrong if
-it differs by 1/256; a shadow if a point receives a light by one of both tiers alone.
+it differs by 1/256; a shadow if a point receives a light by one of both tiers alone. In image order
+every ray is tested against every sphere, and writes its pixel once. In object order a sphere is tested
+against the packets of rays in its bounds on the screen; a write is a hit that is stored.
 ";

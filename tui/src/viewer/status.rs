@@ -4,7 +4,7 @@ use super::meter::Figures;
 use super::state::{Shown, State};
 use crate::cells::{CellGrid, Color};
 use crate::choice::name;
-use crate::structure::Structure;
+use crate::structure::{Order, Structure};
 use std::iter;
 
 const HINT: &str = "? help  q quit ";
@@ -12,17 +12,17 @@ const HINT: &str = "? help  q quit ";
 /// Writes the status line into `row`: names and figures from the left, the hint from the right.
 ///
 /// Where there is no room for all of it, what goes first is the `structure` that the program chose itself, then the
-/// figures from the last; a structure that the user chose stays. The hint goes where there is no room for it beside
+/// figures from the last; a structure that the user chose stays, and so does object order. The hint goes where there is no room for it beside
 /// the names.
 pub(super) fn write(
     cells: &mut CellGrid,
     row: u16,
     state: &State,
-    structure: Structure,
+    (order, structure): (Order, Structure),
     figures: Figures,
 ) {
     let columns = usize::from(cells.columns());
-    let (names, figures) = (names(state), figure_texts(figures));
+    let (names, figures) = (names(state, order), figure_texts(figures));
     let word = format!(" {}", name(&structure));
     let chosen = if state.shown.structure.is_some() { &*word } else { "" };
     let line = |structure: &str, count: usize| {
@@ -38,10 +38,11 @@ pub(super) fn write(
     cells.write(0, row, &format!("{line:columns$}"), Color::Default, Color::Default);
 }
 
-fn names(state: &State) -> String {
+fn names(state: &State, order: Order) -> String {
     let Shown { view, style, .. } = &state.shown;
     let (lens, charset) = (name(&view.lens_kind()), name(&style.charset));
-    format!("{} {lens} {charset}", style.accuracy.as_str())
+    let order = if order == Order::Object { " object" } else { "" };
+    format!("{} {lens} {charset}{order}", style.accuracy.as_str())
 }
 
 /// From the one that is missed the most.
@@ -76,20 +77,24 @@ mod tests {
         State::new(view, style, choice)
     }
 
-    fn text(columns: u16, state: &State, structure: Structure, figures: Figures) -> String {
+    fn text(columns: u16, state: &State, searched: (Order, Structure), figures: Figures) -> String {
         let mut cells = CellGrid::new(columns, 2);
-        write(&mut cells, 1, state, structure, figures);
+        write(&mut cells, 1, state, searched, figures);
         cells.row(1).iter().map(|cell| cell.glyph).collect()
     }
 
     fn line(columns: u16, choice: Auto<Structure>) -> String {
+        line_in(Order::Image, columns, choice)
+    }
+
+    fn line_in(order: Order, columns: u16, choice: Auto<Structure>) -> String {
         let figures = Figures {
             frames_per_second: Some(59.94),
             milliseconds: 3.21,
             megarays_per_second: 12.34,
             bytes: 45_678,
         };
-        text(columns, &state(choice), Structure::Bvh, figures)
+        text(columns, &state(choice), (order, Structure::Bvh), figures)
     }
 
     const AUTO: Auto<Structure> = None;
@@ -121,6 +126,18 @@ mod tests {
         assert_eq!(line(43, CHOSEN), " stable perspective half bvh  60 fps   3.2 ");
     }
 
+    #[test]
+    fn object_order_stays() {
+        assert_eq!(
+            line_in(Order::Object, 90, AUTO),
+            " stable perspective half object  60 fps   3.2 ms  12.3 Mrays/s  45.7 kB    ? help  q quit "
+        );
+        assert_eq!(
+            line_in(Order::Object, 47, AUTO),
+            " stable perspective half object ? help  q quit "
+        );
+    }
+
     /// The longest of every name, figures of a slow picture, and of a fast one.
     #[test]
     fn at_eighty_columns_there_is_always_the_hint() {
@@ -137,10 +154,13 @@ mod tests {
                         bytes: (1e4 * scale) as usize,
                     };
                     let structure = choice.unwrap_or(Structure::DepthList);
-                    let text = text(80, &state, structure, figures);
-                    assert!(text.ends_with(&format!(" {HINT}")), "{text}");
-                    assert!(text.contains("fps"), "{text}");
-                    assert!(choice.is_none() || text.contains(&name(&structure)), "{text}");
+                    for order in [Order::Image, Order::Object] {
+                        let text = text(80, &state, (order, structure), figures);
+                        assert!(text.ends_with(&format!(" {HINT}")), "{text}");
+                        assert!(text.contains("fps"), "{text}");
+                        assert!(choice.is_none() || text.contains(&name(&structure)), "{text}");
+                        assert_eq!(text.contains(" object "), order == Order::Object);
+                    }
                 }
             }
         }

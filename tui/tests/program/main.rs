@@ -4,6 +4,7 @@
 mod bad_input;
 mod cargo;
 mod light;
+mod orders;
 mod output;
 mod png;
 mod run;

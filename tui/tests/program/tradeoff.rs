@@ -49,9 +49,22 @@ fn the_keys_and_their_types() {
     let keys: Vec<_> = report.as_object().expect("an object").keys().collect();
     assert_eq!(
         keys,
-        ["cpu", "lanes", "level", "lighting", "rustc", "scene", "structure", "threads", "tiers"]
+        [
+            "cpu",
+            "lanes",
+            "level",
+            "lighting",
+            "order",
+            "orders",
+            "rustc",
+            "scene",
+            "structure",
+            "threads",
+            "tiers"
+        ]
     );
     assert_eq!((&report["scene"], &report["lanes"]), (&"marbles".into(), &16.into()));
+    assert_eq!(report["order"], "image");
     assert!(report["cpu"].is_string() && report["level"].is_string());
     assert!(report["rustc"].as_str().expect("text").starts_with("rustc 1."));
     assert_eq!(report["tiers"].as_array().map(Vec::len), Some(8));

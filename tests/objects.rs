@@ -1,0 +1,131 @@
+//! Object order: spheres one by one, in any order, leave the closest hits of their list; and what is stored is counted.
+
+use proptest::prelude::*;
+use proptest::test_runner::TestCaseError;
+use spherule_kernel::{
+    Hit, HitPacket, Lanes, Level, Ray, RayPacket, Sphere, SphereList, Spheres, Tier, Vec3, Writes,
+    f32x4, f32x8, f32x16, object_lanes, object_packets,
+};
+use spherule_tests::inputs::{self, Scene};
+use spherule_tests::variants::{bits, levels, reference};
+
+/// Object order in lanes.
+fn in_lanes<L: Lanes<Token = ()>>(
+    tier: Tier,
+    spheres: Spheres<'_>,
+    order: &[u32],
+    rays: &[Ray],
+) -> (Vec<Option<Hit>>, Writes) {
+    let (mut found, mut writes) = (Vec::new(), Writes::default());
+    for rays in rays.chunks(L::COUNT) {
+        let (packet, mut hits) = (RayPacket::new(rays), HitPacket::none());
+        for &index in order {
+            writes += object_lanes::<L>(tier, (), spheres, index, &packet, &mut hits);
+        }
+        found.extend(hits.hits().take(rays.len()));
+    }
+    (found, writes)
+}
+
+/// Object order at a level.
+fn at_level(
+    tier: Tier,
+    level: Level,
+    spheres: Spheres<'_>,
+    order: &[u32],
+    rays: &[Ray],
+) -> (Vec<Option<Hit>>, Writes) {
+    let packets: Vec<RayPacket> = rays.chunks(16).map(RayPacket::new).collect();
+    let numbers: Vec<u32> = (0..packets.len() as u32).collect();
+    let (mut hits, mut writes) = (vec![HitPacket::none(); packets.len()], Writes::default());
+    for &index in order {
+        writes += object_packets(tier, level, spheres, index, &numbers, &packets, &mut hits);
+    }
+    (hits.iter().flat_map(HitPacket::hits).take(rays.len()).collect(), writes)
+}
+
+fn check(Scene { rays, spheres }: &Scene) -> Result<(), TestCaseError> {
+    let list = SphereList::from(spheres);
+    let forwards: Vec<u32> = (0..spheres.len() as u32).collect();
+    let backwards: Vec<u32> = forwards.iter().rev().copied().collect();
+    for tier in Tier::ALL {
+        let expected: Vec<_> =
+            reference(tier).closest(spheres, rays).into_iter().map(bits).collect();
+        for order in [&forwards, &backwards] {
+            let list = list.spheres();
+            let scalar = in_lanes::<f32>(tier, list, order, rays);
+            let mut all = vec![
+                in_lanes::<f32x4>(tier, list, order, rays),
+                in_lanes::<f32x8>(tier, list, order, rays),
+                in_lanes::<f32x16>(tier, list, order, rays),
+            ];
+            let levels = levels().map(|name| Level::named(name).expect("a level of this CPU"));
+            all.extend(levels.map(|level| at_level(tier, level, list, order, rays)));
+            for (hits, writes) in [scalar.clone()].into_iter().chain(all) {
+                let hits: Vec<_> = hits.into_iter().map(bits).collect();
+                prop_assert_eq!(&hits, &expected, "{:?}", tier);
+                prop_assert_eq!(writes, scalar.1, "{:?}", tier);
+                let met = expected.iter().flatten().count() as u64;
+                prop_assert_eq!(writes.stored - writes.overwritten, met, "{:?}", tier);
+            }
+        }
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(inputs::config(300))]
+
+    #[test]
+    fn objects_are_their_list_on_the_lattice(scene in inputs::scene(inputs::lattice)) {
+        check(&scene)?;
+    }
+
+    #[test]
+    fn objects_are_their_list_in_every_regime(scene in inputs::scene(inputs::hard)) {
+        check(&scene)?;
+    }
+
+    #[test]
+    fn objects_are_their_list_for_any_bits(scene in inputs::scene(inputs::wild)) {
+        check(&scene)?;
+    }
+}
+
+/// Of equals the lowest index stays, and what is met twice is stored once.
+#[test]
+fn writes_are_counted() {
+    let at = |z| Sphere { center: Vec3::new(0.0, 0.0, z), radius: 1.0 };
+    let list = SphereList::from([at(9.0), at(5.0), at(5.0), at(7.0)]);
+    let rays = [Ray::new(Vec3::ZERO, Vec3::Z), Ray::new(Vec3::ZERO, Vec3::X)];
+    for tier in Tier::ALL {
+        for (order, stored, overwritten) in [
+            (&[0, 1, 2, 3][..], 2, 1),
+            (&[3, 2, 1, 0], 3, 2),
+            (&[0, 3, 2, 1], 4, 3),
+            (&[1, 1, 1], 1, 0),
+            (&[4, u32::MAX], 0, 0),
+        ] {
+            let (hits, writes) = in_lanes::<f32x8>(tier, list.spheres(), order, &rays);
+            assert_eq!(writes, Writes { stored, overwritten }, "{tier:?}, {order:?}");
+            let hit = Hit { t: 4.0, sphere: 1 };
+            assert_eq!(hits, [(stored > 0).then_some(hit), None], "{tier:?}, {order:?}");
+        }
+    }
+}
+
+/// Only the packets that are named are asked, and numbers past the end are no one's.
+#[test]
+fn packets_by_their_numbers() {
+    let list = SphereList::from([[0.0, 0.0, 5.0, 1.0]]);
+    let rays = [RayPacket::new(&[Ray::new(Vec3::ZERO, Vec3::Z)]); 4];
+    for name in levels() {
+        let level = Level::named(name).expect("a level of this CPU");
+        let mut hits = [HitPacket::none(); 3];
+        let numbers = [2, 0, 3, u32::MAX];
+        let writes =
+            object_packets(Tier::Exact, level, list.spheres(), 0, &numbers, &rays, &mut hits);
+        assert_eq!(writes, Writes { stored: 2, overwritten: 0 });
+        assert_eq!(hits.map(|hits| hits.hit(0).is_some()), [true, false, true], "{name:?}");
+    }
+}
