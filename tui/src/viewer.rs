@@ -82,11 +82,10 @@ pub fn run(
         if viewer.wait(stale, last_frame) == Some(Duration::ZERO) {
             let now = Instant::now();
             let moving = stale || viewer.state.shown.spinning;
-            let since_last = last_frame.map(|last_frame| now - last_frame);
-            if let Some(since_last) = since_last {
-                viewer.state.advance(since_last);
+            if let Some(last_frame) = last_frame {
+                viewer.state.advance(now - last_frame);
             }
-            viewer.show_frame(now, moving, since_last)?;
+            viewer.show_frame(now, moving)?;
             last_frame = Some(now);
             stale = false;
         }
@@ -151,12 +150,7 @@ impl Viewer<'_> {
     }
 
     /// Draws and sends one frame, in one write.
-    fn show_frame(
-        &mut self,
-        now: Instant,
-        moving: bool,
-        since_last: Option<Duration>,
-    ) -> Result<(), Error> {
+    fn show_frame(&mut self, now: Instant, moving: bool) -> Result<(), Error> {
         let (columns, rows) = self.terminal.size().map_err(|error| lost(&error))?;
         let (columns, rows) = (columns.min(LARGEST_SIZE), rows.min(LARGEST_SIZE));
         if columns == 0 || rows == 0 {
@@ -172,8 +166,7 @@ impl Viewer<'_> {
         let lighting = &self.scene.lighting;
         let search = self.structures.picture(*structure, &workload, view, lighting)?;
         let searched = (search.order(), search.structure);
-        let spending = self.pace.spending(moving, since_last);
-        let size = (columns, status_row);
+        let (size, spending) = ((columns, status_row), self.pace.spending(moving));
         let found = started.elapsed();
         let drawn = self.renderer.draw(self.scene, &search, view, style, size, spending);
         let drawing = started.elapsed();

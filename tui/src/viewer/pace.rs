@@ -10,9 +10,6 @@ use std::time::Duration;
 const REST: Duration = Duration::from_millis(100);
 /// The part of an interval that is for drawing; then there are still the bytes, and what a slow frame takes more.
 const DRAWING: f64 = 0.4;
-/// The same of the first frame after a rest, which is what a key waits for: caches are cold, and what took 7 ms before
-/// takes 10.
-const FIRST_DRAWING: f64 = 0.2;
 /// What the last frame says of the rate, against all before it.
 const WEIGHT: f64 = 0.5;
 
@@ -43,12 +40,10 @@ impl Pace {
         Some(since_last.map_or(Duration::ZERO, |since| from_last.saturating_sub(since)))
     }
 
-    /// What the next frame may cost, `since_last` one began. Before the first, nobody knows how long samples take;
-    /// without a movement, there is time.
-    pub(super) fn spending(&self, moving: bool, since_last: Option<Duration>) -> Spending {
-        let rested = since_last.is_none_or(|since| since > REST);
-        let part = if rested { FIRST_DRAWING } else { DRAWING };
-        let time = part * self.interval.as_secs_f64();
+    /// What the next frame may cost. Before the first, nobody knows how long samples take; without a movement, there
+    /// is time.
+    pub(super) fn spending(&self, moving: bool) -> Spending {
+        let time = DRAWING * self.interval.as_secs_f64();
         match self.rate {
             Some(rate) if moving => Spending::AtMost((rate * time) as u64),
             _ => Spending::ByNeed,
@@ -88,7 +83,7 @@ mod tests {
     fn the_first_frame_is_full_and_comes_at_once() {
         let pace = Pace::new(INTERVAL);
         assert_eq!(pace.wait(true, None), Some(Duration::ZERO));
-        assert_eq!(pace.spending(true, None), Spending::ByNeed);
+        assert_eq!(pace.spending(true), Spending::ByNeed);
     }
 
     #[test]
@@ -96,11 +91,9 @@ mod tests {
         let mut pace = pace();
         assert_eq!(pace.wait(true, Some(14 * MS)), Some(6 * MS));
         assert_eq!(pace.wait(true, Some(21 * MS)), Some(Duration::ZERO));
-        assert_eq!(pace.spending(true, Some(INTERVAL)), Spending::AtMost(8000));
-        // A key after a rest waits for it.
-        assert_eq!(pace.spending(true, Some(REST + MS)), Spending::AtMost(4000));
+        assert_eq!(pace.spending(true), Spending::AtMost(8000));
         pace.drawn(effort(8000, false), 4 * MS);
-        assert_eq!(pace.spending(true, Some(INTERVAL)), Spending::AtMost(12_000));
+        assert_eq!(pace.spending(true), Spending::AtMost(12_000));
     }
 
     #[test]
@@ -113,7 +106,7 @@ mod tests {
         assert_eq!(pace.wait(true, Some(30 * MS)), Some(Duration::ZERO));
         pace.drawn(effort(8000, false), 8 * MS);
         assert_eq!(pace.wait(false, Some(100 * MS)), Some(Duration::ZERO));
-        assert_eq!(pace.spending(false, Some(REST)), Spending::ByNeed);
+        assert_eq!(pace.spending(false), Spending::ByNeed);
         pace.drawn(effort(30_000, true), 30 * MS);
         for since in [0, 100, 1000] {
             assert_eq!(pace.wait(false, Some(since * MS)), None);
@@ -123,11 +116,11 @@ mod tests {
     #[test]
     fn a_frame_of_nothing_says_nothing() {
         let mut pace = pace();
-        let before = pace.spending(true, None);
+        let before = pace.spending(true);
         pace.drawn(effort(0, true), Duration::ZERO);
         pace.drawn(effort(0, true), MS);
         pace.drawn(effort(10, true), Duration::ZERO);
-        assert_eq!(pace.spending(true, None), before);
+        assert_eq!(pace.spending(true), before);
     }
 
     /// Every frame is as dear as its cells and its samples, and the next gets what it says: they settle.
@@ -139,9 +132,7 @@ mod tests {
         let mut samples = needed;
         for _ in 0..30 {
             pace.drawn(effort(samples, samples == needed), MS.mul_f64(milliseconds(samples)));
-            let Spending::AtMost(most) = pace.spending(true, Some(INTERVAL)) else {
-                panic!("a rate is known")
-            };
+            let Spending::AtMost(most) = pace.spending(true) else { panic!("a rate is known") };
             samples = most.clamp(few, needed);
         }
         assert!((milliseconds(samples) - 8.0).abs() < 0.1, "{samples}");
