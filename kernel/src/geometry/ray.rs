@@ -143,8 +143,11 @@ impl<A: LaneArray> RayPacket<A> {
         let mut live = 0;
         for lane in 0..A::COUNT {
             // No branches, so that the compiler takes several lanes at a time: x - x is zero unless x is NaN or infinite.
-            let not_finite = [ox, oy, oz, dx, dy, dz].map(|axis| axis.get(lane) - axis.get(lane));
-            let is_finite = not_finite.iter().sum::<f32>() == 0.0;
+            let mut not_finite = 0.0;
+            for axis in [ox, oy, oz, dx, dy, dz] {
+                not_finite += axis.get(lane) - axis.get(lane);
+            }
+            let is_finite = not_finite == 0.0;
             let goes = (dx.get(lane) != 0.0) | (dy.get(lane) != 0.0) | (dz.get(lane) != 0.0);
             let is_open = self.t_min.get(lane) <= self.t_max.get(lane);
             live |= u32::from(is_finite & goes & is_open) << lane;
