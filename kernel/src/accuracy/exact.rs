@@ -124,6 +124,19 @@ impl TierFormula for Exact {
 }
 
 impl Exact {
+    /// D of a valid ray and a valid sphere, and the bound on its error.
+    pub(crate) fn discriminant(ray: &Ray, sphere: &Sphere) -> (f64, f64) {
+        let wide = |v: [f32; 3]| v.map(f64::from);
+        let Estimate { discriminant, error, .. } = Estimate::new(
+            wide(ray.origin.to_array()),
+            wide(ray.direction.to_array()),
+            wide(sphere.center.to_array()),
+            f64::from(sphere.radius),
+            &Estimate::<f64>::PROVEN,
+        );
+        (discriminant, error)
+    }
+
     /// Of the lanes `asked`, those that [`TierFormula::first_root`] takes to double precision, and of
     /// these, those that it takes to exact sums.
     #[inline(always)]
