@@ -5,6 +5,7 @@ mod bad_input;
 mod cargo;
 mod light;
 mod output;
+mod pick;
 mod png;
 mod run;
 mod scenes;
