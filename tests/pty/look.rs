@@ -32,7 +32,7 @@ pub(crate) fn inverse(screen: &Screen) -> Vec<(u16, u16)> {
     let (rows, columns) = screen.size();
     let cells = (0..rows.get()).flat_map(|row| (0..columns.get()).map(move |column| (column, row)));
     cells
-        .filter(|&(column, row)| screen.cell(row, column).is_some_and(|cell| cell.inverse()))
+        .filter(|&(column, row)| screen.cell(row, column).is_some_and(vt100::Cell::inverse))
         .collect()
 }
 

@@ -38,11 +38,19 @@ pub fn framed(spheres: Spheres<'_>, aspect: f32) -> View {
 }
 
 /// As [`framed`], but of `sphere`, and from where and through what `view` looks: its direction, its field of view, its
-/// kind of projection.
+/// kind of projection. Parallel rays start no nearer than they do.
 #[must_use]
 pub fn reframed(view: &View, sphere: Sphere, aspect: f32) -> View {
-    let outward = (view.eye - view.target).try_normalize().unwrap_or(Vec3::Z);
-    around(sphere, outward, view.up, view.lens, aspect)
+    let way = view.eye - view.target;
+    let outward = way.try_normalize().unwrap_or(Vec3::Z);
+    let framed = around(sphere, outward, view.up, view.lens, aspect);
+    // From where parallel rays start is not seen, but their numbers are as large.
+    match view.lens {
+        Lens::Parallel { .. } if framed.eye.distance(framed.target) < way.length() => {
+            View { eye: framed.target + way, ..framed }
+        }
+        _ => framed,
+    }
 }
 
 fn around(sphere: Sphere, outward: Vec3, up: Vec3, lens: Lens, aspect: f32) -> View {
@@ -147,6 +155,18 @@ mod tests {
         let reframed = reframed(&view, small, 1.0);
         assert_eq!(reframed.target, small.center);
         assert!(reframed.axes()[0].dot(view.axes()[0]) > 0.999, "{reframed:?}");
+    }
+
+    #[test]
+    fn parallel_rays_start_no_nearer() {
+        let lens = Lens::Parallel { height: 9.0 };
+        let far = View { eye: Vec3::new(0.0, 0.0, 2000.0), target: Vec3::ZERO, up: Vec3::Y, lens };
+        let one = Sphere { center: Vec3::X, radius: 1.0 };
+        let from_far = reframed(&far, one, 1.0);
+        assert_eq!(from_far.eye, Vec3::new(1.0, 0.0, 2000.0));
+        assert_eq!(from_far.lens, Lens::Parallel { height: 2.0 });
+        let near = View { eye: Vec3::new(0.0, 0.0, 0.1), ..far };
+        assert!(reframed(&near, one, 1.0).eye.z > 2.0);
     }
 
     #[test]
