@@ -126,11 +126,11 @@ impl TierFormula for Exact {
 impl Exact {
     /// D of a valid ray and a valid sphere, and the bound on its error.
     pub(crate) fn discriminant(ray: &Ray, sphere: &Sphere) -> (f64, f64) {
-        let wide = |v: [f32; 3]| v.map(f64::from);
+        let (origin, direction, center) = (ray.origin, ray.direction, sphere.center);
         let Estimate { discriminant, error, .. } = Estimate::new(
-            wide(ray.origin.to_array()),
-            wide(ray.direction.to_array()),
-            wide(sphere.center.to_array()),
+            axes!(i => f64::from(origin[i])),
+            axes!(i => f64::from(direction[i])),
+            axes!(i => f64::from(center[i])),
             f64::from(sphere.radius),
             &Estimate::<f64>::PROVEN,
         );
