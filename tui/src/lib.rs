@@ -12,6 +12,7 @@ pub mod ink;
 pub mod machine;
 pub mod npy;
 pub mod palette;
+pub mod pick;
 pub mod picture;
 pub mod png_file;
 pub mod progress;

@@ -6,6 +6,7 @@ mod cargo;
 mod light;
 mod orders;
 mod output;
+mod pick;
 mod png;
 mod run;
 mod scenes;
