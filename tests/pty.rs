@@ -12,8 +12,8 @@ mod viewer;
 
 use look::last_row;
 use modes::is_cooked;
-use picture::{OPTIONS, once};
-use session::Session;
+use picture::{OPTIONS, once, once_with};
+use session::{Output, Session};
 use spherule::view::{LensKind, orbited, with_projection, zoomed};
 use spherule::viewer::{ORBIT_STEP, ZOOM_STEP};
 use spherule_tests::binary::spherule;
@@ -139,6 +139,32 @@ fn after_a_movement_the_picture_becomes_full_and_then_there_is_peace() {
     assert!(viewer.session.stirs(), "it spins, and nothing happens");
     viewer.session.type_in(" ");
     viewer.session.wait_for_peace();
+    viewer.quit();
+}
+
+/// `e` shows what the tier gets wrong, by the tier of the moment, and the picture again.
+#[test]
+fn e_shows_the_errors_and_the_picture_again() {
+    let mut viewer = Viewer::start();
+    let legend = |output: &Output| {
+        let columns = output.screen().size().1.get();
+        let row = PICTURE_ROWS - 2;
+        output.screen().contents_between(row, 0, row, columns)
+    };
+    viewer.session.type_in("e");
+    viewer.session.wait_for("the legend", |output| {
+        (shows_a_frame(output) && legend(output).contains(" exact: all right")).then_some(())
+    });
+    viewer.session.type_in("1");
+    viewer.session.wait_for("the errors of fast", |output| {
+        (shows_a_frame(output) && legend(output).contains(" worst: sphere ")).then_some(())
+    });
+    let expected =
+        once_with(&["--show", "error", "--accuracy", "fast"], &VIEW, COLUMNS, PICTURE_ROWS);
+    viewer.wait_for_picture("what --once shows", &expected);
+    viewer.session.wait_for_peace();
+    viewer.session.type_in("3e");
+    viewer.wait_for_picture("the picture again", &once(&VIEW, COLUMNS, PICTURE_ROWS));
     viewer.quit();
 }
 

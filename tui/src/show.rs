@@ -1,6 +1,9 @@
 //! One picture, or the viewer: what `spherule [SCENE]` does.
 
 use crate::arguments::{ComputingArguments, PictureArguments};
+use crate::compare::Comparison;
+use crate::compare::error_map::{ErrorMap, ErrorMapper};
+use crate::compare::legend::MapPainter;
 use crate::draw::pixels::PixelGrid;
 use crate::draw::{Renderer, picture_workload};
 use crate::error::{Error, write_stdout};
@@ -10,9 +13,9 @@ use crate::structure::scene::{PictureSearch, SceneStructures};
 use crate::style::{Charset, ColorDepth, PIPE_SIZE, Style};
 use crate::terminal::color_depth::Surroundings;
 use crate::threads::Threads;
-use crate::{encode, png_file, scene, viewer};
+use crate::{encode, machine, png_file, scene, viewer};
 use crossterm::terminal;
-use spherule_kernel::Level;
+use spherule_kernel::{Level, Tier};
 use std::io::IsTerminal;
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -24,11 +27,18 @@ const LIKELY_ASPECTS: RangeInclusive<f32> = 0.2..=2.0;
 /// How long a picture may take before there is a word about it.
 const PATIENCE: Duration = Duration::from_secs(1);
 
+/// Rows of an error map that are written at a time.
+const MAP_STRIP: u16 = 32;
+
 /// Shows a scene: in the viewer if standard output is a terminal that can, except with `--once` and `--png`.
 ///
 /// # Errors
 /// [`Error`] if there is no such scene, or it cannot be shown.
 pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
+    if arguments.show.is_some() {
+        // What is wrong is what differs from exact.
+        machine::check_floats(Tier::Exact)?;
+    }
     let mut scene = arguments.scene.open()?;
     if let Some(background) = arguments.background.filter(|_| !scene.names_background) {
         scene.background = background;
@@ -74,12 +84,25 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         return write_png(&scene, &search, &grid, &style, &renderer, file);
     }
     if in_viewer {
-        return viewer::run(&scene, structures, structure, view, style, renderer);
+        let start = viewer::Start { view, style, structure, comparison: arguments.show };
+        return viewer::run(&scene, structures, start, renderer);
     }
     let workload = picture_workload(scene.spheres().len(), &style, columns, rows, 1.0);
     let search = structures.picture(structure, &workload, &view, &scene.lighting)?;
     // On the terminal that the picture is written to, the picture shows how far it is.
     let mut progress = (!is_terminal).then(|| Progress::after(PATIENCE));
+    if let Some(Comparison::Errors) = arguments.show {
+        let machine = renderer.machine();
+        let mut mapper = ErrorMapper::default();
+        let size = (columns, rows);
+        let map = mapper.map((&scene, &search), &view, &style, size, machine, |share| {
+            if let Some(progress) = &mut progress {
+                progress.show("drawing", share);
+            }
+        });
+        drop(progress);
+        return write_map(&map, &style);
+    }
     let (mut done, mut bytes) = (0_u32, Vec::new());
     renderer.draw_strips(&scene, &search, &view, &style, (columns, rows), |cells| {
         bytes.clear();
@@ -91,6 +114,19 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         }
         Ok(())
     })
+}
+
+/// Writes it in strips, since bytes take more memory than classes.
+fn write_map(map: &ErrorMap, style: &Style) -> Result<(), Error> {
+    let (painter, (_, rows)) = (MapPainter::new(style), map.size());
+    let mut bytes = Vec::new();
+    for first in (0..rows).step_by(MAP_STRIP.into()) {
+        bytes.clear();
+        let strip = first..first.saturating_add(MAP_STRIP).min(rows);
+        encode::full(&painter.cells(map, strip), &mut bytes);
+        write_stdout(&bytes)?;
+    }
+    Ok(())
 }
 
 fn write_png(

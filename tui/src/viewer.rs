@@ -13,7 +13,10 @@ mod status;
 
 use crate::cells::CellGrid;
 use crate::choice::Auto;
-use crate::draw::{Effort, Renderer, picture_workload};
+use crate::compare::Comparison;
+use crate::compare::error_map::ErrorMapper;
+use crate::compare::legend::MapPainter;
+use crate::draw::{Drawn, Effort, Renderer, picture_workload};
 use crate::encode::Encoder;
 use crate::error::{Error, cause};
 use crate::scene::Scene;
@@ -42,7 +45,20 @@ const LARGEST_SIZE: u16 = 4096;
 /// the real program; it harms nobody who does not ask for it.
 const PANIC_SWITCH: &str = "SPHERULE_TEST_PANIC";
 
-/// Shows `scene` on the terminal, from `view` on, drawn by `renderer` with the chosen one of its
+/// What the viewer shows first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Start {
+    /// From where.
+    pub view: View,
+    /// How.
+    pub style: Style,
+    /// Which structure is asked for.
+    pub structure: Auto<Structure>,
+    /// What tiers are held against each other, if they are.
+    pub comparison: Option<Comparison>,
+}
+
+/// Shows `scene` on the terminal, from `start` on, drawn by `renderer` with the chosen one of its
 /// `structures`, until the user quits.
 ///
 /// # Errors
@@ -51,9 +67,7 @@ const PANIC_SWITCH: &str = "SPHERULE_TEST_PANIC";
 pub fn run(
     scene: &Scene,
     structures: SceneStructures<'_>,
-    structure: Auto<Structure>,
-    view: View,
-    style: Style,
+    start: Start,
     renderer: Renderer<'_>,
 ) -> Result<(), Error> {
     let rate = if env::var_os("SSH_CONNECTION").is_some() { REMOTE_RATE } else { LOCAL_RATE };
@@ -62,8 +76,9 @@ pub fn run(
         scene,
         structures,
         terminal: Terminal::enter().map_err(|error| lost(&error))?,
-        state: State::new(view, style, structure),
+        state: State::new(start),
         renderer,
+        mapper: ErrorMapper::default(),
         encoder: Encoder::new(),
         meter: Meter::default(),
         pace: Pace::new(interval),
@@ -103,6 +118,7 @@ struct Viewer<'a> {
     terminal: Terminal,
     state: State,
     renderer: Renderer<'a>,
+    mapper: ErrorMapper,
     encoder: Encoder,
     meter: Meter,
     pace: Pace,
@@ -160,7 +176,7 @@ impl Viewer<'_> {
         let status_row = if rows >= 2 { rows - 1 } else { rows };
         self.state.set_height(status_row);
         let started = Instant::now();
-        let Shown { view, style, structure, .. } = &self.state.shown;
+        let Shown { view, style, structure, comparison, .. } = &self.state.shown;
         let count = self.scene.spheres().len();
         let workload = picture_workload(count, style, columns, status_row, f64::INFINITY);
         let lighting = &self.scene.lighting;
@@ -168,7 +184,16 @@ impl Viewer<'_> {
         let searched = search.structure;
         let (size, spending) = ((columns, status_row), self.pace.spending(moving));
         let found = started.elapsed();
-        let drawn = self.renderer.draw(self.scene, &search, view, style, size, spending);
+        let drawn = match comparison {
+            None => self.renderer.draw(self.scene, &search, view, style, size, spending),
+            Some(Comparison::Errors) => {
+                let (scene, machine) = ((self.scene, &search), self.renderer.machine());
+                let map = self.mapper.map(scene, view, style, size, machine, |_| {});
+                // All of it, at every pace.
+                let cells = MapPainter::new(style).cells(&map, 0..status_row);
+                Drawn { cells, effort: map.effort() }
+            }
+        };
         let drawing = started.elapsed();
         self.pace.drawn(drawn.effort, drawing - found);
 

@@ -2,7 +2,7 @@
 
 use crate::cells::{CellGrid, Color};
 
-const LINES: [&str; 16] = [
+const LINES: [&str; 17] = [
     "                                         ",
     "  arrows, h j k l, drag   around          ",
     "  + -, wheel              nearer, farther ",
@@ -11,6 +11,7 @@ const LINES: [&str; 16] = [
     "  o                       projection      ",
     "                                         ",
     "  1 2 3 4                 fast, stable, exact, geometric ",
+    "  e                       what the tier gets wrong ",
     "  c                       ascii, half, quadrant, sextant, ",
     "                          octant, braille, block ",
     "  s                       auto, brute, depth-list, bvh ",

@@ -18,6 +18,8 @@ pub(super) enum Input {
     Drag(u16, u16),
     /// Use this tier.
     Accuracy(Tier),
+    /// Show what the tier gets wrong, or the picture again.
+    Errors,
     /// The other projection.
     Projection,
     /// The next charset.
@@ -69,6 +71,7 @@ fn key_input(key: &KeyEvent) -> Option<Input> {
         KeyCode::Char('2') => Input::Accuracy(Tier::Stable),
         KeyCode::Char('3') => Input::Accuracy(Tier::Exact),
         KeyCode::Char('4') => Input::Accuracy(Tier::Geometric),
+        KeyCode::Char('e') => Input::Errors,
         KeyCode::Char('o') => Input::Projection,
         KeyCode::Char('c') => Input::Charset,
         KeyCode::Char('s') => Input::Structure,

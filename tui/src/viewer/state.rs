@@ -1,11 +1,14 @@
 //! What the viewer shows and how it moves. No terminal, no clock: input and durations come in.
 
+use super::Start;
 use super::keys::Input;
 use crate::choice::{Auto, next};
+use crate::compare::Comparison;
 use crate::machine::check_floats;
 use crate::structure::Structure;
 use crate::style::{Charset, Style};
 use crate::view::{LensKind, View, orbited, with_projection, zoomed};
+use spherule_kernel::Tier;
 use std::f32::consts::PI;
 use std::time::Duration;
 
@@ -42,6 +45,7 @@ pub(super) struct Shown {
     pub(super) view: View,
     pub(super) style: Style,
     pub(super) structure: Auto<Structure>,
+    pub(super) comparison: Option<Comparison>,
     pub(super) help: bool,
     pub(super) spinning: bool,
 }
@@ -58,8 +62,8 @@ pub(super) struct State {
 }
 
 impl State {
-    pub(super) fn new(view: View, style: Style, structure: Auto<Structure>) -> Self {
-        let shown = Shown { view, style, structure, help: false, spinning: false };
+    pub(super) fn new(Start { view, style, structure, comparison }: Start) -> Self {
+        let shown = Shown { view, style, structure, comparison, help: false, spinning: false };
         Self { home: view, shown, held: None, height: 1 }
     }
 
@@ -77,7 +81,7 @@ impl State {
 
     pub(super) fn apply(&mut self, input: Input) -> Outcome {
         let before = self.shown;
-        let Shown { view, style, structure, help, spinning } = &mut self.shown;
+        let Shown { view, style, structure, comparison, help, spinning } = &mut self.shown;
         match input {
             Input::Quit => return Outcome::Quit,
             Input::Escape if !*help => return Outcome::Quit,
@@ -91,6 +95,14 @@ impl State {
             // A key that asks for what this process cannot compute does nothing.
             Input::Accuracy(tier) if check_floats(tier).is_err() => {}
             Input::Accuracy(tier) => style.accuracy = tier,
+            // The truth is what exact says.
+            Input::Errors if check_floats(Tier::Exact).is_err() => {}
+            Input::Errors => {
+                *comparison = match comparison {
+                    Some(Comparison::Errors) => None,
+                    None => Some(Comparison::Errors),
+                }
+            }
             Input::Projection => {
                 let other = match view.lens_kind() {
                     LensKind::Perspective => LensKind::Parallel,
@@ -129,7 +141,7 @@ mod tests {
     use super::*;
     use crate::view::Lens;
     use clap::ValueEnum;
-    use spherule_kernel::{Tier, Vec3};
+    use spherule_kernel::Vec3;
 
     fn state() -> State {
         let view = View {
@@ -139,7 +151,7 @@ mod tests {
             lens: Lens::Perspective { fov: 40.0 },
         };
         let style = Style { accuracy: Tier::Stable, charset: Charset::Half, ..Style::PLAIN };
-        let mut state = State::new(view, style, None);
+        let mut state = State::new(Start { view, style, structure: None, comparison: None });
         state.set_height(36);
         state
     }
@@ -190,6 +202,15 @@ mod tests {
         assert_eq!(state.shown.view.lens_kind(), LensKind::Parallel);
         assert_eq!(state.apply(Input::Structure), Outcome::Changed);
         assert_eq!(state.shown.structure, Some(Structure::Brute));
+    }
+
+    #[test]
+    fn the_errors_of_the_tier_are_shown_and_hidden() {
+        let mut state = state();
+        for shown in [Some(Comparison::Errors), None] {
+            assert_eq!(state.apply(Input::Errors), Outcome::Changed);
+            assert_eq!(state.shown.comparison, shown);
+        }
     }
 
     #[test]
