@@ -1,8 +1,9 @@
-//! Milliseconds an error map takes beside a frame of `Exact` of as many samples, 200 x 60 cells in truecolor, on all
-//! threads, in turns: `cargo run --release -p spherule --example compare_time [FRAMES]`.
+//! Milliseconds an error map takes beside a frame of `Exact` of as many samples, and a frame split between `Fast` and
+//! `Exact` beside the mean of both whole ones; 200 x 60 cells in truecolor, on all threads, in turns: `cargo run --release -p spherule --example compare_time [FRAMES]`.
 
 use spherule::compare::error_map::ErrorMapper;
 use spherule::compare::legend::MapPainter;
+use spherule::compare::split::Split;
 use spherule::draw::{Renderer, Spending, picture_workload};
 use spherule::scene::builtin::BUILTINS;
 use spherule::structure::scene::SceneStructures;
@@ -34,7 +35,7 @@ fn main() {
         let search = search.expect("memory for a structure");
         let mut renderer = Renderer::new(level, &threads);
         let mut mapper = ErrorMapper::default();
-        let (mut frame, mut map) = (Vec::new(), Vec::new());
+        let (mut frame, mut map, mut fast_frame, mut split) = (vec![], vec![], vec![], vec![]);
         for _ in 0..frames.max(1) {
             let start = Instant::now();
             black_box(renderer.draw(&scene, &search, &view, &exact, size, Spending::ByNeed));
@@ -44,11 +45,26 @@ fn main() {
             let errors = mapper.map((&scene, &search), &view, &fast, size, machine, |_| {});
             black_box(MapPainter::new(&fast).cells(&errors, 0..size.1));
             map.push(start.elapsed().as_secs_f64() * 1e3);
+            let start = Instant::now();
+            black_box(renderer.draw(&scene, &search, &view, &fast, size, Spending::ByNeed));
+            fast_frame.push(start.elapsed().as_secs_f64() * 1e3);
+            let halves = Split { tiers: [Tier::Fast, Tier::Exact], seam: size.0 / 2 };
+            let (seen, need) = ((&scene, &search), Spending::ByNeed);
+            let start = Instant::now();
+            black_box(halves.draw(&mut renderer, seen, &view, &exact, size, need));
+            split.push(start.elapsed().as_secs_f64() * 1e3);
         }
-        let [frame, map] = [frame, map].map(|mut times| {
+        let [frame, map, fast_frame, split] = [frame, map, fast_frame, split].map(|mut times| {
             times.sort_by(f64::total_cmp);
             times[times.len() / 2]
         });
-        println!("{:8} frame {frame:.2} ms, error map {map:.2} ms: {:.2}", entry.name, map / frame);
+        let mean = (frame + fast_frame) / 2.0;
+        println!(
+            "{:8} frame {frame:.2} ms, error map {map:.2} ms: {:.2}; mean of halves {mean:.2} ms, split \
+             {split:.2} ms: {:.2}",
+            entry.name,
+            map / frame,
+            split / mean
+        );
     }
 }

@@ -82,7 +82,7 @@ pub struct PictureArguments {
     /// Shape of a cell, width to height [default: the terminal's, else 1:2]
     #[arg(long, value_name = "W:H", value_parser = aspect)]
     pub cell_aspect: Option<f32>,
-    /// In place of the scene, error: what the tier gets wrong against exact, cell by cell
+    /// error: what the tier gets wrong against exact, cell by cell; split:TIER,TIER: two tiers side by side
     #[arg(long, value_name = "WHAT", conflicts_with = "png")]
     pub show: Option<Comparison>,
     /// How it is computed.

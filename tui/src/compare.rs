@@ -3,8 +3,10 @@
 pub mod error_map;
 pub mod legend;
 mod marks;
+pub mod split;
 pub mod verdict;
 
+use spherule_kernel::Tier;
 use std::str::FromStr;
 
 /// What a picture shows in place of the scene as one tier sees it.
@@ -12,15 +14,26 @@ use std::str::FromStr;
 pub enum Comparison {
     /// What the tier gets wrong, cell by cell.
     Errors,
+    /// Two tiers side by side.
+    Split([Tier; 2]),
 }
 
 impl FromStr for Comparison {
     type Err = &'static str;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
+        // As `--accuracy` reads them.
+        let tier = |name: &str| {
+            let name = if name == "algebraic" { "fast" } else { name };
+            Tier::ALL.into_iter().find(|tier| tier.as_str() == name)
+        };
+        let split = || {
+            let (left, right) = text.strip_prefix("split:")?.split_once(',')?;
+            Some(Self::Split([tier(left)?, tier(right)?]))
+        };
         match text {
             "error" => Ok(Self::Errors),
-            _ => Err("error"),
+            _ => split().ok_or("error, or split:TIER,TIER such as split:fast,exact"),
         }
     }
 }

@@ -4,8 +4,9 @@ use crate::arguments::{ComputingArguments, PictureArguments};
 use crate::compare::Comparison;
 use crate::compare::error_map::{ErrorMap, ErrorMapper};
 use crate::compare::legend::MapPainter;
+use crate::compare::split::{Split, SplitPicture};
 use crate::draw::pixels::PixelGrid;
-use crate::draw::{Renderer, picture_workload};
+use crate::draw::{Renderer, Spending, picture_workload};
 use crate::error::{Error, write_stdout};
 use crate::progress::Progress;
 use crate::scene::Scene;
@@ -91,6 +92,21 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     let search = structures.picture(structure, &workload, &view, &scene.lighting)?;
     // On the terminal that the picture is written to, the picture shows how far it is.
     let mut progress = (!is_terminal).then(|| Progress::after(PATIENCE));
+    if let Some(Comparison::Split(tiers)) = arguments.show {
+        let split = Split { tiers, seam: columns / 2 };
+        let (scene, size, need) = ((&scene, &search), (columns, rows), Spending::ByNeed);
+        let SplitPicture { drawn, ns_a_ray } =
+            split.draw(&mut renderer, scene, &view, &style, size, need);
+        let mapper = &mut ErrorMapper::default();
+        let figures = split.figures(&renderer, mapper, scene, &view, &style, size);
+        let mut cells = drawn.cells;
+        // What is measured is never twice the same: a file or a pipe gets what is.
+        let ns_a_ray = if is_terminal { ns_a_ray } else { [None; 2] };
+        split.write(&mut cells, rows, ns_a_ray, Some(figures));
+        let mut bytes = Vec::new();
+        encode::full(&cells, &mut bytes);
+        return write_stdout(&bytes);
+    }
     if let Some(Comparison::Errors) = arguments.show {
         let machine = renderer.machine();
         let mut mapper = ErrorMapper::default();

@@ -16,6 +16,7 @@ use crate::choice::Auto;
 use crate::compare::Comparison;
 use crate::compare::error_map::ErrorMapper;
 use crate::compare::legend::MapPainter;
+use crate::compare::split::{Split, SplitPicture, Times};
 use crate::draw::{Drawn, Effort, Renderer, picture_workload};
 use crate::encode::Encoder;
 use crate::error::{Error, cause};
@@ -79,6 +80,7 @@ pub fn run(
         state: State::new(start),
         renderer,
         mapper: ErrorMapper::default(),
+        times: Times::default(),
         encoder: Encoder::new(),
         meter: Meter::default(),
         pace: Pace::new(interval),
@@ -119,6 +121,7 @@ struct Viewer<'a> {
     state: State,
     renderer: Renderer<'a>,
     mapper: ErrorMapper,
+    times: Times,
     encoder: Encoder,
     meter: Meter,
     pace: Pace,
@@ -174,7 +177,7 @@ impl Viewer<'_> {
             return Ok(());
         }
         let status_row = if rows >= 2 { rows - 1 } else { rows };
-        self.state.set_height(status_row);
+        self.state.set_size(columns, status_row);
         let started = Instant::now();
         let Shown { view, style, structure, comparison, .. } = &self.state.shown;
         let count = self.scene.spheres().len();
@@ -186,6 +189,20 @@ impl Viewer<'_> {
         let found = started.elapsed();
         let drawn = match comparison {
             None => self.renderer.draw(self.scene, &search, view, style, size, spending),
+            Some(Comparison::Split(tiers)) => {
+                let split = Split { tiers: *tiers, seam: self.state.seam() };
+                let scene = (self.scene, &search);
+                let SplitPicture { mut drawn, ns_a_ray } =
+                    split.draw(&mut self.renderer, scene, view, style, size, spending);
+                // What is wrong is counted at rest: it takes as long as a picture.
+                let figures = (!moving).then(|| {
+                    split.figures(&self.renderer, &mut self.mapper, scene, view, style, size)
+                });
+                let medians = self.times.medians(*tiers, ns_a_ray);
+                split.write(&mut drawn.cells, status_row, medians, figures);
+                drawn.effort.is_full &= !moving;
+                drawn
+            }
             Some(Comparison::Errors) => {
                 let (scene, machine) = ((self.scene, &search), self.renderer.machine());
                 let map = self.mapper.map(scene, view, style, size, machine, |_| {});

@@ -13,6 +13,7 @@ use crate::style::Style;
 use crate::threads::Threads;
 use crate::view::View;
 use spherule_kernel::{Camera, HitPacket, Level, RayPacket, Tier};
+use std::ops::Range;
 
 /// How many rows of cells are traced at a time: as many as of a picture, so that packets go through a structure
 /// together as they do there.
@@ -56,7 +57,8 @@ struct Sampled<'a> {
     search: &'a PictureSearch<'a>,
     tracing: Tracing,
     camera: Camera,
-    columns: u32,
+    /// The first column of cells, and how many there are.
+    columns: (u32, u32),
     samples: CellSamples,
 }
 
@@ -66,17 +68,41 @@ impl ErrorMapper {
     #[must_use]
     pub fn map(
         &mut self,
+        scene: (&Scene, &PictureSearch<'_>),
+        view: &View,
+        style: &Style,
+        size: (u16, u16),
+        machine: (Level, &Threads),
+        progress: impl FnMut(f64),
+    ) -> ErrorMap {
+        self.map_columns(scene, view, style, size, &(0..size.0), machine, progress)
+    }
+
+    /// The same of some columns alone.
+    #[must_use]
+    #[expect(clippy::too_many_arguments, reason = "a picture, its part, and who computes it")]
+    pub fn map_columns(
+        &mut self,
         (scene, search): (&Scene, &PictureSearch<'_>),
         view: &View,
         style: &Style,
-        (columns, rows): (u16, u16),
+        (all_columns, rows): (u16, u16),
+        part: &Range<u16>,
         (level, threads): (Level, &Threads),
         mut progress: impl FnMut(f64),
     ) -> ErrorMap {
         let tracing = Tracing { tier: style.accuracy, level, coherence: search.coherence };
-        let (camera, ..) = sample_grid(view, style, columns, rows);
+        let (camera, ..) = sample_grid(view, style, all_columns, rows);
+        let columns = part.end.saturating_sub(part.start);
         let samples = CellSamples::new(style);
-        let sampled = Sampled { scene, search, tracing, camera, columns: columns.into(), samples };
+        let sampled = Sampled {
+            scene,
+            search,
+            tracing,
+            camera,
+            columns: (part.start.into(), columns.into()),
+            samples,
+        };
         let columns_a_row = usize::from(columns).max(1);
         let mut classes = vec![Class::Miss; usize::from(columns) * usize::from(rows)];
         let mut counts = Counts::default();
@@ -104,10 +130,13 @@ impl Worker {
         let &Sampled { scene, search, tracing, ref camera, columns, samples } = sampled;
         let Self { rays, answers, truths, scratch } = self;
         let top = first * samples.down;
-        let width = columns * samples.across;
-        // As if the picture ended with these rows.
+        let (left_column, columns) = columns;
+        let left_sample = left_column * samples.across;
+        let width = left_sample + columns * samples.across;
+        // As if the picture ended with these rows, and these columns.
         let height = top + classes.len() as u32 / columns * samples.down;
-        let corners = packet_corners(width, height - top).map(|(x, y)| (x, top + y));
+        let corners = packet_corners(width - left_sample, height - top)
+            .map(|(x, y)| (left_sample + x, top + y));
         rays.clear();
         rays.extend(corners.clone().map(|(x, y)| camera.packet(x, y, width, height)));
         let mut trace = |tier, hits: &mut Vec<HitPacket>| {
@@ -130,7 +159,7 @@ impl Worker {
                 }
                 let verdict = Verdict::of(&rays.ray(lane), spheres, answer, truth);
                 counts.add(verdict, (answer, truth), (x, y));
-                let cell = (y / samples.down - first) * columns + x / samples.across;
+                let cell = (y / samples.down - first) * columns + x / samples.across - left_column;
                 let class = &mut classes[cell as usize];
                 *class = verdict.class.max(*class);
             }

@@ -2,7 +2,7 @@
 
 use crate::cells::{CellGrid, Color};
 
-const LINES: [&str; 17] = [
+const LINES: [&str; 18] = [
     "                                         ",
     "  arrows, h j k l, drag   around          ",
     "  + -, wheel              nearer, farther ",
@@ -12,6 +12,7 @@ const LINES: [&str; 17] = [
     "                                         ",
     "  1 2 3 4                 fast, stable, exact, geometric ",
     "  e                       what the tier gets wrong ",
+    "  v, [ ]                  two tiers side by side ",
     "  c                       ascii, half, quadrant, sextant, ",
     "                          octant, braille, block ",
     "  s                       auto, brute, depth-list, bvh ",

@@ -20,6 +20,10 @@ pub(super) enum Input {
     Accuracy(Tier),
     /// Show what the tier gets wrong, or the picture again.
     Errors,
+    /// Show two tiers side by side, or the picture again.
+    Split,
+    /// Move the seam between them so many columns to the right.
+    Seam(i8),
     /// The other projection.
     Projection,
     /// The next charset.
@@ -72,6 +76,9 @@ fn key_input(key: &KeyEvent) -> Option<Input> {
         KeyCode::Char('3') => Input::Accuracy(Tier::Exact),
         KeyCode::Char('4') => Input::Accuracy(Tier::Geometric),
         KeyCode::Char('e') => Input::Errors,
+        KeyCode::Char('v') => Input::Split,
+        KeyCode::Char('[') => Input::Seam(-1),
+        KeyCode::Char(']') => Input::Seam(1),
         KeyCode::Char('o') => Input::Projection,
         KeyCode::Char('c') => Input::Charset,
         KeyCode::Char('s') => Input::Structure,

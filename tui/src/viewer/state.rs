@@ -46,6 +46,8 @@ pub(super) struct Shown {
     pub(super) style: Style,
     pub(super) structure: Auto<Structure>,
     pub(super) comparison: Option<Comparison>,
+    /// How far the seam between two tiers is to the right of the middle.
+    pub(super) seam: i16,
     pub(super) help: bool,
     pub(super) spinning: bool,
 }
@@ -57,18 +59,43 @@ pub(super) struct State {
     pub(super) shown: Shown,
     /// Where the mouse took hold, or was led to since.
     held: Option<(u16, u16)>,
+    /// Whether it holds the seam.
+    pulls_seam: bool,
+    width: u16,
     /// Rows of the picture: a drag over all of them is half a turn.
     height: u16,
 }
 
 impl State {
     pub(super) fn new(Start { view, style, structure, comparison }: Start) -> Self {
-        let shown = Shown { view, style, structure, comparison, help: false, spinning: false };
-        Self { home: view, shown, held: None, height: 1 }
+        let shown =
+            Shown { view, style, structure, comparison, seam: 0, help: false, spinning: false };
+        Self { home: view, shown, held: None, pulls_seam: false, width: 1, height: 1 }
     }
 
-    pub(super) fn set_height(&mut self, rows: u16) {
-        self.height = rows.max(1);
+    pub(super) fn set_size(&mut self, columns: u16, rows: u16) {
+        (self.width, self.height) = (columns.max(1), rows.max(1));
+    }
+
+    /// The column between two tiers.
+    pub(super) fn seam(&self) -> u16 {
+        let column = i32::from(self.width / 2) + i32::from(self.shown.seam);
+        column.clamp(0, i32::from(self.width) - 1) as u16
+    }
+
+    fn is_split(&self) -> bool {
+        matches!(self.shown.comparison, Some(Comparison::Split(_)))
+    }
+
+    fn step_seam(&mut self, right: i8) {
+        if self.is_split() {
+            self.lead_seam_to(i32::from(self.seam()) + i32::from(right));
+        }
+    }
+
+    fn lead_seam_to(&mut self, column: i32) {
+        let column = column.clamp(0, i32::from(self.width) - 1);
+        self.shown.seam = (column - i32::from(self.width / 2)) as i16;
     }
 
     /// Lets time pass.
@@ -81,11 +108,16 @@ impl State {
 
     pub(super) fn apply(&mut self, input: Input) -> Outcome {
         let before = self.shown;
-        let Shown { view, style, structure, comparison, help, spinning } = &mut self.shown;
+        let Shown { view, style, structure, comparison, help, spinning, .. } = &mut self.shown;
         match input {
             Input::Quit => return Outcome::Quit,
             Input::Escape if !*help => return Outcome::Quit,
-            Input::Grab(column, row) => self.held = Some((column, row)),
+            Input::Grab(column, row) => {
+                self.held = Some((column, row));
+                self.pulls_seam = self.is_split() && column == self.seam();
+            }
+            Input::Drag(column, _) if self.pulls_seam => self.lead_seam_to(column.into()),
+            Input::Seam(right) => self.step_seam(right),
             Input::Drag(column, row) => self.drag_to(column, row),
             Input::Orbit(right, up) => {
                 let step = |count| f32::from(count) * ORBIT_STEP;
@@ -94,13 +126,27 @@ impl State {
             Input::Zoom(steps) => *view = zoomed(view, ZOOM_STEP.powi(steps.into())),
             // A key that asks for what this process cannot compute does nothing.
             Input::Accuracy(tier) if check_floats(tier).is_err() => {}
-            Input::Accuracy(tier) => style.accuracy = tier,
+            Input::Accuracy(tier) => {
+                style.accuracy = tier;
+                // The left half is the one to choose.
+                if let Some(Comparison::Split([left, _])) = comparison {
+                    *left = tier;
+                }
+            }
             // The truth is what exact says.
-            Input::Errors if check_floats(Tier::Exact).is_err() => {}
+            Input::Errors | Input::Split if check_floats(Tier::Exact).is_err() => {}
             Input::Errors => {
                 *comparison = match comparison {
                     Some(Comparison::Errors) => None,
-                    None => Some(Comparison::Errors),
+                    _ => Some(Comparison::Errors),
+                }
+            }
+            Input::Split => {
+                *comparison = match (*comparison, style.accuracy) {
+                    (Some(Comparison::Split(_)), _) => None,
+                    // What is wrong with exact nobody sees.
+                    (_, Tier::Exact) => Some(Comparison::Split([Tier::Fast, Tier::Exact])),
+                    (_, tier) => Some(Comparison::Split([tier, Tier::Exact])),
                 }
             }
             Input::Projection => {
@@ -152,7 +198,7 @@ mod tests {
         };
         let style = Style { accuracy: Tier::Stable, charset: Charset::Half, ..Style::PLAIN };
         let mut state = State::new(Start { view, style, structure: None, comparison: None });
-        state.set_height(36);
+        state.set_size(80, 36);
         state
     }
 
@@ -211,6 +257,49 @@ mod tests {
             assert_eq!(state.apply(Input::Errors), Outcome::Changed);
             assert_eq!(state.shown.comparison, shown);
         }
+    }
+
+    #[test]
+    fn a_seam_is_moved_by_keys_and_by_a_drag_that_begins_on_it() {
+        let mut state = state();
+        assert_eq!(state.apply(Input::Seam(1)), Outcome::Unchanged);
+        assert_eq!(state.apply(Input::Split), Outcome::Changed);
+        let tiers = [Tier::Stable, Tier::Exact];
+        assert_eq!((state.shown.comparison, state.seam()), (Some(Comparison::Split(tiers)), 40));
+        for (input, seam) in [
+            (Input::Seam(1), 41),
+            (Input::Seam(-1), 40),
+            (Input::Grab(40, 3), 40),
+            (Input::Drag(60, 9), 60),
+            (Input::Drag(200, 9), 79),
+            (Input::Seam(1), 79),
+            (Input::Drag(0, 0), 0),
+            (Input::Seam(-1), 0),
+        ] {
+            state.apply(input);
+            assert_eq!((state.seam(), state.shown.view), (seam, state.home), "{input:?}");
+        }
+        // Elsewhere a drag orbits.
+        state.apply(Input::Grab(10, 3));
+        state.apply(Input::Drag(20, 3));
+        assert_eq!(state.seam(), 0);
+        assert_ne!(state.shown.view, state.home);
+        state.apply(Input::Accuracy(Tier::Geometric));
+        let tiers = [Tier::Geometric, Tier::Exact];
+        assert_eq!(state.shown.comparison, Some(Comparison::Split(tiers)));
+        // In a smaller window it is still there.
+        state.apply(Input::Grab(0, 0));
+        state.apply(Input::Drag(79, 0));
+        state.set_size(20, 5);
+        assert_eq!(state.seam(), 19);
+        state.apply(Input::Split);
+        assert_eq!(state.shown.comparison, None);
+        state.apply(Input::Accuracy(Tier::Exact));
+        state.apply(Input::Split);
+        let tiers = [Tier::Fast, Tier::Exact];
+        assert_eq!(state.shown.comparison, Some(Comparison::Split(tiers)));
+        state.apply(Input::Errors);
+        assert_eq!(state.shown.comparison, Some(Comparison::Errors));
     }
 
     #[test]

@@ -1,4 +1,5 @@
-//! `--show error`: letters where a tier is wrong, and counts against the kernel's answers, ray by ray.
+//! `--show error`: letters where a tier is wrong, and counts against the kernel's answers, ray by ray. `--show split`:
+//! halves against whole pictures.
 
 use crate::run::{printed, refusal, run};
 use spherule::draw::sample_grid;
@@ -135,10 +136,103 @@ fn neither_threads_nor_level_nor_lens_change_what_is_wrong() {
     }
 }
 
+/// Left of the seam the picture of one tier, right of it that of the other; the last two rows are figures.
+#[test]
+fn a_split_is_two_halves_of_two_pictures() {
+    for more in
+        ["--charset half --color truecolor", "--charset octant --color 256", "--charset ascii"]
+    {
+        for scene in ["edge", "marbles"] {
+            let words = format!("{scene} --once --size 61x20 {more}");
+            let cells = |options: &str| {
+                let text = printed(&run(words.split(' ').chain(options.split(' '))));
+                let mut terminal = vt100::Parser::new(
+                    std::num::NonZeroU16::new(21).expect("rows"),
+                    std::num::NonZeroU16::new(61).expect("columns"),
+                    0,
+                );
+                terminal.process(text.replace('\n', "\r\n").as_bytes());
+                let cell = |row, column| {
+                    let cell = terminal.screen().cell(row, column).expect("a cell");
+                    let glyph = cell.contents().to_owned();
+                    // The ink of a space cannot be seen.
+                    let ink = if glyph == " " { vt100::Color::Default } else { cell.fgcolor() };
+                    (glyph, ink, cell.bgcolor())
+                };
+                (0..18).map(|row| (0..61).map(|column| cell(row, column)).collect()).collect()
+            };
+            let split: Vec<Vec<_>> = cells("--show split:fast,exact");
+            let [fast, exact]: [Vec<Vec<_>>; 2] =
+                ["--accuracy fast", "--accuracy exact"].map(cells);
+            let mut differ = 0;
+            for row in 0..18 {
+                assert!(["│", "|"].contains(&&*split[row][30].0), "{:?}", split[row][30]);
+                let left = (0..30).filter(|&column| split[row][column] != fast[row][column]);
+                let right = (31..61).filter(|&column| split[row][column] != exact[row][column]);
+                differ += left.count() + right.count();
+            }
+            // Letters are chosen beside each other, and so beside the seam.
+            let least = if more.contains("ascii") { 40 } else { 0 };
+            assert!(differ <= least, "{words}: {differ}");
+            if scene == "edge" {
+                let other = (0..18).flat_map(|row| (0..30).map(move |column| (row, column)));
+                assert!(other.filter(|&(r, c)| split[r][c] != exact[r][c]).count() > 20);
+            }
+        }
+    }
+}
+
+/// Counts of both halves are those of an error map of the whole, less the seam; nothing that is measured is written.
+#[test]
+fn the_figures_of_a_split() {
+    let split = |words: &str| {
+        let words = format!("edge --once --size 120x24 --structure brute --show {words}");
+        printed(&run(words.split(' ')))
+    };
+    let text = split("split:fast,fast");
+    assert_eq!(text, split("split:algebraic,fast --threads 1"));
+    assert_eq!(text, split("split:fast,fast --threads 7"));
+    let figures = text.lines().last().expect("figures");
+    let (left, right) = (&figures[..60], &figures[61..]);
+    let number = |half: &str| -> u64 {
+        let word = half.trim_start().strip_prefix("wrong ").expect("a count");
+        let number = word.split(' ').next().expect("a number").replace(',', "");
+        number.parse().expect("a number")
+    };
+    let whole = split("error --accuracy fast");
+    let whole =
+        ["another sphere", "false hit", "lost hit", "other root"].map(|name| count(&whole, name));
+    let (sum, whole) = (number(left) + number(right), whole.iter().sum::<u64>());
+    assert!(
+        number(left) > 100 && number(right) > 100 && sum <= whole && sum + 96 >= whole,
+        "{text}"
+    );
+    assert!(left.contains("f64 0.000 %") && !text.contains("ns/ray"), "{text}");
+    let exact = split("split:fast,exact");
+    let right = &exact.lines().last().expect("figures")[61..];
+    assert!(right.starts_with(" wrong 0 of ") && !right.contains("f64 0.000 %"), "{exact}");
+}
+
+#[test]
+fn a_split_of_every_size() {
+    for size in ["1x1", "2x1", "1x9", "2x5", "3x4", "301x40"] {
+        let text = printed(&run(
+            format!("edge --show split:stable,exact --once --size {size}").split(' ')
+        ));
+        let (columns, rows) = size.split_once('x').expect("a size");
+        assert_eq!(text.lines().count().to_string(), rows);
+        assert!(text.lines().all(|line| line.chars().count().to_string() == columns), "{size}");
+    }
+}
+
 #[test]
 fn bad_use() {
     for words in [
         "--show wrong",
+        "--show split",
+        "--show split:fast",
+        "--show split:fast,sloppy",
+        "--show split:fast,exact,exact",
         "--show error --png a.png",
         "trace --spheres s.npy --rays r.npy --show error",
         "tradeoff --show error",
