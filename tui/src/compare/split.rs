@@ -151,7 +151,7 @@ fn text(figures: &HalfFigures) -> String {
     let HalfFigures { rays, wrong, stages } = figures;
     let share = |tests: u64| 100.0 * tests as f64 / (stages.tests as f64).max(1.0);
     let wrong = format!(" wrong {} of {}", grouped(*wrong), grouped(*rays));
-    format!("{wrong}  f64 {:.3} %  sums {:.4} %", share(stages.double), share(stages.expansions))
+    format!("{wrong} f64 {:.1}% sums {:.3}%", share(stages.double), share(stages.expansions))
 }
 
 /// Of the camera rays through some columns.

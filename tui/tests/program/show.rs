@@ -207,10 +207,10 @@ fn the_figures_of_a_split() {
         number(left) > 100 && number(right) > 100 && sum <= whole && sum + 96 >= whole,
         "{text}"
     );
-    assert!(left.contains("f64 0.000 %") && !text.contains("ns/ray"), "{text}");
+    assert!(left.contains("f64 0.0%") && !text.contains("ns/ray"), "{text}");
     let exact = split("split:fast,exact");
     let right = &exact.lines().last().expect("figures")[61..];
-    assert!(right.starts_with(" wrong 0 of ") && !right.contains("f64 0.000 %"), "{exact}");
+    assert!(right.starts_with(" wrong 0 of ") && !right.contains("f64 0.0%"), "{exact}");
 }
 
 #[test]
