@@ -204,7 +204,8 @@ fn v_shows_two_tiers_and_the_seam_moves() {
     viewer.wait_for_picture("the first view still", &once(&VIEW, COLUMNS, PICTURE_ROWS));
     // Taken elsewhere, it is the scene that follows.
     viewer.session.type_in("v\x1b[<0;11;6M\x1b[<32;21;6M\x1b[<0;21;6mv");
-    let view = orbited(&VIEW, -5.0 * PI / f32::from(PICTURE_ROWS), 0.0);
+    let a_row = PI / f32::from(PICTURE_ROWS);
+    let view = orbited(&VIEW, -5.0 * a_row, 0.0);
     viewer.wait_for_picture("the drag", &once(&view, COLUMNS, PICTURE_ROWS));
     viewer.quit();
 }
