@@ -13,8 +13,8 @@ mod viewer;
 
 use look::last_row;
 use modes::is_cooked;
-use picture::{OPTIONS, once};
-use session::Session;
+use picture::{OPTIONS, once, once_with};
+use session::{Output, Session};
 use spherule::view::{LensKind, orbited, with_projection, zoomed};
 use spherule::viewer::{ORBIT_STEP, ZOOM_STEP};
 use spherule_tests::binary::spherule;
@@ -148,6 +148,74 @@ fn after_a_movement_the_picture_becomes_full_and_then_there_is_peace() {
     assert!(viewer.session.stirs(), "it spins, and nothing happens");
     viewer.session.type_in(" ");
     viewer.session.wait_for_peace();
+    viewer.quit();
+}
+
+/// `e` shows what the tier gets wrong, by the tier of the moment, and the picture again.
+#[test]
+fn e_shows_the_errors_and_the_picture_again() {
+    let mut viewer = Viewer::start();
+    let legend = |output: &Output| {
+        let columns = output.screen().size().1.get();
+        let row = PICTURE_ROWS - 2;
+        output.screen().contents_between(row, 0, row, columns)
+    };
+    viewer.session.type_in("e");
+    viewer.session.wait_for("the legend", |output| {
+        (shows_a_frame(output) && legend(output).contains(" exact: all right")).then_some(())
+    });
+    viewer.session.type_in("1");
+    viewer.session.wait_for("the errors of fast", |output| {
+        (shows_a_frame(output) && legend(output).contains(" worst: sphere ")).then_some(())
+    });
+    let expected =
+        once_with(&["--show", "error", "--accuracy", "fast"], &VIEW, COLUMNS, PICTURE_ROWS);
+    viewer.wait_for_picture("what --once shows", &expected);
+    viewer.session.wait_for_peace();
+    viewer.session.type_in("3e");
+    viewer.wait_for_picture("the picture again", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.quit();
+}
+
+/// `v` cuts the picture in two; keys, and a drag that begins on it, move the seam, and another drag orbits.
+#[test]
+fn v_shows_two_tiers_and_the_seam_moves() {
+    let mut viewer = Viewer::start();
+    let wait_for_seam = |viewer: &Viewer, column: u16| {
+        viewer.session.wait_for("the seam", |output| {
+            let is_seam =
+                |row| output.screen().cell(row, column).is_some_and(|cell| cell.contents() == "│");
+            let figures =
+                output.screen().contents_between(PICTURE_ROWS - 1, 0, PICTURE_ROWS - 1, COLUMNS);
+            let is_there = shows_a_frame(output) && (0..PICTURE_ROWS).all(is_seam);
+            (is_there && figures.matches(" wrong ").count() == 2 && figures.contains(" of "))
+                .then_some(())
+        });
+    };
+    viewer.session.type_in("v");
+    wait_for_seam(&viewer, 40);
+    {
+        let output = viewer.session.output();
+        let row = PICTURE_ROWS - 2;
+        let tiers = output.screen().contents_between(row, 0, row, COLUMNS);
+        assert!(tiers.starts_with(" fast  ") && tiers.contains("│ exact  "), "{tiers}");
+        assert_eq!(tiers.matches("ns/ray").count(), 2, "{tiers}");
+    }
+    viewer.session.type_in("]]]");
+    wait_for_seam(&viewer, 43);
+    viewer.session.type_in("[");
+    wait_for_seam(&viewer, 42);
+    // Taken at column 42, pulled to column 60 and a row lower, let go.
+    viewer.session.type_in("\x1b[<0;43;6M\x1b[<32;61;7M\x1b[<0;61;7m");
+    wait_for_seam(&viewer, 60);
+    viewer.session.wait_for_peace();
+    viewer.session.type_in("v");
+    viewer.wait_for_picture("the first view still", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    // Taken elsewhere, it is the scene that follows.
+    viewer.session.type_in("v\x1b[<0;11;6M\x1b[<32;21;6M\x1b[<0;21;6mv");
+    let a_row = PI / f32::from(PICTURE_ROWS);
+    let view = orbited(&VIEW, -5.0 * a_row, 0.0);
+    viewer.wait_for_picture("the drag", &once(&view, COLUMNS, PICTURE_ROWS));
     viewer.quit();
 }
 

@@ -79,10 +79,16 @@ fn text(view: &View) -> String {
 
 /// What `spherule --once` prints of the scene seen from `view`, as a terminal shows it.
 pub(crate) fn once(view: &View, columns: u16, rows: u16) -> Vec<Vec<Look>> {
+    once_with(&[], view, columns, rows)
+}
+
+/// The same with more options.
+pub(crate) fn once_with(options: &[&str], view: &View, columns: u16, rows: u16) -> Vec<Vec<Look>> {
     let scene = SceneFile::new(view);
     let output = Command::new(spherule())
         .args([scene.path(), "--once", "--size", &format!("{columns}x{rows}")])
         .args(OPTIONS)
+        .args(options)
         .env_remove("NO_COLOR")
         .stdin(Stdio::null())
         .output()

@@ -2,6 +2,7 @@
 
 use crate::choice::{Auto, auto_or, one_of};
 use crate::color::Srgb;
+use crate::compare::Comparison;
 use crate::error::Error;
 use crate::palette::Theme;
 use crate::samples::MOST_SAMPLES;
@@ -83,6 +84,9 @@ pub struct PictureArguments {
     /// Shape of a cell, width to height [default: the terminal's, else 1:2]
     #[arg(long, value_name = "W:H", value_parser = aspect)]
     pub cell_aspect: Option<f32>,
+    /// error: what the tier gets wrong against exact, cell by cell; split:TIER,TIER: two tiers side by side
+    #[arg(long, value_name = "WHAT", conflicts_with = "png")]
+    pub show: Option<Comparison>,
     /// How it is computed.
     #[command(flatten)]
     pub computing: ComputingArguments,

@@ -23,6 +23,7 @@ use crate::threads::Threads;
 use crate::view::View;
 use plan::Plan;
 use spherule_kernel::{Camera, Coherence, Level};
+use std::ops::Range;
 use strip::Strip;
 use tracer::{SampleGrid, Traced};
 
@@ -89,6 +90,11 @@ pub fn picture_workload(
 /// Cells that are drawn at a time, in whole rows, so that the largest picture fits into memory; of smaller ones, all.
 const STRIP: usize = 1 << 17;
 
+/// How many columns beside a cell have a part in it: of samples one, of fits two, and one more that letters look at.
+const BESIDE: u16 = 4;
+/// Columns of a part begin at a multiple of this: of packets, and of what dither repeats.
+const ALIGNED: u16 = 8;
+
 /// Draws, and keeps its memory from frame to frame.
 #[derive(Debug)]
 pub struct Renderer<'a> {
@@ -106,10 +112,10 @@ impl<'a> Renderer<'a> {
         Self { level, threads, strip: Strip::default(), most_cells: STRIP }
     }
 
-    /// The instructions that it draws by.
+    /// By which instructions it draws, and on which threads.
     #[must_use]
-    pub fn level(&self) -> Level {
-        self.level
+    pub fn machine(&self) -> (Level, &'a Threads) {
+        (self.level, self.threads)
     }
 
     /// Draws `scene` as `view` sees it into so many columns and rows of cells, for no more than `spending`; `search`
@@ -133,6 +139,39 @@ impl<'a> Renderer<'a> {
             let (cells, first) = strip;
             effort.and(self.strip.draw(&plan, self.threads, first, cells))
         });
+        Drawn { cells, effort }
+    }
+
+    /// Draws some `columns` of that picture, cell for cell the same: as far as they take part in each other's glyphs and
+    /// colours, those beside them are drawn too. Letters without colour, which are chosen beside each other, may differ
+    /// where the part ends; so may what a movement has no time for.
+    #[must_use]
+    pub fn draw_columns(
+        &mut self,
+        (scene, search): (&Scene, &PictureSearch<'_>),
+        view: &View,
+        style: &Style,
+        (columns, rows): (u16, u16),
+        part: Range<u16>,
+        spending: Spending,
+    ) -> Drawn {
+        let from = part.start.saturating_sub(BESIDE) / ALIGNED * ALIGNED;
+        let drawn = from..part.end.saturating_add(BESIDE).min(columns);
+        let width = drawn.len();
+        let traced = self.traced(scene, search, style);
+        let plan = Plan::new(traced, view, style, (columns, rows), spending).only(drawn);
+        let mut all = CellGrid::new(width as u16, rows);
+        let height = usize::from(self.strip_rows(width as u16));
+        let strips = all.cells_mut().chunks_mut((height * width).max(1));
+        let effort = strips.zip((0..).step_by(height)).fold(Effort::NONE, |effort, strip| {
+            let (cells, first) = strip;
+            effort.and(self.strip.draw(&plan, self.threads, first, cells))
+        });
+        let mut cells = CellGrid::new(part.len() as u16, rows);
+        let lines = cells.cells_mut().chunks_mut(part.len().max(1));
+        for (line, all) in lines.zip(all.cells().chunks(width.max(1))) {
+            line.copy_from_slice(&all[usize::from(part.start - from)..][..part.len()]);
+        }
         Drawn { cells, effort }
     }
 

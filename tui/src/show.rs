@@ -1,8 +1,12 @@
 //! One picture, or the viewer: what `spherule [SCENE]` does.
 
 use crate::arguments::{ComputingArguments, PictureArguments};
+use crate::compare::Comparison;
+use crate::compare::error_map::{ErrorMap, ErrorMapper};
+use crate::compare::legend::MapPainter;
+use crate::compare::split::{Split, SplitPicture};
 use crate::draw::pixels::PixelGrid;
-use crate::draw::{Renderer, picture_workload};
+use crate::draw::{Renderer, Spending, picture_workload};
 use crate::error::{Error, write_stdout};
 use crate::machine::check_floats;
 use crate::pick::report::Report;
@@ -28,11 +32,18 @@ const LIKELY_ASPECTS: RangeInclusive<f32> = 0.2..=2.0;
 /// How long a picture may take before there is a word about it.
 const PATIENCE: Duration = Duration::from_secs(1);
 
+/// Rows of an error map that are written at a time.
+const MAP_STRIP: u16 = 32;
+
 /// Shows a scene: in the viewer if standard output is a terminal that can, except with `--once`, `--png` and `--pick`.
 ///
 /// # Errors
 /// [`Error`] if there is no such scene, or it cannot be shown.
 pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
+    if arguments.show.is_some() {
+        // What is wrong is what differs from exact.
+        check_floats(Tier::Exact)?;
+    }
     let mut scene = arguments.scene.open()?;
     if let Some(background) = arguments.background.filter(|_| !scene.names_background) {
         scene.background = background;
@@ -79,20 +90,48 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         return write_png(&scene, &search, &grid, &style, &renderer, file);
     }
     if in_viewer {
-        return viewer::run(&scene, structures, structure, view, style, renderer);
+        let start = viewer::Start { view, style, structure, comparison: arguments.show };
+        return viewer::run(&scene, structures, start, renderer);
     }
     let ray = arguments.pick.map(|cell| ray_of_pick(&view, &style, (columns, rows), cell));
     let ray = ray.transpose()?;
     let workload = picture_workload(scene.spheres().len(), &style, columns, rows, 1.0);
     let search = structures.picture(structure, &workload, &view, &scene.lighting)?;
     if let Some((cell, ray)) = ray {
-        let pick = Pick::new(&scene, &search, renderer.level(), ray);
+        let pick = Pick::new(&scene, &search, renderer.machine().0, ray);
         let report = Report { scene: &arguments.scene.name, size: (columns, rows), cell, pick };
         let text = if arguments.json { report.json() } else { report.text() };
         return write_stdout(text.as_bytes());
     }
     // On the terminal that the picture is written to, the picture shows how far it is.
     let mut progress = (!is_terminal).then(|| Progress::after(PATIENCE));
+    if let Some(Comparison::Split(tiers)) = arguments.show {
+        let split = Split { tiers, seam: columns / 2 };
+        let (scene, size, need) = ((&scene, &search), (columns, rows), Spending::ByNeed);
+        let SplitPicture { drawn, ns_a_ray } =
+            split.draw(&mut renderer, scene, &view, &style, size, need);
+        let mapper = &mut ErrorMapper::default();
+        let figures = split.figures(&renderer, mapper, scene, &view, &style, size);
+        let mut cells = drawn.cells;
+        // What is measured is never twice the same: a file or a pipe gets what is.
+        let ns_a_ray = if is_terminal { ns_a_ray } else { [None; 2] };
+        split.write(&mut cells, rows, ns_a_ray, Some(figures));
+        let mut bytes = Vec::new();
+        encode::full(&cells, &mut bytes);
+        return write_stdout(&bytes);
+    }
+    if let Some(Comparison::Errors) = arguments.show {
+        let machine = renderer.machine();
+        let mut mapper = ErrorMapper::default();
+        let size = (columns, rows);
+        let map = mapper.map((&scene, &search), &view, &style, size, machine, |share| {
+            if let Some(progress) = &mut progress {
+                progress.show("drawing", share);
+            }
+        });
+        drop(progress);
+        return write_map(&map, &style);
+    }
     let (mut done, mut bytes) = (0_u32, Vec::new());
     renderer.draw_strips(&scene, &search, &view, &style, (columns, rows), |cells| {
         bytes.clear();
@@ -122,6 +161,19 @@ fn ray_of_pick(
     };
     let ray = cell_ray(view, style, (columns, rows), cell).ok_or_else(outside)?;
     Ok((cell, ray))
+}
+
+/// Writes it in strips, since bytes take more memory than classes.
+fn write_map(map: &ErrorMap, style: &Style) -> Result<(), Error> {
+    let (painter, (_, rows)) = (MapPainter::new(style), map.size());
+    let mut bytes = Vec::new();
+    for first in (0..rows).step_by(MAP_STRIP.into()) {
+        bytes.clear();
+        let strip = first..first.saturating_add(MAP_STRIP).min(rows);
+        encode::full(&painter.cells(map, strip), &mut bytes);
+        write_stdout(&bytes)?;
+    }
+    Ok(())
 }
 
 fn write_png(

@@ -15,6 +15,10 @@ mod status;
 
 use crate::cells::CellGrid;
 use crate::choice::Auto;
+use crate::compare::Comparison;
+use crate::compare::error_map::ErrorMapper;
+use crate::compare::legend::MapPainter;
+use crate::compare::split::{Split, SplitPicture, Times};
 use crate::draw::{Drawn, Effort, Renderer, picture_workload};
 use crate::encode::Encoder;
 use crate::error::{Error, cause};
@@ -47,7 +51,20 @@ const LARGEST_SIZE: u16 = 4096;
 /// the real program; it harms nobody who does not ask for it.
 const PANIC_SWITCH: &str = "SPHERULE_TEST_PANIC";
 
-/// Shows `scene` on the terminal, from `view` on, drawn by `renderer` with the chosen one of its
+/// What the viewer shows first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Start {
+    /// From where.
+    pub view: View,
+    /// How.
+    pub style: Style,
+    /// Which structure is asked for.
+    pub structure: Auto<Structure>,
+    /// What tiers are held against each other, if they are.
+    pub comparison: Option<Comparison>,
+}
+
+/// Shows `scene` on the terminal, from `start` on, drawn by `renderer` with the chosen one of its
 /// `structures`, until the user quits.
 ///
 /// # Errors
@@ -56,9 +73,7 @@ const PANIC_SWITCH: &str = "SPHERULE_TEST_PANIC";
 pub fn run(
     scene: &Scene,
     structures: SceneStructures<'_>,
-    structure: Auto<Structure>,
-    view: View,
-    style: Style,
+    start: Start,
     renderer: Renderer<'_>,
 ) -> Result<(), Error> {
     let rate = if env::var_os("SSH_CONNECTION").is_some() { REMOTE_RATE } else { LOCAL_RATE };
@@ -67,8 +82,10 @@ pub fn run(
         scene,
         structures,
         terminal: Terminal::enter().map_err(|error| lost(&error))?,
-        state: State::new(view, style, structure),
+        state: State::new(start),
         renderer,
+        mapper: ErrorMapper::default(),
+        times: Times::default(),
         encoder: Encoder::new(),
         meter: Meter::default(),
         pace: Pace::new(interval),
@@ -115,6 +132,8 @@ struct Viewer<'a> {
     terminal: Terminal,
     state: State,
     renderer: Renderer<'a>,
+    mapper: ErrorMapper,
+    times: Times,
     encoder: Encoder,
     meter: Meter,
     pace: Pace,
@@ -193,7 +212,7 @@ impl Viewer<'_> {
         let workload = picture_workload(count, style, size.0, size.1, f64::INFINITY);
         let search = self.structures.picture(*structure, &workload, view, lighting)?;
         let ray = cell_ray(view, style, size, (cursor.column, cursor.row));
-        let pick = ray.map(|ray| Pick::new(self.scene, &search, self.renderer.level(), ray));
+        let pick = ray.map(|ray| Pick::new(self.scene, &search, self.renderer.machine().0, ray));
         Ok(pick.and_then(|pick| Some(pick.sphere?.sphere)))
     }
 
@@ -206,7 +225,7 @@ impl Viewer<'_> {
         }
         let status_row = picture_rows(rows);
         let started = Instant::now();
-        let Shown { view, style, structure, cursor, .. } = &self.state.shown;
+        let Shown { view, style, structure, comparison, cursor, .. } = &self.state.shown;
         let count = self.scene.spheres().len();
         let workload = picture_workload(count, style, columns, status_row, f64::INFINITY);
         let lighting = &self.scene.lighting;
@@ -220,7 +239,30 @@ impl Viewer<'_> {
         };
         let drawn = match self.drawn.take().filter(same) {
             Some((.., drawn)) => Drawn { effort: Effort::NONE, ..drawn },
-            None => self.renderer.draw(self.scene, &search, view, style, size, spending),
+            None => match comparison {
+                None => self.renderer.draw(self.scene, &search, view, style, size, spending),
+                Some(Comparison::Split(tiers)) => {
+                    let split = Split { tiers: *tiers, seam: self.state.seam() };
+                    let scene = (self.scene, &search);
+                    let SplitPicture { mut drawn, ns_a_ray } =
+                        split.draw(&mut self.renderer, scene, view, style, size, spending);
+                    // What is wrong is counted at rest: it takes as long as a picture.
+                    let figures = (!moving).then(|| {
+                        split.figures(&self.renderer, &mut self.mapper, scene, view, style, size)
+                    });
+                    let medians = self.times.medians(*tiers, ns_a_ray);
+                    split.write(&mut drawn.cells, status_row, medians, figures);
+                    drawn.effort.is_full &= !moving;
+                    drawn
+                }
+                Some(Comparison::Errors) => {
+                    let (scene, machine) = ((self.scene, &search), self.renderer.machine());
+                    let map = self.mapper.map(scene, view, style, size, machine, |_| {});
+                    // All of it, at every pace.
+                    let cells = MapPainter::new(style).cells(&map, 0..status_row);
+                    Drawn { cells, effort: map.effort() }
+                }
+            },
         };
         let drawing = started.elapsed();
         self.pace.drawn(drawn.effort, drawing - found);
@@ -230,7 +272,7 @@ impl Viewer<'_> {
         if let Some(cursor) = *cursor {
             let cell = (cursor.column, cursor.row);
             let pick = cell_ray(view, style, size, cell)
-                .map(|ray| Pick::new(self.scene, &search, self.renderer.level(), ray));
+                .map(|ray| Pick::new(self.scene, &search, self.renderer.machine().0, ray));
             // In ASCII: a cell holds no glyph that is two columns wide, and a label may.
             let printable = |label: &str| label.escape_default().to_string();
             let lines = pick.map(|pick| report::lines(&pick, printable)).unwrap_or_default();

@@ -132,6 +132,7 @@ fn names_are_accepted_and_listed() {
         assert_eq!(picture(&format!("--accuracy {}", tier.as_str())).accuracy, tier);
     }
     assert_eq!(picture("--accuracy algebraic").accuracy, Tier::Fast);
+    assert_eq!((picture("").show, picture("--show error").show), (None, Some(Comparison::Errors)));
 }
 
 #[test]

@@ -7,6 +7,7 @@ use crate::samples::CellSamples;
 use crate::style::Style;
 use crate::view::View;
 use std::iter;
+use std::ops::Range;
 
 /// Samples of every cell, and what is made of them.
 #[derive(Debug)]
@@ -21,6 +22,8 @@ pub(super) struct Sampling {
 pub(super) struct Plan<'a> {
     pub(super) traced: Traced<'a>,
     pub(super) style: &'a Style,
+    /// The first column of cells that is drawn, and how many are.
+    pub(super) left: usize,
     pub(super) columns: usize,
     pub(super) rows: usize,
     /// Of every cell.
@@ -52,11 +55,21 @@ impl<'a> Plan<'a> {
         Self {
             traced,
             style,
+            left: 0,
             columns: columns.into(),
             rows: rows.into(),
             few: sampling(CellSamples::new(style)),
             many: many.into_iter().flat_map(with_coarser).map(sampling).collect(),
             spending,
         }
+    }
+
+    /// The same picture, of which some columns are drawn as if it ended with them.
+    pub(super) fn only(mut self, columns: Range<u16>) -> Self {
+        (self.left, self.columns) = (columns.start.into(), columns.len());
+        for sampling in self.many.iter_mut().chain([&mut self.few]) {
+            sampling.grid.width = u32::from(columns.end) * sampling.samples.across;
+        }
+        self
     }
 }

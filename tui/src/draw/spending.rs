@@ -29,7 +29,8 @@ impl Effort {
     pub const NONE: Self = Self { samples: 0, rays: 0, is_full: true };
 
     /// Of both.
-    pub(super) fn and(self, other: Self) -> Self {
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
         Self {
             samples: self.samples + other.samples,
             rays: self.rays + other.rays,
@@ -53,6 +54,15 @@ impl Grant {
 }
 
 impl Spending {
+    /// What of it is for `some` columns of so many.
+    #[must_use]
+    pub fn part(self, some: usize, all: usize) -> Self {
+        match self {
+            Self::ByNeed => Self::ByNeed,
+            Self::AtMost(most) => Self::AtMost(most * some as u64 / (all as u64).max(1)),
+        }
+    }
+
     /// What is left of it for some `rows` of a picture that has so many in `all`, after so many samples of these.
     pub(super) fn left(self, rows: &Range<usize>, all: usize, samples: u64) -> Self {
         match self {

@@ -152,12 +152,13 @@ impl Worker {
         let Sampling { samples, grid, .. } = &plan.few;
         let (across, down, count) = (samples.across, samples.down, samples.count());
         let columns = plan.columns as u32;
-        let top = first as u32 * down;
+        let (left, top) = (plan.left as u32 * across, first as u32 * down);
         // As if the picture ended with these rows.
         let grid = SampleGrid { height: top + light.len() as u32 / (columns * across), ..*grid };
-        let corners = packet_corners(grid.width, grid.height - top).map(|(x, y)| (x, top + y));
+        let corners =
+            packet_corners(grid.width - left, grid.height - top).map(|(x, y)| (left + x, top + y));
         let places = |corner| {
-            let of_column = |x| (x / across * count + x % across) as usize;
+            let of_column = |x| ((x - left) / across * count + x % across) as usize;
             Places::new(corner, of_column, |y: u32| {
                 let y = y - top;
                 (y / down * columns * count + y % down * across) as usize
@@ -188,7 +189,8 @@ impl Worker {
         for (cell, (fit, &need)) in fits.iter_mut().zip(needs).enumerate() {
             if many.is_some_and(|(_, above)| need > above) {
                 self.places.push(self.needy.len());
-                self.needy.push(((cell % columns) as u32, (first + cell / columns) as u32));
+                let column = plan.left + cell % columns;
+                self.needy.push((column as u32, (first + cell / columns) as u32));
                 continue;
             }
             self.places.push(usize::MAX);
@@ -231,7 +233,8 @@ impl Worker {
                 })
             });
             let at = |(left, top): (u32, u32)| {
-                let cell = ((top / down) as usize - first) * columns + (left / across) as usize;
+                let row = ((top / down) as usize - first) * columns;
+                let cell = row + (left / across) as usize - plan.left;
                 let start = (places[cell] - begin) * count;
                 let of_column = |x| start + (x % across) as usize;
                 Places::new((left, top), of_column, |y| (y % down * across) as usize)
@@ -239,7 +242,7 @@ impl Worker {
             let pixels = (needy.len() * count, 1.0);
             let (traced, shadow_rays) = tracer.trace(&plan.traced, grid, corners, pixels, at);
             for (&(column, row), light) in needy.iter().zip(traced.chunks(count)) {
-                let cell = (row as usize - first) * columns + column as usize;
+                let cell = (row as usize - first) * columns + column as usize - plan.left;
                 fits[cell] = fitter.fit(light, memory);
             }
             rays += shadow_rays;

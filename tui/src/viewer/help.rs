@@ -2,7 +2,7 @@
 
 use crate::cells::{CellGrid, Color};
 
-const LINES: [&str; 21] = [
+const LINES: [&str; 23] = [
     "                                         ",
     "  arrows, h j k l, drag   around          ",
     "  H J K L, right drag     along the picture ",
@@ -16,6 +16,8 @@ const LINES: [&str; 21] = [
     "                          arrows lead on, Enter frames, Esc ends ",
     "                                         ",
     "  1 2 3 4                 fast, stable, exact, geometric ",
+    "  e                       what the tier gets wrong ",
+    "  v, [ ]                  two tiers side by side ",
     "  c                       ascii, half, quadrant, sextant, ",
     "                          octant, braille, block ",
     "  s                       auto, brute, depth-list, bvh ",

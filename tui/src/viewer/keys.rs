@@ -32,6 +32,12 @@ pub(super) enum Input {
     FramePicked,
     /// Use this tier.
     Accuracy(Tier),
+    /// Show what the tier gets wrong, or the picture again.
+    Errors,
+    /// Show two tiers side by side, or the picture again.
+    Split,
+    /// Move the seam between them so many columns to the right.
+    Seam(i8),
     /// The other projection.
     Projection,
     /// The next charset.
@@ -87,6 +93,10 @@ fn key_input(key: &KeyEvent) -> Option<Input> {
         KeyCode::Char('2') => Input::Accuracy(Tier::Stable),
         KeyCode::Char('3') => Input::Accuracy(Tier::Exact),
         KeyCode::Char('4') => Input::Accuracy(Tier::Geometric),
+        KeyCode::Char('e') => Input::Errors,
+        KeyCode::Char('v') => Input::Split,
+        KeyCode::Char('[') => Input::Seam(-1),
+        KeyCode::Char(']') => Input::Seam(1),
         KeyCode::Char('o') => Input::Projection,
         KeyCode::Char('c') => Input::Charset,
         KeyCode::Char('s') => Input::Structure,

@@ -1,9 +1,11 @@
 //! What the viewer shows and how it moves. No terminal, no clock: input and durations come in.
 
+use super::Start;
 use super::hand::Hand;
 use super::keys::Input;
 use super::picking::Cursor;
 use crate::choice::{Auto, next};
+use crate::compare::Comparison;
 use crate::machine::check_floats;
 use crate::scene::framing::reframed;
 use crate::structure::Structure;
@@ -48,6 +50,9 @@ pub(super) struct Shown {
     pub(super) view: View,
     pub(super) style: Style,
     pub(super) structure: Auto<Structure>,
+    pub(super) comparison: Option<Comparison>,
+    /// How far the seam between two tiers is to the right of the middle.
+    pub(super) seam: i16,
     pub(super) help: bool,
     pub(super) spinning: bool,
     /// The cell that is picked.
@@ -67,14 +72,25 @@ pub(super) struct State {
     home: View,
     pub(super) shown: Shown,
     hand: Hand,
+    /// Whether it holds the seam.
+    pulls_seam: bool,
     /// Columns and rows of the picture: a drag over all rows is half a turn.
     size: (u16, u16),
 }
 
 impl State {
-    pub(super) fn new(view: View, style: Style, structure: Auto<Structure>) -> Self {
-        let shown = Shown { view, style, structure, help: false, spinning: false, cursor: None };
-        Self { home: view, shown, hand: Hand::default(), size: (1, 1) }
+    pub(super) fn new(Start { view, style, structure, comparison }: Start) -> Self {
+        let shown = Shown {
+            view,
+            style,
+            structure,
+            comparison,
+            seam: 0,
+            help: false,
+            spinning: false,
+            cursor: None,
+        };
+        Self { home: view, shown, hand: Hand::default(), pulls_seam: false, size: (1, 1) }
     }
 
     /// Tells the size of the picture.
@@ -97,6 +113,27 @@ impl State {
         self.since(&before)
     }
 
+    /// The column between two tiers.
+    pub(super) fn seam(&self) -> u16 {
+        let column = i32::from(self.size.0 / 2) + i32::from(self.shown.seam);
+        column.clamp(0, i32::from(self.size.0) - 1) as u16
+    }
+
+    fn is_split(&self) -> bool {
+        matches!(self.shown.comparison, Some(Comparison::Split(_)))
+    }
+
+    fn step_seam(&mut self, right: i8) {
+        if self.is_split() {
+            self.lead_seam_to(i32::from(self.seam()) + i32::from(right));
+        }
+    }
+
+    fn lead_seam_to(&mut self, column: i32) {
+        let column = column.clamp(0, i32::from(self.size.0) - 1);
+        self.shown.seam = (column - i32::from(self.size.0 / 2)) as i16;
+    }
+
     /// Lets time pass.
     pub(super) fn advance(&mut self, time: Duration) {
         if self.shown.spinning {
@@ -107,7 +144,8 @@ impl State {
 
     pub(super) fn apply(&mut self, input: Input) -> Outcome {
         let before = self.shown;
-        let Shown { view, style, structure, help, spinning, cursor } = &mut self.shown;
+        let Shown { view, style, structure, comparison, help, spinning, cursor, .. } =
+            &mut self.shown;
         match input {
             Input::Quit => return Outcome::Quit,
             Input::Escape if *help => *help = false,
@@ -115,7 +153,15 @@ impl State {
             Input::Escape => return Outcome::Quit,
             Input::Grab(column, row) | Input::GrabPlane(column, row) => {
                 self.hand.grab((column, row));
+                self.pulls_seam =
+                    matches!(input, Input::Grab(..)) && self.is_split() && column == self.seam();
             }
+            Input::Drag(column, row) if self.pulls_seam => {
+                // So that it is no click.
+                self.hand.led_to((column, row));
+                self.lead_seam_to(column.into());
+            }
+            Input::Seam(right) => self.step_seam(right),
             Input::Drag(column, row) => self.drag_to(column, row),
             Input::DragPlane(column, row) => self.pull_to(column, row),
             Input::Release(column, row) => self.release(column, row),
@@ -135,7 +181,29 @@ impl State {
             Input::Zoom(steps) => *view = zoomed(view, ZOOM_STEP.powi(steps.into())),
             // A key that asks for what this process cannot compute does nothing.
             Input::Accuracy(tier) if check_floats(tier).is_err() => {}
-            Input::Accuracy(tier) => style.accuracy = tier,
+            Input::Accuracy(tier) => {
+                style.accuracy = tier;
+                // The left half is the one to choose.
+                if let Some(Comparison::Split([left, _])) = comparison {
+                    *left = tier;
+                }
+            }
+            // The truth is what exact says.
+            Input::Errors | Input::Split if check_floats(Tier::Exact).is_err() => {}
+            Input::Errors => {
+                *comparison = match comparison {
+                    Some(Comparison::Errors) => None,
+                    _ => Some(Comparison::Errors),
+                }
+            }
+            Input::Split => {
+                *comparison = match (*comparison, style.accuracy) {
+                    (Some(Comparison::Split(_)), _) => None,
+                    // What is wrong with exact nobody sees.
+                    (_, Tier::Exact) => Some(Comparison::Split([Tier::Fast, Tier::Exact])),
+                    (_, tier) => Some(Comparison::Split([tier, Tier::Exact])),
+                }
+            }
             Input::Projection => {
                 let other = match view.lens_kind() {
                     LensKind::Perspective => LensKind::Parallel,
@@ -214,7 +282,7 @@ mod tests {
             lens: Lens::Perspective { fov: 40.0 },
         };
         let style = Style { accuracy: Tier::Stable, charset: Charset::Half, ..Style::PLAIN };
-        let mut state = State::new(view, style, None);
+        let mut state = State::new(Start { view, style, structure: None, comparison: None });
         state.set_size(80, 36);
         state
     }
@@ -265,6 +333,58 @@ mod tests {
         assert_eq!(state.shown.view.lens_kind(), LensKind::Parallel);
         assert_eq!(state.apply(Input::Structure), Outcome::Changed);
         assert_eq!(state.shown.structure, Some(Structure::Brute));
+    }
+
+    #[test]
+    fn the_errors_of_the_tier_are_shown_and_hidden() {
+        let mut state = state();
+        for shown in [Some(Comparison::Errors), None] {
+            assert_eq!(state.apply(Input::Errors), Outcome::Changed);
+            assert_eq!(state.shown.comparison, shown);
+        }
+    }
+
+    #[test]
+    fn a_seam_is_moved_by_keys_and_by_a_drag_that_begins_on_it() {
+        let mut state = state();
+        assert_eq!(state.apply(Input::Seam(1)), Outcome::Unchanged);
+        assert_eq!(state.apply(Input::Split), Outcome::Changed);
+        let tiers = [Tier::Stable, Tier::Exact];
+        assert_eq!((state.shown.comparison, state.seam()), (Some(Comparison::Split(tiers)), 40));
+        for (input, seam) in [
+            (Input::Seam(1), 41),
+            (Input::Seam(-1), 40),
+            (Input::Grab(40, 3), 40),
+            (Input::Drag(60, 9), 60),
+            (Input::Drag(200, 9), 79),
+            (Input::Seam(1), 79),
+            (Input::Drag(0, 0), 0),
+            (Input::Seam(-1), 0),
+        ] {
+            state.apply(input);
+            assert_eq!((state.seam(), state.shown.view), (seam, state.home), "{input:?}");
+        }
+        // Elsewhere a drag orbits.
+        state.apply(Input::Grab(10, 3));
+        state.apply(Input::Drag(20, 3));
+        assert_eq!(state.seam(), 0);
+        assert_ne!(state.shown.view, state.home);
+        state.apply(Input::Accuracy(Tier::Geometric));
+        let tiers = [Tier::Geometric, Tier::Exact];
+        assert_eq!(state.shown.comparison, Some(Comparison::Split(tiers)));
+        // In a smaller window it is still there.
+        state.apply(Input::Grab(0, 0));
+        state.apply(Input::Drag(79, 0));
+        state.set_size(20, 5);
+        assert_eq!(state.seam(), 19);
+        state.apply(Input::Split);
+        assert_eq!(state.shown.comparison, None);
+        state.apply(Input::Accuracy(Tier::Exact));
+        state.apply(Input::Split);
+        let tiers = [Tier::Fast, Tier::Exact];
+        assert_eq!(state.shown.comparison, Some(Comparison::Split(tiers)));
+        state.apply(Input::Errors);
+        assert_eq!(state.shown.comparison, Some(Comparison::Errors));
     }
 
     #[test]

@@ -63,6 +63,7 @@ mod tests {
     use crate::choice::Auto;
     use crate::style::{Charset, Style};
     use crate::view::{Lens, View};
+    use crate::viewer::Start;
     use clap::ValueEnum;
     use spherule_kernel::{Tier, Vec3};
 
@@ -74,7 +75,7 @@ mod tests {
             lens: Lens::Perspective { fov: 40.0 },
         };
         let style = Style { accuracy: Tier::Stable, charset: Charset::Half, ..Style::PLAIN };
-        State::new(view, style, choice)
+        State::new(Start { view, style, structure: choice, comparison: None })
     }
 
     fn text(columns: u16, state: &State, searched: (Order, Structure), figures: Figures) -> String {

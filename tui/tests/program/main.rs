@@ -11,6 +11,7 @@ mod png;
 mod run;
 mod scenes;
 mod shadows;
+mod show;
 mod structures;
 mod trace;
 mod traced;

@@ -1,0 +1,70 @@
+//! Tiers held against each other in one picture.
+
+pub mod error_map;
+pub mod legend;
+mod marks;
+pub mod split;
+pub mod verdict;
+
+use spherule_kernel::Tier;
+use std::str::FromStr;
+
+/// What a picture shows in place of the scene as one tier sees it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Comparison {
+    /// What the tier gets wrong, cell by cell.
+    Errors,
+    /// Two tiers side by side.
+    Split([Tier; 2]),
+}
+
+impl FromStr for Comparison {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        // As `--accuracy` reads them.
+        let tier = |name: &str| {
+            let name = if name == "algebraic" { "fast" } else { name };
+            Tier::ALL.into_iter().find(|tier| tier.as_str() == name)
+        };
+        let split = || {
+            let (left, right) = text.strip_prefix("split:")?.split_once(',')?;
+            Some(Self::Split([tier(left)?, tier(right)?]))
+        };
+        match text {
+            "error" => Ok(Self::Errors),
+            _ => split().ok_or("error, or split:TIER,TIER such as split:fast,exact"),
+        }
+    }
+}
+
+/// A number with a comma before every three digits.
+fn grouped(number: u64) -> String {
+    let digits = number.to_string();
+    let mut text = String::new();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_read_in_threes() {
+        for (number, text) in [
+            (0, "0"),
+            (999, "999"),
+            (1000, "1,000"),
+            (65_536, "65,536"),
+            (1 << 32, "4,294,967,296"),
+        ] {
+            assert_eq!(grouped(number), text);
+        }
+    }
+}

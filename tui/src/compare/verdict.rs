@@ -1,0 +1,285 @@
+//! What one answer gets wrong against the truth, and what many come to.
+
+use crate::tally::ulp_between;
+use spherule_kernel::{Exact, Hit, Ray, Sphere, Spheres, roots};
+
+/// What is wrong with an answer, from nothing to the worst.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Class {
+    /// Both miss: right, and nothing to see.
+    Miss,
+    /// The same sphere at the same t, bit for bit.
+    Right,
+    /// The same sphere, and t off by two to this power in ulp, or up to twice as much.
+    Off(u8),
+    /// The same sphere, and t nearer to the other root of the line.
+    OtherRoot,
+    /// A miss that is a hit in truth.
+    LostHit,
+    /// A hit that is a miss in truth.
+    FalseHit,
+    /// Another sphere than the one that is hit first in truth.
+    OtherSphere,
+}
+
+/// A [`Class`], and how far t is off in ulp if both hit the same sphere.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Verdict {
+    /// What is wrong.
+    pub class: Class,
+    /// How far off t is.
+    pub ulp: u64,
+}
+
+impl Verdict {
+    /// Both miss.
+    pub const MISS: Self = Self { class: Class::Miss, ulp: 0 };
+
+    /// Holds the answer for `ray` against the truth.
+    #[must_use]
+    pub fn of(ray: &Ray, spheres: Spheres<'_>, answer: Option<Hit>, truth: Option<Hit>) -> Self {
+        let wrong = |class| Self { class, ulp: 0 };
+        match (answer, truth) {
+            (None, None) => Self::MISS,
+            (Some(_), None) => wrong(Class::FalseHit),
+            (None, Some(_)) => wrong(Class::LostHit),
+            (Some(answer), Some(truth)) if answer.sphere != truth.sphere => {
+                wrong(Class::OtherSphere)
+            }
+            (Some(answer), Some(truth)) => {
+                let ulp = ulp_between(answer.t, truth.t);
+                let class = match ulp.checked_ilog2() {
+                    None => Class::Right,
+                    Some(_) if is_at_the_other_root(ray, spheres, answer, truth) => {
+                        Class::OtherRoot
+                    }
+                    Some(log) => Class::Off(log as u8),
+                };
+                Self { class, ulp }
+            }
+        }
+    }
+}
+
+/// Whether the answer is nearer to another root of the line than to the truth.
+fn is_at_the_other_root(ray: &Ray, spheres: Spheres<'_>, answer: Hit, truth: Hit) -> bool {
+    let away = |t: f32| (f64::from(answer.t) - f64::from(t)).abs();
+    let Some(sphere) = spheres.get(truth.sphere as usize) else { return false };
+    if are_before_or_behind(ray, &sphere, [answer.t, truth.t]) {
+        return false;
+    }
+    let roots = roots(Exact, ray, &sphere);
+    roots.is_some_and(|roots| roots.iter().any(|&root| away(root) < away(truth.t)))
+}
+
+/// Whether double precision is sure that both are on one side of the middle between the roots, as most are: then none
+/// is at the other root.
+fn are_before_or_behind(ray: &Ray, sphere: &Sphere, t: [f32; 2]) -> bool {
+    let (direction, center) = (ray.direction.as_dvec3(), sphere.center.as_dvec3());
+    let way = center - ray.origin.as_dvec3();
+    let (middle, squared) = (way.dot(direction), direction.length_squared());
+    let sides = t.map(|t| f64::from(t) * squared - middle);
+    // Thousands of times what these few operations may be off.
+    let least = 1e-12 * (way.abs().dot(direction.abs()) + middle.abs());
+    sides.iter().all(|&side| side > least) || sides.iter().all(|&side| side < -least)
+}
+
+/// The worst ray of some.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Worst {
+    /// What is wrong with it.
+    pub verdict: Verdict,
+    /// The sphere that it is said to hit or, if it is said to miss, that it hits.
+    pub sphere: u32,
+    /// Its sample, counted in columns and rows over the whole picture.
+    pub sample: (u32, u32),
+}
+
+/// What many verdicts come to, in rays.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Both miss.
+    pub misses: u64,
+    /// Same sphere, same t.
+    pub right: u64,
+    /// By the power of two of their ulp.
+    pub off: [u64; 32],
+    /// Same sphere, other root.
+    pub other_root: u64,
+    /// Misses that are hits.
+    pub lost_hits: u64,
+    /// Hits that are misses.
+    pub false_hits: u64,
+    /// Hits of another sphere.
+    pub other_spheres: u64,
+    /// The worst of those that are not right; of several the first from the top left. None if all are right.
+    pub worst: Option<Worst>,
+}
+
+impl Counts {
+    /// Adds the verdict on a ray through `sample`.
+    pub fn add(
+        &mut self,
+        verdict: Verdict,
+        (answer, truth): (Option<Hit>, Option<Hit>),
+        sample: (u32, u32),
+    ) {
+        *match verdict.class {
+            Class::Miss => &mut self.misses,
+            Class::Right => &mut self.right,
+            Class::Off(log) => &mut self.off[usize::from(log)],
+            Class::OtherRoot => &mut self.other_root,
+            Class::LostHit => &mut self.lost_hits,
+            Class::FalseHit => &mut self.false_hits,
+            Class::OtherSphere => &mut self.other_spheres,
+        } += 1;
+        if let Some(hit) = answer.or(truth).filter(|_| verdict.class > Class::Right) {
+            self.take(Worst { verdict, sphere: hit.sphere, sample });
+        }
+    }
+
+    fn take(&mut self, other: Worst) {
+        let is_worse = self.worst.is_none_or(|worst| {
+            // In the order in which a picture is read.
+            let place = |of: &Worst| (of.sample.1, of.sample.0);
+            other.verdict > worst.verdict
+                || other.verdict == worst.verdict && place(&other) < place(&worst)
+        });
+        if is_worse {
+            self.worst = Some(other);
+        }
+    }
+
+    /// Those of both, in whatever order.
+    #[must_use]
+    pub fn and(mut self, other: &Self) -> Self {
+        self.misses += other.misses;
+        self.right += other.right;
+        for (sum, count) in self.off.iter_mut().zip(other.off) {
+            *sum += count;
+        }
+        self.other_root += other.other_root;
+        self.lost_hits += other.lost_hits;
+        self.false_hits += other.false_hits;
+        self.other_spheres += other.other_spheres;
+        if let Some(worst) = other.worst {
+            self.take(worst);
+        }
+        self
+    }
+
+    /// Rays of which more than the last digits are wrong.
+    #[must_use]
+    pub fn wrong_decisions(&self) -> u64 {
+        self.other_root + self.lost_hits + self.false_hits + self.other_spheres
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spherule_kernel::Vec3;
+
+    fn hit(t: f32, sphere: u32) -> Option<Hit> {
+        Some(Hit { t, sphere })
+    }
+
+    /// Along z, against spheres of radius 1 at 5 and of radius 2 around the origin.
+    fn verdict(answer: Option<Hit>, truth: Option<Hit>) -> Verdict {
+        let ray = Ray::new(Vec3::ZERO, Vec3::Z);
+        let spheres = Spheres::new(&[0.0; 2], &[0.0; 2], &[5.0, 0.0], &[1.0, 2.0]);
+        Verdict::of(&ray, spheres.expect("as many of each"), answer, truth)
+    }
+
+    fn stepped(t: f32, ulp: i32) -> f32 {
+        f32::from_bits(t.to_bits().wrapping_add_signed(ulp))
+    }
+
+    #[test]
+    fn decisions() {
+        for (answer, truth, class) in [
+            (None, None, Class::Miss),
+            (hit(4.0, 0), None, Class::FalseHit),
+            (None, hit(4.0, 0), Class::LostHit),
+            (hit(2.0, 1), hit(4.0, 0), Class::OtherSphere),
+            // Whatever t is.
+            (hit(4.0, 1), hit(4.0, 0), Class::OtherSphere),
+            (hit(4.0, 0), hit(4.0, 0), Class::Right),
+            (hit(6.0, 0), hit(4.0, 0), Class::OtherRoot),
+            (hit(4.0, 0), hit(6.0, 0), Class::OtherRoot),
+            (hit(5.5, 0), hit(4.0, 0), Class::OtherRoot),
+            (hit(-2.0, 1), hit(2.0, 1), Class::OtherRoot),
+            (hit(1e9, 0), hit(4.0, 0), Class::OtherRoot),
+        ] {
+            assert_eq!(verdict(answer, truth).class, class, "{answer:?} {truth:?}");
+        }
+    }
+
+    #[test]
+    fn last_digits() {
+        for (ulp, log) in [(1, 0), (-1, 0), (2, 1), (3, 1), (-4, 2), (15, 3), (16, 4), (255, 7)] {
+            let found = verdict(hit(stepped(4.0, ulp), 0), hit(4.0, 0));
+            let ulp = u64::from(ulp.unsigned_abs());
+            assert_eq!(found, Verdict { class: Class::Off(log), ulp }, "{ulp}");
+        }
+        // Across zero, and with no end: no root is nearer than the truth.
+        let tiny = f32::from_bits(1);
+        let ray = Ray::new(Vec3::ZERO, Vec3::Z);
+        let nowhere = Spheres::new(&[], &[], &[], &[]).expect("none of each");
+        for (answer, truth, ulp) in [
+            (-tiny, tiny, 2),
+            (0.0, -0.0, 0),
+            (f32::INFINITY, f32::MAX, 1),
+            (-1.0, 1.0, 0x7f00_0000),
+        ] {
+            let found = Verdict::of(&ray, nowhere, hit(answer, 0), hit(truth, 0));
+            assert_eq!(found.ulp, ulp, "{answer:e} {truth:e}");
+            let class = ulp.checked_ilog2().map_or(Class::Right, |log| Class::Off(log as u8));
+            assert_eq!(found.class, class);
+        }
+    }
+
+    /// Where both roots are one, there is no other.
+    #[test]
+    fn a_line_that_touches_has_one_root() {
+        let ray = Ray::new(Vec3::new(1.0, 0.0, 0.0), Vec3::Z);
+        let spheres = Spheres::new(&[0.0], &[0.0], &[5.0], &[1.0]).expect("one of each");
+        for answer in [4.0, 6.0, 1e9] {
+            let class = Verdict::of(&ray, spheres, hit(answer, 0), hit(5.0, 0)).class;
+            assert!(matches!(class, Class::Off(_)), "{answer}: {class:?}");
+        }
+    }
+
+    #[test]
+    fn the_worst_is_the_same_in_every_order() {
+        let off = Verdict { class: Class::Off(3), ulp: 9 };
+        let lost = Verdict { class: Class::LostHit, ulp: 0 };
+        let rays = [
+            (Verdict::MISS, (9, 0)),
+            (off, (0, 1)),
+            (lost, (7, 2)),
+            (Verdict { class: Class::Right, ulp: 0 }, (3, 0)),
+            (lost, (2, 2)),
+            (lost, (1, 3)),
+            (Verdict { class: Class::Off(3), ulp: 10 }, (4, 4)),
+        ];
+        let count = |rays: &[(Verdict, (u32, u32))]| {
+            let mut counts = Counts::default();
+            for &(verdict, sample) in rays {
+                counts.add(verdict, (None, hit(1.0, 8)), sample);
+            }
+            counts
+        };
+        let all = count(&rays);
+        assert_eq!(all.worst, Some(Worst { verdict: lost, sphere: 8, sample: (2, 2) }));
+        assert_eq!((all.misses, all.right, all.off[3], all.lost_hits), (1, 1, 2, 3));
+        assert_eq!(all.wrong_decisions(), 3);
+        for middle in 0..=rays.len() {
+            let (first, last) = (count(&rays[..middle]), count(&rays[middle..]));
+            assert_eq!(first.and(&last), all);
+            assert_eq!(last.and(&first), all);
+        }
+        let right = count(&rays[..1]);
+        assert_eq!((right.worst, right.wrong_decisions()), (None, 0));
+    }
+}

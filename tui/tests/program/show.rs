@@ -1,0 +1,245 @@
+//! `--show error`: letters where a tier is wrong, and counts against the kernel's answers, ray by ray. `--show split`:
+//! halves against whole pictures.
+
+use crate::run::{printed, refusal, run};
+use spherule::draw::sample_grid;
+use spherule::scene::builtin::builtin;
+use spherule::style::Style;
+use spherule::tally::ulp_between;
+use spherule_kernel::{Exact, Intersect, Tier, roots};
+
+fn shown(words: &str) -> String {
+    printed(&run("--show error --once".split(' ').chain(words.split_whitespace())))
+}
+
+/// The number behind `name` in the legend; 0 if it is not there.
+fn count(text: &str, name: &str) -> u64 {
+    let legend: Vec<&str> = text.lines().rev().take(2).collect();
+    let found = legend.iter().find_map(|line| line.split_once(&format!("{name} ")));
+    found.map_or(0, |(_, rest)| {
+        let number = rest.split_whitespace().next().expect("a number").replace(',', "");
+        number.parse().unwrap_or_else(|_| panic!("{name}: {legend:?}"))
+    })
+}
+
+#[test]
+fn fast_is_wrong_at_the_rims_of_edge_and_letters_say_so() {
+    let text = shown("edge --accuracy fast");
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!(lines.len(), 24);
+    assert!(lines.iter().all(|line| line.chars().count() == 80) && text.is_ascii());
+    let letters = |letter| lines[..22].concat().matches(letter).count();
+    assert!(letters('F') > 100 && letters('L') > 50, "{text}");
+    // The large sphere on the left: a rim of wrong decisions, and within it digits.
+    let row = lines[5];
+    assert!(row[..8].contains(['F', 'L']), "{row}");
+    assert!(row[8..18].chars().filter(char::is_ascii_digit).count() > 8, "{row}");
+    assert!(lines[22].starts_with(" fast:  F false ") && lines[22].contains("worst: sphere "));
+    assert!(lines[23].starts_with(" . right "));
+}
+
+#[test]
+fn exact_is_all_right() {
+    for scene in ["edge", "marbles", "flake"] {
+        let text = shown(scene);
+        let cells = text.lines().take(22).collect::<String>();
+        assert!(cells.chars().all(|letter| " .".contains(letter)) && cells.contains('.'), "{text}");
+        assert!(text.contains(" exact: all right, it is the truth itself"));
+    }
+}
+
+#[test]
+fn geometric_is_wrong_in_its_own_way() {
+    let geometric = shown("edge --accuracy geometric");
+    assert!(geometric.contains(" geometric:") && count(&geometric, "F false") > 100, "{geometric}");
+    assert_ne!(geometric, shown("edge --accuracy fast"));
+    assert_eq!(shown("edge --accuracy algebraic"), shown("edge --accuracy fast"));
+}
+
+/// Legend against a loop over the same rays: the list's answers, one ray at a time.
+#[test]
+fn the_counts_are_those_of_a_loop() {
+    let size = (200_u16, 24_u16);
+    for (scene, tier, options) in [
+        ("edge", Tier::Fast, ""),
+        ("edge", Tier::Geometric, "--samples 3"),
+        ("far", Tier::Stable, ""),
+        ("marbles", Tier::Fast, "--projection parallel"),
+    ] {
+        let words = format!(
+            "{scene} --accuracy {} --size {}x{} --structure brute {options}",
+            tier.as_str(),
+            size.0,
+            size.1
+        );
+        let text = shown(&words);
+        let samples = options.strip_prefix("--samples ").and_then(|number| number.parse().ok());
+        let style = Style { samples, ..Style::PLAIN };
+        let scene = builtin(scene).expect("a scene");
+        let mut view = scene.first_view(style.picture_aspect(size.0, size.1) as f32);
+        if options.contains("parallel") {
+            view = spherule::view::with_projection(&view, spherule::view::LensKind::Parallel);
+        }
+        let (camera, width, height) = sample_grid(&view, &style, size.0, size.1);
+        let spheres = scene.spheres();
+        let [mut right, mut other, mut wrong, mut lost, mut root, mut off] = [0_u64; 6];
+        for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+            let ray = camera.get_ray(x, y);
+            match (spheres.closest_hit(tier, &ray), spheres.closest_hit(Exact, &ray)) {
+                (None, None) => {}
+                (Some(_), None) => wrong += 1,
+                (None, Some(_)) => lost += 1,
+                (Some(found), Some(truth)) if found.sphere != truth.sphere => other += 1,
+                (Some(found), Some(truth)) if ulp_between(found.t, truth.t) == 0 => right += 1,
+                (Some(found), Some(truth)) => {
+                    let sphere = spheres.get(truth.sphere as usize).expect("it was hit");
+                    let [near, far] = roots(Exact, &ray, &sphere).expect("it was hit");
+                    let other = if truth.t == near { far } else { near };
+                    let away = |t: f32| (f64::from(t) - f64::from(found.t)).abs();
+                    *(if away(other) < away(truth.t) { &mut root } else { &mut off }) += 1;
+                }
+            }
+        }
+        let rounded: u64 =
+            ["1+", "2+", "4+", "16+", "256+", "65536+"].map(|from| count(&text, from)).iter().sum();
+        let long = ["another sphere", "false hit", "lost hit", "other root", "right"];
+        let said = long.map(|name| count(&text, name));
+        assert_eq!((said, rounded), ([other, wrong, lost, root, right], off), "{words}\n{text}");
+        assert!(rounded + other + wrong > 0, "{words}");
+    }
+}
+
+#[test]
+fn every_size_and_depth() {
+    for size in ["1x1", "2x3", "3x4", "1x9", "80x24", "301x70"] {
+        for color in ["never", "16", "256", "truecolor"] {
+            for charset in ["ascii", "half", "braille"] {
+                let words = format!("edge --accuracy fast --size {size}");
+                let text = shown(&format!("{words} --color {color} --charset {charset}"));
+                let rows: usize = size.split('x').nth(1).and_then(|n| n.parse().ok()).expect("n");
+                assert_eq!(text.lines().count(), rows, "{size} {color} {charset}");
+                assert_eq!(text.contains('\x1b'), color != "never", "{size} {color} {charset}");
+            }
+        }
+    }
+}
+
+#[test]
+fn neither_threads_nor_level_nor_lens_change_what_is_wrong() {
+    for lens in ["perspective", "parallel"] {
+        let words = format!("edge --accuracy fast --size 100x23 --projection {lens}");
+        let one = shown(&format!("{words} --threads 1"));
+        for more in ["--threads 2", "--threads 7", "--level baseline"] {
+            assert_eq!(shown(&format!("{words} {more}")), one, "{lens} {more}");
+        }
+        assert!(one.contains(" worst: sphere "), "{one}");
+    }
+}
+
+/// Left of the seam the picture of one tier, right of it that of the other; the last two rows are figures.
+#[test]
+fn a_split_is_two_halves_of_two_pictures() {
+    for more in
+        ["--charset half --color truecolor", "--charset octant --color 256", "--charset ascii"]
+    {
+        for scene in ["edge", "marbles"] {
+            let words = format!("{scene} --once --size 61x20 {more}");
+            let cells = |options: &str| {
+                let text = printed(&run(words.split(' ').chain(options.split(' '))));
+                let mut terminal = vt100::Parser::new(
+                    std::num::NonZeroU16::new(21).expect("rows"),
+                    std::num::NonZeroU16::new(61).expect("columns"),
+                    0,
+                );
+                terminal.process(text.replace('\n', "\r\n").as_bytes());
+                let cell = |row, column| {
+                    let cell = terminal.screen().cell(row, column).expect("a cell");
+                    let glyph = cell.contents().to_owned();
+                    // The ink of a space cannot be seen.
+                    let ink = if glyph == " " { vt100::Color::Default } else { cell.fgcolor() };
+                    (glyph, ink, cell.bgcolor())
+                };
+                (0..18).map(|row| (0..61).map(|column| cell(row, column)).collect()).collect()
+            };
+            let split: Vec<Vec<_>> = cells("--show split:fast,exact");
+            let [fast, exact]: [Vec<Vec<_>>; 2] =
+                ["--accuracy fast", "--accuracy exact"].map(cells);
+            let mut differ = 0;
+            for row in 0..18 {
+                assert!(["│", "|"].contains(&&*split[row][30].0), "{:?}", split[row][30]);
+                let left = (0..30).filter(|&column| split[row][column] != fast[row][column]);
+                let right = (31..61).filter(|&column| split[row][column] != exact[row][column]);
+                differ += left.count() + right.count();
+            }
+            // Letters are chosen beside each other, and so beside the seam.
+            let least = if more.contains("ascii") { 40 } else { 0 };
+            assert!(differ <= least, "{words}: {differ}");
+            if scene == "edge" {
+                let other = (0..18).flat_map(|row| (0..30).map(move |column| (row, column)));
+                assert!(other.filter(|&(r, c)| split[r][c] != exact[r][c]).count() > 20);
+            }
+        }
+    }
+}
+
+/// Counts of both halves are those of an error map of the whole, less the seam; nothing that is measured is written.
+#[test]
+fn the_figures_of_a_split() {
+    let split = |words: &str| {
+        let words = format!("edge --once --size 120x24 --structure brute --show {words}");
+        printed(&run(words.split(' ')))
+    };
+    let text = split("split:fast,fast");
+    assert_eq!(text, split("split:algebraic,fast --threads 1"));
+    assert_eq!(text, split("split:fast,fast --threads 7"));
+    let figures = text.lines().last().expect("figures");
+    let (left, right) = (&figures[..60], &figures[61..]);
+    let number = |half: &str| -> u64 {
+        let word = half.trim_start().strip_prefix("wrong ").expect("a count");
+        let number = word.split(' ').next().expect("a number").replace(',', "");
+        number.parse().expect("a number")
+    };
+    let whole = split("error --accuracy fast");
+    let whole =
+        ["another sphere", "false hit", "lost hit", "other root"].map(|name| count(&whole, name));
+    let (sum, whole) = (number(left) + number(right), whole.iter().sum::<u64>());
+    assert!(
+        number(left) > 100 && number(right) > 100 && sum <= whole && sum + 96 >= whole,
+        "{text}"
+    );
+    assert!(left.contains("f64 0.0%") && !text.contains("ns/ray"), "{text}");
+    let exact = split("split:fast,exact");
+    let right = &exact.lines().last().expect("figures")[61..];
+    assert!(right.starts_with(" wrong 0 of ") && !right.contains("f64 0.0%"), "{exact}");
+}
+
+#[test]
+fn a_split_of_every_size() {
+    for size in ["1x1", "2x1", "1x9", "2x5", "3x4", "301x40"] {
+        let text = printed(&run(
+            format!("edge --show split:stable,exact --once --size {size}").split(' ')
+        ));
+        let (columns, rows) = size.split_once('x').expect("a size");
+        assert_eq!(text.lines().count().to_string(), rows);
+        assert!(text.lines().all(|line| line.chars().count().to_string() == columns), "{size}");
+    }
+}
+
+#[test]
+fn bad_use() {
+    for words in [
+        "--show wrong",
+        "--show split",
+        "--show split:fast",
+        "--show split:fast,sloppy",
+        "--show split:fast,exact,exact",
+        "--show error --png a.png",
+        "trace --spheres s.npy --rays r.npy --show error",
+        "tradeoff --show error",
+        "scenes --show error",
+        "--show",
+    ] {
+        let message = refusal(&run(words.split(' ')));
+        assert!(message.contains("--show"), "{words}: {message}");
+    }
+}
