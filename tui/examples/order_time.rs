@@ -62,7 +62,10 @@ fn ratio(scene: &Scene, accuracy: Tier, rounds: u32) -> (f64, f64) {
             let drawn = renderer.draw(scene, &search, &view, &style, size, Spending::ByNeed);
             (cpu_ms() - start, drawn.cells)
         });
-        assert!(matches!(accuracy, Tier::Fast | Tier::Geometric) || image.1 == object.1, "the same picture");
+        assert!(
+            matches!(accuracy, Tier::Fast | Tier::Geometric) || image.1 == object.1,
+            "the same picture"
+        );
         times.push(object.0);
         ratios.push(object.0 / image.0);
     }
