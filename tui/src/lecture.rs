@@ -38,14 +38,21 @@ pub fn lecture(arguments: &LectureArguments) -> Result<(), Error> {
     if is_terminal && !arguments.once && !surroundings.is_dumb() {
         return walk::walk(arguments.station.unwrap_or(0), style);
     }
+    // A terminal may not know its size, or lie.
+    let is_usable = |&(columns, rows): &(u16, u16)| {
+        [columns, rows].iter().all(|side| (1..=4096).contains(side))
+    };
     // The prompt comes back below, and pushes the top row out if there is no row left.
-    let on_terminal = || terminal::size().ok().map(|(columns, rows)| (columns, rows.max(2) - 1));
+    let on_terminal = || {
+        let (columns, rows) = terminal::size().ok().filter(is_usable)?;
+        Some((columns, (rows - 1).max(1)))
+    };
     let size = arguments.size.or_else(|| on_terminal().filter(|_| is_terminal));
-    let (columns, rows) = size.unwrap_or(PIPE_SIZE);
+    let size = size.unwrap_or(PIPE_SIZE);
     let chosen = arguments.station.map_or(0..STATIONS.len(), |index| index..index + 1);
     for index in chosen {
         let station = (STATIONS[index].start)();
-        let page = frame::page(index, &*station, false, (columns.max(1), rows.max(1)), style);
+        let page = frame::page(index, &*station, false, size, style);
         let mut bytes = Vec::new();
         encode::full(&page, &mut bytes);
         write_stdout(&bytes)?;

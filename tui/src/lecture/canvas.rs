@@ -20,6 +20,8 @@ pub(super) enum Role {
     Wrong,
     /// White where a ray hits.
     White,
+    /// Black where it does not.
+    Black,
     /// One of several spheres, by its index.
     Nth(usize),
 }
@@ -36,6 +38,7 @@ impl Role {
             Self::Hit => Color::Ansi16(2),
             Self::Wrong => Color::Ansi16(9),
             Self::White => Color::Ansi16(15),
+            Self::Black => Color::Ansi16(0),
             Self::Nth(index) => Color::Ansi16([9, 12, 11, 10, 13, 14][index % 6]),
         }
     }

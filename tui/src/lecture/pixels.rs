@@ -13,8 +13,10 @@ pub(super) struct Pixel {
 impl Pixel {
     /// Not computed yet.
     pub(super) const WAITING: Self = Self { glyph: '.', role: Role::Faint, filled: false };
+    /// There is nothing.
+    pub(super) const NOTHING: Self = Self { glyph: ' ', role: Role::Plain, filled: false };
     /// The ray hits nothing.
-    pub(super) const BLACK: Self = Self { glyph: ' ', role: Role::Plain, filled: false };
+    pub(super) const BLACK: Self = Self { glyph: ' ', role: Role::Black, filled: true };
     /// The ray hits.
     pub(super) const WHITE: Self = Self { glyph: '#', role: Role::White, filled: true };
 
@@ -25,7 +27,7 @@ impl Pixel {
 
     /// The ray hits a sphere first: its letter.
     pub(super) fn of_sphere(index: Option<usize>, glyph: impl Fn(usize) -> char) -> Self {
-        index.map_or(Self::BLACK, |index| Self::sign(glyph(index), Role::Nth(index)))
+        index.map_or(Self::NOTHING, |index| Self::sign(glyph(index), Role::Nth(index)))
     }
 }
 

@@ -8,8 +8,6 @@ use spherule_kernel::{
     Exact, Fast, Geometric, Intersect, Ray, Sphere, SphereList, Tier, Vec3, roots,
 };
 use std::collections::HashSet;
-use std::fs;
-use std::path::Path;
 
 const TURNS: [Turn; 4] = [Turn::Left, Turn::Right, Turn::Up, Turn::Down];
 
@@ -139,7 +137,7 @@ fn flat(text: &str, name: &str) -> Vec3 {
 /// Ray and sphere of the numbers that are shown, as seen from the centre.
 fn shown(text: &str) -> (Ray, Sphere) {
     let radius = number(text, "r = ").expect("a radius");
-    let ray = Ray::new(flat(text, "p - c = "), flat(text, "\nd = ".trim_start()));
+    let ray = Ray::new(flat(text, "p - c = "), flat(text, "d = "));
     (ray, Sphere { center: Vec3::ZERO, radius })
 }
 
@@ -154,11 +152,7 @@ fn the_algebraic_form_shows_the_kernels_numbers() {
         // The parts are those of the formula: they lead to the same bits.
         let [dd, dp, c] =
             ["d.d = ", "d.p = ", "p.p - r^2 = "].map(|name| number(&text, name).expect(name));
-        let discriminant = number(&text, ")\n").or_else(|| {
-            let after = &text[text.find("D = (d.p)^2").expect("D")..];
-            number(after, "  = ")
-        });
-        assert_eq!(discriminant, Some(dp * dp - dd * c), "{text}");
+        assert_eq!(number(&text, "  = "), Some(dp * dp - dd * c), "{text}");
         if let Some((near, far)) = found {
             let root = (dp * dp - dd * c).sqrt();
             assert_eq!([near, far], [(-dp - root) * (1.0 / dd), (-dp + root) * (1.0 / dd)]);
@@ -176,9 +170,7 @@ fn the_geometric_form_shows_the_kernels_numbers() {
         assert_eq!(found, roots(Geometric, &ray, &sphere).map(|[near, far]| (near, far)), "{text}");
         seen[usize::from(found.is_some())] += 1;
         let middle = number(&text, "t_m = -p.v = ").expect("t_m");
-        let length = number(&text, "|d| = ")
-            .or_else(|| value(&text, "|d| = ")?.split("   ").next()?.parse().ok());
-        let length = length.expect("|d|");
+        let length = number(&text, "|d| = ").expect("|d|");
         if let Some((near, far)) = found {
             let half = number(&text, "dt = sqrt(r^2 - l^2) = ").expect("dt");
             assert_eq!([near, far], [middle - half, middle + half].map(|t| t * (1.0 / length)));
@@ -196,17 +188,16 @@ fn the_interval_shows_the_kernels_answer() {
     let mut answers = HashSet::new();
     for text in many("interval", &ENDS) {
         let [t_min, t_max] = ["t_min = ", "t_max = "].map(|name| number(&text, name).expect(name));
-        let (near, far) = number(&text, "t1 = ").zip(number(&text, "t2 = ")).expect("roots");
-        // A sphere around the middle of the ray's way through it has the same roots.
-        let sphere = Sphere::from([(near + far) / 2.0, 0.0, 0.0, (far - near) / 2.0]);
-        let ray = Ray { t_min, t_max, ..Ray::new(Vec3::ZERO, Vec3::X) };
-        let expected = SphereList::from([sphere]).closest_hit(Exact, &ray).map(|hit| hit.t);
+        let ray = Ray { t_min, t_max, ..Ray::new(flat(&text, "p = "), flat(&text, "d = ")) };
+        let radius = number(&text, "r = ").expect("a radius");
+        let sphere = Sphere { center: flat(&text, "c = "), radius };
+        let both = number(&text, "t1 = ").zip(number(&text, "t2 = "));
+        assert_eq!(both, roots(Exact, &ray, &sphere).map(|[near, far]| (near, far)), "{text}");
         let answer = number(&text, "= a hit at t = ");
+        let expected = SphereList::from([sphere]).closest_hit(Exact, &ray).map(|hit| hit.t);
+        assert_eq!(answer, expected, "{text}");
         assert_eq!(answer.is_some(), !text.contains("= no hit"), "{text}");
         assert_eq!(answer.is_some(), text.contains("does it hit at all? yes"), "{text}");
-        let near_enough = |(a, b): (f32, f32)| (a - b).abs() < 1e-5;
-        assert_eq!(answer.is_some(), expected.is_some(), "{text}");
-        assert!(answer.zip(expected).is_none_or(near_enough), "{text}");
         answers.insert(answer.map(f32::to_bits));
     }
     assert_eq!(answers.len(), 3, "near, far and none");
@@ -230,26 +221,13 @@ fn the_tiers_are_wrong_where_they_are() {
     let text = text(&*(STATIONS[station("precision").expect("a station")].start)());
     let table = &text[text.find("decided wrongly:").expect("the table")..];
     let wrong = Tier::ALL.map(|tier| {
-        let row = value(table, tier.as_str()).map_or("", |_| {
-            table.lines().find_map(|line| line.split_once(tier.as_str())).map_or("", |row| row.1)
-        });
+        let row = table.lines().find_map(|line| line.split_once(tier.as_str())).expect("a row").1;
         let counts =
             row.split_whitespace().take(3).map(|count| count.parse::<u64>().expect("a count"));
         counts.sum::<u64>()
     });
     let [fast, geometric, stable, exact] = wrong;
     assert!(fast > 10 && geometric > 10 && stable == 0 && exact == 0, "{wrong:?}\n{text}");
-}
-
-#[test]
-fn sources_are_where_they_are_said_to_be() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    for source in STATIONS.iter().flat_map(|entry| entry.sources) {
-        let text = fs::read_to_string(root.join(source.file)).expect(source.file);
-        for symbol in source.symbols {
-            assert!(text.contains(symbol), "{symbol} in {}", source.file);
-        }
-    }
 }
 
 #[test]

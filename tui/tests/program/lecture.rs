@@ -2,6 +2,8 @@
 
 use crate::run::{printed, refusal, run};
 use spherule::lecture::stations::STATIONS;
+use std::fs;
+use std::path::Path;
 
 fn lecture(words: &str) -> String {
     printed(&run(format!("lecture {words}").split_whitespace()))
@@ -23,6 +25,17 @@ fn the_list_names_every_station_and_its_sources() {
         }
     }
     assert!(list.contains("Triangles"));
+}
+
+#[test]
+fn sources_are_where_they_are_said_to_be() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    for source in STATIONS.iter().flat_map(|entry| entry.sources) {
+        let text = fs::read_to_string(root.join(source.file)).expect(source.file);
+        for symbol in source.symbols {
+            assert!(text.contains(symbol), "{symbol} in {}", source.file);
+        }
+    }
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Which root counts: the interval from `t_min` to `t_max`.
 
-use super::{Entry, Source, Station, Turn, number};
+use super::{Entry, Source, Station, Turn, flat, number};
 use crate::lecture::canvas::{Canvas, Role};
 use crate::lecture::chart::Chart;
 use spherule_kernel::{Exact, Intersect, Ray, Sphere, SphereList, Vec3, roots};
@@ -83,7 +83,8 @@ impl Station for Interval {
         let mut lines = vec![
             format!("t_min = {}", number(t_min)),
             format!("t_max = {}", number(t_max)),
-            String::new(),
+            format!("p = {}  d = {}", flat(ray.origin), flat(ray.direction)),
+            format!("c = {}  r = {}", flat(sphere.center), number(sphere.radius)),
         ];
         if let Some([near, far]) = both {
             lines.extend([format!("t1 = {}", number(near)), format!("t2 = {}", number(far))]);

@@ -18,7 +18,7 @@ pub(super) const ENTRY: Entry = Entry {
     sources: &[
         Source { file: "kernel/src/linear.rs", symbols: &["traverse", "is_closer"] },
         Source { file: "kernel/src/intersect.rs", symbols: &["closest_hit"] },
-        Source { file: "kernel/src/bvh/traverse.rs", symbols: &["mod"] },
+        Source { file: "kernel/src/bvh/traverse.rs", symbols: &["wavefront"] },
     ],
     start: || Box::new(Nearest { cursor: Cursor::new(1, 2) }),
 };

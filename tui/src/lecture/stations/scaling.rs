@@ -88,7 +88,7 @@ impl Station for Scaling {
                 let glyph = RAMP[usize::from(picture.bytes[pixel]) * RAMP.len() / 256];
                 match few.shown(picture.hits[pixel]) {
                     Some(sphere) => Pixel::sign(char::from(glyph), Role::Nth(sphere)),
-                    None => Pixel::BLACK,
+                    None => Pixel::NOTHING,
                 }
             });
         }
