@@ -1,6 +1,6 @@
 //! The lecture, walked through.
 
-use super::session::Session;
+use super::session::{Output, Session};
 use spherule::lecture::stations::STATIONS;
 use spherule_tests::binary::spherule;
 
@@ -10,10 +10,16 @@ fn start(more: &[&str]) -> Session {
     Session::start(spherule(), &arguments, &[], (80, 24))
 }
 
+/// What the screen shows. (Of blanks behind a line the terminal's model knows whether they were written.)
+fn contents(output: &Output) -> String {
+    let contents = output.screen().contents();
+    contents.lines().map(|line| format!("{}\n", line.trim_end())).collect()
+}
+
 /// Waits until the screen shows a text, and gives all that it shows.
 fn shown(session: &Session, text: &str) -> String {
     session.wait_for(text, |output| {
-        let contents = output.screen().contents();
+        let contents = contents(output);
         (output.sent.ends_with(b"\x1b[?2026l") && contents.contains(text)).then_some(contents)
     })
 }
@@ -35,12 +41,9 @@ fn n_goes_through_all_stations_and_arrows_change_them() {
         let first = shown(&session, &heading(index));
         // Left and down: one of them has somewhere to go in every station.
         session.type_in("\x1b[D\x1b[B");
-        session
-            .wait_for("another page", |output| (output.screen().contents() != first).then_some(()));
+        session.wait_for("another page", |output| (contents(output) != first).then_some(()));
         session.type_in("r");
-        session.wait_for("the first page", |output| {
-            (output.screen().contents() == first).then_some(())
-        });
+        session.wait_for("the first page", |output| (contents(output) == first).then_some(()));
         session.type_in("n");
     }
     shown(&session, &heading(0));
@@ -66,9 +69,7 @@ fn help_opens_and_escape_closes_it_before_it_quits() {
     let help = shown(&session, "Page Down");
     assert!(help.contains("Triangles are left out"), "{help}");
     session.type_in("\x1b");
-    session.wait_for("the page under it", |output| {
-        (output.screen().contents() == first).then_some(())
-    });
+    session.wait_for("the page under it", |output| (contents(output) == first).then_some(()));
     quit(session, "\x1b");
 }
 
