@@ -52,6 +52,9 @@ pub enum Command {
     /// Measure speed and error of every tier on a scene, on this machine
     Tradeoff(TradeoffArguments),
     /// Walk through the graphics lecture: fourteen stations whose numbers are computed as they are shown
+    ///
+    /// On a terminal ? shows the keys. Into a pipe or a file, on a dumb terminal, or with --once, the station that
+    /// --station names is written, or all of them.
     Lecture(LectureArguments),
     /// List the built-in scenes
     Scenes,
@@ -203,9 +206,6 @@ pub struct TradeoffArguments {
 }
 
 /// The lecture, or a part of it.
-///
-/// On a terminal it is walked through (? shows the keys); into a pipe or a file, on a dumb terminal, or with --once,
-/// the station that is named is written, or all of them.
 #[derive(Args, Clone, Debug)]
 pub struct LectureArguments {
     /// The station, 1 to 14 or by its name

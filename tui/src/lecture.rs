@@ -66,7 +66,7 @@ pub fn list() -> String {
     let mut text = String::new();
     for (number, entry) in (1..).zip(&STATIONS) {
         text += &format!("{number:>2}  {:<14} {}\n", entry.name, entry.title);
-        text += &format!("    {:<14} {}\n", "", entry.topic);
+        text += &format!("    {:<14} lecture: {}\n", "", entry.topic);
         for source in entry.sources {
             text += &format!("    {:<14} {}: {}\n", "", source.file, source.symbols.join(", "));
         }

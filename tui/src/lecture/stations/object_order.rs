@@ -85,7 +85,7 @@ impl Station for BySphere {
         lines.extend([
             row("all", [tests, writes.stored, writes.overwritten]),
             String::new(),
-            "A test asks 16 rays, 4 x 4 pixels,".to_owned(),
+            "Tested: blocks of 4 x 4 pixels, all".to_owned(),
             "that the sphere's bounds touch.".to_owned(),
             String::new(),
             if self.reversed {
