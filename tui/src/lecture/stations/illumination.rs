@@ -1,14 +1,16 @@
 //! Illumination at the point that is seen.
 
 use super::{Entry, Source, Station, Turn, number};
+use crate::cells::CellGrid;
 use crate::color::{Srgb, luminance};
 use crate::draw::draw;
 use crate::lecture::canvas::{Canvas, Role};
 use crate::lecture::few::Cursor;
 use crate::scene::builtin::builtin;
 use crate::scene::{Light, Scene, Source as LightSource};
-use crate::style::Style;
+use crate::style::{ColorDepth, Style};
 use spherule_kernel::{Exact, Intersect, Ray, Side, Vec3, side, surface};
+use std::cell::RefCell;
 
 pub(super) const ENTRY: Entry = Entry {
     name: "illumination",
@@ -26,7 +28,7 @@ pub(super) const ENTRY: Entry = Entry {
     ],
     start: || {
         let scene = builtin("marbles").unwrap_or_default();
-        Box::new(Illumination { scene, cursor: Cursor::new(3, -2) })
+        Box::new(Illumination { scene, cursor: Cursor::new(3, -2), drawn: RefCell::default() })
     },
 };
 
@@ -36,6 +38,9 @@ const TEXT: i32 = 35;
 struct Illumination {
     scene: Scene,
     cursor: Cursor,
+    /// The picture that was drawn last, and with how many colours. On a large terminal it takes a tenth of a second,
+    /// and no arrow changes it.
+    drawn: RefCell<Option<(ColorDepth, CellGrid)>>,
 }
 
 impl Station for Illumination {
@@ -48,7 +53,14 @@ impl Station for Illumination {
         let style = Style { samples: Some(4), ..*canvas.style() };
         let aspect = style.picture_aspect(columns, rows);
         let view = self.scene.first_view(aspect as f32);
-        canvas.copy(0, 0, &draw(&self.scene, &view, &style, columns, rows).cells);
+        let drawn = self.drawn.take().filter(|(depth, cells)| {
+            (*depth, cells.columns(), cells.rows()) == (style.depth, columns, rows)
+        });
+        let drawn = drawn.unwrap_or_else(|| {
+            (style.depth, draw(&self.scene, &view, &style, columns, rows).cells)
+        });
+        canvas.copy(0, 0, &drawn.1);
+        self.drawn.replace(Some(drawn));
         let (ix, iy) = self.cursor.pixel(columns.into(), rows.into());
         let (column, row) = (ix as i32, iy as i32);
         for (above, frame) in [(-1, "+---+"), (1, "+---+")] {
