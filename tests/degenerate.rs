@@ -3,7 +3,7 @@
 //! The numbers are small integers, so that every tier computes the roots exactly, and what is
 //! tested is how they are judged.
 
-use spherule_kernel::{Ray, Sphere, Tier, Vec3, Viewpoint, roots};
+use spherule_kernel::{Ray, Sphere, Tier, Vec3, Viewpoint, discriminant, roots};
 use spherule_tests::case::Case;
 use spherule_tests::inputs::SPECIALS;
 use spherule_tests::oracle;
@@ -234,6 +234,25 @@ fn both_roots_whatever_the_interval() {
         assert_eq!(roots(tier, &invalid.ray, &invalid.sphere), None, "{tier:?}");
         let invalid = straight(|ray, _| ray.direction = Vec3::ZERO);
         assert_eq!(roots(tier, &invalid.ray, &invalid.sphere), None, "{tier:?}");
+    }
+}
+
+#[test]
+fn the_discriminant_whatever_the_interval() {
+    let interval = straight(|ray, _| (ray.t_min, ray.t_max) = (NAN, -7.0));
+    let (d, bound) = discriminant(&interval.ray, &interval.sphere).expect("a valid line");
+    assert_eq!(d, 1.0);
+    assert!(bound > 0.0 && bound < 1e-14, "{bound}");
+    let miss = straight(|ray, _| ray.origin.x = 2.0);
+    assert_eq!(discriminant(&miss.ray, &miss.sphere).map(|(d, _)| d), Some(-3.0));
+    let change: [fn(&mut Ray, &mut Sphere); 3] = [
+        |_, sphere| sphere.radius = -1.0,
+        |ray, _| ray.direction = Vec3::ZERO,
+        |ray, _| ray.origin.y = NAN,
+    ];
+    for change in change {
+        let invalid = straight(change);
+        assert_eq!(discriminant(&invalid.ray, &invalid.sphere), None, "{invalid:?}");
     }
 }
 

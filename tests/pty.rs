@@ -7,6 +7,7 @@ mod lecture;
 mod look;
 mod modes;
 mod once;
+mod picking;
 mod picture;
 mod session;
 mod viewer;
@@ -181,8 +182,8 @@ fn it_spins_until_told_not_to() {
 fn where_nothing_changes_nothing_is_sent() {
     let mut viewer = Viewer::start();
     let sent = viewer.session.output().sent.len();
-    // Keys without a meaning, and a choice that is made already.
-    viewer.session.type_in("xyz3");
+    // Keys without a meaning (Enter has none where nothing is picked), and a choice that is made already.
+    viewer.session.type_in("xyz3\r");
     viewer.session.type_in("q");
     assert!(viewer.session.wait_for_end().success());
     let output = viewer.session.output();

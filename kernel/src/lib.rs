@@ -51,7 +51,7 @@ pub use intersect::Intersect;
 pub use lanes::{DoubleLanes, LaneArray, LaneMask, Lanes};
 pub use leave::packets::{SurfaceHit, SurfaceHits, Towards, shadow_lanes};
 pub use leave::{Side, side};
-pub use linear::{Writes, compare_hits, object_lanes, pair_lanes, roots};
+pub use linear::{Writes, compare_hits, discriminant, object_lanes, pair_lanes, roots};
 pub use memory::TooSmall;
 pub use numeric::float_environment::float_environment_is_sound;
 pub use query::{AnyHit, ClosestHit, Query};

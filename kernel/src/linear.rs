@@ -15,7 +15,7 @@ use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::axes;
 use crate::query::Query;
 
-pub use line::{compare_hits, roots};
+pub use line::{compare_hits, discriminant, roots};
 pub(crate) use object::one_object;
 pub use object::{Writes, object_lanes};
 pub(crate) use pairs::each_pair;

@@ -43,7 +43,7 @@ const MODES: [Mode; 11] = [
     mode(Charset::Quadrant, ColorDepth::Truecolor, Font::Unifont, 41.2, 0.99),
     mode(Charset::Sextant, ColorDepth::Truecolor, Font::Unifont, 44.2, 0.99),
     mode(Charset::Octant, ColorDepth::Truecolor, Font::Unifont, 43.5, 0.99),
-    mode(Charset::Block, ColorDepth::Truecolor, Font::Unifont, 45.0, 0.99),
+    mode(Charset::Block, ColorDepth::Truecolor, Font::Unifont, 44.6, 0.99),
     mode(Charset::Braille, ColorDepth::Truecolor, Font::Unifont, 32.5, 0.98),
     mode(Charset::Ascii, ColorDepth::Truecolor, Font::Unifont, 35.5, 0.99),
     mode(Charset::Half, ColorDepth::Ansi256, Font::Unifont, 32.6, 0.99),

@@ -27,6 +27,15 @@ fn cell_look(screen: &Screen, row: u16, column: u16) -> Option<Look> {
     })
 }
 
+/// Where a cell is shown with ink and paper exchanged: column and row of all such.
+pub(crate) fn inverse(screen: &Screen) -> Vec<(u16, u16)> {
+    let (rows, columns) = screen.size();
+    let cells = (0..rows.get()).flat_map(|row| (0..columns.get()).map(move |column| (column, row)));
+    cells
+        .filter(|&(column, row)| screen.cell(row, column).is_some_and(vt100::Cell::inverse))
+        .collect()
+}
+
 /// The text of the last row.
 pub(crate) fn last_row(screen: &Screen) -> String {
     let (rows, columns) = screen.size();

@@ -40,10 +40,18 @@ impl Viewer {
         columns: u16,
         rows: u16,
     ) -> Self {
+        Self::start_by(&[OPTIONS.as_slice(), more].concat(), variables, columns, rows)
+    }
+
+    /// In place of [`OPTIONS`]: then it does not draw what [`once`](super::picture::once) does.
+    pub(crate) fn start_with_options(options: &[&str]) -> Self {
+        Self::start_by(options, &[], COLUMNS, ROWS)
+    }
+
+    fn start_by(options: &[&str], variables: &[(&str, &str)], columns: u16, rows: u16) -> Self {
         let scene = SceneFile::new(&VIEW);
         let mut arguments = vec![scene.path()];
-        arguments.extend(OPTIONS);
-        arguments.extend(more);
+        arguments.extend(options);
         let session = Session::start(spherule(), &arguments, variables, (columns, rows));
         Self { session, _scene: scene }
     }

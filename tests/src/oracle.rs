@@ -131,10 +131,16 @@ pub fn dot(v: &[BigInt; 3], w: &[BigInt; 3]) -> BigInt {
     &v[0] * &w[0] + &v[1] * &w[1] + &v[2] * &w[2]
 }
 
+/// D in units of 2^-596, the fourth power of that of lengths. `None` for invalid input.
+#[must_use]
+pub fn discriminant(ray: &Ray, sphere: &Sphere) -> Option<BigInt> {
+    Quadratic::new(ray, sphere).map(|quadratic| quadratic.discriminant)
+}
+
 /// How D compares with zero: `Less` misses, `Equal` is a tangent. `None` for invalid input.
 #[must_use]
 pub fn discriminant_sign(ray: &Ray, sphere: &Sphere) -> Option<Ordering> {
-    Quadratic::new(ray, sphere).map(|quadratic| quadratic.discriminant.cmp(&BigInt::zero()))
+    discriminant(ray, sphere).map(|discriminant| discriminant.cmp(&BigInt::zero()))
 }
 
 /// The unit normal that points out of the sphere, and the point as seen from its centre, where the line enters it, or

@@ -98,6 +98,14 @@ pub struct PictureArguments {
     /// Write one picture as a PNG of 8x16 pixels a cell; - for standard output
     #[arg(long, value_name = "FILE")]
     pub png: Option<PathBuf>,
+    /// In place of a picture, write what the ray through the middle of a cell meets, by every tier
+    ///
+    /// Cells are counted from 0, from the top left of the picture that --once writes. p in the viewer shows the same.
+    #[arg(long, value_name = "COL,ROW", value_parser = cell, conflicts_with = "png", allow_hyphen_values = true)]
+    pub pick: Option<(u16, u16)>,
+    /// With --pick, write a JSON object
+    #[arg(long, requires = "pick")]
+    pub json: bool,
 }
 
 /// A scene, and the rays of a picture of it.
@@ -275,6 +283,14 @@ fn size(text: &str) -> Result<(u16, u16), String> {
         side.ok_or_else(|| format!("COLSxROWS, each 1 to {LARGEST_SIDE}"))
     };
     Ok((side(columns)?, side(rows)?))
+}
+
+fn cell(text: &str) -> Result<(u16, u16), &'static str> {
+    let cell = || {
+        let (column, row) = text.split_once(',')?;
+        Some((column.parse().ok()?, row.parse().ok()?))
+    };
+    cell().ok_or("COL,ROW, counted from 0, such as 40,12")
 }
 
 fn samples(text: &str) -> Result<Auto<u32>, String> {

@@ -48,6 +48,7 @@ pub struct CellGrid {
     columns: u16,
     rows: u16,
     cells: Vec<Cell>,
+    marked: Option<(u16, u16)>,
 }
 
 impl CellGrid {
@@ -55,7 +56,7 @@ impl CellGrid {
     #[must_use]
     pub fn new(columns: u16, rows: u16) -> Self {
         let count = usize::from(columns) * usize::from(rows);
-        Self { columns, rows, cells: vec![Cell::BLANK; count] }
+        Self { columns, rows, cells: vec![Cell::BLANK; count], marked: None }
     }
 
     /// How many cells a row has.
@@ -86,6 +87,17 @@ impl CellGrid {
     pub fn row(&self, row: u16) -> &[Cell] {
         let start = usize::from(row) * usize::from(self.columns);
         self.cells.get(start..start + usize::from(self.columns)).unwrap_or(&[])
+    }
+
+    /// Marks one cell, the only one: a terminal shows it with ink and paper exchanged, whatever its colours.
+    pub fn mark(&mut self, column: u16, row: u16) {
+        self.marked = Some((column, row));
+    }
+
+    /// Column and row of the cell that is marked.
+    #[must_use]
+    pub fn marked(&self) -> Option<(u16, u16)> {
+        self.marked
     }
 
     /// Writes `text` from `(column, row)` on, cut at the right edge.

@@ -106,6 +106,12 @@ impl<'a> Renderer<'a> {
         Self { level, threads, strip: Strip::default(), most_cells: STRIP }
     }
 
+    /// The instructions that it draws by.
+    #[must_use]
+    pub fn level(&self) -> Level {
+        self.level
+    }
+
     /// Draws `scene` as `view` sees it into so many columns and rows of cells, for no more than `spending`; `search`
     /// finds the spheres of that scene from that view.
     #[must_use]

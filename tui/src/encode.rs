@@ -19,11 +19,14 @@ const BEGIN_SYNCHRONIZED: &[u8] = b"\x1b[?2026h";
 const END_SYNCHRONIZED: &[u8] = b"\x1b[?2026l";
 /// The terminal's own colours, a blank screen, the cursor at the top left.
 const CLEAR: &[u8] = b"\x1b[m\x1b[2J\x1b[H";
+/// Ink and paper exchanged, which needs no colour; until the next reset.
+const INVERSE: &[u8] = b"\x1b[7m";
+const RESET: &[u8] = b"\x1b[m";
 /// Two colours of 24 bits and a glyph; reserved a cell, so that a frame allocates once.
 const LONGEST_CELL: usize = 40;
 
 /// Appends the whole grid: a line a row, closed by a reset if it has colour, and by a newline.
-/// Without colour there is no escape sequence at all.
+/// Without colour there is no escape sequence at all, and so no mark.
 pub fn full(grid: &CellGrid, out: &mut Vec<u8>) {
     out.reserve(LONGEST_CELL * grid.cells().len() + usize::from(grid.rows()));
     for row in 0..grid.rows() {
@@ -50,20 +53,22 @@ pub fn diff(previous: Option<&CellGrid>, next: &CellGrid, out: &mut Vec<u8>) {
     let same_size =
         |grid: &&CellGrid| (grid.columns(), grid.rows()) == (next.columns(), next.rows());
     if let Some(previous) = previous.filter(same_size) {
-        changed_cells(|index| previous.cells()[index], Cursor::LOST, next, out);
+        let shown = |index: usize| previous.cells()[index];
+        changed_cells(shown, previous.marked(), Cursor::LOST, next, out);
         if out.len() == header {
             out.truncate(start);
             return;
         }
     } else {
         out.extend_from_slice(CLEAR);
-        changed_cells(|_| Cell::BLANK, Cursor::HOME, next, out);
+        changed_cells(|_| Cell::BLANK, None, Cursor::HOME, next, out);
     }
     out.extend_from_slice(END_SYNCHRONIZED);
 }
 
 fn changed_cells(
     shown: impl Fn(usize) -> Cell,
+    was_marked: Option<(u16, u16)>,
     mut cursor: Cursor,
     next: &CellGrid,
     out: &mut Vec<u8>,
@@ -72,12 +77,25 @@ fn changed_cells(
     for row in 0..next.rows() {
         let cells = next.row(row);
         let first = usize::from(row) * cells.len();
+        let marked = next.marked().and_then(|(column, of)| (of == row).then_some(column));
         for (column, cell) in (0..next.columns()).zip(cells) {
-            if look_same(&shown(first + usize::from(column)), cell) {
+            let is_marked = marked == Some(column);
+            let same_mark = is_marked == (was_marked == Some((column, row)));
+            if same_mark && look_same(&shown(first + usize::from(column)), cell) {
                 continue;
             }
-            if !cursor.rewrite_gap(row, column, cells, &pen, out) {
+            if !cursor.rewrite_gap(row, column, (cells, marked), &pen, out) {
                 cursor.go_to(row, column, out);
+            }
+            if is_marked {
+                pen.put_down(out);
+                out.extend_from_slice(INVERSE);
+                pen.take_up(cell, out);
+                push_glyph(cell.glyph, out);
+                out.extend_from_slice(RESET);
+                pen = Pen::RESET;
+                cursor.advance(next.columns());
+                continue;
             }
             let cell = pen.nearer_form(cell);
             pen.take_up(&cell, out);

@@ -13,6 +13,7 @@ pub mod lecture;
 pub mod machine;
 pub mod npy;
 pub mod palette;
+pub mod pick;
 pub mod picture;
 pub mod png_file;
 pub mod progress;

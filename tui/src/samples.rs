@@ -55,9 +55,10 @@ impl CellSamples {
     #[must_use]
     pub fn many(style: &Style) -> Option<Self> {
         let (across, down) = match style.charset {
-            Charset::Ascii | Charset::Half | Charset::Quadrant | Charset::Braille => (4, 8),
-            Charset::Sextant | Charset::Octant => (4, 12),
-            Charset::Block => (8, 12),
+            Charset::Sextant => (4, 12),
+            // Twelve rows, as its sextants want, gain 0.2 to 0.3 dB, and take a third more of a frame.
+            Charset::Block => (8, 8),
+            _ => (4, 8),
         };
         style.samples.is_none().then_some(Self { across, down })
     }

@@ -55,6 +55,22 @@ impl Surfaces {
     }
 }
 
+/// The cosines between normals and rays, whichever way these point; no number where there is no ray.
+///
+/// Lane after lane, so that the compiler takes several at a time: one by one they were a tenth of a frame.
+fn cosines(surfaces: &SurfacePacket, rays: &RayPacket) -> [f32; RayPacket::COUNT] {
+    let [[nx, ny, nz], [dx, dy, dz]] = [surfaces.normals(), rays.directions()].map(|vectors| {
+        vectors.map(|lanes| lanes.first_chunk().unwrap_or(&[0.0; RayPacket::COUNT]))
+    });
+    let mut cosines = [0.0; RayPacket::COUNT];
+    for lane in 0..RayPacket::COUNT {
+        let along = nx[lane] * dx[lane] + ny[lane] * dy[lane] + nz[lane] * dz[lane];
+        let square = dx[lane] * dx[lane] + dy[lane] * dy[lane] + dz[lane] * dz[lane];
+        cosines[lane] = along.abs() / square.sqrt();
+    }
+    cosines
+}
+
 impl ShadowRays {
     /// From every point that faces `light`, as inactive rays from the others.
     pub fn cast(
@@ -142,18 +158,14 @@ impl Shader {
                 let brightness = light.color.to_linear();
                 let mut samples = samples.iter_mut();
                 for (packet, &count) in counts.iter().enumerate() {
+                    let rays = &shadow_rays.rays[packet];
+                    let (live, met) = (rays.live(), shadow_rays.met[packet]);
+                    let cosines = cosines(&surfaces[packet], rays);
                     for sample in samples.by_ref().take(count) {
-                        let ray = shadow_rays.rays[packet].ray(sample.lane);
-                        if !ray.is_live() {
-                            continue;
+                        traced += u64::from(scene.shadows && live >> sample.lane & 1 == 1);
+                        if (live & !met) >> sample.lane & 1 == 1 {
+                            sample.received += cosines[sample.lane] * brightness;
                         }
-                        traced += u64::from(scene.shadows);
-                        if shadow_rays.met[packet] >> sample.lane & 1 == 1 {
-                            continue;
-                        }
-                        let normal = surfaces[packet].normal(sample.lane);
-                        let cosine = normal.dot(ray.direction).abs() / ray.direction.length();
-                        sample.received += cosine * brightness;
                     }
                 }
             }

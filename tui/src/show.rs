@@ -4,15 +4,19 @@ use crate::arguments::{ComputingArguments, PictureArguments};
 use crate::draw::pixels::PixelGrid;
 use crate::draw::{Renderer, picture_workload};
 use crate::error::{Error, write_stdout};
+use crate::machine::check_floats;
+use crate::pick::report::Report;
+use crate::pick::{Pick, cell_ray};
 use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::structure::scene::{PictureSearch, SceneStructures};
 use crate::style::{Charset, ColorDepth, PIPE_SIZE, Style};
 use crate::terminal::color_depth::Surroundings;
 use crate::threads::Threads;
+use crate::view::View;
 use crate::{encode, png_file, scene, viewer};
 use crossterm::terminal;
-use spherule_kernel::Level;
+use spherule_kernel::{Level, Ray, Tier};
 use std::io::IsTerminal;
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -24,7 +28,7 @@ const LIKELY_ASPECTS: RangeInclusive<f32> = 0.2..=2.0;
 /// How long a picture may take before there is a word about it.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// Shows a scene: in the viewer if standard output is a terminal that can, except with `--once` and `--png`.
+/// Shows a scene: in the viewer if standard output is a terminal that can, except with `--once`, `--png` and `--pick`.
 ///
 /// # Errors
 /// [`Error`] if there is no such scene, or it cannot be shown.
@@ -35,7 +39,7 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     }
     let is_terminal = std::io::stdout().is_terminal();
     let surroundings = Surroundings::of_process(is_terminal);
-    let at_once = arguments.once || arguments.png.is_some();
+    let at_once = arguments.once || arguments.png.is_some() || arguments.pick.is_some();
     let in_viewer = is_terminal && !at_once && !surroundings.is_dumb();
     let depth = surroundings.depth(arguments.color);
     let on_terminal = || {
@@ -77,8 +81,16 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     if in_viewer {
         return viewer::run(&scene, structures, structure, view, style, renderer);
     }
+    let ray = arguments.pick.map(|cell| ray_of_pick(&view, &style, (columns, rows), cell));
+    let ray = ray.transpose()?;
     let workload = picture_workload(scene.spheres().len(), &style, columns, rows, 1.0);
     let search = structures.picture(structure, &workload, &view, &scene.lighting)?;
+    if let Some((cell, ray)) = ray {
+        let pick = Pick::new(&scene, &search, renderer.level(), ray);
+        let report = Report { scene: &arguments.scene.name, size: (columns, rows), cell, pick };
+        let text = if arguments.json { report.json() } else { report.text() };
+        return write_stdout(text.as_bytes());
+    }
     // On the terminal that the picture is written to, the picture shows how far it is.
     let mut progress = (!is_terminal).then(|| Progress::after(PATIENCE));
     let (mut done, mut bytes) = (0_u32, Vec::new());
@@ -92,6 +104,24 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         }
         Ok(())
     })
+}
+
+/// The ray through a cell of `--pick`, and that cell.
+fn ray_of_pick(
+    view: &View,
+    style: &Style,
+    (columns, rows): (u16, u16),
+    cell: (u16, u16),
+) -> Result<((u16, u16), Ray), Error> {
+    // Every tier is asked.
+    check_floats(Tier::Exact)?;
+    let outside = || {
+        let (column, row) = cell;
+        let picture = format!("the picture, which is {columns}x{rows}");
+        Error::Input(format!("--pick {column},{row}: outside of {picture}; cells count from 0"))
+    };
+    let ray = cell_ray(view, style, (columns, rows), cell).ok_or_else(outside)?;
+    Ok((cell, ray))
 }
 
 fn write_png(

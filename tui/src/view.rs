@@ -142,6 +142,16 @@ pub fn orbited(view: &View, yaw: f32, pitch: f32) -> View {
     View { eye: view.target + distance * outward, ..*view }
 }
 
+/// Eye and target moved alike, to the right and upwards in the plane of the picture, in the units of the scene. What
+/// would leave the range of numbers changes nothing.
+#[must_use]
+pub fn panned(view: &View, right: f64, up: f64) -> View {
+    let [_, rightwards, upwards] = view.axes();
+    let way = right * rightwards + up * upwards;
+    let [eye, target] = [view.eye, view.target].map(|point| (point.as_dvec3() + way).as_vec3());
+    if eye.is_finite() && target.is_finite() { View { eye, target, ..*view } } else { *view }
+}
+
 /// What is at the target appears `factor` times as large: by going nearer in perspective, by a
 /// lower picture in parallel. A factor that is not finite and above 0, or that would leave the
 /// range of useful numbers, changes nothing.
@@ -252,6 +262,21 @@ mod tests {
         assert!((view.eye.length() - 5.0).abs() < 1e-3);
         assert!(view.eye.y < 5.0 && view.eye.y > 4.99);
         assert!(orbited(&view, 0.0, -9.0).eye.y < -4.99);
+    }
+
+    #[test]
+    fn a_pan_moves_eye_and_target_alike_in_the_plane_of_the_picture() {
+        let view = panned(&VIEW, 2.0, -3.0);
+        assert_eq!(view.eye, Vec3::new(2.0, -3.0, 5.0));
+        assert_eq!(view.target, Vec3::new(2.0, -3.0, 0.0));
+        let slanting = orbited(&VIEW, 0.7, 0.4);
+        let view = panned(&slanting, 2.0, -3.0);
+        assert!(near(view.eye - view.target, slanting.eye - slanting.target));
+        let way = (view.target - slanting.target).as_dvec3();
+        let along = slanting.axes().map(|axis| axis.dot(way));
+        assert!((0..3).all(|i| (along[i] - [0.0, 2.0, -3.0][i]).abs() < 1e-6), "{along:?}");
+        assert_eq!(panned(&VIEW, f64::NAN, 0.0), VIEW);
+        assert_eq!(panned(&VIEW, 1e39, 0.0), VIEW);
     }
 
     #[test]

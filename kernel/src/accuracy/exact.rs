@@ -124,6 +124,19 @@ impl TierFormula for Exact {
 }
 
 impl Exact {
+    /// D of a valid ray and a valid sphere, and the bound on its error.
+    pub(crate) fn discriminant(ray: &Ray, sphere: &Sphere) -> (f64, f64) {
+        let (origin, direction, center) = (ray.origin, ray.direction, sphere.center);
+        let Estimate { discriminant, error, .. } = Estimate::new(
+            axes!(i => f64::from(origin[i])),
+            axes!(i => f64::from(direction[i])),
+            axes!(i => f64::from(center[i])),
+            f64::from(sphere.radius),
+            &Estimate::<f64>::PROVEN,
+        );
+        (discriminant, error)
+    }
+
     /// Of the lanes `asked`, those that [`TierFormula::first_root`] takes to double precision, and of
     /// these, those that it takes to exact sums.
     #[inline(always)]

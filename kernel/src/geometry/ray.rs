@@ -120,6 +120,40 @@ impl<A: LaneArray> RayPacket<A> {
             t_max: self.t_max.get(lane),
         }
     }
+
+    /// The direction of every lane, coordinate by coordinate.
+    #[must_use]
+    pub fn directions(&self) -> [&[f32]; 3] {
+        self.direction.each_ref().map(A::as_ref)
+    }
+
+    /// Which lanes hold a [live](Ray::is_live) ray, a bit a lane.
+    ///
+    /// ```
+    /// use spherule_kernel::{Ray, RayPacket, Vec3};
+    ///
+    /// let rays = [Ray::new(Vec3::ZERO, Vec3::X), Ray::INACTIVE, Ray::new(Vec3::ZERO, Vec3::Y)];
+    /// let packet = RayPacket::<[f32; 8]>::new(&rays);
+    /// assert_eq!((packet.live(), packet.directions()[1]), (0b101, &[0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0][..]));
+    /// ```
+    #[must_use]
+    #[inline(always)]
+    pub fn live(&self) -> u32 {
+        let ([ox, oy, oz], [dx, dy, dz]) = (&self.origin, &self.direction);
+        let mut live = 0;
+        for lane in 0..A::COUNT {
+            // No branches, so that the compiler takes several lanes at a time: x - x is zero unless x is NaN or infinite.
+            let mut not_finite = 0.0;
+            for axis in [ox, oy, oz, dx, dy, dz] {
+                not_finite += axis.get(lane) - axis.get(lane);
+            }
+            let is_finite = not_finite == 0.0;
+            let goes = (dx.get(lane) != 0.0) | (dy.get(lane) != 0.0) | (dz.get(lane) != 0.0);
+            let is_open = self.t_min.get(lane) <= self.t_max.get(lane);
+            live |= u32::from(is_finite & goes & is_open) << lane;
+        }
+        live
+    }
 }
 
 /// Cuts rays into packets on the stack, for [`RayPacket`]s of sixteen.

@@ -1,9 +1,9 @@
-//! One line and a sphere: both roots; and which of two roots comes first.
+//! One line and a sphere: both roots, and the discriminant; and which of two roots comes first.
 
-use crate::Accuracy;
 use crate::accuracy::{TierFormula, TierWork};
 use crate::geometry::ray::Ray;
 use crate::geometry::sphere::Sphere;
+use crate::{Accuracy, Exact};
 use core::cmp::Ordering;
 
 /// Entry and exit of the whole line, whatever the ray's interval: the smaller root first.
@@ -19,11 +19,42 @@ use core::cmp::Ordering;
 /// ```
 #[must_use]
 pub fn roots(tier: impl Accuracy, ray: &Ray, sphere: &Sphere) -> Option<[f32; 2]> {
-    let line = Ray { t_min: f32::NEG_INFINITY, t_max: f32::INFINITY, ..*ray };
-    if !line.is_live() || !sphere.is_valid() {
-        return None;
-    }
+    let line = valid_line(ray, sphere)?;
     tier.with_formula(LineRoots { line: &line, sphere })
+}
+
+/// The discriminant of the whole line and a sphere, in double precision as [`Exact`] computes it, and the most that it is
+/// off: what says by how much the line meets the sphere, or misses it.
+///
+/// In real numbers it is D = a r^2 - |d x p|^2, with d the direction, a = d.d, and p from the ray's origin to the centre.
+/// D differs from the first number by no more than the second, for every valid ray and sphere; the proof stands in
+/// `docs/numerics.md`. So where the first is larger than the second in magnitude, it has the sign of D: positive where the
+/// line meets the sphere, negative where it misses. Else exact sums decide, and [`roots`] has their answer.
+///
+/// Returns `None` if ray or sphere is invalid. Neither number is ever NaN or infinite.
+///
+/// ```
+/// use spherule_kernel::{Ray, Sphere, Vec3, discriminant};
+///
+/// let sphere = Sphere::from([0.0, 0.0, 5.0, 1.0]);
+/// let (d, bound) = discriminant(&Ray::new(Vec3::ZERO, Vec3::Z), &sphere).expect("a valid ray and sphere");
+/// assert_eq!(d, 1.0);
+/// assert!(bound < 1e-15);
+///
+/// // A tangent: double precision cannot tell.
+/// let (d, bound) = discriminant(&Ray::new(Vec3::X, Vec3::Z), &sphere).expect("a valid ray and sphere");
+/// assert!(d.abs() <= bound);
+/// ```
+#[must_use]
+pub fn discriminant(ray: &Ray, sphere: &Sphere) -> Option<(f64, f64)> {
+    let line = valid_line(ray, sphere)?;
+    Some(Exact::discriminant(&line, sphere))
+}
+
+/// The ray without its interval; `None` if it or the sphere is invalid.
+fn valid_line(ray: &Ray, sphere: &Sphere) -> Option<Ray> {
+    let line = Ray { t_min: f32::NEG_INFINITY, t_max: f32::INFINITY, ..*ray };
+    (line.is_live() && sphere.is_valid()).then_some(line)
 }
 
 /// The arguments of [`roots`].

@@ -113,7 +113,8 @@ fn main() -> ExitCode {
         let radius = &mut hit.expect("a hit").sphere.radius;
         *radius = f32::from_bits(radius.to_bits() ^ 1 << 12);
     }
-    let agree = [Tier::Fast, Tier::Stable, Tier::Exact, Tier::Geometric].map(|tier| widths(tier, &cases));
+    let agree =
+        [Tier::Fast, Tier::Stable, Tier::Exact, Tier::Geometric].map(|tier| widths(tier, &cases));
     if agree.contains(&false) {
         eprintln!("digest: FAILED: a lane width differs from another");
         return ExitCode::FAILURE;

@@ -13,9 +13,9 @@ use core::hint::black_box;
 use spherule_kernel::{
     AnyHit, Bvh, BvhLeaf, BvhNode, Camera, ClosestHit, DepthList, Hit, HitPacket, Intersect, Lanes,
     Level, Projection, Ray, RayPacket, Side, Sphere, SpherePacket, Spheres, SurfacePacket, Tier,
-    Towards, Trace, Vec3, Viewpoint, f32x4, f32x8, f32x16, float_environment_is_sound,
-    object_lanes, object_packets, pair_lanes, pair_packets, pairs, roots, shadow_packets, side,
-    stages, surface, surface_packets,
+    Towards, Trace, Vec3, Viewpoint, discriminant, f32x4, f32x8, f32x16,
+    float_environment_is_sound, object_lanes, object_packets, pair_lanes, pair_packets, pairs,
+    roots, shadow_packets, side, stages, surface, surface_packets,
 };
 
 /// What a firmware does in its own way; without `std` there must be one.
@@ -94,6 +94,7 @@ pub unsafe extern "C" fn spherule_no_std(numbers: *const f32, count: usize) -> u
     sum.word(
         roots(tier, &rays[1], &sphere).map_or(0, |[near, far]| near.to_bits() ^ far.to_bits()),
     );
+    sum.word(discriminant(&rays[1], &sphere).map_or(0, |(d, bound)| u32::from(bound < d)));
     let packets = [RayPacket::new(&rays)];
     sum.word(stages(ClosestHit, &packets, spheres).tests as u32);
     sum.word(stages(AnyHit, &packets, spheres).tests as u32);

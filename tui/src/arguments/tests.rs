@@ -28,6 +28,7 @@ fn what_is_not_said_has_a_default() {
     assert_eq!((arguments.scene.order, arguments.computing.structure), (Order::Image, None));
     assert_eq!(arguments.computing.threads, None);
     assert!(!arguments.once && arguments.png.is_none());
+    assert!(!arguments.json && arguments.pick.is_none());
 }
 
 #[test]
@@ -53,6 +54,8 @@ fn every_option_is_read() {
     assert_eq!(arguments.png, Some("a.png".into()));
     assert_eq!(picture("--order object").scene.order, Order::Object);
     assert_eq!(picture("--order image --structure bvh").scene.order, Order::Image);
+    let arguments = picture("--pick 0,65535 --json --once");
+    assert_eq!((arguments.pick, arguments.json), (Some((0, 65535)), true));
 }
 
 #[test]
@@ -77,6 +80,14 @@ fn what_is_wrong_is_said_in_one_line() {
         ("--level sse", "baseline, avx2, avx512"),
         ("--cell-aspect 1:0", "W:H"),
         ("--cell-aspect nan:1", "W:H"),
+        ("--pick 5", "COL,ROW"),
+        ("--pick -1,0", "COL,ROW"),
+        ("--pick 1e9,0", "COL,ROW"),
+        ("--pick 0,65536", "COL,ROW"),
+        ("--pick 1,2,3", "COL,ROW"),
+        ("--pick nan,0", "COL,ROW"),
+        ("--pick 1,1 --png a.png", "cannot be used with"),
+        ("--json", "--pick <COL,ROW>"),
         ("--background red", "\"red\" is no colour: write \"#rrggbb\""),
         ("--background ##ffeedd", "is no colour"),
         ("--background #ffeeddcc", "is no colour"),

@@ -7,8 +7,10 @@ use spherule_kernel::Vec3;
 /// cuts that, each side gets its part.
 #[derive(Clone, Debug)]
 pub struct Bins {
-    /// Sample, bin, and the part of the bin that the sample is.
-    shares: Vec<(u16, u16, f32)>,
+    /// Sample, and the part of the bin that it is; bin after bin, so that a sum stays in a register.
+    shares: Vec<(u32, f32)>,
+    /// Where the shares of each bin end.
+    ends: Vec<usize>,
 }
 
 impl Bins {
@@ -16,14 +18,18 @@ impl Bins {
     #[must_use]
     pub fn new((across, down): (usize, usize), samples: (u32, u32)) -> Self {
         let (width, height) = (samples.0 as usize, samples.1 as usize);
-        let cells =
-            (0..across * down).flat_map(|bin| (0..width * height).map(move |sample| (bin, sample)));
-        let share = |bin: usize, sample: usize| {
-            overlap((bin % across, across), (sample % width, width))
-                * overlap((bin / across, down), (sample / width, height))
-        };
-        let shares = cells.map(|(bin, sample)| (sample as u16, bin as u16, share(bin, sample)));
-        Self { shares: shares.filter(|&(_, _, share)| share > 0.0).collect() }
+        let (mut shares, mut ends) = (Vec::new(), Vec::new());
+        for bin in 0..across * down {
+            for sample in 0..width * height {
+                let share = overlap((bin % across, across), (sample % width, width))
+                    * overlap((bin / across, down), (sample / width, height));
+                if share > 0.0 {
+                    shares.push((sample as u32, share));
+                }
+            }
+            ends.push(shares.len());
+        }
+        Self { shares, ends }
     }
 
     /// The mean of every bin; those past the grid's last are 0.
@@ -31,8 +37,12 @@ impl Bins {
     #[inline]
     pub fn means<const N: usize>(&self, samples: &[Vec3]) -> [Vec3; N] {
         let mut means = [Vec3::ZERO; N];
-        for &(sample, bin, share) in &self.shares {
-            means[usize::from(bin)] += share * samples[usize::from(sample)];
+        let mut start = 0;
+        for (mean, &end) in means.iter_mut().zip(&self.ends) {
+            for &(sample, share) in &self.shares[start..end] {
+                *mean += share * samples[sample as usize];
+            }
+            start = end;
         }
         means
     }

@@ -157,6 +157,10 @@ fn dots(bits: u8, [ink, paper]: [Vec3; 2], parts: [Vec3; 8]) -> Fitted {
 
 /// The mask that takes most of the variance away, and how much; the means of the bins are around 0.
 fn best_mask<'a>(family: &'a Family, means: &[Vec3; 8]) -> (f32, &'a Mask) {
+    // Halves: one mask of two bins, whose means are each other's opposites. Its gain is the square of either.
+    if let ([mask], 2) = (&*family.masks, family.bins()) {
+        return (means[usize::from(mask.bits >> 1)].length_squared(), mask);
+    }
     // The sums of all sets of the lower four bins and of the upper four.
     let mut sums = [[Vec3::ZERO; 16]; 2];
     for (sums, means) in sums.iter_mut().zip(means.chunks(4)) {

@@ -98,7 +98,10 @@ impl Residual {
                     let color = if layer == 0 { fit.ink } else { fit.paper };
                     // What is not there has no colour.
                     let cover = covers[layer];
-                    let more = if cover > 0.0 { sums[layer] / cover } else { Vec3::ZERO };
+                    if cover <= 0.0 || sums[layer] == Vec3::ZERO {
+                        return color;
+                    }
+                    let more = sums[layer] / cover;
                     let [low, high] = limits(fit, layer, color);
                     (color + more).clamp(low, high)
                 })

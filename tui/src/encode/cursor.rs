@@ -37,12 +37,13 @@ impl Cursor {
     }
 
     /// Crosses unchanged cells by writing them again, if the pen suits them and that is no longer
-    /// than a jump. `cells` is the row. Whether the cursor is now at `column`.
+    /// than a jump. `cells` is the row, and the column in it that is marked, which no pen suits. Whether the cursor is now
+    /// at `column`.
     pub(super) fn rewrite_gap(
         &mut self,
         row: u16,
         column: u16,
-        cells: &[Cell],
+        (cells, marked): (&[Cell], Option<u16>),
         pen: &Pen,
         out: &mut Vec<u8>,
     ) -> bool {
@@ -57,7 +58,8 @@ impl Cursor {
         let mut jump = Way::new();
         jump.right(column - from);
         // A glyph has at least one byte: a wide gap need not be looked at.
-        if gap.len() > jump.length
+        if marked.is_some_and(|marked| (from..column).contains(&marked))
+            || gap.len() > jump.length
             || gap.iter().map(|cell| cell.glyph.len_utf8()).sum::<usize>() > jump.length
             || !gap.iter().all(|cell| pen.suits(cell))
         {

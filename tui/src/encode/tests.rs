@@ -28,6 +28,7 @@ fn assert_shows(terminal: &vt100::Parser, grid: &CellGrid) {
     for row in 0..grid.rows() {
         for (column, expected) in (0..grid.columns()).zip(grid.row(row)) {
             let shown = terminal.screen().cell(row, column).expect("inside the screen");
+            assert_eq!(shown.inverse(), grid.marked() == Some((column, row)), "{row},{column}");
             let shown = Cell {
                 glyph: shown.contents().chars().next().unwrap_or(' '),
                 foreground: color(shown.fgcolor()),
@@ -77,10 +78,17 @@ fn any_frames() -> impl Strategy<Value = Vec<CellGrid>> {
         let picks = prop::collection::vec(any::<prop::sample::Index>(), count);
         // Which cells a frame keeps from the one before, in percent.
         let kept = prop::collection::vec(0..100_u8, count);
-        prop::collection::vec((picks, kept, 0..100_u8), 1..4).prop_map(move |frames| {
+        let mark = prop::option::of((0..columns, 0..rows));
+        prop::collection::vec((picks, kept, 0..100_u8, mark), 1..4).prop_map(move |frames| {
             let mut grid = CellGrid::new(columns, rows);
             let mut grids = Vec::new();
-            for (picks, kept, keep) in frames {
+            for (picks, kept, keep, mark) in frames {
+                let mut next = CellGrid::new(columns, rows);
+                next.cells_mut().copy_from_slice(grid.cells());
+                if let Some((column, row)) = mark {
+                    next.mark(column, row);
+                }
+                grid = next;
                 for ((cell, pick), chance) in grid.cells_mut().iter_mut().zip(picks).zip(kept) {
                     if chance >= keep {
                         *cell = *pick.get(&palette);
@@ -113,7 +121,9 @@ proptest! {
 
     #[test]
     fn lines_show_the_grid(frames in any_frames()) {
-        let grid = &frames[0];
+        // There is no mark in a file.
+        let grid = &mut CellGrid::new(frames[0].columns(), frames[0].rows());
+        grid.cells_mut().copy_from_slice(frames[0].cells());
         let mut bytes = Vec::new();
         full(grid, &mut bytes);
         prop_assert_eq!(bytes.iter().filter(|byte| **byte == b'\n').count(), usize::from(grid.rows()));
@@ -194,6 +204,27 @@ fn the_cursor_goes_the_shortest_way() {
     assert_eq!(changes(&["abc", "def"], &["Abc", "dEf"]), frame("\x1b[HA\nE"));
     assert_eq!(changes(&["abcd", "efgh"], &["abCd", "efGh"]), frame("\x1b[;3HC\n\x08G"));
     assert_eq!(changes(&["abc", "def"], &["abC", "Def"]), frame("\x1b[;3HC\r\nD"));
+}
+
+#[test]
+fn a_mark_is_inverse_without_a_colour_and_leaves_nothing_behind() {
+    let line = |marked: Option<u16>| {
+        let mut grid = one_line(&['a', 'b', 'c'].map(|glyph| ink(glyph, Color::Default)));
+        if let Some(column) = marked {
+            grid.mark(column, 0);
+        }
+        grid
+    };
+    let between = |from, to| {
+        let mut bytes = Vec::new();
+        diff(Some(&line(from)), &line(to), &mut bytes);
+        String::from_utf8(bytes).expect("UTF-8")
+    };
+    let frame = |body: &str| format!("\x1b[?2026h{body}\x1b[?2026l");
+    assert_eq!(between(None, Some(1)), frame("\x1b[;2H\x1b[7mb\x1b[m"));
+    assert_eq!(between(Some(0), Some(1)), frame("\x1b[Ha\x1b[7mb\x1b[m"));
+    assert_eq!(between(Some(1), None), frame("\x1b[;2Hb"));
+    assert_eq!(between(Some(2), Some(2)), "");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! A view that shows all of a scene, for scenes that name none.
+//! A view that shows all of a scene, for scenes that name none, or one sphere.
 
 use crate::view::{Lens, View};
 use spherule_kernel::{Sphere, Spheres, Vec3};
@@ -8,6 +8,9 @@ const FOV: f32 = 40.0;
 
 /// Where the eye is, seen from the middle of the scene.
 const TOWARDS_EYE: Vec3 = Vec3::new(0.25, 0.35, 1.0);
+
+/// Many times how far apart numbers are, over the largest coordinate.
+const SPACING: f32 = 64.0 * f32::EPSILON;
 
 /// A sphere around all spheres: around the middle of their box, so not the least one, but at most
 /// sqrt 3 times as large. Around nothing: the unit sphere.
@@ -30,19 +33,45 @@ pub fn bounding_sphere(spheres: Spheres<'_>) -> Sphere {
 /// height.
 #[must_use]
 pub fn framed(spheres: Spheres<'_>, aspect: f32) -> View {
-    let Sphere { center, radius } = bounding_sphere(spheres);
-    let vertical = (FOV / 2.0).to_radians();
+    let lens = Lens::Perspective { fov: FOV };
+    around(bounding_sphere(spheres), TOWARDS_EYE.normalize(), Vec3::Y, lens, aspect)
+}
+
+/// As [`framed`], but of `sphere`, and from where and through what `view` looks: its direction, its field of view, its
+/// kind of projection. Parallel rays start no nearer than they do.
+#[must_use]
+pub fn reframed(view: &View, sphere: Sphere, aspect: f32) -> View {
+    let way = view.eye - view.target;
+    let outward = way.try_normalize().unwrap_or(Vec3::Z);
+    let framed = around(sphere, outward, view.up, view.lens, aspect);
+    // From where parallel rays start is not seen, but their numbers are as large.
+    match view.lens {
+        Lens::Parallel { .. } if framed.eye.distance(framed.target) < way.length() => {
+            View { eye: framed.target + way, ..framed }
+        }
+        _ => framed,
+    }
+}
+
+fn around(sphere: Sphere, outward: Vec3, up: Vec3, lens: Lens, aspect: f32) -> View {
+    let Sphere { center, radius } = sphere;
+    let fov = match lens {
+        Lens::Perspective { fov } => fov,
+        Lens::Parallel { .. } => FOV,
+    };
+    let vertical = (fov / 2.0).to_radians();
     let horizontal = (vertical.tan() * aspect).atan();
     let half_angle = vertical.min(horizontal).max(0.001);
     // A scene of points alone has no size; neither has one that overflows a usable one.
     let radius = if radius > 0.0 && radius < 1e18 { radius } else { 1.0 };
-    let distance = radius / half_angle.sin();
-    View {
-        eye: center + TOWARDS_EYE.normalize() * distance,
-        target: center,
-        up: Vec3::Y,
-        lens: Lens::Perspective { fov: FOV },
-    }
+    // Nearer than that to a small sphere far from zero, there is no direction any more.
+    let least = center.abs().max_element() * SPACING;
+    let distance = (radius / half_angle.sin()).max(least);
+    let lens = match lens {
+        Lens::Perspective { .. } => lens,
+        Lens::Parallel { .. } => Lens::Parallel { height: 2.0 * radius / aspect.clamp(0.001, 1.0) },
+    };
+    View { eye: center + outward * distance, target: center, up, lens }
 }
 
 #[cfg(test)]
@@ -67,6 +96,77 @@ mod tests {
         assert_eq!(of(&[]), Sphere { center: Vec3::ZERO, radius: 1.0 });
         let view = framed(SphereList::from([[7.0, 7.0, 7.0, 0.0]]).spheres(), 1.0);
         assert!(view.eye.is_finite() && view.eye != view.target);
+    }
+
+    /// How far the sphere reaches in the picture, over half of its width and of its height.
+    fn reach(view: &View, sphere: Sphere, aspect: f64) -> f64 {
+        let [forward, right, up] = view.axes();
+        let p = sphere.center.as_dvec3() - view.eye.as_dvec3();
+        let r = f64::from(sphere.radius);
+        let along = |axis: glam::DVec3, half: f64| match view.lens {
+            Lens::Parallel { height } => (p.dot(axis).abs() + r) / (f64::from(height) / 2.0 * half),
+            Lens::Perspective { fov } => {
+                // The plane through the eye and the edge of the picture, as far from the centre as r at most.
+                let slope = (f64::from(fov) / 2.0).to_radians().tan() * half;
+                (r * slope.hypot(1.0) + p.dot(axis).abs()) / (p.dot(forward) * slope)
+            }
+        };
+        along(right, aspect).max(along(up, 1.0))
+    }
+
+    #[test]
+    fn all_spheres_are_seen_from_any_direction_through_any_lens() {
+        let list = SphereList::from([
+            [1.0, 2.0, 3.0, 0.5],
+            [-7.0, 0.0, 1.0, 2.0],
+            [0.0, 40.0, 0.0, 1.0],
+            [3.0, 2.0, -9.0, 0.0],
+        ]);
+        let spheres = list.spheres();
+        let all = bounding_sphere(spheres);
+        for aspect in [0.2_f32, 1.0, 3.0] {
+            for lens in [
+                Lens::Perspective { fov: 15.0 },
+                Lens::Perspective { fov: 120.0 },
+                Lens::Parallel { height: 1e-3 },
+            ] {
+                for turn in 0..8_u8 {
+                    let view = View { lens, ..framed(spheres, aspect) };
+                    let view = crate::view::orbited(&view, f32::from(turn), 0.3);
+                    let view = crate::view::panned(&view, 100.0, -5.0);
+                    let reframed = reframed(&view, all, aspect);
+                    let turned = reframed.axes()[0].dot(view.axes()[0]);
+                    assert!(turned > 1.0 - 1e-6, "from another direction: {turned}");
+                    for sphere in spheres.iter() {
+                        let reach = reach(&reframed, sphere, aspect.into());
+                        assert!(reach < 1.0 + 1e-5, "{reach} {sphere:?} {reframed:?}");
+                    }
+                    let reach = reach(&reframed, all, aspect.into());
+                    assert!(reach > 0.999, "{reach}: smaller than need be");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_small_sphere_far_away_is_seen_from_the_same_direction() {
+        let view = framed(SphereList::from([[0.0, 0.0, 0.0, 1.0]]).spheres(), 1.0);
+        let small = Sphere { center: Vec3::splat(1e7), radius: 1e-3 };
+        let reframed = reframed(&view, small, 1.0);
+        assert_eq!(reframed.target, small.center);
+        assert!(reframed.axes()[0].dot(view.axes()[0]) > 0.999, "{reframed:?}");
+    }
+
+    #[test]
+    fn parallel_rays_start_no_nearer() {
+        let lens = Lens::Parallel { height: 9.0 };
+        let far = View { eye: Vec3::new(0.0, 0.0, 2000.0), target: Vec3::ZERO, up: Vec3::Y, lens };
+        let one = Sphere { center: Vec3::X, radius: 1.0 };
+        let from_far = reframed(&far, one, 1.0);
+        assert_eq!(from_far.eye, Vec3::new(1.0, 0.0, 2000.0));
+        assert_eq!(from_far.lens, Lens::Parallel { height: 2.0 });
+        let near = View { eye: Vec3::new(0.0, 0.0, 0.1), ..far };
+        assert!(reframed(&near, one, 1.0).eye.z > 2.0);
     }
 
     #[test]

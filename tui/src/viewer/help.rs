@@ -2,13 +2,18 @@
 
 use crate::cells::{CellGrid, Color};
 
-const LINES: [&str; 16] = [
+const LINES: [&str; 21] = [
     "                                         ",
     "  arrows, h j k l, drag   around          ",
+    "  H J K L, right drag     along the picture ",
     "  + -, wheel              nearer, farther ",
     "  space                   spin            ",
+    "  f                       all of the scene",
     "  r                       first view      ",
     "  o                       projection      ",
+    "                                         ",
+    "  p, click                what a cell is of, by every tier; then ",
+    "                          arrows lead on, Enter frames, Esc ends ",
     "                                         ",
     "  1 2 3 4                 fast, stable, exact, geometric ",
     "  c                       ascii, half, quadrant, sextant, ",

@@ -8,7 +8,7 @@ use spherule_kernel::Tier;
 /// One thing that the user or the terminal wants.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Input {
-    /// Lead the eye around: steps to the right, steps up.
+    /// Lead the eye around, or the cell that is picked along: steps to the right, steps up.
     Orbit(i8, i8),
     /// Go nearer by so many steps.
     Zoom(i8),
@@ -16,6 +16,20 @@ pub(super) enum Input {
     Grab(u16, u16),
     /// ... and has pulled to this one.
     Drag(u16, u16),
+    /// It let go at this one.
+    Release(u16, u16),
+    /// Lead eye and target along the picture: steps to the right, steps up.
+    Pan(i8, i8),
+    /// The mouse took hold of what is to be moved along the picture, ...
+    GrabPlane(u16, u16),
+    /// ... and has pulled it to this column and row.
+    DragPlane(u16, u16),
+    /// Pick a cell, or no longer.
+    Pick,
+    /// Show all of the scene.
+    FrameAll,
+    /// Show the sphere that is picked.
+    FramePicked,
     /// Use this tier.
     Accuracy(Tier),
     /// The other projection.
@@ -63,6 +77,10 @@ fn key_input(key: &KeyEvent) -> Option<Input> {
         KeyCode::Right | KeyCode::Char('l') => Input::Orbit(1, 0),
         KeyCode::Up | KeyCode::Char('k') => Input::Orbit(0, 1),
         KeyCode::Down | KeyCode::Char('j') => Input::Orbit(0, -1),
+        KeyCode::Char('H') => Input::Pan(-1, 0),
+        KeyCode::Char('L') => Input::Pan(1, 0),
+        KeyCode::Char('K') => Input::Pan(0, 1),
+        KeyCode::Char('J') => Input::Pan(0, -1),
         KeyCode::Char('+' | '=') => Input::Zoom(1),
         KeyCode::Char('-' | '_') => Input::Zoom(-1),
         KeyCode::Char('1') => Input::Accuracy(Tier::Fast),
@@ -74,6 +92,9 @@ fn key_input(key: &KeyEvent) -> Option<Input> {
         KeyCode::Char('s') => Input::Structure,
         KeyCode::Char(' ') => Input::Spin,
         KeyCode::Char('r') => Input::Reset,
+        KeyCode::Char('p') => Input::Pick,
+        KeyCode::Char('f') => Input::FrameAll,
+        KeyCode::Enter => Input::FramePicked,
         KeyCode::Char('?') => Input::Help,
         KeyCode::Char('q') => Input::Quit,
         KeyCode::Esc => Input::Escape,
@@ -87,6 +108,9 @@ fn mouse_input(mouse: &MouseEvent) -> Option<Input> {
         MouseEventKind::ScrollDown => Some(Input::Zoom(-1)),
         MouseEventKind::Down(MouseButton::Left) => Some(Input::Grab(mouse.column, mouse.row)),
         MouseEventKind::Drag(MouseButton::Left) => Some(Input::Drag(mouse.column, mouse.row)),
+        MouseEventKind::Up(MouseButton::Left) => Some(Input::Release(mouse.column, mouse.row)),
+        MouseEventKind::Down(MouseButton::Right) => Some(Input::GrabPlane(mouse.column, mouse.row)),
+        MouseEventKind::Drag(MouseButton::Right) => Some(Input::DragPlane(mouse.column, mouse.row)),
         _ => None,
     }
 }
@@ -116,6 +140,7 @@ mod tests {
     fn shifted_keys_count() {
         assert_eq!(key(KeyCode::Char('?'), KeyModifiers::SHIFT), Some(Input::Help));
         assert_eq!(key(KeyCode::Char('+'), KeyModifiers::SHIFT), Some(Input::Zoom(1)));
+        assert_eq!(key(KeyCode::Char('H'), KeyModifiers::SHIFT), Some(Input::Pan(-1, 0)));
     }
 
     #[test]
@@ -126,14 +151,17 @@ mod tests {
     }
 
     #[test]
-    fn only_the_left_button_drags() {
+    fn the_left_button_turns_and_the_right_one_moves() {
         let mouse = |kind| {
             let modifiers = KeyModifiers::NONE;
             input(&Event::Mouse(MouseEvent { kind, column: 3, row: 4, modifiers }))
         };
         assert_eq!(mouse(MouseEventKind::Down(MouseButton::Left)), Some(Input::Grab(3, 4)));
         assert_eq!(mouse(MouseEventKind::Drag(MouseButton::Left)), Some(Input::Drag(3, 4)));
-        assert_eq!(mouse(MouseEventKind::Drag(MouseButton::Right)), None);
+        assert_eq!(mouse(MouseEventKind::Up(MouseButton::Left)), Some(Input::Release(3, 4)));
+        assert_eq!(mouse(MouseEventKind::Down(MouseButton::Right)), Some(Input::GrabPlane(3, 4)));
+        assert_eq!(mouse(MouseEventKind::Drag(MouseButton::Right)), Some(Input::DragPlane(3, 4)));
+        assert_eq!(mouse(MouseEventKind::Drag(MouseButton::Middle)), None);
         assert_eq!(mouse(MouseEventKind::ScrollUp), Some(Input::Zoom(1)));
     }
 }

@@ -1,11 +1,15 @@
 //! What the viewer shows and how it moves. No terminal, no clock: input and durations come in.
 
+use super::hand::Hand;
 use super::keys::Input;
+use super::picking::Cursor;
 use crate::choice::{Auto, next};
 use crate::machine::check_floats;
+use crate::scene::framing::reframed;
 use crate::structure::Structure;
 use crate::style::{Charset, Style};
-use crate::view::{LensKind, View, orbited, with_projection, zoomed};
+use crate::view::{LensKind, View, orbited, panned, with_projection, zoomed};
+use spherule_kernel::{Sphere, Tier};
 use std::f32::consts::PI;
 use std::time::Duration;
 
@@ -13,6 +17,8 @@ use std::time::Duration;
 pub const ORBIT_STEP: f32 = PI / 36.0;
 /// What a key or a notch of the wheel enlarges by.
 pub const ZOOM_STEP: f32 = 1.1;
+/// How far a key leads eye and target along the picture, over the picture's height at the target.
+pub const PAN_STEP: f64 = 0.05;
 /// Radians a second: around in 12 seconds.
 const SPIN: f32 = PI / 6.0;
 /// After a suspension or on a slow link the spin goes on; it does not catch up.
@@ -44,6 +50,15 @@ pub(super) struct Shown {
     pub(super) structure: Auto<Structure>,
     pub(super) help: bool,
     pub(super) spinning: bool,
+    /// The cell that is picked.
+    pub(super) cursor: Option<Cursor>,
+}
+
+impl Shown {
+    /// What the picture itself depends on.
+    pub(super) fn pictured(&self) -> Self {
+        Self { help: false, spinning: false, cursor: None, ..*self }
+    }
 }
 
 /// The state between frames.
@@ -51,20 +66,35 @@ pub(super) struct Shown {
 pub(super) struct State {
     home: View,
     pub(super) shown: Shown,
-    /// Where the mouse took hold, or was led to since.
-    held: Option<(u16, u16)>,
-    /// Rows of the picture: a drag over all of them is half a turn.
-    height: u16,
+    hand: Hand,
+    /// Columns and rows of the picture: a drag over all rows is half a turn.
+    size: (u16, u16),
 }
 
 impl State {
     pub(super) fn new(view: View, style: Style, structure: Auto<Structure>) -> Self {
-        let shown = Shown { view, style, structure, help: false, spinning: false };
-        Self { home: view, shown, held: None, height: 1 }
+        let shown = Shown { view, style, structure, help: false, spinning: false, cursor: None };
+        Self { home: view, shown, hand: Hand::default(), size: (1, 1) }
     }
 
-    pub(super) fn set_height(&mut self, rows: u16) {
-        self.height = rows.max(1);
+    /// Tells the size of the picture.
+    pub(super) fn set_size(&mut self, columns: u16, rows: u16) {
+        self.size = (columns.max(1), rows.max(1));
+        self.shown.cursor = self.shown.cursor.map(|cursor| cursor.within(self.size));
+    }
+
+    /// Columns and rows of the picture.
+    pub(super) fn size(&self) -> (u16, u16) {
+        self.size
+    }
+
+    /// Lets `sphere` fill the picture, from the present direction; a cell that is picked follows it to the middle.
+    pub(super) fn frame(&mut self, sphere: Sphere) -> Outcome {
+        let before = self.shown;
+        let aspect = before.style.picture_aspect(self.size.0, self.size.1);
+        self.shown.view = reframed(&before.view, sphere, aspect as f32);
+        self.shown.cursor = before.cursor.map(|_| Cursor::middle(self.size));
+        self.since(&before)
     }
 
     /// Lets time pass.
@@ -77,15 +107,30 @@ impl State {
 
     pub(super) fn apply(&mut self, input: Input) -> Outcome {
         let before = self.shown;
-        let Shown { view, style, structure, help, spinning } = &mut self.shown;
+        let Shown { view, style, structure, help, spinning, cursor } = &mut self.shown;
         match input {
             Input::Quit => return Outcome::Quit,
-            Input::Escape if !*help => return Outcome::Quit,
-            Input::Grab(column, row) => self.held = Some((column, row)),
+            Input::Escape if *help => *help = false,
+            Input::Escape if cursor.is_some() => *cursor = None,
+            Input::Escape => return Outcome::Quit,
+            Input::Grab(column, row) | Input::GrabPlane(column, row) => {
+                self.hand.grab((column, row));
+            }
             Input::Drag(column, row) => self.drag_to(column, row),
+            Input::DragPlane(column, row) => self.pull_to(column, row),
+            Input::Release(column, row) => self.release(column, row),
+            Input::Pick if cursor.is_some() => *cursor = None,
+            Input::Pick => self.pick(Cursor::middle(self.size)),
+            Input::Orbit(right, up) if cursor.is_some() => {
+                *cursor = cursor.map(|cursor| cursor.moved(right, up, self.size));
+            }
             Input::Orbit(right, up) => {
                 let step = |count| f32::from(count) * ORBIT_STEP;
                 *view = orbited(view, step(right), step(up));
+            }
+            Input::Pan(right, up) => {
+                let step = PAN_STEP * f64::from(view.height_at_target());
+                *view = panned(view, f64::from(right) * step, f64::from(up) * step);
             }
             Input::Zoom(steps) => *view = zoomed(view, ZOOM_STEP.powi(steps.into())),
             // A key that asks for what this process cannot compute does nothing.
@@ -104,34 +149,64 @@ impl State {
             Input::Structure => *structure = next(*structure),
             Input::Spin => *spinning = !*spinning,
             Input::Reset => (*view, *spinning) = (self.home, false),
-            Input::Help | Input::Escape => *help = !*help,
-            // What concerns the terminal alone.
-            Input::Suspend | Input::Resize => {}
+            Input::Help => *help = !*help,
+            // What concerns the terminal or asks for the scene.
+            Input::Suspend | Input::Resize | Input::FrameAll | Input::FramePicked => {}
         }
-        if self.shown == before { Outcome::Unchanged } else { Outcome::Changed }
+        self.since(&before)
+    }
+
+    fn since(&self, before: &Shown) -> Outcome {
+        if self.shown == *before { Outcome::Unchanged } else { Outcome::Changed }
+    }
+
+    /// A pick asks every tier, so where `Exact` cannot be had there is none.
+    fn pick(&mut self, cursor: Cursor) {
+        if check_floats(Tier::Exact).is_ok() {
+            self.shown.cursor = Some(cursor);
+        }
     }
 
     /// The scene follows the hand, so the eye goes the other way.
     fn drag_to(&mut self, column: u16, row: u16) {
-        if let Some((from_column, from_row)) = self.held {
-            let a_row = PI / f32::from(self.height);
-            let right = f32::from(column) - f32::from(from_column);
-            let right = right * self.shown.style.cell_aspect;
-            let down = f32::from(row) - f32::from(from_row);
-            self.shown.view = orbited(&self.shown.view, -right * a_row, down * a_row);
+        let a_row = PI / f32::from(self.size.1);
+        let [right, down] = self.hand.led_to((column, row));
+        if [right, down] == [0.0; 2] {
+            // Turned by nothing, the eye would be rounded all the same.
+            return;
         }
-        self.held = Some((column, row));
+        let right = right * self.shown.style.cell_aspect;
+        self.shown.view = orbited(&self.shown.view, -right * a_row, down * a_row);
+    }
+
+    /// What is under the hand, as far away as the target, stays there.
+    fn pull_to(&mut self, column: u16, row: u16) {
+        let view = self.shown.view;
+        let a_row = f64::from(view.height_at_target()) / f64::from(self.size.1);
+        let a_column = a_row * f64::from(self.shown.style.cell_aspect);
+        let [right, down] = self.hand.led_to((column, row)).map(f64::from);
+        self.shown.view = panned(&view, -right * a_column, down * a_row);
+    }
+
+    /// A press and a release without a movement in between is a click.
+    fn release(&mut self, column: u16, row: u16) {
+        let is_click = self.hand.release((column, row));
+        if is_click && column < self.size.0 && row < self.size.1 {
+            self.pick(Cursor { column, row });
+        }
     }
 }
 
+#[cfg(test)]
+mod moves;
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::view::Lens;
     use clap::ValueEnum;
-    use spherule_kernel::{Tier, Vec3};
+    use spherule_kernel::Vec3;
 
-    fn state() -> State {
+    pub(super) fn state() -> State {
         let view = View {
             eye: Vec3::new(0.0, 0.0, 5.0),
             target: Vec3::ZERO,
@@ -140,7 +215,7 @@ mod tests {
         };
         let style = Style { accuracy: Tier::Stable, charset: Charset::Half, ..Style::PLAIN };
         let mut state = State::new(view, style, None);
-        state.set_height(36);
+        state.set_size(80, 36);
         state
     }
 

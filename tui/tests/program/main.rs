@@ -7,6 +7,7 @@ mod lecture;
 mod light;
 mod orders;
 mod output;
+mod pick;
 mod png;
 mod run;
 mod scenes;

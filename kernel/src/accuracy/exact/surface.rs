@@ -26,8 +26,8 @@ pub(super) fn at(ray: &Ray, t: f32, sphere: &Sphere) -> Surface {
     let seen = from_start::point(ray, sphere, &line, root == Root::Near);
     // Whichever is known better.
     let estimated = |axis: usize| match seen {
-        Some((value, error)) if error[axis] < of_point => (value[axis], error[axis]),
-        _ => (value[axis], of_point),
+        Some((value, error)) if error[axis % 3] < of_point => (value[axis % 3], error[axis % 3]),
+        _ => (value[axis % 3], of_point),
     };
 
     let terms = QuadraticTerms::new(

@@ -29,6 +29,7 @@ pub(super) fn parse(bytes: &[u8], more_may_come: bool) -> Parsed {
         [ESCAPE, ESCAPE, ..] => Parsed::Taken(1, Some(key(KeyCode::Esc))),
         // A key with Alt.
         [ESCAPE, _, ..] => Parsed::Taken(2, None),
+        [b'\r', ..] => Parsed::Taken(1, Some(key(KeyCode::Enter))),
         [control @ 1..=26, ..] => {
             let letter = KeyCode::Char(char::from(control + b'a' - 1));
             Parsed::Taken(1, Some(Event::Key(KeyEvent::new(letter, KeyModifiers::CONTROL))))
@@ -55,7 +56,7 @@ fn control_sequence(rest: &[u8]) -> Parsed {
     let event = match rest[end] {
         // Not a final byte: the sequence is broken off, and another thing begins.
         0..=0x1f => return Parsed::Taken(2 + end, None),
-        b'M' if rest[0] == b'<' => mouse(&rest[1..end]),
+        last @ (b'M' | b'm') if rest[0] == b'<' => mouse(&rest[1..end], last == b'm'),
         b'~' => page(&rest[..end]),
         // Parameters of an arrow are modifiers.
         last => arrow(last),
@@ -86,17 +87,20 @@ fn page(parameters: &[u8]) -> Option<Event> {
     }))
 }
 
-/// `button ; column ; row` of a press or a movement, counted from 1.
-fn mouse(parameters: &[u8]) -> Option<Event> {
+/// `button ; column ; row` of a press, a movement or a release, counted from 1.
+fn mouse(parameters: &[u8], is_release: bool) -> Option<Event> {
     let mut numbers = str::from_utf8(parameters).ok()?.split(';').map(str::parse::<u16>);
     let mut next = || numbers.next()?.ok();
     let (button, column, row) = (next()?, next()?, next()?);
     // Bits 2 to 4 are modifiers.
-    let kind = match button & !0b1_1100 {
-        0 => MouseEventKind::Down(MouseButton::Left),
-        32 => MouseEventKind::Drag(MouseButton::Left),
-        64 => MouseEventKind::ScrollUp,
-        65 => MouseEventKind::ScrollDown,
+    let kind = match (button & !0b1_1100, is_release) {
+        (0, false) => MouseEventKind::Down(MouseButton::Left),
+        (0, true) => MouseEventKind::Up(MouseButton::Left),
+        (2, false) => MouseEventKind::Down(MouseButton::Right),
+        (32, false) => MouseEventKind::Drag(MouseButton::Left),
+        (34, false) => MouseEventKind::Drag(MouseButton::Right),
+        (64, false) => MouseEventKind::ScrollUp,
+        (65, false) => MouseEventKind::ScrollDown,
         _ => return None,
     };
     Some(Event::Mouse(MouseEvent {
@@ -125,6 +129,7 @@ mod tests {
         assert_eq!(taken("\x1b[Cq"), (3, Some(key(KeyCode::Right))));
         assert_eq!(taken("\x1b[1;5Cq"), (6, Some(key(KeyCode::Right))));
         assert_eq!(taken("\x1bOAq"), (3, Some(key(KeyCode::Up))));
+        assert_eq!(taken("\r\r"), (1, Some(key(KeyCode::Enter))));
         assert_eq!(taken("\x1b[5~q"), (4, Some(key(KeyCode::PageUp))));
         assert_eq!(taken("\x1b[6;2~q"), (6, Some(key(KeyCode::PageDown))));
         let control = KeyEvent::new(KeyCode::Char('z'), KeyModifiers::CONTROL);
@@ -152,7 +157,16 @@ mod tests {
         // With Ctrl held.
         assert_eq!(taken("\x1b[<48;300;8M"), (12, report(drag, 299, 7)));
         assert_eq!(taken("\x1b[<65;1;1M"), (10, report(MouseEventKind::ScrollDown, 0, 0)));
-        assert_eq!(taken("\x1b[<0;11;6m"), (10, None));
+        assert_eq!(
+            taken("\x1b[<0;11;6m"),
+            (10, report(MouseEventKind::Up(MouseButton::Left), 10, 5))
+        );
+        let pull = MouseEventKind::Drag(MouseButton::Right);
+        assert_eq!(taken("\x1b[<34;11;6M"), (11, report(pull, 10, 5)));
+        let press = MouseEventKind::Down(MouseButton::Right);
+        assert_eq!(taken("\x1b[<2;11;6M"), (10, report(press, 10, 5)));
+        assert_eq!(taken("\x1b[<2;11;6m"), (10, None));
+        assert_eq!(taken("\x1b[<64;11;6m"), (11, None));
         assert_eq!(taken("\x1b[<0;99999;6M"), (13, None));
     }
 
