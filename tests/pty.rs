@@ -3,6 +3,7 @@
 //! Needs no controlling terminal: `setsid -w cargo test -p spherule-tests pty </dev/null` passes as well.
 
 mod leaving;
+mod lecture;
 mod look;
 mod modes;
 mod once;

@@ -4,6 +4,7 @@ use crate::choice::{Auto, auto_or, one_of};
 use crate::color::Srgb;
 use crate::compare::Comparison;
 use crate::error::Error;
+use crate::lecture::stations::station;
 use crate::palette::Theme;
 use crate::samples::MOST_SAMPLES;
 use crate::scene::Scene;
@@ -51,6 +52,11 @@ pub enum Command {
     Trace(TraceArguments),
     /// Measure speed and error of every tier on a scene, on this machine
     Tradeoff(TradeoffArguments),
+    /// Walk through the graphics lecture: fourteen stations whose numbers are computed as they are shown
+    ///
+    /// On a terminal ? shows the keys. Into a pipe or a file, on a dumb terminal, or with --once, the station that
+    /// --station names is written, or all of them.
+    Lecture(LectureArguments),
     /// List the built-in scenes
     Scenes,
 }
@@ -209,6 +215,26 @@ pub struct TradeoffArguments {
     /// How it is computed.
     #[command(flatten)]
     pub computing: ComputingArguments,
+}
+
+/// The lecture, or a part of it.
+#[derive(Args, Clone, Debug)]
+pub struct LectureArguments {
+    /// The station, 1 to 14 or by its name
+    #[arg(long, value_name = "STATION", value_parser = station)]
+    pub station: Option<usize>,
+    /// Write the station, or all, also to a terminal
+    #[arg(long)]
+    pub once: bool,
+    /// List the stations, with the part of the lecture and the source files of each
+    #[arg(long)]
+    pub list: bool,
+    /// Size of a station in cells [default: 80x24; on a terminal all rows but the last]
+    #[arg(long, value_name = "COLSxROWS", value_parser = size)]
+    pub size: Option<(u16, u16)>,
+    /// Colours
+    #[arg(long, value_name = "WHEN", default_value = "auto")]
+    pub color: ColorChoice,
 }
 
 /// What the arguments ask for.

@@ -10,6 +10,7 @@ pub mod draw;
 pub mod encode;
 pub mod error;
 pub mod ink;
+pub mod lecture;
 pub mod machine;
 pub mod npy;
 pub mod palette;

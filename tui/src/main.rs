@@ -3,7 +3,7 @@
 
 use spherule::arguments::{self, Command, Request};
 use spherule::error::{Error, write_stdout};
-use spherule::{machine, show, trace, tradeoff};
+use spherule::{lecture, machine, show, trace, tradeoff};
 use spherule_kernel::Tier;
 use std::process::ExitCode;
 
@@ -30,6 +30,10 @@ fn run() -> Result<(), Error> {
                 // What is wrong is what differs from exact.
                 machine::check_floats(Tier::Exact)?;
                 tradeoff::tradeoff(arguments)
+            }
+            Some(Command::Lecture(arguments)) => {
+                machine::check_floats(Tier::Exact)?;
+                lecture::lecture(arguments)
             }
             Some(Command::Scenes) => write_stdout(show::scenes().as_bytes()),
         },

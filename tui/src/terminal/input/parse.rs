@@ -57,6 +57,7 @@ fn control_sequence(rest: &[u8]) -> Parsed {
         // Not a final byte: the sequence is broken off, and another thing begins.
         0..=0x1f => return Parsed::Taken(2 + end, None),
         last @ (b'M' | b'm') if rest[0] == b'<' => mouse(&rest[1..end], last == b'm'),
+        b'~' => page(&rest[..end]),
         // Parameters of an arrow are modifiers.
         last => arrow(last),
     };
@@ -73,6 +74,15 @@ fn arrow(last: u8) -> Option<Event> {
         b'B' => KeyCode::Down,
         b'C' => KeyCode::Right,
         b'D' => KeyCode::Left,
+        _ => return None,
+    }))
+}
+
+/// `number ; modifiers` of the keys that have numbers.
+fn page(parameters: &[u8]) -> Option<Event> {
+    Some(key(match parameters.split(|&byte| byte == b';').next()? {
+        b"5" => KeyCode::PageUp,
+        b"6" => KeyCode::PageDown,
         _ => return None,
     }))
 }
@@ -120,6 +130,8 @@ mod tests {
         assert_eq!(taken("\x1b[1;5Cq"), (6, Some(key(KeyCode::Right))));
         assert_eq!(taken("\x1bOAq"), (3, Some(key(KeyCode::Up))));
         assert_eq!(taken("\r\r"), (1, Some(key(KeyCode::Enter))));
+        assert_eq!(taken("\x1b[5~q"), (4, Some(key(KeyCode::PageUp))));
+        assert_eq!(taken("\x1b[6;2~q"), (6, Some(key(KeyCode::PageDown))));
         let control = KeyEvent::new(KeyCode::Char('z'), KeyModifiers::CONTROL);
         assert_eq!(taken("\x1a"), (1, Some(Event::Key(control))));
     }

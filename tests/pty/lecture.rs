@@ -1,0 +1,86 @@
+//! The lecture, walked through.
+
+use super::session::{Output, Session};
+use spherule::lecture::stations::STATIONS;
+use spherule_tests::binary::spherule;
+
+/// On a terminal of the least size, with colour.
+fn start(more: &[&str]) -> Session {
+    let arguments = [&["lecture"], more].concat();
+    Session::start(spherule(), &arguments, &[], (80, 24))
+}
+
+/// What the screen shows. (Of blanks behind a line the terminal's model knows whether they were written.)
+fn contents(output: &Output) -> String {
+    let contents = output.screen().contents();
+    contents.lines().map(|line| format!("{}\n", line.trim_end())).collect()
+}
+
+/// Waits until the screen shows a text, and gives all that it shows.
+fn shown(session: &Session, text: &str) -> String {
+    session.wait_for(text, |output| {
+        let contents = contents(output);
+        (output.sent.ends_with(b"\x1b[?2026l") && contents.contains(text)).then_some(contents)
+    })
+}
+
+fn heading(index: usize) -> String {
+    format!("{:>2}/14  {}", index + 1, STATIONS[index].title)
+}
+
+fn quit(mut session: Session, key: &str) {
+    session.type_in(key);
+    assert!(session.wait_for_end().success());
+    assert_eq!(session.left_behind(), [""; 0]);
+}
+
+#[test]
+fn n_goes_through_all_stations_and_arrows_change_them() {
+    let mut session = start(&[]);
+    for index in 0..STATIONS.len() {
+        let first = shown(&session, &heading(index));
+        // Left and down: one of them has somewhere to go in every station.
+        session.type_in("\x1b[D\x1b[B");
+        session.wait_for("another page", |output| (contents(output) != first).then_some(()));
+        session.type_in("r");
+        session.wait_for("the first page", |output| (contents(output) == first).then_some(()));
+        session.type_in("n");
+    }
+    shown(&session, &heading(0));
+    quit(session, "q");
+}
+
+#[test]
+fn b_goes_back_and_so_do_the_keys_for_pages() {
+    let mut session = start(&["--station", "nearest"]);
+    shown(&session, &heading(11));
+    for (key, index) in [("b", 10), ("\x1b[5~", 9), ("\x1b[6~", 10), ("n", 11)] {
+        session.type_in(key);
+        shown(&session, &heading(index));
+    }
+    quit(session, "\x03");
+}
+
+#[test]
+fn help_opens_and_escape_closes_it_before_it_quits() {
+    let mut session = start(&[]);
+    let first = shown(&session, &heading(0));
+    session.type_in("?");
+    let help = shown(&session, "Page Down");
+    assert!(help.contains("Triangles are left out"), "{help}");
+    session.type_in("\x1b");
+    session.wait_for("the page under it", |output| (contents(output) == first).then_some(()));
+    quit(session, "\x1b");
+}
+
+#[test]
+fn it_follows_the_size_and_says_what_it_needs() {
+    let session = start(&["--station", "5"]);
+    shown(&session, &heading(4));
+    session.resize(60, 20);
+    shown(&session, "needs 80x24, has 60x20");
+    session.resize(120, 40);
+    let large = shown(&session, "q quit");
+    assert!(!large.contains("needs"), "{large}");
+    quit(session, "q");
+}

@@ -1,0 +1,77 @@
+//! `spherule lecture`: the graphics lecture, walked. Fourteen stations of one screen each, from vectors to where single
+//! precision ends; every number on them is computed when it is shown, and arrows change it.
+//!
+//! Drawn in ASCII, so that it is the same on every terminal; colour only helps.
+
+mod canvas;
+mod chart;
+mod few;
+mod frame;
+mod pixels;
+mod shot;
+pub mod stations;
+#[cfg(test)]
+mod tests;
+mod walk;
+
+use crate::arguments::LectureArguments;
+use crate::encode;
+use crate::error::{Error, write_stdout};
+use crate::style::{PIPE_SIZE, Style};
+use crate::terminal::color_depth::Surroundings;
+use crossterm::terminal;
+use stations::STATIONS;
+use std::io::IsTerminal;
+
+/// Walks through the lecture on a terminal that can; else, with `--once` or into a pipe, prints the station that is
+/// asked for, or all of them.
+///
+/// # Errors
+/// [`Error`] if nothing can be shown.
+pub fn lecture(arguments: &LectureArguments) -> Result<(), Error> {
+    if arguments.list {
+        return write_stdout(list().as_bytes());
+    }
+    let is_terminal = std::io::stdout().is_terminal();
+    let surroundings = Surroundings::of_process(is_terminal);
+    let style = Style { depth: surroundings.depth(arguments.color), ..Style::PLAIN };
+    if is_terminal && !arguments.once && !surroundings.is_dumb() {
+        return walk::walk(arguments.station.unwrap_or(0), style);
+    }
+    // A terminal may not know its size, or lie.
+    let is_usable = |&(columns, rows): &(u16, u16)| {
+        [columns, rows].iter().all(|side| (1..=4096).contains(side))
+    };
+    // The prompt comes back below, and pushes the top row out if there is no row left.
+    let on_terminal = || {
+        let (columns, rows) = terminal::size().ok().filter(is_usable)?;
+        Some((columns, (rows - 1).max(1)))
+    };
+    let size = arguments.size.or_else(|| on_terminal().filter(|_| is_terminal));
+    let size = size.unwrap_or(PIPE_SIZE);
+    let chosen = arguments.station.map_or(0..STATIONS.len(), |index| index..index + 1);
+    for index in chosen {
+        let station = (STATIONS[index].start)();
+        let page = frame::page(index, &*station, false, size, style);
+        let mut bytes = Vec::new();
+        encode::full(&page, &mut bytes);
+        write_stdout(&bytes)?;
+    }
+    Ok(())
+}
+
+/// The stations: number, name, topic, and the sources with what to look for there.
+#[must_use]
+pub fn list() -> String {
+    let mut text = String::new();
+    for (number, entry) in (1..).zip(&STATIONS) {
+        text += &format!("{number:>2}  {:<14} {}\n", entry.name, entry.title);
+        text += &format!("    {:<14} lecture: {}\n", "", entry.topic);
+        for source in entry.sources {
+            text += &format!("    {:<14} {}: {}\n", "", source.file, source.symbols.join(", "));
+        }
+    }
+    text += "\nTriangles, the lecture's other surface, are left out: the kernel models only what a scene here requires,\n\
+             and scenes here are made of spheres.\n";
+    text
+}

@@ -1,0 +1,217 @@
+//! A plane of the scene on a canvas: x to the right, y upwards, with lines and circles of characters.
+
+use super::canvas::{Canvas, Role};
+use spherule_kernel::{Sphere, Vec3};
+use std::f32::consts::TAU;
+
+/// How many places of a line are looked at for every cell that it crosses.
+const STEPS_A_CELL: f32 = 6.0;
+/// Columns that are as wide as a row is high.
+const COLUMNS_A_ROW: f32 = 2.0;
+
+/// A part of a canvas, and the part of the plane that it shows.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Chart {
+    left: i32,
+    top: i32,
+    width: i32,
+    height: i32,
+    middle: [f32; 2],
+    /// Rows a unit.
+    unit: f32,
+}
+
+impl Chart {
+    /// Shows all of `x` and `y` in `width` x `height` cells from `(left, top)` on, round things round.
+    pub(super) fn new(
+        (left, top): (i32, i32),
+        (width, height): (i32, i32),
+        x: [f32; 2],
+        y: [f32; 2],
+    ) -> Self {
+        let unit =
+            (width as f32 / COLUMNS_A_ROW / (x[1] - x[0])).min(height as f32 / (y[1] - y[0]));
+        Self { left, top, width, height, middle: [x, y].map(|[a, b]| (a + b) / 2.0), unit }
+    }
+
+    /// Column and row of a point, with their fractions.
+    fn place(&self, point: Vec3) -> [f32; 2] {
+        let [right, up] = [point.x - self.middle[0], point.y - self.middle[1]];
+        let column = self.left as f32 + self.width as f32 / 2.0 + COLUMNS_A_ROW * self.unit * right;
+        let row = self.top as f32 + self.height as f32 / 2.0 - self.unit * up;
+        [column, row]
+    }
+
+    fn put(&self, canvas: &mut Canvas, column: i32, row: i32, glyph: char, role: Role) {
+        let across = self.left..self.left + self.width;
+        let down = self.top..self.top + self.height;
+        if across.contains(&column) && down.contains(&row) {
+            canvas.put(column, row, glyph, role);
+        }
+    }
+
+    /// A mark at a point, and a name beside it.
+    pub(super) fn mark(&self, canvas: &mut Canvas, point: Vec3, text: &str, role: Role) {
+        let [column, row] = self.place(point).map(|x| x.floor() as i32);
+        for (column, glyph) in (column..).zip(text.chars()) {
+            self.put(canvas, column, row, glyph, role);
+        }
+    }
+
+    /// A line from point to point.
+    pub(super) fn line(&self, canvas: &mut Canvas, ends: [Vec3; 2], role: Role) {
+        let [a, b] = ends.map(|end| self.place(end));
+        self.curve(canvas, role, length(a, b), |share| mix(a, b, share));
+    }
+
+    /// A line of dots with gaps, for what is no ray.
+    pub(super) fn dots(&self, canvas: &mut Canvas, ends: [Vec3; 2], role: Role) {
+        let [a, b] = ends.map(|end| self.place(end));
+        let count = (length(a, b) / 2.0).round().clamp(1.0, 1e3) as u16;
+        for step in 0..=count {
+            let [column, row] = mix(a, b, f32::from(step) / f32::from(count));
+            self.put(canvas, column.floor() as i32, row.floor() as i32, '.', role);
+        }
+    }
+
+    /// The half-line from `origin` on, as far as the chart goes.
+    pub(super) fn half_line(&self, canvas: &mut Canvas, origin: Vec3, direction: Vec3, role: Role) {
+        self.line(canvas, [origin, origin + self.beyond(origin, direction)], role);
+    }
+
+    /// What lies behind `origin`.
+    pub(super) fn behind(&self, canvas: &mut Canvas, origin: Vec3, direction: Vec3) {
+        self.dots(canvas, [origin, origin - self.beyond(origin, direction)], Role::Faint);
+    }
+
+    /// So far along `direction` that the chart ends before.
+    fn beyond(&self, origin: Vec3, direction: Vec3) -> Vec3 {
+        let middle = Vec3::new(self.middle[0], self.middle[1], 0.0);
+        let reach = (self.width + self.height) as f32 / self.unit + origin.distance(middle);
+        reach * direction.normalize_or_zero()
+    }
+
+    /// The circle in which the plane cuts a sphere whose centre lies in it.
+    pub(super) fn circle(&self, canvas: &mut Canvas, sphere: &Sphere, role: Role) {
+        let at = |share: f32| {
+            // From a place where the circle is slanting, so that its ends meet in one cell.
+            let (sin, cos) = ((share + 0.125) * TAU).sin_cos();
+            self.place(sphere.center + sphere.radius * Vec3::new(cos, sin, 0.0))
+        };
+        let around = TAU * COLUMNS_A_ROW * self.unit * sphere.radius;
+        self.curve(canvas, role, around, at);
+    }
+
+    /// What `at` goes through from 0 to 1, some `length` cells: where it is flat one glyph a column, else one a row, of
+    /// the place nearest to the middle.
+    fn curve(&self, canvas: &mut Canvas, role: Role, length: f32, at: impl Fn(f32) -> [f32; 2]) {
+        let count = (STEPS_A_CELL * length).round().clamp(1.0, 1e5);
+        let mut best: Option<Best> = None;
+        for step in 0..=count as u32 {
+            let [column, row] = at(step as f32 / count);
+            let [next_column, next_row] = at((step as f32 + 0.5) / count);
+            let glyph = stroke([next_column - column, next_row - row], row - row.floor());
+            let cell = [column, row].map(|x| x.floor() as i32);
+            let along = usize::from(!is_flat(glyph));
+            let off = ([column, row][along].fract().abs() - 0.5).abs();
+            match &mut best {
+                Some(Best { of, along: same, least, kept, .. })
+                    if of[along] == cell[along] && *same == along =>
+                {
+                    if off < *least {
+                        (*of, *least, *kept) = (cell, off, glyph);
+                    }
+                }
+                _ => {
+                    let next = Best { of: cell, along, least: off, kept: glyph };
+                    if let Some(done) = best.replace(next) {
+                        self.put(canvas, done.of[0], done.of[1], done.kept, role);
+                    }
+                }
+            }
+        }
+        if let Some(done) = best {
+            self.put(canvas, done.of[0], done.of[1], done.kept, role);
+        }
+    }
+}
+
+/// The place of a line that is nearest to the middle of its column or its row.
+struct Best {
+    of: [i32; 2],
+    /// 0 in a column, 1 in a row.
+    along: usize,
+    /// How far from the middle.
+    least: f32,
+    kept: char,
+}
+
+/// Whether a line with this glyph goes from column to column.
+fn is_flat(glyph: char) -> bool {
+    matches!(glyph, '\'' | '-' | '.')
+}
+
+/// The character that goes as a line does: in cells, at this share of the cell's height from its top.
+fn stroke([right, down]: [f32; 2], height: f32) -> char {
+    if down.abs() < 0.55 * right.abs() {
+        return match height {
+            0.0..0.33 => '\'',
+            0.33..0.67 => '-',
+            _ => '.',
+        };
+    }
+    if right.abs() < 0.4 * down.abs() {
+        return '|';
+    }
+    if (right > 0.0) == (down > 0.0) { '\\' } else { '/' }
+}
+
+fn length([a, b]: [f32; 2], [c, d]: [f32; 2]) -> f32 {
+    (c - a).abs().max((d - b).abs())
+}
+
+fn mix([a, b]: [f32; 2], [c, d]: [f32; 2], share: f32) -> [f32; 2] {
+    [a + share * (c - a), b + share * (d - b)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::style::Style;
+
+    fn drawn(draw: impl Fn(&Chart, &mut Canvas)) -> Vec<String> {
+        let mut canvas = Canvas::new(20, 10, Style::PLAIN);
+        draw(&Chart::new((0, 0), (20, 10), [-5.0, 5.0], [-5.0, 5.0]), &mut canvas);
+        let cells = canvas.into_cells();
+        let row = |row| cells.row(row).iter().map(|cell| cell.glyph).collect();
+        (0..10).map(row).collect()
+    }
+
+    #[test]
+    fn lines_go_where_they_should() {
+        let diagonal = drawn(|chart, canvas| {
+            chart.line(canvas, [Vec3::new(-2.5, -5.0, 0.0), Vec3::new(2.5, 5.0, 0.0)], Role::Ray);
+        });
+        assert!(diagonal.iter().rev().zip(5..).all(|(row, column)| row.find('/') == Some(column)));
+        let level = drawn(|chart, canvas| {
+            chart.half_line(canvas, Vec3::new(-2.0, 0.5, 0.0), Vec3::X, Role::Ray);
+        });
+        assert_eq!(level[4], format!("{}{}", " ".repeat(6), "-".repeat(14)));
+        assert!((0..10).all(|row| row == 4 || level[row].trim().is_empty()));
+    }
+
+    #[test]
+    fn a_circle_is_round_and_what_lies_beside_is_left_out() {
+        let circle = drawn(|chart, canvas| {
+            chart.circle(canvas, &Sphere::from([0.0, 0.0, 0.0, 3.0]), Role::Sphere);
+            chart.mark(canvas, Vec3::new(4.0, 0.0, 0.0), "far too long", Role::Plain);
+            chart.circle(canvas, &Sphere::from([0.0, 0.0, 0.0, 900.0]), Role::Sphere);
+        });
+        let inked: Vec<_> =
+            (0..10).filter(|&row| circle[row].contains(['-', '\'', '.', '|'])).collect();
+        assert_eq!((inked.first(), inked.last()), (Some(&2), Some(&7)), "{circle:#?}");
+        let ends = |row: &str| (row.find(['|', '/', '\\']), row.rfind(['|', '/', '\\']));
+        let (Some(left), Some(right)) = ends(&circle[4]) else { panic!("{circle:#?}") };
+        assert!(left == 4 && (15..=16).contains(&right), "{circle:#?}");
+    }
+}

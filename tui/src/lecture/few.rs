@@ -1,0 +1,164 @@
+//! A few spheres before a camera of few pixels: the picture that the stations of both orders make.
+
+use super::stations::Turn;
+use crate::structure::object_order::{Counts, ObjectOrder, Raster};
+use crate::structure::screen::Screen;
+use crate::structure::search::Tracing;
+use crate::view::{Lens, View};
+use spherule_kernel::{
+    Camera, ClosestHit, Coherence, Exact, Hit, HitPacket, Intersect, Level, Ray, RayPacket,
+    SphereList, Tier, Vec3, stages,
+};
+
+/// Centre and radius: A, B and so on, from far to near. Some hide others.
+const SPHERES: [[f32; 4]; 5] = [
+    [0.3, 0.1, -3.0, 1.9],
+    [3.1, -0.9, -1.0, 0.7],
+    [-1.9, -0.2, -0.6, 1.1],
+    [1.6, 0.5, 0.2, 0.9],
+    [0.2, -0.7, 1.2, 0.6],
+];
+/// From where they are seen.
+pub(super) const VIEW: View = View {
+    eye: Vec3::new(0.0, 0.0, 7.0),
+    target: Vec3::ZERO,
+    up: Vec3::Y,
+    lens: Lens::Perspective { fov: 38.0 },
+};
+
+/// The spheres, in an order, and a camera of so many pixels.
+#[derive(Clone, Debug)]
+pub(super) struct Few {
+    pub(super) list: SphereList,
+    /// The letter of every sphere, by its place in the list.
+    names: Vec<usize>,
+    pub(super) camera: Camera,
+    pub(super) width: u32,
+    pub(super) height: u32,
+}
+
+impl Few {
+    /// In their order, or the reverse.
+    pub(super) fn new((width, height): (u32, u32), reversed: bool) -> Self {
+        let mut names: Vec<_> = (0..SPHERES.len()).collect();
+        if reversed {
+            names.reverse();
+        }
+        let list = names.iter().map(|&name| SPHERES[name]).collect();
+        let camera = VIEW.camera(width, height, f64::from(width) / f64::from(height));
+        Self { list, names, camera, width, height }
+    }
+
+    pub(super) fn count(&self) -> usize {
+        self.names.len()
+    }
+
+    pub(super) fn pixels(&self) -> usize {
+        (self.width * self.height) as usize
+    }
+
+    /// Which sphere stands at a place of the list: 0 is A.
+    pub(super) fn name(&self, place: usize) -> usize {
+        self.names[place]
+    }
+
+    /// The viewing ray of a pixel, row by row.
+    pub(super) fn ray(&self, pixel: usize) -> Ray {
+        let (ix, iy) = self.place(pixel);
+        self.camera.get_ray(ix, iy)
+    }
+
+    /// Column and row of a pixel.
+    pub(super) fn place(&self, pixel: usize) -> (u32, u32) {
+        (pixel as u32 % self.width, pixel as u32 / self.width)
+    }
+
+    /// The sphere that a pixel shows.
+    pub(super) fn shown(&self, hit: Option<Hit>) -> Option<usize> {
+        hit.map(|hit| self.name(hit.sphere as usize))
+    }
+
+    /// Image order: the first pixels, each with its closest hit; and how many tests that is, as the kernel counts.
+    pub(super) fn image_order(&self, pixels: usize) -> (Vec<Option<Hit>>, u64) {
+        let rays: Vec<_> = (0..pixels).map(|pixel| self.ray(pixel)).collect();
+        let mut hits = vec![None; pixels];
+        self.list.closest_hits(Exact, &rays, &mut hits);
+        let packets: Vec<_> = rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect();
+        (hits, stages(ClosestHit, &packets, self.list.spheres()).tests)
+    }
+
+    /// Object order: the first spheres of the list, and what they took.
+    pub(super) fn object_order(&self, spheres: usize) -> (Vec<Option<Hit>>, Counts) {
+        let list: SphereList = self.list.spheres().iter().take(spheres).collect();
+        let (across, down) = Camera::tile::<[f32; 16]>();
+        let corners: Vec<_> = crate::draw::packet_corners(self.width, self.height).collect();
+        let rays: Vec<RayPacket> = corners
+            .iter()
+            .map(|&(x, y)| self.camera.packet(x, y, self.width, self.height))
+            .collect();
+        let mut packets = vec![HitPacket::none(); rays.len()];
+        let mut areas = Vec::new();
+        let objects = ObjectOrder::new(list.spheres(), Screen::new(&VIEW), &mut areas);
+        // The tier that is right.
+        let tracing =
+            Tracing { tier: Tier::Exact, level: Level::best(), coherence: Coherence::Coherent };
+        let counts = objects.closest_hits(tracing, &mut Raster::default(), &rays, &mut packets);
+        let mut hits = vec![None; self.pixels()];
+        for (&(left, top), packet) in corners.iter().zip(&packets) {
+            for (lane, hit) in (0..).zip(packet.hits()) {
+                let (ix, iy) = (left + lane % across, top + lane / across);
+                if lane < across * down && ix < self.width && iy < self.height {
+                    hits[(iy * self.width + ix) as usize] = hit;
+                }
+            }
+        }
+        (hits, counts)
+    }
+}
+
+/// A pixel that arrows lead about.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cursor {
+    right: i32,
+    down: i32,
+}
+
+impl Cursor {
+    /// So far from the middle of the picture.
+    pub(super) fn new(right: i32, down: i32) -> Self {
+        Self { right, down }
+    }
+
+    pub(super) fn turn(&mut self, turn: Turn) {
+        let (right, up) = turn.steps();
+        // No terminal is larger; and whoever leads it out of the picture soon has it back.
+        let limit = 4096;
+        self.right = (self.right + right).clamp(-limit, limit);
+        self.down = (self.down - up).clamp(-limit, limit);
+    }
+
+    /// The pixel, in a picture of `width` x `height`: at its edge if it was led beyond.
+    pub(super) fn pixel(&self, width: u32, height: u32) -> (u32, u32) {
+        let within = |off: i32, size: u32| (size as i32 / 2 + off).clamp(0, size as i32 - 1) as u32;
+        (within(self.right, width), within(self.down, height))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_orders_have_one_picture() {
+        for reversed in [false, true] {
+            for size in [(24, 12), (7, 5)] {
+                let few = Few::new(size, reversed);
+                let (image, tests) = few.image_order(few.pixels());
+                let (object, counts) = few.object_order(few.count());
+                assert_eq!(image, object);
+                assert_eq!(tests, (few.pixels() * few.count()) as u64);
+                assert!(counts.tests > 0 && counts.writes.stored >= counts.writes.overwritten);
+            }
+        }
+    }
+}

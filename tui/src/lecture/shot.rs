@@ -1,0 +1,66 @@
+//! One ray at one sphere, in a plane: what the stations of the intersection share.
+
+use super::canvas::{Canvas, Role};
+use super::chart::Chart;
+use super::stations::Turn;
+use spherule_kernel::{Ray, Sphere, Vec3};
+
+/// The sphere; its centre is in the plane of the chart.
+const SPHERE: Sphere = Sphere { center: Vec3::new(1.5, 0.5, 0.0), radius: 2.0 };
+/// Degrees that an arrow turns the ray by.
+const TURN: i32 = 4;
+/// How far an arrow moves its origin.
+const SHIFT: f32 = 0.5;
+/// How many steps it may go.
+const SHIFTS: std::ops::RangeInclusive<i32> = -2..=16;
+
+/// A ray that can be turned and moved.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shot {
+    degrees: i32,
+    shifts: i32,
+    /// Of the direction.
+    length: f32,
+}
+
+impl Shot {
+    /// From the left through the sphere, by a direction of this length.
+    pub(super) fn new(length: f32) -> Self {
+        Self { degrees: 3 * TURN, shifts: 0, length }
+    }
+
+    /// Up and down turn the ray, left and right move its origin.
+    pub(super) fn turn(&mut self, turn: Turn) {
+        let (right, up) = turn.steps();
+        self.degrees = (self.degrees + TURN * up) % 360;
+        self.shifts = (self.shifts + right).clamp(*SHIFTS.start(), *SHIFTS.end());
+    }
+
+    /// The ray, with t in [0, +inf].
+    pub(super) fn ray(&self) -> Ray {
+        let (sin, cos) = (self.degrees as f32).to_radians().sin_cos();
+        let origin = Vec3::new(-3.0 + SHIFT * self.shifts as f32, 0.0, 0.0);
+        Ray::new(origin, self.length * Vec3::new(cos, sin, 0.0))
+    }
+
+    pub(super) fn sphere(&self) -> Sphere {
+        SPHERE
+    }
+
+    /// A chart of both, in the left part of a canvas, `below` rows from its end.
+    pub(super) fn chart(canvas: &Canvas, numbers: i32, below: i32) -> Chart {
+        let size = (canvas.columns() - numbers, canvas.rows() - below);
+        Chart::new((0, 0), size, [-4.2, 5.0], [-2.6, 3.4])
+    }
+
+    /// Draws sphere and ray: the half-line as a line, what is behind it as dots.
+    pub(super) fn draw(&self, chart: &Chart, canvas: &mut Canvas) {
+        let Ray { origin, direction, .. } = self.ray();
+        chart.circle(canvas, &SPHERE, Role::Sphere);
+        chart.behind(canvas, origin, direction);
+        chart.half_line(canvas, origin, direction, Role::Ray);
+        chart.mark(canvas, SPHERE.center, "+ c", Role::Sphere);
+        chart.mark(canvas, origin + direction, "> d", Role::Ray);
+        chart.mark(canvas, origin, "o p", Role::Ray);
+    }
+}

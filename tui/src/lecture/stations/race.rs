@@ -1,0 +1,100 @@
+//! Both orders at once, by the number of tests that they have taken.
+
+use super::{Entry, Source, Station, Turn};
+use crate::lecture::canvas::{Canvas, Role, letter};
+use crate::lecture::few::Few;
+use crate::lecture::pixels::{Pixel, Pixels};
+use crate::structure::object_order::Counts;
+use spherule_kernel::{Hit, Writes};
+
+pub(super) const ENTRY: Entry = Entry {
+    name: "race",
+    title: "both orders, side by side",
+    topic: "image order and object order",
+    words: [
+        "Both make one test after the other, of a ray against a sphere. Image order is",
+        "done with a pixel at once; object order tests less, and writes some twice.",
+    ],
+    arrows: "right, left: tests   up, down: all, none",
+    sources: &[
+        Source { file: "tui/src/structure/object_order.rs", symbols: &["ObjectOrder", "Counts"] },
+        Source { file: "kernel/src/linear/object.rs", symbols: &["object_lanes", "Writes"] },
+        Source { file: "tui/src/tradeoff/orders.rs", symbols: &["Orders"] },
+    ],
+    start: || Box::new(Race { steps: 6 }),
+};
+
+const SIZE: (u32, u32) = (18, 10);
+/// Steps of an arrow from no test to those that image order takes.
+const STEPS: u64 = 30;
+
+struct Race {
+    steps: u64,
+}
+
+/// One of the two.
+struct Racer {
+    title: &'static str,
+    /// The pixels so far, those past the last not computed at all.
+    hits: Vec<Option<Hit>>,
+    counts: Counts,
+    is_done: bool,
+}
+
+fn image_order(few: &Few, budget: u64) -> Racer {
+    let pixels = (budget as usize / few.count()).min(few.pixels());
+    let (hits, tests) = few.image_order(pixels);
+    let writes = Writes { stored: hits.len() as u64, overwritten: 0 };
+    let is_done = pixels == few.pixels();
+    Racer { title: "image order", hits, counts: Counts { tests, writes }, is_done }
+}
+
+/// As many spheres as there are tests for.
+fn object_order(few: &Few, budget: u64) -> Racer {
+    let drawn = (0..=few.count()).map(|spheres| few.object_order(spheres));
+    let affordable = drawn.take_while(|(_, counts)| counts.tests <= budget);
+    let (spheres, (hits, counts)) = affordable.enumerate().last().unwrap_or_default();
+    Racer { title: "object order", hits, counts, is_done: spheres == few.count() }
+}
+
+impl Station for Race {
+    fn turn(&mut self, turn: Turn) {
+        self.steps = match turn {
+            Turn::Left => self.steps.saturating_sub(1),
+            Turn::Right => (self.steps + 1).min(STEPS),
+            Turn::Up => STEPS,
+            Turn::Down => 0,
+        };
+    }
+
+    fn draw(&self, canvas: &mut Canvas) {
+        let few = Few::new(SIZE, false);
+        let all = (few.pixels() * few.count()) as u64;
+        let budget = all * self.steps / STEPS;
+        let columns = canvas.columns();
+        canvas.write(0, 0, &format!("{budget} tests each, of at most {all}"), Role::Ray);
+        let room = (columns / 2, canvas.rows() - 5);
+        let below = 1 + Pixels::new((0, 1), room, SIZE).rows();
+        for (left, racer) in
+            [(0, image_order(&few, budget)), (columns / 2, object_order(&few, budget))]
+        {
+            let Racer { title, hits, counts, is_done } = racer;
+            Pixels::new((left, 1), room, SIZE).draw(canvas, |ix, iy| {
+                match hits.get((iy * SIZE.0 + ix) as usize) {
+                    Some(hit) => Pixel::of_sphere(few.shown(*hit), letter),
+                    None => Pixel::WAITING,
+                }
+            });
+            let end = if is_done { "done" } else { "not done" };
+            canvas.write(left + 1, below, &format!("{title}: {end}"), Role::Hit);
+            let Counts { tests, writes } = counts;
+            let lines = [
+                format!("tests {tests}"),
+                format!("writes {}, of these overwrite {}", writes.stored, writes.overwritten),
+            ];
+            canvas.write_lines(left + 1, below + 1, lines);
+        }
+        let words = "spherule tradeoff counts both for any scene.";
+        canvas.write(1, below + 3, words, Role::Faint);
+    }
+}

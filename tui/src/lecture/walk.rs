@@ -1,0 +1,187 @@
+//! The walk from station to station: keys in, pages out, until somebody quits.
+
+use super::frame;
+use super::stations::{STATIONS, Station, Turn};
+use crate::encode::Encoder;
+use crate::error::{Error, cause};
+use crate::style::Style;
+use crate::terminal::Terminal;
+use crossterm::event::{Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
+use std::io;
+use std::time::Duration;
+
+/// Events taken before a page is drawn all the same: whoever pastes a file sees something.
+const LONGEST_BACKLOG: usize = 4096;
+/// As `--size` has it: a terminal that claims more is not believed.
+const LARGEST_SIZE: u16 = 4096;
+
+/// What a key asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Input {
+    Next,
+    Back,
+    Turn(Turn),
+    Reset,
+    Help,
+    Escape,
+    Quit,
+    /// Give the terminal back and stop, until continued.
+    Suspend,
+    /// The terminal has another size.
+    Resize,
+}
+
+/// Where the walk is. No terminal: keys come in.
+struct Walk {
+    index: usize,
+    /// Kept when one goes on, so that coming back finds the numbers that were left.
+    stations: Vec<Box<dyn Station>>,
+    help: bool,
+}
+
+impl Walk {
+    fn new(index: usize) -> Self {
+        let stations = STATIONS.iter().map(|entry| (entry.start)()).collect();
+        Self { index, stations, help: false }
+    }
+
+    /// Does what a key asks for; `false` if that is to quit.
+    fn apply(&mut self, input: Input) -> bool {
+        match input {
+            Input::Next => self.index = (self.index + 1) % STATIONS.len(),
+            Input::Back => self.index = (self.index + STATIONS.len() - 1) % STATIONS.len(),
+            Input::Turn(turn) => self.stations[self.index].turn(turn),
+            Input::Reset => self.stations[self.index] = (STATIONS[self.index].start)(),
+            Input::Escape if !self.help => return false,
+            Input::Help | Input::Escape => self.help = !self.help,
+            Input::Quit => return false,
+            Input::Suspend | Input::Resize => {}
+        }
+        true
+    }
+}
+
+/// Walks from station `index` on.
+///
+/// # Errors
+/// [`Error::Running`] if there is no terminal to read keys from, or it goes away.
+pub(super) fn walk(index: usize, style: Style) -> Result<(), Error> {
+    let mut terminal = Terminal::enter().map_err(|error| lost(&error))?;
+    let mut walk = Walk::new(index);
+    let mut encoder = Encoder::new();
+    loop {
+        show(&terminal, &walk, &mut encoder, style).map_err(|error| lost(&error))?;
+        if !take_input(&mut terminal, &mut walk, &mut encoder).map_err(|error| lost(&error))? {
+            return Ok(());
+        }
+    }
+}
+
+/// The terminal is not there.
+fn lost(error: &io::Error) -> Error {
+    Error::Running(format!("terminal: {}", cause(error)))
+}
+
+fn show(terminal: &Terminal, walk: &Walk, encoder: &mut Encoder, style: Style) -> io::Result<()> {
+    let (columns, rows) = terminal.size()?;
+    let (columns, rows) = (columns.min(LARGEST_SIZE), rows.min(LARGEST_SIZE));
+    if columns == 0 || rows == 0 {
+        return Ok(());
+    }
+    let station = &*walk.stations[walk.index];
+    let page = frame::page(walk.index, station, walk.help, (columns, rows), style);
+    let mut bytes = Vec::new();
+    encoder.encode(page, &mut bytes);
+    terminal.show(&bytes)
+}
+
+/// Waits for input and takes all there is, before a page is drawn; `false` if the user quits.
+fn take_input(terminal: &mut Terminal, walk: &mut Walk, encoder: &mut Encoder) -> io::Result<bool> {
+    let mut wait = None;
+    for _ in 0..LONGEST_BACKLOG {
+        let Some(event) = terminal.next_event(wait)? else { break };
+        wait = Some(Duration::ZERO);
+        let Some(input) = input(&event) else { continue };
+        match input {
+            Input::Suspend => terminal.suspend()?,
+            // The terminal may have moved its cells about, even if the size is the same.
+            Input::Resize => encoder.forget(),
+            _ => {}
+        }
+        if !walk.apply(input) {
+            return Ok(false);
+        }
+    }
+    if terminal.was_resumed() {
+        encoder.forget();
+    }
+    Ok(true)
+}
+
+fn input(event: &Event) -> Option<Input> {
+    let key = match event {
+        Event::Resize(..) => return Some(Input::Resize),
+        Event::Key(key) if key.kind != KeyEventKind::Release => key,
+        _ => return None,
+    };
+    if key.modifiers.contains(KeyModifiers::CONTROL) {
+        return match key.code {
+            KeyCode::Char('c') => Some(Input::Quit),
+            KeyCode::Char('z') => Some(Input::Suspend),
+            _ => None,
+        };
+    }
+    of_key(key)
+}
+
+fn of_key(key: &KeyEvent) -> Option<Input> {
+    Some(match key.code {
+        KeyCode::Char('n') | KeyCode::PageDown => Input::Next,
+        KeyCode::Char('b') | KeyCode::PageUp => Input::Back,
+        KeyCode::Left => Input::Turn(Turn::Left),
+        KeyCode::Right => Input::Turn(Turn::Right),
+        KeyCode::Up => Input::Turn(Turn::Up),
+        KeyCode::Down => Input::Turn(Turn::Down),
+        KeyCode::Char('r') => Input::Reset,
+        KeyCode::Char('?') => Input::Help,
+        KeyCode::Char('q') => Input::Quit,
+        KeyCode::Esc => Input::Escape,
+        _ => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_stations_go_around() {
+        let mut walk = Walk::new(0);
+        for index in 1..=STATIONS.len() {
+            assert!(walk.apply(Input::Next));
+            assert_eq!(walk.index, index % STATIONS.len());
+        }
+        walk.apply(Input::Back);
+        assert_eq!(walk.index, STATIONS.len() - 1);
+    }
+
+    #[test]
+    fn escape_closes_the_help_first() {
+        let mut walk = Walk::new(3);
+        assert!(walk.apply(Input::Help) && walk.help);
+        assert!(walk.apply(Input::Escape) && !walk.help);
+        assert!(!walk.apply(Input::Escape));
+        assert!(!walk.apply(Input::Quit));
+    }
+
+    #[test]
+    fn keys_and_control() {
+        let key = |code, modifiers| input(&Event::Key(KeyEvent::new(code, modifiers)));
+        let none = KeyModifiers::NONE;
+        assert_eq!(key(KeyCode::PageDown, none), Some(Input::Next));
+        assert_eq!(key(KeyCode::Char('b'), none), Some(Input::Back));
+        assert_eq!(key(KeyCode::Char('c'), KeyModifiers::CONTROL), Some(Input::Quit));
+        assert_eq!(key(KeyCode::Char('q'), KeyModifiers::CONTROL), None);
+        assert_eq!(key(KeyCode::Char('x'), none), None);
+    }
+}
