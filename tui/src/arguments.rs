@@ -105,7 +105,7 @@ pub struct PictureArguments {
     /// In place of a picture, write what the ray through the middle of a cell meets, by every tier
     ///
     /// Cells are counted from 0, from the top left of the picture that --once writes. p in the viewer shows the same.
-    #[arg(long, value_name = "COL,ROW", value_parser = cell, conflicts_with = "png", allow_hyphen_values = true)]
+    #[arg(long, value_name = "COL,ROW", value_parser = cell, conflicts_with_all = ["png", "show"], allow_hyphen_values = true)]
     pub pick: Option<(u16, u16)>,
     /// With --pick, write a JSON object
     #[arg(long, requires = "pick")]

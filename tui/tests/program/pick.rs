@@ -193,6 +193,7 @@ fn bad_use() {
         ("--pick", "--pick <COL,ROW>"),
         ("--pick 0,0 --pick 1,1", "--pick"),
         ("--pick 0,0 --png -", "--png"),
+        ("--pick 0,0 --show error", "--show"),
         ("--json", "--pick <COL,ROW>"),
         ("--pick 0,0 scenes", "scenes"),
         ("--pick 0,0 tradeoff", "tradeoff"),
