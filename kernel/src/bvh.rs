@@ -44,4 +44,5 @@ pub(crate) mod tree;
 pub use self::owned::SphereTree;
 pub use build::join::{InTurn, Join};
 pub use node::{BvhLeaf, BvhNode};
+pub use traverse::stream::{QueuedRay, StreamMemory, StreamRay};
 pub use tree::{Bvh, BvhSize};

@@ -36,7 +36,9 @@ mod trace;
 pub use accuracy::{Accuracy, Exact, Fast, Geometric, Stable, Tier};
 #[cfg(feature = "alloc")]
 pub use bvh::SphereTree;
-pub use bvh::{Bvh, BvhLeaf, BvhNode, BvhSize, InTurn, Join};
+pub use bvh::{
+    Bvh, BvhLeaf, BvhNode, BvhSize, InTurn, Join, QueuedRay, StreamMemory, StreamRay,
+};
 pub use coherent::{DepthList, Viewpoint};
 pub use dispatch::{Level, LevelName};
 pub use geometry::camera::{Camera, Projection};

@@ -1,6 +1,7 @@
 //! The scene structures, by the traversals that they have.
 
 use crate::Accuracy;
+use crate::bvh::StreamMemory;
 use crate::bvh::tree::Bvh;
 use crate::coherent::depth_list::DepthList;
 use crate::coherent::{list_source, tree_source};
@@ -83,7 +84,7 @@ macro_rules! traverse {
 }
 
 traverse!(Spheres<'_>, |spheres, trace| linear::traverse = list(*spheres));
-traverse!(Bvh<'_>, |bvh, trace| tree_source::traverse = tree(bvh, trace.coherence));
+traverse!(Bvh<'_>, |bvh, trace| tree_source::traverse = tree(bvh, (trace.coherence, trace.stream.as_mut().map(StreamMemory::again))));
 traverse!(DepthList<'_>, |list, trace| list_source::traverse = depth_list(list, trace.scratch));
 
 /// An owned structure, by what it lends.

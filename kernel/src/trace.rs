@@ -1,5 +1,6 @@
 //! What a caller says of the rays, and of the way in which they are traced.
 
+use crate::bvh::StreamMemory;
 use crate::dispatch::Level;
 
 /// How rays are traced: at which level, what is known of them, and with what working memory. No answer
@@ -22,6 +23,8 @@ pub struct Trace<'m> {
     /// Working memory of a [`DepthList`](crate::DepthList), as long as its `scratch` says; others need
     /// none.
     pub scratch: &'m mut [f32],
+    /// Working memory of a tree's streams; without, incoherent rays are traced one by one.
+    pub stream: Option<StreamMemory<'m>>,
 }
 
 /// What rays that come one after the other have in common.
@@ -39,12 +42,12 @@ pub enum Coherence {
     Incoherent,
 }
 
-impl Trace<'_> {
+impl<'m> Trace<'m> {
     /// At the best level that the CPU has; coherence is detected; no scratch memory.
     #[must_use]
     #[inline]
     pub fn new() -> Self {
-        Self { level: Level::best(), coherence: Coherence::Detect, scratch: &mut [] }
+        Self { level: Level::best(), coherence: Coherence::Detect, scratch: &mut [], stream: None }
     }
 
     /// At `level`.
@@ -67,8 +70,14 @@ impl Trace<'_> {
 
     /// With working memory.
     #[must_use]
-    pub fn with_scratch(self, scratch: &mut [f32]) -> Trace<'_> {
-        Trace { level: self.level, coherence: self.coherence, scratch }
+    pub fn with_scratch(self, scratch: &'m mut [f32]) -> Self {
+        Self { scratch, ..self }
+    }
+
+    /// With memory for streams of incoherent rays.
+    #[must_use]
+    pub fn with_stream(self, memory: StreamMemory<'m>) -> Self {
+        Self { stream: Some(memory), ..self }
     }
 }
 

@@ -10,6 +10,7 @@ mod ray_state;
 pub(crate) mod root_interval;
 pub(crate) mod source;
 mod stack;
+pub(crate) mod stream;
 pub(crate) mod wavefront;
 
 #[cfg(test)]

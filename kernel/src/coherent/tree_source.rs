@@ -18,6 +18,7 @@ use super::packet_state::PacketState;
 use crate::Accuracy;
 use crate::accuracy::RayLanes;
 use crate::bvh::node::{DEPTH, LEAF, NO_CHILD, WIDTH};
+use crate::bvh::traverse::stream::{self, StreamMemory};
 use crate::bvh::traverse::wavefront;
 use crate::bvh::tree::Bvh;
 use crate::geometry::ray::RayPacket;
@@ -43,7 +44,7 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
     tier: impl Accuracy,
     token: L::Token,
     bvh: &Bvh<'_>,
-    coherence: Coherence,
+    (coherence, mut stream): (Coherence, Option<StreamMemory<'_>>),
     rays: &[RayPacket<L::Array>],
     answers: &mut [Q::Packet<L::Array>],
 ) {
@@ -55,7 +56,7 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
         linear::traverse_some::<L, Q>(tier, token, &bvh.outside(), rays, answers);
     }
     if coherence == Coherence::Incoherent {
-        return wavefront::traverse::<L, Q>(tier, token, bvh, rays, answers);
+        return one_by_one::<L, Q>(tier, token, bvh, stream.as_mut(), rays, answers);
     }
     let mut boxes = Boxes::new();
     let nobody = RayPacket::inactive();
@@ -69,7 +70,7 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
         let states = states.get_mut(..group.len()).unwrap_or_default();
         let known = answers.get(at..end).unwrap_or_default();
         if tried && boxes.trace::<L, Q>(tier, token, states, known, bvh) {
-            by_rays::<L, Q>(tier, token, bvh, (unfit, at), rays, answers);
+            by_rays::<L, Q>(tier, token, bvh, stream.as_mut(), (unfit, at), rays, answers);
             for place in 0..group.len() {
                 if let (Some(state), Some(answer)) =
                     (states.get_mut(place), answers.get_mut(at + place))
@@ -83,7 +84,7 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
         }
         at = end;
     }
-    by_rays::<L, Q>(tier, token, bvh, (unfit, count), rays, answers);
+    by_rays::<L, Q>(tier, token, bvh, stream.as_mut(), (unfit, count), rays, answers);
 }
 
 /// Answers a run of packets ray by ray.
@@ -92,6 +93,7 @@ fn by_rays<L: Lanes, Q: Query>(
     tier: impl Accuracy,
     token: L::Token,
     bvh: &Bvh<'_>,
+    stream: Option<&mut StreamMemory<'_>>,
     (from, to): (usize, usize),
     rays: &[RayPacket<L::Array>],
     answers: &mut [Q::Packet<L::Array>],
@@ -99,7 +101,22 @@ fn by_rays<L: Lanes, Q: Query>(
     if from < to
         && let (Some(rays), Some(answers)) = (rays.get(from..to), answers.get_mut(from..to))
     {
-        wavefront::traverse::<L, Q>(tier, token, bvh, rays, answers);
+        one_by_one::<L, Q>(tier, token, bvh, stream, rays, answers);
+    }
+}
+
+#[inline(always)]
+fn one_by_one<L: Lanes, Q: Query>(
+    tier: impl Accuracy,
+    token: L::Token,
+    bvh: &Bvh<'_>,
+    stream: Option<&mut StreamMemory<'_>>,
+    rays: &[RayPacket<L::Array>],
+    answers: &mut [Q::Packet<L::Array>],
+) {
+    match stream {
+        Some(memory) => stream::traverse::<L, Q>(tier, token, bvh, memory, rays, answers),
+        None => wavefront::traverse::<L, Q>(tier, token, bvh, rays, answers),
     }
 }
 

@@ -7,6 +7,7 @@
 
 use super::Level;
 use crate::accuracy::Tier;
+use crate::bvh::StreamMemory;
 use crate::bvh::tree::Bvh;
 use crate::coherent::depth_list::DepthList;
 use crate::coherent::{list_source, tree_source};
@@ -99,7 +100,7 @@ compiled! {
     /// Of a list of spheres.
     fn list(spheres: Spheres<'_>) = linear::traverse;
     /// Of a tree, as the rays are coherent or not.
-    fn tree(bvh: &Bvh<'_>, coherence: Coherence) = tree_source::traverse;
+    fn tree(bvh: &Bvh<'_>, ways: (Coherence, Option<StreamMemory<'_>>)) = tree_source::traverse;
     /// Of a depth list.
     fn depth_list(list: &DepthList<'_>, scratch: &mut [f32]) = list_source::traverse;
 }

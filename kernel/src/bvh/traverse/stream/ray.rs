@@ -1,0 +1,164 @@
+//! A ray of a stream: what nodes and leaves ask of it, and what it has found.
+
+use crate::accuracy::Accuracy;
+use crate::bvh::node::{BvhLeaf, WIDTH, octant_of};
+use crate::bvh::traverse::prepared_ray::PreparedPacket;
+use crate::bvh::traverse::root_interval::RayProbe;
+use crate::lanes::{LaneArray, LaneMask, Lanes};
+use crate::numeric::axes::axes;
+
+/// Memory for a ray of a stream. 128 bytes: a line that nodes read, and one that leaves read besides.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub struct StreamRay {
+    /// As in [`PreparedPacket`].
+    inverse: [f32; 3],
+    minus_inverse: [f32; 3],
+    minus_near: [f32; 3],
+    far: [f32; 3],
+    /// From where to where boxes matter.
+    start_of_boxes: f32,
+    pub(super) end_of_boxes: f32,
+    /// The sphere that may be the closest, by its place in the leaves, and the s that no answer of it is below; NaN if
+    /// there is none.
+    pub(super) place: u32,
+    pub(super) entry: f32,
+
+    /// As in [`PreparedPacket`].
+    origin: [f32; 3],
+    direction: [f32; 3],
+    start: [f32; 2],
+    end: f32,
+    absolute_error: f32,
+    raise: f32,
+    spread: f32,
+    /// Some answer, or the end of the interval, is not above.
+    pub(super) best: f32,
+    /// The octant of its direction; [`NO_OCTANT`](Self::NO_OCTANT) if it is not in the stream.
+    pub(super) octant: u32,
+}
+
+impl StreamRay {
+    /// No ray: what memory for a stream is filled with.
+    pub const EMPTY: Self = Self {
+        inverse: [0.0; 3],
+        minus_inverse: [0.0; 3],
+        minus_near: [0.0; 3],
+        far: [0.0; 3],
+        start_of_boxes: 0.0,
+        end_of_boxes: 0.0,
+        place: 0,
+        entry: f32::NAN,
+        origin: [0.0; 3],
+        direction: [0.0; 3],
+        start: [0.0; 2],
+        end: 0.0,
+        absolute_error: 0.0,
+        raise: 0.0,
+        spread: 0.0,
+        best: 0.0,
+        octant: Self::NO_OCTANT,
+    };
+
+    /// Of a lane that is in no stream.
+    pub(super) const NO_OCTANT: u32 = 8;
+
+    /// Takes lane `lane` of a prepared packet.
+    #[inline(always)]
+    pub(super) fn begin<A: LaneArray>(
+        &mut self,
+        tier: impl Accuracy,
+        prepared: &PreparedPacket<A>,
+        lane: usize,
+    ) {
+        let spread = prepared.spread.get(lane);
+        let (start, best) = (prepared.start[0].get(lane), prepared.end[1].get(lane));
+        self.inverse = axes!(i => prepared.inverse[i].get(lane));
+        self.minus_inverse = axes!(i => prepared.minus_inverse[i].get(lane));
+        self.minus_near = axes!(i => prepared.minus_near[i].get(lane));
+        self.far = axes!(i => prepared.far[i].get(lane));
+        self.start_of_boxes = start - spread;
+        self.end_of_boxes = best + spread;
+        self.entry = f32::NAN;
+        self.origin = axes!(i => prepared.origin[i].get(lane));
+        self.direction = axes!(i => prepared.direction[i].get(lane));
+        self.start = [start, prepared.start[1].get(lane)];
+        self.end = prepared.end[0].get(lane);
+        self.absolute_error = prepared.absolute_error.get(lane);
+        self.raise = prepared.time(lane).raise(tier);
+        self.spread = spread;
+        self.best = best;
+        self.octant = octant_of(axes!(i => prepared.down[i] >> (lane % 32) & 1 == 1));
+    }
+
+    /// Which of sixteen boxes the ray enters, a bit each, and the s at which it does.
+    #[inline(always)]
+    pub(super) fn enter<L: Lanes>(
+        &self,
+        token: L::Token,
+        nearer: [&[f32; WIDTH]; 3],
+        farther: [&[f32; WIDTH]; 3],
+    ) -> (u32, [f32; WIDTH]) {
+        let inverse = axes!(i => L::splat(token, self.inverse[i]));
+        let minus_inverse = axes!(i => L::splat(token, self.minus_inverse[i]));
+        let minus_near = axes!(i => L::splat(token, self.minus_near[i]));
+        let far = axes!(i => L::splat(token, self.far[i]));
+        let start = L::splat(token, self.start_of_boxes);
+        let minus_end = L::splat(token, -self.end_of_boxes);
+        let (mut met, mut entries) = (0, [0.0; WIDTH]);
+        for part in 0..WIDTH / L::COUNT {
+            let entry = axes!(i => {
+                L::load_part(token, nearer[i], part).filter_mul_add(inverse[i], minus_near[i])
+            });
+            let minus_leave = axes!(i => {
+                L::load_part(token, farther[i], part).filter_mul_add(minus_inverse[i], far[i])
+            });
+            let entry = entry[0].filter_max(entry[1]).filter_max(entry[2].filter_max(start));
+            let minus_leave = minus_leave[0]
+                .filter_max(minus_leave[1])
+                .filter_max(minus_leave[2].filter_max(minus_end));
+            met |= entry.le(-minus_leave).bits() << (part * L::COUNT);
+            entry.store().put_part(&mut entries, part);
+        }
+        (met, entries)
+    }
+
+    /// The ray in all lanes, as leaves see it.
+    #[inline(always)]
+    pub(super) fn probe<L: Lanes>(&self, token: L::Token, spread: f32) -> RayProbe<L> {
+        RayProbe {
+            origin: axes!(i => L::splat(token, self.origin[i])),
+            direction: axes!(i => L::splat(token, self.direction[i])),
+            start: [L::splat(token, self.start[0]), L::splat(token, self.start[1])],
+            end: [L::splat(token, self.end), L::splat(token, self.best)],
+            absolute_error: L::splat(token, self.absolute_error),
+            raise: L::splat(token, self.raise),
+            spread,
+        }
+    }
+
+    /// Which spheres of a leaf to look at, a bit each.
+    #[inline(always)]
+    pub(super) fn may_hit<L: Lanes, const SPREADS: bool>(
+        &self,
+        token: L::Token,
+        spread: f32,
+        leaf: &BvhLeaf,
+    ) -> u32 {
+        let probe = self.probe::<L>(token, spread);
+        let mut spheres = 0;
+        for part in 0..WIDTH / L::COUNT {
+            spheres |= probe.may_hit::<SPREADS>(&leaf.columns(), part) << (part * L::COUNT);
+        }
+        spheres
+    }
+
+    /// Takes an s that some answer is not above, if it is less than what is known.
+    #[inline(always)]
+    pub(super) fn shorten(&mut self, bound: f32) {
+        if bound < self.best {
+            self.best = bound;
+            self.end_of_boxes = bound + self.spread;
+        }
+    }
+}
