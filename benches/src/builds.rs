@@ -4,7 +4,7 @@
 use crate::engine::embree::{self, Embree};
 use crate::engine::{Engine, bvh, obvhs, parry};
 use crate::rounds::{Sampler, Samples, timed};
-use spherule_kernel::{BvhLeaf, BvhNode, InTurn, SphereTree, Spheres};
+use spherule_kernel::{BvhNode, InTurn, SphereTree, Spheres};
 use spherule_tests::scenes::Scene;
 use std::rc::Rc;
 use std::time::Duration;
@@ -69,7 +69,7 @@ impl Builds {
             all.push((name, Box::new(sample)));
         }
         let (size, depth) = (trees.ours.bvh().size(), trees.ours.bvh().depth());
-        let bytes = size.nodes * size_of::<BvhNode>() + size.leaves * size_of::<BvhLeaf>();
+        let bytes = size.nodes * size_of::<BvhNode>() + size.places * size_of::<[f32; 5]>();
         let bytes = bytes as f64 / spheres.len().max(1) as f64;
         Self { bytes, depth, times: Samples::take(all, Duration::ZERO, rounds..=rounds) }
     }

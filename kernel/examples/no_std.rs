@@ -6,9 +6,7 @@
 
 extern crate std;
 
-use spherule_kernel::{
-    Bvh, BvhLeaf, BvhNode, Hit, Intersect, Ray, Spheres, Stable, TooSmall, Vec3,
-};
+use spherule_kernel::{Bvh, BvhNode, Hit, Intersect, Ray, Spheres, Stable, TooSmall, Vec3};
 
 static X: [f32; 4] = [0.0, 2.0, -2.0, 0.0];
 static Y: [f32; 4] = [0.0, 0.0, 0.0, 2.0];
@@ -20,8 +18,9 @@ const NEEDED: spherule_kernel::BvhSize = Bvh::needed(X.len());
 /// The closest hit along z, as firmware may compute it: no heap, no panic.
 fn look(from: Vec3) -> Result<Option<Hit>, TooSmall> {
     let Ok(spheres) = Spheres::new(&X, &Y, &Z, &RADIUS) else { return Ok(None) };
-    let (mut nodes, mut leaves) = ([BvhNode::EMPTY; NEEDED.nodes], [BvhLeaf::EMPTY; NEEDED.leaves]);
-    let tree = Bvh::build(spheres, &mut nodes, &mut leaves)?;
+    let mut nodes = [BvhNode::EMPTY; NEEDED.nodes];
+    let (mut places, mut indices) = ([[0.0; 4]; NEEDED.places], [0; NEEDED.places]);
+    let tree = Bvh::build(spheres, &mut nodes, &mut places, &mut indices)?;
     Ok(tree.closest_hit(Stable, &Ray::new(from, Vec3::Z)))
 }
 

@@ -4,11 +4,14 @@
 //!
 //! Sphere i is in the box c -+ r, rounded outward. A node holds the boxes of up to sixteen
 //! children, coordinate by coordinate, so that one ray is tested against all of them at once; a leaf
-//! holds up to sixteen spheres in the same way. The [build](Bvh::build) goes from the root down by
-//! the surface area heuristic (Wald 2007: sixteen bins an axis), and cuts at multiples of sixteen
-//! spheres only: then every leaf except the last is full, and the memory needed is known before.
-//! Incoherent rays are traced ray by ray (`bvh/traverse/wavefront.rs`); packets that look the same way go
-//! down together (`coherent/tree_source.rs`).
+//! holds up to sixteen spheres in the same way, as many as it has: leaves lie one behind the other. The
+//! [build](Bvh::build) goes from the root down by the surface area heuristic (Wald 2007: sixteen bins an axis), and a
+//! budget of nodes and places bounds the memory (`bvh/build/budget.rs`). Of spheres that are the same one is in the
+//! tree, with the lowest index.
+//!
+//! Incoherent rays are traced ray by ray (`bvh/traverse/wavefront.rs`), or, with memory for it, in queues that go
+//! down together (`bvh/traverse/stream.rs`); packets that look the same way go down as groups
+//! (`coherent/tree_source.rs`).
 //!
 //! # What is guaranteed
 //!
@@ -27,13 +30,13 @@
 //!
 //! # Depth
 //!
-//! A node over m leaves gives none of its children more than m/8 of them, rounded up, or 16, whatever
-//! the heuristic prefers (`bvh/build/children.rs`). There are at most 2^28 leaves, and a node over at most
-//! sixteen has only leaves for children: nodes stand nine deep at most, for 2^28, 2^25, ..
-//! 2^4 leaves.
+//! A node over n spheres gives none of its children more than n/8 of them, rounded up, or 256, where the heuristic
+//! chooses (`bvh/build/children.rs`), and in equal parts the largest 16^k below n. A node over at most 256 has only
+//! leaves for children. Of 2^27 spheres, which are the most, that is ten nodes one below the other.
 
 mod build;
 mod built;
+pub(crate) mod leaf;
 pub(crate) mod node;
 #[cfg(feature = "alloc")]
 pub(crate) mod owned;
@@ -43,6 +46,6 @@ pub(crate) mod tree;
 #[cfg(feature = "alloc")]
 pub use self::owned::SphereTree;
 pub use build::join::{InTurn, Join};
-pub use node::{BvhLeaf, BvhNode};
+pub use node::BvhNode;
 pub use traverse::stream::{QueuedRay, StreamMemory, StreamRay};
 pub use tree::{Bvh, BvhSize};

@@ -103,17 +103,14 @@ pub trait Lanes:
     /// The lanes in which `mask` is true, in their order, from the first lane on; what the lanes
     /// behind them hold is not said.
     fn compress(self, mask: Self::Mask) -> Self;
-    /// Lane `i` from lane `order >> 4 i & 15`, for up to sixteen lanes; of a lane that is not there,
-    /// from any.
+    /// Bit `i` from bit `order >> 4 i & 15` of sixteen.
     #[inline(always)]
-    fn in_order(self, order: u64) -> Self {
-        let array = self.store();
-        let mut ordered = array;
-        for lane in 0..Self::COUNT {
-            let from = (order >> (4 * lane as u32 % u64::BITS)) as usize % 16 % Self::COUNT;
-            ordered.set(lane, array.get(from));
+    fn bits_in_order(_: Self::Token, bits: u32, order: u64) -> u32 {
+        let mut ordered = 0;
+        for place in 0..16 {
+            ordered |= (bits >> (order >> (4 * place) & 15) & 1) << place;
         }
-        Self::load(self.token(), &ordered)
+        ordered
     }
     /// The largest lane; any lane where one is NaN: for filters.
     #[inline(always)]

@@ -36,9 +36,7 @@ mod trace;
 pub use accuracy::{Accuracy, Exact, Fast, Geometric, Stable, Tier};
 #[cfg(feature = "alloc")]
 pub use bvh::SphereTree;
-pub use bvh::{
-    Bvh, BvhLeaf, BvhNode, BvhSize, InTurn, Join, QueuedRay, StreamMemory, StreamRay,
-};
+pub use bvh::{Bvh, BvhNode, BvhSize, InTurn, Join, QueuedRay, StreamMemory, StreamRay};
 pub use coherent::{DepthList, Viewpoint};
 pub use dispatch::{Level, LevelName};
 pub use geometry::camera::{Camera, Projection};

@@ -84,7 +84,8 @@ macro_rules! traverse {
 }
 
 traverse!(Spheres<'_>, |spheres, trace| linear::traverse = list(*spheres));
-traverse!(Bvh<'_>, |bvh, trace| tree_source::traverse = tree(bvh, (trace.coherence, trace.stream.as_mut().map(StreamMemory::again))));
+traverse!(Bvh<'_>, |bvh, trace| tree_source::traverse =
+    tree(bvh, (trace.coherence, trace.stream.as_mut().map(StreamMemory::again))));
 traverse!(DepthList<'_>, |list, trace| list_source::traverse = depth_list(list, trace.scratch));
 
 /// An owned structure, by what it lends.

@@ -11,9 +11,9 @@ mod surfaces;
 pub use difference::{assert_same, assert_same_from, bits, difference};
 pub use pairs::{pair_storeys, pairs_of};
 use spherule_kernel::{
-    Coherence, DepthList, Hit, HitPacket, Intersect, LaneArray, Lanes, Level, LevelName, Ray,
-    RayPacket, Sphere, SphereList, SpherePacket, SphereTree, Tier, Trace, Vec3, Viewpoint, f32x4,
-    f32x8, f32x16, pair_lanes,
+    Coherence, DepthList, Hit, HitPacket, Intersect, LaneArray, Lanes, Level, LevelName, QueuedRay,
+    Ray, RayPacket, Sphere, SphereList, SpherePacket, SphereTree, StreamMemory, StreamRay, Tier,
+    Trace, Vec3, Viewpoint, f32x4, f32x8, f32x16, pair_lanes,
 };
 pub use surfaces::{shadow_rays_of, surface_storeys, surfaces_of};
 
@@ -26,6 +26,8 @@ pub enum Structure {
     DepthList(usize),
     /// A tree, and what is said of its rays.
     Tree(Coherence),
+    /// A tree whose rays go as a stream, with memory for so many at a time.
+    Stream(usize),
 }
 
 /// How rays come to the door, and in which lanes they go on.
@@ -71,7 +73,8 @@ pub fn levels() -> impl Iterator<Item = LevelName> {
     LevelName::ALL.into_iter().filter(|&name| Level::named(name).is_some())
 }
 
-/// The whole table: of a list every lane width; of the larger structures, whose source is the same in every width, two.
+/// The whole table: of a list every lane width; of the larger structures, whose source is the same in every width,
+/// two.
 pub fn variants() -> impl Iterator<Item = Variant> {
     let of = |structure, storeys: Vec<Storey>| {
         let variant = move |tier| {
@@ -96,6 +99,8 @@ pub fn variants() -> impl Iterator<Item = Variant> {
         .chain(of(Structure::Tree(Coherence::Detect), plain.to_vec()))
         .chain(of(Structure::Tree(Coherence::Coherent), all(&[1, 8])))
         .chain(of(Structure::Tree(Coherence::Incoherent), all(&[1, 8])))
+        .chain(of(Structure::Stream(1024), all(&[1, 8])))
+        .chain(of(Structure::Stream(16), vec![Storey::Packets(Level::best().name())]))
 }
 
 /// The variants of lists that have loops of their own: rays and slices of them go through packets.
@@ -178,6 +183,14 @@ impl Variant {
             }
             Structure::Tree(coherence) => {
                 self.ask_of(tree, Trace { coherence, ..Trace::new() }, rays)
+            }
+            Structure::Stream(count) => {
+                // The least that queues need for few, and for more what they like to have.
+                let needed = StreamMemory::queues_needed(count);
+                let queues = if count < 100 { needed } else { needed + 32 * count };
+                let mut memory = (vec![StreamRay::EMPTY; count], vec![QueuedRay::EMPTY; queues]);
+                let memory = StreamMemory::new(&mut memory.0, &mut memory.1).expect("enough");
+                self.ask_of(tree, Trace::new().incoherent().with_stream(memory), rays)
             }
         }
     }

@@ -4,7 +4,8 @@ use super::scenes::{EYE, camera, mixed, parallel, uniform};
 use super::{BOTH, EXACT};
 use spherule_kernel::bvh::Join;
 use spherule_kernel::{
-    Bvh, BvhLeaf, BvhNode, DepthList, Sphere, SphereList, SphereTree, Vec3, Viewpoint,
+    Bvh, BvhNode, DepthList, QueuedRay, Sphere, SphereList, SphereTree, StreamMemory, StreamRay,
+    TooSmall, Vec3, Viewpoint,
 };
 use spherule_tests::random::Random;
 use spherule_tests::variants::{assert_same, assert_same_from};
@@ -35,18 +36,41 @@ fn too_little_memory_for_a_tree() {
         let list = SphereList::from(uniform(count));
         let needed = Bvh::needed(count);
         let mut nodes = vec![BvhNode::EMPTY; needed.nodes];
-        let mut leaves = vec![BvhLeaf::EMPTY; needed.leaves];
-        for (n, l) in [(needed.nodes - 1, needed.leaves), (needed.nodes, needed.leaves - 1), (0, 0)]
-        {
-            let error = Bvh::build(list.spheres(), &mut nodes[..n], &mut leaves[..l])
+        let (mut places, mut indices) = (vec![[0.0; 4]; needed.places], vec![0; needed.places]);
+        let few = |all: usize| all.saturating_sub(1);
+        for (n, p, i) in [
+            (few(needed.nodes), needed.places, needed.places),
+            (needed.nodes, needed.places - 1, needed.places),
+            (needed.nodes, needed.places, needed.places - 1),
+            (0, 0, 0),
+        ] {
+            if (n, p, i) == (needed.nodes, needed.places, needed.places) {
+                continue;
+            }
+            let (places, indices) = (&mut places[..p], &mut indices[..i]);
+            let error = Bvh::build(list.spheres(), &mut nodes[..n], places, indices)
                 .expect_err("less than needed");
             assert!(error.given < error.needed, "{error:?}");
             assert!(error.to_string().contains(&error.needed.to_string()), "{error}");
         }
-        assert!(Bvh::build(list.spheres(), &mut nodes, &mut leaves).is_ok());
+        assert!(Bvh::build(list.spheres(), &mut nodes, &mut places, &mut indices).is_ok());
     }
-    let all = Bvh::needed(u32::MAX as usize);
-    assert_eq!(all.leaves, (1 << 28) + 1);
+    // As many as places can be told apart, and one more, for which no memory is enough.
+    let most = Bvh::needed(1 << 27);
+    assert!(most.nodes * 512 + most.places * 20 <= 40 << 27, "{most:?}");
+    assert_eq!(Bvh::needed((1 << 27) + 1).places, usize::MAX);
+    assert_eq!(Bvh::needed(usize::MAX).nodes, usize::MAX);
+}
+
+#[test]
+fn too_little_memory_for_a_stream() {
+    assert_eq!(StreamMemory::queues_needed(1 << 24), (1 << 24) + 256);
+    let (mut rays, mut queues) = ([StreamRay::EMPTY; 16], [QueuedRay::EMPTY; 272]);
+    let error = StreamMemory::new(&mut rays[..15], &mut queues).expect_err("no packet has room");
+    assert_eq!(error, TooSmall { needed: 16, given: 15 });
+    let error = StreamMemory::new(&mut rays, &mut queues[..271]).expect_err("a level has no room");
+    assert_eq!(error, TooSmall { needed: 272, given: 271 });
+    assert!(StreamMemory::new(&mut rays, &mut queues).is_ok());
 }
 
 #[test]

@@ -14,9 +14,9 @@ fn build(name: &str, spheres: &[Sphere]) {
     let elapsed = start.elapsed();
     let (size, depth, needed) = (tree.bvh().size(), tree.bvh().depth(), Bvh::needed(count));
     println!("{name}: {size:?} of {needed:?}, depth {depth}, {elapsed:?}");
-    assert!(size.nodes <= needed.nodes && size.leaves <= needed.leaves, "{name}: {size:?}");
-    assert!(size.nodes * 512 + size.leaves * 320 <= 40 * count + 1152, "{name}: {size:?}");
-    assert!(depth <= 9, "{name}: depth {depth}");
+    assert!(size.nodes <= needed.nodes && size.places <= needed.places, "{name}: {size:?}");
+    assert!(size.nodes * 512 + size.places * 20 <= 40 * count + 700, "{name}: {size:?}");
+    assert!(depth <= 8, "{name}: depth {depth}");
     let most = Duration::from_secs(2) + Duration::from_micros(5) * count as u32;
     assert!(elapsed < most, "{name}: {elapsed:?}");
 }

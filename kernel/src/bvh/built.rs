@@ -6,8 +6,11 @@ use crate::scale::scene::SceneScale;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Built {
     pub(crate) nodes: usize,
-    pub(crate) leaves: usize,
-    /// Leaves of no node, behind the others.
+    /// How many numbers there are before the leaves.
+    pub(crate) shift: usize,
+    /// Of the leaves.
+    pub(crate) places: usize,
+    /// Spheres of no leaf, whose indices are behind those of the leaves.
     pub(crate) outside: usize,
     /// A node, a leaf with [`LEAF`](super::node::LEAF) set, or [`NO_CHILD`](super::node::NO_CHILD).
     pub(crate) root: u32,

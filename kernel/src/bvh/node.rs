@@ -1,15 +1,13 @@
-//! Nodes and leaves, as they lie in memory.
+//! Nodes, as they lie in memory.
 
-use super::traverse::root_interval::SphereColumns;
-use crate::geometry::sphere::Sphere;
 pub(crate) use crate::lanes::WIDTH;
-use glam::Vec3;
 
 /// How many nodes lie one below the other at most.
-pub(crate) const DEPTH: usize = 9;
-/// A child that is not there. No leaf has that number: there are fewer than 2^29.
+pub(crate) const DEPTH: usize = 10;
+/// A child that is not there. No leaf has that number: a leaf's has three zeros.
 pub(crate) const NO_CHILD: u32 = u32::MAX;
-/// Set where a child is a leaf; the other bits are its place among nodes or leaves.
+/// Set where a child is a leaf; the other bits are its place among nodes, or what [`leaf_at`](super::leaf::leaf_at)
+/// says.
 pub(crate) const LEAF: u32 = 1 << 31;
 
 /// The boxes of up to sixteen children, where they are, and in which order rays meet them. 512 bytes.
@@ -35,39 +33,6 @@ impl BvhNode {
         child: [NO_CHILD; WIDTH],
         order: [0; 8],
     };
-}
-
-/// Up to sixteen spheres, in the order of their indices. 320 bytes.
-#[derive(Clone, Copy, Debug)]
-#[repr(C, align(64))]
-pub struct BvhLeaf {
-    pub(crate) center: [[f32; WIDTH]; 3],
-    /// NaN where there is no sphere: no comparison with it is true.
-    pub(crate) radius: [f32; WIDTH],
-    /// The index in the list of spheres.
-    pub(crate) index: [u32; WIDTH],
-}
-
-impl BvhLeaf {
-    /// A leaf without spheres: what memory for a tree is filled with.
-    pub const EMPTY: Self =
-        Self { center: [[0.0; WIDTH]; 3], radius: [f32::NAN; WIDTH], index: [u32::MAX; WIDTH] };
-
-    /// The spheres, as bounds see them.
-    #[inline(always)]
-    pub(crate) fn columns(&self) -> SphereColumns<'_> {
-        let [x, y, z] = &self.center;
-        SphereColumns { center: [x, y, z], radius: &self.radius }
-    }
-
-    /// The sphere at a place of the leaf, as bounds see it, and its index.
-    #[inline(always)]
-    pub(crate) fn sphere(&self, place: usize) -> (Sphere, u32) {
-        let place = place % WIDTH;
-        let [x, y, z] = &self.center;
-        let center = Vec3::new(x[place], y[place], z[place]);
-        (Sphere { center, radius: self.radius[place] }, self.index[place])
-    }
 }
 
 /// The number of an octant: bit i is set where directions run down along axis i.

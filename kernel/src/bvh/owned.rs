@@ -3,14 +3,16 @@
 use super::build::join::{InTurn, Join};
 use super::build::top_down;
 use super::built::Built;
-use super::node::{BvhLeaf, BvhNode};
+use super::leaf::{BEFORE, BEHIND};
+use super::node::BvhNode;
 use super::tree::Bvh;
 use crate::geometry::sphere_list::SphereList;
 use alloc::collections::TryReserveError;
 use alloc::vec::Vec;
+use core::iter::repeat_n;
 
-/// A tree over spheres that owns both: the owned form of [`Bvh`]. 54 bytes a sphere at most, of which 16
-/// are the list.
+/// A tree over spheres that owns both: the owned form of [`Bvh`]. 56 bytes a sphere at most, of which 16
+/// are the list; while it is built as much as that, then what it needs.
 ///
 /// ```
 /// use spherule_kernel::{Exact, Intersect, Ray, SphereTree, Vec3};
@@ -23,7 +25,8 @@ use alloc::vec::Vec;
 pub struct SphereTree {
     spheres: SphereList,
     nodes: Vec<BvhNode>,
-    leaves: Vec<BvhLeaf>,
+    places: Vec<[f32; 4]>,
+    indices: Vec<u32>,
     built: Built,
 }
 
@@ -34,8 +37,11 @@ impl SphereTree {
     #[must_use]
     pub fn new(spheres: impl Into<SphereList>) -> Self {
         let spheres = spheres.into();
-        let (nodes, leaves) = memory(&spheres);
-        Self::in_memory(&InTurn, spheres, nodes, leaves)
+        let needed = Bvh::needed(spheres.spheres().len());
+        let nodes = repeat_n(BvhNode::EMPTY, needed.nodes).collect();
+        let places = repeat_n([0.0; 4], needed.places).collect();
+        let indices = repeat_n(0, needed.places).collect();
+        Self::in_memory(&InTurn, spheres, (nodes, places, indices))
     }
 
     /// Builds a tree with several pieces of work at once, on threads of the caller's: the same tree.
@@ -44,29 +50,38 @@ impl SphereTree {
     /// `TryReserveError` if there is no memory.
     pub fn build_with(join: &impl Join, spheres: SphereList) -> Result<Self, TryReserveError> {
         let needed = Bvh::needed(spheres.spheres().len());
-        let (mut nodes, mut leaves) = (Vec::new(), Vec::new());
+        let (mut nodes, mut places, mut indices) = (Vec::new(), Vec::new(), Vec::new());
         nodes.try_reserve_exact(needed.nodes)?;
-        leaves.try_reserve_exact(needed.leaves)?;
+        places.try_reserve_exact(needed.places)?;
+        indices.try_reserve_exact(needed.places)?;
         nodes.resize(needed.nodes, BvhNode::EMPTY);
-        leaves.resize(needed.leaves, BvhLeaf::EMPTY);
-        Ok(Self::in_memory(join, spheres, nodes, leaves))
+        places.resize(needed.places, [0.0; 4]);
+        indices.resize(needed.places, 0);
+        Ok(Self::in_memory(join, spheres, (nodes, places, indices)))
     }
 
-    /// The memory is as large as needed.
+    /// The memory is as large as needed; what is left is given back.
     fn in_memory(
         join: &impl Join,
         spheres: SphereList,
-        mut nodes: Vec<BvhNode>,
-        mut leaves: Vec<BvhLeaf>,
+        (mut nodes, mut places, mut indices): (Vec<BvhNode>, Vec<[f32; 4]>, Vec<u32>),
     ) -> Self {
-        let built = top_down::build(join, &spheres.spheres(), &mut nodes, &mut leaves);
-        Self { spheres, nodes, leaves, built }
+        let list = spheres.spheres();
+        let built = top_down::build(join, &list, &mut nodes, &mut places, &mut indices);
+        nodes.truncate(built.nodes);
+        nodes.shrink_to_fit();
+        places.truncate(BEFORE + built.places + BEHIND);
+        places.shrink_to_fit();
+        indices.truncate(built.places + built.outside);
+        indices.shrink_to_fit();
+        Self { spheres, nodes, places, indices, built }
     }
 
     /// The tree, borrowed: a few words.
     #[must_use]
     pub fn bvh(&self) -> Bvh<'_> {
-        Bvh::of(self.built, self.spheres.spheres(), &self.nodes, &self.leaves)
+        let (places, indices) = (&self.places, &self.indices);
+        Bvh::of(self.built, self.spheres.spheres(), &self.nodes, places, indices)
     }
 
     /// The list that the tree was built from.
@@ -74,11 +89,4 @@ impl SphereTree {
     pub const fn list(&self) -> &SphereList {
         &self.spheres
     }
-}
-
-fn memory(spheres: &SphereList) -> (Vec<BvhNode>, Vec<BvhLeaf>) {
-    let needed = Bvh::needed(spheres.spheres().len());
-    let nodes = core::iter::repeat_n(BvhNode::EMPTY, needed.nodes).collect();
-    let leaves = core::iter::repeat_n(BvhLeaf::EMPTY, needed.leaves).collect();
-    (nodes, leaves)
 }

@@ -1,34 +1,38 @@
 //! The tree, borrowed.
 
+use super::build::budget::{nodes_needed, places_needed, spare_nodes, spare_places};
 use super::build::join::{InTurn, Join};
 use super::build::top_down;
 use super::built::Built;
-use super::node::{BvhLeaf, BvhNode, DEPTH, LEAF, NO_CHILD, WIDTH};
-use super::traverse::source::{InsideSpheres, OutsideLeaves, SphereSource};
+use super::leaf::{BEFORE, BEHIND, Leaf, MOST_PLACES, extent_of, number_of};
+use super::node::{BvhNode, DEPTH, LEAF, NO_CHILD, WIDTH};
+use super::traverse::source::{InsideSpheres, OutsideSpheres, SphereSource};
 use crate::geometry::sphere::{Sphere, Spheres};
 use crate::memory::TooSmall;
 use crate::scale::scene::SceneScale;
+use glam::Vec3;
 
 /// How much memory a tree takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BvhSize {
     /// Nodes, of 512 bytes.
     pub nodes: usize,
-    /// Leaves, of 320 bytes.
-    pub leaves: usize,
+    /// Places of spheres, of 16 bytes, and as many indices, of 4.
+    pub places: usize,
 }
 
 /// A tree over a list of spheres, in memory of the caller's.
 ///
-/// It keeps the list that it was built from, and holds copies of its spheres in their order.
+/// It keeps the list that it was built from, and holds copies of its spheres in an order of its own.
 ///
 /// ```
-/// use spherule_kernel::{Bvh, BvhLeaf, BvhNode, Exact, Intersect, Ray, Spheres, Vec3};
+/// use spherule_kernel::{Bvh, BvhNode, Exact, Intersect, Ray, Spheres, Vec3};
 ///
-/// // No heap: memory for up to sixteen spheres.
+/// // No heap: memory for two spheres.
 /// let spheres = Spheres::new(&[0.0, 0.0], &[0.0, 0.0], &[5.0, 9.0], &[1.0, 1.0]).expect("equal lengths");
-/// let (mut nodes, mut leaves) = ([BvhNode::EMPTY; 1], [BvhLeaf::EMPTY; 2]);
-/// let tree = Bvh::build(spheres, &mut nodes, &mut leaves)?;
+/// const NEEDED: usize = Bvh::needed(2).places;
+/// let (mut nodes, mut places, mut indices) = ([], [[0.0; 4]; NEEDED], [0; NEEDED]);
+/// let tree = Bvh::build(spheres, &mut nodes, &mut places, &mut indices)?;
 /// let hit = tree.closest_hit(Exact, &Ray::new(Vec3::ZERO, Vec3::Z));
 /// assert_eq!(hit.map(|hit| (hit.t, hit.sphere)), Some((4.0, 0)));
 /// # Ok::<(), spherule_kernel::TooSmall>(())
@@ -38,10 +42,12 @@ pub struct Bvh<'a> {
     /// The list that it was built from.
     pub(crate) spheres: Spheres<'a>,
     pub(crate) nodes: &'a [BvhNode],
-    /// Those of the tree, in its order, scaled.
-    pub(crate) leaves: &'a [BvhLeaf],
-    /// Leaves of no node: spheres that no bound sees, as they were given.
-    pub(crate) outside: &'a [BvhLeaf],
+    /// The leaves, scaled: what [`Leaf::of`] reads.
+    pub(crate) numbers: &'a [f32],
+    /// The index of each place.
+    pub(crate) indices: &'a [u32],
+    /// Spheres that no bound sees.
+    pub(crate) outside: &'a [u32],
     /// A node, a leaf with [`LEAF`] set, or [`NO_CHILD`].
     pub(crate) root: u32,
     /// How bounds see lengths.
@@ -58,32 +64,43 @@ impl SphereSource for Bvh<'_> {
 
     #[inline(always)]
     fn sphere_at(&self, place: u32) -> Option<(Sphere, u32)> {
-        match self.leaves.get(place as usize / WIDTH) {
-            Some(leaf) => {
-                let (scaled, index) = leaf.sphere(place as usize);
-                Some((self.scale.restored(&scaled), index))
+        let (number, lane) = number_of(place);
+        let (begin, lanes) = extent_of(number);
+        let at = 4 * begin + lane;
+        match (
+            self.numbers.get(at),
+            self.numbers.get(at + lanes),
+            self.numbers.get(at + 2 * lanes),
+            self.numbers.get(at + 3 * lanes),
+            self.indices.get(begin + lane),
+        ) {
+            (Some(&x), Some(&y), Some(&z), Some(&radius), Some(&index)) => {
+                Some((self.scale.restored(&Sphere { center: Vec3::new(x, y, z), radius }), index))
             }
-            None => None,
+            _ => None,
         }
     }
 }
 
 impl<'a> Bvh<'a> {
-    /// The memory that any list of `count` spheres needs: 38 bytes a sphere at most, and 832 bytes.
+    /// The memory that any list of `count` spheres needs: 40 bytes a sphere at most, and 700 bytes. What a tree takes
+    /// of it, [`size`](Bvh::size) says: 24 to 36.
     ///
-    /// All leaves except one are full, and one more keeps the spheres of other sizes than the rest: count/16,
-    /// rounded up, and one; of nodes 8/15 of the leaves are enough (`docs/traversal-margins.md`).
+    /// More than 2^27 spheres are too many: no memory is enough then.
     ///
     /// ```
     /// use spherule_kernel::{Bvh, BvhSize};
     ///
-    /// assert_eq!(Bvh::needed(100), BvhSize { nodes: 4, leaves: 8 });
+    /// assert_eq!(Bvh::needed(100), BvhSize { nodes: 3, places: 133 });
     /// ```
     #[must_use]
     pub const fn needed(count: usize) -> BvhSize {
-        let full = count.div_ceil(WIDTH);
-        // In the order that cannot overflow.
-        BvhSize { nodes: full / 15 * 8 + full % 15 * 8 / 15 + 1, leaves: full + 1 }
+        let places = places_needed(if count < MOST_PLACES { count } else { MOST_PLACES });
+        let places = places + spare_places(places) + BEFORE + BEHIND;
+        if count > MOST_PLACES / 2 {
+            return BvhSize { nodes: usize::MAX, places: usize::MAX };
+        }
+        BvhSize { nodes: nodes_needed(count) + spare_nodes(count), places }
     }
 
     /// Builds a tree over `spheres` in the memory given, whose contents do not matter.
@@ -92,18 +109,19 @@ impl<'a> Bvh<'a> {
     ///
     /// Cost: a cut looks at each of its spheres a bounded number of times, and a node makes fifteen
     /// cuts at most of runs that its children are eight times shorter than; so time grows by the
-    /// number of spheres times its logarithm, whatever the spheres. Stack: some 20 KiB. No other
+    /// number of spheres times its logarithm, whatever the spheres. Stack: some 30 KiB. No other
     /// memory.
     ///
     /// # Errors
-    /// [`TooSmall`] if either slice is shorter than [`Bvh::needed`] says; longer is no error, and the
+    /// [`TooSmall`] if a slice is shorter than [`Bvh::needed`] says; longer is no error, and the
     /// rest is left alone.
     pub fn build(
         spheres: Spheres<'a>,
         nodes: &'a mut [BvhNode],
-        leaves: &'a mut [BvhLeaf],
+        places: &'a mut [[f32; 4]],
+        indices: &'a mut [u32],
     ) -> Result<Self, TooSmall> {
-        Self::build_with(&InTurn, spheres, nodes, leaves)
+        Self::build_with(&InTurn, spheres, nodes, places, indices)
     }
 
     /// [`Bvh::build`] with several pieces of work at once, on threads of the caller's: the same tree.
@@ -116,13 +134,15 @@ impl<'a> Bvh<'a> {
         join: &impl Join,
         spheres: Spheres<'a>,
         nodes: &'a mut [BvhNode],
-        leaves: &'a mut [BvhLeaf],
+        places: &'a mut [[f32; 4]],
+        indices: &'a mut [u32],
     ) -> Result<Self, TooSmall> {
         let needed = Self::needed(spheres.len());
         TooSmall::check(needed.nodes, nodes.len())?;
-        TooSmall::check(needed.leaves, leaves.len())?;
-        let built = top_down::build(join, &spheres, nodes, leaves);
-        Ok(Self::of(built, spheres, nodes, leaves))
+        TooSmall::check(needed.places, places.len())?;
+        TooSmall::check(needed.places, indices.len())?;
+        let built = top_down::build(join, &spheres, nodes, places, indices);
+        Ok(Self::of(built, spheres, nodes, places, indices))
     }
 
     /// The tree that was built in that memory.
@@ -130,13 +150,18 @@ impl<'a> Bvh<'a> {
         built: Built,
         spheres: Spheres<'a>,
         nodes: &'a [BvhNode],
-        leaves: &'a [BvhLeaf],
+        places: &'a [[f32; 4]],
+        indices: &'a [u32],
     ) -> Self {
-        let (leaves, rest) = leaves.split_at(built.leaves.min(leaves.len()));
+        let (indices, rest) = indices.split_at(built.places.min(indices.len()));
         Self {
             spheres,
             nodes: nodes.get(..built.nodes).unwrap_or_default(),
-            leaves,
+            numbers: places
+                .as_flattened()
+                .get(built.shift..built.shift + 4 * (built.places + BEHIND))
+                .unwrap_or_default(),
+            indices,
             outside: rest.get(..built.outside).unwrap_or_default(),
             root: built.root,
             scale: built.scale,
@@ -158,8 +183,14 @@ impl<'a> Bvh<'a> {
 
     /// The spheres that no bound sees.
     #[inline(always)]
-    pub(crate) fn outside(&self) -> OutsideLeaves<'a> {
-        OutsideLeaves { spheres: self.spheres, leaves: self.outside }
+    pub(crate) fn outside(&self) -> OutsideSpheres<'a> {
+        OutsideSpheres { spheres: self.spheres, indices: self.outside }
+    }
+
+    /// The leaf of a number.
+    #[inline(always)]
+    pub(crate) fn leaf(&self, number: u32) -> Option<Leaf<'a>> {
+        Leaf::of(self.numbers, number)
     }
 
     /// The list that the tree was built from.
@@ -171,10 +202,10 @@ impl<'a> Bvh<'a> {
     /// The memory that the tree takes: at most what was needed.
     #[must_use]
     pub const fn size(&self) -> BvhSize {
-        BvhSize { nodes: self.nodes.len(), leaves: self.leaves.len() + self.outside.len() }
+        BvhSize { nodes: self.nodes.len(), places: self.indices.len() + self.outside.len() }
     }
 
-    /// How many nodes lie one below the other: 0 for up to sixteen spheres, at most 9.
+    /// How many nodes lie one below the other: 0 for up to sixteen spheres, at most 10.
     #[must_use]
     pub fn depth(&self) -> usize {
         // Children come after their parents, so one pass from the back would need memory;

@@ -17,6 +17,7 @@ use super::packet_group::{GROUP, approach, meet_block};
 use super::packet_state::PacketState;
 use crate::Accuracy;
 use crate::accuracy::RayLanes;
+use crate::bvh::leaf::Leaf;
 use crate::bvh::node::{DEPTH, LEAF, NO_CHILD, WIDTH};
 use crate::bvh::traverse::stream::{self, StreamMemory};
 use crate::bvh::traverse::wavefront;
@@ -120,8 +121,8 @@ fn one_by_one<L: Lanes, Q: Query>(
     }
 }
 
-/// The packets of a group; those past its end are `nobody`. (In a loop, or by a function of its own, the kernel takes a
-/// twentieth less to compile, and a tenth longer on u10k.)
+/// The packets of a group; those past its end are `nobody`. (In a loop, or by a function of its own, the kernel takes
+/// a twentieth less to compile, and a tenth longer on u10k.)
 #[inline(always)]
 fn states_of<'a, L: Lanes>(
     token: L::Token,
@@ -209,9 +210,9 @@ impl Boxes {
                 continue;
             }
             let number = child & !LEAF;
-            let Some(leaf) = bvh.leaves.get(number as usize) else { continue };
-            let (spheres, mut end) = (leaf.columns(), frustum.end);
-            let places = frustum.look::<L>(token, &spheres, 0.0);
+            let Some(Leaf { columns: spheres, lanes }) = bvh.leaf(number) else { continue };
+            let mut end = frustum.end;
+            let places = frustum.look::<L>(token, &spheres, 0.0) & lanes;
             if places == 0 {
                 continue;
             }

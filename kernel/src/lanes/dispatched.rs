@@ -161,8 +161,8 @@ impl<S: Simd> Lanes for f32x16<S> {
     }
 
     #[inline(always)]
-    fn in_order(self, order: u64) -> Self {
-        in_order::sixteen(self, order)
+    fn bits_in_order(token: S, bits: u32, order: u64) -> u32 {
+        in_order::bits(token, bits, order)
     }
 
     #[inline(always)]

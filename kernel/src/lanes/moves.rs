@@ -31,11 +31,12 @@ fn moves<L: Lanes>(token: L::Token) {
             assert_eq!(expected.to_bits(), found.to_bits());
         }
 
-        for (lane, found) in lanes.in_order(order).store().as_ref().iter().enumerate() {
-            let from = (order >> (4 * lane)) as usize % 16;
-            if from < L::COUNT {
-                assert_eq!(found.to_bits(), numbers[from].to_bits(), "{order:x} {lane}");
-            }
+        let sixteen_bits = bits as u32 & 0xffff;
+        let ordered = L::bits_in_order(token, sixteen_bits, order);
+        for place in 0..32 {
+            let expected =
+                if place < 16 { sixteen_bits >> (order >> (4 * place) & 15) & 1 } else { 0 };
+            assert_eq!(ordered >> place & 1, expected, "{sixteen_bits:x} {order:x} {place}");
         }
 
         // Parts of sixteen numbers, and lanes laid down anywhere.

@@ -11,9 +11,9 @@ extern crate std;
 
 use core::hint::black_box;
 use spherule_kernel::{
-    AnyHit, Bvh, BvhLeaf, BvhNode, Camera, ClosestHit, DepthList, Hit, HitPacket, Intersect, Lanes,
-    Level, Projection, Ray, RayPacket, Side, Sphere, SpherePacket, Spheres, SurfacePacket, Tier,
-    Towards, Trace, Vec3, Viewpoint, discriminant, f32x4, f32x8, f32x16,
+    AnyHit, Bvh, BvhNode, Camera, ClosestHit, DepthList, Hit, HitPacket, Intersect, Lanes, Level,
+    Projection, QueuedRay, Ray, RayPacket, Side, Sphere, SpherePacket, Spheres, SurfacePacket,
+    Tier, Towards, Trace, Vec3, Viewpoint, discriminant, f32x4, f32x8, f32x16,
     float_environment_is_sound, object_lanes, object_packets, pair_lanes, pair_packets, pairs,
     roots, shadow_packets, side, stages, surface, surface_packets,
 };
@@ -68,7 +68,8 @@ pub unsafe extern "C" fn spherule_no_std(numbers: *const f32, count: usize) -> u
 
     // More memory than most lists of spheres need: too little is a value, too.
     let (mut words, mut scratch) = ([0.0; 1024], [0.0; 1000]);
-    let (mut nodes, mut leaves) = ([BvhNode::EMPTY; 3], [BvhLeaf::EMPTY; 5]);
+    let (mut nodes, mut places, mut indices) = ([BvhNode::EMPTY; 4], [[0.0; 4]; 120], [0; 120]);
+    let (mut stream_rays, mut queues) = ([StreamRay::EMPTY; 16], [QueuedRay::EMPTY; 280]);
     let viewpoint = match camera.projection {
         Projection::Perspective { eye } => Viewpoint::Origin(eye),
         Projection::Parallel { direction } => Viewpoint::Direction(direction),
@@ -81,9 +82,16 @@ pub unsafe extern "C" fn spherule_no_std(numbers: *const f32, count: usize) -> u
         Ok(depth_list) => sum.structure(tier, &camera, &rays, &mut scratch, &depth_list),
         Err(error) => sum.word(error.needed as u32),
     }
-    match Bvh::build(spheres, &mut nodes, &mut leaves) {
+    match Bvh::build(spheres, &mut nodes, &mut places, &mut indices) {
         Ok(tree) => {
             sum.structure(tier, &camera, &rays, &mut [], &tree);
+            match StreamMemory::new(&mut stream_rays, &mut queues) {
+                Ok(memory) => {
+                    let mut trace = Trace::new().incoherent().with_stream(memory);
+                    sum.lanes::<f32x16>(tier, &camera, &mut trace, &tree);
+                }
+                Err(error) => sum.word(error.needed as u32),
+            }
             sum.word((tree.depth() + tree.size().nodes) as u32);
         }
         Err(error) => sum.word(error.needed as u32),

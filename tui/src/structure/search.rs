@@ -61,7 +61,7 @@ impl Search<'_> {
     ) {
         let Tracing { tier, level, coherence } = tracing;
         let (lists, raster) = scratch.of(self);
-        let trace = &mut Trace { level, coherence, scratch: lists };
+        let trace = &mut Trace { level, coherence, scratch: lists, ..Trace::new() };
         match self {
             Self::Brute(spheres) => spheres.closest_hit_packets(tier, trace, rays, hits),
             Self::DepthList(list) => list.closest_hit_packets(tier, trace, rays, hits),
@@ -72,8 +72,8 @@ impl Search<'_> {
         }
     }
 
-    /// Whether every ray meets anything: lane i in bit i. Rays that are not a camera's, so by object order all spheres
-    /// are searched.
+    /// Whether every ray meets anything: lane i in bit i. Rays that are not a camera's, so by object order all
+    /// spheres are searched.
     pub fn any_hits(
         &self,
         Tracing { tier, level, coherence }: Tracing,
@@ -81,7 +81,7 @@ impl Search<'_> {
         rays: &[RayPacket],
         met: &mut [u32],
     ) {
-        let trace = &mut Trace { level, coherence, scratch: scratch.of(self).0 };
+        let trace = &mut Trace { level, coherence, scratch: scratch.of(self).0, ..Trace::new() };
         match self {
             Self::Brute(spheres) => spheres.any_hit_packets(tier, trace, rays, met),
             Self::DepthList(list) => list.any_hit_packets(tier, trace, rays, met),

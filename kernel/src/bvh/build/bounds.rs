@@ -1,11 +1,10 @@
 //! The box of some spheres, and the box of their centres.
 
 use super::join::Join;
-use crate::bvh::node::{BvhLeaf, WIDTH};
 use crate::numeric::rounding::{U, least, most};
 
-/// More leaves than these are counted by halves, which two threads can do.
-const WORTH_A_THREAD: usize = 1024;
+/// More spheres than these are counted by halves, which two threads can do.
+const WORTH_A_THREAD: usize = 16_384;
 
 /// The box of some spheres, and the box of their centres.
 #[derive(Clone, Copy, Debug)]
@@ -14,6 +13,8 @@ pub(super) struct Bounds {
     pub(super) high: [f32; 3],
     pub(super) least: [f32; 3],
     pub(super) most: [f32; 3],
+    /// The smallest and the largest radius.
+    pub(super) sizes: [f32; 2],
 }
 
 /// Half the surface of a box: what the chance to meet it is proportional to.
@@ -24,62 +25,43 @@ pub(super) fn half_area(low: [f32; 3], high: [f32; 3]) -> f32 {
 }
 
 impl Bounds {
-    pub(super) const NONE: Self = Self {
-        low: [f32::INFINITY; 3],
-        high: [f32::NEG_INFINITY; 3],
-        least: [f32::INFINITY; 3],
-        most: [f32::NEG_INFINITY; 3],
-    };
-
-    /// Of `leaves` that hold `count` spheres, by halves where they are many; the box is rounded
-    /// outward.
-    pub(super) fn of(join: &impl Join, leaves: &[BvhLeaf], count: usize) -> Self {
-        let Some((first, second)) = halves(leaves) else { return Self::here(leaves, count) };
-        let inside = first.len() * WIDTH;
-        let (first, second) =
-            join.join(|| Self::of(join, first, inside), || Self::of(join, second, count - inside));
-        let mut both = first;
+    /// Of spheres, by halves where they are many; the box is rounded outward.
+    pub(super) fn of(join: &impl Join, spheres: &[[f32; 4]]) -> Self {
+        let Some((first, second)) = halves(spheres) else { return Self::here(spheres) };
+        let (mut both, second) = join.join(|| Self::of(join, first), || Self::of(join, second));
         for axis in 0..3 {
             both.low[axis] = least(both.low[axis], second.low[axis]);
             both.high[axis] = most(both.high[axis], second.high[axis]);
             both.least[axis] = least(both.least[axis], second.least[axis]);
             both.most[axis] = most(both.most[axis], second.most[axis]);
         }
+        both.sizes = [least(both.sizes[0], second.sizes[0]), most(both.sizes[1], second.sizes[1])];
         both
     }
 
-    fn here(leaves: &[BvhLeaf], count: usize) -> Self {
-        let mut bounds = Self::NONE;
-        let (full, rest) = leaves.split_at(leaves.len().min(count / WIDTH));
-        for axis in 0..3 {
-            let mut low = [f32::INFINITY; WIDTH];
-            let mut high = [f32::NEG_INFINITY; WIDTH];
-            let (mut left, mut right) = (low, high);
-            for leaf in full {
-                let center = &leaf.center[axis];
-                for lane in 0..WIDTH {
-                    low[lane] = least(low[lane], center[lane] - leaf.radius[lane]);
-                    high[lane] = most(high[lane], center[lane] + leaf.radius[lane]);
-                    left[lane] = least(left[lane], center[lane]);
-                    right[lane] = most(right[lane], center[lane]);
-                }
+    fn here(spheres: &[[f32; 4]]) -> Self {
+        // The fourth number is there to fill a register.
+        let (mut low, mut high) = ([f32::INFINITY; 4], [f32::NEG_INFINITY; 4]);
+        let (mut left, mut right) = (low, high);
+        for sphere in spheres {
+            let radius = sphere[3];
+            for axis in 0..4 {
+                low[axis] = least(low[axis], sphere[axis] - radius);
+                high[axis] = most(high[axis], sphere[axis] + radius);
+                left[axis] = least(left[axis], sphere[axis]);
+                right[axis] = most(right[axis], sphere[axis]);
             }
-            if let Some(leaf) = rest.first() {
-                for lane in 0..count % WIDTH {
-                    let center = leaf.center[axis][lane];
-                    low[lane] = least(low[lane], center - leaf.radius[lane]);
-                    high[lane] = most(high[lane], center + leaf.radius[lane]);
-                    left[lane] = least(left[lane], center);
-                    right[lane] = most(right[lane], center);
-                }
-            }
-            // Rounding to nearest is monotonic: one step covers all.
-            bounds.low[axis] = low.into_iter().fold(f32::INFINITY, least).next_down();
-            bounds.high[axis] = high.into_iter().fold(f32::NEG_INFINITY, most).next_up();
-            bounds.least[axis] = left.into_iter().fold(f32::INFINITY, least);
-            bounds.most[axis] = right.into_iter().fold(f32::NEG_INFINITY, most);
         }
-        bounds
+        let [[x, y, z, _], [far_x, far_y, far_z, _]] = [low, high];
+        let [[a, b, c, small], [d, e, f, large]] = [left, right];
+        Self {
+            // Rounding to nearest is monotonic: one step covers all.
+            low: [x.next_down(), y.next_down(), z.next_down()],
+            high: [far_x.next_up(), far_y.next_up(), far_z.next_up()],
+            least: [a, b, c],
+            most: [d, e, f],
+            sizes: [small, large],
+        }
     }
 
     /// The lower and the upper corner as nodes have them: farther out by what of the margins is in
@@ -112,7 +94,7 @@ impl Bounds {
     }
 }
 
-/// Two halves, the first of full leaves, of what is worth a thread.
-pub(super) fn halves(leaves: &[BvhLeaf]) -> Option<(&[BvhLeaf], &[BvhLeaf])> {
-    (leaves.len() > WORTH_A_THREAD).then(|| leaves.split_at(leaves.len() / 2))
+/// Two halves of what is worth a thread.
+pub(super) fn halves(spheres: &[[f32; 4]]) -> Option<(&[[f32; 4]], &[[f32; 4]])> {
+    (spheres.len() > WORTH_A_THREAD).then(|| spheres.split_at(spheres.len() / 2))
 }

@@ -1,98 +1,246 @@
-//! How a run of leaves is cut into the children of a node.
+//! How a run of spheres is cut into the children of a node.
 //!
-//! A node begins with one run of leaves and cuts one run after another in two, always the one
-//! that costs most (surface times leaves), until there are sixteen or none is longer than sixteen
-//! leaves, so that it makes a node whose children are leaves. In slots that are still free then, runs
-//! are opened: their leaves become children of this node, and a ray has one node less to look into;
-//! first the run that saves most a slot (surface by leaves, less one), if all of it finds room.
-//! (Cut until all sixteen slots are taken, nodes had 3.3 children on 10,000 uniform spheres, now
-//! 10.6, and rays look into 0.7 as many.)
+//! A node begins with one run and cuts one part after another in two, always the one that costs most (surface times
+//! spheres), until there are sixteen or none is longer than what makes a node of leaves. In slots that are still free
+//! then, parts are opened: they are cut on, and become leaves of this node, so that a ray has one node less to look
+//! into; first the part that saves most a slot, if all of its leaves find room. A leaf is cut where its parts have
+//! less surface together. (Cut until all sixteen slots are taken, nodes had 3.3 children on 10,000 uniform spheres.)
 //!
 //! # Depth
 //!
-//! Of a node's m leaves let q = m/8, rounded up, but at least sixteen, and let a run of s leaves
-//! *want* s/q, rounded up, less one, cuts: seven at most at the beginning, zero once no run is longer
+//! Of a node's n spheres let q = n/8, rounded up, but at least sixteen, and let a part of s spheres
+//! *want* s/q, rounded up, less one, cuts: seven at most at the beginning, zero once no part is longer
 //! than q. A cut never adds to the sum of what is wanted, since the parts' s/q, rounded up, exceed
 //! their sum's by one at most, and one is paid. So as long as more cuts are left than wanted the
-//! heuristic chooses; from then on a run longer than q is cut behind q leaves, which takes one off
+//! heuristic chooses; from then on a part longer than q is cut behind q spheres, which takes one off
 //! each time. After fifteen cuts no child is longer than q; nor is one where cuts stop before.
 
 use super::bounds::Bounds;
+use super::budget::Budget;
 use super::join::Join;
-use super::sah_split::Run;
-use crate::bvh::node::{BvhLeaf, WIDTH};
+use super::run::Run;
+use crate::bvh::node::WIDTH;
 
-/// A run of leaves that will be a child.
+/// No part that is longer stays whole where the heuristic chooses: what sixteen leaves hold if they are two thirds
+/// full.
+const OF_LEAVES: usize = 224;
+/// A part is opened if there were room for its leaves with one sphere more for so many.
+const SLACK: usize = 8;
+
+/// A part that will be a child.
 #[derive(Clone, Copy)]
 pub(super) struct Part {
     pub(super) first: usize,
-    pub(super) leaves: usize,
+    pub(super) count: usize,
     pub(super) bounds: Bounds,
-    /// What a ray pays here, except a constant; nothing for a leaf.
+    /// What a ray pays here, except a constant.
     cost: f32,
     /// Whether its leaves become children of the node itself.
     opened: bool,
+    /// A leaf that is best left as it is.
+    whole: bool,
 }
 
 impl Part {
-    /// Leaves `first..first + leaves` of all, which hold `count` spheres.
-    pub(super) fn new(
-        join: &impl Join,
-        all: &[BvhLeaf],
-        count: usize,
-        first: usize,
-        leaves: usize,
-    ) -> Self {
-        let run = all.get(first..first + leaves).unwrap_or(&[]);
-        let bounds = Bounds::of(join, run, (count - first * WIDTH).min(leaves * WIDTH));
-        let cost = if leaves > 1 { bounds.half_area() * leaves as f32 } else { -1.0 };
-        Self { first, leaves, bounds, cost, opened: false }
-    }
-}
-
-/// Cuts a run of two leaves or more into up to sixteen.
-pub(super) fn children(
-    join: &impl Join,
-    leaves: &mut [BvhLeaf],
-    count: usize,
-    whole: Part,
-) -> ([Part; WIDTH], usize) {
-    let mut parts = [whole; WIDTH];
-    let longest = whole.leaves.div_ceil(8).max(WIDTH);
-    for number in 1..WIDTH {
-        let (made, rest) = parts.split_at_mut(number);
-        let Some((part, forced)) = next_to_cut(made, longest) else { return (parts, number) };
-        let Part { first, leaves: length, bounds, opened, .. } = *part;
-        let mut run = Run {
-            leaves: leaves.get_mut(first..first + length).unwrap_or(&mut []),
-            count: (count - first * WIDTH).min(length * WIDTH),
-        };
-        let cut = if forced { run.split_at(longest, &bounds) } else { run.split(join, &bounds) };
-        *part = Part { opened, ..Part::new(join, leaves, count, first, cut) };
-        if let Some(place) = rest.first_mut() {
-            let behind = Part::new(join, leaves, count, first + cut, length - cut);
-            *place = Part { opened, ..behind };
+    /// Spheres `first..first + count` of all.
+    pub(super) fn new(join: &impl Join, all: &[[f32; 4]], first: usize, count: usize) -> Self {
+        let bounds = Bounds::of(join, all.get(first..first + count).unwrap_or_default());
+        Self {
+            first,
+            count,
+            bounds,
+            cost: bounds.half_area() * count as f32,
+            opened: false,
+            whole: false,
         }
     }
-    (parts, WIDTH)
+
+    /// Whether all of its spheres are the same.
+    pub(super) fn is_one_sphere(&self) -> bool {
+        let Bounds { least, most, sizes, .. } = &self.bounds;
+        least == most && sizes[0] == sizes[1]
+    }
+
+    pub(super) fn is_leaf(&self) -> bool {
+        self.count <= WIDTH || self.is_one_sphere()
+    }
 }
 
-/// Which of a node's parts is cut next, and whether behind `longest` leaves; `None` if they are best
-/// left as they are.
-fn next_to_cut(parts: &mut [Part], longest: usize) -> Option<(&mut Part, bool)> {
-    let free = WIDTH - parts.len();
+/// The parts of a node, and what is left to spend.
+pub(super) struct Children {
+    pub(super) parts: [Part; WIDTH],
+    pub(super) number: usize,
+    pub(super) left: Budget,
+}
+
+/// Cuts a run that is no leaf into up to sixteen.
+pub(super) fn children(
+    join: &impl Join,
+    all: &mut Run<'_>,
+    whole: Part,
+    budget: Budget,
+) -> Children {
+    let mut made = by_heuristic(join, all, whole, budget)
+        .unwrap_or_else(|| in_equal_parts(join, all, whole, budget));
+    // In the order of their spheres.
+    if let Some(parts) = made.parts.get_mut(..made.number) {
+        parts.sort_unstable_by_key(|part| part.first);
+    }
+    made
+}
+
+/// `None` where that costs more than is there.
+fn by_heuristic(
+    join: &impl Join,
+    all: &mut Run<'_>,
+    whole: Part,
+    mut left: Budget,
+) -> Option<Children> {
+    let mut parts = [whole; WIDTH];
+    let longest = if leaves(whole.count) > WIDTH {
+        whole.count.div_ceil(8).max(WIDTH * WIDTH)
+    } else {
+        WIDTH
+    };
+    let mut number = 1;
+    while number < WIDTH {
+        let (made, rest) = parts.split_at_mut(number);
+        let Some(Next { part, behind, free }) = next_to_cut(made, longest) else { break };
+        let Some(part) = made.get_mut(part) else { break };
+        let Part { first, count, bounds, opened, .. } = *part;
+        let mut run = all.part(first, count);
+        // What is opened must find room as leaves.
+        let most = if opened { leaves(count) + free } else { usize::MAX };
+        let best = if behind.is_some() { None } else { run.best_cut(join, &bounds, most) };
+        let at = match best {
+            Some(cut) => {
+                if count <= WIDTH && cut.cost > LEAST_GAIN * bounds.half_area() {
+                    part.whole = true;
+                    continue;
+                }
+                left = left.cut(count, cut.first)?;
+                run.cut(&bounds, &cut);
+                cut.first
+            }
+            None if count <= WIDTH => {
+                part.whole = true;
+                continue;
+            }
+            None => {
+                let at = behind.unwrap_or((count / 2).next_multiple_of(WIDTH));
+                left = left.cut(count, at)?;
+                run.order_about(at, bounds.longest_axis());
+                at
+            }
+        };
+        *part = Part { opened, ..Part::new(join, all.spheres, first, at) };
+        if let Some(place) = rest.first_mut() {
+            *place = Part { opened, ..Part::new(join, all.spheres, first + at, count - at) };
+        }
+        number += 1;
+    }
+    // The node itself.
+    left.nodes = left.nodes.checked_sub(1)?;
+    Some(Children { parts, number, left })
+}
+
+/// A leaf is cut if its parts have less than this share of its surface.
+const LEAST_GAIN: f32 = 0.9;
+
+/// Parts of sixteen spheres times a power of sixteen, along the longest axis.
+pub(super) fn in_equal_parts(
+    join: &impl Join,
+    all: &mut Run<'_>,
+    whole: Part,
+    left: Budget,
+) -> Children {
+    let mut length = WIDTH;
+    while length.saturating_mul(WIDTH) < whole.count {
+        length *= WIDTH;
+    }
+    let mut parts = [whole; WIDTH];
+    let (mut number, mut first, end) = (0, whole.first, whole.first + whole.count);
+    for place in &mut parts {
+        if first >= end {
+            break;
+        }
+        let count = length.min(end - first);
+        let mut rest = all.part(first, end - first);
+        let bounds = Bounds::of(join, rest.spheres);
+        rest.order_about(count, bounds.longest_axis());
+        *place = Part::new(join, all.spheres, first, count);
+        (first, number) = (first + count, number + 1);
+    }
+    Children { parts, number, left }
+}
+
+/// What is cut next.
+struct Next {
+    /// Which of the parts.
+    part: usize,
+    /// Behind how many spheres, wherever the heuristic would.
+    behind: Option<usize>,
+    /// How many slots its leaves may take beyond what they need.
+    free: usize,
+}
+
+/// What is cut next of a node's parts, none of which is to be longer than `longest`; `None` if they are best left as
+/// they are.
+fn next_to_cut(parts: &mut [Part], longest: usize) -> Option<Next> {
     // At least one: nothing divides by zero.
     let longest = longest.max(1);
-    let wanted = |part: &Part| part.leaves.div_ceil(longest) - 1;
-    let forced = parts.iter().map(wanted).sum::<usize>() >= free;
-    let least = if forced { longest } else { WIDTH };
-    let is_cut = |part: &Part| part.leaves > least || part.opened && part.leaves > 1;
-    if !parts.iter().any(is_cut) {
-        // What a slot saves.
-        let saved = |part: &Part| part.bounds.half_area() / (part.leaves - 1) as f32;
-        let fits = parts.iter_mut().filter(|part| part.leaves > 1 && part.leaves - 1 <= free);
-        fits.max_by(|a, b| saved(a).total_cmp(&saved(b)))?.opened = true;
+    let wanted = |part: &Part| if part.is_leaf() { 0 } else { part.count.div_ceil(longest) - 1 };
+    if parts.iter().map(wanted).sum::<usize>() >= WIDTH - parts.len() {
+        let part = costliest(parts, |part| wanted(part) > 0)?;
+        return Some(Next { part, behind: Some(longest), free: 0 });
     }
-    let candidates = parts.iter_mut().filter(|part| is_cut(part));
-    Some((candidates.max_by(|a, b| a.cost.total_cmp(&b.cost))?, forced))
+    // What is opened will take a slot a leaf.
+    let taken = |part: &Part| if part.opened { leaves(part.count) } else { 1 };
+    let free = WIDTH.saturating_sub(parts.iter().map(taken).sum());
+    let next = |part| Next { part, behind: None, free };
+    let long = OF_LEAVES;
+    if let Some(part) = costliest(parts, |part| !part.is_leaf() && part.count > long) {
+        return Some(next(part));
+    }
+    if let Some(part) = costliest(parts, |part| !part.is_leaf() && part.opened) {
+        return Some(next(part));
+    }
+    let parts_are_one = parts.len() == 1;
+    // What a slot saves, if there are slots for leaves that are not full.
+    let fits = |part: &Part| {
+        !part.is_leaf()
+            && (leaves(part.count + part.count / SLACK) <= free + 1
+                || longest == WIDTH && parts_are_one)
+    };
+    let saved = |part: &Part| part.bounds.half_area() / (leaves(part.count) - 1).max(1) as f32;
+    if let Some(part) = most(parts, fits, saved) {
+        if let Some(part) = parts.get_mut(part) {
+            part.opened = true;
+        }
+        return next_to_cut(parts, longest);
+    }
+    costliest(parts, |part| wanted(part) > 0)
+        // Leaves, in what slots there are.
+        .or_else(|| costliest(parts, |part| part.count <= WIDTH && part.count > 1 && !part.whole))
+        .map(next)
+}
+
+/// The part that costs most of those that are wanted.
+fn costliest(parts: &[Part], wanted: impl Fn(&Part) -> bool) -> Option<usize> {
+    most(parts, wanted, |part| part.cost)
+}
+
+/// Which part that is wanted has most of something.
+fn most(
+    parts: &[Part],
+    wanted: impl Fn(&Part) -> bool,
+    of: impl Fn(&Part) -> f32,
+) -> Option<usize> {
+    let candidates = parts.iter().enumerate().filter(|(_, part)| wanted(part));
+    Some(candidates.max_by(|(_, a), (_, b)| of(a).total_cmp(&of(b)))?.0)
+}
+
+/// How many leaves so many spheres fill at least.
+pub(super) const fn leaves(count: usize) -> usize {
+    count.div_ceil(WIDTH)
 }

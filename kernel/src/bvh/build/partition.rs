@@ -1,33 +1,33 @@
-//! Moving the spheres of a run, in the leaves that they lie in.
+//! Moving the spheres of a run.
 
-use super::sah_split::Run;
-use crate::bvh::node::{BvhLeaf, WIDTH};
+use super::run::Run;
 
 /// How many slices the keys of a run are sorted into.
 const SLICES: usize = 16;
 
 impl Run<'_> {
-    /// Moves spheres so that the first `at` have keys no larger than the others; only those of
-    /// places `from..to` move.
+    /// Moves spheres so that the first `at` have keys no larger than the others.
     ///
     /// The keys, as integers in the order of the numbers, are sorted into sixteen slices, of which
     /// only the one with place `at` is looked at again: four bits a round, eight rounds at most.
-    pub(super) fn order_about(&mut self, at: usize, mut from: usize, mut to: usize, axis: usize) {
+    pub(super) fn order_about(&mut self, at: usize, axis: usize) {
+        let (mut from, mut to) = (0, self.spheres.len());
         while from < at && at < to {
             let (mut low, mut high) = (u32::MAX, 0);
-            for place in from..to {
-                let key = self.key(place, axis);
+            for sphere in self.spheres.get(from..to).unwrap_or_default() {
+                let key = key_of(sphere, axis);
                 low = low.min(key);
                 high = high.max(key);
             }
-            let bits = u32::BITS - (high - low).leading_zeros();
+            let bits = u32::BITS - high.wrapping_sub(low).leading_zeros();
             if bits == 0 {
                 return;
             }
             let shift = bits.saturating_sub(4);
+            let slice = |sphere: &[f32; 4]| key_of(sphere, axis).wrapping_sub(low) >> shift;
             let mut counts = [0; SLICES];
-            for place in from..to {
-                counts[((self.key(place, axis) - low) >> shift) as usize & (SLICES - 1)] += 1;
+            for sphere in self.spheres.get(from..to).unwrap_or_default() {
+                counts[slice(sphere) as usize & (SLICES - 1)] += 1;
             }
             let (mut bin, mut before) = (0, from);
             for count in counts {
@@ -37,64 +37,42 @@ impl Run<'_> {
                 before += count;
                 bin += 1;
             }
-            let slice = |leaf: &BvhLeaf, lane: usize| (key_of(leaf, lane, axis) - low) >> shift;
-            from = self.gather(from, to, |leaf, lane| slice(leaf, lane) < bin);
-            to = self.gather(from, to, |leaf, lane| slice(leaf, lane) == bin);
+            from = self.gather(from, to, |sphere| slice(sphere) < bin);
+            to = self.gather(from, to, |sphere| slice(sphere) == bin);
         }
     }
 
-    fn key(&self, place: usize, axis: usize) -> u32 {
-        self.leaves.get(place / WIDTH).map_or(0, |leaf| key_of(leaf, place % WIDTH, axis))
-    }
-
-    /// Moves the spheres for which `wanted` holds to the front of places `from..to`; returns
-    /// where they end.
+    /// Moves the spheres for which `wanted` holds to the front of `from..to`; returns where they end.
     #[inline(always)]
     pub(super) fn gather(
         &mut self,
         mut from: usize,
         mut to: usize,
-        wanted: impl Fn(&BvhLeaf, usize) -> bool,
+        wanted: impl Fn(&[f32; 4]) -> bool,
     ) -> usize {
-        let holds = |leaves: &[BvhLeaf], place: usize| {
-            leaves.get(place / WIDTH).is_some_and(|leaf| wanted(leaf, place % WIDTH))
-        };
         loop {
-            while from < to && holds(self.leaves, from) {
+            while from < to && self.spheres.get(from).is_some_and(&wanted) {
                 from += 1;
             }
-            while from < to && !holds(self.leaves, to - 1) {
+            while from < to && !self.spheres.get(to - 1).is_some_and(&wanted) {
                 to -= 1;
             }
             if from >= to {
                 return from;
             }
-            self.swap(from, to - 1);
-        }
-    }
-
-    fn swap(&mut self, one: usize, other: usize) {
-        let places = [one / WIDTH, other / WIDTH];
-        let [a, b] = [one % WIDTH, other % WIDTH];
-        if let Ok([first, second]) = self.leaves.get_disjoint_mut(places) {
-            for axis in 0..3 {
-                core::mem::swap(&mut first.center[axis][a], &mut second.center[axis][b]);
+            if let Ok([one, other]) = self.spheres.get_disjoint_mut([from, to - 1]) {
+                core::mem::swap(one, other);
             }
-            core::mem::swap(&mut first.radius[a], &mut second.radius[b]);
-            core::mem::swap(&mut first.index[a], &mut second.index[b]);
-        } else if let Some(leaf) = self.leaves.get_mut(places[0]) {
-            for axis in 0..3 {
-                leaf.center[axis].swap(a, b);
+            if let Ok([one, other]) = self.indices.get_disjoint_mut([from, to - 1]) {
+                core::mem::swap(one, other);
             }
-            leaf.radius.swap(a, b);
-            leaf.index.swap(a, b);
         }
     }
 }
 
-/// A centre, or for axis 3 the radius, as an integer in the order of the numbers.
+/// A coordinate of the centre, or for axis 3 the radius, as an integer in the order of the numbers.
 #[inline(always)]
-fn key_of(leaf: &BvhLeaf, lane: usize, axis: usize) -> u32 {
-    let bits = leaf.center.get(axis).unwrap_or(&leaf.radius)[lane % WIDTH].to_bits();
+fn key_of(sphere: &[f32; 4], axis: usize) -> u32 {
+    let bits = sphere[axis % 4].to_bits();
     if bits >> 31 == 1 { !bits } else { bits | 1 << 31 }
 }

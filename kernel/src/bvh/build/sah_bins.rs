@@ -2,7 +2,6 @@
 
 use super::bounds::{Bounds, half_area, halves};
 use super::join::Join;
-use crate::bvh::node::{BvhLeaf, WIDTH};
 use crate::numeric::rounding::{least, most};
 
 /// How many slices a run is sorted into, an axis.
@@ -59,22 +58,16 @@ impl Bin {
     }
 }
 
-/// Sorts the `count` spheres of `leaves` into slices, by halves where they are many.
+/// Sorts spheres into slices, by halves where they are many.
 pub(super) fn bins_of(
     join: &impl Join,
-    leaves: &[BvhLeaf],
-    count: usize,
+    spheres: &[[f32; 4]],
     bounds: &Bounds,
     scales: [f32; 3],
 ) -> [[Bin; BINS]; 3] {
-    let Some((first, second)) = halves(leaves) else {
-        return bins_here(leaves, count, bounds, scales);
-    };
-    let inside = first.len() * WIDTH;
-    let (mut both, second) = join.join(
-        || bins_of(join, first, inside, bounds, scales),
-        || bins_of(join, second, count - inside, bounds, scales),
-    );
+    let Some((first, second)) = halves(spheres) else { return bins_here(spheres, bounds, scales) };
+    let (mut both, second) = join
+        .join(|| bins_of(join, first, bounds, scales), || bins_of(join, second, bounds, scales));
     for (bins, others) in both.iter_mut().zip(&second) {
         for (bin, other) in bins.iter_mut().zip(others) {
             bin.grow(other.low, other.high, other.count);
@@ -83,22 +76,14 @@ pub(super) fn bins_of(
     both
 }
 
-fn bins_here(
-    leaves: &[BvhLeaf],
-    count: usize,
-    bounds: &Bounds,
-    scales: [f32; 3],
-) -> [[Bin; BINS]; 3] {
+fn bins_here(spheres: &[[f32; 4]], bounds: &Bounds, scales: [f32; 3]) -> [[Bin; BINS]; 3] {
     let mut bins = [[Bin::EMPTY; BINS]; 3];
-    for (place, leaf) in leaves.iter().enumerate() {
-        let lanes = (count - place * WIDTH).min(WIDTH);
-        for lane in 0..lanes {
-            let [x, y, z] = [leaf.center[0][lane], leaf.center[1][lane], leaf.center[2][lane]];
-            let r = leaf.radius[lane];
-            let (low, high) = ([x - r, y - r, z - r, 0.0], [x + r, y + r, z + r, 0.0]);
-            for (axis, center) in [x, y, z].into_iter().enumerate() {
-                bins[axis][bin_of(center, bounds.least[axis], scales[axis])].grow(low, high, 1);
-            }
+    for sphere in spheres {
+        let radius = sphere[3];
+        let (low, high) =
+            (sphere.map(|center| center - radius), sphere.map(|center| center + radius));
+        for axis in 0..3 {
+            bins[axis][bin_of(sphere[axis], bounds.least[axis], scales[axis])].grow(low, high, 1);
         }
     }
     bins

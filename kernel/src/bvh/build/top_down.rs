@@ -1,19 +1,31 @@
 //! From a list of spheres to a tree: top down, straight into nodes of sixteen children.
 //!
-//! A node is made of the parts of a run (`children.rs`); parts of more than one leaf become nodes in
-//! their turn, and a stack of those that wait replaces recursion.
+//! The spheres are moved into the order of the leaves, at the end of their memory. A node is made of the parts of a
+//! run (`children.rs`); parts that are no leaf become nodes in their turn, and a stack of those that wait replaces
+//! recursion. At last the leaves are laid down (`lay_down.rs`).
 //!
 //! The root's children do so apart from each other, perhaps at the same time: each in as many
-//! nodes as it can need, which is 8/15 of its leaves (`Bvh::needed`). Then the nodes move together.
+//! nodes as it may take (`budget.rs`). Then the nodes move together.
 //! So the tree does not depend on what runs at the same time.
 
+use super::budget::{Budget, nodes_needed};
 use super::child_order::order_children;
-use super::children::{Part, children};
+use super::children::{Children, Part, children, in_equal_parts};
 use super::join::Join;
+use super::lay_down::{lay_down, unsettled};
+use super::run::Run;
 use crate::bvh::built::Built;
-use crate::bvh::node::{BvhLeaf, BvhNode, DEPTH, LEAF, NO_CHILD, WIDTH};
+use crate::bvh::leaf::{BEFORE, BEHIND, STEP};
+use crate::bvh::node::{BvhNode, DEPTH, LEAF, NO_CHILD, WIDTH};
+use crate::bvh::tree::Bvh;
 use crate::geometry::sphere::{Sphere, Spheres};
 use crate::scale::scene::SceneScale;
+
+/// Of so few spheres all leaves are full: such trees are traversed without boxes (`traverse/few.rs`).
+pub(crate) const FEW: usize = 64;
+
+/// Bytes of a line of the cache.
+const LINE: usize = 64;
 
 /// A run that waits to become node `node`.
 #[derive(Clone, Copy)]
@@ -27,113 +39,146 @@ pub(crate) fn build(
     join: &impl Join,
     spheres: &Spheres<'_>,
     nodes: &mut [BvhNode],
-    leaves: &mut [BvhLeaf],
+    places: &mut [[f32; 4]],
+    indices: &mut [u32],
 ) -> Built {
     let scale = SceneScale::of(spheres);
-    let inside = fill(leaves, spheres, |sphere| scale.scaled(sphere));
-    let full = inside.div_ceil(WIDTH);
-    let (leaves, rest) = leaves.split_at_mut(full.min(leaves.len()));
-    let outside = fill(rest, spheres, |sphere| {
-        (sphere.is_valid() && scale.scaled(sphere).is_none()).then_some(*sphere)
-    });
-    let outside = outside.div_ceil(WIDTH).min(rest.len());
+    let all = Bvh::needed(spheres.len()).places.min(places.len()).min(indices.len());
+    let (places, indices) =
+        (places.get_mut(..all).unwrap_or_default(), indices.get_mut(..all).unwrap_or_default());
+    let first = fill(places, indices, spheres, &scale);
+    let inside = places.len() - first;
+    let mut run = Run { spheres: places, indices };
+    let mut run = run.part(first, inside);
 
-    let root = Part::new(join, leaves, inside, 0, full);
-    let used = if full > 1 { build_tree(join, nodes, leaves, inside, root) } else { 0 };
-    let child = match full {
-        0 => NO_CHILD,
-        1 => LEAF,
-        _ => 0,
-    };
-    for (place, leaf) in leaves.iter_mut().enumerate() {
-        sort(leaf, (inside - place * WIDTH).min(WIDTH));
+    let root = Part::new(join, run.spheres, 0, inside);
+    let (mut used, mut child) = (0, NO_CHILD);
+    if inside > 0 && root.is_leaf() {
+        child = settle(&mut run, &root, 0);
+    } else if inside > 0 {
+        let budget = Budget {
+            nodes: nodes.len().saturating_sub(nodes_needed(inside)),
+            places: first.saturating_sub(BEFORE + BEHIND + STEP),
+        };
+        used = build_tree(join, nodes, &mut run, root, budget);
+        child = 0;
+    }
+    let nodes = nodes.get_mut(..used).unwrap_or_default();
+    // Where a line of the cache begins: at least as near as numbers are to each other.
+    let shift = places.as_flattened().as_ptr().align_offset(LINE) % (LINE / size_of::<f32>());
+    let used_places = lay_down((places, shift), indices, first, nodes, &mut child);
+    // What is behind the last leaf is loaded with it, and never used: zeros, so that trees of a list are equal.
+    let behind = shift + 4 * used_places;
+    if let Some(behind) = places.as_flattened_mut().get_mut(behind..behind + 4 * BEHIND) {
+        behind.fill(0.0);
+    }
+
+    let mut outside = 0;
+    for (index, sphere) in spheres.iter().enumerate() {
+        if sphere.is_valid()
+            && scale.scaled(&sphere).is_none()
+            && let Some(place) = indices.get_mut(used_places + outside)
+        {
+            *place = index as u32;
+            outside += 1;
+        }
     }
     let mut extent = 0.0_f32;
-    if full > 0 {
+    if inside > 0 {
         for axis in 0..3 {
             extent = extent.max(root.bounds.low[axis].abs()).max(root.bounds.high[axis].abs());
         }
     }
-    Built { nodes: used, leaves: leaves.len(), outside, root: child, scale, extent }
+    Built { nodes: used, shift, places: used_places, outside, root: child, scale, extent }
 }
 
-/// Puts the spheres that are `wanted`, as they are, into leaves, in the order of their indices, and empties the
-/// rest of the last; returns their number.
+/// Puts the spheres that bounds see to the end of the memory, in the order of their indices; returns where they
+/// begin.
 fn fill(
-    leaves: &mut [BvhLeaf],
+    places: &mut [[f32; 4]],
+    indices: &mut [u32],
     spheres: &Spheres<'_>,
-    wanted: impl Fn(&Sphere) -> Option<Sphere>,
+    scale: &SceneScale,
 ) -> usize {
-    let mut count = 0;
-    for (index, sphere) in spheres.iter().enumerate() {
-        let Some(sphere) = wanted(&sphere) else { continue };
-        if let Some(leaf) = leaves.get_mut(count / WIDTH) {
-            let lane = count % WIDTH;
-            if lane == 0 {
-                *leaf = BvhLeaf::EMPTY;
-            }
-            for axis in 0..3 {
-                leaf.center[axis][lane] = sphere.center[axis];
-            }
-            leaf.radius[lane] = sphere.radius;
-            leaf.index[lane] = index as u32;
-            count += 1;
+    let mut first = places.len();
+    for index in (0..spheres.len()).rev() {
+        let Some(sphere) = spheres.get(index) else { continue };
+        if let Some(Sphere { center, radius }) = scale.scaled(&sphere)
+            && let (Some(place), Some(number)) =
+                (places.get_mut(first.wrapping_sub(1)), indices.get_mut(first.wrapping_sub(1)))
+        {
+            (*place, *number) = ([center.x, center.y, center.z, radius], index as u32);
+            first -= 1;
         }
     }
-    count
+    first
+}
+
+/// A leaf before it is laid down: where its spheres are, and how many. Of spheres that are all the same, the first
+/// one.
+fn settle(run: &mut Run<'_>, part: &Part, first: usize) -> u32 {
+    let mut count = part.count;
+    if part.is_one_sphere() {
+        let own = run.part(part.first, part.count);
+        if let Some(least) = own.indices.iter().copied().min()
+            && let Some(place) = own.indices.first_mut()
+        {
+            *place = least;
+        }
+        count = 1;
+    }
+    unsettled(first + part.first, count)
 }
 
 /// A child of the root, and the memory that becomes its nodes.
 #[derive(Default)]
 struct Subtree<'a> {
-    leaves: &'a mut [BvhLeaf],
-    /// Where its leaves begin among all.
+    run: Run<'a>,
+    /// Where its spheres begin among all.
     first: usize,
-    /// How many spheres are in them.
-    count: usize,
+    is_leaf: bool,
     nodes: &'a mut [BvhNode],
-    /// How many nodes it took: none for a single leaf.
+    budget: Budget,
+    /// How many nodes it took: none for a leaf.
     used: usize,
 }
 
-/// Builds the nodes over all leaves, which are two or more; returns their number.
+/// Builds the nodes over a run that is no leaf; returns their number.
 fn build_tree(
     join: &impl Join,
     nodes: &mut [BvhNode],
-    leaves: &mut [BvhLeaf],
-    count: usize,
+    run: &mut Run<'_>,
     root: Part,
+    budget: Budget,
 ) -> usize {
-    let (mut parts, number) = children(join, leaves, count, root);
-    let parts = parts.get_mut(..number).unwrap_or(&mut []);
-    // In the order of their leaves, so that memory is handed out from the front.
-    for end in 1..parts.len() {
-        for at in (1..=end).rev() {
-            if let Some([before, part]) = parts.get_mut(at - 1..=at)
-                && part.first < before.first
-            {
-                core::mem::swap(before, part);
-            }
-        }
-    }
+    let count = root.count;
+    let made = if count <= FEW {
+        in_equal_parts(join, run, root, budget)
+    } else {
+        children(join, run, root, budget)
+    };
+    let parts = made.parts.get(..made.number).unwrap_or_default();
+    let mut node = node_over(run, parts, 0);
 
     let mut subtrees: [Subtree<'_>; WIDTH] = Default::default();
-    let mut free = nodes.get_mut(1..).unwrap_or(&mut []);
-    let mut left = leaves;
-    for (part, subtree) in parts.iter().zip(&mut subtrees) {
-        let (own, others) = left.split_at_mut(part.leaves.min(left.len()));
-        let (room, rest) = free.split_at_mut(room_for(part).min(free.len()));
-        let count = (count - part.first * WIDTH).min(part.leaves * WIDTH);
-        *subtree = Subtree { leaves: own, first: part.first, count, nodes: room, used: 0 };
-        (left, free) = (others, rest);
+    let mut free = nodes.get_mut(1..).unwrap_or_default();
+    let mut rest = Run { spheres: &mut *run.spheres, indices: &mut *run.indices };
+    let mut rooms = [0; WIDTH];
+    for ((part, subtree), room) in parts.iter().zip(&mut subtrees).zip(&mut rooms) {
+        let (own, others) = rest.split_off(part.count);
+        let budget = made.left.share(part.count, count);
+        *room = if part.is_leaf() { 0 } else { nodes_needed(part.count) + budget.nodes };
+        let (room, others_nodes) = free.split_at_mut((*room).min(free.len()));
+        let (first, is_leaf) = (part.first, part.is_leaf());
+        *subtree = Subtree { run: own, first, is_leaf, nodes: room, budget, used: 0 };
+        (rest, free) = (others, others_nodes);
     }
-    build_subtrees(join, subtrees.get_mut(..number).unwrap_or(&mut []));
+    build_subtrees(join, subtrees.get_mut(..made.number).unwrap_or_default());
     let used = subtrees.map(|subtree| subtree.used);
 
-    let mut node = node_over(parts, 0);
     let (mut from, mut to) = (1, 1);
-    for ((child, part), used) in node.child.iter_mut().zip(&*parts).zip(used) {
-        if part.leaves == 1 {
+    for (((child, part), used), room) in node.child.iter_mut().zip(parts).zip(used).zip(rooms) {
+        if part.is_leaf() {
             continue;
         }
         *child = to as u32;
@@ -146,8 +191,7 @@ fn build_tree(
                 *node = moved;
             }
         }
-        from += room_for(part);
-        to += used;
+        (from, to) = (from + room, to + used);
     }
     if let Some(place) = nodes.first_mut() {
         *place = node;
@@ -155,15 +199,10 @@ fn build_tree(
     to
 }
 
-/// How many nodes are enough for a child of the root.
-fn room_for(part: &Part) -> usize {
-    if part.leaves > 1 { part.leaves / 15 * 8 + part.leaves % 15 * 8 / 15 } else { 0 }
-}
-
 /// Builds subtrees, which are apart.
 fn build_subtrees(join: &impl Join, subtrees: &mut [Subtree<'_>]) {
     if let [subtree] = subtrees {
-        if subtree.leaves.len() > 1 {
+        if !subtree.is_leaf {
             subtree.used = build_nodes(join, subtree);
         }
     } else if !subtrees.is_empty() {
@@ -174,19 +213,20 @@ fn build_subtrees(join: &impl Join, subtrees: &mut [Subtree<'_>]) {
 
 /// Builds the nodes of a subtree, numbered from zero; returns their number.
 fn build_nodes(join: &impl Join, subtree: &mut Subtree<'_>) -> usize {
-    let Subtree { leaves, first, count, nodes, .. } = subtree;
-    let root = Part::new(join, leaves, *count, 0, leaves.len());
+    let Subtree { run, first, nodes, budget, .. } = subtree;
+    let root = Part::new(join, run.spheres, 0, run.spheres.len());
     // Each level leaves at most fifteen waiting for the one that goes on.
     let mut waiting = [Waiting { part: root, node: 0 }; (WIDTH - 1) * DEPTH + WIDTH];
     let (mut top, mut used) = (1, 1);
     while top > 0 {
         top -= 1;
         let Some(&Waiting { part, node }) = waiting.get(top) else { break };
-        let (children, number) = children(join, leaves, *count, part);
-        let children = children.get(..number).unwrap_or(&[]);
-        let mut built = node_over(children, *first);
-        for (slot, child) in built.child.iter_mut().zip(children) {
-            if child.leaves > 1
+        let Children { parts, number, left } = children(join, run, part, *budget);
+        *budget = left;
+        let parts = parts.get(..number).unwrap_or_default();
+        let mut built = node_over(run, parts, *first);
+        for (slot, child) in built.child.iter_mut().zip(parts) {
+            if !child.is_leaf()
                 && let Some(place) = waiting.get_mut(top)
             {
                 *slot = used as u32;
@@ -201,37 +241,22 @@ fn build_nodes(join: &impl Join, subtree: &mut Subtree<'_>) -> usize {
     used
 }
 
-/// A node with the boxes of its children; leaves get their names, with `first` added.
-fn node_over(children: &[Part], first: usize) -> BvhNode {
+/// A node with the boxes of its children, in the order of their spheres; leaves are settled, with `first` added.
+fn node_over(run: &mut Run<'_>, parts: &[Part], first: usize) -> BvhNode {
     let mut node = BvhNode::EMPTY;
-    for (slot, child) in children.iter().enumerate().take(WIDTH) {
-        let [low, high] = child.bounds.padded();
+    for (slot, part) in parts.iter().enumerate().take(WIDTH) {
+        let [low, high] = part.bounds.padded();
         for axis in 0..3 {
             node.low[axis][slot] = low[axis];
             node.high[axis][slot] = high[axis];
         }
-        if child.leaves == 1 {
-            node.child[slot] = (first + child.first) as u32 | LEAF;
+        if part.is_leaf() {
+            node.child[slot] = settle(run, part, first);
         }
     }
     order_children(&mut node);
     node
 }
 
-/// Puts the first `count` spheres of a leaf into the order of their indices.
-fn sort(leaf: &mut BvhLeaf, count: usize) {
-    let mut order = [u64::MAX; WIDTH];
-    for (lane, key) in order.iter_mut().enumerate().take(count) {
-        *key = u64::from(leaf.index[lane]) << 32 | lane as u64;
-    }
-    order.sort_unstable();
-    let unsorted = *leaf;
-    for (lane, key) in order.iter().enumerate().take(count) {
-        let from = *key as usize % WIDTH;
-        for axis in 0..3 {
-            leaf.center[axis][lane] = unsorted.center[axis][from];
-        }
-        leaf.radius[lane] = unsorted.radius[from];
-        leaf.index[lane] = unsorted.index[from];
-    }
-}
+#[cfg(test)]
+mod tests;

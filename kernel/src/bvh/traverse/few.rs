@@ -10,7 +10,8 @@ use super::in_flight::begin;
 use super::prepared_ray::PreparedPacket;
 use super::ray_state::RayState;
 use crate::Accuracy;
-use crate::bvh::node::WIDTH;
+use crate::bvh::leaf::{Leaf, place_of};
+use crate::bvh::node::{BvhNode, LEAF, NO_CHILD, WIDTH};
 use crate::bvh::tree::Bvh;
 use crate::lanes::Lanes;
 use crate::query::Query;
@@ -20,25 +21,39 @@ const FEW: usize = u64::BITS as usize / WIDTH;
 /// So many spheres are deferred at once.
 const AT_ONCE: u32 = 2;
 
-/// Whether a tree has few leaves.
+/// The leaves of a tree that has few, all in one node; else `None`.
 #[inline(always)]
-pub(crate) fn is_few(bvh: &Bvh<'_>) -> bool {
-    bvh.leaves.len() <= FEW
+pub(crate) fn few(bvh: &Bvh<'_>) -> Option<[u32; FEW]> {
+    match bvh.nodes {
+        [] => Some([bvh.root, NO_CHILD, NO_CHILD, NO_CHILD]),
+        [BvhNode { child: [a, b, c, d, NO_CHILD, ..], .. }] => Some([*a, *b, *c, *d]),
+        _ => None,
+    }
 }
 
 /// Answers every ray by testing it against all spheres of such a tree.
 #[inline(always)]
-pub(crate) fn traverse<T: Accuracy, L: Lanes, Q: Query>(tests: &mut DeferredTests<'_, T, L, Q>) {
+pub(crate) fn traverse<T: Accuracy, L: Lanes, Q: Query>(
+    tests: &mut DeferredTests<'_, T, L, Q>,
+    leaves: [u32; FEW],
+) {
+    // Found once: to look for them costs as much as to test them.
+    let bvh = tests.bvh;
+    let leaves = leaves.map(
+        #[inline(always)]
+        |child| (child & !LEAF, bvh.leaf(child & !LEAF)),
+    );
+    let leaves = &leaves;
     let (mut prepared, mut state) = (PreparedPacket::none(), RayState::NEW);
     for packet in 0..tests.packets.len() {
         begin(tests, packet, &mut prepared);
         if tests.tier.spread() == 0.0 {
-            all_leaves::<T, L, Q, false>(tests, packet, &prepared, &mut state);
+            all_leaves::<T, L, Q, false>(tests, leaves, packet, &prepared, &mut state);
         } else {
             L::out_of_line(
                 tests.token,
                 #[inline(always)]
-                || all_leaves::<T, L, Q, true>(tests, packet, &prepared, &mut state),
+                || all_leaves::<T, L, Q, true>(tests, leaves, packet, &prepared, &mut state),
             );
         }
     }
@@ -48,6 +63,7 @@ pub(crate) fn traverse<T: Accuracy, L: Lanes, Q: Query>(tests: &mut DeferredTest
 #[inline(always)]
 fn all_leaves<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
     tests: &mut DeferredTests<'_, T, L, Q>,
+    leaves: &[(u32, Option<Leaf<'_>>); FEW],
     packet: usize,
     prepared: &PreparedPacket<L::Array>,
     state: &mut RayState,
@@ -60,22 +76,22 @@ fn all_leaves<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
         state.begin(prepared, 0, ray, bvh.root);
 
         let mut candidates = 0;
-        for number in 0..bvh.leaves.len().min(FEW) {
-            let here = state.may_hit::<T, L, Q, SPREADS>(tests, prepared, &bvh.leaves[number]);
+        for number in 0..FEW {
+            let Some(leaf) = &leaves[number].1 else { break };
+            let here = state.may_hit::<T, L, Q, SPREADS>(tests, prepared, leaf);
             candidates |= u64::from(here) << (number * WIDTH);
         }
         if candidates.count_ones() <= AT_ONCE {
             while candidates != 0 {
-                tests.add(ray, candidates.trailing_zeros());
+                let bit = candidates.trailing_zeros();
+                tests.add(ray, place_of(leaves[bit as usize / WIDTH % FEW].0, bit % WIDTH as u32));
                 candidates &= candidates - 1;
             }
             continue;
         }
-        for number in 0..bvh.leaves.len().min(FEW) {
-            let first = number * WIDTH;
-            if candidates >> first & 0xffff != 0 {
-                let leaf = (&bvh.leaves[number], first as u32);
-                state.meet::<T, L, Q, SPREADS>(tests, prepared, leaf);
+        for number in 0..FEW {
+            if candidates >> (number * WIDTH) & 0xffff != 0 {
+                state.meet::<T, L, Q, SPREADS>(tests, prepared, leaves[number].0);
             }
         }
         state.end(tests);

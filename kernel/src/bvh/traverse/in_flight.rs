@@ -6,7 +6,7 @@ use super::prepared_ray::PreparedPacket;
 use super::ray_state::RayState;
 use crate::Accuracy;
 use crate::accuracy::{RayLanes, is_closer};
-use crate::bvh::node::{LEAF, NO_CHILD};
+use crate::bvh::node::{BvhNode, LEAF, NO_CHILD};
 use crate::bvh::tree::Bvh;
 use crate::filter::may_come_near;
 use crate::geometry::hit::Hit;
@@ -218,9 +218,9 @@ impl<A: LaneArray> Round<A> {
 
     /// Takes what is next from the stack of a ray.
     #[inline(always)]
-    pub(crate) fn go_on(&mut self, number: u32, state: &mut RayState) {
-        let ended = state.stack.is_empty();
-        let child = state.stack.pop();
+    pub(crate) fn go_on(&mut self, nodes: &[BvhNode], number: u32, state: &mut RayState) {
+        let child = state.stack.pop(nodes);
+        let ended = child == NO_CHILD;
         let leaf = child & LEAF != 0;
         self.nodes.append(Step { state: number, child }, !leaf & !ended);
         self.leaves.append(Step { state: number, child: child & !LEAF }, leaf & !ended);

@@ -8,7 +8,8 @@ use super::prepared_ray::PreparedPacket;
 use super::root_interval::RayProbe;
 use super::stack::Stack;
 use crate::Accuracy;
-use crate::bvh::node::{BvhLeaf, BvhNode, WIDTH, octant_of};
+use crate::bvh::leaf::{Leaf, place_of};
+use crate::bvh::node::{BvhNode, WIDTH, octant_of};
 use crate::geometry::hit::Hit;
 use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::axes;
@@ -108,14 +109,14 @@ impl RayState {
         self.best + prepared.spread.get(self.ray.lane)
     }
 
-    /// Lays the children of a node that the ray enters onto its stack; the nearest on top, except
-    /// where any hit will do.
+    /// Lays the children of a node that the ray enters onto its stack; the nearest on top, except where any hit will
+    /// do.
     #[inline(always)]
     pub(crate) fn enter<L: Lanes, Q: Query>(
         &mut self,
         token: L::Token,
         prepared: &PreparedPacket<L::Array>,
-        node: &BvhNode,
+        (number, node): (u32, &BvhNode),
     ) {
         let lane = self.ray.lane;
         let best = self.end_of_boxes(prepared);
@@ -128,12 +129,6 @@ impl RayState {
         let minus_near = axes!(i => L::splat(token, prepared.minus_near[i].get(lane)));
         let far = axes!(i => L::splat(token, prepared.far[i].get(lane)));
         let (start, minus_best) = (L::splat(token, start), L::splat(token, -best));
-        let order = node.order[self.octant as usize % 8];
-        let mut children = [0.0; WIDTH];
-        for place in 0..WIDTH {
-            children[place] = f32::from_bits(node.child[place]);
-        }
-
         let (mut met, mut entries) = (0, [0.0; WIDTH]);
         for part in 0..WIDTH / L::COUNT {
             let entry = axes!(i => {
@@ -146,20 +141,11 @@ impl RayState {
             let minus_leave = minus_leave[0]
                 .filter_max(minus_leave[1])
                 .filter_max(minus_leave[2].filter_max(minus_best));
-            let child = L::load_part(token, &children, part);
-            if L::COUNT == WIDTH && Q::ANY {
-                self.stack.push::<L>(entry.le(-minus_leave), entry, child);
-            } else if L::COUNT == WIDTH {
-                let (entry, minus_leave) = (entry.in_order(order), minus_leave.in_order(order));
-                self.stack.push::<L>(entry.le(-minus_leave), entry, child.in_order(order));
-            } else {
-                met |= entry.le(-minus_leave).bits() << (part * L::COUNT);
-                entry.store().put_part(&mut entries, part);
-            }
+            met |= entry.le(-minus_leave).bits() << (part * L::COUNT);
+            entry.store().put_part(&mut entries, part);
         }
-        if L::COUNT != WIDTH {
-            self.stack.push_in_order(met, order, &entries, &children);
-        }
+        let order = if Q::ANY { None } else { Some(node.order[self.octant as usize % 8]) };
+        self.stack.push::<L>(token, (number, order), met, &entries);
     }
 
     #[inline(always)]
@@ -187,30 +173,31 @@ impl RayState {
         &self,
         tests: &DeferredTests<'_, T, L, Q>,
         prepared: &PreparedPacket<L::Array>,
-        leaf: &BvhLeaf,
+        leaf: &Leaf<'_>,
     ) -> u32 {
         let probe = self.probe(tests, prepared);
         let mut spheres = 0;
         for part in 0..WIDTH / L::COUNT {
-            spheres |= probe.may_hit::<SPREADS>(&leaf.columns(), part) << (part * L::COUNT);
+            spheres |= probe.may_hit::<SPREADS>(&leaf.columns, part) << (part * L::COUNT);
         }
-        spheres
+        spheres & leaf.lanes
     }
 
-    /// Looks at the spheres of a leaf, the first of which is at `place`.
+    /// Looks at the spheres of leaf `number`.
     #[inline(always)]
     pub(crate) fn meet<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
         &mut self,
         tests: &mut DeferredTests<'_, T, L, Q>,
         prepared: &PreparedPacket<L::Array>,
-        (leaf, place): (&BvhLeaf, u32),
+        number: u32,
     ) {
+        let Some(leaf) = tests.bvh.leaf(number) else { return };
         let before = self.best;
         let probe = self.probe(tests, prepared);
         for part in 0..WIDTH / L::COUNT {
-            let interval = probe.root_interval::<SPREADS>(&leaf.columns(), part);
+            let interval = probe.root_interval::<SPREADS>(&leaf.columns, part);
             let (entries, bounds) = (interval.entry.store(), interval.bound.store());
-            let mut candidates = interval.candidates.bits();
+            let mut candidates = interval.candidates.bits() & leaf.lanes >> (part * L::COUNT);
             while candidates != 0 {
                 let lane = candidates.trailing_zeros() as usize;
                 candidates &= candidates - 1;
@@ -243,7 +230,7 @@ impl RayState {
                         self.best = least(prepared.time(self.ray.lane).after(t), self.best);
                     }
                 }
-                self.candidates.push(place + (part * L::COUNT + lane) as u32, entry);
+                self.candidates.push(place_of(number, (part * L::COUNT + lane) as u32), entry);
             }
         }
         if self.best < before {

@@ -25,7 +25,7 @@ use crate::numeric::axes::axes;
 pub(crate) struct RootInterval<L: Lanes> {
     /// Which spheres may be hit in the ray's interval.
     pub(crate) candidates: L::Mask,
-    /// No root of the sphere is below.
+    /// No root of the sphere that is in the interval is below.
     pub(crate) entry: L,
     /// No root above can be answered by less than this sphere's answer; `+inf` where none is sure.
     pub(crate) bound: L,
@@ -166,6 +166,9 @@ impl<L: Lanes> Pass<L> {
         let far = hit & start[1].le(leaving) & left.le(end[0]);
         let infinity = radius.like(f32::INFINITY);
         let bound = L::select(near, entered, L::select(far, left, infinity));
+        // Where the near root is surely before the start, the far one answers. (With the near root as entry, spheres
+        // around the origin stayed candidates whatever else was hit.)
+        let entry = L::select(entered.lt(start[0]), leaving, entry);
         RootInterval { candidates, entry, bound: bound + raise }
     }
 }

@@ -1,6 +1,5 @@
 //! Where spheres lie until a tier tests them.
 
-use crate::bvh::node::{BvhLeaf, WIDTH};
 use crate::geometry::sphere::{Sphere, Spheres};
 use crate::geometry::sphere_run::SphereRun;
 use crate::lanes::{LaneArray, Lanes};
@@ -44,13 +43,13 @@ impl SphereRun for InsideSpheres<'_> {
 
 /// The spheres of a tree that no bound sees, by rising index.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct OutsideLeaves<'a> {
+pub(crate) struct OutsideSpheres<'a> {
     /// The list that the tree was built from.
     pub(crate) spheres: Spheres<'a>,
-    pub(crate) leaves: &'a [BvhLeaf],
+    pub(crate) indices: &'a [u32],
 }
 
-impl SphereRun for OutsideLeaves<'_> {
+impl SphereRun for OutsideSpheres<'_> {
     #[inline(always)]
     fn list(&self) -> Spheres<'_> {
         self.spheres
@@ -58,19 +57,13 @@ impl SphereRun for OutsideLeaves<'_> {
 
     #[inline(always)]
     fn count(&self) -> usize {
-        // All leaves but the last are full.
-        let Some((last, full)) = self.leaves.split_last() else { return 0 };
-        let mut count = full.len() * WIDTH;
-        for lane in 0..WIDTH {
-            count += usize::from(last.index[lane] != u32::MAX);
-        }
-        count
+        self.indices.len()
     }
 
     #[inline(always)]
     fn index(&self, number: usize) -> u32 {
-        match self.leaves.get(number / WIDTH) {
-            Some(leaf) => leaf.index[number % WIDTH],
+        match self.indices.get(number) {
+            Some(&index) => index,
             None => u32::MAX,
         }
     }

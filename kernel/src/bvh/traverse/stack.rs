@@ -1,12 +1,14 @@
 //! The boxes that a ray has yet to look into.
 //!
-//! What a ray meets in a node is one frame: up to sixteen boxes, the next on top. Frames lie one on the
-//! other as the nodes do in the tree, nine at most (`docs/traversal-margins.md`), whatever a ray's numbers are; sixteen
-//! are there, so that a mask can stand for a bounds check, and never acts. (All boxes one behind
-//! the other: as fast, with a proof of its length that says more than that there are nine.)
+//! What a ray meets in a node is one frame: the node, where the ray enters each of its sixteen boxes, and which are
+//! left, in the order in which it takes them. Nothing is moved, as it would be if a frame held only the boxes that
+//! are met: a CPU without AVX-512 cannot do that for sixteen lanes. Frames lie one on the other as the nodes do in
+//! the tree, ten at most (`docs/traversal-margins.md`), whatever a ray's numbers are; sixteen are there, so that a
+//! mask can stand for a bounds check, and never acts. (All boxes one behind the other: as fast, with a proof of its
+//! length that says more than that there are ten.)
 
-use crate::bvh::node::{DEPTH, WIDTH};
-use crate::lanes::{LaneArray, LaneMask, Lanes};
+use crate::bvh::node::{BvhNode, DEPTH, NO_CHILD, WIDTH};
+use crate::lanes::{LaneMask, Lanes};
 
 /// How many frames there are.
 const FRAMES: usize = 16;
@@ -17,111 +19,92 @@ const _: () = assert!(FRAMES > DEPTH);
 #[repr(align(64))]
 struct Frame {
     entries: [f32; WIDTH],
-    /// As bits: numbers that are moved, never computed with.
-    children: [f32; WIDTH],
+    /// The order in which the boxes are taken, the last first: four bits each.
+    order: u64,
+    /// Which are left, in that order.
+    left: u32,
+    node: u32,
 }
 
 /// Boxes, and the s at which the ray enters each.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stack {
     frames: [Frame; FRAMES],
-    /// How many boxes a frame holds: one at least.
-    counts: [u32; FRAMES],
     top: usize,
+    /// The root, as long as it is all there is.
+    root: u32,
 }
 
 impl Stack {
     pub(crate) const EMPTY: Self = Self {
-        frames: [Frame { entries: [0.0; WIDTH], children: [0.0; WIDTH] }; FRAMES],
-        counts: [0; FRAMES],
+        frames: [Frame { entries: [0.0; WIDTH], order: 0, left: 0, node: 0 }; FRAMES],
         top: 0,
+        root: NO_CHILD,
     };
 
     /// Nothing but the root.
     #[inline(always)]
     pub(crate) fn begin(&mut self, root: u32) {
-        self.frames[0].entries[0] = f32::NEG_INFINITY;
-        self.frames[0].children[0] = f32::from_bits(root);
-        self.counts[0] = 1;
-        self.top = 1;
+        (self.root, self.top) = (root, 0);
     }
 
+    #[inline(always)]
     pub(crate) fn clear(&mut self) {
-        self.top = 0;
+        (self.root, self.top) = (NO_CHILD, 0);
     }
 
+    /// Takes a box from the stack; [`NO_CHILD`] if there is none.
     #[inline(always)]
-    pub(crate) fn is_empty(&self) -> bool {
-        self.top == 0
-    }
-
-    /// Takes a box from the stack; where it is empty, any, and it stays so.
-    #[inline(always)]
-    pub(crate) fn pop(&mut self) -> u32 {
-        let below = self.top.saturating_sub(1) % FRAMES;
-        let left = self.counts[below].wrapping_sub(1);
-        self.counts[below] = left;
-        self.top = if left == 0 { below } else { self.top };
-        self.frames[below].children[left as usize % WIDTH].to_bits()
-    }
-
-    /// Lays the boxes of the lanes `met` onto the stack as a frame, the last on top; for sixteen
-    /// lanes.
-    #[inline(always)]
-    pub(crate) fn push<L: Lanes>(&mut self, met: L::Mask, entries: L, children: L) {
-        let top = self.top % FRAMES;
-        let frame = &mut self.frames[top];
-        entries.compress(met).store().put_part(&mut frame.entries, 0);
-        children.compress(met).store().put_part(&mut frame.children, 0);
-        self.count(met.bits().count_ones());
-    }
-
-    /// The same for all that is in a node, `met` a bit a slot, in the order of an octant.
-    #[inline(always)]
-    pub(crate) fn push_in_order(
-        &mut self,
-        met: u32,
-        order: u64,
-        entries: &[f32; WIDTH],
-        children: &[f32; WIDTH],
-    ) {
-        let frame = &mut self.frames[self.top % FRAMES];
-        let mut count = 0;
-        for place in 0..WIDTH {
-            let slot = (order >> (4 * place)) as usize % WIDTH;
-            frame.entries[count % WIDTH] = entries[slot];
-            frame.children[count % WIDTH] = children[slot];
-            count += (met >> slot & 1) as usize;
+    pub(crate) fn pop(&mut self, nodes: &[BvhNode]) -> u32 {
+        if self.top == 0 {
+            return core::mem::replace(&mut self.root, NO_CHILD);
         }
-        self.count(count as u32);
+        let below = (self.top - 1) % FRAMES;
+        let Frame { order, left, node, .. } = &mut self.frames[below];
+        let place = u32::BITS - 1 - (*left | 1).leading_zeros();
+        *left &= !(1 << place);
+        self.top = if *left == 0 { below } else { self.top };
+        let slot = (*order >> (4 * place)) as usize % WIDTH;
+        match nodes.get(*node as usize) {
+            Some(node) => node.child[slot],
+            None => NO_CHILD,
+        }
     }
 
-    /// Takes the frame above the top, which holds so many, as the top.
+    /// Lays the boxes of a node that are `met`, a bit a slot, onto the stack as a frame, in the order given; as they
+    /// are where there is none.
     #[inline(always)]
-    fn count(&mut self, count: u32) {
-        self.counts[self.top % FRAMES] = count;
-        self.top = self.top % FRAMES + usize::from(count > 0);
+    pub(crate) fn push<L: Lanes>(
+        &mut self,
+        token: L::Token,
+        (node, order): (u32, Option<u64>),
+        met: u32,
+        entries: &[f32; WIDTH],
+    ) {
+        let (left, order) = match order {
+            Some(order) => (L::bits_in_order(token, met, order), order),
+            None => (met, AS_THEY_ARE),
+        };
+        self.frames[self.top % FRAMES] = Frame { entries: *entries, order, left, node };
+        self.top = self.top % FRAMES + usize::from(left != 0);
     }
 
     /// Drops what is entered past `limit`.
     #[inline(always)]
     pub(crate) fn cull<L: Lanes>(&mut self, token: L::Token, limit: f32) {
+        let limit = L::splat(token, limit);
         let top = self.top % FRAMES;
         self.top = 0;
         for from in 0..top {
-            let Frame { entries, children } = self.frames[from];
-            let there = (1_u32 << (self.counts[from] % 32)) - 1;
-            if L::COUNT == WIDTH {
-                let entries = L::load_part(token, &entries, 0);
-                let stays = entries.le(L::splat(token, limit)) & L::mask(token, there);
-                self.push(stays, entries, L::load_part(token, &children, 0));
-            } else {
-                let mut stays = 0;
-                for place in 0..WIDTH {
-                    stays |= u32::from(entries[place] <= limit) << place;
-                }
-                self.push_in_order(stays & there, AS_THEY_ARE, &entries, &children);
+            let frame = self.frames[from];
+            let mut stays = 0;
+            for part in 0..WIDTH / L::COUNT {
+                let entries = L::load_part(token, &frame.entries, part);
+                stays |= entries.le(limit).bits() << (part * L::COUNT);
             }
+            let left = frame.left & L::bits_in_order(token, stays, frame.order);
+            self.frames[self.top % FRAMES] = Frame { left, ..frame };
+            self.top += usize::from(left != 0);
         }
     }
 }

@@ -14,8 +14,8 @@
 //!     all lanes for one ray     each of the rays         +---+---+---+
 //! ```
 //!
-//! Nothing is sorted or moved for a ray on its own, as a stack of its own would need ([`wavefront`](super::wavefront)): a ray
-//! that enters a box is written behind that box's queue. So instruction sets that cannot compress lanes lose little.
+//! A node's boxes and the order of its children are looked up once for all of these rays, and no ray has a stack, as on
+//! its own way ([`wavefront`](super::wavefront)): a ray that enters a box is written behind that box's queue.
 //!
 //! What a ray compares is what it compares on its own way, in the same arithmetic: the margins are those of
 //! `docs/traversal-margins.md`. A ray keeps one sphere that may be its closest; where a second may be, the first
@@ -23,10 +23,10 @@
 //!
 //! # Memory
 //!
-//! A ray in the stream takes 128 bytes and some places in queues, of 8 bytes. A node's children could each be entered by
-//! every ray that waits at it. So at most half of the memory that is free is handed to sixteen queues that are as
-//! long as the first of the node's rays are many; those go down before the others are looked at. Sixteen places a level are enough,
-//! for one ray after the other.
+//! A ray in the stream takes 128 bytes and some places in queues, of 8 bytes. A node's children could each be entered
+//! by every ray that waits at it. So at most half of the memory that is free is handed to sixteen queues that are as
+//! long as the first of the node's rays are many; those go down before the others are looked at. Sixteen places a
+//! level are enough, for one ray after the other.
 
 mod memory;
 mod queue;
@@ -41,11 +41,13 @@ use super::deferred::{DeferredTests, RayPlace};
 use super::in_flight::begin;
 use super::prepared_ray::PreparedPacket;
 use crate::Accuracy;
-use crate::bvh::node::{BvhLeaf, LEAF, NO_CHILD, WIDTH};
+use crate::bvh::leaf::{Leaf, place_of};
+use crate::bvh::node::{LEAF, NO_CHILD, WIDTH};
 use crate::bvh::tree::Bvh;
 use crate::geometry::hit::Hit;
 use crate::geometry::ray::RayPacket;
 use crate::lanes::{LaneArray, LaneMask, Lanes};
+use crate::numeric::axes::axes;
 use crate::query::Query;
 
 /// So many rays enter a node before they are queued at its children.
@@ -69,7 +71,8 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
             let rays = rays.get(..count).unwrap_or_default();
             let tests = DeferredTests::<_, L, Q>::new(tier, token, bvh, rays, answers);
             let StreamMemory { rays, queues } = memory;
-            let mut stream = Stream { tests, rays, queues, first: 0, frames: [Frame::EMPTY; FRAMES] };
+            let mut stream =
+                Stream { tests, rays, queues, first: 0, frames: [Frame::EMPTY; FRAMES] };
             stream.all(count);
         },
     );
@@ -90,7 +93,8 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
     /// As many packets at a time as there is memory for.
     #[inline(always)]
     fn all(&mut self, count: usize) {
-        let at_once = (self.rays.len() / L::COUNT).max(1);
+        // As many as a number of 32 bits can tell apart.
+        let at_once = (self.rays.len().min(1 << 31) / L::COUNT).max(1);
         let mut prepared = PreparedPacket::none();
         while self.first < count {
             let packets = at_once.min(count - self.first);
@@ -215,26 +219,30 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
         let (from, base) = (frame.next, frame.base);
         (frame.next, frame.room, frame.left) = (from + room, room, WIDTH as u32);
 
-        let down = [octant & 1 == 1, octant >> 1 & 1 == 1, octant >> 2 & 1 == 1];
-        let corner = |down: bool, axis: usize| if down { &node.high[axis] } else { &node.low[axis] };
-        let nearer = [corner(down[0], 0), corner(down[1], 1), corner(down[2], 2)];
-        let farther = [corner(!down[0], 0), corner(!down[1], 1), corner(!down[2], 2)];
+        let down = axes!(i => octant >> i & 1 == 1);
+        let nearer = axes!(i => if down[i] { &node.high[i] } else { &node.low[i] });
+        let farther = axes!(i => if down[i] { &node.low[i] } else { &node.high[i] });
         let mut ends = [0; WIDTH];
         for slot in 0..WIDTH {
             ends[slot] = base + slot * room;
         }
-        // Which children four rays enter, a bit each: so only a loop over all of them has an end that cannot be guessed.
+        // Which children four rays enter, a bit each: one loop over all of them has an end that cannot be guessed,
+        // where a loop a ray would have four.
         let mut entries = [[0.0; WIDTH]; AT_ONCE];
         let mut whose = [0_u32; AT_ONCE];
-        for at in (from..from + room).step_by(AT_ONCE) {
+        let mut at = from;
+        while at < from + room {
             let mut all = 0_u64;
             for place in 0..AT_ONCE.min(from + room - at) {
-                let Some(&QueuedRay { ray: number, .. }) = self.queues.get(at + place) else { break };
+                let Some(&QueuedRay { ray: number, .. }) = self.queues.get(at + place) else {
+                    break;
+                };
                 let Some(ray) = self.rays.get(number as usize) else { break };
                 let (met, these) = ray.enter::<L>(self.tests.token, nearer, farther);
-                (entries[place], whose[place]) = (these, number);
-                all |= u64::from(met) << (WIDTH * place);
+                (entries[place % AT_ONCE], whose[place % AT_ONCE]) = (these, number);
+                all |= u64::from(met) << (WIDTH * (place % AT_ONCE));
             }
+            at += AT_ONCE;
             while all != 0 {
                 let bit = all.trailing_zeros() as usize;
                 all &= all - 1;
@@ -253,15 +261,15 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
 
     /// Tests the spheres of a leaf against the rays that wait at it.
     #[inline(always)]
-    fn look_into(&mut self, leaf: u32, from: usize, to: usize) {
-        let Some(spheres) = self.tests.bvh.leaves.get(leaf as usize) else { return };
+    fn look_into(&mut self, number: u32, from: usize, to: usize) {
+        let Some(leaf) = self.tests.bvh.leaf(number) else { return };
         if self.tests.tier.spread() == 0.0 {
-            self.meet::<false>((spheres, leaf * WIDTH as u32), from, to);
+            self.meet::<false>((&leaf, number), from, to);
         } else {
             L::out_of_line(
                 self.tests.token,
                 #[inline(always)]
-                || self.meet::<true>((spheres, leaf * WIDTH as u32), from, to),
+                || self.meet::<true>((&leaf, number), from, to),
             );
         }
     }
@@ -270,7 +278,7 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
     #[inline(always)]
     fn meet<const SPREADS: bool>(
         &mut self,
-        (leaf, first): (&BvhLeaf, u32),
+        (leaf, number): (&Leaf<'_>, u32),
         from: usize,
         to: usize,
     ) {
@@ -287,13 +295,17 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
         }
         for at in from..kept {
             let Some(&QueuedRay { ray, .. }) = self.queues.get(at) else { break };
-            self.meet_one::<SPREADS>((leaf, first), ray);
+            self.meet_one::<SPREADS>((leaf, number), ray);
         }
     }
 
     /// Looks at the spheres of a leaf that ray `number` may hit.
     #[inline(always)]
-    fn meet_one<const SPREADS: bool>(&mut self, (leaf, first): (&BvhLeaf, u32), number: u32) {
+    fn meet_one<const SPREADS: bool>(
+        &mut self,
+        (leaf, leaf_number): (&Leaf<'_>, u32),
+        number: u32,
+    ) {
         let Self { tests, rays, .. } = self;
         let Some(ray) = rays.get_mut(number as usize) else { return };
         let whose = RayPlace {
@@ -302,9 +314,9 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
         };
         let probe = ray.probe::<L>(tests.token, tests.tier.spread());
         for part in 0..WIDTH / L::COUNT {
-            let interval = probe.root_interval::<SPREADS>(&leaf.columns(), part);
+            let interval = probe.root_interval::<SPREADS>(&leaf.columns, part);
             let (entries, bounds) = (interval.entry.store(), interval.bound.store());
-            let mut candidates = interval.candidates.bits();
+            let mut candidates = interval.candidates.bits() & leaf.lanes >> (part * L::COUNT);
             while candidates != 0 {
                 let lane = candidates.trailing_zeros() as usize;
                 candidates &= candidates - 1;
@@ -326,7 +338,8 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
                 if ray.entry <= ray.best {
                     tests.add(whose, ray.place);
                 }
-                (ray.place, ray.entry) = (first + (part * L::COUNT + lane) as u32, entry);
+                ray.place = place_of(leaf_number, (part * L::COUNT + lane) as u32);
+                ray.entry = entry;
             }
         }
     }

@@ -14,7 +14,7 @@ use super::prepared_ray::{PreparedLanes, PreparedPacket};
 use super::ray_state::RayState;
 use super::root_interval::Pass;
 use crate::accuracy::RayLanes;
-use crate::bvh::node::BvhNode;
+use crate::bvh::node::{BvhNode, NO_CHILD};
 use crate::query::ClosestHit;
 use crate::testing::toy::{Format, Toy};
 use std::println;
@@ -103,8 +103,9 @@ impl Case {
         let mut state = RayState::NEW;
         state.begin(&packet, 0, RayPlace::FIRST, 0);
         state.stack.clear();
-        state.enter::<Toy<F>, ClosestHit>((), &packet, &self.node::<F>(pad));
-        !state.stack.is_empty()
+        let node = self.node::<F>(pad);
+        state.enter::<Toy<F>, ClosestHit>((), &packet, (0, &node));
+        state.stack.pop(&[node]) != NO_CHILD
     }
 
     /// What a leaf gets wrong of an answer t, one bit each: the ray with no more than that answer sees no

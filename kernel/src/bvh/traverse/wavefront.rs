@@ -24,7 +24,6 @@ use super::in_flight::{PacketsInFlight, Round, Step};
 use super::ray_state::RayState;
 use super::{few, prefetch};
 use crate::Accuracy;
-use crate::bvh::node::WIDTH;
 use crate::bvh::tree::Bvh;
 use crate::geometry::ray::RayPacket;
 use crate::lanes::{LaneArray, Lanes};
@@ -47,8 +46,8 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
             let count = rays.len().min(answers.len());
             let (rays, answers) = (rays.get(..count).unwrap_or_default(), answers);
             let mut tests = DeferredTests::<_, L, Q>::new(tier, token, bvh, rays, answers);
-            if few::is_few(bvh) {
-                few::traverse(&mut tests);
+            if let Some(leaves) = few::few(bvh) {
+                few::traverse(&mut tests, leaves);
             } else {
                 by_boxes(&mut tests);
             }
@@ -64,11 +63,11 @@ fn by_boxes<T: Accuracy, L: Lanes, Q: Query>(tests: &mut DeferredTests<'_, T, L,
     let states = states.as_mut();
     let mut in_flight = PacketsInFlight::<L::Array>::none();
     let mut round = Round::<L::Array>::empty();
-    let far = prefetch::pays(bvh.nodes, bvh.leaves);
+    let far = prefetch::pays(bvh);
     loop {
         round.clear();
         for number in 0..states.len() {
-            round.go_on(number as u32, &mut states[number]);
+            round.go_on(bvh.nodes, number as u32, &mut states[number]);
         }
         // In the place of a ray that has ended another begins.
         for at in 0..round.ended.count {
@@ -77,7 +76,7 @@ fn by_boxes<T: Accuracy, L: Lanes, Q: Query>(tests: &mut DeferredTests<'_, T, L,
             state.end(tests);
             in_flight.end(state);
             if in_flight.begin(tests, state) {
-                round.go_on(number, state);
+                round.go_on(bvh.nodes, number, state);
             }
         }
         if round.nodes.count + round.leaves.count == 0 {
@@ -92,9 +91,7 @@ fn by_boxes<T: Accuracy, L: Lanes, Q: Query>(tests: &mut DeferredTests<'_, T, L,
                 }
             }
             for at in 0..round.leaves.count {
-                if let Some(leaf) = bvh.leaves.get(round.leaves.get(at).child as usize) {
-                    lines ^= prefetch::leaf(leaf);
-                }
+                lines ^= prefetch::leaf(bvh.numbers, round.leaves.get(at).child);
             }
             black_box(lines);
         }
@@ -104,7 +101,7 @@ fn by_boxes<T: Accuracy, L: Lanes, Q: Query>(tests: &mut DeferredTests<'_, T, L,
             let Some(state) = states.get_mut(step.state as usize) else { continue };
             let Some(node) = bvh.nodes.get(step.child as usize) else { continue };
             let Some(prepared) = in_flight.prepared(state) else { continue };
-            state.enter::<L, Q>(tests.token, prepared, node);
+            state.enter::<L, Q>(tests.token, prepared, (step.child, node));
         }
 
         // Tiers with a spread go out of line: a branch within, on a number that is known only at run time, cost
@@ -136,17 +133,15 @@ fn look_into_leaves<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
     for at in 0..in_leaves {
         let step = round.leaves.get(at);
         let Some(state) = states.get(step.state as usize) else { continue };
-        let Some(leaf) = bvh.leaves.get(step.child as usize) else { continue };
+        let Some(leaf) = bvh.leaf(step.child) else { continue };
         let Some(prepared) = in_flight.prepared(state) else { continue };
-        let spheres = state.may_hit::<T, L, Q, SPREADS>(tests, prepared, leaf);
+        let spheres = state.may_hit::<T, L, Q, SPREADS>(tests, prepared, &leaf);
         round.leaves.append(step, spheres != 0);
     }
     for at in 0..round.leaves.count {
         let step = round.leaves.get(at);
         let Some(state) = states.get_mut(step.state as usize) else { continue };
-        let Some(leaf) = bvh.leaves.get(step.child as usize) else { continue };
         let Some(prepared) = in_flight.prepared(state) else { continue };
-        let leaf = (leaf, step.child * WIDTH as u32);
-        state.meet::<T, L, Q, SPREADS>(tests, prepared, leaf);
+        state.meet::<T, L, Q, SPREADS>(tests, prepared, step.child);
     }
 }

@@ -1,36 +1,53 @@
-//! Sixteen lanes in another order: one instruction where the CPU has it (AVX-512), which
-//! `fearless_simd` has no portable name for.
+//! Sixteen bits in another order: a shuffle where the CPU has one, which `fearless_simd` has no portable name for.
 
-use fearless_simd::{Simd, SimdBase, f32x16};
+use fearless_simd::Simd;
 
-/// [`Lanes::in_order`](crate::Lanes::in_order) for sixteen lanes.
+/// [`Lanes::bits_in_order`](crate::Lanes::bits_in_order).
 #[inline(always)]
-pub(super) fn sixteen<S: Simd>(lanes: f32x16<S>, order: u64) -> f32x16<S> {
-    let token = fearless_simd::ExtractToken::token(&lanes);
+pub(super) fn bits<S: Simd>(token: S, bits: u32, order: u64) -> u32 {
     #[cfg(target_arch = "x86_64")]
-    if let fearless_simd::Level::Avx512(avx512) = token.level() {
-        let lanes = f32x16::load_array(avx512, lanes.to_array());
-        return f32x16::load_array(token, permuted(avx512, lanes, order).to_array());
+    match token.level() {
+        fearless_simd::Level::Avx512(avx512) => return permuted(avx512, bits, order),
+        fearless_simd::Level::Avx2(avx2) => return shuffled(avx2, bits, order),
+        _ => {}
     }
-    let array = lanes.to_array();
-    let mut ordered = array;
-    for (lane, element) in ordered.iter_mut().enumerate() {
-        *element = array[(order >> (4 * lane)) as usize % 16];
+    let _ = token;
+    let mut ordered = 0;
+    for place in 0..16 {
+        ordered |= (bits >> (order >> (4 * place) & 15) & 1) << place;
     }
-    f32x16::load_array(token, ordered)
+    ordered
 }
 
 #[cfg(target_arch = "x86_64")]
-use {core::arch::x86_64::*, fearless_simd::x86::Avx512};
+use core::arch::x86_64::*;
 
 #[cfg(target_arch = "x86_64")]
 fearless_simd::kernel!(
     #[inline(always)]
-    fn permuted(token: Avx512, lanes: f32x16<Avx512>, order: u64) -> f32x16<Avx512> {
-        use fearless_simd::SimdInto;
+    fn permuted(token: Avx512, bits: u32, order: u64) -> u32 {
+        let _ = token;
         // Four bits for each lane, and four more behind them, of which the permutation reads none.
         let places = _mm512_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28, 32, 36, 40, 44, 48, 52, 56, 60);
         let indices = _mm512_multishift_epi64_epi8(places, _mm512_set1_epi64(order as i64));
-        _mm512_permutexvar_ps(indices, lanes.into()).simd_into(token)
+        let lanes = _mm512_movm_epi32(bits as u16);
+        u32::from(_mm512_movepi32_mask(_mm512_permutexvar_epi32(indices, lanes)))
+    }
+);
+
+#[cfg(target_arch = "x86_64")]
+fearless_simd::kernel!(
+    #[inline(always)]
+    fn shuffled(token: Avx2, bits: u32, order: u64) -> u32 {
+        let _ = token;
+        // A byte for each bit.
+        let halves = _mm_setr_epi8(0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1);
+        let one_each = _mm_set1_epi64x(0x8040_2010_0804_0201_u64 as i64);
+        let bytes = _mm_shuffle_epi8(_mm_set1_epi16(bits as i16), halves);
+        let bytes = _mm_cmpeq_epi8(_mm_and_si128(bytes, one_each), one_each);
+        // A byte for each four bits of the order.
+        let (order, low) = (_mm_set1_epi64x(order as i64), _mm_set1_epi8(15));
+        let (even, odd) = (_mm_and_si128(order, low), _mm_and_si128(_mm_srli_epi16(order, 4), low));
+        _mm_movemask_epi8(_mm_shuffle_epi8(bytes, _mm_unpacklo_epi8(even, odd))) as u32
     }
 );

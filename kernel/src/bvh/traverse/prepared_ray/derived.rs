@@ -1,5 +1,5 @@
-//! The pads of boxes as they follow from the source: a slab is entered no later than the answer, at the corner that is
-//! farther out by 40 u C, with 2 absolute errors more of the ray's.
+//! The pads of boxes as they follow from the source: a slab is entered no later than the answer, at the corner that
+//! is farther out by 40 u C, with 2 absolute errors more of the ray's.
 //!
 //! How far off o' and the answer are, 31 u C and 8 u F, is taken from the text.
 
@@ -48,7 +48,7 @@ fn derive(multiple: f64) -> Derived {
         let mut node = BvhNode::EMPTY;
         (node.low[0][0], node.high[0][0]) = (low.tag(), high.tag());
         let mut state = RayState::NEW;
-        state.enter::<Recorded, ClosestHit>((), &packet, &node);
+        state.enter::<Recorded, ClosestHit>((), &packet, (0, &node));
         low
     });
     for operation in &mut graph {

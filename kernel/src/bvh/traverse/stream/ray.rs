@@ -1,7 +1,8 @@
 //! A ray of a stream: what nodes and leaves ask of it, and what it has found.
 
 use crate::accuracy::Accuracy;
-use crate::bvh::node::{BvhLeaf, WIDTH, octant_of};
+use crate::bvh::leaf::Leaf;
+use crate::bvh::node::{WIDTH, octant_of};
 use crate::bvh::traverse::prepared_ray::PreparedPacket;
 use crate::bvh::traverse::root_interval::RayProbe;
 use crate::lanes::{LaneArray, LaneMask, Lanes};
@@ -19,8 +20,8 @@ pub struct StreamRay {
     /// From where to where boxes matter.
     start_of_boxes: f32,
     pub(super) end_of_boxes: f32,
-    /// The sphere that may be the closest, by its place in the leaves, and the s that no answer of it is below; NaN if
-    /// there is none.
+    /// The sphere that may be the closest, by its place in the leaves, and the s that no answer of it is below; NaN
+    /// if there is none.
     pub(super) place: u32,
     pub(super) entry: f32,
 
@@ -143,14 +144,14 @@ impl StreamRay {
         &self,
         token: L::Token,
         spread: f32,
-        leaf: &BvhLeaf,
+        leaf: &Leaf<'_>,
     ) -> u32 {
         let probe = self.probe::<L>(token, spread);
         let mut spheres = 0;
         for part in 0..WIDTH / L::COUNT {
-            spheres |= probe.may_hit::<SPREADS>(&leaf.columns(), part) << (part * L::COUNT);
+            spheres |= probe.may_hit::<SPREADS>(&leaf.columns, part) << (part * L::COUNT);
         }
-        spheres
+        spheres & leaf.lanes
     }
 
     /// Takes an s that some answer is not above, if it is less than what is known.
