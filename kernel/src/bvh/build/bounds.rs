@@ -27,7 +27,7 @@ pub(super) fn half_area(low: [f32; 3], high: [f32; 3]) -> f32 {
 impl Bounds {
     /// Of spheres, by halves where they are many; the box is rounded outward.
     pub(super) fn of(join: &impl Join, spheres: &[[f32; 4]]) -> Self {
-        let Some((first, second)) = halves(spheres) else { return Self::here(spheres) };
+        let Some([first, second]) = halves(spheres) else { return Self::here(spheres) };
         let (mut both, second) = join.join(|| Self::of(join, first), || Self::of(join, second));
         for axis in 0..3 {
             both.low[axis] = least(both.low[axis], second.low[axis]);
@@ -95,6 +95,6 @@ impl Bounds {
 }
 
 /// Two halves of what is worth a thread.
-pub(super) fn halves(spheres: &[[f32; 4]]) -> Option<(&[[f32; 4]], &[[f32; 4]])> {
-    (spheres.len() > WORTH_A_THREAD).then(|| spheres.split_at(spheres.len() / 2))
+pub(super) fn halves(spheres: &[[f32; 4]]) -> Option<[&[[f32; 4]]; 2]> {
+    (spheres.len() > WORTH_A_THREAD).then(|| spheres.split_at(spheres.len() / 2).into())
 }

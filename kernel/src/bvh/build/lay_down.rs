@@ -13,7 +13,8 @@ const BEGIN_BITS: u32 = 27;
 
 /// A leaf that is not laid down: of up to sixteen spheres.
 pub(super) const fn unsettled(first: usize, count: usize) -> u32 {
-    LEAF | (count as u32).wrapping_sub(1) % WIDTH as u32 * (1 << BEGIN_BITS) | first as u32
+    let less_one = (count as u32).wrapping_sub(1) % WIDTH as u32;
+    LEAF | (less_one << BEGIN_BITS) | first as u32
 }
 
 /// Lays down all leaves of a tree, `shift` numbers after the front; its spheres begin at `first`. Returns how many
@@ -46,8 +47,7 @@ pub(super) fn lay_down(
     let mut way = [(0_usize, 0_usize); DEPTH + 1];
     let mut depth = 0;
     way[0] = (*root as usize, 0);
-    loop {
-        let Some((number, slot)) = way.get_mut(depth) else { break };
+    while let Some((number, slot)) = way.get_mut(depth) {
         let (node, at) = (nodes.get_mut(*number), *slot);
         *slot += 1;
         let child =

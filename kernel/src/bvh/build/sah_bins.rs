@@ -65,7 +65,7 @@ pub(super) fn bins_of(
     bounds: &Bounds,
     scales: [f32; 3],
 ) -> [[Bin; BINS]; 3] {
-    let Some((first, second)) = halves(spheres) else { return bins_here(spheres, bounds, scales) };
+    let Some([first, second]) = halves(spheres) else { return bins_here(spheres, bounds, scales) };
     let (mut both, second) = join
         .join(|| bins_of(join, first, bounds, scales), || bins_of(join, second, bounds, scales));
     for (bins, others) in both.iter_mut().zip(&second) {
