@@ -3,6 +3,7 @@
 use super::lighting::LightingErrors;
 use super::orders::Orders;
 use crate::choice::name;
+use crate::machine::RUSTC;
 use crate::structure::object_order::Counts;
 use crate::structure::{Order, Structure};
 use crate::tally::{Summary, Ulp};
@@ -10,11 +11,10 @@ use serde_json::{Value, json};
 use spherule_kernel::{LevelName, Stages, Tier};
 
 /// Everything that was measured.
-pub(super) struct Report {
-    pub(super) scene: String,
+#[derive(Clone, Debug)]
+pub struct Report {
     pub(super) spheres: usize,
     pub(super) cpu: String,
-    pub(super) rustc: &'static str,
     /// Of the camera's rays and the spheres.
     pub(super) order: Order,
     pub(super) structure: Structure,
@@ -24,10 +24,11 @@ pub(super) struct Report {
     pub(super) orders: Orders,
     pub(super) tiers: Vec<TierReport>,
     /// Of every tier; `None` if the scene has no light.
-    pub(super) lighting: Option<[LightingErrors; Tier::ALL.len()]>,
+    pub(super) lighting: Option<Vec<LightingErrors>>,
 }
 
 /// One tier on one kind of rays.
+#[derive(Clone, Debug)]
 pub(super) struct TierReport {
     pub(super) tier: Tier,
     pub(super) rays_kind: &'static str,
@@ -60,8 +61,9 @@ fn rounded(number: f64) -> f64 {
 }
 
 impl Report {
-    /// One JSON object.
-    pub(super) fn json(&self) -> String {
+    /// One JSON object, of the `scene` of this name.
+    #[must_use]
+    pub fn json(&self, scene: &str) -> String {
         let tier = |tier: &TierReport| {
             json!({
                 "accuracy": tier.tier.as_str(),
@@ -80,9 +82,9 @@ impl Report {
             })
         };
         let report = json!({
-            "scene": self.scene,
+            "scene": scene,
             "cpu": self.cpu,
-            "rustc": self.rustc,
+            "rustc": RUSTC,
             "level": self.level.as_str(),
             "lanes": self.lanes,
             "threads": self.threads,
@@ -93,17 +95,18 @@ impl Report {
                 "object": counts(self.orders.object),
             },
             "tiers": self.tiers.iter().map(tier).collect::<Vec<Value>>(),
-            "lighting": self.lighting.map(|errors| {
+            "lighting": self.lighting.as_ref().map(|errors| {
                 let tiers = Tier::ALL.into_iter().zip(errors);
-                tiers.map(|(tier, errors)| lighting(tier, errors)).collect::<Vec<Value>>()
+                tiers.map(|(tier, errors)| lighting(tier, *errors)).collect::<Vec<Value>>()
             }),
         });
         report.to_string() + "\n"
     }
 
-    /// A table.
-    pub(super) fn table(&self) -> String {
-        let Self { scene, spheres, cpu, rustc, lanes, threads, .. } = self;
+    /// A table, of the `scene` of this name.
+    #[must_use]
+    pub fn table(&self, scene: &str) -> String {
+        let Self { spheres, cpu, lanes, threads, .. } = self;
         let (level, structure) = (self.level.as_str(), name(&self.structure));
         // A scene is a file's name, and that is no line.
         let scene = scene.escape_debug();
@@ -112,7 +115,7 @@ impl Report {
         let (some_spheres, some_threads) = (plural(*spheres), plural(*threads));
         let mut text = format!(
             "{scene}: {spheres} sphere{some_spheres}, {order}{structure}\n\
-             {cpu}, {level}, {lanes} lanes, {threads} thread{some_threads}; {rustc}\n"
+             {cpu}, {level}, {lanes} lanes, {threads} thread{some_threads}; {RUSTC}\n"
         );
         let mut kind = "";
         for tier in &self.tiers {
@@ -148,7 +151,7 @@ impl Report {
             let (order, stored) = (name(&order), writes.stored);
             text += &format!("{order:<7}{tests:>18}{stored:>13}{:>13}\n", writes.overwritten);
         }
-        if let Some(errors) = self.lighting {
+        if let Some(errors) = &self.lighting {
             text += &format!("\n{} points and their lights\n", errors[0].points);
             text += "              wrong    wrong\ntier        normals  shadows\n";
             for (tier, LightingErrors { normals, shadows, .. }) in Tier::ALL.into_iter().zip(errors)
