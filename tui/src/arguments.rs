@@ -90,9 +90,10 @@ pub struct PictureArguments {
     /// Shape of a cell, width to height [default: the terminal's, else 1:2]
     #[arg(long, value_name = "W:H", value_parser = aspect)]
     pub cell_aspect: Option<f32>,
-    /// error: what the tier gets wrong against exact, cell by cell; split:TIER,TIER: two tiers side by side
-    #[arg(long, value_name = "WHAT", conflicts_with = "png")]
-    pub show: Option<Comparison>,
+    /// error: what the tier gets wrong against exact, cell by cell; split:TIER,TIER: two tiers side by side; table: what
+    /// every tier takes and gets wrong
+    #[arg(long, value_name = "WHAT", value_parser = overlay, conflicts_with = "png")]
+    pub show: Option<Overlay>,
     /// How it is computed.
     #[command(flatten)]
     pub computing: ComputingArguments,
@@ -110,6 +111,26 @@ pub struct PictureArguments {
     /// With --pick, write a JSON object
     #[arg(long, requires = "pick")]
     pub json: bool,
+}
+
+/// What `--show` asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Overlay {
+    /// Tiers held against each other, in place of the picture.
+    Tiers(Comparison),
+    /// What every tier takes and gets wrong, over it.
+    Table,
+}
+
+impl Overlay {
+    /// That of tiers, if it is one.
+    #[must_use]
+    pub fn comparison(self) -> Option<Comparison> {
+        match self {
+            Self::Tiers(comparison) => Some(comparison),
+            Self::Table => None,
+        }
+    }
 }
 
 /// A scene, and the rays of a picture of it.
@@ -295,6 +316,12 @@ fn cell(text: &str) -> Result<(u16, u16), &'static str> {
         Some((column.parse().ok()?, row.parse().ok()?))
     };
     cell().ok_or("COL,ROW, counted from 0, such as 40,12")
+}
+
+fn overlay(text: &str) -> Result<Overlay, &'static str> {
+    let tiers = || Comparison::named(text).map(Overlay::Tiers);
+    let table = (text == "table").then_some(Overlay::Table);
+    table.or_else(tiers).ok_or("error, table, or split:TIER,TIER such as split:fast,exact")
 }
 
 fn samples(text: &str) -> Result<Auto<u32>, String> {

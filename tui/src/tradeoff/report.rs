@@ -40,8 +40,15 @@ pub(super) struct TierReport {
 }
 
 impl TierReport {
-    fn ns_per_ray(&self) -> f64 {
+    pub(super) fn ns_per_ray(&self) -> f64 {
         1e9 * self.seconds / self.rays as f64
+    }
+
+    /// Rays whose closest hit differs from that of `Exact`, beside rounding; rounded up, so that none is lost.
+    pub(super) fn wrong_in_a_million(&self) -> u64 {
+        let Summary { wrong_hits, wrong_misses, wrong_places, .. } = self.errors;
+        let wrong = wrong_hits + wrong_misses + wrong_places;
+        (1_000_000 * wrong).div_ceil((self.rays as u64).max(1))
     }
 
     /// Rays a microsecond; 0 if a pass took no time that can be measured.
@@ -55,12 +62,32 @@ impl TierReport {
     }
 }
 
+/// So many of something.
+fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
 /// Four digits that mean something.
 fn rounded(number: f64) -> f64 {
     format!("{number:.3e}").parse().unwrap_or(number)
 }
 
 impl Report {
+    /// Spheres, and how they are searched.
+    fn search(&self) -> String {
+        let order = if self.order == Order::Object { "object order, " } else { "" };
+        format!("{}, {order}{}", counted(self.spheres, "sphere"), name(&self.structure))
+    }
+
+    fn thread_count(&self) -> String {
+        counted(self.threads, "thread")
+    }
+
+    /// What was searched, and by what, in a line.
+    pub(super) fn search_and_machine(&self) -> String {
+        format!("{}; {}, {}", self.search(), self.level.as_str(), self.thread_count())
+    }
+
     /// One JSON object, of the `scene` of this name.
     #[must_use]
     pub fn json(&self, scene: &str) -> String {
@@ -106,17 +133,12 @@ impl Report {
     /// A table, of the `scene` of this name.
     #[must_use]
     pub fn table(&self, scene: &str) -> String {
-        let Self { spheres, cpu, lanes, threads, .. } = self;
-        let (level, structure) = (self.level.as_str(), name(&self.structure));
+        let Self { cpu, lanes, .. } = self;
+        let (search, level, threads) = (self.search(), self.level.as_str(), self.thread_count());
         // A scene is a file's name, and that is no line.
         let scene = scene.escape_debug();
-        let order = if self.order == Order::Object { "object order, " } else { "" };
-        let plural = |count: usize| if count == 1 { "" } else { "s" };
-        let (some_spheres, some_threads) = (plural(*spheres), plural(*threads));
-        let mut text = format!(
-            "{scene}: {spheres} sphere{some_spheres}, {order}{structure}\n\
-             {cpu}, {level}, {lanes} lanes, {threads} thread{some_threads}; {RUSTC}\n"
-        );
+        let mut text =
+            format!("{scene}: {search}\n{cpu}, {level}, {lanes} lanes, {threads}; {RUSTC}\n");
         let mut kind = "";
         for tier in &self.tiers {
             if tier.rays_kind != kind {
@@ -132,7 +154,7 @@ impl Report {
             text += &row(&[
                 tier.tier.as_str().to_owned(),
                 format!("{:.3}", tier.ns_per_ray()),
-                format!("{:.4}", tier.ns_per_ray() / *spheres as f64),
+                format!("{:.4}", tier.ns_per_ray() / self.spheres as f64),
                 format!("{:.1}", tier.mrays_per_s()),
                 tier.errors.wrong_hits.to_string(),
                 tier.errors.wrong_misses.to_string(),

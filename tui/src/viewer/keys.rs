@@ -36,6 +36,8 @@ pub(super) enum Input {
     Errors,
     /// Show two tiers side by side, or the picture again.
     Split,
+    /// Show what every tier takes and gets wrong, or no longer.
+    Table,
     /// Move the seam between them so many columns to the right.
     Seam(i8),
     /// The other projection.
@@ -95,6 +97,7 @@ fn key_input(key: &KeyEvent) -> Option<Input> {
         KeyCode::Char('4') => Input::Accuracy(Tier::Geometric),
         KeyCode::Char('e') => Input::Errors,
         KeyCode::Char('v') => Input::Split,
+        KeyCode::Char('t') => Input::Table,
         KeyCode::Char('[') => Input::Seam(-1),
         KeyCode::Char(']') => Input::Seam(1),
         KeyCode::Char('o') => Input::Projection,

@@ -55,6 +55,8 @@ pub(super) struct Shown {
     pub(super) seam: i16,
     pub(super) help: bool,
     pub(super) spinning: bool,
+    /// Whether there is a table of what every tier takes and gets wrong; then no cell is picked.
+    pub(super) table: bool,
     /// The cell that is picked.
     pub(super) cursor: Option<Cursor>,
 }
@@ -62,7 +64,7 @@ pub(super) struct Shown {
 impl Shown {
     /// What the picture itself depends on.
     pub(super) fn pictured(&self) -> Self {
-        Self { help: false, spinning: false, cursor: None, ..*self }
+        Self { help: false, spinning: false, table: false, cursor: None, ..*self }
     }
 }
 
@@ -79,7 +81,7 @@ pub(super) struct State {
 }
 
 impl State {
-    pub(super) fn new(Start { view, style, structure, comparison }: Start) -> Self {
+    pub(super) fn new(Start { view, style, structure, comparison, table }: Start) -> Self {
         let shown = Shown {
             view,
             style,
@@ -88,6 +90,7 @@ impl State {
             seam: 0,
             help: false,
             spinning: false,
+            table,
             cursor: None,
         };
         Self { home: view, shown, hand: Hand::default(), pulls_seam: false, size: (1, 1) }
@@ -144,11 +147,12 @@ impl State {
 
     pub(super) fn apply(&mut self, input: Input) -> Outcome {
         let before = self.shown;
-        let Shown { view, style, structure, comparison, help, spinning, cursor, .. } =
+        let Shown { view, style, structure, comparison, help, spinning, table, cursor, .. } =
             &mut self.shown;
         match input {
             Input::Quit => return Outcome::Quit,
             Input::Escape if *help => *help = false,
+            Input::Escape if *table => *table = false,
             Input::Escape if cursor.is_some() => *cursor = None,
             Input::Escape => return Outcome::Quit,
             Input::Grab(column, row) | Input::GrabPlane(column, row) => {
@@ -189,7 +193,7 @@ impl State {
                 }
             }
             // The truth is what exact says.
-            Input::Errors | Input::Split if check_floats(Tier::Exact).is_err() => {}
+            Input::Errors | Input::Split | Input::Table if check_floats(Tier::Exact).is_err() => {}
             Input::Errors => {
                 *comparison = match comparison {
                     Some(Comparison::Errors) => None,
@@ -204,6 +208,7 @@ impl State {
                     (_, tier) => Some(Comparison::Split([tier, Tier::Exact])),
                 }
             }
+            Input::Table => (*table, *cursor) = (!*table, None),
             Input::Projection => {
                 let other = match view.lens_kind() {
                     LensKind::Perspective => LensKind::Parallel,
@@ -228,10 +233,10 @@ impl State {
         if self.shown == *before { Outcome::Unchanged } else { Outcome::Changed }
     }
 
-    /// A pick asks every tier, so where `Exact` cannot be had there is none.
+    /// A pick asks every tier, so where `Exact` cannot be had there is none. It is told where the table is.
     fn pick(&mut self, cursor: Cursor) {
         if check_floats(Tier::Exact).is_ok() {
-            self.shown.cursor = Some(cursor);
+            (self.shown.cursor, self.shown.table) = (Some(cursor), false);
         }
     }
 
@@ -282,7 +287,8 @@ mod tests {
             lens: Lens::Perspective { fov: 40.0 },
         };
         let style = Style { accuracy: Tier::Stable, charset: Charset::Half, ..Style::PLAIN };
-        let mut state = State::new(Start { view, style, structure: None, comparison: None });
+        let mut state =
+            State::new(Start { view, style, structure: None, comparison: None, table: false });
         state.set_size(80, 36);
         state
     }
@@ -410,6 +416,28 @@ mod tests {
         assert!(state.shown.view.eye.distance(orbited(&state.home, step, 0.0).eye) < 1e-5);
         state.apply(Input::Reset);
         assert_eq!((state.shown.view, state.shown.spinning), (state.home, false));
+    }
+
+    #[test]
+    fn there_is_a_table_or_a_pick() {
+        let mut state = state();
+        let over = |state: &State| (state.shown.table, state.shown.cursor.is_some());
+        for (input, shown) in [
+            (Input::Table, (true, false)),
+            (Input::Orbit(1, 0), (true, false)),
+            (Input::Pick, (false, true)),
+            (Input::Table, (true, false)),
+            (Input::Table, (false, false)),
+            (Input::Table, (true, false)),
+            (Input::Help, (true, false)),
+            (Input::Escape, (true, false)),
+            (Input::Escape, (false, false)),
+        ] {
+            assert_eq!(state.apply(input), Outcome::Changed, "{input:?}");
+            assert_eq!(over(&state), shown, "{input:?}");
+        }
+        assert_ne!(state.shown.view, state.home);
+        assert_eq!(state.apply(Input::Escape), Outcome::Quit);
     }
 
     #[test]

@@ -75,7 +75,7 @@ mod tests {
             lens: Lens::Perspective { fov: 40.0 },
         };
         let style = Style { accuracy: Tier::Stable, charset: Charset::Half, ..Style::PLAIN };
-        State::new(Start { view, style, structure: choice, comparison: None })
+        State::new(Start { view, style, structure: choice, comparison: None, table: false })
     }
 
     fn text(columns: u16, state: &State, searched: (Order, Structure), figures: Figures) -> String {
