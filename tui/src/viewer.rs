@@ -11,6 +11,7 @@ mod keys;
 mod meter;
 mod pace;
 mod picking;
+mod seam;
 mod state;
 mod status;
 mod table;
