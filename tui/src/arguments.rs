@@ -1,12 +1,13 @@
 //! The command line.
 
-use crate::choice::{Auto, auto_or, one_of};
+mod values;
+
+use crate::choice::{Auto, auto_or};
 use crate::color::Srgb;
 use crate::compare::Comparison;
 use crate::error::Error;
 use crate::lecture::stations::station;
 use crate::palette::Theme;
-use crate::samples::MOST_SAMPLES;
 use crate::scene::Scene;
 use crate::scene::builtin::DEFAULT;
 use crate::scene::open::{Format, open};
@@ -15,19 +16,13 @@ use crate::style::Charset;
 use crate::terminal::color_depth::ColorChoice;
 use crate::threads::MOST_THREADS;
 use crate::view::{LensKind, View, with_projection};
-use clap::builder::TypedValueParser;
 use clap::error::ErrorKind;
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, CommandFactory, FromArgMatches, Parser, Subcommand, value_parser};
-use spherule_kernel::{Level, LevelName, Tier};
+use spherule_kernel::{Level, Tier};
 use std::ffi::OsString;
-use std::ops::RangeInclusive;
 use std::path::PathBuf;
-
-/// The largest picture, in columns or rows.
-const LARGEST_SIDE: u16 = 4096;
-/// The widest and the narrowest cell, width over height.
-const ASPECTS: RangeInclusive<f32> = 0.05..=20.0;
+use values::{aspect, cell, color, level, overlay, samples, size, tier};
 
 /// Spheres in a terminal, by packets of rays.
 ///
@@ -299,61 +294,6 @@ fn in_one_line(message: &str) -> String {
     let message = message.strip_prefix("error: ").unwrap_or(message);
     let first = message.split("\n\n").next().unwrap_or_default();
     first.split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
-fn size(text: &str) -> Result<(u16, u16), String> {
-    let (columns, rows) = text.split_once(['x', 'X']).ok_or("COLSxROWS, such as 80x24")?;
-    let side = |text: &str| {
-        let side = text.parse().ok().filter(|side| (1..=LARGEST_SIDE).contains(side));
-        side.ok_or_else(|| format!("COLSxROWS, each 1 to {LARGEST_SIDE}"))
-    };
-    Ok((side(columns)?, side(rows)?))
-}
-
-fn cell(text: &str) -> Result<(u16, u16), &'static str> {
-    let cell = || {
-        let (column, row) = text.split_once(',')?;
-        Some((column.parse().ok()?, row.parse().ok()?))
-    };
-    cell().ok_or("COL,ROW, counted from 0, such as 40,12")
-}
-
-fn overlay(text: &str) -> Result<Overlay, &'static str> {
-    let tiers = || Comparison::named(text).map(Overlay::Tiers);
-    let table = (text == "table").then_some(Overlay::Table);
-    table.or_else(tiers).ok_or("error, table, or split:TIER,TIER such as split:fast,exact")
-}
-
-fn samples(text: &str) -> Result<Auto<u32>, String> {
-    let number = || text.parse().ok().filter(|number| (1..=MOST_SAMPLES).contains(number));
-    match text {
-        "auto" => Ok(None),
-        _ => number().map(Some).ok_or_else(|| format!("auto, or 1 to {MOST_SAMPLES}")),
-    }
-}
-
-fn aspect(text: &str) -> Result<f32, &'static str> {
-    let ratio = || {
-        let (width, height) = text.split_once(':')?;
-        Some(width.parse::<f32>().ok()? / height.parse::<f32>().ok()?)
-    };
-    ratio().filter(|ratio| ASPECTS.contains(ratio)).ok_or("W:H, such as 1:2; from 1:20 to 20:1")
-}
-
-/// As in scenes, and without the `#`, with which a shell begins a comment.
-fn color(text: &str) -> Result<Srgb, String> {
-    text.parse().or_else(|error| format!("#{text}").parse().map_err(|_: String| error))
-}
-
-/// `algebraic` is what the lecture calls the form that `fast` is.
-fn tier() -> impl TypedValueParser<Value = Tier> {
-    one_of(&Tier::ALL, Tier::as_str, |tier| (tier == Tier::Fast).then_some("algebraic"))
-}
-
-fn level() -> impl TypedValueParser<Value = Level> {
-    one_of(&LevelName::ALL, LevelName::as_str, |_| None).try_map(|name| {
-        Level::named(name).ok_or_else(|| format!("this CPU has no {}", name.as_str()))
-    })
 }
 
 #[cfg(test)]
