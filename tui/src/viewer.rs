@@ -22,13 +22,13 @@ use crate::compare::error_map::ErrorMapper;
 use crate::compare::split::Times;
 use crate::draw::Renderer;
 use crate::encode::Encoder;
-use crate::error::{Error, cause};
+use crate::error::Error;
 use crate::scene::Scene;
 use crate::scene::framing::bounding_sphere;
 use crate::structure::Structure;
 use crate::structure::scene::SceneStructures;
 use crate::style::Style;
-use crate::terminal::Terminal;
+use crate::terminal::{LONGEST_BACKLOG, Terminal, lost};
 use crate::view::View;
 use frame::Picture;
 use meter::Meter;
@@ -45,10 +45,6 @@ use table::Table;
 /// keys behind it.
 const LOCAL_RATE: u32 = 60;
 const REMOTE_RATE: u32 = 30;
-/// Events taken before a frame is drawn all the same: whoever pastes a file sees something.
-const LONGEST_BACKLOG: usize = 4096;
-/// As `--size` has it: a terminal that claims more is not believed.
-const LARGEST_SIZE: u16 = 4096;
 /// Set, the key `!` panics. There is no other way to test that the terminal survives a panic of
 /// the real program; it harms nobody who does not ask for it.
 const PANIC_SWITCH: &str = "SPHERULE_TEST_PANIC";
@@ -124,11 +120,6 @@ pub fn run(
 /// The rows of the picture, of so many of the terminal: the last is the status line's, if there are two.
 fn picture_rows(rows: u16) -> u16 {
     if rows >= 2 { rows - 1 } else { rows }
-}
-
-/// The terminal is not there.
-fn lost(error: &io::Error) -> Error {
-    Error::Running(format!("terminal: {}", cause(error)))
 }
 
 struct Viewer<'a> {
@@ -207,7 +198,6 @@ impl Viewer<'_> {
     /// Asks the terminal for its size, which may be without a cell.
     fn learn_size(&mut self) -> io::Result<(u16, u16)> {
         let (columns, rows) = self.terminal.size()?;
-        let (columns, rows) = (columns.min(LARGEST_SIZE), rows.min(LARGEST_SIZE));
         self.state.set_size(columns, picture_rows(rows));
         Ok((columns, rows))
     }

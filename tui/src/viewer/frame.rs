@@ -3,7 +3,7 @@
 use super::meter::Frame;
 use super::state::Shown;
 use super::table::{Means, Subject};
-use super::{Viewer, help, lost, picking, picture_rows, status};
+use super::{Viewer, help, picking, picture_rows, status};
 use crate::cells::CellGrid;
 use crate::compare::Comparison;
 use crate::compare::legend::MapPainter;
@@ -12,6 +12,7 @@ use crate::draw::{Drawn, Effort, picture_workload};
 use crate::error::Error;
 use crate::pick::{Pick, cell_ray, report};
 use crate::structure::{Order, Structure};
+use crate::terminal::lost;
 use crate::tradeoff::chart;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
