@@ -1,20 +1,17 @@
 //! What keys and the mouse lead to.
 
 use super::*;
-use crate::view::Lens;
 use clap::ValueEnum;
-use spherule_kernel::Vec3;
 
 pub(super) fn state() -> State {
-    let view = View {
-        eye: Vec3::new(0.0, 0.0, 5.0),
-        target: Vec3::ZERO,
-        up: Vec3::Y,
-        lens: Lens::Perspective { fov: 40.0 },
-    };
     let style = Style { accuracy: Tier::Stable, charset: Charset::Half, ..Style::PLAIN };
-    let mut state =
-        State::new(Start { view, style, structure: None, comparison: None, table: false });
+    let mut state = State::new(Start {
+        view: View::FRONT,
+        style,
+        structure: None,
+        comparison: None,
+        table: false,
+    });
     state.set_size(80, 36);
     state
 }
