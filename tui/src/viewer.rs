@@ -24,7 +24,7 @@ use crate::draw::Renderer;
 use crate::encode::Encoder;
 use crate::error::Error;
 use crate::scene::Scene;
-use crate::scene::framing::bounding_sphere;
+use crate::scene::framing;
 use crate::structure::Structure;
 use crate::structure::scene::SceneStructures;
 use crate::style::Style;
@@ -172,7 +172,7 @@ impl Viewer<'_> {
                     outcome = Outcome::Changed;
                 }
                 Some(keys::Input::FrameAll) => {
-                    let all = bounding_sphere(self.scene.spheres());
+                    let all = framing::subject(self.scene.spheres());
                     outcome = outcome.and(self.state.frame(all));
                 }
                 Some(keys::Input::FramePicked) => {
