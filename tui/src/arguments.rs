@@ -68,7 +68,7 @@ pub struct PictureArguments {
     pub accuracy: Tier,
     /// Characters; auto: half with colour, else ascii
     ///
-    /// auto stays with what every font has. Finer sets are chosen by name; in the viewer c goes through all of them.
+    /// auto stays with what every font has, and with ascii where the locale has no Unicode (LANG=C). Finer sets are chosen by name; in the viewer c goes through all of them.
     /// Quadrants and braille are in most fonts, sextants and octants in Unifont and Cascadia Code; kitty, foot,
     /// Ghostty and GNOME's terminal draw them without a font.
     #[arg(long, value_name = "SET", default_value = "auto", value_parser = auto_or::<Charset>())]

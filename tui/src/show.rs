@@ -15,6 +15,7 @@ use crate::scene::Scene;
 use crate::structure::scene::{PictureSearch, SceneStructures};
 use crate::style::{Charset, ColorDepth, PIPE_SIZE, Style};
 use crate::terminal::color_depth::Surroundings;
+use crate::terminal::locale::is_without_unicode;
 use crate::threads::Threads;
 use crate::tradeoff::Question;
 use crate::view::View;
@@ -65,6 +66,7 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         accuracy: arguments.accuracy,
         charset: arguments.charset.unwrap_or(match depth {
             ColorDepth::Never => Charset::Ascii,
+            _ if is_without_unicode() => Charset::Ascii,
             _ => Charset::Half,
         }),
         depth,

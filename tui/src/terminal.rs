@@ -6,6 +6,7 @@
 
 pub mod color_depth;
 mod input;
+pub mod locale;
 mod screen;
 mod signals;
 mod wish;
