@@ -10,6 +10,7 @@ mod once;
 mod picking;
 mod picture;
 mod session;
+mod table;
 mod viewer;
 
 use look::last_row;

@@ -50,6 +50,24 @@ fn a_dumb_terminal_gets_one_picture() {
 }
 
 #[test]
+fn a_locale_without_unicode_gets_ascii() {
+    for (locale, charset) in [("C", "ascii"), ("C.UTF-8", "half")] {
+        let scene = SceneFile::new(&VIEW);
+        let arguments = [scene.path(), "--show", "table"];
+        let variables = [("LANG", locale)];
+        let mut session = Session::start(spherule(), &arguments, &variables, (COLUMNS, ROWS));
+        session.wait_for(charset, |output| {
+            let text = output.screen().contents();
+            let is_done =
+                text.contains(&format!("exact perspective {charset} ")) && text.contains("2^24");
+            (is_done && text.is_ascii() == (charset == "ascii")).then_some(())
+        });
+        session.type_in("q");
+        assert!(session.wait_for_end().success());
+    }
+}
+
+#[test]
 fn a_png_draws_nothing_and_does_not_go_to_a_terminal() {
     let file = std::env::temp_dir().join(format!("spherule-{}.png", std::process::id()));
     let name = file.to_str().expect("a path that is text");

@@ -76,6 +76,10 @@ pub(crate) fn command(
     for name in ["NO_COLOR", "CLICOLOR_FORCE", "SSH_CONNECTION", "LINES", "COLUMNS"] {
         command.env_remove(name);
     }
+    for name in ["LC_ALL", "LC_CTYPE"] {
+        command.env_remove(name);
+    }
+    command.env("LANG", "C.UTF-8");
     command.env("TERM", "xterm-256color");
     command.env("COLORTERM", "truecolor");
     command.env("RUST_BACKTRACE", "0");

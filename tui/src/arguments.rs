@@ -1,12 +1,13 @@
 //! The command line.
 
-use crate::choice::{Auto, auto_or, one_of};
+mod values;
+
+use crate::choice::{Auto, auto_or};
 use crate::color::Srgb;
 use crate::compare::Comparison;
 use crate::error::Error;
 use crate::lecture::stations::station;
 use crate::palette::Theme;
-use crate::samples::MOST_SAMPLES;
 use crate::scene::Scene;
 use crate::scene::builtin::DEFAULT;
 use crate::scene::open::{Format, open};
@@ -15,19 +16,13 @@ use crate::style::Charset;
 use crate::terminal::color_depth::ColorChoice;
 use crate::threads::MOST_THREADS;
 use crate::view::{LensKind, View, with_projection};
-use clap::builder::TypedValueParser;
 use clap::error::ErrorKind;
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, CommandFactory, FromArgMatches, Parser, Subcommand, value_parser};
-use spherule_kernel::{Level, LevelName, Tier};
+use spherule_kernel::{Level, Tier};
 use std::ffi::OsString;
-use std::ops::RangeInclusive;
 use std::path::PathBuf;
-
-/// The largest picture, in columns or rows.
-const LARGEST_SIDE: u16 = 4096;
-/// The widest and the narrowest cell, width over height.
-const ASPECTS: RangeInclusive<f32> = 0.05..=20.0;
+use values::{aspect, cell, color, level, overlay, samples, size, tier};
 
 /// Spheres in a terminal, by packets of rays.
 ///
@@ -73,7 +68,7 @@ pub struct PictureArguments {
     pub accuracy: Tier,
     /// Characters; auto: half with colour, else ascii
     ///
-    /// auto stays with what every font has. Finer sets are chosen by name; in the viewer c goes through all of them.
+    /// auto stays with what every font has, and with ascii where the locale has no Unicode (LANG=C). Finer sets are chosen by name; in the viewer c goes through all of them.
     /// Quadrants and braille are in most fonts, sextants and octants in Unifont and Cascadia Code; kitty, foot,
     /// Ghostty and GNOME's terminal draw them without a font.
     #[arg(long, value_name = "SET", default_value = "auto", value_parser = auto_or::<Charset>())]
@@ -90,9 +85,10 @@ pub struct PictureArguments {
     /// Shape of a cell, width to height [default: the terminal's, else 1:2]
     #[arg(long, value_name = "W:H", value_parser = aspect)]
     pub cell_aspect: Option<f32>,
-    /// error: what the tier gets wrong against exact, cell by cell; split:TIER,TIER: two tiers side by side
-    #[arg(long, value_name = "WHAT", conflicts_with = "png")]
-    pub show: Option<Comparison>,
+    /// error: what the tier gets wrong against exact, cell by cell; split:TIER,TIER: two tiers side by side; table: what
+    /// every tier takes and gets wrong
+    #[arg(long, value_name = "WHAT", value_parser = overlay, conflicts_with = "png")]
+    pub show: Option<Overlay>,
     /// How it is computed.
     #[command(flatten)]
     pub computing: ComputingArguments,
@@ -110,6 +106,26 @@ pub struct PictureArguments {
     /// With --pick, write a JSON object
     #[arg(long, requires = "pick")]
     pub json: bool,
+}
+
+/// What `--show` asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Overlay {
+    /// Tiers held against each other, in place of the picture.
+    Tiers(Comparison),
+    /// What every tier takes and gets wrong, over it.
+    Table,
+}
+
+impl Overlay {
+    /// That of tiers, if it is one.
+    #[must_use]
+    pub fn comparison(self) -> Option<Comparison> {
+        match self {
+            Self::Tiers(comparison) => Some(comparison),
+            Self::Table => None,
+        }
+    }
 }
 
 /// A scene, and the rays of a picture of it.
@@ -278,55 +294,6 @@ fn in_one_line(message: &str) -> String {
     let message = message.strip_prefix("error: ").unwrap_or(message);
     let first = message.split("\n\n").next().unwrap_or_default();
     first.split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
-fn size(text: &str) -> Result<(u16, u16), String> {
-    let (columns, rows) = text.split_once(['x', 'X']).ok_or("COLSxROWS, such as 80x24")?;
-    let side = |text: &str| {
-        let side = text.parse().ok().filter(|side| (1..=LARGEST_SIDE).contains(side));
-        side.ok_or_else(|| format!("COLSxROWS, each 1 to {LARGEST_SIDE}"))
-    };
-    Ok((side(columns)?, side(rows)?))
-}
-
-fn cell(text: &str) -> Result<(u16, u16), &'static str> {
-    let cell = || {
-        let (column, row) = text.split_once(',')?;
-        Some((column.parse().ok()?, row.parse().ok()?))
-    };
-    cell().ok_or("COL,ROW, counted from 0, such as 40,12")
-}
-
-fn samples(text: &str) -> Result<Auto<u32>, String> {
-    let number = || text.parse().ok().filter(|number| (1..=MOST_SAMPLES).contains(number));
-    match text {
-        "auto" => Ok(None),
-        _ => number().map(Some).ok_or_else(|| format!("auto, or 1 to {MOST_SAMPLES}")),
-    }
-}
-
-fn aspect(text: &str) -> Result<f32, &'static str> {
-    let ratio = || {
-        let (width, height) = text.split_once(':')?;
-        Some(width.parse::<f32>().ok()? / height.parse::<f32>().ok()?)
-    };
-    ratio().filter(|ratio| ASPECTS.contains(ratio)).ok_or("W:H, such as 1:2; from 1:20 to 20:1")
-}
-
-/// As in scenes, and without the `#`, with which a shell begins a comment.
-fn color(text: &str) -> Result<Srgb, String> {
-    text.parse().or_else(|error| format!("#{text}").parse().map_err(|_: String| error))
-}
-
-/// `algebraic` is what the lecture calls the form that `fast` is.
-fn tier() -> impl TypedValueParser<Value = Tier> {
-    one_of(&Tier::ALL, Tier::as_str, |tier| (tier == Tier::Fast).then_some("algebraic"))
-}
-
-fn level() -> impl TypedValueParser<Value = Level> {
-    one_of(&LevelName::ALL, LevelName::as_str, |_| None).try_map(|name| {
-        Level::named(name).ok_or_else(|| format!("this CPU has no {}", name.as_str()))
-    })
 }
 
 #[cfg(test)]

@@ -7,7 +7,6 @@ pub mod split;
 pub mod verdict;
 
 use spherule_kernel::Tier;
-use std::str::FromStr;
 
 /// What a picture shows in place of the scene as one tier sees it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,28 +17,25 @@ pub enum Comparison {
     Split([Tier; 2]),
 }
 
-impl FromStr for Comparison {
-    type Err = &'static str;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
+impl Comparison {
+    /// That of a name: `error`, or `split:` and two tiers.
+    #[must_use]
+    pub fn named(text: &str) -> Option<Self> {
         // As `--accuracy` reads them.
         let tier = |name: &str| {
             let name = if name == "algebraic" { "fast" } else { name };
             Tier::ALL.into_iter().find(|tier| tier.as_str() == name)
         };
-        let split = || {
-            let (left, right) = text.strip_prefix("split:")?.split_once(',')?;
-            Some(Self::Split([tier(left)?, tier(right)?]))
-        };
-        match text {
-            "error" => Ok(Self::Errors),
-            _ => split().ok_or("error, or split:TIER,TIER such as split:fast,exact"),
+        if text == "error" {
+            return Some(Self::Errors);
         }
+        let (left, right) = text.strip_prefix("split:")?.split_once(',')?;
+        Some(Self::Split([tier(left)?, tier(right)?]))
     }
 }
 
 /// A number with a comma before every three digits.
-fn grouped(number: u64) -> String {
+pub(crate) fn grouped(number: u64) -> String {
     let digits = number.to_string();
     let mut text = String::new();
     for (index, digit) in digits.chars().enumerate() {

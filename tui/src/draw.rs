@@ -133,12 +133,7 @@ impl<'a> Renderer<'a> {
         let mut cells = CellGrid::new(columns, rows);
         let traced = self.traced(scene, search, style);
         let plan = Plan::new(traced, view, style, (columns, rows), spending);
-        let height = usize::from(self.strip_rows(columns));
-        let strips = cells.cells_mut().chunks_mut((height * usize::from(columns)).max(1));
-        let effort = strips.zip((0..).step_by(height)).fold(Effort::NONE, |effort, strip| {
-            let (cells, first) = strip;
-            effort.and(self.strip.draw(&plan, self.threads, first, cells))
-        });
+        let effort = self.in_strips(&plan, &mut cells);
         Drawn { cells, effort }
     }
 
@@ -161,18 +156,22 @@ impl<'a> Renderer<'a> {
         let traced = self.traced(scene, search, style);
         let plan = Plan::new(traced, view, style, (columns, rows), spending).only(drawn);
         let mut all = CellGrid::new(width as u16, rows);
-        let height = usize::from(self.strip_rows(width as u16));
-        let strips = all.cells_mut().chunks_mut((height * width).max(1));
-        let effort = strips.zip((0..).step_by(height)).fold(Effort::NONE, |effort, strip| {
-            let (cells, first) = strip;
-            effort.and(self.strip.draw(&plan, self.threads, first, cells))
-        });
+        let effort = self.in_strips(&plan, &mut all);
         let mut cells = CellGrid::new(part.len() as u16, rows);
         let lines = cells.cells_mut().chunks_mut(part.len().max(1));
         for (line, all) in lines.zip(all.cells().chunks(width.max(1))) {
             line.copy_from_slice(&all[usize::from(part.start - from)..][..part.len()]);
         }
         Drawn { cells, effort }
+    }
+
+    /// Draws what is planned, so many rows at a time.
+    fn in_strips(&mut self, plan: &Plan<'_>, cells: &mut CellGrid) -> Effort {
+        let (columns, height) = (cells.columns(), usize::from(self.strip_rows(cells.columns())));
+        let strips = cells.cells_mut().chunks_mut((height * usize::from(columns)).max(1));
+        strips.zip((0..).step_by(height)).fold(Effort::NONE, |effort, (cells, first)| {
+            effort.and(self.strip.draw(plan, self.threads, first, cells))
+        })
     }
 
     /// Draws the same by need, and hands strip after strip of whole rows on to `take`, from the top.

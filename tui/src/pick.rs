@@ -131,12 +131,8 @@ mod tests {
     use crate::view::Lens;
     use spherule_kernel::Vec3;
 
-    const VIEW: View = View {
-        eye: Vec3::new(0.0, 0.0, 3.0),
-        target: Vec3::ZERO,
-        up: Vec3::Y,
-        lens: Lens::Parallel { height: 4.0 },
-    };
+    const VIEW: View =
+        View { eye: Vec3::new(0.0, 0.0, 3.0), lens: Lens::Parallel { height: 4.0 }, ..View::FRONT };
 
     fn pick(scene: &Scene, ray: Ray) -> Pick<'_> {
         Pick::new(scene, &brute_force(scene, &VIEW), Level::best(), ray)

@@ -1,12 +1,11 @@
 //! One picture, or the viewer: what `spherule [SCENE]` does.
 
-use crate::arguments::{ComputingArguments, PictureArguments};
+mod once;
+
+use crate::arguments::{ComputingArguments, Overlay, PictureArguments};
 use crate::compare::Comparison;
-use crate::compare::error_map::{ErrorMap, ErrorMapper};
-use crate::compare::legend::MapPainter;
-use crate::compare::split::{Split, SplitPicture};
 use crate::draw::pixels::PixelGrid;
-use crate::draw::{Renderer, Spending, picture_workload};
+use crate::draw::{Renderer, picture_workload};
 use crate::error::{Error, write_stdout};
 use crate::machine::check_floats;
 use crate::pick::report::Report;
@@ -16,14 +15,18 @@ use crate::scene::Scene;
 use crate::structure::scene::{PictureSearch, SceneStructures};
 use crate::style::{Charset, ColorDepth, PIPE_SIZE, Style};
 use crate::terminal::color_depth::Surroundings;
+use crate::terminal::locale::is_without_unicode;
 use crate::threads::Threads;
+use crate::tradeoff::Question;
 use crate::view::View;
-use crate::{encode, png_file, scene, viewer};
+use crate::{png_file, scene, viewer};
 use crossterm::terminal;
+use once::Once;
 use spherule_kernel::{Level, Ray, Tier};
 use std::io::IsTerminal;
 use std::ops::RangeInclusive;
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Duration;
 
 /// The widest cell and the narrowest that a terminal is believed to have.
@@ -31,9 +34,6 @@ const LIKELY_ASPECTS: RangeInclusive<f32> = 0.2..=2.0;
 
 /// How long a picture may take before there is a word about it.
 const PATIENCE: Duration = Duration::from_secs(1);
-
-/// Rows of an error map that are written at a time.
-const MAP_STRIP: u16 = 32;
 
 /// Shows a scene: in the viewer if standard output is a terminal that can, except with `--once`, `--png` and `--pick`.
 ///
@@ -48,6 +48,8 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     if let Some(background) = arguments.background.filter(|_| !scene.names_background) {
         scene.background = background;
     }
+    // The viewer's table is measured by a thread that nobody waits for: it shares the scene.
+    let scene = Arc::new(scene);
     let is_terminal = std::io::stdout().is_terminal();
     let surroundings = Surroundings::of_process(is_terminal);
     let at_once = arguments.once || arguments.png.is_some() || arguments.pick.is_some();
@@ -64,6 +66,7 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         accuracy: arguments.accuracy,
         charset: arguments.charset.unwrap_or(match depth {
             ColorDepth::Never => Charset::Ascii,
+            _ if is_without_unicode() => Charset::Ascii,
             _ => Charset::Half,
         }),
         depth,
@@ -90,7 +93,9 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         return write_png(&scene, &search, &grid, &style, &renderer, file);
     }
     if in_viewer {
-        let start = viewer::Start { view, style, structure, comparison: arguments.show };
+        let comparison = arguments.show.and_then(Overlay::comparison);
+        let table = arguments.show == Some(Overlay::Table);
+        let start = viewer::Start { view, style, structure, comparison, table };
         return viewer::run(&scene, structures, start, renderer);
     }
     let ray = arguments.pick.map(|cell| ray_of_pick(&view, &style, (columns, rows), cell));
@@ -103,46 +108,19 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         let text = if arguments.json { report.json() } else { report.text() };
         return write_stdout(text.as_bytes());
     }
-    // On the terminal that the picture is written to, the picture shows how far it is.
-    let mut progress = (!is_terminal).then(|| Progress::after(PATIENCE));
-    if let Some(Comparison::Split(tiers)) = arguments.show {
-        let split = Split { tiers, seam: columns / 2 };
-        let (scene, size, need) = ((&scene, &search), (columns, rows), Spending::ByNeed);
-        let SplitPicture { drawn, ns_a_ray } =
-            split.draw(&mut renderer, scene, &view, &style, size, need);
-        let mapper = &mut ErrorMapper::default();
-        let figures = split.figures(&renderer, mapper, scene, &view, &style, size);
-        let mut cells = drawn.cells;
-        // What is measured is never twice the same: a file or a pipe gets what is.
-        let ns_a_ray = if is_terminal { ns_a_ray } else { [None; 2] };
-        split.write(&mut cells, rows, ns_a_ray, Some(figures));
-        let mut bytes = Vec::new();
-        encode::full(&cells, &mut bytes);
-        return write_stdout(&bytes);
-    }
-    if let Some(Comparison::Errors) = arguments.show {
-        let machine = renderer.machine();
-        let mut mapper = ErrorMapper::default();
-        let size = (columns, rows);
-        let map = mapper.map((&scene, &search), &view, &style, size, machine, |share| {
-            if let Some(progress) = &mut progress {
-                progress.show("drawing", share);
-            }
-        });
-        drop(progress);
-        return write_map(&map, &style);
-    }
-    let (mut done, mut bytes) = (0_u32, Vec::new());
-    renderer.draw_strips(&scene, &search, &view, &style, (columns, rows), |cells| {
-        bytes.clear();
-        encode::full(cells, &mut bytes);
-        write_stdout(&bytes)?;
-        done += u32::from(cells.rows());
-        if let Some(progress) = &mut progress {
-            progress.show("drawing", f64::from(done) / f64::from(rows));
+    let once = Once { scene: &scene, view, style, size: (columns, rows), is_terminal };
+    match arguments.show {
+        None => once.picture(&mut renderer, &search),
+        Some(Overlay::Tiers(Comparison::Errors)) => once.errors(&renderer, &search),
+        Some(Overlay::Tiers(Comparison::Split(tiers))) => once.split(tiers, &mut renderer, &search),
+        Some(Overlay::Table) => {
+            let cells = once.drawn(&mut renderer, &search);
+            let machine = renderer.machine();
+            let question =
+                Question { scene: &scene, view, style, size: (columns, rows), structure, machine };
+            once.table(cells, &question, &mut structures)
         }
-        Ok(())
-    })
+    }
 }
 
 /// The ray through a cell of `--pick`, and that cell.
@@ -161,19 +139,6 @@ fn ray_of_pick(
     };
     let ray = cell_ray(view, style, (columns, rows), cell).ok_or_else(outside)?;
     Ok((cell, ray))
-}
-
-/// Writes it in strips, since bytes take more memory than classes.
-fn write_map(map: &ErrorMap, style: &Style) -> Result<(), Error> {
-    let (painter, (_, rows)) = (MapPainter::new(style), map.size());
-    let mut bytes = Vec::new();
-    for first in (0..rows).step_by(MAP_STRIP.into()) {
-        bytes.clear();
-        let strip = first..first.saturating_add(MAP_STRIP).min(rows);
-        encode::full(&painter.cells(map, strip), &mut bytes);
-        write_stdout(&bytes)?;
-    }
-    Ok(())
 }
 
 fn write_png(

@@ -6,9 +6,12 @@
 
 pub mod color_depth;
 mod input;
+pub mod locale;
 mod screen;
 mod signals;
+mod wish;
 
+use crate::error::{Error, cause};
 use crossterm::event::Event;
 use crossterm::terminal;
 use input::Input;
@@ -16,6 +19,12 @@ use std::io;
 use std::panic;
 use std::sync::Once;
 use std::time::Duration;
+pub use wish::{Wish, wish};
+
+/// Events taken before something is drawn all the same: whoever pastes a file sees something.
+pub const LONGEST_BACKLOG: usize = 4096;
+/// As `--size` has it: a terminal that claims more is not believed.
+const LARGEST_SIZE: u16 = 4096;
 
 /// The terminal in raw mode, on its alternate screen. Dropping it gives it back.
 #[derive(Debug)]
@@ -45,12 +54,13 @@ impl Terminal {
         self.input.next(wait)
     }
 
-    /// Columns and rows; either may be 0.
+    /// Columns and rows, each at most 4096; either may be 0.
     ///
     /// # Errors
     /// If the terminal does not tell.
     pub fn size(&self) -> io::Result<(u16, u16)> {
-        terminal::size()
+        let (columns, rows) = terminal::size()?;
+        Ok((columns.min(LARGEST_SIZE), rows.min(LARGEST_SIZE)))
     }
 
     /// Sends `bytes` in one piece, or drops them if the terminal is given back just now.
@@ -84,6 +94,12 @@ impl Drop for Terminal {
     fn drop(&mut self) {
         screen::restore();
     }
+}
+
+/// The terminal is not there.
+#[must_use]
+pub fn lost(error: &io::Error) -> Error {
+    Error::Running(format!("terminal: {}", cause(error)))
 }
 
 /// The message of a panic on the alternate screen would vanish with it.

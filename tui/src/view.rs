@@ -53,6 +53,15 @@ const NATURAL_FOV: std::ops::RangeInclusive<f32> = 10.0..=90.0;
 const USUAL_FOV: f32 = 40.0;
 
 impl View {
+    /// From in front onto the origin: what tests look from.
+    #[cfg(test)]
+    pub(crate) const FRONT: Self = Self {
+        eye: Vec3::new(0.0, 0.0, 5.0),
+        target: Vec3::ZERO,
+        up: Vec3::Y,
+        lens: Lens::Perspective { fov: 40.0 },
+    };
+
     /// Which kind of lens it is.
     #[must_use]
     pub fn lens_kind(&self) -> LensKind {
@@ -207,12 +216,7 @@ fn unit(vector: DVec3) -> Option<DVec3> {
 mod tests {
     use super::*;
 
-    const VIEW: View = View {
-        eye: Vec3::new(0.0, 0.0, 5.0),
-        target: Vec3::ZERO,
-        up: Vec3::Y,
-        lens: Lens::Perspective { fov: 90.0 },
-    };
+    const VIEW: View = View { lens: Lens::Perspective { fov: 90.0 }, ..View::FRONT };
 
     fn near(a: Vec3, b: Vec3) -> bool {
         (a - b).abs().max_element() < 1e-5

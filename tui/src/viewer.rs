@@ -2,51 +2,49 @@
 //!
 //! All input that is there is taken before a frame is drawn, so a slow link gets fewer frames,
 //! not late ones. A frame of a movement gets no more samples than there is time for; when it is over, a full one
-//! follows. Then nothing is drawn and nothing is sent.
+//! follows. Then nothing is drawn and nothing is sent, but how far a measurement is.
 
+mod frame;
 mod hand;
 mod help;
 mod keys;
 mod meter;
 mod pace;
 mod picking;
+mod seam;
 mod state;
 mod status;
+mod table;
 
-use crate::cells::CellGrid;
 use crate::choice::Auto;
 use crate::compare::Comparison;
 use crate::compare::error_map::ErrorMapper;
-use crate::compare::legend::MapPainter;
-use crate::compare::split::{Split, SplitPicture, Times};
-use crate::draw::{Drawn, Effort, Renderer, picture_workload};
+use crate::compare::split::Times;
+use crate::draw::Renderer;
 use crate::encode::Encoder;
-use crate::error::{Error, cause};
-use crate::pick::{Pick, cell_ray, report};
+use crate::error::Error;
 use crate::scene::Scene;
-use crate::scene::framing::bounding_sphere;
+use crate::scene::framing;
 use crate::structure::Structure;
 use crate::structure::scene::SceneStructures;
 use crate::style::Style;
-use crate::terminal::Terminal;
+use crate::terminal::{LONGEST_BACKLOG, Terminal, lost};
 use crate::view::View;
-use meter::{Frame, Meter};
+use frame::Picture;
+use meter::Meter;
 use pace::Pace;
-use spherule_kernel::Sphere;
 pub use state::{ORBIT_STEP, PAN_STEP, ZOOM_STEP};
-use state::{Outcome, Shown, State};
+use state::{Outcome, State};
 use std::env;
 use std::io;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
+use table::Table;
 
 /// Frames a second while something moves, at most; over SSH every frame is waited for by the
 /// keys behind it.
 const LOCAL_RATE: u32 = 60;
 const REMOTE_RATE: u32 = 30;
-/// Events taken before a frame is drawn all the same: whoever pastes a file sees something.
-const LONGEST_BACKLOG: usize = 4096;
-/// As `--size` has it: a terminal that claims more is not believed.
-const LARGEST_SIZE: u16 = 4096;
 /// Set, the key `!` panics. There is no other way to test that the terminal survives a panic of
 /// the real program; it harms nobody who does not ask for it.
 const PANIC_SWITCH: &str = "SPHERULE_TEST_PANIC";
@@ -62,6 +60,8 @@ pub struct Start {
     pub structure: Auto<Structure>,
     /// What tiers are held against each other, if they are.
     pub comparison: Option<Comparison>,
+    /// Whether there is a table of what every tier takes and gets wrong.
+    pub table: bool,
 }
 
 /// Shows `scene` on the terminal, from `start` on, drawn by `renderer` with the chosen one of its
@@ -71,7 +71,7 @@ pub struct Start {
 /// [`Error::Running`] if there is no terminal to read keys from, or it goes away, or there is no
 /// memory for a structure.
 pub fn run(
-    scene: &Scene,
+    scene: &Arc<Scene>,
     structures: SceneStructures<'_>,
     start: Start,
     renderer: Renderer<'_>,
@@ -89,7 +89,8 @@ pub fn run(
         encoder: Encoder::new(),
         meter: Meter::default(),
         pace: Pace::new(interval),
-        drawn: None,
+        table: Table::default(),
+        picture: None,
         bytes: Vec::new(),
         panic_key: env::var_os(PANIC_SWITCH).is_some(),
     };
@@ -121,13 +122,8 @@ fn picture_rows(rows: u16) -> u16 {
     if rows >= 2 { rows - 1 } else { rows }
 }
 
-/// The terminal is not there.
-fn lost(error: &io::Error) -> Error {
-    Error::Running(format!("terminal: {}", cause(error)))
-}
-
 struct Viewer<'a> {
-    scene: &'a Scene,
+    scene: &'a Arc<Scene>,
     structures: SceneStructures<'a>,
     terminal: Terminal,
     state: State,
@@ -137,8 +133,9 @@ struct Viewer<'a> {
     encoder: Encoder,
     meter: Meter,
     pace: Pace,
-    /// The last picture, and what it is of: where the cursor alone has moved it is not drawn again.
-    drawn: Option<(Shown, (u16, u16), Drawn)>,
+    table: Table,
+    /// The last.
+    picture: Option<Picture>,
     /// Kept from frame to frame for its memory.
     bytes: Vec<u8>,
     panic_key: bool,
@@ -147,8 +144,10 @@ struct Viewer<'a> {
 impl Viewer<'_> {
     /// How long until a frame is due; for ever if there is none to draw.
     fn wait(&self, stale: bool, last_frame: Option<Instant>) -> Option<Duration> {
-        let moving = stale || self.state.shown.spinning;
-        self.pace.wait(moving, last_frame.map(|at| at.elapsed()))
+        let (shown, since_last) = (&self.state.shown, last_frame.map(|at| at.elapsed()));
+        let picture = self.pace.wait(stale || shown.spinning, since_last);
+        let table = self.table.wait(shown, self.state.size(), since_last);
+        picture.into_iter().chain(table).min()
     }
 
     /// Waits for input, for ever without `wait`, and takes all there is.
@@ -173,11 +172,12 @@ impl Viewer<'_> {
                     outcome = Outcome::Changed;
                 }
                 Some(keys::Input::FrameAll) => {
-                    let all = bounding_sphere(self.scene.spheres());
+                    let all = framing::subject(self.scene.spheres());
                     outcome = outcome.and(self.state.frame(all));
                 }
                 Some(keys::Input::FramePicked) => {
-                    if let Some(sphere) = self.picked()? {
+                    let picked = self.pick()?.and_then(|pick| Some(pick.sphere?.sphere));
+                    if let Some(sphere) = picked {
                         outcome = outcome.and(self.state.frame(sphere));
                     }
                 }
@@ -198,108 +198,7 @@ impl Viewer<'_> {
     /// Asks the terminal for its size, which may be without a cell.
     fn learn_size(&mut self) -> io::Result<(u16, u16)> {
         let (columns, rows) = self.terminal.size()?;
-        let (columns, rows) = (columns.min(LARGEST_SIZE), rows.min(LARGEST_SIZE));
         self.state.set_size(columns, picture_rows(rows));
         Ok((columns, rows))
-    }
-
-    /// The sphere that is picked, of what would be drawn now.
-    fn picked(&mut self) -> Result<Option<Sphere>, Error> {
-        let Shown { view, style, structure, cursor, .. } = &self.state.shown;
-        let Some(cursor) = cursor else { return Ok(None) };
-        let (size, lighting) = (self.state.size(), &self.scene.lighting);
-        let count = self.scene.spheres().len();
-        let workload = picture_workload(count, style, size.0, size.1, f64::INFINITY);
-        let search = self.structures.picture(*structure, &workload, view, lighting)?;
-        let ray = cell_ray(view, style, size, (cursor.column, cursor.row));
-        let pick = ray.map(|ray| Pick::new(self.scene, &search, self.renderer.machine().0, ray));
-        Ok(pick.and_then(|pick| Some(pick.sphere?.sphere)))
-    }
-
-    /// Draws and sends one frame, in one write.
-    fn show_frame(&mut self, now: Instant, moving: bool) -> Result<(), Error> {
-        let (columns, rows) = self.learn_size().map_err(|error| lost(&error))?;
-        if columns == 0 || rows == 0 {
-            self.pace.drawn(Effort::NONE, Duration::ZERO);
-            return Ok(());
-        }
-        let status_row = picture_rows(rows);
-        let started = Instant::now();
-        let Shown { view, style, structure, comparison, cursor, .. } = &self.state.shown;
-        let count = self.scene.spheres().len();
-        let workload = picture_workload(count, style, columns, status_row, f64::INFINITY);
-        let lighting = &self.scene.lighting;
-        let search = self.structures.picture(*structure, &workload, view, lighting)?;
-        let searched = (search.order(), search.structure);
-        let (size, spending) = ((columns, status_row), self.pace.spending(moving));
-        let found = started.elapsed();
-        let pictured = self.state.shown.pictured();
-        let same = |(of, its_size, drawn): &(Shown, (u16, u16), Drawn)| {
-            *of == pictured && *its_size == size && drawn.effort.is_full
-        };
-        let drawn = match self.drawn.take().filter(same) {
-            Some((.., drawn)) => Drawn { effort: Effort::NONE, ..drawn },
-            None => match comparison {
-                None => self.renderer.draw(self.scene, &search, view, style, size, spending),
-                Some(Comparison::Split(tiers)) => {
-                    let split = Split { tiers: *tiers, seam: self.state.seam() };
-                    let scene = (self.scene, &search);
-                    let SplitPicture { mut drawn, ns_a_ray } =
-                        split.draw(&mut self.renderer, scene, view, style, size, spending);
-                    // What is wrong is counted at rest: it takes as long as a picture.
-                    let figures = (!moving).then(|| {
-                        split.figures(&self.renderer, &mut self.mapper, scene, view, style, size)
-                    });
-                    let medians = self.times.medians(*tiers, ns_a_ray);
-                    split.write(&mut drawn.cells, status_row, medians, figures);
-                    drawn.effort.is_full &= !moving;
-                    drawn
-                }
-                Some(Comparison::Errors) => {
-                    let (scene, machine) = ((self.scene, &search), self.renderer.machine());
-                    let map = self.mapper.map(scene, view, style, size, machine, |_| {});
-                    // All of it, at every pace.
-                    let cells = MapPainter::new(style).cells(&map, 0..status_row);
-                    Drawn { cells, effort: map.effort() }
-                }
-            },
-        };
-        let drawing = started.elapsed();
-        self.pace.drawn(drawn.effort, drawing - found);
-
-        let mut cells = CellGrid::new(columns, rows);
-        cells.cells_mut()[..drawn.cells.cells().len()].copy_from_slice(drawn.cells.cells());
-        if let Some(cursor) = *cursor {
-            let cell = (cursor.column, cursor.row);
-            let pick = cell_ray(view, style, size, cell)
-                .map(|ray| Pick::new(self.scene, &search, self.renderer.machine().0, ray));
-            // In ASCII: a cell holds no glyph that is two columns wide, and a label may.
-            let printable = |label: &str| label.escape_default().to_string();
-            let lines = pick.map(|pick| report::lines(&pick, printable)).unwrap_or_default();
-            picking::write(&mut cells, status_row, cursor, &lines);
-        }
-        if self.state.shown.help {
-            help::write(&mut cells, status_row);
-        }
-        // The picture first: then the status line can tell what it cost.
-        self.bytes.clear();
-        if let Some(shown) = self.encoder.shown() {
-            let last_row = usize::from(status_row) * usize::from(columns);
-            if shown.cells().len() == cells.cells().len() {
-                cells.cells_mut()[last_row..].copy_from_slice(&shown.cells()[last_row..]);
-            }
-        }
-        self.encoder.encode(cells.clone(), &mut self.bytes);
-        let frame = Frame {
-            drawing,
-            making: started.elapsed(),
-            rays: drawn.effort.rays,
-            bytes: self.bytes.len(),
-        };
-        let figures = self.meter.count(frame, now);
-        status::write(&mut cells, status_row, &self.state, searched, figures);
-        self.encoder.encode(cells, &mut self.bytes);
-        self.drawn = Some((pictured, size, drawn));
-        self.terminal.show(&self.bytes).map_err(|error| lost(&error))
     }
 }

@@ -3,7 +3,7 @@
 //! It is written under another name in the same folder, and renamed when it is done. Whatever is no file, such as a
 //! device or a pipe, is written in place.
 
-use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::iterator::{Handle, Signals};
 use signal_hook::low_level::emulate_default_handler;
 use std::fs::{self, File, OpenOptions, Permissions};
@@ -100,9 +100,9 @@ pub struct Watch {
 }
 
 impl Watch {
-    /// Not on SIGHUP: whoever ignores it (nohup) wants the process to go on.
     fn new(path: PathBuf) -> io::Result<Self> {
-        let mut signals = Signals::new([SIGINT, SIGTERM])?;
+        let hang_up = if is_ignored(SIGHUP) { None } else { Some(SIGHUP) };
+        let mut signals = Signals::new([SIGINT, SIGTERM].into_iter().chain(hang_up))?;
         let handle = signals.handle();
         thread::Builder::new().name("signals".into()).spawn(move || {
             if let Some(signal) = signals.forever().next() {
@@ -112,6 +112,15 @@ impl Watch {
         })?;
         Ok(Self { signals: handle })
     }
+}
+
+/// Whether whoever started the process wants a signal to do nothing, as `nohup` does with SIGHUP: a handler would undo
+/// that. Linux tells; of others it is supposed.
+fn is_ignored(signal: i32) -> bool {
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    mask.is_none_or(|mask| mask >> (signal - 1) & 1 == 1)
 }
 
 impl Drop for Watch {

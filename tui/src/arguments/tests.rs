@@ -132,7 +132,15 @@ fn names_are_accepted_and_listed() {
         assert_eq!(picture(&format!("--accuracy {}", tier.as_str())).accuracy, tier);
     }
     assert_eq!(picture("--accuracy algebraic").accuracy, Tier::Fast);
-    assert_eq!((picture("").show, picture("--show error").show), (None, Some(Comparison::Errors)));
+    let tiers = [Tier::Fast, Tier::Exact];
+    for (words, overlay) in [
+        ("", None),
+        ("--show error", Some(Overlay::Tiers(Comparison::Errors))),
+        ("--show split:algebraic,exact", Some(Overlay::Tiers(Comparison::Split(tiers)))),
+        ("--show table", Some(Overlay::Table)),
+    ] {
+        assert_eq!(picture(words).show, overlay, "{words}");
+    }
 }
 
 #[test]

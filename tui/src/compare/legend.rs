@@ -9,9 +9,7 @@ use crate::style::Style;
 use spherule_kernel::Tier;
 use std::ops::Range;
 
-/// The rows of the legend.
-const LEGEND: u16 = 2;
-/// A map of fewer rows has none.
+/// A map of fewer rows has no legend. Others have one of two rows or, if it needs them, of up to half of all.
 const FEWEST_ROWS: u16 = 4;
 
 /// A word of the legend, behind the mark that it explains.
@@ -43,7 +41,9 @@ impl MapPainter {
             *cell = self.marks.cell(class);
         }
         if all >= FEWEST_ROWS {
-            for (words, row) in self.legend(map).iter().zip(all - LEGEND..) {
+            let mut legend = self.legend(map);
+            legend.truncate(usize::from(all / 2));
+            for (words, row) in legend.iter().zip(all - legend.len() as u16..) {
                 if rows.contains(&row) {
                     self.write(words, &mut cells, row - rows.start);
                 }
@@ -52,13 +52,16 @@ impl MapPainter {
         cells
     }
 
-    /// What is wrong, in words as long as there is room for; and below how far t is off.
-    fn legend(&self, map: &ErrorMap) -> [Vec<Word>; LEGEND as usize] {
+    /// What is wrong, in words as long as there is room for in a row; and from the next row on how far t is off.
+    fn legend(&self, map: &ErrorMap) -> Vec<Vec<Word>> {
         let columns = usize::from(map.size().0);
-        let fits = |words: &Vec<Word>| words.iter().map(Word::width).sum::<usize>() < columns;
         let long = decisions(map, ["another sphere", "false hit", "lost hit", "other root"]);
-        let short = decisions(map, ["sphere", "false", "lost", "root"]);
-        [Some(long).filter(fits).unwrap_or(short), self.rounding(&map.counts)]
+        let mut legend = wrapped(long, columns);
+        if legend.len() > 1 {
+            legend = wrapped(decisions(map, ["sphere", "false", "lost", "root"]), columns);
+        }
+        legend.extend(wrapped(self.rounding(&map.counts), columns));
+        legend
     }
 
     fn rounding(&self, counts: &Counts) -> Vec<Word> {
@@ -102,10 +105,29 @@ impl MapPainter {
 }
 
 impl Word {
-    /// With its mark and the gap before the next.
+    /// With its mark, and a gap beside it.
     fn width(&self) -> usize {
         self.text.len() + 2 + if self.mark.is_some() { 2 } else { 0 }
     }
+}
+
+/// As many words in a row as there is room for, at least one.
+fn wrapped(words: Vec<Word>, columns: usize) -> Vec<Vec<Word>> {
+    let (mut rows, mut room): (Vec<Vec<Word>>, usize) = (Vec::new(), 0);
+    for word in words {
+        match rows.last_mut().filter(|_| word.width() <= room) {
+            Some(row) => {
+                room -= word.width();
+                row.push(word);
+            }
+            None => {
+                // A blank before it, and none behind the last.
+                room = (columns + 1).saturating_sub(word.width());
+                rows.push(vec![word]);
+            }
+        }
+    }
+    rows
 }
 
 /// The tier, its wrong decisions as far as there are any by these `names`, and the worst ray.
@@ -191,12 +213,47 @@ mod tests {
                 let strips = [0..3, 3..8, 8..9].map(|rows| painter.cells(&map, rows));
                 let joined: Vec<_> = strips.iter().flat_map(CellGrid::cells).copied().collect();
                 assert_eq!(joined, whole.cells());
-                let picture = &whole.cells()[..60 * 7];
+                // Above the largest legend.
+                let picture = &whole.cells()[..60 * 5];
                 let letters = picture.iter().filter(|cell| cell.glyph != ' ').count();
                 assert_eq!(letters > 20, painter.marks.has_letters, "{depth:?} {charset:?}");
                 let colored = picture.iter().any(|cell| cell.background != Color::Default);
                 assert_eq!(colored, depth != ColorDepth::Never);
             }
+        }
+    }
+
+    /// Every kind of error occurs, and every count can be read where there is room for a word.
+    #[test]
+    fn a_legend_takes_the_rows_that_it_needs() {
+        for (columns, rows) in [(200, 2), (120, 2), (80, 4), (44, 5)] {
+            let style = Style { samples: Some(64), ..fast(ColorDepth::Never, Charset::Ascii) };
+            let map = map("edge", &style, (columns, 24), 2);
+            let cells = MapPainter::new(&style).cells(&map, 0..24);
+            let lines = (0..24).map(|row| cells.row(row).iter().map(|cell| cell.glyph).collect());
+            let lines: Vec<String> = lines.collect();
+            let legend = &lines[24 - rows..];
+            assert!(legend[0].starts_with(" fast:  "), "{columns}: {lines:#?}");
+            let Counts { other_spheres, false_hits, lost_hits, other_root, right, .. } = map.counts;
+            let worst = map.counts.worst.expect("there are errors");
+            let ulp = map.counts.off.iter().sum::<u64>();
+            let text = legend.join("") + " ";
+            for (name, count) in
+                [("S", other_spheres), ("F", false_hits), ("L", lost_hits), ("R", other_root)]
+            {
+                let is_told = |name: &str| {
+                    let rest = text.split_once(&format!(" {name} ")).map_or("", |(_, rest)| rest);
+                    let words = rest.split("  ").next().unwrap_or_default();
+                    words.ends_with(&format!(" {}", grouped(count)))
+                };
+                assert!(count > 0 && is_told(name), "{columns} {name} {count}: {legend:#?}");
+            }
+            assert!(text.contains(&format!("sphere {} at ", worst.sphere)), "{legend:#?}");
+            assert!(text.contains(&format!(". right {} ", grouped(right))), "{legend:#?}");
+            let told = text.split_once("2^n ulp").expect("how far t is off").1;
+            let told = told.split_whitespace().filter(|word| !word.ends_with('+'));
+            let told: u64 = told.map(|n| n.replace(',', "").parse::<u64>().expect("a count")).sum();
+            assert_eq!(told, ulp, "{legend:#?}");
         }
     }
 

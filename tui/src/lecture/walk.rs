@@ -3,17 +3,12 @@
 use super::frame;
 use super::stations::{STATIONS, Station, Turn};
 use crate::encode::Encoder;
-use crate::error::{Error, cause};
+use crate::error::Error;
 use crate::style::Style;
-use crate::terminal::Terminal;
-use crossterm::event::{Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
+use crate::terminal::{LONGEST_BACKLOG, Terminal, Wish, lost, wish};
+use crossterm::event::{Event, KeyCode};
 use std::io;
 use std::time::Duration;
-
-/// Events taken before a page is drawn all the same: whoever pastes a file sees something.
-const LONGEST_BACKLOG: usize = 4096;
-/// As `--size` has it: a terminal that claims more is not believed.
-const LARGEST_SIZE: u16 = 4096;
 
 /// What a key asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,14 +72,8 @@ pub(super) fn walk(index: usize, style: Style) -> Result<(), Error> {
     }
 }
 
-/// The terminal is not there.
-fn lost(error: &io::Error) -> Error {
-    Error::Running(format!("terminal: {}", cause(error)))
-}
-
 fn show(terminal: &Terminal, walk: &Walk, encoder: &mut Encoder, style: Style) -> io::Result<()> {
     let (columns, rows) = terminal.size()?;
-    let (columns, rows) = (columns.min(LARGEST_SIZE), rows.min(LARGEST_SIZE));
     if columns == 0 || rows == 0 {
         return Ok(());
     }
@@ -119,23 +108,17 @@ fn take_input(terminal: &mut Terminal, walk: &mut Walk, encoder: &mut Encoder) -
 }
 
 fn input(event: &Event) -> Option<Input> {
-    let key = match event {
-        Event::Resize(..) => return Some(Input::Resize),
-        Event::Key(key) if key.kind != KeyEventKind::Release => key,
-        _ => return None,
-    };
-    if key.modifiers.contains(KeyModifiers::CONTROL) {
-        return match key.code {
-            KeyCode::Char('c') => Some(Input::Quit),
-            KeyCode::Char('z') => Some(Input::Suspend),
-            _ => None,
-        };
+    match wish(event)? {
+        Wish::Key(key) => of_key(key),
+        Wish::Mouse(_) => None,
+        Wish::Quit => Some(Input::Quit),
+        Wish::Suspend => Some(Input::Suspend),
+        Wish::Resize => Some(Input::Resize),
     }
-    of_key(key)
 }
 
-fn of_key(key: &KeyEvent) -> Option<Input> {
-    Some(match key.code {
+fn of_key(key: KeyCode) -> Option<Input> {
+    Some(match key {
         KeyCode::Char('n') | KeyCode::PageDown => Input::Next,
         KeyCode::Char('b') | KeyCode::PageUp => Input::Back,
         KeyCode::Left => Input::Turn(Turn::Left),
@@ -153,6 +136,7 @@ fn of_key(key: &KeyEvent) -> Option<Input> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crossterm::event::{KeyEvent, KeyModifiers};
 
     #[test]
     fn the_stations_go_around() {

@@ -39,14 +39,14 @@ impl Report<'_> {
             "size": [columns, rows],
             "cell": [column, row],
             "ray": {
-                "origin": pick.ray.origin.to_array(),
-                "direction": pick.ray.direction.to_array(),
+                "origin": numbers(pick.ray.origin.to_array()),
+                "direction": numbers(pick.ray.direction.to_array()),
             },
             "sphere": sphere.map(|picked| json!({
                 "index": picked.index,
                 "label": picked.label,
-                "center": picked.sphere.center.to_array(),
-                "radius": picked.sphere.radius,
+                "center": numbers(picked.sphere.center.to_array()),
+                "radius": number(picked.sphere.radius),
             })),
             "discriminant": sphere.map(|picked| json!({
                 "value": picked.discriminant.0,
@@ -56,13 +56,23 @@ impl Report<'_> {
             "tiers": tiers(pick).map(|(tier, hit, roots)| json!({
                 "accuracy": tier.as_str(),
                 "sphere": hit.map(|hit| hit.sphere),
-                "t": hit.map(|hit| hit.t),
+                "t": hit.map(|hit| number(hit.t)),
                 "t_bits": hit.map(|hit| bits(hit.t)),
-                "roots": roots,
+                "roots": roots.map(numbers),
             })).collect::<Vec<Value>>(),
         });
         report.to_string() + "\n"
     }
+}
+
+/// In the fewest digits that are read back to the same `f32`, as people get it; null if it is not finite. A [`Value`] has
+/// an `f64`, whose own digits go on where those of the `f32` end.
+fn number(x: f32) -> Value {
+    Value::from(format!("{x:?}").parse::<f64>().unwrap_or(f64::NAN))
+}
+
+fn numbers<const N: usize>(x: [f32; N]) -> [Value; N] {
+    x.map(number)
 }
 
 /// Every tier, its closest hit, and its roots of the sphere that was picked.

@@ -12,29 +12,53 @@ const TOWARDS_EYE: Vec3 = Vec3::new(0.25, 0.35, 1.0);
 /// Many times how far apart numbers are, over the largest coordinate.
 const SPACING: f32 = 64.0 * f32::EPSILON;
 
-/// A sphere around all spheres: around the middle of their box, so not the least one, but at most
-/// sqrt 3 times as large. Around nothing: the unit sphere.
+/// How many times as large as all that stands on it a ground is, at least.
+const GROUND: f32 = 100.0;
+
+/// What is framed of a scene: a sphere around all spheres, but the ground, if there is one.
+///
+/// Ground are spheres that are each at least 100 times as large as a sphere around all others, and no farther from that
+/// than it is wide: the ground that these stand on, walls around them, a sky. They have no end that could be seen.
 #[must_use]
-pub fn bounding_sphere(spheres: Spheres<'_>) -> Sphere {
+pub fn subject(spheres: Spheres<'_>) -> Sphere {
     let valid = || spheres.iter().filter(Sphere::is_valid);
-    let (low, high) = valid().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), sphere| {
-        (low.min(sphere.center - sphere.radius), high.max(sphere.center + sphere.radius))
-    });
+    let least = valid().map(|sphere| sphere.radius).fold(0.0, f32::max) / GROUND;
+    // Points cannot be seen, so nothing is a ground of theirs.
+    let others =
+        bounding_sphere(|| valid().filter(|sphere| 0.0 < sphere.radius && sphere.radius < least));
+    let is_ground = |sphere: Sphere, others: Sphere| {
+        let reach = sphere.radius + 3.0 * others.radius;
+        sphere.radius >= GROUND * others.radius && sphere.center.distance(others.center) <= reach
+    };
+    let all_ground = |others| {
+        valid().filter(|sphere| sphere.radius >= least).all(|sphere| is_ground(sphere, others))
+    };
+    let all = || bounding_sphere(valid).unwrap_or(Sphere { center: Vec3::ZERO, radius: 1.0 });
+    others.filter(|&others| all_ground(others)).unwrap_or_else(all)
+}
+
+/// A sphere around some: around the middle of their box, so not the least one, but at most sqrt 3 times as large. `None`
+/// around nothing, and where numbers end.
+fn bounding_sphere<S: Iterator<Item = Sphere>>(spheres: impl Fn() -> S) -> Option<Sphere> {
+    let (low, high) =
+        spheres().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), sphere| {
+            (low.min(sphere.center - sphere.radius), high.max(sphere.center + sphere.radius))
+        });
     if !(low.is_finite() && high.is_finite()) {
-        return Sphere { center: Vec3::ZERO, radius: 1.0 };
+        return None;
     }
     // Half of each first: the sum may not be a float.
     let center = low * 0.5 + high * 0.5;
     let reach = |sphere: Sphere| (sphere.center - center).length() + sphere.radius;
-    Sphere { center, radius: valid().map(reach).fold(0.0, f32::max) }
+    Some(Sphere { center, radius: spheres().map(reach).fold(0.0, f32::max) })
 }
 
-/// A perspective view in which the bounding sphere fills a picture of `aspect`, width over
+/// A perspective view in which the [`subject`] fills a picture of `aspect`, width over
 /// height.
 #[must_use]
 pub fn framed(spheres: Spheres<'_>, aspect: f32) -> View {
     let lens = Lens::Perspective { fov: FOV };
-    around(bounding_sphere(spheres), TOWARDS_EYE.normalize(), Vec3::Y, lens, aspect)
+    around(subject(spheres), TOWARDS_EYE.normalize(), Vec3::Y, lens, aspect)
 }
 
 /// As [`framed`], but of `sphere`, and from where and through what `view` looks: its direction, its field of view, its
@@ -80,7 +104,7 @@ mod tests {
     use spherule_kernel::SphereList;
 
     fn of(list: &[[f32; 4]]) -> Sphere {
-        bounding_sphere(SphereList::from(list).spheres())
+        subject(SphereList::from(list).spheres())
     }
 
     #[test]
@@ -96,6 +120,34 @@ mod tests {
         assert_eq!(of(&[]), Sphere { center: Vec3::ZERO, radius: 1.0 });
         let view = framed(SphereList::from([[7.0, 7.0, 7.0, 0.0]]).spheres(), 1.0);
         assert!(view.eye.is_finite() && view.eye != view.target);
+    }
+
+    #[test]
+    fn a_ground_is_left_out() {
+        let marbles = [[0.0, 1.0, 0.0, 1.0], [3.0, 0.5, 0.0, 0.5]];
+        let alone = of(&marbles);
+        let with = |others: &[[f32; 4]]| of(&[&marbles, others].concat());
+        for ground in [[0.0, -1e4, 0.0, 1e4], [5e3, -1e4, 0.0, 1.12e4], [0.0, 0.0, 0.0, 500.0]] {
+            assert_eq!(with(&[ground]), alone, "{ground:?}");
+        }
+        let walls = [[0.0, -1e4, 0.0, 1e4], [-1e5, 0.0, 0.0, 9.9998e4], [0.0, 1e5, 0.0, 9.9995e4]];
+        assert_eq!(with(&walls), alone);
+        // Not large enough, elsewhere, and one of two that is no ground.
+        for none in [
+            &[[0.0, -200.0, 0.0, 200.0]][..],
+            &[[0.0, -2e4, 0.0, 1e4]],
+            &[[0.0, -1e4, 0.0, 1e4], [0.0, -150.0, 0.0, 150.0]],
+        ] {
+            let large = with(none);
+            let [x, y, z, radius] = none[0];
+            let reach = large.center.distance(Vec3::new(x, y, z)) + radius;
+            assert!(
+                large.radius >= 0.999 * reach && large.radius > 20.0 * alone.radius,
+                "{none:?}"
+            );
+        }
+        // What stands on it cannot be seen.
+        assert_eq!(of(&[[0.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 0.0]]).radius, 1.0);
     }
 
     /// How far the sphere reaches in the picture, over half of its width and of its height.
@@ -123,7 +175,7 @@ mod tests {
             [3.0, 2.0, -9.0, 0.0],
         ]);
         let spheres = list.spheres();
-        let all = bounding_sphere(spheres);
+        let all = subject(spheres);
         for aspect in [0.2_f32, 1.0, 3.0] {
             for lens in [
                 Lens::Perspective { fov: 15.0 },

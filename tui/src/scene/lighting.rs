@@ -76,14 +76,7 @@ impl Lighting {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::view::{Lens, orbited};
-
-    const VIEW: View = View {
-        eye: Vec3::new(0.0, 0.0, 5.0),
-        target: Vec3::ZERO,
-        up: Vec3::Y,
-        lens: Lens::Perspective { fov: 40.0 },
-    };
+    use crate::view::orbited;
 
     fn directions(view: &View) -> Vec<Vec3> {
         let lights = Lighting::Camera.lights(view);
@@ -96,21 +89,21 @@ mod tests {
 
     #[test]
     fn the_key_light_is_above_the_left_shoulder() {
-        let [key, fill] = directions(&VIEW)[..] else { panic!("not two lights") };
+        let [key, fill] = directions(&View::FRONT)[..] else { panic!("not two lights") };
         assert!(key.x < 0.0 && key.y > 0.0 && key.z > 0.0, "{key}");
         assert!(fill.x > 0.0 && fill.z > 0.0, "{fill}");
     }
 
     #[test]
     fn camera_lights_turn_with_the_view_and_others_do_not() {
-        let behind = orbited(&VIEW, std::f32::consts::PI, 0.0);
-        for (front, back) in directions(&VIEW).into_iter().zip(directions(&behind)) {
+        let behind = orbited(&View::FRONT, std::f32::consts::PI, 0.0);
+        for (front, back) in directions(&View::FRONT).into_iter().zip(directions(&behind)) {
             let turned = Vec3::new(-front.x, front.y, -front.z);
             assert!(back.distance(turned) < 1e-5, "{front} and {back}");
         }
         let light = Light { source: Source::Direction(Vec3::X), color: Srgb::WHITE };
         let world = Lighting::World(vec![light]);
-        assert_eq!(world.lights(&VIEW), world.lights(&behind));
-        assert!(Lighting::Plain.lights(&VIEW).is_empty());
+        assert_eq!(world.lights(&View::FRONT), world.lights(&behind));
+        assert!(Lighting::Plain.lights(&View::FRONT).is_empty());
     }
 }

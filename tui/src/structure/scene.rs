@@ -11,6 +11,7 @@ use crate::scene::{Light, Lighting, Source};
 use crate::threads::Threads;
 use crate::view::View;
 use spherule_kernel::{Coherence, DepthList, SphereList, SphereTree, Spheres, Viewpoint};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// How the rays of a picture find spheres.
@@ -45,7 +46,7 @@ pub struct SceneStructures<'a> {
     list: &'a SphereList,
     threads: &'a Threads,
     order: Order,
-    tree: Option<SphereTree>,
+    tree: Option<Arc<SphereTree>>,
     /// The memory of depth lists, one a viewpoint.
     depth_lists: Vec<Vec<f32>>,
     /// Where the spheres are on the screen.
@@ -72,6 +73,24 @@ impl<'a> SceneStructures<'a> {
     #[must_use]
     pub fn in_order(self, order: Order) -> Self {
         Self { order, ..self }
+    }
+
+    /// In which order camera rays and spheres meet.
+    #[must_use]
+    pub fn order(&self) -> Order {
+        self.order
+    }
+
+    /// The same, with a tree that others have built over the same spheres.
+    #[must_use]
+    pub fn with_tree(self, tree: Option<Arc<SphereTree>>) -> Self {
+        Self { tree, ..self }
+    }
+
+    /// The tree, if one has been built.
+    #[must_use]
+    pub fn tree(&self) -> Option<Arc<SphereTree>> {
+        self.tree.clone()
     }
 
     /// The structure for this work, if `choice` leaves it open.
@@ -139,7 +158,7 @@ impl<'a> SceneStructures<'a> {
                         let tree = SphereTree::build_with(self.threads, self.list.clone());
                         let tree = tree.map_err(|_| no_memory("a tree", spheres))?;
                         self.build += start.elapsed();
-                        tree
+                        Arc::new(tree)
                     }
                 };
                 Ok(vec![Search::Bvh(self.tree.insert(tree).bvh()); viewpoints.len()])

@@ -62,12 +62,10 @@ impl Input {
             if let Some(event) = self.events.pop_front() {
                 return Ok(Some(event));
             }
-            let mut left =
-                deadline.map(|deadline| deadline.saturating_duration_since(Instant::now()));
+            let left = deadline.map(|deadline| deadline.saturating_duration_since(Instant::now()));
             let in_sequence = !self.unfinished.is_empty();
-            if in_sequence {
-                left = Some(left.map_or(SEQUENCE_GAP, |left| left.max(SEQUENCE_GAP)));
-            }
+            // Neither shorter nor longer, whatever else is waited for.
+            let left = if in_sequence { Some(SEQUENCE_GAP) } else { left };
             let [tty, resized] = self.ready(left)?;
             if resized {
                 // Many signals are one resize.

@@ -2,6 +2,7 @@
 //! written once, and object order.
 
 use super::rays::Rays;
+use super::watch::{Step, Watch};
 use crate::structure::object_order::{Counts, ObjectOrder, Raster};
 use crate::structure::screen::Screen;
 use crate::structure::search::Tracing;
@@ -9,6 +10,9 @@ use crate::threads::{Threads, packets_a_task};
 use crate::view::View;
 use spherule_kernel::{HitPacket, Spheres, Writes};
 use std::sync::{Mutex, PoisonError};
+
+/// Tasks of the threads between two words about how far it is.
+const TASKS_A_PART: usize = 16;
 
 /// Counts of the same rays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,14 +22,15 @@ pub(super) struct Orders {
 }
 
 impl Orders {
-    /// Counts by tracing the `camera` rays of `view` in object order.
+    /// Counts by tracing the `camera` rays of `view` in object order; `None` if the watch ends it.
     pub(super) fn count(
         tracing: Tracing,
         threads: &Threads,
         spheres: Spheres<'_>,
         view: &View,
         camera: &Rays,
-    ) -> Self {
+        watch: &mut Watch<'_>,
+    ) -> Option<Self> {
         let rays = camera.count as u64;
         let writes = Writes { stored: rays, overwritten: 0 };
         let image = Counts { tests: rays * spheres.len() as u64, writes };
@@ -33,12 +38,17 @@ impl Orders {
         let mut areas = Vec::new();
         let objects = ObjectOrder::new(spheres, Screen::new(view), &mut areas);
         let object = Mutex::new(Counts::default());
-        let tasks = camera.packets.chunks(packets_a_task(camera.packets.len()));
-        threads.share(&mut Vec::new(), tasks, |raster: &mut Raster, rays| {
-            let mut hits = vec![HitPacket::none(); rays.len()];
-            let counts = objects.closest_hits(tracing, raster, rays, &mut hits);
-            *object.lock().unwrap_or_else(PoisonError::into_inner) += counts;
-        });
-        Self { image, object: object.into_inner().unwrap_or_else(PoisonError::into_inner) }
+        let (size, mut rasters) = (packets_a_task(camera.packets.len()), Vec::new());
+        let parts = camera.packets.chunks(TASKS_A_PART * size);
+        for (part, done) in parts.clone().zip(0_u32..) {
+            watch.go_on(Step::Orders, f64::from(done) / parts.len() as f64)?;
+            threads.share(&mut rasters, part.chunks(size), |raster: &mut Raster, rays| {
+                let mut hits = vec![HitPacket::none(); rays.len()];
+                let counts = objects.closest_hits(tracing, raster, rays, &mut hits);
+                *object.lock().unwrap_or_else(PoisonError::into_inner) += counts;
+            });
+        }
+        let object = object.into_inner().unwrap_or_else(PoisonError::into_inner);
+        Some(Self { image, object })
     }
 }

@@ -3,6 +3,7 @@
 use super::lighting::LightingErrors;
 use super::orders::Orders;
 use crate::choice::name;
+use crate::machine::RUSTC;
 use crate::structure::object_order::Counts;
 use crate::structure::{Order, Structure};
 use crate::tally::{Summary, Ulp};
@@ -10,11 +11,10 @@ use serde_json::{Value, json};
 use spherule_kernel::{LevelName, Stages, Tier};
 
 /// Everything that was measured.
-pub(super) struct Report {
-    pub(super) scene: String,
+#[derive(Clone, Debug)]
+pub struct Report {
     pub(super) spheres: usize,
     pub(super) cpu: String,
-    pub(super) rustc: &'static str,
     /// Of the camera's rays and the spheres.
     pub(super) order: Order,
     pub(super) structure: Structure,
@@ -24,10 +24,11 @@ pub(super) struct Report {
     pub(super) orders: Orders,
     pub(super) tiers: Vec<TierReport>,
     /// Of every tier; `None` if the scene has no light.
-    pub(super) lighting: Option<[LightingErrors; Tier::ALL.len()]>,
+    pub(super) lighting: Option<Vec<LightingErrors>>,
 }
 
 /// One tier on one kind of rays.
+#[derive(Clone, Debug)]
 pub(super) struct TierReport {
     pub(super) tier: Tier,
     pub(super) rays_kind: &'static str,
@@ -39,8 +40,15 @@ pub(super) struct TierReport {
 }
 
 impl TierReport {
-    fn ns_per_ray(&self) -> f64 {
+    pub(super) fn ns_per_ray(&self) -> f64 {
         1e9 * self.seconds / self.rays as f64
+    }
+
+    /// Rays whose closest hit differs from that of `Exact`, beside rounding; rounded up, so that none is lost.
+    pub(super) fn wrong_in_a_million(&self) -> u64 {
+        let Summary { wrong_hits, wrong_misses, wrong_places, .. } = self.errors;
+        let wrong = wrong_hits + wrong_misses + wrong_places;
+        (1_000_000 * wrong).div_ceil((self.rays as u64).max(1))
     }
 
     /// Rays a microsecond; 0 if a pass took no time that can be measured.
@@ -54,14 +62,35 @@ impl TierReport {
     }
 }
 
+/// So many of something.
+fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
 /// Four digits that mean something.
 fn rounded(number: f64) -> f64 {
     format!("{number:.3e}").parse().unwrap_or(number)
 }
 
 impl Report {
-    /// One JSON object.
-    pub(super) fn json(&self) -> String {
+    /// Spheres, and how they are searched.
+    fn search(&self) -> String {
+        let order = if self.order == Order::Object { "object order, " } else { "" };
+        format!("{}, {order}{}", counted(self.spheres, "sphere"), name(&self.structure))
+    }
+
+    fn thread_count(&self) -> String {
+        counted(self.threads, "thread")
+    }
+
+    /// What was searched, and by what, in a line.
+    pub(super) fn search_and_machine(&self) -> String {
+        format!("{}; {}, {}", self.search(), self.level.as_str(), self.thread_count())
+    }
+
+    /// One JSON object, of the `scene` of this name.
+    #[must_use]
+    pub fn json(&self, scene: &str) -> String {
         let tier = |tier: &TierReport| {
             json!({
                 "accuracy": tier.tier.as_str(),
@@ -80,9 +109,9 @@ impl Report {
             })
         };
         let report = json!({
-            "scene": self.scene,
+            "scene": scene,
             "cpu": self.cpu,
-            "rustc": self.rustc,
+            "rustc": RUSTC,
             "level": self.level.as_str(),
             "lanes": self.lanes,
             "threads": self.threads,
@@ -93,27 +122,23 @@ impl Report {
                 "object": counts(self.orders.object),
             },
             "tiers": self.tiers.iter().map(tier).collect::<Vec<Value>>(),
-            "lighting": self.lighting.map(|errors| {
+            "lighting": self.lighting.as_ref().map(|errors| {
                 let tiers = Tier::ALL.into_iter().zip(errors);
-                tiers.map(|(tier, errors)| lighting(tier, errors)).collect::<Vec<Value>>()
+                tiers.map(|(tier, errors)| lighting(tier, *errors)).collect::<Vec<Value>>()
             }),
         });
         report.to_string() + "\n"
     }
 
-    /// A table.
-    pub(super) fn table(&self) -> String {
-        let Self { scene, spheres, cpu, rustc, lanes, threads, .. } = self;
-        let (level, structure) = (self.level.as_str(), name(&self.structure));
+    /// A table, of the `scene` of this name.
+    #[must_use]
+    pub fn table(&self, scene: &str) -> String {
+        let Self { cpu, lanes, .. } = self;
+        let (search, level, threads) = (self.search(), self.level.as_str(), self.thread_count());
         // A scene is a file's name, and that is no line.
         let scene = scene.escape_debug();
-        let order = if self.order == Order::Object { "object order, " } else { "" };
-        let plural = |count: usize| if count == 1 { "" } else { "s" };
-        let (some_spheres, some_threads) = (plural(*spheres), plural(*threads));
-        let mut text = format!(
-            "{scene}: {spheres} sphere{some_spheres}, {order}{structure}\n\
-             {cpu}, {level}, {lanes} lanes, {threads} thread{some_threads}; {rustc}\n"
-        );
+        let mut text =
+            format!("{scene}: {search}\n{cpu}, {level}, {lanes} lanes, {threads}; {RUSTC}\n");
         let mut kind = "";
         for tier in &self.tiers {
             if tier.rays_kind != kind {
@@ -129,7 +154,7 @@ impl Report {
             text += &row(&[
                 tier.tier.as_str().to_owned(),
                 format!("{:.3}", tier.ns_per_ray()),
-                format!("{:.4}", tier.ns_per_ray() / *spheres as f64),
+                format!("{:.4}", tier.ns_per_ray() / self.spheres as f64),
                 format!("{:.1}", tier.mrays_per_s()),
                 tier.errors.wrong_hits.to_string(),
                 tier.errors.wrong_misses.to_string(),
@@ -148,7 +173,7 @@ impl Report {
             let (order, stored) = (name(&order), writes.stored);
             text += &format!("{order:<7}{tests:>18}{stored:>13}{:>13}\n", writes.overwritten);
         }
-        if let Some(errors) = self.lighting {
+        if let Some(errors) = &self.lighting {
             text += &format!("\n{} points and their lights\n", errors[0].points);
             text += "              wrong    wrong\ntier        normals  shadows\n";
             for (tier, LightingErrors { normals, shadows, .. }) in Tier::ALL.into_iter().zip(errors)

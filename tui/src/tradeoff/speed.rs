@@ -8,11 +8,12 @@ const LONG_ENOUGH: Duration = Duration::from_millis(1500);
 /// The fewest rounds and the most, after one that is thrown away.
 const ROUNDS: (usize, usize) = (5, 501);
 
-/// The median of the seconds that each of `passes` takes; `progress` gets the share done.
+/// The median of the seconds that each of `passes` takes; `go_on` gets the share done before every one, and ends it with
+/// `None`.
 pub(super) fn medians<const N: usize>(
     mut passes: [impl FnMut(); N],
-    mut progress: impl FnMut(f64),
-) -> [f64; N] {
+    mut go_on: impl FnMut(f64) -> Option<()>,
+) -> Option<[f64; N]> {
     let mut seconds = [const { Vec::new() }; N];
     let start = Instant::now();
     for round in 0..=ROUNDS.1 {
@@ -20,10 +21,11 @@ pub(super) fn medians<const N: usize>(
         if round > ROUNDS.0 && spent >= 1.0 {
             break;
         }
-        // Whichever of time and rounds ends it.
-        let by_rounds = round as f64 / ROUNDS.1 as f64;
-        progress(spent.min(round as f64 / ROUNDS.0 as f64).max(by_rounds).min(1.0));
-        for (seconds, pass) in seconds.iter_mut().zip(passes.iter_mut()) {
+        for (index, (seconds, pass)) in seconds.iter_mut().zip(passes.iter_mut()).enumerate() {
+            // Whichever of time and rounds ends it.
+            let rounds = round as f64 + index as f64 / N as f64;
+            let by_rounds = rounds / ROUNDS.1 as f64;
+            go_on(spent.min(rounds / (ROUNDS.0 + 1) as f64).max(by_rounds).min(1.0))?;
             let start = Instant::now();
             pass();
             let elapsed = start.elapsed().as_secs_f64();
@@ -32,10 +34,10 @@ pub(super) fn medians<const N: usize>(
             }
         }
     }
-    seconds.map(|mut seconds| {
+    Some(seconds.map(|mut seconds| {
         seconds.sort_by(f64::total_cmp);
         seconds.get(seconds.len() / 2).copied().unwrap_or(f64::NAN)
-    })
+    }))
 }
 
 #[cfg(test)]
@@ -53,12 +55,26 @@ mod tests {
         };
         let mut quick = || *quick_count += 1;
         let mut last = 0.0;
-        let [slow_time, quick_time] =
-            medians([&mut slow as &mut dyn FnMut(), &mut quick], |share| {
-                assert!(share >= last && share <= 1.0);
-                last = share;
-            });
+        let times = medians([&mut slow as &mut dyn FnMut(), &mut quick], |share| {
+            assert!(share >= last && share <= 1.0);
+            last = share;
+            Some(())
+        });
+        let [slow_time, quick_time] = times.expect("nobody ends it");
         assert!(slow_time >= 0.03 && quick_time < slow_time);
         assert!(counts[0] == counts[1] && counts[0] > ROUNDS.0);
+    }
+    /// The pass that is running is the last.
+    #[test]
+    fn it_ends_between_two_passes() {
+        let (mut passes, mut words) = ([0_usize; 2], 0);
+        let [one, other] = &mut passes;
+        let mut one = || *one += 1;
+        let mut other = || *other += 1;
+        let times = medians([&mut one as &mut dyn FnMut(), &mut other], |_| {
+            words += 1;
+            (words < 4).then_some(())
+        });
+        assert_eq!((times, words, passes), (None, 4, [2, 1]));
     }
 }

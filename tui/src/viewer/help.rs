@@ -2,7 +2,7 @@
 
 use crate::cells::{CellGrid, Color};
 
-const LINES: [&str; 23] = [
+const LINES: [&str; 24] = [
     "                                         ",
     "  arrows, h j k l, drag   around          ",
     "  H J K L, right drag     along the picture ",
@@ -18,6 +18,7 @@ const LINES: [&str; 23] = [
     "  1 2 3 4                 fast, stable, exact, geometric ",
     "  e                       what the tier gets wrong ",
     "  v, [ ]                  two tiers side by side ",
+    "  t                       what every tier takes and gets wrong ",
     "  c                       ascii, half, quadrant, sextant, ",
     "                          octant, braille, block ",
     "  s                       auto, brute, depth-list, bvh ",

@@ -1,8 +1,7 @@
 //! What keys, mouse and terminal say, in the words of the viewer.
 
-use crossterm::event::{
-    Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers, MouseButton, MouseEvent, MouseEventKind,
-};
+use crate::terminal::{Wish, wish};
+use crossterm::event::{Event, KeyCode, KeyEvent, MouseButton, MouseEvent, MouseEventKind};
 use spherule_kernel::Tier;
 
 /// One thing that the user or the terminal wants.
@@ -36,6 +35,8 @@ pub(super) enum Input {
     Errors,
     /// Show two tiers side by side, or the picture again.
     Split,
+    /// Show what every tier takes and gets wrong, or no longer.
+    Table,
     /// Move the seam between them so many columns to the right.
     Seam(i8),
     /// The other projection.
@@ -62,23 +63,17 @@ pub(super) enum Input {
 
 /// What `event` means, if anything.
 pub(super) fn input(event: &Event) -> Option<Input> {
-    match event {
-        Event::Key(key) if key.kind != KeyEventKind::Release => key_input(key),
-        Event::Mouse(mouse) => mouse_input(mouse),
-        Event::Resize(..) => Some(Input::Resize),
-        _ => None,
+    match wish(event)? {
+        Wish::Key(key) => key_input(key),
+        Wish::Mouse(mouse) => mouse_input(mouse),
+        Wish::Quit => Some(Input::Quit),
+        Wish::Suspend => Some(Input::Suspend),
+        Wish::Resize => Some(Input::Resize),
     }
 }
 
-fn key_input(key: &KeyEvent) -> Option<Input> {
-    if key.modifiers.contains(KeyModifiers::CONTROL) {
-        return match key.code {
-            KeyCode::Char('c') => Some(Input::Quit),
-            KeyCode::Char('z') => Some(Input::Suspend),
-            _ => None,
-        };
-    }
-    Some(match key.code {
+fn key_input(key: KeyCode) -> Option<Input> {
+    Some(match key {
         KeyCode::Left | KeyCode::Char('h') => Input::Orbit(-1, 0),
         KeyCode::Right | KeyCode::Char('l') => Input::Orbit(1, 0),
         KeyCode::Up | KeyCode::Char('k') => Input::Orbit(0, 1),
@@ -95,6 +90,7 @@ fn key_input(key: &KeyEvent) -> Option<Input> {
         KeyCode::Char('4') => Input::Accuracy(Tier::Geometric),
         KeyCode::Char('e') => Input::Errors,
         KeyCode::Char('v') => Input::Split,
+        KeyCode::Char('t') => Input::Table,
         KeyCode::Char('[') => Input::Seam(-1),
         KeyCode::Char(']') => Input::Seam(1),
         KeyCode::Char('o') => Input::Projection,
@@ -133,6 +129,7 @@ pub(super) fn is_panic(event: &Event) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crossterm::event::{KeyEventKind, KeyModifiers};
 
     fn key(code: KeyCode, modifiers: KeyModifiers) -> Option<Input> {
         input(&Event::Key(KeyEvent::new(code, modifiers)))

@@ -62,6 +62,11 @@ impl Meter {
         self.figures
     }
 
+    /// What there is to show without another frame.
+    pub(super) fn figures(&self) -> Figures {
+        self.figures
+    }
+
     fn restart(&mut self, now: Instant) {
         self.since = Some(now);
         self.frames = 0;

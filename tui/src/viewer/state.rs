@@ -4,6 +4,7 @@ use super::Start;
 use super::hand::Hand;
 use super::keys::Input;
 use super::picking::Cursor;
+use super::seam::Seam;
 use crate::choice::{Auto, next};
 use crate::compare::Comparison;
 use crate::machine::check_floats;
@@ -51,10 +52,12 @@ pub(super) struct Shown {
     pub(super) style: Style,
     pub(super) structure: Auto<Structure>,
     pub(super) comparison: Option<Comparison>,
-    /// How far the seam between two tiers is to the right of the middle.
-    pub(super) seam: i16,
+    /// Between two tiers.
+    pub(super) seam: Seam,
     pub(super) help: bool,
     pub(super) spinning: bool,
+    /// Whether there is a table of what every tier takes and gets wrong; then no cell is picked.
+    pub(super) table: bool,
     /// The cell that is picked.
     pub(super) cursor: Option<Cursor>,
 }
@@ -62,7 +65,7 @@ pub(super) struct Shown {
 impl Shown {
     /// What the picture itself depends on.
     pub(super) fn pictured(&self) -> Self {
-        Self { help: false, spinning: false, cursor: None, ..*self }
+        Self { help: false, spinning: false, table: false, cursor: None, ..*self }
     }
 }
 
@@ -79,15 +82,16 @@ pub(super) struct State {
 }
 
 impl State {
-    pub(super) fn new(Start { view, style, structure, comparison }: Start) -> Self {
+    pub(super) fn new(Start { view, style, structure, comparison, table }: Start) -> Self {
         let shown = Shown {
             view,
             style,
             structure,
             comparison,
-            seam: 0,
+            seam: Seam::default(),
             help: false,
             spinning: false,
+            table,
             cursor: None,
         };
         Self { home: view, shown, hand: Hand::default(), pulls_seam: false, size: (1, 1) }
@@ -115,8 +119,7 @@ impl State {
 
     /// The column between two tiers.
     pub(super) fn seam(&self) -> u16 {
-        let column = i32::from(self.size.0 / 2) + i32::from(self.shown.seam);
-        column.clamp(0, i32::from(self.size.0) - 1) as u16
+        self.shown.seam.column(self.size.0)
     }
 
     fn is_split(&self) -> bool {
@@ -125,13 +128,9 @@ impl State {
 
     fn step_seam(&mut self, right: i8) {
         if self.is_split() {
-            self.lead_seam_to(i32::from(self.seam()) + i32::from(right));
+            let column = i32::from(self.seam()) + i32::from(right);
+            self.shown.seam = Seam::at(column, self.size.0);
         }
-    }
-
-    fn lead_seam_to(&mut self, column: i32) {
-        let column = column.clamp(0, i32::from(self.size.0) - 1);
-        self.shown.seam = (column - i32::from(self.size.0 / 2)) as i16;
     }
 
     /// Lets time pass.
@@ -144,11 +143,12 @@ impl State {
 
     pub(super) fn apply(&mut self, input: Input) -> Outcome {
         let before = self.shown;
-        let Shown { view, style, structure, comparison, help, spinning, cursor, .. } =
+        let Shown { view, style, structure, comparison, help, spinning, table, cursor, .. } =
             &mut self.shown;
         match input {
             Input::Quit => return Outcome::Quit,
             Input::Escape if *help => *help = false,
+            Input::Escape if *table => *table = false,
             Input::Escape if cursor.is_some() => *cursor = None,
             Input::Escape => return Outcome::Quit,
             Input::Grab(column, row) | Input::GrabPlane(column, row) => {
@@ -159,7 +159,7 @@ impl State {
             Input::Drag(column, row) if self.pulls_seam => {
                 // So that it is no click.
                 self.hand.led_to((column, row));
-                self.lead_seam_to(column.into());
+                self.shown.seam = Seam::at(column.into(), self.size.0);
             }
             Input::Seam(right) => self.step_seam(right),
             Input::Drag(column, row) => self.drag_to(column, row),
@@ -189,7 +189,7 @@ impl State {
                 }
             }
             // The truth is what exact says.
-            Input::Errors | Input::Split if check_floats(Tier::Exact).is_err() => {}
+            Input::Errors | Input::Split | Input::Table if check_floats(Tier::Exact).is_err() => {}
             Input::Errors => {
                 *comparison = match comparison {
                     Some(Comparison::Errors) => None,
@@ -204,6 +204,7 @@ impl State {
                     (_, tier) => Some(Comparison::Split([tier, Tier::Exact])),
                 }
             }
+            Input::Table => (*table, *cursor) = (!*table, None),
             Input::Projection => {
                 let other = match view.lens_kind() {
                     LensKind::Perspective => LensKind::Parallel,
@@ -228,10 +229,10 @@ impl State {
         if self.shown == *before { Outcome::Unchanged } else { Outcome::Changed }
     }
 
-    /// A pick asks every tier, so where `Exact` cannot be had there is none.
+    /// A pick asks every tier, so where `Exact` cannot be had there is none. It is told where the table is.
     fn pick(&mut self, cursor: Cursor) {
         if check_floats(Tier::Exact).is_ok() {
-            self.shown.cursor = Some(cursor);
+            (self.shown.cursor, self.shown.table) = (Some(cursor), false);
         }
     }
 
@@ -268,157 +269,4 @@ impl State {
 #[cfg(test)]
 mod moves;
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::view::Lens;
-    use clap::ValueEnum;
-    use spherule_kernel::Vec3;
-
-    pub(super) fn state() -> State {
-        let view = View {
-            eye: Vec3::new(0.0, 0.0, 5.0),
-            target: Vec3::ZERO,
-            up: Vec3::Y,
-            lens: Lens::Perspective { fov: 40.0 },
-        };
-        let style = Style { accuracy: Tier::Stable, charset: Charset::Half, ..Style::PLAIN };
-        let mut state = State::new(Start { view, style, structure: None, comparison: None });
-        state.set_size(80, 36);
-        state
-    }
-
-    #[test]
-    fn right_leads_the_eye_right_and_left_back() {
-        let mut state = state();
-        assert_eq!(state.apply(Input::Orbit(1, 0)), Outcome::Changed);
-        assert!(state.shown.view.eye.x > 0.4);
-        assert_eq!(state.apply(Input::Orbit(-1, 0)), Outcome::Changed);
-        assert!(state.shown.view.eye.distance(state.home.eye) < 1e-5);
-        assert_eq!(state.apply(Input::Orbit(0, 1)), Outcome::Changed);
-        assert!(state.shown.view.eye.y > 0.4);
-    }
-
-    #[test]
-    fn the_scene_follows_the_mouse() {
-        let mut dragged = state();
-        assert_eq!(dragged.apply(Input::Grab(10, 10)), Outcome::Unchanged);
-        assert_eq!(dragged.apply(Input::Drag(20, 10)), Outcome::Changed);
-        // Ten columns are as wide as five rows are high; a row is 5 degrees here, as a key is.
-        let mut led = state();
-        for _ in 0..5 {
-            led.apply(Input::Orbit(-1, 0));
-        }
-        assert!(dragged.shown.view.eye.distance(led.shown.view.eye) < 1e-4);
-        assert_eq!(dragged.apply(Input::Drag(20, 10)), Outcome::Unchanged);
-        dragged.apply(Input::Drag(20, 12));
-        assert!(dragged.shown.view.eye.y > 0.5);
-    }
-
-    #[test]
-    fn a_drag_without_a_grab_only_takes_hold() {
-        let mut state = state();
-        assert_eq!(state.apply(Input::Drag(5, 5)), Outcome::Unchanged);
-        assert_eq!(state.apply(Input::Drag(6, 5)), Outcome::Changed);
-    }
-
-    #[test]
-    fn what_is_chosen_already_changes_nothing() {
-        let mut state = state();
-        assert_eq!(state.apply(Input::Accuracy(Tier::Stable)), Outcome::Unchanged);
-        for tier in [Tier::Fast, Tier::Geometric, Tier::Exact] {
-            assert_eq!(state.apply(Input::Accuracy(tier)), Outcome::Changed);
-            assert_eq!(state.shown.style.accuracy, tier);
-        }
-        assert_eq!(state.apply(Input::Projection), Outcome::Changed);
-        assert_eq!(state.shown.view.lens_kind(), LensKind::Parallel);
-        assert_eq!(state.apply(Input::Structure), Outcome::Changed);
-        assert_eq!(state.shown.structure, Some(Structure::Brute));
-    }
-
-    #[test]
-    fn the_errors_of_the_tier_are_shown_and_hidden() {
-        let mut state = state();
-        for shown in [Some(Comparison::Errors), None] {
-            assert_eq!(state.apply(Input::Errors), Outcome::Changed);
-            assert_eq!(state.shown.comparison, shown);
-        }
-    }
-
-    #[test]
-    fn a_seam_is_moved_by_keys_and_by_a_drag_that_begins_on_it() {
-        let mut state = state();
-        assert_eq!(state.apply(Input::Seam(1)), Outcome::Unchanged);
-        assert_eq!(state.apply(Input::Split), Outcome::Changed);
-        let tiers = [Tier::Stable, Tier::Exact];
-        assert_eq!((state.shown.comparison, state.seam()), (Some(Comparison::Split(tiers)), 40));
-        for (input, seam) in [
-            (Input::Seam(1), 41),
-            (Input::Seam(-1), 40),
-            (Input::Grab(40, 3), 40),
-            (Input::Drag(60, 9), 60),
-            (Input::Drag(200, 9), 79),
-            (Input::Seam(1), 79),
-            (Input::Drag(0, 0), 0),
-            (Input::Seam(-1), 0),
-        ] {
-            state.apply(input);
-            assert_eq!((state.seam(), state.shown.view), (seam, state.home), "{input:?}");
-        }
-        // Elsewhere a drag orbits.
-        state.apply(Input::Grab(10, 3));
-        state.apply(Input::Drag(20, 3));
-        assert_eq!(state.seam(), 0);
-        assert_ne!(state.shown.view, state.home);
-        state.apply(Input::Accuracy(Tier::Geometric));
-        let tiers = [Tier::Geometric, Tier::Exact];
-        assert_eq!(state.shown.comparison, Some(Comparison::Split(tiers)));
-        // In a smaller window it is still there.
-        state.apply(Input::Grab(0, 0));
-        state.apply(Input::Drag(79, 0));
-        state.set_size(20, 5);
-        assert_eq!(state.seam(), 19);
-        state.apply(Input::Split);
-        assert_eq!(state.shown.comparison, None);
-        state.apply(Input::Accuracy(Tier::Exact));
-        state.apply(Input::Split);
-        let tiers = [Tier::Fast, Tier::Exact];
-        assert_eq!(state.shown.comparison, Some(Comparison::Split(tiers)));
-        state.apply(Input::Errors);
-        assert_eq!(state.shown.comparison, Some(Comparison::Errors));
-    }
-
-    #[test]
-    fn the_charsets_go_around() {
-        let mut state = state();
-        let mut seen = Vec::new();
-        for _ in Charset::value_variants() {
-            assert_eq!(state.apply(Input::Charset), Outcome::Changed);
-            assert!(!seen.contains(&state.shown.style.charset), "{seen:?}");
-            seen.push(state.shown.style.charset);
-        }
-        assert_eq!(seen.last(), Some(&Charset::Half));
-    }
-
-    #[test]
-    fn it_spins_only_when_told_and_does_not_catch_up() {
-        let mut state = state();
-        state.advance(Duration::from_millis(50));
-        assert_eq!(state.shown.view, state.home);
-        state.apply(Input::Spin);
-        state.advance(Duration::from_secs(3600));
-        let step = SPIN * LONGEST_STEP.as_secs_f32();
-        assert!(state.shown.view.eye.distance(orbited(&state.home, step, 0.0).eye) < 1e-5);
-        state.apply(Input::Reset);
-        assert_eq!((state.shown.view, state.shown.spinning), (state.home, false));
-    }
-
-    #[test]
-    fn escape_closes_the_help_first() {
-        let mut state = state();
-        assert_eq!(state.apply(Input::Help), Outcome::Changed);
-        assert_eq!(state.apply(Input::Escape), Outcome::Changed);
-        assert!(!state.shown.help);
-        assert_eq!(state.apply(Input::Escape), Outcome::Quit);
-        assert_eq!(state.apply(Input::Quit), Outcome::Quit);
-    }
-}
+mod tests;

@@ -62,20 +62,20 @@ mod tests {
     use super::*;
     use crate::choice::Auto;
     use crate::style::{Charset, Style};
-    use crate::view::{Lens, View};
+    use crate::view::View;
     use crate::viewer::Start;
     use clap::ValueEnum;
-    use spherule_kernel::{Tier, Vec3};
+    use spherule_kernel::Tier;
 
     fn state(choice: Auto<Structure>) -> State {
-        let view = View {
-            eye: Vec3::Z,
-            target: Vec3::ZERO,
-            up: Vec3::Y,
-            lens: Lens::Perspective { fov: 40.0 },
-        };
         let style = Style { accuracy: Tier::Stable, charset: Charset::Half, ..Style::PLAIN };
-        State::new(Start { view, style, structure: choice, comparison: None })
+        State::new(Start {
+            view: View::FRONT,
+            style,
+            structure: choice,
+            comparison: None,
+            table: false,
+        })
     }
 
     fn text(columns: u16, state: &State, searched: (Order, Structure), figures: Figures) -> String {

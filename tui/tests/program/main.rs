@@ -14,6 +14,7 @@ mod scenes;
 mod shadows;
 mod show;
 mod structures;
+mod table;
 mod trace;
 mod traced;
 mod tradeoff;

@@ -110,7 +110,28 @@ fn a_picture_of_one_cell_and_both_projections() {
     }
 }
 
-/// A number that was an `f32`, and is written in as many digits as an `f64` has, of which the reader may lose the last.
+/// Scripts get the digits that people get.
+#[test]
+fn numbers_have_as_many_digits_as_they_need() {
+    for words in ["edge --pick 9,6", "far --pick 40,12", "caffeine --pick 35,11"] {
+        let text = printed(&run(words.split(' ')));
+        let json = printed(&run(words.split(' ').chain(["--json"])));
+        let mut seen = 0;
+        // Coordinates, a radius, and of every tier t and two roots; D and its bound are of double precision.
+        for line in text.lines().filter(|line| !line.starts_with("D = ")) {
+            let is_end = |c: char| !(c.is_ascii_digit() || "+-.e".contains(c));
+            for number in line.split(is_end).filter(|word| word.contains('.')) {
+                assert!(number.parse::<f32>().is_ok(), "{number} in {line}");
+                let is_there = json.split([',', '[', ']', ':', '}']).any(|word| word == number);
+                assert!(is_there, "{number} of {line:?} in {json}");
+                seen += 1;
+            }
+        }
+        assert!(seen > 15, "{text}");
+    }
+}
+
+/// A number that was an `f32`.
 fn single(number: &Value) -> Option<f32> {
     number.as_f64().map(|number| number as f32)
 }

@@ -164,9 +164,44 @@ fn a_disk_that_is_full_keeps_no_half_file() {
     assert!(fs::read(&file).expect("a file") == png("marbles --size 40x12"));
 }
 
+/// Until there is a file with something in it, under whatever name.
+fn wait_until_begun(folder: &Path) {
+    let deadline = Instant::now() + Duration::from_secs(60);
+    let begun = || {
+        let mut entries = fs::read_dir(folder).expect("a folder").flatten();
+        entries.any(|entry| entry.metadata().is_ok_and(|data| data.len() > 0))
+    };
+    while !begun() {
+        assert!(Instant::now() < deadline, "no file");
+        thread::sleep(Duration::from_millis(2));
+    }
+}
+
+/// As `nohup` starts it.
+#[test]
+fn a_signal_that_is_ignored_stays_so() {
+    let folder = folder("png-nohup");
+    let file = folder.join("a.png");
+    let mut child = Command::new("sh")
+        .args(["-c", "trap '' HUP; exec \"$0\" \"$@\""])
+        .arg(spherule().get_program())
+        .args(["marbles", "--size", "100x60", "--png"])
+        .arg(&file)
+        .stdout(Stdio::null())
+        .spawn()
+        .expect("a shell");
+    wait_until_begun(&folder);
+    assert!(!file.exists(), "it was done too soon");
+    kill_process(Pid::from_child(&child), Signal::HUP).expect("it runs");
+    assert!(child.wait().expect("it ends").success());
+    assert_eq!(names(&folder), ["a.png"]);
+}
+
 #[test]
 fn a_signal_leaves_no_half_file() {
-    for signal in [Signal::TERM, Signal::INT] {
+    // Elsewhere it cannot be told whether somebody wants SIGHUP to do nothing.
+    let hang_up = cfg!(target_os = "linux").then_some(Signal::HUP);
+    for signal in [Signal::TERM, Signal::INT].into_iter().chain(hang_up) {
         let folder = folder("png-signal");
         let file = folder.join("a.png");
         let mut child = spherule()
@@ -175,16 +210,7 @@ fn a_signal_leaves_no_half_file() {
             .stdout(Stdio::null())
             .spawn()
             .expect("the program runs");
-        let deadline = Instant::now() + Duration::from_secs(60);
-        // Under its other name, and begun.
-        let begun = || {
-            let mut entries = fs::read_dir(&folder).expect("a folder").flatten();
-            entries.any(|entry| entry.metadata().is_ok_and(|data| data.len() > 0))
-        };
-        while !begun() {
-            assert!(Instant::now() < deadline, "no file");
-            thread::sleep(Duration::from_millis(2));
-        }
+        wait_until_begun(&folder);
         assert!(!file.exists());
         kill_process(Pid::from_child(&child), signal).expect("it runs");
         let status = child.wait().expect("it ends");

@@ -5,10 +5,10 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 
-/// The program without any variable that decides about colour.
+/// The program without any variable that decides about colour or characters.
 pub(crate) fn spherule() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_spherule"));
-    for name in ["NO_COLOR", "CLICOLOR_FORCE", "COLORTERM"] {
+    for name in ["NO_COLOR", "CLICOLOR_FORCE", "COLORTERM", "LC_ALL", "LC_CTYPE", "LANG"] {
         command.env_remove(name);
     }
     command.env("TERM", "xterm-256color").stdin(Stdio::null());

@@ -14,7 +14,8 @@ fn shown(words: &str) -> String {
 
 /// The number behind `name` in the legend; 0 if it is not there.
 fn count(text: &str, name: &str) -> u64 {
-    let legend: Vec<&str> = text.lines().rev().take(2).collect();
+    // The most rows that it takes at this width.
+    let legend: Vec<&str> = text.lines().rev().take(4).collect();
     let found = legend.iter().find_map(|line| line.split_once(&format!("{name} ")));
     found.map_or(0, |(_, rest)| {
         let number = rest.split_whitespace().next().expect("a number").replace(',', "");
@@ -234,6 +235,9 @@ fn bad_use() {
         "--show split:fast,sloppy",
         "--show split:fast,exact,exact",
         "--show error --png a.png",
+        "--show tables",
+        "--show table --png a.png",
+        "--show table --pick 1,1",
         "trace --spheres s.npy --rays r.npy --show error",
         "tradeoff --show error",
         "scenes --show error",

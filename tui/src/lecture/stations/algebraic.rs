@@ -1,9 +1,10 @@
 //! The sphere, solved algebraically: a quadratic in t.
 
-use super::{Entry, Source, Station, Turn, flat, number};
+use super::{Entry, Source, flat, number};
 use crate::lecture::canvas::{Canvas, Role};
-use crate::lecture::shot::Shot;
-use spherule_kernel::{Fast, roots};
+use crate::lecture::chart::Chart;
+use crate::lecture::shot::Solved;
+use spherule_kernel::{Fast, Ray, Sphere, roots};
 
 pub(super) const ENTRY: Entry = Entry {
     name: "algebraic",
@@ -18,67 +19,52 @@ pub(super) const ENTRY: Entry = Entry {
         Source { file: "kernel/src/accuracy/fast.rs", symbols: &["roots", "discriminant", "Fast"] },
         Source { file: "kernel/src/linear/line.rs", symbols: &["roots"] },
     ],
-    // d need not have unit length.
-    start: || Box::new(Algebraic(Shot::new(2.0))),
+    start: || Box::new(Solved::new(form)),
 };
 
-/// Columns of the numbers.
-const NUMBERS: i32 = 38;
-
-struct Algebraic(Shot);
-
-impl Station for Algebraic {
-    fn turn(&mut self, turn: Turn) {
-        self.0.turn(turn);
+fn form(ray: &Ray, sphere: &Sphere, chart: &Chart, canvas: &mut Canvas) -> Vec<String> {
+    let found = roots(Fast, ray, sphere);
+    for (t, name) in found.iter().flatten().zip(["* t1", "* t2"]) {
+        let role = if *t >= 0.0 { Role::Hit } else { Role::Faint };
+        chart.mark(canvas, ray.at(*t), name, role);
     }
 
-    fn draw(&self, canvas: &mut Canvas) {
-        let (ray, sphere) = (self.0.ray(), self.0.sphere());
-        let chart = Shot::chart(canvas, NUMBERS, 0);
-        self.0.draw(&chart, canvas);
-        let found = roots(Fast, &ray, &sphere);
-        for (t, name) in found.iter().flatten().zip(["* t1", "* t2"]) {
-            let role = if *t >= 0.0 { Role::Hit } else { Role::Faint };
-            chart.mark(canvas, ray.at(*t), name, role);
-        }
-
-        // The formula's parts, in the order in which the kernel computes them.
-        let (p, d) = (ray.origin - sphere.center, ray.direction);
-        let (dd, dp) = (d.dot(d), d.dot(p));
-        let c = p.dot(p) - sphere.radius * sphere.radius;
-        let discriminant = dp * dp - dd * c;
-        let mut lines = vec![
-            format!("p - c = {}", flat(p)),
-            format!("d = {}", flat(d)),
-            format!("r = {}", number(sphere.radius)),
+    // The formula's parts, in the order in which the kernel computes them.
+    let (p, d) = (ray.origin - sphere.center, ray.direction);
+    let (dd, dp) = (d.dot(d), d.dot(p));
+    let c = p.dot(p) - sphere.radius * sphere.radius;
+    let discriminant = dp * dp - dd * c;
+    let mut lines = vec![
+        format!("p - c = {}", flat(p)),
+        format!("d = {}", flat(d)),
+        format!("r = {}", number(sphere.radius)),
+        String::new(),
+        format!("d.d = {}", number(dd)),
+        format!("d.p = {}", number(dp)),
+        format!("p.p - r^2 = {}", number(c)),
+        "D = (d.p)^2 - (d.d)(p.p - r^2)".to_owned(),
+        format!("  = {}", number(discriminant)),
+        String::new(),
+    ];
+    match found {
+        Some([near, far]) => lines.extend([
+            "D >= 0: the line meets the sphere".to_owned(),
+            "t = (-d.p -+ sqrt D) / (d.d)".to_owned(),
+            format!("t1 = {}", number(near)),
+            format!("t2 = {}", number(far)),
             String::new(),
-            format!("d.d = {}", number(dd)),
-            format!("d.p = {}", number(dp)),
-            format!("p.p - r^2 = {}", number(c)),
-            "D = (d.p)^2 - (d.d)(p.p - r^2)".to_owned(),
-            format!("  = {}", number(discriminant)),
+            match (near >= 0.0, far >= 0.0) {
+                (true, _) => "both on the ray: the hit is t1",
+                (false, true) => "t1 < 0: p is inside, the hit is t2",
+                _ => "both t < 0: behind p, no hit",
+            }
+            .to_owned(),
+        ]),
+        None => lines.extend([
+            "D < 0: no real root, no hit".to_owned(),
             String::new(),
-        ];
-        match found {
-            Some([near, far]) => lines.extend([
-                "D >= 0: the line meets the sphere".to_owned(),
-                "t = (-d.p -+ sqrt D) / (d.d)".to_owned(),
-                format!("t1 = {}", number(near)),
-                format!("t2 = {}", number(far)),
-                String::new(),
-                match (near >= 0.0, far >= 0.0) {
-                    (true, _) => "both on the ray: the hit is t1",
-                    (false, true) => "t1 < 0: p is inside, the hit is t2",
-                    _ => "both t < 0: behind p, no hit",
-                }
-                .to_owned(),
-            ]),
-            None => lines.extend([
-                "D < 0: no real root, no hit".to_owned(),
-                String::new(),
-                "Turn the ray to the sphere.".to_owned(),
-            ]),
-        }
-        canvas.write_lines(canvas.columns() - NUMBERS + 1, 0, lines);
+            "Turn the ray to the sphere.".to_owned(),
+        ]),
     }
+    lines
 }

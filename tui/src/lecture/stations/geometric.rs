@@ -1,9 +1,10 @@
 //! The sphere, solved geometrically: through the closest point.
 
-use super::{Entry, Source, Station, Turn, flat, number};
+use super::{Entry, Source, flat, number};
 use crate::lecture::canvas::{Canvas, Role};
-use crate::lecture::shot::Shot;
-use spherule_kernel::{Geometric, roots};
+use crate::lecture::chart::Chart;
+use crate::lecture::shot::Solved;
+use spherule_kernel::{Geometric, Ray, Sphere, roots};
 
 pub(super) const ENTRY: Entry = Entry {
     name: "geometric",
@@ -18,71 +19,57 @@ pub(super) const ENTRY: Entry = Entry {
         file: "kernel/src/accuracy/geometric.rs",
         symbols: &["roots", "middle", "Geometric"],
     }],
-    start: || Box::new(ByClosestPoint(Shot::new(2.0))),
+    start: || Box::new(Solved::new(form)),
 };
 
-/// Columns of the numbers.
-const NUMBERS: i32 = 38;
+fn form(ray: &Ray, sphere: &Sphere, chart: &Chart, canvas: &mut Canvas) -> Vec<String> {
+    let found = roots(Geometric, ray, sphere);
 
-struct ByClosestPoint(Shot);
+    // The formula's parts, in the order in which the kernel computes them.
+    let (p, d) = (ray.origin - sphere.center, ray.direction);
+    let length = d.dot(d).sqrt();
+    let unit = d * (1.0 / length);
+    let middle = -p.dot(unit);
+    let ll = p.dot(p) - middle * middle;
+    let half = sphere.radius * sphere.radius - ll;
 
-impl Station for ByClosestPoint {
-    fn turn(&mut self, turn: Turn) {
-        self.0.turn(turn);
+    let closest = ray.origin + middle * unit;
+    chart.dots(canvas, [sphere.center, closest], Role::Hit);
+    chart.mark(canvas, closest, "m", Role::Hit);
+    chart.mark(canvas, (sphere.center + closest) / 2.0, "l", Role::Hit);
+    if let Some([near, far]) = found {
+        chart.mark(canvas, ray.at(near), "* t1", Role::Hit);
+        chart.mark(canvas, ray.at(far), "* t2", Role::Hit);
+        chart.mark(canvas, (closest + ray.at(near)) / 2.0, "dt", Role::Hit);
+        chart.mark(canvas, (closest + ray.at(far)) / 2.0, "dt", Role::Hit);
     }
 
-    fn draw(&self, canvas: &mut Canvas) {
-        let (ray, sphere) = (self.0.ray(), self.0.sphere());
-        let found = roots(Geometric, &ray, &sphere);
-
-        // The formula's parts, in the order in which the kernel computes them.
-        let (p, d) = (ray.origin - sphere.center, ray.direction);
-        let length = d.dot(d).sqrt();
-        let unit = d * (1.0 / length);
-        let middle = -p.dot(unit);
-        let ll = p.dot(p) - middle * middle;
-        let half = sphere.radius * sphere.radius - ll;
-
-        let chart = Shot::chart(canvas, NUMBERS, 0);
-        self.0.draw(&chart, canvas);
-        let closest = ray.origin + middle * unit;
-        chart.dots(canvas, [sphere.center, closest], Role::Hit);
-        chart.mark(canvas, closest, "m", Role::Hit);
-        chart.mark(canvas, (sphere.center + closest) / 2.0, "l", Role::Hit);
-        if let Some([near, far]) = found {
-            chart.mark(canvas, ray.at(near), "* t1", Role::Hit);
-            chart.mark(canvas, ray.at(far), "* t2", Role::Hit);
-            chart.mark(canvas, (closest + ray.at(near)) / 2.0, "dt", Role::Hit);
-            chart.mark(canvas, (closest + ray.at(far)) / 2.0, "dt", Role::Hit);
-        }
-
-        let mut lines = vec![
-            format!("p - c = {}", flat(p)),
-            format!("d = {}", flat(d)),
-            format!("|d| = {}   r = {}", number(length), number(sphere.radius)),
-            format!("v = d/|d| = {}", flat(unit)),
+    let mut lines = vec![
+        format!("p - c = {}", flat(p)),
+        format!("d = {}", flat(d)),
+        format!("|d| = {}   r = {}", number(length), number(sphere.radius)),
+        format!("v = d/|d| = {}", flat(unit)),
+        String::new(),
+        format!("t_m = -p.v = {}", number(middle)),
+        format!("l^2 = p.p - t_m^2 = {}", number(ll)),
+        format!("r^2 - l^2 = {}", number(half)),
+    ];
+    match found {
+        Some([near, far]) => lines.extend([
+            format!("dt = sqrt(r^2 - l^2) = {}", number(half.sqrt())),
             String::new(),
-            format!("t_m = -p.v = {}", number(middle)),
-            format!("l^2 = p.p - t_m^2 = {}", number(ll)),
-            format!("r^2 - l^2 = {}", number(half)),
-        ];
-        match found {
-            Some([near, far]) => lines.extend([
-                format!("dt = sqrt(r^2 - l^2) = {}", number(half.sqrt())),
-                String::new(),
-                "t = (t_m -+ dt) / |d|".to_owned(),
-                format!("t1 = {}", number(near)),
-                format!("t2 = {}", number(far)),
-                String::new(),
-                "With |d| = 1 it is t_m -+ dt: the".to_owned(),
-                "kernel makes v, and scales back.".to_owned(),
-            ]),
-            None => lines.extend([
-                "l > r: the line passes the sphere".to_owned(),
-                String::new(),
-                "no root, no hit".to_owned(),
-            ]),
-        }
-        canvas.write_lines(canvas.columns() - NUMBERS + 1, 0, lines);
+            "t = (t_m -+ dt) / |d|".to_owned(),
+            format!("t1 = {}", number(near)),
+            format!("t2 = {}", number(far)),
+            String::new(),
+            "With |d| = 1 it is t_m -+ dt: the".to_owned(),
+            "kernel makes v, and scales back.".to_owned(),
+        ]),
+        None => lines.extend([
+            "l > r: the line passes the sphere".to_owned(),
+            String::new(),
+            "no root, no hit".to_owned(),
+        ]),
     }
+    lines
 }

@@ -1,0 +1,190 @@
+//! The table of `t`: measured while the picture stays in hand, and gone at once.
+
+use super::look::last_row;
+use super::picture::{OPTIONS, once_with};
+use super::session::{Output, Session};
+use super::viewer::{COLUMNS, PICTURE_ROWS, ROWS, VIEW, Viewer, shows_a_frame};
+use spherule::view::orbited;
+use spherule::viewer::ORBIT_STEP;
+use spherule_tests::binary::spherule;
+use std::fmt::Write;
+use std::fs;
+use std::time::{Duration, Instant};
+
+/// So many rays that it takes seconds to measure them; and how many there are at [`COLUMNS`] x [`PICTURE_ROWS`].
+const MANY: [&str; 2] = ["--samples", "64"];
+const RAYS: &str = " 109,440 camera rays";
+/// How long the answer to a key may take on a loaded machine, far less than a measurement.
+const AT_ONCE: Duration = Duration::from_millis(500);
+
+fn start() -> Viewer {
+    let viewer = Viewer::start_as(&MANY, &[], COLUMNS, ROWS);
+    viewer.wait_for_frame();
+    viewer
+}
+
+fn contents(output: &Output) -> String {
+    output.screen().contents()
+}
+
+/// Waits until this stands over the picture.
+fn wait_for_words(session: &Session, words: &str) {
+    session.wait_for(words, |output| {
+        (shows_a_frame(output) && contents(output).contains(words)).then_some(())
+    });
+}
+
+fn percent(output: &Output) -> Option<u32> {
+    let contents = contents(output);
+    let (before, _) = contents.split_once(" %  Esc stops")?;
+    before.split_whitespace().next_back()?.parse().ok()
+}
+
+#[test]
+fn t_measures_shows_and_escape_closes() {
+    let mut viewer = start();
+    viewer.session.type_in("t");
+    viewer
+        .session
+        .wait_for("progress", |output| percent(output).filter(|percent| (5..95).contains(percent)));
+    wait_for_words(&viewer.session, "2^24");
+    {
+        let output = viewer.session.output();
+        let text = contents(&output);
+        for part in ["3 spheres", "1 thread", RAYS, " shadow rays", "ns a ray"] {
+            assert!(text.contains(part), "{part}: {text}");
+        }
+        // Above it the picture.
+        let above = usize::from(PICTURE_ROWS) - 13;
+        let picture = once_with(&MANY, &VIEW, COLUMNS, PICTURE_ROWS);
+        assert_eq!(super::look::look(output.screen(), above as u16), picture[..above]);
+    }
+    // What is measured stays until something is asked for that it is not of.
+    viewer.session.wait_for_peace();
+    viewer.session.type_in("1");
+    viewer.session.wait_for("another tier", |output| {
+        (last_row(output.screen()).contains(" fast ") && contents(output).contains("2^24"))
+            .then_some(())
+    });
+    viewer.session.type_in("3\x1b");
+    viewer
+        .wait_for_picture("the picture under it", &once_with(&MANY, &VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.session.wait_for_peace();
+    viewer.quit();
+}
+
+#[test]
+fn escape_stops_at_once_what_is_measured() {
+    let mut viewer = start();
+    let picture = once_with(&MANY, &VIEW, COLUMNS, PICTURE_ROWS);
+    for _ in 0..3 {
+        viewer.session.type_in("t");
+        wait_for_words(&viewer.session, "measuring");
+        let asked = Instant::now();
+        viewer.session.type_in("\x1b");
+        viewer.wait_for_picture("the picture", &picture);
+        // An escape is a key when no sequence has followed for 50 ms.
+        assert!(asked.elapsed() < AT_ONCE, "{:?}", asked.elapsed());
+    }
+    // Nobody measures any more.
+    viewer.session.wait_for_peace();
+    viewer.quit();
+}
+
+#[test]
+fn q_leaves_at_once_while_it_measures() {
+    let mut viewer = start();
+    viewer.session.type_in("t");
+    wait_for_words(&viewer.session, "measuring");
+    let asked = Instant::now();
+    viewer.session.type_in("q");
+    assert!(viewer.session.wait_for_end().success());
+    assert!(asked.elapsed() < AT_ONCE, "{:?}", asked.elapsed());
+    assert_eq!(viewer.session.left_behind(), [""; 0]);
+}
+
+/// What is measured is of the picture that is seen: another one is measured anew when it rests.
+#[test]
+fn another_view_or_size_is_measured_anew() {
+    let mut viewer = start();
+    viewer.session.type_in("t");
+    wait_for_words(&viewer.session, "measuring");
+    viewer.session.resize(70, 20);
+    wait_for_words(&viewer.session, " 95,760 camera rays");
+    viewer.session.type_in("l");
+    viewer.session.wait_for("another measurement", percent);
+    wait_for_words(&viewer.session, " 95,760 camera rays");
+    viewer.session.resize(30, 10);
+    wait_for_words(&viewer.session, " table needs ");
+    viewer.session.resize(COLUMNS, ROWS);
+    wait_for_words(&viewer.session, RAYS);
+    viewer.session.type_in("t");
+    let view = orbited(&VIEW, ORBIT_STEP, 0.0);
+    viewer.wait_for_picture("the orbit", &once_with(&MANY, &view, COLUMNS, PICTURE_ROWS));
+    viewer.quit();
+}
+
+#[test]
+fn a_picture_that_spins_is_waited_for() {
+    let mut viewer = start();
+    viewer.session.type_in(" t");
+    wait_for_words(&viewer.session, "waits until the picture rests");
+    viewer.session.type_in(" ");
+    wait_for_words(&viewer.session, "2^24");
+    viewer.session.wait_for_peace();
+    viewer.quit();
+}
+
+/// Over an error map, in ASCII, without colour.
+#[test]
+fn without_colour_it_is_ascii() {
+    let options = ["--color", "never", "--charset", "ascii", "--show", "table"];
+    let mut viewer = Viewer::start_with_options(&options);
+    viewer.session.wait_for("the first frame", |output| shows_a_frame(output).then_some(()));
+    viewer.session.type_in("e");
+    wait_for_words(&viewer.session, "2^24");
+    {
+        let output = viewer.session.output();
+        assert!(contents(&output).is_ascii());
+        assert!(!output.sent.windows(4).any(|bytes| bytes == b"\x1b[38" || bytes == b"\x1b[48"));
+        assert!(!output.sent.windows(3).any(|bytes| bytes == b"\x1b[3" && bytes[2] != b'8'));
+    }
+    viewer.session.type_in("\x1b");
+    viewer.session.wait_for("the map under it", |output| {
+        let text = contents(output);
+        (shows_a_frame(output) && text.contains(" exact: all right") && !text.contains("2^24"))
+            .then_some(())
+    });
+    viewer.quit();
+}
+
+/// However many spheres there are, keys are answered at once.
+#[test]
+fn a_hundred_thousand_spheres_do_not_hold_up_escape() {
+    let path = std::env::temp_dir().join(format!("spherule-{}-many.xyz", std::process::id()));
+    let mut text = "100000\nmany\n".to_owned();
+    for index in 0..100_000_u32 {
+        let at = |step: u32| (index.wrapping_mul(step) >> 8) % 1000;
+        let (x, y, z) = (at(2_654_435_761), at(2_246_822_519), at(3_266_489_917));
+        writeln!(text, "C {x} {y} {z}").expect("memory");
+    }
+    fs::write(&path, text).expect("a temporary file");
+    let name = path.to_str().expect("a path that is text");
+    let arguments = [&[name], OPTIONS.as_slice()].concat();
+    let mut session = Session::start(spherule(), &arguments, &[], (COLUMNS, ROWS));
+    session.wait_for("a frame", |output| shows_a_frame(output).then_some(()));
+    fs::remove_file(&path).expect("it can be removed");
+    for _ in 0..3 {
+        session.type_in("t");
+        wait_for_words(&session, "Esc stops");
+        let asked = Instant::now();
+        session.type_in("\x1b");
+        session.wait_for("the picture", |output| {
+            (shows_a_frame(output) && !contents(output).contains("Esc stops")).then_some(())
+        });
+        assert!(asked.elapsed() < AT_ONCE, "{:?}", asked.elapsed());
+    }
+    session.type_in("q");
+    assert!(session.wait_for_end().success());
+    assert_eq!(session.left_behind(), [""; 0]);
+}

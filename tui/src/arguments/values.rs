@@ -1,0 +1,76 @@
+//! Values of options, read from their words.
+
+use super::Overlay;
+use crate::choice::{Auto, one_of};
+use crate::color::Srgb;
+use crate::compare::Comparison;
+use crate::samples::MOST_SAMPLES;
+use clap::builder::TypedValueParser;
+use spherule_kernel::{Level, LevelName, Tier};
+use std::ops::RangeInclusive;
+
+/// The largest picture, in columns or rows.
+const LARGEST_SIDE: u16 = 4096;
+/// The widest and the narrowest cell, width over height.
+const ASPECTS: RangeInclusive<f32> = 0.05..=20.0;
+
+/// Columns and rows of a picture.
+pub(super) fn size(text: &str) -> Result<(u16, u16), String> {
+    let (columns, rows) = text.split_once(['x', 'X']).ok_or("COLSxROWS, such as 80x24")?;
+    let side = |text: &str| {
+        let side = text.parse().ok().filter(|side| (1..=LARGEST_SIDE).contains(side));
+        side.ok_or_else(|| format!("COLSxROWS, each 1 to {LARGEST_SIDE}"))
+    };
+    Ok((side(columns)?, side(rows)?))
+}
+
+/// Column and row of a cell.
+pub(super) fn cell(text: &str) -> Result<(u16, u16), &'static str> {
+    let cell = || {
+        let (column, row) = text.split_once(',')?;
+        Some((column.parse().ok()?, row.parse().ok()?))
+    };
+    cell().ok_or("COL,ROW, counted from 0, such as 40,12")
+}
+
+/// What is to be shown.
+pub(super) fn overlay(text: &str) -> Result<Overlay, &'static str> {
+    let tiers = || Comparison::named(text).map(Overlay::Tiers);
+    let table = (text == "table").then_some(Overlay::Table);
+    table.or_else(tiers).ok_or("error, table, or split:TIER,TIER such as split:fast,exact")
+}
+
+/// Rays a cell.
+pub(super) fn samples(text: &str) -> Result<Auto<u32>, String> {
+    let number = || text.parse().ok().filter(|number| (1..=MOST_SAMPLES).contains(number));
+    match text {
+        "auto" => Ok(None),
+        _ => number().map(Some).ok_or_else(|| format!("auto, or 1 to {MOST_SAMPLES}")),
+    }
+}
+
+/// A cell's width over its height.
+pub(super) fn aspect(text: &str) -> Result<f32, &'static str> {
+    let ratio = || {
+        let (width, height) = text.split_once(':')?;
+        Some(width.parse::<f32>().ok()? / height.parse::<f32>().ok()?)
+    };
+    ratio().filter(|ratio| ASPECTS.contains(ratio)).ok_or("W:H, such as 1:2; from 1:20 to 20:1")
+}
+
+/// As in scenes, and without the `#`, with which a shell begins a comment.
+pub(super) fn color(text: &str) -> Result<Srgb, String> {
+    text.parse().or_else(|error| format!("#{text}").parse().map_err(|_: String| error))
+}
+
+/// `algebraic` is what the lecture calls the form that `fast` is.
+pub(super) fn tier() -> impl TypedValueParser<Value = Tier> {
+    one_of(&Tier::ALL, Tier::as_str, |tier| (tier == Tier::Fast).then_some("algebraic"))
+}
+
+/// One that this CPU has.
+pub(super) fn level() -> impl TypedValueParser<Value = Level> {
+    one_of(&LevelName::ALL, LevelName::as_str, |_| None).try_map(|name| {
+        Level::named(name).ok_or_else(|| format!("this CPU has no {}", name.as_str()))
+    })
+}

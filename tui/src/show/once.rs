@@ -1,0 +1,138 @@
+//! One picture, written at once: as a tier sees it, as it is wrong, in two halves, or below a table.
+
+use super::PATIENCE;
+use crate::cells::CellGrid;
+use crate::compare::error_map::ErrorMapper;
+use crate::compare::legend::MapPainter;
+use crate::compare::split::{Split, SplitPicture};
+use crate::draw::{Renderer, Spending};
+use crate::encode;
+use crate::error::{Error, write_stdout};
+use crate::progress::Progress;
+use crate::scene::Scene;
+use crate::structure::scene::{PictureSearch, SceneStructures};
+use crate::style::Style;
+use crate::tradeoff::Question;
+use crate::tradeoff::chart::{self, Standing};
+use crate::view::View;
+use spherule_kernel::Tier;
+
+/// Rows of an error map that are written at a time.
+const MAP_STRIP: u16 = 32;
+
+/// What is drawn, and whether it goes to a terminal.
+pub(super) struct Once<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) view: View,
+    pub(super) style: Style,
+    /// Columns and rows.
+    pub(super) size: (u16, u16),
+    pub(super) is_terminal: bool,
+}
+
+impl Once<'_> {
+    /// On the terminal that a picture is written to, the picture shows how far it is.
+    fn progress(&self) -> Option<Progress> {
+        (!self.is_terminal).then(|| Progress::after(PATIENCE))
+    }
+
+    /// Writes the scene as the tier of the style sees it.
+    pub(super) fn picture(
+        &self,
+        renderer: &mut Renderer<'_>,
+        search: &PictureSearch<'_>,
+    ) -> Result<(), Error> {
+        let (mut done, mut bytes, mut progress) = (0_u32, Vec::new(), self.progress());
+        renderer.draw_strips(self.scene, search, &self.view, &self.style, self.size, |cells| {
+            bytes.clear();
+            encode::full(cells, &mut bytes);
+            write_stdout(&bytes)?;
+            done += u32::from(cells.rows());
+            if let Some(progress) = &mut progress {
+                progress.show("drawing", f64::from(done) / f64::from(self.size.1));
+            }
+            Ok(())
+        })
+    }
+
+    /// Draws the same.
+    pub(super) fn drawn(
+        &self,
+        renderer: &mut Renderer<'_>,
+        search: &PictureSearch<'_>,
+    ) -> CellGrid {
+        let need = Spending::ByNeed;
+        renderer.draw(self.scene, search, &self.view, &self.style, self.size, need).cells
+    }
+
+    /// Writes what the tier of the style gets wrong: in strips, since bytes take more memory than classes.
+    pub(super) fn errors(
+        &self,
+        renderer: &Renderer<'_>,
+        search: &PictureSearch<'_>,
+    ) -> Result<(), Error> {
+        let (scene, machine, mut progress) =
+            ((self.scene, search), renderer.machine(), self.progress());
+        let mut mapper = ErrorMapper::default();
+        let map = mapper.map(scene, &self.view, &self.style, self.size, machine, |share| {
+            if let Some(progress) = &mut progress {
+                progress.show("drawing", share);
+            }
+        });
+        drop(progress);
+        let (painter, (_, rows)) = (MapPainter::new(&self.style), map.size());
+        let mut bytes = Vec::new();
+        for first in (0..rows).step_by(MAP_STRIP.into()) {
+            bytes.clear();
+            let strip = first..first.saturating_add(MAP_STRIP).min(rows);
+            encode::full(&painter.cells(&map, strip), &mut bytes);
+            write_stdout(&bytes)?;
+        }
+        Ok(())
+    }
+
+    /// Writes it by two tiers, side by side.
+    pub(super) fn split(
+        &self,
+        tiers: [Tier; 2],
+        renderer: &mut Renderer<'_>,
+        search: &PictureSearch<'_>,
+    ) -> Result<(), Error> {
+        let Self { scene, view, style, size, is_terminal } = self;
+        let split = Split { tiers, seam: size.0 / 2 };
+        let (scene, need) = ((*scene, search), Spending::ByNeed);
+        let SplitPicture { drawn, ns_a_ray } =
+            split.draw(renderer, scene, view, style, *size, need);
+        let mapper = &mut ErrorMapper::default();
+        let figures = split.figures(renderer, mapper, scene, view, style, *size);
+        let mut cells = drawn.cells;
+        // What is measured is never twice the same: a file or a pipe gets what is.
+        let ns_a_ray = if *is_terminal { ns_a_ray } else { [None; 2] };
+        split.write(&mut cells, size.1, ns_a_ray, Some(figures));
+        write(&cells)
+    }
+
+    /// Writes the picture in `cells`, and over it what is measured.
+    pub(super) fn table(
+        &self,
+        mut cells: CellGrid,
+        question: &Question<'_>,
+        structures: &mut SceneStructures<'_>,
+    ) -> Result<(), Error> {
+        let mut progress = Progress::after(PATIENCE);
+        let report = question.measure(structures, &mut |step, share| {
+            progress.show(step.doing(), share);
+            true
+        })?;
+        drop(progress);
+        let standing = report.map_or(Standing::Waiting, Standing::Done);
+        chart::write(&mut cells, self.size.1, &self.style, &standing);
+        write(&cells)
+    }
+}
+
+fn write(cells: &CellGrid) -> Result<(), Error> {
+    let mut bytes = Vec::new();
+    encode::full(cells, &mut bytes);
+    write_stdout(&bytes)
+}
