@@ -1,6 +1,6 @@
 //! The scenes that are measured are what they say.
 
-use spherule_kernel::{Ray, Vec3, Viewpoint};
+use spherule_kernel::{Ray, Sphere, Vec3, Viewpoint};
 use spherule_tests::scenes::{Kind, LARGE, Scene, Size, sample, small, viewpoint};
 
 fn large(name: &str, size: Size) -> Scene {
@@ -86,6 +86,91 @@ fn the_ground_is_one_and_the_rest_is_small() {
     let spread = (radii[8_413] / radii[5_000]).ln();
     assert!((0.65..0.75).contains(&spread), "{spread}");
     assert!(radii[9_998] < 3.0 && scene.has_ground());
+}
+
+/// The spheres of a large scene in a trial run.
+fn spheres(name: &str) -> Vec<Sphere> {
+    large(name, Size::SMALL).spheres.spheres().iter().collect()
+}
+
+/// How many spheres each point lies in.
+fn depth(points: impl IntoIterator<Item = Vec3>, spheres: &[Sphere]) -> Vec<usize> {
+    let holds = |point: Vec3| move |s: &&Sphere| s.center.distance(point) < s.radius;
+    points.into_iter().map(|point| spheres.iter().filter(holds(point)).count()).collect()
+}
+
+fn origins(name: &str) -> Vec<Vec3> {
+    large(name, Size::SMALL).rays(Kind::Diffuse).iter().map(|ray| ray.origin).collect()
+}
+
+#[test]
+fn a_shell_is_hollow_and_has_rays_on_both_sides() {
+    for sphere in spheres("shell") {
+        assert!((sphere.center.length() - 1.0).abs() < 1e-6 && sphere.radius < 0.05);
+    }
+    let within = origins("shell").iter().filter(|origin| origin.length() < 0.95).count();
+    assert!((64..192).contains(&within), "{within} of 256");
+}
+
+#[test]
+fn nested_spheres_hold_all_smaller_ones_in_any_order() {
+    let mut list = spheres("nested");
+    let in_order = list.windows(2).filter(|pair| pair[0].radius < pair[1].radius).count();
+    assert!((1300..1700).contains(&in_order), "{in_order} of 2999");
+    list.sort_by(|a, b| a.radius.total_cmp(&b.radius));
+    assert!(list.iter().all(|sphere| sphere.center == Vec3::ZERO));
+    assert!(list.windows(2).all(|pair| pair[0].radius < pair[1].radius));
+    assert_eq!((list.len(), list[2999].radius), (3000, 1.0));
+    let depth = depth(origins("nested"), &list);
+    let outside = depth.iter().filter(|&&depth| depth == 0).count();
+    let deep = depth.iter().filter(|&&depth| depth > 1000).count();
+    assert!((64..192).contains(&outside) && deep > 32, "{outside} and {deep} of 256");
+}
+
+#[test]
+fn duplicates_stand_at_ten_indices() {
+    let list = spheres("duplicates");
+    let alike = |one: &Sphere| list.iter().filter(|other| *other == one).count();
+    assert!(list.len() == 3000 && list.iter().all(|sphere| alike(sphere) == 10));
+    assert_ne!(list[0], list[1]);
+}
+
+#[test]
+fn origins_lie_in_many_spheres() {
+    let Size(pixels, _) = Size::SMALL;
+    let scene = large("inside", Size(pixels, usize::MAX));
+    let list: Vec<_> = scene.spheres.spheres().iter().collect();
+    let rays = Kind::ALL.map(|kind| scene.rays(kind).iter().map(|ray| ray.origin));
+    for origins in rays {
+        let depth = depth(origins, &list);
+        // At a corner of the cube an eighth as many.
+        let mean = depth.iter().sum::<usize>() as f64 / depth.len() as f64;
+        assert!(depth.iter().all(|&depth| depth > 3) && mean > 30.0, "{mean}");
+    }
+}
+
+#[test]
+fn one_is_huge_and_the_rest_is_tiny() {
+    let list = spheres("huge and tiny");
+    let (first, rest) = list.split_at(1500);
+    assert_eq!((list.len(), rest[0].radius), (3000, 0.9));
+    assert!(first.iter().chain(&rest[1..]).all(|sphere| sphere.radius < 0.02));
+}
+
+#[test]
+fn links_touch_along_straight_lines() {
+    let list = spheres("chains");
+    assert_eq!(list.len(), 3000);
+    for chain in list.chunks(1000) {
+        let along = (chain[999].center - chain[0].center) / 999.0;
+        for pair in chain.windows(2) {
+            let step = pair[1].center - pair[0].center;
+            assert!((step.length() - pair[0].radius - pair[1].radius).abs() < 1e-6);
+            assert!((step - along).length() < 1e-6);
+        }
+    }
+    let along = |chain: usize| list[1000 * chain + 1].center - list[1000 * chain].center;
+    assert!(along(0).cross(along(1)).length() > 0.1 * along(0).length_squared());
 }
 
 #[test]

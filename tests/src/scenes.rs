@@ -9,12 +9,19 @@
 //! | `cloud` | 200,000, so large that most meet a neighbour | 60 degrees, from the middle | in the cube |
 //! | `parallel` | 100,000 uniform | parallel, aslant | in the cube |
 //! | `long lens` | 10,000 uniform | 10^4 scene sizes away, the scene fills the picture | from as far, all around, towards points in the scene |
+//! | `shell` | 100,000 small ones on the unit sphere | 40 degrees, 3 away | in the cube: half of them within |
+//! | `nested` | 4,000 around the origin, radii from 1/4000 to 1 | 40 degrees, 3 away | in the cube: half of them within |
+//! | `duplicates` | 1,000 uniform, each at ten indices | 40 degrees, 4 away | in the cube |
+//! | `inside` | 10,000, radii 0.1 to 0.3 in the cube | 60 degrees, from the middle | in the cube: each within some forty |
+//! | `huge and tiny` | one of radius 0.9 at the origin, a million tiny ones in the cube | 40 degrees, 4 away | in the cube |
+//! | `chains` | 100 straight rows of 1,000 that touch, 3 long | 40 degrees, 4 away | in the cube |
 //!
 //! A picture has 1024 x 1024 primary rays in tiles of 4 x 4, tiles row by row, so that sixteen rays that follow each
 //! other are a coherent packet. Directions have no unit length. Of diffuse rays, which have nothing in common, there
 //! are a quarter as many; "in the cube" means origins uniform in it, directions uniform. The [small] scenes are
 //! lists.
 
+mod hard;
 mod point;
 mod rays;
 pub mod small;
@@ -26,8 +33,23 @@ use std::f64::consts::PI;
 use std::rc::Rc;
 
 /// The large scenes, in the order of the tables.
-pub const LARGE: [&str; 9] =
-    ["one", "u64", "flake4", "u10k", "u1m", "ground", "cloud", "parallel", "long lens"];
+pub const LARGE: [&str; 15] = [
+    "one",
+    "u64",
+    "flake4",
+    "u10k",
+    "u1m",
+    "ground",
+    "cloud",
+    "parallel",
+    "long lens",
+    "shell",
+    "nested",
+    "duplicates",
+    "inside",
+    "huge and tiny",
+    "chains",
+];
 
 /// Spheres and rays.
 #[derive(Clone, Debug)]
@@ -86,6 +108,7 @@ impl Scene {
         let at_most = |count: usize| count.min(most);
         let camera = |eye, target, angle| rays::perspective(eye, target, angle, pixels);
         let from = |z: f64| camera([0.0, 0.0, z], [0.0; 3], 40.0);
+        let from_within = || camera([0.0; 3], [1.0, 0.4, 0.7], 60.0);
         let in_cube = || rays::scattered([-1.0; 3], [1.0; 3], count);
         let (spheres, primary, diffuse) = match name {
             "one" => (spheres::one(), from(3.0), in_cube()),
@@ -99,14 +122,17 @@ impl Scene {
                 let diffuse = rays::scattered(low, high, count);
                 (spheres::over_ground(at_most(1_000_000)), primary, diffuse)
             }
-            "cloud" => {
-                let primary = camera([0.0; 3], [1.0, 0.4, 0.7], 60.0);
-                (spheres::dense(at_most(200_000)), primary, in_cube())
-            }
+            "cloud" => (spheres::dense(at_most(200_000)), from_within(), in_cube()),
             "parallel" => {
                 let primary = rays::parallel([2.0, 3.0, 4.0], [0.0; 3], 3.2, pixels);
                 (spheres::uniform(at_most(100_000), 4), primary, in_cube())
             }
+            "shell" => (hard::shell(at_most(100_000)), from(3.0), in_cube()),
+            "nested" => (hard::nested(at_most(4000)), from(3.0), in_cube()),
+            "duplicates" => (hard::duplicates(at_most(10_000)), from(4.0), in_cube()),
+            "inside" => (hard::overlapping(at_most(10_000)), from_within(), in_cube()),
+            "huge and tiny" => (hard::huge_and_tiny(at_most(1_000_000)), from(4.0), in_cube()),
+            "chains" => (hard::chains(at_most(100_000)), from(4.0), in_cube()),
             _ => {
                 // The cube's side is 2; the picture is 2.6 high there.
                 let distance = 2.0e4;

@@ -25,6 +25,11 @@ pub(super) fn within(random: &mut Random, low: Point, high: Point) -> Point {
     [0, 1, 2].map(|axis| random.uniform(low[axis], high[axis]))
 }
 
+/// Uniform on the unit sphere.
+pub(super) fn direction(random: &mut Random) -> Point {
+    unit([(); 3].map(|()| normal(random)))
+}
+
 /// Normal, of mean 0 and variance 1 (Box and Muller).
 pub(super) fn normal(random: &mut Random) -> f64 {
     let (radius, angle) = (1.0 - random.uniform(0.0, 1.0), random.uniform(0.0, 1.0) * TAU);

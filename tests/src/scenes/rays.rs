@@ -1,6 +1,6 @@
 //! The rays of the large scenes: two cameras, and two kinds of rays that have nothing in common.
 
-use super::point::{Point, normal, plus, rounded, unit, within};
+use super::point::{Point, direction, plus, rounded, unit, within};
 use crate::random::{Random, cross};
 use spherule_kernel::Ray;
 
@@ -61,8 +61,4 @@ pub(super) fn from_afar(distance: f64, count: usize) -> Vec<Ray> {
         Ray::new(rounded(origin), rounded(unit(plus(target, -1.0, origin))))
     };
     (0..count).map(ray).collect()
-}
-
-fn direction(random: &mut Random) -> Point {
-    unit([(); 3].map(|()| normal(random)))
 }

@@ -20,7 +20,8 @@ pub(super) fn dense(count: usize) -> Vec<Sphere> {
     in_cube(count, 1.0, 6)
 }
 
-fn in_cube(count: usize, radius: f64, seed: u64) -> Vec<Sphere> {
+/// Uniform in the cube from -1 to 1; half to one and a half of `radius` times the side of a cell with half the cube's.
+pub(super) fn in_cube(count: usize, radius: f64, seed: u64) -> Vec<Sphere> {
     let mut random = Random::seeded(seed);
     let scale = radius * (count as f64).powf(-1.0 / 3.0);
     let sphere = |_| {

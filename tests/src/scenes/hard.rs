@@ -1,0 +1,77 @@
+//! The spheres of scenes that trees find hard: boxes tell little of them.
+
+use super::point::{direction, plus, rounded, within};
+use super::spheres::{in_cube, uniform};
+use crate::random::Random;
+use spherule_kernel::{Sphere, Vec3};
+use std::f64::consts::PI;
+
+/// How often each of the [`duplicates`] stands in the list.
+pub(super) const ALIKE: usize = 10;
+/// How many spheres a chain has.
+pub(super) const LINKS: usize = 1000;
+
+/// Uniform on the unit sphere, with radii of a quarter to three quarters of the side of a square that each has there.
+pub(super) fn shell(count: usize) -> Vec<Sphere> {
+    let mut random = Random::seeded(10);
+    let side = (4.0 * PI / count as f64).sqrt();
+    let sphere = |_| {
+        let center = rounded(direction(&mut random));
+        Sphere { center, radius: (side * random.uniform(0.25, 0.75)) as f32 }
+    };
+    (0..count).map(sphere).collect()
+}
+
+/// All around the same point, one within the other, in any order.
+pub(super) fn nested(count: usize) -> Vec<Sphere> {
+    let mut random = Random::seeded(11);
+    let sphere = |number: usize| {
+        let radius = (number as f64 / count as f64) as f32;
+        Sphere { center: Vec3::ZERO, radius }
+    };
+    let mut list: Vec<_> = (1..=count).map(sphere).collect();
+    for last in (1..count).rev() {
+        list.swap(last, random.integer(0, last as i64) as usize);
+    }
+    list
+}
+
+/// Uniform spheres, and the whole list again and again.
+pub(super) fn duplicates(count: usize) -> Vec<Sphere> {
+    uniform(count / ALIKE, 12).repeat(ALIKE)
+}
+
+/// Uniform in the cube from -1 to 1, so large that a point in it lies in more than forty of 10,000.
+pub(super) fn overlapping(count: usize) -> Vec<Sphere> {
+    let mut random = Random::seeded(13);
+    let sphere = |_| {
+        let center = rounded(within(&mut random, [-1.0; 3], [1.0; 3]));
+        Sphere { center, radius: random.uniform(0.1, 0.3) as f32 }
+    };
+    (0..count).map(sphere).collect()
+}
+
+/// Uniform in the cube from -1 to 1, a tenth as large as there is room; and in the middle of the list one in the
+/// middle of the cube, from side to side but for a tenth.
+pub(super) fn huge_and_tiny(count: usize) -> Vec<Sphere> {
+    let mut list = in_cube(count - 1, 0.1, 14);
+    list.insert(count / 2, Sphere { center: Vec3::ZERO, radius: 0.9 });
+    list
+}
+
+/// Rows of [`LINKS`] spheres that touch: straight, of any direction, 3 long, the middle uniform in the cube from
+/// -1 to 1.
+pub(super) fn chains(count: usize) -> Vec<Sphere> {
+    const RADIUS: f64 = 1.5 / LINKS as f64;
+    let mut random = Random::seeded(15);
+    let mut chain = || {
+        let (middle, along) = (within(&mut random, [-1.0; 3], [1.0; 3]), direction(&mut random));
+        let link = move |number| {
+            let from_middle = (2 * number) as f64 - (LINKS - 1) as f64;
+            let center = rounded(plus(middle, from_middle * RADIUS, along));
+            Sphere { center, radius: RADIUS as f32 }
+        };
+        (0..LINKS).map(link)
+    };
+    (0..count / LINKS).flat_map(|_| chain()).collect()
+}
