@@ -3,12 +3,13 @@
 //! The kernel's ways are held to brute force bit for bit, brute force on the small scenes to `Exact` within what a tier
 //! promises, `Exact` there to the oracle, and everyone else to `Exact`.
 
-use crate::engine::{Engine, Promise, Query, Rays, Ready, Run};
+use crate::engine::{Engine, OTHERS_PART, OTHERS_ULP, Promise, Query, Rays, Ready, Run};
 use spherule::tally::ulp_between;
 use spherule_kernel::{Hit, Sphere};
 use spherule_tests::oracle;
 use spherule_tests::scenes::{Kind, Scene, sample};
 use std::cell::OnceCell;
+use std::collections::HashMap;
 
 /// Tests of brute force that a check of bits may cost, in some of which all is a candidate.
 const TESTS: usize = 1 << 26;
@@ -64,13 +65,37 @@ pub(crate) fn check(
             let [closest, any] = Query::ALL.map(|query| answers(&mut *run, query));
             same_bits(&closest, &any, &truth, &name);
         }
-        &Promise::Near(wrong, ulp) => {
+        &(Promise::Near(wrong, _) | Promise::Other(wrong)) => {
             let spheres: Vec<_> = scene.spheres.spheres().iter().collect();
             let truth = own.truth(&spheres, exact);
             let [closest, any] = Query::ALL.map(|query| answers(run, query));
-            near(&closest, &any, truth, (wrong, ulp), &name);
+            // Of spheres that are the same, another engine may name any.
+            let first = first_alike(&spheres);
+            let named =
+                |hit: Option<Hit>| hit.map(|hit| Hit { sphere: first[hit.sphere as usize], ..hit });
+            let closest: Vec<_> = closest.into_iter().map(named).collect();
+            let is_near = |ray: usize, t: f32, truth: Hit| match engine.promise {
+                Promise::Near(_, ulp) => ulp_between(t, truth.t) <= ulp,
+                _ => {
+                    let (ray, sphere) = (&own.rays.list[ray], &spheres[truth.sphere as usize]);
+                    let size = ray.origin.distance(sphere.center) + sphere.radius;
+                    let error = (t - truth.t).abs() * ray.direction.length();
+                    ulp_between(t, truth.t) <= OTHERS_ULP || error <= OTHERS_PART * size
+                }
+            };
+            near(&closest, &any, truth, (wrong, is_near), &name);
         }
     }
+}
+
+/// The lowest index of a sphere that is the same, for each.
+fn first_alike(spheres: &[Sphere]) -> Vec<u32> {
+    let bits = |sphere: &Sphere| {
+        let [x, y, z] = sphere.center.to_array();
+        [x, y, z, sphere.radius].map(f32::to_bits)
+    };
+    let mut first = HashMap::new();
+    (0..).zip(spheres).map(|(index, sphere)| *first.entry(bits(sphere)).or_insert(index)).collect()
 }
 
 fn same_bits(closest: &[Option<Hit>], any: &[Option<Hit>], truth: &[Option<Hit>], name: &str) {
@@ -86,17 +111,15 @@ fn near(
     closest: &[Option<Hit>],
     any: &[Option<Hit>],
     truth: &[Option<Hit>],
-    (wrong, ulp): (f64, u64),
+    (wrong, is_near): (f64, impl Fn(usize, f32, Hit) -> bool),
     name: &str,
 ) {
     assert_eq!((closest.len(), any.len()), (truth.len(), truth.len()), "{name}");
-    let agree = |hit: &Option<Hit>, truth: &Option<Hit>| match (hit, truth) {
-        (Some(hit), Some(truth)) => {
-            hit.sphere == truth.sphere && ulp_between(hit.t, truth.t) <= ulp
-        }
-        _ => hit.is_none() && truth.is_none(),
+    let agree = |ray: usize| match (closest[ray], truth[ray]) {
+        (Some(hit), Some(truth)) => hit.sphere == truth.sphere && is_near(ray, hit.t, truth),
+        (hit, truth) => hit.is_none() && truth.is_none(),
     };
-    let differ = closest.iter().zip(truth).filter(|(hit, truth)| !agree(hit, truth)).count();
+    let differ = (0..truth.len()).filter(|&ray| !agree(ray)).count();
     let others = any.iter().zip(truth).filter(|(any, truth)| any.is_some() != truth.is_some());
     let (others, most) = (others.count(), (wrong * truth.len() as f64) as usize);
     assert!(differ.max(others) <= most, "{name}: {differ} closest hits, {others} any hits differ");
@@ -118,7 +141,9 @@ mod tests {
             let truth = all.truth(&spheres, &Kernel::new(&scene, &scene.tree()).truth());
             let hits = truth.iter().flatten().count();
             assert!((40..900).contains(&hits), "{hits} rays of 1024 hit something");
-            let passes = |change: fn(Hit) -> Option<Hit>, bounds| {
+            let passes = |change: fn(Hit) -> Option<Hit>, (wrong, ulp)| {
+                let is_near = move |_, t, truth: Hit| ulp_between(t, truth.t) <= ulp;
+                let bounds = (wrong, is_near);
                 let own: Vec<_> = truth.iter().map(|hit| hit.and_then(change)).collect();
                 let any = catch_unwind(|| near(truth, &own, truth, bounds, "")).is_ok();
                 let same = catch_unwind(|| same_bits(&own, truth, truth, "")).is_ok();

@@ -1,15 +1,15 @@
 //! All trees over a scene: how long they take to be built, how large ours is, and who searches them.
 
 #[cfg(feature = "embree")]
-use crate::engine::embree::{self, Embree};
+use crate::engine::embree::{self, Embree, libraries};
 use crate::engine::{Engine, bvh, obvhs, parry};
 use crate::rounds::{Sampler, Samples, timed};
-use spherule_kernel::{BvhNode, InTurn, SphereTree, Spheres};
+use spherule_kernel::{BvhNode, InTurn, Level, SphereTree, Spheres};
 use spherule_tests::scenes::Scene;
 use std::rc::Rc;
 use std::time::Duration;
 
-/// The name of Embree, among builds and engines.
+/// What the name of every version of Embree starts with, among builds and engines.
 pub(crate) const EMBREE: &str = "Embree";
 /// The kernel's name among builds.
 pub(crate) const OURS: &str = "ours";
@@ -27,15 +27,20 @@ pub(crate) struct Trees {
 }
 
 impl Trees {
-    /// All; or without the other crates.
-    pub(crate) fn build(scene: &Scene, crates: bool) -> Self {
+    /// All, Embree's at every level; or without the other crates.
+    pub(crate) fn build(scene: &Scene, crates: bool, levels: &[Level]) -> Self {
         let spheres = scene.spheres.spheres();
         let others = OTHERS.iter().filter(|_| crates).map(|(_, build)| build(spheres)).collect();
         #[cfg(feature = "embree")]
         let others = {
-            let embree = Rc::new(Embree::build(spheres));
-            embree::engines(&embree).into_iter().chain::<Vec<_>>(others).collect()
+            let devices = libraries().iter().flat_map(|library| {
+                levels.iter().map(move |level| Embree::build(library, level.name(), spheres))
+            });
+            let engines = devices.flat_map(|embree| embree::engines(&Rc::new(embree)));
+            engines.chain::<Vec<_>>(others).collect()
         };
+        #[cfg(not(feature = "embree"))]
+        let _ = levels;
         Self { ours: scene.tree(), others }
     }
 }
@@ -60,7 +65,11 @@ impl Builds {
         };
         let mut all: Vec<(_, Sampler<'_>)> = vec![(OURS, Box::new(ours))];
         #[cfg(feature = "embree")]
-        all.push((EMBREE, Box::new(|| Embree::build(spheres).build_nanoseconds)));
+        all.extend(libraries().iter().map(|library| -> (_, Sampler<'_>) {
+            let best = Level::best().name();
+            let build = move || Embree::build(library, best, spheres).build_nanoseconds;
+            (&library.name[..], Box::new(build))
+        }));
         for &(name, build) in OTHERS.iter().filter(|_| crates) {
             let sample = move || {
                 let mut built = None;
@@ -72,6 +81,13 @@ impl Builds {
         let bytes = size.nodes * size_of::<BvhNode>() + size.places * size_of::<[f32; 5]>();
         let bytes = bytes as f64 / spheres.len().max(1) as f64;
         Self { bytes, depth, times: Samples::take(all, Duration::ZERO, rounds..=rounds) }
+    }
+
+    /// The version of Embree that builds fastest.
+    pub(crate) fn embree(&self) -> Option<&'static str> {
+        let versions = self.times.names.iter().filter(|name| name.starts_with(EMBREE));
+        let time = |name: &&&'static str| self.milliseconds(name).unwrap_or(f64::INFINITY);
+        versions.min_by(|a, b| time(a).total_cmp(&time(b))).copied()
     }
 
     /// Milliseconds; `None` for who did not take part.

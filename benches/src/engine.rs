@@ -1,6 +1,7 @@
 //! What is compared: an engine finds what rays meet. It is the kernel in one of its ways, the tree of another crate,
 //! or a loop that stands here as a mark.
 
+mod blocks;
 pub(crate) mod bvh;
 #[cfg(feature = "embree")]
 pub(crate) mod embree;
@@ -20,6 +21,8 @@ use std::rc::Rc;
 
 /// The most rays of what takes single rays, if that is not what it is for: enough for a time.
 const SOME_RAYS: usize = 1 << 15;
+/// Rays that are brought into the cache, then traced with the clock running: the kernel's and Embree's.
+pub(crate) const BLOCK: usize = 4096;
 
 /// What rays want to know.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,11 +62,11 @@ pub(crate) trait Run {
 /// What an engine is called; no two that are compared are called the same.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Label {
-    /// The way to the hits; empty if the name says it.
+    /// The way to the hits, or a version of Embree; empty if the name says it.
     pub(crate) way: &'static str,
-    /// A tier, a mark, or a crate.
+    /// A tier, a mark, a crate, or rays a call.
     pub(crate) name: &'static str,
-    /// Lanes, the level of instructions, or rays a call; may be empty.
+    /// Lanes, or the level of instructions; may be empty.
     pub(crate) lanes: &'static str,
 }
 
@@ -83,7 +86,15 @@ pub(crate) enum Promise {
     SameBits(Ready),
     /// Those of `Exact`, except for a part of the rays, and for an error of t in ulp.
     Near(f64, u64),
+    /// Another program's: those of `Exact`, except for a part of the rays, and for an error of t by
+    /// [`OTHERS_ULP`], or by [`OTHERS_PART`] of how far away and how large the sphere is.
+    Other(f64),
 }
+
+/// It may think otherwise of a start on a surface, and of cancelled digits.
+pub(crate) const OTHERS_ULP: u64 = 1 << 14;
+/// From between two of thousands of nested spheres, the next is near and its centre far.
+pub(crate) const OTHERS_PART: f32 = 1.0 / (1 << 20) as f32;
 
 impl Promise {
     /// The textbook form in single precision: p.p - r^2 cancels some thousandfold in the small scenes.
@@ -91,9 +102,11 @@ impl Promise {
     /// The geometric form over a ground: r^2 = 1e6 is known to some 0.1, which is some 1e-4 of length, and some of
     /// the rays start as near to the ground as 0.1.
     pub(crate) const GEOMETRIC_ON_GROUND: Self = Self::Near(8.0 / 1024.0, 1 << 17);
-    /// Another program's, which may think otherwise of grazed spheres, of a start on a surface, of cancelled digits,
-    /// and, from 10^4 scene sizes away, of which sphere is in front.
-    pub(crate) const OTHERS: Self = Self::Near(2e-2, 1 << 14);
+    /// Grazed spheres, and, from 10^4 scene sizes away, which sphere is in front, with fused operations.
+    pub(crate) const OTHERS: Self = Self::Other(2e-2);
+    /// The same, without.
+    #[cfg(feature = "embree")]
+    pub(crate) const OTHERS_UNFUSED: Self = Self::Other(4e-2);
 }
 
 /// Rays, and the same in packets, which all levels of the kernel share: so that they are as warm for each.

@@ -4,15 +4,16 @@
 //! |---|---|
 //! | `cargo bench --bench closest_hit` | criterion: the small scenes by brute force, every tier and lane width, and another crate |
 //! | `cargo bench --bench report` | prints tables: `-- tiers` speed against error, `-- structures` the large scenes, `-- surfaces` what is seen there, `-- scales` other units; or all |
-//! | `... --features embree ... -- --write` | with Embree (Debian: `libembree-dev`); and writes `docs/benchmarks` |
+//! | `... --features embree ... -- --write` | with Embree (Debian: `libembree3-3`); and writes `docs/benchmarks` |
 //!
 //! Speed is written for one build at a time: once more with `RUSTFLAGS="-C target-cpu=native"`. `--scene NAME` runs one
-//! large scene alone, `--quick` takes minutes, `--test` runs everything once.
+//! large scene alone, `--quick` takes a part of the rays, both together take less than a minute; `--test` runs everything
+//! once. The variable `SPHERULE_EMBREE` says which libraries of Embree are opened: paths with colons between them.
 //!
 //! Data flows one way: [scenes](spherule_tests::scenes), [engines](engine), [the check before the clock](agreement),
 //! [times](measure), [pages](page). Nothing is timed before its answers are checked.
 
-// Not forbidden, for one file: a foreign interface behind the feature `embree`.
+// Not forbidden, for one interface: a foreign one behind the feature `embree`.
 #![deny(unsafe_code)]
 #![allow(rustdoc::private_intra_doc_links)]
 

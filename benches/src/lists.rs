@@ -20,6 +20,7 @@ pub(crate) fn measure(effort: Effort) -> Vec<Measured> {
         queries: &[Query::ClosestHit],
         time: Duration::ZERO,
         rounds: rounds..=rounds,
+        rays: usize::MAX,
         sample: Duration::from_micros(sample),
     };
     small::scenes().iter().flat_map(|scene| of_scene(scene, &plan)).collect()

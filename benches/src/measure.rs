@@ -25,6 +25,8 @@ pub(crate) struct Plan<'a> {
     /// For one kind of a scene's rays.
     pub(crate) time: Duration,
     pub(crate) rounds: RangeInclusive<usize>,
+    /// The most rays of a sample.
+    pub(crate) rays: usize,
     /// How long a sample takes at least.
     pub(crate) sample: Duration,
 }
@@ -47,14 +49,15 @@ impl Checked {
         let sampler = |query| -> Sampler<'static> {
             let run = Rc::clone(&run);
             let time = move |runs| run.borrow_mut().time(query, runs);
-            let runs = (least.as_secs_f64() * 1e9 / time(1).max(100.0)).ceil().max(1.0);
+            let fit = || (least.as_secs_f64() * 1e9 / time(1).max(100.0)).ceil().max(1.0);
+            let runs = if least.is_zero() { 1.0 } else { fit() };
             Box::new(move || time(runs as usize) / (runs * self.rays as f64))
         };
         queries.iter().map(|&query| (query, sampler(query))).collect()
     }
 }
 
-/// Checks every engine on these rays, and keeps those that are to be timed.
+/// Checks every engine on these rays, at most so many, and keeps those that are to be timed.
 ///
 /// # Panics
 /// If an answer is wrong.
@@ -62,12 +65,13 @@ pub(crate) fn checked(
     (scene, kind): (&Scene, Kind),
     engines: &[&Engine],
     exact: &Ready,
+    most: usize,
 ) -> Vec<Checked> {
     let few = WithTruth::few((scene, kind));
     let mut sets = BTreeMap::new();
     let mut timed = Vec::new();
     for &engine in engines {
-        let count = engine.most_rays.min(scene.rays(kind).len());
+        let count = engine.most_rays.min(most).min(scene.rays(kind).len());
         let own = sets.entry(count).or_insert_with(|| WithTruth::new((scene, kind), count));
         let mut run = (engine.ready)(&own.rays);
         check((scene, engine), (&few, own), &mut *run, exact);
@@ -97,7 +101,7 @@ impl Measured {
         plan: &Plan<'_>,
     ) -> Self {
         let mut samplers = Vec::<(_, Sampler<'_>)>::new();
-        for engine in checked((scene, kind), engines, exact) {
+        for engine in checked((scene, kind), engines, exact, plan.rays) {
             let label = engine.label.clone();
             let named = engine.samplers(plan.queries, plan.sample).into_iter();
             samplers.extend(named.map(|(query, sampler)| ((label.clone(), query), sampler)));

@@ -39,8 +39,11 @@ fn chart(
 pub(crate) fn embree(origin: &str, scenes: &[OfScene]) -> Outcome<String> {
     let bars: Vec<_> = scenes.iter().map(OfScene::times_embree).collect();
     let most = bars.iter().flat_map(|(_, bars)| bars).flatten().fold(1.0_f64, |a, b| a.max(*b));
-    let title = "Rays a second, as a multiple of Embree 3.13's (stable, closest hit, one thread)";
-    chart((900, 460), [title, origin], |panel| {
+    let level = scenes.first().and_then(|scene| scene.measured[0].levels().next()).unwrap_or("");
+    let title = format!(
+        "Rays a second, as a multiple of Embree's ({level}, stable, closest hit, one thread)"
+    );
+    chart((1500, 460), [&title, origin], |panel| {
         let mut chart = ChartBuilder::on(panel)
             .margin(10)
             .x_label_area_size(30)
@@ -87,7 +90,10 @@ pub(crate) fn growth(origin: &str, steps: &[OfScene]) -> Outcome<String> {
     };
     let rates: Vec<_> = names.zip(colours).enumerate().map(rate).collect();
     let builds = [(OURS, PRIMARY), (EMBREE, GREY)].map(|(name, colour)| {
-        series(name, colour, &|step| Some(step.builds.milliseconds(name)? * 1e-3))
+        series(name, colour, &|step| {
+            let name = if name == EMBREE { step.builds.embree()? } else { name };
+            Some(step.builds.milliseconds(name)? * 1e-3)
+        })
     });
     chart((1100, 560), [title, origin], |panel| {
         let (left, right) = panel.split_horizontally(660);

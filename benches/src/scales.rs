@@ -55,7 +55,7 @@ pub(crate) fn measure(effort: Effort) -> Scales {
         for kind in Kind::ALL {
             let engines = kernel.ways(kind, &levels()[..1], &[Tier::Exact]);
             let engines: Vec<_> = engines.iter().collect();
-            for engine in checked((&scene, kind), &engines, &kernel.truth()) {
+            for engine in checked((&scene, kind), &engines, &kernel.truth(), usize::MAX) {
                 let is_own =
                     |(of, way): &&(Kind, Way)| *of == kind && way.as_str() == engine.label.way;
                 let Some(&way) = WAYS.iter().find(is_own) else { continue };

@@ -5,16 +5,17 @@ use crate::engine::kernel::{Kernel, Way, levels};
 use crate::engine::{Label, Query, Rays};
 use crate::measure::{Effort, Measured, Plan};
 use crate::rounds::{Median, Sampler, Samples};
-use spherule_kernel::{HitPacket, Intersect, Level, SphereTree, Tier, Trace};
+use spherule_kernel::{HitPacket, Intersect, Level, LevelName, SphereTree, Tier, Trace};
 use spherule_tests::scenes::{Kind, LARGE, Scene, Size};
 use std::sync::Mutex;
 use std::thread::available_parallelism;
 use std::time::{Duration, Instant};
 
-/// Scenes that every level is timed on.
-const AT_EVERY_LEVEL: [&str; 3] = ["flake4", "u10k", "u1m"];
 /// The scene that threads are timed on.
 pub(crate) const FOR_THREADS: &str = "u10k";
+
+/// Rays of a kind that give a first impression, in runs from all of them.
+const QUICK: usize = 1 << 16;
 
 /// A scene's builds, and the times of both kinds of its rays.
 pub(crate) struct OfScene {
@@ -26,6 +27,8 @@ pub(crate) struct OfScene {
 
 /// All that was measured.
 pub(crate) struct Structures {
+    /// The most rays of a kind, if there are more.
+    pub(crate) rays: Option<usize>,
     pub(crate) scenes: Vec<OfScene>,
     /// How many times as fast two threads are as one, in [`FOR_THREADS`].
     pub(crate) two_threads: Option<Median>,
@@ -37,18 +40,22 @@ pub(crate) struct Structures {
 pub(crate) fn measure(effort: Effort, one: Option<&str>) -> Structures {
     let levels = levels();
     // Of growth: pixels enough for a time, few enough for brute force to be shown; and the powers of ten.
-    let (size, seconds, rounds, builds, (pixels, most)) = match effort {
-        Effort::Test => (Size::SMALL, 0, 1..=1, 1, (32, 4)),
-        Effort::Quick => (Size::FULL, 2, 3..=9, 1, (512, 6)),
-        Effort::Full => (Size::FULL, 14, 5..=31, 5, (512, 8)),
+    let (size, rays, seconds, rounds, builds, (pixels, most)) = match effort {
+        Effort::Test => (Size::SMALL, usize::MAX, 0, 1..=1, 1, (32, 4)),
+        Effort::Quick => (Size::FULL, QUICK, 4, 3..=9, 1, (512, 6)),
+        Effort::Full => (Size::FULL, usize::MAX, 14, 5..=31, 5, (512, 8)),
     };
     let (time, sample) = (Duration::from_secs(seconds), Duration::ZERO);
-    let plan = Plan { queries: &Query::ALL, time, rounds: rounds.clone(), sample };
+    let plan = Plan { queries: &Query::ALL, time, rounds: rounds.clone(), rays, sample };
     let of_scene = |name| {
         let scene = Scene::large(name, size).expect("listed");
-        let all = effort == Effort::Test || AT_EVERY_LEVEL.contains(&name);
-        let levels = if all { &levels[..] } else { &levels[..1] };
-        OfScene::measure(&scene, Some(builds), (levels, &Tier::ALL), &plan)
+        match (effort, one) {
+            // Without other crates, and without the tiers that are no faster: in under a minute.
+            (Effort::Quick, Some(_)) => {
+                OfScene::measure(&scene, None, (&levels, &[Tier::Stable, Tier::Exact]), &plan)
+            }
+            _ => OfScene::measure(&scene, Some(builds), (&levels, &Tier::ALL), &plan),
+        }
     };
     let growth = Plan { time: time.min(Duration::from_secs(3)), ..plan.clone() };
     let step = |power| {
@@ -61,6 +68,7 @@ pub(crate) fn measure(effort: Effort, one: Option<&str>) -> Structures {
         two_threads_by_one(&scene, levels[0], *rounds.end())
     };
     Structures {
+        rays: (rays < usize::MAX).then_some(rays),
         scenes: chosen.map(of_scene).collect(),
         two_threads: one.is_none().then(threads).flatten(),
         growth: (2..most).filter(|_| one.is_none()).map(step).collect(),
@@ -77,7 +85,7 @@ impl OfScene {
     ) -> Self {
         let spheres = scene.spheres.len();
         eprintln!("{}, {spheres} spheres", scene.name);
-        let trees = Trees::build(scene, rounds.is_some());
+        let trees = Trees::build(scene, rounds.is_some(), levels);
         let builds = Builds::measure(scene, &trees, rounds.is_some(), rounds.unwrap_or(1));
         let kernel = Kernel::new(scene, &trees.ours);
         let measured = Kind::ALL.map(|kind| {
@@ -88,48 +96,58 @@ impl OfScene {
         Self { name: scene.name, spheres, builds, measured }
     }
 
-    /// How many times as fast as Embree the primary and the diffuse rays are.
+    /// How many times as fast as Embree the primary and the diffuse rays are, at the best level.
     pub(crate) fn times_embree(&self) -> (&'static str, [Option<f64>; 2]) {
-        let times = |of: &Measured| of.times_embree(Query::ClosestHit).map(|times| times.middle);
+        let times = |of: &Measured| {
+            let level = of.levels().next()?;
+            of.times_embree(level, Query::ClosestHit).map(|times| times.middle)
+        };
         (self.name, self.measured.each_ref().map(times))
     }
 
     /// What growth is shown of: a million rays a second, if it took part.
     pub(crate) fn rates(&self) -> [(&'static str, Option<f64>); 6] {
         let [primary, diffuse] = &self.measured;
-        let ours = |measured: &Measured, way: Way| {
-            let label = measured.labels().find(|label| label.way == way.as_str())?;
-            measured.rate(label, Query::ClosestHit)
+        let query = Query::ClosestHit;
+        let rate = |of: &Measured, chosen: &dyn Fn(&Label) -> bool| {
+            of.rate(of.fastest(query, chosen)?, query)
         };
-        let embree = |measured: &Measured| {
-            measured.rate(measured.embree(Query::ClosestHit)?, Query::ClosestHit)
-        };
+        let ours =
+            |of, ways: &[Way]| rate(of, &|label| ways.iter().any(|way| label.way == way.as_str()));
+        let embree = |of| rate(of, &|label| label.way.starts_with(EMBREE));
         [
-            ("tree, primary", ours(primary, Way::Packets)),
-            ("depth list, primary", ours(primary, Way::DepthList)),
+            ("tree, primary", ours(primary, &[Way::Packets])),
+            ("depth list, primary", ours(primary, &[Way::DepthList])),
             ("Embree, primary", embree(primary)),
-            ("tree, diffuse", ours(diffuse, Way::RayByRay)),
+            ("tree, diffuse", ours(diffuse, &[Way::RayByRay, Way::Stream])),
             ("Embree, diffuse", embree(diffuse)),
-            ("brute force, primary", ours(primary, Way::BruteForce)),
+            ("brute force, primary", ours(primary, &[Way::BruteForce])),
         ]
     }
 }
 
 impl Measured {
-    /// The kernel's quickest way in a tier, at the best level.
-    pub(crate) fn quickest(&self, tier: Tier, query: Query) -> Option<&Label> {
-        let best = self.labels().next()?.lanes;
-        self.fastest(query, |label| label.name == tier.as_str() && label.lanes == best)
+    /// The levels that the kernel was timed at, the best first.
+    pub(crate) fn levels(&self) -> impl Iterator<Item = &'static str> {
+        let is_timed = |level: &&str| {
+            self.labels().any(|label| label.name == Tier::Stable.as_str() && label.lanes == *level)
+        };
+        LevelName::ALL.into_iter().rev().map(LevelName::as_str).filter(is_timed)
     }
 
-    /// Embree's quickest call.
-    pub(crate) fn embree(&self, query: Query) -> Option<&Label> {
-        self.fastest(query, |label| label.name == EMBREE)
+    /// The kernel's quickest way in a tier, at a level.
+    pub(crate) fn quickest(&self, tier: Tier, level: &str, query: Query) -> Option<&Label> {
+        self.fastest(query, |label| label.name == tier.as_str() && label.lanes == level)
     }
 
-    /// How many times as fast as Embree's quickest call `Stable` is in its quickest way.
-    pub(crate) fn times_embree(&self, query: Query) -> Option<Median> {
-        self.ratio(self.embree(query)?, self.quickest(Tier::Stable, query)?, query)
+    /// Embree's quickest call with the instructions of a level, of all versions that took part.
+    pub(crate) fn embree(&self, level: &str, query: Query) -> Option<&Label> {
+        self.fastest(query, |label| label.way.starts_with(EMBREE) && label.lanes == level)
+    }
+
+    /// How many times as fast as Embree's quickest call `Stable` is in its quickest way, at a level.
+    pub(crate) fn times_embree(&self, level: &str, query: Query) -> Option<Median> {
+        self.ratio(self.embree(level, query)?, self.quickest(Tier::Stable, level, query)?, query)
     }
 }
 

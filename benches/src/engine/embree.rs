@@ -1,22 +1,27 @@
-//! Embree 3: spheres (`RTC_GEOMETRY_TYPE_SPHERE_POINT`) in the system's `libembree3`.
+//! Embree 3 and 4: spheres (`RTC_GEOMETRY_TYPE_SPHERE_POINT`), with the instructions of each of the kernel's levels.
 //!
-//! Behind the feature `embree`, since it links a C library that not every machine has (Debian: `libembree-dev`, 3.13).
-//! Declared by hand, from its headers `rtcore_{device,geometry,scene,ray,common}.h`.
+//! Behind the feature `embree`, since [libraries] in C are opened that not every machine has.
 //!
 //! A call is timed as fairly as can be: rays are copied into Embree's records outside the clock (Embree overwrites
-//! them), block by block, so that a block is in the cache when it is traced; the clock sees nothing but calls of
-//! `rtcIntersect*` or `rtcOccluded*`. Embree asks its callers to flush subnormal numbers to zero, and is timed so;
-//! the kernel's `Exact` must not be, so the register is put back after every block, and that is asserted.
+//! them), block by block, so that a block is in the cache when it is traced, as the kernel's blocks are; the
+//! clock sees nothing but calls of `rtcIntersect*` or `rtcOccluded*`. Embree asks its callers to flush subnormal numbers
+//! to zero, and is timed so; the kernel's `Exact` must not be, so the register is put back after every block, and
+//! that is asserted.
 
-// A foreign interface and a control register: neither can be had without. Everything that is unsafe in this crate is in
-// this file.
+// A foreign interface and a control register: neither can be had without. Everything that is unsafe in this crate is
+// here and in the folder beside.
 #![allow(unsafe_code)]
 
-use super::{Engine, Label, Promise, Query, Rays, Run};
+mod library;
+
+pub(crate) use library::{Library, libraries};
+
+use super::{BLOCK, Engine, Label, Promise, Query, Rays, Run};
 use crate::rounds::thread_time;
 use core::arch::asm;
-use core::ffi::{c_char, c_int, c_uint, c_void};
-use spherule_kernel::{Hit, Ray, Sphere, Spheres};
+use core::ffi::{c_int, c_uint, c_void};
+use library::Handle;
+use spherule_kernel::{Hit, LevelName, Ray, Sphere, Spheres};
 use spherule_tests::scenes::viewpoint;
 use std::ptr::{null, null_mut};
 use std::rc::Rc;
@@ -24,20 +29,10 @@ use std::rc::Rc;
 const SPHERE_POINT: c_int = 50;
 const VERTEX_BUFFER: c_int = 1;
 const FLOAT4: c_int = 0x9004;
-const COHERENT: c_int = 1;
 /// `RTC_INVALID_GEOMETRY_ID`.
 const NONE: u32 = u32::MAX;
-/// Rays that are copied in, then traced with the clock running, then read back.
-const BLOCK: usize = 4096;
 
-/// An opaque object of the library.
-type Handle = *mut c_void;
-/// `rtcIntersect1`, `rtcOccluded1`: scene, context, a record of one ray.
-type CallOne = unsafe extern "C" fn(Handle, *mut Context, *mut u32);
-/// Those of more rays: a flag for each ray, scene, context, a record.
-type CallMany = unsafe extern "C" fn(*const i32, Handle, *mut Context, *mut u32);
-
-/// `RTCIntersectContext` of a build with one instance level and no minimal width.
+/// `RTCIntersectContext` of Embree 3, of a build with one instance level and no minimal width.
 #[repr(C)]
 struct Context {
     flags: c_int,
@@ -45,40 +40,23 @@ struct Context {
     instance: [u32; 1],
 }
 
-const _: () = assert!(size_of::<Context>() == 24);
-
-#[link(name = "embree3")]
-unsafe extern "C" {
-    fn rtcNewDevice(config: *const c_char) -> Handle;
-    fn rtcReleaseDevice(device: Handle);
-    fn rtcGetDeviceError(device: Handle) -> c_int;
-    fn rtcNewGeometry(device: Handle, kind: c_int) -> Handle;
-    fn rtcSetSharedGeometryBuffer(
-        geometry: Handle,
-        kind: c_int,
-        slot: c_uint,
-        format: c_int,
-        pointer: *const c_void,
-        offset: usize,
-        stride: usize,
-        count: usize,
-    );
-    fn rtcCommitGeometry(geometry: Handle);
-    fn rtcReleaseGeometry(geometry: Handle);
-    fn rtcNewScene(device: Handle) -> Handle;
-    fn rtcAttachGeometry(scene: Handle, geometry: Handle) -> c_uint;
-    fn rtcCommitScene(scene: Handle);
-    fn rtcReleaseScene(scene: Handle);
-    fn rtcIntersect1(scene: Handle, context: *mut Context, record: *mut u32);
-    fn rtcIntersect8(valid: *const i32, scene: Handle, context: *mut Context, record: *mut u32);
-    fn rtcIntersect16(valid: *const i32, scene: Handle, context: *mut Context, record: *mut u32);
-    fn rtcOccluded1(scene: Handle, context: *mut Context, record: *mut u32);
-    fn rtcOccluded8(valid: *const i32, scene: Handle, context: *mut Context, record: *mut u32);
-    fn rtcOccluded16(valid: *const i32, scene: Handle, context: *mut Context, record: *mut u32);
+/// `RTCIntersectArguments` and `RTCOccludedArguments` of Embree 4.
+#[repr(C)]
+struct Arguments {
+    flags: c_int,
+    features: c_int,
+    context: *mut c_void,
+    filter: *const c_void,
+    callback: *const c_void,
 }
+
+const _: () = assert!(size_of::<Context>() == 24 && size_of::<Arguments>() == 32);
 
 /// A device and a scene of spheres, with one thread.
 pub(crate) struct Embree {
+    library: &'static Library,
+    /// Whose instructions the device has.
+    level: LevelName,
     device: Handle,
     scene: Handle,
     /// Centre and radius; the scene reads them as long as it is.
@@ -89,11 +67,16 @@ pub(crate) struct Embree {
 
 impl Embree {
     /// Builds a scene of `spheres`: medium quality and no flags, which are the defaults.
-    pub(crate) fn build(spheres: Spheres<'_>) -> Self {
+    pub(crate) fn build(library: &'static Library, level: LevelName, spheres: Spheres<'_>) -> Self {
         let row = |sphere: Sphere| sphere.center.extend(sphere.radius).to_array();
         let spheres: Box<[[f32; 4]]> = spheres.iter().map(row).collect();
+        let configuration = match level {
+            LevelName::Baseline => c"threads=1,isa=sse4.2",
+            LevelName::Avx2 => c"threads=1,isa=avx2",
+            LevelName::Avx512 => c"threads=1,isa=avx512",
+        };
         // SAFETY: the configuration ends with a zero.
-        let device = unsafe { rtcNewDevice(c"threads=1".as_ptr()) };
+        let device = unsafe { (library.new_device)(configuration.as_ptr()) };
         assert!(!device.is_null(), "embree: no device");
         let (buffer, count) = (spheres.as_ptr().cast(), spheres.len());
         let mut scene = null_mut();
@@ -101,20 +84,21 @@ impl Embree {
             // SAFETY: the handles come from the library, the buffer has `count` elements of 16 bytes and is kept as
             // long as the scene.
             unsafe {
-                let geometry = rtcNewGeometry(device, SPHERE_POINT);
+                let geometry = (library.new_geometry)(device, SPHERE_POINT);
                 let (kind, format) = (VERTEX_BUFFER, FLOAT4);
-                rtcSetSharedGeometryBuffer(geometry, kind, 0, format, buffer, 0, 16, count);
-                rtcCommitGeometry(geometry);
-                scene = rtcNewScene(device);
-                rtcAttachGeometry(scene, geometry);
-                rtcReleaseGeometry(geometry);
-                rtcCommitScene(scene);
+                (library.set_shared_buffer)(geometry, kind, 0, format, buffer, 0, 16, count);
+                (library.commit_geometry)(geometry);
+                scene = (library.new_scene)(device);
+                (library.attach_geometry)(scene, geometry);
+                (library.release_geometry)(geometry);
+                (library.commit_scene)(scene);
             }
         });
         // SAFETY: a handle from the library.
-        let error = unsafe { rtcGetDeviceError(device) };
+        let error = unsafe { (library.device_error)(device) };
         assert_eq!(error, 0, "embree: error {error}");
-        Self { device, scene, _spheres: spheres, build_nanoseconds: nanoseconds as f64 }
+        let build_nanoseconds = nanoseconds as f64;
+        Self { library, level, device, scene, _spheres: spheres, build_nanoseconds }
     }
 }
 
@@ -122,35 +106,44 @@ impl Drop for Embree {
     fn drop(&mut self) {
         // SAFETY: handles from the library, released once.
         unsafe {
-            rtcReleaseScene(self.scene);
-            rtcReleaseDevice(self.device);
+            (self.library.release_scene)(self.scene);
+            (self.library.release_device)(self.device);
         }
     }
 }
 
-/// The calls of 1, 8 and 16 rays.
-pub(crate) fn engines(embree: &Rc<Embree>) -> [Engine; 3] {
-    [(1, "1 rays a call"), (8, "8 rays a call"), (16, "16 rays a call")].map(|(n, lanes)| {
+/// The calls that the device has instructions for (wider ones are traced ray by ray), and those of streams.
+pub(crate) fn engines(embree: &Rc<Embree>) -> Vec<Engine> {
+    let packets: &[_] = match embree.level {
+        LevelName::Baseline => &[(4, "4 rays a call")],
+        LevelName::Avx2 => &[(4, "4 rays a call"), (8, "8 rays a call")],
+        LevelName::Avx512 => &[(8, "8 rays a call"), (16, "16 rays a call")],
+    };
+    let packets = packets.iter().map(|&(n, name)| (n, false, name));
+    let stream = embree.library.intersect_stream.map(|_| (1, true, "streams"));
+    let engine = |(n, stream, name)| {
+        let label = Label { way: &embree.library.name, name, lanes: embree.level.as_str() };
+        let promise = match embree.level {
+            LevelName::Baseline => Promise::OTHERS_UNFUSED,
+            _ => Promise::OTHERS,
+        };
         let embree = Rc::clone(embree);
         let ready = move |rays: &Rays| -> Box<dyn Run> {
-            let flags = if viewpoint(&rays.list).is_some() { COHERENT } else { 0 };
+            let coherent = viewpoint(&rays.list).is_some();
             let (embree, rays) = (Rc::clone(&embree), Rc::clone(&rays.list));
-            Box::new(Calls { embree, n, flags, rays, hits: Vec::new() })
+            Box::new(Calls { embree, n, stream, coherent, rays, hits: Vec::new() })
         };
-        Engine {
-            label: Label { way: "", name: "Embree", lanes },
-            promise: Promise::OTHERS,
-            most_rays: usize::MAX,
-            ready: Box::new(ready),
-        }
-    })
+        Engine { label, promise, most_rays: usize::MAX, ready: Box::new(ready) }
+    };
+    packets.chain([(1, false, "1 rays a call")]).chain(stream).map(engine).collect()
 }
 
-/// Calls of `n` rays.
+/// Calls of `n` rays, or of a block of single ones.
 struct Calls {
     embree: Rc<Embree>,
     n: usize,
-    flags: c_int,
+    stream: bool,
+    coherent: bool,
     rays: Rc<[Ray]>,
     hits: Vec<Option<Hit>>,
 }
@@ -173,42 +166,74 @@ impl Run for Calls {
 impl Calls {
     /// Block by block: fills records, calls with the clock running, reads.
     fn pass(&mut self, query: Query) -> u64 {
-        let (n, scene) = (self.n, self.embree.scene);
-        let one: [CallOne; 2] = [rtcIntersect1, rtcOccluded1];
-        let many: [CallMany; 2] =
-            if n == 8 { [rtcIntersect8, rtcOccluded8] } else { [rtcIntersect16, rtcOccluded16] };
+        let (n, scene, library) = (self.n, self.embree.scene, self.embree.library);
         // `RTCRayHit`, or `RTCRay` alone.
-        let (which, rows) = if query == Query::ClosestHit { (0, 20) } else { (1, 12) };
-        let mut context = Context { flags: self.flags, filter: null(), instance: [NONE] };
-        let (context, valid) = (&raw mut context, Valid([-1; 16]));
-        let mut memory = vec![0; BLOCK * rows + 16];
+        let (one, many, members) = match query {
+            Query::ClosestHit => (library.intersect1, library.intersect, library.members),
+            Query::AnyHit => (library.occluded1, library.occluded, RAY),
+        };
+        let stream = match query {
+            Query::ClosestHit => library.intersect_stream,
+            Query::AnyHit => library.occluded_stream,
+        };
+        let stream = stream.filter(|_| self.stream);
+        let many = many[n.ilog2().saturating_sub(2) as usize];
+        // A record of one ray is aligned to 16 bytes.
+        let words = (members * n).next_multiple_of(4);
+        let flags = if self.coherent { library.coherent } else { 0 };
+        let mut context = Context { flags, filter: null(), instance: [NONE] };
+        let (context, mut query_context) = (&raw mut context, [NONE]);
+        let mut arguments = Arguments {
+            flags,
+            features: -1,
+            context: query_context.as_mut_ptr().cast(),
+            filter: null(),
+            callback: null(),
+        };
+        let (arguments, valid) = (&raw mut arguments, Valid([-1; 16]));
+        let mut memory = vec![0; BLOCK * words / n + 16];
         let aligned = memory.as_ptr().align_offset(64);
         self.hits.clear();
         let mut nanoseconds = 0;
         for block in self.rays.chunks(BLOCK) {
-            let records = &mut memory[aligned..][..block.len().div_ceil(n) * rows * n];
-            for (record, rays) in records.chunks_exact_mut(rows * n).zip(block.chunks(n)) {
+            let records = &mut memory[aligned..][..block.len().div_ceil(n) * words];
+            for (record, rays) in records.chunks_exact_mut(words).zip(block.chunks(n)) {
                 fill(record, n, rays);
             }
             nanoseconds += flushing(|| {
-                for record in records.chunks_exact_mut(rows * n) {
-                    let record = record.as_mut_ptr();
-                    // SAFETY: scene, context and flags live; a record has as many rows of `n` words as the call reads
-                    // and writes, and is aligned to 4 `n` bytes, since the first is to 64.
+                if let Some(stream) = stream {
+                    let (first, count) = (records.as_mut_ptr().cast(), block.len() as c_uint);
+                    // SAFETY: as below; there are so many records, of so many bytes.
+                    unsafe { stream(scene, context.cast(), first, count, 4 * words) };
+                    return;
+                }
+                for record in records.chunks_exact_mut(words) {
+                    let record = record.as_mut_ptr().cast();
+                    // Embree 4 takes them in another order.
+                    let [first, second] = if library.is_3 {
+                        [context.cast(), record]
+                    } else {
+                        [record, arguments.cast()]
+                    };
+                    // SAFETY: all that is pointed to lives; a record has as many rows of `n` words as the call reads
+                    // and writes, and is aligned to 4 `n` bytes, one of a ray to 16, since the first is to 64.
                     unsafe {
                         match n {
-                            1 => one[which](scene, context, record),
-                            _ => many[which](valid.0.as_ptr(), scene, context, record),
+                            1 => one(scene, first, second),
+                            _ => many(valid.0.as_ptr(), scene, first, second),
                         }
                     }
                 }
             });
-            let hit = |index: usize| read(&records[index / n * rows * n..], n, index % n, query);
+            let hit = |index: usize| read(&records[index / n * words..], n, index % n, query);
             self.hits.extend((0..block.len()).map(hit));
         }
         nanoseconds
     }
 }
+
+/// The members of a record that are the ray's.
+const RAY: usize = 12;
 
 /// A flag for each ray of a record, aligned as the library asks.
 #[repr(align(64))]
@@ -221,7 +246,9 @@ fn fill(record: &mut [u32], n: usize, rays: &[Ray]) {
         let ([ox, oy, oz], [dx, dy, dz]) = (ray.origin.to_array(), ray.direction.to_array());
         let members = [ox, oy, oz, ray.t_min, dx, dy, dz, 0.0, ray.t_max].map(f32::to_bits);
         // Then mask, id and flags; of the hit normal, u, v, and the indices of primitive, geometry and instance.
-        let members = members.into_iter().chain([u32::MAX, 0, 0, 0, 0, 0, 0, 0, NONE, NONE, NONE]);
+        // Embree 4 has another index, of an instance in an array.
+        let members =
+            members.into_iter().chain([u32::MAX, 0, 0, 0, 0, 0, 0, 0, NONE, NONE, NONE, NONE]);
         for (row, member) in record.chunks_exact_mut(n).zip(members) {
             row[lane] = member;
         }

@@ -1,9 +1,10 @@
 //! The kernel: every tier in every way to the hits, at a level of instructions or in lanes of a fixed width.
 
-use super::{Engine, Label, Promise, Query, Ready, Run, SOME_RAYS};
+use super::blocks::{Blocks, InPackets, Memory};
+use super::{BLOCK, Engine, Label, Promise, Query, Ready, SOME_RAYS};
 use spherule_kernel::{
-    DepthList, Hit, HitPacket, Intersect, LaneArray, Lanes, Level, LevelName, RayPacket,
-    SphereTree, Tier, Trace, f32x4, f32x8, f32x16,
+    DepthList, Intersect, Lanes, Level, LevelName, QueuedRay, RayPacket, SphereTree, StreamMemory,
+    StreamRay, Tier, Trace, f32x4, f32x8, f32x16,
 };
 use spherule_tests::scenes::{Kind, Scene, viewpoint};
 use std::cell::RefCell;
@@ -11,6 +12,10 @@ use std::rc::Rc;
 
 /// Tests of brute force that a sample may cost.
 const TESTS: usize = 1 << 25;
+/// Rays that a stream has memory for.
+pub(crate) const STREAM: usize = 8192;
+/// Places in queues for each: no queue is cut short.
+const QUEUES: usize = 64;
 
 /// A way to the hits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,6 +23,8 @@ pub(crate) enum Way {
     /// Every ray against every sphere.
     BruteForce,
     RayByRay,
+    /// Queues of rays, so many at a time as there is memory for.
+    Stream,
     Packets,
     /// Made anew for every pass over the rays.
     DepthList,
@@ -28,8 +35,17 @@ impl Way {
         match self {
             Self::BruteForce => "brute force",
             Self::RayByRay => "tree, ray by ray",
+            Self::Stream => "tree, streams",
             Self::Packets => "tree, packets",
             Self::DepthList => "depth list",
+        }
+    }
+
+    /// Rays that are in the cache when they are searched.
+    const fn block(self) -> usize {
+        match self {
+            Self::Stream => STREAM,
+            _ => BLOCK,
         }
     }
 }
@@ -44,12 +60,12 @@ pub(crate) struct Kernel<'a> {
     scene: &'a Scene,
     tree: Rc<SphereTree>,
     /// Shared by all that are compared: the same memory, as warm for each.
-    answers: Rc<RefCell<Answers>>,
+    memory: Rc<RefCell<Memory>>,
 }
 
 impl<'a> Kernel<'a> {
     pub(crate) fn new(scene: &'a Scene, tree: &Rc<SphereTree>) -> Self {
-        Self { scene, tree: Rc::clone(tree), answers: Rc::default() }
+        Self { scene, tree: Rc::clone(tree), memory: Rc::default() }
     }
 
     /// What others are held to: `Exact` by the tree.
@@ -80,8 +96,8 @@ impl<'a> Kernel<'a> {
     /// Every way: in `tiers` at the first level, in `Stable` at the others.
     pub(crate) fn ways(&self, kind: Kind, levels: &[Level], tiers: &[Tier]) -> Vec<Engine> {
         // Diffuse rays have no viewpoint.
-        let ways = [Way::BruteForce, Way::RayByRay, Way::Packets, Way::DepthList];
-        let ways = &ways[..if kind == Kind::Primary { 4 } else { 3 }];
+        let ways = [Way::BruteForce, Way::RayByRay, Way::Stream, Way::Packets, Way::DepthList];
+        let ways = &ways[..if kind == Kind::Primary { 5 } else { 4 }];
         let mut all = Vec::new();
         for (index, &level) in levels.iter().enumerate() {
             for &way in ways {
@@ -116,7 +132,7 @@ impl<'a> Kernel<'a> {
         };
         let most_rays = match (way, kind) {
             _ if is_brute_force => TESTS / self.scene.spheres.len().max(1),
-            (Way::RayByRay, Kind::Primary) => SOME_RAYS,
+            (Way::RayByRay | Way::Stream, Kind::Primary) => SOME_RAYS,
             // Rays that have nothing in common gain nothing as packets.
             (Way::Packets, Kind::Diffuse) => 0,
             _ => usize::MAX,
@@ -129,91 +145,66 @@ impl<'a> Kernel<'a> {
         let tree = Rc::clone(&self.tree);
         Box::new(move |rays| {
             let tree = Rc::clone(&tree);
-            let search = move |query, rays: &[_], (hits, met): &mut Answers<L::Array>| match query {
-                Query::ClosestHit => {
-                    tree.list().closest_hit_lanes::<L>(tier, (), &mut Trace::new(), rays, hits);
-                }
-                Query::AnyHit => {
-                    tree.list().any_hit_lanes::<L>(tier, (), &mut Trace::new(), rays, met);
-                }
+            let search = move |query, blocks: &mut Blocks<'_, L::Array>| {
+                blocks.each(|rays, hits, met| match query {
+                    Query::ClosestHit => {
+                        tree.list().closest_hit_lanes::<L>(tier, (), &mut Trace::new(), rays, hits);
+                    }
+                    Query::AnyHit => {
+                        tree.list().any_hit_lanes::<L>(tier, (), &mut Trace::new(), rays, met);
+                    }
+                });
             };
             let packets = rays.list.chunks(L::COUNT).map(RayPacket::new).collect();
-            let (answers, count) = (Rc::default(), rays.list.len());
-            Box::new(InPackets { packets, search, answers, count, any_hit: false })
+            Box::new(InPackets::new(packets, rays.list.len(), BLOCK, search, Rc::default()))
         })
     }
 
     fn at_level(&self, way: Way, tier: Tier, level: Level) -> Ready {
-        let (tree, answers) = (Rc::clone(&self.tree), Rc::clone(&self.answers));
+        let (tree, memory) = (Rc::clone(&self.tree), Rc::clone(&self.memory));
         Box::new(move |rays| {
             let (tree, viewpoint) = (Rc::clone(&tree), viewpoint(&rays.list));
             let (mut depth_list, mut scratch) = (Vec::new(), Vec::new());
-            let search = move |query, rays: &[RayPacket], (hits, met): &mut Answers| {
-                let search = (query, tier, rays, &mut **hits, &mut **met);
+            let (mut stream, mut queues) = (Vec::new(), Vec::new());
+            let search = move |query, blocks: &mut Blocks<'_>| {
                 let (spheres, trace) = (tree.list().spheres(), Trace::new().at(level));
+                let asked = (query, tier);
                 match way {
-                    Way::RayByRay => answer(&*tree, trace.incoherent(), search),
-                    Way::Packets => answer(&*tree, trace.coherent(), search),
+                    Way::RayByRay => answer(&*tree, trace.incoherent(), asked, blocks),
+                    Way::Packets => answer(&*tree, trace.coherent(), asked, blocks),
+                    Way::Stream => {
+                        stream.resize(STREAM, StreamRay::EMPTY);
+                        queues.resize(STREAM * QUEUES, QueuedRay::EMPTY);
+                        let memory = StreamMemory::new(&mut stream, &mut queues);
+                        let memory = memory.expect("enough memory");
+                        answer(&*tree, trace.incoherent().with_stream(memory), asked, blocks);
+                    }
                     Way::DepthList => {
                         let viewpoint = viewpoint.expect("rays with a viewpoint");
                         depth_list.resize(DepthList::needed(spheres.len()), 0.0);
                         scratch.resize(DepthList::scratch(spheres.len()), 0.0);
-                        let list = DepthList::sort(spheres, viewpoint, &mut depth_list);
+                        let list =
+                            blocks.once(|| DepthList::sort(spheres, viewpoint, &mut depth_list));
                         let trace = trace.with_scratch(&mut scratch);
-                        answer(&list.expect("enough memory"), trace, search);
+                        answer(&list.expect("enough memory"), trace, asked, blocks);
                     }
-                    _ => answer(&spheres, trace, search),
+                    Way::BruteForce => answer(&spheres, trace, asked, blocks),
                 }
             };
-            let (packets, answers, count) = (rays.packets(), Rc::clone(&answers), rays.list.len());
-            Box::new(InPackets { packets, search, answers, count, any_hit: false })
+            let (packets, memory) = (rays.packets(), Rc::clone(&memory));
+            Box::new(InPackets::new(packets, rays.list.len(), way.block(), search, memory))
         })
     }
 }
 
-type Search<'a> = (Query, Tier, &'a [RayPacket], &'a mut [HitPacket], &'a mut [u32]);
-
-fn answer(structure: &impl Intersect, mut trace: Trace<'_>, search: Search<'_>) {
-    let (query, tier, rays, hits, met) = search;
-    match query {
+fn answer(
+    structure: &impl Intersect,
+    mut trace: Trace<'_>,
+    (query, tier): (Query, Tier),
+    blocks: &mut Blocks<'_>,
+) {
+    blocks.each(|rays, hits, met| match query {
         Query::ClosestHit => structure.closest_hit_packets(tier, &mut trace, rays, hits),
         Query::AnyHit => structure.any_hit_packets(tier, &mut trace, rays, met),
-    }
-}
-
-/// Hits, and bits of any hit.
-type Answers<A = [f32; 16]> = (Vec<HitPacket<A>>, Vec<u32>);
-
-/// Packets of rays, and what searches for their hits.
-struct InPackets<A: LaneArray, S> {
-    packets: Rc<[RayPacket<A>]>,
-    search: S,
-    answers: Rc<RefCell<Answers<A>>>,
-    /// How many rays.
-    count: usize,
-    /// Whether the last run was for any hit.
-    any_hit: bool,
-}
-
-impl<A: LaneArray, S: FnMut(Query, &[RayPacket<A>], &mut Answers<A>)> Run for InPackets<A, S> {
-    fn run(&mut self, query: Query) {
-        let answers = &mut *self.answers.borrow_mut();
-        let count = answers.0.len().max(self.packets.len());
-        answers.0.resize(count, HitPacket::none());
-        answers.1.resize(count, 0);
-        (self.search)(query, &self.packets, answers);
-        self.any_hit = query == Query::AnyHit;
-        std::hint::black_box(answers);
-    }
-
-    fn hits(&self) -> Vec<Option<Hit>> {
-        let (hits, met) = &*self.answers.borrow();
-        let hit = |ray: usize| {
-            let (packet, lane) = (ray / A::COUNT, ray % A::COUNT);
-            let met = || met[packet] >> lane & 1 == 1;
-            let any = || met().then_some(Hit { t: 0.0, sphere: 0 });
-            if self.any_hit { any() } else { hits[packet].hit(lane) }
-        };
-        (0..self.count).map(hit).collect()
-    }
+    });
 }

@@ -2,7 +2,8 @@
 
 use super::{Table, build, cell, number};
 use crate::builds::{EMBREE, OURS};
-use crate::engine::{Label, Query};
+use crate::engine::kernel::STREAM;
+use crate::engine::{BLOCK, Label, Query};
 use crate::measure::Measured;
 use crate::structures::{FOR_THREADS, OfScene, Structures};
 use spherule_kernel::Tier;
@@ -10,17 +11,22 @@ use spherule_tests::scenes::Kind;
 
 /// The report.
 pub(crate) fn page(origin: &str, results: &Structures) -> String {
-    let Structures { scenes, two_threads, growth } = results;
+    let Structures { rays, scenes, two_threads, growth } = results;
+    let some =
+        |rays| format!(" Of more than {rays} rays some are timed, in runs from all of them.");
+    let some = cell(rays.map(some));
     let rounds = || scenes.iter().flat_map(|scene| &scene.measured).map(Measured::rounds);
     let mut text = format!(
         "# Many spheres, {} build\n\n{origin}\n\nOne thread; medians of {} to {} interleaved rounds [quartiles] of the \
          thread's own time; ratios round by round. Before anything is timed, every way answers as brute force does, bit for \
-         bit, on a sample of the rays (`stable`, `exact`), and others answer as `exact` but for close calls. The scenes: \
-         [scenes.rs](../../tests/src/scenes.rs).\n\n{}",
+         bit, on a sample of the rays (`stable`, `exact`), and others answer as `exact` but for close calls. The kernel and \
+         Embree get {BLOCK} rays at a time, streams {STREAM}, which are brought into the cache outside the clock.{some} The \
+         scenes: [scenes.rs](../../tests/src/scenes.rs).\n\n{}{}",
         build(),
         rounds().min().unwrap_or(0),
         rounds().max().unwrap_or(0),
-        against_embree(scenes)
+        against_embree(scenes),
+        versions(scenes)
     );
     if let Some(times) = two_threads {
         text += &format!(
@@ -35,30 +41,69 @@ pub(crate) fn page(origin: &str, results: &Structures) -> String {
     text + &self::growth(growth)
 }
 
-/// The kernel's quickest way against Embree's quickest call.
+/// The kernel's quickest way against Embree's quickest call, level by level.
 fn against_embree(scenes: &[OfScene]) -> String {
-    let query = Query::ClosestHit;
-    let mut table = Table::new(
-        3,
-        "scene | rays | way | spheres | Embree | `stable` | times Embree | any hit, times Embree | \
-         time of `exact` by `stable`",
-    );
-    for measured in scenes.iter().flat_map(|scene| &scene.measured) {
-        let Some(stable) = measured.quickest(Tier::Stable, query) else { continue };
-        let exact = Label { name: Tier::Exact.as_str(), ..stable.clone() };
-        let names = [measured.scene, measured.kind.as_str(), stable.way].map(str::to_owned);
-        table.row(names.into_iter().chain([
-            measured.spheres.to_string(),
-            number(measured.embree(query).and_then(|embree| measured.rate(embree, query))),
-            number(measured.rate(stable, query)),
-            cell(measured.times_embree(query)),
-            cell(measured.times_embree(Query::AnyHit)),
-            cell(measured.ratio(&exact, stable, query)),
-        ]));
+    let all = || scenes.iter().flat_map(|scene| &scene.measured);
+    let levels: Vec<_> = all().next().into_iter().flat_map(Measured::levels).collect();
+    let mut text = "`stable` in the kernel's quickest way, against Embree's quickest call with the same instructions (for \
+                    the baseline, which has SSE2, SSE4.2); a million rays a second.\n"
+        .to_owned();
+    for (query, name) in [(Query::ClosestHit, "Closest hit"), (Query::AnyHit, "Any hit")] {
+        let columns = levels.iter().map(|level| format!("{level} | Embree | times"));
+        let columns = columns.collect::<Vec<_>>().join(" | ");
+        let columns = format!("scene | rays | way | {columns} | time of `exact` by `stable`");
+        let mut table = Table::new(3, &columns);
+        for measured in all() {
+            let rate =
+                |label: Option<&Label>| number(label.and_then(|it| measured.rate(it, query)));
+            let best = levels.first().and_then(|best| measured.quickest(Tier::Stable, best, query));
+            let Some(best) = best else { continue };
+            let exact = Label { name: Tier::Exact.as_str(), ..best.clone() };
+            let names = [measured.scene, measured.kind.as_str(), best.way].map(str::to_owned);
+            let cells = levels.iter().flat_map(|level| {
+                [
+                    rate(measured.quickest(Tier::Stable, level, query)),
+                    rate(measured.embree(level, query)),
+                    cell(measured.times_embree(level, query)),
+                ]
+            });
+            let exact = cell(measured.ratio(&exact, best, query));
+            table.row(names.into_iter().chain(cells).chain([exact]));
+        }
+        text += &format!("\n{name}:\n\n{}", table.0);
+    }
+    text
+}
+
+/// The versions of Embree, if there are several.
+fn versions(scenes: &[OfScene]) -> String {
+    let all = || scenes.iter().flat_map(|scene| &scene.measured);
+    let Some(first) = all().next() else { return String::new() };
+    let mut columns = Vec::new();
+    for label in first.labels().filter(|label| label.way.starts_with(EMBREE)) {
+        if !columns.contains(&(label.lanes, label.way)) {
+            columns.push((label.lanes, label.way));
+        }
+    }
+    columns.sort_by_key(|(level, _)| first.levels().position(|other| other == *level));
+    if columns.iter().all(|(_, way)| *way == columns[0].1) {
+        return String::new();
+    }
+    let names: Vec<_> = columns.iter().map(|(level, way)| format!("{way}, {level}")).collect();
+    let mut table = Table::new(2, &format!("scene | rays | {}", names.join(" | ")));
+    for measured in all() {
+        let rate = |&(level, way): &(&str, &str)| {
+            let rate = |query| {
+                let is_it = |label: &Label| label.way == way && label.lanes == level;
+                number(measured.fastest(query, is_it).and_then(|it| measured.rate(it, query)))
+            };
+            Query::ALL.map(rate).join(" / ")
+        };
+        let names = [measured.scene, measured.kind.as_str()].map(str::to_owned);
+        table.row(names.into_iter().chain(columns.iter().map(rate)));
     }
     format!(
-        "`stable` in the kernel's quickest way at the best level, against Embree's quickest call (1, 8 or 16 rays; 3.13, \
-         calls alone); a million rays a second, closest hit.\n\n{}",
+        "\nThe versions of Embree, each in its quickest call; a million rays a second, closest hit / any hit:\n\n{}",
         table.0
     )
 }
@@ -73,7 +118,8 @@ fn builds(scenes: &[OfScene]) -> String {
     for OfScene { name, spheres, builds, .. } in scenes {
         let times = names.iter().map(|name| number(builds.milliseconds(name)));
         let size = [format!("{:.1}", builds.bytes), builds.depth.to_string()];
-        let size = [cell(builds.times.ratio(&OURS, &EMBREE))].into_iter().chain(size);
+        let ratio = builds.embree().and_then(|embree| builds.times.ratio(&OURS, &embree));
+        let size = [cell(ratio)].into_iter().chain(size);
         table.row([(*name).to_owned(), spheres.to_string()].into_iter().chain(times).chain(size));
     }
     format!("\nBuilds, milliseconds, one thread each, memory included:\n\n{}", table.0)
@@ -99,7 +145,8 @@ fn growth(steps: &[OfScene]) -> String {
     let columns = format!("spheres | {names} | build | Embree's build | bytes a sphere | depth");
     let mut table = Table::new(0, &columns);
     for step in steps {
-        let builds = [OURS, EMBREE].map(|name| number(step.builds.milliseconds(name)));
+        let builds = [Some(OURS), step.builds.embree()]
+            .map(|name| number(name.and_then(|name| step.builds.milliseconds(name))));
         let size = [format!("{:.1}", step.builds.bytes), step.builds.depth.to_string()];
         let rates = step.rates().map(|(_, rate)| number(rate));
         let count = [step.spheres.to_string()].into_iter();
