@@ -12,7 +12,8 @@ use std::rc::Rc;
 
 /// Tests of brute force that a sample may cost.
 const TESTS: usize = 1 << 25;
-/// Rays that a stream has memory for.
+/// Rays that a stream has memory for. In u10k 4,096 make closest hits 3 to 5 % slower and 2,048 a sixth; 16,384 are as
+/// fast, 32,768 slower at all levels but AVX-512.
 pub(crate) const STREAM: usize = 8192;
 /// Places in queues for each: no queue is cut short.
 const QUEUES: usize = 64;
