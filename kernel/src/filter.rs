@@ -67,7 +67,8 @@ impl FilterGroup {
             self.excess[slot] = f32::INFINITY;
             return;
         }
-        let [x, y, z] = axes!(i => sphere.center[i] * frame.scale - frame.shift[i]);
+        let center = sphere.center();
+        let [x, y, z] = axes!(i => center[i] * frame.scale - frame.shift[i]);
         let radius = sphere.radius * frame.scale;
         self.center[0][slot] = x;
         self.center[1][slot] = y;
@@ -124,7 +125,7 @@ impl Frame {
         };
         let scale = if far * scale <= LARGEST { scale } else { to_one(far) };
         let shift = axes!(axis => {
-            let middle = median(axes!(i => samples[i].center.to_array()[axis] * scale));
+            let middle = median(axes!(i => samples[i].center()[axis] * scale));
             if middle.abs() <= LARGEST { middle } else { 0.0 }
         });
         let least_size = (underflow.size * scale).max(LEAST_SIZE);

@@ -4,7 +4,7 @@
 //!
 //! | storey | rays are | costs beside the traversal |
 //! |---|---|---|
-//! | slices | `&[Ray]` | some 3 ns a ray to pack and unpack, 40 KiB of stack (without `std` 2 KiB) |
+//! | slices | `&[Ray]` | some 3 ns a ray to pack and unpack, 40 KiB of stack (without `std` 7 KiB) |
 //! | packets | `&[RayPacket]`, sixteen a packet | nothing |
 //! | lanes | packets of your vectors' width, their token | compiled in your crate: its profile counts |
 //!

@@ -230,7 +230,8 @@ fn meet_sphere<F: TierFormula, L: Lanes, Q: Query>(
     answer: &mut Q::Packet<L::Array>,
 ) -> L {
     let infinity = limits.like(f32::INFINITY);
-    let center = axes!(i => limits.like(sphere.center[i]));
+    let center = sphere.center();
+    let center = axes!(i => limits.like(center[i]));
     let radius = limits.like(sphere.radius);
     let t = F::first_root(rays, prepared, center, radius, asked, limits);
     let t = L::select(asked, t, infinity);

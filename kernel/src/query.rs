@@ -69,8 +69,10 @@ mod sealed {
 
 #[inline(always)]
 fn unpack<Q: Answers>(packets: &[Q::Packet<[f32; 16]>], answers: &mut [Q::One]) {
-    for (packet, answers) in packets.iter().zip(answers.chunks_mut(16)) {
-        for (lane, answer) in answers.iter_mut().enumerate() {
+    let mut rest = answers.iter_mut();
+    for packet in packets {
+        for lane in 0..16 {
+            let Some(answer) = rest.next() else { return };
             *answer = Q::one(packet, lane);
         }
     }

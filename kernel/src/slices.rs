@@ -56,11 +56,15 @@ pub(crate) fn traverse<S: Traverse + ?Sized, Q: LevelQuery>(
     let mut packets = [RayPacket::inactive(); PACKETS];
     let mut answered = [Q::none::<[f32; 16]>(); PACKETS];
     const AT_ONCE: usize = PACKETS * RayPacket::COUNT;
-    for (rays, answers) in rays.chunks(AT_ONCE).zip(answers.chunks_mut(AT_ONCE)) {
-        let packed = RayPacket::pack(rays, &mut packets);
+    let count = rays.len().min(answers.len());
+    let mut from = 0;
+    // Chunks divide by their length, and where that is not seen to be a number, may panic.
+    while from < count {
+        let to = (from + AT_ONCE).min(count);
+        let packed = RayPacket::pack(rays.get(from..to).unwrap_or_default(), &mut packets);
         structure.in_packets::<Q>(tier, trace, packed, &mut answered);
-        let count = rays.len().min(answers.len());
-        Q::unpack(&answered, answers.get_mut(..count).unwrap_or_default());
+        Q::unpack(&answered, answers.get_mut(from..to).unwrap_or_default());
+        from = to;
     }
 }
 

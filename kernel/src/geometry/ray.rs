@@ -167,8 +167,13 @@ impl RayPacket {
     /// filled up with inactive lanes. Rays that find no room are left out.
     pub fn pack<'a>(rays: &[Ray], packets: &'a mut [Self]) -> &'a [Self] {
         let mut filled = 0;
-        for (rays, packet) in rays.chunks(Self::COUNT).zip(packets.iter_mut()) {
-            *packet = Self::new(rays);
+        let mut rest = rays;
+        for packet in packets.iter_mut() {
+            if rest.is_empty() {
+                break;
+            }
+            *packet = Self::new(rest);
+            rest = rest.get(Self::COUNT..).unwrap_or_default();
             filled += 1;
         }
         packets.get(..filled).unwrap_or_default()

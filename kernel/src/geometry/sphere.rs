@@ -17,6 +17,12 @@ pub struct Sphere {
 }
 
 impl Sphere {
+    /// The centre as an array: an index into it is checked where it is compiled, one into a [`Vec3`] where it is run.
+    #[inline(always)]
+    pub(crate) fn center(&self) -> [f32; 3] {
+        [self.center.x, self.center.y, self.center.z]
+    }
+
     /// Whether the sphere is a surface at all: every number finite, the radius not negative.
     #[must_use]
     pub fn is_valid(&self) -> bool {
