@@ -5,8 +5,13 @@
 //! CPU cannot be asked, and there is one level, the build's own. The bits of an answer are the same at every
 //! level.
 
+#[cfg(not(feature = "std"))]
+mod build_target;
 #[cfg(feature = "std")]
 pub(crate) mod compiled;
+
+#[cfg(not(feature = "std"))]
+pub(crate) use build_target::{BuildLanes, of_the_build};
 
 /// An instruction set that the CPU has.
 #[derive(Clone, Copy, Debug)]

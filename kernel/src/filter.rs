@@ -67,7 +67,8 @@ impl FilterGroup {
             self.excess[slot] = f32::INFINITY;
             return;
         }
-        let [x, y, z] = axes!(i => sphere.center[i] * frame.scale - frame.shift[i]);
+        let center = sphere.center();
+        let [x, y, z] = axes!(i => center[i] * frame.scale - frame.shift[i]);
         let radius = sphere.radius * frame.scale;
         self.center[0][slot] = x;
         self.center[1][slot] = y;
@@ -108,9 +109,13 @@ impl Frame {
         far: f32,
     ) -> Self {
         let count = (spheres.count() - first).min(BLOCK_SPHERES);
-        let samples = [0, count / 2, count.saturating_sub(1)]
-            .map(|offset| spheres.sphere(first + offset).unwrap_or(Sphere::from([0.0; 4])));
-        let sizes = [0, 1, 2].map(|sample| size(&samples[sample]));
+        let offsets = [0, count / 2, count.saturating_sub(1)];
+        // Where an index into an array is a closure's, a check that it is in bounds may stay, and with it a panic.
+        let samples = axes!(i => match spheres.sphere(first + offsets[i]) {
+            Some(sphere) => sphere,
+            None => Sphere::from([0.0; 4]),
+        });
+        let sizes = axes!(i => size(&samples[i]));
         let typical = median(sizes);
         let largest = sizes[0].max(sizes[1]).max(sizes[2]);
         let scale = match (typical > 0.0, largest > 0.0) {
@@ -119,8 +124,8 @@ impl Frame {
             _ => 1.0,
         };
         let scale = if far * scale <= LARGEST { scale } else { to_one(far) };
-        let shift = [0, 1, 2].map(|axis| {
-            let middle = median([0, 1, 2].map(|sample| samples[sample].center[axis] * scale));
+        let shift = axes!(axis => {
+            let middle = median(axes!(i => samples[i].center()[axis] * scale));
             if middle.abs() <= LARGEST { middle } else { 0.0 }
         });
         let least_size = (underflow.size * scale).max(LEAST_SIZE);

@@ -4,7 +4,7 @@
 //!
 //! | storey | rays are | costs beside the traversal |
 //! |---|---|---|
-//! | slices | `&[Ray]` | some 3 ns a ray to pack and unpack, 40 KiB of stack (without `std` 2 KiB) |
+//! | slices | `&[Ray]` | some 3 ns a ray to pack and unpack, 40 KiB of stack (without `std` 7 KiB) |
 //! | packets | `&[RayPacket]`, sixteen a packet | nothing |
 //! | lanes | packets of your vectors' width, their token | compiled in your crate: its profile counts |
 //!
@@ -57,7 +57,7 @@ use crate::trace::Trace;
 /// ```
 pub trait Intersect: Traverse {
     /// The closest hit of one ray: a slice of one. Cost: a packet of which one lane is used; pass many rays
-    /// in one call.
+    /// in one call. Without `std` one lane is all there is, and the least flash and stack: the way for firmware.
     ///
     /// ```
     /// use spherule_kernel::{Exact, Intersect, Ray, SphereList, Vec3};
@@ -67,10 +67,7 @@ pub trait Intersect: Traverse {
     /// assert_eq!(hit.map(|hit| hit.t), Some(4.0));
     /// ```
     fn closest_hit(&self, tier: impl Accuracy, ray: &Ray) -> Option<Hit> {
-        let mut hits = [HitPacket::none()];
-        let rays = [RayPacket::new(core::slice::from_ref(ray))];
-        self.closest_hit_packets(tier, &mut Trace::new(), &rays, &mut hits);
-        hits[0].hit(0)
+        slices::one::<Self, ClosestHit>(self, tier, ray)
     }
 
     /// Whether one ray hits anything: a slice of one.
@@ -84,10 +81,7 @@ pub trait Intersect: Traverse {
     /// assert!(!spheres.any_hit(Exact, &Ray { t_max: 3.9, ..ray }));
     /// ```
     fn any_hit(&self, tier: impl Accuracy, ray: &Ray) -> bool {
-        let mut met = [0];
-        let rays = [RayPacket::new(core::slice::from_ref(ray))];
-        self.any_hit_packets(tier, &mut Trace::new(), &rays, &mut met);
-        met[0] & 1 == 1
+        slices::one::<Self, AnyHit>(self, tier, ray)
     }
 
     /// The closest hit of every ray: `hits[i]` becomes what `rays[i]` hits, `None` if that is nothing.

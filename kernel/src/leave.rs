@@ -154,7 +154,7 @@ impl Surface {
     }
 
     fn in_scene(&self, sphere: &Sphere) -> [f64; 3] {
-        axes!(i => f64::from(sphere.center[i]) + (f64::from(self.point[i]) + f64::from(self.rest[i])))
+        axes!(i => f64::from(sphere.center()[i]) + (f64::from(self.point[i]) + f64::from(self.rest[i])))
     }
 
     fn depart(
@@ -243,7 +243,7 @@ fn goes_away(ray: &Ray, sphere: &Sphere) -> bool {
 
 /// A point as seen from the centre, every coordinate rounded once.
 fn from_center(point: Vec3, sphere: &Sphere) -> [f64; 3] {
-    axes!(i => f64::from(point[i]) - f64::from(sphere.center[i]))
+    axes!(i => f64::from(point[i]) - f64::from(sphere.center()[i]))
 }
 
 fn terms(origin: Vec3, direction: Vec3, sphere: &Sphere) -> QuadraticTerms {

@@ -37,6 +37,8 @@ mod sealed {
         fn none<A: LaneArray>() -> Self::Packet<A>;
         /// The answer of one lane.
         fn one<A: LaneArray>(packet: &Self::Packet<A>, lane: usize) -> Self::One;
+        /// Puts what one ray is answered with in a lane that has no hit yet.
+        fn put<A: LaneArray>(packet: &mut Self::Packet<A>, lane: usize, one: Self::One);
         /// The lanes that are done.
         fn done<L: Lanes>(token: L::Token, packet: &Self::Packet<L::Array>) -> L::Mask;
         /// In every lane the t above which nothing matters any more.
@@ -67,8 +69,10 @@ mod sealed {
 
 #[inline(always)]
 fn unpack<Q: Answers>(packets: &[Q::Packet<[f32; 16]>], answers: &mut [Q::One]) {
-    for (packet, answers) in packets.iter().zip(answers.chunks_mut(16)) {
-        for (lane, answer) in answers.iter_mut().enumerate() {
+    let mut rest = answers.iter_mut();
+    for packet in packets {
+        for lane in 0..16 {
+            let Some(answer) = rest.next() else { return };
             *answer = Q::one(packet, lane);
         }
     }
@@ -89,6 +93,13 @@ impl Answers for ClosestHit {
     #[inline(always)]
     fn one<A: LaneArray>(packet: &HitPacket<A>, lane: usize) -> Option<Hit> {
         packet.hit(lane)
+    }
+
+    #[inline(always)]
+    fn put<A: LaneArray>(packet: &mut HitPacket<A>, lane: usize, one: Option<Hit>) {
+        if let Some(hit) = one {
+            packet.take(lane, hit, |_| false);
+        }
     }
 
     #[inline(always)]
@@ -176,6 +187,11 @@ impl Answers for AnyHit {
     #[inline(always)]
     fn one<A: LaneArray>(packet: &u32, lane: usize) -> bool {
         lane < A::COUNT && packet >> lane & 1 == 1
+    }
+
+    #[inline(always)]
+    fn put<A: LaneArray>(packet: &mut u32, lane: usize, one: bool) {
+        *packet |= u32::from(one) << (lane % 32);
     }
 
     #[inline(always)]

@@ -11,11 +11,39 @@ use crate::linear::Writes;
 use crate::structures::{LevelQuery, Traverse};
 use crate::trace::Trace;
 #[cfg(not(feature = "std"))]
-use crate::{leave::packets, linear, surface};
+use crate::{dispatch::BuildLanes, leave::packets, linear, surface};
 
 /// How many packets are traced at a time: enough that preparing 128 spheres of a list for them is a
 /// hundredth of the work; for firmware as many as its stack holds.
 const PACKETS: usize = if cfg!(feature = "std") { 64 } else { 4 };
+
+/// How many pairs are tested at a time.
+#[cfg(feature = "std")]
+const PAIRS: usize = RayPacket::COUNT;
+/// How many pairs are tested at a time.
+#[cfg(not(feature = "std"))]
+const PAIRS: usize = <BuildLanes as crate::Lanes>::COUNT;
+
+/// Answers one ray: without `std` in one lane, since firmware seldom has more, and little room.
+pub(crate) fn one<S: Traverse + ?Sized, Q: LevelQuery>(
+    structure: &S,
+    tier: impl Accuracy,
+    ray: &Ray,
+) -> Q::One {
+    let (rays, trace) = (core::slice::from_ref(ray), &mut Trace::new());
+    #[cfg(feature = "std")]
+    {
+        let mut answers = [Q::none::<[f32; 16]>()];
+        structure.in_packets::<Q>(tier, trace, &[RayPacket::new(rays)], &mut answers);
+        Q::one(&answers[0], 0)
+    }
+    #[cfg(not(feature = "std"))]
+    {
+        let mut answers = [Q::none::<[f32; 1]>()];
+        structure.in_lanes::<f32, Q>(tier, (), trace, &[RayPacket::new(rays)], &mut answers);
+        Q::one(&answers[0], 0)
+    }
+}
 
 /// Answers every ray of a slice.
 pub(crate) fn traverse<S: Traverse + ?Sized, Q: LevelQuery>(
@@ -28,11 +56,15 @@ pub(crate) fn traverse<S: Traverse + ?Sized, Q: LevelQuery>(
     let mut packets = [RayPacket::inactive(); PACKETS];
     let mut answered = [Q::none::<[f32; 16]>(); PACKETS];
     const AT_ONCE: usize = PACKETS * RayPacket::COUNT;
-    for (rays, answers) in rays.chunks(AT_ONCE).zip(answers.chunks_mut(AT_ONCE)) {
-        let packed = RayPacket::pack(rays, &mut packets);
+    let count = rays.len().min(answers.len());
+    let mut from = 0;
+    // Chunks divide by their length, and where that is not seen to be a number, may panic.
+    while from < count {
+        let to = (from + AT_ONCE).min(count);
+        let packed = RayPacket::pack(rays.get(from..to).unwrap_or_default(), &mut packets);
         structure.in_packets::<Q>(tier, trace, packed, &mut answered);
-        let count = rays.len().min(answers.len());
-        Q::unpack(&answered, answers.get_mut(..count).unwrap_or_default());
+        Q::unpack(&answered, answers.get_mut(from..to).unwrap_or_default());
+        from = to;
     }
 }
 
@@ -200,16 +232,21 @@ pub fn shadow_packets(
 /// ```
 pub fn pairs(tier: impl Accuracy, rays: &[Ray], spheres: &[Sphere], hits: &mut [Option<Hit>]) {
     let count = rays.len().min(spheres.len()).min(hits.len());
-    let level = Level::best();
     let mut from = 0;
     while from < count {
-        let to = (from + RayPacket::COUNT).min(count);
-        let packet = RayPacket::new(rays.get(from..to).unwrap_or_default());
-        let other = SpherePacket::new(spheres.get(from..to).unwrap_or_default());
-        let mut found = [HitPacket::none()];
-        pair_packets(tier, level, &[packet], &[other], &mut found);
+        let to = (from + PAIRS).min(count);
+        let rays = RayPacket::new(rays.get(from..to).unwrap_or_default());
+        let others = SpherePacket::new(spheres.get(from..to).unwrap_or_default());
+        #[cfg(feature = "std")]
+        let found = {
+            let mut found = [HitPacket::none()];
+            pair_packets(tier, Level::best(), &[rays], &[others], &mut found);
+            found[0]
+        };
+        #[cfg(not(feature = "std"))]
+        let found = linear::pair_lanes::<BuildLanes>(tier, (), &rays, &others);
         let answers = hits.get_mut(from..to).unwrap_or_default();
-        for (place, (answer, hit)) in answers.iter_mut().zip(found[0].hits()).enumerate() {
+        for (place, (answer, hit)) in answers.iter_mut().zip(found.hits()).enumerate() {
             *answer = hit.map(|hit| Hit { sphere: (from + place) as u32, ..hit });
         }
         from = to;

@@ -77,7 +77,7 @@ macro_rules! traverse {
                 #[cfg(feature = "std")]
                 Q::$compiled($trace.level, tier.tier(), $($argument,)* rays, answers);
                 #[cfg(not(feature = "std"))]
-                self.in_lanes::<wide::f32x16, Q>(tier, (), $trace, rays, answers);
+                crate::dispatch::of_the_build::<Self, Q>(self, tier, $trace, rays, answers);
             }
         }
     };

@@ -216,7 +216,7 @@ impl<L: Lanes> HitSpheres<L> {
             if let Some(sphere) = spheres.get(index as usize) {
                 let same = L::mask(token, same);
                 for i in 0..3 {
-                    center[i] = L::select(same, L::splat(token, sphere.center[i]), center[i]);
+                    center[i] = L::select(same, L::splat(token, sphere.center()[i]), center[i]);
                 }
                 radius = L::select(same, L::splat(token, sphere.radius), radius);
             }

@@ -58,23 +58,32 @@ impl<L: Lanes> Beyond<L> {
         L::select(normal, a / scale, a.like(f32::NAN))
     }
 
-    /// Where both roots are surely larger than `limit`.
+    /// Where both roots are surely larger than `limit`; in one lane, which has no filter, also where there are none.
     ///
     /// The margin is proven in `docs/numerics.md`. What overflows is not told.
     #[inline(always)]
     pub(super) fn limit(&self, rays: &RayLanes<L>, center: [L; 3], radius: L, limit: L) -> L::Mask {
         let bounded = limit.lt(limit.like(f32::INFINITY));
-        if !bounded.any() {
+        if L::COUNT > 1 && !bounded.any() {
             return bounded;
         }
         // Where nothing will be told, squares would be subnormal: twice the time of a list on some CPUs.
         let (p, size) = self.size(rays, center, radius);
-        let told = bounded & (size.like(LEAST_SIZE) * self.length).le(size);
+        let known = (size.like(LEAST_SIZE) * self.length).le(size);
+        let told = if L::COUNT > 1 { bounded & known } else { known };
         if !told.any() {
             return told;
         }
         let [end, b, discriminant] = self.terms(p, radius, limit);
         let raise = end.like(RAISE) * (size * size) + end.like(LEAST_A);
+        if L::COUNT == 1 {
+            // The limit's NaN also tells of a direction that is subnormal.
+            let misses = told & self.per_limit.le(self.per_limit);
+            let misses = misses & (discriminant + raise).lt(end.like(0.0));
+            if misses.any() {
+                return misses;
+            }
+        }
         let entry = b - (discriminant.filter_max(end.like(0.0)) + raise).sqrt();
         let margin = end.like(MARGIN) * (size + end.abs()) + end.like(LEAST_A);
         told & (end + margin).lt(entry)

@@ -13,6 +13,7 @@
 
 pub(super) mod estimate;
 mod from_start;
+mod one_ray;
 mod order;
 mod surface;
 
@@ -21,12 +22,12 @@ use super::beyond::Beyond;
 use super::roots::RayLanes;
 use super::surface::SurfaceLanes;
 use super::tier::{Tier, TierFormula};
-use crate::exact::{Quadratic, Root};
 use crate::geometry::surface::Surface;
 use crate::lanes::{DoubleLanes, LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::axes;
 use crate::{Ray, Sphere};
 use core::cmp::Ordering;
+use glam::Vec3;
 
 /// Hits decided as in real arithmetic, t correctly rounded, for every `f32` input.
 ///
@@ -42,7 +43,7 @@ use core::cmp::Ordering;
 ///
 /// Cost: as [`Fast`](super::Fast) for what the filter rules out; some 100 double-precision
 /// operations a candidate, and as many for two hits at one t. What these cannot decide costs some
-/// 2 microseconds a lane, 40 two hits, in 1 KiB of stack.
+/// 2 microseconds a lane, 25 two hits, in 1 KiB of stack (a ray and all, on 32 bits, 1.6 KiB: `docs/targets.md`).
 #[derive(Clone, Copy, Debug)]
 pub struct Exact;
 
@@ -71,6 +72,14 @@ impl TierFormula for Exact {
         if !asked.any() {
             return infinity;
         }
+        if L::COUNT == 1 {
+            let (ray, sphere) = (rays.first(), first(center, radius));
+            let t = match one_ray::decided(&ray, &sphere, lane(limit)) {
+                Some(t) => t,
+                None => one_ray::settled(&ray, &sphere),
+            };
+            return infinity.like(t);
+        }
         let (t, decided) = Brackets::new(rays, center, radius, asked).decide(rays, limit);
         let undecided = (asked & !decided).bits();
         // Adding zero turns -0 into +0.
@@ -94,13 +103,7 @@ impl TierFormula for Exact {
     }
 
     fn line_roots(ray: &Ray, sphere: &Sphere) -> Option<[f32; 2]> {
-        let quadratic = Quadratic::new(
-            ray.origin.to_array(),
-            ray.direction.to_array(),
-            sphere.center.to_array(),
-            sphere.radius,
-        )?;
-        Some([quadratic.rounded(Root::Near), quadratic.rounded(Root::Far)])
+        one_ray::line_roots(ray, sphere)
     }
 
     fn compare_at(ray: &Ray, t: f32, spheres: [&Sphere; 2]) -> Ordering {
@@ -126,14 +129,7 @@ impl TierFormula for Exact {
 impl Exact {
     /// D of a valid ray and a valid sphere, and the bound on its error.
     pub(crate) fn discriminant(ray: &Ray, sphere: &Sphere) -> (f64, f64) {
-        let (origin, direction, center) = (ray.origin, ray.direction, sphere.center);
-        let Estimate { discriminant, error, .. } = Estimate::new(
-            axes!(i => f64::from(origin[i])),
-            axes!(i => f64::from(direction[i])),
-            axes!(i => f64::from(center[i])),
-            f64::from(sphere.radius),
-            &Estimate::<f64>::PROVEN,
-        );
+        let Estimate { discriminant, error, .. } = one_ray::estimate(ray, sphere);
         (discriminant, error)
     }
 
@@ -269,24 +265,30 @@ impl<L: Lanes> Unsettled<L> {
     fn settle(&self, lanes: u32, t: &mut L::Array) {
         for (lane, t) in t.as_mut().iter_mut().enumerate() {
             if lanes >> lane & 1 == 1 {
-                *t = self.first_root(lane).unwrap_or(f32::INFINITY);
+                *t = self.first_root(lane);
             }
         }
     }
 
-    fn first_root(&self, lane: usize) -> Option<f32> {
+    fn first_root(&self, lane: usize) -> f32 {
         let at = |array: &L::Array| array.as_ref().get(lane).copied().unwrap_or(f32::NAN);
-        let at3 = |arrays: &[L::Array; 3]| arrays.each_ref().map(at);
-        let (t_min, t_max) = (at(&self.t_min), at(&self.t_max));
-        let accepted = |t: &f32| t_min <= *t && *t <= t_max && t.is_finite();
-        let quadratic = Quadratic::new(
-            at3(&self.origin),
-            at3(&self.direction),
-            at3(&self.center),
-            at(&self.radius),
-        )?;
-        [Root::Near, Root::Far].into_iter().map(|root| quadratic.rounded(root)).find(accepted)
+        let [origin, direction, center] = [&self.origin, &self.direction, &self.center]
+            .map(|[x, y, z]| Vec3::new(at(x), at(y), at(z)));
+        let ray = Ray { origin, direction, t_min: at(&self.t_min), t_max: at(&self.t_max) };
+        one_ray::settled(&ray, &Sphere { center, radius: at(&self.radius) })
     }
+}
+
+/// The sphere of the first lane.
+#[inline(always)]
+fn first<L: Lanes>([x, y, z]: [L; 3], radius: L) -> Sphere {
+    Sphere::from([lane(x), lane(y), lane(z), lane(radius)])
+}
+
+/// The number of the first lane.
+#[inline(always)]
+fn lane<L: Lanes>(numbers: L) -> f32 {
+    numbers.store().get(0)
 }
 
 #[cfg(test)]

@@ -1,8 +1,10 @@
 //! Rays in registers, and the roots that a tier finds on their lines.
 
 use crate::geometry::ray::RayPacket;
+use crate::lanes::LaneArray;
 use crate::numeric::axes::axes;
 use crate::{Lanes, Ray};
+use glam::Vec3;
 
 /// The rays of a packet in registers, as the tiers read them.
 #[derive(Clone, Copy, Debug)]
@@ -27,6 +29,16 @@ impl<L: Lanes> RayLanes<L> {
         let directed = along[0] | along[1] | along[2];
         let live = all_finite(origin) & all_finite(direction) & directed & t_min.le(t_max);
         Self { origin, direction, t_min, t_max, live }
+    }
+
+    /// The ray of the first lane.
+    #[inline(always)]
+    pub(super) fn first(&self) -> Ray {
+        let [ox, oy, oz] = axes!(i => self.origin[i].store().get(0));
+        let [dx, dy, dz] = axes!(i => self.direction[i].store().get(0));
+        let (origin, direction) = (Vec3::new(ox, oy, oz), Vec3::new(dx, dy, dz));
+        let (t_min, t_max) = (self.t_min.store().get(0), self.t_max.store().get(0));
+        Ray { origin, direction, t_min, t_max }
     }
 
     /// Rule 3.

@@ -271,8 +271,8 @@ pub(crate) fn is_closer(
     t: f32,
     [new, old]: [u32; 2],
 ) -> bool {
-    let compared = match [new, old].map(|index| spheres.get(index as usize)) {
-        [Some(new), Some(old)] => tier.compare_at(ray, t, [&new, &old]),
+    let compared = match (spheres.get(new as usize), spheres.get(old as usize)) {
+        (Some(new), Some(old)) => tier.compare_at(ray, t, [&new, &old]),
         _ => Ordering::Equal,
     };
     compared.then(new.cmp(&old)).is_lt()

@@ -20,7 +20,9 @@ use crate::linear::Writes;
 use crate::query::{Answers, AnyHit, ClosestHit};
 use crate::trace::Coherence;
 use crate::{linear, surface};
-use fearless_simd::{Simd, f32x16};
+#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+use fearless_simd::Simd;
+use fearless_simd::f32x16;
 
 /// Does `work` in a function that is compiled for `level`, with its token: of the levels of x86
 /// those that have a [`LevelName`](super::LevelName), since one more is a quarter more to compile.

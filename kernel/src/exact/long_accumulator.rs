@@ -6,6 +6,9 @@
 //! where lengths cancel, a multiple of 2^-1194. Accumulators count in units of 2^-896 or of 2^-1216, and hold
 //! 2^50 such products before they reach 2^831, where the sign is. Nothing is rounded, nothing overflows, and no
 //! floating-point environment matters.
+//!
+//! On targets of 32 bits, where a product of two limbs is a page of code, what is made of products is called and not
+//! inlined: a third of the flash of `Exact`.
 
 use core::cmp::Ordering;
 
@@ -30,6 +33,7 @@ impl Product {
     pub(crate) const ONE: Self = Self { mantissa: [1, 0], ..Self::ZERO };
 
     /// A finite number.
+    #[cfg_attr(target_pointer_width = "32", inline(never))]
     pub(crate) fn of(x: f32) -> Self {
         let bits = x.to_bits();
         let (exponent, fraction) = (bits >> 23 & 0xff, bits & 0x007f_ffff);
@@ -44,6 +48,7 @@ impl Product {
     }
 
     /// A double that is finite and no subnormal: as few bits of mantissa as it has.
+    #[cfg_attr(target_pointer_width = "32", inline(never))]
     pub(crate) fn of_double(x: f64) -> Self {
         let bits = x.to_bits();
         let (exponent, fraction) = ((bits >> 52 & 0x7ff) as i32, bits & ((1 << 52) - 1));
@@ -60,6 +65,7 @@ impl Product {
     }
 
     /// Both together; their mantissas have 128 bits at most.
+    #[cfg_attr(target_pointer_width = "32", inline(never))]
     pub(crate) fn times(self, other: Self) -> Self {
         let whole = |[low, high]: [u64; 2]| u128::from(high) << 64 | u128::from(low);
         let product = whole(self.mantissa).wrapping_mul(whole(other.mantissa));
@@ -107,23 +113,26 @@ impl<const LIMBS: usize> LongAccumulator<LIMBS> {
     }
 
     /// Adds a product.
+    #[cfg_attr(target_pointer_width = "32", inline(never))]
     pub(crate) fn add(&mut self, product: Product) {
         let Product { negative, exponent, mantissa: [low, high] } = product;
-        self.add_shifted([low, high, 0, 0], exponent, negative);
+        self.add_shifted(&[low, high], exponent, negative);
     }
 
     /// Adds a product of two.
+    #[cfg_attr(target_pointer_width = "32", inline(never))]
     pub(crate) fn add_product(&mut self, a: Product, b: Product) {
         let halves = |number: u128| (number & u128::from(u64::MAX), number >> 64);
-        let ([a_low, a_high], [b_low, b_high]) =
-            (a.mantissa.map(u128::from), b.mantissa.map(u128::from));
+        let ([a_low, a_high], [b_low, b_high]) = (a.mantissa, b.mantissa);
+        let [a_low, a_high] = [u128::from(a_low), u128::from(a_high)];
+        let [b_low, b_high] = [u128::from(b_low), u128::from(b_high)];
         // No sum overflows: a product of two limbs leaves room for two limbs.
         let (first, low) = halves(a_low * b_low);
         let (second, high) = halves(a_high * b_low + low);
         let (middle, carry) = halves(a_low * b_high + second);
         let (third, fourth) = halves(a_high * b_high + high + carry);
         let limbs = [first as u64, middle as u64, third as u64, fourth as u64];
-        self.add_shifted(limbs, a.exponent + b.exponent, a.negative != b.negative);
+        self.add_shifted(&limbs, a.exponent + b.exponent, a.negative != b.negative);
     }
 
     /// Adds the square of a sum whose terms have 128 bits at most.
@@ -137,6 +146,7 @@ impl<const LIMBS: usize> LongAccumulator<LIMBS> {
     }
 
     /// Adds the square of a sum whose terms have 64 bits at most, times `factor`.
+    #[cfg_attr(target_pointer_width = "32", inline(never))]
     pub(crate) fn add_square(&mut self, terms: &[Product], factor: Product) {
         for (index, &term) in terms.iter().enumerate() {
             self.add_product(term.times(term), factor);
@@ -147,6 +157,7 @@ impl<const LIMBS: usize> LongAccumulator<LIMBS> {
     }
 
     /// Adds the product of two sums.
+    #[cfg_attr(target_pointer_width = "32", inline(never))]
     pub(crate) fn add_products(&mut self, some: &[Product], others: &[Product]) {
         for &term in some {
             for &other in others {
@@ -155,61 +166,71 @@ impl<const LIMBS: usize> LongAccumulator<LIMBS> {
         }
     }
 
-    /// Adds 256 bits times 2^exponent, or takes them away.
-    fn add_shifted(&mut self, [a, b, c, d]: [u64; 4], exponent: i32, negative: bool) {
+    /// Adds some limbs times 2^exponent, or takes them away.
+    #[cfg_attr(target_pointer_width = "32", inline(never))]
+    fn add_shifted(&mut self, limbs: &[u64], exponent: i32, negative: bool) {
         let place = (exponent - Self::LOWEST).max(0).unsigned_abs();
         let (limb, shift) = (place as usize / 64, place % 64);
-        // Bits that leave a limb at its top come in at the next one's bottom.
-        let over = |limb: u64| limb >> 1 >> (63 - shift);
-        let [first, second] = [a << shift, b << shift | over(a)];
-        let shifted = [first, second, c << shift | over(b), d << shift | over(c), over(d)];
-        let mut carry = false;
+        // x - y is !(!x + y): one loop for both.
+        let flip = if negative { u64::MAX } else { 0 };
+        let (mut from_below, mut carry) = (0, false);
         for (number, place) in self.limbs.iter_mut().skip(limb).enumerate() {
-            let more = shifted.get(number).copied().unwrap_or(0);
-            if number >= shifted.len() && !carry {
+            if number > limbs.len() && !carry {
                 return;
             }
             #[cfg(test)]
             crate::testing::limbs::touch();
-            let (sum, first, second);
-            if negative {
-                (sum, first) = place.overflowing_sub(more);
-                (*place, second) = sum.overflowing_sub(u64::from(carry));
-            } else {
-                (sum, first) = place.overflowing_add(more);
-                (*place, second) = sum.overflowing_add(u64::from(carry));
-            }
+            // Bits that leave a limb at its top come in at the next one's bottom.
+            let limb = limbs.get(number).copied().unwrap_or(0);
+            let more = limb << shift | from_below;
+            from_below = limb >> 1 >> (63 - shift);
+            let (sum, first) = (*place ^ flip).overflowing_add(more);
+            let (sum, second) = sum.overflowing_add(u64::from(carry));
+            *place = sum ^ flip;
             carry = first | second;
         }
     }
 
     /// How the sum compares with zero.
+    #[cfg_attr(target_pointer_width = "32", inline(never))]
     pub(crate) fn sign(&self) -> Ordering {
         match self.limbs.last() {
             Some(top) if top >> 63 == 1 => Ordering::Less,
-            _ if self.limbs.iter().all(|&limb| limb == 0) => Ordering::Equal,
+            _ if self.lowest().is_none() => Ordering::Equal,
             _ => Ordering::Greater,
         }
     }
 
-    /// The sum within 2 u of itself, u = 2^-53; for sums of products of four, which no double over- or
-    /// underflows. What is left is its magnitude, in the same place: a copy would be a quarter of the stack.
-    pub(crate) fn estimate(&mut self) -> f64 {
-        let negative = self.sign() == Ordering::Less;
-        if negative {
-            let mut carry = true;
-            for limb in &mut self.limbs {
-                (*limb, carry) = (!*limb).overflowing_add(u64::from(carry));
-            }
+    /// The lowest limb that is not zero.
+    #[cfg_attr(target_pointer_width = "32", inline(never))]
+    fn lowest(&self) -> Option<usize> {
+        self.limbs.iter().position(|&limb| limb != 0)
+    }
+
+    /// A limb of the magnitude, of which the lowest that is not zero is known.
+    fn magnitude(&self, number: usize, lowest: usize) -> u64 {
+        let limb = self.limbs.get(number).copied().unwrap_or(0);
+        match self.sign() {
+            Ordering::Less if number > lowest => !limb,
+            Ordering::Less => limb.wrapping_neg(),
+            _ => limb,
         }
-        let magnitude = &self.limbs;
-        let Some(top) = magnitude.iter().rposition(|&limb| limb != 0) else { return 0.0 };
+    }
+
+    /// The sum within 2 u of itself, u = 2^-53; for sums of products of four, which no double over- or
+    /// underflows.
+    #[cfg_attr(target_pointer_width = "32", inline(never))]
+    pub(crate) fn estimate(&self) -> f64 {
+        let Some(lowest) = self.lowest() else { return 0.0 };
+        let mut top = LIMBS - 1;
+        while top > lowest && self.magnitude(top, lowest) == 0 {
+            top -= 1;
+        }
         // 65 bits or more: what is cut off is below 2^-64 of the sum.
-        let limb = |number: usize| magnitude.get(number).copied().unwrap_or(0);
-        let below = if top == 0 { 0 } else { limb(top - 1) };
-        let bits = u128::from(limb(top)) << 64 | u128::from(below);
+        let below = if top == 0 { 0 } else { self.magnitude(top - 1, lowest) };
+        let bits = u128::from(self.magnitude(top, lowest)) << 64 | u128::from(below);
         let value = bits as f64 * power_of_two(64 * (top as i32 - 1) + Self::LOWEST);
-        if negative { -value } else { value }
+        if self.sign() == Ordering::Less { -value } else { value }
     }
 }
 

@@ -27,6 +27,7 @@
 //! a [`LongAccumulator`](super::long_accumulator::LongAccumulator).
 
 use super::long_accumulator::{Product, SumOfSixes};
+use super::quadratic::Coefficient::{HalfSlope, Power, PowerOfSphere};
 use super::quadratic::{QuadraticTerms, Root};
 use core::cmp::Ordering;
 
@@ -37,7 +38,7 @@ pub(crate) fn compare_roots(
     first: (&QuadraticTerms, Root),
     second: (&QuadraticTerms, Root),
 ) -> Ordering {
-    let spheres = TwoSpheres::new(first.0, second.0);
+    let spheres = TwoSpheres([first.0, second.0]);
     let difference = spheres.difference_of_slopes();
     let same_roots = first.1 == second.1;
     let roots = match (first.1, second.1) {
@@ -73,94 +74,115 @@ pub(crate) fn compare_roots(
     }
 }
 
-/// What the coefficients of two quadratics of one line are sums of.
-struct TwoSpheres {
-    /// a.
-    square: [Product; 3],
-    /// b of each.
-    half_slope: [[Product; 6]; 2],
-    /// b of the first, and -b of the second, without what they share.
-    slopes: [Product; 6],
-    /// k of each, without |o|^2.
-    power: [[Product; 7]; 2],
-    /// k of the first, and -k of the second.
-    powers: [Product; 14],
-    /// |o|^2.
-    origin: [Product; 3],
-}
+/// Two quadratics of one line. (What their coefficients are sums of is made anew where it is needed: kept, it is most of
+/// the stack.)
+struct TwoSpheres<'a>([&'a QuadraticTerms; 2]);
 
-impl TwoSpheres {
-    fn new(first: &QuadraticTerms, second: &QuadraticTerms) -> Self {
-        let half_slope = [first.half_slope(), second.half_slope()];
-        let ((one, origin), (other, _)) = (first.power(), second.power());
-        // The last three terms of b do not depend on the sphere.
-        let [[a, b, c, ..], [d, e, f, ..]] = half_slope;
-        let mut powers = [Product::ONE; 14];
-        for (place, term) in
-            powers.iter_mut().zip(one.into_iter().chain(other.map(Product::negated)))
-        {
-            *place = term;
+impl TwoSpheres<'_> {
+    /// Adds a times `factor`.
+    #[cfg_attr(target_pointer_width = "32", inline(never))]
+    fn add_square(&self, sum: &mut SumOfSixes, factor: Product) {
+        for axis in 0..3 {
+            let d = self.0[0].d(axis);
+            sum.add_product(d.times(d), factor);
         }
-        Self {
-            square: [0, 1, 2].map(|axis| {
-                let [d, ..] = first.axis(axis);
-                d.times(d)
-            }),
-            half_slope,
-            slopes: [a, b, c, d.negated(), e.negated(), f.negated()],
-            power: [one, other],
-            powers,
-            origin,
+    }
+
+    /// Adds B times `factor`: b of the first, and -b of the second, without the last three terms, which they share.
+    #[cfg_attr(target_pointer_width = "32", inline(never))]
+    fn add_slopes(&self, sum: &mut SumOfSixes, factor: Product) {
+        let [first, second] = self.0;
+        for axis in 0..3 {
+            sum.add_product(first.term(HalfSlope, axis), factor);
+            sum.add_product(second.term(HalfSlope, axis), factor.negated());
+        }
+    }
+
+    /// Term `number` of the fourteen of k_1 - k_2.
+    #[cfg_attr(target_pointer_width = "32", inline(never))]
+    fn power_difference(&self, number: usize) -> Product {
+        let [first, second] = self.0;
+        match number {
+            0..7 => first.term(PowerOfSphere, number),
+            _ => second.term(PowerOfSphere, number - 7).negated(),
         }
     }
 
     /// B.
+    #[inline(never)]
     fn difference_of_slopes(&self) -> Ordering {
         let mut sum = SumOfSixes::zero();
-        self.slopes.into_iter().for_each(|term| sum.add(term));
+        self.add_slopes(&mut sum, Product::ONE);
         sum.sign()
     }
 
     /// D_1 - D_2 = B (b_1 + b_2) - a (k_1 - k_2).
+    #[inline(never)]
     fn difference_of_discriminants(&self) -> Ordering {
         let mut sum = SumOfSixes::zero();
-        for half_slope in &self.half_slope {
-            sum.add_products(&self.slopes, half_slope);
+        for sphere in self.0 {
+            for number in 0..HalfSlope.terms() {
+                self.add_slopes(&mut sum, sphere.term(HalfSlope, number));
+            }
         }
-        sum.add_products(&self.powers, &self.square.map(Product::negated));
+        for number in 0..2 * PowerOfSphere.terms() {
+            self.add_square(&mut sum, self.power_difference(number).negated());
+        }
         sum.sign()
     }
 
     /// M.
+    #[inline(never)]
     fn middle(&self) -> Ordering {
         let mut sum = SumOfSixes::zero();
-        for power in &self.power {
-            sum.add_products(power, &self.square);
+        let [first, second] = self.0;
+        for sphere in self.0 {
+            for number in 0..Power.terms() {
+                self.add_square(&mut sum, sphere.term(Power, number));
+            }
         }
-        sum.add_products(&self.origin.map(|term| term.scaled(1)), &self.square);
-        let [first, second] = &self.half_slope;
-        sum.add_products(first, &second.map(|term| term.scaled(1).negated()));
+        for number in 0..HalfSlope.terms() {
+            let minus_twice = first.term(HalfSlope, number).scaled(1).negated();
+            for other in 0..HalfSlope.terms() {
+                sum.add_product(second.term(HalfSlope, other), minus_twice);
+            }
+        }
         sum.sign()
     }
 
     /// R. The products of four are whole, the other two factors come last.
+    #[inline(never)]
     fn resultant(&self) -> Ordering {
         let mut sum = SumOfSixes::zero();
-        for square in self.square {
-            sum.add_square(&self.powers, square);
+        for number in 0..2 * PowerOfSphere.terms() {
+            self.add_power_products(&mut sum, number);
         }
-        let [first, second] = &self.half_slope;
-        let [one, other] = &self.power;
-        let slopes = self.slopes.map(|term| term.scaled(2));
-        for (half_slope, power, negated) in [(first, other, false), (second, one, true)] {
-            for &power in power.iter().chain(&self.origin) {
-                let power = if negated { power.negated() } else { power };
-                for half_slope in half_slope {
-                    sum.add_products(&[half_slope.times(power)], &slopes);
-                }
-            }
+        let [first, second] = self.0;
+        for number in 0..Power.terms() {
+            self.add_crossed(&mut sum, first, second.term(Power, number).scaled(2));
+            self.add_crossed(&mut sum, second, first.term(Power, number).scaled(2).negated());
         }
         sum.sign()
+    }
+
+    /// Adds a times what a term of k_1 - k_2 adds to its square, beside the terms before.
+    #[cfg_attr(target_pointer_width = "32", inline(never))]
+    fn add_power_products(&self, sum: &mut SumOfSixes, number: usize) {
+        let mut term = self.power_difference(number);
+        for other in number..2 * PowerOfSphere.terms() {
+            self.add_square(sum, term.times(self.power_difference(other)));
+            if other == number {
+                term = term.scaled(1);
+            }
+        }
+    }
+
+    /// Adds B times b of one sphere times `factor`.
+    #[cfg_attr(target_pointer_width = "32", inline(never))]
+    fn add_crossed(&self, sum: &mut SumOfSixes, of: &QuadraticTerms, factor: Product) {
+        for number in 0..HalfSlope.terms() {
+            self.add_slopes(sum, of.term(HalfSlope, number).times(factor));
+        }
     }
 }
 

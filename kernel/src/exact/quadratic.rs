@@ -48,6 +48,28 @@ pub(crate) struct QuadraticTerms {
     radius: f32,
 }
 
+/// A coefficient of the quadratic, or a part of one, that is a sum of products of two.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Coefficient {
+    /// b = d.p: the terms with c, then those with o.
+    HalfSlope,
+    /// k = p.p - r^2: what depends on the sphere, then |o|^2.
+    Power,
+    /// k without |o|^2.
+    PowerOfSphere,
+}
+
+impl Coefficient {
+    /// How many terms.
+    pub(super) const fn terms(self) -> usize {
+        match self {
+            Self::HalfSlope => 6,
+            Self::PowerOfSphere => 7,
+            Self::Power => 10,
+        }
+    }
+}
+
 impl QuadraticTerms {
     /// Domain: a valid ray and a valid sphere. Anything else returns too, with no meaning.
     pub(crate) const fn new(
@@ -59,11 +81,19 @@ impl QuadraticTerms {
         Self { origin, direction, center, radius }
     }
 
-    /// d, c and -o along an axis. (Made anew where they are needed: kept, they are most of the stack.)
-    pub(super) fn axis(&self, axis: usize) -> [Product; 3] {
-        let axis = axis % 3;
-        let [d, c, o] = [self.direction[axis], self.center[axis], self.origin[axis]];
-        [Product::of(d), Product::of(c), Product::of(o).negated()]
+    /// d along an axis. (Made anew where it is needed, as are the others: kept, they are most of the stack.)
+    pub(super) fn d(&self, axis: usize) -> Product {
+        Product::of(self.direction[axis % 3])
+    }
+
+    /// c along an axis.
+    pub(super) fn c(&self, axis: usize) -> Product {
+        Product::of(self.center[axis % 3])
+    }
+
+    /// -o along an axis.
+    pub(super) fn o(&self, axis: usize) -> Product {
+        Product::of(-self.origin[axis % 3])
     }
 
     /// r.
@@ -83,37 +113,52 @@ impl QuadraticTerms {
         sum: &mut LongAccumulator<LIMBS>,
         factor: Product,
     ) {
-        let minus_square = self.minus_square();
         for k in 0..3 {
-            // A component of d x p from the two axes after its own.
-            let ([di, ci, oi], [dj, cj, oj]) = (self.axis(k + 1), self.axis(k + 2));
-            let minus = dj.negated();
-            let component = [di.times(cj), di.times(oj), minus.times(ci), minus.times(oi)];
-            sum.add_square(&component, factor);
-            sum.add_product(minus_square.times(di.times(di)), factor);
+            self.add_minus_component(sum, k, factor);
         }
     }
 
-    /// What b = d.p is the sum of: the terms with c, then those with o.
-    pub(super) fn half_slope(&self) -> [Product; 6] {
-        let [[dx, cx, ox], [dy, cy, oy], [dz, cz, oz]] = [0, 1, 2].map(|axis| self.axis(axis));
-        [dx.times(cx), dy.times(cy), dz.times(cz), dx.times(ox), dy.times(oy), dz.times(oz)]
+    /// Of that the part of one axis: a component of d x p comes from the two axes after its own.
+    #[cfg_attr(target_pointer_width = "32", inline(never))]
+    fn add_minus_component<const LIMBS: usize>(
+        &self,
+        sum: &mut LongAccumulator<LIMBS>,
+        k: usize,
+        factor: Product,
+    ) {
+        let (i, j) = (k + 1, k + 2);
+        let component = [
+            self.d(i).times(self.c(j)),
+            self.d(i).times(self.o(j)),
+            self.d(j).times(self.c(i)).negated(),
+            self.d(j).times(self.o(i)).negated(),
+        ];
+        sum.add_square(&component, factor);
+        sum.add_product(self.minus_square().times(self.d(i).times(self.d(i))), factor);
     }
 
-    /// What k = p.p - r^2 is the sum of: what depends on the sphere, and |o|^2.
-    pub(super) fn power(&self) -> ([Product; 7], [Product; 3]) {
-        let [[_, cx, ox], [_, cy, oy], [_, cz, oz]] = [0, 1, 2].map(|axis| self.axis(axis));
-        let twice = |c: Product, o: Product| c.times(o).scaled(1);
-        let of_sphere = [
-            cx.times(cx),
-            cy.times(cy),
-            cz.times(cz),
-            twice(cx, ox),
-            twice(cy, oy),
-            twice(cz, oz),
-            self.minus_square(),
-        ];
-        (of_sphere, [ox.times(ox), oy.times(oy), oz.times(oz)])
+    /// Term `number` of those that a coefficient is the sum of.
+    #[cfg_attr(target_pointer_width = "32", inline(never))]
+    pub(super) fn term(&self, of: Coefficient, number: usize) -> Product {
+        let (one, other) = match (of, number) {
+            (Coefficient::HalfSlope, 0..3) => (self.d(number), self.c(number)),
+            (Coefficient::HalfSlope, _) => (self.d(number), self.o(number)),
+            (_, 0..3) => (self.c(number), self.c(number)),
+            (_, 3..6) => (self.c(number).scaled(1), self.o(number)),
+            (_, 6) => (self.radius(), self.radius().negated()),
+            _ => (self.o(number), self.o(number)),
+        };
+        one.times(other)
+    }
+
+    /// A coefficient, estimated.
+    #[inline(never)]
+    fn estimate(&self, of: Coefficient) -> f64 {
+        let mut sum = SumOfSixes::zero();
+        for number in 0..of.terms() {
+            sum.add(self.term(of, number));
+        }
+        sum.estimate()
     }
 
     /// D, estimated; `None` if it is negative.
@@ -124,30 +169,6 @@ impl QuadraticTerms {
         (sum.sign() != Ordering::Greater).then(|| -sum.estimate())
     }
 
-    /// b = d.p, estimated.
-    #[inline(never)]
-    fn half_slope_estimate(&self) -> f64 {
-        let mut sum = SumOfSixes::zero();
-        for axis in 0..3 {
-            let [d, c, o] = self.axis(axis);
-            sum.add(d.times(c));
-            sum.add(d.times(o));
-        }
-        sum.estimate()
-    }
-
-    /// k = p.p - r^2, estimated.
-    #[inline(never)]
-    fn power_estimate(&self) -> f64 {
-        let mut sum = SumOfSixes::zero();
-        sum.add(self.minus_square());
-        for axis in 0..3 {
-            let [_, c, o] = self.axis(axis);
-            sum.add_square(&[c, o], Product::ONE);
-        }
-        sum.estimate()
-    }
-
     /// Whether the origin is outside of the sphere, and whether the line goes away from its centre there: the signs of
     /// |o - c|^2 - r^2 and d.(o - c).
     pub(crate) fn start(&self) -> [Ordering; 2] {
@@ -156,8 +177,19 @@ impl QuadraticTerms {
 
     /// m d - p along an axis.
     fn beside(&self, axis: usize, m: Product) -> [Product; 3] {
-        let [d, c, o] = self.axis(axis);
-        [m.times(d), c.negated(), o.negated()]
+        [m.times(self.d(axis)), self.c(axis).negated(), self.o(axis).negated()]
+    }
+
+    /// Adds its square.
+    #[cfg_attr(target_pointer_width = "32", inline(never))]
+    fn add_square_beside(&self, sum: &mut SumOfSixes, axis: usize, m: Product) {
+        sum.add_square(&self.beside(axis, m), Product::ONE);
+    }
+
+    /// Adds its product with d.
+    #[cfg_attr(target_pointer_width = "32", inline(never))]
+    fn add_slope_beside(&self, sum: &mut SumOfSixes, axis: usize, m: Product) {
+        sum.add_products(&self.beside(axis, m), &[self.d(axis)]);
     }
 
     /// The sign of f = |m d - p|^2 - r^2.
@@ -166,7 +198,7 @@ impl QuadraticTerms {
         let mut sum = SumOfSixes::zero();
         sum.add(self.minus_square());
         for axis in 0..3 {
-            sum.add_square(&self.beside(axis, m), Product::ONE);
+            self.add_square_beside(&mut sum, axis, m);
         }
         sum.sign()
     }
@@ -176,7 +208,7 @@ impl QuadraticTerms {
     fn sign_of_slope_at(&self, m: Product) -> Ordering {
         let mut sum = SumOfSixes::zero();
         for axis in 0..3 {
-            sum.add_products(&self.beside(axis, m), &self.axis(axis)[..1]);
+            self.add_slope_beside(&mut sum, axis, m);
         }
         sum.sign()
     }
@@ -186,19 +218,12 @@ impl Quadratic {
     /// `None` if the line misses the sphere; a tangent does not miss it.
     ///
     /// Domain: a valid ray and a valid sphere. Anything else returns too, with no meaning.
-    pub(crate) fn new(
-        origin: [f32; 3],
-        direction: [f32; 3],
-        center: [f32; 3],
-        radius: f32,
-    ) -> Option<Self> {
-        let terms = QuadraticTerms::new(origin, direction, center, radius);
-
+    pub(crate) fn new(terms: QuadraticTerms) -> Option<Self> {
         // q = b + sign(b) sqrt D does not cancel: 2 u of b, 2 u of the root, 1 u of the sum.
         // a is within 2 u, k within 2 u; so q / a within 8 u, k / q within 8 u.
         let root = libm::sqrt(terms.discriminant()?);
-        let (b, k) = (terms.half_slope_estimate(), terms.power_estimate());
-        let a: f64 = direction.iter().map(|&d| f64::from(d) * f64::from(d)).sum();
+        let (b, k) = (terms.estimate(Coefficient::HalfSlope), terms.estimate(Coefficient::Power));
+        let a: f64 = terms.direction.iter().map(|&d| f64::from(d) * f64::from(d)).sum();
         let q = if b < 0.0 { b - root } else { b + root };
         // q is zero only where b and D are, and then so is k: both roots are zero.
         let other = if k == 0.0 { 0.0 } else { k / q };

@@ -62,7 +62,7 @@ impl SurfaceCoordinate<'_> {
     /// How the coordinate compares with a number of at most 25 significant bits.
     fn compare_with(&self, number: f64) -> Ordering {
         let whole_terms = self.whole(Product::of_double(number));
-        let [along, ..] = self.terms.axis(self.axis);
+        let along = self.terms.d(self.axis);
         let whole = sign_of_sum(&whole_terms);
         let mut part = along.sign();
         if self.root == Root::Near {
@@ -80,8 +80,10 @@ impl SurfaceCoordinate<'_> {
 
     /// What A is the sum of. (Made anew for each number: kept, it is most of the stack.)
     fn whole(&self, m: Product) -> [Product; 11] {
-        let [[di, ci, oi], [dj, cj, oj], [dk, ck, ok]] =
-            [0, 1, 2].map(|next| self.terms.axis(self.axis + next));
+        let (terms, i, j, k) = (self.terms, self.axis, self.axis + 1, self.axis + 2);
+        let (di, dj, dk) = (terms.d(i), terms.d(j), terms.d(k));
+        let (ci, cj, ck) = (terms.c(i), terms.c(j), terms.c(k));
+        let (oi, oj, ok) = (terms.o(i), terms.o(j), terms.o(k));
         let (ij, ik) = (di.times(dj), di.times(dk));
         let (jj, kk) = (dj.times(dj).negated(), dk.times(dk).negated());
         let scale = match self.of {

@@ -14,8 +14,9 @@ pub struct Hit {
 /// A [`Hit`] or none for every lane of a packet, in plain arrays: sixteen lanes unless `A` says
 /// otherwise.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(C, align(64))]
+#[repr(C)]
 pub struct HitPacket<A: LaneArray = [f32; 16]> {
+    alignment: A::Alignment,
     pub(crate) t: A,
     pub(crate) sphere: A::Ids,
 }
@@ -27,8 +28,8 @@ impl<A: LaneArray> HitPacket<A> {
     /// No hit in any lane: `t` is `+inf`, the sphere [`Self::NO_SPHERE`].
     #[must_use]
     #[inline(always)]
-    pub fn none() -> Self {
-        Self { t: A::filled(f32::INFINITY), sphere: A::ids(Self::NO_SPHERE) }
+    pub const fn none() -> Self {
+        Self { alignment: A::ALIGNMENT, t: A::INFINITIES, sphere: A::NO_IDS }
     }
 
     /// Takes a hit in `lane` if it is closer than the one known; of two with the same t `is_closer` says which, by the

@@ -57,8 +57,9 @@ impl Ray {
 /// A packet is memory, not registers: it holds no vector type, so it may be made on one side of a
 /// run-time dispatch and read on the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(C, align(64))]
+#[repr(C)]
 pub struct RayPacket<A: LaneArray = [f32; 16]> {
+    pub(crate) alignment: A::Alignment,
     pub(crate) origin: [A; 3],
     pub(crate) direction: [A; 3],
     pub(crate) t_min: A,
@@ -69,12 +70,13 @@ impl<A: LaneArray> RayPacket<A> {
     /// A packet whose every lane is [`Ray::INACTIVE`].
     #[must_use]
     #[inline(always)]
-    pub fn inactive() -> Self {
+    pub const fn inactive() -> Self {
         Self {
-            origin: [A::filled(0.0); 3],
-            direction: [A::filled(0.0); 3],
-            t_min: A::filled(f32::INFINITY),
-            t_max: A::filled(f32::NEG_INFINITY),
+            alignment: A::ALIGNMENT,
+            origin: [A::ZEROS; 3],
+            direction: [A::ZEROS; 3],
+            t_min: A::INFINITIES,
+            t_max: A::MINUS_INFINITIES,
         }
     }
 
@@ -165,8 +167,13 @@ impl RayPacket {
     /// filled up with inactive lanes. Rays that find no room are left out.
     pub fn pack<'a>(rays: &[Ray], packets: &'a mut [Self]) -> &'a [Self] {
         let mut filled = 0;
-        for (rays, packet) in rays.chunks(Self::COUNT).zip(packets.iter_mut()) {
-            *packet = Self::new(rays);
+        let mut rest = rays;
+        for packet in packets.iter_mut() {
+            if rest.is_empty() {
+                break;
+            }
+            *packet = Self::new(rest);
+            rest = rest.get(Self::COUNT..).unwrap_or_default();
             filled += 1;
         }
         packets.get(..filled).unwrap_or_default()

@@ -17,6 +17,12 @@ pub struct Sphere {
 }
 
 impl Sphere {
+    /// The centre as an array: an index into it is checked where it is compiled, one into a [`Vec3`] where it is run.
+    #[inline(always)]
+    pub(crate) fn center(&self) -> [f32; 3] {
+        [self.center.x, self.center.y, self.center.z]
+    }
+
     /// Whether the sphere is a surface at all: every number finite, the radius not negative.
     #[must_use]
     pub fn is_valid(&self) -> bool {
@@ -142,8 +148,9 @@ impl<'a> Spheres<'a> {
 /// One sphere a lane, in plain arrays, for ray `i` against sphere `i`: sixteen unless `A` says
 /// otherwise.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(C, align(64))]
+#[repr(C)]
 pub struct SpherePacket<A: LaneArray = [f32; 16]> {
+    alignment: A::Alignment,
     pub(crate) center: [A; 3],
     pub(crate) radius: A,
 }
@@ -153,7 +160,8 @@ impl<A: LaneArray> SpherePacket<A> {
     /// spheres past the last lane are left out.
     #[must_use]
     pub fn new(spheres: &[Sphere]) -> Self {
-        let mut packet = Self { center: [A::filled(0.0); 3], radius: A::filled(-1.0) };
+        let (center, radius) = ([A::ZEROS; 3], A::filled(-1.0));
+        let mut packet = Self { alignment: A::ALIGNMENT, center, radius };
         for (lane, sphere) in spheres.iter().take(A::COUNT).enumerate() {
             let center = sphere.center.to_array();
             for axis in 0..3 {

@@ -16,8 +16,9 @@ pub struct Surface {
 
 /// A [`Surface`] for every lane of a packet, in plain arrays: sixteen lanes unless `A` says otherwise.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(C, align(64))]
+#[repr(C)]
 pub struct SurfacePacket<A: LaneArray = [f32; 16]> {
+    alignment: A::Alignment,
     pub(crate) normal: [A; 3],
     pub(crate) point: [A; 3],
     /// What the point is off, in double precision.
@@ -28,9 +29,9 @@ impl<A: LaneArray> SurfacePacket<A> {
     /// Zeros in every lane, as of rays that hit nothing.
     #[must_use]
     #[inline(always)]
-    pub fn none() -> Self {
-        let zeros = [A::filled(0.0); 3];
-        Self { normal: zeros, point: zeros, rest: zeros }
+    pub const fn none() -> Self {
+        let zeros = [A::ZEROS; 3];
+        Self { alignment: A::ALIGNMENT, normal: zeros, point: zeros, rest: zeros }
     }
 
     /// The unit normal of every lane, coordinate by coordinate; zeros if the ray hits nothing.

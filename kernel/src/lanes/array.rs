@@ -13,6 +13,11 @@ mod sealed {
     pub trait Sealed {}
 }
 
+/// A packet of several lanes begins where a line of the cache does; it takes no room.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(align(64))]
+pub struct CacheLine;
+
 /// `[f32; N]`, one number a lane, for N = 1, 4, 8 and 16.
 ///
 /// Packets depend on nothing else of the lanes that read them, so that vectors fixed at build time
@@ -26,6 +31,21 @@ pub trait LaneArray:
     type Ids: Copy + Debug + PartialEq + AsRef<[u32]> + AsMut<[u32]>;
     /// `[T; N]`: anything else, one a lane.
     type Each<T>: AsRef<[T]> + AsMut<[T]>;
+    /// What aligns a packet, and takes no room: one lane needs no more than its numbers do.
+    #[doc(hidden)]
+    type Alignment: Copy + Debug + PartialEq;
+
+    /// What aligns a packet.
+    #[doc(hidden)]
+    const ALIGNMENT: Self::Alignment;
+    /// Zero in every lane.
+    const ZEROS: Self;
+    /// `+inf` in every lane.
+    const INFINITIES: Self;
+    /// `-inf` in every lane.
+    const MINUS_INFINITIES: Self;
+    /// The greatest index in every lane, which stands for none.
+    const NO_IDS: Self::Ids;
 
     /// `value` in every lane.
     fn filled(value: f32) -> Self;
@@ -46,7 +66,7 @@ pub trait LaneArray:
 }
 
 macro_rules! lane_array {
-    ($count:literal) => {
+    ($count:literal, $alignment:tt) => {
         impl sealed::Sealed for [f32; $count] {}
 
         // Of one lane.
@@ -55,6 +75,13 @@ macro_rules! lane_array {
             const COUNT: usize = $count;
             type Ids = [u32; $count];
             type Each<T> = [T; $count];
+            type Alignment = $alignment;
+
+            const ALIGNMENT: $alignment = $alignment;
+            const ZEROS: Self = [0.0; $count];
+            const INFINITIES: Self = [f32::INFINITY; $count];
+            const MINUS_INFINITIES: Self = [f32::NEG_INFINITY; $count];
+            const NO_IDS: [u32; $count] = [u32::MAX; $count];
 
             #[inline(always)]
             fn filled(value: f32) -> Self {
@@ -117,7 +144,7 @@ macro_rules! lane_array {
     };
 }
 
-lane_array!(1);
-lane_array!(4);
-lane_array!(8);
-lane_array!(16);
+lane_array!(1, ());
+lane_array!(4, CacheLine);
+lane_array!(8, CacheLine);
+lane_array!(16, CacheLine);

@@ -64,6 +64,12 @@ impl Lanes for f32 {
         if mask { yes } else { no }
     }
 
+    /// By the sign bit: comparing and subtracting are calls where there is no floating-point unit.
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self::abs(self)
+    }
+
     #[inline(always)]
     fn out_of_line<R>((): (), work: impl FnOnce() -> R) -> R {
         super::plain_call(work)
@@ -111,6 +117,11 @@ impl DoubleLanes for f64 {
     #[inline(always)]
     fn le(self, other: Self) -> bool {
         self <= other
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self::abs(self)
     }
 
     #[inline(always)]

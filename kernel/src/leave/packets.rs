@@ -91,6 +91,7 @@ pub fn shadow_lanes<L: Lanes>(
 
     let end = if let Towards::Point(_) = towards { 1.0 } else { f32::INFINITY };
     let mut shadow_rays = RayPacket {
+        alignment: L::Array::ALIGNMENT,
         origin: axes!(i => origin[i].store()),
         direction: axes!(i => direction[i].store()),
         t_min: L::select(left, start_of(direction, radius), zero.like(f32::INFINITY)).store(),

@@ -134,7 +134,8 @@ fn test<F: TierFormula, L: Lanes>(
     let rays = RayLanes::<L>::load(token, packet);
     let limits = L::load(token, &hits.t);
     let infinity = L::splat(token, f32::INFINITY);
-    let center = axes!(i => L::splat(token, sphere.center[i]));
+    let center = sphere.center();
+    let center = axes!(i => L::splat(token, center[i]));
     let radius = L::splat(token, sphere.radius);
     let t = F::first_root(&rays, &F::prepare(&rays), center, radius, rays.live, limits);
     let t = L::select(rays.live, t, infinity);

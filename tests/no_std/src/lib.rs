@@ -10,12 +10,17 @@ extern crate alloc;
 extern crate std;
 
 use core::hint::black_box;
+#[cfg(feature = "vectors")]
 use spherule_kernel::{
-    AnyHit, Bvh, BvhNode, Camera, ClosestHit, DepthList, Hit, HitPacket, Intersect, Lanes, Level,
-    Projection, QueuedRay, Ray, RayPacket, Side, Sphere, SpherePacket, Spheres, SurfacePacket,
-    Tier, Towards, Trace, Vec3, Viewpoint, discriminant, f32x4, f32x8, f32x16,
-    float_environment_is_sound, object_lanes, object_packets, pair_lanes, pair_packets, pairs,
-    roots, shadow_packets, side, stages, surface, surface_packets,
+    AnyHit, ClosestHit, Level, SurfacePacket, Towards, f32x4, f32x8, f32x16, object_packets,
+    pair_packets, shadow_packets, stages, surface_packets,
+};
+#[cfg(feature = "structures")]
+use spherule_kernel::{Bvh, BvhNode, DepthList, QueuedRay, StreamMemory, StreamRay, Viewpoint};
+use spherule_kernel::{
+    Camera, Hit, HitPacket, Intersect, Lanes, Projection, Ray, RayPacket, Side, Sphere,
+    SpherePacket, Spheres, Tier, Trace, Vec3, discriminant, float_environment_is_sound,
+    object_lanes, pair_lanes, pairs, roots, side, surface,
 };
 
 /// What a firmware does in its own way; without `std` there must be one.
@@ -42,11 +47,9 @@ pub unsafe extern "C" fn spherule_no_std(numbers: *const f32, count: usize) -> u
     let number = |index: usize| numbers.get(index).copied().unwrap_or(0.0);
     let vector = |index: usize| Vec3::new(number(index), number(index + 1), number(index + 2));
 
-    let quarter = |nth: usize| numbers.get(nth * (count / 4)..(nth + 1) * (count / 4));
-    let [Some(x), Some(y), Some(z), Some(r)] = [0, 1, 2, 3].map(quarter) else {
-        return 0;
-    };
-    let Ok(spheres) = Spheres::new(x, y, z, r) else {
+    let quarter =
+        |nth: usize| numbers.get(nth * (count / 4)..(nth + 1) * (count / 4)).unwrap_or_default();
+    let Ok(spheres) = Spheres::new(quarter(0), quarter(1), quarter(2), quarter(3)) else {
         return 0;
     };
     let projection = if number(0) < 0.0 {
@@ -62,50 +65,36 @@ pub unsafe extern "C" fn spherule_no_std(numbers: *const f32, count: usize) -> u
         2.0 => Tier::Geometric,
         _ => Tier::Exact,
     };
-    let rays = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19]
-        .map(|i| Ray { t_max: number(i), ..camera.get_ray(i as u32, 2) });
+    let mut rays = [Ray::INACTIVE; 20];
+    for (index, ray) in rays.iter_mut().enumerate() {
+        *ray = Ray { t_max: number(index), ..camera.get_ray(index as u32, 2) };
+    }
     let sphere = Sphere { center: vector(5), radius: number(6) };
 
-    // More memory than most lists of spheres need: too little is a value, too.
-    let (mut words, mut scratch) = ([0.0; 1024], [0.0; 1000]);
-    let (mut nodes, mut places, mut indices) = ([BvhNode::EMPTY; 4], [[0.0; 4]; 120], [0; 120]);
-    let (mut stream_rays, mut queues) = ([StreamRay::EMPTY; 16], [QueuedRay::EMPTY; 280]);
-    let viewpoint = match camera.projection {
-        Projection::Perspective { eye } => Viewpoint::Origin(eye),
-        Projection::Parallel { direction } => Viewpoint::Direction(direction),
-    };
     let mut sum = Sum(0);
     sum.structure(tier, &camera, &rays, &mut [], &spheres);
-    sum.lanes::<f32x4>(tier, &camera, &mut Trace::new(), &spheres);
-    sum.lanes::<f32x16>(tier, &camera, &mut Trace::new(), &spheres);
-    match DepthList::sort(spheres, viewpoint, &mut words) {
-        Ok(depth_list) => sum.structure(tier, &camera, &rays, &mut scratch, &depth_list),
-        Err(error) => sum.word(error.needed as u32),
+    #[cfg(feature = "vectors")]
+    {
+        sum.lanes::<f32x4>(tier, &camera, &mut Trace::new(), &spheres);
+        sum.lanes::<f32x16>(tier, &camera, &mut Trace::new(), &spheres);
     }
-    match Bvh::build(spheres, &mut nodes, &mut places, &mut indices) {
-        Ok(tree) => {
-            sum.structure(tier, &camera, &rays, &mut [], &tree);
-            match StreamMemory::new(&mut stream_rays, &mut queues) {
-                Ok(memory) => {
-                    let mut trace = Trace::new().incoherent().with_stream(memory);
-                    sum.lanes::<f32x16>(tier, &camera, &mut trace, &tree);
-                }
-                Err(error) => sum.word(error.needed as u32),
-            }
-            sum.word((tree.depth() + tree.size().nodes) as u32);
-        }
-        Err(error) => sum.word(error.needed as u32),
-    }
+    #[cfg(feature = "structures")]
+    sum.structures(tier, &camera, &rays, spheres);
     sum.pairs(tier, &rays, &sphere);
     sum.objects(tier, &rays, spheres);
+    sum.surface(tier, &rays[3], spheres);
+    #[cfg(feature = "vectors")]
     sum.surfaces(tier, &rays, spheres);
     sum.word(
         roots(tier, &rays[1], &sphere).map_or(0, |[near, far]| near.to_bits() ^ far.to_bits()),
     );
     sum.word(discriminant(&rays[1], &sphere).map_or(0, |(d, bound)| u32::from(bound < d)));
-    let packets = [RayPacket::new(&rays)];
-    sum.word(stages(ClosestHit, &packets, spheres).tests as u32);
-    sum.word(stages(AnyHit, &packets, spheres).tests as u32);
+    #[cfg(feature = "vectors")]
+    {
+        let packets = [RayPacket::new(&rays)];
+        sum.word(stages(ClosestHit, &packets, spheres).tests as u32);
+        sum.word(stages(AnyHit, &packets, spheres).tests as u32);
+    }
     sum.word(u32::from(float_environment_is_sound()));
     black_box(sum.0)
 }
@@ -128,7 +117,22 @@ impl Sum {
         }
     }
 
-    /// Normals and points at every storey, and rays that leave.
+    /// A normal, and rays that leave.
+    fn surface(&mut self, tier: Tier, ray: &Ray, spheres: Spheres<'_>) {
+        let Some(hit) = spheres.closest_hit(tier, ray) else { return };
+        let Some(sphere) = spheres.get(hit.sphere as usize) else { return };
+        let surface = surface(tier, ray, hit.t, &sphere);
+        self.bits(surface.normal.to_array().map(f32::to_bits));
+        let outside = surface.leave(tier, &sphere, Side::Outside, ray.origin);
+        let inside = surface.leave_to(tier, &sphere, Side::Inside, ray.origin);
+        for ray in [outside, inside].into_iter().flatten() {
+            self.word(u32::from(side(ray.origin, &sphere) == Some(Side::Outside)));
+            self.bits(ray.origin.to_array().map(f32::to_bits));
+        }
+    }
+
+    /// Normals and points in packets, and rays that leave.
+    #[cfg(feature = "vectors")]
     fn surfaces(&mut self, tier: Tier, rays: &[Ray], spheres: Spheres<'_>) {
         let packets = [RayPacket::new(rays)];
         let mut hits = [HitPacket::none()];
@@ -146,14 +150,36 @@ impl Sum {
             shadow_packets(tier, Level::best(), spheres, hit, towards, &mut shadow_rays);
             self.bits(shadow_rays[0].ray(1).origin.to_array().map(f32::to_bits));
         }
-        let (Some(hit), Some(ray)) = (hits[0].hit(0), rays.first()) else { return };
-        let Some(sphere) = spheres.get(hit.sphere as usize) else { return };
-        let surface = surface(tier, ray, hit.t, &sphere);
-        let outside = surface.leave(tier, &sphere, Side::Outside, ray.origin);
-        let inside = surface.leave_to(tier, &sphere, Side::Inside, ray.origin);
-        for ray in [outside, inside].into_iter().flatten() {
-            self.word(u32::from(side(ray.origin, &sphere) == Some(Side::Outside)));
-            self.bits(ray.origin.to_array().map(f32::to_bits));
+    }
+
+    /// The depth list and the tree.
+    #[cfg(feature = "structures")]
+    fn structures(&mut self, tier: Tier, camera: &Camera, rays: &[Ray], spheres: Spheres<'_>) {
+        // More memory than most lists of spheres need: too little is a value, too.
+        let (mut words, mut scratch) = ([0.0; 1024], [0.0; 1000]);
+        let (mut nodes, mut places, mut indices) = ([BvhNode::EMPTY; 4], [[0.0; 4]; 120], [0; 120]);
+        let (mut stream_rays, mut queues) = ([StreamRay::EMPTY; 16], [QueuedRay::EMPTY; 280]);
+        let viewpoint = match camera.projection {
+            Projection::Perspective { eye } => Viewpoint::Origin(eye),
+            Projection::Parallel { direction } => Viewpoint::Direction(direction),
+        };
+        match DepthList::sort(spheres, viewpoint, &mut words) {
+            Ok(depth_list) => self.structure(tier, camera, rays, &mut scratch, &depth_list),
+            Err(error) => self.word(error.needed as u32),
+        }
+        match Bvh::build(spheres, &mut nodes, &mut places, &mut indices) {
+            Ok(tree) => {
+                self.structure(tier, camera, rays, &mut [], &tree);
+                match StreamMemory::new(&mut stream_rays, &mut queues) {
+                    Ok(memory) => {
+                        let mut trace = Trace::new().incoherent().with_stream(memory);
+                        self.lanes::<f32>(tier, camera, &mut trace, &tree);
+                    }
+                    Err(error) => self.word(error.needed as u32),
+                }
+                self.word((tree.depth() + tree.size().nodes) as u32);
+            }
+            Err(error) => self.word(error.needed as u32),
         }
     }
 
@@ -187,6 +213,7 @@ impl Sum {
             self.bits(met);
             // The same source in every width: the others below, of a list.
             self.lanes::<f32>(tier, camera, &mut trace, structure);
+            #[cfg(feature = "vectors")]
             self.lanes::<f32x8>(tier, camera, &mut trace, structure);
         }
     }
@@ -213,25 +240,32 @@ impl Sum {
         let mut hits = [None; 20];
         pairs(tier, rays, &[*sphere; 20], &mut hits);
         self.hits(hits);
-        let mut hits = [HitPacket::none()];
-        let packets = ([RayPacket::new(rays)], [SpherePacket::new(&[*sphere; 16])]);
-        pair_packets(tier, Level::best(), &packets.0, &packets.1, &mut hits);
-        self.hits(hits[0].hits());
         self.pair_lanes::<f32>(tier, rays, sphere);
-        self.pair_lanes::<f32x4>(tier, rays, sphere);
-        self.pair_lanes::<f32x8>(tier, rays, sphere);
-        self.pair_lanes::<f32x16>(tier, rays, sphere);
+        #[cfg(feature = "vectors")]
+        {
+            let mut hits = [HitPacket::none()];
+            let packets = ([RayPacket::new(rays)], [SpherePacket::new(&[*sphere; 16])]);
+            pair_packets(tier, Level::best(), &packets.0, &packets.1, &mut hits);
+            self.hits(hits[0].hits());
+            self.pair_lanes::<f32x4>(tier, rays, sphere);
+            self.pair_lanes::<f32x8>(tier, rays, sphere);
+            self.pair_lanes::<f32x16>(tier, rays, sphere);
+        }
     }
 
     fn objects(&mut self, tier: Tier, rays: &[Ray], spheres: Spheres<'_>) {
-        let (packets, mut hits) = ([RayPacket::new(rays)], [HitPacket::none()]);
-        let writes = object_packets(tier, Level::best(), spheres, 1, &[0, 1], &packets, &mut hits);
-        self.word((writes.stored + writes.overwritten) as u32);
-        self.hits(hits[0].hits());
         self.object_lanes::<f32>(tier, rays, spheres);
-        self.object_lanes::<f32x4>(tier, rays, spheres);
-        self.object_lanes::<f32x8>(tier, rays, spheres);
-        self.object_lanes::<f32x16>(tier, rays, spheres);
+        #[cfg(feature = "vectors")]
+        {
+            let (packets, mut hits) = ([RayPacket::new(rays)], [HitPacket::none()]);
+            let level = Level::best();
+            let writes = object_packets(tier, level, spheres, 1, &[0, 1], &packets, &mut hits);
+            self.word((writes.stored + writes.overwritten) as u32);
+            self.hits(hits[0].hits());
+            self.object_lanes::<f32x4>(tier, rays, spheres);
+            self.object_lanes::<f32x8>(tier, rays, spheres);
+            self.object_lanes::<f32x16>(tier, rays, spheres);
+        }
     }
 
     fn object_lanes<L: Lanes<Token = ()>>(

@@ -141,3 +141,48 @@ fn no_root_up_to_the_limit_is_dropped() {
     println!("{met} lines that meet their sphere");
     assert!(met > 50_000, "{met}");
 }
+
+/// In one lane, lines that pass by a sphere nearly as far as it is large: one that a tier sees is not told to miss, and
+/// most of those that pass it by more than the raise are.
+#[test]
+fn no_graze_is_told_to_miss() {
+    let mut random = Random(10);
+    let [mut met, mut told, mut missed] = [0; 3];
+    for round in 0..300_000 {
+        let numbers = grazing(&mut random, if round % 2 == 0 { -22 } else { -5 });
+        let (line, sphere) = case(&numbers);
+        if !line.is_live() || !sphere.is_valid() {
+            continue;
+        }
+        let rays = RayLanes::<f32>::load((), &RayPacket::<[f32; 1]>::new(&[line]));
+        let center = sphere.center.to_array();
+        let misses = Beyond::new(&rays).limit(&rays, center, sphere.radius, f32::INFINITY);
+        let stable = Beyond::of_scaled(rays.direction, dot(rays.direction, rays.direction), 1.0);
+        let stable_misses = stable.limit(&rays, center, sphere.radius, f32::INFINITY);
+        let seen = [Exact::line_roots(&line, &sphere), Stable::line_roots(&line, &sphere)];
+        assert!(seen[0].is_none() || !misses, "exact: {numbers:?}");
+        assert!(seen[1].is_none() || !(misses || stable_misses), "stable: {numbers:?}");
+        met += u32::from(seen[0].is_some());
+        missed += u32::from(seen[0].is_none());
+        told += u32::from(misses);
+    }
+    println!("{met} meet their sphere, {missed} miss it, of which {told} are told");
+    assert!(met > 100_000 && told * 3 > missed && told < missed);
+}
+
+/// A line that is r (1 +- 2^closeness) away from the centre, as far as rounding lets it.
+fn grazing(random: &mut Random, closeness: i32) -> Numbers {
+    let (o, d) = (random.point(0), random.point(0));
+    let other = random.point(0);
+    let [x, y, z] = [
+        d[1] * other[2] - d[2] * other[1],
+        d[2] * other[0] - d[0] * other[2],
+        d[0] * other[1] - d[1] * other[0],
+    ];
+    let (along, length) = (random.wide(-2, 4), (x * x + y * y + z * z).sqrt());
+    let r = random.wide(-6, 6).abs();
+    let away = r * (1.0 + random.wide(closeness - 6, closeness)) / length;
+    let c = [0, 1, 2].map(|i| o[i] + along * d[i] + away * [x, y, z][i]);
+    let ([ox, oy, oz], [dx, dy, dz], [cx, cy, cz]) = (o, d, c);
+    [ox, oy, oz, dx, dy, dz, cx, cy, cz, r]
+}

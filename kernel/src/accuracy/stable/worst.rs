@@ -4,7 +4,7 @@ extern crate std;
 
 use super::Stable;
 use crate::accuracy::TierFormula;
-use crate::exact::{Quadratic, Root};
+use crate::exact::{Quadratic, QuadraticTerms, Root};
 use crate::testing::climb::{Random, assert_published, climb_twice};
 use crate::{Ray, Sphere, Vec3};
 use std::println;
@@ -41,7 +41,7 @@ fn in_domain(numbers: &Numbers) -> Option<(f64, Ray, Sphere)> {
 
 fn exact(ray: &Ray, sphere: &Sphere) -> Option<Quadratic> {
     let (o, d) = (ray.origin.to_array(), ray.direction.to_array());
-    Quadratic::new(o, d, sphere.center.to_array(), sphere.radius)
+    Quadratic::new(QuadraticTerms::new(o, d, sphere.center.to_array(), sphere.radius))
 }
 
 /// The larger error of both roots, for rays that start a radius or more from the surface.

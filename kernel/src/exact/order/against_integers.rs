@@ -35,8 +35,9 @@ fn check(numbers: &Numbers) -> (usize, usize) {
     let [ox, oy, oz, dx, dy, dz, ax, ay, az, r, bx, by, bz, s] = *numbers;
     let (o32, d32) = ([ox, oy, oz], [dx, dy, dz]);
     let of = [([ax, ay, az], r), ([bx, by, bz], s)];
-    let meets = of.map(|(c, r)| Quadratic::new(o32, d32, c, r).is_some());
-    let [first, second] = of.map(|(c, r)| QuadraticTerms::new(o32, d32, c, r));
+    let terms = of.map(|(c, r)| QuadraticTerms::new(o32, d32, c, r));
+    let meets = terms.map(|terms| Quadratic::new(terms).is_some());
+    let [first, second] = terms;
     let truths = [6, 10].map(|at| numerators(o, d, &exact[at..at + 3], &exact[at + 3]));
     assert_eq!(meets, truths.each_ref().map(Option::is_some));
     let [Some(one), Some(other)] = truths else { return (0, 0) };

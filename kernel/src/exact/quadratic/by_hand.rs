@@ -1,6 +1,6 @@
 //! Roots that can be computed by hand.
 
-use super::{Quadratic, Root};
+use super::{Quadratic, QuadraticTerms, Root};
 
 /// Both roots along x, from the origin, with `step` as the direction.
 fn along_x(step: f32, center: f32, radius: f32) -> Option<[f32; 2]> {
@@ -8,7 +8,7 @@ fn along_x(step: f32, center: f32, radius: f32) -> Option<[f32; 2]> {
 }
 
 fn roots(o: [f32; 3], d: [f32; 3], c: [f32; 3], r: f32) -> Option<[f32; 2]> {
-    let quadratic = Quadratic::new(o, d, c, r)?;
+    let quadratic = Quadratic::new(QuadraticTerms::new(o, d, c, r))?;
     Some([quadratic.rounded(Root::Near), quadratic.rounded(Root::Far)])
 }
 

@@ -1,0 +1,17 @@
+//! Prints the digest of this target. With an argument, where there are any, one bit of one answer is another.
+
+#![cfg_attr(target_os = "none", no_std, no_main)]
+
+use spherule_targets::{digest, start};
+
+#[cfg(not(any(target_os = "none", target_arch = "wasm32")))]
+fn run() -> bool {
+    digest::print_all(std::env::args().len() > 1)
+}
+
+#[cfg(any(target_os = "none", target_arch = "wasm32"))]
+fn run() -> bool {
+    digest::print_all(false)
+}
+
+start!(run);

@@ -1,0 +1,31 @@
+//! Draws the lecture's picture in one way, and prints what it took: bytes of stack, and instructions a ray.
+//!
+//! The way is in the program's name, `size-<tier>-<way>`, so that nothing else is linked.
+
+#![cfg_attr(target_os = "none", no_std, no_main)]
+
+#[cfg(target_os = "none")]
+#[path = "size/ways.rs"]
+mod ways;
+
+#[cfg(target_os = "none")]
+fn run() -> bool {
+    use spherule_targets::{numbers, painted_stack, platform, scene};
+
+    let measured = painted_stack::measure(ways::draw);
+    numbers::print_decimal(measured.stack);
+    platform::print(b" ");
+    // A tick is 40 instructions: 25 MHz, and an instruction a nanosecond.
+    numbers::print_decimal(measured.ticks * 40 / (scene::WIDTH * scene::HEIGHT));
+    platform::print(b" ");
+    numbers::print_decimal(ways::drawn());
+    platform::print(b"\n");
+    true
+}
+
+#[cfg(not(target_os = "none"))]
+fn run() -> bool {
+    false
+}
+
+spherule_targets::start!(run);

@@ -1,0 +1,220 @@
+//! The ways to draw a picture, of which one is compiled.
+
+#[path = "../../../../../kernel/examples/firmware/src/hardware_root.rs"]
+mod hardware_root;
+
+use core::hint::black_box;
+use core::sync::atomic::{AtomicU8, Ordering::Relaxed};
+use hardware_root::HardwareRoot;
+use spherule_kernel::{
+    Exact, Fast, Geometric, HitPacket, Intersect, Ray, RayPacket, Sphere, SpherePacket, Spheres,
+    Stable, Trace, Vec3, f32x4, pair_lanes, roots,
+};
+use spherule_targets::scene::{self, HEIGHT, WIDTH};
+
+const NAME: &[u8] = env!("CARGO_BIN_NAME").as_bytes();
+
+/// Whether the program's name ends so.
+const fn ends_with(end: &str) -> bool {
+    let end = end.as_bytes();
+    let mut place = 0;
+    while place < end.len() {
+        if NAME[NAME.len() - 1 - place] != end[end.len() - 1 - place] {
+            return false;
+        }
+        place += 1;
+    }
+    true
+}
+
+/// Does work by the tier of the program's name.
+macro_rules! by_tier {
+    ($tier:ident => $work:expr) => {
+        match NAME[5] {
+            b'f' => {
+                let $tier = Fast;
+                $work
+            }
+            b'g' => {
+                let $tier = Geometric;
+                $work
+            }
+            b's' => {
+                let $tier = Stable;
+                $work
+            }
+            _ => {
+                let $tier = Exact;
+                $work
+            }
+        }
+    };
+}
+
+const PIXELS: usize = (WIDTH * HEIGHT) as usize;
+static PICTURE: [AtomicU8; PIXELS] = [const { AtomicU8::new(0) }; PIXELS];
+
+/// Puts a mark, of the sphere that a pixel's ray has hit.
+fn mark(place: usize, sphere: Option<u32>) {
+    if let Some(pixel) = PICTURE.get(place) {
+        pixel.store(sphere.map_or(b'.', |sphere| b'a' + sphere as u8), Relaxed);
+    }
+}
+
+/// A number that tells what was drawn.
+pub fn drawn() -> u32 {
+    let add = |sum: u32, pixel: &AtomicU8| sum * 31 + u32::from(pixel.load(Relaxed));
+    PICTURE.iter().fold(0, |sum: u32, pixel| add(sum % (1 << 24), pixel))
+}
+
+/// Draws the picture.
+pub fn draw() {
+    let Some(spheres) = scene::spheres() else { return };
+    if ends_with("-slice") {
+        slices(spheres);
+    } else if ends_with("-hard") {
+        hard();
+    } else if ends_with("-hard_roots") {
+        hard_roots();
+    } else if !ends_with("-none") {
+        pixels(spheres);
+    }
+}
+
+/// A ray at a time, or four.
+fn pixels(spheres: Spheres<'_>) {
+    let (mut camera, mut place) = (scene::camera(false), 0);
+    camera.corner = black_box(camera.corner);
+    for y in 0..HEIGHT {
+        for x in 0..WIDTH {
+            let ray = camera.get_ray(x, y);
+            if ends_with("-closest") {
+                let hit = by_tier!(tier => spheres.closest_hit(tier, &ray));
+                mark(place, hit.map(|hit| hit.sphere));
+            } else if ends_with("-any") {
+                mark(place, by_tier!(tier => spheres.any_hit(tier, &ray)).then_some(0));
+            } else if ends_with("-vsqrt") {
+                let (rays, mut hits) = ([RayPacket::new(&[ray])], [HitPacket::none()]);
+                let trace = &mut Trace::new();
+                by_tier!(tier => spheres.closest_hit_lanes::<HardwareRoot>(tier, (), trace, &rays, &mut hits));
+                mark(place, hits[0].hit(0).map(|hit| hit.sphere));
+            } else if ends_with("-f32x4") && x % 4 == 0 {
+                let rays = [0, 1, 2, 3].map(|next| camera.get_ray(x + next, y));
+                let (rays, mut hits) = ([RayPacket::new(&rays)], [HitPacket::none()]);
+                let trace = &mut Trace::new();
+                by_tier!(tier => spheres.closest_hit_lanes::<f32x4>(tier, (), trace, &rays, &mut hits));
+                for lane in 0..4 {
+                    mark(place + lane, hits[0].hit(lane).map(|hit| hit.sphere));
+                }
+            } else if ends_with("-libm") {
+                mark(place, textbook(spheres, &ray, libm::sqrtf));
+            } else if ends_with("-micromath") {
+                mark(place, textbook(spheres, &ray, micromath::F32Ext::sqrt));
+            } else if ends_with("-pairs") || ends_with("-roots") {
+                nearest(spheres, &ray, place);
+            }
+            place += 1;
+        }
+    }
+}
+
+/// The caller's own loop over spheres.
+fn nearest(spheres: Spheres<'_>, ray: &Ray, place: usize) {
+    let (mut closest, mut index) = ((f32::INFINITY, None), 0);
+    while let Some(sphere) = spheres.get(index) {
+        let t = if ends_with("-roots") {
+            by_tier!(tier => roots(tier, ray, &sphere)).map_or(f32::INFINITY, |[near, _]| near)
+        } else {
+            let (rays, others) = (RayPacket::new(&[*ray]), SpherePacket::new(&[sphere]));
+            by_tier!(tier => pair_lanes::<f32>(tier, (), &rays, &others))
+                .hit(0)
+                .map_or(f32::INFINITY, |hit| hit.t)
+        };
+        if t < closest.0 {
+            closest = (t, Some(index as u32));
+        }
+        index += 1;
+    }
+    mark(place, closest.1);
+}
+
+/// The textbook's quadratic, without the kernel: what it takes beside.
+#[inline(always)]
+fn textbook(spheres: Spheres<'_>, ray: &Ray, sqrt: impl Fn(f32) -> f32) -> Option<u32> {
+    let (mut closest, mut index) = ((f32::INFINITY, None), 0);
+    while let Some(sphere) = spheres.get(index) {
+        let p = sphere.center - ray.origin;
+        let (a, b) = (ray.direction.dot(ray.direction), ray.direction.dot(p));
+        let discriminant = b * b - a * (p.dot(p) - sphere.radius * sphere.radius);
+        if discriminant >= 0.0 {
+            let root = sqrt(discriminant);
+            let near = (b - root) / a;
+            let t = if near >= 0.0 { near } else { (b + root) / a };
+            if t >= 0.0 && t < closest.0 {
+                closest = (t, Some(index as u32));
+            }
+        }
+        index += 1;
+    }
+    closest.1
+}
+
+/// A row of rays in one call.
+fn slices(spheres: Spheres<'_>) {
+    let camera = scene::camera(false);
+    for y in 0..HEIGHT {
+        let (mut rays, mut hits) = ([Ray::INACTIVE; WIDTH as usize], [None; WIDTH as usize]);
+        for (x, ray) in rays.iter_mut().enumerate() {
+            *ray = camera.get_ray(x as u32, y);
+        }
+        by_tier!(tier => spheres.closest_hits(tier, &rays, &mut hits));
+        for (x, hit) in hits.iter().enumerate() {
+            mark((y * WIDTH) as usize + x, hit.map(|hit| hit.sphere));
+        }
+    }
+}
+
+/// A tangent, a tie, and the dearest case of the kernel's cost test: o, d, c and r.
+static HARD: [[f32; 10]; 3] = [
+    [-3.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0],
+    [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 16_777_220.0, 0.0, 0.0, 1.0],
+    [
+        4.304_508_3e17,
+        8.930_645_5e-30,
+        8_205.748,
+        594.441_3,
+        -6.914_829e26,
+        7.052_379e-36,
+        -6_261.860_4,
+        2_136.177,
+        -3.241_990_3e-26,
+        1.324_018_2e38,
+    ],
+];
+/// Beside each sphere another that is hit at the same t: from a distance of a million, f32 tells nothing less apart.
+static TIED: [[f32; 2]; 4] = [[0.0; 2], [0.0; 2], [1e6; 2], [1.0, 1.015_625]];
+
+/// What doubles cannot decide: tangents and ties.
+fn hard() {
+    for [ox, oy, oz, dx, dy, dz, x, y, z, r] in black_box(&HARD) {
+        let ray = Ray::new(Vec3::new(*ox, *oy, *oz), Vec3::new(*dx, *dy, *dz));
+        let columns = [x, y, z, r].map(core::slice::from_ref);
+        let Ok(spheres) = Spheres::new(columns[0], columns[1], columns[2], columns[3]) else {
+            return;
+        };
+        black_box(by_tier!(tier => spheres.closest_hit(tier, &ray)));
+    }
+    let [x, y, z, r] = black_box(&TIED);
+    let Ok(spheres) = Spheres::new(x, y, z, r) else { return };
+    let ray = Ray::new(Vec3::ZERO, Vec3::Z);
+    black_box(by_tier!(tier => spheres.closest_hit(tier, &ray)));
+}
+
+/// The same for both roots.
+fn hard_roots() {
+    for [ox, oy, oz, dx, dy, dz, x, y, z, r] in black_box(&HARD) {
+        let ray = Ray::new(Vec3::new(*ox, *oy, *oz), Vec3::new(*dx, *dy, *dz));
+        let sphere = Sphere { center: Vec3::new(*x, *y, *z), radius: *r };
+        black_box(by_tier!(tier => roots(tier, &ray, &sphere)));
+    }
+}

@@ -1,0 +1,163 @@
+//! Every question to every structure.
+
+use super::fnv::Fnv;
+use crate::cases::{CASES, Case, Random, case};
+use crate::scene;
+use spherule_kernel::{
+    Bvh, BvhNode, BvhSize, DepthList, Hit, HitPacket, Intersect, Lanes, Level, Ray, RayPacket,
+    SpherePacket, Spheres, Tier, Trace, Vec3, Viewpoint, f32x4, pair_lanes, roots,
+};
+
+/// A tier at a level.
+pub(super) struct Asked {
+    pub(super) level: Level,
+    pub(super) tier: Tier,
+}
+
+/// How many cases make a list.
+const LISTED: usize = 20;
+/// Of how many runs of cases one makes a list.
+const EVERY: usize = 8;
+/// How many spheres a tree holds.
+const BUILT: usize = 100;
+/// The memory that it needs.
+const NEEDED: BvhSize = Bvh::needed(BUILT);
+
+impl Asked {
+    /// Every case by itself, in one lane and in four.
+    pub(super) fn pairs(&self, control: bool) -> u64 {
+        let mut fnv = Fnv::new();
+        for first in (0..CASES).step_by(4) {
+            let cases = [0, 1, 2, 3].map(|next| case(first + next));
+            let four = pairs::<f32x4>(self.tier, &cases);
+            for (case, t) in cases.iter().zip(four) {
+                let [alone, ..] = pairs::<f32>(self.tier, core::slice::from_ref(case));
+                fnv.t(t);
+                fnv.t(alone);
+            }
+        }
+        // What is held to be seen: the last bit of an answer.
+        fnv.word(u32::from(control));
+        fnv.0
+    }
+
+    /// Both roots of every case.
+    pub(super) fn roots(&self) -> u64 {
+        let mut fnv = Fnv::new();
+        for number in 0..CASES {
+            let Case { ray, sphere } = case(number);
+            match roots(self.tier, &ray, &sphere) {
+                Some(roots) => roots.into_iter().for_each(|t| fnv.t(t)),
+                None => fnv.word(0),
+            }
+        }
+        fnv.0
+    }
+
+    /// Cases as lists of their spheres: every ray of one against all.
+    pub(super) fn lists(&self) -> u64 {
+        let mut fnv = Fnv::new();
+        for first in (0..CASES).step_by(LISTED * EVERY) {
+            let mut columns = [[0.0; LISTED]; 4];
+            let mut rays = [Ray::INACTIVE; LISTED];
+            for (place, ray) in rays.iter_mut().enumerate() {
+                let Case { ray: of_case, sphere } = case(first + place as u32);
+                *ray = of_case;
+                let row = [sphere.center.x, sphere.center.y, sphere.center.z, sphere.radius];
+                columns.iter_mut().zip(row).for_each(|(column, number)| column[place] = number);
+            }
+            let [x, y, z, r] = &columns;
+            if let Ok(spheres) = Spheres::new(x, y, z, r) {
+                self.ask(&mut fnv, &spheres, &rays, &mut []);
+                in_lanes::<f32>(&mut fnv, self.tier, &spheres, &rays);
+                in_lanes::<f32x4>(&mut fnv, self.tier, &spheres, &rays);
+            }
+        }
+        fnv.0
+    }
+
+    /// List, depth list and tree of an ordinary scene; by `Exact` with spheres that lie one in the other.
+    pub(super) fn structures(&self) -> u64 {
+        let (mut fnv, mut random) = (Fnv::new(), Random(7));
+        let mut columns = [[0.0; BUILT]; 4];
+        for place in 0..BUILT {
+            let center = random.point() * 4.0;
+            let radius = if self.tier == Tier::Exact && place % 4 == 0 { 3.0 } else { 0.4 };
+            let row = [center.x, center.y, center.z, radius + 0.1 * random.number()];
+            columns.iter_mut().zip(row).for_each(|(column, number)| column[place] = number);
+        }
+        let (eye, mut rays) = (Vec3::new(0.0, 0.0, -9.0), [Ray::INACTIVE; 128]);
+        for (place, ray) in rays.iter_mut().enumerate() {
+            let origin = if place % 2 == 0 { eye } else { random.point() * 4.0 };
+            *ray = Ray::new(origin, random.point() * 4.0 - origin);
+        }
+
+        let [x, y, z, r] = &columns;
+        let Ok(spheres) = Spheres::new(x, y, z, r) else { return 0 };
+        let mut words = [0.0; DepthList::needed(BUILT)];
+        let mut scratch = [0.0; DepthList::scratch(BUILT)];
+        let mut nodes = [BvhNode::EMPTY; NEEDED.nodes];
+        let (mut places, mut indices) = ([[0.0; 4]; NEEDED.places], [0; NEEDED.places]);
+        self.ask(&mut fnv, &spheres, &rays, &mut []);
+        if let Ok(sorted) = DepthList::sort(spheres, Viewpoint::Origin(eye), &mut words) {
+            self.ask(&mut fnv, &sorted, &rays, &mut scratch);
+        }
+        if let Ok(tree) = Bvh::build(spheres, &mut nodes, &mut places, &mut indices) {
+            self.ask(&mut fnv, &tree, &rays, &mut []);
+        }
+        fnv.0
+    }
+
+    /// The lecture's scene in both projections.
+    pub(super) fn pictures(&self) -> u64 {
+        let mut fnv = Fnv::new();
+        let Some(spheres) = scene::spheres() else { return 0 };
+        for is_parallel in [false, true] {
+            let camera = scene::camera(is_parallel);
+            for y in 0..scene::HEIGHT {
+                let mut row = [Ray::INACTIVE; scene::WIDTH as usize];
+                for (x, ray) in row.iter_mut().enumerate() {
+                    *ray = camera.get_ray(x as u32, y);
+                }
+                self.ask(&mut fnv, &spheres, &row, &mut []);
+                fnv.hit(spheres.closest_hit(self.tier, &row[20]));
+                fnv.word(u32::from(spheres.any_hit(self.tier, &row[40])));
+            }
+        }
+        fnv.0
+    }
+
+    /// The closest hit of every ray, and whether there is any.
+    fn ask(&self, fnv: &mut Fnv, structure: &impl Intersect, rays: &[Ray], scratch: &mut [f32]) {
+        let mut trace = Trace::new().at(self.level).with_scratch(scratch);
+        let (mut hits, mut met): ([Option<Hit>; 128], _) = ([None; 128], [false; 128]);
+        structure.closest_hits_with(self.tier, &mut trace, rays, &mut hits);
+        structure.any_hits_with(self.tier, &mut trace, rays, &mut met);
+        for (hit, met) in hits.into_iter().zip(met).take(rays.len()) {
+            fnv.hit(hit);
+            fnv.word(u32::from(met));
+        }
+    }
+}
+
+/// The t of some cases, as many as there are lanes.
+fn pairs<L: Lanes<Token = ()>>(tier: Tier, cases: &[Case]) -> [f32; 4] {
+    let (mut rays, mut spheres) = ([Ray::INACTIVE; 4], [case(0).sphere; 4]);
+    for (place, case) in cases.iter().enumerate().take(L::COUNT) {
+        (rays[place], spheres[place]) = (case.ray, case.sphere);
+    }
+    let (rays, spheres) = (RayPacket::new(&rays), SpherePacket::new(&spheres));
+    let hits = pair_lanes::<L>(tier, (), &rays, &spheres);
+    let mut t = [f32::INFINITY; 4];
+    t.iter_mut().zip(hits.t()).for_each(|(t, hit)| *t = *hit);
+    t
+}
+
+/// The closest hits in lanes that are fixed when the program is built.
+fn in_lanes<L: Lanes<Token = ()>>(fnv: &mut Fnv, tier: Tier, spheres: &Spheres<'_>, rays: &[Ray]) {
+    for rays in rays.chunks(L::COUNT) {
+        let (packets, mut hits) = ([RayPacket::<L::Array>::new(rays)], [HitPacket::none()]);
+        spheres.closest_hit_lanes::<L>(tier, (), &mut Trace::new(), &packets, &mut hits);
+        hits[0].hits().take(rays.len()).for_each(|hit| fnv.hit(hit));
+    }
+}

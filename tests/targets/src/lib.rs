@@ -1,0 +1,11 @@
+//! Programs that run on every target, most of them without an operating system: what they share.
+
+#![cfg_attr(target_os = "none", no_std)]
+
+pub mod cases;
+pub mod digest;
+pub mod numbers;
+#[cfg(all(target_arch = "arm", target_os = "none"))]
+pub mod painted_stack;
+pub mod platform;
+pub mod scene;
