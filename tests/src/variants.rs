@@ -171,6 +171,9 @@ pub struct Answers {
 
 impl Variant {
     /// What these rays hit.
+    ///
+    /// # Panics
+    /// Never: the memory is enough.
     #[must_use]
     pub fn ask(&self, structures: Structures<'_>, rays: &[Ray]) -> Answers {
         let Structures { list, depth_list, tree } = structures;
