@@ -8,8 +8,7 @@ use crate::bvh::build::join::InTurn;
 use crate::bvh::leaf::{BEFORE, BEHIND, STEP, extent_of};
 use crate::bvh::node::{BvhNode, DEPTH, LEAF, NO_CHILD, WIDTH};
 use crate::bvh::tree::Bvh;
-use crate::geometry::sphere::Sphere;
-use crate::geometry::sphere_list::SphereList;
+use crate::geometry::sphere::{Sphere, Spheres};
 use crate::testing::climb::Random;
 use glam::Vec3;
 use std::vec;
@@ -36,13 +35,16 @@ fn clusters(random: &mut Random, count: usize) -> Vec<Sphere> {
 /// Builds a tree with so many nodes and places more than a tree in equal parts needs; asserts that its boxes hold
 /// what is in them, and returns the indices that are in the tree, sorted, and how many nodes there are.
 fn built(spheres: &[Sphere], nodes: usize, places: usize) -> (Vec<u32>, usize) {
-    let list = SphereList::from(spheres);
+    let column = |of: fn(&Sphere) -> f32| spheres.iter().map(of).collect::<Vec<f32>>();
+    let [x, y, z] = [column(|s| s.center.x), column(|s| s.center.y), column(|s| s.center.z)];
+    let radius = column(|s| s.radius);
+    let list = Spheres::new(&x, &y, &z, &radius).expect("equal lengths");
     let count = spheres.len();
     let places = count.next_multiple_of(STEP) + BEFORE + BEHIND + STEP + places;
     let mut nodes = vec![BvhNode::EMPTY; nodes_needed(count) + nodes];
     let (mut places, mut indices) = (vec![[f32::NAN; 4]; places], vec![7; places]);
-    let built = build(&InTurn, &list.spheres(), &mut nodes, &mut places, &mut indices);
-    let tree = Bvh::of(built, list.spheres(), &nodes, &places, &indices);
+    let built = build(&InTurn, &list, &mut nodes, &mut places, &mut indices);
+    let tree = Bvh::of(built, list, &nodes, &places, &indices);
     assert!(tree.depth() <= DEPTH);
 
     let mut found = Vec::new();
