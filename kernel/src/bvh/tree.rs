@@ -84,7 +84,7 @@ impl SphereSource for Bvh<'_> {
 
 impl<'a> Bvh<'a> {
     /// The memory that any list of `count` spheres needs: 40 bytes a sphere at most, and 700 bytes. What a tree takes
-    /// of it, [`size`](Bvh::size) says: 24 to 36.
+    /// of it, [`size`](Bvh::size) says: 24 to 28.
     ///
     /// More than 2^27 spheres are too many: no memory is enough then.
     ///
