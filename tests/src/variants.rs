@@ -26,8 +26,8 @@ pub enum Structure {
     DepthList(usize),
     /// A tree, and what is said of its rays.
     Tree(Coherence),
-    /// A tree whose rays go as a stream, with memory for so many at a time.
-    Stream(usize),
+    /// A tree whose rays go as a stream, with memory for so many at a time, and to sort so many.
+    Stream(usize, usize),
 }
 
 /// How rays come to the door, and in which lanes they go on.
@@ -99,8 +99,9 @@ pub fn variants() -> impl Iterator<Item = Variant> {
         .chain(of(Structure::Tree(Coherence::Detect), plain.to_vec()))
         .chain(of(Structure::Tree(Coherence::Coherent), all(&[1, 8])))
         .chain(of(Structure::Tree(Coherence::Incoherent), all(&[1, 8])))
-        .chain(of(Structure::Stream(1024), all(&[1, 8])))
-        .chain(of(Structure::Stream(16), vec![Storey::Packets(Level::best().name())]))
+        .chain(of(Structure::Stream(1024, 0), all(&[1, 8])))
+        .chain(of(Structure::Stream(16, 0), vec![Storey::Packets(Level::best().name())]))
+        .chain(of(Structure::Stream(32, 100), all(&[8])))
 }
 
 /// The variants of lists that have loops of their own: rays and slices of them go through packets.
@@ -187,12 +188,14 @@ impl Variant {
             Structure::Tree(coherence) => {
                 self.ask_of(tree, Trace { coherence, ..Trace::new() }, rays)
             }
-            Structure::Stream(count) => {
+            Structure::Stream(count, sorted) => {
                 // The least that queues need for few, and for more what they like to have.
                 let needed = StreamMemory::queues_needed(count);
                 let queues = if count < 100 { needed } else { needed + 32 * count };
-                let mut memory = (vec![StreamRay::EMPTY; count], vec![QueuedRay::EMPTY; queues]);
-                let memory = StreamMemory::new(&mut memory.0, &mut memory.1).expect("enough");
+                let (mut queues, mut order) = (vec![QueuedRay::EMPTY; queues], vec![0; 2 * sorted]);
+                let mut memory = vec![StreamRay::EMPTY; count];
+                let memory = StreamMemory::new(&mut memory, &mut queues).expect("enough");
+                let memory = memory.sorting(&mut order).everywhere();
                 self.ask_of(tree, Trace::new().incoherent().with_stream(memory), rays)
             }
         }

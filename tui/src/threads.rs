@@ -27,6 +27,18 @@ pub fn packets_a_task(packets: usize) -> usize {
     (packets / TASKS).next_multiple_of(PACKETS.0).clamp(PACKETS.0, PACKETS.1)
 }
 
+/// The same of rays that have nothing in common, and go through a tree of so many spheres: as many as share their way
+/// in a stream, or gain by sorting, but no more than a sixteenth of them.
+#[must_use]
+pub fn packets_a_stream(packets: usize, spheres: usize) -> usize {
+    /// So many the kernel takes down together.
+    const TOGETHER: usize = 512;
+    /// For so many spheres a packet it sorts.
+    const SPHERES: usize = 128;
+    let wanted = TOGETHER.max(spheres / SPHERES).min(packets / 16);
+    packets_a_task(packets).max(wanted.next_multiple_of(PACKETS.0))
+}
+
 /// A number of threads. One is the caller's own: then there is no pool.
 #[derive(Debug, Default)]
 pub struct Threads {
@@ -101,6 +113,19 @@ mod tests {
 
     fn threads(count: u16) -> Threads {
         Threads::new(Some(count)).expect("threads")
+    }
+
+    #[test]
+    fn a_stream_has_what_it_shares() {
+        let lengths = [
+            (100, 64),
+            (4096, 10_000),
+            (16_384, 10_000),
+            (16_384, 1_000_000),
+            (131_072, 1_000_000),
+        ];
+        let expected = [16, 256, 512, 1024, 7824];
+        assert_eq!(lengths.map(|(packets, spheres)| packets_a_stream(packets, spheres)), expected);
     }
 
     #[test]

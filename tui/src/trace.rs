@@ -13,7 +13,7 @@ use crate::npy;
 use crate::structure::Structure;
 use crate::structure::scene::SceneStructures;
 use crate::structure::search::Tracing;
-use crate::threads::{Threads, packets_a_task};
+use crate::threads::{Threads, packets_a_stream, packets_a_task};
 use batches::{batches, runs, workload};
 use passes::{Passes, Query};
 use report::Report;
@@ -47,8 +47,14 @@ pub fn trace(arguments: &TraceArguments) -> Result<(), Error> {
     let level = level.unwrap_or_else(Level::best);
     let runs = runs(&rays);
     let mut structures = SceneStructures::new(&list, &threads);
-    let structure = structures.structure(structure, &workload(&runs, arguments.repeat));
-    let batches = batches(&runs, structure, packets_a_task(rays.len().div_ceil(RayPacket::COUNT)));
+    let workload = workload(&runs, arguments.repeat);
+    let structure = structures.structure(structure, &workload);
+    let packets = rays.len().div_ceil(RayPacket::COUNT);
+    let longest = match structure {
+        Structure::Bvh if !workload.coherent => packets_a_stream(packets, list.len()),
+        _ => packets_a_task(packets),
+    };
+    let batches = batches(&runs, structure, longest);
     // The kernel finds out as the runs do, and takes no time for it that can be measured.
     let tracing = Tracing { tier: arguments.accuracy, level, coherence: Coherence::Detect };
     let repeat = arguments.repeat;

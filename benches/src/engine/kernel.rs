@@ -12,8 +12,7 @@ use std::rc::Rc;
 
 /// Tests of brute force that a sample may cost.
 const TESTS: usize = 1 << 25;
-/// Rays that a stream has memory for. In u10k 4,096 make closest hits 3 to 5 % slower and 2,048 a sixth; 16,384 are as
-/// fast, 32,768 slower at all levels but AVX-512.
+/// Rays that a stream has memory for: as many as go down together.
 pub(crate) const STREAM: usize = 8192;
 /// Places in queues for each: no queue is cut short.
 const QUEUES: usize = 64;
@@ -26,6 +25,8 @@ pub(crate) enum Way {
     RayByRay,
     /// Queues of rays, so many at a time as there is memory for.
     Stream,
+    /// All rays, sorted by where they start.
+    SortedStream,
     Packets,
     /// Made anew for every pass over the rays.
     DepthList,
@@ -37,6 +38,7 @@ impl Way {
             Self::BruteForce => "brute force",
             Self::RayByRay => "tree, ray by ray",
             Self::Stream => "tree, streams",
+            Self::SortedStream => "tree, sorted streams",
             Self::Packets => "tree, packets",
             Self::DepthList => "depth list",
         }
@@ -46,6 +48,8 @@ impl Way {
     const fn block(self) -> usize {
         match self {
             Self::Stream => STREAM,
+            // To sort few gains nothing. They are read from memory, with the clock running.
+            Self::SortedStream => usize::MAX,
             _ => BLOCK,
         }
     }
@@ -97,8 +101,12 @@ impl<'a> Kernel<'a> {
     /// Every way: in `tiers` at the first level, in `Stable` at the others.
     pub(crate) fn ways(&self, kind: Kind, levels: &[Level], tiers: &[Tier]) -> Vec<Engine> {
         // Diffuse rays have no viewpoint.
-        let ways = [Way::BruteForce, Way::RayByRay, Way::Stream, Way::Packets, Way::DepthList];
-        let ways = &ways[..if kind == Kind::Primary { 5 } else { 4 }];
+        use Way::{BruteForce, DepthList, Packets, RayByRay, SortedStream, Stream};
+        // Diffuse rays have no viewpoint; a camera's gain nothing as a stream.
+        let ways: &[Way] = match kind {
+            Kind::Primary => &[BruteForce, RayByRay, Packets, DepthList],
+            Kind::Diffuse => &[BruteForce, RayByRay, Packets, Stream, SortedStream],
+        };
         let mut all = Vec::new();
         for (index, &level) in levels.iter().enumerate() {
             for &way in ways {
@@ -133,7 +141,7 @@ impl<'a> Kernel<'a> {
         };
         let most_rays = match (way, kind) {
             _ if is_brute_force => TESTS / self.scene.spheres.len().max(1),
-            (Way::RayByRay | Way::Stream, Kind::Primary) => SOME_RAYS,
+            (Way::RayByRay, Kind::Primary) => SOME_RAYS,
             // Rays that have nothing in common gain nothing as packets.
             (Way::Packets, Kind::Diffuse) => 0,
             _ => usize::MAX,
@@ -166,18 +174,22 @@ impl<'a> Kernel<'a> {
         Box::new(move |rays| {
             let (tree, viewpoint) = (Rc::clone(&tree), viewpoint(&rays.list));
             let (mut depth_list, mut scratch) = (Vec::new(), Vec::new());
-            let (mut stream, mut queues) = (Vec::new(), Vec::new());
+            let (mut stream, mut queues, mut order) = (Vec::new(), Vec::new(), Vec::new());
+            let rays_in_all = rays.list.len();
             let search = move |query, blocks: &mut Blocks<'_>| {
                 let (spheres, trace) = (tree.list().spheres(), Trace::new().at(level));
                 let asked = (query, tier);
                 match way {
                     Way::RayByRay => answer(&*tree, trace.incoherent(), asked, blocks),
                     Way::Packets => answer(&*tree, trace.coherent(), asked, blocks),
-                    Way::Stream => {
+                    Way::Stream | Way::SortedStream => {
                         stream.resize(STREAM, StreamRay::EMPTY);
                         queues.resize(STREAM * QUEUES, QueuedRay::EMPTY);
+                        let sorted = if way == Way::SortedStream { rays_in_all } else { 0 };
+                        order.resize(2 * sorted, 0);
                         let memory = StreamMemory::new(&mut stream, &mut queues);
                         let memory = memory.expect("enough memory");
+                        let memory = memory.sorting(&mut order).everywhere();
                         answer(&*tree, trace.incoherent().with_stream(memory), asked, blocks);
                     }
                     Way::DepthList => {

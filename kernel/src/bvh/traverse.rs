@@ -1,6 +1,7 @@
 //! One ray's way through the tree: `wavefront` -> `in_flight` -> `prepared_ray` -> `ray_state` ->
 //! `root_interval` -> `deferred`, whence the tier.
 
+mod boxes;
 mod deferred;
 mod few;
 mod in_flight;

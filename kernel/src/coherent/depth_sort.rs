@@ -1,6 +1,6 @@
 //! Sorting spheres by depth.
 //!
-//! Indices are sorted by a radix sort of eight bits a round, from one column of the memory to another, with
+//! Indices are sorted by a radix sort, from one column of the memory to another, with
 //! the keys where the depths will be, in the order of the spheres; then the columns are filled. All
 //! columns hold `f32`, of keys and indices the bits.
 
@@ -8,6 +8,7 @@ use super::listed::{column_length, columns};
 use super::view::View;
 use crate::geometry::sphere::{Sphere, Spheres};
 use crate::numeric::axes::axes;
+use crate::numeric::radix_sort::radix_sort;
 use crate::scale::scene::SceneScale;
 
 /// The key of a sphere that nothing hits, above all others.
@@ -44,7 +45,10 @@ pub(super) fn sort(
     }
     let keys = keys.get(..count).unwrap_or_default();
     if let (Some(spare), Some(indices)) = (spare.get_mut(..count), indices.get_mut(..count)) {
-        sort_by_key(keys, indices, spare);
+        // After four rounds all are where they came from.
+        radix_sort(indices, spare, 4, |index: &f32| {
+            keys.get(index.to_bits() as usize).map_or(0, |key| key.to_bits())
+        });
     }
     let listed = keys.iter().filter(|key| key.to_bits() < OUTSIDE).count();
     let outside = keys.iter().filter(|key| key.to_bits() == OUTSIDE).count();
@@ -78,33 +82,4 @@ fn key_of(scale: SceneScale, view: &View, sphere: &Sphere) -> u32 {
     let (_, depth) = view.see(&scaled);
     let bits = depth.to_bits();
     if bits >> 31 == 1 { !bits } else { bits | 1 << 31 }
-}
-
-/// Sorts `indices` by the keys that they are the places of; equal ones stay in their order.
-fn sort_by_key(keys: &[f32], indices: &mut [f32], spare: &mut [f32]) {
-    let (mut from, mut to) = (indices, spare);
-    for round in 0..4 {
-        let digit = |index: f32| {
-            let key = keys.get(index.to_bits() as usize).map_or(0, |key| key.to_bits());
-            (key >> (8 * round)) as usize & 0xff
-        };
-        let mut places = [0_u32; 256];
-        for &index in from.iter() {
-            let count = &mut places[digit(index)];
-            *count = count.wrapping_add(1);
-        }
-        let mut before = 0_u32;
-        for place in &mut places {
-            (*place, before) = (before, before.wrapping_add(*place));
-        }
-        for &index in from.iter() {
-            let place = &mut places[digit(index)];
-            if let Some(element) = to.get_mut(*place as usize) {
-                *element = index;
-            }
-            *place = place.wrapping_add(1);
-        }
-        (from, to) = (to, from);
-    }
-    // After four rounds all are where they came from.
 }

@@ -1,6 +1,7 @@
 //! A scene structure that is chosen at run time.
 
 use super::object_order::{ObjectOrder, Raster};
+use super::stream::StreamScratch;
 use spherule_kernel::{
     Bvh, Coherence, DepthList, HitPacket, Intersect, Level, RayPacket, Spheres, Tier, Trace,
 };
@@ -29,24 +30,34 @@ pub struct Tracing {
     pub coherence: Coherence,
 }
 
-/// The memory that one thread lends to depth lists, and to object order.
+/// The memory that one thread lends to depth lists, to streams, and to object order.
 #[derive(Clone, Debug, Default)]
 pub struct Scratch {
     lists: Vec<f32>,
+    stream: StreamScratch,
     raster: Raster,
 }
 
 impl Scratch {
-    /// As long as `search` has a use for; shorter if there is no memory, which takes longer.
-    fn of(&mut self, search: &Search<'_>) -> (&mut [f32], &mut Raster) {
-        let Self { lists, raster } = self;
+    /// As long as `search` has a use for with so many packets; shorter if there is no memory, which takes longer.
+    fn of(
+        &mut self,
+        search: &Search<'_>,
+        Tracing { level, coherence, .. }: Tracing,
+        packets: usize,
+    ) -> (Trace<'_>, &mut Raster) {
+        let Self { lists, stream, raster } = self;
         if let Search::DepthList(list) = search {
             let missing = DepthList::scratch(list.spheres().len()).saturating_sub(lists.len());
             if lists.try_reserve_exact(missing).is_ok() {
                 lists.resize(lists.len() + missing, 0.0);
             }
         }
-        (lists, raster)
+        let stream = match search {
+            Search::Bvh(_) if coherence != Coherence::Coherent => stream.of(packets),
+            _ => None,
+        };
+        (Trace { level, coherence, scratch: lists, stream }, raster)
     }
 }
 
@@ -59,9 +70,9 @@ impl Search<'_> {
         rays: &[RayPacket],
         hits: &mut [HitPacket],
     ) {
-        let Tracing { tier, level, coherence } = tracing;
-        let (lists, raster) = scratch.of(self);
-        let trace = &mut Trace { level, coherence, scratch: lists, ..Trace::new() };
+        let tier = tracing.tier;
+        let (mut trace, raster) = scratch.of(self, tracing, rays.len());
+        let trace = &mut trace;
         match self {
             Self::Brute(spheres) => spheres.closest_hit_packets(tier, trace, rays, hits),
             Self::DepthList(list) => list.closest_hit_packets(tier, trace, rays, hits),
@@ -76,12 +87,13 @@ impl Search<'_> {
     /// spheres are searched.
     pub fn any_hits(
         &self,
-        Tracing { tier, level, coherence }: Tracing,
+        tracing: Tracing,
         scratch: &mut Scratch,
         rays: &[RayPacket],
         met: &mut [u32],
     ) {
-        let trace = &mut Trace { level, coherence, scratch: scratch.of(self).0, ..Trace::new() };
+        let tier = tracing.tier;
+        let trace = &mut scratch.of(self, tracing, rays.len()).0;
         match self {
             Self::Brute(spheres) => spheres.any_hit_packets(tier, trace, rays, met),
             Self::DepthList(list) => list.any_hit_packets(tier, trace, rays, met),

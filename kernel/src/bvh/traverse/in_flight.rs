@@ -95,14 +95,24 @@ pub(crate) fn begin<T: Accuracy, L: Lanes, Q: Query>(
     prepared: &mut PreparedPacket<L::Array>,
 ) {
     let (tier, token, bvh) = (tests.tier, tests.token, tests.bvh);
-    let (Some(packet), Some(answer)) = (tests.packets.get(place), tests.answers.get_mut(place))
-    else {
-        return;
-    };
-    // What is outside has been met.
-    if bvh.outside.is_empty() {
-        *answer = Q::none::<L::Array>();
+    if let (Some(packet), Some(answer)) = (tests.packets.get(place), tests.answers.get_mut(place)) {
+        // What is outside has been met.
+        if bvh.outside.is_empty() {
+            *answer = Q::none::<L::Array>();
+        }
+        begin_packet::<L, Q>(tier, token, bvh, (packet, answer), prepared);
     }
+}
+
+/// Prepares the rays of a packet of which the answers so far are given; answers for those that do not go into the tree.
+#[inline(always)]
+pub(crate) fn begin_packet<L: Lanes, Q: Query>(
+    tier: impl Accuracy,
+    token: L::Token,
+    bvh: &Bvh<'_>,
+    (packet, answer): (&RayPacket<L::Array>, &mut Q::Packet<L::Array>),
+    prepared: &mut PreparedPacket<L::Array>,
+) {
     let rays = RayLanes::<L>::load(token, packet);
     prepared.prepare::<L>(&rays, bvh.scale.factor, bvh.extent, tier.spread());
     let rest = rays.live.bits() & !prepared.covered;

@@ -3,6 +3,7 @@
 //! Spheres that are not in the order of their s cost time, no memory: a full list of candidates
 //! is tested.
 
+use super::boxes::{BoxProbe, Boxes};
 use super::deferred::{DeferredTests, RayPlace};
 use super::prepared_ray::PreparedPacket;
 use super::root_interval::RayProbe;
@@ -122,26 +123,18 @@ impl RayState {
         let best = self.end_of_boxes(prepared);
         let start = prepared.start[0].get(lane) - prepared.spread.get(lane);
         let down = axes!(i => self.octant >> i & 1 == 1);
-        let nearer = axes!(i => if down[i] { &node.high[i] } else { &node.low[i] });
-        let farther = axes!(i => if down[i] { &node.low[i] } else { &node.high[i] });
-        let inverse = axes!(i => L::splat(token, prepared.inverse[i].get(lane)));
-        let minus_inverse = axes!(i => L::splat(token, prepared.minus_inverse[i].get(lane)));
-        let minus_near = axes!(i => L::splat(token, prepared.minus_near[i].get(lane)));
-        let far = axes!(i => L::splat(token, prepared.far[i].get(lane)));
-        let (start, minus_best) = (L::splat(token, start), L::splat(token, -best));
+        let probe = BoxProbe {
+            inverse: axes!(i => L::splat(token, prepared.inverse[i].get(lane))),
+            minus_inverse: axes!(i => L::splat(token, prepared.minus_inverse[i].get(lane))),
+            minus_near: axes!(i => L::splat(token, prepared.minus_near[i].get(lane))),
+            far: axes!(i => L::splat(token, prepared.far[i].get(lane))),
+            start: L::splat(token, start),
+            minus_end: L::splat(token, -best),
+        };
         let (mut met, mut entries) = (0, [0.0; WIDTH]);
         for part in 0..WIDTH / L::COUNT {
-            let entry = axes!(i => {
-                L::load_part(token, nearer[i], part).filter_mul_add(inverse[i], minus_near[i])
-            });
-            let minus_leave = axes!(i => {
-                L::load_part(token, farther[i], part).filter_mul_add(minus_inverse[i], far[i])
-            });
-            let entry = entry[0].filter_max(entry[1]).filter_max(entry[2].filter_max(start));
-            let minus_leave = minus_leave[0]
-                .filter_max(minus_leave[1])
-                .filter_max(minus_leave[2].filter_max(minus_best));
-            met |= entry.le(-minus_leave).bits() << (part * L::COUNT);
+            let (these, entry) = probe.enter(&Boxes::load(token, node, down, part));
+            met |= these.bits() << (part * L::COUNT);
             entry.store().put_part(&mut entries, part);
         }
         let order = if Q::ANY { None } else { Some(node.order[self.octant as usize % 8]) };

@@ -10,6 +10,10 @@ use crate::memory::TooSmall;
 pub struct StreamMemory<'m> {
     pub(super) rays: &'m mut [StreamRay],
     pub(super) queues: &'m mut [QueuedRay],
+    /// Two halves; empty where rays go as they come.
+    pub(super) order: &'m mut [u64],
+    /// Whether rays go as a stream even where ray by ray is faster.
+    pub(super) everywhere: bool,
 }
 
 impl<'m> StreamMemory<'m> {
@@ -29,11 +33,30 @@ impl<'m> StreamMemory<'m> {
     pub fn new(rays: &'m mut [StreamRay], queues: &'m mut [QueuedRay]) -> Result<Self, TooSmall> {
         TooSmall::check(WIDTH, rays.len())?;
         TooSmall::check(Self::queues_needed(rays.len()), queues.len())?;
-        Ok(Self { rays, queues })
+        Ok(Self { rays, queues, order: &mut [], everywhere: false })
+    }
+
+    /// Sorts rays by where they start, half as many at a time as `order` has places, where that is faster: in trees of
+    /// megabytes, if rays are at least an eighth as many as spheres.
+    #[must_use]
+    pub fn sorting(self, order: &'m mut [u64]) -> Self {
+        Self { order, ..self }
+    }
+
+    /// As a stream even where ray by ray is faster, and sorted if there are more than go down together: for measurements
+    /// and tests.
+    #[must_use]
+    pub fn everywhere(self) -> Self {
+        Self { everywhere: true, ..self }
     }
 
     /// The same memory, for a while.
     pub(crate) fn again(&mut self) -> StreamMemory<'_> {
-        StreamMemory { rays: self.rays, queues: self.queues }
+        StreamMemory {
+            rays: self.rays,
+            queues: self.queues,
+            order: self.order,
+            everywhere: self.everywhere,
+        }
     }
 }

@@ -3,9 +3,11 @@
 use crate::accuracy::Accuracy;
 use crate::bvh::leaf::Leaf;
 use crate::bvh::node::{WIDTH, octant_of};
+use crate::bvh::traverse::boxes::BoxProbe;
+use crate::bvh::traverse::deferred::RayPlace;
 use crate::bvh::traverse::prepared_ray::PreparedPacket;
 use crate::bvh::traverse::root_interval::RayProbe;
-use crate::lanes::{LaneArray, LaneMask, Lanes};
+use crate::lanes::{LaneArray, Lanes};
 use crate::numeric::axes::axes;
 
 /// Memory for a ray of a stream. 128 bytes: a line that nodes read, and one that leaves read besides.
@@ -37,6 +39,8 @@ pub struct StreamRay {
     pub(super) best: f32,
     /// The octant of its direction; [`NO_OCTANT`](Self::NO_OCTANT) if it is not in the stream.
     pub(super) octant: u32,
+    /// Which of all rays, or of those that are sorted together.
+    number: u32,
 }
 
 impl StreamRay {
@@ -59,6 +63,7 @@ impl StreamRay {
         spread: 0.0,
         best: 0.0,
         octant: Self::NO_OCTANT,
+        number: 0,
     };
 
     /// Of a lane that is in no stream.
@@ -71,6 +76,7 @@ impl StreamRay {
         tier: impl Accuracy,
         prepared: &PreparedPacket<A>,
         lane: usize,
+        number: u32,
     ) {
         let spread = prepared.spread.get(lane);
         let (start, best) = (prepared.start[0].get(lane), prepared.end[1].get(lane));
@@ -89,39 +95,28 @@ impl StreamRay {
         self.raise = prepared.time(lane).raise(tier);
         self.spread = spread;
         self.best = best;
+        self.number = number;
         self.octant = octant_of(axes!(i => prepared.down[i] >> (lane % 32) & 1 == 1));
     }
 
-    /// Which of sixteen boxes the ray enters, a bit each, and the s at which it does.
+    /// Where its answer goes, if the first of the rays that are numbered is of packet `first`.
     #[inline(always)]
-    pub(super) fn enter<L: Lanes>(
-        &self,
-        token: L::Token,
-        nearer: [&[f32; WIDTH]; 3],
-        farther: [&[f32; WIDTH]; 3],
-    ) -> (u32, [f32; WIDTH]) {
-        let inverse = axes!(i => L::splat(token, self.inverse[i]));
-        let minus_inverse = axes!(i => L::splat(token, self.minus_inverse[i]));
-        let minus_near = axes!(i => L::splat(token, self.minus_near[i]));
-        let far = axes!(i => L::splat(token, self.far[i]));
-        let start = L::splat(token, self.start_of_boxes);
-        let minus_end = L::splat(token, -self.end_of_boxes);
-        let (mut met, mut entries) = (0, [0.0; WIDTH]);
-        for part in 0..WIDTH / L::COUNT {
-            let entry = axes!(i => {
-                L::load_part(token, nearer[i], part).filter_mul_add(inverse[i], minus_near[i])
-            });
-            let minus_leave = axes!(i => {
-                L::load_part(token, farther[i], part).filter_mul_add(minus_inverse[i], far[i])
-            });
-            let entry = entry[0].filter_max(entry[1]).filter_max(entry[2].filter_max(start));
-            let minus_leave = minus_leave[0]
-                .filter_max(minus_leave[1])
-                .filter_max(minus_leave[2].filter_max(minus_end));
-            met |= entry.le(-minus_leave).bits() << (part * L::COUNT);
-            entry.store().put_part(&mut entries, part);
+    pub(super) fn whose<A: LaneArray>(&self, first: usize) -> RayPlace {
+        let number = self.number as usize;
+        RayPlace { packet: first + number / A::COUNT, lane: number % A::COUNT }
+    }
+
+    /// The ray in all lanes, as boxes see it.
+    #[inline(always)]
+    pub(super) fn box_probe<L: Lanes>(&self, token: L::Token) -> BoxProbe<L> {
+        BoxProbe {
+            inverse: axes!(i => L::splat(token, self.inverse[i])),
+            minus_inverse: axes!(i => L::splat(token, self.minus_inverse[i])),
+            minus_near: axes!(i => L::splat(token, self.minus_near[i])),
+            far: axes!(i => L::splat(token, self.far[i])),
+            start: L::splat(token, self.start_of_boxes),
+            minus_end: L::splat(token, -self.end_of_boxes),
         }
-        (met, entries)
     }
 
     /// The ray in all lanes, as leaves see it.

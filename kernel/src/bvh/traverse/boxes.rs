@@ -1,0 +1,54 @@
+//! Boxes of a node against one ray: which it enters, and where.
+//!
+//! The slabs of [`prepared_ray`](super::prepared_ray), a box a lane.
+
+use crate::bvh::node::BvhNode;
+use crate::lanes::Lanes;
+use crate::numeric::axes::axes;
+
+/// Some of a node's boxes, a box a lane, as the rays of an octant see them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Boxes<L> {
+    nearer: [L; 3],
+    farther: [L; 3],
+}
+
+impl<L: Lanes> Boxes<L> {
+    /// Part `part` of a node's, for rays that run down along the axes `down`.
+    #[inline(always)]
+    pub(super) fn load(token: L::Token, node: &BvhNode, down: [bool; 3], part: usize) -> Self {
+        let nearer = axes!(i => if down[i] { &node.high[i] } else { &node.low[i] });
+        let farther = axes!(i => if down[i] { &node.low[i] } else { &node.high[i] });
+        Self {
+            nearer: axes!(i => L::load_part(token, nearer[i], part)),
+            farther: axes!(i => L::load_part(token, farther[i], part)),
+        }
+    }
+}
+
+/// One ray in all lanes, as boxes see it: as in [`PreparedPacket`](super::prepared_ray::PreparedPacket).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct BoxProbe<L> {
+    pub(super) inverse: [L; 3],
+    pub(super) minus_inverse: [L; 3],
+    pub(super) minus_near: [L; 3],
+    pub(super) far: [L; 3],
+    /// From where, and to where, boxes matter; the end with its sign changed.
+    pub(super) start: L,
+    pub(super) minus_end: L,
+}
+
+impl<L: Lanes> BoxProbe<L> {
+    /// Which boxes the ray enters, and the s at which it does.
+    #[inline(always)]
+    pub(super) fn enter(&self, boxes: &Boxes<L>) -> (L::Mask, L) {
+        let Self { inverse, minus_inverse, minus_near, far, start, minus_end } = *self;
+        let entry = axes!(i => boxes.nearer[i].filter_mul_add(inverse[i], minus_near[i]));
+        let minus_leave = axes!(i => boxes.farther[i].filter_mul_add(minus_inverse[i], far[i]));
+        let entry = entry[0].filter_max(entry[1]).filter_max(entry[2].filter_max(start));
+        let minus_leave = minus_leave[0]
+            .filter_max(minus_leave[1])
+            .filter_max(minus_leave[2].filter_max(minus_end));
+        (entry.le(-minus_leave), entry)
+    }
+}
