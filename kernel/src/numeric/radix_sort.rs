@@ -54,7 +54,8 @@ mod tests {
         let mut random = Random(52);
         for rounds in 1..=4 {
             for count in [0, 1, 2, 255, 1000] {
-                let mut element = |number| (random.below(1 << 20) as u32 * 4097, number);
+                let mut element =
+                    |number| ((random.below(1 << 20) as u32).wrapping_mul(4097), number);
                 let mut elements: Vec<_> = (0..count).map(&mut element).collect();
                 let mut expected = elements.clone();
                 expected.sort_by_key(|(key, _)| key & u32::MAX >> (32 - 8 * rounds));

@@ -49,7 +49,7 @@ impl Way {
             return if is_sorted { Self::Sorted } else { Self::AsTheyCome };
         }
         let bytes = size_of_val(bvh.nodes) + size_of_val(bvh.numbers);
-        let (spheres, together) = (bvh.indices.len(), together.min(rays));
+        let (spheres, together) = (bvh.spheres.len(), together.min(rays));
         let (most_bytes, sorted_from, shared_by) =
             if Q::ANY { (1 << 18, 1 << 23, 1) } else { (1 << 21, 1 << 21, 2) };
         let is_shared = together == TOGETHER || spheres / shared_by <= together;
