@@ -78,12 +78,8 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
             let together = rays.len().min(TOGETHER) / L::COUNT;
             let mut stream =
                 Stream { tests, rays, queues, together, first: 0, frames: [Frame::EMPTY; FRAMES] };
-            if way == Way::Sorted {
-                let (order, others) = order.split_at_mut(order.len() / 2);
-                stream.sorted(count, others, order);
-            } else {
-                stream.as_they_come(count);
-            }
+            let half = if way == Way::Sorted { order.len() / 2 } else { 0 };
+            stream.all(count, order.split_at_mut(half));
             stream.tests.test();
         },
     );
@@ -107,43 +103,42 @@ struct Stream<'a, 'm, T, L: Lanes, Q: Query> {
 }
 
 impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
-    /// Answers packet after packet.
+    /// Answers as many rays at a time as there are places in `order`, in the order of where they start; packet after
+    /// packet if there is none.
     #[inline(always)]
-    fn as_they_come(&mut self, count: usize) {
-        let mut prepared = PreparedPacket::none();
-        while self.first < count {
-            let packets = self.together.min(count - self.first);
-            for packet in 0..packets {
-                begin(&mut self.tests, self.first + packet, &mut prepared);
-                for lane in 0..L::COUNT {
-                    self.begin(&prepared, (packet, lane), (packet * L::COUNT + lane) as u32);
-                }
-            }
-            self.through(packets * L::COUNT);
-            self.first += packets;
-        }
-    }
-
-    /// Answers as many rays at a time as there are places in `order`, in the order of where they start.
-    #[inline(always)]
-    fn sorted(&mut self, count: usize, others: &mut [u64], order: &mut [u64]) {
+    fn all(&mut self, count: usize, (order, others): (&mut [u64], &mut [u64])) {
         // As many as a number of 32 bits can tell apart.
-        let at_once = (order.len().min(1 << 31) / L::COUNT).max(1);
+        let sorted = order.len().min(1 << 31) / L::COUNT;
+        // (Not zero, which the compiler does not see.)
+        let together = (self.together * L::COUNT).max(1);
         let mut prepared = PreparedPacket::none();
         while self.first < count {
-            let end = count.min(self.first + at_once);
+            let at_once = if sorted > 0 { sorted } else { self.together };
+            let end = count.min(self.first + at_once.max(1));
             let packets = self.tests.packets.get(self.first..end).unwrap_or_default();
-            if let Some(answers) = self.tests.answers.get_mut(self.first..end) {
-                answers.fill(Q::none::<L::Array>());
-            }
-            let rays = by_start(packets, self.tests.bvh.radius(), others, order);
-            // (Not zero, which the compiler does not see.)
-            let together = (self.together * L::COUNT).max(1);
-            for some in order.get(..rays).unwrap_or_default().chunks(together) {
-                for (place, numbers) in some.chunks(L::COUNT).enumerate() {
-                    self.begin_gathered((packets, numbers), place, &mut prepared);
+            let mut rays = packets.len() * L::COUNT;
+            if sorted > 0 {
+                if let Some(answers) = self.tests.answers.get_mut(self.first..end) {
+                    answers.fill(Q::none::<L::Array>());
                 }
-                self.through(some.len());
+                rays = by_start(packets, self.tests.bvh.radius(), others, order);
+            }
+            // They go down at one place: the rest of the way is compiled once.
+            for from in (0..rays).step_by(together) {
+                let to = rays.min(from + together);
+                for place in 0..(to - from).div_ceil(L::COUNT) {
+                    let from = from + place * L::COUNT;
+                    if sorted > 0 {
+                        let numbers = order.get(from..to.min(from + L::COUNT)).unwrap_or_default();
+                        self.begin_gathered((packets, numbers), place, &mut prepared);
+                    } else {
+                        begin(&mut self.tests, self.first + place, &mut prepared);
+                        for lane in 0..L::COUNT {
+                            self.begin(&prepared, (place, lane), (from + lane) as u32);
+                        }
+                    }
+                }
+                self.through(to - from);
             }
             self.first = end;
         }
