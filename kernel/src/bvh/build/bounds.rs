@@ -1,66 +1,64 @@
 //! The box of some spheres, and the box of their centres.
 
 use super::join::Join;
-use crate::numeric::rounding::{U, least, most};
+use crate::numeric::axes::axes;
+use crate::numeric::rounding::U;
+use wide::f32x4;
 
 /// More spheres than these are counted by halves, which two threads can do.
 const WORTH_A_THREAD: usize = 16_384;
 
-/// The box of some spheres, and the box of their centres.
+/// The corners of a box. The fourth lane fills a register; of a box of centres it is the radius.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Corners {
+    pub(super) low: f32x4,
+    pub(super) high: f32x4,
+}
+
+impl Corners {
+    /// A box that nothing is in.
+    pub(super) const EMPTY: Self =
+        Self { low: f32x4::new([f32::INFINITY; 4]), high: f32x4::new([f32::NEG_INFINITY; 4]) };
+
+    /// Of a sphere: centre and radius.
+    #[inline(always)]
+    pub(super) fn of(sphere: [f32; 4]) -> Self {
+        let (center, radius) = (f32x4::new(sphere), f32x4::splat(sphere[3]));
+        Self { low: center - radius, high: center + radius }
+    }
+
+    /// Holds another box, too.
+    #[inline(always)]
+    pub(super) fn hold(&mut self, other: Self) {
+        self.low = self.low.fast_min(other.low);
+        self.high = self.high.fast_max(other.high);
+    }
+}
+
+/// The box of some spheres, rounded outward, and the box of their centres and radii.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bounds {
     pub(super) low: [f32; 3],
     pub(super) high: [f32; 3],
-    pub(super) least: [f32; 3],
-    pub(super) most: [f32; 3],
-    /// The smallest and the largest radius.
-    pub(super) sizes: [f32; 2],
-}
-
-/// Half the surface of a box: what the chance to meet it is proportional to.
-#[inline(always)]
-pub(super) fn half_area(low: [f32; 3], high: [f32; 3]) -> f32 {
-    let [x, y, z] = [high[0] - low[0], high[1] - low[1], high[2] - low[2]];
-    x * y + y * z + z * x
+    pub(super) centers: Corners,
 }
 
 impl Bounds {
-    /// Of spheres, by halves where they are many; the box is rounded outward.
+    /// Of spheres, by halves where they are many.
     pub(super) fn of(join: &impl Join, spheres: &[[f32; 4]]) -> Self {
-        let Some([first, second]) = halves(spheres) else { return Self::here(spheres) };
-        let (mut both, second) = join.join(|| Self::of(join, first), || Self::of(join, second));
-        for axis in 0..3 {
-            both.low[axis] = least(both.low[axis], second.low[axis]);
-            both.high[axis] = most(both.high[axis], second.high[axis]);
-            both.least[axis] = least(both.least[axis], second.least[axis]);
-            both.most[axis] = most(both.most[axis], second.most[axis]);
-        }
-        both.sizes = [least(both.sizes[0], second.sizes[0]), most(both.sizes[1], second.sizes[1])];
-        both
+        let [spheres, centers] = corners_of(join, spheres);
+        Self::new(&spheres, &centers)
     }
 
-    fn here(spheres: &[[f32; 4]]) -> Self {
-        // The fourth number is there to fill a register.
-        let (mut low, mut high) = ([f32::INFINITY; 4], [f32::NEG_INFINITY; 4]);
-        let (mut left, mut right) = (low, high);
-        for sphere in spheres {
-            let radius = sphere[3];
-            for axis in 0..4 {
-                low[axis] = least(low[axis], sphere[axis] - radius);
-                high[axis] = most(high[axis], sphere[axis] + radius);
-                left[axis] = least(left[axis], sphere[axis]);
-                right[axis] = most(right[axis], sphere[axis]);
-            }
-        }
-        let [[x, y, z, _], [far_x, far_y, far_z, _]] = [low, high];
-        let [[a, b, c, small], [d, e, f, large]] = [left, right];
+    /// Of the box of spheres, as it was computed, and that of their centres.
+    pub(super) fn new(spheres: &Corners, centers: &Corners) -> Self {
+        let [x, y, z, _] = spheres.low.to_array();
+        let [far_x, far_y, far_z, _] = spheres.high.to_array();
         Self {
             // Rounding to nearest is monotonic: one step covers all.
             low: [x.next_down(), y.next_down(), z.next_down()],
             high: [far_x.next_up(), far_y.next_up(), far_z.next_up()],
-            least: [a, b, c],
-            most: [d, e, f],
-            sizes: [small, large],
+            centers: *centers,
         }
     }
 
@@ -76,22 +74,44 @@ impl Bounds {
         [low, self.high.map(|coordinate| (coordinate + pad).next_up())]
     }
 
+    /// Half the surface of the box: what the chance to meet it is proportional to.
     pub(super) fn half_area(&self) -> f32 {
-        half_area(self.low, self.high)
+        let [x, y, z] = axes!(i => self.high[i] - self.low[i]);
+        x * y + y * z + z * x
     }
 
     /// The axis along which the centres lie farthest apart; 3, for the radius, where they do not.
     pub(super) fn longest_axis(&self) -> usize {
         let mut axis = 3;
         let mut longest = 0.0;
-        for i in 0..3 {
-            let length = self.most[i] - self.least[i];
+        let [x, y, z, _] = (self.centers.high - self.centers.low).to_array();
+        for (i, length) in [x, y, z].into_iter().enumerate() {
             if length > longest {
                 (axis, longest) = (i, length);
             }
         }
         axis
     }
+}
+
+/// The box of spheres, and that of their centres and radii.
+fn corners_of(join: &impl Join, spheres: &[[f32; 4]]) -> [Corners; 2] {
+    let mut both = [Corners::EMPTY; 2];
+    if let Some([first, second]) = halves(spheres) {
+        let (one, other) = join.join(|| corners_of(join, first), || corners_of(join, second));
+        for half in [one, other] {
+            for (held, corners) in both.iter_mut().zip(half) {
+                held.hold(corners);
+            }
+        }
+        return both;
+    }
+    for sphere in spheres {
+        let center = f32x4::new(*sphere);
+        both[0].hold(Corners::of(*sphere));
+        both[1].hold(Corners { low: center, high: center });
+    }
+    both
 }
 
 /// Two halves of what is worth a thread.

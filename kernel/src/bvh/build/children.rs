@@ -15,7 +15,7 @@
 //! heuristic chooses; from then on a part longer than q is cut behind q spheres, which takes one off
 //! each time. After fifteen cuts no child is longer than q; nor is one where cuts stop before.
 
-use super::bounds::Bounds;
+use super::bounds::{Bounds, Corners};
 use super::budget::Budget;
 use super::join::Join;
 use super::run::Run;
@@ -35,6 +35,8 @@ pub(super) struct Part {
     pub(super) bounds: Bounds,
     /// What a ray pays here, except a constant.
     cost: f32,
+    /// How many cuts it wants, so that none of its parts is too long.
+    wanted: usize,
     /// Whether its leaves become children of the node itself.
     opened: bool,
     /// A leaf that is best left as it is.
@@ -44,12 +46,18 @@ pub(super) struct Part {
 impl Part {
     /// Spheres `first..first + count` of all.
     pub(super) fn new(join: &impl Join, all: &[[f32; 4]], first: usize, count: usize) -> Self {
-        let bounds = Bounds::of(join, all.get(first..first + count).unwrap_or_default());
+        let spheres = all.get(first..first + count).unwrap_or_default();
+        Self::within(Bounds::of(join, spheres), first, count)
+    }
+
+    /// Spheres whose bounds are known.
+    fn within(bounds: Bounds, first: usize, count: usize) -> Self {
         Self {
             first,
             count,
             bounds,
             cost: bounds.half_area() * count as f32,
+            wanted: 0,
             opened: false,
             whole: false,
         }
@@ -57,8 +65,8 @@ impl Part {
 
     /// Whether all of its spheres are the same.
     pub(super) fn is_one_sphere(&self) -> bool {
-        let Bounds { least, most, sizes, .. } = &self.bounds;
-        least == most && sizes[0] == sizes[1]
+        let Corners { low, high } = self.bounds.centers;
+        low.to_array() == high.to_array()
     }
 
     pub(super) fn is_leaf(&self) -> bool {
@@ -96,46 +104,52 @@ fn by_heuristic(
     whole: Part,
     mut left: Budget,
 ) -> Option<Children> {
-    let mut parts = [whole; WIDTH];
     let longest = if leaves(whole.count) > WIDTH {
         whole.count.div_ceil(8).max(WIDTH * WIDTH)
     } else {
         WIDTH
     };
+    // At least one: nothing divides by zero.
+    let part = |opened, bounds, first, count: usize| {
+        let part = Part { opened, ..Part::within(bounds, first, count) };
+        let wanted = if part.is_leaf() { 0 } else { count.div_ceil(longest.max(1)) - 1 };
+        Part { wanted, ..part }
+    };
+    let mut parts = [part(false, whole.bounds, whole.first, whole.count); WIDTH];
     let mut number = 1;
     while number < WIDTH {
         let (made, rest) = parts.split_at_mut(number);
-        let Some(Next { part, behind, free }) = next_to_cut(made, longest) else { break };
-        let Some(part) = made.get_mut(part) else { break };
-        let Part { first, count, bounds, opened, .. } = *part;
+        let Some(Next { part: next, behind, free }) = next_to_cut(made, longest) else { break };
+        let Some(next) = made.get_mut(next) else { break };
+        let Part { first, count, bounds, opened, .. } = *next;
         let mut run = all.part(first, count);
         // What is opened must find room as leaves.
         let most = if opened { leaves(count) + free } else { usize::MAX };
         let best = if behind.is_some() { None } else { run.best_cut(join, &bounds, most) };
-        let at = match best {
+        let (at, [one, other]) = match best {
             Some(cut) => {
                 if count <= WIDTH && cut.cost > LEAST_GAIN * bounds.half_area() {
-                    part.whole = true;
+                    next.whole = true;
                     continue;
                 }
                 left = left.cut(count, cut.first)?;
-                run.cut(&bounds, &cut);
-                cut.first
+                (cut.first, run.cut(&bounds, &cut))
             }
             None if count <= WIDTH => {
-                part.whole = true;
+                next.whole = true;
                 continue;
             }
             None => {
                 let at = behind.unwrap_or((count / 2).next_multiple_of(WIDTH));
                 left = left.cut(count, at)?;
                 run.order_about(at, bounds.longest_axis());
-                at
+                let (one, other) = run.spheres.split_at_checked(at).unwrap_or_default();
+                (at, [one, other].map(|spheres| Bounds::of(join, spheres)))
             }
         };
-        *part = Part { opened, ..Part::new(join, all.spheres, first, at) };
+        *next = part(opened, one, first, at);
         if let Some(place) = rest.first_mut() {
-            *place = Part { opened, ..Part::new(join, all.spheres, first + at, count - at) };
+            *place = part(opened, other, first + at, count - at);
         }
         number += 1;
     }
@@ -187,11 +201,8 @@ struct Next {
 /// What is cut next of a node's parts, none of which is to be longer than `longest`; `None` if they are best left as
 /// they are.
 fn next_to_cut(parts: &mut [Part], longest: usize) -> Option<Next> {
-    // At least one: nothing divides by zero.
-    let longest = longest.max(1);
-    let wanted = |part: &Part| if part.is_leaf() { 0 } else { part.count.div_ceil(longest) - 1 };
-    if parts.iter().map(wanted).sum::<usize>() >= WIDTH - parts.len() {
-        let part = costliest(parts, |part| wanted(part) > 0)?;
+    if parts.iter().map(|part| part.wanted).sum::<usize>() >= WIDTH - parts.len() {
+        let part = costliest(parts, |part| part.wanted > 0)?;
         return Some(Next { part, behind: Some(longest), free: 0 });
     }
     // What is opened will take a slot a leaf.
@@ -219,7 +230,7 @@ fn next_to_cut(parts: &mut [Part], longest: usize) -> Option<Next> {
         }
         return next_to_cut(parts, longest);
     }
-    costliest(parts, |part| wanted(part) > 0)
+    costliest(parts, |part| part.wanted > 0)
         // Leaves, in what slots there are.
         .or_else(|| costliest(parts, |part| part.count <= WIDTH && part.count > 1 && !part.whole))
         .map(next)

@@ -30,8 +30,7 @@ pub(super) fn lay_down(
     let mut settle = |child: u32| {
         let begin = first + (child & ((1 << BEGIN_BITS) - 1)) as usize;
         let count = ((child & !LEAF) >> BEGIN_BITS) as usize + 1;
-        let mut leaf = Leaf::read(places, indices, begin, count);
-        leaf.sort();
+        let leaf = Leaf::read(places, indices, begin, count);
         let settled = leaf_at(end, leaf.count);
         leaf.write((places, shift), indices, end);
         end += leaf.count.next_multiple_of(STEP);
@@ -68,52 +67,98 @@ pub(super) fn lay_down(
     end
 }
 
-/// The spheres of a leaf.
+/// The spheres of a leaf, column by column.
 struct Leaf {
-    spheres: [([f32; 4], u32); WIDTH],
+    columns: [[f32; WIDTH]; 4],
+    indices: [u32; WIDTH],
     count: usize,
 }
 
 impl Leaf {
+    /// What stands where there is no sphere.
+    const EMPTY: Self = {
+        let zeros = [0.0; WIDTH];
+        Self {
+            columns: [zeros, zeros, zeros, [f32::NAN; WIDTH]],
+            indices: [u32::MAX; WIDTH],
+            count: 0,
+        }
+    };
+
+    /// In the order of their indices, each once.
     fn read(places: &[[f32; 4]], indices: &[u32], begin: usize, count: usize) -> Self {
-        let mut spheres = [([0.0, 0.0, 0.0, f32::NAN], u32::MAX); WIDTH];
-        let there = places.iter().zip(indices).skip(begin).take(count);
-        for (to, (sphere, index)) in spheres.iter_mut().zip(there) {
-            *to = (*sphere, *index);
+        let mut as_they_are = Self::EMPTY;
+        // Spheres that are the same have the same sum, whatever the signs of zeros are; others seldom do.
+        let mut sums = [f32::NAN; WIDTH];
+        let there = places.iter().zip(indices).skip(begin).take(count.min(WIDTH));
+        for (lane, (sphere, index)) in there.enumerate() {
+            for axis in 0..4 {
+                as_they_are.columns[axis][lane % WIDTH] = sphere[axis];
+            }
+            let [x, y, z, radius] = *sphere;
+            sums[lane % WIDTH] = x + 3.0 * y + 5.0 * z + 7.0 * radius;
+            as_they_are.indices[lane % WIDTH] = *index;
+            as_they_are.count = lane + 1;
         }
-        Self { spheres, count: count.min(WIDTH) }
+        // How many indices are lower is where a sphere goes. No branch depends on a comparison.
+        let (mut ranks, mut alike) = ([0; WIDTH], [0; WIDTH]);
+        for other in 0..as_they_are.count.min(WIDTH) {
+            let (sum, index) = (sums[other], as_they_are.indices[other]);
+            for lane in 0..WIDTH {
+                // As integers with a sign: indices are below 2^27.
+                ranks[lane] += i32::from((index as i32) < as_they_are.indices[lane] as i32);
+                alike[lane] += i32::from(sum == sums[lane]);
+            }
+        }
+        let mut leaf = Self { count: as_they_are.count, ..Self::EMPTY };
+        for lane in 0..as_they_are.count.min(WIDTH) {
+            let to = ranks[lane] as usize % WIDTH;
+            for axis in 0..4 {
+                leaf.columns[axis][to] = as_they_are.columns[axis][lane];
+            }
+            leaf.indices[to] = as_they_are.indices[lane];
+        }
+        // Each is like itself.
+        if alike.iter().sum::<i32>() > leaf.count as i32 {
+            leaf.keep_first();
+        }
+        leaf
     }
 
-    /// Into the order of their indices, each once.
-    fn sort(&mut self) {
-        let spheres = self.spheres.get_mut(..self.count).unwrap_or_default();
-        spheres.sort_unstable_by_key(|(_, index)| *index);
-        let mut kept = 0;
-        for at in 0..self.count.min(WIDTH) {
-            let sphere = self.spheres[at];
-            let is_new = self.spheres.iter().take(kept).all(|(other, _)| *other != sphere.0);
-            self.spheres[kept % WIDTH] = sphere;
-            kept += usize::from(is_new);
+    /// Of spheres that are the same the first.
+    #[cold]
+    fn keep_first(&mut self) {
+        let row = |Self { columns: [x, y, z, radius], .. }: &Self, lane: usize| {
+            [x[lane], y[lane], z[lane], radius[lane]]
+        };
+        let mut kept = Self::EMPTY;
+        for lane in 0..self.count.min(WIDTH) {
+            let sphere = row(self, lane % WIDTH);
+            if (0..kept.count).all(|other| row(&kept, other % WIDTH) != sphere) {
+                for axis in 0..4 {
+                    kept.columns[axis][kept.count % WIDTH] = sphere[axis];
+                }
+                kept.indices[kept.count % WIDTH] = self.indices[lane];
+                kept.count += 1;
+            }
         }
-        for place in self.spheres.iter_mut().skip(kept) {
-            *place = ([0.0, 0.0, 0.0, f32::NAN], u32::MAX);
-        }
-        self.count = kept;
+        *self = kept;
     }
 
-    /// Column by column.
     fn write(&self, (places, shift): (&mut [[f32; 4]], usize), indices: &mut [u32], begin: usize) {
         let lanes = self.count.next_multiple_of(STEP);
         let numbers = places.as_flattened_mut().get_mut(shift + 4 * begin..);
-        let Some(indices) = indices.get_mut(begin..begin + lanes) else { return };
-        let columns = numbers.unwrap_or_default().chunks_exact_mut(lanes.max(1)).take(4);
-        for (axis, column) in columns.enumerate() {
-            for (to, (sphere, _)) in column.iter_mut().zip(&self.spheres) {
-                *to = sphere[axis % 4];
-            }
+        let columns = numbers.unwrap_or_default().chunks_exact_mut(lanes.max(1));
+        for (to, column) in columns.zip(&self.columns) {
+            in_steps(to, column);
         }
-        for (to, (_, index)) in indices.iter_mut().zip(&self.spheres) {
-            *to = *index;
-        }
+        in_steps(indices.get_mut(begin..begin + lanes).unwrap_or_default(), &self.indices);
+    }
+}
+
+/// Copies as many as there is room for, a multiple of [`STEP`].
+fn in_steps<T: Copy>(to: &mut [T], from: &[T; WIDTH]) {
+    for (to, from) in to.as_chunks_mut::<STEP>().0.iter_mut().zip(from.as_chunks::<STEP>().0) {
+        *to = *from;
     }
 }

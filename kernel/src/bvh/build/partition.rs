@@ -1,6 +1,12 @@
 //! Moving the spheres of a run.
 
+use super::bounds::{Bounds, Corners};
 use super::run::Run;
+use super::sah_bins::slices_before;
+use super::sah_split::Cut;
+use crate::numeric::rounding::{least, most};
+use core::cell::Cell;
+use wide::f32x4;
 
 /// How many slices the keys of a run are sorted into.
 const SLICES: usize = 16;
@@ -43,30 +49,62 @@ impl Run<'_> {
     }
 
     /// Moves the spheres for which `wanted` holds to the front of `from..to`; returns where they end.
+    ///
+    /// Every sphere changes places with the first that is not wanted, so that no branch depends on it. (From both
+    /// ends, where only what stands wrong is moved: 3 times as long on 10,000 uniform spheres, and as long on rows that
+    /// are in order.)
     #[inline(always)]
-    pub(super) fn gather(
+    fn gather(
         &mut self,
-        mut from: usize,
-        mut to: usize,
-        wanted: impl Fn(&[f32; 4]) -> bool,
+        from: usize,
+        to: usize,
+        mut wanted: impl FnMut(&[f32; 4]) -> bool,
     ) -> usize {
-        loop {
-            while from < to && self.spheres.get(from).is_some_and(&wanted) {
-                from += 1;
-            }
-            while from < to && !self.spheres.get(to - 1).is_some_and(&wanted) {
-                to -= 1;
-            }
-            if from >= to {
-                return from;
-            }
-            if let Ok([one, other]) = self.spheres.get_disjoint_mut([from, to - 1]) {
-                core::mem::swap(one, other);
-            }
-            if let Ok([one, other]) = self.indices.get_disjoint_mut([from, to - 1]) {
-                core::mem::swap(one, other);
-            }
+        let run = self.part(from, to - from);
+        let spheres = Cell::from_mut(run.spheres).as_slice_of_cells();
+        let indices = Cell::from_mut(run.indices).as_slice_of_cells();
+        let mut before = 0;
+        for (sphere, index) in spheres.iter().zip(indices) {
+            let (Some(other), Some(number)) = (spheres.get(before), indices.get(before)) else {
+                break;
+            };
+            let own = sphere.get();
+            sphere.set(other.get());
+            other.set(own);
+            let name = index.get();
+            index.set(number.get());
+            number.set(name);
+            before += usize::from(wanted(&own));
         }
+        from + before
+    }
+
+    /// Moves the spheres before a cut to the front; returns the bounds of both parts, whose boxes the slices told.
+    pub(super) fn cut(&mut self, bounds: &Bounds, cut: &Cut) -> [Bounds; 2] {
+        // Of three, as a mask that the compiler sees.
+        let axis = cut.axis % 3;
+        let (from, scale, bin) = (bounds.centers.low.to_array()[axis], cut.scale, cut.bin as f32);
+        let (mut low, mut high) = ([[f32::INFINITY; 4]; 2], [[f32::NEG_INFINITY; 4]; 2]);
+        let before = self.gather(0, self.spheres.len(), |own| {
+            let is_before = slices_before(own[axis], from, scale) < bin;
+            // NaN in the part that a sphere is not of: in arrays, since vectors treat it as the target does.
+            let behind = u32::from(is_before).wrapping_sub(1);
+            let masks = [behind, !behind];
+            for part in 0..2 {
+                let own = own.map(|number| f32::from_bits(number.to_bits() | masks[part]));
+                for i in 0..4 {
+                    low[part][i] = least(own[i], low[part][i]);
+                    high[part][i] = most(own[i], high[part][i]);
+                }
+            }
+            is_before
+        });
+        debug_assert_eq!(before, cut.first, "counted and gathered alike");
+        let part = |boxes: &Corners, low: [f32; 4], high: [f32; 4]| {
+            Bounds::new(boxes, &Corners { low: f32x4::new(low), high: f32x4::new(high) })
+        };
+        let ([one, other], [low, low_other], [high, high_other]) = (&cut.boxes, low, high);
+        [part(one, low, high), part(other, low_other, high_other)]
     }
 }
 
