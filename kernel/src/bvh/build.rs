@@ -1,5 +1,5 @@
 //! From a list of spheres to a tree: `top_down` -> `children` -> `sah_split` -> `sah_bins` and
-//! `partition`, then the `child_order` of every node, and at last `lay_down`.
+//! `partition`, then `lay_down`, and at last the `child_order` of every node.
 
 mod bounds;
 pub(crate) mod budget;

@@ -109,7 +109,7 @@ impl<'a> Bvh<'a> {
     ///
     /// Cost: a cut looks at each of its spheres a bounded number of times, and a node makes fifteen
     /// cuts at most of runs that its children are eight times shorter than; so time grows by the
-    /// number of spheres times its logarithm, whatever the spheres. Stack: some 30 KiB. No other
+    /// number of spheres times its logarithm, whatever the spheres. Stack: some 40 KiB. No other
     /// memory.
     ///
     /// # Errors

@@ -2,7 +2,7 @@
 //!
 //! The spheres are moved into the order of the leaves, at the end of their memory. A node is made of the parts of a
 //! run (`children.rs`); parts that are no leaf become nodes in their turn, and a stack of those that wait replaces
-//! recursion. At last the leaves are laid down (`lay_down.rs`).
+//! recursion. At last the leaves are laid down (`lay_down.rs`), and the children of every node ordered (`child_order.rs`).
 //!
 //! The root's children do so apart from each other, perhaps at the same time: each in as many
 //! nodes as it may take (`budget.rs`). Then the nodes move together.
@@ -67,6 +67,7 @@ pub(crate) fn build(
     // Where a line of the cache begins: at least as near as numbers are to each other.
     let shift = places.as_flattened().as_ptr().align_offset(LINE) % (LINE / size_of::<f32>());
     let used_places = lay_down((places, shift), indices, first, nodes, &mut child);
+    order_children(join, nodes, places.as_flattened().get(shift..).unwrap_or_default());
     // What is behind the last leaf is loaded with it, and never used: zeros, so that trees of a list are equal.
     let behind = shift + 4 * used_places;
     if let Some(behind) = places.as_flattened_mut().get_mut(behind..behind + 4 * BEHIND) {
@@ -211,7 +212,9 @@ fn build_subtrees(join: &impl Join, subtrees: &mut [Subtree<'_>]) {
     }
 }
 
-/// Builds the nodes of a subtree, numbered from zero; returns their number.
+/// Builds the nodes of a subtree, numbered from zero; returns their number. Not inlined: halves of halves of subtrees
+/// would each keep room on the stack for what waits here.
+#[inline(never)]
 fn build_nodes(join: &impl Join, subtree: &mut Subtree<'_>) -> usize {
     let Subtree { run, first, nodes, budget, .. } = subtree;
     let root = Part::new(join, run.spheres, 0, run.spheres.len());
@@ -254,7 +257,6 @@ fn node_over(run: &mut Run<'_>, parts: &[Part], first: usize) -> BvhNode {
             node.child[slot] = settle(run, part, first);
         }
     }
-    order_children(&mut node);
     node
 }
 
