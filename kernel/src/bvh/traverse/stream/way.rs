@@ -5,15 +5,16 @@
 //!
 //! | spheres | tree | closest | stream | sorted | any | stream | sorted |
 //! |--:|--:|--:|--:|--:|--:|--:|--:|
-//! | 1,000 | 25 KB | 101 | 73 | 71 | 69 | 56 | 58 |
-//! | 4,000 | 0.1 MB | 132 | 99 | 104 | 94 | 77 | 77 |
-//! | 16,000 | 0.4 MB | 157 | 145 | 145 | 109 | 116 | 114 |
-//! | 64,000 | 1.6 MB | 259 | 234 | 225 | 158 | 197 | 168 |
-//! | 256,000 | 6.4 MB | 406 | 520 | 288 | 289 | 451 | 267 |
-//! | 1,000,000 | 25 MB | 493 | 796 | 316 | 292 | 720 | 260 |
+//! | 1,000 | 25 KB | 99 | 72 | 106 | 67 | 56 | 79 |
+//! | 4,000 | 0.1 MB | 127 | 92 | 129 | 92 | 74 | 95 |
+//! | 16,000 | 0.4 MB | 153 | 140 | 183 | 106 | 116 | 139 |
+//! | 64,000 | 1.6 MB | 241 | 231 | 211 | 155 | 191 | 157 |
+//! | 256,000 | 6.4 MB | 359 | 454 | 306 | 204 | 419 | 240 |
+//! | 1,000,000 | 25 MB | 530 | 1159 | 358 | 345 | 996 | 264 |
 //!
-//! A ray that is done at its first hit shares less of its way. Sorted, rays share what they read: it takes so many
-//! that they share: a million spheres with 65,536 rays take 459, 378 for any hit.
+//! A ray that is done at its first hit shares less of its way. (Sorted, such rays gain among a million uniform spheres,
+//! and lose a third where a large sphere ends most: they stay ray by ray.) Sorted, rays share what they read: it takes so
+//! many that they share. A million spheres with 131,072 rays: 429.
 //!
 //! Fewer rays at a time share less, too. AVX-512, 1,000 spheres and 10,000:
 //!
@@ -50,14 +51,13 @@ impl Way {
         }
         let bytes = size_of_val(bvh.nodes) + size_of_val(bvh.numbers);
         let (spheres, together) = (bvh.spheres.len(), together.min(rays));
-        let (most_bytes, sorted_from, shared_by) =
-            if Q::ANY { (1 << 18, 1 << 23, 1) } else { (1 << 21, 1 << 21, 2) };
+        let (most_bytes, shared_by) = if Q::ANY { (1 << 18, 1) } else { (1 << 21, 2) };
         let is_shared = together == TOGETHER || spheres / shared_by <= together;
         if few::few(bvh).is_some() {
             Self::RayByRay
         } else if bytes <= most_bytes && is_shared {
             Self::AsTheyCome
-        } else if bytes > sorted_from && is_sorted && spheres / 8 <= can_be_sorted {
+        } else if !Q::ANY && bytes > most_bytes && is_sorted && spheres / 8 <= can_be_sorted {
             Self::Sorted
         } else {
             Self::RayByRay
