@@ -104,7 +104,7 @@ pub(super) struct InPackets<A: LaneArray, S> {
 }
 
 impl<A: LaneArray, S: FnMut(Query, &mut Blocks<'_, A>)> InPackets<A, S> {
-    /// `count` rays in `packets`, `block` rays a block.
+    /// `count` rays in `packets`, `block` rays a block at most.
     pub(super) fn new(
         packets: Rc<[RayPacket<A>]>,
         count: usize,
@@ -112,7 +112,8 @@ impl<A: LaneArray, S: FnMut(Query, &mut Blocks<'_, A>)> InPackets<A, S> {
         search: S,
         memory: Rc<RefCell<Memory<A>>>,
     ) -> Self {
-        Self { packets, count, block: block / A::COUNT, search, memory, any_hit: false }
+        let block = (block / A::COUNT).min(packets.len());
+        Self { packets, count, block, search, memory, any_hit: false }
     }
 
     /// Returns what the clock has seen.
