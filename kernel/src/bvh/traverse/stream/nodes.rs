@@ -95,12 +95,15 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
             // Those that have found something before they would enter are left out.
             let mut count = 0;
             while at < end && count < AT_ONCE {
-                let Some(&queued) = self.queues.get(at) else { break };
-                let Some(ray) = self.rays.get(queued.ray as usize) else { break };
+                let queued = self.queues.get(at);
+                at += 1;
+                let Some(&queued) = queued else { continue };
+                let Some(ray) = self.rays.get(queued.ray as usize) else { continue };
                 whose[count] = queued.ray;
                 count += usize::from(queued.entry <= ray.end_of_boxes);
-                at += 1;
             }
+            // (So the compiler knows, too.)
+            let count = count.min(AT_ONCE);
             // Boxes stay in registers while rays pass.
             let mut met = [0_u64; AT_ONCE / A_WORD];
             for part in 0..WIDTH / L::COUNT {
@@ -120,7 +123,7 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
                 while left != 0 {
                     let bit = left.trailing_zeros() as usize;
                     left &= left - 1;
-                    let (place, slot) = (word * A_WORD + bit / WIDTH, bit % WIDTH);
+                    let (place, slot) = (word * A_WORD + bit / WIDTH % A_WORD, bit % WIDTH);
                     let end = ends[slot];
                     ends[slot] = end + 1;
                     if let Some(queued) = self.queues.get_mut(end) {
