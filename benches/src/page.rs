@@ -24,6 +24,16 @@ pub(crate) fn origin() -> String {
     format!("{}, {threads} threads; {RUSTC}, {} build; commit {commit}; {date}", cpu(), build())
 }
 
+/// Who made the CPU, in small letters: what limits trees differs from make to make.
+pub(crate) fn maker() -> &'static str {
+    let cpu = cpu();
+    ["AMD", "Intel"]
+        .into_iter()
+        .zip(["amd", "intel"])
+        .find(|(name, _)| cpu.contains(name))
+        .map_or("other", |(_, file)| file)
+}
+
 /// Whether the whole program has the instructions that the kernel finds out about.
 pub(crate) const fn build() -> &'static str {
     if cfg!(target_feature = "avx2") { "native" } else { "plain" }

@@ -77,7 +77,10 @@ pub fn report() -> Result<(), Box<dyn error::Error>> {
     }
     if chosen(Part::Structures) {
         let results = structures::measure(effort, scene.as_deref());
-        put("structures.md", &page::structures::page(&origin, &results))?;
+        put(
+            &format!("structures-{}.md", page::maker()),
+            &page::structures::page(&origin, &results),
+        )?;
         if scene.is_none() {
             put("growth.svg", &plot::growth(&origin, &results.growth)?)?;
             put("embree.svg", &plot::embree(&origin, &results.scenes)?)?;
