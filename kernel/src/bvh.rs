@@ -34,7 +34,7 @@
 //! chooses (`bvh/build/children.rs`), and in equal parts the largest 16^k below n. A node over at most 256 has only
 //! leaves for children. Of 2^27 spheres, which are the most, that is ten nodes one below the other.
 
-mod build;
+pub(crate) mod build;
 mod built;
 pub(crate) mod leaf;
 pub(crate) mod node;

@@ -12,6 +12,7 @@ extern crate std;
 
 pub mod accuracy;
 pub mod bvh;
+pub mod bvh4;
 mod coherent;
 mod dispatch;
 mod exact;
@@ -37,6 +38,7 @@ pub use accuracy::{Accuracy, Exact, Fast, Geometric, Stable, Tier};
 #[cfg(feature = "alloc")]
 pub use bvh::SphereTree;
 pub use bvh::{Bvh, BvhNode, BvhSize, InTurn, Join, QueuedRay, StreamMemory, StreamRay};
+pub use bvh4::{Bvh4, Bvh4Error};
 pub use coherent::{DepthList, Viewpoint};
 pub use dispatch::{Level, LevelName};
 pub use geometry::camera::{Camera, Projection};

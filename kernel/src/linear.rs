@@ -212,16 +212,17 @@ impl<L: Lanes, Q: Query> GroupTest<'_, '_, L, Q> {
             let asked = rays.live & filter.may_meet(group, slot);
             if sphere.is_valid() && asked.any() {
                 let rays = (packet, rays, &prepared);
-                limits =
-                    meet_sphere::<F, L, Q>(rays, spheres, (sphere, index), asked, limits, answer);
+                let sphere = (sphere, index);
+                limits = meet_sphere::<F, L, Q, true>(rays, spheres, sphere, asked, limits, answer);
             }
         }
     }
 }
 
-/// Takes a valid sphere where it is closer; returns the new limits.
+/// Takes a valid sphere where it is closer; returns the new limits. Of equals the first comes first: where spheres do
+/// not come in the order of their indices they are compared.
 #[inline(always)]
-fn meet_sphere<F: TierFormula, L: Lanes, Q: Query>(
+pub(crate) fn meet_sphere<F: TierFormula, L: Lanes, Q: Query, const IN_ORDER: bool>(
     (packet, rays, prepared): (&RayPacket<L::Array>, &RayLanes<L>, &F::Prepared<L>),
     spheres: &Spheres<'_>,
     (sphere, index): (Sphere, u32),
@@ -235,7 +236,7 @@ fn meet_sphere<F: TierFormula, L: Lanes, Q: Query>(
     let radius = limits.like(sphere.radius);
     let t = F::first_root(rays, prepared, center, radius, asked, limits);
     let t = L::select(asked, t, infinity);
-    if F::ORDERS_ROOTS && !Q::ANY {
+    if (F::ORDERS_ROOTS || !IN_ORDER) && !Q::ANY {
         let tied = (t.le(limits) & limits.le(t) & t.lt(infinity)).bits();
         if tied != 0 {
             take_closer::<F, L, Q>(packet, spheres, index, tied, &t.store(), answer);

@@ -3,6 +3,7 @@
 use crate::Accuracy;
 use crate::bvh::StreamMemory;
 use crate::bvh::tree::Bvh;
+use crate::bvh4::{Bvh4, walk};
 use crate::coherent::depth_list::DepthList;
 use crate::coherent::{list_source, tree_source};
 use crate::geometry::ray::RayPacket;
@@ -87,6 +88,31 @@ traverse!(Spheres<'_>, |spheres, trace| linear::traverse = list(*spheres));
 traverse!(Bvh<'_>, |bvh, trace| tree_source::traverse =
     tree(bvh, (trace.coherence, trace.stream.as_mut().map(StreamMemory::again))));
 traverse!(DepthList<'_>, |list, trace| list_source::traverse = depth_list(list, trace.scratch));
+
+/// In one lane, whatever the level.
+impl Traverse for Bvh4<'_> {
+    #[inline(always)]
+    fn in_lanes<L: Lanes, Q: Query>(
+        &self,
+        tier: impl Accuracy,
+        token: L::Token,
+        _: &mut Trace<'_>,
+        rays: &[RayPacket<L::Array>],
+        answers: &mut [Q::Packet<L::Array>],
+    ) {
+        walk::traverse::<L, Q>(tier, token, self, rays, answers);
+    }
+
+    fn in_packets<Q: LevelQuery>(
+        &self,
+        tier: impl Accuracy,
+        _: &mut Trace<'_>,
+        rays: &[RayPacket],
+        answers: &mut [Q::Packet<[f32; 16]>],
+    ) {
+        walk::lane_by_lane::<[f32; 16], Q>(tier, self, rays, answers);
+    }
+}
 
 /// An owned structure, by what it lends.
 #[cfg(feature = "alloc")]

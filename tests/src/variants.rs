@@ -11,9 +11,9 @@ mod surfaces;
 pub use difference::{assert_same, assert_same_from, bits, difference};
 pub use pairs::{pair_storeys, pairs_of};
 use spherule_kernel::{
-    Coherence, DepthList, Hit, HitPacket, Intersect, LaneArray, Lanes, Level, LevelName, QueuedRay,
-    Ray, RayPacket, Sphere, SphereList, SpherePacket, SphereTree, StreamMemory, StreamRay, Tier,
-    Trace, Vec3, Viewpoint, f32x4, f32x8, f32x16, pair_lanes,
+    Bvh4, Coherence, DepthList, Hit, HitPacket, Intersect, LaneArray, Lanes, Level, LevelName,
+    QueuedRay, Ray, RayPacket, Sphere, SphereList, SpherePacket, SphereTree, StreamMemory,
+    StreamRay, Tier, Trace, Vec3, Viewpoint, f32x4, f32x8, f32x16, pair_lanes,
 };
 pub use surfaces::{shadow_rays_of, surface_storeys, surfaces_of};
 
@@ -28,6 +28,8 @@ pub enum Structure {
     Tree(Coherence),
     /// A tree whose rays go as a stream, with memory for so many at a time, and to sort so many.
     Stream(usize, usize),
+    /// The tree of one lane, of as many spheres as it holds.
+    Bvh4,
 }
 
 /// How rays come to the door, and in which lanes they go on.
@@ -56,6 +58,9 @@ impl Storey {
         }
     }
 }
+
+/// How many spheres the tree of one lane holds.
+const MOST_OF_BVH4: usize = 65_536;
 
 /// A row of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -102,6 +107,10 @@ pub fn variants() -> impl Iterator<Item = Variant> {
         .chain(of(Structure::Stream(1024, 0), all(&[1, 8])))
         .chain(of(Structure::Stream(16, 0), vec![Storey::Packets(Level::best().name())]))
         .chain(of(Structure::Stream(32, 100), all(&[8])))
+        .chain(of(
+            Structure::Bvh4,
+            [plain.to_vec(), vec![Storey::Lanes(1), Storey::Lanes(8)]].concat(),
+        ))
 }
 
 /// The variants of lists that have loops of their own: rays and slices of them go through packets.
@@ -128,6 +137,8 @@ pub struct Memory {
     tree: SphereTree,
     list: SphereList,
     words: Vec<f32>,
+    /// Nothing where there are more spheres than it holds.
+    bvh4: Vec<u32>,
 }
 
 /// The same spheres in every structure.
@@ -139,6 +150,8 @@ pub struct Structures<'a> {
     pub depth_list: &'a DepthList<'a>,
     /// The tree.
     pub tree: &'a SphereTree,
+    /// The tree of one lane, loaded from what was built.
+    pub bvh4: Option<Bvh4<'a>>,
 }
 
 impl Memory {
@@ -147,7 +160,12 @@ impl Memory {
     pub fn new(spheres: &[Sphere]) -> Self {
         let list = SphereList::from(spheres);
         let words = vec![f32::NAN; DepthList::needed(spheres.len())];
-        Self { tree: SphereTree::new(list.clone()), list, words }
+        let count = if spheres.len() > MOST_OF_BVH4 { 0 } else { Bvh4::needed(spheres.len()) };
+        let mut bvh4 = vec![u32::MAX; count];
+        if count > 0 {
+            Bvh4::build(list.spheres(), &mut bvh4).expect("enough memory");
+        }
+        Self { tree: SphereTree::new(list.clone()), list, words, bvh4 }
     }
 
     /// Calls `ask` with every structure, the depth list sorted from `viewpoint`.
@@ -155,9 +173,11 @@ impl Memory {
     /// # Panics
     /// Never: the memory is enough.
     pub fn sorted<R>(&mut self, viewpoint: Viewpoint, ask: impl FnOnce(Structures<'_>) -> R) -> R {
-        let Self { tree, list, words } = self;
+        let Self { tree, list, words, bvh4 } = self;
         let depth_list = &DepthList::sort(list.spheres(), viewpoint, words).expect("enough memory");
-        ask(Structures { list, depth_list, tree })
+        let load = || Bvh4::load(list.spheres(), bvh4).expect("what was built");
+        let bvh4 = (!bvh4.is_empty()).then(load);
+        ask(Structures { list, depth_list, tree, bvh4 })
     }
 }
 
@@ -171,13 +191,19 @@ pub struct Answers {
 }
 
 impl Variant {
+    /// Whether the structure can hold so many spheres.
+    #[must_use]
+    pub fn holds(&self, count: usize) -> bool {
+        self.structure != Structure::Bvh4 || count <= MOST_OF_BVH4
+    }
+
     /// What these rays hit.
     ///
     /// # Panics
-    /// Never: the memory is enough.
+    /// Where the structure does not [hold](Variant::holds) the spheres.
     #[must_use]
     pub fn ask(&self, structures: Structures<'_>, rays: &[Ray]) -> Answers {
-        let Structures { list, depth_list, tree } = structures;
+        let Structures { list, depth_list, tree, bvh4 } = structures;
         match self.structure {
             Structure::List => self.ask_list(list, rays),
             Structure::DepthList(sevenths) => {
@@ -197,6 +223,9 @@ impl Variant {
                 let memory = StreamMemory::new(&mut memory, &mut queues).expect("enough");
                 let memory = memory.sorting(&mut order).everywhere();
                 self.ask_of(tree, Trace::new().incoherent().with_stream(memory), rays)
+            }
+            Structure::Bvh4 => {
+                self.ask_of(&bvh4.expect("no more spheres than it holds"), Trace::new(), rays)
             }
         }
     }

@@ -1,7 +1,7 @@
 //! From a list of spheres to a tree: `top_down` -> `children` -> `sah_split` -> `sah_bins` and
 //! `partition`, then `lay_down`, and at last the `child_order` of every node.
 
-mod bounds;
+pub(crate) mod bounds;
 pub(crate) mod budget;
 mod child_order;
 mod children;

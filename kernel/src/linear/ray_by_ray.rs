@@ -46,9 +46,9 @@ impl<L: Lanes, Q: Query, S: SphereRun + ?Sized> TierWork for RayByRay<'_, L, Q, 
                 if let Some(sphere) = list.get(index as usize)
                     && sphere.is_valid()
                 {
-                    let rays = (packet, &rays, &prepared);
+                    let (rays, sphere) = ((packet, &rays, &prepared), (sphere, index));
                     limits =
-                        meet_sphere::<F, L, Q>(rays, &list, (sphere, index), asked, limits, answer);
+                        meet_sphere::<F, L, Q, true>(rays, &list, sphere, asked, limits, answer);
                 }
             }
         }

@@ -62,6 +62,13 @@ impl SceneScale {
         Self { factor, inverse: 1.0 / factor }
     }
 
+    /// That of a structure which was built elsewhere; `None` if it is no such power of two.
+    pub(crate) fn from_factor(factor: f32) -> Option<Self> {
+        let inverse = 1.0 / factor;
+        let is_power = factor.to_bits() << 9 == 0 && factor >= 1.0 / MOST && factor <= MOST;
+        is_power.then_some(Self { factor, inverse })
+    }
+
     /// The sphere as bounds see it, exactly; `None` if they do not.
     #[inline(always)]
     pub(crate) fn scaled(&self, sphere: &Sphere) -> Option<Sphere> {

@@ -43,6 +43,18 @@ pub(super) struct Bounds {
     pub(super) centers: Corners,
 }
 
+/// The corners of a box that is rounded outward, as nodes have them: farther out by what of the margins is in
+/// proportion to the box itself (`docs/traversal-margins.md`).
+pub(crate) fn padded(low: [f32; 3], high: [f32; 3]) -> [[f32; 3]; 2] {
+    let mut largest = 0.0_f32;
+    for axis in 0..3 {
+        largest = largest.max(low[axis].abs()).max(high[axis].abs());
+    }
+    let pad = 40.0 * U * largest;
+    let low = low.map(|coordinate| (coordinate - pad).next_down());
+    [low, high.map(|coordinate| (coordinate + pad).next_up())]
+}
+
 impl Bounds {
     /// Of spheres, by halves where they are many.
     pub(super) fn of(join: &impl Join, spheres: &[[f32; 4]]) -> Self {
@@ -62,16 +74,9 @@ impl Bounds {
         }
     }
 
-    /// The lower and the upper corner as nodes have them: farther out by what of the margins is in
-    /// proportion to the box itself (`docs/traversal-margins.md`).
+    /// The lower and the upper corner as nodes have them.
     pub(super) fn padded(&self) -> [[f32; 3]; 2] {
-        let mut largest = 0.0_f32;
-        for axis in 0..3 {
-            largest = largest.max(self.low[axis].abs()).max(self.high[axis].abs());
-        }
-        let pad = 40.0 * U * largest;
-        let low = self.low.map(|coordinate| (coordinate - pad).next_down());
-        [low, self.high.map(|coordinate| (coordinate + pad).next_up())]
+        padded(self.low, self.high)
     }
 
     /// Half the surface of the box: what the chance to meet it is proportional to.

@@ -1,0 +1,111 @@
+//! What is checked of a tree that is data.
+
+use super::boxes::{Boxes, NODE};
+use super::order::{Kind, index_in, place_in};
+use super::shape::{MOST, Place, Shape};
+use super::tree::{Bvh4, HEADER, MARK};
+use crate::geometry::sphere::Spheres;
+use crate::scale::scene::SceneScale;
+use core::fmt;
+
+/// Why words are no tree over the spheres of a list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bvh4Error {
+    /// They do not begin as a tree of this version does.
+    Mark,
+    /// The tree is of another number of spheres than the list has.
+    Count,
+    /// They are fewer than the tree is long.
+    Length,
+    /// Lengths are not scaled by a power of two.
+    Scale,
+    /// Not every sphere is there once, among those that the bounds see or those that they do not.
+    Order,
+    /// A box is not that of its spheres.
+    Box,
+}
+
+impl fmt::Display for Bvh4Error {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::Mark => "the words are no tree of this version",
+            Self::Count => "the tree is of another number of spheres",
+            Self::Length => "the tree is cut off",
+            Self::Scale => "the tree's scale is no power of two",
+            Self::Order => "the tree's order is not of these spheres",
+            Self::Box => "a box of the tree is not that of its spheres",
+        })
+    }
+}
+
+impl core::error::Error for Bvh4Error {}
+
+/// The tree that the words are.
+pub(super) fn load<'a>(spheres: Spheres<'a>, words: &'a [u32]) -> Result<Bvh4<'a>, Bvh4Error> {
+    let Some((&[mark, count, inside, valid, factor], rest)) = words.split_first_chunk::<HEADER>()
+    else {
+        return Err(Bvh4Error::Length);
+    };
+    if mark != MARK {
+        return Err(Bvh4Error::Mark);
+    }
+    if count as usize != spheres.len() || count as usize > MOST {
+        return Err(Bvh4Error::Count);
+    }
+    if inside > valid || valid > count {
+        return Err(Bvh4Error::Order);
+    }
+    let scale = SceneScale::from_factor(f32::from_bits(factor)).ok_or(Bvh4Error::Scale)?;
+    let shape = Shape::new(inside);
+    let Some((order, rest)) = rest.split_at_checked(count as usize) else {
+        return Err(Bvh4Error::Length);
+    };
+    let Some(nodes) = rest.get(..shape.nodes as usize * NODE) else {
+        return Err(Bvh4Error::Length);
+    };
+    check_order(&spheres, &scale, order, [inside, valid])?;
+    let boxes = Boxes { spheres, scale, shape };
+    check_boxes(&boxes, order, nodes)?;
+    Ok(Bvh4::of(boxes, words, valid))
+}
+
+/// Every sphere is in one place, which is among its kind.
+fn check_order(
+    spheres: &Spheres<'_>,
+    scale: &SceneScale,
+    order: &[u32],
+    [inside, valid]: [u32; 2],
+) -> Result<(), Bvh4Error> {
+    for (index, &word) in order.iter().enumerate() {
+        let place = place_in(word);
+        // As many places as spheres: where each sphere has one that is its own, each place has a sphere.
+        let there = order.get(place as usize).is_some_and(|&word| index_in(word) == index as u32);
+        let expected = if place < inside {
+            Kind::Inside
+        } else if place < valid {
+            Kind::Outside
+        } else {
+            Kind::Invalid
+        };
+        let kind = spheres.get(index).map(|sphere| Kind::of(&sphere, scale));
+        if !there || kind != Some(expected) {
+            return Err(Bvh4Error::Order);
+        }
+    }
+    Ok(())
+}
+
+/// Every box is as the build makes it.
+fn check_boxes(boxes: &Boxes<'_>, order: &[u32], nodes: &[u32]) -> Result<(), Bvh4Error> {
+    for height in 1..=boxes.shape.height {
+        for number in 0..boxes.shape.of_height(height) {
+            let place = Place { number, height };
+            let rows = boxes.rows(order, place);
+            let at = boxes.shape.node(place) * NODE;
+            if nodes.get(at..at + NODE) != Some(rows.as_flattened()) {
+                return Err(Bvh4Error::Box);
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,169 @@
+//! The order of the spheres: by cuts at the middle of the longest axis.
+
+use super::shape::{Shape, part_bits};
+use crate::geometry::sphere::{Sphere, Spheres};
+use crate::numeric::rounding::{least, most};
+use crate::scale::scene::SceneScale;
+
+/// Of an order's word the lower bits are the index of the sphere in that place, and the upper ones the place of the
+/// sphere with that index: so that each is seen to be there once, with no other memory.
+const INDEX_BITS: u32 = 16;
+
+/// The index of the sphere in the place of this word.
+#[inline(always)]
+pub(super) const fn index_in(word: u32) -> u32 {
+    word & ((1 << INDEX_BITS) - 1)
+}
+
+/// The place of the sphere that has this word's place as its index.
+#[inline(always)]
+pub(super) const fn place_in(word: u32) -> u32 {
+    word >> INDEX_BITS
+}
+
+/// How the bounds see a sphere: all of them, then those that they do not see, then what is no sphere.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    Inside,
+    Outside,
+    Invalid,
+}
+
+impl Kind {
+    pub(super) fn of(sphere: &Sphere, scale: &SceneScale) -> Self {
+        if !sphere.is_valid() {
+            Self::Invalid
+        } else if scale.scaled(sphere).is_some() {
+            Self::Inside
+        } else {
+            Self::Outside
+        }
+    }
+}
+
+/// Writes the order of all spheres; returns how many are inside, and how many are valid.
+pub(super) fn write(spheres: &Spheres<'_>, scale: &SceneScale, order: &mut [u32]) -> [u32; 2] {
+    let (mut place, mut ends) = (0, [0; 3]);
+    for (kind, end) in [Kind::Inside, Kind::Outside, Kind::Invalid].into_iter().zip(&mut ends) {
+        let mut index = 0;
+        while let Some(sphere) = spheres.get(index) {
+            if Kind::of(&sphere, scale) == kind
+                && let Some(word) = order.get_mut(place)
+            {
+                *word = index as u32;
+                place += 1;
+            }
+            index += 1;
+        }
+        *end = place as u32;
+    }
+    let [inside, valid, _] = ends;
+    cut(spheres, &Shape::new(inside), order);
+    for place in 0..order.len() {
+        let index = order.get(place).map_or(0, |&word| index_in(word));
+        if let Some(word) = order.get_mut(index as usize) {
+            *word |= (place as u32) << INDEX_BITS;
+        }
+    }
+    [inside, valid]
+}
+
+/// Cuts what is longer than a leaf in two, part by part, from the whole down.
+fn cut(spheres: &Spheres<'_>, shape: &Shape, order: &mut [u32]) {
+    let count = shape.count as usize;
+    for bits in part_bits(shape) {
+        let (size, mut begin) = (1 << bits, 0);
+        while begin < count {
+            let end = (begin + size).min(count);
+            if end - begin > size / 2
+                && let Some(part) = order.get_mut(begin..end)
+            {
+                sort(spheres, longest_axis(spheres, part), part);
+            }
+            begin = end;
+        }
+    }
+}
+
+/// The axis along which the centres lie farthest apart.
+fn longest_axis(spheres: &Spheres<'_>, part: &[u32]) -> usize {
+    let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+    for &index in part {
+        let center = spheres.get(index as usize).map_or([0.0; 3], |sphere| sphere.center());
+        for i in 0..3 {
+            low[i] = least(low[i], center[i]);
+            high[i] = most(high[i], center[i]);
+        }
+    }
+    let (mut axis, mut longest) = (0, 0.0);
+    for i in 0..3 {
+        // Halves, so that no length overflows.
+        let length = 0.5 * high[i] - 0.5 * low[i];
+        if length > longest {
+            (axis, longest) = (i, length);
+        }
+    }
+    axis
+}
+
+/// Sorts a part by an axis, of equals by index: a heap, which takes no memory, and on no spheres more time than on
+/// others.
+fn sort(spheres: &Spheres<'_>, axis: usize, part: &mut [u32]) {
+    let heap = Heap { spheres, axis };
+    for root in (0..part.len() / 2).rev() {
+        let Some(&index) = part.get(root) else { return };
+        heap.sink(part, root, index);
+    }
+    let mut rest = part;
+    while let Some((last, others)) = rest.split_last_mut() {
+        if let Some(first) = others.first_mut() {
+            core::mem::swap(first, last);
+            let index = *first;
+            heap.sink(others, 0, index);
+        }
+        rest = others;
+    }
+}
+
+/// By what spheres are sorted.
+struct Heap<'a> {
+    spheres: &'a Spheres<'a>,
+    axis: usize,
+}
+
+impl Heap<'_> {
+    /// Whether `a` comes before `b`.
+    #[inline(always)]
+    fn is_before(&self, a: u32, b: u32) -> bool {
+        let (x, y) = (self.coordinate(a), self.coordinate(b));
+        x < y || (x == y && a < b)
+    }
+
+    #[inline(always)]
+    fn coordinate(&self, index: u32) -> f32 {
+        let center = self.spheres.get(index as usize).map_or([0.0; 3], |sphere| sphere.center());
+        center.get(self.axis).copied().unwrap_or(0.0)
+    }
+
+    /// Puts `index` at `root` of a heap, or below what comes after it.
+    fn sink(&self, heap: &mut [u32], mut root: usize, index: u32) {
+        loop {
+            let (left, right) = (heap.get(2 * root + 1), heap.get(2 * root + 2));
+            let (below, child) = match (left, right) {
+                (Some(&left), Some(&right)) if self.is_before(left, right) => (2 * root + 2, right),
+                (Some(&left), _) => (2 * root + 1, left),
+                (None, _) => break,
+            };
+            if !self.is_before(index, child) {
+                break;
+            }
+            if let Some(place) = heap.get_mut(root) {
+                *place = child;
+            }
+            root = below;
+        }
+        if let Some(place) = heap.get_mut(root) {
+            *place = index;
+        }
+    }
+}

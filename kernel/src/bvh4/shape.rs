@@ -1,0 +1,146 @@
+//! Where the nodes and leaves of a tree lie, which the number of its spheres says.
+//!
+//! A leaf has height 0, a node is one higher than its children. Number j of height h is over the spheres from j s to
+//! (j + 1) s, s = 2 4^h, as far as there are any; its children are 4 j to 4 j + 3. The root comes first, then height by
+//! height what is below.
+
+/// How many spheres a leaf holds: two to this power. (Of four, a ray of a picture of 1,000 spheres takes more
+/// instructions, and a tree half the room.)
+const LEAF_BITS: u32 = 1;
+/// How many spheres a tree can hold: a word is the index of one, and the place of another.
+pub(super) const MOST: usize = 1 << 16;
+/// The height of a root over as many.
+pub(super) const HIGHEST: usize = 8;
+/// Children of a node.
+pub(super) const WIDTH: usize = 4;
+
+/// Where nodes and leaves lie.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shape {
+    /// How many spheres.
+    pub(super) count: u32,
+    /// The height of the root; zero where there are no spheres.
+    pub(super) height: u32,
+    /// Where the nodes of each height begin.
+    firsts: [u32; HIGHEST + 1],
+    /// How many nodes.
+    pub(super) nodes: u32,
+}
+
+/// A node or a leaf: its number among those of its height, and its height.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    pub(super) number: u32,
+    pub(super) height: u32,
+}
+
+impl Shape {
+    /// Of a tree over `count` spheres, at most [`MOST`].
+    pub(super) const fn new(count: u32) -> Self {
+        let (mut shape, mut height) =
+            (Self { count, height: 0, firsts: [0; HIGHEST + 1], nodes: 0 }, 0);
+        while count > 0 && height < HIGHEST && (height == 0 || shape.of_height(height as u32) > 1) {
+            height += 1;
+        }
+        shape.height = height as u32;
+        while height > 0 {
+            // Always so.
+            if height <= HIGHEST {
+                shape.firsts[height] = shape.nodes;
+            }
+            shape.nodes += shape.of_height(height as u32);
+            height -= 1;
+        }
+        shape
+    }
+
+    /// How many nodes or leaves of that height.
+    #[inline(always)]
+    pub(super) const fn of_height(&self, height: u32) -> u32 {
+        if self.count == 0 { 0 } else { ((self.count - 1) >> size_bits(height)) + 1 }
+    }
+
+    /// The root.
+    pub(super) const fn root(&self) -> Place {
+        Place { number: 0, height: self.height }
+    }
+
+    /// Which spheres of the order are below: from the first to before the second.
+    #[inline(always)]
+    pub(super) const fn run(&self, place: Place) -> [u32; 2] {
+        let bits = size_bits(place.height);
+        let (begin, end) = (place.number << bits, (place.number + 1) << bits);
+        [begin, if end < self.count { end } else { self.count }]
+    }
+
+    /// Where among the nodes a node is.
+    #[inline(always)]
+    pub(super) const fn node(&self, place: Place) -> usize {
+        // The remainder tells the compiler that it is there.
+        (self.firsts[place.height as usize % (HIGHEST + 1)] + place.number) as usize
+    }
+}
+
+impl Place {
+    /// Child `slot`; there is none where its number is that of none of its height.
+    #[inline(always)]
+    pub(super) const fn child(self, slot: usize) -> Self {
+        let number = self.number * WIDTH as u32 + slot as u32;
+        Self { number, height: self.height.wrapping_sub(1) }
+    }
+}
+
+/// Of how many spheres what has that height is full, as a power of two.
+#[inline(always)]
+const fn size_bits(height: u32) -> u32 {
+    LEAF_BITS + 2 * height
+}
+
+/// The sizes of the parts from the whole to a leaf, as powers of two: each is cut in two of the next.
+pub(super) fn part_bits(shape: &Shape) -> impl Iterator<Item = u32> + use<> {
+    (LEAF_BITS + 1..=size_bits(shape.height)).rev()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_sphere_is_in_one_leaf_and_every_child_in_its_parent() {
+        for count in (0..300).chain([1000, 4095, 4096, 4097, 40_000, MOST as u32 - 1, MOST as u32])
+        {
+            let shape = Shape::new(count);
+            assert!(shape.height as usize <= HIGHEST && (count == 0) == (shape.height == 0));
+            let (mut next, mut nodes) = (0, 0);
+            for number in 0..shape.of_height(0) {
+                let [begin, end] = shape.run(Place { number, height: 0 });
+                assert!(
+                    begin == next && end > begin && end - begin <= 2,
+                    "{count}: {begin}..{end}"
+                );
+                next = end;
+            }
+            assert_eq!(next, count);
+            for height in (1..=shape.height).rev() {
+                for number in 0..shape.of_height(height) {
+                    let place = Place { number, height };
+                    assert_eq!(shape.node(place), nodes, "{count}: {place:?}");
+                    nodes += 1;
+                    let [begin, end] = shape.run(place);
+                    let mut next = begin;
+                    for slot in 0..WIDTH {
+                        let child = place.child(slot);
+                        if child.number < shape.of_height(child.height) {
+                            let [from, to] = shape.run(child);
+                            assert!(from == next && to > from, "{count}: {child:?}");
+                            next = to;
+                        }
+                    }
+                    assert_eq!(next, end, "{count}: {place:?}");
+                }
+            }
+            assert_eq!(nodes, shape.nodes as usize);
+            assert!(count == 0 || shape.of_height(shape.height) == 1);
+        }
+    }
+}

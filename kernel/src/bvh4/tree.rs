@@ -1,0 +1,151 @@
+//! The tree, borrowed: words, and the list that it is over.
+
+use super::boxes::{Boxes, NODE, ROWS};
+use super::load::{Bvh4Error, load};
+use super::order;
+use super::shape::{MOST, Place, Shape, WIDTH};
+use crate::geometry::sphere::Spheres;
+use crate::memory::TooSmall;
+use crate::scale::scene::SceneScale;
+
+/// What a tree begins with: another version has another.
+pub(super) const MARK: u32 = 0x3448_5642;
+/// Words before the order: the mark, how many spheres, how many of them bounds see, how many are valid, the scale.
+pub(super) const HEADER: usize = 5;
+
+/// A tree of one lane over a list of up to 65,536 spheres: what firmware has in place of a [`Bvh`](crate::Bvh).
+///
+/// It is words, and the list. Built on a host, [`words`](Bvh4::words) are data for a program, which
+/// [loads](Bvh4::load) them; with 12 to 18 KB beside the data and a kilobyte of stack (`docs/targets.md`), of which no panic,
+/// heap or formatting is part. Or it is [built](Bvh4::build) where it is used.
+///
+/// It answers through [`Intersect`](crate::Intersect), bit for bit as the list does, with the reservations of `Bvh` for
+/// `Fast` and `Geometric`. Wider packets are answered lane by lane, compiled where they are called: where there are vectors,
+/// `Bvh` is many times as fast.
+///
+/// ```
+/// use spherule_kernel::{Bvh4, Exact, Intersect, Ray, Spheres, Vec3};
+///
+/// static COLUMNS: [[f32; 2]; 4] = [[0.0, 0.0], [0.0, 0.0], [5.0, 9.0], [1.0, 1.0]];
+/// let [x, y, z, r] = &COLUMNS;
+/// let spheres = Spheres::new(x, y, z, r)?;
+///
+/// // On the host: words, to be written as a source, or a file.
+/// let mut memory = [0; Bvh4::needed(2)];
+/// let words = Bvh4::build(spheres, &mut memory)?.words();
+/// let source = format!("pub static TREE: [u32; {}] = {words:?};", words.len());
+///
+/// // In the firmware: memory that lies in flash.
+/// let tree = Bvh4::load(spheres, words)?;
+/// let hit = tree.closest_hit(Exact, &Ray::new(Vec3::ZERO, Vec3::Z));
+/// assert_eq!(hit.map(|hit| (hit.t, hit.sphere)), Some((4.0, 0)));
+/// # assert!(source.starts_with("pub static TREE: [u32; 31] = ["));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Bvh4<'a> {
+    /// The list, the scale and the shape.
+    pub(super) boxes: Boxes<'a>,
+    pub(super) order: &'a [u32],
+    pub(super) nodes: &'a [[u32; WIDTH]],
+    /// How many places have valid spheres: of the last of them bounds see nothing.
+    pub(super) valid: u32,
+    /// No coordinate of a box is larger, as bounds see it.
+    pub(super) extent: f32,
+    words: &'a [u32],
+}
+
+impl<'a> Bvh4<'a> {
+    /// How many words any list of `count` spheres needs: 20 bytes a sphere at most, and 120 more.
+    ///
+    /// More than 65,536 spheres are too many: no memory is enough then.
+    ///
+    /// ```
+    /// use spherule_kernel::Bvh4;
+    ///
+    /// assert_eq!(Bvh4::needed(1000), 5077);
+    /// ```
+    #[must_use]
+    pub const fn needed(count: usize) -> usize {
+        if count > MOST {
+            return usize::MAX;
+        }
+        HEADER + count + Shape::new(count as u32).nodes as usize * NODE
+    }
+
+    /// Builds a tree over `spheres` in the memory given, whose contents do not matter.
+    ///
+    /// The same list gives the same words on every target. Cost: the number of spheres times the square of its logarithm,
+    /// whatever the spheres; those that are the same are all met by a ray that meets one. Stack: some 1.5 KiB on 32
+    /// bits. No other memory.
+    ///
+    /// # Errors
+    /// [`TooSmall`] if there are fewer words than [`Bvh4::needed`] says; more are no error, and the rest is left alone.
+    pub fn build(spheres: Spheres<'a>, words: &'a mut [u32]) -> Result<Self, TooSmall> {
+        let needed = Self::needed(spheres.len());
+        TooSmall::check(needed, words.len())?;
+        let too_small = TooSmall { needed, given: words.len() };
+        let (order_end, scale) = (HEADER + spheres.len(), SceneScale::of(&spheres));
+        let order = words.get_mut(HEADER..order_end).ok_or(too_small)?;
+        let [inside, valid] = order::write(&spheres, &scale, order);
+        let header = [MARK, spheres.len() as u32, inside, valid, scale.factor.to_bits()];
+        if let Some(place) = words.first_chunk_mut::<HEADER>() {
+            *place = header;
+        }
+        let boxes = Boxes { spheres, scale, shape: Shape::new(inside) };
+        let (order, nodes) = words.split_at_mut_checked(order_end).ok_or(too_small)?;
+        let order = order.get(HEADER..).unwrap_or_default();
+        let (nodes, _) = nodes.as_chunks_mut::<NODE>();
+        for height in 1..=boxes.shape.height {
+            for number in 0..boxes.shape.of_height(height) {
+                let place = Place { number, height };
+                if let Some(node) = nodes.get_mut(boxes.shape.node(place)) {
+                    node.copy_from_slice(boxes.rows(order, place).as_flattened());
+                }
+            }
+        }
+        Ok(Self::of(boxes, words, valid))
+    }
+
+    /// The tree that [`words`](Bvh4::words) of a tree over `spheres` are, wherever they come from.
+    ///
+    /// Any words return: what is loaded answers as the list does, whatever they are, and is the same tree as built.
+    /// Cost: each box is computed anew from its spheres, some hundreds of operations a sphere. Stack: half a kilobyte on 32
+    /// bits. No other memory.
+    ///
+    /// # Errors
+    /// [`Bvh4Error`] says what is wrong of words that are not a tree over these spheres, bit for bit. More words than the tree's
+    /// are no error.
+    pub fn load(spheres: Spheres<'a>, words: &'a [u32]) -> Result<Self, Bvh4Error> {
+        load(spheres, words)
+    }
+
+    /// The words of a tree that was checked or built.
+    pub(super) fn of(boxes: Boxes<'a>, words: &'a [u32], valid: u32) -> Self {
+        let count = boxes.spheres.len();
+        let end = HEADER + count + boxes.shape.nodes as usize * NODE;
+        let words = words.get(..end).unwrap_or_default();
+        let order = words.get(HEADER..HEADER + count).unwrap_or_default();
+        let (nodes, _) = words.get(HEADER + count..).unwrap_or_default().as_chunks();
+        let extent = boxes.extent(order);
+        Self { boxes, order, nodes, valid, extent, words }
+    }
+
+    /// The list that the tree is over.
+    #[must_use]
+    pub const fn spheres(&self) -> Spheres<'a> {
+        self.boxes.spheres
+    }
+
+    /// What the tree is: as many words as are needed for the spheres that bounds see, the same on every target.
+    #[must_use]
+    pub const fn words(&self) -> &'a [u32] {
+        self.words
+    }
+
+    /// The rows of a node.
+    #[inline(always)]
+    pub(super) fn node(&self, place: Place) -> Option<&'a [[u32; WIDTH]; ROWS]> {
+        self.nodes.get(self.boxes.shape.node(place) * ROWS..)?.first_chunk()
+    }
+}
