@@ -3,7 +3,7 @@
 //! # Method
 //!
 //! Sphere i is in the box c -+ r, rounded outward. The list is cut at the middle of the longest axis of its centres, and
-//! so on until a leaf is left of two spheres: k cuts one below the other leave equal parts, of which the last alone may
+//! so on until a leaf is left of four spheres: k cuts one below the other leave equal parts, of which the last alone may
 //! be shorter. So the number of spheres says where every node and leaf lies (`shape.rs`), and a tree is no more than the
 //! order of the spheres and the boxes of the nodes: words, which may lie in flash. What they may be, [`Bvh4::load`]
 //! checks: it computes each box anew.

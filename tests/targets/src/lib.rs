@@ -4,6 +4,7 @@
 
 pub mod cases;
 pub mod digest;
+pub mod many;
 pub mod numbers;
 #[cfg(all(target_arch = "arm", target_os = "none"))]
 pub mod painted_stack;

@@ -3,13 +3,15 @@
 #[path = "../../../../../kernel/examples/firmware/src/hardware_root.rs"]
 mod hardware_root;
 
+use core::cell::UnsafeCell;
 use core::hint::black_box;
 use core::sync::atomic::{AtomicU8, Ordering::Relaxed};
 use hardware_root::HardwareRoot;
 use spherule_kernel::{
-    Exact, Fast, Geometric, HitPacket, Intersect, Ray, RayPacket, Sphere, SpherePacket, Spheres,
-    Stable, Trace, Vec3, f32x4, pair_lanes, roots,
+    Bvh4, Exact, Fast, Geometric, HitPacket, Intersect, Ray, RayPacket, Sphere, SpherePacket,
+    Spheres, Stable, Trace, Vec3, f32x4, pair_lanes, roots,
 };
+use spherule_targets::many::{self, BAKED_TREE};
 use spherule_targets::scene::{self, HEIGHT, WIDTH};
 
 const NAME: &[u8] = env!("CARGO_BIN_NAME").as_bytes();
@@ -69,8 +71,16 @@ pub fn drawn() -> u32 {
 
 /// Draws the picture.
 pub fn draw() {
-    let Some(spheres) = scene::spheres() else { return };
-    if ends_with("-slice") {
+    let (Some(spheres), Some(many)) = (scene::spheres(), many::spheres()) else { return };
+    if ends_with("-many") {
+        closest_of(&many);
+    } else if ends_with("-baked") {
+        if let Ok(tree) = Bvh4::load(many, black_box(&BAKED_TREE)) {
+            closest_of(&tree);
+        }
+    } else if ends_with("-built") {
+        built(many);
+    } else if ends_with("-slice") {
         slices(spheres);
     } else if ends_with("-hard") {
         hard();
@@ -117,6 +127,39 @@ fn pixels(spheres: Spheres<'_>) {
         }
     }
 }
+
+/// A ray at a time against a structure.
+fn closest_of(structure: &impl Intersect) {
+    let (mut camera, mut place) = (scene::camera(false), 0);
+    camera.corner = black_box(camera.corner);
+    for y in 0..HEIGHT {
+        for x in 0..WIDTH {
+            let hit = by_tier!(tier => structure.closest_hit(tier, &camera.get_ray(x, y)));
+            mark(place, hit.map(|hit| hit.sphere));
+            place += 1;
+        }
+    }
+}
+
+/// A tree that is built here.
+fn built(spheres: Spheres<'_>) {
+    static WORDS: Words = Words(UnsafeCell::new([0; Bvh4::needed(MANY)]));
+    // SAFETY: this runs once, and nobody else has the words.
+    #[allow(unsafe_code)]
+    let words = unsafe { &mut *WORDS.0.get() };
+    if let Ok(tree) = Bvh4::build(spheres, words) {
+        closest_of(&tree);
+    }
+}
+
+/// Memory of the tree that is built here.
+struct Words(UnsafeCell<[u32; Bvh4::needed(MANY)]>);
+
+// SAFETY: there is one thread.
+#[allow(unsafe_code)]
+unsafe impl Sync for Words {}
+
+const MANY: usize = many::COUNT;
 
 /// The caller's own loop over spheres.
 fn nearest(spheres: Spheres<'_>, ray: &Ray, place: usize) {
