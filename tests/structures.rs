@@ -5,6 +5,7 @@ mod counted;
 mod equality;
 mod far;
 mod limits;
+mod loading;
 mod scales;
 mod scenes;
 mod sizes;

@@ -95,12 +95,13 @@ impl<'a> Bvh4<'a> {
         let boxes = Boxes { spheres, scale, shape: Shape::new(inside) };
         let (order, nodes) = words.split_at_mut_checked(order_end).ok_or(too_small)?;
         let order = order.get(HEADER..).unwrap_or_default();
-        let (nodes, _) = nodes.as_chunks_mut::<NODE>();
+        let (nodes, _) = nodes.as_chunks_mut();
         for height in 1..=boxes.shape.height {
             for number in 0..boxes.shape.of_height(height) {
                 let place = Place { number, height };
-                if let Some(node) = nodes.get_mut(boxes.shape.node(place)) {
-                    node.copy_from_slice(boxes.rows(order, place).as_flattened());
+                let rows = nodes.get_mut(boxes.shape.node(place) * ROWS..);
+                if let Some(node) = rows.and_then(|rows| rows.first_chunk_mut::<ROWS>()) {
+                    *node = boxes.rows(order, place);
                 }
             }
         }

@@ -18,7 +18,7 @@ use spherule_kernel::{
 #[cfg(feature = "structures")]
 use spherule_kernel::{Bvh, BvhNode, DepthList, QueuedRay, StreamMemory, StreamRay, Viewpoint};
 use spherule_kernel::{
-    Camera, Hit, HitPacket, Intersect, Lanes, Projection, Ray, RayPacket, Side, Sphere,
+    Bvh4, Camera, Hit, HitPacket, Intersect, Lanes, Projection, Ray, RayPacket, Side, Sphere,
     SpherePacket, Spheres, Tier, Trace, Vec3, discriminant, float_environment_is_sound,
     object_lanes, pair_lanes, pairs, roots, side, surface,
 };
@@ -78,6 +78,7 @@ pub unsafe extern "C" fn spherule_no_std(numbers: *const f32, count: usize) -> u
         sum.lanes::<f32x4>(tier, &camera, &mut Trace::new(), &spheres);
         sum.lanes::<f32x16>(tier, &camera, &mut Trace::new(), &spheres);
     }
+    sum.bvh4(tier, &camera, &rays, spheres);
     #[cfg(feature = "structures")]
     sum.structures(tier, &camera, &rays, spheres);
     sum.pairs(tier, &rays, &sphere);
@@ -182,6 +183,19 @@ impl Sum {
                 self.word((tree.depth() + tree.size().nodes) as u32);
             }
             Err(error) => self.word(error.needed as u32),
+        }
+    }
+
+    /// The tree of one lane: built, and loaded from words that may be anything.
+    fn bvh4(&mut self, tier: Tier, camera: &Camera, rays: &[Ray], spheres: Spheres<'_>) {
+        let mut words = [0; 1024];
+        match Bvh4::build(spheres, &mut words) {
+            Ok(tree) => self.bits(tree.words().iter().copied()),
+            Err(error) => self.word(error.needed as u32),
+        }
+        match Bvh4::load(spheres, black_box(&words)) {
+            Ok(tree) => self.structure(tier, camera, rays, &mut [], &tree),
+            Err(error) => self.word(error as u32),
         }
     }
 
