@@ -21,13 +21,13 @@ use crate::trace::Trace;
 
 /// Spheres that rays are intersected with: [`Spheres`](crate::Spheres) tests every ray against every sphere; a
 /// [`Bvh`](crate::Bvh) is for many spheres; a [`DepthList`](crate::DepthList) for rays of a common origin or
-/// direction, without a tree. `SphereList` and `SphereTree` own what `Spheres` and `Bvh` borrow.
+/// direction, without a tree; a [`Bvh4`](crate::Bvh4) for firmware. `SphereList` and `SphereTree` own what `Spheres` and `Bvh` borrow.
 ///
 /// # Guarantee
 ///
 /// The closest hit is that of the smallest accepted root, by [`Exact`](crate::Exact) as a real number, by the other
 /// tiers as t; among equals that of the lowest index. t counts in multiples of each ray's own direction. Every
-/// structure returns bit for bit what the list returns (`Bvh` and `DepthList` say what that means for `Fast` and
+/// structure returns bit for bit what the list returns (`Bvh`, `Bvh4` and `DepthList` say what that means for `Fast` and
 /// `Geometric`, and for `Stable` outside its domain), at every level, in every lane width, alone or beside any other
 /// ray. [`any_hit`](Intersect::any_hit) is true exactly if there is a closest hit, and cheaper, since a ray that has
 /// hit something is done.

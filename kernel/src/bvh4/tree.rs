@@ -16,8 +16,7 @@ pub(super) const HEADER: usize = 5;
 /// A tree of one lane over a list of up to 65,536 spheres: what firmware has in place of a [`Bvh`](crate::Bvh).
 ///
 /// It is words, and the list. Built on a host, [`words`](Bvh4::words) are data for a program, which
-/// [loads](Bvh4::load) them; with 12 to 18 KB beside the data and a kilobyte of stack (`docs/targets.md`), of which no panic,
-/// heap or formatting is part. Or it is [built](Bvh4::build) where it is used.
+/// [loads](Bvh4::load) them. Or it is [built](Bvh4::build) where it is used. `docs/targets.md` says what either takes.
 ///
 /// It answers through [`Intersect`](crate::Intersect), bit for bit as the list does, with the reservations of `Bvh` for
 /// `Fast` and `Geometric`. Wider packets are answered lane by lane, compiled where they are called: where there are vectors,
@@ -110,7 +109,7 @@ impl<'a> Bvh4<'a> {
 
     /// The tree that [`words`](Bvh4::words) of a tree over `spheres` are, wherever they come from.
     ///
-    /// Any words return: what is loaded answers as the list does, whatever they are, and is the same tree as built.
+    /// Any words return, and what is loaded answers as the list does.
     /// Cost: each box is computed anew from its spheres, some hundreds of operations a sphere. Stack: half a kilobyte on 32
     /// bits. No other memory.
     ///

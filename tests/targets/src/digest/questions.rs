@@ -4,8 +4,8 @@ use super::fnv::Fnv;
 use crate::cases::{CASES, Case, Random, case};
 use crate::scene;
 use spherule_kernel::{
-    Bvh, BvhNode, BvhSize, DepthList, Hit, HitPacket, Intersect, Lanes, Level, Ray, RayPacket,
-    SpherePacket, Spheres, Tier, Trace, Vec3, Viewpoint, f32x4, pair_lanes, roots,
+    Bvh, Bvh4, BvhNode, BvhSize, DepthList, Hit, HitPacket, Intersect, Lanes, Level, Ray,
+    RayPacket, SpherePacket, Spheres, Tier, Trace, Vec3, Viewpoint, f32x4, pair_lanes, roots,
 };
 
 /// A tier at a level.
@@ -76,7 +76,7 @@ impl Asked {
         fnv.0
     }
 
-    /// List, depth list and tree of an ordinary scene; by `Exact` with spheres that lie one in the other.
+    /// List, depth list and both trees of an ordinary scene; by `Exact` with spheres that lie one in the other.
     pub(super) fn structures(&self) -> u64 {
         let (mut fnv, mut random) = (Fnv::new(), Random(7));
         let mut columns = [[0.0; BUILT]; 4];
@@ -103,6 +103,13 @@ impl Asked {
             self.ask(&mut fnv, &sorted, &rays, &mut scratch);
         }
         if let Ok(tree) = Bvh::build(spheres, &mut nodes, &mut places, &mut indices) {
+            self.ask(&mut fnv, &tree, &rays, &mut []);
+        }
+        let mut words = [0; Bvh4::needed(BUILT)];
+        if let Ok(built) = Bvh4::build(spheres, &mut words)
+            && let Ok(tree) = Bvh4::load(spheres, built.words())
+        {
+            tree.words().iter().for_each(|&word| fnv.word(word));
             self.ask(&mut fnv, &tree, &rays, &mut []);
         }
         fnv.0

@@ -8,8 +8,8 @@ use core::hint::black_box;
 use core::sync::atomic::{AtomicU8, Ordering::Relaxed};
 use hardware_root::HardwareRoot;
 use spherule_kernel::{
-    Bvh4, Exact, Fast, Geometric, HitPacket, Intersect, Ray, RayPacket, Sphere, SpherePacket,
-    Spheres, Stable, Trace, Vec3, f32x4, pair_lanes, roots,
+    Bvh, Bvh4, BvhNode, BvhSize, Exact, Fast, Geometric, HitPacket, Intersect, Ray, RayPacket,
+    Sphere, SpherePacket, Spheres, Stable, Trace, Vec3, f32x4, pair_lanes, roots,
 };
 use spherule_targets::many::{self, BAKED_TREE};
 use spherule_targets::scene::{self, HEIGHT, WIDTH};
@@ -73,13 +73,17 @@ pub fn drawn() -> u32 {
 pub fn draw() {
     let (Some(spheres), Some(many)) = (scene::spheres(), many::spheres()) else { return };
     if ends_with("-many") {
-        closest_of(&many);
-    } else if ends_with("-baked") {
+        draw_all(&many);
+    } else if ends_with("-baked") || ends_with("-baked_any") {
         if let Ok(tree) = Bvh4::load(many, black_box(&BAKED_TREE)) {
-            closest_of(&tree);
+            draw_all(&tree);
         }
     } else if ends_with("-built") {
         built(many);
+    } else if ends_with("-bvh") || ends_with("-bvh_build") {
+        sixteen_wide(many);
+    } else if ends_with("-hard_tree") {
+        hard_tree();
     } else if ends_with("-slice") {
         slices(spheres);
     } else if ends_with("-hard") {
@@ -129,35 +133,66 @@ fn pixels(spheres: Spheres<'_>) {
 }
 
 /// A ray at a time against a structure.
-fn closest_of(structure: &impl Intersect) {
+fn draw_all(structure: &impl Intersect) {
     let (mut camera, mut place) = (scene::camera(false), 0);
     camera.corner = black_box(camera.corner);
     for y in 0..HEIGHT {
         for x in 0..WIDTH {
-            let hit = by_tier!(tier => structure.closest_hit(tier, &camera.get_ray(x, y)));
-            mark(place, hit.map(|hit| hit.sphere));
+            let ray = camera.get_ray(x, y);
+            if ends_with("_any") {
+                mark(place, by_tier!(tier => structure.any_hit(tier, &ray)).then_some(0));
+            } else {
+                let hit = by_tier!(tier => structure.closest_hit(tier, &ray));
+                mark(place, hit.map(|hit| hit.sphere));
+            }
             place += 1;
         }
     }
 }
 
-/// A tree that is built here.
-fn built(spheres: Spheres<'_>) {
-    static WORDS: Words = Words(UnsafeCell::new([0; Bvh4::needed(MANY)]));
-    // SAFETY: this runs once, and nobody else has the words.
-    #[allow(unsafe_code)]
-    let words = unsafe { &mut *WORDS.0.get() };
-    if let Ok(tree) = Bvh4::build(spheres, words) {
-        closest_of(&tree);
-    }
-}
-
-/// Memory of the tree that is built here.
-struct Words(UnsafeCell<[u32; Bvh4::needed(MANY)]>);
+/// What one function writes to.
+struct Memory<T>(UnsafeCell<T>);
 
 // SAFETY: there is one thread.
 #[allow(unsafe_code)]
-unsafe impl Sync for Words {}
+unsafe impl<T> Sync for Memory<T> {}
+
+impl<T> Memory<T> {
+    const fn new(value: T) -> Self {
+        Self(UnsafeCell::new(value))
+    }
+
+    /// The memory, to write to.
+    #[allow(unsafe_code, clippy::mut_from_ref)]
+    fn lend(&self) -> &mut T {
+        // SAFETY: each is lent once.
+        unsafe { &mut *self.0.get() }
+    }
+}
+
+/// A tree that is built here.
+fn built(spheres: Spheres<'_>) {
+    static WORDS: Memory<[u32; Bvh4::needed(MANY)]> = Memory::new([0; Bvh4::needed(MANY)]);
+    if let Ok(tree) = Bvh4::build(spheres, WORDS.lend()) {
+        draw_all(&tree);
+    }
+}
+
+/// The tree for many lanes.
+fn sixteen_wide(spheres: Spheres<'_>) {
+    const NEEDED: BvhSize = Bvh::needed(MANY);
+    const PLACES: usize = NEEDED.places;
+    static NODES: Memory<[BvhNode; NEEDED.nodes]> = Memory::new([BvhNode::EMPTY; NEEDED.nodes]);
+    static ROWS: Memory<[[f32; 4]; PLACES]> = Memory::new([[0.0; 4]; PLACES]);
+    static INDICES: Memory<[u32; PLACES]> = Memory::new([0; PLACES]);
+    if let Ok(tree) = Bvh::build(spheres, NODES.lend(), ROWS.lend(), INDICES.lend()) {
+        if ends_with("-bvh") {
+            draw_all(&tree);
+        } else {
+            black_box(tree.size());
+        }
+    }
+}
 
 const MANY: usize = many::COUNT;
 
@@ -251,6 +286,22 @@ fn hard() {
     let Ok(spheres) = Spheres::new(x, y, z, r) else { return };
     let ray = Ray::new(Vec3::ZERO, Vec3::Z);
     black_box(by_tier!(tier => spheres.closest_hit(tier, &ray)));
+}
+
+/// The same by trees.
+fn hard_tree() {
+    static WORDS: Memory<[u32; Bvh4::needed(1)]> = Memory::new([0; Bvh4::needed(1)]);
+    let words = WORDS.lend();
+    for [ox, oy, oz, dx, dy, dz, x, y, z, r] in black_box(&HARD) {
+        let ray = Ray::new(Vec3::new(*ox, *oy, *oz), Vec3::new(*dx, *dy, *dz));
+        let columns = [x, y, z, r].map(core::slice::from_ref);
+        let Ok(spheres) = Spheres::new(columns[0], columns[1], columns[2], columns[3]) else {
+            return;
+        };
+        if let Ok(tree) = Bvh4::build(spheres, words) {
+            black_box(by_tier!(tier => tree.closest_hit(tier, &ray)));
+        }
+    }
 }
 
 /// The same for both roots.
