@@ -69,29 +69,40 @@ pub fn drawn() -> u32 {
     PICTURE.iter().fold(0, |sum: u32, pixel| add(sum % (1 << 24), pixel))
 }
 
+/// Whether the picture is that of many spheres.
+const OF_MANY: bool = ends_with("-many")
+    || ends_with("-baked")
+    || ends_with("-baked_any")
+    || ends_with("-built")
+    || ends_with("-bvh");
+
 /// Draws the picture.
 pub fn draw() {
-    let (Some(spheres), Some(many)) = (scene::spheres(), many::spheres()) else { return };
-    if ends_with("-many") {
-        draw_all(&many);
-    } else if ends_with("-baked") || ends_with("-baked_any") {
-        if let Ok(tree) = Bvh4::load(many, black_box(&BAKED_TREE)) {
-            draw_all(&tree);
-        }
-    } else if ends_with("-built") {
-        built(many);
-    } else if ends_with("-bvh") {
-        sixteen_wide(many);
-    } else if ends_with("-hard_tree") {
-        hard_tree();
-    } else if ends_with("-slice") {
-        slices(spheres);
+    if OF_MANY {
+        draw_many();
     } else if ends_with("-hard") {
         hard();
+    } else if ends_with("-hard_tree") {
+        hard_tree();
     } else if ends_with("-hard_roots") {
         hard_roots();
     } else if !ends_with("-none") {
-        pixels(spheres);
+        let Some(spheres) = scene::spheres() else { return };
+        if ends_with("-slice") { slices(spheres) } else { pixels(spheres) }
+    }
+}
+
+/// Draws many spheres.
+fn draw_many() {
+    let Some(spheres) = many::spheres() else { return };
+    if ends_with("-many") {
+        draw_all(&spheres);
+    } else if ends_with("-built") {
+        built(spheres);
+    } else if ends_with("-bvh") {
+        sixteen_wide(spheres);
+    } else if let Ok(tree) = Bvh4::load(spheres, black_box(&BAKED_TREE)) {
+        draw_all(&tree);
     }
 }
 
