@@ -155,7 +155,10 @@ pub struct Structures<'a> {
 }
 
 impl Memory {
-    /// A list and a tree of these spheres, and memory for a depth list.
+    /// A list and trees of these spheres, and memory for a depth list.
+    ///
+    /// # Panics
+    /// Never: the memory is enough.
     #[must_use]
     pub fn new(spheres: &[Sphere]) -> Self {
         let list = SphereList::from(spheres);

@@ -30,11 +30,9 @@ fn bake(place: &str) {
     };
     let mut columns = [[0.0; COUNT]; 4];
     for sphere in 0..COUNT {
-        for axis in 0..3 {
-            columns[axis][sphere] = 2.4 * number() - 1.2;
-        }
-        columns[2][sphere] -= 3.2;
-        columns[3][sphere] = 0.03 + 0.06 * number();
+        let [x, y, z] = [(); 3].map(|()| 2.4 * number() - 1.2);
+        let row = [x, y, z - 3.2, 0.03 + 0.06 * number()];
+        columns.iter_mut().zip(row).for_each(|(column, number)| column[sphere] = number);
     }
     let [x, y, z, r] = &columns;
     let mut memory = vec![0; Bvh4::needed(COUNT)];

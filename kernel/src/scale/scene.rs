@@ -65,7 +65,7 @@ impl SceneScale {
     /// That of a structure which was built elsewhere; `None` if it is no such power of two.
     pub(crate) fn from_factor(factor: f32) -> Option<Self> {
         let inverse = 1.0 / factor;
-        let is_power = factor.to_bits() << 9 == 0 && factor >= 1.0 / MOST && factor <= MOST;
+        let is_power = factor.to_bits() << 9 == 0 && (1.0 / MOST..=MOST).contains(&factor);
         is_power.then_some(Self { factor, inverse })
     }
 
