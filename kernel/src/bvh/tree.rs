@@ -109,8 +109,8 @@ impl<'a> Bvh<'a> {
     ///
     /// Cost: a cut looks at each of its spheres a bounded number of times, and a node makes fifteen
     /// cuts at most of runs that its children are eight times shorter than; so time grows by the
-    /// number of spheres times its logarithm, whatever the spheres. Stack: some 40 KiB; where that is too much, a
-    /// [`Bvh4`](crate::Bvh4) takes 2. No other memory.
+    /// number of spheres times its logarithm, whatever the spheres. Stack: some 40 KiB, on a
+    /// Cortex-M4F 34 (`tests/targets/sizes`); where that is too much, a [`Bvh4`](crate::Bvh4) takes 2. No other memory.
     ///
     /// # Errors
     /// [`TooSmall`] if a slice is shorter than [`Bvh::needed`] says; longer is no error, and the
