@@ -2,7 +2,7 @@
 //! tier itself. These hold whatever bits come in, in the tier's domain or not.
 
 use crate::geometry::Scene;
-use crate::{promise, surfaces};
+use crate::{promise, surfaces, tiles};
 use spherule_kernel::{Hit, Ray, Sphere, Tier, Viewpoint, roots};
 use spherule_tests::case::Case;
 use spherule_tests::oracle::{accepted, is_closer};
@@ -28,6 +28,7 @@ pub fn check(scene: &Scene) {
     for tier in Tier::ALL {
         surfaces::check(tier, scene);
     }
+    tiles::check(scene);
 }
 
 fn check_tier(tier: Tier, scene: &Scene, structures: Structures<'_>) {

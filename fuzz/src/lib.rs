@@ -5,6 +5,7 @@
 //! | [`geometry`] | how bytes become rays and spheres that are worth intersecting |
 //! | [`agreement`] | every variant against one lane, and the rules of the contract on a tier's own answers |
 //! | [`promise`] | a tier's roots against the exact ones, within what the tier promises |
+//! | [`surfaces`], [`tiles`] | surfaces of hits; a camera made of the rays |
 
 #![forbid(unsafe_code)]
 
@@ -12,3 +13,4 @@ pub mod agreement;
 pub mod geometry;
 pub mod promise;
 pub mod surfaces;
+pub mod tiles;

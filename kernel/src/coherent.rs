@@ -12,8 +12,10 @@ mod frustum;
 pub(crate) mod list_source;
 mod listed;
 mod packet_group;
+pub(crate) mod packet_source;
 mod packet_state;
 mod survey;
+mod tile_fit;
 pub(crate) mod tree_source;
 pub(crate) mod view;
 

@@ -11,6 +11,7 @@
 //! At the first two the level is the best that the CPU has, or the one that [`Trace`] names.
 
 use crate::Accuracy;
+use crate::geometry::camera::tiles::CameraTiles;
 use crate::geometry::hit::{Hit, HitPacket};
 use crate::geometry::ray::{Ray, RayPacket};
 use crate::lanes::Lanes;
@@ -197,6 +198,46 @@ pub trait Intersect: Traverse {
         self.in_packets::<AnyHit>(tier, trace, rays, met);
     }
 
+    /// The closest hit of the rays of a camera's tiles: tile `i` in packet `i`, as far as there are tiles, rays and hits.
+    ///
+    /// The rays are made on the way, and left in `rays`, whose contents do not matter, for shading: bit for bit
+    /// [`Camera::packet`](crate::Camera::packet)'s, except for the bits of a NaN. The answers are bit for bit those of
+    /// [`closest_hit_packets`](Intersect::closest_hit_packets). A tree does not look at rays to know what four tiles may meet:
+    /// it bounds them by their corners.
+    ///
+    /// Cost: with a tree some 0.7 to 0.95 times the time of packets that are there already, by
+    /// their number of spheres. Others make the rays first.
+    ///
+    /// ```
+    /// use spherule_kernel::{
+    ///     Camera, CameraTiles, Exact, HitPacket, Intersect, Projection, RayPacket, SphereTree, Trace, Vec3,
+    /// };
+    ///
+    /// let tree = SphereTree::from([[0.0, 0.0, -5.0, 1.0]]);
+    /// let camera = Camera {
+    ///     projection: Projection::Perspective { eye: Vec3::ZERO },
+    ///     corner: Vec3::new(-0.35, 0.15, -1.0),
+    ///     step_x: Vec3::new(0.1, 0.0, 0.0),
+    ///     step_y: Vec3::new(0.0, -0.1, 0.0),
+    /// };
+    /// // A picture of 8 x 4 pixels: two tiles.
+    /// let tiles = CameraTiles { camera, size: (8, 4), corners: &[(0, 0), (4, 0)] };
+    /// let (mut rays, mut hits) = ([RayPacket::inactive(); 2], [HitPacket::none(); 2]);
+    /// tree.closest_hit_tiles(Exact, &mut Trace::new(), tiles, &mut rays, &mut hits);
+    /// // Four pixels in the middle: half of them in either tile.
+    /// assert_eq!(hits.map(|tile| tile.hits().flatten().count()), [4, 4]);
+    /// ```
+    fn closest_hit_tiles(
+        &self,
+        tier: impl Accuracy,
+        trace: &mut Trace<'_>,
+        tiles: CameraTiles<'_>,
+        rays: &mut [RayPacket],
+        hits: &mut [HitPacket],
+    ) {
+        self.tiles_in_packets(tier, trace, tiles, rays, hits);
+    }
+
     /// [`closest_hit_packets`](Intersect::closest_hit_packets) in lanes of the caller's, with their token.
     /// The level of `trace` is not looked at.
     ///
@@ -243,6 +284,21 @@ pub trait Intersect: Traverse {
         met: &mut [u32],
     ) {
         self.in_lanes::<L, AnyHit>(tier, token, trace, rays, met);
+    }
+
+    /// [`closest_hit_tiles`](Intersect::closest_hit_tiles) in lanes of the caller's, with their token; tiles are as large as
+    /// [`Camera::tile`](crate::Camera::tile) says for those lanes. The level of `trace` is not looked at.
+    #[inline(always)]
+    fn closest_hit_tile_lanes<L: Lanes>(
+        &self,
+        tier: impl Accuracy,
+        token: L::Token,
+        trace: &mut Trace<'_>,
+        tiles: CameraTiles<'_>,
+        rays: &mut [RayPacket<L::Array>],
+        hits: &mut [HitPacket<L::Array>],
+    ) {
+        self.tiles_in_lanes::<L>(tier, token, trace, tiles, rays, hits);
     }
 }
 

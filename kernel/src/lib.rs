@@ -41,6 +41,7 @@ pub use bvh::{Bvh, BvhNode, BvhSize, InTurn, Join, QueuedRay, StreamMemory, Stre
 pub use bvh4::{Bvh4, Bvh4Error};
 pub use coherent::{DepthList, Viewpoint};
 pub use dispatch::{Level, LevelName};
+pub use geometry::camera::tiles::CameraTiles;
 pub use geometry::camera::{Camera, Projection};
 pub use geometry::hit::{Hit, HitPacket};
 pub use geometry::ray::{Ray, RayPacket};
@@ -57,7 +58,7 @@ pub use linear::{Writes, compare_hits, discriminant, object_lanes, pair_lanes, r
 pub use memory::TooSmall;
 pub use numeric::float_environment::float_environment_is_sound;
 pub use query::{AnyHit, ClosestHit, Query};
-pub use slices::{object_packets, pair_packets, pairs, shadow_packets, surface_packets};
+pub use slices::{object_packets, pair_packets, pairs, shadow_packets, surface_packets, tile_rays};
 pub use stages::{Stages, stages};
 pub use surface::{surface, surface_lanes};
 pub use trace::{Coherence, Trace};

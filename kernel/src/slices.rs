@@ -2,6 +2,7 @@
 
 use crate::Accuracy;
 use crate::dispatch::Level;
+use crate::geometry::camera::tiles::CameraTiles;
 use crate::geometry::hit::{Hit, HitPacket};
 use crate::geometry::ray::{Ray, RayPacket};
 use crate::geometry::sphere::{Sphere, SpherePacket, Spheres};
@@ -95,6 +96,33 @@ pub fn pair_packets(
     {
         let _ = level;
         linear::each_pair::<wide::f32x16>(tier, (), rays, spheres, hits);
+    }
+}
+
+/// Makes the rays of a camera's tiles at `level`, tile `i` in packet `i`, as far as there are tiles and packets: bit for bit
+/// [`Camera::packet`](crate::Camera::packet)'s, except for the bits of a NaN, in a sixth of the time.
+///
+/// ```
+/// use spherule_kernel::{Camera, CameraTiles, Level, Projection, RayPacket, Vec3, tile_rays};
+///
+/// let camera = Camera {
+///     projection: Projection::Perspective { eye: Vec3::ZERO },
+///     corner: Vec3::NEG_Z,
+///     step_x: Vec3::X,
+///     step_y: Vec3::NEG_Y,
+/// };
+/// let mut rays = [RayPacket::inactive(); 2];
+/// let tiles = CameraTiles { camera, size: (8, 4), corners: &[(0, 0), (4, 0)] };
+/// tile_rays(Level::best(), tiles, &mut rays);
+/// assert_eq!(rays[1], camera.packet(4, 0, 8, 4));
+/// ```
+pub fn tile_rays(level: Level, tiles: CameraTiles<'_>, rays: &mut [RayPacket]) {
+    #[cfg(feature = "std")]
+    crate::dispatch::compiled::fill_tiles(level, tiles, rays);
+    #[cfg(not(feature = "std"))]
+    {
+        let _ = level;
+        tiles.fill::<wide::f32x16>((), rays);
     }
 }
 

@@ -5,13 +5,18 @@ use crate::bvh::StreamMemory;
 use crate::bvh::tree::Bvh;
 use crate::bvh4::{Bvh4, walk};
 use crate::coherent::depth_list::DepthList;
+use crate::coherent::packet_source::PacketSource;
 use crate::coherent::{list_source, tree_source};
+#[cfg(feature = "std")]
+use crate::dispatch::compiled::Compiled;
+use crate::geometry::camera::tiles::CameraTiles;
+use crate::geometry::hit::HitPacket;
 use crate::geometry::ray::RayPacket;
 use crate::geometry::sphere::Spheres;
 use crate::lanes::Lanes;
 use crate::linear;
-use crate::query::Query;
-use crate::trace::Trace;
+use crate::query::{ClosestHit, Query};
+use crate::trace::{Coherence, Trace};
 
 /// The traversals of a structure.
 pub trait Traverse {
@@ -33,13 +38,48 @@ pub trait Traverse {
         rays: &[RayPacket],
         answers: &mut [Q::Packet<[f32; 16]>],
     );
+
+    /// What tiles of a camera hit, whose rays are made in `rays`, in lanes of any kind.
+    #[inline(always)]
+    fn tiles_in_lanes<L: Lanes>(
+        &self,
+        tier: impl Accuracy,
+        token: L::Token,
+        trace: &mut Trace<'_>,
+        tiles: CameraTiles<'_>,
+        rays: &mut [RayPacket<L::Array>],
+        hits: &mut [HitPacket<L::Array>],
+    ) {
+        tiles.fill::<L>(token, rays);
+        let rays = rays.get(..tiles.corners.len()).unwrap_or(rays);
+        self.in_lanes::<L, ClosestHit>(tier, token, trace, rays, hits);
+    }
+
+    /// The same in sixteen lanes at a level, compiled with this crate.
+    fn tiles_in_packets(
+        &self,
+        tier: impl Accuracy,
+        trace: &mut Trace<'_>,
+        tiles: CameraTiles<'_>,
+        rays: &mut [RayPacket],
+        hits: &mut [HitPacket],
+    ) {
+        #[cfg(feature = "std")]
+        {
+            crate::dispatch::compiled::fill_tiles(trace.level, tiles, rays);
+            let rays = rays.get(..tiles.corners.len()).unwrap_or(rays);
+            self.in_packets::<ClosestHit>(tier, trace, rays, hits);
+        }
+        #[cfg(not(feature = "std"))]
+        crate::dispatch::tiles_of_the_build(self, tier, trace, tiles, rays, hits);
+    }
 }
 
 /// A query that is compiled for every level.
 #[cfg(feature = "std")]
-pub trait LevelQuery: Query + crate::dispatch::compiled::Compiled {}
+pub trait LevelQuery: Query + Compiled {}
 #[cfg(feature = "std")]
-impl<Q: Query + crate::dispatch::compiled::Compiled> LevelQuery for Q {}
+impl<Q: Query + Compiled> LevelQuery for Q {}
 
 /// A query: there is one level.
 #[cfg(not(feature = "std"))]
@@ -85,11 +125,70 @@ macro_rules! traverse {
 }
 
 traverse!(Spheres<'_>, |spheres, trace| linear::traverse = list(*spheres));
-traverse!(Bvh<'_>, |bvh, trace| tree_source::traverse =
-    tree(bvh, (trace.coherence, trace.stream.as_mut().map(StreamMemory::again))));
 traverse!(DepthList<'_>, |list, trace| list_source::traverse = depth_list(list, trace.scratch));
 
 /// In one lane, whatever the level.
+impl Traverse for Bvh<'_> {
+    #[inline(always)]
+    fn in_lanes<L: Lanes, Q: Query>(
+        &self,
+        tier: impl Accuracy,
+        token: L::Token,
+        trace: &mut Trace<'_>,
+        rays: &[RayPacket<L::Array>],
+        answers: &mut [Q::Packet<L::Array>],
+    ) {
+        let source = PacketSource::Packets(rays);
+        tree_source::traverse::<L, Q>(tier, token, self, ways(trace), source, answers);
+    }
+
+    fn in_packets<Q: LevelQuery>(
+        &self,
+        tier: impl Accuracy,
+        trace: &mut Trace<'_>,
+        rays: &[RayPacket],
+        answers: &mut [Q::Packet<[f32; 16]>],
+    ) {
+        #[cfg(feature = "std")]
+        Q::tree(trace.level, tier.tier(), self, ways(trace), PacketSource::Packets(rays), answers);
+        #[cfg(not(feature = "std"))]
+        crate::dispatch::of_the_build::<Self, Q>(self, tier, trace, rays, answers);
+    }
+
+    #[inline(always)]
+    fn tiles_in_lanes<L: Lanes>(
+        &self,
+        tier: impl Accuracy,
+        token: L::Token,
+        trace: &mut Trace<'_>,
+        tiles: CameraTiles<'_>,
+        rays: &mut [RayPacket<L::Array>],
+        hits: &mut [HitPacket<L::Array>],
+    ) {
+        let source = PacketSource::Tiles(tiles, rays);
+        tree_source::traverse::<L, ClosestHit>(tier, token, self, ways(trace), source, hits);
+    }
+
+    #[cfg(feature = "std")]
+    fn tiles_in_packets(
+        &self,
+        tier: impl Accuracy,
+        trace: &mut Trace<'_>,
+        tiles: CameraTiles<'_>,
+        rays: &mut [RayPacket],
+        hits: &mut [HitPacket],
+    ) {
+        let source = PacketSource::Tiles(tiles, rays);
+        <ClosestHit as Compiled>::tree(trace.level, tier.tier(), self, ways(trace), source, hits);
+    }
+}
+
+/// What a tree asks of a trace.
+#[inline(always)]
+fn ways<'t>(trace: &'t mut Trace<'_>) -> (Coherence, Option<StreamMemory<'t>>) {
+    (trace.coherence, trace.stream.as_mut().map(StreamMemory::again))
+}
+
 impl Traverse for Bvh4<'_> {
     #[inline(always)]
     fn in_lanes<L: Lanes, Q: Query>(
@@ -139,6 +238,30 @@ macro_rules! traverse_as {
                 answers: &mut [Q::Packet<[f32; 16]>],
             ) {
                 self.$lend().in_packets::<Q>(tier, trace, rays, answers);
+            }
+
+            #[inline(always)]
+            fn tiles_in_lanes<L: Lanes>(
+                &self,
+                tier: impl Accuracy,
+                token: L::Token,
+                trace: &mut Trace<'_>,
+                tiles: CameraTiles<'_>,
+                rays: &mut [RayPacket<L::Array>],
+                hits: &mut [HitPacket<L::Array>],
+            ) {
+                self.$lend().tiles_in_lanes::<L>(tier, token, trace, tiles, rays, hits);
+            }
+
+            fn tiles_in_packets(
+                &self,
+                tier: impl Accuracy,
+                trace: &mut Trace<'_>,
+                tiles: CameraTiles<'_>,
+                rays: &mut [RayPacket],
+                hits: &mut [HitPacket],
+            ) {
+                self.$lend().tiles_in_packets(tier, trace, tiles, rays, hits);
             }
         }
     };

@@ -7,6 +7,7 @@
 mod difference;
 mod pairs;
 mod surfaces;
+mod tiles;
 
 pub use difference::{assert_same, assert_same_from, bits, difference};
 pub use pairs::{pair_storeys, pairs_of};
@@ -16,6 +17,7 @@ use spherule_kernel::{
     StreamRay, Tier, Trace, Vec3, Viewpoint, f32x4, f32x8, f32x16, pair_lanes,
 };
 pub use surfaces::{shadow_rays_of, surface_storeys, surfaces_of};
+pub use tiles::{Frame, assert_same_tiles, tile_difference};
 
 /// What holds the spheres.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

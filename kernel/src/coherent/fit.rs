@@ -1,6 +1,6 @@
 //! Where the rays of a group run, and the planes around them.
 
-use super::frustum::{Frustum, Line, Sides, across, margin, turn};
+use super::frustum::{Frustum, Sides, across, margin, turn};
 use super::packet_state::PacketState;
 use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::axes;
@@ -120,13 +120,9 @@ impl Fit {
     #[inline(always)]
     pub(super) fn sides(&self, slopes: [[f32; 2]; 2], offsets: [[f32; 2]; 2]) -> Sides {
         let margin = margin(steepest(slopes), self.absolute_error);
-        let turned = self.turned(slopes);
-        let mut sides = Sides { along: self.along % 3, ..Sides::NONE };
-        for side in 0..2 {
-            let ([low, high], [least, most]) = (turned[side], offsets[side]);
-            sides.lines[side] = [Line::new(low, least - margin), Line::new(high, most + margin)];
-        }
-        sides
+        let [[a, b], [c, d]] = offsets;
+        let offsets = [[a - margin, b + margin], [c - margin, d + margin]];
+        Sides::new(self.along, self.turned(slopes), offsets)
     }
 
     /// The planes around some packets with `slopes`.

@@ -19,26 +19,15 @@ use crate::bvh::traverse::root_interval::SphereColumns;
 use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::axes;
 use crate::numeric::rounding::U;
+use wide::f32x4;
 
 /// A line that bounds x_i in terms of x_k: `slope * x_k + offset`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Line {
+struct Line {
     slope: f32,
     offset: f32,
     /// At least the length of the plane's normal.
     length: f32,
-}
-
-impl Line {
-    const NONE: Self = Self { slope: 0.0, offset: 0.0, length: 0.0 };
-
-    /// The line below (`side` 1) or above (-1) all rays, for slopes that end at `slope` and an offset
-    /// that ends at `offset`, both moved outward.
-    #[inline(always)]
-    pub(super) fn new(slope: f32, offset: f32) -> Self {
-        // At least the root of 1 + slope^2, and not much more where the slope is below one.
-        Self { slope, offset, length: slope * slope * (0.5 * LARGER) + LARGER }
-    }
 }
 
 /// How far a plane of that slope, at least zero, is moved; the error is the rays' largest.
@@ -56,13 +45,14 @@ pub(super) fn turn(slope: f32) -> f32 {
 /// How much larger a radius counts: 64u.
 const LARGER: f32 = 1.0 + 64.0 * U;
 
-/// The four planes: two lines for each of the axes across.
+/// The four planes: two lines for each of the axes across, below and above the rays; first those of the first axis.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sides {
     /// The axis that all rays run along.
-    pub(super) along: usize,
-    /// Below and above the rays, along the axes [`across`].
-    pub(super) lines: [[Line; 2]; 2],
+    along: usize,
+    slope: [f32; 4],
+    offset: [f32; 4],
+    length: [f32; 4],
 }
 
 /// The axes that are not `along`.
@@ -72,7 +62,60 @@ pub(super) fn across(along: usize) -> [usize; 2] {
 }
 
 impl Sides {
-    pub(super) const NONE: Self = Self { along: 0, lines: [[Line::NONE; 2]; 2] };
+    pub(super) const NONE: Self =
+        Self { along: 0, slope: [0.0; 4], offset: [0.0; 4], length: [0.0; 4] };
+
+    /// For slopes that end there, and offsets that end there, least and greatest for each axis, both moved outward.
+    #[inline(always)]
+    pub(super) fn new(along: usize, slopes: [[f32; 2]; 2], offsets: [[f32; 2]; 2]) -> Self {
+        let [[a, b], [c, d]] = slopes;
+        let [[e, f], [g, h]] = offsets;
+        let (slope, offset) = (f32x4::new([a, b, c, d]), f32x4::new([e, f, g, h]));
+        Self::of_lines(along, slope, offset)
+    }
+
+    /// The same for four packets, a lane each.
+    #[inline(always)]
+    pub(super) fn of_each(
+        along: usize,
+        slopes: [[f32x4; 2]; 2],
+        offsets: [[f32x4; 2]; 2],
+    ) -> [Self; 4] {
+        let [[a, b], [c, d]] = slopes;
+        let [[e, f], [g, h]] = offsets;
+        let (slopes, offsets) = (f32x4::transpose([a, b, c, d]), f32x4::transpose([e, f, g, h]));
+        let mut sides = [Self::NONE; 4];
+        for packet in 0..4 {
+            sides[packet] = Self::of_lines(along, slopes[packet], offsets[packet]);
+        }
+        sides
+    }
+
+    #[inline(always)]
+    fn of_lines(along: usize, slope: f32x4, offset: f32x4) -> Self {
+        // At least the root of 1 + slope^2, and not much more where the slope is below one.
+        let length = slope * slope * f32x4::splat(0.5 * LARGER) + f32x4::splat(LARGER);
+        let (slope, offset, length) = (slope.to_array(), offset.to_array(), length.to_array());
+        Self { along: along % 3, slope, offset, length }
+    }
+
+    /// Below and above the rays, along the first or second of the axes [`across`].
+    #[inline(always)]
+    fn lines(&self, side: usize) -> [Line; 2] {
+        let (below, above) = (2 * side % 4, (2 * side + 1) % 4);
+        [
+            Line {
+                slope: self.slope[below],
+                offset: self.offset[below],
+                length: self.length[below],
+            },
+            Line {
+                slope: self.slope[above],
+                offset: self.offset[above],
+                length: self.length[above],
+            },
+        ]
+    }
 
     /// Which of sixteen spheres may be between the planes; each counts as larger by `spread` times its
     /// distance.
@@ -91,7 +134,7 @@ impl Sides {
             let mut met = L::splat(token, 0.0).le(radius);
             let axes = across(k);
             for side in 0..2 {
-                let [below, above] = self.lines[side];
+                let [below, above] = self.lines(side);
                 let across = L::load_part(token, spheres.center[axes[side] % 3], part);
                 let least = along
                     .filter_mul_add(L::splat(token, below.slope), L::splat(token, below.offset));
@@ -145,7 +188,7 @@ impl Frustum {
             let mut met = begin.le(end) & start.le(finish);
             let axes = across(k);
             for side in 0..2 {
-                let (i, [below, above]) = (axes[side] % 3, self.sides.lines[side]);
+                let (i, [below, above]) = (axes[side] % 3, self.sides.lines(side));
                 // Where along k the line is farthest out.
                 let corner = if below.slope > 0.0 { low } else { high };
                 let least = L::load_part(token, corner, part)

@@ -14,6 +14,7 @@
 use super::fit::Fit;
 use super::frustum::Inside;
 use super::packet_group::{GROUP, approach, meet_block};
+use super::packet_source::PacketSource;
 use super::packet_state::PacketState;
 use crate::Accuracy;
 use crate::accuracy::RayLanes;
@@ -28,6 +29,7 @@ use crate::linear;
 use crate::query::Query;
 use crate::scale::rays::ScaledRays;
 use crate::trace::Coherence;
+use core::ops::Range;
 
 /// The widest range of slopes that is traced as one.
 const NARROW: f32 = 0.5;
@@ -46,18 +48,23 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
     token: L::Token,
     bvh: &Bvh<'_>,
     (coherence, mut stream): (Coherence, Option<StreamMemory<'_>>),
-    rays: &[RayPacket<L::Array>],
+    mut source: PacketSource<'_, L::Array>,
     answers: &mut [Q::Packet<L::Array>],
 ) {
+    let count = source.count().min(answers.len());
     // What no bound sees is met first, by all packets: all begin with what they have hit of it.
-    let count = rays.len().min(answers.len());
+    let made = !bvh.outside.is_empty() || coherence == Coherence::Incoherent;
+    if made {
+        source.make::<L>(token, 0..count);
+    }
     if !bvh.outside.is_empty()
-        && let (Some(rays), Some(answers)) = (rays.get(..count), answers.get_mut(..count))
+        && let Some(answers) = answers.get_mut(..count)
     {
+        let rays = source.packets(0..count);
         linear::traverse_some::<L, Q>(tier, token, &bvh.outside(), rays, answers);
     }
     if coherence == Coherence::Incoherent {
-        return one_by_one::<L, Q>(tier, token, bvh, stream.as_mut(), rays, answers);
+        return by_rays::<L, Q>(tier, token, bvh, stream.as_mut(), (0, count), &source, answers);
     }
     let mut boxes = Boxes::new();
     let nobody = RayPacket::inactive();
@@ -65,13 +72,15 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
     let (mut at, mut unfit, mut misfits) = (0, 0, 0);
     while at < count {
         let end = (at + GROUP).min(count);
-        let group = rays.get(at..end).unwrap_or_default();
+        let are_tiles = source.make::<L>(token, at..end);
+        let group = source.packets(at..end);
         let tried = coherence == Coherence::Coherent || misfits < TRIES || misfits % TRIES == 0;
         let mut states = states_of::<L>(token, group, &nobody, bvh.scale.factor);
         let states = states.get_mut(..group.len()).unwrap_or_default();
         let known = answers.get(at..end).unwrap_or_default();
-        if tried && boxes.trace::<L, Q>(tier, token, states, known, bvh) {
-            by_rays::<L, Q>(tier, token, bvh, stream.as_mut(), (unfit, at), rays, answers);
+        let tiles = if are_tiles { Some((&source, at..end)) } else { None };
+        if tried && boxes.trace::<L, Q>(tier, token, states, known, bvh, tiles) {
+            by_rays::<L, Q>(tier, token, bvh, stream.as_mut(), (unfit, at), &source, answers);
             for place in 0..group.len() {
                 if let (Some(state), Some(answer)) =
                     (states.get_mut(place), answers.get_mut(at + place))
@@ -85,7 +94,7 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
         }
         at = end;
     }
-    by_rays::<L, Q>(tier, token, bvh, stream.as_mut(), (unfit, count), rays, answers);
+    by_rays::<L, Q>(tier, token, bvh, stream.as_mut(), (unfit, count), &source, answers);
 }
 
 /// Answers a run of packets ray by ray.
@@ -96,12 +105,13 @@ fn by_rays<L: Lanes, Q: Query>(
     bvh: &Bvh<'_>,
     stream: Option<&mut StreamMemory<'_>>,
     (from, to): (usize, usize),
-    rays: &[RayPacket<L::Array>],
+    source: &PacketSource<'_, L::Array>,
     answers: &mut [Q::Packet<L::Array>],
 ) {
     if from < to
-        && let (Some(rays), Some(answers)) = (rays.get(from..to), answers.get_mut(from..to))
+        && let Some(answers) = answers.get_mut(from..to)
     {
+        let rays = source.packets(from..to);
         one_by_one::<L, Q>(tier, token, bvh, stream, rays, answers);
     }
 }
@@ -177,10 +187,23 @@ impl Boxes {
         states: &mut [PacketState<'_, L>],
         known: &[Q::Packet<L::Array>],
         bvh: &Bvh<'_>,
+        tiles: Option<(&PacketSource<'_, L::Array>, Range<usize>)>,
     ) -> bool {
         approach(states, bvh.scale.factor, bvh.extent, tier.spread());
-        let Some(fit) = Fit::of(states, bvh.extent, tier.spread()) else { return false };
-        let Some(mut frustum) = fit.enclose(states, NARROW) else { return false };
+        let by_corners = match tiles {
+            Some((source, at)) => {
+                source.enclose(at, states, (bvh.scale.factor, bvh.extent, tier.spread(), NARROW))
+            }
+            None => None,
+        };
+        let (fit, mut frustum) = match by_corners {
+            Some(both) => both,
+            None => {
+                let Some(fit) = Fit::of(states, bvh.extent, tier.spread()) else { return false };
+                let Some(frustum) = fit.enclose(states, NARROW) else { return false };
+                (fit, frustum)
+            }
+        };
         if !bvh.outside.is_empty() {
             for place in 0..states.len().min(known.len()) {
                 states[place].take_known::<Q>(&known[place]);

@@ -1,11 +1,14 @@
 //! The one level that there is without `std`: what the build's target guarantees.
 
 use crate::Accuracy;
+use crate::geometry::camera::tiles::CameraTiles;
+use crate::geometry::hit::HitPacket;
 use crate::geometry::ray::RayPacket;
 use crate::lanes::Lanes;
-use crate::query::Query;
+use crate::query::{ClosestHit, Query};
 use crate::structures::Traverse;
 use crate::trace::Trace;
+use core::slice::{from_mut, from_ref};
 
 /// Sixteen lanes; one where the target has no vectors. Arrays in their place would be as slow, and six times as long.
 #[cfg(any(target_feature = "sse2", target_feature = "neon", target_feature = "simd128"))]
@@ -34,5 +37,24 @@ pub(crate) fn of_the_build<S: Traverse + ?Sized, Q: Query>(
             structure.in_lanes::<f32, Q>(tier, (), trace, &ray, &mut one);
             Q::put(answer, lane, Q::one(&one[0], 0));
         }
+    }
+}
+
+/// What a camera's tiles hit, in the lanes of the build.
+pub(crate) fn tiles_of_the_build<S: Traverse + ?Sized>(
+    structure: &S,
+    tier: impl Accuracy,
+    trace: &mut Trace<'_>,
+    tiles: CameraTiles<'_>,
+    rays: &mut [RayPacket],
+    hits: &mut [HitPacket],
+) {
+    if BuildLanes::COUNT == RayPacket::COUNT {
+        return structure.tiles_in_lanes::<wide::f32x16>(tier, (), trace, tiles, rays, hits);
+    }
+    let CameraTiles { camera, size: (width, height), corners } = tiles;
+    for ((packet, hits), &(x, y)) in rays.iter_mut().zip(hits.iter_mut()).zip(corners) {
+        *packet = camera.packet(x, y, width, height);
+        structure.in_packets::<ClosestHit>(tier, trace, from_ref(packet), from_mut(hits));
     }
 }

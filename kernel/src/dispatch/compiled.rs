@@ -10,7 +10,9 @@ use crate::accuracy::Tier;
 use crate::bvh::StreamMemory;
 use crate::bvh::tree::Bvh;
 use crate::coherent::depth_list::DepthList;
+use crate::coherent::packet_source::PacketSource;
 use crate::coherent::{list_source, tree_source};
+use crate::geometry::camera::tiles::CameraTiles;
 use crate::geometry::hit::HitPacket;
 use crate::geometry::ray::RayPacket;
 use crate::geometry::sphere::{SpherePacket, Spheres};
@@ -67,7 +69,6 @@ macro_rules! compiled {
                     tier: Tier,
                     $structure: $type,
                     $($more: $kind,)*
-                    rays: &[RayPacket],
                     answers: &mut [Self::Packet<[f32; 16]>],
                 );
             )*
@@ -85,12 +86,11 @@ macro_rules! compiled {
                     tier: Tier,
                     $structure: $type,
                     $($more: $kind,)*
-                    rays: &[RayPacket],
                     answers: &mut [$packet],
                 ) {
                     use $traverse as traverse;
                     at_level!(level.0, simd => {
-                        traverse::<f32x16<_>, Self>(tier, simd, $structure, $($more,)* rays, answers)
+                        traverse::<f32x16<_>, Self>(tier, simd, $structure, $($more,)* answers)
                     });
                 }
             )*
@@ -100,11 +100,11 @@ macro_rules! compiled {
 
 compiled! {
     /// Of a list of spheres.
-    fn list(spheres: Spheres<'_>) = linear::traverse;
+    fn list(spheres: Spheres<'_>, rays: &[RayPacket]) = linear::traverse;
     /// Of a tree, as the rays are coherent or not.
-    fn tree(bvh: &Bvh<'_>, ways: (Coherence, Option<StreamMemory<'_>>)) = tree_source::traverse;
+    fn tree(bvh: &Bvh<'_>, ways: (Coherence, Option<StreamMemory<'_>>), packets: PacketSource<'_, [f32; 16]>) = tree_source::traverse;
     /// Of a depth list.
-    fn depth_list(list: &DepthList<'_>, scratch: &mut [f32]) = list_source::traverse;
+    fn depth_list(list: &DepthList<'_>, scratch: &mut [f32], rays: &[RayPacket]) = list_source::traverse;
 }
 
 /// [`pair_lanes`](crate::pair_lanes), packet by packet.
@@ -162,4 +162,10 @@ pub(crate) fn shadows(
     at_level!(level.0, simd => {
         packets::each_packet::<f32x16<_>>(tier, simd, spheres, hit, towards, shadow_rays);
     });
+}
+
+/// Makes the rays of as many of a camera's tiles as there is room for.
+#[inline(never)]
+pub(crate) fn fill_tiles(level: Level, tiles: CameraTiles<'_>, rays: &mut [RayPacket]) {
+    at_level!(level.0, simd => tiles.fill::<f32x16<_>>(simd, rays));
 }

@@ -6,6 +6,8 @@
 //!
 //! Source: Shirley, Marschner et al., Fundamentals of Computer Graphics, ch. 4.
 
+pub(crate) mod tiles;
+
 use super::ray::{Ray, RayPacket};
 use crate::lanes::LaneArray;
 use glam::Vec3;
@@ -69,7 +71,8 @@ impl Camera {
         let (tile_width, _) = Self::tile::<A>();
         let mut packet = RayPacket::<A>::inactive();
         for lane in 0..A::COUNT as u32 {
-            let (x, y) = (ix + lane % tile_width, iy + lane / tile_width);
+            let x = ix.saturating_add(lane % tile_width);
+            let y = iy.saturating_add(lane / tile_width);
             if x < width && y < height {
                 packet.set(lane as usize, &self.get_ray(x, y));
             }

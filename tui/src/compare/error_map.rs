@@ -12,7 +12,7 @@ use crate::structure::search::{Scratch, Tracing};
 use crate::style::Style;
 use crate::threads::Threads;
 use crate::view::View;
-use spherule_kernel::{Camera, HitPacket, Level, RayPacket, Tier};
+use spherule_kernel::{Camera, CameraTiles, HitPacket, Level, RayPacket, Tier};
 use std::ops::Range;
 
 /// How many rows of cells are traced at a time: as many as of a picture, so that packets go through a structure
@@ -45,6 +45,7 @@ pub struct ErrorMapper {
 /// The memory of a thread.
 #[derive(Debug, Default)]
 struct Worker {
+    tiles: Vec<(u32, u32)>,
     rays: Vec<RayPacket>,
     answers: Vec<HitPacket>,
     truths: Vec<HitPacket>,
@@ -128,7 +129,7 @@ impl Worker {
     /// Writes the worst of every cell from row `first` on.
     fn judge(&mut self, sampled: &Sampled<'_>, first: u32, classes: &mut [Class]) -> Counts {
         let &Sampled { scene, search, tracing, ref camera, columns, samples } = sampled;
-        let Self { rays, answers, truths, scratch } = self;
+        let Self { tiles, rays, answers, truths, scratch } = self;
         let top = first * samples.down;
         let (left_column, columns) = columns;
         let left_sample = left_column * samples.across;
@@ -137,20 +138,22 @@ impl Worker {
         let height = top + classes.len() as u32 / columns * samples.down;
         let corners = packet_corners(width - left_sample, height - top)
             .map(|(x, y)| (left_sample + x, top + y));
-        rays.clear();
-        rays.extend(corners.clone().map(|(x, y)| camera.packet(x, y, width, height)));
+        tiles.clear();
+        tiles.extend(corners);
+        rays.resize(tiles.len(), RayPacket::inactive());
+        let of_camera = CameraTiles { camera: *camera, size: (width, height), corners: tiles };
         let mut trace = |tier, hits: &mut Vec<HitPacket>| {
-            hits.clear();
             hits.resize(rays.len(), HitPacket::none());
-            search.camera.closest_hits(Tracing { tier, ..tracing }, scratch, rays, hits);
+            let tracing = Tracing { tier, ..tracing };
+            search.camera.tile_hits(tracing, scratch, of_camera, rays, hits);
         };
         trace(tracing.tier, answers);
         trace(Tier::Exact, truths);
 
         let (spheres, mut counts) = (scene.spheres(), Counts::default());
         let (tile_width, _) = Camera::tile::<[f32; 16]>();
-        for (((left, top), rays), (answers, truths)) in
-            corners.zip(&*rays).zip(answers.iter().zip(&*truths))
+        for ((&(left, top), rays), (answers, truths)) in
+            tiles.iter().zip(&*rays).zip(answers.iter().zip(&*truths))
         {
             for (lane, (answer, truth)) in answers.hits().zip(truths.hits()).enumerate() {
                 let (x, y) = (left + lane as u32 % tile_width, top + lane as u32 / tile_width);

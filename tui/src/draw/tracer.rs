@@ -8,7 +8,7 @@ use crate::structure::scene::PictureSearch;
 use crate::structure::search::{Scratch, Tracing};
 use crate::style::Style;
 use crate::view::View;
-use spherule_kernel::{Camera, HitPacket, RayPacket, Vec3};
+use spherule_kernel::{Camera, CameraTiles, HitPacket, RayPacket, Vec3};
 use std::array;
 
 /// What is traced, and how.
@@ -71,6 +71,7 @@ impl Places {
 /// Traces, and keeps its memory from one call to the next.
 #[derive(Debug, Default)]
 pub(super) struct Tracer {
+    corners: Vec<(u32, u32)>,
     rays: Vec<RayPacket>,
     hits: Vec<HitPacket>,
     scratch: Scratch,
@@ -88,7 +89,7 @@ impl Tracer {
         &mut self,
         traced: &Traced<'_>,
         grid: &SampleGrid,
-        corners: impl Iterator<Item = (u32, u32)> + Clone,
+        corners: impl Iterator<Item = (u32, u32)>,
         (pixels, share): (usize, f32),
         places: impl Fn((u32, u32)) -> Places,
     ) -> (&[Vec3], u64) {
@@ -96,16 +97,18 @@ impl Tracer {
         let &SampleGrid { camera, width, height } = grid;
 
         // Rays, and what they meet.
-        self.rays.clear();
-        self.rays.extend(corners.clone().map(|(x, y)| camera.packet(x, y, width, height)));
-        self.hits.clear();
-        self.hits.resize(self.rays.len(), HitPacket::none());
-        search.camera.closest_hits(tracing, &mut self.scratch, &self.rays, &mut self.hits);
+        self.corners.clear();
+        self.corners.extend(corners);
+        self.rays.resize(self.corners.len(), RayPacket::inactive());
+        self.hits.resize(self.corners.len(), HitPacket::none());
+        let tiles = CameraTiles { camera, size: (width, height), corners: &self.corners };
+        let (rays, hits) = (&mut self.rays, &mut self.hits);
+        search.camera.tile_hits(tracing, &mut self.scratch, tiles, rays, hits);
 
         // The background is light already; what was met is noted for the shader.
         self.picture.reset(pixels);
         let background = share * scene.background.to_linear();
-        for ((left, top), hits) in corners.zip(&self.hits) {
+        for (&(left, top), hits) in self.corners.iter().zip(&self.hits) {
             self.shader.begin_packet();
             let places = places((left, top));
             for (lane, hit) in hits.hits().enumerate() {

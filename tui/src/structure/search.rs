@@ -3,7 +3,8 @@
 use super::object_order::{ObjectOrder, Raster};
 use super::stream::StreamScratch;
 use spherule_kernel::{
-    Bvh, Coherence, DepthList, HitPacket, Intersect, Level, RayPacket, Spheres, Tier, Trace,
+    Bvh, CameraTiles, Coherence, DepthList, HitPacket, Intersect, Level, RayPacket, Spheres, Tier,
+    Trace, tile_rays,
 };
 
 /// Spheres, and how rays find them. Threads may share it.
@@ -78,6 +79,29 @@ impl Search<'_> {
             Self::DepthList(list) => list.closest_hit_packets(tier, trace, rays, hits),
             Self::Bvh(tree) => tree.closest_hit_packets(tier, trace, rays, hits),
             Self::Objects(objects) => {
+                objects.closest_hits(tracing, raster, rays, hits);
+            }
+        }
+    }
+
+    /// The closest hit of every ray of a camera's tiles, whose rays are made in `rays`, one packet a tile.
+    pub fn tile_hits(
+        &self,
+        tracing: Tracing,
+        scratch: &mut Scratch,
+        tiles: CameraTiles<'_>,
+        rays: &mut [RayPacket],
+        hits: &mut [HitPacket],
+    ) {
+        let tier = tracing.tier;
+        let (mut trace, raster) = scratch.of(self, tracing, rays.len());
+        let trace = &mut trace;
+        match self {
+            Self::Brute(spheres) => spheres.closest_hit_tiles(tier, trace, tiles, rays, hits),
+            Self::DepthList(list) => list.closest_hit_tiles(tier, trace, tiles, rays, hits),
+            Self::Bvh(tree) => tree.closest_hit_tiles(tier, trace, tiles, rays, hits),
+            Self::Objects(objects) => {
+                tile_rays(tracing.level, tiles, rays);
                 objects.closest_hits(tracing, raster, rays, hits);
             }
         }

@@ -9,6 +9,7 @@ pub(super) fn bits<S: Simd>(token: S, bits: u32, order: u64) -> u32 {
     match token.level() {
         fearless_simd::Level::Avx512(avx512) => return permuted(avx512, bits, order),
         fearless_simd::Level::Avx2(avx2) => return shuffled(avx2, bits, order),
+        fearless_simd::Level::Sse2(sse2) => return by_powers(sse2, bits, order),
         _ => {}
     }
     let _ = token;
@@ -49,5 +50,35 @@ fearless_simd::kernel!(
         let (order, low) = (_mm_set1_epi64x(order as i64), _mm_set1_epi8(15));
         let (even, odd) = (_mm_and_si128(order, low), _mm_and_si128(_mm_srli_epi16(order, 4), low));
         _mm_movemask_epi8(_mm_shuffle_epi8(bytes, _mm_unpacklo_epi8(even, odd))) as u32
+    }
+);
+
+#[cfg(target_arch = "x86_64")]
+fearless_simd::kernel!(
+    // No shuffle: four bits become a power of two, by way of the exponent of a float. (The loop took a tenth to a quarter
+    // of closest hits; one over the bits that are set takes 1.1 to 1.2 times its time.)
+    #[inline(always)]
+    fn by_powers(token: Sse2, bits: u32, order: u64) -> u32 {
+        let _ = token;
+        // A byte for each four bits of the order, then two.
+        let (order, low) = (_mm_cvtsi64_si128(order as i64), _mm_set1_epi8(15));
+        let (even, odd) = (_mm_and_si128(order, low), _mm_and_si128(_mm_srli_epi16(order, 4), low));
+        let (bytes, zero) = (_mm_unpacklo_epi8(even, odd), _mm_setzero_si128());
+        let (first, last) = (_mm_unpacklo_epi8(bytes, zero), _mm_unpackhi_epi8(bytes, zero));
+        // The upper halves of floats, whose lower are zero.
+        let bias = _mm_set1_epi16(127);
+        let first = _mm_slli_epi16(_mm_add_epi16(first, bias), 7);
+        let last = _mm_slli_epi16(_mm_add_epi16(last, bias), 7);
+        let (a, b) = (_mm_unpacklo_epi16(zero, first), _mm_unpackhi_epi16(zero, first));
+        let (c, d) = (_mm_unpacklo_epi16(zero, last), _mm_unpackhi_epi16(zero, last));
+        // Which of these powers are not in the bits.
+        let bits = _mm_set1_epi32(bits as i32);
+        let a = _mm_and_si128(_mm_cvttps_epi32(_mm_castsi128_ps(a)), bits);
+        let b = _mm_and_si128(_mm_cvttps_epi32(_mm_castsi128_ps(b)), bits);
+        let c = _mm_and_si128(_mm_cvttps_epi32(_mm_castsi128_ps(c)), bits);
+        let d = _mm_and_si128(_mm_cvttps_epi32(_mm_castsi128_ps(d)), bits);
+        let first = _mm_packs_epi32(_mm_cmpeq_epi32(a, zero), _mm_cmpeq_epi32(b, zero));
+        let last = _mm_packs_epi32(_mm_cmpeq_epi32(c, zero), _mm_cmpeq_epi32(d, zero));
+        !_mm_movemask_epi8(_mm_packs_epi16(first, last)) as u32 & 0xffff
     }
 );

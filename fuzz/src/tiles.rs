@@ -1,0 +1,27 @@
+//! A camera made of a scene's rays: tiles against one lane, bit for bit.
+
+use crate::geometry::Scene;
+use spherule_kernel::{Camera, Projection, Ray, Tier};
+use spherule_tests::variants::{Frame, assert_same_tiles};
+
+/// Asks for a picture through the first ray, in steps towards other rays.
+///
+/// # Panics
+/// If an answer or a ray is another.
+pub fn check(scene: &Scene) {
+    let Scene { rays, spheres, .. } = scene;
+    let ray = |index: usize| rays[index % rays.len()];
+    let Ray { origin, direction, .. } = rays[0];
+    // Smaller steps for every sphere: from pixels that are far apart to those that rounding makes one.
+    let small = (-2.0 * spheres.len() as f32).exp2();
+    let (step_x, step_y) = (small * ray(1).direction, small * ray(2).origin);
+    for (projection, corner) in [
+        (Projection::Perspective { eye: origin }, direction),
+        (Projection::Parallel { direction }, origin),
+    ] {
+        let camera = Camera { projection, corner, step_x, step_y };
+        let size = (5 + rays.len() as u32, 8);
+        let frame = Frame { camera, from: (0, 0), count: size, size };
+        assert_same_tiles(&[Tier::Exact], &frame, spheres);
+    }
+}

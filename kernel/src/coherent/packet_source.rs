@@ -1,0 +1,75 @@
+//! Where the packets of a call come from: memory, or a camera.
+
+use super::fit::Fit;
+use super::frustum::Frustum;
+use super::packet_state::PacketState;
+use super::tile_fit;
+use crate::geometry::camera::tiles::CameraTiles;
+use crate::geometry::ray::RayPacket;
+use crate::lanes::{LaneArray, Lanes};
+use core::ops::Range;
+
+/// The packets of a call.
+#[derive(Debug)]
+pub enum PacketSource<'a, A: LaneArray> {
+    /// They are there.
+    Packets(&'a [RayPacket<A>]),
+    /// They are made, a group at a time, in memory that is not looked at before.
+    Tiles(CameraTiles<'a>, &'a mut [RayPacket<A>]),
+}
+
+impl<A: LaneArray> PacketSource<'_, A> {
+    /// How many there are.
+    #[inline(always)]
+    pub(super) fn count(&self) -> usize {
+        match self {
+            Self::Packets(packets) => packets.len(),
+            Self::Tiles(tiles, packets) => packets.len().min(tiles.corners.len()),
+        }
+    }
+
+    /// Makes those packets; returns whether they are whole tiles of a camera.
+    #[inline(always)]
+    pub(super) fn make<L: Lanes<Array = A>>(&mut self, token: L::Token, at: Range<usize>) -> bool {
+        let Self::Tiles(tiles, packets) = self else { return false };
+        let (Some(packets), Some(corners)) = (packets.get_mut(at.clone()), tiles.corners.get(at))
+        else {
+            return false;
+        };
+        let mut whole = true;
+        for number in 0..packets.len().min(corners.len()) {
+            if let (Some(packet), Some(&corner)) = (packets.get_mut(number), corners.get(number)) {
+                whole &= tiles.write::<L>(token, corner, packet);
+            }
+        }
+        whole
+    }
+
+    /// Packets that were made.
+    #[inline(always)]
+    pub(super) fn packets(&self, at: Range<usize>) -> &[RayPacket<A>] {
+        match self {
+            Self::Packets(packets) => packets.get(at),
+            Self::Tiles(_, packets) => packets.get(at),
+        }
+        .unwrap_or_default()
+    }
+
+    /// The planes around a group of whole tiles; `None` if that is not known by corners.
+    #[inline(always)]
+    pub(super) fn enclose<L: Lanes<Array = A>>(
+        &self,
+        at: Range<usize>,
+        states: &mut [PacketState<'_, L>],
+        size: (f32, f32, f32, f32),
+    ) -> Option<(Fit, Frustum)> {
+        let Self::Tiles(tiles, _) = self else { return None };
+        let (corners, token) = (tiles.corners.get(at)?, states.first()?.token());
+        // Not in the way of packets that are there.
+        L::out_of_line(
+            token,
+            #[inline(always)]
+            || tile_fit::enclose(tiles, corners, states, size),
+        )
+    }
+}

@@ -1,0 +1,179 @@
+//! A camera's tiles, at every storey and in every structure that makes their rays itself.
+
+use super::{Answers, Memory, Storey, Structures, bits, level, levels, reference, stale_packet};
+use crate::case::HexRay;
+use spherule_kernel::{
+    Camera, CameraTiles, DepthList, Hit, HitPacket, Intersect, LaneArray, Lanes, Projection, Ray,
+    RayPacket, Sphere, Tier, Trace, Vec3, Viewpoint, f32x4, f32x8, f32x16,
+};
+
+/// The storeys at which tiles are traced.
+fn tile_storeys() -> impl Iterator<Item = Storey> {
+    let lanes = [1, 4, 8, 16].map(Storey::Lanes).into_iter();
+    lanes.chain(levels().map(Storey::Packets))
+}
+
+/// A camera's picture, from some pixel on.
+#[derive(Clone, Copy, Debug)]
+pub struct Frame {
+    /// The camera.
+    pub camera: Camera,
+    /// The first pixel that is looked at, and how many across and down.
+    pub from: (u32, u32),
+    /// How many, across and down.
+    pub count: (u32, u32),
+    /// The picture's width and height.
+    pub size: (u32, u32),
+}
+
+impl Frame {
+    /// The first pixels of its tiles, four that follow each other a square where there are four.
+    #[must_use]
+    pub fn corners<A: LaneArray>(&self) -> Vec<(u32, u32)> {
+        let (width, height) = Camera::tile::<A>();
+        let (columns, rows) = (self.count.0.div_ceil(width), self.count.1.div_ceil(height));
+        let squares =
+            (0..rows.div_ceil(2)).flat_map(|y| (0..columns.div_ceil(2)).map(move |x| (x, y)));
+        let tiles = squares.flat_map(|(x, y)| (0..4).map(move |i| (2 * x + i % 2, 2 * y + i / 2)));
+        tiles
+            .filter(|&(x, y)| x < columns && y < rows)
+            .map(|(x, y)| {
+                (self.from.0.saturating_add(x * width), self.from.1.saturating_add(y * height))
+            })
+            .collect()
+    }
+
+    /// What all rays have in common.
+    #[must_use]
+    pub fn viewpoint(&self) -> Viewpoint {
+        match self.camera.projection {
+            Projection::Perspective { eye } => Viewpoint::Origin(eye),
+            Projection::Parallel { direction } => Viewpoint::Direction(direction),
+        }
+    }
+}
+
+/// Where the tiles of a frame are not answered, bit for bit, as one lane answers the rays of their pixels, or where
+/// other rays are left; by `tiers` that promise the same bits, in every structure.
+#[must_use]
+pub fn tile_difference(tiers: &[Tier], frame: &Frame, spheres: &[Sphere]) -> Option<String> {
+    Memory::new(spheres).sorted(frame.viewpoint(), |structures| {
+        tiers.iter().find_map(|&tier| {
+            tile_storeys().find_map(|storey| {
+                let different = match storey {
+                    Storey::Lanes(1) => different::<f32>,
+                    Storey::Lanes(4) => different::<f32x4>,
+                    Storey::Lanes(8) => different::<f32x8>,
+                    _ => different::<f32x16>,
+                };
+                different(tier, storey, frame, structures)
+            })
+        })
+    })
+}
+
+/// [`tile_difference`] as a panic.
+///
+/// # Panics
+/// If there is one.
+#[track_caller]
+pub fn assert_same_tiles(tiers: &[Tier], frame: &Frame, spheres: &[Sphere]) {
+    if let Some(difference) = tile_difference(tiers, frame, spheres) {
+        panic!("{difference}");
+    }
+}
+
+fn different<L: Lanes<Token = ()>>(
+    tier: Tier,
+    storey: Storey,
+    frame: &Frame,
+    structures: Structures<'_>,
+) -> Option<String> {
+    let Structures { list, depth_list, tree, .. } = structures;
+    let corners = frame.corners::<L::Array>();
+    let (width, height) = frame.size;
+    let (tile_width, _) = Camera::tile::<L::Array>();
+    // Pixel by pixel.
+    let pixel = |(x, y): (u32, u32), lane: u32| {
+        let (x, y) = (x.checked_add(lane % tile_width)?, y.checked_add(lane / tile_width)?);
+        (x < width && y < height).then(|| frame.camera.get_ray(x, y))
+    };
+    let lanes = |&corner: &(u32, u32)| {
+        (0..L::COUNT as u32).map(move |lane| pixel(corner, lane).unwrap_or(Ray::INACTIVE))
+    };
+    let rays: Vec<Ray> = corners.iter().flat_map(lanes).collect();
+    let Answers { hits: expected, .. } = reference(tier).ask(structures, &rays);
+
+    let tiles = CameraTiles { camera: frame.camera, size: frame.size, corners: &corners };
+    let mut scratch = vec![f32::NAN; DepthList::scratch(list.spheres().len())];
+    let with_scratch = Trace::new().with_scratch(&mut scratch);
+    let all = [
+        ("list", trace::<_, L>(tier, storey, list, Trace::new(), tiles)),
+        ("depth list", trace::<_, L>(tier, storey, depth_list, with_scratch, tiles)),
+        ("tree", trace::<_, L>(tier, storey, tree, Trace::new().coherent(), tiles)),
+        ("tree, detected", trace::<_, L>(tier, storey, tree, Trace::new(), tiles)),
+        ("tree, ray by ray", trace::<_, L>(tier, storey, tree, Trace::new().incoherent(), tiles)),
+    ];
+    for (name, (made, hits)) in all {
+        for (index, ray) in rays.iter().enumerate() {
+            let (made, hit, expected) = (made[index], hits[index], expected[index]);
+            if HexRay(&one_nan(&made)).to_string() != HexRay(&one_nan(ray)).to_string() {
+                return Some(format!(
+                    "{storey:?}, ray {index}: {made:?} and not {ray:?}, {frame:?}"
+                ));
+            }
+            if bits(hit) != bits(expected) {
+                return Some(format!(
+                    "{tier:?} by {name}, {storey:?}, ray {index} of {}: {hit:?} and not {expected:?}; \
+                     {}; {frame:?}",
+                    rays.len(),
+                    HexRay(ray)
+                ));
+            }
+        }
+    }
+    None
+}
+
+/// The same ray, with one NaN for all: of two, an operation returns any.
+fn one_nan(ray: &Ray) -> Ray {
+    let one = |v: Vec3| v.map(|x| if x.is_nan() { f32::NAN } else { x });
+    Ray { origin: one(ray.origin), direction: one(ray.direction), ..*ray }
+}
+
+/// The rays that were made, and what they hit, lane by lane.
+fn trace<S: Intersect, L: Lanes<Token = ()>>(
+    tier: Tier,
+    storey: Storey,
+    structure: &S,
+    mut trace: Trace<'_>,
+    tiles: CameraTiles<'_>,
+) -> (Vec<Ray>, Vec<Option<Hit>>) {
+    if let Storey::Packets(name) = storey {
+        trace.level = level(name);
+        let (mut rays, mut hits) = stale::<f32x16>(tiles.corners.len());
+        structure.closest_hit_tiles(tier, &mut trace, tiles, &mut rays, &mut hits);
+        return lane_by_lane::<f32x16>(&rays, &hits);
+    }
+    let (mut rays, mut hits) = stale::<L>(tiles.corners.len());
+    structure.closest_hit_tile_lanes::<L>(tier, (), &mut trace, tiles, &mut rays, &mut hits);
+    lane_by_lane::<L>(&rays, &hits)
+}
+
+type Packets<L> = (Vec<RayPacket<<L as Lanes>::Array>>, Vec<HitPacket<<L as Lanes>::Array>>);
+
+/// What was there before must not show; one more must be left alone.
+fn stale<L: Lanes<Token = ()>>(count: usize) -> Packets<L> {
+    let ray = Ray::new(Vec3::new(0.0, 0.0, -3.0), Vec3::Z);
+    (vec![RayPacket::new(&[ray; 16]); count + 1], vec![stale_packet::<L>(); count + 1])
+}
+
+fn lane_by_lane<L: Lanes<Token = ()>>(
+    rays: &[RayPacket<L::Array>],
+    hits: &[HitPacket<L::Array>],
+) -> (Vec<Ray>, Vec<Option<Hit>>) {
+    let past = stale::<L>(0);
+    assert!(rays.last() == past.0.last() && hits.last() == past.1.last(), "past the tiles");
+    let rays = rays.iter().flat_map(|packet| (0..L::COUNT).map(|lane| packet.ray(lane)));
+    (rays.collect(), hits.iter().flat_map(HitPacket::hits).collect())
+}

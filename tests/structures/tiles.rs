@@ -1,0 +1,148 @@
+//! As brute force does: tiles whose rays a camera makes on the way, by planes around their corner pixels.
+
+use super::scenes::{self, point, uniform, unit};
+use super::{BOTH, EXACT};
+use spherule_kernel::{Camera, Projection, Sphere, Vec3};
+use spherule_tests::inputs::SPECIALS;
+use spherule_tests::random::Random;
+use spherule_tests::variants::{Frame, assert_same_tiles};
+
+/// A picture of `pixels` x `pixels` from `eye`, or along the way to the target, `slope` or so many units of the scene
+/// from its middle to its edge.
+fn camera(eye: Vec3, target: Vec3, half: f32, pixels: u32, is_parallel: bool) -> Camera {
+    let way = (target - eye).normalize();
+    let right = way.any_orthonormal_vector();
+    let (right, up) = (half * right, half * right.cross(way));
+    let step = 2.0 / pixels as f32;
+    let middle = if is_parallel { eye } else { way };
+    Camera {
+        projection: if is_parallel {
+            Projection::Parallel { direction: way }
+        } else {
+            Projection::Perspective { eye }
+        },
+        corner: middle - (1.0 - 0.5 * step) * (right + up),
+        step_x: step * right,
+        step_y: step * up,
+    }
+}
+
+fn whole(camera: Camera, width: u32, height: u32) -> Frame {
+    Frame { camera, from: (0, 0), count: (width, height), size: (width, height) }
+}
+
+/// Every scene from several sides, near and far, in pictures that tiles fill and in others.
+#[test]
+fn scenes_from_every_side() {
+    for (_, spheres) in scenes::all() {
+        for (eye, half, parallel_half) in [
+            (scenes::EYE, 0.364, 1.2),
+            (Vec3::new(0.01, 0.02, 0.03), 1.5, 0.5),
+            (Vec3::new(3e3, -4e3, 9e3), 1.5e-4, 1.2),
+        ] {
+            for size in [(24, 24), (17, 13)] {
+                let perspective = camera(eye, Vec3::ZERO, half, size.0, false);
+                assert_same_tiles(BOTH, &whole(perspective, size.0, size.1), &spheres);
+                let parallel = camera(eye, Vec3::ZERO, parallel_half, size.0, true);
+                assert_same_tiles(BOTH, &whole(parallel, size.0, size.1), &spheres);
+            }
+        }
+    }
+}
+
+/// Where the points of pixels are mostly rounding: corners far away, steps of some ulps, pixels far from the first; and scenes
+/// of every size.
+#[test]
+fn rounded_pixels() {
+    let mut random = Random::new(121, 0);
+    for _ in 0..100 {
+        let eye = point(&mut random, 4.0);
+        let target = point(&mut random, 0.3);
+        let half = random.log_uniform(-24, 1) as f32;
+        let pixels = 1 << random.integer(4, 24);
+        let mut camera = camera(eye, target, half, pixels, random.one_in(2));
+        // Pixel numbers that the tiles begin at, in a picture that is larger than what is looked at.
+        let mut first = || random.integer(0, i64::from(pixels) - 1) as u32;
+        let from = (first(), first());
+        if random.one_in(3) {
+            // Far from the plane's own origin, and back by steps.
+            let away = unit(&mut random) * random.log_uniform(0, 20) as f32;
+            camera.corner -= away;
+            camera.step_x += away / (from.0.max(1) as f32);
+        }
+        let mut spheres = uniform(100);
+        aim(&mut random, &camera, from, &mut spheres);
+        let frame = Frame { camera, from, count: (16, 12), size: (pixels, pixels) };
+        assert_same_tiles(EXACT, &frame, &spheres);
+    }
+}
+
+/// Puts small spheres where the rays of these pixels go, so that a plane a little too narrow loses one.
+fn aim(random: &mut Random, camera: &Camera, (x, y): (u32, u32), spheres: &mut [Sphere]) {
+    for sphere in spheres.iter_mut().step_by(2) {
+        let pixel =
+            |random: &mut Random, first: u32| first.saturating_add(random.integer(0, 15) as u32);
+        let ray = camera.get_ray(pixel(random, x), pixel(random, y));
+        let at = ray.origin + random.uniform(0.5, 6.0) as f32 * ray.direction.normalize_or_zero();
+        if at.is_finite() && at.length() < 50.0 {
+            *sphere = Sphere { center: at, radius: random.log_uniform(-22, -6) as f32 };
+        }
+    }
+}
+
+/// Any numbers: what is no camera hits nothing, and nothing panics.
+#[test]
+fn any_camera() {
+    let mut random = Random::new(122, 0);
+    let spheres = uniform(40);
+    for _ in 0..300 {
+        let mut number = || match random.integer(0, 3) {
+            0 => random.pick(&SPECIALS),
+            1 => random.any_f32(),
+            _ => random.uniform(-2.0, 2.0) as f32,
+        };
+        let mut vector = || Vec3::new(number(), number(), number());
+        let (eye, corner, step_x, step_y) = (vector(), vector(), vector(), vector());
+        let projection = if number() > 0.0 {
+            Projection::Parallel { direction: eye }
+        } else {
+            Projection::Perspective { eye }
+        };
+        let camera = Camera { projection, corner, step_x, step_y };
+        let pixels = [0, 1, 4, 1 << 24, (1 << 24) + 1, u32::MAX - 2, u32::MAX];
+        let mut pixel = || random.pick(&pixels);
+        let (from, size) = ((pixel(), pixel()), (pixel(), pixel()));
+        let frame = Frame { camera, from, count: (8, 8), size };
+        assert_same_tiles(EXACT, &frame, &spheres);
+    }
+}
+
+/// Spheres that no box sees, none at all, and fewer tiles than a group has.
+#[test]
+fn few_of_everything() {
+    let camera = camera(scenes::EYE, Vec3::ZERO, 0.364, 16, false);
+    let mut spheres = uniform(60);
+    spheres[7] = Sphere { center: Vec3::new(1e15, 0.0, -1e20), radius: 1e20 };
+    for spheres in [&spheres[..], &[], &spheres[..1]] {
+        for (width, height) in [(16, 16), (4, 4), (8, 4), (12, 4), (1, 1), (0, 5)] {
+            assert_same_tiles(BOTH, &whole(camera, width, height), spheres);
+        }
+    }
+}
+
+/// Half of the pixels have no point: their tiles must not spoil the planes of those beside them. Found by the fuzz target.
+#[test]
+fn points_beyond_all_numbers() {
+    let far = -f32::MAX;
+    for direction in [Vec3::new(0.5625, 0.0, 0.0), Vec3::new(0.5, 0.1, 0.0)] {
+        let camera = Camera {
+            projection: Projection::Parallel { direction },
+            corner: Vec3::new(4.6, -0.0625, far),
+            step_x: Vec3::new(0.01, 0.0, 0.0),
+            step_y: Vec3::new(0.07, -0.001, -5e36),
+        };
+        let sphere = Sphere { center: Vec3::new(4.0625, -0.0625, far), radius: 5.125 };
+        let other = Sphere { center: Vec3::splat(5.125), radius: 5.125 };
+        assert_same_tiles(EXACT, &whole(camera, 11, 8), &[sphere, other]);
+    }
+}
