@@ -1,5 +1,6 @@
 //! Pages in Markdown: what they have in common.
 
+pub(crate) mod cameras;
 pub(crate) mod scales;
 pub(crate) mod structures;
 pub(crate) mod surfaces;

@@ -2,7 +2,7 @@
 
 use crate::measure::Effort;
 use crate::page::{self, build, origin};
-use crate::{errors, lists, plot, scales, structures, surfaces};
+use crate::{cameras, errors, lists, plot, scales, structures, surfaces};
 use clap::{Parser, ValueEnum};
 use spherule_tests::scenes::LARGE;
 use std::path::Path;
@@ -33,6 +33,7 @@ struct Arguments {
 enum Part {
     Tiers,
     Structures,
+    Cameras,
     Surfaces,
     Scales,
 }
@@ -85,6 +86,10 @@ pub fn report() -> Result<(), Box<dyn error::Error>> {
             put("growth.svg", &plot::growth(&origin, &results.growth)?)?;
             put("embree.svg", &plot::embree(&origin, &results.scenes)?)?;
         }
+    }
+    if chosen(Part::Cameras) {
+        let results = cameras::measure(effort, scene.as_deref());
+        put(&format!("cameras-{}.md", page::maker()), &page::cameras::page(&origin, &results))?;
     }
     if chosen(Part::Surfaces) {
         let results = surfaces::measure(effort, scene.as_deref());

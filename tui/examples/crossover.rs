@@ -16,11 +16,12 @@ use spherule::structure::scene::SceneStructures;
 use spherule::structure::search::{Scratch, Search, Tracing};
 use spherule::threads::Threads;
 use spherule_kernel::{
-    Camera, Coherence, HitPacket, Level, LevelName, Projection, Ray, RayPacket, Sphere, SphereList,
-    Tier, Vec3, Viewpoint,
+    Camera, CameraTiles, Coherence, HitPacket, Level, LevelName, Projection, Ray, RayPacket,
+    Sphere, SphereList, Tier, Vec3, Viewpoint,
 };
 use spherule_tests::random::Random;
 use std::hint::black_box;
+use std::ops::Range;
 
 /// How many spheres.
 const SPHERES: [usize; 14] =
@@ -74,15 +75,17 @@ fn cpu_ns() -> f64 {
     time.tv_sec as f64 * 1e9 + time.tv_nsec as f64
 }
 
-/// A camera's rays of a square picture from outside the cube, or rays in the cube.
-fn rays(coherent: bool, count: usize) -> Vec<RayPacket> {
-    if !coherent {
-        let mut random = Random::seeded(7);
-        let mut ray = || Ray::new(random.in_cube(1.0), random.in_cube(1.0));
-        let rays: Vec<_> = (0..count).map(|_| ray()).collect();
-        return rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect();
-    }
-    let side = (count as f32).sqrt() as u32;
+/// Rays in the cube.
+fn rays_in_cube() -> Vec<RayPacket> {
+    let mut random = Random::seeded(7);
+    let mut ray = || Ray::new(random.in_cube(1.0), random.in_cube(1.0));
+    let rays: Vec<_> = (0..RAYS).map(|_| ray()).collect();
+    rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect()
+}
+
+/// A square picture of as many rays, from outside the cube.
+fn camera() -> (Camera, u32) {
+    let side = (RAYS as f32).sqrt() as u32;
     let step = 2.0 * 0.364 / side as f32;
     let camera = Camera {
         projection: Projection::Perspective { eye: EYE },
@@ -90,7 +93,7 @@ fn rays(coherent: bool, count: usize) -> Vec<RayPacket> {
         step_x: Vec3::new(step, 0.0, 0.0),
         step_y: Vec3::new(0.0, -step, 0.0),
     };
-    packet_corners(side, side).map(|(x, y)| camera.packet(x, y, side, side)).collect()
+    (camera, side)
 }
 
 fn measure(coherent: bool, count: usize, level: Level) {
@@ -101,11 +104,14 @@ fn measure(coherent: bool, count: usize, level: Level) {
         Sphere { center, radius: size * random.between(0.25, 0.75) }
     };
     let list: SphereList = (0..count).map(|_| sphere()).collect();
-    let rays = rays(coherent, RAYS);
+    // A camera makes its rays with the clock running, as it does for a picture.
+    let mut rays = rays_in_cube();
+    let (camera, side) = camera();
+    let corners: Vec<_> = packet_corners(side, side).collect();
     // Brute force takes a part, from the middle, where most spheres are.
     let part = (MOST_TESTS / count / RayPacket::COUNT).clamp(16, rays.len());
     let middle = (rays.len() - part) / 2;
-    let few = &rays[middle..middle + part];
+    let (few, all) = (middle..middle + part, 0..rays.len());
 
     let coherence = if coherent { Coherence::Coherent } else { Coherence::Incoherent };
     let tracing = Tracing { tier: Tier::Exact, level, coherence };
@@ -115,25 +121,33 @@ fn measure(coherent: bool, count: usize, level: Level) {
     let mut scratch = Scratch::default();
     for _ in 0..ROUNDS {
         let mut structures = SceneStructures::new(&list, &threads);
-        let mut time = |search: Search<'_>, rays: &[RayPacket]| {
+        let mut time = |search: Search<'_>, packets: &Range<usize>| {
             let start = cpu_ns();
-            for (rays, hits) in rays.chunks(BAND).zip(hits.chunks_mut(BAND)) {
-                search.closest_hits(tracing, &mut scratch, rays, hits);
+            for from in packets.clone().step_by(BAND) {
+                let band = from..packets.end.min(from + BAND);
+                let (rays, hits) = (&mut rays[band.clone()], &mut hits[band.clone()]);
+                if coherent {
+                    let corners = &corners[band];
+                    let tiles = CameraTiles { camera, size: (side, side), corners };
+                    search.tile_hits(tracing, &mut scratch, tiles, rays, hits);
+                } else {
+                    search.closest_hits(tracing, &mut scratch, rays, hits);
+                }
             }
             black_box(&hits);
-            (cpu_ns() - start) / (rays.len() * RayPacket::COUNT) as f64
+            (cpu_ns() - start) / (packets.len() * RayPacket::COUNT) as f64
         };
-        times.brute.push(time(Search::Brute(list.spheres()), few));
+        times.brute.push(time(Search::Brute(list.spheres()), &few));
         let viewpoint = coherent.then_some(Viewpoint::Origin(EYE));
         let start = cpu_ns();
         let sorted = structures.search(Structure::DepthList, viewpoint).expect("memory");
         times.sort.push((cpu_ns() - start) / count as f64);
-        let part = if coherent { &rays } else { few };
+        let part = if coherent { &all } else { &few };
         times.depth_list.push(time(sorted, part));
         let start = cpu_ns();
         let tree = structures.search(Structure::Bvh, None).expect("memory");
         times.build.push((cpu_ns() - start) / count as f64);
-        times.bvh.push(time(tree, &rays));
+        times.bvh.push(time(tree, &all));
     }
     times.print(coherent, count);
 }

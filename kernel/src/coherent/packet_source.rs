@@ -11,6 +11,7 @@ use core::ops::Range;
 
 /// The packets of a call.
 #[derive(Debug)]
+#[cfg_attr(not(feature = "std"), expect(unreachable_pub, reason = "a trait of levels names it"))]
 pub enum PacketSource<'a, A: LaneArray> {
     /// They are there.
     Packets(&'a [RayPacket<A>]),

@@ -9,9 +9,8 @@ use wide::f32x4;
 
 /// The tiles of a camera's picture that are to be traced, a packet each.
 ///
-/// What a structure knows of them without a look at any ray - where all start, and that each tile lies between its four
-/// corner pixels - spares it a third of a packet's way. Four tiles that follow each other should lie beside each other in the picture, as
-/// a square if they can: they go through a tree together.
+/// A tree knows without a look at any ray that each tile lies between its four corner pixels. Four tiles that follow each
+/// other should lie beside each other in the picture, as a square if they can: they go through a tree together.
 #[derive(Clone, Copy, Debug)]
 pub struct CameraTiles<'a> {
     /// Where the rays start, and go.
