@@ -42,7 +42,7 @@ pub(crate) fn measure(effort: Effort, one: Option<&str>) -> Structures {
     // Of growth: pixels enough for a time, few enough for brute force to be shown; and the powers of ten.
     let (size, rays, seconds, rounds, builds, (pixels, most)) = match effort {
         Effort::Test => (Size::SMALL, usize::MAX, 0, 1..=1, 1, (32, 4)),
-        Effort::Quick => (Size::FULL, QUICK, 4, 3..=9, 1, (512, 6)),
+        Effort::Quick => (Size::FULL, QUICK, 4, 3..=9, 1, (512, 8)),
         Effort::Full => (Size::FULL, usize::MAX, 14, 5..=31, 5, (512, 8)),
     };
     let (time, sample) = (Duration::from_secs(seconds), Duration::ZERO);

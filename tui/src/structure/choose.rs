@@ -2,27 +2,29 @@
 //!
 //! # Method
 //!
-//! A model of the costs, in units of one test of brute force, a coherent ray against a sphere: 0.155
-//! ns by the AVX-512 level of an EPYC (family 25, model 17), where `tui/examples/crossover.rs` timed
-//! clouds of 1 to 2^20 spheres that fill a seventh of a cube, one thread, `Exact`. The model's cheapest
-//! structure is chosen. Nanoseconds a ray, of 65,536, where structures take about as long:
+//! A model of the costs, in units of one test of brute force, a coherent ray against a sphere: 0.12 ns by the AVX-512
+//! level of a Zen 5, 0.2 by AVX2, 0.67 by the baseline, where `tui/examples/crossover.rs` timed clouds of 1 to 2^20
+//! spheres that fill a seventh of a cube, one thread, `Exact`. The model's cheapest structure is chosen: at each
+//! of the levels it takes at most 1.2 times as long as the best. Nanoseconds a ray, of 65,536, by AVX-512:
 //!
 //! | rays | spheres | brute | depth list | bvh |
 //! |---|--:|--:|--:|--:|
-//! | a camera's | 16 | 6.7 | 8.1 | 8.1 |
-//! | | 32 | 11 | 9.5 | 9.4 |
-//! | | 512 | 83 | 13 | 13 |
-//! | | 16,384 | | 55 | 38 |
-//! | | 131,072 | | 195 | 73 |
-//! | others | 4 | 16 | | 17 |
-//! | | 8 | 27 | | 19 |
-//! | | 128 | 131 | | 68 |
+//! | a camera's, which it makes | 16 | 6.1 | 12 | 6.9 |
+//! | | 32 | 8.3 | 13 | 7.9 |
+//! | | 64 | 12 | 13 | 8.8 |
+//! | | 512 | 64 | 19 | 17 |
+//! | | 16,384 | | 37 | 33 |
+//! | | 131,072 | | 129 | 70 |
+//! | others, as streams | 4 | 14 | | 16 |
+//! | | 8 | 21 | | 15 |
+//! | | 128 | 110 | | 45 |
+//! | | 1,048,576 | | | 780 |
 //!
-//! To sort a sphere by depth took 17 to 70 ns, to build it into a tree 190 to 350 ns. So a tree is for
+//! To sort a sphere by depth took 24 to 110 ns, to build it into a tree 130 to 230 ns. So a tree is for
 //! many pictures, or for many rays; for a scene that is drawn once a depth list takes less time, unless
 //! there are so many spheres to a ray that what is between the rays costs more than what they share.
-//! (From very far away a depth list is four times slower than this: its margins grow with the distance.
-//! The model does not know.)
+//! What the model does not know: from very far away a depth list is four times slower than this, since its margins grow
+//! with the distance; among spheres that overlap tenfold it is four times faster than a tree.
 
 use super::Structure;
 use spherule_kernel::Coherence;
@@ -57,9 +59,9 @@ impl Workload {
 /// as long as single rays.
 const SPARSE: usize = 64;
 /// The cost of building a sphere into a tree.
-const BUILD: f64 = 1600.0;
+const BUILD: f64 = 2000.0;
 /// The cost of sorting a sphere by depth.
-const SORT: f64 = 150.0;
+const SORT: f64 = 300.0;
 
 /// The cost of a ray by brute force: incoherent rays meet more candidates.
 fn brute(spheres: f64, coherent: bool) -> f64 {
@@ -68,7 +70,7 @@ fn brute(spheres: f64, coherent: bool) -> f64 {
 
 /// The cost of a coherent ray in a depth list: that in a tree, and the way to the spheres.
 fn depth_list(spheres: f64) -> f64 {
-    1.0 + tree(spheres, true) + 0.006 * spheres
+    20.0 + tree(spheres, true) + 0.0045 * spheres
 }
 
 /// The cost of a ray in a tree; of up to 64 spheres an incoherent ray tests all.
@@ -78,7 +80,7 @@ fn tree(spheres: f64, coherent: bool) -> f64 {
     } else if spheres <= 64.0 {
         120.0 + 2.0 * spheres
     } else {
-        140.0 * spheres.powf(0.2375)
+        79.0 * spheres.powf(0.316)
     }
 }
 
