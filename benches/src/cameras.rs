@@ -160,15 +160,7 @@ struct Picture<'a> {
 impl<'a> Picture<'a> {
     /// Of so many blocks, from all of the picture.
     fn new(tree: &'a SphereTree, camera: Camera, pixels: u32, blocks: usize) -> Self {
-        let squares = pixels.div_ceil(16);
-        let side = |place: u32| place & 1 | place >> 1 & 2;
-        let mut corners = Vec::new();
-        for square in 0..squares * squares {
-            let (left, top) = (square % squares * 16, square / squares * 16);
-            for place in 0..16 {
-                corners.push((left + 4 * side(place), top + 4 * side(place / 2)));
-            }
-        }
+        let corners: Vec<_> = Camera::tile_corners::<[f32; 16]>(pixels, pixels).collect();
         let step = (corners.len() / PACKETS / blocks).max(1);
         let chosen: Vec<_> = corners.chunks(PACKETS).step_by(step).flatten().copied().collect();
         let memory = PACKETS.min(chosen.len());

@@ -1,7 +1,8 @@
-//! Rays that are kept as packets, sixteen to a packet, are traced without a copy.
+//! Rays that are kept as packets, sixteen to a packet, are traced without a copy; a camera's are made on the way.
 
 use spherule_kernel::{
-    Camera, Exact, HitPacket, Intersect, Projection, RayPacket, SphereTree, Trace, Vec3,
+    Camera, CameraTiles, Exact, HitPacket, Intersect, Projection, RayPacket, SphereTree, Trace,
+    Vec3,
 };
 
 const SIDE: u32 = 64;
@@ -20,16 +21,18 @@ fn main() {
         step_y: Vec3::new(0.0, -1.0 / SIDE as f32, 0.0),
     };
 
-    // A packet is a tile of the picture: its rays look the same way.
-    let (width, height) = Camera::tile::<[f32; 16]>();
-    let mut rays: Vec<RayPacket> = Vec::new();
-    for y in (0..SIDE).step_by(height as usize) {
-        for x in (0..SIDE).step_by(width as usize) {
-            rays.push(camera.packet(x, y, SIDE, SIDE));
-        }
-    }
-    let mut hits = vec![HitPacket::none(); rays.len()];
-    tree.closest_hit_packets(Exact, &mut Trace::new().coherent(), &rays, &mut hits);
+    // A packet is a tile of the picture: its rays look the same way. The tree makes them, and knows without a look at them
+    // what four may meet.
+    let corners: Vec<_> = Camera::tile_corners::<[f32; 16]>(SIDE, SIDE).collect();
+    let tiles = CameraTiles { camera, size: (SIDE, SIDE), corners: &corners };
+    let mut rays = vec![RayPacket::inactive(); corners.len()];
+    let mut hits = vec![HitPacket::none(); corners.len()];
+    tree.closest_hit_tiles(Exact, &mut Trace::new().coherent(), tiles, &mut rays, &mut hits);
+
+    // They are left for what comes next: here, the same once more, as packets.
+    let mut again = vec![HitPacket::none(); rays.len()];
+    tree.closest_hit_packets(Exact, &mut Trace::new().coherent(), &rays, &mut again);
+    assert_eq!(hits, again);
 
     let nearest =
         hits.iter().flat_map(HitPacket::hits).flatten().min_by(|a, b| a.t.total_cmp(&b.t));

@@ -9,7 +9,6 @@
 use clap::ValueEnum;
 use rustix::time::{ClockId, clock_gettime};
 use spherule::choice::name;
-use spherule::draw::packet_corners;
 use spherule::structure::Structure;
 use spherule::structure::choose::{Workload, choose};
 use spherule::structure::scene::SceneStructures;
@@ -107,7 +106,7 @@ fn measure(coherent: bool, count: usize, level: Level) {
     // A camera makes its rays with the clock running, as it does for a picture.
     let mut rays = rays_in_cube();
     let (camera, side) = camera();
-    let corners: Vec<_> = packet_corners(side, side).collect();
+    let corners: Vec<_> = Camera::tile_corners::<[f32; 16]>(side, side).collect();
     // Brute force takes a part, from the middle, where most spheres are.
     let part = (MOST_TESTS / count / RayPacket::COUNT).clamp(16, rays.len());
     let middle = (rays.len() - part) / 2;

@@ -1,14 +1,12 @@
 //! From a scene to cells: the whole pipeline in one page.
 
 mod need;
-mod packet_order;
 pub mod pixels;
 mod plan;
 mod spending;
 mod strip;
 mod tracer;
 
-pub use packet_order::packet_corners;
 pub use spending::{Effort, Spending};
 
 use crate::cells::CellGrid;

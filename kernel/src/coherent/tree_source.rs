@@ -112,22 +112,10 @@ fn by_rays<L: Lanes, Q: Query>(
         && let Some(answers) = answers.get_mut(from..to)
     {
         let rays = source.packets(from..to);
-        one_by_one::<L, Q>(tier, token, bvh, stream, rays, answers);
-    }
-}
-
-#[inline(always)]
-fn one_by_one<L: Lanes, Q: Query>(
-    tier: impl Accuracy,
-    token: L::Token,
-    bvh: &Bvh<'_>,
-    stream: Option<&mut StreamMemory<'_>>,
-    rays: &[RayPacket<L::Array>],
-    answers: &mut [Q::Packet<L::Array>],
-) {
-    match stream {
-        Some(memory) => stream::traverse::<L, Q>(tier, token, bvh, memory, rays, answers),
-        None => wavefront::traverse::<L, Q>(tier, token, bvh, rays, answers),
+        match stream {
+            Some(memory) => stream::traverse::<L, Q>(tier, token, bvh, memory, rays, answers),
+            None => wavefront::traverse::<L, Q>(tier, token, bvh, rays, answers),
+        }
     }
 }
 

@@ -6,6 +6,7 @@
 //!
 //! Source: Shirley, Marschner et al., Fundamentals of Computer Graphics, ch. 4.
 
+mod tile_order;
 pub(crate) mod tiles;
 
 use super::ray::{Ray, RayPacket};

@@ -27,19 +27,11 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// The first pixels of its tiles, four that follow each other a square where there are four.
+    /// The first pixels of its tiles.
     #[must_use]
     pub fn corners<A: LaneArray>(&self) -> Vec<(u32, u32)> {
-        let (width, height) = Camera::tile::<A>();
-        let (columns, rows) = (self.count.0.div_ceil(width), self.count.1.div_ceil(height));
-        let squares =
-            (0..rows.div_ceil(2)).flat_map(|y| (0..columns.div_ceil(2)).map(move |x| (x, y)));
-        let tiles = squares.flat_map(|(x, y)| (0..4).map(move |i| (2 * x + i % 2, 2 * y + i / 2)));
-        tiles
-            .filter(|&(x, y)| x < columns && y < rows)
-            .map(|(x, y)| {
-                (self.from.0.saturating_add(x * width), self.from.1.saturating_add(y * height))
-            })
+        Camera::tile_corners::<A>(self.count.0, self.count.1)
+            .map(|(x, y)| (self.from.0.saturating_add(x), self.from.1.saturating_add(y)))
             .collect()
     }
 

@@ -4,7 +4,7 @@
 //! Not a picture's way: nothing is shaded, and nothing here costs a picture anything.
 
 use super::verdict::{Class, Counts, Verdict};
-use crate::draw::{Effort, packet_corners, sample_grid};
+use crate::draw::{Effort, sample_grid};
 use crate::samples::CellSamples;
 use crate::scene::Scene;
 use crate::structure::scene::PictureSearch;
@@ -136,7 +136,7 @@ impl Worker {
         let width = left_sample + columns * samples.across;
         // As if the picture ended with these rows, and these columns.
         let height = top + classes.len() as u32 / columns * samples.down;
-        let corners = packet_corners(width - left_sample, height - top)
+        let corners = Camera::tile_corners::<[f32; 16]>(width - left_sample, height - top)
             .map(|(x, y)| (left_sample + x, top + y));
         tiles.clear();
         tiles.extend(corners);

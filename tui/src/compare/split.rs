@@ -4,12 +4,12 @@
 use super::error_map::ErrorMapper;
 use super::grouped;
 use crate::cells::{CellGrid, Color};
-use crate::draw::{Drawn, Effort, Renderer, Spending, packet_corners, sample_grid};
+use crate::draw::{Drawn, Effort, Renderer, Spending, sample_grid};
 use crate::scene::Scene;
 use crate::structure::scene::PictureSearch;
 use crate::style::{Charset, Style};
 use crate::view::View;
-use spherule_kernel::{ClosestHit, RayPacket, Stages, Tier, stages};
+use spherule_kernel::{Camera, ClosestHit, RayPacket, Stages, Tier, stages};
 use std::ops::Range;
 use std::time::Instant;
 
@@ -165,7 +165,7 @@ fn stages_of(
     let (camera, width, height) = sample_grid(view, style, columns, rows);
     let across = width / u32::from(columns).max(1);
     let (left, right) = (u32::from(half.start) * across, u32::from(half.end) * across);
-    let corners = packet_corners(right - left, height);
+    let corners = Camera::tile_corners::<[f32; 16]>(right - left, height);
     let some = (MOST_TESTS / scene.spheres().len().max(1) / RayPacket::COUNT).max(1);
     let step = corners.clone().count().div_ceil(some).max(1);
     let packets: Vec<_> = corners

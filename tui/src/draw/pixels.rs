@@ -1,7 +1,6 @@
 //! Pixels in place of cells: the picture that cells approximate, row by row.
 
 use super::Renderer;
-use super::packet_order::packet_corners;
 use super::tracer::{Places, SampleGrid, Traced, Tracer};
 use crate::color::Srgb;
 use crate::scene::Scene;
@@ -10,7 +9,7 @@ use crate::structure::scene::PictureSearch;
 use crate::structure::search::Tracing;
 use crate::style::Style;
 use crate::view::View;
-use spherule_kernel::Tier;
+use spherule_kernel::{Camera, Tier};
 
 /// Pixels across a cell.
 const ACROSS_A_CELL: u32 = 8;
@@ -107,9 +106,11 @@ fn trace_tile(
     pixels: &mut [[u8; 3]],
 ) {
     let (width, height) = grid.size();
-    let corners =
-        packet_corners(TILE.0.min(width - left) * SAMPLES, TILE.1.min(height - top) * SAMPLES)
-            .map(|(x, y)| (left * SAMPLES + x, top * SAMPLES + y));
+    let corners = Camera::tile_corners::<[f32; 16]>(
+        TILE.0.min(width - left) * SAMPLES,
+        TILE.1.min(height - top) * SAMPLES,
+    )
+    .map(|(x, y)| (left * SAMPLES + x, top * SAMPLES + y));
     let share = 1.0 / (SAMPLES * SAMPLES) as f32;
     let places = |corner| {
         let of_column = |x| (x / SAMPLES - left) as usize;

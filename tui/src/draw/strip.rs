@@ -9,7 +9,6 @@
 //! What a band gets depends on nothing else, so the picture is the same for every number of threads.
 
 use super::need::Looks;
-use super::packet_order::packet_corners;
 use super::plan::{Plan, Sampling};
 use super::spending::{Effort, Grant, Spending};
 use super::tracer::{Places, SampleGrid, Tracer};
@@ -155,8 +154,8 @@ impl Worker {
         let (left, top) = (plan.left as u32 * across, first as u32 * down);
         // As if the picture ended with these rows.
         let grid = SampleGrid { height: top + light.len() as u32 / (columns * across), ..*grid };
-        let corners =
-            packet_corners(grid.width - left, grid.height - top).map(|(x, y)| (left + x, top + y));
+        let corners = Camera::tile_corners::<[f32; 16]>(grid.width - left, grid.height - top)
+            .map(|(x, y)| (left + x, top + y));
         let places = |corner| {
             let of_column = |x| ((x - left) / across * count + x % across) as usize;
             Places::new(corner, of_column, |y: u32| {

@@ -91,7 +91,7 @@ impl Few {
     pub(super) fn object_order(&self, spheres: usize) -> (Vec<Option<Hit>>, Counts) {
         let list: SphereList = self.list.spheres().iter().take(spheres).collect();
         let (across, down) = Camera::tile::<[f32; 16]>();
-        let corners: Vec<_> = crate::draw::packet_corners(self.width, self.height).collect();
+        let corners: Vec<_> = Camera::tile_corners::<[f32; 16]>(self.width, self.height).collect();
         let rays: Vec<RayPacket> = corners
             .iter()
             .map(|&(x, y)| self.camera.packet(x, y, self.width, self.height))

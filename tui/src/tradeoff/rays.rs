@@ -1,6 +1,5 @@
 //! The rays that a picture of a scene takes: from the camera, and from there to the lights.
 
-use crate::draw::packet_corners;
 use crate::scene::Light;
 use crate::shade::{ShadowRays, Surfaces};
 use crate::structure::Structure;
@@ -77,7 +76,7 @@ impl Rays {
         let packets = (0..blocks).step_by(step as usize).flat_map(|index| {
             let left = (index % blocks_across) as u32 * across;
             let top = (index / blocks_across) as u32 * down;
-            packet_corners((width - left).min(across), (height - top).min(down))
+            Camera::tile_corners::<[f32; 16]>((width - left).min(across), (height - top).min(down))
                 .map(move |(x, y)| camera.packet(left + x, top + y, width, height))
         });
         Self::new(Kind::Camera, std::iter::once(packets.take(most_packets).collect()))

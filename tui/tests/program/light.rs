@@ -1,7 +1,6 @@
 //! Light that goes with the eye: a molecule is as clear from behind as from the front.
 
 use spherule::color::{Srgb, oklab};
-use spherule::draw::packet_corners;
 use spherule::picture::Picture;
 use spherule::scene::builtin::builtin;
 use spherule::scene::{Light, Lighting, Scene, Source};
@@ -10,7 +9,7 @@ use spherule::structure::Structure;
 use spherule::structure::scene::PictureSearch;
 use spherule::structure::search::{Scratch, Search, Tracing};
 use spherule::view::View;
-use spherule_kernel::{Coherence, HitPacket, Level, RayPacket, Tier, Vec3};
+use spherule_kernel::{Camera, Coherence, HitPacket, Level, RayPacket, Tier, Vec3};
 use std::collections::BTreeMap;
 
 /// Pixels across and down, a ray each.
@@ -29,7 +28,7 @@ fn sphere_pixels(scene: &Scene, view: &View) -> Vec<(u32, Srgb)> {
     let tracing =
         Tracing { tier: Tier::Exact, level: Level::best(), coherence: Coherence::Coherent };
     let camera = view.camera(SIDE, SIDE, 1.0);
-    let corners = packet_corners(SIDE, SIDE);
+    let corners = Camera::tile_corners::<[f32; 16]>(SIDE, SIDE);
     let rays: Vec<RayPacket> = corners.map(|(x, y)| camera.packet(x, y, SIDE, SIDE)).collect();
     let (mut hits, mut scratch) = (vec![HitPacket::none(); rays.len()], Scratch::default());
     search.camera.closest_hits(tracing, &mut scratch, &rays, &mut hits);

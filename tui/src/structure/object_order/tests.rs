@@ -1,10 +1,9 @@
 //! Object order beside image order, strip by strip, and what it counts.
 
 use super::*;
-use crate::draw::packet_corners;
 use crate::scene::builtin::BUILTINS;
 use crate::view::{Lens, View};
-use spherule_kernel::{Coherence, Intersect, Level, SphereList, Tier, Trace, Vec3};
+use spherule_kernel::{Camera, Coherence, Intersect, Level, SphereList, Tier, Trace, Vec3};
 
 const VIEW: View = View {
     eye: Vec3::ZERO,
@@ -20,7 +19,7 @@ fn tracing(tier: Tier) -> Tracing {
 /// The packets of a picture, in the order in which it is drawn.
 fn packets(view: &View, width: u32, height: u32) -> Vec<RayPacket> {
     let camera = view.camera(width, height, f64::from(width) / f64::from(height));
-    let corners = packet_corners(width, height);
+    let corners = Camera::tile_corners::<[f32; 16]>(width, height);
     corners.map(|(x, y)| camera.packet(x, y, width, height)).collect()
 }
 
