@@ -4,8 +4,9 @@ use super::fnv::Fnv;
 use crate::cases::{CASES, Case, Random, case};
 use crate::scene;
 use spherule_kernel::{
-    Bvh, Bvh4, BvhNode, BvhSize, DepthList, Hit, HitPacket, Intersect, Lanes, Level, Ray,
-    RayPacket, SpherePacket, Spheres, Tier, Trace, Vec3, Viewpoint, f32x4, pair_lanes, roots,
+    Bvh, Bvh4, BvhNode, BvhSize, Camera, CameraTiles, DepthList, Hit, HitPacket, Intersect, Lanes,
+    Level, Projection, Ray, RayPacket, SpherePacket, Spheres, Tier, Trace, Vec3, Viewpoint, f32x4,
+    pair_lanes, roots,
 };
 
 /// A tier at a level.
@@ -104,6 +105,7 @@ impl Asked {
         }
         if let Ok(tree) = Bvh::build(spheres, &mut nodes, &mut places, &mut indices) {
             self.ask(&mut fnv, &tree, &rays, &mut []);
+            self.tiles(&mut fnv, &tree, &spheres, eye);
         }
         let mut words = [0; Bvh4::needed(BUILT)];
         if let Ok(built) = Bvh4::build(spheres, &mut words)
@@ -132,6 +134,36 @@ impl Asked {
             }
         }
         fnv.0
+    }
+
+    /// What a camera's tiles hit in a tree and in a list, in both projections; the rays, too.
+    fn tiles(&self, fnv: &mut Fnv, tree: &Bvh<'_>, list: &Spheres<'_>, eye: Vec3) {
+        let (step_x, step_y) = (Vec3::new(0.03, 0.001, 0.0), Vec3::new(0.0, -0.03, 0.002));
+        let first = Vec3::new(-0.11, 0.12, 1.0);
+        for is_parallel in [false, true] {
+            let camera = Camera {
+                projection: if is_parallel {
+                    Projection::Parallel { direction: Vec3::new(0.1, -0.1, 1.0) }
+                } else {
+                    Projection::Perspective { eye }
+                },
+                corner: if is_parallel { eye + 9.0 * first } else { first },
+                step_x: if is_parallel { 9.0 * step_x } else { step_x },
+                step_y: if is_parallel { 9.0 * step_y } else { step_y },
+            };
+            // The last of them are cut by the picture's edge.
+            let corners = [(0, 0), (4, 0), (0, 4), (4, 4), (8, 0), (8, 4)];
+            let tiles = CameraTiles { camera, size: (10, 8), corners: &corners };
+            let (mut rays, mut hits) = ([RayPacket::inactive(); 6], [HitPacket::none(); 6]);
+            let mut trace = Trace::new().at(self.level).coherent();
+            tree.closest_hit_tiles(self.tier, &mut trace, tiles, &mut rays, &mut hits);
+            hits.iter().flat_map(HitPacket::hits).for_each(|hit| fnv.hit(hit));
+            list.closest_hit_tiles(self.tier, &mut trace, tiles, &mut rays, &mut hits);
+            hits.iter().flat_map(HitPacket::hits).for_each(|hit| fnv.hit(hit));
+            for column in rays.iter().flat_map(RayPacket::directions) {
+                column.iter().for_each(|number| fnv.word(number.to_bits()));
+            }
+        }
     }
 
     /// The closest hit of every ray, and whether there is any.
