@@ -19,7 +19,7 @@ pub(super) const ENTRY: Entry = Entry {
     arrows: "up, down: more, fewer pixels   left, right: zoom",
     sources: &[
         Source { file: "tui/scenes/unit.toml", symbols: &["sphere", "camera"] },
-        Source { file: "tui/src/draw/tracer.rs", symbols: &["closest_hits"] },
+        Source { file: "tui/src/draw/tracer.rs", symbols: &["tile_hits"] },
     ],
     start: || {
         Box::new(FirstPicture { height: 12, zoom: 0, scene: builtin("unit").unwrap_or_default() })
