@@ -252,15 +252,22 @@ fn take_closer<F: TierFormula, L: Lanes, Q: Query>(
     packet: &RayPacket<L::Array>,
     spheres: &Spheres<'_>,
     index: u32,
-    mut tied: u32,
+    tied: u32,
     t: &L::Array,
     answer: &mut Q::Packet<L::Array>,
 ) {
+    // Of one lane there is no loop.
+    let mut tied = if L::COUNT == 1 { 1 } else { tied };
     while tied != 0 {
         let lane = tied.trailing_zeros() as usize;
         tied &= tied - 1;
         let t = t.get(lane);
-        let is_closer = |old| is_closer(F::THIS, *spheres, &packet.ray(lane), t, [index, old]);
-        Q::take::<L::Array>(answer, lane, Hit { t, sphere: index }, is_closer);
+        Q::take::<L::Array>(
+            answer,
+            lane,
+            Hit { t, sphere: index },
+            #[inline(always)]
+            |old| is_closer(F::THIS, spheres, &packet.ray(lane), t, [index, old]),
+        );
     }
 }

@@ -18,6 +18,7 @@ mod order;
 mod surface;
 
 use self::estimate::Estimate;
+use self::one_ray::Bracketed;
 use super::beyond::Beyond;
 use super::roots::RayLanes;
 use super::surface::SurfaceLanes;
@@ -129,7 +130,7 @@ impl TierFormula for Exact {
 impl Exact {
     /// D of a valid ray and a valid sphere, and the bound on its error.
     pub(crate) fn discriminant(ray: &Ray, sphere: &Sphere) -> (f64, f64) {
-        let Estimate { discriminant, error, .. } = one_ray::estimate(ray, sphere);
+        let Bracketed { discriminant, error, .. } = one_ray::estimate(ray, sphere);
         (discriminant, error)
     }
 

@@ -223,7 +223,7 @@ impl<'a, L: Lanes> PacketState<'a, L> {
                 equal &= equal - 1;
                 let indices = [theirs.get(lane).to_bits(), ours.get(lane).to_bits()];
                 let (ray, t) = (self.packet.ray(lane), tied.get(lane));
-                let is_closer = is_closer(tier, source.spheres(), &ray, t, indices);
+                let is_closer = is_closer(tier, &source.spheres(), &ray, t, indices);
                 closer |= u32::from(is_closer) << lane;
             }
             nearer = nearer | L::mask(t.token(), closer);

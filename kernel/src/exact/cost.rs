@@ -18,7 +18,7 @@ type Numbers = [f32; 14];
 fn both_roots(numbers: &Numbers) -> Option<[f32; 2]> {
     let [ox, oy, oz, dx, dy, dz, cx, cy, cz, r, ..] = *numbers;
     let terms = QuadraticTerms::new([ox, oy, oz], [dx, dy, dz], [cx, cy, cz], r.abs());
-    let quadratic = Quadratic::new(terms)?;
+    let quadratic = Quadratic::new(&terms)?;
     Some([quadratic.rounded(Root::Near), quadratic.rounded(Root::Far)])
 }
 

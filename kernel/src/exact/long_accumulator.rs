@@ -7,30 +7,48 @@
 //! 2^50 such products before they reach 2^831, where the sign is. Nothing is rounded, nothing overflows, and no
 //! floating-point environment matters.
 //!
-//! On targets of 32 bits, where a product of two limbs is a page of code, what is made of products is called and not
+//! A limb is as wide as the machine's registers. On targets of 32 bits, what is made of products is called and not
 //! inlined: a third of the flash of `Exact`.
 
 use core::cmp::Ordering;
 
 /// For products of six.
-pub(crate) type SumOfSixes = LongAccumulator<27>;
+pub(crate) type SumOfSixes = LongAccumulator<{ 27 * NARROW }>;
 /// For products of six times the square of a midpoint.
-pub(crate) type SumOfEights = LongAccumulator<32>;
+pub(crate) type SumOfEights = LongAccumulator<{ 32 * NARROW }>;
+
+/// What is multiplied at once.
+#[cfg(not(target_pointer_width = "32"))]
+type Limb = u64;
+/// A product of two.
+#[cfg(not(target_pointer_width = "32"))]
+type Twofold = u128;
+/// What is multiplied at once.
+#[cfg(target_pointer_width = "32")]
+type Limb = u32;
+/// A product of two.
+#[cfg(target_pointer_width = "32")]
+type Twofold = u64;
+
+/// How many limbs have 64 bits.
+const NARROW: usize = 64 / Limb::BITS as usize;
+/// And 128.
+const WIDE: usize = 2 * NARROW;
 
 /// A product of numbers, exactly: `mantissa * 2^exponent`, or that negated.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Product {
     negative: bool,
     exponent: i32,
-    /// Low and high half: as one number it would be aligned to 16 bytes, and take a third more stack.
-    mantissa: [u64; 2],
+    /// The lowest first.
+    mantissa: [Limb; WIDE],
 }
 
 impl Product {
     /// 0.
-    pub(crate) const ZERO: Self = Self { negative: false, exponent: 0, mantissa: [0; 2] };
+    pub(crate) const ZERO: Self = Self { negative: false, exponent: 0, mantissa: [0; WIDE] };
     /// 1.
-    pub(crate) const ONE: Self = Self { mantissa: [1, 0], ..Self::ZERO };
+    pub(crate) const ONE: Self = Self { mantissa: narrow(1), ..Self::ZERO };
 
     /// A finite number.
     #[cfg_attr(target_pointer_width = "32", inline(never))]
@@ -43,12 +61,22 @@ impl Product {
         Self {
             negative: bits >> 31 == 1,
             exponent: exponent - 150,
-            mantissa: [u64::from(mantissa), 0],
+            mantissa: narrow(Limb::from(mantissa)),
         }
     }
 
+    /// The number half-way between neighbours, the lower one first, of 25 bits; an infinity stands for the number that
+    /// would come next, 2^128, as it does in rounding.
+    pub(crate) fn between(low: f32, high: f32) -> Self {
+        // Half a step from the one nearer to zero, of which either may be meant.
+        let negative = low.to_bits() > (-0.0_f32).to_bits();
+        let Self { exponent, mantissa: [mantissa, ..], .. } =
+            Self::of(if negative { high } else { low });
+        Self { negative, exponent: exponent - 1, mantissa: narrow(mantissa << 1 | 1) }
+    }
+
     /// A double that is finite and no subnormal: as few bits of mantissa as it has.
-    #[cfg_attr(target_pointer_width = "32", inline(never))]
+    #[cfg(test)]
     pub(crate) fn of_double(x: f64) -> Self {
         let bits = x.to_bits();
         let (exponent, fraction) = ((bits >> 52 & 0x7ff) as i32, bits & ((1 << 52) - 1));
@@ -60,39 +88,82 @@ impl Product {
         Self {
             negative: bits >> 63 == 1,
             exponent: exponent - 1075 + zeros as i32,
-            mantissa: [mantissa >> zeros, 0],
+            mantissa: narrow(mantissa >> zeros),
         }
     }
 
-    /// Both together; their mantissas have 128 bits at most.
+    /// Both together; each mantissa has 64 bits at most.
     #[cfg_attr(target_pointer_width = "32", inline(never))]
-    pub(crate) fn times(self, other: Self) -> Self {
-        let whole = |[low, high]: [u64; 2]| u128::from(high) << 64 | u128::from(low);
-        let product = whole(self.mantissa).wrapping_mul(whole(other.mantissa));
+    pub(crate) fn times(&self, other: &Self) -> Self {
+        let mut mantissa = [0; WIDE];
+        multiply(&mut mantissa, &self.mantissa, half(&other.mantissa));
         Self {
             negative: self.negative != other.negative,
             exponent: self.exponent + other.exponent,
-            mantissa: [product as u64, (product >> 64) as u64],
+            mantissa,
         }
     }
 
     /// The same with the other sign.
-    pub(crate) fn negated(self) -> Self {
-        Self { negative: !self.negative, ..self }
+    pub(crate) fn negated(&self) -> Self {
+        Self { negative: !self.negative, ..*self }
     }
 
     /// How it compares with zero.
-    pub(crate) fn sign(self) -> Ordering {
+    pub(crate) fn sign(&self) -> Ordering {
         match self.negative {
-            _ if self.mantissa == [0; 2] => Ordering::Equal,
+            _ if self.mantissa == [0; WIDE] => Ordering::Equal,
             true => Ordering::Less,
             false => Ordering::Greater,
         }
     }
 
+    /// Changes the sign. (In place, as [`Product::scale`]: a copy is 30 bytes of flash.)
+    pub(crate) fn negate(&mut self) {
+        self.negative = !self.negative;
+    }
+
+    /// Multiplies by 2 to a small power.
+    pub(crate) fn scale(&mut self, power: i32) {
+        self.exponent += power;
+    }
+
     /// Times 2 to a small power.
-    pub(crate) fn scaled(self, power: i32) -> Self {
-        Self { exponent: self.exponent + power, ..self }
+    pub(crate) fn scaled(&self, power: i32) -> Self {
+        Self { exponent: self.exponent + power, ..*self }
+    }
+}
+
+/// A mantissa of one limb.
+const fn narrow(lowest: Limb) -> [Limb; WIDE] {
+    let mut mantissa = [0; WIDE];
+    mantissa[0] = lowest;
+    mantissa
+}
+
+/// The lower 64 bits.
+#[inline(always)]
+fn half(mantissa: &[Limb; WIDE]) -> &[Limb] {
+    mantissa.get(..NARROW).unwrap_or_default()
+}
+
+/// Adds a * b, as far as there is room.
+#[cfg_attr(target_pointer_width = "32", inline(never))]
+#[cfg_attr(not(target_pointer_width = "32"), inline(always))]
+fn multiply(sum: &mut [Limb], a: &[Limb; WIDE], b: &[Limb]) {
+    for (first, &b) in b.iter().enumerate() {
+        let mut carry = 0;
+        for (place, &a) in a.iter().enumerate() {
+            if let Some(limb) = sum.get_mut(first + place) {
+                // Never overflows: a product of two limbs leaves room for two limbs.
+                let more = Twofold::from(a) * Twofold::from(b) + Twofold::from(*limb) + carry;
+                *limb = more as Limb;
+                carry = more >> Limb::BITS;
+            }
+        }
+        if let Some(limb) = sum.get_mut(first + WIDE) {
+            *limb = carry as Limb;
+        }
     }
 }
 
@@ -100,12 +171,12 @@ impl Product {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LongAccumulator<const LIMBS: usize> {
     /// Two's complement, the lowest first.
-    limbs: [u64; LIMBS],
+    limbs: [Limb; LIMBS],
 }
 
 impl<const LIMBS: usize> LongAccumulator<LIMBS> {
     /// The lowest bit is worth 2 to this power, the highest 2^831.
-    const LOWEST: i32 = 832 - 64 * LIMBS as i32;
+    const LOWEST: i32 = 832 - Limb::BITS as i32 * LIMBS as i32;
 
     /// The empty sum.
     pub(crate) const fn zero() -> Self {
@@ -114,65 +185,59 @@ impl<const LIMBS: usize> LongAccumulator<LIMBS> {
 
     /// Adds a product.
     #[cfg_attr(target_pointer_width = "32", inline(never))]
-    pub(crate) fn add(&mut self, product: Product) {
-        let Product { negative, exponent, mantissa: [low, high] } = product;
-        self.add_shifted(&[low, high], exponent, negative);
+    pub(crate) fn add(&mut self, product: &Product) {
+        self.add_shifted(&product.mantissa, product.exponent, product.negative);
+    }
+
+    /// Adds a product of two, the second of 64 bits at most.
+    #[cfg_attr(target_pointer_width = "32", inline(never))]
+    pub(crate) fn add_product(&mut self, a: &Product, b: &Product) {
+        let mut limbs = [0; WIDE + NARROW];
+        multiply(&mut limbs, &a.mantissa, half(&b.mantissa));
+        self.add_shifted(&limbs, a.exponent + b.exponent, a.negative != b.negative);
     }
 
     /// Adds a product of two.
     #[cfg_attr(target_pointer_width = "32", inline(never))]
-    pub(crate) fn add_product(&mut self, a: Product, b: Product) {
-        let halves = |number: u128| (number & u128::from(u64::MAX), number >> 64);
-        let ([a_low, a_high], [b_low, b_high]) = (a.mantissa, b.mantissa);
-        let [a_low, a_high] = [u128::from(a_low), u128::from(a_high)];
-        let [b_low, b_high] = [u128::from(b_low), u128::from(b_high)];
-        // No sum overflows: a product of two limbs leaves room for two limbs.
-        let (first, low) = halves(a_low * b_low);
-        let (second, high) = halves(a_high * b_low + low);
-        let (middle, carry) = halves(a_low * b_high + second);
-        let (third, fourth) = halves(a_high * b_high + high + carry);
-        let limbs = [first as u64, middle as u64, third as u64, fourth as u64];
+    fn add_wide_product(&mut self, a: &Product, b: &Product) {
+        let mut limbs = [0; 2 * WIDE];
+        multiply(&mut limbs, &a.mantissa, &b.mantissa);
         self.add_shifted(&limbs, a.exponent + b.exponent, a.negative != b.negative);
     }
 
     /// Adds the square of a sum whose terms have 128 bits at most.
     pub(crate) fn add_wide_square(&mut self, terms: &[Product]) {
-        for (index, &term) in terms.iter().enumerate() {
-            self.add_product(term, term);
-            for &other in terms.iter().skip(index + 1) {
-                self.add_product(term.scaled(1), other);
+        for (index, term) in terms.iter().enumerate() {
+            self.add_wide_product(term, term);
+            for other in terms.iter().skip(index + 1) {
+                self.add_wide_product(&term.scaled(1), other);
             }
         }
     }
 
-    /// Adds the square of a sum whose terms have 64 bits at most, times `factor`.
+    /// Adds the square of a sum whose terms have 64 bits at most, times `factor`, of as many.
     #[cfg_attr(target_pointer_width = "32", inline(never))]
-    pub(crate) fn add_square(&mut self, terms: &[Product], factor: Product) {
-        for (index, &term) in terms.iter().enumerate() {
-            self.add_product(term.times(term), factor);
-            for &other in terms.iter().skip(index + 1) {
-                self.add_product(term.times(other).scaled(1), factor);
+    pub(crate) fn add_square(&mut self, terms: &[Product], factor: &Product) {
+        let mut rest = terms;
+        while let Some((term, others)) = rest.split_first() {
+            let mut twice = 0;
+            for other in rest {
+                let mut product = term.times(other);
+                product.scale(twice);
+                self.add_product(&product, factor);
+                twice = 1;
             }
-        }
-    }
-
-    /// Adds the product of two sums.
-    #[cfg_attr(target_pointer_width = "32", inline(never))]
-    pub(crate) fn add_products(&mut self, some: &[Product], others: &[Product]) {
-        for &term in some {
-            for &other in others {
-                self.add_product(term, other);
-            }
+            rest = others;
         }
     }
 
     /// Adds some limbs times 2^exponent, or takes them away.
     #[cfg_attr(target_pointer_width = "32", inline(never))]
-    fn add_shifted(&mut self, limbs: &[u64], exponent: i32, negative: bool) {
+    fn add_shifted(&mut self, limbs: &[Limb], exponent: i32, negative: bool) {
         let place = (exponent - Self::LOWEST).max(0).unsigned_abs();
-        let (limb, shift) = (place as usize / 64, place % 64);
+        let (limb, shift) = ((place / Limb::BITS) as usize, place % Limb::BITS);
         // x - y is !(!x + y): one loop for both.
-        let flip = if negative { u64::MAX } else { 0 };
+        let flip = if negative { Limb::MAX } else { 0 };
         let (mut from_below, mut carry) = (0, false);
         for (number, place) in self.limbs.iter_mut().skip(limb).enumerate() {
             if number > limbs.len() && !carry {
@@ -183,9 +248,9 @@ impl<const LIMBS: usize> LongAccumulator<LIMBS> {
             // Bits that leave a limb at its top come in at the next one's bottom.
             let limb = limbs.get(number).copied().unwrap_or(0);
             let more = limb << shift | from_below;
-            from_below = limb >> 1 >> (63 - shift);
+            from_below = limb >> 1 >> (Limb::BITS - 1 - shift);
             let (sum, first) = (*place ^ flip).overflowing_add(more);
-            let (sum, second) = sum.overflowing_add(u64::from(carry));
+            let (sum, second) = sum.overflowing_add(Limb::from(carry));
             *place = sum ^ flip;
             carry = first | second;
         }
@@ -194,49 +259,39 @@ impl<const LIMBS: usize> LongAccumulator<LIMBS> {
     /// How the sum compares with zero.
     #[cfg_attr(target_pointer_width = "32", inline(never))]
     pub(crate) fn sign(&self) -> Ordering {
-        match self.limbs.last() {
-            Some(top) if top >> 63 == 1 => Ordering::Less,
-            _ if self.lowest().is_none() => Ordering::Equal,
-            _ => Ordering::Greater,
+        if self.is_negative() {
+            Ordering::Less
+        } else if self.limbs.iter().all(|&limb| limb == 0) {
+            Ordering::Equal
+        } else {
+            Ordering::Greater
         }
     }
 
-    /// The lowest limb that is not zero.
-    #[cfg_attr(target_pointer_width = "32", inline(never))]
-    fn lowest(&self) -> Option<usize> {
-        self.limbs.iter().position(|&limb| limb != 0)
-    }
-
-    /// A limb of the magnitude, of which the lowest that is not zero is known.
-    fn magnitude(&self, number: usize, lowest: usize) -> u64 {
-        let limb = self.limbs.get(number).copied().unwrap_or(0);
-        match self.sign() {
-            Ordering::Less if number > lowest => !limb,
-            Ordering::Less => limb.wrapping_neg(),
-            _ => limb,
-        }
+    fn is_negative(&self) -> bool {
+        self.limbs.last().is_some_and(|limb| limb >> (Limb::BITS - 1) == 1)
     }
 
     /// The sum within 2 u of itself, u = 2^-53; for sums of products of four, which no double over- or
     /// underflows.
     #[cfg_attr(target_pointer_width = "32", inline(never))]
     pub(crate) fn estimate(&self) -> f64 {
-        let Some(lowest) = self.lowest() else { return 0.0 };
-        let mut top = LIMBS - 1;
-        while top > lowest && self.magnitude(top, lowest) == 0 {
-            top -= 1;
+        // The magnitude, of a negative sum less a unit, which is nothing beside a product of four.
+        let flip = if self.is_negative() { Limb::MAX } else { 0 };
+        let Some(top) = self.limbs.iter().rposition(|&limb| limb != flip) else { return 0.0 };
+        let at =
+            |below: usize| self.limbs.get(top.wrapping_sub(below)).map_or(0, |limb| limb ^ flip);
+        let zeros = at(0).leading_zeros();
+        let mut bits: Twofold = 0;
+        for below in 0..NARROW {
+            let limb = at(below) << zeros | at(below + 1) >> 1 >> (Limb::BITS - 1 - zeros);
+            bits = bits << Limb::BITS | Twofold::from(limb);
         }
-        // 65 bits or more: what is cut off is below 2^-64 of the sum.
-        let below = if top == 0 { 0 } else { self.magnitude(top - 1, lowest) };
-        let bits = u128::from(self.magnitude(top, lowest)) << 64 | u128::from(below);
-        let value = bits as f64 * power_of_two(64 * (top as i32 - 1) + Self::LOWEST);
-        if self.sign() == Ordering::Less { -value } else { value }
+        // 53 bits: what is cut off is below 2 u. The first is no part of a double, and makes its exponent one more.
+        let exponent = Self::LOWEST + (Limb::BITS * (top as u32 + 1) - 1 - zeros) as i32;
+        let sign = (Twofold::from(flip & 1) as u64) << 63;
+        f64::from_bits(sign + (((exponent + 1022) as u64) << 52) + (bits as u64 >> 11))
     }
-}
-
-/// 2 to a power that a normal double can be.
-fn power_of_two(power: i32) -> f64 {
-    f64::from_bits(((power + 1023).clamp(1, 2046) as u64) << 52)
 }
 
 #[cfg(test)]

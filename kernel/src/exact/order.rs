@@ -79,22 +79,25 @@ pub(crate) fn compare_roots(
 struct TwoSpheres<'a>([&'a QuadraticTerms; 2]);
 
 impl TwoSpheres<'_> {
-    /// Adds a times `factor`.
+    /// Adds a times `factor`, of 128 bits at most.
     #[cfg_attr(target_pointer_width = "32", inline(never))]
-    fn add_square(&self, sum: &mut SumOfSixes, factor: Product) {
+    fn add_square(&self, sum: &mut SumOfSixes, factor: &Product) {
         for axis in 0..3 {
             let d = self.0[0].d(axis);
-            sum.add_product(d.times(d), factor);
+            sum.add_product(factor, &d.times(&d));
         }
     }
 
-    /// Adds B times `factor`: b of the first, and -b of the second, without the last three terms, which they share.
+    /// Adds B times `factor`, of 128 bits at most: b of the first, and -b of the second, without the last three terms,
+    /// which they share.
     #[cfg_attr(target_pointer_width = "32", inline(never))]
-    fn add_slopes(&self, sum: &mut SumOfSixes, factor: Product) {
+    fn add_slopes(&self, sum: &mut SumOfSixes, factor: &Product) {
         let [first, second] = self.0;
         for axis in 0..3 {
-            sum.add_product(first.term(HalfSlope, axis), factor);
-            sum.add_product(second.term(HalfSlope, axis), factor.negated());
+            sum.add_product(factor, &first.term(HalfSlope, axis));
+            let mut minus = second.term(HalfSlope, axis);
+            minus.negate();
+            sum.add_product(factor, &minus);
         }
     }
 
@@ -102,17 +105,19 @@ impl TwoSpheres<'_> {
     #[cfg_attr(target_pointer_width = "32", inline(never))]
     fn power_difference(&self, number: usize) -> Product {
         let [first, second] = self.0;
-        match number {
-            0..7 => first.term(PowerOfSphere, number),
-            _ => second.term(PowerOfSphere, number - 7).negated(),
+        if number < PowerOfSphere.terms() {
+            return first.term(PowerOfSphere, number);
         }
+        let mut minus = second.term(PowerOfSphere, number - PowerOfSphere.terms());
+        minus.negate();
+        minus
     }
 
     /// B.
     #[inline(never)]
     fn difference_of_slopes(&self) -> Ordering {
         let mut sum = SumOfSixes::zero();
-        self.add_slopes(&mut sum, Product::ONE);
+        self.add_slopes(&mut sum, &Product::ONE);
         sum.sign()
     }
 
@@ -122,11 +127,13 @@ impl TwoSpheres<'_> {
         let mut sum = SumOfSixes::zero();
         for sphere in self.0 {
             for number in 0..HalfSlope.terms() {
-                self.add_slopes(&mut sum, sphere.term(HalfSlope, number));
+                self.add_slopes(&mut sum, &sphere.term(HalfSlope, number));
             }
         }
         for number in 0..2 * PowerOfSphere.terms() {
-            self.add_square(&mut sum, self.power_difference(number).negated());
+            let mut minus = self.power_difference(number);
+            minus.negate();
+            self.add_square(&mut sum, &minus);
         }
         sum.sign()
     }
@@ -138,13 +145,15 @@ impl TwoSpheres<'_> {
         let [first, second] = self.0;
         for sphere in self.0 {
             for number in 0..Power.terms() {
-                self.add_square(&mut sum, sphere.term(Power, number));
+                self.add_square(&mut sum, &sphere.term(Power, number));
             }
         }
         for number in 0..HalfSlope.terms() {
-            let minus_twice = first.term(HalfSlope, number).scaled(1).negated();
+            let mut minus_twice = first.term(HalfSlope, number);
+            minus_twice.scale(1);
+            minus_twice.negate();
             for other in 0..HalfSlope.terms() {
-                sum.add_product(second.term(HalfSlope, other), minus_twice);
+                sum.add_product(&second.term(HalfSlope, other), &minus_twice);
             }
         }
         sum.sign()
@@ -159,8 +168,13 @@ impl TwoSpheres<'_> {
         }
         let [first, second] = self.0;
         for number in 0..Power.terms() {
-            self.add_crossed(&mut sum, first, second.term(Power, number).scaled(2));
-            self.add_crossed(&mut sum, second, first.term(Power, number).scaled(2).negated());
+            let mut four_times = second.term(Power, number);
+            four_times.scale(2);
+            self.add_crossed(&mut sum, first, &four_times);
+            let mut minus = first.term(Power, number);
+            minus.scale(2);
+            minus.negate();
+            self.add_crossed(&mut sum, second, &minus);
         }
         sum.sign()
     }
@@ -170,18 +184,18 @@ impl TwoSpheres<'_> {
     fn add_power_products(&self, sum: &mut SumOfSixes, number: usize) {
         let mut term = self.power_difference(number);
         for other in number..2 * PowerOfSphere.terms() {
-            self.add_square(sum, term.times(self.power_difference(other)));
+            self.add_square(sum, &term.times(&self.power_difference(other)));
             if other == number {
-                term = term.scaled(1);
+                term.scale(1);
             }
         }
     }
 
     /// Adds B times b of one sphere times `factor`.
     #[cfg_attr(target_pointer_width = "32", inline(never))]
-    fn add_crossed(&self, sum: &mut SumOfSixes, of: &QuadraticTerms, factor: Product) {
+    fn add_crossed(&self, sum: &mut SumOfSixes, of: &QuadraticTerms, factor: &Product) {
         for number in 0..HalfSlope.terms() {
-            self.add_slopes(sum, of.term(HalfSlope, number).times(factor));
+            self.add_slopes(sum, &of.term(HalfSlope, number).times(factor));
         }
     }
 }

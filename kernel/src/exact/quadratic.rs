@@ -33,8 +33,8 @@ pub(crate) enum Root {
 
 /// A line that meets a sphere, and estimates of its roots.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Quadratic {
-    terms: QuadraticTerms,
+pub(crate) struct Quadratic<'a> {
+    terms: &'a QuadraticTerms,
     /// t1 and t2, each within 10 u of itself.
     estimates: [f64; 2],
 }
@@ -42,10 +42,23 @@ pub(crate) struct Quadratic {
 /// A line and a sphere, as what the coefficients of their quadratic are sums of.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct QuadraticTerms {
-    origin: [f32; 3],
-    direction: [f32; 3],
-    center: [f32; 3],
-    radius: f32,
+    /// d, -d, c and -o along the axes, r and -r: every term is a product of two of them.
+    numbers: [f32; 14],
+}
+
+/// Where in these numbers each begins.
+const MINUS_D: usize = 3;
+const C: usize = 6;
+const MINUS_O: usize = 9;
+const RADIUS: usize = 12;
+
+/// By what it is told on which side of a root a number lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum SideBy {
+    /// f.
+    Power,
+    /// g.
+    Slope,
 }
 
 /// A coefficient of the quadratic, or a part of one, that is a sum of products of two.
@@ -78,32 +91,45 @@ impl QuadraticTerms {
         center: [f32; 3],
         radius: f32,
     ) -> Self {
-        Self { origin, direction, center, radius }
+        let ([a, b, c], [d, e, f], [g, h, i]) = (direction, center, origin);
+        Self { numbers: [a, b, c, -a, -b, -c, d, e, f, -g, -h, -i, radius, -radius] }
     }
 
-    /// d along an axis. (Made anew where it is needed, as are the others: kept, they are most of the stack.)
+    /// One of the numbers. (Made anew where it is needed, as are products of them: kept, they are most of the stack.)
+    #[cfg_attr(target_pointer_width = "32", inline(never))]
+    fn number(&self, place: usize) -> Product {
+        Product::of(self.numbers.get(place).copied().unwrap_or(0.0))
+    }
+
+    /// The product of two of the numbers.
+    #[cfg_attr(target_pointer_width = "32", inline(never))]
+    fn pair(&self, one: usize, other: usize) -> Product {
+        self.number(one).times(&self.number(other))
+    }
+
+    /// d along an axis.
     pub(super) fn d(&self, axis: usize) -> Product {
-        Product::of(self.direction[axis % 3])
+        self.number(axis % 3)
     }
 
     /// c along an axis.
     pub(super) fn c(&self, axis: usize) -> Product {
-        Product::of(self.center[axis % 3])
+        self.number(C + axis % 3)
     }
 
     /// -o along an axis.
     pub(super) fn o(&self, axis: usize) -> Product {
-        Product::of(-self.origin[axis % 3])
+        self.number(MINUS_O + axis % 3)
     }
 
     /// r.
     pub(super) fn radius(&self) -> Product {
-        Product::of(self.radius)
+        self.number(RADIUS)
     }
 
     /// -r^2.
-    pub(super) fn minus_square(&self) -> Product {
-        self.radius().times(self.radius()).negated()
+    fn minus_square(&self) -> Product {
+        self.pair(RADIUS, RADIUS + 1)
     }
 
     /// Adds -D = |d x p|^2 - a r^2, times `factor`, of 64 bits at most.
@@ -111,44 +137,49 @@ impl QuadraticTerms {
     pub(super) fn add_minus_discriminant<const LIMBS: usize>(
         &self,
         sum: &mut LongAccumulator<LIMBS>,
-        factor: Product,
+        factor: &Product,
     ) {
+        // The axes after one, in turn.
+        let (mut i, mut j) = (1, 2);
         for k in 0..3 {
-            self.add_minus_component(sum, k, factor);
+            self.add_minus_component(sum, [i, j, k], factor);
+            (i, j) = (j, k);
         }
     }
 
-    /// Of that the part of one axis: a component of d x p comes from the two axes after its own.
+    /// Of that the part of axis k: a component of d x p comes from the two axes after its own.
     #[cfg_attr(target_pointer_width = "32", inline(never))]
     fn add_minus_component<const LIMBS: usize>(
         &self,
         sum: &mut LongAccumulator<LIMBS>,
-        k: usize,
-        factor: Product,
+        [i, j, k]: [usize; 3],
+        factor: &Product,
     ) {
-        let (i, j) = (k + 1, k + 2);
         let component = [
-            self.d(i).times(self.c(j)),
-            self.d(i).times(self.o(j)),
-            self.d(j).times(self.c(i)).negated(),
-            self.d(j).times(self.o(i)).negated(),
+            self.pair(i, C + j),
+            self.pair(i, MINUS_O + j),
+            self.pair(MINUS_D + j, C + i),
+            self.pair(MINUS_D + j, MINUS_O + i),
         ];
         sum.add_square(&component, factor);
-        sum.add_product(self.minus_square().times(self.d(i).times(self.d(i))), factor);
+        sum.add_product(&self.minus_square().times(&self.pair(k, k)), factor);
     }
 
     /// Term `number` of those that a coefficient is the sum of.
     #[cfg_attr(target_pointer_width = "32", inline(never))]
     pub(super) fn term(&self, of: Coefficient, number: usize) -> Product {
-        let (one, other) = match (of, number) {
-            (Coefficient::HalfSlope, 0..3) => (self.d(number), self.c(number)),
-            (Coefficient::HalfSlope, _) => (self.d(number), self.o(number)),
-            (_, 0..3) => (self.c(number), self.c(number)),
-            (_, 3..6) => (self.c(number).scaled(1), self.o(number)),
-            (_, 6) => (self.radius(), self.radius().negated()),
-            _ => (self.o(number), self.o(number)),
+        let mut term = match (of, number) {
+            // d with c, then with -o, which follows it.
+            (Coefficient::HalfSlope, _) => self.pair(number % 3, C + number),
+            (_, 0..3) => self.pair(C + number, C + number),
+            (_, 3..6) => self.pair(C + number - 3, C + number),
+            (_, 6) => self.minus_square(),
+            _ => self.pair(MINUS_O + number - 7, MINUS_O + number - 7),
         };
-        one.times(other)
+        if of != Coefficient::HalfSlope && (3..6).contains(&number) {
+            term.scale(1);
+        }
+        term
     }
 
     /// A coefficient, estimated.
@@ -156,7 +187,7 @@ impl QuadraticTerms {
     fn estimate(&self, of: Coefficient) -> f64 {
         let mut sum = SumOfSixes::zero();
         for number in 0..of.terms() {
-            sum.add(self.term(of, number));
+            sum.add(&self.term(of, number));
         }
         sum.estimate()
     }
@@ -165,69 +196,65 @@ impl QuadraticTerms {
     #[inline(never)]
     fn discriminant(&self) -> Option<f64> {
         let mut sum = SumOfSixes::zero();
-        self.add_minus_discriminant(&mut sum, Product::ONE);
+        self.add_minus_discriminant(&mut sum, &Product::ONE);
         (sum.sign() != Ordering::Greater).then(|| -sum.estimate())
     }
 
     /// Whether the origin is outside of the sphere, and whether the line goes away from its centre there: the signs of
     /// |o - c|^2 - r^2 and d.(o - c).
     pub(crate) fn start(&self) -> [Ordering; 2] {
-        [self.sign_of_power_at(Product::ZERO), self.sign_of_slope_at(Product::ZERO)]
+        let zero = &Product::ZERO;
+        [self.sign_at(zero, SideBy::Power), self.sign_at(zero, SideBy::Slope)]
     }
 
-    /// m d - p along an axis.
-    fn beside(&self, axis: usize, m: Product) -> [Product; 3] {
-        [m.times(self.d(axis)), self.c(axis).negated(), self.o(axis).negated()]
-    }
-
-    /// Adds its square.
-    #[cfg_attr(target_pointer_width = "32", inline(never))]
-    fn add_square_beside(&self, sum: &mut SumOfSixes, axis: usize, m: Product) {
-        sum.add_square(&self.beside(axis, m), Product::ONE);
-    }
-
-    /// Adds its product with d.
-    #[cfg_attr(target_pointer_width = "32", inline(never))]
-    fn add_slope_beside(&self, sum: &mut SumOfSixes, axis: usize, m: Product) {
-        sum.add_products(&self.beside(axis, m), &[self.d(axis)]);
-    }
-
-    /// The sign of f = |m d - p|^2 - r^2.
+    /// The sign of f = |m d - p|^2 - r^2, or of g = d.(m d - p).
     #[inline(never)]
-    fn sign_of_power_at(&self, m: Product) -> Ordering {
+    fn sign_at(&self, m: &Product, of: SideBy) -> Ordering {
         let mut sum = SumOfSixes::zero();
-        sum.add(self.minus_square());
+        if of == SideBy::Power {
+            sum.add(&self.minus_square());
+        }
         for axis in 0..3 {
-            self.add_square_beside(&mut sum, axis, m);
+            self.add_beside(&mut sum, axis, m, of);
         }
         sum.sign()
     }
 
-    /// The sign of g = d.(m d - p).
-    #[inline(never)]
-    fn sign_of_slope_at(&self, m: Product) -> Ordering {
-        let mut sum = SumOfSixes::zero();
-        for axis in 0..3 {
-            self.add_slope_beside(&mut sum, axis, m);
+    /// Of that the part of one axis: p - m d squared, or times -d.
+    #[cfg_attr(target_pointer_width = "32", inline(never))]
+    fn add_beside(&self, sum: &mut SumOfSixes, axis: usize, m: &Product, of: SideBy) {
+        let minus_d = self.number(MINUS_D + axis);
+        let beside = [m.times(&minus_d), self.number(C + axis), self.number(MINUS_O + axis)];
+        match of {
+            SideBy::Power => sum.add_square(&beside, &Product::ONE),
+            SideBy::Slope => {
+                for term in &beside {
+                    sum.add_product(term, &minus_d);
+                }
+            }
         }
-        sum.sign()
     }
 }
 
-impl Quadratic {
+impl<'a> Quadratic<'a> {
     /// `None` if the line misses the sphere; a tangent does not miss it.
     ///
     /// Domain: a valid ray and a valid sphere. Anything else returns too, with no meaning.
-    pub(crate) fn new(terms: QuadraticTerms) -> Option<Self> {
-        // q = b + sign(b) sqrt D does not cancel: 2 u of b, 2 u of the root, 1 u of the sum.
+    pub(crate) fn new(terms: &'a QuadraticTerms) -> Option<Self> {
+        // q = b + sign(b) sqrt D is the larger of both, and does not cancel: 2 u of b, 2 u of the root, 1 u of the sum.
         // a is within 2 u, k within 2 u; so q / a within 8 u, k / q within 8 u.
         let root = libm::sqrt(terms.discriminant()?);
         let (b, k) = (terms.estimate(Coefficient::HalfSlope), terms.estimate(Coefficient::Power));
-        let a: f64 = terms.direction.iter().map(|&d| f64::from(d) * f64::from(d)).sum();
-        let q = if b < 0.0 { b - root } else { b + root };
+        let mut a = -0.0;
+        for i in 0..3 {
+            let d = f64::from(terms.numbers[i]);
+            a += d * d;
+        }
+        let q = b + root.copysign(b);
+        let mut estimates = [q / a; 2];
         // q is zero only where b and D are, and then so is k: both roots are zero.
-        let other = if k == 0.0 { 0.0 } else { k / q };
-        let estimates = if b < 0.0 { [q / a, other] } else { [other, q / a] };
+        let other = if k.to_bits() == 0 { 0.0 } else { k / q };
+        estimates[usize::from(b.is_sign_negative())] = other;
         Some(Self { terms, estimates })
     }
 
@@ -239,7 +266,7 @@ impl Quadratic {
         let rounded = if low == high {
             low
         } else {
-            match self.compare_with(midpoint(low, high), root) {
+            match self.compare_with(&Product::between(low, high), root) {
                 Ordering::Less => low,
                 Ordering::Greater => high,
                 // The one with an even last bit.
@@ -251,12 +278,10 @@ impl Quadratic {
         rounded + 0.0
     }
 
-    /// How a root compares with `t`, a number of at most 25 significant bits.
-    fn compare_with(&self, t: f64, root: Root) -> Ordering {
-        // 25 bits and 24, squared, are no more than 128.
-        let m = Product::of_double(t);
+    /// How a root compares with `m`, a number of at most 25 bits: those and 24, squared, are no more than 128.
+    fn compare_with(&self, m: &Product, root: Root) -> Ordering {
         let outward = if root == Root::Near { Ordering::Less } else { Ordering::Greater };
-        match (self.terms.sign_of_power_at(m), self.terms.sign_of_slope_at(m)) {
+        match (self.terms.sign_at(m, SideBy::Power), self.terms.sign_at(m, SideBy::Slope)) {
             (Ordering::Greater, slope) if slope == outward => outward.reverse(),
             (Ordering::Equal, slope) if slope == outward || slope == Ordering::Equal => {
                 Ordering::Equal
@@ -265,17 +290,6 @@ impl Quadratic {
         }
     }
 }
-
-/// The number half-way between neighbours, exactly; an infinity stands for the `f32` that would
-/// come next, 2^128, as it does in rounding.
-pub(super) fn midpoint(low: f32, high: f32) -> f64 {
-    let end = |single: f32| {
-        if single.is_finite() { f64::from(single) } else { TWO_128.copysign(f64::from(single)) }
-    };
-    (end(low) + end(high)) * 0.5
-}
-
-const TWO_128: f64 = 2.0 * (1u128 << 127) as f64;
 
 #[cfg(test)]
 mod by_hand;

@@ -14,7 +14,7 @@
 //! larger one, by the sign of A^2 - d_i^2 D. All of these are sums of products.
 
 use super::long_accumulator::{Product, SumOfEights, SumOfSixes};
-use super::quadratic::{QuadraticTerms, Root, midpoint};
+use super::quadratic::{QuadraticTerms, Root};
 use core::cmp::Ordering;
 
 /// What a coordinate is of.
@@ -44,14 +44,14 @@ impl SurfaceCoordinate<'_> {
         // The last number that it is not below.
         while low < high {
             let middle = high - (high - low) / 2;
-            if self.compare_with(f64::from(number(middle))) == Ordering::Less {
+            if self.compare_with(&Product::of(number(middle))) == Ordering::Less {
                 high = middle - 1;
             } else {
                 low = middle;
             }
         }
         let (below, above) = (number(low), number(low + 1));
-        let up = match self.compare_with(midpoint(below, above)) {
+        let up = match self.compare_with(&Product::between(below, above)) {
             Ordering::Less => false,
             Ordering::Greater => true,
             Ordering::Equal => below.to_bits() & 1 == 1,
@@ -59,9 +59,9 @@ impl SurfaceCoordinate<'_> {
         (if up { above } else { below }) + 0.0
     }
 
-    /// How the coordinate compares with a number of at most 25 significant bits.
-    fn compare_with(&self, number: f64) -> Ordering {
-        let whole_terms = self.whole(Product::of_double(number));
+    /// How the coordinate compares with a number of at most 25 bits.
+    fn compare_with(&self, number: &Product) -> Ordering {
+        let whole_terms = self.whole(number);
         let along = self.terms.d(self.axis);
         let whole = sign_of_sum(&whole_terms);
         let mut part = along.sign();
@@ -71,7 +71,7 @@ impl SurfaceCoordinate<'_> {
         if whole == part || part == Ordering::Equal {
             return whole;
         }
-        match self.sign_of_difference(&whole_terms, along.times(along)) {
+        match self.sign_of_difference(&whole_terms, &along.times(&along)) {
             Ordering::Greater => whole,
             Ordering::Less => part,
             Ordering::Equal => Ordering::Equal,
@@ -79,36 +79,36 @@ impl SurfaceCoordinate<'_> {
     }
 
     /// What A is the sum of. (Made anew for each number: kept, it is most of the stack.)
-    fn whole(&self, m: Product) -> [Product; 11] {
+    fn whole(&self, m: &Product) -> [Product; 11] {
         let (terms, i, j, k) = (self.terms, self.axis, self.axis + 1, self.axis + 2);
         let (di, dj, dk) = (terms.d(i), terms.d(j), terms.d(k));
         let (ci, cj, ck) = (terms.c(i), terms.c(j), terms.c(k));
         let (oi, oj, ok) = (terms.o(i), terms.o(j), terms.o(k));
-        let (ij, ik) = (di.times(dj), di.times(dk));
-        let (jj, kk) = (dj.times(dj).negated(), dk.times(dk).negated());
+        let (ij, ik) = (di.times(&dj), di.times(&dk));
+        let (jj, kk) = (dj.times(&dj).negated(), dk.times(&dk).negated());
         let scale = match self.of {
-            Surveyed::Normal => m.times(self.terms.radius()),
-            Surveyed::Point => m,
+            Surveyed::Normal => m.times(&self.terms.radius()),
+            Surveyed::Point => *m,
         };
         let scale = scale.negated();
         [
-            ij.times(cj),
-            ij.times(oj),
-            ik.times(ck),
-            ik.times(ok),
-            jj.times(ci),
-            jj.times(oi),
-            kk.times(ci),
-            kk.times(oi),
-            di.times(di).times(scale),
-            dj.times(dj).times(scale),
-            dk.times(dk).times(scale),
+            ij.times(&cj),
+            ij.times(&oj),
+            ik.times(&ck),
+            ik.times(&ok),
+            jj.times(&ci),
+            jj.times(&oi),
+            kk.times(&ci),
+            kk.times(&oi),
+            di.times(&di).times(&scale),
+            dj.times(&dj).times(&scale),
+            dk.times(&dk).times(&scale),
         ]
     }
 
     /// The sign of A^2 - d_i^2 D.
     #[inline(never)]
-    fn sign_of_difference(&self, whole: &[Product; 11], square: Product) -> Ordering {
+    fn sign_of_difference(&self, whole: &[Product; 11], square: &Product) -> Ordering {
         let mut sum = SumOfEights::zero();
         sum.add_wide_square(whole);
         self.terms.add_minus_discriminant(&mut sum, square);
@@ -119,7 +119,7 @@ impl SurfaceCoordinate<'_> {
 #[inline(never)]
 fn sign_of_sum(terms: &[Product; 11]) -> Ordering {
     let mut sum = SumOfSixes::zero();
-    for &term in terms {
+    for term in terms {
         sum.add(term);
     }
     sum.sign()

@@ -30,7 +30,10 @@ impl<L: Lanes, Q: Query, S: SphereRun + ?Sized> TierWork for RayByRay<'_, L, Q, 
     fn run<F: TierFormula>(self) {
         let Self { token, spheres, rays, answers } = self;
         let list = spheres.list();
-        for (packet, answer) in rays.iter().zip(answers.iter_mut()) {
+        for place in 0..rays.len() {
+            let (Some(packet), Some(answer)) = (rays.get(place), answers.get_mut(place)) else {
+                break;
+            };
             let rays = RayLanes::<L>::load(token, packet);
             if !rays.live.any() {
                 continue;

@@ -50,6 +50,81 @@ pub(super) struct Estimate<D> {
     pub(super) far: (D, D),
 }
 
+/// The sums of an estimate over the axes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sums<D> {
+    /// d.d.
+    pub(super) a: D,
+    /// d.p.
+    pub(super) b: D,
+    /// |d x p|^2.
+    pub(super) square: D,
+    /// The sum of the magnitudes of d.
+    pub(super) d: D,
+    /// Of p.
+    pub(super) p: D,
+    /// Of d x p.
+    pub(super) x: D,
+}
+
+/// D as computed and its bound, and what the roots are made of.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Solved<D> {
+    pub(super) discriminant: D,
+    /// E.
+    pub(super) error: D,
+    /// sqrt D.
+    pub(super) root: D,
+    /// 1 / a.
+    per_a: D,
+    /// What is the same in the bounds of both roots.
+    shared: D,
+}
+
+impl<D: DoubleLanes> Sums<D> {
+    #[inline(always)]
+    fn new(origin: [D; 3], d: [D; 3], center: [D; 3]) -> Self {
+        let p = axes!(i => center[i] - origin[i]);
+        let x = [d[1] * p[2] - d[2] * p[1], d[2] * p[0] - d[0] * p[2], d[0] * p[1] - d[1] * p[0]];
+        Self {
+            a: dot(d, d),
+            b: dot(d, p),
+            square: dot(x, x),
+            d: sum_of_magnitudes(d),
+            p: sum_of_magnitudes(p),
+            x: sum_of_magnitudes(x),
+        }
+    }
+}
+
+impl<D: DoubleLanes> Solved<D> {
+    #[inline(always)]
+    pub(super) fn new(sums: &Sums<D>, radius: D, constants: &Constants) -> Self {
+        let Sums { a, square, d, p, x, .. } = *sums;
+        // D and its bound.
+        let reach = a * (radius * radius);
+        let discriminant = reach - square;
+        let g = d * p;
+        let error = a.like(constants.sums) * (reach + square)
+            + a.like(constants.cross) * (x * g)
+            + a.like(constants.square) * (g * g);
+
+        let root = discriminant.sqrt();
+        let inverse = a.like(1.0) / (a * root);
+        let per_a = root * inverse;
+        let shared =
+            per_a * (a.like(constants.slope) * g + a.like(constants.root) * root) + error * inverse;
+        Self { discriminant, error, root, per_a, shared }
+    }
+
+    /// t, and its bound T, of `b_root`, b - sqrt D or b + sqrt D.
+    #[inline(always)]
+    pub(super) fn t(&self, b_root: D, constants: &Constants) -> (D, D) {
+        let t = b_root * self.per_a;
+        (t, self.shared + t.like(constants.t) * t.abs())
+    }
+}
+
 impl<D: DoubleLanes> Estimate<D> {
     /// [`Constants::of`] the precision of these lanes.
     pub(super) const PROVEN: Constants = Constants::of(D::UNIT_ROUNDOFF);
@@ -62,33 +137,12 @@ impl<D: DoubleLanes> Estimate<D> {
         radius: D,
         constants: &Constants,
     ) -> Self {
-        let p = axes!(i => center[i] - origin[i]);
-
-        // D and its bound.
-        let x = [d[1] * p[2] - d[2] * p[1], d[2] * p[0] - d[0] * p[2], d[0] * p[1] - d[1] * p[0]];
-        let a = dot(d, d);
-        let (reach, square) = (a * (radius * radius), dot(x, x));
-        let discriminant = reach - square;
-        let g = sum_of_magnitudes(d) * sum_of_magnitudes(p);
-        let error = a.like(constants.sums) * (reach + square)
-            + a.like(constants.cross) * (sum_of_magnitudes(x) * g)
-            + a.like(constants.square) * (g * g);
-
-        // The roots and their bounds.
-        let root = discriminant.sqrt();
-        let inverse = a.like(1.0) / (a * root);
-        let per_a = root * inverse;
-        let b = dot(d, p);
-        let shared =
-            per_a * (a.like(constants.slope) * g + a.like(constants.root) * root) + error * inverse;
-        let (near, far) = ((b - root) * per_a, (b + root) * per_a);
-        let t = a.like(constants.t);
-        Self {
-            discriminant,
-            error,
-            near: (near, shared + t * near.abs()),
-            far: (far, shared + t * far.abs()),
-        }
+        let sums = Sums::new(origin, d, center);
+        let solved = Solved::new(&sums, radius, constants);
+        let Solved { discriminant, error, root, .. } = solved;
+        let (near, far) = (sums.b - root, sums.b + root);
+        let (near, far) = (solved.t(near, constants), solved.t(far, constants));
+        Self { discriminant, error, near, far }
     }
 }
 

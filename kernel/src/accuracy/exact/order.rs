@@ -3,40 +3,30 @@
 //! Rounding keeps the order of what it does not make equal, so roots need comparing only then. Double precision with
 //! its bound decides nearly always; else [`compare_roots`] does, exactly.
 
-use super::estimate::Estimate;
 use super::one_ray;
-use crate::exact::{Root, compare_roots};
+use crate::exact::{Quadratic, Root, compare_roots};
 use crate::{Ray, Sphere};
 use core::cmp::Ordering;
 
 /// A root that is answered by t, and between which doubles it lies.
 pub(super) struct Answered {
     pub(super) root: Root,
-    low: f64,
-    high: f64,
+    ends: [f64; 2],
 }
 
 impl Answered {
     /// By rule 4 the near root, if it is rounded to t, which the interval accepts.
     pub(super) fn new(ray: &Ray, t: f32, sphere: &Sphere) -> Self {
-        let Estimate { discriminant, error, near, far } = one_ray::estimate(ray, sphere);
-        let is_known = error < discriminant;
-        let (low, high) = (near.0 - near.1, near.0 + near.1);
-        let (first, last) = (low as f32, high as f32);
-        let root = if is_known && first == last {
-            if first == t { Root::Near } else { Root::Far }
-        } else {
-            match one_ray::quadratic(ray, sphere) {
-                Some(quadratic) if quadratic.rounded(Root::Near) == t => Root::Near,
-                _ => Root::Far,
-            }
-        };
-        let (low, high) = match root {
-            _ if !is_known => (f64::NEG_INFINITY, f64::INFINITY),
-            Root::Near => (low, high),
-            Root::Far => (far.0 - far.1, far.0 + far.1),
-        };
-        Self { root, low, high }
+        let estimate = one_ray::estimate(ray, sphere);
+        let [first, last] = estimate.near();
+        if estimate.meets() == Some(true) && first == last {
+            let root = if first == t { Root::Near } else { Root::Far };
+            return Self { root, ends: estimate.roots[root as usize] };
+        }
+        let terms = one_ray::terms(ray, sphere);
+        let near = Quadratic::new(&terms).map(|quadratic| quadratic.rounded(Root::Near));
+        let root = if near == Some(t) { Root::Near } else { Root::Far };
+        Self { root, ends: [f64::NEG_INFINITY, f64::INFINITY] }
     }
 }
 
@@ -48,13 +38,16 @@ pub(super) fn compare(ray: &Ray, t: f32, spheres: [&Sphere; 2]) -> Ordering {
     if one == other {
         return Ordering::Equal;
     }
-    let (first, second) = (Answered::new(ray, t, one), Answered::new(ray, t, other));
-    if first.high < second.low {
+    let first = Answered::new(ray, t, one);
+    let second = Answered::new(ray, t, other);
+    // In the order of bits: no end is -0.
+    if first.ends[1].total_cmp(&second.ends[0]).is_lt() {
         return Ordering::Less;
     }
-    if second.high < first.low {
+    if second.ends[1].total_cmp(&first.ends[0]).is_lt() {
         return Ordering::Greater;
     }
-    let (one, other) = (one_ray::terms(ray, one), one_ray::terms(ray, other));
+    let one = one_ray::terms(ray, one);
+    let other = one_ray::terms(ray, other);
     compare_roots((&one, first.root), (&other, second.root))
 }

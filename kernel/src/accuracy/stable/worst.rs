@@ -39,15 +39,16 @@ fn in_domain(numbers: &Numbers) -> Option<(f64, Ray, Sphere)> {
         .then_some((away, ray, sphere))
 }
 
-fn exact(ray: &Ray, sphere: &Sphere) -> Option<Quadratic> {
+fn terms(ray: &Ray, sphere: &Sphere) -> QuadraticTerms {
     let (o, d) = (ray.origin.to_array(), ray.direction.to_array());
-    Quadratic::new(QuadraticTerms::new(o, d, sphere.center.to_array(), sphere.radius))
+    QuadraticTerms::new(o, d, sphere.center.to_array(), sphere.radius)
 }
 
 /// The larger error of both roots, for rays that start a radius or more from the surface.
 fn ulps(numbers: &Numbers) -> f64 {
     let Some((away, ray, sphere)) = in_domain(numbers) else { return 0.0 };
-    let (Some(stable), Some(exact)) = (Stable::line_roots(&ray, &sphere), exact(&ray, &sphere))
+    let terms = terms(&ray, &sphere);
+    let (Some(stable), Some(exact)) = (Stable::line_roots(&ray, &sphere), Quadratic::new(&terms))
     else {
         return 0.0;
     };
@@ -67,7 +68,7 @@ fn ulps(numbers: &Numbers) -> f64 {
 /// How far from a tangent, as a part of |p| + r, a line is that is decided wrong; zero if it is decided right.
 fn graze(numbers: &Numbers) -> f64 {
     let Some((away, ray, sphere)) = in_domain(numbers) else { return 0.0 };
-    let meets = exact(&ray, &sphere).is_some();
+    let meets = Quadratic::new(&terms(&ray, &sphere)).is_some();
     if Stable::line_roots(&ray, &sphere).is_some() == meets {
         return 0.0;
     }

@@ -122,7 +122,7 @@ impl<'a, T: Accuracy, L: Lanes, Q: Query> DeferredTests<'a, T, L, Q> {
                     |old| match packets.get(ray.packet) {
                         Some(packet) => {
                             let ray = packet.ray(ray.lane);
-                            is_closer(tier, spheres, &ray, t, [sphere, old])
+                            is_closer(tier, &spheres, &ray, t, [sphere, old])
                         }
                         None => false,
                     },

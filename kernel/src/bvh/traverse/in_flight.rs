@@ -160,7 +160,7 @@ fn test_from_afar<L: Lanes, Q: Query>(
                 lane,
                 hit,
                 #[inline(always)]
-                |old| is_closer(tier, bvh.spheres, &packet.ray(lane), hit.t, [hit.sphere, old]),
+                |old| is_closer(tier, &bvh.spheres, &packet.ray(lane), hit.t, [hit.sphere, old]),
             );
         }
     }

@@ -54,11 +54,11 @@ fn sums_of_products_are_exact() {
             };
             added.push(numbers);
             let [a, b, c, d, e, f] = numbers.map(Product::of);
-            let four = a.times(b).times(c.times(d));
+            let four = a.times(&b).times(&c.times(&d));
             match random.below(3) {
-                0 => (sum.add_product(four, e.times(f)), exact += product(&numbers)).1,
-                1 => (sum.add(four.negated()), exact -= product(&numbers[..4])).1,
-                _ => (sum.add(four.scaled(2)), exact += product(&numbers[..4]) << 2_u32).1,
+                0 => (sum.add_product(&four, &e.times(&f)), exact += product(&numbers)).1,
+                1 => (sum.add(&four.negated()), exact -= product(&numbers[..4])).1,
+                _ => (sum.add(&four.scaled(2)), exact += product(&numbers[..4]) << 2_u32).1,
             }
         }
         check(&sum, &exact);
@@ -74,11 +74,13 @@ fn squares_and_products_of_sums_are_exact() {
         let (a, b) = (some.map(Product::of), others.map(Product::of));
         let total = |numbers: &[f32]| numbers.iter().map(|&x| units(x)).sum::<BigInt>();
         let mut sum = SumOfEights::zero();
-        sum.add_square(&a, b[0]);
+        sum.add_square(&a, &b[0]);
         let exact = (total(&some).pow(2) * units(others[0])) << (1216 - 3 * 149);
         check(&sum, &exact);
-        sum.add_products(&a, &b);
-        let wide = a.map(|term| term.times(b[1]).times(b[2]));
+        for (term, other) in a.iter().flat_map(|term| b.iter().map(move |other| (term, other))) {
+            sum.add_product(term, other);
+        }
+        let wide = a.map(|term| term.times(&b[1]).times(&b[2]));
         let exact = exact
             + ((total(&some) * units(others[1]) * units(others[2])).pow(2) << (1216 - 6 * 149));
         sum.add_wide_square(&wide);
@@ -94,7 +96,7 @@ fn estimates_are_close() {
         for _ in 0..random.below(4) {
             let numbers = [(); 4].map(|()| single(&mut random));
             let [a, b, c, d] = numbers.map(Product::of);
-            sum.add_product(a.times(b), c.times(d));
+            sum.add_product(&a.times(&b), &c.times(&d));
             exact += product(&numbers);
         }
         // In units of 2^-1216, an estimate is a double times 2^1216.
@@ -115,15 +117,15 @@ fn midpoints_have_25_bits() {
     let mut random = Random(14);
     for _ in 0..5000 {
         let low = f32::from_bits(random.below(0x7f7f_ffff) as u32);
-        let midpoint = (f64::from(low) + f64::from(low.next_up())) * 0.5;
-        for (midpoint, sign) in [(midpoint, 1), (-midpoint, -1)] {
+        let high = low.next_up();
+        for (midpoint, sign) in [((low, high), 1), ((-high, -low), -1)] {
             let mut sum = SumOfEights::zero();
-            sum.add(Product::of_double(midpoint));
-            let both = (units(low) + units(low.next_up())) * sign;
+            sum.add(&Product::between(midpoint.0, midpoint.1));
+            let both = (units(low) + units(high)) * sign;
             check(&sum, &(both << (1216 - 150)));
         }
     }
     let mut zero = SumOfEights::zero();
-    zero.add(Product::of_double(0.0));
+    zero.add(&Product::of_double(0.0));
     assert_eq!(zero.sign(), Ordering::Equal);
 }

@@ -36,7 +36,7 @@ fn check(numbers: &Numbers) -> (usize, usize) {
     let (o32, d32) = ([ox, oy, oz], [dx, dy, dz]);
     let of = [([ax, ay, az], r), ([bx, by, bz], s)];
     let terms = of.map(|(c, r)| QuadraticTerms::new(o32, d32, c, r));
-    let meets = terms.map(|terms| Quadratic::new(terms).is_some());
+    let meets = terms.map(|terms| Quadratic::new(&terms).is_some());
     let [first, second] = terms;
     let truths = [6, 10].map(|at| numerators(o, d, &exact[at..at + 3], &exact[at + 3]));
     assert_eq!(meets, truths.each_ref().map(Option::is_some));

@@ -8,7 +8,8 @@ fn along_x(step: f32, center: f32, radius: f32) -> Option<[f32; 2]> {
 }
 
 fn roots(o: [f32; 3], d: [f32; 3], c: [f32; 3], r: f32) -> Option<[f32; 2]> {
-    let quadratic = Quadratic::new(QuadraticTerms::new(o, d, c, r))?;
+    let terms = QuadraticTerms::new(o, d, c, r);
+    let quadratic = Quadratic::new(&terms)?;
     Some([quadratic.rounded(Root::Near), quadratic.rounded(Root::Far)])
 }
 

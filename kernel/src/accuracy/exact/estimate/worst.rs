@@ -43,14 +43,14 @@ fn discriminant_less(numbers: &Numbers, known: f64) -> f64 {
     let (o, d, c) = ([ox, oy, oz], [dx, dy, dz], [cx, cy, cz]);
     let mut sum = SumOfSixes::zero();
     for (i, j) in [(1, 2), (2, 0), (0, 1)] {
-        let (i_c, j_c) = (d[j].times(c[i]).negated(), d[i].times(c[j]));
-        let (i_o, j_o) = (d[j].times(o[i]), d[i].times(o[j]).negated());
-        sum.add_square(&[j_c, j_o, i_c, i_o], Product::ONE);
+        let (i_c, j_c) = (d[j].times(&c[i]).negated(), d[i].times(&c[j]));
+        let (i_o, j_o) = (d[j].times(&o[i]), d[i].times(&o[j]).negated());
+        sum.add_square(&[j_c, j_o, i_c, i_o], &Product::ONE);
     }
     for d in d {
-        sum.add_product(r.times(r).negated(), d.times(d));
+        sum.add_product(&r.times(&r).negated(), &d.times(&d));
     }
-    sum.add(Product::of_double(known));
+    sum.add(&Product::of_double(known));
     -sum.estimate()
 }
 
@@ -62,11 +62,11 @@ fn root_less(numbers: &Numbers, t: f64, outward: f64) -> f64 {
     let high = f64::from_bits(t.to_bits() & !0x03ff_ffff);
     let halves = [high, t - high].map(Product::of_double);
     let (mut f, mut g) = (SumOfSixes::zero(), SumOfSixes::zero());
-    f.add(r.times(r).negated());
+    f.add(&r.times(&r).negated());
     for i in 0..3 {
-        let v = [halves[0].times(d[i]), halves[1].times(d[i]), c[i].negated(), o[i]];
-        f.add_square(&v, Product::ONE);
-        g.add_products(&v, &[d[i]]);
+        let v = [halves[0].times(&d[i]), halves[1].times(&d[i]), c[i].negated(), o[i]];
+        f.add_square(&v, &Product::ONE);
+        v.iter().for_each(|term| g.add_product(term, &d[i]));
     }
     // At the near root the line enters: the slope is negative there.
     let root = discriminant_less(numbers, 0.0).max(0.0).sqrt() * outward;
