@@ -12,15 +12,15 @@ extern crate std;
 use core::hint::black_box;
 #[cfg(feature = "vectors")]
 use spherule_kernel::{
-    AnyHit, ClosestHit, Level, SurfacePacket, Towards, f32x4, f32x8, f32x16, object_packets,
-    pair_packets, shadow_packets, stages, surface_packets,
+    AnyHit, ClosestHit, Level, SurfacePacket, Towards, f32x8, f32x16, object_packets, pair_packets,
+    shadow_packets, stages, surface_packets,
 };
 #[cfg(feature = "structures")]
 use spherule_kernel::{Bvh, BvhNode, DepthList, QueuedRay, StreamMemory, StreamRay, Viewpoint};
 use spherule_kernel::{
-    Bvh4, Camera, Hit, HitPacket, Intersect, Lanes, Projection, Ray, RayPacket, Side, Sphere,
-    SpherePacket, Spheres, Tier, Trace, Vec3, discriminant, float_environment_is_sound,
-    object_lanes, pair_lanes, pairs, roots, side, surface,
+    Bvh4, Camera, CameraTiles, Hit, HitPacket, Intersect, Lanes, Projection, Ray, RayPacket, Side,
+    Sphere, SpherePacket, Spheres, Tier, Trace, Vec3, discriminant, f32x4,
+    float_environment_is_sound, object_lanes, pair_lanes, pairs, roots, side, surface,
 };
 
 /// What a firmware does in its own way; without `std` there must be one.
@@ -72,6 +72,10 @@ pub unsafe extern "C" fn spherule_no_std(numbers: *const f32, count: usize) -> u
     let sphere = Sphere { center: vector(5), radius: number(6) };
 
     let mut sum = Sum(0);
+    if cfg!(feature = "four") {
+        sum.four_lanes(tier, &camera, spheres);
+        return black_box(sum.0);
+    }
     sum.structure(tier, &camera, &rays, &mut [], &spheres);
     #[cfg(feature = "vectors")]
     {
@@ -115,6 +119,21 @@ impl Sum {
     fn hits(&mut self, hits: impl IntoIterator<Item = Option<Hit>>) {
         for hit in hits {
             self.word(hit.map_or(0, |hit| hit.t.to_bits() ^ hit.sphere));
+        }
+    }
+
+    /// A list and a tree, in vectors of four lanes.
+    fn four_lanes(&mut self, tier: Tier, camera: &Camera, spheres: Spheres<'_>) {
+        self.lanes::<f32x4>(tier, camera, &mut Trace::new(), &spheres);
+        #[cfg(feature = "structures")]
+        {
+            let mut nodes = [BvhNode::EMPTY; 4];
+            let (mut places, mut indices) = ([[0.0; 4]; 120], [0; 120]);
+            if let Ok(tree) = Bvh::build(spheres, &mut nodes, &mut places, &mut indices) {
+                for mut trace in [Trace::new().coherent(), Trace::new().incoherent()] {
+                    self.lanes::<f32x4>(tier, camera, &mut trace, &tree);
+                }
+            }
         }
     }
 
@@ -227,6 +246,10 @@ impl Sum {
             self.hits(hits.iter().flat_map(HitPacket::hits));
             structure.any_hit_packets(tier, &mut trace, &packets, &mut met);
             self.bits(met);
+            let (mut made, corners) = ([RayPacket::inactive(); 2], [(0, 0), (4, 4)]);
+            let tiles = CameraTiles { camera: *camera, size: black_box((8, 8)), corners: &corners };
+            structure.closest_hit_tiles(tier, &mut trace, tiles, &mut made, &mut hits);
+            self.hits(hits.iter().flat_map(HitPacket::hits));
             // The same source in every width: the others below, of a list.
             self.lanes::<f32>(tier, camera, &mut trace, structure);
             #[cfg(feature = "vectors")]
@@ -250,6 +273,14 @@ impl Sum {
         self.hits(hits.iter().flat_map(HitPacket::hits));
         structure.any_hit_lanes::<L>(tier, (), trace, &rays, &mut met);
         self.bits(met);
+        // A picture of any size, of which there are too few packets.
+        let size: (u32, u32) = black_box((8, 8));
+        let mut corners = [(0, 0); 4];
+        let in_order = Camera::tile_corners::<L::Array>(size.0, size.1);
+        corners.iter_mut().zip(in_order).for_each(|(corner, next)| *corner = next);
+        let tiles = CameraTiles { camera: *camera, size, corners: &corners };
+        structure.closest_hit_tile_lanes::<L>(tier, (), trace, tiles, &mut rays, &mut hits);
+        self.hits(hits.iter().flat_map(HitPacket::hits));
     }
 
     fn pairs(&mut self, tier: Tier, rays: &[Ray], sphere: &Sphere) {
