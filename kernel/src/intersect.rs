@@ -213,7 +213,7 @@ pub trait Intersect: Traverse {
     ///     Camera, CameraTiles, Exact, HitPacket, Intersect, Projection, RayPacket, SphereTree, Trace, Vec3,
     /// };
     ///
-    /// let tree = SphereTree::from([[0.0, 0.0, -5.0, 1.0]]);
+    /// let tree = SphereTree::new([[0.0, 0.0, -5.0, 1.0]]);
     /// let camera = Camera {
     ///     projection: Projection::Perspective { eye: Vec3::ZERO },
     ///     corner: Vec3::new(-0.35, 0.15, -1.0),
@@ -224,8 +224,8 @@ pub trait Intersect: Traverse {
     /// let tiles = CameraTiles { camera, size: (8, 4), corners: &[(0, 0), (4, 0)] };
     /// let (mut rays, mut hits) = ([RayPacket::inactive(); 2], [HitPacket::none(); 2]);
     /// tree.closest_hit_tiles(Exact, &mut Trace::new(), tiles, &mut rays, &mut hits);
-    /// // Four pixels in the middle: half of them in either tile.
-    /// assert_eq!(hits.map(|tile| tile.hits().flatten().count()), [4, 4]);
+    /// // A disc of twelve pixels: half of them in either tile.
+    /// assert_eq!(hits.map(|tile| tile.hits().flatten().count()), [6, 6]);
     /// ```
     fn closest_hit_tiles(
         &self,
