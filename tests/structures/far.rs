@@ -106,7 +106,7 @@ fn through_one_point(random: &mut Random, rays: &[Ray], middle: Vec3, count: usi
 /// All of the above, at `middle` and looked at from `distance`.
 fn assert_same_there(seed: u64, middle: Vec3, distance: f64) {
     let mut random = Random::new(seed, distance.to_bits());
-    let mut rays = looks(&mut random, middle, distance, 24);
+    let mut rays = looks(&mut random, middle, distance, 12);
     let mut spheres = beside(&mut random, &rays, middle, 400);
     spheres.extend(through_one_point(&mut random, &rays, middle, 160));
     assert_same(BOTH, &rays, &spheres);

@@ -12,7 +12,7 @@ use spherule_tests::variants::assert_same_from;
 fn scenes_from_every_side() {
     for (_, spheres) in scenes::all() {
         for eye in [EYE, Vec3::new(0.01, 0.02, 0.03), Vec3::new(1.5, 0.0, 0.0)] {
-            let rays = camera(eye, Vec3::ZERO, 0.364, 96);
+            let rays = camera(eye, Vec3::ZERO, 0.364, 64);
             assert_same_from(Viewpoint::Origin(eye), BOTH, &rays, &spheres);
             let direction = -eye;
             let rays = parallel(eye, direction, 1.2, 64);

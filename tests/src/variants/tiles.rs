@@ -1,6 +1,6 @@
 //! A camera's tiles, at every storey and in every structure that makes their rays itself.
 
-use super::{Answers, Memory, Storey, Structures, bits, level, levels, reference, stale_packet};
+use super::{Answers, Memory, Storey, Structures, bits, brute, level, levels, stale_packet};
 use crate::case::HexRay;
 use spherule_kernel::{
     Camera, CameraTiles, DepthList, Hit, HitPacket, Intersect, LaneArray, Lanes, Projection, Ray,
@@ -45,20 +45,22 @@ impl Frame {
     }
 }
 
-/// Where the tiles of a frame are not answered, bit for bit, as one lane answers the rays of their pixels, or where
-/// other rays are left; by `tiers` that promise the same bits, in every structure.
+/// Where the tiles of a frame are not answered, bit for bit, as brute force answers the rays of their pixels, or where
+/// other rays are left; by `tiers` that promise the same bits, in every structure. (As in the table of variants: a list in
+/// every width, the larger structures in two.)
 #[must_use]
 pub fn tile_difference(tiers: &[Tier], frame: &Frame, spheres: &[Sphere]) -> Option<String> {
     Memory::new(spheres).sorted(frame.viewpoint(), |structures| {
         tiers.iter().find_map(|&tier| {
             tile_storeys().find_map(|storey| {
-                let different = match storey {
-                    Storey::Lanes(1) => different::<f32>,
-                    Storey::Lanes(4) => different::<f32x4>,
-                    Storey::Lanes(8) => different::<f32x8>,
-                    _ => different::<f32x16>,
-                };
-                different(tier, storey, frame, structures)
+                let question = Question { tier, storey, frame, structures };
+                match storey {
+                    Storey::Lanes(1) => question.different::<f32>(every_structure::<f32>),
+                    Storey::Lanes(4) => question.different::<f32x4>(list_alone::<f32x4>),
+                    Storey::Lanes(8) => question.different::<f32x8>(every_structure::<f32x8>),
+                    Storey::Lanes(_) => question.different::<f32x16>(list_alone::<f32x16>),
+                    _ => question.different::<f32x16>(every_structure_at_a_level),
+                }
             })
         })
     })
@@ -75,81 +77,131 @@ pub fn assert_same_tiles(tiers: &[Tier], frame: &Frame, spheres: &[Sphere]) {
     }
 }
 
-fn different<L: Lanes<Token = ()>>(
+/// The rays that were made, and what they hit, lane by lane.
+type Traced = (Vec<Ray>, Vec<Option<Hit>>);
+
+/// How the structures answer, each with its name.
+type Ways = fn(&Question<'_>, CameraTiles<'_>) -> Vec<(&'static str, Traced)>;
+
+struct Question<'a> {
     tier: Tier,
     storey: Storey,
-    frame: &Frame,
-    structures: Structures<'_>,
-) -> Option<String> {
-    let Structures { list, depth_list, tree, .. } = structures;
-    let corners = frame.corners::<L::Array>();
-    let (width, height) = frame.size;
-    let (tile_width, _) = Camera::tile::<L::Array>();
-    // Pixel by pixel.
-    let pixel = |(x, y): (u32, u32), lane: u32| {
-        let (x, y) = (x.checked_add(lane % tile_width)?, y.checked_add(lane / tile_width)?);
-        (x < width && y < height).then(|| frame.camera.get_ray(x, y))
-    };
-    let lanes = |&corner: &(u32, u32)| {
-        (0..L::COUNT as u32).map(move |lane| pixel(corner, lane).unwrap_or(Ray::INACTIVE))
-    };
-    let rays: Vec<Ray> = corners.iter().flat_map(lanes).collect();
-    let Answers { hits: expected, .. } = reference(tier).ask(structures, &rays);
+    frame: &'a Frame,
+    structures: Structures<'a>,
+}
 
-    let tiles = CameraTiles { camera: frame.camera, size: frame.size, corners: &corners };
-    let mut scratch = vec![f32::NAN; DepthList::scratch(list.spheres().len())];
-    let with_scratch = Trace::new().with_scratch(&mut scratch);
-    let all = [
-        ("list", trace::<_, L>(tier, storey, list, Trace::new(), tiles)),
-        ("depth list", trace::<_, L>(tier, storey, depth_list, with_scratch, tiles)),
-        ("tree", trace::<_, L>(tier, storey, tree, Trace::new().coherent(), tiles)),
-        ("tree, detected", trace::<_, L>(tier, storey, tree, Trace::new(), tiles)),
-        ("tree, ray by ray", trace::<_, L>(tier, storey, tree, Trace::new().incoherent(), tiles)),
-    ];
-    for (name, (made, hits)) in all {
-        for (index, ray) in rays.iter().enumerate() {
-            let (made, hit, expected) = (made[index], hits[index], expected[index]);
-            if HexRay(&one_nan(&made)).to_string() != HexRay(&one_nan(ray)).to_string() {
-                return Some(format!(
-                    "{storey:?}, ray {index}: {made:?} and not {ray:?}, {frame:?}"
-                ));
-            }
-            if bits(hit) != bits(expected) {
-                return Some(format!(
-                    "{tier:?} by {name}, {storey:?}, ray {index} of {}: {hit:?} and not {expected:?}; \
-                     {}; {frame:?}",
-                    rays.len(),
-                    HexRay(ray)
-                ));
+impl Question<'_> {
+    fn different<L: Lanes<Token = ()>>(&self, ways: Ways) -> Option<String> {
+        let Self { tier, storey, frame, structures } = *self;
+        let corners = frame.corners::<L::Array>();
+        let (width, height) = frame.size;
+        let (tile_width, _) = Camera::tile::<L::Array>();
+        // Pixel by pixel.
+        let pixel = |(x, y): (u32, u32), lane: u32| {
+            let (x, y) = (x.checked_add(lane % tile_width)?, y.checked_add(lane / tile_width)?);
+            (x < width && y < height).then(|| frame.camera.get_ray(x, y))
+        };
+        let lanes = |&corner: &(u32, u32)| {
+            (0..L::COUNT as u32).map(move |lane| pixel(corner, lane).unwrap_or(Ray::INACTIVE))
+        };
+        let rays: Vec<Ray> = corners.iter().flat_map(lanes).collect();
+        let Answers { hits: expected, .. } = brute(tier).ask(structures, &rays);
+
+        let tiles = CameraTiles { camera: frame.camera, size: frame.size, corners: &corners };
+        for (name, (made, hits)) in ways(self, tiles) {
+            for (index, ray) in rays.iter().enumerate() {
+                let (made, hit, expected) = (made[index], hits[index], expected[index]);
+                if !same_but_for_nan(&made, ray) {
+                    return Some(format!(
+                        "{storey:?}, ray {index}: {made:?} and not {ray:?}, {frame:?}"
+                    ));
+                }
+                if bits(hit) != bits(expected) {
+                    return Some(format!(
+                        "{tier:?} by {name}, {storey:?}, ray {index} of {}: {hit:?} and not {expected:?}; \
+                         {}; {frame:?}",
+                        rays.len(),
+                        HexRay(ray)
+                    ));
+                }
             }
         }
+        None
     }
-    None
 }
 
-/// The same ray, with one NaN for all: of two, an operation returns any.
-fn one_nan(ray: &Ray) -> Ray {
-    let one = |v: Vec3| v.map(|x| if x.is_nan() { f32::NAN } else { x });
-    Ray { origin: one(ray.origin), direction: one(ray.direction), ..*ray }
+fn list_alone<L: Lanes<Token = ()>>(
+    question: &Question<'_>,
+    tiles: CameraTiles<'_>,
+) -> Vec<(&'static str, Traced)> {
+    let Question { tier, structures, .. } = *question;
+    vec![("list", in_lanes::<_, L>(tier, structures.list, Trace::new(), tiles))]
 }
 
-/// The rays that were made, and what they hit, lane by lane.
-fn trace<S: Intersect, L: Lanes<Token = ()>>(
+fn every_structure<L: Lanes<Token = ()>>(
+    question: &Question<'_>,
+    tiles: CameraTiles<'_>,
+) -> Vec<(&'static str, Traced)> {
+    let Question { tier, structures: Structures { list, depth_list, tree, .. }, .. } = *question;
+    let mut scratch = vec![f32::NAN; DepthList::scratch(list.spheres().len())];
+    let with_scratch = Trace::new().with_scratch(&mut scratch);
+    vec![
+        ("list", in_lanes::<_, L>(tier, list, Trace::new(), tiles)),
+        ("depth list", in_lanes::<_, L>(tier, depth_list, with_scratch, tiles)),
+        ("tree", in_lanes::<_, L>(tier, tree, Trace::new().coherent(), tiles)),
+        ("tree, detected", in_lanes::<_, L>(tier, tree, Trace::new(), tiles)),
+        ("tree, ray by ray", in_lanes::<_, L>(tier, tree, Trace::new().incoherent(), tiles)),
+    ]
+}
+
+fn every_structure_at_a_level(
+    question: &Question<'_>,
+    tiles: CameraTiles<'_>,
+) -> Vec<(&'static str, Traced)> {
+    let Structures { list, depth_list, tree, .. } = question.structures;
+    let mut scratch = vec![f32::NAN; DepthList::scratch(list.spheres().len())];
+    let with_scratch = Trace::new().with_scratch(&mut scratch);
+    vec![
+        ("list", at_a_level(question, list, Trace::new(), tiles)),
+        ("depth list", at_a_level(question, depth_list, with_scratch, tiles)),
+        ("tree", at_a_level(question, tree, Trace::new().coherent(), tiles)),
+        ("tree, detected", at_a_level(question, tree, Trace::new(), tiles)),
+        ("tree, ray by ray", at_a_level(question, tree, Trace::new().incoherent(), tiles)),
+    ]
+}
+
+/// Bit for bit, with one NaN for all: of two, an operation returns any.
+fn same_but_for_nan(a: &Ray, b: &Ray) -> bool {
+    let bits = |ray: &Ray| {
+        let [o, d] = [ray.origin, ray.direction].map(|vector| vector.to_array());
+        let numbers = [o[0], o[1], o[2], d[0], d[1], d[2], ray.t_min, ray.t_max];
+        numbers.map(|x| if x.is_nan() { f32::NAN.to_bits() } else { x.to_bits() })
+    };
+    bits(a) == bits(b)
+}
+
+fn in_lanes<S: Intersect, L: Lanes<Token = ()>>(
     tier: Tier,
-    storey: Storey,
     structure: &S,
     mut trace: Trace<'_>,
     tiles: CameraTiles<'_>,
-) -> (Vec<Ray>, Vec<Option<Hit>>) {
-    if let Storey::Packets(name) = storey {
-        trace.level = level(name);
-        let (mut rays, mut hits) = stale::<f32x16>(tiles.corners.len());
-        structure.closest_hit_tiles(tier, &mut trace, tiles, &mut rays, &mut hits);
-        return lane_by_lane::<f32x16>(&rays, &hits);
-    }
+) -> Traced {
     let (mut rays, mut hits) = stale::<L>(tiles.corners.len());
     structure.closest_hit_tile_lanes::<L>(tier, (), &mut trace, tiles, &mut rays, &mut hits);
     lane_by_lane::<L>(&rays, &hits)
+}
+
+fn at_a_level<S: Intersect>(
+    question: &Question<'_>,
+    structure: &S,
+    mut trace: Trace<'_>,
+    tiles: CameraTiles<'_>,
+) -> Traced {
+    let Storey::Packets(name) = question.storey else { unreachable!("lanes of the caller's") };
+    trace.level = level(name);
+    let (mut rays, mut hits) = stale::<f32x16>(tiles.corners.len());
+    structure.closest_hit_tiles(question.tier, &mut trace, tiles, &mut rays, &mut hits);
+    lane_by_lane::<f32x16>(&rays, &hits)
 }
 
 type Packets<L> = (Vec<RayPacket<<L as Lanes>::Array>>, Vec<HitPacket<<L as Lanes>::Array>>);
@@ -163,7 +215,7 @@ fn stale<L: Lanes<Token = ()>>(count: usize) -> Packets<L> {
 fn lane_by_lane<L: Lanes<Token = ()>>(
     rays: &[RayPacket<L::Array>],
     hits: &[HitPacket<L::Array>],
-) -> (Vec<Ray>, Vec<Option<Hit>>) {
+) -> Traced {
     let past = stale::<L>(0);
     assert!(rays.last() == past.0.last() && hits.last() == past.1.last(), "past the tiles");
     let rays = rays.iter().flat_map(|packet| (0..L::COUNT).map(|lane| packet.ray(lane)));

@@ -65,7 +65,7 @@ fn so_with_spheres_around_the_eye_behind_it_huge_and_tiny() {
     let path = file("orders.toml", text.as_bytes());
     let path = path.to_str().expect("UTF-8");
     for more in ["", "--projection parallel", "--accuracy stable", "--samples 16"] {
-        the_same_picture(&format!("{path} --size 50x19 --charset half --color truecolor {more}"));
+        the_same_picture(&format!("{path} --size 30x11 --charset half --color truecolor {more}"));
     }
 }
 
