@@ -9,6 +9,7 @@ mod loading;
 mod scales;
 mod scenes;
 mod sizes;
+mod streams;
 mod tiles;
 mod viewpoints;
 mod worst_cases;
