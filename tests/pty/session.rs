@@ -9,6 +9,7 @@ use portable_pty::{
 };
 use rustix::fd::OwnedFd;
 use rustix::fs::{Mode, OFlags};
+use rustix::io::Errno;
 use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, kill_process, waitid};
 use rustix::termios::{Action, Termios, tcflow, tcgetattr};
 use std::ffi::OsStr;
@@ -199,8 +200,16 @@ impl Session {
             return 0;
         }
         let tasks = format!("/proc/{}/task", self.pid);
-        let statuses = fs::read_dir(tasks).expect("it runs").map(|task| {
-            fs::read_to_string(task.expect("a thread").path().join("status")).expect("a status")
+        let statuses = fs::read_dir(tasks).expect("it runs").filter_map(|task| {
+            let status = fs::read_to_string(task.expect("a thread").path().join("status"));
+            // A thread may end meanwhile: then the sum is another.
+            let has_ended =
+                |error| matches!(Errno::from_io_error(error), Some(Errno::NOENT | Errno::SRCH));
+            if status.as_ref().is_err_and(has_ended) {
+                None
+            } else {
+                Some(status.expect("a status"))
+            }
         });
         let sleeps = statuses.map(|status| {
             let line =
