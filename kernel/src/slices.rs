@@ -122,7 +122,7 @@ pub fn tile_rays(level: Level, tiles: CameraTiles<'_>, rays: &mut [RayPacket]) {
     #[cfg(not(feature = "std"))]
     {
         let _ = level;
-        tiles.fill::<wide::f32x16>((), rays);
+        tiles.fill::<wide::f32x16>((), tiles.corners, rays);
     }
 }
 

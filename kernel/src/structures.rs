@@ -50,7 +50,7 @@ pub trait Traverse {
         rays: &mut [RayPacket<L::Array>],
         hits: &mut [HitPacket<L::Array>],
     ) {
-        tiles.fill::<L>(token, rays);
+        tiles.fill::<L>(token, tiles.corners, rays);
         let rays = rays.get(..tiles.corners.len()).unwrap_or(rays);
         self.in_lanes::<L, ClosestHit>(tier, token, trace, rays, hits);
     }
@@ -127,7 +127,6 @@ macro_rules! traverse {
 traverse!(Spheres<'_>, |spheres, trace| linear::traverse = list(*spheres));
 traverse!(DepthList<'_>, |list, trace| list_source::traverse = depth_list(list, trace.scratch));
 
-/// In one lane, whatever the level.
 impl Traverse for Bvh<'_> {
     #[inline(always)]
     fn in_lanes<L: Lanes, Q: Query>(
@@ -189,6 +188,7 @@ fn ways<'t>(trace: &'t mut Trace<'_>) -> (Coherence, Option<StreamMemory<'t>>) {
     (trace.coherence, trace.stream.as_mut().map(StreamMemory::again))
 }
 
+/// In one lane, whatever the level.
 impl Traverse for Bvh4<'_> {
     #[inline(always)]
     fn in_lanes<L: Lanes, Q: Query>(

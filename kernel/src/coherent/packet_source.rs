@@ -37,13 +37,7 @@ impl<A: LaneArray> PacketSource<'_, A> {
         else {
             return false;
         };
-        let mut whole = true;
-        for number in 0..packets.len().min(corners.len()) {
-            if let (Some(packet), Some(&corner)) = (packets.get_mut(number), corners.get(number)) {
-                whole &= tiles.write::<L>(token, corner, packet);
-            }
-        }
-        whole
+        tiles.fill::<L>(token, corners, packets)
     }
 
     /// Packets that were made.

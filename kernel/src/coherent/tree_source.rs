@@ -53,8 +53,8 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
 ) {
     let count = source.count().min(answers.len());
     // What no bound sees is met first, by all packets: all begin with what they have hit of it.
-    let made = !bvh.outside.is_empty() || coherence == Coherence::Incoherent;
-    if made {
+    // (Tiles are made once more below then: such spheres are rare, and whether tiles are whole is told as they are made.)
+    if !bvh.outside.is_empty() || coherence == Coherence::Incoherent {
         source.make::<L>(token, 0..count);
     }
     if !bvh.outside.is_empty()

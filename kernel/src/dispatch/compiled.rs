@@ -167,5 +167,7 @@ pub(crate) fn shadows(
 /// Makes the rays of as many of a camera's tiles as there is room for.
 #[inline(never)]
 pub(crate) fn fill_tiles(level: Level, tiles: CameraTiles<'_>, rays: &mut [RayPacket]) {
-    at_level!(level.0, simd => tiles.fill::<f32x16<_>>(simd, rays));
+    at_level!(level.0, simd => {
+        tiles.fill::<f32x16<_>>(simd, tiles.corners, rays);
+    });
 }

@@ -25,21 +25,27 @@ pub struct CameraTiles<'a> {
 const EXACT: u32 = 1 << 24;
 
 impl CameraTiles<'_> {
-    /// Makes the rays of as many tiles as there is room for.
+    /// Makes the rays of the tiles that begin at `corners`, as many as there is room for; returns whether each of them is
+    /// whole.
     #[inline(always)]
-    pub(crate) fn fill<L: Lanes>(&self, token: L::Token, packets: &mut [RayPacket<L::Array>]) {
-        for number in 0..packets.len().min(self.corners.len()) {
-            if let (Some(packet), Some(&corner)) =
-                (packets.get_mut(number), self.corners.get(number))
-            {
-                self.write::<L>(token, corner, packet);
+    pub(crate) fn fill<L: Lanes>(
+        &self,
+        token: L::Token,
+        corners: &[(u32, u32)],
+        packets: &mut [RayPacket<L::Array>],
+    ) -> bool {
+        let mut whole = true;
+        for number in 0..packets.len().min(corners.len()) {
+            if let (Some(packet), Some(&corner)) = (packets.get_mut(number), corners.get(number)) {
+                whole &= self.write::<L>(token, corner, packet);
             }
         }
+        whole
     }
 
     /// Makes the packet of a tile; returns whether all of its pixels are in the picture.
     #[inline(always)]
-    pub(crate) fn write<L: Lanes>(
+    fn write<L: Lanes>(
         &self,
         token: L::Token,
         corner: (u32, u32),
