@@ -205,8 +205,8 @@ pub trait Intersect: Traverse {
     /// [`closest_hit_packets`](Intersect::closest_hit_packets). A tree does not look at rays to know what four tiles may meet:
     /// it bounds them by their corners.
     ///
-    /// Cost: with a tree that of packets that are there already; making them one by one and tracing them then takes 1.2 to
-    /// 2 times as long. Others make the rays first, in lanes.
+    /// Cost: with a tree that of packets that are there already; making them one by one and tracing them then takes up to
+    /// twice as long. Others make the rays first, in lanes.
     ///
     /// ```
     /// use spherule_kernel::{
