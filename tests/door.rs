@@ -23,7 +23,7 @@ fn traces(check: impl Fn(Trace<'_>)) {
         for coherence in [Coherence::Detect, Coherence::Coherent, Coherence::Incoherent] {
             for words in [0, 5, 1000] {
                 let mut scratch = vec![f32::NAN; words];
-                check(Trace { coherence, ..Trace::new().at(level).with_scratch(&mut scratch) });
+                check(Trace::new().with(coherence).at(level).with_scratch(&mut scratch));
             }
         }
     }

@@ -122,7 +122,7 @@ impl<'a> Passes<'a> {
     fn some(&mut self, rays: &[RayPacket], tier: Tier, pass: Pass) {
         let Self { hits, surfaces, shadow_rays, .. } = self;
         let (level, spheres) = (Level::best(), self.tree.list().spheres());
-        let mut trace = Trace { coherence: self.coherence, ..Trace::new() };
+        let mut trace = Trace::new().with(self.coherence);
         self.tree.closest_hit_packets(tier, &mut trace, rays, hits);
         if pass != Pass::Hits {
             surface_packets(tier, level, spheres, rays, hits, surfaces);

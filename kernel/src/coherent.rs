@@ -7,6 +7,7 @@
 
 pub(crate) mod depth_list;
 mod depth_sort;
+mod effort;
 mod fit;
 mod frustum;
 pub(crate) mod list_source;
@@ -16,6 +17,7 @@ pub(crate) mod packet_source;
 mod packet_state;
 mod survey;
 mod tile_fit;
+mod tree_group;
 pub(crate) mod tree_source;
 pub(crate) mod view;
 

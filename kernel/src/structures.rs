@@ -6,6 +6,7 @@ use crate::bvh::tree::Bvh;
 use crate::bvh4::{Bvh4, walk};
 use crate::coherent::depth_list::DepthList;
 use crate::coherent::packet_source::PacketSource;
+use crate::coherent::tree_source::Ways;
 use crate::coherent::{list_source, tree_source};
 #[cfg(feature = "std")]
 use crate::dispatch::compiled::Compiled;
@@ -16,7 +17,7 @@ use crate::geometry::sphere::Spheres;
 use crate::lanes::Lanes;
 use crate::linear;
 use crate::query::{ClosestHit, Query};
-use crate::trace::{Coherence, Trace};
+use crate::trace::Trace;
 
 /// The traversals of a structure.
 pub trait Traverse {
@@ -184,8 +185,8 @@ impl Traverse for Bvh<'_> {
 
 /// What a tree asks of a trace.
 #[inline(always)]
-fn ways<'t>(trace: &'t mut Trace<'_>) -> (Coherence, Option<StreamMemory<'t>>) {
-    (trace.coherence, trace.stream.as_mut().map(StreamMemory::again))
+fn ways<'t>(trace: &'t mut Trace<'_>) -> Ways<'t> {
+    (trace.coherence, trace.stream.as_mut().map(StreamMemory::again), &mut trace.learnt)
 }
 
 /// In one lane, whatever the level.

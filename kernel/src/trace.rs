@@ -1,6 +1,7 @@
 //! What a caller says of the rays, and of the way in which they are traced.
 
 use crate::bvh::StreamMemory;
+use crate::coherent::tree_source::Learnt;
 use crate::dispatch::Level;
 
 /// How rays are traced: at which level, what is known of them, and with what working memory. No answer
@@ -26,6 +27,8 @@ pub struct Trace<'m> {
     /// Working memory of a tree's streams; without, incoherent rays are traced one by one. For packets: of slices too
     /// few are traced at a time.
     pub stream: Option<StreamMemory<'m>>,
+    /// What calls have learnt of their rays.
+    pub(crate) learnt: Learnt,
 }
 
 /// What rays that come one after the other have in common.
@@ -48,13 +51,25 @@ impl<'m> Trace<'m> {
     #[must_use]
     #[inline]
     pub fn new() -> Self {
-        Self { level: Level::best(), coherence: Coherence::Detect, scratch: &mut [], stream: None }
+        Self {
+            level: Level::best(),
+            coherence: Coherence::Detect,
+            scratch: &mut [],
+            stream: None,
+            learnt: Learnt::NOTHING,
+        }
     }
 
     /// At `level`.
     #[must_use]
     pub fn at(self, level: Level) -> Self {
         Self { level, ..self }
+    }
+
+    /// For rays of that coherence.
+    #[must_use]
+    pub fn with(self, coherence: Coherence) -> Self {
+        Self { coherence, ..self }
     }
 
     /// For coherent rays.

@@ -216,9 +216,7 @@ impl Variant {
                 let mut scratch = vec![f32::NAN; words];
                 self.ask_of(depth_list, Trace::new().with_scratch(&mut scratch), rays)
             }
-            Structure::Tree(coherence) => {
-                self.ask_of(tree, Trace { coherence, ..Trace::new() }, rays)
-            }
+            Structure::Tree(coherence) => self.ask_of(tree, Trace::new().with(coherence), rays),
             Structure::Stream(count, sorted) => {
                 // The least that queues need for few, and for more what they like to have.
                 let needed = StreamMemory::queues_needed(count);

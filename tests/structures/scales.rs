@@ -53,7 +53,7 @@ pub(super) fn costs(tier: Tier, spheres: &[Sphere], rays: &[Ray]) -> [[u64; 2]; 
     let mut scratch = vec![0.0; DepthList::scratch(spheres.len())];
     WAYS.map(|way| {
         let coherence = if way == "packets" { Coherence::Coherent } else { Coherence::Incoherent };
-        let mut trace = Trace { coherence, ..Trace::new().with_scratch(&mut scratch) };
+        let mut trace = Trace::new().with(coherence).with_scratch(&mut scratch);
         match way {
             "list" => counted(tier, &list, &mut trace, &packets),
             "depth list" => counted(tier, &depth, &mut trace, &packets),

@@ -99,7 +99,7 @@ fn shorter_outputs() {
     let (tree, rays) = (SphereTree::new(spheres.as_slice()), rays_there(0));
     let packets: Vec<_> = rays.chunks(16).map(RayPacket::<[f32; 16]>::new).collect();
     let ask = |coherence: Coherence, count: usize| {
-        let mut trace = Trace { coherence, ..Trace::new() };
+        let mut trace = Trace::new().with(coherence);
         let (mut hits, mut met) = (vec![HitPacket::none(); count], vec![u32::MAX; count]);
         tree.closest_hit_packets(Tier::Exact, &mut trace, &packets, &mut hits);
         tree.any_hit_packets(Tier::Exact, &mut trace, &packets, &mut met);

@@ -271,6 +271,10 @@ pub(crate) fn is_closer(
     t: f32,
     [new, old]: [u32; 2],
 ) -> bool {
+    // A sphere that is met once more, by a ray that went on by itself.
+    if new == old {
+        return false;
+    }
     let compared = match (sphere(spheres, new), sphere(spheres, old)) {
         (Some(new), Some(old)) => tier.compare_at(ray, t, [&new, &old]),
         _ => Ordering::Equal,

@@ -1,10 +1,11 @@
 //! One ray's way through the tree: `wavefront` -> `in_flight` -> `prepared_ray` -> `ray_state` ->
 //! `root_interval` -> `deferred`, whence the tier.
 
-mod boxes;
+pub(crate) mod boxes;
 mod deferred;
 mod few;
 mod in_flight;
+pub(crate) mod packet_set;
 mod prefetch;
 pub(crate) mod prepared_ray;
 mod ray_state;

@@ -4,6 +4,7 @@
 //! it together, block by block, as packets go through the leaves of a tree (`tree_source.rs`).
 
 use super::depth_list::DepthList;
+use super::effort::Effort;
 use super::fit::{Fit, greatest_of, spread_of};
 use super::listed::Listed;
 use super::packet_group::{GROUP, meet_block};
@@ -170,6 +171,7 @@ impl ListSource<'_> {
                 reach = most(reach, state.depth);
             }
 
+            let mut effort = Effort::of(states);
             // From the front: all that follows a block begins as deep, or deeper.
             let mut number = 0;
             while let Some((spheres, depth)) = self.listed.block(number)
@@ -190,7 +192,7 @@ impl ListSource<'_> {
                     (places, tier.spread()),
                     #[inline(always)]
                     |state| self.depth_of(state, slack),
-                    &mut reach,
+                    (&mut reach, &mut effort),
                 );
             }
         }

@@ -1,5 +1,6 @@
 //! The packets of a group: how they begin, and meet a block of spheres together.
 
+use super::effort::Effort;
 use super::packet_state::PacketState;
 use crate::Accuracy;
 use crate::bvh::traverse::prepared_ray::far_away;
@@ -14,7 +15,7 @@ pub(super) const GROUP: usize = 4;
 
 /// Tests sixteen spheres, those in `places`, from `depth` on, with every packet that goes there and whose planes, for
 /// spheres that are larger by `spread`, leave them in; `end` becomes the greatest depth that any of them still goes
-/// to, if that changes.
+/// to, if that changes, and `effort` is counted.
 #[inline(always)]
 pub(super) fn meet_block<L: Lanes, Q: Query>(
     tier: impl Accuracy,
@@ -23,7 +24,7 @@ pub(super) fn meet_block<L: Lanes, Q: Query>(
     (number, spheres, depth): (u32, &SphereColumns<'_>, f32),
     (places, spread): (u32, f32),
     depth_of: impl Fn(&PacketState<'_, L>) -> f32,
-    end: &mut f32,
+    (end, effort): (&mut f32, &mut Effort),
 ) {
     let mut any_changed = false;
     for state in &mut *states {
@@ -32,6 +33,7 @@ pub(super) fn meet_block<L: Lanes, Q: Query>(
             continue;
         }
         let places = places & state.sides.look::<L>(state.token(), spheres, spread);
+        effort.spheres(places);
         if places != 0 && state.meet::<Q>(tier, source, (number, spheres), places) {
             state.depth = depth_of(state);
             any_changed = true;

@@ -48,6 +48,9 @@ pub(super) struct PacketState<'a, L: Lanes> {
     /// The closest answer of the tier so far, and the index of its sphere, as bits.
     t: L,
     sphere: L,
+    /// How many spheres rays came near, and how many times a ray did.
+    pub(super) spheres_near: u32,
+    pub(super) rays_near: u32,
 }
 
 impl<'a, L: Lanes> PacketState<'a, L> {
@@ -70,6 +73,8 @@ impl<'a, L: Lanes> PacketState<'a, L> {
             shared: None,
             t: zero.like(f32::INFINITY),
             sphere: zero.like(f32::from_bits(HitPacket::<L::Array>::NO_SPHERE)),
+            spheres_near: 0,
+            rays_near: 0,
         }
     }
 
@@ -151,9 +156,12 @@ impl<'a, L: Lanes> PacketState<'a, L> {
         let radius = L::splat(token, spheres.radius[place % WIDTH]);
         let pass = Pass::new(origin, direction, absolute_error, center, radius);
         let near = self.live & pass.may_hit::<SPREADS>(start[0], self.best, spread);
-        if !near.any() {
+        let rays_near = near.bits().count_ones();
+        if rays_near == 0 {
             return false;
         }
+        self.spheres_near = self.spheres_near.wrapping_add(1);
+        self.rays_near = self.rays_near.wrapping_add(rays_near);
 
         let RootInterval { candidates, entry, bound } =
             pass.root_interval::<SPREADS>(start, [end[0], self.best], time.raise(tier), spread);

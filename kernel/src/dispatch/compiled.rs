@@ -7,10 +7,10 @@
 
 use super::Level;
 use crate::accuracy::Tier;
-use crate::bvh::StreamMemory;
 use crate::bvh::tree::Bvh;
 use crate::coherent::depth_list::DepthList;
 use crate::coherent::packet_source::PacketSource;
+use crate::coherent::tree_source::Ways;
 use crate::coherent::{list_source, tree_source};
 use crate::geometry::camera::tiles::CameraTiles;
 use crate::geometry::hit::HitPacket;
@@ -20,7 +20,6 @@ use crate::geometry::surface::SurfacePacket;
 use crate::leave::packets::{self, SurfaceHits, Towards};
 use crate::linear::Writes;
 use crate::query::{Answers, AnyHit, ClosestHit};
-use crate::trace::Coherence;
 use crate::{linear, surface};
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 use fearless_simd::Simd;
@@ -102,7 +101,7 @@ compiled! {
     /// Of a list of spheres.
     fn list(spheres: Spheres<'_>, rays: &[RayPacket]) = linear::traverse;
     /// Of a tree, as the rays are coherent or not.
-    fn tree(bvh: &Bvh<'_>, ways: (Coherence, Option<StreamMemory<'_>>), packets: PacketSource<'_, [f32; 16]>) = tree_source::traverse;
+    fn tree(bvh: &Bvh<'_>, ways: Ways<'_>, packets: PacketSource<'_, [f32; 16]>) = tree_source::traverse;
     /// Of a depth list.
     fn depth_list(list: &DepthList<'_>, scratch: &mut [f32], rays: &[RayPacket]) = list_source::traverse;
 }

@@ -235,7 +235,7 @@ impl Sum {
         structure.any_hits(tier, rays, &mut met);
         self.bits(met);
         for trace in [Trace::new().coherent(), Trace::new().incoherent()] {
-            let mut trace = Trace { scratch: &mut *scratch, ..trace };
+            let mut trace = trace.with_scratch(&mut *scratch);
             structure.closest_hits_with(tier, &mut trace, rays, &mut hits);
             self.hits(hits);
             structure.any_hits_with(tier, &mut trace, rays, &mut met);

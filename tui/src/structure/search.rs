@@ -58,7 +58,7 @@ impl Scratch {
             Search::Bvh(_) if coherence != Coherence::Coherent => stream.of(packets),
             _ => None,
         };
-        (Trace { level, coherence, scratch: lists, stream }, raster)
+        (Trace { stream, ..Trace::new().at(level).with(coherence).with_scratch(lists) }, raster)
     }
 }
 

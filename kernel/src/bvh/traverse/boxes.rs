@@ -2,13 +2,15 @@
 //!
 //! The slabs of [`prepared_ray`](super::prepared_ray), a box a lane.
 
-use crate::bvh::node::BvhNode;
+use super::prepared_ray::PreparedLanes;
+use crate::bvh::node::{BvhNode, WIDTH};
 use crate::lanes::Lanes;
 use crate::numeric::axes::axes;
+use crate::numeric::rounding::LEAST_COMPONENT;
 
 /// Some of a node's boxes, a box a lane, as the rays of an octant see them.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Boxes<L> {
+pub(crate) struct Boxes<L> {
     nearer: [L; 3],
     farther: [L; 3],
 }
@@ -51,4 +53,26 @@ impl<L: Lanes> BoxProbe<L> {
             .filter_max(minus_leave[2].filter_max(minus_end));
         (entry.le(-minus_leave), entry)
     }
+}
+
+/// Which rays enter a box of a node before `best`, but for rounding: for counts, not for answers.
+#[inline(always)]
+pub(crate) fn enter_about<L: Lanes>(
+    rays: &PreparedLanes<L>,
+    best: L,
+    node: &BvhNode,
+    slot: usize,
+) -> L::Mask {
+    let (mut entry, mut minus_leave) = (rays.start[0], -best);
+    for i in 0..3 {
+        let (origin, n) = (rays.origin[i], rays.direction[i]);
+        let least = best.like(LEAST_COMPONENT);
+        let clamped = least.filter_max(n.abs());
+        let inverse = best.like(1.0) / L::select(n.lt(best.like(0.0)), -clamped, clamped);
+        let low = (best.like(node.low[i][slot % WIDTH]) - origin) * inverse;
+        let high = (best.like(node.high[i][slot % WIDTH]) - origin) * inverse;
+        entry = entry.filter_max(-(-low).filter_max(-high));
+        minus_leave = minus_leave.filter_max(-low.filter_max(high));
+    }
+    entry.le(-minus_leave)
 }

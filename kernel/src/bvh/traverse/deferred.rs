@@ -3,6 +3,7 @@
 //! Candidates of any rays wait until there is one for every lane; then the tier tests all of
 //! them at once.
 
+use super::packet_set::PacketSet;
 use super::source::SphereSource;
 use crate::Accuracy;
 use crate::accuracy::{RayLanes, is_closer, test_lanes};
@@ -31,6 +32,8 @@ pub(crate) struct DeferredTests<'a, T, L: Lanes, Q: Query> {
     pub(crate) bvh: &'a Bvh<'a>,
     pub(crate) packets: &'a [RayPacket<L::Array>],
     pub(crate) answers: &'a mut [Q::Packet<L::Array>],
+    /// The packets to answer, of which something may be known; all, and nothing is known, if it is `None`.
+    pub(crate) waiting: Option<&'a PacketSet>,
     rays: RayPacket<L::Array>,
     center: [L::Array; 3],
     radius: L::Array,
@@ -47,6 +50,7 @@ impl<'a, T: Accuracy, L: Lanes, Q: Query> DeferredTests<'a, T, L, Q> {
         bvh: &'a Bvh<'a>,
         packets: &'a [RayPacket<L::Array>],
         answers: &'a mut [Q::Packet<L::Array>],
+        waiting: Option<&'a PacketSet>,
     ) -> Self {
         Self {
             tier,
@@ -54,6 +58,7 @@ impl<'a, T: Accuracy, L: Lanes, Q: Query> DeferredTests<'a, T, L, Q> {
             bvh,
             packets,
             answers,
+            waiting,
             rays: RayPacket::inactive(),
             center: [L::Array::filled(0.0); 3],
             radius: L::Array::filled(0.0),

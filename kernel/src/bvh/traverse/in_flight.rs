@@ -96,21 +96,29 @@ pub(crate) fn begin<T: Accuracy, L: Lanes, Q: Query>(
 ) {
     let (tier, token, bvh) = (tests.tier, tests.token, tests.bvh);
     if let (Some(packet), Some(answer)) = (tests.packets.get(place), tests.answers.get_mut(place)) {
-        // What is outside has been met.
-        if bvh.outside.is_empty() {
-            *answer = Q::none::<L::Array>();
+        match tests.waiting {
+            Some(waiting) if !waiting.contains(place) => return prepared.covered = 0,
+            Some(_) => begin_packet::<L, Q>(tier, token, bvh, (packet, answer, true), prepared),
+            None => {
+                // What is outside has been met.
+                let is_known = !bvh.outside.is_empty();
+                if !is_known {
+                    *answer = Q::none::<L::Array>();
+                }
+                begin_packet::<L, Q>(tier, token, bvh, (packet, answer, is_known), prepared);
+            }
         }
-        begin_packet::<L, Q>(tier, token, bvh, (packet, answer), prepared);
     }
 }
 
-/// Prepares the rays of a packet of which the answers so far are given; answers for those that do not go into the tree.
+/// Prepares the rays of a packet of which the answers so far are given, and whether any of them may be known; answers
+/// for those that do not go into the tree.
 #[inline(always)]
 pub(crate) fn begin_packet<L: Lanes, Q: Query>(
     tier: impl Accuracy,
     token: L::Token,
     bvh: &Bvh<'_>,
-    (packet, answer): (&RayPacket<L::Array>, &mut Q::Packet<L::Array>),
+    (packet, answer, is_known): (&RayPacket<L::Array>, &mut Q::Packet<L::Array>, bool),
     prepared: &mut PreparedPacket<L::Array>,
 ) {
     let rays = RayLanes::<L>::load(token, packet);
@@ -121,8 +129,13 @@ pub(crate) fn begin_packet<L: Lanes, Q: Query>(
         rays.live = L::mask(token, rest) & !Q::done::<L>(token, answer);
         test_from_afar::<L, Q>(tier, token, bvh, (packet, &rays), answer);
     }
-    if !bvh.outside.is_empty() {
-        for lane in 0..L::COUNT {
+    if is_known {
+        prepared.covered &= !Q::done::<L>(token, answer).bits();
+        let [t, _] = Q::lanes::<L>(token, answer);
+        let mut known = t.lt(t.like(f32::INFINITY)).bits() & prepared.covered;
+        while known != 0 {
+            let lane = known.trailing_zeros() as usize;
+            known &= known - 1;
             prepared.shorten(lane, Q::limit::<L::Array>(answer, lane));
         }
     }

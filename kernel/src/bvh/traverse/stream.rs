@@ -45,6 +45,7 @@ use self::sort::by_start;
 use self::way::Way;
 use super::deferred::DeferredTests;
 use super::in_flight::{begin, begin_packet};
+use super::packet_set::PacketSet;
 use super::prepared_ray::PreparedPacket;
 use super::wavefront;
 use crate::Accuracy;
@@ -60,20 +61,20 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
     token: L::Token,
     bvh: &Bvh<'_>,
     memory: &mut StreamMemory<'_>,
-    rays: &[RayPacket<L::Array>],
+    (rays, waiting): (&[RayPacket<L::Array>], Option<&PacketSet>),
     answers: &mut [Q::Packet<L::Array>],
 ) {
     let count = rays.len().min(answers.len());
-    let way = Way::of::<Q>(bvh, memory, count * L::COUNT);
+    let way = Way::of::<Q>(bvh, memory, count * L::COUNT, waiting.is_none());
     if way == Way::RayByRay {
-        return wavefront::traverse::<L, Q>(tier, token, bvh, rays, answers);
+        return wavefront::traverse::<L, Q>(tier, token, bvh, (rays, waiting), answers);
     }
     L::out_of_line(
         token,
         #[inline(always)]
         || {
             let rays = rays.get(..count).unwrap_or_default();
-            let tests = DeferredTests::<_, L, Q>::new(tier, token, bvh, rays, answers);
+            let tests = DeferredTests::<_, L, Q>::new(tier, token, bvh, rays, answers, waiting);
             let StreamMemory { rays, queues, order, .. } = memory;
             let together = rays.len().min(TOGETHER) / L::COUNT;
             let mut stream =
@@ -161,7 +162,7 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
                 gathered.set(lane, &packet.ray(number % L::COUNT));
             }
         }
-        begin_packet::<L, Q>(tier, token, bvh, (&gathered, &mut answer), prepared);
+        begin_packet::<L, Q>(tier, token, bvh, (&gathered, &mut answer, false), prepared);
         for (lane, &number) in numbers.iter().enumerate() {
             self.begin(prepared, (place, lane), number as u32);
             let number = number as u32 as usize;

@@ -21,6 +21,7 @@
 
 use super::deferred::DeferredTests;
 use super::in_flight::{PacketsInFlight, Round, Step};
+use super::packet_set::PacketSet;
 use super::ray_state::RayState;
 use super::{few, prefetch};
 use crate::Accuracy;
@@ -30,13 +31,13 @@ use crate::lanes::{LaneArray, Lanes};
 use crate::query::Query;
 use core::hint::black_box;
 
-/// Answers every ray. Stack: some 4 KiB a lane.
+/// Answers every ray of the packets that are `waiting`, or of all. Stack: some 4 KiB a lane.
 #[inline(always)]
 pub(crate) fn traverse<L: Lanes, Q: Query>(
     tier: impl Accuracy,
     token: L::Token,
     bvh: &Bvh<'_>,
-    rays: &[RayPacket<L::Array>],
+    (rays, waiting): (&[RayPacket<L::Array>], Option<&PacketSet>),
     answers: &mut [Q::Packet<L::Array>],
 ) {
     L::out_of_line(
@@ -45,7 +46,7 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
         || {
             let count = rays.len().min(answers.len());
             let (rays, answers) = (rays.get(..count).unwrap_or_default(), answers);
-            let mut tests = DeferredTests::<_, L, Q>::new(tier, token, bvh, rays, answers);
+            let mut tests = DeferredTests::<_, L, Q>::new(tier, token, bvh, rays, answers, waiting);
             if let Some(leaves) = few::few(bvh) {
                 few::traverse(&mut tests, leaves);
             } else {

@@ -39,13 +39,18 @@ pub(super) enum Way {
 }
 
 impl Way {
-    /// The way of so many rays.
+    /// The way of so many rays, which can be sorted if there is nothing known of any.
     #[inline(always)]
-    pub(super) fn of<Q: Query>(bvh: &Bvh<'_>, memory: &StreamMemory<'_>, rays: usize) -> Self {
+    pub(super) fn of<Q: Query>(
+        bvh: &Bvh<'_>,
+        memory: &StreamMemory<'_>,
+        rays: usize,
+        is_new: bool,
+    ) -> Self {
         let together = memory.rays.len().min(TOGETHER);
         let can_be_sorted = rays.min(memory.order.len() / 2);
         // (What is outside would have to be known ray by ray.)
-        let is_sorted = bvh.outside.is_empty() && can_be_sorted > together;
+        let is_sorted = is_new && bvh.outside.is_empty() && can_be_sorted > together;
         if memory.everywhere {
             return if is_sorted { Self::Sorted } else { Self::AsTheyCome };
         }
@@ -91,8 +96,8 @@ mod tests {
         let memory = memory.sorting(&mut order);
         let memory = if everywhere { memory.everywhere() } else { memory };
         [
-            Way::of::<ClosestHit>(&tree.bvh(), &memory, rays),
-            Way::of::<AnyHit>(&tree.bvh(), &memory, rays),
+            Way::of::<ClosestHit>(&tree.bvh(), &memory, rays, true),
+            Way::of::<AnyHit>(&tree.bvh(), &memory, rays, true),
         ]
     }
 

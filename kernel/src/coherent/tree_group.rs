@@ -1,0 +1,216 @@
+//! A group of packets down the tree.
+//!
+//! # Method
+//!
+//! Up to four packets - 64 rays of 16 lanes - go down the tree as one group: a node's children are
+//! tested against the group's [frustum](super::frustum), not against rays, nearest first; so are the
+//! spheres of a leaf, and those inside against the narrower planes of each packet; what is left
+//! is tested against the packet's rays, a ray a lane (`packet_state.rs`). The depth beyond which nothing
+//! matters shrinks with every hit. A group that does more than its rays would have done apart gives up
+//! (`effort.rs`).
+//!
+//! A group is traced so if its rays start at t >= 0, run the same way along an axis, and are
+//! narrow (`fit.rs`).
+
+use super::effort::Effort;
+use super::fit::Fit;
+use super::frustum::Inside;
+use super::packet_group::{GROUP, approach, meet_block};
+use super::packet_source::PacketSource;
+use super::packet_state::PacketState;
+use crate::Accuracy;
+use crate::accuracy::RayLanes;
+use crate::bvh::leaf::Leaf;
+use crate::bvh::node::{DEPTH, LEAF, WIDTH};
+use crate::bvh::tree::Bvh;
+use crate::geometry::ray::RayPacket;
+use crate::lanes::{LaneMask, Lanes};
+use crate::query::Query;
+use crate::scale::rays::ScaledRays;
+use core::ops::Range;
+
+/// The widest range of slopes that is traced as one.
+const NARROW: f32 = 0.5;
+/// How many boxes can wait: fifteen a node on the way, and the last node's.
+const STACK: usize = 256;
+const _: () = assert!(STACK >= (WIDTH - 1) * DEPTH + WIDTH);
+
+/// The packets of a group; those past its end are `nobody`. (In a loop, or by a function of its own, the kernel takes
+/// a twentieth less to compile, and a tenth longer on u10k.)
+#[inline(always)]
+pub(super) fn states_of<'a, L: Lanes>(
+    token: L::Token,
+    rays: &'a [RayPacket<L::Array>],
+    nobody: &'a RayPacket<L::Array>,
+    factor: f32,
+) -> [PacketState<'a, L>; GROUP] {
+    let [a, b, c, d] = match *rays {
+        [ref a, ref b, ref c, ref d] => [a, b, c, d],
+        [ref a, ref b, ref c] => [a, b, c, nobody],
+        [ref a, ref b] => [a, b, nobody, nobody],
+        [ref a] => [a, nobody, nobody, nobody],
+        _ => [nobody; GROUP],
+    };
+    [
+        state_of(token, a, factor),
+        state_of(token, b, factor),
+        state_of(token, c, factor),
+        state_of(token, d, factor),
+    ]
+}
+
+#[inline(always)]
+fn state_of<L: Lanes>(
+    token: L::Token,
+    packet: &RayPacket<L::Array>,
+    factor: f32,
+) -> PacketState<'_, L> {
+    PacketState::new(packet, &ScaledRays::new(&RayLanes::load(token, packet), factor))
+}
+
+/// What is no place of a child: the root is there, as long as it waits.
+const ROOT: u32 = u32::MAX;
+
+/// How a group ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Ended {
+    /// All of its rays are answered.
+    Through,
+    /// It did more than its rays would have done apart: what they have hit may not be the closest.
+    GaveUp,
+    /// Its rays do not look the same way: nothing was done.
+    Unfit,
+}
+
+/// The boxes that are yet to be looked into, the nearest on top.
+pub(super) struct Boxes {
+    depths: [f32; STACK],
+    /// The number of a node, and the slot of one of its children.
+    places: [u32; STACK],
+    top: usize,
+}
+
+impl Boxes {
+    #[inline(always)]
+    pub(super) fn new() -> Self {
+        Self { depths: [0.0; STACK], places: [ROOT; STACK], top: 0 }
+    }
+
+    /// Traces one group, of which the answers outside of the tree are `known`, if there are any.
+    #[inline(always)]
+    pub(super) fn trace<L: Lanes, Q: Query>(
+        &mut self,
+        tier: impl Accuracy,
+        token: L::Token,
+        states: &mut [PacketState<'_, L>],
+        known: &[Q::Packet<L::Array>],
+        bvh: &Bvh<'_>,
+        tiles: Option<(&PacketSource<'_, L::Array>, Range<usize>)>,
+    ) -> Ended {
+        approach(states, bvh.scale.factor, bvh.extent, tier.spread());
+        let by_corners = match tiles {
+            Some((source, at)) => {
+                source.enclose(at, states, (bvh.scale.factor, bvh.extent, tier.spread(), NARROW))
+            }
+            None => None,
+        };
+        let (fit, mut frustum) = match by_corners {
+            Some(both) => both,
+            None => {
+                let Some(fit) = Fit::of(states, bvh.extent, tier.spread()) else {
+                    return Ended::Unfit;
+                };
+                let Some(frustum) = fit.enclose(states, NARROW) else { return Ended::Unfit };
+                (fit, frustum)
+            }
+        };
+        if !bvh.outside.is_empty() {
+            for place in 0..states.len().min(known.len()) {
+                states[place].take_known::<Q>(&known[place]);
+            }
+            frustum.end = fit.end(states);
+        }
+
+        for state in &mut *states {
+            state.depth = if state.live.any() { frustum.end } else { f32::NEG_INFINITY };
+        }
+        self.depths[0] = f32::NEG_INFINITY;
+        self.places[0] = ROOT;
+        self.top = 1;
+        let mut effort = Effort::of(states);
+        let mut inside = Inside { places: 0, depths: [0.0; WIDTH] };
+        while self.top > 0 {
+            self.top -= 1;
+            let at = self.top & (STACK - 1);
+            let (depth, place) = (self.depths[at], self.places[at]);
+            if depth > frustum.end {
+                continue;
+            }
+            let mut child = bvh.root;
+            if place != ROOT {
+                let (node, slot) = (place / WIDTH as u32, place as usize % WIDTH);
+                let Some(node) = bvh.nodes.get(node as usize) else { continue };
+                child = node.child[slot];
+                if effort.samples() {
+                    let is_wasted = L::out_of_line(
+                        token,
+                        #[inline(always)]
+                        || effort.is_wasted(states, node, slot),
+                    );
+                    if is_wasted {
+                        return Ended::GaveUp;
+                    }
+                }
+            }
+            if child & LEAF == 0 {
+                if let Some(node) = bvh.nodes.get(child as usize) {
+                    frustum.enter::<L>(token, node, &mut inside);
+                    self.push(&inside, child);
+                    effort.node();
+                }
+                continue;
+            }
+            let number = child & !LEAF;
+            let Some(Leaf { columns: spheres, lanes }) = bvh.leaf(number) else { continue };
+            effort.leaf();
+            let mut end = frustum.end;
+            let places = frustum.look::<L>(token, &spheres, 0.0) & lanes;
+            if places == 0 {
+                continue;
+            }
+            meet_block::<L, Q>(
+                tier,
+                bvh,
+                states,
+                (number, &spheres, depth),
+                (places, 0.0),
+                #[inline(always)]
+                |state| fit.end(core::slice::from_ref(state)),
+                (&mut end, &mut effort),
+            );
+            frustum.end = end;
+        }
+        Ended::Through
+    }
+
+    #[inline(always)]
+    fn push(&mut self, inside: &Inside, node: u32) {
+        let base = self.top;
+        let mut places = inside.places;
+        while places != 0 {
+            let place = places.trailing_zeros() as usize % WIDTH;
+            places &= places - 1;
+            let depth = inside.depths[place];
+            // Sink below what is nearer.
+            let mut at = self.top;
+            while at > base && self.depths[(at - 1) & (STACK - 1)] < depth {
+                self.depths[at & (STACK - 1)] = self.depths[(at - 1) & (STACK - 1)];
+                self.places[at & (STACK - 1)] = self.places[(at - 1) & (STACK - 1)];
+                at -= 1;
+            }
+            self.depths[at & (STACK - 1)] = depth;
+            self.places[at & (STACK - 1)] = node * WIDTH as u32 + place as u32;
+            self.top += 1;
+        }
+    }
+}
