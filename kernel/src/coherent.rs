@@ -20,6 +20,9 @@ mod tile_fit;
 mod tree_group;
 pub(crate) mod tree_source;
 pub(crate) mod view;
+#[cfg(test)]
+#[cfg(feature = "alloc")]
+mod worst;
 
 pub use depth_list::DepthList;
 pub use view::Viewpoint;

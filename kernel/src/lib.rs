@@ -14,6 +14,7 @@ pub mod accuracy;
 pub mod bvh;
 pub mod bvh4;
 mod coherent;
+mod count;
 mod dispatch;
 mod exact;
 mod filter;

@@ -7,6 +7,7 @@ mod ray_by_ray;
 
 use crate::Accuracy;
 use crate::accuracy::{RayLanes, TierFormula, TierWork, Underflow, is_closer};
+use crate::count::count;
 use crate::filter::{BLOCK_SPHERES, FilterBlock, FilterGroup, FilterRays, GROUP};
 use crate::geometry::hit::Hit;
 use crate::geometry::ray::RayPacket;
@@ -152,6 +153,7 @@ pub(crate) fn for_candidates<L: Lanes, R, S: SphereRun + ?Sized>(
             let mut filter = FilterRays::new(token, &rays, &block);
             let mut first = first;
             for group in block.groups() {
+                count!(ListGroup);
                 if filter.may_meet_any(group) {
                     let mut indices = [u32::MAX; GROUP];
                     for slot in 0..GROUP {
@@ -230,6 +232,7 @@ pub(crate) fn meet_sphere<F: TierFormula, L: Lanes, Q: Query, const IN_ORDER: bo
     limits: L,
     answer: &mut Q::Packet<L::Array>,
 ) -> L {
+    count!(TierLanes);
     let infinity = limits.like(f32::INFINITY);
     let center = sphere.center();
     let center = axes!(i => limits.like(center[i]));

@@ -7,3 +7,4 @@ pub(crate) mod polynomial;
 pub(crate) mod recorded;
 pub(crate) mod running_error;
 pub(crate) mod toy;
+pub(crate) mod work;

@@ -7,6 +7,7 @@
 use super::roots::RayLanes;
 use super::surface::{self, SurfaceLanes};
 use super::{Exact, Fast, Geometric, Stable};
+use crate::count::count;
 use crate::geometry::sphere::Spheres;
 use crate::geometry::surface::Surface;
 use crate::numeric::rounding::U;
@@ -318,6 +319,7 @@ impl<L: Lanes> TierWork for LaneTest<'_, L> {
 
     #[inline(always)]
     fn run<F: TierFormula>(self) -> L {
+        count!(TierLanes);
         let Self { rays, center, radius, asked, limit } = self;
         L::out_of_line(
             limit.token(),

@@ -16,6 +16,7 @@
 
 use crate::bvh::node::{BvhNode, WIDTH};
 use crate::bvh::traverse::root_interval::SphereColumns;
+use crate::count::count;
 use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::axes;
 use crate::numeric::rounding::U;
@@ -176,6 +177,7 @@ impl Frustum {
     /// Which children of a node may be entered.
     #[inline(always)]
     pub(super) fn enter<L: Lanes>(&self, token: L::Token, node: &BvhNode, inside: &mut Inside) {
+        count!(GroupNode);
         let k = self.sides.along % 3;
         let (low, high) = (&node.low[k], &node.high[k]);
         let (first, last) = if self.sign > 0.0 { (low, high) } else { (high, low) };
@@ -213,6 +215,7 @@ impl Frustum {
         spheres: &SphereColumns<'_>,
         spread: f32,
     ) -> u32 {
+        count!(GroupLeaf);
         let sign = L::splat(token, self.sign);
         let (start, end) = (L::splat(token, self.start), L::splat(token, self.end));
         let mut places = 0;

@@ -6,6 +6,7 @@ use crate::Accuracy;
 use crate::bvh::traverse::prepared_ray::far_away;
 use crate::bvh::traverse::root_interval::SphereColumns;
 use crate::bvh::traverse::source::SphereSource;
+use crate::count::count;
 use crate::lanes::{LaneMask, Lanes};
 use crate::numeric::rounding::most;
 use crate::query::Query;
@@ -32,6 +33,7 @@ pub(super) fn meet_block<L: Lanes, Q: Query>(
         if depth > state.depth {
             continue;
         }
+        count!(PacketLeaf);
         let places = places & state.sides.look::<L>(state.token(), spheres, spread);
         effort.spheres(places);
         if places != 0 && state.meet::<Q>(tier, source, (number, spheres), places) {

@@ -13,6 +13,7 @@ use crate::accuracy::{RayLanes, is_closer, test_lanes};
 use crate::bvh::traverse::prepared_ray::PreparedLanes;
 use crate::bvh::traverse::root_interval::{Pass, RootInterval, SphereColumns};
 use crate::bvh::traverse::source::{SphereLanes, SphereSource};
+use crate::count::count;
 use crate::geometry::hit::HitPacket;
 use crate::geometry::ray::RayPacket;
 use crate::lanes::{LaneArray, LaneMask, Lanes, WIDTH};
@@ -57,6 +58,7 @@ impl<'a, L: Lanes> PacketState<'a, L> {
     /// Of a packet, whose rays as the structure sees them are `scaled`.
     #[inline(always)]
     pub(super) fn new(packet: &'a RayPacket<L::Array>, scaled: &ScaledRays<L>) -> Self {
+        count!(GroupPacket);
         let (live, t_min) = (scaled.rays.live, scaled.rays.t_min);
         let (zero, rays) = (t_min.like(0.0), PreparedLanes::as_they_are(scaled));
         Self {
@@ -150,6 +152,7 @@ impl<'a, L: Lanes> PacketState<'a, L> {
         (number, spheres): (u32, &SphereColumns<'_>),
         place: usize,
     ) -> bool {
+        count!(PacketSphere);
         let (token, spread) = (self.token(), tier.spread());
         let PreparedLanes { origin, direction, absolute_error, time, start, end, .. } = self.rays;
         let center = axes!(i => L::splat(token, spheres.center[i][place % WIDTH]));
@@ -163,6 +166,7 @@ impl<'a, L: Lanes> PacketState<'a, L> {
         self.spheres_near = self.spheres_near.wrapping_add(1);
         self.rays_near = self.rays_near.wrapping_add(rays_near);
 
+        count!(PacketRoots);
         let RootInterval { candidates, entry, bound } =
             pass.root_interval::<SPREADS>(start, [end[0], self.best], time.raise(tier), spread);
         let mut candidates = near & candidates;

@@ -23,6 +23,7 @@ use crate::accuracy::RayLanes;
 use crate::bvh::leaf::Leaf;
 use crate::bvh::node::{DEPTH, LEAF, WIDTH};
 use crate::bvh::tree::Bvh;
+use crate::count::count;
 use crate::geometry::ray::RayPacket;
 use crate::lanes::{LaneMask, Lanes};
 use crate::query::Query;
@@ -107,6 +108,7 @@ impl Boxes {
         bvh: &Bvh<'_>,
         tiles: Option<(&PacketSource<'_, L::Array>, Range<usize>)>,
     ) -> Ended {
+        count!(GroupFit);
         approach(states, bvh.scale.factor, bvh.extent, tier.spread());
         let by_corners = match tiles {
             Some((source, at)) => {

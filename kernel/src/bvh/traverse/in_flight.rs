@@ -8,6 +8,7 @@ use crate::Accuracy;
 use crate::accuracy::{RayLanes, is_closer};
 use crate::bvh::node::{BvhNode, LEAF, NO_CHILD};
 use crate::bvh::tree::Bvh;
+use crate::count::count;
 use crate::filter::may_come_near;
 use crate::geometry::hit::Hit;
 use crate::geometry::ray::RayPacket;
@@ -121,6 +122,7 @@ pub(crate) fn begin_packet<L: Lanes, Q: Query>(
     (packet, answer, is_known): (&RayPacket<L::Array>, &mut Q::Packet<L::Array>, bool),
     prepared: &mut PreparedPacket<L::Array>,
 ) {
+    count!(RayPacket);
     let rays = RayLanes::<L>::load(token, packet);
     prepared.prepare::<L>(&rays, bvh.scale.factor, bvh.extent, tier.spread());
     let rest = rays.live.bits() & !prepared.covered;

@@ -11,6 +11,7 @@ use super::stack::Stack;
 use crate::Accuracy;
 use crate::bvh::leaf::{Leaf, place_of};
 use crate::bvh::node::{BvhNode, WIDTH, octant_of};
+use crate::count::count;
 use crate::geometry::hit::Hit;
 use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::axes;
@@ -119,6 +120,7 @@ impl RayState {
         prepared: &PreparedPacket<L::Array>,
         (number, node): (u32, &BvhNode),
     ) {
+        count!(RayNode);
         let lane = self.ray.lane;
         let best = self.end_of_boxes(prepared);
         let start = prepared.start[0].get(lane) - prepared.spread.get(lane);
@@ -168,6 +170,7 @@ impl RayState {
         prepared: &PreparedPacket<L::Array>,
         leaf: &Leaf<'_>,
     ) -> u32 {
+        count!(RayLeaf);
         let probe = self.probe(tests, prepared);
         let mut spheres = 0;
         for part in 0..WIDTH / L::COUNT {
@@ -185,6 +188,7 @@ impl RayState {
         number: u32,
     ) {
         let Some(leaf) = tests.bvh.leaf(number) else { return };
+        count!(RayRoots);
         let before = self.best;
         let probe = self.probe(tests, prepared);
         for part in 0..WIDTH / L::COUNT {

@@ -50,6 +50,7 @@ use super::prepared_ray::PreparedPacket;
 use super::wavefront;
 use crate::Accuracy;
 use crate::bvh::tree::Bvh;
+use crate::count::count;
 use crate::geometry::ray::RayPacket;
 use crate::lanes::Lanes;
 use crate::query::Query;
@@ -73,6 +74,7 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
         token,
         #[inline(always)]
         || {
+            count!(RayRun);
             let rays = rays.get(..count).unwrap_or_default();
             let tests = DeferredTests::<_, L, Q>::new(tier, token, bvh, rays, answers, waiting);
             let StreamMemory { rays, queues, order, .. } = memory;

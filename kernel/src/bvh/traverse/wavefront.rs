@@ -26,6 +26,7 @@ use super::ray_state::RayState;
 use super::{few, prefetch};
 use crate::Accuracy;
 use crate::bvh::tree::Bvh;
+use crate::count::count;
 use crate::geometry::ray::RayPacket;
 use crate::lanes::{LaneArray, Lanes};
 use crate::query::Query;
@@ -44,6 +45,7 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
         token,
         #[inline(always)]
         || {
+            count!(RayRun);
             let count = rays.len().min(answers.len());
             let (rays, answers) = (rays.get(..count).unwrap_or_default(), answers);
             let mut tests = DeferredTests::<_, L, Q>::new(tier, token, bvh, rays, answers, waiting);
@@ -59,6 +61,7 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
 
 #[inline(always)]
 fn by_boxes<T: Accuracy, L: Lanes, Q: Query>(tests: &mut DeferredTests<'_, T, L, Q>) {
+    count!(RayStacks);
     let bvh = tests.bvh;
     let mut states = L::Array::each(RayState::NEW);
     let states = states.as_mut();

@@ -5,6 +5,7 @@ use super::queue::QueuedRay;
 use crate::Accuracy;
 use crate::bvh::leaf::{Leaf, place_of};
 use crate::bvh::node::WIDTH;
+use crate::count::count;
 use crate::geometry::hit::Hit;
 use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::query::Query;
@@ -60,6 +61,7 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
         let Self { tests, rays, .. } = self;
         let Some(ray) = rays.get_mut(number as usize) else { return };
         let whose = ray.whose::<L::Array>(self.first);
+        count!(StreamRoots);
         let probe = ray.probe::<L>(tests.token, tests.tier.spread());
         for part in 0..WIDTH / L::COUNT {
             let interval = probe.root_interval::<SPREADS>(&leaf.columns, part);

@@ -5,6 +5,7 @@ use super::queue::{FRAMES, Frame, QueuedRay, still_waiting};
 use crate::Accuracy;
 use crate::bvh::node::{LEAF, NO_CHILD, WIDTH};
 use crate::bvh::traverse::boxes::Boxes;
+use crate::count::count;
 use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::axes;
 use crate::query::Query;
@@ -104,6 +105,7 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
             }
             // (So the compiler knows, too.)
             let count = count.min(AT_ONCE);
+            count!(StreamNode, count);
             // Boxes stay in registers while rays pass.
             let mut met = [0_u64; AT_ONCE / A_WORD];
             for part in 0..WIDTH / L::COUNT {
@@ -126,6 +128,7 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
                     let (place, slot) = (word * A_WORD + bit / WIDTH % A_WORD, bit % WIDTH);
                     let end = ends[slot];
                     ends[slot] = end + 1;
+                    count!(StreamQueued);
                     if let Some(queued) = self.queues.get_mut(end) {
                         *queued = QueuedRay { ray: whose[place], entry: entries[place][slot] };
                     }

@@ -7,6 +7,7 @@ use crate::bvh::traverse::boxes::BoxProbe;
 use crate::bvh::traverse::deferred::RayPlace;
 use crate::bvh::traverse::prepared_ray::PreparedPacket;
 use crate::bvh::traverse::root_interval::RayProbe;
+use crate::count::count;
 use crate::lanes::{LaneArray, Lanes};
 use crate::numeric::axes::axes;
 
@@ -141,6 +142,7 @@ impl StreamRay {
         spread: f32,
         leaf: &Leaf<'_>,
     ) -> u32 {
+        count!(StreamLeaf);
         let probe = self.probe::<L>(token, spread);
         let mut spheres = 0;
         for part in 0..WIDTH / L::COUNT {
