@@ -101,6 +101,12 @@ fn groups_do_a_small_part_of_the_work_of_ray_by_ray() {
     assert!(found > 4.0, "1/{found:.2} of the work");
 }
 
+#[test]
+fn the_plain_call_does_at_most_twice_the_work_of_ray_by_ray() {
+    let found = most(62, [12, 2400], PLAIN, |times| times);
+    assert!(found <= 2.0, "{found:.2} times the work");
+}
+
 /// Parallel rays from anywhere, in no order.
 const BEAM: Bundle = Bundle {
     from: Vec3::new(0.0, 0.0, -4.0),
