@@ -107,6 +107,12 @@ fn the_plain_call_does_at_most_twice_the_work_of_ray_by_ray() {
     assert!(found <= 2.0, "{found:.2} times the work");
 }
 
+#[test]
+fn rays_falsely_said_to_be_coherent_take_at_most_twice_the_work() {
+    let found = most(63, [12, 2400], Trace::coherent, |times| times);
+    assert!(found <= 2.0, "{found:.2} times the work");
+}
+
 /// Parallel rays from anywhere, in no order.
 const BEAM: Bundle = Bundle {
     from: Vec3::new(0.0, 0.0, -4.0),
