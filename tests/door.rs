@@ -2,9 +2,9 @@
 //! structure.
 
 use spherule_kernel::{
-    Bvh, Coherence, DepthList, Hit, HitPacket, Intersect, Lanes, Level, Ray, RayPacket, Sphere,
-    SphereList, SpherePacket, SphereTree, Spheres, Tier, Trace, Vec3, Vec4, Viewpoint, f32x4,
-    f32x8, f32x16, pair_packets, pairs,
+    Bvh, Coherence, DepthList, Hit, HitColumns, HitPacket, Intersect, Lanes, Level, Ray,
+    RayColumns, RayPacket, Sphere, SphereList, SpherePacket, SphereTree, Spheres, Tier, Trace,
+    Vec3, Vec4, Viewpoint, f32x4, f32x8, f32x16, pair_packets, pairs,
 };
 use spherule_tests::variants::levels;
 
@@ -32,9 +32,18 @@ fn traces(check: impl Fn(Trace<'_>)) {
 /// Rays past the end of the output are left out, output past the rays is left alone.
 fn slices(structure: &impl Intersect, hit: Option<Hit>) {
     let met = hit.is_some();
-    for (rays, outputs) in
-        [(0, 0), (0, 3), (3, 0), (1, 40), (40, 1), (17, 16), (1025, 1100), (1100, 1025)]
-    {
+    for (rays, outputs) in [
+        (0, 0),
+        (0, 3),
+        (3, 0),
+        (1, 40),
+        (40, 1),
+        (15, 15),
+        (17, 16),
+        (65, 64),
+        (1025, 1100),
+        (1100, 1025),
+    ] {
         let (given, common) = (vec![RAY; rays], rays.min(outputs));
         let expected = [vec![hit; common], vec![STALE; outputs - common]].concat();
         let expected_met = [vec![met; common], vec![!met; outputs - common]].concat();
@@ -48,6 +57,47 @@ fn slices(structure: &impl Intersect, hit: Option<Hit>) {
                 structure.closest_hits_with(tier, &mut trace, &given, &mut hits);
                 structure.any_hits_with(tier, &mut trace, &given, &mut flags);
                 assert_eq!((&hits, &flags), (&expected, &expected_met), "{tier:?}, {rays} rays");
+            });
+        }
+    }
+}
+
+/// The shortest of ten columns counts, whichever it is.
+fn columns(structure: &impl Intersect, hit: Option<Hit>) {
+    let found = hit.map_or((f32::INFINITY, u32::MAX), |hit| (hit.t, hit.sphere));
+    let numbers = [0.0, 0.0, -3.0, 0.0, 0.0, 1.0, 0.0, f32::INFINITY];
+    for (rays, outputs) in [(0, 3), (3, 0), (1, 15), (15, 16), (17, 40), (1025, 1030), (70, 65)] {
+        for shorter in 0..10 {
+            let length = |column| if column == shorter { rays.min(outputs) / 2 } else { rays };
+            let table: Vec<Vec<f32>> =
+                (0..8).map(|column| vec![numbers[column]; length(column)]).collect();
+            let column = |number: usize| table[number].as_slice();
+            let given = RayColumns {
+                origin: [column(0), column(1), column(2)],
+                direction: [column(3), column(4), column(5)],
+                t_min: column(6),
+                t_max: column(7),
+            };
+            let output = |column| if column == shorter { outputs / 2 } else { outputs };
+            let (room_t, room) = (output(8), output(9));
+            let common = given.len().min(room_t).min(room);
+            traces(|mut trace| {
+                let (mut t, mut sphere) = (vec![-7.0; room_t], vec![7; room]);
+                let mut met = vec![hit.is_none(); outputs];
+                let hits = HitColumns { t: &mut t, sphere: &mut sphere };
+                structure.closest_hit_columns(Tier::Exact, &mut trace, given, hits);
+                structure.any_hit_columns(Tier::Exact, &mut trace, given, &mut met);
+                let case = format!("{rays} rays, {outputs} outputs, column {shorter} is shorter");
+                for (index, &t) in t.iter().enumerate() {
+                    assert_eq!(t, if index < common { found.0 } else { -7.0 }, "{case}, {index}");
+                }
+                for (index, &sphere) in sphere.iter().enumerate() {
+                    assert_eq!(sphere, if index < common { found.1 } else { 7 }, "{case}, {index}");
+                }
+                let asked = given.len().min(outputs);
+                for (index, &met) in met.iter().enumerate() {
+                    assert_eq!(met, hit.is_some() == (index < asked), "{case}, {index}");
+                }
             });
         }
     }
@@ -106,6 +156,7 @@ fn lanes_of_every_width() {
 
 fn slices_and_packets(structure: &impl Intersect, hit: Option<Hit>) {
     slices(structure, hit);
+    columns(structure, hit);
     packets(structure, hit);
 }
 

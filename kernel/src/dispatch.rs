@@ -11,7 +11,7 @@ mod build_target;
 pub(crate) mod compiled;
 
 #[cfg(not(feature = "std"))]
-pub(crate) use build_target::{BuildLanes, of_the_build, tiles_of_the_build};
+pub(crate) use build_target::{BuildLanes, fill, of_the_build, tiles_of_the_build};
 
 /// An instruction set that the CPU has.
 #[derive(Clone, Copy, Debug)]

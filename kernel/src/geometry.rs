@@ -1,7 +1,9 @@
 //! What a scene is made of, and what comes of it: rays, spheres, hits, and cameras that make rays.
 
 pub(crate) mod camera;
+pub(crate) mod columns;
 pub(crate) mod hit;
+pub(crate) mod many;
 pub(crate) mod ray;
 pub(crate) mod sphere;
 #[cfg(feature = "alloc")]

@@ -12,7 +12,9 @@
 
 use crate::Accuracy;
 use crate::geometry::camera::tiles::CameraTiles;
+use crate::geometry::columns::{HitColumns, RayColumns};
 use crate::geometry::hit::{Hit, HitPacket};
+use crate::geometry::many::{ManyHits, ManyRays};
 use crate::geometry::ray::{Ray, RayPacket};
 use crate::lanes::Lanes;
 use crate::query::{AnyHit, ClosestHit};
@@ -132,6 +134,7 @@ pub trait Intersect: Traverse {
         rays: &[Ray],
         hits: &mut [Option<Hit>],
     ) {
+        let (rays, hits) = (ManyRays::Slice(rays), ManyHits::Slice(hits));
         slices::traverse::<Self, ClosestHit>(self, tier, trace, rays, hits);
     }
 
@@ -152,7 +155,63 @@ pub trait Intersect: Traverse {
         rays: &[Ray],
         met: &mut [bool],
     ) {
-        slices::traverse::<Self, AnyHit>(self, tier, trace, rays, met);
+        slices::traverse::<Self, AnyHit>(self, tier, trace, ManyRays::Slice(rays), met);
+    }
+
+    /// The closest hit of every ray of eight columns, in two: number `i` of each becomes what ray `i` hits, `+inf` and
+    /// [`HitPacket::NO_SPHERE`] if that is nothing. The shortest column counts; what is past it is left as it is.
+    ///
+    /// Cost: less than that of slices, since nothing is transposed.
+    ///
+    /// ```
+    /// use spherule_kernel::{Exact, HitColumns, Intersect, RayColumns, SphereList, Trace};
+    ///
+    /// let spheres = SphereList::from([[0.0, 0.0, 5.0, 1.0]]);
+    /// // Two rays from the origin: along z, and along x.
+    /// let (zero, infinity) = ([0.0; 2], [f32::INFINITY; 2]);
+    /// let direction: [&[f32]; 3] = [&[0.0, 1.0], &zero, &[1.0, 0.0]];
+    /// let rays = RayColumns { origin: [&zero; 3], direction, t_min: &zero, t_max: &infinity };
+    /// let (mut t, mut sphere) = ([0.0; 2], [0; 2]);
+    /// let hits = HitColumns { t: &mut t, sphere: &mut sphere };
+    /// spheres.closest_hit_columns(Exact, &mut Trace::new(), rays, hits);
+    /// assert_eq!((t, sphere), ([4.0, f32::INFINITY], [0, u32::MAX]));
+    /// ```
+    fn closest_hit_columns(
+        &self,
+        tier: impl Accuracy,
+        trace: &mut Trace<'_>,
+        rays: RayColumns<'_>,
+        hits: HitColumns<'_>,
+    ) {
+        let (rays, hits) = (ManyRays::Columns(rays), ManyHits::Columns(hits));
+        slices::traverse::<Self, ClosestHit>(self, tier, trace, rays, hits);
+    }
+
+    /// Whether every ray of eight columns hits anything. The shortest column counts; what is past it is left as it is.
+    ///
+    /// ```
+    /// use spherule_kernel::{Exact, Intersect, RayColumns, SphereList, Trace};
+    ///
+    /// let spheres = SphereList::from([[0.0, 0.0, 5.0, 1.0]]);
+    /// let (zero, one, ends) = ([0.0; 2], [1.0; 2], [3.9, 4.0]);
+    /// let rays = RayColumns {
+    ///     origin: [&zero; 3],
+    ///     direction: [&zero, &zero, &one],
+    ///     t_min: &zero,
+    ///     t_max: &ends,
+    /// };
+    /// let mut met = [true; 2];
+    /// spheres.any_hit_columns(Exact, &mut Trace::new(), rays, &mut met);
+    /// assert_eq!(met, [false, true]);
+    /// ```
+    fn any_hit_columns(
+        &self,
+        tier: impl Accuracy,
+        trace: &mut Trace<'_>,
+        rays: RayColumns<'_>,
+        met: &mut [bool],
+    ) {
+        slices::traverse::<Self, AnyHit>(self, tier, trace, ManyRays::Columns(rays), met);
     }
 
     /// The closest hit of every ray of every packet: `hits[i]` is overwritten with what `rays[i]` hits.

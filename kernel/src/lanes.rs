@@ -79,6 +79,18 @@ pub trait Lanes:
     }
     /// Element `i` from lane `i`.
     fn store(self) -> Self::Array;
+    /// A table of eight numbers a row, transposed: number `i` of column `k` is number `k` of row `i`.
+    #[inline(always)]
+    fn columns(_: Self::Token, row: impl Fn(usize) -> [f32; 8]) -> [Self::Array; 8] {
+        let mut columns = [Self::Array::ZEROS; 8];
+        for lane in 0..Self::COUNT {
+            let row = row(lane);
+            for column in 0..8 {
+                columns[column].set(lane, row[column]);
+            }
+        }
+        columns
+    }
     /// The correctly rounded square root; NaN below zero.
     fn sqrt(self) -> Self;
     /// `self * factor + addend` with one rounding or two, as the target likes: for filters.

@@ -44,6 +44,7 @@ pub use coherent::{DepthList, Viewpoint};
 pub use dispatch::{Level, LevelName};
 pub use geometry::camera::tiles::CameraTiles;
 pub use geometry::camera::{Camera, Projection};
+pub use geometry::columns::{HitColumns, RayColumns};
 pub use geometry::hit::{Hit, HitPacket};
 pub use geometry::ray::{Ray, RayPacket};
 pub use geometry::sphere::{Sphere, SpherePacket, Spheres, SpheresError};

@@ -4,6 +4,7 @@
 //! what it changes in each traversal.
 
 use crate::geometry::hit::{Hit, HitPacket};
+use crate::geometry::many::{ManyHits, write_met};
 use crate::lanes::{LaneArray, LaneMask, Lanes};
 use core::fmt::Debug;
 
@@ -32,6 +33,8 @@ mod sealed {
         type Packet<A: LaneArray>: Copy + Debug;
         /// What one ray is answered with.
         type One: Copy;
+        /// Where the answers of many rays go.
+        type Many<'a>;
 
         /// No hit in any lane.
         fn none<A: LaneArray>() -> Self::Packet<A>;
@@ -61,20 +64,17 @@ mod sealed {
         fn from_lanes<L: Lanes>(t: L, sphere: L) -> Self::Packet<L::Array>;
         /// t and the index, as bits, in every lane: what [`from_lanes`](Answers::from_lanes) makes answers of.
         fn lanes<L: Lanes>(token: L::Token, packet: &Self::Packet<L::Array>) -> [L; 2];
-        /// The answers of rays that were packed one after the other. Not generic, so that it is compiled
-        /// with this crate: in a user's dev build it took longer than the rays.
-        fn unpack(packets: &[Self::Packet<[f32; 16]>], answers: &mut [Self::One]);
-    }
-}
-
-#[inline(always)]
-fn unpack<Q: Answers>(packets: &[Q::Packet<[f32; 16]>], answers: &mut [Q::One]) {
-    let mut rest = answers.iter_mut();
-    for packet in packets {
-        for lane in 0..16 {
-            let Some(answer) = rest.next() else { return };
-            *answer = Q::one(packet, lane);
-        }
+        /// How many answers there is room for.
+        fn room(many: &Self::Many<'_>) -> usize;
+        /// Writes the answers of packets from place `from` on, before place `to`. Where there are levels it is compiled for
+        /// each; else it is a call, so that it is compiled with this crate: in a user's dev build it took longer than
+        /// the rays.
+        fn write(
+            many: &mut Self::Many<'_>,
+            packets: &[Self::Packet<[f32; 16]>],
+            from: usize,
+            to: usize,
+        );
     }
 }
 
@@ -84,6 +84,7 @@ impl Answers for ClosestHit {
     const ANY: bool = false;
     type Packet<A: LaneArray> = HitPacket<A>;
     type One = Option<Hit>;
+    type Many<'a> = ManyHits<'a>;
 
     #[inline(always)]
     fn none<A: LaneArray>() -> HitPacket<A> {
@@ -168,9 +169,15 @@ impl Answers for ClosestHit {
         [L::load(token, &packet.t), L::load(token, &bits)]
     }
 
-    #[inline(never)]
-    fn unpack(packets: &[HitPacket], answers: &mut [Option<Hit>]) {
-        unpack::<Self>(packets, answers);
+    #[inline(always)]
+    fn room(many: &ManyHits<'_>) -> usize {
+        many.count()
+    }
+
+    #[cfg_attr(feature = "std", inline(always))]
+    #[cfg_attr(not(feature = "std"), inline(never))]
+    fn write(many: &mut ManyHits<'_>, packets: &[HitPacket], from: usize, to: usize) {
+        many.write(packets, from, to);
     }
 }
 
@@ -178,6 +185,7 @@ impl Answers for AnyHit {
     const ANY: bool = true;
     type Packet<A: LaneArray> = u32;
     type One = bool;
+    type Many<'a> = &'a mut [bool];
 
     #[inline(always)]
     fn none<A: LaneArray>() -> u32 {
@@ -231,8 +239,14 @@ impl Answers for AnyHit {
         [L::select(L::mask(token, *packet), zero, infinity), zero]
     }
 
-    #[inline(never)]
-    fn unpack(packets: &[u32], answers: &mut [bool]) {
-        unpack::<Self>(packets, answers);
+    #[inline(always)]
+    fn room(many: &&mut [bool]) -> usize {
+        many.len()
+    }
+
+    #[cfg_attr(feature = "std", inline(always))]
+    #[cfg_attr(not(feature = "std"), inline(never))]
+    fn write(many: &mut &mut [bool], packets: &[u32], from: usize, to: usize) {
+        write_met(packets, many.get_mut(from..to).unwrap_or_default());
     }
 }

@@ -1,9 +1,10 @@
-//! Slices of rays: packed, traced and unpacked, some packets at a time, on the stack.
+//! Slices and columns of rays: packed, traced and unpacked, some packets at a time, on the stack.
 
 use crate::Accuracy;
 use crate::dispatch::Level;
 use crate::geometry::camera::tiles::CameraTiles;
 use crate::geometry::hit::{Hit, HitPacket};
+use crate::geometry::many::ManyRays;
 use crate::geometry::ray::{Ray, RayPacket};
 use crate::geometry::sphere::{Sphere, SpherePacket, Spheres};
 use crate::geometry::surface::SurfacePacket;
@@ -17,6 +18,8 @@ use crate::{dispatch::BuildLanes, leave::packets, linear, surface};
 /// How many packets are traced at a time: enough that preparing 128 spheres of a list for them is a
 /// hundredth of the work; for firmware as many as its stack holds.
 const PACKETS: usize = if cfg!(feature = "std") { 64 } else { 4 };
+/// How many packets few rays fill: what goes through a tree together.
+const FEW: usize = 4;
 
 /// How many pairs are tested at a time.
 #[cfg(feature = "std")]
@@ -46,25 +49,44 @@ pub(crate) fn one<S: Traverse + ?Sized, Q: LevelQuery>(
     }
 }
 
-/// Answers every ray of a slice.
+/// Answers every ray, as far as there is room for answers.
 pub(crate) fn traverse<S: Traverse + ?Sized, Q: LevelQuery>(
     structure: &S,
     tier: impl Accuracy,
     trace: &mut Trace<'_>,
-    rays: &[Ray],
-    answers: &mut [Q::One],
+    rays: ManyRays<'_>,
+    answers: Q::Many<'_>,
 ) {
-    let mut packets = [RayPacket::inactive(); PACKETS];
-    let mut answered = [Q::none::<[f32; 16]>(); PACKETS];
-    const AT_ONCE: usize = PACKETS * RayPacket::COUNT;
-    let count = rays.len().min(answers.len());
+    let count = rays.count().min(Q::room(&answers));
+    // Memory is cleared before it is used: for few rays that takes longer than they do.
+    if count <= FEW * RayPacket::COUNT {
+        windows::<S, Q, FEW>(structure, tier, trace, (rays, count), answers);
+    } else {
+        windows::<S, Q, PACKETS>(structure, tier, trace, (rays, count), answers);
+    }
+}
+
+/// Answers rays, so many packets at a time. (The same trace for all: a call is one.)
+#[inline(never)]
+fn windows<S: Traverse + ?Sized, Q: LevelQuery, const AT_ONCE: usize>(
+    structure: &S,
+    tier: impl Accuracy,
+    trace: &mut Trace<'_>,
+    (rays, count): (ManyRays<'_>, usize),
+    mut answers: Q::Many<'_>,
+) {
+    let mut packets = [RayPacket::inactive(); AT_ONCE];
+    let mut answered = [Q::none::<[f32; 16]>(); AT_ONCE];
     let mut from = 0;
     // Chunks divide by their length, and where that is not seen to be a number, may panic.
     while from < count {
-        let to = (from + AT_ONCE).min(count);
-        let packed = RayPacket::pack(rays.get(from..to).unwrap_or_default(), &mut packets);
-        structure.in_packets::<Q>(tier, trace, packed, &mut answered);
-        Q::unpack(&answered, answers.get_mut(from..to).unwrap_or_default());
+        let to = (from + AT_ONCE * RayPacket::COUNT).min(count);
+        let rays = rays.part(from, to);
+        structure.many_in_packets::<Q>(tier, trace, rays, &mut packets, &mut answered);
+        #[cfg(feature = "std")]
+        Q::write_at(trace.level, &mut answers, &answered, from, to);
+        #[cfg(not(feature = "std"))]
+        Q::write(&mut answers, &answered, from, to);
         from = to;
     }
 }

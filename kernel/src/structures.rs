@@ -12,6 +12,7 @@ use crate::coherent::{list_source, tree_source};
 use crate::dispatch::compiled::Compiled;
 use crate::geometry::camera::tiles::CameraTiles;
 use crate::geometry::hit::HitPacket;
+use crate::geometry::many::ManyRays;
 use crate::geometry::ray::RayPacket;
 use crate::geometry::sphere::Spheres;
 use crate::lanes::Lanes;
@@ -39,6 +40,24 @@ pub trait Traverse {
         rays: &[RayPacket],
         answers: &mut [Q::Packet<[f32; 16]>],
     );
+
+    /// In sixteen lanes at a level, of rays that fill `packets`, whose contents do not matter, on the way.
+    fn many_in_packets<Q: LevelQuery>(
+        &self,
+        tier: impl Accuracy,
+        trace: &mut Trace<'_>,
+        rays: ManyRays<'_>,
+        packets: &mut [RayPacket],
+        answers: &mut [Q::Packet<[f32; 16]>],
+    ) {
+        let count = rays.count().div_ceil(RayPacket::COUNT).min(packets.len());
+        let packets = packets.get_mut(..count).unwrap_or_default();
+        #[cfg(feature = "std")]
+        crate::dispatch::compiled::fill(trace.level, rays, packets);
+        #[cfg(not(feature = "std"))]
+        crate::dispatch::fill(rays, packets);
+        self.in_packets::<Q>(tier, trace, packets, answers);
+    }
 
     /// What tiles of a camera hit, whose rays are made in `rays`, in lanes of any kind.
     #[inline(always)]
@@ -155,6 +174,19 @@ impl Traverse for Bvh<'_> {
         crate::dispatch::of_the_build::<Self, Q>(self, tier, trace, rays, answers);
     }
 
+    #[cfg(feature = "std")]
+    fn many_in_packets<Q: LevelQuery>(
+        &self,
+        tier: impl Accuracy,
+        trace: &mut Trace<'_>,
+        rays: ManyRays<'_>,
+        packets: &mut [RayPacket],
+        answers: &mut [Q::Packet<[f32; 16]>],
+    ) {
+        let source = PacketSource::Rays(rays, packets);
+        Q::tree(trace.level, tier.tier(), self, ways(trace), source, answers);
+    }
+
     #[inline(always)]
     fn tiles_in_lanes<L: Lanes>(
         &self,
@@ -239,6 +271,17 @@ macro_rules! traverse_as {
                 answers: &mut [Q::Packet<[f32; 16]>],
             ) {
                 self.$lend().in_packets::<Q>(tier, trace, rays, answers);
+            }
+
+            fn many_in_packets<Q: LevelQuery>(
+                &self,
+                tier: impl Accuracy,
+                trace: &mut Trace<'_>,
+                rays: ManyRays<'_>,
+                packets: &mut [RayPacket],
+                answers: &mut [Q::Packet<[f32; 16]>],
+            ) {
+                self.$lend().many_in_packets::<Q>(tier, trace, rays, packets, answers);
             }
 
             #[inline(always)]

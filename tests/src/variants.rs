@@ -12,9 +12,9 @@ mod tiles;
 pub use difference::{assert_same, assert_same_from, bits, difference};
 pub use pairs::{pair_storeys, pairs_of};
 use spherule_kernel::{
-    Bvh4, Coherence, DepthList, Hit, HitPacket, Intersect, LaneArray, Lanes, Level, LevelName,
-    QueuedRay, Ray, RayPacket, Sphere, SphereList, SpherePacket, SphereTree, StreamMemory,
-    StreamRay, Tier, Trace, Vec3, Viewpoint, f32x4, f32x8, f32x16, pair_lanes,
+    Bvh4, Coherence, DepthList, Hit, HitColumns, HitPacket, Intersect, LaneArray, Lanes, Level,
+    LevelName, QueuedRay, Ray, RayColumns, RayPacket, Sphere, SphereList, SpherePacket, SphereTree,
+    StreamMemory, StreamRay, Tier, Trace, Vec3, Viewpoint, f32x4, f32x8, f32x16, pair_lanes,
 };
 pub use surfaces::{shadow_rays_of, surface_storeys, surfaces_of};
 pub use tiles::{Frame, assert_same_tiles, tile_difference};
@@ -41,6 +41,8 @@ pub enum Storey {
     Ray,
     /// A slice of rays, and nothing said of them.
     Slice,
+    /// Columns of rays, not all of a length, and nothing said of them.
+    Columns,
     /// A slice of rays at a level.
     SliceAt(LevelName),
     /// Packets of sixteen at a level.
@@ -55,7 +57,7 @@ impl Storey {
     pub const fn lanes(self) -> usize {
         match self {
             Self::Ray => 1,
-            Self::Slice | Self::SliceAt(_) | Self::Packets(_) => 16,
+            Self::Slice | Self::Columns | Self::SliceAt(_) | Self::Packets(_) => 16,
             Self::Lanes(lanes) => lanes,
         }
     }
@@ -90,7 +92,7 @@ pub fn variants() -> impl Iterator<Item = Variant> {
         };
         Tier::ALL.into_iter().flat_map(variant)
     };
-    let plain = [Storey::Ray, Storey::Slice];
+    let plain = [Storey::Ray, Storey::Slice, Storey::Columns];
     let leveled = || {
         let packets = levels().map(Storey::Packets);
         [Storey::SliceAt(LevelName::Baseline)].into_iter().chain(packets)
@@ -270,6 +272,20 @@ impl Variant {
                 structure.closest_hits(tier, rays, &mut hits);
                 structure.any_hits(tier, rays, &mut met);
             }
+            Storey::Columns => {
+                let table = columns_of(rays);
+                let [ox, oy, oz, dx, dy, dz, t_min, t_max] = table.each_ref().map(Vec::as_slice);
+                let (origin, direction) = ([ox, oy, oz], [dx, dy, dz]);
+                let columns = RayColumns { origin, direction, t_min, t_max };
+                let (mut t, mut sphere) = (vec![-7.0; rays.len() + 2], vec![7; rays.len() + 1]);
+                let found = HitColumns { t: &mut t, sphere: &mut sphere };
+                structure.closest_hit_columns(tier, &mut trace, columns, found);
+                structure.any_hit_columns(tier, &mut trace, columns, &mut met);
+                let none = |t: f32, sphere: u32| sphere == u32::MAX && t == f32::INFINITY;
+                let hit = |(&t, &sphere)| (!none(t, sphere)).then_some(Hit { t, sphere });
+                hits = t.iter().zip(&sphere).map(hit).collect();
+                assert_eq!(t.last(), Some(&-7.0), "{self:?}: past the rays");
+            }
             Storey::SliceAt(name) => {
                 trace.level = level(name);
                 structure.closest_hits_with(tier, &mut trace, rays, &mut hits);
@@ -314,6 +330,18 @@ pub fn viewpoint_of(rays: &[Ray]) -> Viewpoint {
 
 fn level(name: LevelName) -> Level {
     Level::named(name).expect("a level of this CPU")
+}
+
+/// The numbers of rays, column by column; some columns are longer.
+fn columns_of(rays: &[Ray]) -> [Vec<f32>; 8] {
+    let numbers = |r: &Ray| {
+        let ([ox, oy, oz], [dx, dy, dz]) = (r.origin.to_array(), r.direction.to_array());
+        [ox, oy, oz, dx, dy, dz, r.t_min, r.t_max]
+    };
+    std::array::from_fn(|column| {
+        let longer = [0.5].repeat(column % 3);
+        rays.iter().map(|ray| numbers(ray)[column]).chain(longer).collect()
+    })
 }
 
 fn packed<A: LaneArray>(rays: &[Ray]) -> Vec<RayPacket<A>> {

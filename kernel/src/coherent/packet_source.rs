@@ -1,10 +1,11 @@
-//! Where the packets of a call come from: memory, or a camera.
+//! Where the packets of a call come from: memory, rays of a caller's, or a camera.
 
 use super::fit::Fit;
 use super::frustum::Frustum;
 use super::packet_state::PacketState;
 use super::tile_fit;
 use crate::geometry::camera::tiles::CameraTiles;
+use crate::geometry::many::ManyRays;
 use crate::geometry::ray::RayPacket;
 use crate::lanes::{LaneArray, Lanes};
 use core::ops::Range;
@@ -15,6 +16,8 @@ use core::ops::Range;
 pub enum PacketSource<'a, A: LaneArray> {
     /// They are there.
     Packets(&'a [RayPacket<A>]),
+    /// They are filled with rays, a group at a time, in memory that is not looked at before.
+    Rays(ManyRays<'a>, &'a mut [RayPacket<A>]),
     /// They are made, a group at a time, in memory that is not looked at before.
     Tiles(CameraTiles<'a>, &'a mut [RayPacket<A>]),
 }
@@ -25,6 +28,7 @@ impl<A: LaneArray> PacketSource<'_, A> {
     pub(super) fn count(&self) -> usize {
         match self {
             Self::Packets(packets) => packets.len(),
+            Self::Rays(rays, packets) => packets.len().min(rays.count().div_ceil(A::COUNT)),
             Self::Tiles(tiles, packets) => packets.len().min(tiles.corners.len()),
         }
     }
@@ -32,12 +36,25 @@ impl<A: LaneArray> PacketSource<'_, A> {
     /// Makes those packets; returns whether they are whole tiles of a camera.
     #[inline(always)]
     pub(super) fn make<L: Lanes<Array = A>>(&mut self, token: L::Token, at: Range<usize>) -> bool {
-        let Self::Tiles(tiles, packets) = self else { return false };
-        let (Some(packets), Some(corners)) = (packets.get_mut(at.clone()), tiles.corners.get(at))
-        else {
-            return false;
-        };
-        tiles.fill::<L>(token, corners, packets)
+        match self {
+            Self::Packets(_) => false,
+            Self::Rays(rays, packets) => {
+                if let Some(packets) = packets.get_mut(at.clone()) {
+                    L::out_of_line(
+                        token,
+                        #[inline(always)]
+                        || rays.fill::<L>(token, at.start, packets),
+                    );
+                }
+                false
+            }
+            Self::Tiles(tiles, packets) => {
+                match (packets.get_mut(at.clone()), tiles.corners.get(at)) {
+                    (Some(packets), Some(corners)) => tiles.fill::<L>(token, corners, packets),
+                    _ => false,
+                }
+            }
+        }
     }
 
     /// Packets that were made.
@@ -45,7 +62,7 @@ impl<A: LaneArray> PacketSource<'_, A> {
     pub(super) fn packets(&self, at: Range<usize>) -> &[RayPacket<A>] {
         match self {
             Self::Packets(packets) => packets.get(at),
-            Self::Tiles(_, packets) => packets.get(at),
+            Self::Rays(_, packets) | Self::Tiles(_, packets) => packets.get(at),
         }
         .unwrap_or_default()
     }

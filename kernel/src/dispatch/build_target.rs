@@ -3,6 +3,7 @@
 use crate::Accuracy;
 use crate::geometry::camera::tiles::CameraTiles;
 use crate::geometry::hit::HitPacket;
+use crate::geometry::many::ManyRays;
 use crate::geometry::ray::RayPacket;
 use crate::lanes::Lanes;
 use crate::query::{ClosestHit, Query};
@@ -38,6 +39,12 @@ pub(crate) fn of_the_build<S: Traverse + ?Sized, Q: Query>(
             Q::put(answer, lane, Q::one(&one[0], 0));
         }
     }
+}
+
+/// Fills packets with rays.
+#[inline(never)]
+pub(crate) fn fill(rays: ManyRays<'_>, packets: &mut [RayPacket]) {
+    rays.fill::<wide::f32x16>((), 0, packets);
 }
 
 /// What a camera's tiles hit, in the lanes of the build.

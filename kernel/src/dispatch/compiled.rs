@@ -14,6 +14,7 @@ use crate::coherent::tree_source::Ways;
 use crate::coherent::{list_source, tree_source};
 use crate::geometry::camera::tiles::CameraTiles;
 use crate::geometry::hit::HitPacket;
+use crate::geometry::many::ManyRays;
 use crate::geometry::ray::RayPacket;
 use crate::geometry::sphere::{SpherePacket, Spheres};
 use crate::geometry::surface::SurfacePacket;
@@ -71,6 +72,14 @@ macro_rules! compiled {
                     answers: &mut [Self::Packet<[f32; 16]>],
                 );
             )*
+            /// Writes the answers of packets from place `from` on, before place `to`.
+            fn write_at(
+                level: Level,
+                many: &mut Self::Many<'_>,
+                packets: &[Self::Packet<[f32; 16]>],
+                from: usize,
+                to: usize,
+            );
         }
 
         compiled!(@query ClosestHit, HitPacket, $($name($structure: $type $(, $more: $kind)*) = $traverse;)*);
@@ -93,6 +102,20 @@ macro_rules! compiled {
                     });
                 }
             )*
+
+            #[inline(never)]
+            fn write_at(
+                level: Level,
+                many: &mut Self::Many<'_>,
+                packets: &[$packet],
+                from: usize,
+                to: usize,
+            ) {
+                at_level!(level.0, simd => {
+                    let _ = simd;
+                    Self::write(many, packets, from, to);
+                });
+            }
         }
     };
 }
@@ -161,6 +184,12 @@ pub(crate) fn shadows(
     at_level!(level.0, simd => {
         packets::each_packet::<f32x16<_>>(tier, simd, spheres, hit, towards, shadow_rays);
     });
+}
+
+/// Fills packets with rays.
+#[inline(never)]
+pub(crate) fn fill(level: Level, rays: ManyRays<'_>, packets: &mut [RayPacket]) {
+    at_level!(level.0, simd => rays.fill::<f32x16<_>>(simd, 0, packets));
 }
 
 /// Makes the rays of as many of a camera's tiles as there is room for.

@@ -1,6 +1,6 @@
 //! Rays, one at a time and in packets.
 
-use crate::lanes::LaneArray;
+use crate::lanes::{LaneArray, Lanes};
 use glam::Vec3;
 
 /// The half-line (or, by its interval, any part of the line) `origin + t * direction`.
@@ -9,7 +9,9 @@ use glam::Vec3;
 /// closed interval `[t_min, t_max]` counts; an empty one (`t_min > t_max`, or NaN at either end)
 /// accepts nothing, and is how a lane of a packet is switched off. A ray with NaN or infinity in
 /// `origin` or `direction`, or with `direction` zero, hits nothing.
+// In this order, so that a ray's numbers are loaded as one row.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
 pub struct Ray {
     /// Where `t` is zero, in the units of the scene.
     pub origin: Vec3,
@@ -43,6 +45,13 @@ impl Ray {
             && self.direction.is_finite()
             && self.direction != Vec3::ZERO
             && self.t_min <= self.t_max
+    }
+
+    /// Its numbers, in the order in which they lie.
+    #[inline(always)]
+    fn row(&self) -> [f32; 8] {
+        let Self { origin: o, direction: d, t_min, t_max } = *self;
+        [o.x, o.y, o.z, d.x, d.y, d.z, t_min, t_max]
     }
 
     /// The point at `t`, each coordinate with two roundings.
@@ -90,6 +99,28 @@ impl<A: LaneArray> RayPacket<A> {
             packet.set(lane, ray);
         }
         packet
+    }
+
+    /// Becomes what [`new`](Self::new) makes of `rays`, in lanes: a whole packet of rays is transposed in registers.
+    #[inline(always)]
+    pub(crate) fn fill<L: Lanes<Array = A>>(&mut self, token: L::Token, rays: &[Ray]) {
+        let Some(rays) = rays.get(..A::COUNT) else {
+            return L::out_of_line(
+                token,
+                #[inline(always)]
+                || *self = Self::new(rays),
+            );
+        };
+        let [ox, oy, oz, dx, dy, dz, t_min, t_max] = L::columns(
+            token,
+            #[inline(always)]
+            |lane| match rays.get(lane) {
+                Some(ray) => ray.row(),
+                None => [0.0; 8],
+            },
+        );
+        (self.origin, self.direction) = ([ox, oy, oz], [dx, dy, dz]);
+        (self.t_min, self.t_max) = (t_min, t_max);
     }
 
     /// Puts `ray` in `lane`; does nothing if there is no such lane.

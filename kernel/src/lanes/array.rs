@@ -61,6 +61,8 @@ pub trait LaneArray:
     fn part(numbers: &[f32; 16], part: usize) -> Self;
     /// Puts the lanes where [`part`](LaneArray::part) takes them from.
     fn put_part(&self, numbers: &mut [f32; 16], part: usize);
+    /// The lanes that are in `numbers` from `at` on; `None` if there are too few.
+    fn taken_at(numbers: &[f32], at: usize) -> Option<Self>;
     /// Puts the lanes into `numbers`, from `at` on; does nothing and returns false if there is no room.
     fn put_at(&self, numbers: &mut [f32], at: usize) -> bool;
 }
@@ -128,6 +130,16 @@ macro_rules! lane_array {
                     numbers[(from + lane) % WIDTH] = self[lane];
                     lane += 1;
                 }
+            }
+
+            #[inline(always)]
+            fn taken_at(numbers: &[f32], at: usize) -> Option<Self> {
+                if let Some(numbers) = numbers.get(at..)
+                    && let Some(numbers) = numbers.first_chunk::<$count>()
+                {
+                    return Some(*numbers);
+                }
+                None
             }
 
             #[inline(always)]

@@ -6,6 +6,7 @@
 //! not stays right, and is many times slower. Hence `#[inline(always)]` on all of it, and
 //! [`Lanes::out_of_line`] where a call is wanted.
 
+mod columns;
 mod in_order;
 
 use super::{DoubleLanes, LaneMask, Lanes};
@@ -125,6 +126,11 @@ impl<S: Simd> Lanes for f32x16<S> {
     #[inline(always)]
     fn store(self) -> [f32; 16] {
         self.to_array()
+    }
+
+    #[inline(always)]
+    fn columns(token: S, row: impl Fn(usize) -> [f32; 8]) -> [[f32; 16]; 8] {
+        columns::of_rows(token, row)
     }
 
     #[inline(always)]

@@ -56,6 +56,24 @@ fn moves<L: Lanes>(token: L::Token) {
             }
         }
 
+        assert_eq!(L::Array::taken_at(&column, at).is_some(), room);
+        if let Some(taken) = L::Array::taken_at(&column, at) {
+            let bits =
+                |lanes: L::Array| lanes.as_ref().iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+            assert_eq!(bits(taken), bits(array));
+        }
+
+        // Rows become columns.
+        let rows: [[f32; 8]; 16] =
+            [[(); 8]; 16].map(|row| row.map(|()| f32::from_bits(random.bits() as u32)));
+        let columns = L::columns(token, |row| rows[row]);
+        for row in 0..L::COUNT {
+            for column in 0..8 {
+                let found = columns[column].get(row);
+                assert_eq!(found.to_bits(), rows[row][column].to_bits(), "{row}, {column}");
+            }
+        }
+
         if numbers.iter().all(|number| !number.is_nan()) {
             let greatest = numbers.iter().copied().fold(f32::NEG_INFINITY, f32::max);
             assert_eq!(lanes.filter_greatest(), greatest);

@@ -9,8 +9,8 @@ mod cases;
 
 use cases::Case;
 use spherule_kernel::{
-    HitPacket, Intersect, Lanes, RayPacket, Sphere, SpherePacket, Spheres, SurfacePacket, Tier,
-    Trace, f32x4, f32x8, f32x16, pair_lanes, roots, surface_lanes,
+    HitColumns, HitPacket, Intersect, Lanes, Ray, RayColumns, RayPacket, Sphere, SpherePacket,
+    Spheres, SurfacePacket, Tier, Trace, f32x4, f32x8, f32x16, pair_lanes, roots, surface_lanes,
 };
 use std::process::ExitCode;
 
@@ -64,6 +64,31 @@ fn digest<L: Lanes<Token = ()>>(tier: Tier, cases: &[Case]) -> u64 {
 fn lists<L: Lanes<Token = ()>>(fnv: &mut Fnv, tier: Tier, cases: &[Case], spheres: Spheres<'_>) {
     let rays: Vec<_> = cases.iter().map(|case| case.ray).collect();
     let packets: Vec<_> = rays.chunks(L::COUNT).map(RayPacket::<L::Array>::new).collect();
+    // Slices and columns, at the best level that the CPU has, whatever L is.
+    let (mut slice, mut met) = (vec![None; rays.len()], vec![false; rays.len()]);
+    spheres.closest_hits(tier, &rays, &mut slice);
+    spheres.any_hits(tier, &rays, &mut met);
+    let column = |get: fn(&Ray) -> f32| rays.iter().map(get).collect::<Vec<_>>();
+    let origin = [column(|r| r.origin.x), column(|r| r.origin.y), column(|r| r.origin.z)];
+    let direction =
+        [column(|r| r.direction.x), column(|r| r.direction.y), column(|r| r.direction.z)];
+    let columns = RayColumns {
+        origin: origin.each_ref().map(Vec::as_slice),
+        direction: direction.each_ref().map(Vec::as_slice),
+        t_min: &column(|r| r.t_min),
+        t_max: &column(|r| r.t_max),
+    };
+    let (mut t, mut sphere) = (vec![0.0; rays.len()], vec![0; rays.len()]);
+    let found = HitColumns { t: &mut t, sphere: &mut sphere };
+    spheres.closest_hit_columns(tier, &mut Trace::new(), columns, found);
+    for ray in 0..rays.len() {
+        slice[ray].into_iter().for_each(|hit| fnv.t(hit.t));
+        fnv.word(slice[ray].map_or(u32::MAX, |hit| hit.sphere));
+        fnv.word(u32::from(met[ray]));
+        fnv.t(t[ray]);
+        fnv.word(sphere[ray]);
+    }
+
     let (mut hits, mut met) = (vec![HitPacket::none(); packets.len()], vec![0; packets.len()]);
     spheres.closest_hit_lanes::<L>(tier, (), &mut Trace::new(), &packets, &mut hits);
     spheres.any_hit_lanes::<L>(tier, (), &mut Trace::new(), &packets, &mut met);

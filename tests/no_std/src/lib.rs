@@ -18,9 +18,9 @@ use spherule_kernel::{
 #[cfg(feature = "structures")]
 use spherule_kernel::{Bvh, BvhNode, DepthList, QueuedRay, StreamMemory, StreamRay, Viewpoint};
 use spherule_kernel::{
-    Bvh4, Camera, CameraTiles, Hit, HitPacket, Intersect, Lanes, Projection, Ray, RayPacket, Side,
-    Sphere, SpherePacket, Spheres, Tier, Trace, Vec3, discriminant, f32x4,
-    float_environment_is_sound, object_lanes, pair_lanes, pairs, roots, side, surface,
+    Bvh4, Camera, CameraTiles, Hit, HitColumns, HitPacket, Intersect, Lanes, Projection, Ray,
+    RayColumns, RayPacket, Side, Sphere, SpherePacket, Spheres, Tier, Trace, Vec3, discriminant,
+    f32x4, float_environment_is_sound, object_lanes, pair_lanes, pairs, roots, side, surface,
 };
 
 /// What a firmware does in its own way; without `std` there must be one.
@@ -234,8 +234,29 @@ impl Sum {
         self.hits(hits);
         structure.any_hits(tier, rays, &mut met);
         self.bits(met);
+        let mut numbers = [[0.0; 20]; 8];
+        for (place, ray) in rays.iter().take(20).enumerate() {
+            let ([ox, oy, oz], [dx, dy, dz]) = (ray.origin.to_array(), ray.direction.to_array());
+            let row = [ox, oy, oz, dx, dy, dz, ray.t_min, ray.t_max];
+            numbers.iter_mut().zip(row).for_each(|(column, number)| column[place] = number);
+        }
+        let (mut t, mut spheres) = ([0.0; 20], [0; 20]);
         for trace in [Trace::new().coherent(), Trace::new().incoherent()] {
             let mut trace = trace.with_scratch(&mut *scratch);
+            // Columns of any length.
+            let [ox, oy, oz, dx, dy, dz, t_min, t_max] =
+                numbers.each_ref().map(|column| black_box(column.as_slice()));
+            let (origin, direction) = ([ox, oy, oz], [dx, dy, dz]);
+            let columns = RayColumns { origin, direction, t_min, t_max };
+            let found = HitColumns {
+                t: black_box(t.as_mut_slice()),
+                sphere: black_box(spheres.as_mut_slice()),
+            };
+            structure.closest_hit_columns(tier, &mut trace, columns, found);
+            self.bits(t.map(f32::to_bits));
+            self.bits(spheres);
+            structure.any_hit_columns(tier, &mut trace, columns, black_box(met.as_mut_slice()));
+            self.bits(met);
             structure.closest_hits_with(tier, &mut trace, rays, &mut hits);
             self.hits(hits);
             structure.any_hits_with(tier, &mut trace, rays, &mut met);

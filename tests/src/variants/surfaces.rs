@@ -57,7 +57,7 @@ pub fn surfaces_of(tier: Tier, storey: Storey, list: &SphereList, rays: &[Ray]) 
         Storey::Lanes(4) => in_lanes::<f32x4>(tier, list, rays),
         Storey::Lanes(8) => in_lanes::<f32x8>(tier, list, rays),
         Storey::Lanes(_) => in_lanes::<f32x16>(tier, list, rays),
-        Storey::Ray | Storey::Slice | Storey::SliceAt(_) => {
+        Storey::Ray | Storey::Slice | Storey::Columns | Storey::SliceAt(_) => {
             let one = |ray: &Ray| {
                 let hit = list.closest_hit(tier, ray)?;
                 let sphere = list.spheres().get(hit.sphere as usize)?;
@@ -103,7 +103,7 @@ pub fn shadow_rays_of(
         Storey::Lanes(4) => shadows_in_lanes::<f32x4>(tier, list, rays, towards),
         Storey::Lanes(8) => shadows_in_lanes::<f32x8>(tier, list, rays, towards),
         Storey::Lanes(_) => shadows_in_lanes::<f32x16>(tier, list, rays, towards),
-        Storey::Ray | Storey::Slice | Storey::SliceAt(_) => {
+        Storey::Ray | Storey::Slice | Storey::Columns | Storey::SliceAt(_) => {
             let one = |ray: &Ray| {
                 let hit = list.closest_hit(tier, ray)?;
                 let sphere = list.spheres().get(hit.sphere as usize)?;

@@ -1,0 +1,72 @@
+//! All threads by one call: slices of rays and hits are cut alike, and each piece is a call of its own.
+//!
+//! Prints how many times as fast all threads are as one, by the number of rays.
+
+use rayon::prelude::*;
+use spherule_kernel::{Exact, Hit, Intersect, Ray, SphereTree, Vec3};
+use std::time::Instant;
+
+/// Rays of a piece: enough that a call's beginning is nothing beside it, few enough that no thread waits long for the last.
+const PIECE: usize = 4096;
+
+/// The closest hit of every ray, on all threads. The tree is shared: nothing in it changes.
+fn closest_hits(tree: &SphereTree, rays: &[Ray], hits: &mut [Option<Hit>]) {
+    rays.par_chunks(PIECE)
+        .zip(hits.par_chunks_mut(PIECE))
+        .for_each(|(rays, hits)| tree.closest_hits(Exact, rays, hits));
+}
+
+/// A number in [-1, 1): a linear congruence.
+fn number(state: &mut u64) -> f32 {
+    *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+    (*state >> 40) as f32 / (1 << 23) as f32 - 1.0
+}
+
+fn point(state: &mut u64) -> Vec3 {
+    Vec3::new(number(state), number(state), number(state))
+}
+
+/// The least of several times, in seconds.
+fn seconds(mut work: impl FnMut()) -> f64 {
+    let time = |_| {
+        let start = Instant::now();
+        work();
+        start.elapsed().as_secs_f64()
+    };
+    (0..5).map(time).fold(f64::INFINITY, f64::min)
+}
+
+fn main() {
+    let mut state = 1;
+    let tree = SphereTree::new(
+        (0..10_000)
+            .map(|_| (point(&mut state), 0.02 + 0.01 * number(&mut state)))
+            .collect::<Vec<_>>(),
+    );
+    // A camera's, line by line, and others that have nothing in common.
+    let side = 1 << 9;
+    let pixel = |i: i32| (i % side - side / 2, side / 2 - i / side);
+    let camera: Vec<Ray> = (0..side * side)
+        .map(pixel)
+        .map(|(x, y)| Vec3::new(x as f32, y as f32, -1.2 * side as f32))
+        .map(|direction| Ray::new(Vec3::new(0.0, 0.0, 3.0), direction))
+        .collect();
+    let diffuse: Vec<Ray> =
+        camera.iter().map(|_| Ray::new(point(&mut state), point(&mut state))).collect();
+
+    println!("{} threads", rayon::current_num_threads());
+    for (kind, rays) in [("camera", camera), ("diffuse", diffuse)] {
+        for count in [1 << 12, 1 << 13, 1 << 14, 1 << 16, rays.len()] {
+            let rays = &rays[..count];
+            let (mut alone, mut together) = (vec![None; count], vec![None; count]);
+            let one = seconds(|| tree.closest_hits(Exact, rays, &mut alone));
+            let all = seconds(|| closest_hits(&tree, rays, &mut together));
+            assert_eq!(alone, together);
+            let rate = count as f64 / all / 1e6;
+            println!(
+                "{kind:7} {count:7} rays: {:.2} of one thread, {rate:.1} million a second",
+                one / all
+            );
+        }
+    }
+}

@@ -1,0 +1,171 @@
+//! Rays and hits of a caller's in columns: a slice for each of their numbers.
+
+use super::hit::{Hit, HitPacket};
+use super::ray::{Ray, RayPacket};
+use crate::lanes::{LaneArray, Lanes};
+use crate::numeric::axes::axes;
+use glam::Vec3;
+
+/// Rays in eight columns, the form in which arrays, tables and simulations have them: ray `i` is made of number `i` of each.
+///
+/// There are as many rays as the shortest column has numbers. No padding or alignment is needed.
+///
+/// ```
+/// use spherule_kernel::{Ray, RayColumns, Vec3};
+///
+/// let (zero, one, infinity) = ([0.0; 2], [1.0; 2], [f32::INFINITY; 3]);
+/// let rays = RayColumns {
+///     origin: [&[0.0, 5.0], &zero, &zero],
+///     direction: [&zero, &zero, &one],
+///     t_min: &zero,
+///     t_max: &infinity,
+/// };
+/// assert_eq!(rays.len(), 2);
+/// assert_eq!(rays.ray(1), Some(Ray::new(Vec3::new(5.0, 0.0, 0.0), Vec3::Z)));
+/// assert_eq!(rays.ray(2), None);
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct RayColumns<'a> {
+    /// Where `t` is zero: x, y and z.
+    pub origin: [&'a [f32]; 3],
+    /// Where `t` grows to: x, y and z, of any length but zero.
+    pub direction: [&'a [f32]; 3],
+    /// The least accepted `t` of each ray.
+    pub t_min: &'a [f32],
+    /// The greatest accepted `t` of each ray.
+    pub t_max: &'a [f32],
+}
+
+impl<'a> RayColumns<'a> {
+    /// How many rays: as many as the shortest column has numbers.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        let ([ox, oy, oz], [dx, dy, dz]) = (self.origin, self.direction);
+        let mut shortest = self.t_min.len();
+        for column in [ox, oy, oz, dx, dy, dz, self.t_max] {
+            shortest = shortest.min(column.len());
+        }
+        shortest
+    }
+
+    /// Whether there is none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Ray `index`; `None` past the end.
+    #[must_use]
+    #[inline(always)]
+    pub fn ray(&self, index: usize) -> Option<Ray> {
+        let ([ox, oy, oz], [dx, dy, dz]) = (self.origin, self.direction);
+        Some(Ray {
+            origin: Vec3::new(*ox.get(index)?, *oy.get(index)?, *oz.get(index)?),
+            direction: Vec3::new(*dx.get(index)?, *dy.get(index)?, *dz.get(index)?),
+            t_min: *self.t_min.get(index)?,
+            t_max: *self.t_max.get(index)?,
+        })
+    }
+
+    /// Rays `from` to `to`; those past the end are left out.
+    pub(crate) fn part(&self, from: usize, to: usize) -> Self {
+        let part = |column: &'a [f32]| column.get(from..to.min(column.len())).unwrap_or_default();
+        Self {
+            origin: self.origin.map(part),
+            direction: self.direction.map(part),
+            t_min: part(self.t_min),
+            t_max: part(self.t_max),
+        }
+    }
+
+    /// The packet of the rays from `first` on: a vector from each column.
+    #[inline(always)]
+    pub(crate) fn fill<L: Lanes>(
+        &self,
+        token: L::Token,
+        first: usize,
+        packet: &mut RayPacket<L::Array>,
+    ) {
+        if let ([Some(ox), Some(oy), Some(oz)], [Some(dx), Some(dy), Some(dz)]) = (
+            axes!(i => L::Array::taken_at(self.origin[i], first)),
+            axes!(i => L::Array::taken_at(self.direction[i], first)),
+        ) && let (Some(t_min), Some(t_max)) =
+            (L::Array::taken_at(self.t_min, first), L::Array::taken_at(self.t_max, first))
+        {
+            (packet.origin, packet.direction) = ([ox, oy, oz], [dx, dy, dz]);
+            (packet.t_min, packet.t_max) = (t_min, t_max);
+            return;
+        }
+        // The last packet, which is not full.
+        L::out_of_line(
+            token,
+            #[inline(always)]
+            || {
+                *packet = RayPacket::inactive();
+                for lane in 0..L::COUNT {
+                    if let Some(ray) = self.ray(first + lane) {
+                        packet.set(lane, &ray);
+                    }
+                }
+            },
+        );
+    }
+}
+
+/// Where the hits of rays go, in two columns: what ray `i` hits becomes number `i` of each.
+///
+/// As many hits are written as there are rays and numbers in the shorter column; what is past them is left as it is.
+#[derive(Debug)]
+pub struct HitColumns<'a> {
+    /// Where, in multiples of the ray's direction; `+inf` if the ray hits nothing.
+    pub t: &'a mut [f32],
+    /// The index of the sphere in its list; [`HitPacket::NO_SPHERE`] if the ray hits nothing.
+    pub sphere: &'a mut [u32],
+}
+
+impl HitColumns<'_> {
+    /// How many hits there is room for: the shorter of the two columns.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.t.len().min(self.sphere.len())
+    }
+
+    /// Whether there is none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Hit `index`; `None` if there is none, or past the end.
+    #[must_use]
+    pub fn hit(&self, index: usize) -> Option<Hit> {
+        let hit = Hit { t: *self.t.get(index)?, sphere: *self.sphere.get(index)? };
+        (hit.sphere != HitPacket::<[f32; 16]>::NO_SPHERE).then_some(hit)
+    }
+
+    /// Writes the hits of packets from place `from` on, before place `to`.
+    #[inline(always)]
+    pub(crate) fn write(&mut self, packets: &[HitPacket], from: usize, to: usize) {
+        let (Some(t), Some(spheres)) = (self.t.get_mut(from..to), self.sphere.get_mut(from..to))
+        else {
+            return;
+        };
+        let mut at = 0;
+        for packet in packets {
+            let (t, spheres) =
+                (t.get_mut(at..).unwrap_or_default(), spheres.get_mut(at..).unwrap_or_default());
+            at += 16;
+            if let (Some(t), Some(spheres)) =
+                (t.first_chunk_mut::<16>(), spheres.first_chunk_mut::<16>())
+            {
+                (*t, *spheres) = (packet.t, packet.sphere);
+                continue;
+            }
+            for lane in 0..16 {
+                if let (Some(t), Some(sphere)) = (t.get_mut(lane), spheres.get_mut(lane)) {
+                    (*t, *sphere) = (packet.t[lane], packet.sphere[lane]);
+                }
+            }
+        }
+    }
+}
