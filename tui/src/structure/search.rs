@@ -58,7 +58,9 @@ impl Scratch {
             Search::Bvh(_) if coherence != Coherence::Coherent => stream.of(packets),
             _ => None,
         };
-        (Trace { stream, ..Trace::new().at(level).with(coherence).with_scratch(lists) }, raster)
+        let mut trace = Trace::new().at(level).with(coherence).with_scratch(lists);
+        trace.stream = stream;
+        (trace, raster)
     }
 }
 
