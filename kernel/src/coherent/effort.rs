@@ -6,13 +6,13 @@
 //! the rays and on the scene, and is not known before. So a group's work is counted as it is done, and held against what
 //! its rays would have done apart, as far as they have come:
 //!
-//! * for what a ray does by itself before it can know anything, no group is asked;
-//! * each ray that came near a sphere would have met it;
-//! * of the rays, a part enters each box that the group looks into: once that much is done, every eighth box is held
-//!   against every ray.
+//! * each ray would have begun and ended by itself;
+//! * each ray that came near a sphere would have met one;
+//! * of the rays, a part enters each box that the group looks into. The part is sampled: some boxes are held against the
+//!   rays of one packet.
 //!
-//! A group that has done more than its rays would have done gives up. So does one that holds many spheres against the rays
-//! of packets which come near few of them: its packets are too wide, and that is seen after some leaves. The rays go on by
+//! A group that has done more gives up. So does one that holds many spheres against the rays of packets
+//! which come near few of them: its packets are too wide, and that is seen after some leaves. The rays go on by
 //! themselves, with what they have hit.
 //!
 //! Work is counted in steps of some 5 ns, fitted to the times of 243 scenes and orders of rays on a Zen 3 (AVX2), groups
@@ -24,23 +24,23 @@ use crate::bvh::traverse::boxes::enter_about;
 use crate::lanes::{LaneMask, Lanes};
 
 /// What a group does: a node, a leaf, a leaf against a packet's planes, a sphere against a packet's rays, and the roots of
-/// one that any of them comes near.
+/// one that any of them comes near; and the tier, where two may be closest.
 const NODE: u32 = 16;
 const LEAF: u32 = 3;
 const PACKET: u32 = 5;
 const SPHERE: u32 = 2;
 const ROOTS: u32 = 16;
-/// What a ray does by itself: its beginning, its end and some boxes; a node, a leaf, and the roots of spheres that it
-/// comes near. (With half as many boxes for free, a tenth of the groups gave up that take 0.5 to 0.7 of the time.)
-const RAY: u32 = 32;
+const TIER: u32 = 30;
+/// What a ray does by itself: its beginning and its end, a node, a leaf, and the roots of spheres that it comes near.
+const RAY: u32 = 7;
 const RAY_NODE: u32 = 5;
 const RAY_LEAF: u32 = 6;
 const RAY_ROOTS: u32 = 16;
 /// So many spheres may be held against packets for each that a ray comes near, and for each ray: of groups that pay two
 /// to six a sphere that is near, of those that are too wide fifty and more.
-const SPHERES_A_ROOT: u32 = 8;
-const SPHERES_IN_VAIN: u32 = 2;
-/// One box in so many is a sample.
+const SPHERES_A_ROOT: u32 = 6;
+const SPHERES_IN_VAIN: u32 = 1;
+/// One box in so many is a sample, in the end: the second, the fourth, the eighth, and so on.
 const STRIDE: u32 = 8;
 
 /// What a group has done.
@@ -51,22 +51,21 @@ pub(super) struct Effort {
     /// Spheres that were held against packets, and how many may have been before it is asked whether that was in vain.
     spheres: u32,
     most_spheres: u32,
-    /// What its rays would have done in boxes since then.
+    /// What its rays would have done in boxes.
     apart: u32,
-    /// Boxes until the next sample.
+    /// Boxes until the next sample, how many it stands for, and the packet that it is of.
     until: u32,
+    stride: u32,
+    packet: usize,
 }
 
 impl Effort {
     /// Of a group that has done nothing.
     #[inline(always)]
     pub(super) fn of<L: Lanes>(states: &[PacketState<'_, L>]) -> Self {
-        let mut rays = 0;
-        for state in states {
-            rays += state.live.bits().count_ones();
-        }
+        let rays = live_rays(states);
         let most_spheres = SPHERES_IN_VAIN * rays;
-        Self { rays, work: 0, spheres: 0, most_spheres, apart: 0, until: 0 }
+        Self { rays, work: 0, spheres: 0, most_spheres, apart: 0, until: 1, stride: 2, packet: 0 }
     }
 
     /// Counts a node that was looked into.
@@ -91,15 +90,8 @@ impl Effort {
     /// Whether the next box is a sample.
     #[inline(always)]
     pub(super) fn samples(&mut self) -> bool {
-        if self.spheres > self.most_spheres {
-            return true;
-        }
-        if self.work <= RAY * self.rays {
-            return false;
-        }
-        let samples = self.until == 0;
-        self.until = if samples { STRIDE - 1 } else { self.until - 1 };
-        samples
+        self.until = self.until.saturating_sub(1);
+        (self.until == 0) | (self.spheres > self.most_spheres)
     }
 
     /// Whether the rays would have done less apart, as far as they have come: to the box in that slot of a node, which
@@ -111,27 +103,53 @@ impl Effort {
         node: &BvhNode,
         slot: usize,
     ) -> bool {
-        let (mut rays, mut roots, mut ray_roots) = (0_u32, 0_u32, 0_u32);
+        #[cfg(test)]
+        if crate::testing::work::groups_persist() {
+            return false;
+        }
+        let (mut roots, mut ray_roots, mut tests) = (0_u32, 0_u32, 0_u32);
         for state in states {
-            let enter = state.live & enter_about(&state.rays, state.best, node, slot);
-            rays += enter.bits().count_ones();
+            tests = tests.wrapping_add(state.tests);
             roots = roots.wrapping_add(state.spheres_near);
             ray_roots = ray_roots.wrapping_add(state.rays_near);
         }
-        self.most_spheres =
-            SPHERES_A_ROOT.saturating_mul(roots).saturating_add(SPHERES_IN_VAIN * self.rays);
+        let in_vain = SPHERES_IN_VAIN * self.rays;
+        self.most_spheres = SPHERES_A_ROOT.saturating_mul(roots).saturating_add(in_vain);
         if self.spheres > self.most_spheres {
             return true;
         }
+
+        let Some(state) = states.get(self.packet) else { return false };
+        self.packet = if self.packet + 1 < states.len() { self.packet + 1 } else { 0 };
+        let enter = state.live & enter_about(&state.rays, state.best, node, slot);
         let is_leaf = node.child[slot % WIDTH] & IS_LEAF != 0;
-        let each = STRIDE * if is_leaf { RAY_LEAF } else { RAY_NODE };
-        self.apart = self.apart.wrapping_add(each * rays);
-        let work = u64::from(self.work) + u64::from(ROOTS) * u64::from(roots);
-        let apart = u64::from(self.apart) + u64::from(RAY_ROOTS) * u64::from(ray_roots);
-        // Half as much again, since rays that go on by themselves begin anew.
-        2 * work > 3 * (apart + u64::from(RAY * self.rays))
+        let each = self.stride * states.len() as u32 * if is_leaf { RAY_LEAF } else { RAY_NODE };
+        self.apart = self.apart.wrapping_add(each * enter.bits().count_ones());
+        self.until = self.stride;
+        self.stride = (2 * self.stride).min(STRIDE);
+
+        let work = u64::from(self.work)
+            + u64::from(ROOTS) * u64::from(roots)
+            + u64::from(TIER) * u64::from(tests);
+        // By itself a ray meets what is nearest first, and few others.
+        let apart = RAY * self.rays + RAY_ROOTS * ray_roots.min(self.rays);
+        // A quarter more, since rays that go on by themselves begin anew.
+        4 * work > 5 * (u64::from(apart) + u64::from(self.apart))
     }
 }
+
+/// How many rays of a group can hit anything.
+#[inline(always)]
+pub(super) fn live_rays<L: Lanes>(states: &[PacketState<'_, L>]) -> u32 {
+    let mut rays = 0;
+    for state in states {
+        rays += state.live.bits().count_ones();
+    }
+    rays
+}
+
+/// Fewer rays go by themselves: to lay planes around a group takes as long as some of them do.
+pub(super) const LEAST_RAYS: u32 = 12;
 
 /// Which groups are tried: after each that does not pay twice as many are passed over, up to a number.
 #[derive(Clone, Copy, Debug)]
@@ -141,8 +159,9 @@ pub(crate) struct Patience {
     gap: u32,
 }
 
-/// The most that are passed over.
-const LONGEST: u32 = 31;
+/// The most that are passed over, and the most where rays are said to be coherent.
+pub(super) const LONGEST: u32 = 31;
+pub(super) const LONGEST_IF_COHERENT: u32 = 3;
 
 impl Patience {
     pub(crate) const NEW: Self = Self { wait: 0, gap: 0 };
@@ -155,10 +174,10 @@ impl Patience {
         tries
     }
 
-    /// Takes what became of one that was tried.
+    /// Takes what became of one that was tried; at most `most` are passed over then.
     #[inline(always)]
-    pub(super) fn take(&mut self, paid: bool) {
-        self.gap = if paid { 0 } else { (2 * self.gap + 1).min(LONGEST) };
+    pub(super) fn take(&mut self, paid: bool, most: u32) {
+        self.gap = if paid { 0 } else { (2 * self.gap + 1).min(most) };
         self.wait = self.gap;
     }
 }

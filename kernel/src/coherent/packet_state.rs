@@ -52,6 +52,8 @@ pub(super) struct PacketState<'a, L: Lanes> {
     /// How many spheres rays came near, and how many times a ray did.
     pub(super) spheres_near: u32,
     pub(super) rays_near: u32,
+    /// How many times the tier tested, since two spheres may be a ray's closest.
+    pub(super) tests: u32,
 }
 
 impl<'a, L: Lanes> PacketState<'a, L> {
@@ -77,6 +79,7 @@ impl<'a, L: Lanes> PacketState<'a, L> {
             sphere: zero.like(f32::from_bits(HitPacket::<L::Array>::NO_SPHERE)),
             spheres_near: 0,
             rays_near: 0,
+            tests: 0,
         }
     }
 
@@ -181,6 +184,7 @@ impl<'a, L: Lanes> PacketState<'a, L> {
         }
         let both = candidates & self.entry.le(self.best);
         if both.any() {
+            self.tests = self.tests.wrapping_add(1);
             L::out_of_line(
                 token,
                 #[inline(always)]

@@ -12,7 +12,7 @@
 //! A group is traced so if its rays start at t >= 0, run the same way along an axis, and are
 //! narrow (`fit.rs`).
 
-use super::effort::Effort;
+use super::effort::{Effort, LEAST_RAYS, live_rays};
 use super::fit::Fit;
 use super::frustum::Inside;
 use super::packet_group::{GROUP, approach, meet_block};
@@ -79,7 +79,7 @@ pub(super) enum Ended {
     Through,
     /// It did more than its rays would have done apart: what they have hit may not be the closest.
     GaveUp,
-    /// Its rays do not look the same way: nothing was done.
+    /// Its rays do not look the same way, or are too few: nothing was done.
     Unfit,
 }
 
@@ -108,6 +108,9 @@ impl Boxes {
         bvh: &Bvh<'_>,
         tiles: Option<(&PacketSource<'_, L::Array>, Range<usize>)>,
     ) -> Ended {
+        if live_rays(states) < LEAST_RAYS {
+            return Ended::Unfit;
+        }
         count!(GroupFit);
         approach(states, bvh.scale.factor, bvh.extent, tier.spread());
         let by_corners = match tiles {

@@ -8,7 +8,7 @@
 //! long as can be; or, with memory for it, as a stream. After each try that does not pay the next are passed over, so
 //! that rays which have nothing in common hardly pay for being asked.
 
-use super::effort::Patience;
+use super::effort::{LONGEST, LONGEST_IF_COHERENT, Patience};
 use super::packet_group::GROUP;
 use super::packet_source::PacketSource;
 use super::tree_group::{Boxes, Ended, states_of};
@@ -50,8 +50,9 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
         linear::traverse_some::<L, Q>(tier, token, &bvh.outside(), rays, answers);
     }
 
-    let mut together =
-        Together { boxes: Boxes::new(), learnt, all: coherence == Coherence::Coherent };
+    let is_coherent = coherence == Coherence::Coherent;
+    let longest = if is_coherent { LONGEST_IF_COHERENT } else { LONGEST };
+    let mut together = Together { boxes: Boxes::new(), learnt, longest };
     // Packets from `from` on are not answered; those before `run` go ray by ray, and nothing is known of them.
     let (mut from, mut run) = (0, 0);
     while from < count {
@@ -111,8 +112,8 @@ impl Learnt {
 struct Together<'a> {
     boxes: Boxes,
     learnt: &'a mut Learnt,
-    /// Whether all are tried.
-    all: bool,
+    /// The most groups that are passed over.
+    longest: u32,
 }
 
 impl Together<'_> {
@@ -132,8 +133,8 @@ impl Together<'_> {
         while at < run.end {
             let end = run.end.min(at + GROUP);
             let are_tiles = source.make::<L>(token, at..end);
-            let tries_group = self.learnt.groups.tries() | self.all;
-            let tries_packets = self.learnt.packets.tries() | self.all;
+            let tries_group = self.learnt.groups.tries();
+            let tries_packets = self.learnt.packets.tries();
             let mut ends = [Ended::Unfit; GROUP];
             if tries_group | tries_packets {
                 let packets = source.packets(at..end);
@@ -161,7 +162,7 @@ impl Together<'_> {
                         }
                     }
                     if !alone {
-                        self.learnt.groups.take(ended == Ended::Through);
+                        self.learnt.groups.take(ended == Ended::Through, self.longest);
                         if ended == Ended::Through || !tries_packets || states.len() < 2 {
                             break;
                         }
@@ -176,7 +177,7 @@ impl Together<'_> {
                     }
                 }
                 if alone {
-                    self.learnt.packets.take(paid);
+                    self.learnt.packets.take(paid, self.longest);
                 }
                 for place in 0..states.len() {
                     if let (Some(state), Some(answer)) =

@@ -146,3 +146,20 @@ fn work_is_counted_by_kind() {
     assert_eq!(work.count(Kind::GroupNode), 0);
     assert_eq!(Work::of(|| ()).units(), 0.0);
 }
+
+std::thread_local! {
+    static PERSISTS: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Whether groups on this thread go on whatever they do: what a control needs to see the work that giving up spares.
+pub(crate) fn groups_persist() -> bool {
+    PERSISTS.get()
+}
+
+/// Does `work` while groups go on whatever they do.
+pub(crate) fn while_groups_persist<R>(work: impl FnOnce() -> R) -> R {
+    PERSISTS.set(true);
+    let result = work();
+    PERSISTS.set(false);
+    result
+}
