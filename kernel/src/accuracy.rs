@@ -31,4 +31,6 @@ pub(crate) use fast::derived::fast_row;
 #[cfg(test)]
 pub(crate) use geometric::derived::geometric_row;
 pub(crate) use roots::{RayLanes, all_finite};
+#[cfg(feature = "std")]
+pub(crate) use tier::test_one;
 pub(crate) use tier::{TierFormula, TierWork, Underflow, is_closer, test_lanes};

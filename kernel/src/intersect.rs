@@ -59,8 +59,9 @@ use crate::trace::Trace;
 /// assert_eq!(hits, [Some(Hit { t: 4.0, sphere: 0 }), None]);
 /// ```
 pub trait Intersect: Traverse {
-    /// The closest hit of one ray: a slice of one. Cost: a packet of which one lane is used; pass many rays
-    /// in one call. Without `std` one lane is all there is, and the least flash and stack: the way for firmware.
+    /// The closest hit of one ray: a slice of one. Cost: with `std` a tree has a traversal for it; others a packet of
+    /// which one lane is used. Many rays in one call are faster. Without `std` one lane is all there is, and the least
+    /// flash and stack: the way for firmware.
     ///
     /// ```
     /// use spherule_kernel::{Exact, Intersect, Ray, SphereList, Vec3};
@@ -70,7 +71,7 @@ pub trait Intersect: Traverse {
     /// assert_eq!(hit.map(|hit| hit.t), Some(4.0));
     /// ```
     fn closest_hit(&self, tier: impl Accuracy, ray: &Ray) -> Option<Hit> {
-        slices::one::<Self, ClosestHit>(self, tier, ray)
+        self.one::<ClosestHit>(tier, &mut Trace::new(), ray)
     }
 
     /// Whether one ray hits anything: a slice of one.
@@ -84,7 +85,38 @@ pub trait Intersect: Traverse {
     /// assert!(!spheres.any_hit(Exact, &Ray { t_max: 3.9, ..ray }));
     /// ```
     fn any_hit(&self, tier: impl Accuracy, ray: &Ray) -> bool {
-        slices::one::<Self, AnyHit>(self, tier, ray)
+        self.one::<AnyHit>(tier, &mut Trace::new(), ray)
+    }
+
+    /// [`closest_hit`](Intersect::closest_hit), traced as `trace` says.
+    ///
+    /// ```
+    /// use spherule_kernel::{Exact, Intersect, Ray, SphereTree, Trace, Vec3};
+    ///
+    /// let tree = SphereTree::new([[0.0, 0.0, 5.0, 1.0]]);
+    /// let mut trace = Trace::new();
+    /// let hit = tree.closest_hit_with(Exact, &mut trace, &Ray::new(Vec3::ZERO, Vec3::Z));
+    /// assert_eq!(hit.map(|hit| hit.t), Some(4.0));
+    /// ```
+    fn closest_hit_with(
+        &self,
+        tier: impl Accuracy,
+        trace: &mut Trace<'_>,
+        ray: &Ray,
+    ) -> Option<Hit> {
+        self.one::<ClosestHit>(tier, trace, ray)
+    }
+
+    /// [`any_hit`](Intersect::any_hit), traced as `trace` says.
+    ///
+    /// ```
+    /// use spherule_kernel::{Exact, Intersect, Ray, SphereTree, Trace, Vec3};
+    ///
+    /// let tree = SphereTree::new([[0.0, 0.0, 5.0, 1.0]]);
+    /// assert!(tree.any_hit_with(Exact, &mut Trace::new(), &Ray::new(Vec3::ZERO, Vec3::Z)));
+    /// ```
+    fn any_hit_with(&self, tier: impl Accuracy, trace: &mut Trace<'_>, ray: &Ray) -> bool {
+        self.one::<AnyHit>(tier, trace, ray)
     }
 
     /// The closest hit of every ray: `hits[i]` becomes what `rays[i]` hits, `None` if that is nothing.

@@ -32,9 +32,10 @@ const PAIRS: usize = <BuildLanes as crate::Lanes>::COUNT;
 pub(crate) fn one<S: Traverse + ?Sized, Q: LevelQuery>(
     structure: &S,
     tier: impl Accuracy,
+    trace: &mut Trace<'_>,
     ray: &Ray,
 ) -> Q::One {
-    let (rays, trace) = (core::slice::from_ref(ray), &mut Trace::new());
+    let rays = core::slice::from_ref(ray);
     #[cfg(feature = "std")]
     {
         let mut answers = [Q::none::<[f32; 16]>()];

@@ -13,11 +13,12 @@ use crate::dispatch::compiled::Compiled;
 use crate::geometry::camera::tiles::CameraTiles;
 use crate::geometry::hit::HitPacket;
 use crate::geometry::many::ManyRays;
-use crate::geometry::ray::RayPacket;
+use crate::geometry::ray::{Ray, RayPacket};
 use crate::geometry::sphere::Spheres;
 use crate::lanes::Lanes;
 use crate::linear;
 use crate::query::{ClosestHit, Query};
+use crate::slices;
 use crate::trace::Trace;
 
 /// The traversals of a structure.
@@ -57,6 +58,11 @@ pub trait Traverse {
         #[cfg(not(feature = "std"))]
         crate::dispatch::fill(rays, packets);
         self.in_packets::<Q>(tier, trace, packets, answers);
+    }
+
+    /// One ray, at a level.
+    fn one<Q: LevelQuery>(&self, tier: impl Accuracy, trace: &mut Trace<'_>, ray: &Ray) -> Q::One {
+        slices::one::<Self, Q>(self, tier, trace, ray)
     }
 
     /// What tiles of a camera hit, whose rays are made in `rays`, in lanes of any kind.
@@ -187,6 +193,14 @@ impl Traverse for Bvh<'_> {
         Q::tree(trace.level, tier.tier(), self, ways(trace), source, answers);
     }
 
+    #[cfg(feature = "std")]
+    #[inline]
+    fn one<Q: LevelQuery>(&self, tier: impl Accuracy, trace: &mut Trace<'_>, ray: &Ray) -> Q::One {
+        let mut answer = Q::one(&Q::none::<[f32; 1]>(), 0);
+        Q::one_ray(trace.level, tier.tier(), self, ray, &mut answer);
+        answer
+    }
+
     #[inline(always)]
     fn tiles_in_lanes<L: Lanes>(
         &self,
@@ -282,6 +296,16 @@ macro_rules! traverse_as {
                 answers: &mut [Q::Packet<[f32; 16]>],
             ) {
                 self.$lend().many_in_packets::<Q>(tier, trace, rays, packets, answers);
+            }
+
+            #[inline]
+            fn one<Q: LevelQuery>(
+                &self,
+                tier: impl Accuracy,
+                trace: &mut Trace<'_>,
+                ray: &Ray,
+            ) -> Q::One {
+                self.$lend().one::<Q>(tier, trace, ray)
             }
 
             #[inline(always)]

@@ -103,6 +103,15 @@ impl TierFormula for Exact {
         L::load(t.token(), &settled)
     }
 
+    #[cfg(feature = "std")]
+    #[inline(always)]
+    fn first_root_of(ray: &Ray, sphere: &Sphere) -> f32 {
+        match one_ray::decided_inline(ray, sphere) {
+            Some(t) => t,
+            None => one_ray::settled(ray, sphere),
+        }
+    }
+
     fn line_roots(ray: &Ray, sphere: &Sphere) -> Option<[f32; 2]> {
         one_ray::line_roots(ray, sphere)
     }

@@ -8,6 +8,8 @@ use super::roots::RayLanes;
 use super::surface::{self, SurfaceLanes};
 use super::{Exact, Fast, Geometric, Stable};
 use crate::count::count;
+#[cfg(feature = "std")]
+use crate::geometry::ray::RayPacket;
 use crate::geometry::sphere::Spheres;
 use crate::geometry::surface::Surface;
 use crate::numeric::rounding::U;
@@ -52,6 +54,15 @@ pub trait TierFormula: Copy + Debug {
         asked: L::Mask,
         limit: L,
     ) -> L;
+
+    /// [`first_root`](TierFormula::first_root) of a valid ray and a valid sphere, whatever it is.
+    #[cfg(feature = "std")]
+    #[inline(always)]
+    fn first_root_of(ray: &Ray, sphere: &Sphere) -> f32 {
+        let rays = RayLanes::<f32>::load((), &RayPacket::new(core::slice::from_ref(ray)));
+        let (center, radius, limit) = (sphere.center.to_array(), sphere.radius, f32::INFINITY);
+        Self::first_root(&rays, &Self::prepare(&rays), center, radius, true, limit)
+    }
 
     /// Both roots of the line of a valid ray and a valid sphere, the smaller first, never -0.
     fn line_roots(ray: &Ray, sphere: &Sphere) -> Option<[f32; 2]>;
@@ -303,6 +314,30 @@ pub(crate) fn test_lanes<L: Lanes>(
     limit: L,
 ) -> L {
     tier.with_formula(LaneTest { rays, center, radius, asked, limit })
+}
+
+/// Tests a live ray against a valid sphere: t if there is a hit, else `+inf`.
+#[cfg(feature = "std")]
+#[inline(always)]
+pub(crate) fn test_one(tier: impl Accuracy, ray: &Ray, sphere: &Sphere) -> f32 {
+    tier.with_formula(OneTest { ray, sphere })
+}
+
+/// The arguments of [`test_one`].
+#[cfg(feature = "std")]
+struct OneTest<'a> {
+    ray: &'a Ray,
+    sphere: &'a Sphere,
+}
+
+#[cfg(feature = "std")]
+impl TierWork for OneTest<'_> {
+    type Output = f32;
+
+    #[inline(always)]
+    fn run<F: TierFormula>(self) -> f32 {
+        F::first_root_of(self.ray, self.sphere)
+    }
 }
 
 /// The arguments of [`test_lanes`].

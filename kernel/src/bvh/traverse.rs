@@ -5,6 +5,8 @@ pub(crate) mod boxes;
 mod deferred;
 mod few;
 mod in_flight;
+#[cfg(feature = "std")]
+pub(crate) mod one_ray;
 pub(crate) mod packet_set;
 mod prefetch;
 pub(crate) mod prepared_ray;

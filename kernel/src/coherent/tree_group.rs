@@ -108,7 +108,7 @@ impl Boxes {
         bvh: &Bvh<'_>,
         tiles: Option<(&PacketSource<'_, L::Array>, Range<usize>)>,
     ) -> Ended {
-        if live_rays(states) < LEAST_RAYS {
+        if live_rays(states) < LEAST_RAYS.min((states.len() * L::COUNT / 4) as u32) {
             return Ended::Unfit;
         }
         count!(GroupFit);

@@ -7,6 +7,7 @@
 
 use super::Level;
 use crate::accuracy::Tier;
+use crate::bvh::traverse::one_ray;
 use crate::bvh::tree::Bvh;
 use crate::coherent::depth_list::DepthList;
 use crate::coherent::packet_source::PacketSource;
@@ -15,7 +16,7 @@ use crate::coherent::{list_source, tree_source};
 use crate::geometry::camera::tiles::CameraTiles;
 use crate::geometry::hit::HitPacket;
 use crate::geometry::many::ManyRays;
-use crate::geometry::ray::RayPacket;
+use crate::geometry::ray::{Ray, RayPacket};
 use crate::geometry::sphere::{SpherePacket, Spheres};
 use crate::geometry::surface::SurfacePacket;
 use crate::leave::packets::{self, SurfaceHits, Towards};
@@ -80,6 +81,9 @@ macro_rules! compiled {
                 from: usize,
                 to: usize,
             );
+
+            /// Of a tree, one ray.
+            fn one_ray(level: Level, tier: Tier, bvh: &Bvh<'_>, ray: &Ray, answer: &mut Self::One);
         }
 
         compiled!(@query ClosestHit, HitPacket, $($name($structure: $type $(, $more: $kind)*) = $traverse;)*);
@@ -114,6 +118,13 @@ macro_rules! compiled {
                 at_level!(level.0, simd => {
                     let _ = simd;
                     Self::write(many, packets, from, to);
+                });
+            }
+
+            #[inline(never)]
+            fn one_ray(level: Level, tier: Tier, bvh: &Bvh<'_>, ray: &Ray, answer: &mut Self::One) {
+                at_level!(level.0, simd => {
+                    *answer = one_ray::trace::<f32x16<_>, Self>(simd, tier, bvh, ray);
                 });
             }
         }

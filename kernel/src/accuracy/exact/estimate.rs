@@ -83,7 +83,7 @@ pub(super) struct Solved<D> {
 
 impl<D: DoubleLanes> Sums<D> {
     #[inline(always)]
-    fn new(origin: [D; 3], d: [D; 3], center: [D; 3]) -> Self {
+    pub(super) fn new(origin: [D; 3], d: [D; 3], center: [D; 3]) -> Self {
         let p = axes!(i => center[i] - origin[i]);
         let x = [d[1] * p[2] - d[2] * p[1], d[2] * p[0] - d[0] * p[2], d[0] * p[1] - d[1] * p[0]];
         Self {

@@ -88,6 +88,36 @@ pub(super) fn decided(ray: &Ray, sphere: &Sphere, limit: f32) -> Option<f32> {
     Some(f32::INFINITY)
 }
 
+/// The same without a limit, where doubles are numbers of the processor's: the far root is solved if it is asked for.
+#[cfg(feature = "std")]
+#[inline(always)]
+pub(super) fn decided_inline(ray: &Ray, sphere: &Sphere) -> Option<f32> {
+    let [o, d, c] = [ray.origin, ray.direction, sphere.center].map(
+        #[inline(always)]
+        |v| [f64::from(v.x), f64::from(v.y), f64::from(v.z)],
+    );
+    let sums = Sums::new(o, d, c);
+    let solved = Solved::new(&sums, f64::from(sphere.radius), &Constants::PROVEN);
+    if solved.discriminant < -solved.error {
+        return Some(f32::INFINITY);
+    }
+    let meets = solved.error < solved.discriminant;
+    if !meets {
+        return None;
+    }
+    for root in [-solved.root, solved.root] {
+        let (t, bound) = solved.t(sums.b + root, &Constants::PROVEN);
+        let (low, high) = ((t - bound) as f32, (t + bound) as f32);
+        let is_out = high < ray.t_min || ray.t_max < low;
+        if is_out || low == f32::INFINITY || high == f32::NEG_INFINITY {
+            continue;
+        }
+        // Adding zero turns -0 into +0.
+        return if low == high { Some(low + 0.0) } else { None };
+    }
+    Some(f32::INFINITY)
+}
+
 /// Both roots of the line of a valid ray and a valid sphere; `None` if the line misses it.
 #[inline(never)]
 pub(super) fn line_roots(ray: &Ray, sphere: &Sphere) -> Option<[f32; 2]> {

@@ -149,7 +149,7 @@ pub(crate) fn begin_packet<L: Lanes, Q: Query>(
 /// Tests rays of a packet, those that live, that the bounds do not cover: they begin so far away that a tree is a
 /// ball to them. Those that come near it are tested against all of its spheres.
 #[inline(always)]
-fn test_from_afar<L: Lanes, Q: Query>(
+pub(super) fn test_from_afar<L: Lanes, Q: Query>(
     tier: impl Accuracy,
     token: L::Token,
     bvh: &Bvh<'_>,

@@ -44,6 +44,18 @@ pub(crate) struct PreparedLanes<L: Lanes> {
     pub(crate) end: [L; 2],
 }
 
+/// Slabs across an axis, as rays see them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Slab<L: Lanes> {
+    /// 1 / n.
+    pub(super) inverse: L,
+    /// -(o' + pad) / n and (o' - pad) / n, with the pad away from the box.
+    pub(super) minus_near: L,
+    pub(super) far: L,
+    /// Where n runs down along the axis.
+    pub(super) down: L::Mask,
+}
+
 /// From t to s.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RayTime<L> {
@@ -170,6 +182,27 @@ impl<L: Lanes> PreparedLanes<L> {
         Self { origin, time, absolute_error: absolute_error(size, step), start, end, ..self }
     }
 
+    /// How the rays see the slabs of axis `axis`.
+    #[inline(always)]
+    pub(super) fn slab(&self, axis: usize) -> Slab<L> {
+        let (origin, direction) = (self.origin[axis % 3], self.direction[axis % 3]);
+        let (zero, one) = (origin.like(0.0), origin.like(1.0));
+        let pad = self.absolute_error + self.absolute_error;
+        let down = direction.lt(zero);
+        let clamped = origin.like(LEAST_COMPONENT).filter_max(direction.abs());
+        let inverse = one / L::select(down, -clamped, clamped);
+        let (along, reach) = (origin * inverse, pad * inverse.abs());
+        Slab { inverse, minus_near: -(along + reach), far: along - reach, down }
+    }
+
+    /// What the spread of a tier adds to either end for the boxes of a scene of that extent.
+    #[inline(always)]
+    pub(super) fn spread_of_boxes(&self, extent: f32, spread: f32) -> L {
+        let error = self.absolute_error;
+        let size = error.filter_mul_add(error.like(0.125 / L::UNIT_ROUNDOFF), error.like(extent));
+        size * size.like(4.0 * spread)
+    }
+
     /// The rays that start at t >= 0, if anything can be said of t, which it can of usual lengths.
     #[inline(always)]
     pub(crate) fn forward(&self, t_min: L) -> L::Mask {
@@ -283,22 +316,16 @@ impl<A: LaneArray> PreparedPacket<A> {
     #[inline(always)]
     fn set<L: Lanes<Array = A>>(&mut self, rays: PreparedLanes<L>, extent: f32, spread: f32) {
         let PreparedLanes { covered, origin, direction, time, absolute_error, start, end } = rays;
-        let (zero, one) = (absolute_error.like(0.0), absolute_error.like(1.0));
-
-        let pad = absolute_error + absolute_error;
-        let least = absolute_error.like(LEAST_COMPONENT);
         self.covered = covered.bits();
         for i in 0..3 {
-            let clamped = least.filter_max(direction[i].abs());
-            let inverse = one / L::select(direction[i].lt(zero), -clamped, clamped);
-            let (along, reach) = (origin[i] * inverse, pad * inverse.abs());
+            let Slab { inverse, minus_near, far, down } = rays.slab(i);
             self.origin[i] = origin[i].store();
             self.direction[i] = direction[i].store();
             self.inverse[i] = inverse.store();
             self.minus_inverse[i] = (-inverse).store();
-            self.minus_near[i] = (-(along + reach)).store();
-            self.far[i] = (along - reach).store();
-            self.down[i] = direction[i].lt(zero).bits();
+            self.minus_near[i] = minus_near.store();
+            self.far[i] = far.store();
+            self.down[i] = down.bits();
         }
         self.start = [start[0].store(), start[1].store()];
         self.end = [end[0].store(), end[1].store()];
@@ -306,9 +333,7 @@ impl<A: LaneArray> PreparedPacket<A> {
         self.shift = time.shift.store();
         self.length = time.length.store();
         self.absolute_error = absolute_error.store();
-        let size =
-            absolute_error.filter_mul_add(zero.like(0.125 / L::UNIT_ROUNDOFF), zero.like(extent));
-        self.spread = (size * size.like(4.0 * spread)).store();
+        self.spread = rays.spread_of_boxes(extent, spread).store();
     }
 
     /// From t to s, for one ray.

@@ -68,7 +68,7 @@ impl<L: Lanes> RayProbe<L> {
     }
 
     #[inline(always)]
-    fn pass(&self, spheres: &SphereColumns<'_>, part: usize) -> Pass<L> {
+    pub(super) fn pass(&self, spheres: &SphereColumns<'_>, part: usize) -> Pass<L> {
         let token = self.origin[0].token();
         let center = axes!(i => L::load_part(token, spheres.center[i], part));
         let radius = L::load_part(token, spheres.radius, part);
