@@ -6,6 +6,7 @@ mod equality;
 mod far;
 mod limits;
 mod loading;
+mod refit;
 mod scales;
 mod scenes;
 mod sizes;

@@ -34,18 +34,22 @@
 //! chooses (`bvh/build/children.rs`), and in equal parts the largest 16^k below n. A node over at most 256 has only
 //! leaves for children. Of 2^27 spheres, which are the most, that is ten nodes one below the other.
 
+pub(crate) mod boxes_per_ray;
 pub(crate) mod build;
 mod built;
 pub(crate) mod leaf;
+pub(crate) mod memory;
 pub(crate) mod node;
 #[cfg(feature = "alloc")]
 pub(crate) mod owned;
 pub(crate) mod traverse;
 pub(crate) mod tree;
+mod unplaced;
 
 #[cfg(feature = "alloc")]
 pub use self::owned::SphereTree;
 pub use build::join::{InTurn, Join};
+pub use memory::{BvhMemory, RefitError};
 pub use node::BvhNode;
 pub use traverse::stream::{QueuedRay, StreamMemory, StreamRay};
 pub use tree::{Bvh, BvhSize};

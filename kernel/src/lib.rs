@@ -38,7 +38,9 @@ mod trace;
 pub use accuracy::{Accuracy, Exact, Fast, Geometric, Stable, Tier};
 #[cfg(feature = "alloc")]
 pub use bvh::SphereTree;
-pub use bvh::{Bvh, BvhNode, BvhSize, InTurn, Join, QueuedRay, StreamMemory, StreamRay};
+pub use bvh::{
+    Bvh, BvhMemory, BvhNode, BvhSize, InTurn, Join, QueuedRay, RefitError, StreamMemory, StreamRay,
+};
 pub use bvh4::{Bvh4, Bvh4Error};
 pub use coherent::{DepthList, Viewpoint};
 pub use dispatch::{Level, LevelName};

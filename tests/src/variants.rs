@@ -6,6 +6,7 @@
 
 mod difference;
 mod pairs;
+mod refitted;
 mod surfaces;
 mod tiles;
 
@@ -28,6 +29,8 @@ pub enum Structure {
     DepthList(usize),
     /// A tree, and what is said of its rays.
     Tree(Coherence),
+    /// A tree that was built over other spheres, of which some were none, larger or the same, and refitted.
+    Refitted(Coherence),
     /// A tree whose rays go as a stream, with memory for so many at a time, and to sort so many.
     Stream(usize, usize),
     /// The tree of one lane, of as many spheres as it holds.
@@ -108,6 +111,11 @@ pub fn variants() -> impl Iterator<Item = Variant> {
         .chain(of(Structure::Tree(Coherence::Detect), plain.to_vec()))
         .chain(of(Structure::Tree(Coherence::Coherent), all(&[1, 8])))
         .chain(of(Structure::Tree(Coherence::Incoherent), all(&[1, 8])))
+        .chain(of(Structure::Refitted(Coherence::Detect), vec![Storey::Slice, Storey::Lanes(1)]))
+        .chain(of(
+            Structure::Refitted(Coherence::Incoherent),
+            levels().map(Storey::Packets).collect(),
+        ))
         .chain(of(Structure::Stream(1024, 0), all(&[1, 8])))
         .chain(of(Structure::Stream(16, 0), vec![Storey::Packets(Level::best().name())]))
         .chain(of(Structure::Stream(32, 100), all(&[8])))
@@ -139,6 +147,7 @@ pub const fn brute(tier: Tier) -> Variant {
 #[derive(Clone, Debug)]
 pub struct Memory {
     tree: SphereTree,
+    refitted: SphereTree,
     list: SphereList,
     words: Vec<f32>,
     /// Nothing where there are more spheres than it holds.
@@ -154,6 +163,8 @@ pub struct Structures<'a> {
     pub depth_list: &'a DepthList<'a>,
     /// The tree.
     pub tree: &'a SphereTree,
+    /// A tree that was built over other spheres, and refitted.
+    pub refitted: &'a SphereTree,
     /// The tree of one lane, loaded from what was built.
     pub bvh4: Option<Bvh4<'a>>,
 }
@@ -172,7 +183,8 @@ impl Memory {
         if count > 0 {
             Bvh4::build(list.spheres(), &mut bvh4).expect("enough memory");
         }
-        Self { tree: SphereTree::new(list.clone()), list, words, bvh4 }
+        let (tree, refitted) = (SphereTree::new(list.clone()), refitted::tree(spheres));
+        Self { tree, refitted, list, words, bvh4 }
     }
 
     /// Calls `ask` with every structure, the depth list sorted from `viewpoint`.
@@ -180,11 +192,11 @@ impl Memory {
     /// # Panics
     /// Never: the memory is enough.
     pub fn sorted<R>(&mut self, viewpoint: Viewpoint, ask: impl FnOnce(Structures<'_>) -> R) -> R {
-        let Self { tree, list, words, bvh4 } = self;
+        let Self { tree, refitted, list, words, bvh4 } = self;
         let depth_list = &DepthList::sort(list.spheres(), viewpoint, words).expect("enough memory");
         let load = || Bvh4::load(list.spheres(), bvh4).expect("what was built");
         let bvh4 = (!bvh4.is_empty()).then(load);
-        ask(Structures { list, depth_list, tree, bvh4 })
+        ask(Structures { list, depth_list, tree, refitted, bvh4 })
     }
 }
 
@@ -210,7 +222,7 @@ impl Variant {
     /// Where the structure does not [hold](Variant::holds) the spheres.
     #[must_use]
     pub fn ask(&self, structures: Structures<'_>, rays: &[Ray]) -> Answers {
-        let Structures { list, depth_list, tree, bvh4 } = structures;
+        let Structures { list, depth_list, tree, refitted, bvh4 } = structures;
         match self.structure {
             Structure::List => self.ask_list(list, rays),
             Structure::DepthList(sevenths) => {
@@ -219,6 +231,9 @@ impl Variant {
                 self.ask_of(depth_list, Trace::new().with_scratch(&mut scratch), rays)
             }
             Structure::Tree(coherence) => self.ask_of(tree, Trace::new().with(coherence), rays),
+            Structure::Refitted(coherence) => {
+                self.ask_of(refitted, Trace::new().with(coherence), rays)
+            }
             Structure::Stream(count, sorted) => {
                 // The least that queues need for few, and for more what they like to have.
                 let needed = StreamMemory::queues_needed(count);

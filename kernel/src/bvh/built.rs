@@ -1,5 +1,7 @@
 //! What a build leaves in the memory of a tree.
 
+use super::boxes_per_ray::BoxesPerRay;
+use super::leaf::BEHIND;
 use crate::scale::scene::SceneScale;
 
 /// How much of the memory is the tree, and where it begins.
@@ -10,12 +12,26 @@ pub(crate) struct Built {
     pub(crate) shift: usize,
     /// Of the leaves.
     pub(crate) places: usize,
-    /// Spheres of no leaf, whose indices are behind those of the leaves.
+    /// Valid spheres of no leaf, whose indices are behind those of the leaves.
     pub(crate) outside: usize,
+    /// Spheres that have no lane in a leaf: `unplaced.rs`.
+    pub(crate) unplaced: usize,
     /// A node, a leaf with [`LEAF`](super::node::LEAF) set, or [`NO_CHILD`](super::node::NO_CHILD).
     pub(crate) root: u32,
     /// How bounds see lengths.
     pub(crate) scale: SceneScale,
     /// No coordinate of a box is larger, as bounds see it.
     pub(crate) extent: f32,
+    /// How many boxes a ray is expected to enter.
+    pub(crate) boxes_per_ray: BoxesPerRay,
+    /// What a ray was expected to cost when the tree was built.
+    pub(crate) cost_when_built: f32,
+}
+
+impl Built {
+    /// The numbers of places from the first leaf on, and how many of them are leaves and what is loaded behind the last;
+    /// after those is the table of `unplaced.rs`.
+    pub(crate) const fn leaves(&self) -> usize {
+        4 * (self.places + BEHIND)
+    }
 }

@@ -1,12 +1,15 @@
 //! The tree that owns its memory.
 
 use super::build::join::{InTurn, Join};
+use super::build::refit::refit;
 use super::build::top_down;
 use super::built::Built;
 use super::leaf::{BEFORE, BEHIND};
+use super::memory::RefitError;
 use super::node::BvhNode;
 use super::tree::Bvh;
 use crate::geometry::sphere_list::SphereList;
+use crate::memory::TooSmall;
 use alloc::collections::TryReserveError;
 use alloc::vec::Vec;
 use core::iter::repeat_n;
@@ -70,11 +73,55 @@ impl SphereTree {
         let built = top_down::build(join, &list, &mut nodes, &mut places, &mut indices);
         nodes.truncate(built.nodes);
         nodes.shrink_to_fit();
-        places.truncate(BEFORE + built.places + BEHIND);
+        places.truncate(BEFORE + built.places + BEHIND + built.unplaced.div_ceil(2));
         places.shrink_to_fit();
         indices.truncate(built.places + built.outside);
         indices.shrink_to_fit();
         Self { spheres, nodes, places, indices, built }
+    }
+
+    /// Moves the spheres of the tree to where they are now: sphere i of the list that it has to sphere i of this one, centre
+    /// and radius. Returns the [growth](Bvh::growth) of its boxes since it was built: where that is 1.5 or 2, it is time to
+    /// build anew.
+    ///
+    /// What is guaranteed is what a tree that is built anew guarantees: see [`BvhMemory::refit`](crate::BvhMemory::refit), also
+    /// for spheres that are not valid, and for those far larger or smaller than they were.
+    ///
+    /// ```
+    /// use spherule_kernel::{Exact, Intersect, Ray, RefitError, SphereTree, Vec3};
+    ///
+    /// let at = |second: f32| [[0.0, 0.0, 5.0, 1.0], [second, 0.0, 3.0, 1.0]];
+    /// let mut tree = SphereTree::new(at(8.0));
+    /// for (second, sphere) in [(7.0, 0), (0.5, 1)] {
+    ///     let growth = tree.refit(at(second))?;
+    ///     if growth > 1.5 {
+    ///         tree = SphereTree::new(tree.list().clone());
+    ///     }
+    ///     let hit = tree.closest_hit(Exact, &Ray::new(Vec3::ZERO, Vec3::Z));
+    ///     assert_eq!(hit.map(|hit| hit.sphere), Some(sphere));
+    /// }
+    /// # Ok::<(), RefitError>(())
+    /// ```
+    ///
+    /// Cost: at most a quarter of a build's time, and no memory, unless many spheres have left the boxes: 4 bytes for each
+    /// of them.
+    ///
+    /// # Errors
+    /// [`RefitError::OtherCount`] where the number of spheres is another; the tree is as it was.
+    pub fn refit(&mut self, spheres: impl Into<SphereList>) -> Result<f32, RefitError> {
+        let moved = spheres.into();
+        let Self { spheres, nodes, places, indices, built } = self;
+        let (count, given) = (spheres.spheres().len(), moved.spheres().len());
+        if count != given {
+            return Err(RefitError::OtherCount { built: count, given });
+        }
+        if let Err(TooSmall { needed, .. }) = refit(built, &moved.spheres(), nodes, places, indices)
+        {
+            indices.resize(needed, 0);
+            refit(built, &moved.spheres(), nodes, places, indices).map_err(RefitError::TooSmall)?;
+        }
+        *spheres = moved;
+        Ok(self.bvh().growth())
     }
 
     /// The tree, borrowed: a few words.

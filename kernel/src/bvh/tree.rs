@@ -1,5 +1,6 @@
 //! The tree, borrowed.
 
+use super::boxes_per_ray::BoxesPerRay;
 use super::build::budget::{nodes_needed, places_needed, spare_nodes, spare_places};
 use super::build::join::{InTurn, Join};
 use super::build::top_down;
@@ -54,6 +55,10 @@ pub struct Bvh<'a> {
     pub(crate) scale: SceneScale,
     /// No coordinate of a box is larger, as bounds see it.
     pub(crate) extent: f32,
+    /// How many boxes a ray is expected to enter.
+    pub(crate) boxes_per_ray: BoxesPerRay,
+    /// What a ray was expected to cost when the tree was built.
+    cost_when_built: f32,
 }
 
 impl SphereSource for Bvh<'_> {
@@ -91,12 +96,12 @@ impl<'a> Bvh<'a> {
     /// ```
     /// use spherule_kernel::{Bvh, BvhSize};
     ///
-    /// assert_eq!(Bvh::needed(100), BvhSize { nodes: 3, places: 133 });
+    /// assert_eq!(Bvh::needed(100), BvhSize { nodes: 3, places: 134 });
     /// ```
     #[must_use]
     pub const fn needed(count: usize) -> BvhSize {
         let places = places_needed(if count < MOST_PLACES { count } else { MOST_PLACES });
-        let places = places + spare_places(places) + BEFORE + BEHIND;
+        let places = places + spare_places(places) + BEFORE + BEHIND + 1;
         if count > MOST_PLACES / 2 {
             return BvhSize { nodes: usize::MAX, places: usize::MAX };
         }
@@ -137,12 +142,22 @@ impl<'a> Bvh<'a> {
         places: &'a mut [[f32; 4]],
         indices: &'a mut [u32],
     ) -> Result<Self, TooSmall> {
-        let needed = Self::needed(spheres.len());
-        TooSmall::check(needed.nodes, nodes.len())?;
-        TooSmall::check(needed.places, places.len())?;
-        TooSmall::check(needed.places, indices.len())?;
+        Self::check(spheres.len(), nodes, places, indices)?;
         let built = top_down::build(join, &spheres, nodes, places, indices);
         Ok(Self::of(built, spheres, nodes, places, indices))
+    }
+
+    /// An error where memory is less than so many spheres need.
+    pub(super) fn check(
+        count: usize,
+        nodes: &[BvhNode],
+        places: &[[f32; 4]],
+        indices: &[u32],
+    ) -> Result<(), TooSmall> {
+        let needed = Self::needed(count);
+        TooSmall::check(needed.nodes, nodes.len())?;
+        TooSmall::check(needed.places, places.len())?;
+        TooSmall::check(needed.places, indices.len())
     }
 
     /// The tree that was built in that memory.
@@ -159,13 +174,15 @@ impl<'a> Bvh<'a> {
             nodes: nodes.get(..built.nodes).unwrap_or_default(),
             numbers: places
                 .as_flattened()
-                .get(built.shift..built.shift + 4 * (built.places + BEHIND))
+                .get(built.shift..built.shift + built.leaves())
                 .unwrap_or_default(),
             indices,
             outside: rest.get(..built.outside).unwrap_or_default(),
             root: built.root,
             scale: built.scale,
             extent: built.extent,
+            boxes_per_ray: built.boxes_per_ray,
+            cost_when_built: built.cost_when_built,
         }
     }
 
@@ -197,6 +214,19 @@ impl<'a> Bvh<'a> {
     #[must_use]
     pub const fn spheres(&self) -> Spheres<'a> {
         self.spheres
+    }
+
+    /// By how much the boxes have grown since the tree was built: how many boxes a ray is expected to enter, times how
+    /// many it was then. 1 for a tree that was not refitted; finite and above 0 for any.
+    ///
+    /// A ray takes about so many times as long, as far as it is boxes that it spends its time on: where it is 1.5 or 2, a
+    /// tree that is used for more than a few frames is better built anew. It is an estimate by the surface area heuristic
+    /// (MacDonald and Booth 1990), for rays through the space in which most of the spheres are; a scene that moves, grows or shrinks
+    /// as a whole has not grown. Sixteen spheres that no box holds, which every ray must meet, count as one box that every
+    /// ray enters. Up to 64 spheres have no boxes that a ray looks at.
+    #[must_use]
+    pub fn growth(&self) -> f32 {
+        self.boxes_per_ray.cost(self.outside.len()) / self.cost_when_built
     }
 
     /// The memory that the tree takes: at most what was needed.

@@ -5,7 +5,10 @@
 //! 2^-40. Spheres outside of it, and those that the power would round, are seen by no bound.
 
 use crate::geometry::sphere::{Sphere, Spheres};
+use crate::lanes::WIDTH;
+use crate::numeric::axes::axes;
 use crate::numeric::power_of_two::inverse_power_of_two;
+use crate::numeric::rounding::most;
 
 /// 2^126: a larger power has no normal inverse.
 const MOST: f32 = 1.0 / f32::MIN_POSITIVE;
@@ -78,6 +81,39 @@ impl SceneScale {
         (sphere.is_valid() && inside && self.restored(&scaled) == *sphere).then_some(scaled)
     }
 
+    /// Scales sixteen spheres, each as [`scaled`](Self::scaled) does; where that is `None`, the radius is NaN. Returns how
+    /// many are inside.
+    #[inline(always)]
+    pub(crate) fn scale_columns(&self, columns: &mut [[f32; WIDTH]; 4]) -> i32 {
+        let Self { factor, inverse } = *self;
+        let mut number = 0;
+        for lane in 0..WIDTH {
+            let own = axes!(i => columns[i][lane]);
+            let radius = columns[3][lane];
+            let [x, y, z] = axes!(i => own[i] * factor);
+            let scaled = radius * factor;
+            let fits = (x.abs() <= LARGEST)
+                & (y.abs() <= LARGEST)
+                & (z.abs() <= LARGEST)
+                & (scaled <= LARGEST)
+                & (radius >= 0.0);
+            let is_point = (own[0] == 0.0) & (own[1] == 0.0) & (own[2] == 0.0) & (radius == 0.0);
+            let size = most(most(x.abs(), y.abs()), most(z.abs(), scaled));
+            // What is not finite does not fit.
+            let is_exact = (x * inverse == own[0])
+                & (y * inverse == own[1])
+                & (z * inverse == own[2])
+                & (scaled * inverse == radius);
+            let inside = fits & is_exact & (is_point | (size >= SMALLEST));
+            for (axis, number) in [x, y, z].into_iter().enumerate() {
+                columns[axis][lane] = if inside { number } else { 0.0 };
+            }
+            columns[3][lane] = if inside { scaled } else { f32::NAN };
+            number += i32::from(inside);
+        }
+        number
+    }
+
     /// A scaled sphere as it was given.
     #[inline(always)]
     pub(crate) fn restored(&self, scaled: &Sphere) -> Sphere {
@@ -105,4 +141,50 @@ pub(crate) fn to_one(size: f32) -> f32 {
 #[inline(always)]
 fn exponent_of(size: f32) -> usize {
     (size.to_bits() >> 23) as usize % EXPONENTS
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::climb::Random;
+    use glam::Vec3;
+
+    /// Sixteen at once as one by one, of any bits.
+    #[test]
+    fn columns_are_scaled_as_spheres_are() {
+        let mut random = Random(31);
+        let (mut inside, mut outside) = (0, 0);
+        for round in 0..20_000 {
+            let exponent = if round % 2 == 0 { 127 } else { 1 + random.below(253) as u32 };
+            let scale = SceneScale::from_factor(f32::from_bits(exponent << 23)).expect("a power");
+            let mut number = || match random.below(8) {
+                0 => f32::from_bits(random.below(1 << 32) as u32),
+                1 => 0.0,
+                2 => -0.0,
+                _ => f32::from_bits((60 + random.below(120) as u32) << 23 | 1),
+            };
+            let mut columns = [[0.0; WIDTH]; 4];
+            for column in &mut columns {
+                *column = [(); WIDTH].map(|()| number());
+            }
+            let given = columns;
+            let count = scale.scale_columns(&mut columns);
+            let mut expected = 0;
+            for lane in 0..WIDTH {
+                let [x, y, z, radius] = given.map(|column| column[lane]);
+                match scale.scaled(&Sphere { center: Vec3::new(x, y, z), radius }) {
+                    Some(Sphere { center, radius }) => {
+                        let there = columns.map(|column| column[lane].to_bits());
+                        let [x, y, z] = center.to_array();
+                        assert_eq!(there, [x, y, z, radius].map(f32::to_bits));
+                        expected += 1;
+                    }
+                    None => assert!(columns[3][lane].is_nan()),
+                }
+            }
+            assert_eq!(count, expected);
+            (inside, outside) = (inside + expected, outside + 16 - expected);
+        }
+        assert!(inside > 10_000 && outside > 10_000, "{inside}, {outside}");
+    }
 }

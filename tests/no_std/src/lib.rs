@@ -16,7 +16,7 @@ use spherule_kernel::{
     shadow_packets, stages, surface_packets,
 };
 #[cfg(feature = "structures")]
-use spherule_kernel::{Bvh, BvhNode, DepthList, QueuedRay, StreamMemory, StreamRay, Viewpoint};
+use spherule_kernel::{Bvh, BvhMemory, BvhNode, DepthList, QueuedRay, StreamMemory, StreamRay, Viewpoint};
 use spherule_kernel::{
     Bvh4, Camera, CameraTiles, Hit, HitColumns, HitPacket, Intersect, Lanes, Projection, Ray,
     RayColumns, RayPacket, Side, Sphere, SpherePacket, Spheres, Tier, Trace, Vec3, discriminant,
@@ -129,11 +129,14 @@ impl Sum {
         {
             let mut nodes = [BvhNode::EMPTY; 4];
             let (mut places, mut indices) = ([[0.0; 4]; 120], [0; 120]);
-            if let Ok(tree) = Bvh::build(spheres, &mut nodes, &mut places, &mut indices) {
+            let mut memory = BvhMemory::new(&mut nodes, &mut places, &mut indices);
+            if let Ok(tree) = memory.build(spheres) {
                 for mut trace in [Trace::new().coherent(), Trace::new().incoherent()] {
                     self.lanes::<f32x4>(tier, camera, &mut trace, &tree);
                 }
             }
+            let growth = memory.refit(spheres).map_or(0.0, |tree| tree.growth());
+            self.word(growth.to_bits());
         }
     }
 

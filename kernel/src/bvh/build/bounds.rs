@@ -27,6 +27,23 @@ impl Corners {
         Self { low: center - radius, high: center + radius }
     }
 
+    /// Of the box of spheres, as it was computed, the corners rounded outward.
+    pub(super) fn outward(&self) -> [[f32; 3]; 2] {
+        let [x, y, z, _] = self.low.to_array();
+        let [far_x, far_y, far_z, _] = self.high.to_array();
+        // Rounding to nearest is monotonic: one step covers all.
+        [
+            [x.next_down(), y.next_down(), z.next_down()],
+            [far_x.next_up(), far_y.next_up(), far_z.next_up()],
+        ]
+    }
+
+    /// Whether nothing is in it.
+    #[inline(always)]
+    pub(super) fn is_empty(&self) -> bool {
+        self.low.to_array()[0] > self.high.to_array()[0]
+    }
+
     /// Holds another box, too.
     #[inline(always)]
     pub(super) fn hold(&mut self, other: Self) {
@@ -64,14 +81,8 @@ impl Bounds {
 
     /// Of the box of spheres, as it was computed, and that of their centres.
     pub(super) fn new(spheres: &Corners, centers: &Corners) -> Self {
-        let [x, y, z, _] = spheres.low.to_array();
-        let [far_x, far_y, far_z, _] = spheres.high.to_array();
-        Self {
-            // Rounding to nearest is monotonic: one step covers all.
-            low: [x.next_down(), y.next_down(), z.next_down()],
-            high: [far_x.next_up(), far_y.next_up(), far_z.next_up()],
-            centers: *centers,
-        }
+        let [low, high] = spheres.outward();
+        Self { low, high, centers: *centers }
     }
 
     /// The lower and the upper corner as nodes have them.

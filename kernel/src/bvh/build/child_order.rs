@@ -14,6 +14,7 @@
 //! run with 1.99, 1.64, 1.20, 1.13, 1.05, 1.08, 1.03, 1.01: 1.97, 1.60, 1.22, 1.08, 1.03, 1.08, 1.02, 0.99.)
 
 use super::join::Join;
+use crate::bvh::boxes_per_ray::{BoxesPerRay, boxes_of};
 use crate::bvh::leaf::Leaf;
 use crate::bvh::node::{BvhNode, LEAF, NO_CHILD, WIDTH};
 use crate::numeric::axes::axes;
@@ -23,17 +24,31 @@ const WORTH_A_THREAD: usize = 256;
 /// The key of a child that is not there: the largest to which one can be added.
 const LAST: i32 = i32::MAX - 1;
 
-/// Orders the children of nodes whose boxes are made, and whose leaves are laid down in `numbers`.
-pub(super) fn order_children(join: &impl Join, nodes: &mut [BvhNode], numbers: &[f32]) {
+/// Orders the children of nodes whose boxes are made, and whose leaves are laid down in `numbers`: their slots, if that is
+/// wanted, and for each octant. Returns how many of the boxes a ray enters.
+pub(super) fn order_children<const SLOTS: bool>(
+    join: &impl Join,
+    nodes: &mut [BvhNode],
+    numbers: &[f32],
+    inverse: f32,
+) -> BoxesPerRay {
     if nodes.len() > WORTH_A_THREAD {
         let (some, others) = nodes.split_at_mut(nodes.len() / 2);
-        join.join(|| order_children(join, some, numbers), || order_children(join, others, numbers));
-        return;
+        let (one, other) = join.join(
+            || order_children::<SLOTS>(join, some, numbers, inverse),
+            || order_children::<SLOTS>(join, others, numbers, inverse),
+        );
+        return one + other;
     }
+    let mut boxes = BoxesPerRay::default();
     for node in nodes {
-        order_slots(node, numbers);
+        if SLOTS {
+            order_slots(node, numbers);
+        }
         order_octants(node);
+        boxes = boxes + boxes_of(node, inverse);
     }
+    boxes
 }
 
 /// Nodes, then leaves, then what is not there.
@@ -136,7 +151,7 @@ mod tests {
                 }
                 node.child[slot] = slot as u32;
             }
-            order_children(&InTurn, from_mut(&mut node), &[]);
+            order_children::<true>(&InTurn, from_mut(&mut node), &[], 1.0);
             for octant in 0..8_u32 {
                 let order = node.order[octant as usize];
                 let mut seen = 0;
@@ -176,7 +191,7 @@ mod tests {
             }
         }
         let boxes = node;
-        order_children(&InTurn, from_mut(&mut node), &numbers);
+        order_children::<true>(&InTurn, from_mut(&mut node), &numbers, 1.0);
         let mut before = (0, -1.0);
         for slot in 0..10 {
             let (child, high) = (node.child[slot], node.high[1][slot]);

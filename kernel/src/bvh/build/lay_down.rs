@@ -3,10 +3,13 @@
 //! The spheres stand at the end of their memory, in the order of the leaves, and leaves are laid down from the front,
 //! in the same order. A leaf takes at most what its spheres and what was spent on it take, so nothing is written
 //! where a sphere has yet to be read (`budget.rs`). Of spheres that are the same the lowest index stays: it answers
-//! for all.
+//! for all. The others lie in lanes that are free, with a NaN for a radius, so that they have a place if they part
+//! (`refit.rs`); those beyond are dropped.
 
+use super::dropped::Dropped;
 use crate::bvh::leaf::{STEP, leaf_at};
 use crate::bvh::node::{BvhNode, DEPTH, LEAF, NO_CHILD, WIDTH};
+use crate::bvh::unplaced::Unplaced;
 
 /// Bits of a leaf that is not laid down that say where its spheres begin; the four above are their number, less one.
 const BEGIN_BITS: u32 = 27;
@@ -18,29 +21,40 @@ pub(super) const fn unsettled(first: usize, count: usize) -> u32 {
 }
 
 /// Lays down all leaves of a tree, `shift` numbers after the front; its spheres begin at `first`. Returns how many
-/// places they take.
+/// places they take, and what was dropped.
 pub(super) fn lay_down(
     (places, shift): (&mut [[f32; 4]], usize),
     indices: &mut [u32],
     first: usize,
     nodes: &mut [BvhNode],
     root: &mut u32,
-) -> usize {
-    let mut end = 0;
-    let mut settle = |child: u32| {
+) -> (usize, Dropped) {
+    let (mut end, mut dropped) = (0, Dropped::none(first));
+    lay_down_leaves(nodes, root, |child: u32| {
         let begin = first + (child & ((1 << BEGIN_BITS) - 1)) as usize;
         let count = ((child & !LEAF) >> BEGIN_BITS) as usize + 1;
+        dropped.leave_out(places, indices, begin);
         let leaf = Leaf::read(places, indices, begin, count);
         let settled = leaf_at(end, leaf.count);
+        let (copies, number) = leaf.copies();
+        let copies = copies.get(..number).unwrap_or_default();
+        dropped.read_leaf(places, (begin + count, leaf.indices[0]), copies);
         leaf.write((places, shift), indices, end);
         end += leaf.count.next_multiple_of(STEP);
         settled
-    };
+    });
+    let all = places.len();
+    dropped.leave_out(places, indices, all);
+    (end, dropped)
+}
+
+/// Puts what `settle` returns in the place of every leaf, in the order of their spheres.
+fn lay_down_leaves(nodes: &mut [BvhNode], root: &mut u32, mut settle: impl FnMut(u32) -> u32) {
     if *root & LEAF != 0 {
         if *root != NO_CHILD {
             *root = settle(*root);
         }
-        return end;
+        return;
     }
     // Children stand in the order of their spheres.
     let mut way = [(0_usize, 0_usize); DEPTH + 1];
@@ -64,7 +78,6 @@ pub(super) fn lay_down(
             None => depth -= 1,
         }
     }
-    end
 }
 
 /// The spheres of a leaf, column by column.
@@ -72,6 +85,9 @@ struct Leaf {
     columns: [[f32; WIDTH]; 4],
     indices: [u32; WIDTH],
     count: usize,
+    /// With the copies of spheres, which come behind: for those beyond the lanes that it takes, x is the index of what
+    /// they are the same as, as bits.
+    all: usize,
 }
 
 impl Leaf {
@@ -82,6 +98,7 @@ impl Leaf {
             columns: [zeros, zeros, zeros, [f32::NAN; WIDTH]],
             indices: [u32::MAX; WIDTH],
             count: 0,
+            all: 0,
         }
     };
 
@@ -110,7 +127,8 @@ impl Leaf {
                 alike[lane] += i32::from(sum == sums[lane]);
             }
         }
-        let mut leaf = Self { count: as_they_are.count, ..Self::EMPTY };
+        let count = as_they_are.count;
+        let mut leaf = Self { count, all: count, ..Self::EMPTY };
         for lane in 0..as_they_are.count.min(WIDTH) {
             let to = ranks[lane] as usize % WIDTH;
             for axis in 0..4 {
@@ -125,21 +143,47 @@ impl Leaf {
         leaf
     }
 
-    /// Of spheres that are the same the first.
+    /// The copies for which no lane is free, and their number.
+    #[inline(always)]
+    fn copies(&self) -> ([Unplaced; WIDTH], usize) {
+        let mut copies = [Unplaced { index: 0, same: 0 }; WIDTH];
+        let first = self.count.next_multiple_of(STEP);
+        let number = self.all.saturating_sub(first);
+        for copy in 0..number.min(WIDTH) {
+            let lane = (first + copy) % WIDTH;
+            let same = self.columns[0][lane].to_bits();
+            copies[copy] = Unplaced { index: self.indices[lane], same };
+        }
+        (copies, number)
+    }
+
+    /// Of spheres that are the same the first; the others behind.
     #[cold]
     fn keep_first(&mut self) {
         let row = |Self { columns: [x, y, z, radius], .. }: &Self, lane: usize| {
             [x[lane], y[lane], z[lane], radius[lane]]
         };
         let mut kept = Self::EMPTY;
+        let mut copies = [Unplaced { index: 0, same: 0 }; WIDTH];
+        let mut number = 0;
         for lane in 0..self.count.min(WIDTH) {
-            let sphere = row(self, lane % WIDTH);
-            if (0..kept.count).all(|other| row(&kept, other % WIDTH) != sphere) {
-                for axis in 0..4 {
-                    kept.columns[axis][kept.count % WIDTH] = sphere[axis];
-                }
-                kept.indices[kept.count % WIDTH] = self.indices[lane];
-                kept.count += 1;
+            let (sphere, index) = (row(self, lane % WIDTH), self.indices[lane]);
+            if let Some(other) = (0..kept.count).find(|lane| row(&kept, lane % WIDTH) == sphere) {
+                copies[number % WIDTH] = Unplaced { index, same: kept.indices[other % WIDTH] };
+                number += 1;
+                continue;
+            }
+            for axis in 0..4 {
+                kept.columns[axis][kept.count % WIDTH] = sphere[axis];
+            }
+            kept.indices[kept.count % WIDTH] = index;
+            kept.count += 1;
+        }
+        kept.all = kept.count + number;
+        for (copy, lane) in copies.into_iter().zip(kept.count..kept.all) {
+            kept.indices[lane % WIDTH] = copy.index;
+            if lane >= kept.count.next_multiple_of(STEP) {
+                kept.columns[0][lane % WIDTH] = f32::from_bits(copy.same);
             }
         }
         *self = kept;
@@ -147,12 +191,22 @@ impl Leaf {
 
     fn write(&self, (places, shift): (&mut [[f32; 4]], usize), indices: &mut [u32], begin: usize) {
         let lanes = self.count.next_multiple_of(STEP);
-        let numbers = places.as_flattened_mut().get_mut(shift + 4 * begin..);
-        let columns = numbers.unwrap_or_default().chunks_exact_mut(lanes.max(1));
-        for (to, column) in columns.zip(&self.columns) {
-            in_steps(to, column);
-        }
+        let numbers = places.as_flattened_mut().get_mut(shift..).unwrap_or_default();
+        write_columns(numbers, (begin, lanes), &self.columns);
         in_steps(indices.get_mut(begin..begin + lanes).unwrap_or_default(), &self.indices);
+    }
+}
+
+/// Writes the spheres of a leaf that begins at a place and has so many lanes.
+#[inline(always)]
+pub(super) fn write_columns(
+    numbers: &mut [f32],
+    (begin, lanes): (usize, usize),
+    columns: &[[f32; WIDTH]; 4],
+) {
+    let numbers = numbers.get_mut(4 * begin..).unwrap_or_default();
+    for (to, column) in numbers.chunks_exact_mut(lanes.max(1)).zip(columns) {
+        in_steps(to, column);
     }
 }
 

@@ -14,10 +14,12 @@ use super::children::{Children, Part, children, in_equal_parts};
 use super::join::Join;
 use super::lay_down::{lay_down, unsettled};
 use super::run::Run;
+use crate::bvh::boxes_per_ray::inverse_of_body;
 use crate::bvh::built::Built;
 use crate::bvh::leaf::{BEFORE, BEHIND, STEP};
 use crate::bvh::node::{BvhNode, DEPTH, LEAF, NO_CHILD, WIDTH};
 use crate::bvh::tree::Bvh;
+use crate::bvh::unplaced::Unplaced;
 use crate::geometry::sphere::{Sphere, Spheres};
 use crate::scale::scene::SceneScale;
 
@@ -58,7 +60,8 @@ pub(crate) fn build(
     } else if inside > 0 {
         let budget = Budget {
             nodes: nodes.len().saturating_sub(nodes_needed(inside)),
-            places: first.saturating_sub(BEFORE + BEHIND + STEP),
+            // Those that are not inside take room behind the leaves.
+            places: (first + inside).saturating_sub(spheres.len() + BEFORE + BEHIND + STEP),
         };
         used = build_tree(join, nodes, &mut run, root, budget);
         child = 0;
@@ -66,31 +69,71 @@ pub(crate) fn build(
     let nodes = nodes.get_mut(..used).unwrap_or_default();
     // Where a line of the cache begins: at least as near as numbers are to each other.
     let shift = places.as_flattened().as_ptr().align_offset(LINE) % (LINE / size_of::<f32>());
-    let used_places = lay_down((places, shift), indices, first, nodes, &mut child);
-    order_children(join, nodes, places.as_flattened().get(shift..).unwrap_or_default());
+    let (used_places, dropped) = lay_down((places, shift), indices, first, nodes, &mut child);
+    let inverse = inverse_of_body(spheres, &scale);
+    let numbers = places.as_flattened().get(shift..).unwrap_or_default();
+    let boxes_per_ray = order_children::<true>(join, nodes, numbers, inverse);
+    let boxes_per_ray = boxes_per_ray.of_root(child);
+    let all = places.len();
+    let mut built = Built {
+        nodes: used,
+        shift,
+        places: used_places,
+        outside: 0,
+        unplaced: dropped.count,
+        root: child,
+        scale,
+        extent: 0.0,
+        boxes_per_ray,
+        cost_when_built: 1.0,
+    };
+    dropped.collect(places.as_flattened_mut(), all, shift + built.leaves());
     // What is behind the last leaf is loaded with it, and never used: zeros, so that trees of a list are equal.
     let behind = shift + 4 * used_places;
     if let Some(behind) = places.as_flattened_mut().get_mut(behind..behind + 4 * BEHIND) {
         behind.fill(0.0);
     }
 
-    let mut outside = 0;
-    for (index, sphere) in spheres.iter().enumerate() {
-        if sphere.is_valid()
-            && scale.scaled(&sphere).is_none()
-            && let Some(place) = indices.get_mut(used_places + outside)
-        {
-            *place = index as u32;
-            outside += 1;
-        }
+    if inside < spheres.len() {
+        leave_out(&mut built, places, indices, spheres);
     }
-    let mut extent = 0.0_f32;
     if inside > 0 {
-        for axis in 0..3 {
-            extent = extent.max(root.bounds.low[axis].abs()).max(root.bounds.high[axis].abs());
+        built.extent = extent_of([root.bounds.low, root.bounds.high]);
+    }
+    built.cost_when_built = built.boxes_per_ray.cost(built.outside);
+    built
+}
+
+/// The largest magnitude of a coordinate of a box.
+pub(super) fn extent_of(corners: [[f32; 3]; 2]) -> f32 {
+    corners.as_flattened().iter().fold(0.0, |extent, coordinate| coordinate.abs().max(extent))
+}
+
+/// Writes down the spheres that are not inside, behind the leaves.
+fn leave_out(
+    built: &mut Built,
+    places: &mut [[f32; 4]],
+    indices: &mut [u32],
+    spheres: &Spheres<'_>,
+) {
+    let table = places.as_flattened_mut().get_mut(built.shift + built.leaves()..);
+    let table = table.unwrap_or_default().as_chunks_mut().0;
+    for (index, sphere) in spheres.iter().enumerate() {
+        if built.scale.scaled(&sphere).is_some() {
+            continue;
+        }
+        let index = index as u32;
+        if let Some(place) = table.get_mut(built.unplaced) {
+            *place = Unplaced { index, same: index }.bits();
+            built.unplaced += 1;
+        }
+        if sphere.is_valid()
+            && let Some(place) = indices.get_mut(built.places + built.outside)
+        {
+            *place = index;
+            built.outside += 1;
         }
     }
-    Built { nodes: used, shift, places: used_places, outside, root: child, scale, extent }
 }
 
 /// Puts the spheres that bounds see to the end of the memory, in the order of their indices; returns where they
@@ -115,18 +158,20 @@ fn fill(
     first
 }
 
-/// A leaf before it is laid down: where its spheres are, and how many. Of spheres that are all the same, the first
-/// one.
+/// A leaf before it is laid down: where its spheres are, and how many. Of more than sixteen that are all the same, the
+/// first one is among them.
 fn settle(run: &mut Run<'_>, part: &Part, first: usize) -> u32 {
     let mut count = part.count;
-    if part.is_one_sphere() {
+    if count > WIDTH {
         let own = run.part(part.first, part.count);
-        if let Some(least) = own.indices.iter().copied().min()
-            && let Some(place) = own.indices.first_mut()
-        {
-            *place = least;
+        if let Some((least, rest)) = own.indices.split_first_mut() {
+            for index in rest {
+                if *index < *least {
+                    core::mem::swap(index, least);
+                }
+            }
         }
-        count = 1;
+        count = WIDTH;
     }
     unsettled(first + part.first, count)
 }

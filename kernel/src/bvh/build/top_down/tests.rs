@@ -57,7 +57,8 @@ fn built(spheres: &[Sphere], nodes: usize, places: usize) -> (Vec<u32>, usize) {
         if child & LEAF != 0 {
             let (begin, lanes) = extent_of(child & !LEAF);
             let there = &tree.indices[begin..begin + lanes];
-            for &index in there.iter().filter(|index| **index != u32::MAX) {
+            let radii = &tree.numbers[4 * begin + 3 * lanes..][..lanes];
+            for (&index, _) in there.iter().zip(radii).filter(|(_, radius)| !radius.is_nan()) {
                 let sphere = tree.scale.scaled(&spheres[index as usize]).expect("in the tree");
                 for axis in 0..3 {
                     assert!(low[axis] <= sphere.center[axis] - sphere.radius, "{index}");

@@ -1,0 +1,109 @@
+//! How many boxes of a tree a ray is expected to enter: a number for how good its boxes are.
+//!
+//! A line that meets a convex body meets a box in it by the ratio of their surfaces (MacDonald and Booth 1990). The body
+//! here is no box of the tree, since one sphere far away, or a ground, would make it large, and all chances small. It is
+//! the box that spheres would fill if they lay uniformly as far from their middle as half of them do: four times the
+//! median distance from the median along each axis, and the median diameter. Of up to 32 spheres, the same of a list
+//! wherever they are, which takes a microsecond. No box is entered more than once.
+
+use super::build::top_down::FEW;
+use super::node::{BvhNode, LEAF, NO_CHILD, WIDTH};
+use crate::geometry::sphere::Spheres;
+use crate::numeric::axes::axes;
+use crate::scale::scene::SceneScale;
+use core::ops::Add;
+
+/// How many spheres are looked at, at most and at least.
+const SAMPLE: usize = 32;
+const LEAST: usize = 8;
+/// One in so many is.
+const ONE_IN: usize = 64;
+/// 2^32 over the golden ratio: its multiples fill 0 to 2^32 evenly, however many they are.
+const GOLDEN: u32 = 0x9E37_79B9;
+
+/// How many boxes a ray is expected to enter.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct BoxesPerRay {
+    /// Those of nodes, without the root.
+    pub(crate) nodes: f32,
+    /// Those of leaves.
+    pub(crate) leaves: f32,
+}
+
+impl BoxesPerRay {
+    /// The same with the root, where that is a leaf.
+    pub(crate) fn of_root(self, root: u32) -> Self {
+        let is_leaf = root != NO_CHILD && root & LEAF != 0;
+        Self { leaves: if is_leaf { 1.0 } else { self.leaves }, ..self }
+    }
+
+    /// What a ray is expected to cost: the root, boxes, and sixteen spheres that no box has as a leaf that every ray
+    /// enters. At least 1.
+    pub(crate) fn cost(self, outside: usize) -> f32 {
+        1.0 + self.nodes + self.leaves + outside as f32 / WIDTH as f32
+    }
+}
+
+impl Add for BoxesPerRay {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self { nodes: self.nodes + other.nodes, leaves: self.leaves + other.leaves }
+    }
+}
+
+/// 1 over half the surface of the body that rays meet, in the units of the tree: a box's half times it is the chance
+/// to enter it. `+inf` where every box is entered: nothing can be said, or the spheres are so few that no box is looked at.
+pub(crate) fn inverse_of_body(spheres: &Spheres<'_>, scale: &SceneScale) -> f32 {
+    let count = spheres.len();
+    if count <= FEW {
+        return f32::INFINITY;
+    }
+    let mut columns = [[0.0; SAMPLE]; 4];
+    let mut held = 0;
+    for number in 0..(count / ONE_IN).clamp(LEAST, SAMPLE) {
+        let part = u64::from((number as u32).wrapping_mul(GOLDEN));
+        let at = (part * count as u64) >> u32::BITS;
+        if let Some(sphere) = spheres.get(at as usize).and_then(|sphere| scale.scaled(&sphere)) {
+            let [x, y, z] = sphere.center();
+            for (column, number) in columns.iter_mut().zip([x, y, z, sphere.radius]) {
+                column[held % SAMPLE] = number;
+            }
+            held += 1;
+        }
+    }
+    let [xs, ys, zs, radii] = &mut columns;
+    let radius = median(radii, held);
+    let width = |column: &mut [f32; SAMPLE]| {
+        let middle = median(column, held);
+        for number in column.iter_mut() {
+            *number = (*number - middle).abs();
+        }
+        4.0 * median(column, held) + 2.0 * radius
+    };
+    let [x, y, z] = [width(xs), width(ys), width(zs)];
+    1.0 / (x * y + y * z + z * x)
+}
+
+/// The middle one of the first `held`, which are sorted then.
+fn median(column: &mut [f32; SAMPLE], held: usize) -> f32 {
+    let held = column.get_mut(..held).unwrap_or_default();
+    held.sort_unstable_by(f32::total_cmp);
+    held.get(held.len() / 2).copied().unwrap_or_default()
+}
+
+/// Of a node's boxes, with what [`inverse_of_body`] says.
+#[inline(always)]
+pub(crate) fn boxes_of(BvhNode { low, high, child, .. }: &BvhNode, inverse: f32) -> BoxesPerRay {
+    let (mut nodes, mut all) = (0.0, 0.0);
+    for slot in 0..WIDTH {
+        let [x, y, z] = axes!(i => high[i][slot] - low[i][slot]);
+        let chance = (x * y + y * z + z * x) * inverse;
+        // NaN where nothing can be said.
+        let chance = if chance < 1.0 { chance } else { 1.0 };
+        let chance = if low[0][slot] <= high[0][slot] { chance } else { 0.0 };
+        all += chance;
+        nodes += if child[slot] & LEAF == 0 { chance } else { 0.0 };
+    }
+    BoxesPerRay { nodes, leaves: all - nodes }
+}

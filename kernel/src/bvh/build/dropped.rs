@@ -1,0 +1,93 @@
+//! Copies of spheres for which no lane is free, while leaves are laid down.
+//!
+//! They wait where the spheres lay that were read last, right in front of what is read next, each with its own
+//! index and that of the sphere it is the same as, and move along: at the end they are the last of the memory. So leaves in
+//! front of them have the room that copies do not take.
+
+use crate::bvh::unplaced::Unplaced;
+
+/// How many wait, in front of what is read next.
+pub(super) struct Dropped {
+    pub(super) count: usize,
+    /// Where what was read ends.
+    read: usize,
+    /// The lowest index of the leaf that was read last.
+    last: u32,
+}
+
+impl Dropped {
+    /// Spheres begin at `first`.
+    pub(super) const fn none(first: usize) -> Self {
+        Self { count: 0, read: first, last: 0 }
+    }
+
+    /// Reading goes on at `begin`: what was left out are copies of the first of the leaf that was read last.
+    #[inline(always)]
+    pub(super) fn leave_out(&mut self, places: &mut [[f32; 4]], indices: &[u32], begin: usize) {
+        if begin > self.read {
+            self.add_run(places, indices, begin);
+        }
+    }
+
+    #[cold]
+    fn add_run(&mut self, places: &mut [[f32; 4]], indices: &[u32], begin: usize) {
+        let there = places.iter_mut().zip(indices).take(begin).skip(self.read);
+        for (place, index) in there {
+            *place = waiting(*index, self.last);
+        }
+        (self.count, self.read) = (self.count + begin - self.read, begin);
+    }
+
+    /// A leaf was read up to `end`, of which `first` has the lowest index; `copies` are its own, with what they are the
+    /// same as.
+    #[inline(always)]
+    pub(super) fn read_leaf(
+        &mut self,
+        places: &mut [[f32; 4]],
+        (end, first): (usize, u32),
+        copies: &[Unplaced],
+    ) {
+        if self.count + copies.len() > 0 {
+            self.move_behind(places, end, copies);
+        }
+        (self.count, self.read, self.last) = (self.count + copies.len(), end, first);
+    }
+
+    /// Moves as many as must move: the first of those that wait, into what was read.
+    #[cold]
+    fn move_behind(&self, places: &mut [[f32; 4]], end: usize, copies: &[Unplaced]) {
+        let to = end.saturating_sub(copies.len());
+        let moved = self.count.min(to.saturating_sub(self.read));
+        let from = self.read.saturating_sub(self.count);
+        for number in 0..moved {
+            if let Some(place) = places.get(from + number).copied()
+                && let Some(to) = places.get_mut((to + number).saturating_sub(moved))
+            {
+                *to = place;
+            }
+        }
+        for (place, copy) in places.iter_mut().skip(to).zip(copies) {
+            *place = waiting(copy.index, copy.same);
+        }
+    }
+
+    /// Writes those that are left at the end, behind `all` spheres, to a table before them, from its front.
+    pub(super) fn collect(&self, numbers: &mut [f32], all: usize, table: usize) {
+        let from = 4 * all.saturating_sub(self.count);
+        for number in 0..self.count {
+            for part in 0..2 {
+                if let Some(bits) = numbers.get(from + 4 * number + part).copied()
+                    && let Some(to) = numbers.get_mut(table + 2 * number + part)
+                {
+                    *to = bits;
+                }
+            }
+        }
+    }
+}
+
+/// As it waits in the place of a sphere.
+const fn waiting(index: u32, same: u32) -> [f32; 4] {
+    let [index, same] = Unplaced { index, same }.bits();
+    [index, same, 0.0, 0.0]
+}

@@ -1,0 +1,270 @@
+//! The boxes of a tree whose spheres have moved.
+//!
+//! Every lane takes the sphere of its index from where it is now, and boxes are made anew from the leaves up, as the
+//! build makes them; which sphere is in which leaf stays. A lane whose sphere is not seen by bounds any more has a NaN
+//! for a radius, and so has one whose sphere is the same as that of a lower index in its leaf. What has no lane
+//! (`unplaced.rs`) is met by itself, if it is a sphere at all, and no copy of one in the tree.
+
+use super::bounds::{Corners, padded};
+use super::child_order::order_children;
+use super::join::InTurn;
+use super::lay_down::write_columns;
+use super::top_down::extent_of;
+use crate::bvh::boxes_per_ray::inverse_of_body;
+use crate::bvh::built::Built;
+use crate::bvh::leaf;
+use crate::bvh::node::{BvhNode, DEPTH, LEAF, NO_CHILD, WIDTH};
+use crate::bvh::unplaced::Unplaced;
+use crate::geometry::sphere::{Sphere, Spheres};
+use crate::memory::TooSmall;
+use crate::numeric::rounding::{least, most};
+use crate::scale::scene::SceneScale;
+use core::hint::black_box;
+use wide::f32x4;
+
+/// Lists of more spheres are read ahead: what the second cache of a core holds.
+const NEAR: usize = 65_536;
+
+/// Moves the spheres of a tree to where as many are now; nothing changes if indices have no room for those that no box
+/// holds then.
+pub(crate) fn refit(
+    built: &mut Built,
+    spheres: &Spheres<'_>,
+    nodes: &mut [BvhNode],
+    places: &mut [[f32; 4]],
+    indices: &mut [u32],
+) -> Result<(), TooSmall> {
+    let numbers = places.as_flattened_mut().get_mut(built.shift..).unwrap_or_default();
+    let (numbers, table) = numbers.split_at_mut(built.leaves().min(numbers.len()));
+    let table = table.as_chunks().0.get(..built.unplaced).unwrap_or_default();
+    TooSmall::check(built.places + outside(spheres, &built.scale, table), indices.len())?;
+
+    let nodes = nodes.get_mut(..built.nodes).unwrap_or_default();
+    let (lanes, outside) = indices.split_at_mut(built.places.min(indices.len()));
+    let scale = built.scale;
+    let mut leaves = Leaves { spheres, scale, numbers, lanes, outside, count: 0 };
+    let all = leaves.refit(nodes, built.root);
+    for bits in table {
+        let unplaced = Unplaced::from_bits(*bits);
+        if unplaced.is_met(spheres) {
+            leaves.leave_out(unplaced.index);
+        }
+    }
+    built.outside = leaves.count;
+    // Of equal t by `Stable` and others the first is the answer.
+    outside.get_mut(..built.outside).unwrap_or_default().sort_unstable();
+
+    built.extent = if all.is_empty() { 0.0 } else { extent_of(all.outward()) };
+    let inverse = inverse_of_body(spheres, &scale);
+    let boxes = order_children::<false>(&InTurn, nodes, numbers, inverse);
+    built.boxes_per_ray = boxes.of_root(built.root);
+    Ok(())
+}
+
+/// How many spheres no box will hold.
+fn outside(spheres: &Spheres<'_>, scale: &SceneScale, table: &[[f32; 2]]) -> usize {
+    let mut outside = 0;
+    for sphere in spheres.iter() {
+        outside += usize::from(scale.scaled(&sphere).is_none() && sphere.is_valid());
+    }
+    for bits in table {
+        let unplaced = Unplaced::from_bits(*bits);
+        outside += usize::from(unplaced.is_met(spheres));
+        outside -= usize::from(unplaced.is_beyond(spheres, scale)).min(outside);
+    }
+    outside
+}
+
+/// The leaves of a tree, and where their spheres are now.
+struct Leaves<'a> {
+    spheres: &'a Spheres<'a>,
+    scale: SceneScale,
+    numbers: &'a mut [f32],
+    /// The index of each lane.
+    lanes: &'a [u32],
+    /// The indices of spheres that no box holds, and how many there are.
+    outside: &'a mut [u32],
+    count: usize,
+}
+
+/// A node on the way, the slot that is next, and what is in its boxes so far.
+#[derive(Clone, Copy)]
+struct Step {
+    node: usize,
+    slot: usize,
+    held: Corners,
+}
+
+impl Leaves<'_> {
+    /// Refits what is below `root`; returns its box.
+    fn refit(&mut self, nodes: &mut [BvhNode], root: u32) -> Corners {
+        if root & LEAF != 0 {
+            return if root == NO_CHILD { Corners::EMPTY } else { self.leaf(root & !LEAF) };
+        }
+        let step = |node| Step { node, slot: 0, held: Corners::EMPTY };
+        let mut way = [step(root as usize); DEPTH + 1];
+        let mut depth = 0;
+        let mut held = Corners::EMPTY;
+        while let Some(step_here) = way.get_mut(depth) {
+            let Step { node, slot, held: here } = step_here;
+            let Some(node) = nodes.get_mut(*node) else { break };
+            if *slot == 0 && self.spheres.len() > NEAR {
+                self.read_ahead(node);
+            }
+            if let Some(child) = node.child.get(*slot).copied() {
+                *slot += 1;
+                if child & LEAF == 0 {
+                    depth += 1;
+                    if let Some(place) = way.get_mut(depth) {
+                        *place = step(child as usize);
+                    }
+                } else if child != NO_CHILD {
+                    let corners = self.leaf(child & !LEAF);
+                    put_box(node, slot.saturating_sub(1), &corners);
+                    here.hold(corners);
+                }
+                continue;
+            }
+            held = *here;
+            let Some(above) = depth.checked_sub(1) else { break };
+            depth = above;
+            if let Some(Step { node, slot, held: here }) = way.get_mut(depth)
+                && let Some(node) = nodes.get_mut(*node)
+            {
+                put_box(node, slot.saturating_sub(1), &held);
+                here.hold(held);
+            }
+        }
+        held
+    }
+
+    /// Refits a leaf; returns its box.
+    fn leaf(&mut self, number: u32) -> Corners {
+        let (begin, lanes) = leaf::extent_of(number);
+        let none = [0.0; WIDTH];
+        let mut columns = [none, none, none, [f32::NAN; WIDTH]];
+        let mut there = 0;
+        for lane in 0..lanes.min(WIDTH) {
+            let Some(&index) = self.lanes.get(begin + lane) else { continue };
+            let Some(sphere) = self.spheres.get(index as usize) else { continue };
+            let [x, y, z] = sphere.center();
+            for (column, number) in columns.iter_mut().zip([x, y, z, sphere.radius]) {
+                column[lane] = number;
+            }
+            there += 1;
+        }
+        let inside = self.scale.scale_columns(&mut columns);
+        if inside < there {
+            self.leave_out_of_leaf(begin, lanes);
+        }
+        let corners = corners_of(&columns);
+        // Spheres that are the same have the same sum, as where leaves are laid down.
+        let [xs, ys, zs, radii] = &columns;
+        let mut sums = none;
+        for lane in 0..WIDTH {
+            sums[lane] = xs[lane] + 3.0 * ys[lane] + 5.0 * zs[lane] + 7.0 * radii[lane];
+        }
+        let mut alike = [0; WIDTH];
+        for other in 0..lanes.min(WIDTH) {
+            let sum = sums[other];
+            for lane in 0..WIDTH {
+                alike[lane] += i32::from(sum == sums[lane]);
+            }
+        }
+        // Each is like itself.
+        if alike.iter().sum::<i32>() > inside {
+            self.keep_lowest(begin, &mut columns);
+        }
+        write_columns(self.numbers, (begin, lanes), &columns);
+        corners
+    }
+
+    /// Leaves out what is valid and not seen by bounds.
+    #[cold]
+    fn leave_out_of_leaf(&mut self, begin: usize, lanes: usize) {
+        for lane in 0..lanes {
+            let Some(&index) = self.lanes.get(begin + lane) else { continue };
+            let Some(sphere) = self.spheres.get(index as usize) else { continue };
+            if sphere.is_valid() && self.scale.scaled(&sphere).is_none() {
+                self.leave_out(index);
+            }
+        }
+    }
+
+    /// Reads the spheres of a node's leaves, one after the other: all are on their way from memory at once then, as in
+    /// `bvh/traverse/prefetch.rs`.
+    fn read_ahead(&self, node: &BvhNode) {
+        let mut bits = 0;
+        for child in node.child {
+            if child & LEAF == 0 || child == NO_CHILD {
+                continue;
+            }
+            let (begin, lanes) = leaf::extent_of(child & !LEAF);
+            for index in self.lanes.get(begin..begin + lanes).unwrap_or_default() {
+                if let Some(Sphere { center, radius }) = self.spheres.get(*index as usize) {
+                    bits ^= center.x.to_bits() ^ center.y.to_bits();
+                    bits ^= center.z.to_bits() ^ radius.to_bits();
+                }
+            }
+        }
+        black_box(bits);
+    }
+
+    /// Of spheres that are the same the one with the lowest index.
+    #[cold]
+    fn keep_lowest(&self, begin: usize, columns: &mut [[f32; WIDTH]; 4]) {
+        let index = |lane: usize| self.lanes.get(begin + lane).copied().unwrap_or(u32::MAX);
+        let own = *columns;
+        let row = |lane: usize| [own[0][lane], own[1][lane], own[2][lane], own[3][lane]];
+        for lane in 0..WIDTH {
+            let is_copy = |other: usize| index(other) < index(lane) && row(other) == row(lane);
+            if (0..WIDTH).any(|other| is_copy(other % WIDTH)) {
+                columns[3][lane] = f32::NAN;
+            }
+        }
+    }
+
+    fn leave_out(&mut self, index: u32) {
+        if let Some(place) = self.outside.get_mut(self.count) {
+            *place = index;
+            self.count += 1;
+        }
+    }
+}
+
+/// The box of spheres; those whose radius is NaN are none.
+#[inline(always)]
+fn corners_of([xs, ys, zs, radii]: &[[f32; WIDTH]; 4]) -> Corners {
+    let (mut low, mut high) = ([0.0; 4], [0.0; 4]);
+    for (axis, centers) in [xs, ys, zs].into_iter().enumerate() {
+        let (mut lows, mut highs) = ([0.0; WIDTH], [0.0; WIDTH]);
+        for lane in 0..WIDTH {
+            let (center, radius) = (centers[lane], radii[lane]);
+            lows[lane] = if radius.is_nan() { f32::INFINITY } else { center - radius };
+            highs[lane] = if radius.is_nan() { f32::NEG_INFINITY } else { center + radius };
+        }
+        for half in [8, 4, 2, 1] {
+            for lane in 0..half {
+                lows[lane] = least(lows[lane + half], lows[lane]);
+                highs[lane] = most(highs[lane + half], highs[lane]);
+            }
+        }
+        (low[axis], high[axis]) = (lows[0], highs[0]);
+    }
+    Corners { low: f32x4::new(low), high: f32x4::new(high) }
+}
+
+/// Writes the box of a child; of one that has no sphere, one that no ray enters.
+#[inline(always)]
+fn put_box(node: &mut BvhNode, slot: usize, corners: &Corners) {
+    let [low, high] = if corners.is_empty() {
+        [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]]
+    } else {
+        let [low, high] = corners.outward();
+        padded(low, high)
+    };
+    for axis in 0..3 {
+        node.low[axis][slot % WIDTH] = low[axis];
+        node.high[axis][slot % WIDTH] = high[axis];
+    }
+}

@@ -1,0 +1,122 @@
+//! Memory of the caller's in which a tree is built, and refitted.
+
+use super::build::join::InTurn;
+use super::build::refit::refit;
+use super::build::top_down;
+use super::built::Built;
+use super::node::BvhNode;
+use super::tree::Bvh;
+use crate::geometry::sphere::Spheres;
+use crate::memory::TooSmall;
+use core::fmt;
+
+/// Why a tree was not refitted; it is as it was before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RefitError {
+    /// No tree was built in the memory.
+    NoTree,
+    /// The tree is over another number of spheres.
+    OtherCount {
+        /// How many the tree was built over.
+        built: usize,
+        /// How many are given.
+        given: usize,
+    },
+    /// More spheres have left what boxes hold than there are indices for in the memory of the caller's.
+    TooSmall(TooSmall),
+}
+
+impl fmt::Display for RefitError {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoTree => formatter.write_str("no tree was built in the memory"),
+            Self::OtherCount { built, given } => {
+                write!(formatter, "the tree is over {built} spheres, and {given} are given")
+            }
+            Self::TooSmall(error) => error.fmt(formatter),
+        }
+    }
+}
+
+impl core::error::Error for RefitError {}
+
+/// Memory of the caller's in which a [`Bvh`] is built, and refitted where its spheres move.
+///
+/// The tree is borrowed from the memory until it is built or refitted again, and so is its list.
+///
+/// ```
+/// use spherule_kernel::{Bvh, BvhMemory, Exact, Intersect, Ray, Spheres, Vec3};
+///
+/// const NEEDED: usize = Bvh::needed(2).places;
+/// let (mut nodes, mut places, mut indices) = ([], [[0.0; 4]; NEEDED], [0; NEEDED]);
+/// let mut memory = BvhMemory::new(&mut nodes, &mut places, &mut indices);
+///
+/// let mut z = [5.0, 9.0];
+/// let spheres = |z| Spheres::new(&[0.0; 2], &[0.0; 2], z, &[1.0; 2]).expect("equal lengths");
+/// let first = memory.build(spheres(&z))?.closest_hit(Exact, &Ray::new(Vec3::ZERO, Vec3::Z));
+/// z[0] = 20.0;
+/// let tree = memory.refit(spheres(&z))?;
+/// let then = tree.closest_hit(Exact, &Ray::new(Vec3::ZERO, Vec3::Z));
+/// assert_eq!((first.map(|hit| hit.t), then.map(|hit| hit.t)), (Some(4.0), Some(8.0)));
+/// assert!(tree.growth() < 1.5);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct BvhMemory<'m> {
+    nodes: &'m mut [BvhNode],
+    places: &'m mut [[f32; 4]],
+    indices: &'m mut [u32],
+    /// The tree that is in it, if there is one, and over how many spheres.
+    tree: Option<(Built, usize)>,
+}
+
+impl<'m> BvhMemory<'m> {
+    /// Memory whose contents do not matter. [`Bvh::needed`] says how much a tree needs.
+    ///
+    /// With as many indices as that and one more for each sphere, no refit is [`TooSmall`].
+    #[must_use]
+    pub const fn new(
+        nodes: &'m mut [BvhNode],
+        places: &'m mut [[f32; 4]],
+        indices: &'m mut [u32],
+    ) -> Self {
+        Self { nodes, places, indices, tree: None }
+    }
+
+    /// Builds a tree, as [`Bvh::build`] does.
+    ///
+    /// # Errors
+    /// As [`Bvh::build`]: there is no tree in the memory then.
+    pub fn build<'a>(&'a mut self, spheres: Spheres<'a>) -> Result<Bvh<'a>, TooSmall> {
+        self.tree = None;
+        let Self { nodes, places, indices, tree } = self;
+        Bvh::check(spheres.len(), nodes, places, indices)?;
+        let built = top_down::build(&InTurn, &spheres, nodes, places, indices);
+        *tree = Some((built, spheres.len()));
+        Ok(Bvh::of(built, spheres, nodes, places, indices))
+    }
+
+    /// Moves the spheres of the tree that is in the memory to where they are now: sphere i of those that it was built or
+    /// refitted over to sphere i of these, centre and radius.
+    ///
+    /// What is guaranteed is what a tree that is built anew guarantees, for any spheres. Those that are not valid now are left
+    /// out; if they are valid again later, they are back. Spheres that are larger or smaller than the others by 2^40 or more,
+    /// as they were when the tree was built, are tested against every ray; so are spheres which were left out then and now are
+    /// valid, and of more than four that were the same some that are not any more. So a refit costs no guarantee, only time,
+    /// and [`Bvh::growth`] says how much.
+    ///
+    /// Cost: at most a quarter of a build's time. Stack: some 2 KiB. No other memory.
+    ///
+    /// # Errors
+    /// [`RefitError`] where the number of spheres is another, where indices are too few for the spheres that no box holds, or
+    /// where there is no tree. A tree in the memory is as it was.
+    pub fn refit<'a>(&'a mut self, spheres: Spheres<'a>) -> Result<Bvh<'a>, RefitError> {
+        let Self { nodes, places, indices, tree } = self;
+        let Some((built, count)) = tree else { return Err(RefitError::NoTree) };
+        if *count != spheres.len() {
+            return Err(RefitError::OtherCount { built: *count, given: spheres.len() });
+        }
+        refit(built, &spheres, nodes, places, indices).map_err(RefitError::TooSmall)?;
+        Ok(Bvh::of(*built, spheres, nodes, places, indices))
+    }
+}

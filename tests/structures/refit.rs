@@ -1,0 +1,237 @@
+//! Trees whose spheres move answer as a list of the spheres does, whatever the way there.
+
+use super::scenes::{EYE, camera, mixed, uniform};
+use spherule_kernel::{
+    Bvh, BvhMemory, BvhNode, Coherence, Intersect, Level, Ray, RefitError, Sphere, SphereList,
+    SphereTree, Tier, Trace, Vec3,
+};
+use spherule_tests::random::Random;
+use spherule_tests::variants::{bits, levels};
+
+/// Asserts that a tree answers as the list of its spheres does, in every level, however its rays are said to be.
+fn assert_as_list(tree: &impl Intersect, list: &SphereList, tiers: &[Tier], rays: &[Ray]) {
+    for &tier in tiers {
+        let mut expected = vec![None; rays.len()];
+        list.closest_hits(tier, rays, &mut expected);
+        for level in levels() {
+            for coherence in [Coherence::Incoherent, Coherence::Coherent, Coherence::Detect] {
+                let level = Level::named(level).expect("of this CPU");
+                let mut trace = Trace { coherence, level, ..Trace::new() };
+                let (mut hits, mut met) = (vec![None; rays.len()], vec![false; rays.len()]);
+                tree.closest_hits_with(tier, &mut trace, rays, &mut hits);
+                tree.any_hits_with(tier, &mut trace, rays, &mut met);
+                for (ray, expected) in expected.iter().enumerate() {
+                    let context = format!("{tier:?}, {level:?}, {coherence:?}, ray {ray}");
+                    assert_eq!(bits(hits[ray]), bits(*expected), "{context}");
+                    assert_eq!(met[ray], expected.is_some(), "{context}");
+                }
+            }
+        }
+    }
+}
+
+fn rays() -> Vec<Ray> {
+    let mut rays = mixed(200, 5);
+    rays.extend(camera(EYE, Vec3::ZERO, 0.364, 16));
+    // From so far away that no bound covers them.
+    rays.extend((0..20).map(|i| {
+        let from = Vec3::new(0.0, 3e25, i as f32 * 0.05);
+        Ray::new(from, Vec3::new(0.0, -3e25, i as f32 * 0.01))
+    }));
+    rays
+}
+
+/// What becomes of a sphere.
+fn moved(random: &mut Random, sphere: Sphere, other: Sphere, how: usize) -> Sphere {
+    let strange = [f32::NAN, f32::INFINITY, -1.0, 1e20, 3e38];
+    match how {
+        0 => Sphere { center: sphere.center + random.in_cube(0.01), ..sphere },
+        1 => Sphere { center: sphere.center + random.in_cube(1.0), ..sphere },
+        2 => Sphere { center: random.in_cube(2.0), radius: other.radius },
+        3 => Sphere { radius: random.pick(&strange), ..sphere },
+        4 => Sphere { center: Vec3::new(0.0, random.pick(&strange), 0.0), ..sphere },
+        5 => other,
+        _ => Sphere { center: Vec3::ZERO, radius: 0.25 },
+    }
+}
+
+#[test]
+fn repeated_moves_of_every_kind() {
+    let (rays, mut random) = (rays(), Random::new(24, 0));
+    for count in [0, 1, 2, 17, 70, 300, 3000] {
+        let start = uniform(count);
+        for share in [1, 3, 20] {
+            let mut now = start.clone();
+            let mut tree = SphereTree::new(start.as_slice());
+            for how in [0, 1, 2, 3, 5, 4, 6, 7, 0] {
+                for index in 0..count {
+                    if how == 7 {
+                        now[index] = start[index];
+                    } else if random.one_in(share) {
+                        let other = now[random.integer(0, count as i64 - 1) as usize];
+                        now[index] = moved(&mut random, now[index], other, how);
+                    }
+                }
+                let growth = tree.refit(now.as_slice()).expect("as many");
+                assert!(growth.is_finite() && growth > 0.0, "{growth}");
+                assert!(how != 7 || growth == 1.0, "back at the start: {growth}");
+                assert_as_list(&tree, &SphereList::from(&now), &[Tier::Exact], &rays);
+            }
+        }
+    }
+}
+
+/// In its domain: no sphere, and no ray, out of scale.
+#[test]
+fn stable_moves() {
+    let (rays, mut random) = (mixed(200, 6), Random::new(25, 0));
+    let mut now = uniform(1000);
+    let mut tree = SphereTree::new(now.as_slice());
+    for how in [0, 2, 5, 1] {
+        for index in 0..now.len() {
+            if random.one_in(3) {
+                let other = now[random.integer(0, 999) as usize];
+                now[index] = moved(&mut random, now[index], other, how);
+            }
+        }
+        tree.refit(now.as_slice()).expect("as many");
+        assert_as_list(&tree, &SphereList::from(&now), &[Tier::Stable, Tier::Exact], &rays);
+    }
+}
+
+/// Spheres that were the same, of which all but a few had no lane, part and come together again.
+#[test]
+fn copies_part() {
+    let own = uniform(1000);
+    let rays = rays();
+    for copies in [2, 5, 16, 17, 100, 900] {
+        let mut spheres = own.clone();
+        for sphere in &mut spheres[1000 - copies..] {
+            *sphere = own[40];
+        }
+        let mut tree = SphereTree::new(spheres.as_slice());
+        let together = tree.refit(spheres.as_slice()).expect("as many");
+        assert_eq!(together, 1.0, "{copies} copies");
+        assert_as_list(&tree, &SphereList::from(&spheres), &[Tier::Exact], &rays);
+        let growth = tree.refit(own.as_slice()).expect("as many");
+        assert_as_list(&tree, &SphereList::from(&own), &[Tier::Exact], &rays);
+        assert!(growth > 2.0 || copies < 100, "{copies} copies: {growth}");
+        // All go together.
+        for sphere in &mut spheres {
+            sphere.center += Vec3::new(0.25, 0.0, 0.0);
+        }
+        let growth = tree.refit(spheres.as_slice()).expect("as many");
+        assert!((0.9..1.1).contains(&growth), "{growth}");
+        assert_as_list(&tree, &SphereList::from(&spheres), &[Tier::Exact], &rays);
+    }
+}
+
+/// More the less is left of a tree; none where all go together.
+#[test]
+fn growth_says_when_to_build_anew() {
+    let start = uniform(10_000);
+    let mut random = Random::new(26, 0);
+    let mut tree = SphereTree::new(start.as_slice());
+    assert_eq!(tree.bvh().growth(), 1.0);
+    let mut before = 0.98;
+    for by in [0.001, 0.01, 0.1, 0.5] {
+        let moved: SphereList = start
+            .iter()
+            .map(|sphere| Sphere { center: sphere.center + random.in_cube(by), ..*sphere })
+            .collect();
+        let growth = tree.refit(moved).expect("as many");
+        assert!(growth > before, "{by}: {growth}, before {before}");
+        before = growth;
+    }
+    assert!(before > 3.0, "{before}");
+    for factor in [0.25, 3.0] {
+        let scaled: SphereList = start
+            .iter()
+            .map(|s| Sphere { center: s.center * factor + Vec3::Y, radius: s.radius * factor })
+            .collect();
+        let growth = tree.refit(scaled).expect("as many");
+        assert!((0.95..1.05).contains(&growth), "{factor}: {growth}");
+    }
+    // One far away does not hide the others.
+    let mut one_far = start.clone();
+    one_far[5].center.x = 1e6;
+    let growth = tree.refit(one_far.as_slice()).expect("as many");
+    assert!((1.0..1.5).contains(&growth), "{growth}");
+    assert_eq!(tree.refit(start.as_slice()), Ok(1.0));
+}
+
+#[test]
+fn another_number_is_an_error_and_nothing_changes() {
+    for count in [0, 1, 100] {
+        let spheres = uniform(count);
+        let mut tree = SphereTree::new(spheres.as_slice());
+        let given = count + 1;
+        let error = tree.refit(uniform(given)).expect_err("one more");
+        assert_eq!(error, RefitError::OtherCount { built: count, given });
+        assert!(error.to_string().contains(&given.to_string()), "{error}");
+        assert_as_list(&tree, &SphereList::from(&spheres), &[Tier::Exact], &rays());
+    }
+}
+
+/// Memory of the caller's: as much as a tree needs, and with room for all to leave.
+#[test]
+fn lent_memory() {
+    let start = SphereList::from(uniform(500));
+    let needed = Bvh::needed(500);
+    let rays = rays();
+    let far: SphereList =
+        start.spheres().iter().map(|s| Sphere { center: s.center, radius: 1e30 }).collect();
+    let near: SphereList = start
+        .spheres()
+        .iter()
+        .map(|s| Sphere { center: s.center + Vec3::new(s.center.y, 0.0, 0.0), ..s })
+        .collect();
+    for more in [0, 500] {
+        let mut nodes = vec![BvhNode::EMPTY; needed.nodes];
+        let mut places = vec![[f32::NAN; 4]; needed.places];
+        let mut indices = vec![7; needed.places + more];
+        let mut memory = BvhMemory::new(&mut nodes, &mut places, &mut indices);
+        assert_eq!(memory.refit(start.spheres()).err(), Some(RefitError::NoTree));
+        assert_eq!(memory.build(start.spheres()).expect("enough").growth(), 1.0);
+        let few = uniform(499);
+        let error = memory.refit(SphereList::from(few).spheres()).expect_err("another number");
+        assert_eq!(error, RefitError::OtherCount { built: 500, given: 499 });
+        match memory.refit(far.spheres()) {
+            Ok(tree) => {
+                assert_eq!(more, 500);
+                assert!(tree.growth() > 2.0, "{}", tree.growth());
+                assert_as_list(&tree, &far, &[Tier::Exact], &rays);
+            }
+            Err(RefitError::TooSmall(error)) => assert!(more == 0 && error.needed > error.given),
+            Err(error) => panic!("{error}"),
+        }
+        for list in [&near, &start] {
+            let tree = memory.refit(list.spheres()).expect("all are inside");
+            assert_as_list(&tree, list, &[Tier::Exact], &rays);
+        }
+        assert_eq!(memory.refit(start.spheres()).expect("inside").growth(), 1.0);
+    }
+}
+
+/// So many spheres out of scale that leaves which take what places there are would leave no room for their indices.
+#[test]
+fn spheres_out_of_scale_have_room_when_built() {
+    let mut random = Random::new(27, 0);
+    let mut spheres = Vec::new();
+    // Pairs far from each other, which leaves of their own hold best.
+    while spheres.len() < 1200 {
+        let center = random.in_cube(100.0);
+        for _ in 0..2 {
+            spheres.push(Sphere { center: center + random.in_cube(0.01), radius: 0.5 });
+        }
+    }
+    for index in 0..1000 {
+        spheres.push(Sphere { center: Vec3::new(index as f32 * 1e17, 0.0, 1e20), radius: 1e16 });
+    }
+    let mut rays = mixed(64, 7);
+    rays.extend(
+        (0..1000).map(|index| Ray::new(Vec3::ZERO, Vec3::new(index as f32 * 1e17, 0.0, 1e20))),
+    );
+    let tree = SphereTree::new(spheres.as_slice());
+    assert_as_list(&tree, &SphereList::from(&spheres), &[Tier::Exact], &rays);
+}
