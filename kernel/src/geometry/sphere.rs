@@ -135,6 +135,12 @@ impl<'a> Spheres<'a> {
         })
     }
 
+    /// x, y, z and radii, of one length.
+    #[inline(always)]
+    pub(crate) const fn columns(&self) -> [&'a [f32]; 4] {
+        [self.x, self.y, self.z, self.r]
+    }
+
     /// The spheres in the order of their indices.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = Sphere> + use<'a> {
         let Self { x, y, z, r } = *self;

@@ -5,10 +5,8 @@
 //! 2^-40. Spheres outside of it, and those that the power would round, are seen by no bound.
 
 use crate::geometry::sphere::{Sphere, Spheres};
-use crate::lanes::WIDTH;
-use crate::numeric::axes::axes;
 use crate::numeric::power_of_two::inverse_power_of_two;
-use crate::numeric::rounding::most;
+use wide::f32x4;
 
 /// 2^126: a larger power has no normal inverse.
 const MOST: f32 = 1.0 / f32::MIN_POSITIVE;
@@ -81,37 +79,29 @@ impl SceneScale {
         (sphere.is_valid() && inside && self.restored(&scaled) == *sphere).then_some(scaled)
     }
 
-    /// Scales sixteen spheres, each as [`scaled`](Self::scaled) does; where that is `None`, the radius is NaN. Returns how
-    /// many are inside.
+    /// Scales four spheres, coordinate by coordinate, as [`scaled`](Self::scaled) does; where that is `None`, the centre is
+    /// zero and the radius NaN. Returns a bit for each that is inside, too.
     #[inline(always)]
-    pub(crate) fn scale_columns(&self, columns: &mut [[f32; WIDTH]; 4]) -> i32 {
-        let Self { factor, inverse } = *self;
-        let mut number = 0;
-        for lane in 0..WIDTH {
-            let own = axes!(i => columns[i][lane]);
-            let radius = columns[3][lane];
-            let [x, y, z] = axes!(i => own[i] * factor);
-            let scaled = radius * factor;
-            let fits = (x.abs() <= LARGEST)
-                & (y.abs() <= LARGEST)
-                & (z.abs() <= LARGEST)
-                & (scaled <= LARGEST)
-                & (radius >= 0.0);
-            let is_point = (own[0] == 0.0) & (own[1] == 0.0) & (own[2] == 0.0) & (radius == 0.0);
-            let size = most(most(x.abs(), y.abs()), most(z.abs(), scaled));
+    pub(crate) fn scale_four(&self, own: [f32x4; 4]) -> ([f32x4; 4], u32) {
+        let (factor, inverse) = (f32x4::splat(self.factor), f32x4::splat(self.inverse));
+        let zero = f32x4::splat(0.0);
+        let mut inside = own[3].simd_ge(zero);
+        let mut is_point = inside;
+        let mut scaled = [zero; 4];
+        let mut size = zero;
+        for axis in 0..4 {
+            let number = own[axis] * factor;
+            scaled[axis] = number;
             // What is not finite does not fit.
-            let is_exact = (x * inverse == own[0])
-                & (y * inverse == own[1])
-                & (z * inverse == own[2])
-                & (scaled * inverse == radius);
-            let inside = fits & is_exact & (is_point | (size >= SMALLEST));
-            for (axis, number) in [x, y, z].into_iter().enumerate() {
-                columns[axis][lane] = if inside { number } else { 0.0 };
-            }
-            columns[3][lane] = if inside { scaled } else { f32::NAN };
-            number += i32::from(inside);
+            inside &= number.abs().simd_le(f32x4::splat(LARGEST));
+            inside &= (number * inverse).simd_eq(own[axis]);
+            is_point &= own[axis].simd_eq(zero);
+            size = size.fast_max(number.abs());
         }
-        number
+        inside &= is_point | size.simd_ge(f32x4::splat(SMALLEST));
+        let [x, y, z, radius] = scaled;
+        let radius = inside.bitselect(radius, f32x4::splat(f32::NAN));
+        ([x & inside, y & inside, z & inside, radius], inside.to_bitmask())
     }
 
     /// A scaled sphere as it was given.
@@ -149,7 +139,7 @@ mod tests {
     use crate::testing::climb::Random;
     use glam::Vec3;
 
-    /// Sixteen at once as one by one, of any bits.
+    /// Four at once as one by one, of any bits.
     #[test]
     fn columns_are_scaled_as_spheres_are() {
         let mut random = Random(31);
@@ -163,27 +153,26 @@ mod tests {
                 2 => -0.0,
                 _ => f32::from_bits((60 + random.below(120) as u32) << 23 | 1),
             };
-            let mut columns = [[0.0; WIDTH]; 4];
-            for column in &mut columns {
-                *column = [(); WIDTH].map(|()| number());
-            }
-            let given = columns;
-            let count = scale.scale_columns(&mut columns);
-            let mut expected = 0;
-            for lane in 0..WIDTH {
+            let given = [(); 4].map(|()| f32x4::new([(); 4].map(|()| number())));
+            let (found, bits) = scale.scale_four(given);
+            let (given, found) = (given.map(f32x4::to_array), found.map(f32x4::to_array));
+            for lane in 0..4 {
                 let [x, y, z, radius] = given.map(|column| column[lane]);
+                let there = found.map(|column| column[lane]);
                 match scale.scaled(&Sphere { center: Vec3::new(x, y, z), radius }) {
                     Some(Sphere { center, radius }) => {
-                        let there = columns.map(|column| column[lane].to_bits());
                         let [x, y, z] = center.to_array();
-                        assert_eq!(there, [x, y, z, radius].map(f32::to_bits));
-                        expected += 1;
+                        assert_eq!(there.map(f32::to_bits), [x, y, z, radius].map(f32::to_bits));
+                        assert_eq!(bits >> lane & 1, 1);
+                        inside += 1;
                     }
-                    None => assert!(columns[3][lane].is_nan()),
+                    None => {
+                        assert!(there[3].is_nan() && there[..3] == [0.0; 3]);
+                        assert_eq!(bits >> lane & 1, 0);
+                        outside += 1;
+                    }
                 }
             }
-            assert_eq!(count, expected);
-            (inside, outside) = (inside + expected, outside + 16 - expected);
         }
         assert!(inside > 10_000 && outside > 10_000, "{inside}, {outside}");
     }

@@ -12,7 +12,7 @@ use super::lay_down::write_columns;
 use super::top_down::extent_of;
 use crate::bvh::boxes_per_ray::inverse_of_body;
 use crate::bvh::built::Built;
-use crate::bvh::leaf;
+use crate::bvh::leaf::{self, STEP};
 use crate::bvh::node::{BvhNode, DEPTH, LEAF, NO_CHILD, WIDTH};
 use crate::bvh::unplaced::Unplaced;
 use crate::geometry::sphere::{Sphere, Spheres};
@@ -63,6 +63,9 @@ pub(crate) fn refit(
 
 /// How many spheres no box will hold.
 fn outside(spheres: &Spheres<'_>, scale: &SceneScale, table: &[[f32; 2]]) -> usize {
+    if table.is_empty() && all_are_inside(spheres, scale) {
+        return 0;
+    }
     let mut outside = 0;
     for sphere in spheres.iter() {
         outside += usize::from(scale.scaled(&sphere).is_none() && sphere.is_valid());
@@ -73,6 +76,17 @@ fn outside(spheres: &Spheres<'_>, scale: &SceneScale, table: &[[f32; 2]]) -> usi
         outside -= usize::from(unplaced.is_beyond(spheres, scale)).min(outside);
     }
     outside
+}
+
+/// Whether bounds see every sphere.
+fn all_are_inside(spheres: &Spheres<'_>, scale: &SceneScale) -> bool {
+    let [x, y, z, radii] = spheres.columns().map(|column| column.as_chunks::<4>().0);
+    let mut inside = 0b1111;
+    for ((x, y), (z, radius)) in x.iter().zip(y).zip(z.iter().zip(radii)) {
+        inside &= scale.scale_four([*x, *y, *z, *radius].map(f32x4::new)).1;
+    }
+    let rest = spheres.iter().skip(4 * x.len());
+    inside == 0b1111 && rest.into_iter().all(|sphere| scale.scaled(&sphere).is_some())
 }
 
 /// The leaves of a tree, and where their spheres are now.
@@ -143,27 +157,43 @@ impl Leaves<'_> {
         let (begin, lanes) = leaf::extent_of(number);
         let none = [0.0; WIDTH];
         let mut columns = [none, none, none, [f32::NAN; WIDTH]];
-        let mut there = 0;
-        for lane in 0..lanes.min(WIDTH) {
-            let Some(&index) = self.lanes.get(begin + lane) else { continue };
-            let Some(sphere) = self.spheres.get(index as usize) else { continue };
-            let [x, y, z] = sphere.center();
-            for (column, number) in columns.iter_mut().zip([x, y, z, sphere.radius]) {
-                column[lane] = number;
+        // Spheres that are the same have the same sum, as where leaves are laid down.
+        let mut sums = [f32::NAN; WIDTH];
+        let (mut there, mut inside) = (0, 0);
+        let infinity = f32x4::splat(f32::INFINITY);
+        let (mut low, mut high) = ([infinity; 3], [-infinity; 3]);
+        let own = self.lanes.get(begin..begin + lanes).unwrap_or_default();
+        for (step, indices) in own.as_chunks::<STEP>().0.iter().enumerate().take(WIDTH / STEP) {
+            let nowhere = [0.0; STEP];
+            let mut given = [nowhere, nowhere, nowhere, [f32::NAN; STEP]];
+            for lane in 0..STEP {
+                let Some(sphere) = self.spheres.get(indices[lane] as usize) else { continue };
+                let [x, y, z] = sphere.center();
+                let row = [x, y, z, sphere.radius];
+                for axis in 0..4 {
+                    given[axis][lane] = row[axis];
+                }
+                there += 1;
             }
-            there += 1;
+            let (scaled, bits) = self.scale.scale_four(given.map(f32x4::new));
+            inside += bits.count_ones() as i32;
+            let [x, y, z, radius] = scaled;
+            let is_none = radius.is_nan();
+            for (axis, center) in [x, y, z].into_iter().enumerate() {
+                low[axis] = low[axis].fast_min(is_none.bitselect(infinity, center - radius));
+                high[axis] = high[axis].fast_max(is_none.bitselect(-infinity, center + radius));
+            }
+            let sum = x + y * 3.0 + z * 5.0 + radius * 7.0;
+            let numbers = scaled.map(f32x4::to_array);
+            for (column, numbers) in columns.iter_mut().zip(&numbers) {
+                put_step(column, step, numbers);
+            }
+            put_step(&mut sums, step, &sum.to_array());
         }
-        let inside = self.scale.scale_columns(&mut columns);
         if inside < there {
             self.leave_out_of_leaf(begin, lanes);
         }
-        let corners = corners_of(&columns);
-        // Spheres that are the same have the same sum, as where leaves are laid down.
-        let [xs, ys, zs, radii] = &columns;
-        let mut sums = none;
-        for lane in 0..WIDTH {
-            sums[lane] = xs[lane] + 3.0 * ys[lane] + 5.0 * zs[lane] + 7.0 * radii[lane];
-        }
+        let corners = across(low, high);
         let mut alike = [0; WIDTH];
         for other in 0..lanes.min(WIDTH) {
             let sum = sums[other];
@@ -232,26 +262,24 @@ impl Leaves<'_> {
     }
 }
 
-/// The box of spheres; those whose radius is NaN are none.
+/// The box of four along each axis.
 #[inline(always)]
-fn corners_of([xs, ys, zs, radii]: &[[f32; WIDTH]; 4]) -> Corners {
-    let (mut low, mut high) = ([0.0; 4], [0.0; 4]);
-    for (axis, centers) in [xs, ys, zs].into_iter().enumerate() {
-        let (mut lows, mut highs) = ([0.0; WIDTH], [0.0; WIDTH]);
-        for lane in 0..WIDTH {
-            let (center, radius) = (centers[lane], radii[lane]);
-            lows[lane] = if radius.is_nan() { f32::INFINITY } else { center - radius };
-            highs[lane] = if radius.is_nan() { f32::NEG_INFINITY } else { center + radius };
-        }
-        for half in [8, 4, 2, 1] {
-            for lane in 0..half {
-                lows[lane] = least(lows[lane + half], lows[lane]);
-                highs[lane] = most(highs[lane + half], highs[lane]);
-            }
-        }
-        (low[axis], high[axis]) = (lows[0], highs[0]);
+fn across(low: [f32x4; 3], high: [f32x4; 3]) -> Corners {
+    let (mut lows, mut highs) = ([0.0; 4], [0.0; 4]);
+    for axis in 0..3 {
+        let ([a, b, c, d], [e, f, g, h]) = (low[axis].to_array(), high[axis].to_array());
+        lows[axis] = least(least(a, b), least(c, d));
+        highs[axis] = most(most(e, f), most(g, h));
     }
-    Corners { low: f32x4::new(low), high: f32x4::new(high) }
+    Corners { low: f32x4::new(lows), high: f32x4::new(highs) }
+}
+
+/// Writes four of sixteen numbers.
+#[inline(always)]
+fn put_step(column: &mut [f32; WIDTH], step: usize, numbers: &[f32; STEP]) {
+    if let Some(place) = column.as_chunks_mut::<STEP>().0.get_mut(step) {
+        *place = *numbers;
+    }
 }
 
 /// Writes the box of a child; of one that has no sphere, one that no ray enters.
