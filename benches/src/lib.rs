@@ -3,11 +3,11 @@
 //! | command | does |
 //! |---|---|
 //! | `cargo bench --bench closest_hit` | criterion: the small scenes by brute force, every tier and lane width, and another crate |
-//! | `cargo bench --bench report` | prints tables: `-- tiers` speed against error, `-- structures` the large scenes, `-- cameras` the rays that a camera makes there, `-- surfaces` what is seen there, `-- scales` other units; or all |
+//! | `cargo bench --bench report` | prints tables: `-- tiers` speed against error, `-- structures` the large scenes, `-- cameras` the rays that a camera makes there, `-- surfaces` what is seen there, `-- orders` rays in every order, `-- scales` other units; or all |
 //! | `... --features embree ... -- --write` | with Embree (Debian: `libembree3-3`); and writes `docs/benchmarks` |
 //!
 //! Speed is written for one build at a time: once more with `RUSTFLAGS="-C target-cpu=native"`. `--scene NAME` runs one
-//! large scene alone, `--quick` takes a part of the rays, both together take less than a minute; `--test` runs everything
+//! large scene alone, `--order NAME` one order of rays, `--quick` takes a part of the rays, both together take less than a minute; `--test` runs everything
 //! once. The variable `SPHERULE_EMBREE` says which libraries of Embree are opened: paths with colons between them.
 //!
 //! Data flows one way: [scenes](spherule_tests::scenes), [engines](engine), [the check before the clock](agreement),
@@ -25,6 +25,7 @@ mod engine;
 mod errors;
 mod lists;
 mod measure;
+mod orders;
 mod page;
 mod plot;
 mod report;

@@ -1,6 +1,7 @@
 //! Pages in Markdown: what they have in common.
 
 pub(crate) mod cameras;
+pub(crate) mod orders;
 pub(crate) mod scales;
 pub(crate) mod structures;
 pub(crate) mod surfaces;

@@ -2,9 +2,11 @@
 
 use crate::measure::Effort;
 use crate::page::{self, build, origin};
-use crate::{cameras, errors, lists, plot, scales, structures, surfaces};
+use crate::{cameras, errors, lists, orders, plot, scales, structures, surfaces};
+use clap::builder::PossibleValuesParser;
 use clap::{Parser, ValueEnum};
-use spherule_tests::scenes::LARGE;
+use spherule_tests::orders::Order;
+use spherule_tests::scenes::{LARGE, SPREAD};
 use std::path::Path;
 use std::{error, fs};
 
@@ -13,8 +15,11 @@ struct Arguments {
     /// What is measured; all unless said.
     part: Option<Part>,
     /// One large scene alone; nothing is written.
-    #[arg(long, value_parser = LARGE)]
+    #[arg(long, value_parser = PossibleValuesParser::new(LARGE.into_iter().chain([SPREAD])))]
     scene: Option<String>,
+    /// One order of rays alone, in every scene that is chosen; nothing is written.
+    #[arg(long, value_parser = Order::ALL.map(Order::as_str))]
+    order: Option<String>,
     /// Writes docs/benchmarks.
     #[arg(long)]
     write: bool,
@@ -35,6 +40,7 @@ enum Part {
     Structures,
     Cameras,
     Surfaces,
+    Orders,
     Scales,
 }
 
@@ -46,7 +52,7 @@ enum Part {
 /// # Panics
 /// If an answer is wrong.
 pub fn report() -> Result<(), Box<dyn error::Error>> {
-    let Arguments { part, scene, write, quick, test, .. } = Arguments::parse();
+    let Arguments { part, scene, order, write, quick, test, .. } = Arguments::parse();
     let effort = match (test, quick) {
         (true, _) => Effort::Test,
         (_, true) => Effort::Quick,
@@ -57,7 +63,7 @@ pub fn report() -> Result<(), Box<dyn error::Error>> {
         if name.ends_with(".md") {
             println!("{text}");
         }
-        if write && !test && scene.is_none() {
+        if write && !test && scene.is_none() && order.is_none() {
             fs::create_dir_all(&folder)?;
             fs::write(folder.join(name), text)?;
         }
@@ -94,6 +100,11 @@ pub fn report() -> Result<(), Box<dyn error::Error>> {
     if chosen(Part::Surfaces) {
         let results = surfaces::measure(effort, scene.as_deref());
         put("surfaces.md", &page::surfaces::page(&origin, &results))?;
+    }
+    if chosen(Part::Orders) {
+        let order = order.as_deref().and_then(Order::named);
+        let rows = orders::measure(effort, (scene.as_deref(), order));
+        put("orders.md", &page::orders::page(&origin, &rows))?;
     }
     if chosen(Part::Scales) && scene.is_none() {
         put("scales.md", &page::scales::page(&origin, &scales::measure(effort)))?;

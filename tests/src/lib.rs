@@ -12,6 +12,7 @@
 //! | [`aim`] | rays aimed at spheres |
 //! | [`regimes`] | cases of the 22 hard regimes |
 //! | [`scenes`] | scenes that are measured |
+//! | [`orders`] | orders in which rays come |
 //! | [`inputs`] | what proptest draws |
 //! | [`kept`] | some of the regimes' cases with their answers, in a file |
 //! | [`measured`] | cases of the regimes in which error is measured |
@@ -39,6 +40,7 @@ pub mod inputs;
 pub mod kept;
 pub mod measured;
 pub mod oracle;
+pub mod orders;
 pub mod random;
 pub mod regimes;
 pub mod scenes;

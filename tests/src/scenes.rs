@@ -16,6 +16,8 @@
 //! | `huge and tiny` | one of radius 0.9 at the origin, a million tiny ones in the cube | 40 degrees, 4 away | in the cube |
 //! | `chains` | 100 straight rows of 1,000 that touch, 3 long | 40 degrees, 4 away | in the cube |
 //!
+//! [`Scene::spread`], of radii over a millionfold, stands apart: the others have none such.
+//!
 //! A picture has 1024 x 1024 primary rays in tiles of 4 x 4, tiles row by row, so that sixteen rays that follow each
 //! other are a coherent packet. Directions have no unit length. Of diffuse rays, which have nothing in common, there
 //! are a quarter as many; "in the cube" means origins uniform in it, directions uniform. The [small] scenes are
@@ -50,6 +52,9 @@ pub const LARGE: [&str; 15] = [
     "huge and tiny",
     "chains",
 ];
+
+/// The name of [`Scene::spread`].
+pub const SPREAD: &str = "spread";
 
 /// Spheres and rays.
 #[derive(Clone, Debug)]
@@ -152,6 +157,18 @@ impl Scene {
     #[must_use]
     pub fn has_ground(&self) -> bool {
         self.spheres.spheres().iter().any(|sphere| sphere.radius == 1000.0)
+    }
+
+    /// Radii over a millionfold: at most 20,000 in the cube, a third of which is in some sphere.
+    #[must_use]
+    pub fn spread(Size(pixels, most): Size) -> Self {
+        Self {
+            name: SPREAD,
+            spheres: Rc::new(hard::spread(most.min(20_000)).into()),
+            is_small: false,
+            primary: rays::perspective([0.0, 0.0, 4.0], [0.0; 3], 40.0, pixels),
+            diffuse: rays::scattered([-1.0; 3], [1.0; 3], pixels * pixels / 4),
+        }
     }
 
     /// `count` uniform spheres, for growth: the rays of the uniform scenes.

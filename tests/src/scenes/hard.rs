@@ -75,3 +75,15 @@ pub(super) fn chains(count: usize) -> Vec<Sphere> {
     };
     (0..count / LINKS).flat_map(|_| chain()).collect()
 }
+
+/// Uniform in the cube from -1 to 1; every power of two of radii from 2^-20 to 1 of the largest is as frequent. 20,000 fill a third of
+/// the cube, fewer as much.
+pub(super) fn spread(count: usize) -> Vec<Sphere> {
+    let mut random = Random::seeded(16);
+    let largest = 0.1 * (20_000.0 / count as f64).cbrt();
+    let sphere = |_| {
+        let center = rounded(within(&mut random, [-1.0; 3], [1.0; 3]));
+        Sphere { center, radius: (largest * random.log_uniform(-20, -1)) as f32 }
+    };
+    (0..count).map(sphere).collect()
+}

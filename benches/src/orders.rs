@@ -1,0 +1,177 @@
+//! Rays in every order: the plain call against the best way for them, ray by ray, and Embree.
+
+mod trial;
+mod ways;
+
+pub(crate) use ways::Way;
+
+use crate::builds::{EMBREE, Trees};
+use crate::engine::kernel::levels;
+use crate::engine::{Engine, Query};
+use crate::measure::Effort;
+use crate::rounds::{Median, Sampler, Samples};
+use spherule_kernel::{Level, LevelName, Ray};
+use spherule_tests::orders::{Extent, Order};
+use spherule_tests::scenes::{LARGE, SPREAD, Scene, Size};
+use std::cell::RefCell;
+use std::time::Duration;
+use trial::Trial;
+use ways::Work;
+
+/// What was timed: a way, or one of Embree's calls.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Timed {
+    Ours(Way),
+    Embree(usize),
+}
+
+/// An order of rays in a scene, a query, at a level.
+pub(crate) struct Row {
+    pub(crate) scene: &'static str,
+    pub(crate) order: Order,
+    pub(crate) query: Query,
+    pub(crate) level: LevelName,
+    /// How many rays a sample took.
+    pub(crate) rays: usize,
+    /// Whether the plain call was so slow that a part of the rays was timed.
+    pub(crate) is_cut_short: bool,
+    /// Nanoseconds a ray.
+    times: Samples<Timed>,
+}
+
+/// How many rays, and rounds.
+#[derive(Clone, Copy)]
+struct Plan {
+    rays: usize,
+    rounds: usize,
+    /// What the quickest way may take for a sample; otherwise there are fewer rays.
+    nanoseconds: f64,
+    /// Whether all levels take part in every row, or one after the other.
+    every_level: bool,
+}
+
+/// Measures all scenes and orders, or one alone.
+pub(crate) fn measure(effort: Effort, (one, order): (Option<&str>, Option<Order>)) -> Vec<Row> {
+    let (size, plan) = match effort {
+        Effort::Test => {
+            (Size::SMALL, Plan { rays: 256, rounds: 1, nanoseconds: 0.0, every_level: false })
+        }
+        Effort::Quick => {
+            (Size::FULL, Plan { rays: 1 << 14, rounds: 3, nanoseconds: 8e6, every_level: true })
+        }
+        Effort::Full => {
+            (Size::FULL, Plan { rays: 1 << 16, rounds: 7, nanoseconds: 1e8, every_level: true })
+        }
+    };
+    let chosen = |name: &&str| one.is_none_or(|one| one == *name);
+    let mut rows = Vec::new();
+    for name in LARGE.into_iter().chain([SPREAD]).filter(chosen) {
+        let scene = match name {
+            SPREAD => Scene::spread(size),
+            _ => Scene::large(name, size).expect("listed"),
+        };
+        rows.extend(of_scene(&scene, order, plan));
+    }
+    rows
+}
+
+fn of_scene(scene: &Scene, one: Option<Order>, plan: Plan) -> Vec<Row> {
+    let (levels, spheres) = (levels(), scene.spheres.spheres());
+    let (trees, extent) = (Trees::build(scene, false, &levels), Extent::of(spheres));
+    let mut work = Work::new(&trees.ours);
+    let mut rows = Vec::new();
+    for (index, order) in Order::ALL.into_iter().enumerate() {
+        if one.is_some_and(|one| one != order) {
+            continue;
+        }
+        eprintln!("{}, {}", scene.name, order.as_str());
+        let rays = order.rays_in(&extent, spheres, plan.rays, 1);
+        let at = |place: usize| plan.every_level || place == index % levels.len();
+        for (_, &level) in levels.iter().enumerate().filter(|(place, _)| at(*place)) {
+            let is_it = |engine: &&Engine| {
+                let label = &engine.label;
+                label.way.starts_with(EMBREE) && label.lanes == level.name().as_str()
+            };
+            let embree: Vec<_> = trees.others.iter().filter(is_it).collect();
+            for query in Query::ALL {
+                let asked = (scene.name, order, query, level);
+                rows.push(Row::measure(asked, &mut work, &embree, &rays, plan));
+            }
+        }
+    }
+    rows
+}
+
+impl Row {
+    fn measure(
+        (scene, order, query, level): (&'static str, Order, Query, Level),
+        work: &mut Work<'_>,
+        embree: &[&Engine],
+        rays: &[Ray],
+        plan: Plan,
+    ) -> Self {
+        let name = format!("{scene}, {}, {query:?}, {}", order.as_str(), level.name().as_str());
+        let trial = Trial::of((level, query), work, embree, rays, plan.nanoseconds, &name);
+        let Trial { ways, slow, embree: chosen, rays } = trial;
+        let (work, count) = (&RefCell::new(work), rays.list.len());
+        let mut samplers = Vec::<(_, Sampler<'_>)>::new();
+        for way in ways {
+            let sample = move || work.borrow_mut().run(way, level, query) / count as f64;
+            samplers.push((Timed::Ours(way), Box::new(sample)));
+        }
+        if let Some((way, time)) = slow {
+            samplers.push((Timed::Ours(way), Box::new(move || time)));
+        }
+        for index in chosen {
+            let mut run = (embree[index].ready)(&rays);
+            let sample = move || run.time(query, 1) / count as f64;
+            samplers.push((Timed::Embree(index), Box::new(sample)));
+        }
+        let times = Samples::take(samplers, Duration::ZERO, plan.rounds..=plan.rounds);
+        let is_cut_short = slow.is_some();
+        Self { scene, order, query, level: level.name(), rays: count, is_cut_short, times }
+    }
+
+    fn quickest(&self, is_it: impl Fn(&Timed) -> bool) -> Option<Timed> {
+        let time = |timed: &&Timed| self.times.median(timed).map_or(f64::INFINITY, |it| it.middle);
+        let all = self.times.names.iter().filter(|timed| is_it(timed));
+        all.min_by(|a, b| time(a).total_cmp(&time(b))).copied()
+    }
+
+    /// How many times as fast the plain call is as another.
+    fn plain_by(&self, other: Option<Timed>) -> Option<Median> {
+        self.times.ratio(&other?, &Timed::Ours(Way::Plain))
+    }
+
+    /// The best way; it may be the plain call.
+    pub(crate) fn best(&self) -> Option<Way> {
+        match self.quickest(|timed| matches!(timed, Timed::Ours(_)))? {
+            Timed::Ours(way) => Some(way),
+            Timed::Embree(_) => None,
+        }
+    }
+
+    /// A million rays a second of the plain call.
+    pub(crate) fn rate(&self) -> Option<f64> {
+        Some(1e3 / self.times.median(&Timed::Ours(Way::Plain))?.middle)
+    }
+
+    /// The plain call by the best way: 1 where it is that.
+    pub(crate) fn by_best(&self) -> Option<Median> {
+        self.plain_by(self.best().map(Timed::Ours))
+    }
+
+    /// The plain call by ray by ray.
+    pub(crate) fn by_ray_by_ray(&self) -> Option<Median> {
+        self.plain_by(Some(Timed::Ours(Way::RayByRay)))
+    }
+
+    /// The plain call by Embree's quickest.
+    pub(crate) fn by_embree(&self) -> Option<Median> {
+        self.plain_by(self.quickest(|timed| matches!(timed, Timed::Embree(_))))
+    }
+
+    pub(crate) fn rounds(&self) -> usize {
+        self.times.rounds()
+    }
+}

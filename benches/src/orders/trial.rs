@@ -1,0 +1,129 @@
+//! The trial before the clock: every way's answers are checked, on a few rays first, and who is far behind leaves.
+
+use super::ways::{Answers, Way, Work};
+use crate::engine::{Engine, Query, Rays};
+use spherule_kernel::{Level, Ray};
+use spherule_tests::scenes::sample;
+
+/// Rays of trials, in runs from all of them.
+const PARTS: [usize; 2] = [256, 1024];
+const LAST_PART: usize = PARTS[1];
+/// Nanoseconds of a run that is not repeated.
+const LONG: f64 = 4e6;
+/// Who takes so many times as long as the best on a part is not timed on all rays.
+const SLOW: f64 = 8.0;
+/// Who takes so many times as long as the best on all rays is not the best.
+const NEAR: f64 = 1.6;
+/// The fewest rays of a sample.
+const LEAST: usize = 4096;
+/// Tests of brute force that a check may cost.
+const TESTS: usize = 1 << 22;
+/// The share of rays on which another program may think otherwise of whether they hit: those that graze.
+const OTHERWISE: f64 = 4e-2;
+
+/// Who is to be timed.
+pub(super) struct Trial {
+    /// The plain call unless it was too slow, ray by ray, and whatever may be the best.
+    pub(super) ways: Vec<Way>,
+    /// The plain call if it was too slow, and nanoseconds a ray of a part.
+    pub(super) slow: Option<(Way, f64)>,
+    /// Which of Embree's calls may be the best.
+    pub(super) embree: Vec<usize>,
+    /// The rays, which `work` has, too.
+    pub(super) rays: Rays,
+}
+
+impl Trial {
+    /// # Panics
+    /// If an answer is wrong.
+    pub(super) fn of(
+        (level, query): (Level, Query),
+        work: &mut Work<'_>,
+        embree: &[&Engine],
+        rays: &[Ray],
+        nanoseconds: f64,
+        name: &str,
+    ) -> Self {
+        let (mut slow, mut best) = (Vec::new(), f64::INFINITY);
+        let mut answers = Answers::Any(Vec::new());
+        for part in PARTS {
+            work.take(sample(rays, part));
+            let few = TESTS / work.spheres().max(1);
+            answers = work.checked((level, query), few.clamp(1, part), name);
+            let timed = times((level, query), work, &mut slow, &answers, name);
+            best = timed.into_iter().fold(f64::INFINITY, |best, (_, time)| time.min(best));
+        }
+        let embree = nearest(embree, &work.rays, query, &answers, name);
+        let fit = (nanoseconds / best) as usize;
+        let all = sample(rays, fit.max(LEAST).min(rays.len()));
+        work.take(all);
+        let answers = work.checked((level, query), 0, name);
+        let timed = times((level, query), work, &mut slow, &answers, name);
+        let best = timed.iter().fold(f64::INFINITY, |best, (_, time)| time.min(best));
+        let is_kept = |&(way, time): &(Way, f64)| {
+            matches!(way, Way::Plain | Way::RayByRay) || time < NEAR * best
+        };
+        let ways = timed.into_iter().filter(is_kept).map(|(way, _)| way).collect();
+        let slow = slow.into_iter().find(|(way, _)| *way == Way::Plain);
+        Self { ways, slow, embree, rays: Rays::new(&work.rays) }
+    }
+}
+
+/// Checks all ways that are not among the slow; returns nanoseconds a ray of those that have not become slow.
+fn times(
+    (level, query): (Level, Query),
+    work: &mut Work<'_>,
+    slow: &mut Vec<(Way, f64)>,
+    truth: &Answers,
+    name: &str,
+) -> Vec<(Way, f64)> {
+    let count = work.rays.len() as f64;
+    let (mut timed, mut best) = (Vec::new(), f64::INFINITY);
+    for way in Way::ALL {
+        if !way.is_for(work) || slow.iter().any(|(other, _)| *other == way) {
+            continue;
+        }
+        work.forget();
+        let mut time = work.run(way, level, query) / count;
+        assert!(work.answers(query) == *truth, "{name}: {way:?} differs from ray by ray");
+        // Of a part, which is in no time, the best of some runs: the first finds nothing in the cache.
+        let again = if work.rays.len() > LAST_PART || time * count > LONG { 0 } else { 2 };
+        for _ in 0..again {
+            time = time.min(work.run(way, level, query) / count);
+        }
+        // Streams of few rays are slow, of more they are not.
+        if time > SLOW * best && !matches!(way, Way::Stream | Way::SortedStream) {
+            slow.push((way, time));
+        } else {
+            timed.push((way, time));
+        }
+        best = best.min(time);
+    }
+    timed
+}
+
+/// Those of Embree's calls that may be the quickest.
+fn nearest(
+    embree: &[&Engine],
+    rays: &[Ray],
+    query: Query,
+    truth: &Answers,
+    name: &str,
+) -> Vec<usize> {
+    /// Who takes so many times as long as the quickest is not it.
+    const FAR: f64 = 1.35;
+    let rays = Rays::new(rays);
+    let mut times = Vec::new();
+    for engine in embree {
+        let mut run = (engine.ready)(&rays);
+        let time = run.time(query, 1).min(run.time(query, 1));
+        let hits = run.hits();
+        let differ = hits.iter().enumerate();
+        let differ = differ.filter(|(ray, hit)| hit.is_some() != truth.is_hit(*ray)).count();
+        let most = OTHERWISE * rays.list.len() as f64;
+        assert!(differ as f64 <= most, "{name}: {} differs in {differ} rays", engine.label);
+        times.push(time);
+    }
+    let best = times.iter().copied().fold(f64::INFINITY, f64::min);
+    (0..times.len()).filter(|&index| times[index] < FAR * best).collect()
+}

@@ -1,0 +1,134 @@
+//! Rays in every order.
+
+use super::{Table, build, cell, number};
+use crate::engine::Query;
+use crate::orders::{Row, Way};
+use crate::rounds::Median;
+use spherule_kernel::LevelName;
+use std::fmt::Write;
+
+/// What is asked of the plain call, by the best way, by ray by ray and by Embree.
+const ASKED: [f64; 3] = [0.85, 0.7, 1.2];
+
+type Ratio = fn(&Row) -> Option<Median>;
+
+const RATIOS: [Ratio; 3] = [Row::by_best, Row::by_ray_by_ray, Row::by_embree];
+
+/// The middle of a ratio, without what was not measured.
+fn middle(row: &Row, ratio: Ratio) -> Option<f64> {
+    ratio(row).map(|it| it.middle)
+}
+
+/// The report.
+pub(crate) fn page(origin: &str, all: &[Row]) -> String {
+    let mut rows: Vec<_> = all.iter().collect();
+    let worst = |row: &Row| middle(row, Row::by_best).unwrap_or(f64::INFINITY);
+    rows.sort_by(|a, b| worst(a).total_cmp(&worst(b)));
+    let mut table = Table::new(
+        4,
+        "scene | order | query | level | rays | plain | the best way | plain by it | by ray by ray | times Embree",
+    );
+    for row in &rows {
+        let query = if row.query == Query::AnyHit { "any" } else { "closest" };
+        let ratio = |ratio: Ratio| cell(ratio(row).map(|it| format!("{:.2}", it.middle)));
+        let slow = if row.is_cut_short { "~" } else { "" };
+        table.row([
+            row.scene.to_owned(),
+            row.order.as_str().to_owned(),
+            query.to_owned(),
+            row.level.as_str().to_owned(),
+            row.rays.to_string(),
+            slow.to_owned() + &number(row.rate()),
+            cell(row.best().map(Way::as_str)),
+            ratio(RATIOS[0]),
+            ratio(RATIOS[1]),
+            ratio(RATIOS[2]),
+        ]);
+    }
+    format!(
+        "# Rays in every order, {} build\n\n{origin}\n\n*Plain*: `closest_hits` or `any_hits` of a tree, `exact`, one call for all \
+         rays, of which nothing is said; a million a second, on one thread. Against it: the best of ray by ray (slices said to be \
+         incoherent), slices said to be coherent, packets, incoherent packets, streams (8,192 rays together, 64 places in queues for each), \
+         sorted streams where there are more rays, and, where rays have a viewpoint and spheres are fewer than 20,000, a depth list made for them; \
+         and Embree, 3.13 or 4.4, in its quickest call with the same instructions (for the baseline, SSE4.2), its rays in blocks that are in the cache. \
+         Medians of {} interleaved rounds of the thread's own time, ratios round by round. ~: so slow that a part of the rays was timed, once. {}\
+         Before anything is timed, every way answers as ray by ray does, bit for bit, which answers as brute force does on a sample. \
+         The orders: [orders.rs](../../tests/src/orders.rs).\n\n{}\n{}\n{}{}",
+        build(),
+        all.iter().map(Row::rounds).min().unwrap_or(0),
+        noise(all),
+        summary(all),
+        worst_of(all, "order", |row| row.order.as_str()),
+        worst_of(all, "scene", |row| row.scene),
+        format_args!("\nEvery row, the worst first:\n\n{}", table.0)
+    )
+}
+
+/// How far quartiles are from medians.
+fn noise(all: &[Row]) -> String {
+    let ratios = all.iter().filter(|row| !row.is_cut_short).filter_map(Row::by_ray_by_ray);
+    let mut halves: Vec<_> = ratios.map(|it| 50.0 * (it.high - it.low) / it.middle).collect();
+    halves.sort_by(f64::total_cmp);
+    let at = |share: f64| halves.get((halves.len() as f64 * share) as usize).copied();
+    let [Some(half), Some(most)] = [0.5, 0.9].map(at) else { return String::new() };
+    format!(
+        "The quartiles of half of the ratios are within {half:.1} % of the median, of nine in ten within {most:.1} %. "
+    )
+}
+
+/// How many rows are below what is asked, level by level.
+fn summary(all: &[Row]) -> String {
+    let [best, alone, embree] = ASKED;
+    let mut table = Table::new(
+        1,
+        &format!(
+            "level | rows | below {best} of the best | below {alone} of ray by ray | below {embree} times Embree"
+        ),
+    );
+    let of = |name: &str, is_it: &dyn Fn(&Row) -> bool| {
+        let rows = || all.iter().filter(|row| is_it(row));
+        let below = |(ratio, asked): (Ratio, f64)| {
+            rows().filter(|row| middle(row, ratio).is_some_and(|it| it < asked)).count()
+        };
+        let counts = [0, 1, 2].map(|it| below((RATIOS[it], ASKED[it])).to_string());
+        [name.to_owned(), rows().count().to_string()].into_iter().chain(counts)
+    };
+    for level in LevelName::ALL.into_iter().rev() {
+        if all.iter().any(|row| row.level == level) {
+            table.row(of(level.as_str(), &|row| row.level == level));
+        }
+    }
+    table.row(of("all", &|_| true));
+    table.0
+}
+
+/// The worst of each name.
+fn worst_of(all: &[Row], what: &str, name: impl Fn(&Row) -> &'static str) -> String {
+    let mut names = Vec::new();
+    for row in all {
+        if !names.contains(&name(row)) {
+            names.push(name(row));
+        }
+    }
+    let mut table = Table::new(
+        1,
+        &format!(
+            "{what} | worst by the best way | by ray by ray | times Embree | rows below {} | {} | {}",
+            ASKED[0], ASKED[1], ASKED[2]
+        ),
+    );
+    for of in names {
+        let rows = || all.iter().filter(|row| name(row) == of);
+        let ratios = |ratio| rows().filter_map(move |row| middle(row, ratio));
+        let worst = RATIOS.map(|ratio| {
+            let worst = ratios(ratio).fold(f64::INFINITY, f64::min);
+            cell(worst.is_finite().then(|| format!("{worst:.3}")))
+        });
+        let below = [0, 1, 2]
+            .map(|it| ratios(RATIOS[it]).filter(|ratio| *ratio < ASKED[it]).count().to_string());
+        table.row([of.to_owned()].into_iter().chain(worst).chain(below));
+    }
+    let mut text = String::new();
+    let _ = write!(text, "The worst of every {what}:\n\n{}", table.0);
+    text
+}
