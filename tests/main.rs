@@ -17,6 +17,7 @@ mod numbers;
 mod objects;
 mod oracle;
 mod order;
+mod orders;
 mod packets;
 #[cfg(target_os = "linux")]
 mod pty;

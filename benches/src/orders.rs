@@ -43,8 +43,10 @@ pub(crate) struct Row {
 #[derive(Clone, Copy)]
 struct Plan {
     rays: usize,
+    /// At least, and at most three times as many, as long as that takes.
     rounds: usize,
-    /// What the quickest way may take for a sample; otherwise there are fewer rays.
+    time: Duration,
+    /// What a sample of the quickest way, or of Embree's, may take on average; otherwise there are fewer rays.
     nanoseconds: f64,
     /// Whether all levels take part in every row, or one after the other.
     every_level: bool,
@@ -53,15 +55,36 @@ struct Plan {
 /// Measures all scenes and orders, or one alone.
 pub(crate) fn measure(effort: Effort, (one, order): (Option<&str>, Option<Order>)) -> Vec<Row> {
     let (size, plan) = match effort {
-        Effort::Test => {
-            (Size::SMALL, Plan { rays: 256, rounds: 1, nanoseconds: 0.0, every_level: false })
-        }
-        Effort::Quick => {
-            (Size::FULL, Plan { rays: 1 << 14, rounds: 3, nanoseconds: 8e6, every_level: true })
-        }
-        Effort::Full => {
-            (Size::FULL, Plan { rays: 1 << 16, rounds: 7, nanoseconds: 1e8, every_level: true })
-        }
+        Effort::Test => (
+            Size::SMALL,
+            Plan {
+                rays: 256,
+                rounds: 1,
+                time: Duration::ZERO,
+                nanoseconds: 0.0,
+                every_level: false,
+            },
+        ),
+        Effort::Quick => (
+            Size::FULL,
+            Plan {
+                rays: 1 << 14,
+                rounds: 3,
+                time: Duration::from_millis(60),
+                nanoseconds: 8e6,
+                every_level: true,
+            },
+        ),
+        Effort::Full => (
+            Size::FULL,
+            Plan {
+                rays: 1 << 16,
+                rounds: 7,
+                time: Duration::from_secs(1),
+                nanoseconds: 1e8,
+                every_level: true,
+            },
+        ),
     };
     let chosen = |name: &&str| one.is_none_or(|one| one == *name);
     let mut rows = Vec::new();
@@ -119,7 +142,8 @@ impl Row {
             let sample = move || work.borrow_mut().run(way, level, query) / count as f64;
             samplers.push((Timed::Ours(way), Box::new(sample)));
         }
-        if let Some((way, time)) = slow {
+        let is_cut_short = slow.iter().any(|(way, _)| *way == Way::Plain);
+        for (way, time) in slow {
             samplers.push((Timed::Ours(way), Box::new(move || time)));
         }
         for index in chosen {
@@ -127,8 +151,7 @@ impl Row {
             let sample = move || run.time(query, 1) / count as f64;
             samplers.push((Timed::Embree(index), Box::new(sample)));
         }
-        let times = Samples::take(samplers, Duration::ZERO, plan.rounds..=plan.rounds);
-        let is_cut_short = slow.is_some();
+        let times = Samples::take(samplers, plan.time, plan.rounds..=3 * plan.rounds);
         Self { scene, order, query, level: level.name(), rays: count, is_cut_short, times }
     }
 
@@ -164,6 +187,11 @@ impl Row {
     /// The plain call by ray by ray.
     pub(crate) fn by_ray_by_ray(&self) -> Option<Median> {
         self.plain_by(Some(Timed::Ours(Way::RayByRay)))
+    }
+
+    /// What is said to be coherent by ray by ray, whether it is coherent or not.
+    pub(crate) fn coherent_by_ray_by_ray(&self) -> Option<Median> {
+        self.times.ratio(&Timed::Ours(Way::RayByRay), &Timed::Ours(Way::Coherent))
     }
 
     /// The plain call by Embree's quickest.

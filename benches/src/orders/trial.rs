@@ -9,24 +9,27 @@ use spherule_tests::scenes::sample;
 const PARTS: [usize; 2] = [256, 1024];
 const LAST_PART: usize = PARTS[1];
 /// Nanoseconds of a run that is not repeated.
-const LONG: f64 = 4e6;
+const LONG: f64 = 1e6;
 /// Who takes so many times as long as the best on a part is not timed on all rays.
 const SLOW: f64 = 8.0;
 /// Who takes so many times as long as the best on all rays is not the best.
 const NEAR: f64 = 1.6;
 /// The fewest rays of a sample.
-const LEAST: usize = 4096;
+const LEAST: usize = 1024;
 /// Tests of brute force that a check may cost.
-const TESTS: usize = 1 << 22;
+const TESTS: usize = 1 << 20;
 /// The share of rays on which another program may think otherwise of whether they hit: those that graze.
 const OTHERWISE: f64 = 4e-2;
 
+/// Shown however slow they are.
+const SHOWN: [Way; 3] = [Way::RayByRay, Way::Coherent, Way::Plain];
+
 /// Who is to be timed.
 pub(super) struct Trial {
-    /// The plain call unless it was too slow, ray by ray, and whatever may be the best.
+    /// Ray by ray, whatever may be the best, and of [`SHOWN`] who was not too slow.
     pub(super) ways: Vec<Way>,
-    /// The plain call if it was too slow, and nanoseconds a ray of a part.
-    pub(super) slow: Option<(Way, f64)>,
+    /// Who was too slow, and nanoseconds a ray of a part.
+    pub(super) slow: Vec<(Way, f64)>,
     /// Which of Embree's calls may be the best.
     pub(super) embree: Vec<usize>,
     /// The rays, which `work` has, too.
@@ -49,22 +52,20 @@ impl Trial {
         for part in PARTS {
             work.take(sample(rays, part));
             let few = TESTS / work.spheres().max(1);
-            answers = work.checked((level, query), few.clamp(1, part), name);
+            answers = work.checked((level, query), few.clamp(1, part / 4), name);
             let timed = times((level, query), work, &mut slow, &answers, name);
             best = timed.into_iter().fold(f64::INFINITY, |best, (_, time)| time.min(best));
         }
-        let embree = nearest(embree, &work.rays, query, &answers, name);
-        let fit = (nanoseconds / best) as usize;
+        let (embree, of_embree) = nearest(embree, &work.rays, query, &answers, name);
+        let fit = (2.0 * nanoseconds / (best + of_embree)) as usize;
         let all = sample(rays, fit.max(LEAST).min(rays.len()));
         work.take(all);
         let answers = work.checked((level, query), 0, name);
         let timed = times((level, query), work, &mut slow, &answers, name);
         let best = timed.iter().fold(f64::INFINITY, |best, (_, time)| time.min(best));
-        let is_kept = |&(way, time): &(Way, f64)| {
-            matches!(way, Way::Plain | Way::RayByRay) || time < NEAR * best
-        };
+        let is_kept = |&(way, time): &(Way, f64)| SHOWN.contains(&way) || time < NEAR * best;
         let ways = timed.into_iter().filter(is_kept).map(|(way, _)| way).collect();
-        let slow = slow.into_iter().find(|(way, _)| *way == Way::Plain);
+        slow.retain(|(way, _)| SHOWN.contains(way));
         Self { ways, slow, embree, rays: Rays::new(&work.rays) }
     }
 }
@@ -102,28 +103,36 @@ fn times(
     timed
 }
 
-/// Those of Embree's calls that may be the quickest.
+/// Those of Embree's calls that may be the quickest, and nanoseconds a ray of the quickest.
 fn nearest(
     embree: &[&Engine],
     rays: &[Ray],
     query: Query,
     truth: &Answers,
     name: &str,
-) -> Vec<usize> {
-    /// Who takes so many times as long as the quickest is not it.
-    const FAR: f64 = 1.35;
-    let rays = Rays::new(rays);
-    let mut times = Vec::new();
-    for engine in embree {
-        let mut run = (engine.ready)(&rays);
-        let time = run.time(query, 1).min(run.time(query, 1));
-        let hits = run.hits();
-        let differ = hits.iter().enumerate();
-        let differ = differ.filter(|(ray, hit)| hit.is_some() != truth.is_hit(*ray)).count();
-        let most = OTHERWISE * rays.list.len() as f64;
-        assert!(differ as f64 <= most, "{name}: {} differs in {differ} rays", engine.label);
-        times.push(time);
+) -> (Vec<usize>, f64) {
+    /// Who takes so many times as long as the quickest is not it: of the first part, of all.
+    const FAR: [f64; 2] = [2.0, 1.35];
+    let (mut chosen, mut best) = ((0..embree.len()).collect::<Vec<_>>(), 0.0);
+    for (part, far) in PARTS.into_iter().zip(FAR) {
+        let rays = Rays::new(&rays[..part.min(rays.len())]);
+        let count = rays.list.len() as f64;
+        let time = |&index: &usize| {
+            let engine = embree[index];
+            let mut run = (engine.ready)(&rays);
+            let time = run.time(query, 1).min(run.time(query, 1)) / count;
+            let differs = |(ray, hit): &(usize, bool)| *hit != truth.is_hit(*ray);
+            let hits = run.hits().into_iter().map(|hit| hit.is_some()).enumerate();
+            let differ = hits.filter(differs).count() as f64;
+            assert!(differ <= OTHERWISE * count, "{name}: {} in {differ} rays", engine.label);
+            (index, time)
+        };
+        let times: Vec<_> = chosen.iter().map(time).collect();
+        best = times.iter().fold(f64::INFINITY, |best, (_, time)| time.min(best));
+        chosen = times.into_iter().filter(|(_, time)| *time < far * best).map(|it| it.0).collect();
+        if best * count > LONG {
+            break;
+        }
     }
-    let best = times.iter().copied().fold(f64::INFINITY, f64::min);
-    (0..times.len()).filter(|&index| times[index] < FAR * best).collect()
+    (chosen, if embree.is_empty() { 0.0 } else { best })
 }
