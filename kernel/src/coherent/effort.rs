@@ -38,8 +38,11 @@ const RAY_LEAF: u32 = 6;
 const RAY_ROOTS: u32 = 16;
 /// So many spheres may be held against packets for each that a ray comes near, and for each ray: of groups that pay two
 /// to six a sphere that is near, of those that are too wide fifty and more.
-const SPHERES_A_ROOT: u32 = 6;
+const SPHERES_A_ROOT: u32 = 5;
 const SPHERES_IN_VAIN: u32 = 1;
+/// So many times the tier may test spheres of which one is a ray's closest, for a packet: it takes fifty times as long as
+/// to hold one against a ray. (Of groups that pay a packet has one at most in most scenes.)
+pub(super) const MOST_TESTS: u32 = 4;
 /// One box in so many is a sample, in the end: the second, the fourth, the eighth, and so on.
 const STRIDE: u32 = 8;
 
@@ -51,7 +54,7 @@ pub(super) struct Effort {
     /// Spheres that were held against packets, and how many may have been before it is asked whether that was in vain.
     spheres: u32,
     most_spheres: u32,
-    /// What its rays would have done in boxes.
+    /// What its rays would have done in boxes; all look into the root.
     apart: u32,
     /// Boxes until the next sample, how many it stands for, and the packet that it is of.
     until: u32,
@@ -65,7 +68,16 @@ impl Effort {
     pub(super) fn of<L: Lanes>(states: &[PacketState<'_, L>]) -> Self {
         let rays = live_rays(states);
         let most_spheres = SPHERES_IN_VAIN * rays;
-        Self { rays, work: 0, spheres: 0, most_spheres, apart: 0, until: 1, stride: 2, packet: 0 }
+        Self {
+            rays,
+            work: 0,
+            spheres: 0,
+            most_spheres,
+            apart: RAY_NODE * rays,
+            until: 1,
+            stride: 2,
+            packet: 0,
+        }
     }
 
     /// Counts a node that was looked into.
@@ -107,11 +119,9 @@ impl Effort {
         if crate::testing::work::groups_persist() {
             return false;
         }
-        let (mut roots, mut ray_roots, mut tests) = (0_u32, 0_u32, 0_u32);
+        let mut roots = 0_u32;
         for state in states {
-            tests = tests.wrapping_add(state.tests);
             roots = roots.wrapping_add(state.spheres_near);
-            ray_roots = ray_roots.wrapping_add(state.rays_near);
         }
         let in_vain = SPHERES_IN_VAIN * self.rays;
         self.most_spheres = SPHERES_A_ROOT.saturating_mul(roots).saturating_add(in_vain);
@@ -128,13 +138,34 @@ impl Effort {
         self.until = self.stride;
         self.stride = (2 * self.stride).min(STRIDE);
 
+        // A quarter more, since rays that go on by themselves begin anew.
+        self.takes(states, 4, 5)
+    }
+
+    /// Whether what it has done is more than a multiple of what its rays would have done apart.
+    #[inline(always)]
+    pub(super) fn takes<L: Lanes>(
+        &self,
+        states: &[PacketState<'_, L>],
+        part: u64,
+        of: u64,
+    ) -> bool {
+        #[cfg(test)]
+        if crate::testing::work::groups_persist() {
+            return false;
+        }
+        let (mut roots, mut ray_roots, mut tests) = (0_u32, 0_u32, 0_u32);
+        for state in states {
+            tests = tests.wrapping_add(state.tests);
+            roots = roots.wrapping_add(state.spheres_near);
+            ray_roots = ray_roots.wrapping_add(state.rays_near);
+        }
         let work = u64::from(self.work)
             + u64::from(ROOTS) * u64::from(roots)
             + u64::from(TIER) * u64::from(tests);
         // By itself a ray meets what is nearest first, and few others.
         let apart = RAY * self.rays + RAY_ROOTS * ray_roots.min(self.rays);
-        // A quarter more, since rays that go on by themselves begin anew.
-        4 * work > 5 * (u64::from(apart) + u64::from(self.apart))
+        part * work > of * (u64::from(apart) + u64::from(self.apart))
     }
 }
 

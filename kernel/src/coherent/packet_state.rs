@@ -54,6 +54,8 @@ pub(super) struct PacketState<'a, L: Lanes> {
     pub(super) rays_near: u32,
     /// How many times the tier tested, since two spheres may be a ray's closest.
     pub(super) tests: u32,
+    /// After so many it stops, and not all spheres have been met.
+    pub(super) most_tests: u32,
 }
 
 impl<'a, L: Lanes> PacketState<'a, L> {
@@ -80,6 +82,7 @@ impl<'a, L: Lanes> PacketState<'a, L> {
             spheres_near: 0,
             rays_near: 0,
             tests: 0,
+            most_tests: u32::MAX,
         }
     }
 
@@ -108,6 +111,12 @@ impl<'a, L: Lanes> PacketState<'a, L> {
     pub(super) fn take_known<Q: Query>(&mut self, answer: &Q::Packet<L::Array>) {
         [self.t, self.sphere] = Q::lanes::<L>(self.token(), answer);
         self.shorten::<Q>();
+    }
+
+    /// Whether it has stopped.
+    #[inline(always)]
+    pub(super) fn has_stopped(&self) -> bool {
+        self.tests >= self.most_tests
     }
 
     /// Meets the spheres `places` of block `number` of sixteen; returns whether any ray may end sooner than
@@ -139,7 +148,7 @@ impl<'a, L: Lanes> PacketState<'a, L> {
         mut places: u32,
     ) -> bool {
         let mut changed = false;
-        while places != 0 {
+        while places != 0 && self.tests < self.most_tests {
             let place = places.trailing_zeros() as usize;
             places &= places - 1;
             changed |= self.meet_one::<Q, SPREADS>(tier, source, block, place);

@@ -12,7 +12,7 @@
 //! A group is traced so if its rays start at t >= 0, run the same way along an axis, and are
 //! narrow (`fit.rs`).
 
-use super::effort::{Effort, LEAST_RAYS, live_rays};
+use super::effort::{Effort, LEAST_RAYS, MOST_TESTS, live_rays};
 use super::fit::Fit;
 use super::frustum::Inside;
 use super::packet_group::{GROUP, approach, meet_block};
@@ -77,10 +77,20 @@ const ROOT: u32 = u32::MAX;
 pub(super) enum Ended {
     /// All of its rays are answered.
     Through,
+    /// The same, by twice the work that its rays would have done apart.
+    AtALoss,
     /// It did more than its rays would have done apart: what they have hit may not be the closest.
     GaveUp,
     /// Its rays do not look the same way, or are too few: nothing was done.
     Unfit,
+}
+
+impl Ended {
+    /// Whether all rays are answered.
+    #[inline(always)]
+    pub(super) fn is_answered(self) -> bool {
+        matches!(self, Self::Through | Self::AtALoss)
+    }
 }
 
 /// The boxes that are yet to be looked into, the nearest on top.
@@ -108,7 +118,7 @@ impl Boxes {
         bvh: &Bvh<'_>,
         tiles: Option<(&PacketSource<'_, L::Array>, Range<usize>)>,
     ) -> Ended {
-        if live_rays(states) < LEAST_RAYS.min((states.len() * L::COUNT / 4) as u32) {
+        if live_rays(states) < LEAST_RAYS.min((states.len() * L::COUNT / 2) as u32) {
             return Ended::Unfit;
         }
         count!(GroupFit);
@@ -138,6 +148,7 @@ impl Boxes {
 
         for state in &mut *states {
             state.depth = if state.live.any() { frustum.end } else { f32::NEG_INFINITY };
+            (state.tests, state.most_tests) = (0, MOST_TESTS);
         }
         self.depths[0] = f32::NEG_INFINITY;
         self.places[0] = ROOT;
@@ -194,8 +205,15 @@ impl Boxes {
                 (&mut end, &mut effort),
             );
             frustum.end = end;
+            let mut has_stopped = false;
+            for state in &*states {
+                has_stopped |= state.has_stopped();
+            }
+            if has_stopped {
+                return Ended::GaveUp;
+            }
         }
-        Ended::Through
+        if effort.takes(states, 1, 2) { Ended::AtALoss } else { Ended::Through }
     }
 
     #[inline(always)]

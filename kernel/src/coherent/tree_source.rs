@@ -163,7 +163,7 @@ impl Together<'_> {
                     }
                     if !alone {
                         self.learnt.groups.take(ended == Ended::Through, self.longest);
-                        if ended == Ended::Through || !tries_packets || states.len() < 2 {
+                        if ended.is_answered() || !tries_packets || states.len() < 2 {
                             break;
                         }
                         (place, to, alone) = (0, 1, true);
@@ -191,7 +191,7 @@ impl Together<'_> {
             for place in at..end {
                 let ended = ends[(place - at) % GROUP];
                 apart.are_all &= ended == Ended::Unfit;
-                if ended != Ended::Through {
+                if !ended.is_answered() {
                     apart.packets.insert(place - run.start);
                 }
                 if ended == Ended::Unfit
