@@ -19,7 +19,7 @@ use crate::dispatch::Level;
 pub struct Trace<'m> {
     /// The instruction set.
     pub level: Level,
-    /// What the rays have in common: the tree has two traversals.
+    /// What the rays have in common, if it is known.
     pub coherence: Coherence,
     /// Working memory of a [`DepthList`](crate::DepthList), as long as its `scratch` says; others need
     /// none.
@@ -36,13 +36,14 @@ pub struct Trace<'m> {
 /// The words of Embree's `RTCRayQueryFlags`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Coherence {
-    /// Found out as they come: some percent more than to say it.
+    /// Found out as they come: packets are tried together, and those that do not pay go ray by ray.
     #[default]
     Detect,
     /// An origin or a direction, or nearly so, and they lie close together: camera rays, shadow rays
-    /// to one light.
+    /// to one light. Of packets that do not pay fewer are passed over before others are tried. Said falsely, it costs as
+    /// much as to try.
     Coherent,
-    /// Nothing, or there are many more spheres between them than they share.
+    /// Nothing, or there are many more spheres between them than they share: ray by ray.
     Incoherent,
 }
 
