@@ -15,7 +15,7 @@ use crate::bvh::built::Built;
 use crate::bvh::leaf::{self, STEP};
 use crate::bvh::node::{BvhNode, DEPTH, LEAF, NO_CHILD, WIDTH};
 use crate::bvh::unplaced::Unplaced;
-use crate::geometry::sphere::{Sphere, Spheres};
+use crate::geometry::sphere::Spheres;
 use crate::memory::TooSmall;
 use crate::numeric::rounding::{least, most};
 use crate::scale::scene::SceneScale;
@@ -230,10 +230,10 @@ impl Leaves<'_> {
                 continue;
             }
             let (begin, lanes) = leaf::extent_of(child & !LEAF);
-            for index in self.lanes.get(begin..begin + lanes).unwrap_or_default() {
-                if let Some(Sphere { center, radius }) = self.spheres.get(*index as usize) {
-                    bits ^= center.x.to_bits() ^ center.y.to_bits();
-                    bits ^= center.z.to_bits() ^ radius.to_bits();
+            let own = self.lanes.get(begin..begin + lanes).unwrap_or_default();
+            for column in self.spheres.columns() {
+                for index in own {
+                    bits ^= column.get(*index as usize).map_or(0, |number| number.to_bits());
                 }
             }
         }
