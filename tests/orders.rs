@@ -1,6 +1,6 @@
 //! Orders of rays are made for the scene that they are for, whatever its scale and place.
 
-use spherule_kernel::{Intersect, Ray, Sphere, SphereList, SphereTree, Stable, Vec3};
+use spherule_kernel::{Exact, Intersect, Ray, Sphere, SphereList, SphereTree, Trace, Vec3};
 use spherule_tests::orders::{Extent, Order};
 use spherule_tests::scenes::{LARGE, Scene, Size, viewpoint};
 
@@ -9,9 +9,10 @@ fn scenes() -> impl Iterator<Item = Scene> {
     large.chain([Scene::spread(Size::SMALL)])
 }
 
-fn hits(scene: &Scene, rays: &[Ray]) -> Vec<Option<u32>> {
+fn hits(spheres: &SphereList, rays: &[Ray]) -> Vec<Option<u32>> {
     let mut hits = vec![None; rays.len()];
-    SphereTree::new((*scene.spheres).clone()).closest_hits(Stable, rays, &mut hits);
+    let (tree, mut trace) = (SphereTree::new(spheres.clone()), Trace::new().incoherent());
+    tree.closest_hits_with(Exact, &mut trace, rays, &mut hits);
     hits.into_iter().map(|hit| hit.map(|hit| hit.sphere)).collect()
 }
 
@@ -40,9 +41,13 @@ fn any_number_of_live_rays_and_the_same_from_the_same_seed() {
 fn rays_meet_every_scene() {
     for scene in scenes() {
         for order in Order::ALL {
-            let rays = order.rays(scene.spheres.spheres(), 512, 1);
-            let met = hits(&scene, &rays).iter().flatten().count();
-            assert!(met >= 4, "{}, {order:?}: {met} of 512 rays hit", scene.name);
+            // Of large bursts a few must be towards some sphere.
+            let count = if order == Order::Bursts1000 { 16_000 } else { 2000 };
+            let rays = order.rays(scene.spheres.spheres(), count, 1);
+            let met = hits(&scene.spheres, &rays).iter().flatten().count();
+            // From a convex thing nothing bounces to it again.
+            let least = if (scene.name, order) == ("one", Order::Bounces) { 0 } else { 1 };
+            assert!(met >= least, "{}, {order:?}: {met} of {count} rays hit", scene.name);
         }
     }
 }
@@ -51,13 +56,13 @@ fn rays_meet_every_scene() {
 fn a_scene_of_another_scale_gets_the_same_rays() {
     let plain = Scene::uniform(300, 16);
     for order in Order::ALL {
-        let rays = order.rays(plain.spheres.spheres(), 512, 1);
-        let found = hits(&plain, &rays);
-        assert!(found.iter().flatten().count() >= 40, "{order:?}");
+        let rays = order.rays(plain.spheres.spheres(), 4096, 1);
+        let found = hits(&plain.spheres, &rays);
+        assert!(found.iter().flatten().count() >= 400, "{order:?}");
         for scale in [-90, -60, 41, 90] {
             let scaled = plain.scaled([scale, 0]);
-            let rays = order.rays(scaled.spheres.spheres(), 512, 1);
-            assert_eq!(hits(&scaled, &rays), found, "{order:?}, 2^{scale}");
+            let rays = order.rays(scaled.spheres.spheres(), 4096, 1);
+            assert_eq!(hits(&scaled.spheres, &rays), found, "{order:?}, 2^{scale}");
         }
     }
 }
@@ -66,13 +71,12 @@ fn a_scene_of_another_scale_gets_the_same_rays() {
 fn a_scene_elsewhere_gets_rays_there() {
     let there = Vec3::new(300.0, -2000.0, 77.0);
     let moved = |sphere: Sphere| Sphere { center: sphere.center + there, ..sphere };
-    let plain = Scene::uniform(300, 16);
-    let spheres: SphereList = plain.spheres.spheres().iter().map(moved).collect();
-    let elsewhere = Scene { spheres: spheres.into(), ..plain.clone() };
+    let plain = Scene::uniform(300, 16).spheres;
+    let elsewhere: SphereList = plain.spheres().iter().map(moved).collect();
     for order in Order::ALL {
-        let [met, as_many] = [&plain, &elsewhere].map(|scene| {
-            let rays = order.rays(scene.spheres.spheres(), 2048, 1);
-            hits(scene, &rays).iter().flatten().count()
+        let [met, as_many] = [&*plain, &elsewhere].map(|spheres| {
+            let rays = order.rays(spheres.spheres(), 2048, 1);
+            hits(spheres, &rays).iter().flatten().count()
         });
         assert!(met.abs_diff(as_many) < 100, "{order:?}: {met}, {as_many}");
     }

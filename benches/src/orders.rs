@@ -134,7 +134,9 @@ impl Row {
         plan: Plan,
     ) -> Self {
         let name = format!("{scene}, {}, {query:?}, {}", order.as_str(), level.name().as_str());
-        let trial = Trial::of((level, query), work, embree, rays, plan.nanoseconds, &name);
+        let is_far = matches!(order, Order::FromFarAway | Order::LongLens);
+        let asked = (plan.nanoseconds, is_far);
+        let trial = Trial::of((level, query), work, embree, rays, asked, &name);
         let Trial { ways, slow, embree: chosen, rays } = trial;
         let (work, count) = (&RefCell::new(work), rays.list.len());
         let mut samplers = Vec::<(_, Sampler<'_>)>::new();

@@ -145,7 +145,7 @@ impl Order {
         match self {
             Self::Beam => rays.beam(count, 0.0),
             Self::NearlyParallel => rays.beam(count, 0.01),
-            Self::ToALight => (0..count).map(|_| rays.to_lights()[0]).collect(),
+            Self::ToALight => (0..count).map(|_| rays.shadow_rays()[0]).collect(),
             Self::LongLens => rays.camera_shuffled(count, 1e3),
             Self::ScanLines => rays.camera(count, false),
             Self::Shuffled => rays.camera_shuffled(count, 2.0),
@@ -169,10 +169,10 @@ impl Order {
             Self::Bursts1000 => rays.bursts(count, 1000),
             Self::Scanner => rays.scanner(count),
             Self::TwoLights => {
-                (0..count.div_ceil(2)).flat_map(|_| rays.to_lights()).take(count).collect()
+                (0..count.div_ceil(2)).flat_map(|_| rays.shadow_rays()).take(count).collect()
             }
             Self::AlongAnAxis => rays.along_an_axis(count),
-            Self::FromFarAway => rays.from_far_away(count),
+            Self::FromFarAway => rays.far_beam(count),
             Self::Alternating16 => {
                 let (camera, beam) = (rays.camera(half, false), rays.beam(half, 0.0));
                 in_turns([camera, beam], 16, count)
@@ -187,6 +187,7 @@ impl Order {
 /// `run` of the first, `run` of the second, and so on, each from where it was left.
 fn in_turns(both: [Vec<Ray>; 2], run: usize, count: usize) -> Vec<Ray> {
     let [mut one, mut other] = both.map(Vec::into_iter);
-    let turn = |place: usize| if place / run % 2 == 0 { one.next() } else { other.next() };
+    let turn =
+        |place: usize| if (place / run).is_multiple_of(2) { one.next() } else { other.next() };
     (0..count).map_while(turn).collect()
 }

@@ -18,7 +18,8 @@ const NEAR: f64 = 1.6;
 const LEAST: usize = 1024;
 /// Tests of brute force that a check may cost.
 const TESTS: usize = 1 << 20;
-/// The share of rays on which another program may think otherwise of whether they hit: those that graze.
+/// The share of rays on which another program may think otherwise of whether they hit: those that graze. From far away it
+/// may lose all spheres, if they are small: it subtracts squares of the distance.
 const OTHERWISE: f64 = 4e-2;
 
 /// Shown however slow they are.
@@ -44,7 +45,7 @@ impl Trial {
         work: &mut Work<'_>,
         embree: &[&Engine],
         rays: &[Ray],
-        nanoseconds: f64,
+        (nanoseconds, is_far): (f64, bool),
         name: &str,
     ) -> Self {
         let (mut slow, mut best) = (Vec::new(), f64::INFINITY);
@@ -56,7 +57,7 @@ impl Trial {
             let timed = times((level, query), work, &mut slow, &answers, name);
             best = timed.into_iter().fold(f64::INFINITY, |best, (_, time)| time.min(best));
         }
-        let (embree, of_embree) = nearest(embree, &work.rays, query, &answers, name);
+        let (embree, of_embree) = nearest(embree, &work.rays, (query, is_far), &answers, name);
         let fit = (2.0 * nanoseconds / (best + of_embree)) as usize;
         let all = sample(rays, fit.max(LEAST).min(rays.len()));
         work.take(all);
@@ -107,7 +108,7 @@ fn times(
 fn nearest(
     embree: &[&Engine],
     rays: &[Ray],
-    query: Query,
+    (query, is_far): (Query, bool),
     truth: &Answers,
     name: &str,
 ) -> (Vec<usize>, f64) {
@@ -124,7 +125,8 @@ fn nearest(
             let differs = |(ray, hit): &(usize, bool)| *hit != truth.is_hit(*ray);
             let hits = run.hits().into_iter().map(|hit| hit.is_some()).enumerate();
             let differ = hits.filter(differs).count() as f64;
-            assert!(differ <= OTHERWISE * count, "{name}: {} in {differ} rays", engine.label);
+            let is_like_ours = is_far || differ <= OTHERWISE * count;
+            assert!(is_like_ours, "{name}: {} in {differ} rays", engine.label);
             (index, time)
         };
         let times: Vec<_> = chosen.iter().map(time).collect();

@@ -2,7 +2,7 @@
 
 use super::Extent;
 use crate::random::{Random, cross, dot};
-use spherule_kernel::{Ray, Spheres, Vec3};
+use spherule_kernel::{Ray, Sphere, Spheres, Vec3};
 use std::f64::consts::TAU;
 
 type Point = [f64; 3];
@@ -47,7 +47,7 @@ impl Rays<'_> {
     }
 
     /// From a random point to each of the lights.
-    pub(super) fn to_lights(&mut self) -> [Ray; 2] {
+    pub(super) fn shadow_rays(&mut self) -> [Ray; 2] {
         let point = self.inside();
         LIGHTS.map(|light| {
             let light = self.off_middle(light);
@@ -67,7 +67,7 @@ impl Rays<'_> {
         (0..count).map(ray).collect()
     }
 
-    /// Random pixels of a camera whose offset is so many times the common direction.
+    /// Random pixels of a camera so many scene sizes away.
     pub(super) fn camera_shuffled(&mut self, count: usize, distance: f64) -> Vec<Ray> {
         let camera = Camera::new(self.extent, ASLANT.map(|x| -2.0 * distance * x));
         let mut pixel =
@@ -105,7 +105,7 @@ impl Rays<'_> {
     }
 
     /// A beam from 10^4 sizes away.
-    pub(super) fn from_far_away(&mut self, count: usize) -> Vec<Ray> {
+    pub(super) fn far_beam(&mut self, count: usize) -> Vec<Ray> {
         let back = -2e4 * self.extent.half();
         (0..count).map(|_| ray(plus(self.inside(), back, ASLANT), ASLANT)).collect()
     }
@@ -126,13 +126,14 @@ impl Rays<'_> {
         let bounce = |_| {
             for _ in 0..64 {
                 let index = self.random.integer(0, spheres.len().max(1) as i64 - 1) as usize;
-                let Some(sphere) = spheres.get(index).filter(|sphere| sphere.is_valid()) else {
+                let Some(sphere) = spheres.get(index).filter(Sphere::is_valid) else {
                     continue;
                 };
                 let (normal, radius) = (self.random.unit(), f64::from(sphere.radius));
                 let center = sphere.center.to_array().map(f64::from);
                 // A little above: what is rounded stays outside.
-                let origin = plus(center, radius * (1.0 + 1e-5), normal);
+                let least = center.iter().fold(radius, |most, x| x.abs().max(most)) * 2.5e-7;
+                let origin = plus(center, radius * (1.0 + 1e-5) + least, normal);
                 let towards = plus(normal, 0.999, self.random.unit());
                 return ray(origin, towards);
             }
