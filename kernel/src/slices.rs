@@ -1,5 +1,8 @@
 //! Slices and columns of rays: packed, traced and unpacked, some packets at a time, on the stack.
 
+#[cfg(feature = "alloc")]
+mod streamed;
+
 use crate::Accuracy;
 use crate::dispatch::Level;
 use crate::geometry::camera::tiles::CameraTiles;
@@ -82,13 +85,18 @@ fn windows<S: Traverse + ?Sized, Q: LevelQuery, const AT_ONCE: usize>(
     // Chunks divide by their length, and where that is not seen to be a number, may panic.
     while from < count {
         let to = (from + AT_ONCE * RayPacket::COUNT).min(count);
-        let rays = rays.part(from, to);
-        structure.many_in_packets::<Q>(tier, trace, rays, &mut packets, &mut answered);
+        let part = rays.part(from, to);
+        structure.many_in_packets::<Q>(tier, trace, part, &mut packets, &mut answered);
         #[cfg(feature = "std")]
         Q::write_at(trace.level, &mut answers, &answered, from, to);
         #[cfg(not(feature = "std"))]
         Q::write(&mut answers, &answered, from, to);
         from = to;
+        #[cfg(feature = "alloc")]
+        {
+            let rest = (rays, from, count);
+            from = streamed::answer::<S, Q>(structure, tier, trace, rest, &mut answers);
+        }
     }
 }
 

@@ -205,6 +205,12 @@ impl Patience {
         tries
     }
 
+    /// Whether as many are passed over as ever.
+    #[inline(always)]
+    pub(super) fn passes_over_most(&self, most: u32) -> bool {
+        self.gap >= most
+    }
+
     /// Takes what became of one that was tried; at most `most` are passed over then.
     #[inline(always)]
     pub(super) fn take(&mut self, paid: bool, most: u32) {

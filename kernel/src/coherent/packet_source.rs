@@ -17,6 +17,7 @@ pub enum PacketSource<'a, A: LaneArray> {
     /// They are there.
     Packets(&'a [RayPacket<A>]),
     /// They are filled with rays, a group at a time, in memory that is not looked at before.
+    #[cfg_attr(not(feature = "std"), expect(dead_code, reason = "levels alone make them there"))]
     Rays(ManyRays<'a>, &'a mut [RayPacket<A>]),
     /// They are made, a group at a time, in memory that is not looked at before.
     Tiles(CameraTiles<'a>, &'a mut [RayPacket<A>]),

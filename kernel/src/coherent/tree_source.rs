@@ -58,11 +58,15 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
     while from < count {
         let mut apart = Apart { packets: PacketSet::EMPTY, are_all: true };
         let mut end = count;
+        let mut passes_over = true;
         if coherence != Coherence::Incoherent {
             end = count.min(run + RUN);
             let at = run..end;
             together.answer::<L, Q>(tier, token, bvh, (&mut source, at), answers, &mut apart);
+            passes_over = together.learnt.groups.passes_over_most(LONGEST)
+                & together.learnt.packets.passes_over_most(LONGEST);
         }
+        together.learnt.streams = passes_over && stream::pays::<Q>(bvh);
         if apart.are_all && end < count {
             run = end;
             continue;
@@ -98,14 +102,18 @@ struct Apart {
 
 /// What is learnt of rays as they come: which of them pay together.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(not(feature = "std"), expect(unreachable_pub, reason = "a trait of levels names it"))]
 pub struct Learnt {
     groups: Patience,
     packets: Patience,
+    /// Whether the last went ray by ray, and more of them would gain as a stream.
+    pub(crate) streams: bool,
 }
 
 impl Learnt {
     /// Nothing.
-    pub(crate) const NOTHING: Self = Self { groups: Patience::NEW, packets: Patience::NEW };
+    pub(crate) const NOTHING: Self =
+        Self { groups: Patience::NEW, packets: Patience::NEW, streams: false };
 }
 
 /// Packets that go down together.

@@ -39,6 +39,7 @@ mod way;
 pub use memory::StreamMemory;
 pub use queue::QueuedRay;
 pub use ray::StreamRay;
+pub(crate) use way::pays;
 
 use self::queue::{FRAMES, Frame};
 use self::sort::by_start;
