@@ -16,7 +16,7 @@ fn assert_as_list(tree: &impl Intersect, list: &SphereList, tiers: &[Tier], rays
         for level in levels() {
             for coherence in [Coherence::Incoherent, Coherence::Coherent, Coherence::Detect] {
                 let level = Level::named(level).expect("of this CPU");
-                let mut trace = Trace { coherence, level, ..Trace::new() };
+                let mut trace = Trace::new().at(level).with(coherence);
                 let (mut hits, mut met) = (vec![None; rays.len()], vec![false; rays.len()]);
                 tree.closest_hits_with(tier, &mut trace, rays, &mut hits);
                 tree.any_hits_with(tier, &mut trace, rays, &mut met);
