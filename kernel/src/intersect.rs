@@ -121,6 +121,10 @@ pub trait Intersect: Traverse {
 
     /// The closest hit of every ray: `hits[i]` becomes what `rays[i]` hits, `None` if that is nothing.
     ///
+    /// Rays may come in any order: a tree finds out which of them gain by going together. With `alloc`, a call of 17,408
+    /// rays or more takes 3.5 MB, if they have nothing in common and the tree is one where streams are faster; without
+    /// that memory it does without.
+    ///
     /// ```
     /// use spherule_kernel::{Intersect, Ray, Spheres, Stable, Vec3};
     ///
@@ -193,7 +197,7 @@ pub trait Intersect: Traverse {
     /// The closest hit of every ray of eight columns, in two: number `i` of each becomes what ray `i` hits, `+inf` and
     /// [`HitPacket::NO_SPHERE`] if that is nothing. The shortest column counts; what is past it is left as it is.
     ///
-    /// Cost: less than that of slices, since nothing is transposed.
+    /// Cost: as that of slices.
     ///
     /// ```
     /// use spherule_kernel::{Exact, HitColumns, Intersect, RayColumns, SphereList, Trace};
