@@ -50,7 +50,9 @@ impl Trial {
     ) -> Self {
         let (mut slow, mut best) = (Vec::new(), f64::INFINITY);
         let mut answers = Answers::Any(Vec::new());
-        for part in PARTS {
+        // Of few rays one part is all.
+        let parts = if rays.len() > PARTS[0] { &PARTS[..] } else { &PARTS[..1] };
+        for &part in parts {
             work.take(sample(rays, part));
             let few = TESTS / work.spheres().max(1);
             answers = work.checked((level, query), few.clamp(1, part / 4), name);
