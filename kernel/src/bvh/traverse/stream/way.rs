@@ -110,7 +110,7 @@ mod tests {
         };
         let tree = SphereTree::new((0..spheres).map(|_| sphere()).collect::<SphereList>());
         let (mut stream, mut order) = (vec![StreamRay::EMPTY; TOGETHER], vec![0; 2 * sorted]);
-        let mut queues = vec![QueuedRay::EMPTY; StreamMemory::queues_needed(TOGETHER)];
+        let mut queues = vec![QueuedRay::EMPTY; WORTH_IT * TOGETHER];
         let memory = StreamMemory::new(&mut stream, &mut queues).expect("enough");
         let memory = memory.sorting(&mut order);
         let memory = if everywhere { memory.everywhere() } else { memory };
