@@ -52,7 +52,9 @@ impl core::error::Error for RefitError {}
 /// let mut memory = BvhMemory::new(&mut nodes, &mut places, &mut indices);
 ///
 /// let mut z = [5.0, 9.0];
-/// let spheres = |z| Spheres::new(&[0.0; 2], &[0.0; 2], z, &[1.0; 2]).expect("equal lengths");
+/// fn spheres(z: &[f32; 2]) -> Spheres<'_> {
+///     Spheres::new(&[0.0; 2], &[0.0; 2], z, &[1.0; 2]).expect("equal lengths")
+/// }
 /// let first = memory.build(spheres(&z))?.closest_hit(Exact, &Ray::new(Vec3::ZERO, Vec3::Z));
 /// z[0] = 20.0;
 /// let tree = memory.refit(spheres(&z))?;
