@@ -16,7 +16,9 @@ use spherule_kernel::{
     shadow_packets, stages, surface_packets,
 };
 #[cfg(feature = "structures")]
-use spherule_kernel::{Bvh, BvhMemory, BvhNode, DepthList, QueuedRay, StreamMemory, StreamRay, Viewpoint};
+use spherule_kernel::{
+    Bvh, BvhMemory, BvhNode, DepthList, QueuedRay, StreamMemory, StreamRay, Viewpoint,
+};
 use spherule_kernel::{
     Bvh4, Camera, CameraTiles, Hit, HitColumns, HitPacket, Intersect, Lanes, Projection, Ray,
     RayColumns, RayPacket, Side, Sphere, SpherePacket, Spheres, Tier, Trace, Vec3, discriminant,
