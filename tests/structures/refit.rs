@@ -115,7 +115,7 @@ fn copies_part() {
         assert_as_list(&tree, &SphereList::from(&spheres), &[Tier::Exact], &rays);
         let growth = tree.refit(own.as_slice()).expect("as many");
         assert_as_list(&tree, &SphereList::from(&own), &[Tier::Exact], &rays);
-        assert!(growth > 2.0 || copies < 100, "{copies} copies: {growth}");
+        assert!(growth > 1.9 || copies < 100, "{copies} copies: {growth}");
         // All go together.
         for sphere in &mut spheres {
             sphere.center += Vec3::new(0.25, 0.0, 0.0);

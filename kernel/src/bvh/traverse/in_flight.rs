@@ -98,7 +98,7 @@ pub(crate) fn begin<T: Accuracy, L: Lanes, Q: Query>(
     let (tier, token, bvh) = (tests.tier, tests.token, tests.bvh);
     if let (Some(packet), Some(answer)) = (tests.packets.get(place), tests.answers.get_mut(place)) {
         match tests.waiting {
-            Some(waiting) if !waiting.contains(place) => return prepared.covered = 0,
+            Some(waiting) if !waiting.contains(place) => prepared.covered = 0,
             Some(_) => begin_packet::<L, Q>(tier, token, bvh, (packet, answer, true), prepared),
             None => {
                 // What is outside has been met.
