@@ -85,11 +85,20 @@ pub(crate) fn inverse_of_body(spheres: &Spheres<'_>, scale: &SceneScale) -> f32 
     1.0 / (x * y + y * z + z * x)
 }
 
-/// The middle one of the first `held`, which are sorted then.
-fn median(column: &mut [f32; SAMPLE], held: usize) -> f32 {
-    let held = column.get_mut(..held).unwrap_or_default();
-    held.sort_unstable_by(f32::total_cmp);
-    held.get(held.len() / 2).copied().unwrap_or_default()
+/// The middle one of the first `held`, by rank: a sort of the standard library may panic.
+fn median(column: &[f32; SAMPLE], held: usize) -> f32 {
+    let held = held.min(SAMPLE);
+    for one in 0..held {
+        let mut below = 0;
+        for other in 0..held {
+            let is_below = column[other] < column[one];
+            below += usize::from(is_below | (column[other] == column[one] && other < one));
+        }
+        if below == held / 2 {
+            return column[one];
+        }
+    }
+    0.0
 }
 
 /// Of a node's boxes, with what [`inverse_of_body`] says.
