@@ -86,7 +86,11 @@ pub trait Lanes:
         for lane in 0..Self::COUNT {
             let row = row(lane);
             for column in 0..8 {
-                columns[column].set(lane, row[column]);
+                if let (Some(column), Some(number)) =
+                    (columns.get_mut(column), row.as_slice().get(column))
+                {
+                    column.set(lane, *number);
+                }
             }
         }
         columns

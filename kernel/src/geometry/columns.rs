@@ -162,8 +162,11 @@ impl HitColumns<'_> {
                 continue;
             }
             for lane in 0..16 {
-                if let (Some(t), Some(sphere)) = (t.get_mut(lane), spheres.get_mut(lane)) {
-                    (*t, *sphere) = (packet.t[lane], packet.sphere[lane]);
+                if let (Some(t), Some(sphere)) = (t.get_mut(lane), spheres.get_mut(lane))
+                    && let (Some(at), Some(hit)) =
+                        (packet.t.as_slice().get(lane), packet.sphere.as_slice().get(lane))
+                {
+                    (*t, *sphere) = (*at, *hit);
                 }
             }
         }

@@ -88,7 +88,7 @@ impl ManyHits<'_> {
     }
 }
 
-/// (Three stores a hit: in vectors they would have to be shuffled by three, which `Option` lets nobody say.)
+/// (`get_mut`, since for size the compiler keeps the checks of an index. Three stores a hit: in vectors they would have to be shuffled by three, which `Option` lets nobody say.)
 #[inline(always)]
 fn write_slice(packets: &[HitPacket], hits: &mut [Option<Hit>]) {
     let mut at = 0;
@@ -97,12 +97,16 @@ fn write_slice(packets: &[HitPacket], hits: &mut [Option<Hit>]) {
         at += 16;
         if let Some(sixteen) = rest.first_chunk_mut::<16>() {
             for lane in 0..16 {
-                sixteen[lane] = packet.hit(lane);
+                if let Some(hit) = sixteen.get_mut(lane) {
+                    *hit = packet.hit(lane);
+                }
             }
             continue;
         }
-        for lane in 0..rest.len() {
-            rest[lane] = packet.hit(lane);
+        for lane in 0..16 {
+            if let Some(hit) = rest.get_mut(lane) {
+                *hit = packet.hit(lane);
+            }
         }
     }
 }
@@ -117,12 +121,16 @@ pub(crate) fn write_met(packets: &[u32], met: &mut [bool]) {
         if let Some(sixteen) = rest.first_chunk_mut::<16>() {
             // Not shifted: that has a vector instruction from AVX2 on.
             for lane in 0..16 {
-                sixteen[lane] = bits & 1 << lane != 0;
+                if let Some(met) = sixteen.get_mut(lane) {
+                    *met = bits & 1 << lane != 0;
+                }
             }
             continue;
         }
-        for lane in 0..rest.len() {
-            rest[lane] = bits & 1 << (lane % 16) != 0;
+        for lane in 0..16 {
+            if let Some(met) = rest.get_mut(lane) {
+                *met = bits & 1 << lane != 0;
+            }
         }
     }
 }
