@@ -243,7 +243,11 @@ impl Sum {
         for (place, ray) in rays.iter().take(20).enumerate() {
             let ([ox, oy, oz], [dx, dy, dz]) = (ray.origin.to_array(), ray.direction.to_array());
             let row = [ox, oy, oz, dx, dy, dz, ray.t_min, ray.t_max];
-            numbers.iter_mut().zip(row).for_each(|(column, number)| column[place] = number);
+            for (column, number) in numbers.iter_mut().zip(row) {
+                if let Some(at) = column.get_mut(place) {
+                    *at = number;
+                }
+            }
         }
         let (mut t, mut spheres) = ([0.0; 20], [0; 20]);
         for trace in [Trace::new().coherent(), Trace::new().incoherent()] {
