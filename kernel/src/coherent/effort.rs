@@ -15,8 +15,9 @@
 //! which come near few of them: its packets are too wide, and that is seen after some leaves. The rays go on by
 //! themselves, with what they have hit.
 //!
-//! Work is counted in steps of some 5 ns, fitted to the times of 243 scenes and orders of rays on a Zen 3 (AVX2), groups
-//! and rays by themselves: a sixth off in the mean.
+//! Work is counted in steps of some 5 ns on a Zen 3 (AVX2). The weights start from a fit to the times of 243 scenes and
+//! orders of rays, groups and rays by themselves, which was a sixth off in the mean; then they were set so that groups which
+//! pay seldom give up.
 
 use super::packet_state::PacketState;
 use crate::bvh::node::{BvhNode, LEAF as IS_LEAF, WIDTH};
