@@ -1,9 +1,10 @@
 //! Arithmetic: vectors of three, sums and products without error, the power of a point, rounding outward, powers of
-//! two, a sort by whole numbers, and whether the machine rounds as the proofs assume.
+//! two, sorts of whole numbers, and whether the machine rounds as the proofs assume.
 
 pub(crate) mod axes;
 pub(crate) mod error_free;
 pub(crate) mod float_environment;
+pub(crate) mod heap_sort;
 pub(crate) mod power_of_point;
 pub(crate) mod power_of_two;
 pub(crate) mod radix_sort;

@@ -17,6 +17,7 @@ use crate::bvh::node::{BvhNode, DEPTH, LEAF, NO_CHILD, WIDTH};
 use crate::bvh::unplaced::Unplaced;
 use crate::geometry::sphere::Spheres;
 use crate::memory::TooSmall;
+use crate::numeric::heap_sort::heap_sort;
 use crate::numeric::rounding::{least, most};
 use crate::scale::scene::SceneScale;
 use core::hint::black_box;
@@ -52,7 +53,7 @@ pub(crate) fn refit(
     }
     built.outside = leaves.count;
     // Of equal t by `Stable` and others the first is the answer.
-    outside.get_mut(..built.outside).unwrap_or_default().sort_unstable();
+    heap_sort(outside.get_mut(..built.outside).unwrap_or_default());
 
     built.extent = if all.is_empty() { 0.0 } else { extent_of(all.outward()) };
     let inverse = inverse_of_body(spheres, &scale);
