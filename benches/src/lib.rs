@@ -3,7 +3,7 @@
 //! | command | does |
 //! |---|---|
 //! | `cargo bench --bench closest_hit` | criterion: the small scenes by brute force, every tier and lane width, and another crate |
-//! | `cargo bench --bench report` | prints tables: `-- tiers` speed against error, `-- structures` the large scenes, `-- cameras` the rays that a camera makes there, `-- surfaces` what is seen there, `-- orders` rays in every order, `-- scales` other units; or all |
+//! | `cargo bench --bench report` | prints tables: `-- tiers` speed against error, `-- structures` the large scenes, `-- cameras` the rays that a camera makes there, `-- surfaces` what is seen there, `-- orders` rays in every order, `-- calls` what a call costs, `-- scales` other units; or all |
 //! | `... --features embree ... -- --write` | with Embree (Debian: `libembree3-3`); and writes `docs/benchmarks` |
 //!
 //! Speed is written for one build at a time: once more with `RUSTFLAGS="-C target-cpu=native"`. `--scene NAME` runs one
@@ -19,6 +19,7 @@
 
 mod agreement;
 mod builds;
+mod calls;
 mod cameras;
 mod criterion_groups;
 mod engine;

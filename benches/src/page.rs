@@ -1,5 +1,6 @@
 //! Pages in Markdown: what they have in common.
 
+pub(crate) mod calls;
 pub(crate) mod cameras;
 pub(crate) mod orders;
 pub(crate) mod scales;

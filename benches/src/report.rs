@@ -2,7 +2,7 @@
 
 use crate::measure::Effort;
 use crate::page::{self, build, origin};
-use crate::{cameras, errors, lists, orders, plot, scales, structures, surfaces};
+use crate::{calls, cameras, errors, lists, orders, plot, scales, structures, surfaces};
 use clap::builder::PossibleValuesParser;
 use clap::{Parser, ValueEnum};
 use spherule_tests::orders::Order;
@@ -41,6 +41,7 @@ enum Part {
     Cameras,
     Surfaces,
     Orders,
+    Calls,
     Scales,
 }
 
@@ -105,6 +106,10 @@ pub fn report() -> Result<(), Box<dyn error::Error>> {
         let order = order.as_deref().and_then(Order::named);
         let rows = orders::measure(effort, (scene.as_deref(), order));
         put("orders.md", &page::orders::page(&origin, &rows))?;
+    }
+    if chosen(Part::Calls) {
+        let results = calls::measure(effort, scene.as_deref());
+        put("calls.md", &page::calls::page(&origin, &results))?;
     }
     if chosen(Part::Scales) && scene.is_none() {
         put("scales.md", &page::scales::page(&origin, &scales::measure(effort)))?;

@@ -1,0 +1,334 @@
+//! What a call costs: one ray a call beside Embree's, slices and columns beside packets; and spheres that move.
+
+use crate::builds::{EMBREE, Trees};
+use crate::engine::kernel::levels;
+use crate::engine::{Engine, Query, Rays};
+use crate::measure::Effort;
+use crate::rounds::{Median, Sampler, Samples, timed};
+use spherule_kernel::{
+    Exact, Hit, HitColumns, HitPacket, InTurn, Intersect, Level, LevelName, Ray, RayColumns,
+    RayPacket, Sphere, SphereList, SphereTree, Trace, Vec3,
+};
+use spherule_tests::scenes::{Kind, LARGE, Scene, Size, sample};
+use std::cell::RefCell;
+use std::time::Duration;
+
+/// Embree's call of one ray, among its engines.
+const ONE_RAY: &str = "1 rays a call";
+/// Rays of a short call: a group of packets.
+const SHORT: usize = 64;
+
+/// How rays are handed over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Call {
+    OneRay,
+    /// All packets in one call.
+    Packets,
+    Slices,
+    Columns,
+    /// Packets of [`SHORT`] rays, and slices of as many.
+    ShortPackets,
+    ShortSlices,
+}
+
+impl Call {
+    pub(crate) const ALL: [Self; 6] = [
+        Self::OneRay,
+        Self::Packets,
+        Self::Slices,
+        Self::Columns,
+        Self::ShortPackets,
+        Self::ShortSlices,
+    ];
+}
+
+/// What was timed: a call, or Embree's of one ray.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Timed {
+    Ours(Call),
+    Embree(usize),
+}
+
+/// A scene's rays of a kind, a query, at a level.
+pub(crate) struct Row {
+    pub(crate) scene: &'static str,
+    pub(crate) kind: Kind,
+    pub(crate) query: Query,
+    pub(crate) level: LevelName,
+    /// Nanoseconds a ray.
+    times: Samples<Timed>,
+}
+
+/// Spheres of a scene that move, against building anew.
+pub(crate) struct Refit {
+    pub(crate) scene: &'static str,
+    pub(crate) spheres: usize,
+    /// By how much boxes have grown.
+    pub(crate) growth: f32,
+    /// A refit's time by a build's.
+    pub(crate) by_build: Option<Median>,
+}
+
+/// All that was measured.
+pub(crate) struct Calls {
+    pub(crate) rows: Vec<Row>,
+    pub(crate) refits: Vec<Refit>,
+}
+
+/// Measures all scenes, or one alone.
+pub(crate) fn measure(effort: Effort, one: Option<&str>) -> Calls {
+    let (size, rays, time, rounds) = match effort {
+        Effort::Test => (Size::SMALL, 256, 0, 1),
+        Effort::Quick => (Size::FULL, 1 << 13, 150, 5),
+        Effort::Full => (Size::FULL, 1 << 14, 1000, 9),
+    };
+    let mut all = Calls { rows: Vec::new(), refits: Vec::new() };
+    for name in LARGE.into_iter().filter(|name| one.is_none_or(|one| one == *name)) {
+        eprintln!("calls, {name}");
+        let scene = Scene::large(name, size).expect("listed");
+        let levels = levels();
+        let trees = Trees::build(&scene, false, &levels);
+        for kind in Kind::ALL {
+            let rays = sample(scene.rays(kind), rays);
+            for &level in &levels {
+                let engines = trees.others.iter().filter(|engine| is_one_ray(engine, level));
+                let engines: Vec<_> = engines.collect();
+                for query in Query::ALL {
+                    let asked = (scene.name, kind, query, level);
+                    let plan = (Duration::from_millis(time), rounds);
+                    all.rows.push(Row::measure(asked, &trees.ours, &engines, &rays, plan));
+                }
+            }
+        }
+        all.refits.push(Refit::measure(&scene, rounds));
+    }
+    all
+}
+
+fn is_one_ray(engine: &Engine, level: Level) -> bool {
+    let label = &engine.label;
+    let is_embree = label.way.starts_with(EMBREE) && label.name == ONE_RAY;
+    is_embree && label.lanes == level.name().as_str()
+}
+
+impl Row {
+    /// # Panics
+    /// If calls differ in a bit.
+    fn measure(
+        (scene, kind, query, level): (&'static str, Kind, Query, Level),
+        tree: &SphereTree,
+        embree: &[&Engine],
+        rays: &[Ray],
+        (time, rounds): (Duration, usize),
+    ) -> Self {
+        let work = RefCell::new(Work::new(tree, rays));
+        let count = rays.len() as f64;
+        let run = |call| {
+            let mut work = work.borrow_mut();
+            work.run(call, level, query);
+            work.answers(query)
+        };
+        let expected = run(Call::Packets);
+        for call in Call::ALL {
+            let is_same = run(call) == expected;
+            assert!(is_same, "{scene}, {kind:?}, {query:?}, {level:?}: {call:?}");
+        }
+        let mut samplers = Vec::<(_, Sampler<'_>)>::new();
+        for call in Call::ALL {
+            let work = &work;
+            let sample = move || work.borrow_mut().run(call, level, query) / count;
+            samplers.push((Timed::Ours(call), Box::new(sample)));
+        }
+        let shared = Rays::new(rays);
+        for (index, engine) in embree.iter().enumerate() {
+            let mut run = (engine.ready)(&shared);
+            let sample = move || run.time(query, 1) / count;
+            samplers.push((Timed::Embree(index), Box::new(sample)));
+        }
+        let times = Samples::take(samplers, time, rounds..=8 * rounds);
+        Self { scene, kind, query, level: level.name(), times }
+    }
+
+    /// A million rays a second.
+    pub(crate) fn rate(&self, call: Call) -> Option<f64> {
+        Some(1e3 / self.times.median(&Timed::Ours(call))?.middle)
+    }
+
+    /// How many times as fast a call is as another.
+    pub(crate) fn ratio(&self, call: Call, other: Call) -> Option<Median> {
+        self.times.ratio(&Timed::Ours(other), &Timed::Ours(call))
+    }
+
+    /// How many times as fast one ray a call is as Embree's, of the version that is the quicker.
+    pub(crate) fn by_embree(&self) -> Option<Median> {
+        let time = |timed: &&Timed| self.times.median(timed).map_or(f64::INFINITY, |it| it.middle);
+        let all = self.times.names.iter().filter(|timed| matches!(timed, Timed::Embree(_)));
+        let quicker = all.min_by(|a, b| time(a).total_cmp(&time(b)))?;
+        self.times.ratio(quicker, &Timed::Ours(Call::OneRay))
+    }
+
+    pub(crate) fn rounds(&self) -> usize {
+        self.times.rounds()
+    }
+}
+
+/// Rays in every form, and memory for their answers.
+struct Work<'a> {
+    tree: &'a SphereTree,
+    rays: &'a [Ray],
+    packets: Vec<RayPacket>,
+    columns: [Vec<f32>; 8],
+    hits: Vec<Option<Hit>>,
+    met: Vec<bool>,
+    packet_hits: Vec<HitPacket>,
+    packets_met: Vec<u32>,
+    column_hits: (Vec<f32>, Vec<u32>),
+    last: Call,
+}
+
+impl<'a> Work<'a> {
+    fn new(tree: &'a SphereTree, rays: &'a [Ray]) -> Self {
+        let (count, packets) = (rays.len(), rays.len().div_ceil(RayPacket::COUNT));
+        let column = |of: fn(&Ray) -> f32| rays.iter().map(of).collect();
+        Self {
+            tree,
+            rays,
+            packets: rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect(),
+            columns: [
+                column(|ray| ray.origin.x),
+                column(|ray| ray.origin.y),
+                column(|ray| ray.origin.z),
+                column(|ray| ray.direction.x),
+                column(|ray| ray.direction.y),
+                column(|ray| ray.direction.z),
+                column(|ray| ray.t_min),
+                column(|ray| ray.t_max),
+            ],
+            hits: vec![None; count],
+            met: vec![false; count],
+            packet_hits: vec![HitPacket::none(); packets],
+            packets_met: vec![0; packets],
+            column_hits: (vec![0.0; count], vec![0; count]),
+            last: Call::Packets,
+        }
+    }
+
+    /// Answers every ray. Returns how many nanoseconds it took.
+    fn run(&mut self, call: Call, level: Level, query: Query) -> f64 {
+        self.last = call;
+        let Self { tree, rays, packets, hits, met, packet_hits, packets_met, .. } = self;
+        let mut trace = Trace::new().at(level);
+        let trace = &mut trace;
+        match (call, query) {
+            (Call::OneRay, Query::ClosestHit) => timed(|| {
+                for (ray, hit) in rays.iter().zip(hits) {
+                    *hit = tree.closest_hit_with(Exact, trace, ray);
+                }
+            }),
+            (Call::OneRay, Query::AnyHit) => timed(|| {
+                for (ray, met) in rays.iter().zip(met) {
+                    *met = tree.any_hit_with(Exact, trace, ray);
+                }
+            }),
+            (Call::Packets, Query::ClosestHit) => {
+                timed(|| tree.closest_hit_packets(Exact, trace, packets, packet_hits))
+            }
+            (Call::Packets, Query::AnyHit) => {
+                timed(|| tree.any_hit_packets(Exact, trace, packets, packets_met))
+            }
+            (Call::Slices, Query::ClosestHit) => {
+                timed(|| tree.closest_hits_with(Exact, trace, rays, hits))
+            }
+            (Call::Slices, Query::AnyHit) => timed(|| tree.any_hits_with(Exact, trace, rays, met)),
+            (Call::Columns, query) => {
+                let [ox, oy, oz, dx, dy, dz, t_min, t_max] =
+                    self.columns.each_ref().map(Vec::as_slice);
+                let (origin, direction) = ([ox, oy, oz], [dx, dy, dz]);
+                let columns = RayColumns { origin, direction, t_min, t_max };
+                let (t, sphere) = &mut self.column_hits;
+                timed(|| match query {
+                    Query::ClosestHit => {
+                        let found = HitColumns { t, sphere };
+                        tree.closest_hit_columns(Exact, trace, columns, found);
+                    }
+                    Query::AnyHit => tree.any_hit_columns(Exact, trace, columns, met),
+                })
+            }
+            // What a call learns is for the next as well: each begins anew.
+            (Call::ShortPackets, query) => timed(|| {
+                let many = packets.chunks(SHORT / RayPacket::COUNT);
+                let hits = packet_hits.chunks_mut(SHORT / RayPacket::COUNT);
+                let met = packets_met.chunks_mut(SHORT / RayPacket::COUNT);
+                for ((packets, hits), met) in many.zip(hits).zip(met) {
+                    let trace = &mut Trace::new().at(level);
+                    match query {
+                        Query::ClosestHit => tree.closest_hit_packets(Exact, trace, packets, hits),
+                        Query::AnyHit => tree.any_hit_packets(Exact, trace, packets, met),
+                    }
+                }
+            }),
+            (Call::ShortSlices, query) => timed(|| {
+                let many = rays.chunks(SHORT).zip(hits.chunks_mut(SHORT));
+                for ((rays, hits), met) in many.zip(met.chunks_mut(SHORT)) {
+                    let trace = &mut Trace::new().at(level);
+                    match query {
+                        Query::ClosestHit => tree.closest_hits_with(Exact, trace, rays, hits),
+                        Query::AnyHit => tree.any_hits_with(Exact, trace, rays, met),
+                    }
+                }
+            }),
+        }
+    }
+
+    /// Of the last run, a ray each: t in bits and the sphere; of any hit, whether.
+    fn answers(&self, query: Query) -> Vec<(u32, u32)> {
+        const NONE: (u32, u32) = (f32::INFINITY.to_bits(), u32::MAX);
+        let bits = |hit: Option<Hit>| hit.map_or(NONE, |hit| (hit.t.to_bits(), hit.sphere));
+        let is_packed = matches!(self.last, Call::Packets | Call::ShortPackets);
+        let answer = |ray: usize| {
+            let (packet, lane) = (ray / RayPacket::COUNT, ray % RayPacket::COUNT);
+            match (query, self.last) {
+                (Query::AnyHit, _) if is_packed => (self.packets_met[packet] >> lane & 1, 0),
+                (Query::AnyHit, _) => (u32::from(self.met[ray]), 0),
+                (_, Call::Columns) => (self.column_hits.0[ray].to_bits(), self.column_hits.1[ray]),
+                _ if is_packed => bits(self.packet_hits[packet].hit(lane)),
+                _ => bits(self.hits[ray]),
+            }
+        };
+        (0..self.rays.len()).map(answer).collect()
+    }
+}
+
+impl Refit {
+    /// Every sphere moves by up to its radius along each axis, there and back.
+    fn measure(scene: &Scene, rounds: usize) -> Self {
+        let spheres = scene.spheres.spheres();
+        let moved = |(index, sphere): (usize, Sphere)| {
+            let part = |axis: usize| ((index * 31 + axis * 17) % 64) as f32 / 32.0 - 1.0;
+            let step = Vec3::new(part(0), part(1), part(2));
+            Sphere { center: sphere.center + sphere.radius * step, ..sphere }
+        };
+        let there: SphereList = spheres.iter().enumerate().map(moved).collect();
+        let lists = [there, (*scene.spheres).clone()];
+        let tree = SphereTree::build_with(&InTurn, (*scene.spheres).clone());
+        let mut tree = tree.expect("enough memory");
+        let growth = tree.refit(lists[0].clone()).expect("as many");
+        let build = || {
+            let list = lists[1].clone();
+            timed(|| drop(std::hint::black_box(SphereTree::build_with(&InTurn, list))))
+        };
+        let mut turn = 0;
+        let refit = || {
+            turn += 1;
+            let list = lists[turn % 2].clone();
+            timed(|| {
+                tree.refit(list).expect("as many");
+            })
+        };
+        let samplers: Vec<(_, Sampler<'_>)> =
+            vec![(false, Box::new(build)), (true, Box::new(refit))];
+        let times = Samples::take(samplers, Duration::from_millis(300), rounds..=20 * rounds);
+        let by_build = times.ratio(&true, &false);
+        Self { scene: scene.name, spheres: spheres.len(), growth, by_build }
+    }
+}
