@@ -1,5 +1,7 @@
-//! Memory of the caller's that turned out too small.
+//! Memory: of the caller's, which may turn out too small; of the heap's, where there may be none.
 
+#[cfg(feature = "alloc")]
+use alloc::vec::Vec;
 use core::fmt;
 
 /// The memory given to a scene structure was too small.
@@ -26,3 +28,12 @@ impl fmt::Display for TooSmall {
 }
 
 impl core::error::Error for TooSmall {}
+
+/// Makes memory of the heap's at least so long; `None` if there is none.
+#[cfg(feature = "alloc")]
+pub(crate) fn lengthen<T: Clone>(memory: &mut Vec<T>, filler: T, length: usize) -> Option<()> {
+    let missing = length.saturating_sub(memory.len());
+    memory.try_reserve_exact(missing).ok()?;
+    memory.resize(memory.len() + missing, filler);
+    Some(())
+}

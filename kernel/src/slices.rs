@@ -1,7 +1,7 @@
 //! Slices and columns of rays: packed, traced and unpacked, some packets at a time, on the stack.
 
 #[cfg(feature = "alloc")]
-mod streamed;
+mod many_at_once;
 
 use crate::Accuracy;
 use crate::dispatch::Level;
@@ -95,7 +95,7 @@ fn windows<S: Traverse + ?Sized, Q: LevelQuery, const AT_ONCE: usize>(
         #[cfg(feature = "alloc")]
         {
             let rest = (rays, from, count);
-            from = streamed::answer::<S, Q>(structure, tier, trace, rest, &mut answers);
+            from = many_at_once::answer::<S, Q>(structure, tier, trace, rest, &mut answers);
         }
     }
 }

@@ -19,6 +19,8 @@ use crate::lanes::Lanes;
 use crate::linear;
 use crate::query::{ClosestHit, Query};
 use crate::slices;
+#[cfg(feature = "alloc")]
+use crate::trace::Coherence;
 use crate::trace::Trace;
 
 /// The traversals of a structure.
@@ -58,6 +60,13 @@ pub trait Traverse {
         #[cfg(not(feature = "std"))]
         crate::dispatch::fill(rays, packets);
         self.in_packets::<Q>(tier, trace, packets, answers);
+    }
+
+    /// How many of the next rays are better answered at once than a few by a few, from what the trace has learnt; `None`
+    /// where that does not matter.
+    #[cfg(feature = "alloc")]
+    fn many_at_once<Q: LevelQuery>(&self, _: &mut Trace<'_>, _: usize) -> Option<usize> {
+        None
     }
 
     /// One ray, at a level.
@@ -193,6 +202,13 @@ impl Traverse for Bvh<'_> {
         Q::tree(trace.level, tier.tier(), self, ways(trace), source, answers);
     }
 
+    #[cfg(feature = "alloc")]
+    fn many_at_once<Q: LevelQuery>(&self, trace: &mut Trace<'_>, rays: usize) -> Option<usize> {
+        // What is said to be incoherent goes as a stream in memory that is lent.
+        let is_asked = trace.stream.is_none() && trace.coherence != Coherence::Incoherent;
+        if is_asked { trace.learnt.many_at_once::<Q>(self, rays) } else { None }
+    }
+
     #[cfg(feature = "std")]
     #[inline]
     fn one<Q: LevelQuery>(&self, tier: impl Accuracy, trace: &mut Trace<'_>, ray: &Ray) -> Q::One {
@@ -232,7 +248,13 @@ impl Traverse for Bvh<'_> {
 /// What a tree asks of a trace.
 #[inline(always)]
 fn ways<'t>(trace: &'t mut Trace<'_>) -> Ways<'t> {
-    (trace.coherence, trace.stream.as_mut().map(StreamMemory::again), &mut trace.learnt)
+    Ways {
+        coherence: trace.coherence,
+        lent: trace.stream.as_mut().map(StreamMemory::again),
+        #[cfg(feature = "alloc")]
+        kept: &mut trace.kept,
+        learnt: &mut trace.learnt,
+    }
 }
 
 /// In one lane, whatever the level.
@@ -296,6 +318,15 @@ macro_rules! traverse_as {
                 answers: &mut [Q::Packet<[f32; 16]>],
             ) {
                 self.$lend().many_in_packets::<Q>(tier, trace, rays, packets, answers);
+            }
+
+            #[cfg(feature = "alloc")]
+            fn many_at_once<Q: LevelQuery>(
+                &self,
+                trace: &mut Trace<'_>,
+                rays: usize,
+            ) -> Option<usize> {
+                self.$lend().many_at_once::<Q>(trace, rays)
             }
 
             #[inline]

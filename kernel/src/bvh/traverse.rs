@@ -3,7 +3,7 @@
 
 pub(crate) mod boxes;
 mod deferred;
-mod few;
+pub(crate) mod few;
 mod in_flight;
 #[cfg(feature = "std")]
 pub(crate) mod one_ray;

@@ -22,6 +22,7 @@ use crate::Accuracy;
 use crate::accuracy::RayLanes;
 use crate::bvh::leaf::Leaf;
 use crate::bvh::node::{DEPTH, LEAF, WIDTH};
+use crate::bvh::traverse::few::leaves_of_few;
 use crate::bvh::tree::Bvh;
 use crate::count::count;
 use crate::geometry::ray::RayPacket;
@@ -153,7 +154,7 @@ impl Boxes {
         self.depths[0] = f32::NEG_INFINITY;
         self.places[0] = ROOT;
         self.top = 1;
-        let mut effort = Effort::of(states);
+        let mut effort = Effort::of(states, leaves_of_few(bvh));
         let mut inside = Inside { places: 0, depths: [0.0; WIDTH] };
         while self.top > 0 {
             self.top -= 1;
@@ -213,7 +214,7 @@ impl Boxes {
                 return Ended::GaveUp;
             }
         }
-        if effort.takes(states, 1, 2) { Ended::AtALoss } else { Ended::Through }
+        if effort.is_at_a_loss(states) { Ended::AtALoss } else { Ended::Through }
     }
 
     #[inline(always)]

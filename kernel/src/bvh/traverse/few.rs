@@ -31,6 +31,21 @@ pub(crate) fn few(bvh: &Bvh<'_>) -> Option<[u32; FEW]> {
     }
 }
 
+/// How many leaves such a tree has; else `None`.
+#[inline(always)]
+pub(crate) fn leaves_of_few(bvh: &Bvh<'_>) -> Option<u32> {
+    few(bvh).map(
+        #[inline(always)]
+        |leaves| {
+            let mut count = 0;
+            for number in 0..FEW {
+                count += u32::from(leaves[number] != NO_CHILD);
+            }
+            count
+        },
+    )
+}
+
 /// Answers every ray by testing it against all spheres of such a tree.
 #[inline(always)]
 pub(crate) fn traverse<T: Accuracy, L: Lanes, Q: Query>(

@@ -28,22 +28,28 @@
 //! long as the first of the node's rays are many; those go down before the others are looked at. Sixteen places a
 //! level are enough, for one ray after the other.
 
+#[cfg(feature = "alloc")]
+mod kept;
 mod leaves;
 mod memory;
 mod nodes;
 mod queue;
 mod ray;
+mod sharing;
 mod sort;
-mod way;
 
+#[cfg(feature = "alloc")]
+pub(crate) use kept::{KeptMemory, MOST_SORTED};
 pub use memory::StreamMemory;
 pub use queue::QueuedRay;
 pub use ray::StreamRay;
-pub(crate) use way::pays;
+pub(crate) use sharing::Sharing;
+#[cfg(feature = "alloc")]
+pub(crate) use sharing::together;
 
 use self::queue::{FRAMES, Frame};
+use self::sharing::{Seen, Way};
 use self::sort::by_start;
-use self::way::Way;
 use super::deferred::DeferredTests;
 use super::in_flight::{begin, begin_packet};
 use super::packet_set::PacketSet;
@@ -56,42 +62,67 @@ use crate::geometry::ray::RayPacket;
 use crate::lanes::Lanes;
 use crate::query::Query;
 
-/// Answers every ray. The memory is as large as [`StreamMemory::new`] checks.
+/// Answers every ray: as a stream those of which so many meet that it pays, the others by themselves. The memory is as
+/// large as [`StreamMemory::new`] checks.
 #[inline(always)]
 pub(crate) fn traverse<L: Lanes, Q: Query>(
     tier: impl Accuracy,
     token: L::Token,
     bvh: &Bvh<'_>,
-    memory: &mut StreamMemory<'_>,
+    (memory, sharing): (&mut StreamMemory<'_>, &mut Sharing),
     (rays, waiting): (&[RayPacket<L::Array>], Option<&PacketSet>),
     answers: &mut [Q::Packet<L::Array>],
 ) {
     let count = rays.len().min(answers.len());
-    let way = Way::of::<Q>(bvh, memory, count * L::COUNT, waiting.is_none());
-    if way == Way::RayByRay {
-        return wavefront::traverse::<L, Q>(tier, token, bvh, (rays, waiting), answers);
+    let mut from = 0;
+    while from < count {
+        let left = (count - from) * L::COUNT;
+        let (way, next) = sharing.next::<Q>(bvh, memory, left, waiting.is_none());
+        let to = count.min(from + next.div_ceil(L::COUNT).max(1));
+        let (Some(rays), Some(answers)) = (rays.get(from..to), answers.get_mut(from..to)) else {
+            break;
+        };
+        let waiting = waiting.map(
+            #[inline(always)]
+            |waiting| waiting.after(from),
+        );
+        from = to;
+        if way == Way::RayByRay {
+            wavefront::traverse::<L, Q>(tier, token, bvh, (rays, waiting.as_ref()), answers);
+            continue;
+        }
+        let most = left.min(memory.rays.len()).min(TOGETHER);
+        L::out_of_line(
+            token,
+            #[inline(always)]
+            || {
+                count!(RayRun);
+                let count = rays.len();
+                let waiting = waiting.as_ref();
+                let tests = DeferredTests::<_, L, Q>::new(tier, token, bvh, rays, answers, waiting);
+                let StreamMemory { rays, queues, order, .. } = &mut *memory;
+                let together = rays.len().min(TOGETHER) / L::COUNT;
+                let mut stream = Stream {
+                    tests,
+                    rays,
+                    queues,
+                    together,
+                    first: 0,
+                    frames: [Frame::EMPTY; FRAMES],
+                    seen: Seen::default(),
+                };
+                let half = if way == Way::Sorted { order.len() / 2 } else { 0 };
+                stream.all(count, order.split_at_mut(half));
+                stream.tests.test();
+                sharing.take::<Q>(way, stream.seen, most);
+            },
+        );
     }
-    L::out_of_line(
-        token,
-        #[inline(always)]
-        || {
-            count!(RayRun);
-            let rays = rays.get(..count).unwrap_or_default();
-            let tests = DeferredTests::<_, L, Q>::new(tier, token, bvh, rays, answers, waiting);
-            let StreamMemory { rays, queues, order, .. } = memory;
-            let together = rays.len().min(TOGETHER) / L::COUNT;
-            let mut stream =
-                Stream { tests, rays, queues, together, first: 0, frames: [Frame::EMPTY; FRAMES] };
-            let half = if way == Way::Sorted { order.len() / 2 } else { 0 };
-            stream.all(count, order.split_at_mut(half));
-            stream.tests.test();
-        },
-    );
 }
 
 /// Rays that go down together, if there is memory for so many. In u10k 4,096 are 3 to 5 % slower, and 2,048 a sixth;
 /// 32,768 take longer at all levels but AVX-512.
-const TOGETHER: usize = 8192;
+pub(crate) const TOGETHER: usize = 8192;
 
 /// Packets whose rays go down the tree.
 struct Stream<'a, 'm, T, L: Lanes, Q: Query> {
@@ -104,6 +135,7 @@ struct Stream<'a, 'm, T, L: Lanes, Q: Query> {
     /// The packet that the first of the numbered rays is of.
     first: usize,
     frames: [Frame; FRAMES],
+    seen: Seen,
 }
 
 impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
@@ -216,6 +248,8 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
                 *end += 1;
             }
         }
+        self.seen.streams = self.seen.streams.wrapping_add(1);
+        self.seen.rays = self.seen.rays.wrapping_add(before as u32);
         let mut from = 0;
         for octant in 0..8 {
             let to = ends[octant];

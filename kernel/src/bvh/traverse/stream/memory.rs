@@ -19,7 +19,7 @@ pub struct StreamMemory<'m> {
 impl<'m> StreamMemory<'m> {
     /// How many places in queues a stream of so many rays needs at least: one a ray, and 256.
     ///
-    /// With less than 8 a ray memory is not used, except [everywhere](Self::everywhere); with 32 few queues are cut short.
+    /// With less than 8 a ray memory is not used, except [everywhere](Self::everywhere); with 16 few queues are cut short.
     #[must_use]
     pub const fn queues_needed(rays: usize) -> usize {
         rays.saturating_add(WIDTH * FRAMES)
@@ -36,8 +36,8 @@ impl<'m> StreamMemory<'m> {
         Ok(Self { rays, queues, order: &mut [], everywhere: false })
     }
 
-    /// Sorts rays by where they start, half as many at a time as `order` has places, where that is faster: in trees of
-    /// megabytes, if rays are at least an eighth as many as spheres.
+    /// Sorts rays by where they start, half as many at a time as `order` has places, where that may be faster: for the
+    /// closest hit in trees of megabytes, if there is a ray for sixteen spheres.
     #[must_use]
     pub fn sorting(self, order: &'m mut [u64]) -> Self {
         Self { order, ..self }

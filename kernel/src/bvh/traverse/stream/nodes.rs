@@ -83,6 +83,8 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
         let room = room.min(frame.end - frame.next);
         let (from, base) = (frame.next, frame.base);
         (frame.next, frame.room, frame.left) = (from + room, room, WIDTH as u32);
+        self.seen.nodes = self.seen.nodes.wrapping_add(1);
+        self.seen.entered = self.seen.entered.wrapping_add(room as u32);
 
         let down = axes!(i => octant >> i & 1 == 1);
         let mut ends = [0; WIDTH];
@@ -136,7 +138,9 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
             }
         }
         for slot in 0..WIDTH {
-            frame.counts[slot] = (ends[slot] - base - slot * room) as u32;
+            let count = (ends[slot] - base - slot * room) as u32;
+            frame.counts[slot] = count;
+            self.seen.queued = self.seen.queued.wrapping_add(count);
         }
     }
 }

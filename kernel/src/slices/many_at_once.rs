@@ -1,0 +1,42 @@
+//! Rays of a long call that have nothing in common: many at once, so that a tree can lead them as a stream, in memory that
+//! the call takes.
+
+use crate::Accuracy;
+use crate::geometry::many::ManyRays;
+use crate::geometry::ray::RayPacket;
+use crate::memory::lengthen;
+use crate::structures::{LevelQuery, Traverse};
+use crate::trace::Trace;
+use alloc::vec::Vec;
+
+/// Answers rays from `from` on, and returns up to which: as long as the structure likes to have many at once, and there is
+/// memory. Takes 40 bytes a ray: a third of a megabyte, or two and a half where rays are sorted.
+#[inline(never)]
+pub(super) fn answer<S: Traverse + ?Sized, Q: LevelQuery>(
+    structure: &S,
+    tier: impl Accuracy,
+    trace: &mut Trace<'_>,
+    (rays, mut from, count): (ManyRays<'_>, usize, usize),
+    answers: &mut Q::Many<'_>,
+) -> usize {
+    let (mut packets, mut answered) = (Vec::new(), Vec::new());
+    while from < count
+        && let Some(at_once) = structure.many_at_once::<Q>(trace, count - from)
+    {
+        let needed = at_once.div_ceil(RayPacket::COUNT);
+        if lengthen(&mut packets, RayPacket::inactive(), needed).is_none()
+            || lengthen(&mut answered, Q::none::<[f32; 16]>(), needed).is_none()
+        {
+            break;
+        }
+        let to = (from + at_once).min(count);
+        let part = rays.part(from, to);
+        structure.many_in_packets::<Q>(tier, trace, part, &mut packets, &mut answered);
+        #[cfg(feature = "std")]
+        Q::write_at(trace.level, answers, &answered, from, to);
+        #[cfg(not(feature = "std"))]
+        Q::write(answers, &answered, from, to);
+        from = to;
+    }
+    from
+}
