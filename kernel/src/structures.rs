@@ -65,7 +65,7 @@ pub trait Traverse {
     /// How many of the next rays are better answered at once than a few by a few, from what the trace has learnt; `None`
     /// where that does not matter.
     #[cfg(feature = "alloc")]
-    fn many_at_once<Q: LevelQuery>(&self, _: &mut Trace<'_>, _: usize) -> Option<usize> {
+    fn many_at_once<Q: LevelQuery>(&self, _: &Trace<'_>, _: usize) -> Option<usize> {
         None
     }
 
@@ -203,7 +203,7 @@ impl Traverse for Bvh<'_> {
     }
 
     #[cfg(feature = "alloc")]
-    fn many_at_once<Q: LevelQuery>(&self, trace: &mut Trace<'_>, rays: usize) -> Option<usize> {
+    fn many_at_once<Q: LevelQuery>(&self, trace: &Trace<'_>, rays: usize) -> Option<usize> {
         // What is said to be incoherent goes as a stream in memory that is lent.
         let is_asked = trace.stream.is_none() && trace.coherence != Coherence::Incoherent;
         if is_asked { trace.learnt.many_at_once::<Q>(self, rays) } else { None }
@@ -321,11 +321,7 @@ macro_rules! traverse_as {
             }
 
             #[cfg(feature = "alloc")]
-            fn many_at_once<Q: LevelQuery>(
-                &self,
-                trace: &mut Trace<'_>,
-                rays: usize,
-            ) -> Option<usize> {
+            fn many_at_once<Q: LevelQuery>(&self, trace: &Trace<'_>, rays: usize) -> Option<usize> {
                 self.$lend().many_at_once::<Q>(trace, rays)
             }
 

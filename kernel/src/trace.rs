@@ -27,8 +27,8 @@ pub struct Trace<'m> {
     /// none.
     pub scratch: &'m mut [f32],
     /// Working memory of a tree's streams, of the caller's. Without, and with feature `alloc`, a call takes it by itself where
-    /// it gains by it: at most 3 MB, which the trace keeps, and for the call 40 bytes a ray, at most 2.6 MB. If there is none
-    /// it does without.
+    /// it gains by it: at most 3.5 MB, and 6 where the rays of a large tree are sorted; the thread keeps it for its next call (without
+    /// `std` the trace does). If there is none a call does without.
     pub stream: Option<StreamMemory<'m>>,
     /// What calls have taken for streams.
     #[cfg(feature = "alloc")]

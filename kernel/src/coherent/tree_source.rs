@@ -16,7 +16,7 @@ use crate::Accuracy;
 use crate::bvh::traverse::packet_set::{PacketSet, RUN};
 use crate::bvh::traverse::stream::{self, Sharing, StreamMemory};
 #[cfg(feature = "alloc")]
-use crate::bvh::traverse::stream::{KeptMemory, MOST_SORTED, together};
+use crate::bvh::traverse::stream::{KeptMemory, MOST_SORTED};
 use crate::bvh::traverse::wavefront;
 use crate::bvh::tree::Bvh;
 use crate::geometry::ray::RayPacket;
@@ -46,8 +46,7 @@ impl Ways<'_> {
     fn memory<Q: Query>(&mut self, bvh: &Bvh<'_>, rays: usize) -> Option<StreamMemory<'_>> {
         #[cfg(feature = "alloc")]
         if self.lent.is_none() && self.coherence != Coherence::Incoherent {
-            let in_all = rays.max(self.learnt.ahead);
-            return self.kept.lend::<Q>(bvh, &self.learnt.sharing, (rays, in_all));
+            return self.kept.lend::<Q>(bvh, &self.learnt.sharing, rays);
         }
         let _ = (bvh, rays);
         self.lent.as_mut().map(StreamMemory::again)
@@ -160,9 +159,6 @@ pub(crate) struct Learnt {
     sharing: Sharing,
     /// Of the last packets how many went by themselves, and how many they were.
     apart: [usize; 2],
-    /// So many rays are known to come.
-    #[cfg(feature = "alloc")]
-    ahead: usize,
 }
 
 impl Learnt {
@@ -172,22 +168,20 @@ impl Learnt {
         packets: Patience::NEW,
         sharing: Sharing::NOTHING,
         apart: [0; 2],
-        #[cfg(feature = "alloc")]
-        ahead: 0,
     };
 
     /// How many of the next rays, of which there are so many, a call likes to have at once: more than few where some go by
     /// themselves, and a stream of them may pay.
     #[cfg(feature = "alloc")]
-    pub(crate) fn many_at_once<Q: Query>(&mut self, bvh: &Bvh<'_>, rays: usize) -> Option<usize> {
+    pub(crate) fn many_at_once<Q: Query>(&self, bvh: &Bvh<'_>, rays: usize) -> Option<usize> {
         let [apart, all] = self.apart;
-        self.ahead = rays;
-        if SOME * apart < all || all == 0 || !self.sharing.may_pay::<Q>(bvh, rays, rays) {
+        if SOME * apart < all || all == 0 || !self.sharing.may_pay::<Q>(bvh, rays) {
             return None;
         }
         let sorts = self.sharing.may_sort::<Q>(bvh, rays);
-        // Of those some go together.
-        Some(rays.min(if sorts { MOST_SORTED } else { 2 * together(rays) }))
+        // Of those some may go together as groups: twice as many as go down as a stream.
+        let together = 2 * Sharing::together(rays);
+        Some(rays.min(if sorts { MOST_SORTED } else { together }))
     }
 }
 

@@ -10,7 +10,7 @@ use crate::trace::Trace;
 use alloc::vec::Vec;
 
 /// Answers rays from `from` on, and returns up to which: as long as the structure likes to have many at once, and there is
-/// memory. Takes 40 bytes a ray: a third of a megabyte, or two and a half where rays are sorted.
+/// memory. Takes 40 bytes a ray: two thirds of a megabyte, or two and a half where rays are sorted.
 #[inline(never)]
 pub(super) fn answer<S: Traverse + ?Sized, Q: LevelQuery>(
     structure: &S,
@@ -19,7 +19,10 @@ pub(super) fn answer<S: Traverse + ?Sized, Q: LevelQuery>(
     (rays, mut from, count): (ManyRays<'_>, usize, usize),
     answers: &mut Q::Many<'_>,
 ) -> usize {
-    let (mut packets, mut answered) = (Vec::new(), Vec::new());
+    if structure.many_at_once::<Q>(trace, count.saturating_sub(from)).is_none() {
+        return from;
+    }
+    let (mut packets, mut answered) = (trace.kept.take_packets(), Vec::new());
     while from < count
         && let Some(at_once) = structure.many_at_once::<Q>(trace, count - from)
     {
@@ -38,5 +41,6 @@ pub(super) fn answer<S: Traverse + ?Sized, Q: LevelQuery>(
         Q::write(answers, &answered, from, to);
         from = to;
     }
+    trace.kept.put_packets(packets);
     from
 }

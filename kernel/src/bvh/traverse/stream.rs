@@ -44,8 +44,6 @@ pub use memory::StreamMemory;
 pub use queue::QueuedRay;
 pub use ray::StreamRay;
 pub(crate) use sharing::Sharing;
-#[cfg(feature = "alloc")]
-pub(crate) use sharing::together;
 
 use self::queue::{FRAMES, Frame};
 use self::sharing::{Seen, Way};
@@ -91,7 +89,6 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
             wavefront::traverse::<L, Q>(tier, token, bvh, (rays, waiting.as_ref()), answers);
             continue;
         }
-        let most = left.min(memory.rays.len()).min(TOGETHER);
         L::out_of_line(
             token,
             #[inline(always)]
@@ -114,7 +111,7 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
                 let half = if way == Way::Sorted { order.len() / 2 } else { 0 };
                 stream.all(count, order.split_at_mut(half));
                 stream.tests.test();
-                sharing.take::<Q>(way, stream.seen, most);
+                sharing.take::<Q>(way, stream.seen);
             },
         );
     }
@@ -122,7 +119,7 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
 
 /// Rays that go down together, if there is memory for so many. In u10k 4,096 are 3 to 5 % slower, and 2,048 a sixth;
 /// 32,768 take longer at all levels but AVX-512.
-pub(crate) const TOGETHER: usize = 8192;
+const TOGETHER: usize = 8192;
 
 /// Packets whose rays go down the tree.
 struct Stream<'a, 'm, T, L: Lanes, Q: Query> {

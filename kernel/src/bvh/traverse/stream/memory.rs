@@ -19,7 +19,7 @@ pub struct StreamMemory<'m> {
 impl<'m> StreamMemory<'m> {
     /// How many places in queues a stream of so many rays needs at least: one a ray, and 256.
     ///
-    /// With less than 8 a ray memory is not used, except [everywhere](Self::everywhere); with 16 few queues are cut short.
+    /// With less than 8 a ray memory is not used, except [everywhere](Self::everywhere); with 32 few queues are cut short.
     #[must_use]
     pub const fn queues_needed(rays: usize) -> usize {
         rays.saturating_add(WIDTH * FRAMES)

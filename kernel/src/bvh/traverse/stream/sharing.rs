@@ -1,35 +1,39 @@
-//! Which rays go as a stream, and which ray by ray: what is seen of how many wait at a node.
+//! Which rays go as a stream, and which ray by ray: what is seen of how many meet at a box.
 //!
 //! # Method
 //!
-//! A stream looks a node up once for all rays that wait at it, so it pays where these are many. How many depends on
-//! the rays, the scene, and how many rays go down together; the tree's size, the level and the scene's name tell
-//! less. So a few rays go as a stream first, and the mean is counted, over all nodes that any of them enters. With n
-//! rays it is some 1 + c n: more rays meet at the same nodes. What that says of as many rays as there are decides;
+//! A stream looks a node or a leaf up once for all rays that wait at it, so it pays where these are many. How many depends on
+//! the rays, the scene, and how many rays go down together; the tree's size, the level and the number of rays tell
+//! less. So a few rays go as a stream first, and the mean is counted, over all boxes that any of them enters. With n
+//! rays it is some 1 + c n^(2/3) where few meet, and more where many do. What that says of as many rays as there are decides;
 //! every stream that follows is counted, too. After one that does not pay, rays go ray by ray for some time.
 //!
-//! Times a ray, ray by ray over stream, AVX-512 on a Sapphire Rapids, least of 3 to 7; AVX2 is within 0.06 of it:
+//! Times a ray, ray by ray over stream, AVX-512 on a Sapphire Rapids, least of 3 to 7; AVX2 and the baseline are within
+//! 0.1 of it:
 //!
-//! | spheres, rays of them together | at a node | closest | any |
+//! | spheres, rays of them together | at a box | closest | any |
 //! |---|--:|--:|--:|
-//! | 1,000,000, diffuse, 8,192 | 3.4 | 0.59 | 0.43 |
-//! | 64,000, diffuse, 2,048 | 5.6 | 0.70 | 0.56 |
-//! | 1,000,000, to a light, 8,192 | 13 | 1.01 | 0.60 |
-//! | 10,000, diffuse, 2,048 | 20 | 0.80 | 0.69 |
-//! | 64,000, along an axis, 2,048 | 22 | 1.06 | 0.86 |
-//! | 256,000, to a light, 8,192 | 31 | 1.11 | 0.88 |
-//! | 64,000, a shuffled camera, 2,048 | 41 | 1.28 | 1.20 |
-//! | 256,000, a beam, 8,192 | 56 | 1.23 | 1.11 |
-//! | 10,000, diffuse, 8,192 | 82 | 1.13 | 0.96 |
-//! | 1,000, diffuse, 2,048 | 108 | 1.25 | 1.14 |
-//! | 10,000, a beam, 8,192 | 457 | 1.29 | 1.13 |
-//! | 64,000, two cameras, 8,192 | 195 | 1.60 | 1.51 |
-//! | 7,381 of a flake, a beam, 4,096 | 104 | 1.27 | 0.94 |
-//! | 4,000 nested, a beam, 4,096 | 506 | 1.71 | 0.46 |
-//! | the same, from all around | 484 | 1.18 | 0.30 |
-//! | 10,000 that overlap, diffuse, 4,096 | 75 | 1.20 | 0.69 |
+//! | 1,000,000, diffuse, 8,192 | 1.9 | 0.59 | 0.43 |
+//! | 64,000, diffuse, 2,048 | 2.2 | 0.70 | 0.56 |
+//! | 1,000,000, to a light, 8,192 | 3.6 | 1.01 | 0.60 |
+//! | 10,000, diffuse, 2,048 | 4.0 | 0.80 | 0.69 |
+//! | 100,000 in chains, diffuse, 4,096 | 5.9 | 0.88 | 0.81 |
+//! | 256,000, to a light, 8,192 | 6.3 | 1.11 | 0.88 |
+//! | 4,000, diffuse, 2,048 | 6.8 | 1.01 | 0.89 |
+//! | 1,000,000, a beam, 8,192 | 9.0 | 1.10 | 0.99 |
+//! | 64,000, a shuffled camera, 2,048 | 10 | 1.28 | 1.20 |
+//! | 10,000, diffuse, 8,192 | 11 | 1.13 | 0.96 |
+//! | 64,000, along an axis, 8,192 | 13 | 1.39 | 1.17 |
+//! | 100,000 in chains, a shuffled camera, 4,096 | 14 | 1.28 | 1.14 |
+//! | 1,000, diffuse, 2,048 | 17 | 1.25 | 1.14 |
+//! | 100,000 in chains, a beam, 4,096 | 19 | 1.39 | 1.27 |
+//! | 200,000 that overlap, a beam, 8,192 | 32 | 1.24 | 1.08 |
+//! | 64,000, two cameras, 8,192 | 34 | 1.60 | 1.51 |
+//! | 4,000 nested, a beam, 4,096 | | 1.71 | 0.46 |
+//! | the same, from all around | | 1.18 | 0.30 |
+//! | 10,000 that overlap, diffuse, 4,096 | | 1.20 | 0.69 |
 //!
-//! Of any hit the last rows say that rays at a node are not all: by itself a ray looks into the first leaf that it comes to, and
+//! Of any hit the last rows say that company is not all: by itself a ray looks into the first leaf that it comes to, and
 //! may be done. What a stream did in vain is seen, too: of nested and overlapping spheres rays took 1.2 to 1.4 places in queues
 //! for each box that they entered in the end, or entered 2.5 to 5 leaves a node; of others at most 1.12, and 1.2.
 //!
@@ -52,29 +56,34 @@ pub(super) enum Way {
     Sorted,
 }
 
-/// So many rays must wait at a node, on average: for the closest hit, and for any.
-const ENOUGH: [f32; 2] = [20.0, 100.0];
-/// Fewer of rays that are sorted are less than it costs.
-const ENOUGH_SORTED: f32 = 10.0;
+/// So many rays must meet at a box, on average: for the closest hit, and for any.
+const ENOUGH: [f32; 2] = [6.0, 10.0];
+/// Of rays that are sorted, which share what they read, too.
+const ENOUGH_SORTED: f32 = 3.0;
 /// Fewer rays are no stream.
-const LEAST_RAYS: usize = 2048;
+const LEAST_RAYS: usize = 1024;
 /// A first stream takes an eighth of the rays, and at least and at most so many.
-const FIRST: [usize; 2] = [256, 1024];
+const FIRST: [usize; 2] = [128, 1024];
 /// After a stream that does not pay so many rays go by themselves; after the next twice as many, up to so many.
 const PASSED_OVER: [usize; 2] = [1 << 14, 1 << 18];
 /// Queues with less room for a ray are cut short too often. (With one place a ray a stream took 2.5 times as long as ray by
 /// ray, with 4 it runs at 0.87 of its speed.)
 const LEAST_QUEUES: usize = 8;
-/// Trees of more bytes are far from the core: rays that are sorted share what they read.
-const FAR: usize = 1 << 21;
-/// Of trees that are far, sorted rays meet if there is one for so many spheres.
+/// Trees of more bytes are far from the core: rays that are sorted share what they read. (Of 2 MB, diffuse rays lose a fifth;
+/// of 4 and 5 MB a twentieth, and rays to a light gain as much over those that are not sorted.)
+const FAR: usize = 1 << 23;
+/// Of trees that are far, sorted rays meet if they are so many, and one for so many spheres: of fewer those of which too few meet
+/// lose a fifth.
+const LEAST_SORTED: usize = 4 * TOGETHER;
+/// The same.
 const SPHERES_A_SORTED_RAY: usize = 16;
 
 /// What is learnt of rays as they come.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sharing {
-    /// c, as it was seen last; not a number where nothing is known.
-    per_ray: f32,
+    /// What was seen last: how many rays met at a box, not a number where nothing is known, of how many that went together.
+    met: f32,
+    of: f32,
     as_they_come: Waiting,
     sorted: Waiting,
 }
@@ -106,46 +115,53 @@ pub(super) struct Seen {
     /// How often rays went down, and how many in all.
     pub(super) streams: u32,
     pub(super) rays: u32,
-    /// How many nodes they entered, counted once for all that did at once, and once for each; leaves, once for each.
+    /// How many nodes and leaves they entered, counted once for all that did at once.
+    pub(super) boxes: u32,
+    /// How many nodes, and how many leaves, counted once for each ray.
     pub(super) nodes: u32,
-    pub(super) entered: u32,
     pub(super) leaves: u32,
     /// How many places in queues they took.
     pub(super) queued: u32,
 }
 
 impl Seen {
-    /// How many rays entered a node at once.
-    fn at_a_node(self) -> f32 {
-        self.entered as f32 / self.nodes as f32
+    /// How many rays entered a box at once.
+    fn at_a_box(self) -> f32 {
+        (self.nodes as f32 + self.leaves as f32) / self.boxes as f32
     }
 
     /// Whether rays that are done at their first hit would have done much less by themselves: where they find something
     /// before it is their turn at most boxes, or look into many leaves.
     fn is_in_vain(self) -> bool {
-        let [entered, leaves] = [self.entered, self.leaves].map(u64::from);
-        20 * u64::from(self.queued) > 23 * (entered + leaves) || 2 * leaves > 3 * entered
+        let [nodes, leaves] = [self.nodes, self.leaves].map(u64::from);
+        20 * u64::from(self.queued) > 23 * (nodes + leaves) || 2 * leaves > 3 * nodes
     }
 }
 
 impl Sharing {
     /// Nothing.
     pub(crate) const NOTHING: Self =
-        Self { per_ray: f32::NAN, as_they_come: Waiting::NONE, sorted: Waiting::NONE };
+        Self { met: f32::NAN, of: 1.0, as_they_come: Waiting::NONE, sorted: Waiting::NONE };
 
-    /// How many rays of that number would wait at a node.
-    fn at_a_node(&self, rays: usize) -> f32 {
-        1.0 + self.per_ray * rays as f32
+    /// How many rays of that number would meet at a box.
+    fn at_a_box(&self, rays: usize) -> f32 {
+        let root = libm::cbrtf(rays as f32 / self.of);
+        1.0 + (self.met - 1.0) * root * root
     }
 
-    /// Whether a stream of so many rays may pay, or it is not known, if they are of so many in all.
+    /// How many of so many rays go down together.
     #[cfg(feature = "alloc")]
-    pub(crate) fn may_pay<Q: Query>(&self, bvh: &Bvh<'_>, rays: usize, in_all: usize) -> bool {
-        let batch = rays.min(together(in_all));
-        let pays = if self.per_ray.is_nan() {
+    pub(crate) fn together(rays: usize) -> usize {
+        rays.clamp(LEAST_RAYS, TOGETHER)
+    }
+
+    /// Whether a stream of so many rays may pay, or it is not known.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn may_pay<Q: Query>(&self, bvh: &Bvh<'_>, rays: usize) -> bool {
+        let pays = if self.met.is_nan() {
             self.as_they_come.left == 0
         } else {
-            self.at_a_node(batch) >= ENOUGH[usize::from(Q::ANY)]
+            self.at_a_box(rays.min(TOGETHER)) >= ENOUGH[usize::from(Q::ANY)]
         };
         rays >= LEAST_RAYS && few::few(bvh).is_none() && (pays || self.may_sort::<Q>(bvh, rays))
     }
@@ -153,7 +169,7 @@ impl Sharing {
     /// Whether it may pay to sort so many rays.
     pub(crate) fn may_sort<Q: Query>(&self, bvh: &Bvh<'_>, rays: usize) -> bool {
         let size = size_of_val(bvh.nodes) + size_of_val(bvh.numbers);
-        let are_many = rays > TOGETHER && rays >= bvh.spheres.len() / SPHERES_A_SORTED_RAY;
+        let are_many = rays >= LEAST_SORTED.max(bvh.spheres.len() / SPHERES_A_SORTED_RAY);
         // (What is outside would have to be known ray by ray.)
         let is_for = !Q::ANY && size > FAR && bvh.outside.is_empty();
         is_for && are_many && self.sorted.left == 0
@@ -178,13 +194,13 @@ impl Sharing {
         }
 
         let batch = rays.min(together);
-        if self.at_a_node(batch) >= ENOUGH[usize::from(Q::ANY)] {
+        if self.at_a_box(batch) >= ENOUGH[usize::from(Q::ANY)] {
             return (Way::AsTheyCome, batch);
         }
-        if self.per_ray.is_nan() && self.as_they_come.left == 0 && rays >= LEAST_RAYS {
+        if self.met.is_nan() && self.as_they_come.left == 0 && rays >= LEAST_RAYS {
             return (Way::AsTheyCome, (rays / 8).clamp(FIRST[0], FIRST[1]).min(batch));
         }
-        if self.may_sort::<Q>(bvh, sortable) {
+        if self.met.is_nan() && self.may_sort::<Q>(bvh, sortable) {
             return (Way::Sorted, sortable);
         }
         let passed = rays.min(TOGETHER);
@@ -198,30 +214,24 @@ impl Sharing {
         self.sorted.pass_over(rays);
     }
 
-    /// Takes what a stream has seen, of which at most so many rays would go down together.
-    pub(super) fn take<Q: Query>(&mut self, way: Way, seen: Seen, most: usize) {
-        // Rays that enter no node tell nothing.
-        if seen.nodes == 0 {
+    /// Takes what a stream has seen.
+    pub(super) fn take<Q: Query>(&mut self, way: Way, seen: Seen) {
+        // Rays that enter no box tell nothing.
+        if seen.boxes == 0 {
             return;
         }
-        let mean = seen.at_a_node();
+        let mean = seen.at_a_box();
         if way == Way::Sorted {
             self.sorted.take(mean >= ENOUGH_SORTED);
             return;
         }
-        let rays = seen.rays as f32 / seen.streams as f32;
-        self.per_ray = (mean - 1.0) / rays;
-        let paid =
-            !(Q::ANY && seen.is_in_vain()) && self.at_a_node(most) >= ENOUGH[usize::from(Q::ANY)];
+        (self.met, self.of) = (mean, seen.rays as f32 / seen.streams as f32);
+        // As many as can go down together meet more of each other.
+        let is_enough = self.at_a_box(TOGETHER) >= ENOUGH[usize::from(Q::ANY)];
+        let paid = is_enough && !(Q::ANY && seen.is_in_vain());
         self.as_they_come.take(paid);
         if !paid {
-            self.per_ray = f32::NAN;
+            self.met = f32::NAN;
         }
     }
-}
-
-/// How many of so many rays best go down together in memory that is new, which is as slow as some of the way: an eighth.
-#[cfg(feature = "alloc")]
-pub(crate) fn together(rays: usize) -> usize {
-    (rays / 8).clamp(LEAST_RAYS, TOGETHER)
 }
