@@ -128,6 +128,11 @@ pub trait Lanes:
         }
         ordered
     }
+    /// The bits of `self <= other`, the first lane at bit `first`, [in that order](Lanes::bits_in_order).
+    #[inline(always)]
+    fn le_in_order(self, other: Self, first: usize, order: u64) -> u32 {
+        Self::bits_in_order(self.token(), self.le(other).bits() << first, order)
+    }
     /// The largest lane; any lane where one is NaN: for filters.
     #[inline(always)]
     fn filter_greatest(self) -> f32 {

@@ -45,17 +45,15 @@ impl<'a> Leaf<'a> {
     #[inline(always)]
     pub(crate) fn of(numbers: &'a [f32], number: u32) -> Option<Self> {
         let (begin, lanes) = extent_of(number);
-        let column = |at: usize| match numbers.get(at..) {
+        // Columns are in it if the last one is: one comparison, not four.
+        let leaf = numbers.get(begin * STEP..begin * STEP + 3 * lanes + WIDTH)?;
+        let column = |at: usize| match leaf.get(at..) {
             Some(rest) => rest.first_chunk::<WIDTH>(),
             None => None,
         };
-        let first = begin * STEP;
-        let (Some(x), Some(y), Some(z), Some(radius)) = (
-            column(first),
-            column(first + lanes),
-            column(first + 2 * lanes),
-            column(first + 3 * lanes),
-        ) else {
+        let (Some(x), Some(y), Some(z), Some(radius)) =
+            (column(0), column(lanes), column(2 * lanes), column(3 * lanes))
+        else {
             return None;
         };
         let columns = SphereColumns { center: [x, y, z], radius };

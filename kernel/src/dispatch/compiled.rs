@@ -124,7 +124,7 @@ macro_rules! compiled {
             #[inline(never)]
             fn one_ray(level: Level, tier: Tier, bvh: &Bvh<'_>, ray: &Ray, answer: &mut Self::One) {
                 at_level!(level.0, simd => {
-                    *answer = one_ray::trace::<f32x16<_>, Self>(simd, tier, bvh, ray);
+                    one_ray::trace::<f32x16<_>, Self>(simd, tier, bvh, ray, answer);
                 });
             }
         }

@@ -172,6 +172,11 @@ impl<S: Simd> Lanes for f32x16<S> {
     }
 
     #[inline(always)]
+    fn le_in_order(self, other: Self, _: usize, order: u64) -> u32 {
+        in_order::le(Lanes::token(self), self, other, order)
+    }
+
+    #[inline(always)]
     fn filter_greatest(self) -> f32 {
         SimdBase::reduce_max(self)
     }

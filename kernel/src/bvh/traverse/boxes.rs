@@ -44,6 +44,13 @@ impl<L: Lanes> BoxProbe<L> {
     /// Which boxes the ray enters, and the s at which it does.
     #[inline(always)]
     pub(super) fn enter(&self, boxes: &Boxes<L>) -> (L::Mask, L) {
+        let (entry, leave) = self.interval(boxes);
+        (entry.le(leave), entry)
+    }
+
+    /// The s at which the ray enters boxes, and leaves them: before, if it does not meet them.
+    #[inline(always)]
+    pub(super) fn interval(&self, boxes: &Boxes<L>) -> (L, L) {
         let Self { inverse, minus_inverse, minus_near, far, start, minus_end } = *self;
         let entry = axes!(i => boxes.nearer[i].filter_mul_add(inverse[i], minus_near[i]));
         let minus_leave = axes!(i => boxes.farther[i].filter_mul_add(minus_inverse[i], far[i]));
@@ -51,7 +58,7 @@ impl<L: Lanes> BoxProbe<L> {
         let minus_leave = minus_leave[0]
             .filter_max(minus_leave[1])
             .filter_max(minus_leave[2].filter_max(minus_end));
-        (entry.le(-minus_leave), entry)
+        (entry, -minus_leave)
     }
 }
 

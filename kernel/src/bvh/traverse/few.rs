@@ -17,9 +17,9 @@ use crate::lanes::Lanes;
 use crate::query::Query;
 
 /// How many leaves are few: as many as have their spheres in the bits of a number.
-const FEW: usize = u64::BITS as usize / WIDTH;
+pub(super) const FEW: usize = u64::BITS as usize / WIDTH;
 /// So many spheres are deferred at once.
-const AT_ONCE: u32 = 2;
+pub(super) const AT_ONCE: u32 = 2;
 
 /// The leaves of a tree that has few, all in one node; else `None`.
 #[inline(always)]

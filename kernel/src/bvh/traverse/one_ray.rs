@@ -6,32 +6,31 @@
 //! is left of a node are bits, the nearest first; where the ray enters its boxes is not kept: when a hit is closer than
 //! what was known, the boxes of the nodes on the way are tested once more. So nothing large is
 //! made for a ray: 256 bytes, not the 2 KiB of a stack that other traversals make once for many rays. At the end the tier
-//! tests what may be the closest, one sphere after the other, in one lane.
+//! tests what may be the closest, one sphere after the other, in one lane. In a tree of few leaves a ray looks into all
+//! of them, without boxes.
 //!
-//! (By `Exact` at AVX2 on Zen 3 the rate is 0.70 to 1.33 times that of Embree's `rtcIntersect1` and `rtcOccluded1`, on
-//! five scenes. Not measured at AVX-512. What limits it was not measured either: counters were not to be had.)
+//! What limits it is how long one step waits for the last, and branches that cannot be foreseen. So numbers of the ray stay in
+//! registers from its preparation to its walk: a word that is read wider than it was written waits for memory, 5 to 8 % of
+//! a ray. (To look at four leaves at once, so as to have one branch for all, took 1.1 to 1.2 times as long.)
 
+mod found;
+
+use self::found::{MOST, Search};
 use super::boxes::{BoxProbe, Boxes};
-use super::in_flight::test_from_afar;
+use super::few::{AT_ONCE, few};
 use super::prepared_ray::{PreparedLanes, RayTime, far_away};
 use super::root_interval::RayProbe;
-use super::source::SphereSource;
 use crate::Accuracy;
-use crate::accuracy::{RayLanes, is_closer, test_one};
+use crate::accuracy::RayLanes;
 use crate::bvh::leaf::place_of;
 use crate::bvh::node::{BvhNode, DEPTH, LEAF, NO_CHILD, WIDTH, octant_of};
 use crate::bvh::tree::Bvh;
-use crate::geometry::hit::Hit;
 use crate::geometry::ray::{Ray, RayPacket};
-use crate::lanes::{LaneArray, LaneMask, Lanes};
-use crate::linear;
+use crate::lanes::{LaneMask, Lanes};
 use crate::numeric::axes::axes;
-use crate::numeric::rounding::least;
 use crate::query::Query;
 use crate::scale::rays::ScaledRays;
 
-/// How many candidates are kept.
-const MOST: usize = 8;
 /// How many frames there are: more than nodes lie one below the other.
 const FRAMES: usize = 16;
 const _: () = assert!(FRAMES > DEPTH);
@@ -43,15 +42,16 @@ pub(crate) fn trace<L: Lanes, Q: Query>(
     tier: impl Accuracy,
     bvh: &Bvh<'_>,
     ray: &Ray,
-) -> Q::One {
+    answer: &mut Q::One,
+) {
     if tier.spread() == 0.0 {
-        search::<_, L, Q, false>(token, tier, bvh, ray)
+        search::<_, L, Q, false>(token, tier, bvh, ray, answer);
     } else {
         L::out_of_line(
             token,
             #[inline(always)]
-            || search::<_, L, Q, true>(token, tier, bvh, ray),
-        )
+            || search::<_, L, Q, true>(token, tier, bvh, ray, answer),
+        );
     }
 }
 
@@ -61,7 +61,8 @@ fn search<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
     tier: T,
     bvh: &Bvh<'_>,
     ray: &Ray,
-) -> Q::One {
+    one: &mut Q::One,
+) {
     let mut search = Search::<T, Q> {
         tier,
         bvh,
@@ -75,7 +76,7 @@ fn search<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
     let spread = if SPREADS { tier.spread() } else { 0.0 };
     let rays = RayLanes::<f32>::load((), &RayPacket::new(core::slice::from_ref(ray)));
     if !rays.live {
-        return Q::one(&search.answer, 0);
+        return *one = Q::one(&search.answer, 0);
     }
     // A sphere by itself: to look at it costs as much as to test it.
     if let [_, u32::MAX, u32::MAX, u32::MAX] = bvh.indices
@@ -85,20 +86,40 @@ fn search<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
         search.places[0] = place_of(bvh.root & !LEAF, 0);
         search.count = 1;
         search.test::<L>(token);
-        return Q::one(&search.answer, 0);
+        return *one = Q::one(&search.answer, 0);
     }
-    let mut prepared = PreparedLanes::as_they_are(&ScaledRays::new(&rays, bvh.scale.factor));
+    let scaled = ScaledRays::new(&rays, bvh.scale.factor);
+    let mut prepared = PreparedLanes::from_there::<true>(&scaled);
+    let mut along = (scaled.rays.direction, prepared.time.length);
     // Fast and Geometric are off by so much more that nothing is gained: their rays are not moved.
     let far = !SPREADS && far_away(prepared.covered, prepared.absolute_error, bvh.extent);
     if !prepared.covered | far {
-        prepared = again(&rays, bvh, !SPREADS);
+        // Number by number: as a whole both ways would go through memory.
+        let PreparedLanes { covered, origin, direction, time, absolute_error, start, end } =
+            again(&rays, bvh, !SPREADS);
+        let RayTime { per_t, shift, length } = time;
+        prepared = PreparedLanes {
+            covered,
+            origin: axes!(i => origin[i]),
+            direction: axes!(i => direction[i]),
+            time: RayTime { per_t, shift, length },
+            absolute_error,
+            start: [start[0], start[1]],
+            end: [end[0], end[1]],
+        };
+        along = (prepared.direction, 1.0);
     }
-    if (!prepared.covered | !bvh.outside.is_empty()) && search.unusual(&rays, &mut prepared)
-        || bvh.root == NO_CHILD
-    {
-        return Q::one(&search.answer, 0);
+    if !prepared.covered | !bvh.outside.is_empty() {
+        // Of a copy, so that what others have stays in registers.
+        let PreparedLanes { covered, time, end, .. } = prepared;
+        match search.unusual(&rays, covered, time, end[1]) {
+            Some(end) => prepared.end[1] = end,
+            None => return *one = Q::one(&search.answer, 0),
+        }
     }
-    let prepared = &prepared;
+    if bvh.root == NO_CHILD {
+        return *one = Q::one(&search.answer, 0);
+    }
     let time = prepared.time;
     search.best = prepared.end[1];
     let start = &prepared.start;
@@ -111,15 +132,18 @@ fn search<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
         raise: L::splat(token, time.raise(tier)),
         spread,
     };
-    if bvh.root & LEAF != 0 {
-        if !search.look::<L, SPREADS>(token, &mut spheres, time, bvh.root & !LEAF) {
-            search.test::<L>(token);
+    if let Some(leaves) = few(bvh) {
+        let may_hit = search.may_hit::<L, SPREADS>(&spheres, leaves);
+        if !Q::ANY && may_hit.count_ones() <= AT_ONCE {
+            search.keep(leaves, may_hit);
+        } else if search.meet::<L, SPREADS>(token, &mut spheres, time, leaves, may_hit) {
+            return *one = Q::one(&search.answer, 0);
         }
-        return Q::one(&search.answer, 0);
+        search.test::<L>(token);
+        return *one = Q::one(&search.answer, 0);
     }
-
     let around = if SPREADS { prepared.spread_of_boxes(bvh.extent, spread) } else { 0.0 };
-    let slabs = axes!(i => prepared.slab(i));
+    let slabs = axes!(i => prepared.slab_of(i, along.0[i], along.1));
     let down = axes!(i => slabs[i].down);
     let octant = octant_of(down) as usize % 8;
     let mut boxes = BoxProbe {
@@ -146,7 +170,7 @@ fn search<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
         } else {
             let before = search.best;
             if search.look::<L, SPREADS>(token, &mut spheres, time, child & !LEAF) {
-                return Q::one(&search.answer, 0);
+                return *one = Q::one(&search.answer, 0);
             }
             if search.best < before {
                 boxes.minus_end = L::splat(token, -(search.best + around));
@@ -167,19 +191,30 @@ fn search<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
                 left &= enter::<L, Q>(token, &boxes, node, down, octant);
             }
         }
-        let slot = if Q::ANY {
-            let slot = u32::BITS - 1 - (left | 1).leading_zeros();
-            left &= !(1 << slot);
-            u64::from(slot)
-        } else {
-            let place = left.trailing_zeros();
-            left &= left - 1;
-            node.order[7 - octant] >> (4 * place % 64)
-        };
-        child = node.child[slot as usize % WIDTH];
+        child = node.child[nearest::<Q>(left, node, octant) % WIDTH];
+        left = without::<Q>(left);
     }
     search.test::<L>(token);
-    Q::one(&search.answer, 0)
+    *one = Q::one(&search.answer, 0);
+}
+
+/// The slot of the nearest of the children that are left.
+#[inline(always)]
+fn nearest<Q: Query>(left: u32, node: &BvhNode, octant: usize) -> usize {
+    if Q::ANY {
+        return (u32::BITS - 1 - (left | 1).leading_zeros()) as usize;
+    }
+    (node.order[7 - octant % 8] >> (4 * left.trailing_zeros() % 64)) as usize
+}
+
+/// The children that are left without the nearest.
+#[inline(always)]
+fn without<Q: Query>(left: u32) -> u32 {
+    if Q::ANY {
+        left & !(1 << (u32::BITS - 1 - (left | 1).leading_zeros()))
+    } else {
+        left & (left - 1)
+    }
 }
 
 /// Which children of a node the ray enters, a bit each: the nearest first; by their slots where any hit will do.
@@ -193,10 +228,15 @@ fn enter<L: Lanes, Q: Query>(
 ) -> u32 {
     let mut met = 0;
     for part in 0..WIDTH / L::COUNT {
-        let (these, _) = probe.enter(&Boxes::load(token, node, down, part));
-        met |= these.bits() << (part * L::COUNT);
+        let (entry, leave) = probe.interval(&Boxes::load(token, node, down, part));
+        let first = part * L::COUNT;
+        met |= if Q::ANY {
+            entry.le(leave).bits() << first
+        } else {
+            entry.le_in_order(leave, first, node.order[7 - octant % 8])
+        };
     }
-    if Q::ANY { met } else { L::bits_in_order(token, met, node.order[7 - octant % 8]) }
+    met
 }
 
 /// Rays of any length, and from afar.
@@ -213,141 +253,6 @@ struct Frame {
     node: u32,
     left: u32,
     best: f32,
-}
-
-/// A ray, and what it has found.
-struct Search<'a, T, Q: Query> {
-    tier: T,
-    bvh: &'a Bvh<'a>,
-    ray: &'a Ray,
-    answer: Q::Packet<[f32; 1]>,
-    places: [u32; MOST],
-    entries: [f32; MOST],
-    count: usize,
-    best: f32,
-}
-
-impl<T: Accuracy, Q: Query> Search<'_, T, Q> {
-    /// Rays that no bound covers, and spheres that no bound sees. Whether the ray is done.
-    #[cold]
-    #[inline(never)]
-    fn unusual(&mut self, rays: &RayLanes<f32>, prepared: &mut PreparedLanes<f32>) -> bool {
-        let Self { tier, bvh, ray, answer, .. } = self;
-        let packet = RayPacket::new(core::slice::from_ref(*ray));
-        if !bvh.outside.is_empty() {
-            let (rays, answers) = (core::slice::from_ref(&packet), core::slice::from_mut(answer));
-            linear::traverse_some::<f32, Q>(*tier, (), &bvh.outside(), rays, answers);
-        }
-        let limit = Q::limit::<[f32; 1]>(answer, 0);
-        if limit == f32::NEG_INFINITY {
-            return true;
-        }
-        if !prepared.covered {
-            test_from_afar::<f32, Q>(*tier, (), bvh, (&packet, rays), answer);
-            return true;
-        }
-        prepared.end[1] = least(prepared.time.after(limit), prepared.end[1]);
-        false
-    }
-
-    /// Looks at the spheres of a leaf; whether the ray is done.
-    #[inline(always)]
-    fn look<L: Lanes, const SPREADS: bool>(
-        &mut self,
-        token: L::Token,
-        probe: &mut RayProbe<L>,
-        time: RayTime<f32>,
-        number: u32,
-    ) -> bool {
-        let Some(leaf) = self.bvh.leaf(number) else { return false };
-        for part in 0..WIDTH / L::COUNT {
-            let lanes = leaf.lanes >> (part * L::COUNT);
-            let pass = probe.pass(&leaf.columns, part);
-            let may_hit = pass.may_hit::<SPREADS>(probe.start[0], probe.end[1], probe.spread);
-            if may_hit.bits() & lanes == 0 {
-                continue;
-            }
-            let RayProbe { start, end, raise, spread, .. } = *probe;
-            let interval = pass.root_interval::<SPREADS>(start, end, raise, spread);
-            let candidates = interval.candidates.bits();
-            let (entries, bounds) = (interval.entry.store(), interval.bound.store());
-            // Which sphere it is does not wait for its roots.
-            let mut rest = may_hit.bits() & lanes;
-            while rest != 0 {
-                let lane = rest.trailing_zeros() as usize;
-                rest &= rest - 1;
-                if candidates >> lane & 1 == 0 {
-                    continue;
-                }
-                let (entry, bound) = (entries.get(lane), bounds.get(lane));
-                if Q::ANY && bound < f32::INFINITY {
-                    let any = Hit { t: 0.0, sphere: 0 };
-                    Q::take::<[f32; 1]>(&mut self.answer, 0, any, |_| false);
-                    return true;
-                }
-                if entry > self.best {
-                    continue;
-                }
-                self.best = if bound < self.best { bound } else { self.best };
-                self.push::<L>(
-                    token,
-                    time,
-                    place_of(number, (part * L::COUNT + lane) as u32),
-                    entry,
-                );
-            }
-            probe.end[1] = L::splat(token, self.best);
-        }
-        false
-    }
-
-    /// Keeps a candidate.
-    #[inline(always)]
-    fn push<L: Lanes>(&mut self, token: L::Token, time: RayTime<f32>, place: u32, entry: f32) {
-        while self.count > 0 && self.entries[(self.count - 1) % MOST] > self.best {
-            self.count -= 1;
-        }
-        if self.count == MOST {
-            self.test::<L>(token);
-            let t = Q::limit::<[f32; 1]>(&self.answer, 0);
-            self.best = least(time.after(t), self.best);
-        }
-        self.places[self.count % MOST] = place;
-        self.entries[self.count % MOST] = entry;
-        self.count = self.count % MOST + 1;
-    }
-
-    /// Has the tier test what is kept.
-    #[inline(always)]
-    fn test<L: Lanes>(&mut self, token: L::Token) {
-        L::out_of_line(
-            token,
-            #[inline(always)]
-            || self.test_here(),
-        );
-    }
-
-    #[inline(always)]
-    fn test_here(&mut self) {
-        let Self { tier, bvh, ray, .. } = self;
-        for at in 0..self.count {
-            if self.entries[at % MOST] > self.best {
-                continue;
-            }
-            let Some((sphere, index)) = bvh.sphere_at(self.places[at % MOST]) else { continue };
-            let t = test_one(*tier, ray, &sphere);
-            if t < f32::INFINITY {
-                Q::take::<[f32; 1]>(
-                    &mut self.answer,
-                    0,
-                    Hit { t, sphere: index },
-                    #[inline(always)]
-                    |old| is_closer(*tier, &bvh.spheres, ray, t, [index, old]),
-                );
-            }
-        }
-        self.count = 0;
-    }
 }
 
 #[cfg(test)]

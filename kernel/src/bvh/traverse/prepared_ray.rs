@@ -118,7 +118,15 @@ const LEAST_ERROR: f32 = 1.0 / (1_u64 << 58) as f32;
 impl<L: Lanes> PreparedLanes<L> {
     /// From where the rays begin.
     #[inline(always)]
-    pub(crate) fn as_they_are(ScaledRays { rays, per_t, step, .. }: &ScaledRays<L>) -> Self {
+    pub(crate) fn as_they_are(scaled: &ScaledRays<L>) -> Self {
+        Self::from_there::<false>(scaled)
+    }
+
+    /// From where the rays begin; if all are `COVERED`, else anything of those that are not.
+    #[inline(always)]
+    pub(super) fn from_there<const COVERED: bool>(
+        ScaledRays { rays, per_t, step, .. }: &ScaledRays<L>,
+    ) -> Self {
         let far = largest(rays.origin);
         let d = rays.direction;
         let a = dot(d, d);
@@ -127,7 +135,7 @@ impl<L: Lanes> PreparedLanes<L> {
             & a.le(a.like(LONGEST))
             & far.le(a.like(LARGEST));
         let (zero, one) = (a.like(0.0), a.like(1.0));
-        let length = L::select(covered, a, one).sqrt();
+        let length = if COVERED { a } else { L::select(covered, a, one) }.sqrt();
         let per_length = one / length;
         let time = RayTime { per_t: *per_t, shift: zero, length };
         let step = *step * length;
@@ -185,12 +193,19 @@ impl<L: Lanes> PreparedLanes<L> {
     /// How the rays see the slabs of axis `axis`.
     #[inline(always)]
     pub(super) fn slab(&self, axis: usize) -> Slab<L> {
-        let (origin, direction) = (self.origin[axis % 3], self.direction[axis % 3]);
-        let (zero, one) = (origin.like(0.0), origin.like(1.0));
+        let direction = self.direction[axis % 3];
+        self.slab_of(axis, direction, direction.like(1.0))
+    }
+
+    /// The same, by a direction of any length. (The unit direction is one division later.)
+    #[inline(always)]
+    pub(super) fn slab_of(&self, axis: usize, direction: L, length: L) -> Slab<L> {
+        let origin = self.origin[axis % 3];
         let pad = self.absolute_error + self.absolute_error;
-        let down = direction.lt(zero);
-        let clamped = origin.like(LEAST_COMPONENT).filter_max(direction.abs());
-        let inverse = one / L::select(down, -clamped, clamped);
+        let down = direction.lt(origin.like(0.0));
+        let least = length * length.like(LEAST_COMPONENT);
+        let clamped = least.filter_max(direction.abs());
+        let inverse = length / L::select(down, -clamped, clamped);
         let (along, reach) = (origin * inverse, pad * inverse.abs());
         Slab { inverse, minus_near: -(along + reach), far: along - reach, down }
     }

@@ -133,6 +133,19 @@ impl<L: Lanes> Pass<L> {
         self.ll.le(reach * reach) & (self.middle - reach).le(end) & start.le(self.middle + reach)
     }
 
+    /// Which are surely hit near by between the s `start` and `end`, as far as can be told without a root: no near root
+    /// is below m - r - delta, or above m + delta.
+    #[cfg(feature = "std")]
+    #[inline(always)]
+    pub(super) fn is_hit(&self, start: L, end: L) -> L::Mask {
+        let Self { middle, radius, delta, ll, .. } = *self;
+        let half = radius * radius.like(0.5);
+        let slack = delta * delta.filter_mul_add(radius.like(0.3125), half);
+        radius.like(0.0).lt(radius * radius - ll - slack)
+            & start.le(middle - (radius + delta))
+            & (middle + delta).le(end)
+    }
+
     /// Between which s the spheres are hit; the interval starts and ends somewhere in
     /// `start` and `end`.
     #[inline(always)]

@@ -1,6 +1,6 @@
 //! Sixteen bits in another order: a shuffle where the CPU has one, which `fearless_simd` has no portable name for.
 
-use fearless_simd::Simd;
+use fearless_simd::{Simd, SimdBase, SimdMask, f32x16, u8x16};
 
 /// [`Lanes::bits_in_order`](crate::Lanes::bits_in_order).
 #[inline(always)]
@@ -20,8 +20,53 @@ pub(super) fn bits<S: Simd>(token: S, bits: u32, order: u64) -> u32 {
     ordered
 }
 
+/// [`Lanes::le_in_order`](crate::Lanes::le_in_order): lanes change places before they become bits, which is fewer
+/// steps one after the other. (By AVX2 closest hits of one ray a call take 0.92 to 0.98 times as long.)
+#[inline(always)]
+pub(super) fn le<S: Simd>(token: S, a: f32x16<S>, b: f32x16<S>, order: u64) -> u32 {
+    #[cfg(target_arch = "x86_64")]
+    match token.level() {
+        fearless_simd::Level::Avx512(avx512) => {
+            return le_permuted(avx512, a.to_array(), b.to_array(), order);
+        }
+        fearless_simd::Level::Avx2(_) => {
+            let (low, high) = token.split_mask32x16(a.simd_le(b));
+            let (low, high) = token.split_mask16x16(token.narrow_mask32x8(low, high));
+            let lanes = token.to_vector_mask8x16(token.narrow_mask16x8(low, high));
+            // A byte for each four bits of the order.
+            let four = 0x0f0f_0f0f_0f0f_0f0f;
+            let even = u8x16::load_array(token, pair(order & four));
+            let odd = u8x16::load_array(token, pair(order >> 4 & four));
+            let ordered = token.swizzle_dyn_within_blocks_i8x16(lanes, even.zip_low(odd));
+            return token.from_vector_mask8x16(ordered).to_bitmask() as u32;
+        }
+        _ => {}
+    }
+    bits(token, a.simd_le(b).to_bitmask() as u32, order)
+}
+
+/// Eight bytes, twice.
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+fn pair(bytes: u64) -> [u8; 16] {
+    (u128::from(bytes) << 64 | u128::from(bytes)).to_le_bytes()
+}
+
 #[cfg(target_arch = "x86_64")]
 use core::arch::x86_64::*;
+
+#[cfg(target_arch = "x86_64")]
+fearless_simd::kernel!(
+    #[inline(always)]
+    fn le_permuted(token: Avx512, a: [f32; 16], b: [f32; 16], order: u64) -> u32 {
+        let places = _mm512_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28, 32, 36, 40, 44, 48, 52, 56, 60);
+        let indices = _mm512_multishift_epi64_epi8(places, _mm512_set1_epi64(order as i64));
+        let a: __m512 = f32x16::load_array(token, a).into();
+        let b: __m512 = f32x16::load_array(token, b).into();
+        let (a, b) = (_mm512_permutexvar_ps(indices, a), _mm512_permutexvar_ps(indices, b));
+        u32::from(_mm512_cmp_ps_mask::<_CMP_LE_OQ>(a, b))
+    }
+);
 
 #[cfg(target_arch = "x86_64")]
 fearless_simd::kernel!(

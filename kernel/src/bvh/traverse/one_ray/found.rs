@@ -1,0 +1,225 @@
+//! What one ray has found: which spheres may be its closest, and what the tier has said of them.
+
+use crate::Accuracy;
+use crate::accuracy::{RayLanes, is_closer, test_one};
+use crate::bvh::leaf::place_of;
+use crate::bvh::node::{LEAF, WIDTH};
+use crate::bvh::traverse::few::FEW;
+use crate::bvh::traverse::in_flight::test_from_afar;
+use crate::bvh::traverse::prepared_ray::RayTime;
+use crate::bvh::traverse::root_interval::RayProbe;
+use crate::bvh::traverse::source::SphereSource;
+use crate::bvh::tree::Bvh;
+use crate::geometry::hit::Hit;
+use crate::geometry::ray::{Ray, RayPacket};
+use crate::lanes::{LaneArray, LaneMask, Lanes};
+use crate::linear;
+use crate::numeric::rounding::least;
+use crate::query::Query;
+
+/// How many candidates are kept.
+pub(super) const MOST: usize = 8;
+
+/// A ray, and what it has found.
+pub(super) struct Search<'a, T, Q: Query> {
+    pub(super) tier: T,
+    pub(super) bvh: &'a Bvh<'a>,
+    pub(super) ray: &'a Ray,
+    pub(super) answer: Q::Packet<[f32; 1]>,
+    pub(super) places: [u32; MOST],
+    pub(super) entries: [f32; MOST],
+    pub(super) count: usize,
+    pub(super) best: f32,
+}
+
+impl<T: Accuracy, Q: Query> Search<'_, T, Q> {
+    /// Rays that no bound covers, and spheres that no bound sees. Where the ray ends then, if it is not done.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn unusual(
+        &mut self,
+        rays: &RayLanes<f32>,
+        covered: bool,
+        time: RayTime<f32>,
+        end: f32,
+    ) -> Option<f32> {
+        let Self { tier, bvh, ray, answer, .. } = self;
+        let packet = RayPacket::new(core::slice::from_ref(*ray));
+        if !bvh.outside.is_empty() {
+            let (rays, answers) = (core::slice::from_ref(&packet), core::slice::from_mut(answer));
+            linear::traverse_some::<f32, Q>(*tier, (), &bvh.outside(), rays, answers);
+        }
+        let limit = Q::limit::<[f32; 1]>(answer, 0);
+        if limit == f32::NEG_INFINITY {
+            return None;
+        }
+        if !covered {
+            test_from_afar::<f32, Q>(*tier, (), bvh, (&packet, rays), answer);
+            return None;
+        }
+        Some(least(time.after(limit), end))
+    }
+
+    /// Which spheres of leaves may be hit, sixteen bits a leaf; none of what is behind the last.
+    #[inline(always)]
+    pub(super) fn may_hit<L: Lanes, const SPREADS: bool>(
+        &self,
+        probe: &RayProbe<L>,
+        leaves: [u32; FEW],
+    ) -> u64 {
+        let mut may_hit = 0;
+        for number in 0..FEW {
+            let Some(leaf) = self.bvh.leaf(leaves[number] & !LEAF) else { break };
+            for part in 0..WIDTH / L::COUNT {
+                let here = probe.may_hit::<SPREADS>(&leaf.columns, part) << (part * L::COUNT);
+                may_hit |= u64::from(here & leaf.lanes) << (number * WIDTH);
+            }
+        }
+        may_hit
+    }
+
+    /// Keeps what may be hit of few leaves.
+    #[inline(always)]
+    pub(super) fn keep(&mut self, leaves: [u32; FEW], mut may_hit: u64) {
+        while may_hit != 0 {
+            let bit = may_hit.trailing_zeros();
+            may_hit &= may_hit - 1;
+            let leaf = leaves[bit as usize / WIDTH % FEW] & !LEAF;
+            self.places[self.count % MOST] = place_of(leaf, bit % WIDTH as u32);
+            self.entries[self.count % MOST] = f32::NEG_INFINITY;
+            self.count = self.count % MOST + 1;
+        }
+    }
+
+    /// Looks at those leaves of which something may be hit; whether the ray is done.
+    #[inline(always)]
+    pub(super) fn meet<L: Lanes, const SPREADS: bool>(
+        &mut self,
+        token: L::Token,
+        probe: &mut RayProbe<L>,
+        time: RayTime<f32>,
+        leaves: [u32; FEW],
+        mut may_hit: u64,
+    ) -> bool {
+        while may_hit != 0 {
+            let number = may_hit.trailing_zeros() as usize / WIDTH;
+            may_hit &= !(0xffff << (number * WIDTH));
+            if self.look::<L, SPREADS>(token, probe, time, leaves[number % FEW] & !LEAF) {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Looks at the spheres of a leaf; whether the ray is done.
+    #[inline(always)]
+    pub(super) fn look<L: Lanes, const SPREADS: bool>(
+        &mut self,
+        token: L::Token,
+        probe: &mut RayProbe<L>,
+        time: RayTime<f32>,
+        number: u32,
+    ) -> bool {
+        let Some(leaf) = self.bvh.leaf(number) else { return false };
+        for part in 0..WIDTH / L::COUNT {
+            let lanes = leaf.lanes >> (part * L::COUNT);
+            let pass = probe.pass(&leaf.columns, part);
+            let may_hit = pass.may_hit::<SPREADS>(probe.start[0], probe.end[1], probe.spread);
+            if may_hit.bits() & lanes == 0 {
+                continue;
+            }
+            let bits = may_hit.bits() & lanes;
+            if Q::ANY && !SPREADS && pass.is_hit(probe.start[1], probe.end[0]).bits() & bits != 0 {
+                self.hit();
+                return true;
+            }
+            // (Roots one by one, in one lane, take as long; so does a tier that tests at once what is alone in its leaf.)
+            let RayProbe { start, end, raise, spread, .. } = *probe;
+            let interval = pass.root_interval::<SPREADS>(start, end, raise, spread);
+            let candidates = interval.candidates.bits();
+            let (entries, bounds) = (interval.entry.store(), interval.bound.store());
+            // Which sphere it is does not wait for its roots.
+            let mut rest = bits;
+            while rest != 0 {
+                let lane = rest.trailing_zeros() as usize;
+                rest &= rest - 1;
+                if candidates >> lane & 1 == 0 {
+                    continue;
+                }
+                let (entry, bound) = (entries.get(lane), bounds.get(lane));
+                if Q::ANY && bound < f32::INFINITY {
+                    self.hit();
+                    return true;
+                }
+                if entry > self.best {
+                    continue;
+                }
+                self.best = if bound < self.best { bound } else { self.best };
+                let place = place_of(number, (part * L::COUNT + lane) as u32);
+                self.push::<L>(token, time, place, entry);
+            }
+            probe.end[1] = L::splat(token, self.best);
+        }
+        false
+    }
+
+    /// There is a hit, whichever.
+    #[inline(always)]
+    fn hit(&mut self) {
+        Q::take::<[f32; 1]>(&mut self.answer, 0, Hit { t: 0.0, sphere: 0 }, |_| false);
+    }
+
+    /// Keeps a candidate.
+    #[inline(always)]
+    fn push<L: Lanes>(&mut self, token: L::Token, time: RayTime<f32>, place: u32, entry: f32) {
+        while self.count > 0 && self.entries[(self.count - 1) % MOST] > self.best {
+            self.count -= 1;
+        }
+        if self.count == MOST {
+            self.test::<L>(token);
+            let t = Q::limit::<[f32; 1]>(&self.answer, 0);
+            self.best = least(time.after(t), self.best);
+        }
+        self.places[self.count % MOST] = place;
+        self.entries[self.count % MOST] = entry;
+        self.count = self.count % MOST + 1;
+    }
+
+    /// Has the tier test what is kept.
+    #[inline(always)]
+    pub(super) fn test<L: Lanes>(&mut self, token: L::Token) {
+        if self.count == 0 {
+            return;
+        }
+        L::out_of_line(
+            token,
+            #[inline(always)]
+            || self.test_here(),
+        );
+    }
+
+    #[inline(always)]
+    fn test_here(&mut self) {
+        let Self { tier, bvh, ray, .. } = self;
+        for at in 0..self.count {
+            if self.entries[at % MOST] > self.best {
+                continue;
+            }
+            let Some((sphere, index)) = bvh.sphere_at(self.places[at % MOST]) else { continue };
+            let t = test_one(*tier, ray, &sphere);
+            if t < f32::INFINITY {
+                Q::take::<[f32; 1]>(
+                    &mut self.answer,
+                    0,
+                    Hit { t, sphere: index },
+                    #[inline(always)]
+                    |old| is_closer(*tier, &bvh.spheres, ray, t, [index, old]),
+                );
+                if Q::ANY {
+                    break;
+                }
+            }
+        }
+        self.count = 0;
+    }
+}
