@@ -6,6 +6,7 @@ mod equality;
 mod far;
 mod limits;
 mod loading;
+mod long_calls;
 mod refit;
 mod scales;
 mod scenes;

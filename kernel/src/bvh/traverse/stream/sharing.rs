@@ -235,3 +235,65 @@ impl Sharing {
         }
     }
 }
+
+#[cfg(test)]
+#[cfg(feature = "std")]
+mod tests {
+    extern crate std;
+
+    use super::*;
+    use crate::query::{AnyHit, ClosestHit};
+    use crate::testing::climb::Random;
+    use crate::testing::work::{Kind, Work};
+    use crate::{Exact, Intersect, Ray, SphereList, SphereTree, Trace, Vec3};
+    use std::vec;
+    use std::vec::Vec;
+
+    /// Spheres anywhere, and rays along an axis from anywhere.
+    fn scene(spheres: usize, rays: usize) -> (SphereTree, Vec<Ray>) {
+        let mut random = Random(53);
+        let mut point = || Vec3::from_array([(); 3].map(|()| random.below(1 << 20) as f32));
+        let list: SphereList = (0..spheres).map(|_| (point(), 30_000.0)).collect();
+        let mut ray = |_| Ray::new(Vec3 { z: -1e6, ..point() }, Vec3::new(0.1, 0.2, 1.0));
+        (SphereTree::new(list), (0..rays).map(&mut ray).collect())
+    }
+
+    #[test]
+    fn rays_that_meet_go_as_a_stream_in_memory_that_a_call_takes() {
+        for (spheres, rays, is_stream) in
+            [(2000, 8192, true), (2000, 1000, false), (60, 8192, false), (3, 8192, false)]
+        {
+            let (tree, rays) = scene(spheres, rays);
+            let mut hits = vec![None; rays.len()];
+            let work = Work::of(|| tree.closest_hits(Exact, &rays, &mut hits));
+            let by_streams = work.count(Kind::StreamNode);
+            assert_eq!(by_streams > 0, is_stream, "{spheres} spheres, {by_streams}");
+            let mut trace = Trace::new().incoherent();
+            let work = Work::of(|| tree.closest_hits_with(Exact, &mut trace, &rays, &mut hits));
+            assert_eq!(work.count(Kind::StreamNode), 0);
+        }
+    }
+
+    #[test]
+    fn few_that_meet_or_much_in_vain_end_it_and_all_is_tried_again() {
+        let seen =
+            |boxes, nodes, queued| Seen { streams: 1, rays: 1024, boxes, nodes, leaves: 0, queued };
+        let (tree, _) = scene(2000, 0);
+        let (tree, mut sharing) = (tree.bvh(), Sharing::NOTHING);
+        let mut take = |of: Seen, any: bool| {
+            if any {
+                sharing.take::<AnyHit>(Way::AsTheyCome, of);
+            } else {
+                sharing.take::<ClosestHit>(Way::AsTheyCome, of);
+            }
+            [sharing.may_pay::<ClosestHit>(&tree, 8192), sharing.may_pay::<AnyHit>(&tree, 8192)]
+        };
+        // 1,024 that are two at a box are five if they are eight times as many.
+        assert_eq!(take(seen(1024, 2048, 2048), false), [false; 2]);
+        assert_eq!(take(seen(1024, 4096, 4096), false), [true; 2]);
+        assert_eq!(take(seen(1024, 2500, 2500), false), [true, false]);
+        assert_eq!(take(seen(1024, 8192, 16384), true), [false; 2]);
+        sharing.pass_over(PASSED_OVER[0]);
+        assert!(sharing.may_pay::<ClosestHit>(&tree, 8192));
+    }
+}

@@ -1,0 +1,140 @@
+//! Long calls, of which a tree finds out how the rays go best: groups, streams, sorted or not, and rays by themselves, each
+//! taken up and given up on the way. The answers are those of ray by ray, which are those of brute force.
+
+use super::scenes::{diffuse, uniform};
+use spherule_kernel::{
+    Exact, Hit, HitColumns, HitPacket, Intersect, Level, Ray, RayColumns, RayPacket, SphereList,
+    SphereTree, Trace, Vec3,
+};
+use spherule_tests::orders::Order;
+use spherule_tests::scenes::{Scene, Size};
+use spherule_tests::variants::{bits, levels};
+
+/// Closest hits, and whether there is any.
+type Answers = (Vec<Option<(u32, u32)>>, Vec<bool>);
+
+/// By slices, the trace as it is, and as it has become.
+fn by_slices(tree: &SphereTree, trace: &mut Trace<'_>, rays: &[Ray]) -> Answers {
+    let (mut hits, mut met) = (vec![None::<Hit>; rays.len()], vec![false; rays.len()]);
+    tree.closest_hits_with(Exact, trace, rays, &mut hits);
+    tree.any_hits_with(Exact, trace, rays, &mut met);
+    (hits.into_iter().map(bits).collect(), met)
+}
+
+fn by_packets(tree: &SphereTree, trace: &mut Trace<'_>, rays: &[Ray]) -> Answers {
+    let packets: Vec<_> = rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect();
+    let (mut hits, mut met) = (vec![HitPacket::none(); packets.len()], vec![0; packets.len()]);
+    tree.closest_hit_packets(Exact, trace, &packets, &mut hits);
+    tree.any_hit_packets(Exact, trace, &packets, &mut met);
+    let hits = hits.iter().flat_map(HitPacket::hits).take(rays.len()).map(bits).collect();
+    let is_met = |ray: usize| met[ray / RayPacket::COUNT] >> (ray % RayPacket::COUNT) & 1 == 1;
+    (hits, (0..rays.len()).map(is_met).collect())
+}
+
+fn by_columns(tree: &SphereTree, trace: &mut Trace<'_>, rays: &[Ray]) -> Answers {
+    let column = |of: fn(&Ray) -> f32| rays.iter().map(of).collect::<Vec<_>>();
+    let origin = [column(|r| r.origin.x), column(|r| r.origin.y), column(|r| r.origin.z)];
+    let direction =
+        [column(|r| r.direction.x), column(|r| r.direction.y), column(|r| r.direction.z)];
+    let (t_min, t_max) = (column(|r| r.t_min), column(|r| r.t_max));
+    let columns = RayColumns {
+        origin: origin.each_ref().map(Vec::as_slice),
+        direction: direction.each_ref().map(Vec::as_slice),
+        t_min: &t_min,
+        t_max: &t_max,
+    };
+    let (mut t, mut sphere) = (vec![0.0; rays.len()], vec![0; rays.len()]);
+    let mut met = vec![false; rays.len()];
+    tree.closest_hit_columns(Exact, trace, columns, HitColumns { t: &mut t, sphere: &mut sphere });
+    tree.any_hit_columns(Exact, trace, columns, &mut met);
+    let hit = |(t, sphere): (f32, u32)| (sphere != u32::MAX).then_some((t.to_bits(), sphere));
+    (t.into_iter().zip(sphere).map(hit).collect(), met)
+}
+
+/// # Panics
+/// If a way differs from ray by ray.
+fn check(name: &str, tree: &SphereTree, rays: &[Ray]) {
+    let expected = by_slices(tree, &mut Trace::new().incoherent(), rays);
+    for level in levels().map(|name| Level::named(name).expect("a level of this CPU")) {
+        let name = format!("{name}, {} rays, {level:?}", rays.len());
+        // The second time the trace knows what it has learnt.
+        let (mut of_slices, mut of_packets) = (Trace::new().at(level), Trace::new().at(level));
+        for _ in 0..2 {
+            assert!(by_slices(tree, &mut of_slices, rays) == expected, "{name}: slices");
+            assert!(by_packets(tree, &mut of_packets, rays) == expected, "{name}: packets");
+        }
+        let coherent = &mut Trace::new().at(level).coherent();
+        assert!(by_slices(tree, coherent, rays) == expected, "{name}: said to be coherent");
+        let trace = &mut Trace::new().at(level);
+        assert!(by_columns(tree, trace, rays) == expected, "{name}: columns");
+    }
+}
+
+#[test]
+fn ways_that_are_taken_up_and_given_up() {
+    let orders = [Order::Beam, Order::Diffuse, Order::TwoCameras, Order::Alternating16];
+    for (name, most) in [("u10k", 3000), ("nested", 500), ("duplicates", 1500), ("u64", 64)] {
+        let scene = Scene::large(name, Size(32, most)).expect("listed");
+        let tree = scene.tree();
+        for order in orders {
+            for count in [1024, 1025, 5000] {
+                let rays = order.rays(scene.spheres.spheres(), count, 1);
+                check(&format!("{name}, {order:?}"), &tree, &rays);
+            }
+        }
+    }
+}
+
+/// What is learnt of some rays does not fit those that come.
+#[test]
+fn rays_that_change_on_the_way() {
+    let scene = Scene::large("u10k", Size(32, 3000)).expect("listed");
+    let of = |order: Order| order.rays(scene.spheres.spheres(), 6000, 1);
+    let orders = [Order::Diffuse, Order::ScanLines, Order::Beam, Order::Bursts64, Order::Diffuse];
+    let rays: Vec<Ray> = orders.into_iter().flat_map(of).collect();
+    check("orders one after the other", &scene.tree(), &rays);
+}
+
+/// One ray in sixteen is none: of no number, of infinity, without an interval, a point.
+#[test]
+fn rays_of_which_some_are_none() {
+    let scene = Scene::large("u10k", Size(32, 3000)).expect("listed");
+    let mut rays = Order::Beam.rays(scene.spheres.spheres(), 9000, 1);
+    for (number, ray) in rays.iter_mut().enumerate().filter(|(number, _)| number % 16 == 5) {
+        match number / 16 % 5 {
+            0 => ray.origin.x = f32::NAN,
+            1 => ray.origin.y = f32::INFINITY,
+            2 => (ray.t_min, ray.t_max) = (2.0, 1.0),
+            3 => ray.direction = Vec3::ZERO,
+            _ => ray.direction.z = f32::NEG_INFINITY,
+        }
+    }
+    check("some are none", &scene.tree(), &rays);
+}
+
+/// A tree of up to four spheres is met as a list; of others they are among.
+#[test]
+fn very_few_spheres() {
+    for count in 0..=6 {
+        let mut list = uniform(count);
+        // One that no bound sees, and one that is none.
+        if count > 2 {
+            list[1].radius = 1e30;
+            list[2].center.x = f32::NAN;
+        }
+        let tree = SphereTree::new(SphereList::from(&list[..]));
+        check(&format!("{count} spheres"), &tree, &diffuse(1500));
+    }
+}
+
+/// Sorted streams: a tree of more than 8 MB, and rays of which too few meet as they come.
+#[test]
+fn many_rays_in_a_large_tree() {
+    let scene = Scene::large("u1m", Size(32, 400_000)).expect("listed");
+    let tree = scene.tree();
+    let rays = Order::Diffuse.rays(scene.spheres.spheres(), 40_000, 1);
+    let expected = by_slices(&tree, &mut Trace::new().incoherent(), &rays);
+    let found = by_slices(&tree, &mut Trace::new(), &rays);
+    assert!(found == expected, "slices");
+    assert!(by_packets(&tree, &mut Trace::new(), &rays) == expected, "packets");
+}
