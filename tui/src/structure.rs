@@ -7,7 +7,6 @@ pub mod object_order;
 pub mod scene;
 pub mod screen;
 pub mod search;
-mod stream;
 
 use clap::ValueEnum;
 

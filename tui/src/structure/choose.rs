@@ -50,7 +50,7 @@ impl Workload {
     /// As the kernel is told.
     #[must_use]
     pub fn coherence(&self) -> Coherence {
-        if self.coherent { Coherence::Coherent } else { Coherence::Incoherent }
+        if self.coherent { Coherence::Coherent } else { Coherence::Detect }
     }
 }
 

@@ -1,7 +1,6 @@
 //! A scene structure that is chosen at run time.
 
 use super::object_order::{ObjectOrder, Raster};
-use super::stream::StreamScratch;
 use spherule_kernel::{
     Bvh, CameraTiles, Coherence, DepthList, HitPacket, Intersect, Level, RayPacket, Spheres, Tier,
     Trace, tile_rays,
@@ -31,36 +30,28 @@ pub struct Tracing {
     pub coherence: Coherence,
 }
 
-/// The memory that one thread lends to depth lists, to streams, and to object order.
+/// The memory that one thread lends to depth lists and to object order.
 #[derive(Clone, Debug, Default)]
 pub struct Scratch {
     lists: Vec<f32>,
-    stream: StreamScratch,
     raster: Raster,
 }
 
 impl Scratch {
-    /// As long as `search` has a use for with so many packets; shorter if there is no memory, which takes longer.
+    /// As long as `search` has a use for; shorter if there is no memory, which takes longer.
     fn of(
         &mut self,
         search: &Search<'_>,
         Tracing { level, coherence, .. }: Tracing,
-        packets: usize,
     ) -> (Trace<'_>, &mut Raster) {
-        let Self { lists, stream, raster } = self;
+        let Self { lists, raster } = self;
         if let Search::DepthList(list) = search {
             let missing = DepthList::scratch(list.spheres().len()).saturating_sub(lists.len());
             if lists.try_reserve_exact(missing).is_ok() {
                 lists.resize(lists.len() + missing, 0.0);
             }
         }
-        let stream = match search {
-            Search::Bvh(_) if coherence != Coherence::Coherent => stream.of(packets),
-            _ => None,
-        };
-        let mut trace = Trace::new().at(level).with(coherence).with_scratch(lists);
-        trace.stream = stream;
-        (trace, raster)
+        (Trace::new().at(level).with(coherence).with_scratch(lists), raster)
     }
 }
 
@@ -74,7 +65,7 @@ impl Search<'_> {
         hits: &mut [HitPacket],
     ) {
         let tier = tracing.tier;
-        let (mut trace, raster) = scratch.of(self, tracing, rays.len());
+        let (mut trace, raster) = scratch.of(self, tracing);
         let trace = &mut trace;
         match self {
             Self::Brute(spheres) => spheres.closest_hit_packets(tier, trace, rays, hits),
@@ -96,7 +87,7 @@ impl Search<'_> {
         hits: &mut [HitPacket],
     ) {
         let tier = tracing.tier;
-        let (mut trace, raster) = scratch.of(self, tracing, rays.len());
+        let (mut trace, raster) = scratch.of(self, tracing);
         let trace = &mut trace;
         match self {
             Self::Brute(spheres) => spheres.closest_hit_tiles(tier, trace, tiles, rays, hits),
@@ -119,7 +110,7 @@ impl Search<'_> {
         met: &mut [u32],
     ) {
         let tier = tracing.tier;
-        let trace = &mut scratch.of(self, tracing, rays.len()).0;
+        let trace = &mut scratch.of(self, tracing).0;
         match self {
             Self::Brute(spheres) => spheres.any_hit_packets(tier, trace, rays, met),
             Self::DepthList(list) => list.any_hit_packets(tier, trace, rays, met),
