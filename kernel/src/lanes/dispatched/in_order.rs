@@ -21,7 +21,7 @@ pub(super) fn bits<S: Simd>(token: S, bits: u32, order: u64) -> u32 {
 }
 
 /// [`Lanes::le_in_order`](crate::Lanes::le_in_order): lanes change places before they become bits, which is fewer
-/// steps one after the other. (By AVX2 closest hits of one ray a call take 0.92 to 0.98 times as long.)
+/// steps one after the other. (Closest hits of one ray a call take 0.88 to 0.98 times as long by AVX2, 0.93 to 0.99 by AVX-512.)
 #[inline(always)]
 pub(super) fn le<S: Simd>(token: S, a: f32x16<S>, b: f32x16<S>, order: u64) -> u32 {
     #[cfg(target_arch = "x86_64")]
