@@ -33,13 +33,14 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
         loop {
             let frame = &mut self.frames[depth % FRAMES];
             let Some(node) = self.tests.bvh.nodes.get(frame.node as usize) else { break };
-            // The nearest child that rays wait at.
+            // The nearest child that rays wait at; where any hit will do, the next as they stand: full leaves are the last.
             let order = node.order[octant as usize % 8];
             let mut slot = 0;
             let mut waiting = 0;
             while frame.left > 0 {
                 frame.left -= 1;
-                slot = (order >> (4 * frame.left)) as usize % WIDTH;
+                let place = frame.left as usize % WIDTH;
+                slot = if Q::ANY { place } else { (order >> (4 * place)) as usize % WIDTH };
                 waiting = frame.counts[slot];
                 if waiting > 0 {
                     break;
