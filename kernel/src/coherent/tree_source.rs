@@ -46,7 +46,8 @@ impl Ways<'_> {
     fn memory<Q: Query>(&mut self, bvh: &Bvh<'_>, rays: usize) -> Option<StreamMemory<'_>> {
         #[cfg(feature = "alloc")]
         if self.lent.is_none() && self.coherence != Coherence::Incoherent {
-            return self.kept.lend::<Q>(bvh, &self.learnt.sharing, rays);
+            let sharing = &self.learnt.sharing[usize::from(Q::ANY)];
+            return self.kept.lend::<Q>(bvh, sharing, rays);
         }
         let _ = (bvh, rays);
         self.lent.as_mut().map(StreamMemory::again)
@@ -126,7 +127,7 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
             {
                 let rays = (source.packets(from..to), waiting);
                 ways.learnt.apart[0] += waiting.map_or(to - from, PacketSet::count);
-                let mut sharing = ways.learnt.sharing;
+                let mut sharing = ways.learnt.sharing[usize::from(Q::ANY)];
                 match &mut ways.memory::<Q>(bvh, L::COUNT * (to - from)) {
                     Some(memory) => {
                         let how = (memory, &mut sharing);
@@ -137,7 +138,7 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
                         wavefront::traverse::<L, Q>(tier, token, bvh, rays, answers);
                     }
                 }
-                ways.learnt.sharing = sharing;
+                ways.learnt.sharing[usize::from(Q::ANY)] = sharing;
             }
         }
         (from, run) = (end, end);
@@ -156,7 +157,8 @@ struct Apart {
 pub(crate) struct Learnt {
     groups: Patience,
     packets: Patience,
-    sharing: Sharing,
+    /// Of closest hits, and of any.
+    sharing: [Sharing; 2],
     /// Of the last packets how many went by themselves, and how many they were.
     apart: [usize; 2],
 }
@@ -166,7 +168,7 @@ impl Learnt {
     pub(crate) const NOTHING: Self = Self {
         groups: Patience::NEW,
         packets: Patience::NEW,
-        sharing: Sharing::NOTHING,
+        sharing: [Sharing::NOTHING; 2],
         apart: [0; 2],
     };
 
@@ -175,10 +177,11 @@ impl Learnt {
     #[cfg(feature = "alloc")]
     pub(crate) fn many_at_once<Q: Query>(&self, bvh: &Bvh<'_>, rays: usize) -> Option<usize> {
         let [apart, all] = self.apart;
-        if SOME * apart < all || all == 0 || !self.sharing.may_pay::<Q>(bvh, rays) {
+        let sharing = &self.sharing[usize::from(Q::ANY)];
+        if SOME * apart < all || all == 0 || !sharing.may_pay::<Q>(bvh, rays) {
             return None;
         }
-        let sorts = self.sharing.may_sort::<Q>(bvh, rays);
+        let sorts = sharing.may_sort::<Q>(bvh, rays);
         // Of those some may go together as groups: twice as many as go down as a stream.
         let together = 2 * Sharing::together(rays);
         Some(rays.min(if sorts { MOST_SORTED } else { together }))

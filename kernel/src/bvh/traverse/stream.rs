@@ -86,7 +86,9 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
         );
         from = to;
         if way == Way::RayByRay {
-            wavefront::traverse::<L, Q>(tier, token, bvh, (rays, waiting.as_ref()), answers);
+            let rays = (rays, waiting.as_ref());
+            let entered = wavefront::traverse::<L, Q>(tier, token, bvh, rays, answers);
+            sharing.take_alone(entered);
             continue;
         }
         L::out_of_line(

@@ -32,7 +32,8 @@ use crate::lanes::{LaneArray, Lanes};
 use crate::query::Query;
 use core::hint::black_box;
 
-/// Answers every ray of the packets that are `waiting`, or of all. Stack: some 4 KiB a lane.
+/// Answers every ray of the packets that are `waiting`, or of all, and returns what they have entered. Stack: some 4 KiB a
+/// lane.
 #[inline(always)]
 pub(crate) fn traverse<L: Lanes, Q: Query>(
     tier: impl Accuracy,
@@ -40,7 +41,7 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
     bvh: &Bvh<'_>,
     (rays, waiting): (&[RayPacket<L::Array>], Option<&PacketSet>),
     answers: &mut [Q::Packet<L::Array>],
-) {
+) -> Entered {
     L::out_of_line(
         token,
         #[inline(always)]
@@ -49,24 +50,34 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
             let count = rays.len().min(answers.len());
             let (rays, answers) = (rays.get(..count).unwrap_or_default(), answers);
             let mut tests = DeferredTests::<_, L, Q>::new(tier, token, bvh, rays, answers, waiting);
-            if let Some(leaves) = few::few(bvh) {
+            let entered = if let Some(leaves) = few::few(bvh) {
                 few::traverse(&mut tests, leaves);
+                Entered::default()
             } else {
-                by_boxes(&mut tests);
-            }
+                by_boxes(&mut tests)
+            };
             tests.test();
+            entered
         },
-    );
+    )
+}
+
+/// How many boxes some rays have entered, nodes and leaves that they looked into; none where there are no boxes to count.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Entered {
+    pub(crate) rays: u32,
+    pub(crate) boxes: u32,
 }
 
 #[inline(always)]
-fn by_boxes<T: Accuracy, L: Lanes, Q: Query>(tests: &mut DeferredTests<'_, T, L, Q>) {
+fn by_boxes<T: Accuracy, L: Lanes, Q: Query>(tests: &mut DeferredTests<'_, T, L, Q>) -> Entered {
     count!(RayStacks);
     let bvh = tests.bvh;
     let mut states = L::Array::each(RayState::NEW);
     let states = states.as_mut();
     let mut in_flight = PacketsInFlight::<L::Array>::none();
     let mut round = Round::<L::Array>::empty();
+    let mut entered = Entered::default();
     let far = prefetch::pays(bvh);
     loop {
         round.clear();
@@ -80,12 +91,15 @@ fn by_boxes<T: Accuracy, L: Lanes, Q: Query>(tests: &mut DeferredTests<'_, T, L,
             state.end(tests);
             in_flight.end(state);
             if in_flight.begin(tests, state) {
+                entered.rays = entered.rays.wrapping_add(1);
                 round.go_on(bvh.nodes, number, state);
             }
         }
-        if round.nodes.count + round.leaves.count == 0 {
+        let boxes = round.nodes.count + round.leaves.count;
+        if boxes == 0 {
             break;
         }
+        entered.boxes = entered.boxes.wrapping_add(boxes as u32);
 
         if far {
             let mut lines = 0;
@@ -120,6 +134,7 @@ fn by_boxes<T: Accuracy, L: Lanes, Q: Query>(tests: &mut DeferredTests<'_, T, L,
             );
         }
     }
+    entered
 }
 
 /// Tests the spheres of a round's leaves: first which leaves may hold a hit, then where.

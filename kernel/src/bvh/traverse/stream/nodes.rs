@@ -85,7 +85,7 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
         let (from, base) = (frame.next, frame.base);
         (frame.next, frame.room, frame.left) = (from + room, room, WIDTH as u32);
         self.seen.boxes = self.seen.boxes.wrapping_add(1);
-        self.seen.nodes = self.seen.nodes.wrapping_add(room as u32);
+        self.seen.entered = self.seen.entered.wrapping_add(room as u32);
 
         let down = axes!(i => octant >> i & 1 == 1);
         let mut ends = [0; WIDTH];
@@ -139,9 +139,7 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
             }
         }
         for slot in 0..WIDTH {
-            let count = (ends[slot] - base - slot * room) as u32;
-            frame.counts[slot] = count;
-            self.seen.queued = self.seen.queued.wrapping_add(count);
+            frame.counts[slot] = (ends[slot] - base - slot * room) as u32;
         }
     }
 }
