@@ -8,7 +8,7 @@ mod in_flight;
 #[cfg(feature = "std")]
 pub(crate) mod one_ray;
 pub(crate) mod packet_set;
-mod prefetch;
+pub(crate) mod prefetch;
 pub(crate) mod prepared_ray;
 mod ray_state;
 pub(crate) mod root_interval;

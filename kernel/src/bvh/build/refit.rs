@@ -14,6 +14,7 @@ use crate::bvh::boxes_per_ray::inverse_of_body;
 use crate::bvh::built::Built;
 use crate::bvh::leaf::{self, STEP};
 use crate::bvh::node::{BvhNode, DEPTH, LEAF, NO_CHILD, WIDTH};
+use crate::bvh::traverse::prefetch;
 use crate::bvh::unplaced::Unplaced;
 use crate::geometry::sphere::Spheres;
 use crate::memory::TooSmall;
@@ -222,15 +223,18 @@ impl Leaves<'_> {
         }
     }
 
-    /// Reads the spheres of a node's leaves, one after the other: all are on their way from memory at once then, as in
-    /// `bvh/traverse/prefetch.rs`.
+    /// Reads a node, its leaves and their spheres, one after the other: all are on their way from memory at once then, as
+    /// in `bvh/traverse/prefetch.rs`. Also what is only written: a line must be there first, and few writes wait for lines
+    /// at once. (A million spheres: 0.68 of the time that it takes with the spheres alone read, 0.96 with those and the
+    /// node.)
     fn read_ahead(&self, node: &BvhNode) {
-        let mut bits = 0;
+        let mut bits = prefetch::node(node);
         for child in node.child {
             if child & LEAF == 0 || child == NO_CHILD {
                 continue;
             }
             let (begin, lanes) = leaf::extent_of(child & !LEAF);
+            bits ^= prefetch::leaf(self.numbers, child & !LEAF);
             let own = self.lanes.get(begin..begin + lanes).unwrap_or_default();
             for column in self.spheres.columns() {
                 for index in own {
