@@ -107,8 +107,8 @@ impl<'m> BvhMemory<'m> {
     /// valid, and of more than four that were the same some that are not any more. So a refit costs no guarantee, only time,
     /// and [`Bvh::growth`] says how much.
     ///
-    /// Cost: a tenth to a quarter of a build's time; for a million spheres, which wait for memory, up to 0.3. Stack: some 2
-    /// KiB. No other memory.
+    /// Cost: a tenth to a quarter of a build's time, the less with as many indices that no refit is [`TooSmall`]: then
+    /// nothing is counted before. Stack: some 3 KiB. No other memory.
     ///
     /// # Errors
     /// [`RefitError`] where the number of spheres is another, where indices are too few for the spheres that no box holds, or

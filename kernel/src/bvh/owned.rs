@@ -1,7 +1,7 @@
 //! The tree that owns its memory.
 
 use super::build::join::{InTurn, Join};
-use super::build::refit::refit;
+use super::build::refit::refit_anyway;
 use super::build::top_down;
 use super::built::Built;
 use super::leaf::{BEFORE, BEHIND};
@@ -9,7 +9,6 @@ use super::memory::RefitError;
 use super::node::BvhNode;
 use super::tree::Bvh;
 use crate::geometry::sphere_list::SphereList;
-use crate::memory::TooSmall;
 use alloc::collections::TryReserveError;
 use alloc::vec::Vec;
 use core::iter::repeat_n;
@@ -103,8 +102,8 @@ impl SphereTree {
     /// # Ok::<(), RefitError>(())
     /// ```
     ///
-    /// Cost: a tenth to a quarter of a build's time, for a million spheres up to 0.3, and no memory,
-    /// unless many spheres have left the boxes: 4 bytes for each of them.
+    /// Cost: a tenth to a quarter of a build's time, and no memory, unless many spheres have left the boxes: 8 bytes for
+    /// each of them.
     ///
     /// # Errors
     /// [`RefitError::OtherCount`] where the number of spheres is another; the tree is as it was.
@@ -115,10 +114,12 @@ impl SphereTree {
         if count != given {
             return Err(RefitError::OtherCount { built: count, given });
         }
-        if let Err(TooSmall { needed, .. }) = refit(built, &moved.spheres(), nodes, places, indices)
-        {
-            indices.resize(needed, 0);
-            refit(built, &moved.spheres(), nodes, places, indices).map_err(RefitError::TooSmall)?;
+        let list = moved.spheres();
+        let needed = refit_anyway(built, &list, nodes, places, indices);
+        if needed > indices.len() {
+            // As many again to sort them with.
+            indices.resize(needed + built.outside, 0);
+            refit_anyway(built, &list, nodes, places, indices);
         }
         *spheres = moved;
         Ok(self.bvh().growth())
