@@ -15,6 +15,8 @@ use std::time::Duration;
 
 /// Embree's call of one ray, among its engines.
 const ONE_RAY: &str = "1 rays a call";
+/// Builds and refits of fewer spheres are timed so many spheres at once: of one alone, to read the clock takes as long.
+const AT_ONCE: usize = 4096;
 /// Rays of a short call: a group of packets.
 const SHORT: usize = 64;
 
@@ -313,16 +315,26 @@ impl Refit {
         let tree = SphereTree::build_with(&InTurn, (*scene.spheres).clone());
         let mut tree = tree.expect("enough memory");
         let growth = tree.refit(lists[0].clone()).expect("as many");
+        let times = (AT_ONCE / spheres.len().max(1)).clamp(1, 256);
         let build = || {
-            let list = lists[1].clone();
-            timed(|| drop(std::hint::black_box(SphereTree::build_with(&InTurn, list))))
+            let all = vec![lists[1].clone(); times];
+            timed(|| {
+                for list in all {
+                    drop(std::hint::black_box(SphereTree::build_with(&InTurn, list)));
+                }
+            })
         };
         let mut turn = 0;
         let refit = || {
-            turn += 1;
-            let list = lists[turn % 2].clone();
+            let mut next = || {
+                turn += 1;
+                lists[turn % 2].clone()
+            };
+            let all: Vec<_> = (0..times).map(|_| next()).collect();
             timed(|| {
-                tree.refit(list).expect("as many");
+                for list in all {
+                    tree.refit(list).expect("as many");
+                }
             })
         };
         let samplers: Vec<(_, Sampler<'_>)> =
