@@ -12,7 +12,11 @@ pub(crate) fn radix_sort<T: Copy>(
     rounds: u32,
     key: impl Fn(&T) -> u32,
 ) {
-    let (mut from, mut to) = (elements, others);
+    let count = elements.len().min(others.len());
+    let (Some(mut from), Some(mut to)) = (elements.get_mut(..count), others.get_mut(..count))
+    else {
+        return;
+    };
     for round in 0..rounds {
         let mut places = [0_u32; 1 << DIGIT];
         for element in from.iter() {
@@ -63,6 +67,20 @@ mod tests {
                 radix_sort(&mut elements, &mut others, rounds, |(key, _)| *key);
                 assert_eq!(if rounds % 2 == 0 { elements } else { others }, expected);
             }
+        }
+    }
+
+    /// What is longer stays as it is behind the end of the other.
+    #[test]
+    fn the_shorter_says_how_many_are_sorted() {
+        for (count, spare) in [(5, 9), (9, 5), (0, 3), (3, 0)] {
+            let mut elements: Vec<u32> = (0..count).rev().map(|number| 300 * number).collect();
+            let mut expected = elements.clone();
+            expected[..(count.min(spare)) as usize].sort_unstable();
+            let mut others = vec![7; spare as usize];
+            radix_sort(&mut elements, &mut others, 2, |key| *key);
+            assert_eq!(elements, expected);
+            assert!(others.iter().skip(count as usize).all(|&other| other == 7));
         }
     }
 }
