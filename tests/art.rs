@@ -2,5 +2,7 @@
 
 mod floors;
 mod ink;
+mod measures;
+mod scenes;
 mod scorer;
 mod spin;

@@ -67,7 +67,7 @@ fn black_for_white_is_no_decibel() {
     let truth =
         |color: Rgb| Truth::new(&Light::of_colors(16, vec![color; 16 * 32])).expect("whole cells");
     let black = Light::of_colors(16, vec![[0; 3]; 16 * 32]);
-    let Figures { far, near, correlation } = truth([255; 3]).figures(&black);
+    let Figures { far, near, correlation, .. } = truth([255; 3]).figures(&black);
     assert!(far.abs() < 1e-4 && near.abs() < 1e-4, "{far} {near}");
     assert_eq!(correlation, 0.0);
     assert_eq!(truth([0; 3]).figures(&black).far, 120.0);

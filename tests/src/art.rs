@@ -13,17 +13,25 @@
 //! | [`geometry`] | that of blocks |
 //! | [`font`] | that of letters and dots |
 //! | [`ink`] | the program's tables of ink, measured again |
+//! | [`srgb`] | colours of a display, and their light |
 //! | [`light`] | pictures in linear light: from a screen, from a PNG; blurred |
-//! | [`figures`] | the figures: what of the truth is seen from afar, from near, and its shapes alone |
+//! | [`flip`] | what a person sees of a difference |
+//! | [`ssim`] | likeness of structure |
+//! | [`figures`] | the figures: what of the truth is seen from reading distance, from across the room, from near, and its shapes alone |
+//! | [`scenes`] | scenes that are in no program: a dark one, one like noise |
 
 pub mod cell;
 pub mod figures;
+pub mod flip;
 pub mod font;
 pub mod geometry;
 pub mod ink;
 pub mod light;
 pub mod palette;
+pub mod scenes;
 pub mod screen;
+pub mod srgb;
+pub mod ssim;
 
 use figures::{Figures, Truth};
 use font::Font;

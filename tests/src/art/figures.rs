@@ -1,21 +1,35 @@
 //! The figures: how near a picture comes to the truth.
 
 use super::cell::{HEIGHT, WIDTH};
+use super::flip::Reference;
 use super::light::Light;
+use super::palette::Rgb;
+use super::ssim;
 
-/// Higher is better.
+/// Higher is better, except of `flip`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Figures {
-    /// From reading distance, in dB: a blur of half a cell's width goes before the comparison, so
-    /// that dots and letters become tones.
+    /// From reading distance, or another that the truth was made for: the mean of FLIP, which is what an eye sees of
+    /// the difference. Lower is better.
+    pub flip: f64,
+    /// Likeness of structure: SSIM of luma, pixels as they are.
+    pub ssim: f64,
+    /// Pixel by pixel, in dB: encoded red, green and blue.
+    pub psnr: f64,
+    /// From across the room, in dB: a blur of half a cell's width goes before the comparison, so that dots and letters
+    /// become tones.
     pub far: f64,
-    /// Nose to the screen, in dB: pixel by pixel.
+    /// Nose to the screen, in dB: pixel by pixel, in OKLab.
     pub near: f64,
-    /// The correlation of lightness from reading distance: shape alone, whatever the brightness and the contrast.
+    /// The correlation of lightness from across the room: shape alone, whatever the brightness and the contrast.
     pub correlation: f64,
 }
 
-/// The deviation of the blur: half a cell's width.
+/// Pixels a degree of the eye's field from reading distance: a cell of 8 pixels, 2.2 mm wide, from 60 cm is 0.21 degrees.
+pub const READING: f32 = 38.0;
+
+/// The deviation of the blur from across the room: half a cell's width. An eye resolves a twelfth of a degree of cells
+/// 2.2 mm wide from about four metres.
 const BLUR: f32 = WIDTH as f32 / 2.0;
 
 /// The picture that pictures in cells stand for.
@@ -23,16 +37,27 @@ const BLUR: f32 = WIDTH as f32 / 2.0;
 pub struct Truth {
     columns: u16,
     rows: u16,
+    colors: Vec<Rgb>,
+    seen: Reference,
+    luma: Vec<f64>,
     near: Vec<[f32; 3]>,
     far: Vec<[f32; 3]>,
 }
 
 impl Truth {
-    /// A picture of 8x16 pixels a cell.
+    /// A picture of 8x16 pixels a cell, seen from reading distance.
     ///
     /// # Errors
     /// If it is not cut into cells.
     pub fn new(light: &Light) -> Result<Self, String> {
+        Self::seen_at(light, READING)
+    }
+
+    /// The same, seen from where a degree of the eye's field has so many pixels.
+    ///
+    /// # Errors
+    /// If it is not cut into cells.
+    pub fn seen_at(light: &Light, pixels_a_degree: f32) -> Result<Self, String> {
         let (width, height) = (light.width, light.height());
         let count = |pixels: usize, cell: usize| {
             let whole = pixels > 0 && pixels.is_multiple_of(cell);
@@ -40,7 +65,16 @@ impl Truth {
             cells.ok_or_else(|| format!("{width}x{height} pixels are no cells of {WIDTH}x{HEIGHT}"))
         };
         let (columns, rows) = (count(width, WIDTH)?, count(height, HEIGHT)?);
-        Ok(Self { columns, rows, near: oklab(light), far: oklab(&light.blurred(BLUR)) })
+        let colors = light.colors();
+        Ok(Self {
+            columns,
+            rows,
+            seen: Reference::new(width, &colors, pixels_a_degree),
+            luma: ssim::luma(&colors),
+            colors,
+            near: oklab(light),
+            far: oklab(&light.blurred(BLUR)),
+        })
     }
 
     /// Columns and rows.
@@ -57,7 +91,11 @@ impl Truth {
     pub fn figures(&self, light: &Light) -> Figures {
         assert_eq!(light.pixels.len(), self.near.len(), "another size");
         let far = oklab(&light.blurred(BLUR));
+        let colors = light.colors();
         Figures {
+            flip: self.seen.mean(&colors),
+            ssim: ssim::mean(light.width, &ssim::luma(&colors), &self.luma),
+            psnr: psnr(&colors, &self.colors),
             far: decibels(&far, &self.far),
             near: decibels(&oklab(light), &self.near),
             correlation: correlation(&far, &self.far),
@@ -66,7 +104,8 @@ impl Truth {
 }
 
 /// Lightness, green to red, blue to yellow: equal steps look equal (Björn Ottosson, 2020).
-fn oklab(light: &Light) -> Vec<[f32; 3]> {
+#[must_use]
+pub fn oklab(light: &Light) -> Vec<[f32; 3]> {
     const CONES: [[f32; 3]; 3] = [
         [0.412_221_46, 0.536_332_55, 0.051_445_995],
         [0.211_903_5, 0.680_699_5, 0.107_396_96],
@@ -85,6 +124,14 @@ fn oklab(light: &Light) -> Vec<[f32; 3]> {
         .iter()
         .map(|&pixel| times(&OPPONENTS, times(&CONES, pixel).map(f32::cbrt)))
         .collect()
+}
+
+/// The ratio of 255 to the root of the mean squared difference of a channel; 120 for pictures that are the same.
+fn psnr(picture: &[Rgb], truth: &[Rgb]) -> f64 {
+    let channels = || picture.as_flattened().iter().zip(truth.as_flattened());
+    let sum: f64 = channels().map(|(&a, &b)| (f64::from(a) - f64::from(b)).powi(2)).sum();
+    let mean = sum / channels().count() as f64;
+    -10.0 * (mean / (255.0 * 255.0)).max(1e-12).log10()
 }
 
 /// The ratio of 1 to the mean squared distance; 120 for pictures that are the same.

@@ -4,12 +4,12 @@ use super::cell::{HEIGHT, WIDTH};
 use super::font::Font;
 use super::palette::Rgb;
 use super::screen::Screen;
+use super::srgb::{decoded, encoded};
 use super::{cell, geometry};
 use std::collections::HashMap;
 use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
-use std::sync::LazyLock;
 
 /// A rectangle of pixels; 1 is the display's full intensity.
 #[derive(Clone, Debug, PartialEq)]
@@ -80,6 +80,12 @@ impl Light {
         Ok(Self::of_colors(frame.width as usize, colors))
     }
 
+    /// As a display of 8 bits a channel has it.
+    #[must_use]
+    pub fn colors(&self) -> Vec<Rgb> {
+        self.pixels.iter().copied().map(encoded).collect()
+    }
+
     /// Pixels one above the other.
     #[must_use]
     pub fn height(&self) -> usize {
@@ -127,19 +133,4 @@ fn add(weight: f32, row: &[[f32; 3]], sums: &mut [[f32; 3]]) {
     for (sum, light) in sums.as_flattened_mut().iter_mut().zip(row.as_flattened()) {
         *sum += weight * light;
     }
-}
-
-/// IEC 61966-2-1.
-fn decoded(color: Rgb) -> [f32; 3] {
-    static LEVELS: LazyLock<[f32; 256]> = LazyLock::new(|| {
-        std::array::from_fn(|level| {
-            let encoded = level as f64 / 255.0;
-            let light = match encoded {
-                0.0..=0.04045 => encoded / 12.92,
-                _ => ((encoded + 0.055) / 1.055).powf(2.4),
-            };
-            light as f32
-        })
-    });
-    color.map(|channel| LEVELS[usize::from(channel)])
 }

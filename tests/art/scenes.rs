@@ -1,0 +1,27 @@
+//! The judge's own scenes are as they are made. After a change, write them again:
+//!
+//! ```text
+//! cargo test -p spherule-tests -- --ignored pin_scenes
+//! ```
+
+use spherule::scene::open::open;
+use spherule_tests::art::scenes::KEPT;
+use std::fs;
+
+#[test]
+fn scenes_are_as_made() {
+    for (kept, spheres) in KEPT.iter().zip([301, 3000]) {
+        let text = fs::read_to_string(kept.path()).expect("a file");
+        assert!(text == (kept.text)(), "{} is not as it is made", kept.name);
+        let scene = open(&kept.path(), None).expect("a scene");
+        assert_eq!(scene.spheres().len(), spheres, "{}", kept.name);
+    }
+}
+
+#[test]
+#[ignore = "writes tests/cases"]
+fn pin_scenes() {
+    for kept in KEPT {
+        fs::write(kept.path(), (kept.text)()).expect("a file");
+    }
+}
