@@ -210,7 +210,7 @@ fn eighths_are_at_their_sides() {
 
 #[test]
 fn letters_are_in_their_cells() {
-    for font in [Font::Unifont, Font::DejaVuSansMono] {
+    for font in Font::ALL {
         let ink = |character| {
             let coverage = font.coverage(character).expect("a glyph");
             coverage.iter().sum::<f32>()

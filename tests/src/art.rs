@@ -18,6 +18,7 @@
 //! | [`flip`] | what a person sees of a difference |
 //! | [`ssim`] | likeness of structure |
 //! | [`figures`] | the figures: what of the truth is seen from reading distance, from across the room, from near, and its shapes alone |
+//! | [`motion`] | how pictures change, against how the truth does |
 //! | [`scenes`] | scenes that are in no program: a dark one, one like noise |
 
 pub mod cell;
@@ -27,6 +28,7 @@ pub mod font;
 pub mod geometry;
 pub mod ink;
 pub mod light;
+pub mod motion;
 pub mod palette;
 pub mod scenes;
 pub mod screen;

@@ -1,17 +1,14 @@
 //! The README's pictures: what a terminal shows of the program's cells, in pixels.
 
-use super::pictures::output;
-use png::{BitDepth, ColorType, Compression, Encoder, SrgbRenderingIntent};
-use spherule::color::Srgb;
-use spherule_kernel::Vec3;
+use super::chafa::output;
+use super::image::write_png;
 use spherule_tests::art::font::Font;
 use spherule_tests::art::light::Light;
 use spherule_tests::art::palette::sixteen;
 use spherule_tests::art::screen::Screen;
 use spherule_tests::binary::spherule;
 use std::error::Error;
-use std::fs::File;
-use std::io::BufWriter;
+use std::path::Path;
 use std::process::Command;
 
 /// A file, its size in cells, and the options of the pictures in it, one below the other.
@@ -38,22 +35,7 @@ pub(crate) fn write() -> Result<(), Box<dyn Error>> {
             all.pixels.extend(light.pixels);
         }
         let path = format!("{}/../tui/pictures/{name}.png", env!("CARGO_MANIFEST_DIR"));
-        write_png(&all, File::create(path)?)?;
+        write_png(&all, Path::new(&path))?;
     }
-    Ok(())
-}
-
-fn write_png(light: &Light, file: File) -> Result<(), Box<dyn Error>> {
-    let height = light.pixels.len() / light.width;
-    let mut encoder =
-        Encoder::new(BufWriter::new(file), light.width.try_into()?, height.try_into()?);
-    encoder.set_color(ColorType::Rgb);
-    encoder.set_depth(BitDepth::Eight);
-    encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
-    encoder.set_compression(Compression::High);
-    let colors = light.pixels.iter().map(|&pixel| Srgb::from_linear(Vec3::from_array(pixel)).0);
-    let mut writer = encoder.write_header()?;
-    writer.write_image_data(colors.collect::<Vec<_>>().as_flattened())?;
-    writer.finish()?;
     Ok(())
 }

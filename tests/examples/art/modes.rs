@@ -1,141 +1,129 @@
 //! What is drawn, and what is to be reached.
 
+use spherule::style::{Charset, ColorDepth, Style};
 use spherule_tests::art::font::Font;
 
-/// The scenes, built in.
-pub(crate) const SCENES: [&str; 3] = ["marbles", "flake", "caffeine"];
+/// The scenes: built in, or in a file of `tests/cases`.
+pub(crate) const SCENES: [&str; 5] = ["marbles", "flake", "caffeine", "night", "confetti"];
 
-/// Columns and rows of every picture, as both programs read them.
-pub(crate) const SIZE: &str = "80x40";
+/// Columns and rows of every picture.
+pub(crate) const SIZE: (u16, u16) = (80, 40);
 
 /// One way to draw, by us and by chafa.
+#[derive(Clone, Copy)]
 pub(crate) struct Mode {
     pub(crate) name: &'static str,
-    /// Options of ours.
-    pub(crate) ours: &'static str,
-    /// Options of chafa, if it has such a mode.
-    pub(crate) chafa: Option<&'static str>,
+    pub(crate) charset: Charset,
+    pub(crate) depth: ColorDepth,
+    /// Options of chafa: of its modes the nearest.
+    pub(crate) chafa: &'static str,
     /// What chafa dithers with, where colours are few.
     pub(crate) dither: Option<&'static str>,
-    /// What the 16 colours are.
-    pub(crate) palette: &'static str,
-    pub(crate) font: Font,
-    /// What to reach of the scenes: far in dB; without colour, correlation.
-    pub(crate) to_reach: [Option<Aim>; SCENES.len()],
+    /// Whether letters are in it: then fonts matter.
+    pub(crate) is_text: bool,
+    /// The most that FLIP may be, as a share of chafa's.
+    pub(crate) most_flip: f64,
+    /// The least from across the room, in dB, of the scenes in Unifont: what was reached when this was begun, less 1.
+    pub(crate) far: [f64; SCENES.len()],
 }
 
-/// What to reach.
-#[derive(Clone, Copy)]
-pub(crate) struct Aim {
-    pub(crate) far: f64,
-    /// Without colour tones are free, and shape counts.
-    pub(crate) correlation: Option<f64>,
+impl Mode {
+    /// How we draw it.
+    pub(crate) fn style(&self) -> Style {
+        Style { charset: self.charset, depth: self.depth, ..Style::PLAIN }
+    }
+
+    /// Tones are free without colour.
+    pub(crate) fn has_colors(&self) -> bool {
+        self.depth != ColorDepth::Never
+    }
+
+    /// The fonts that it is judged in.
+    pub(crate) fn fonts(&self) -> &'static [Font] {
+        if self.is_text { &Font::ALL } else { &[Font::Unifont] }
+    }
 }
 
-const fn far(marbles: f64, flake: f64) -> [Option<Aim>; SCENES.len()] {
-    [
-        Some(Aim { far: marbles, correlation: None }),
-        Some(Aim { far: flake, correlation: None }),
-        None,
-    ]
-}
-
-const MONO: [Option<Aim>; SCENES.len()] = [
-    Some(Aim { far: 15.0, correlation: Some(0.94) }),
-    Some(Aim { far: 16.4, correlation: Some(0.96) }),
-    None,
-];
-
-const TRUECOLOR: Mode = Mode {
-    name: "",
-    ours: "",
-    chafa: None,
+const BLOCKS: Mode = Mode {
+    name: "half",
+    charset: Charset::Half,
+    depth: ColorDepth::Truecolor,
+    chafa: "--symbols half+space+solid --colors full",
     dither: None,
-    palette: "xterm",
-    font: Font::Unifont,
-    to_reach: [None; SCENES.len()],
+    is_text: false,
+    most_flip: 1.0,
+    far: [0.0; SCENES.len()],
 };
 
 /// All of them.
-pub(crate) const MODES: [Mode; 11] = [
-    Mode {
-        name: "half",
-        ours: "--charset half --color truecolor",
-        chafa: Some("--symbols half+space+solid --colors full"),
-        to_reach: far(43.5, 38.5),
-        ..TRUECOLOR
-    },
+pub(crate) const MODES: [Mode; 10] = [
+    BLOCKS,
     Mode {
         name: "quadrant",
-        ours: "--charset quadrant --color truecolor",
-        chafa: Some("--symbols quad+half+space+solid --colors full"),
-        to_reach: far(44.0, 39.0),
-        ..TRUECOLOR
+        charset: Charset::Quadrant,
+        chafa: "--symbols quad+half+space+solid --colors full",
+        ..BLOCKS
     },
     Mode {
         name: "sextant",
-        ours: "--charset sextant --color truecolor",
-        chafa: Some("--symbols sextant+half+space+solid --colors full"),
-        to_reach: far(47.0, 41.0),
-        ..TRUECOLOR
+        charset: Charset::Sextant,
+        chafa: "--symbols sextant+half+space+solid --colors full",
+        most_flip: 0.95,
+        ..BLOCKS
     },
+    // Chafa has no octants: sextants are the nearest.
     Mode {
         name: "octant",
-        ours: "--charset octant --color truecolor",
-        to_reach: far(46.5, 40.0),
-        ..TRUECOLOR
-    },
-    Mode {
-        name: "braille",
-        ours: "--charset braille --color truecolor",
-        chafa: Some("--symbols braille --colors full"),
-        ..TRUECOLOR
+        charset: Charset::Octant,
+        chafa: "--symbols sextant+half+space+solid --colors full",
+        most_flip: 0.95,
+        ..BLOCKS
     },
     Mode {
         name: "block",
-        ours: "--charset block --color truecolor",
-        chafa: Some("--symbols all --colors full"),
-        to_reach: far(48.0, 41.0),
-        ..TRUECOLOR
+        charset: Charset::Block,
+        chafa: "--symbols all --colors full",
+        most_flip: 0.95,
+        ..BLOCKS
+    },
+    Mode {
+        name: "braille",
+        charset: Charset::Braille,
+        chafa: "--symbols braille --colors full",
+        most_flip: 0.95,
+        ..BLOCKS
+    },
+    Mode {
+        name: "half-256",
+        depth: ColorDepth::Ansi256,
+        chafa: "--symbols half+space+solid --colors 240",
+        dither: Some("diffusion"),
+        most_flip: 0.93,
+        ..BLOCKS
+    },
+    Mode {
+        name: "half-16",
+        depth: ColorDepth::Ansi16,
+        chafa: "--symbols half+space+solid --colors 16 --preprocess off",
+        dither: Some("diffusion"),
+        ..BLOCKS
     },
     Mode {
         name: "ascii",
-        ours: "--charset ascii --color truecolor",
-        chafa: Some("--symbols ascii --colors full"),
-        to_reach: far(36.5, 33.0),
-        ..TRUECOLOR
+        charset: Charset::Ascii,
+        chafa: "--symbols ascii --colors full",
+        is_text: true,
+        most_flip: 0.93,
+        ..BLOCKS
     },
     Mode {
-        name: "half, 256 colours",
-        ours: "--charset half --color 256",
-        chafa: Some("--symbols half+space+solid --colors 240"),
-        dither: Some("diffusion"),
-        to_reach: far(33.0, 30.0),
-        ..TRUECOLOR
-    },
-    Mode {
-        name: "half, xterm's 16 colours",
-        ours: "--charset half --color 16 --palette xterm",
-        chafa: Some("--symbols half+space+solid --colors 16 --preprocess off"),
-        dither: Some("diffusion"),
-        to_reach: far(24.0, 18.5),
-        ..TRUECOLOR
-    },
-    Mode {
-        name: "ascii without colour, GNU Unifont",
-        ours: "--charset ascii --color never",
-        chafa: Some("--symbols ascii --colors none"),
+        name: "ascii-nocolour",
+        charset: Charset::Ascii,
+        depth: ColorDepth::Never,
+        chafa: "--symbols ascii --colors none",
         dither: Some("ordered"),
-        to_reach: MONO,
-        ..TRUECOLOR
-    },
-    Mode {
-        name: "ascii without colour, DejaVu Sans Mono",
-        ours: "--charset ascii --color never",
-        chafa: Some("--symbols ascii --colors none"),
-        dither: Some("ordered"),
-        font: Font::DejaVuSansMono,
-        to_reach: MONO,
-        ..TRUECOLOR
+        is_text: true,
+        most_flip: 0.97,
+        ..BLOCKS
     },
 ];

@@ -1,10 +1,12 @@
 //! Letters and dots, as fonts draw them in a cell of 8x16 pixels.
 
-use super::cell::{Coverage, HEIGHT, WIDTH};
+use super::cell::{Coverage, HEIGHT, WIDTH, even};
 use ab_glyph_rasterizer::{Point, Rasterizer, point};
+use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster};
 use skrifa::instance::{LocationRef, Size};
 use skrifa::outline::{DrawSettings, HintingInstance, HintingOptions, OutlinePen};
 use skrifa::{FontRef, MetadataProvider};
+use spleen_font::{FONT_8X16, PSF2Font};
 use std::cell::RefCell;
 use unifont_bitmap::Unifont;
 
@@ -15,6 +17,10 @@ pub enum Font {
     Unifont,
     /// `DejaVu` Sans Mono, antialiased and hinted.
     DejaVuSansMono,
+    /// Spleen: bitmaps of 8x16 pixels, as consoles have them. ASCII alone.
+    Spleen,
+    /// Noto Sans Mono, antialiased, 16 pixels high; 7 wide, so a column is empty. ASCII alone.
+    NotoSansMono,
 }
 
 /// The size whose advance is 8 pixels.
@@ -23,25 +29,66 @@ const SIZE: f32 = 13.0;
 const BASE_LINE: f32 = 12.0;
 
 impl Font {
+    /// All of them.
+    pub const ALL: [Self; 4] =
+        [Self::Unifont, Self::DejaVuSansMono, Self::Spleen, Self::NotoSansMono];
+
+    /// Its name in a word.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Unifont => "unifont",
+            Self::DejaVuSansMono => "dejavu",
+            Self::Spleen => "spleen",
+            Self::NotoSansMono => "noto",
+        }
+    }
+
     /// The name of the font.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Unifont => "GNU Unifont",
             Self::DejaVuSansMono => "DejaVu Sans Mono",
+            Self::Spleen => "Spleen",
+            Self::NotoSansMono => "Noto Sans Mono",
         }
     }
 
     /// What the font's glyph covers, `None` if it has none. Dots of braille are always Unifont's.
     #[must_use]
     pub fn coverage(self, character: char) -> Option<Coverage> {
+        let is_dots = ('\u{2800}'..='\u{28ff}').contains(&character);
         match self {
-            Self::DejaVuSansMono if !('\u{2800}'..='\u{28ff}').contains(&character) => {
-                outline(character)
-            }
+            Self::DejaVuSansMono if !is_dots => outline(character),
+            Self::Spleen if !is_dots => console(character),
+            Self::NotoSansMono if !is_dots => raster(character),
             _ => bitmap(character),
         }
     }
+}
+
+/// Spleen's.
+fn console(character: char) -> Option<Coverage> {
+    let mut font = PSF2Font::new(FONT_8X16).ok()?;
+    let glyph = font.glyph_for_utf8(character.encode_utf8(&mut [0; 4]).as_bytes())?;
+    let mut coverage = even(0.0);
+    for (pixel, is_on) in glyph.flatten().enumerate() {
+        coverage[pixel] = f32::from(u8::from(is_on));
+    }
+    Some(coverage)
+}
+
+/// Noto's.
+fn raster(character: char) -> Option<Coverage> {
+    let glyph = get_raster(character, FontWeight::Regular, RasterHeight::Size16)?;
+    let mut coverage = even(0.0);
+    for (row, shares) in coverage.chunks_exact_mut(WIDTH).zip(glyph.rows()) {
+        for (share, &level) in row.iter_mut().zip(shares) {
+            *share = f32::from(level) / 255.0;
+        }
+    }
+    Some(coverage)
 }
 
 fn bitmap(character: char) -> Option<Coverage> {

@@ -1,0 +1,32 @@
+//! What is reached, and what is missed.
+
+use super::modes::Mode;
+use super::still::Score;
+
+/// Of one mode, scene and font: whether what is to be reached is.
+pub(crate) struct Reached {
+    pub(crate) flip: bool,
+    pub(crate) ssim: bool,
+    pub(crate) far: bool,
+}
+
+impl Reached {
+    /// `scene` is the place among the scenes; the floor from across the room is Unifont's.
+    pub(crate) fn new(mode: &Mode, scene: usize, is_unifont: bool, score: &Score) -> Self {
+        let Score { ours, chafa } = score;
+        let beats = |is_no_worse: &dyn Fn(&spherule_tests::art::figures::Figures) -> bool| {
+            chafa.as_ref().is_none_or(is_no_worse)
+        };
+        let above_floor = !is_unifont || ours.far >= mode.far[scene];
+        Self {
+            flip: beats(&|chafa| ours.flip <= mode.most_flip * chafa.flip),
+            ssim: !mode.has_colors() || beats(&|chafa| ours.ssim >= chafa.ssim),
+            far: above_floor && beats(&|chafa| ours.far > chafa.far),
+        }
+    }
+
+    /// A star where something is missed.
+    pub(crate) fn mark(is_reached: bool) -> &'static str {
+        if is_reached { "" } else { " *" }
+    }
+}

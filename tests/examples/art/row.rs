@@ -1,0 +1,37 @@
+//! A line of a table: a mode in a font.
+
+use super::aims::Reached;
+use super::modes::Mode;
+use super::motion::Unrest;
+use super::still::Score;
+use spherule_tests::art::font::Font;
+
+pub(crate) struct Row {
+    pub(crate) mode: Mode,
+    pub(crate) font: Font,
+    /// Of each scene, by its place among all.
+    pub(crate) scores: Vec<(usize, Score)>,
+    /// The same in motion.
+    pub(crate) unrest: Vec<(usize, Unrest)>,
+}
+
+impl Row {
+    /// The mode, and its font if it has letters.
+    pub(crate) fn name(&self) -> String {
+        match self.mode.is_text {
+            true => format!("{} {}", self.mode.name, self.font.word()),
+            false => self.mode.name.to_owned(),
+        }
+    }
+
+    pub(crate) fn reached(&self, scene: usize, score: &Score) -> Reached {
+        Reached::new(&self.mode, scene, self.font == Font::Unifont, score)
+    }
+}
+
+impl Score {
+    /// FLIP as a share of chafa's.
+    pub(crate) fn flip_ratio(&self) -> Option<f64> {
+        self.chafa.map(|chafa| self.ours.flip / chafa.flip)
+    }
+}

@@ -1,0 +1,75 @@
+//! A summary for whoever changes the program: ours beside chafa's, a line a mode.
+
+use super::aims::Reached;
+use super::row::Row;
+use super::still::Score;
+use spherule_tests::art::figures::Figures;
+use std::fmt::Write;
+
+/// A table: its head, what of a score it shows, and whether that is reached.
+type Table = (&'static str, fn(&Figures, Option<&Figures>) -> String, fn(&Reached) -> bool);
+
+const TABLES: [Table; 4] = [
+    ("FLIP, ours / chafa's: lower is better", flip, |reached| reached.flip),
+    (
+        "SSIM, ours less chafa's",
+        |ours, chafa| less(ours, chafa, 3, |f| f.ssim),
+        |reached| reached.ssim,
+    ),
+    ("PSNR, ours less chafa's, dB", |ours, chafa| less(ours, chafa, 1, |f| f.psnr), |_| true),
+    ("from across the room, ours less chafa's, dB", far, |reached| reached.far),
+];
+
+fn flip(ours: &Figures, chafa: Option<&Figures>) -> String {
+    let digits = |value: f64| format!("{value:.3}").trim_start_matches('0').to_owned();
+    match chafa {
+        Some(chafa) => {
+            let ratio = ours.flip / chafa.flip;
+            format!("{ratio:.3} {}/{}", digits(ours.flip), digits(chafa.flip))
+        }
+        None => digits(ours.flip),
+    }
+}
+
+fn far(ours: &Figures, chafa: Option<&Figures>) -> String {
+    let difference = less(ours, chafa, 1, |figures| figures.far);
+    format!("{:.1} {difference}", ours.far)
+}
+
+fn less(
+    ours: &Figures,
+    chafa: Option<&Figures>,
+    digits: usize,
+    figure: fn(&Figures) -> f64,
+) -> String {
+    let difference = figure(ours) - chafa.map_or(0.0, figure);
+    format!("{difference:+.digits$}")
+}
+
+/// All tables, of the scenes that were judged.
+pub(crate) fn summary(rows: &[Row], scenes: &[&str]) -> String {
+    let mut text = String::new();
+    for (head, show, is_reached) in TABLES {
+        let _ = write!(text, "\n{head}\n{:24}", "");
+        for scene in scenes {
+            let _ = write!(text, "{scene:18}");
+        }
+        let _ = writeln!(text);
+        for row in rows {
+            let _ = write!(text, "{:24}", row.name());
+            for (place, score) in &row.scores {
+                let Score { ours, chafa } = score;
+                let mark = Reached::mark(is_reached(&row.reached(*place, score)));
+                let _ = write!(text, "{:18}", show(ours, chafa.as_ref()) + mark);
+            }
+            if head.starts_with("FLIP") {
+                let ratios = row.scores.iter().filter_map(|(_, score)| score.flip_ratio());
+                let (sum, count) =
+                    ratios.fold((0.0, 0), |(sum, count), ratio| (sum + ratio.ln(), count + 1));
+                let _ = write!(text, "mean {:.3}", (sum / f64::from(count.max(1))).exp());
+            }
+            let _ = writeln!(text);
+        }
+    }
+    text
+}
