@@ -3,6 +3,7 @@
 mod floors;
 mod ink;
 mod measures;
+mod motion;
 mod scenes;
 mod scorer;
 mod spin;

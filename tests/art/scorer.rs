@@ -9,6 +9,7 @@ use spherule_tests::art::screen::{Screen, Shown};
 use spherule_tests::art::{geometry, score};
 use std::collections::BTreeSet;
 use std::fs::File;
+use std::ops::Range;
 
 fn xterm() -> Sixteen {
     sixteen("xterm").expect("a known theme")
@@ -216,6 +217,14 @@ fn letters_are_in_their_cells() {
             coverage.iter().sum::<f32>()
         };
         assert_eq!(ink(' '), 0.0, "{font:?}");
+        // Of an L the left side and the foot, of a T neither: fonts are read as they are meant.
+        let [l, t] = ['L', 'T'].map(|character| font.coverage(character).expect("a glyph"));
+        let part = |coverage: &Coverage, columns: Range<usize>, rows: Range<usize>| {
+            let places = rows.flat_map(|y| columns.clone().map(move |x| y * WIDTH + x));
+            places.map(|pixel| coverage[pixel]).sum::<f32>()
+        };
+        assert!(part(&l, 0..4, 4..10) > 3.0 && part(&l, 4..8, 4..9) < 1.0, "{font:?}");
+        assert!(part(&l, 4..8, 9..14) > 2.0 && part(&t, 0..2, 8..16) < 1.0, "{font:?}");
         assert!(ink('-') > 2.0 && ink('@') > 2.0 * ink('-'), "{font:?}");
         // An underline is whole: no row is cut.
         assert!(ink('_') > 6.0, "{font:?}");

@@ -2,6 +2,7 @@
 
 use super::modes::Mode;
 use super::still::Score;
+use spherule_tests::art::figures::Figures;
 
 /// Of one mode, scene and font: whether what is to be reached is.
 pub(crate) struct Reached {
@@ -11,13 +12,11 @@ pub(crate) struct Reached {
 }
 
 impl Reached {
-    /// `scene` is the place among the scenes; the floor from across the room is Unifont's.
-    pub(crate) fn new(mode: &Mode, scene: usize, is_unifont: bool, score: &Score) -> Self {
+    /// `least`: from across the room.
+    pub(crate) fn new(mode: &Mode, least: Option<f64>, score: &Score) -> Self {
         let Score { ours, chafa } = score;
-        let beats = |is_no_worse: &dyn Fn(&spherule_tests::art::figures::Figures) -> bool| {
-            chafa.as_ref().is_none_or(is_no_worse)
-        };
-        let above_floor = !is_unifont || ours.far >= mode.far[scene];
+        let beats = |is_no_worse: &dyn Fn(&Figures) -> bool| chafa.as_ref().is_none_or(is_no_worse);
+        let above_floor = least.is_none_or(|least| ours.far >= least);
         Self {
             flip: beats(&|chafa| ours.flip <= mode.most_flip * chafa.flip),
             ssim: !mode.has_colors() || beats(&|chafa| ours.ssim >= chafa.ssim),

@@ -10,6 +10,7 @@ use spherule_tests::art::font::Font;
 use spherule_tests::art::light::Light;
 use spherule_tests::art::motion::{self, Changes};
 use std::error::Error;
+use std::fmt;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// Frames, and the angle from one to the next in degrees.
@@ -22,6 +23,18 @@ pub(crate) struct Unrest {
     pub(crate) ours: motion::Unrest,
     /// The best of each figure, with dither and without.
     pub(crate) chafa: Option<motion::Unrest>,
+}
+
+impl fmt::Display for Unrest {
+    /// In thousandths, ours / chafa's, as seen and pixel by pixel.
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let pair = |figure: fn(&motion::Unrest) -> f64| {
+            let thousandths = |unrest: &motion::Unrest| format!("{:.1}", 1000.0 * figure(unrest));
+            let chafa = self.chafa.as_ref().map(|chafa| format!(" / {}", thousandths(chafa)));
+            thousandths(&self.ours) + &chafa.unwrap_or_default()
+        };
+        write!(formatter, "{} ({})", pair(|unrest| unrest.seen), pair(|unrest| unrest.plain))
+    }
 }
 
 /// A scene that turns, in pixels.

@@ -25,7 +25,18 @@ impl Row {
     }
 
     pub(crate) fn reached(&self, scene: usize, score: &Score) -> Reached {
-        Reached::new(&self.mode, scene, self.font == Font::Unifont, score)
+        Reached::new(&self.mode, self.least(scene), score)
+    }
+
+    /// The least from across the room: in Unifont, where it was measured.
+    pub(crate) fn least(&self, scene: usize) -> Option<f64> {
+        (self.font == Font::Unifont).then(|| self.mode.far[scene])
+    }
+
+    /// Whether it is as calm in motion as is to be reached.
+    pub(crate) fn is_calm(&self, unrest: &Unrest) -> bool {
+        let most = self.mode.most_unrest;
+        unrest.chafa.is_none_or(|chafa| unrest.ours.seen <= most * chafa.seen)
     }
 }
 

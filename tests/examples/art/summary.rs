@@ -1,6 +1,7 @@
 //! A summary for whoever changes the program: ours beside chafa's, a line a mode.
 
 use super::aims::Reached;
+use super::motion::Unrest;
 use super::row::Row;
 use super::still::Score;
 use spherule_tests::art::figures::Figures;
@@ -71,5 +72,31 @@ pub(crate) fn summary(rows: &[Row], scenes: &[&str]) -> String {
             let _ = writeln!(text);
         }
     }
+    if rows.iter().any(|row| !row.unrest.is_empty()) {
+        text += &motion(rows, scenes);
+    }
     text
+}
+
+/// Ours as a share of chafa's: as seen, and pixel by pixel.
+fn motion(rows: &[Row], scenes: &[&str]) -> String {
+    let mut text =
+        format!("\nerror of changes in motion, ours by chafa's: seen, pixels\n{:24}", "");
+    for scene in scenes {
+        let _ = write!(text, "{scene:18}");
+    }
+    for row in rows {
+        let _ = write!(text, "\n{:24}", row.name());
+        for (_, unrest) in &row.unrest {
+            let Unrest { ours, chafa } = unrest;
+            let shown = match chafa {
+                Some(chafa) => {
+                    format!("{:.2} {:.2}", ours.seen / chafa.seen, ours.plain / chafa.plain)
+                }
+                None => format!("{:.4} {:.4}", ours.seen, ours.plain),
+            };
+            let _ = write!(text, "{:18}", shown + Reached::mark(row.is_calm(unrest)));
+        }
+    }
+    text + "\n"
 }

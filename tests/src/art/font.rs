@@ -6,7 +6,7 @@ use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster};
 use skrifa::instance::{LocationRef, Size};
 use skrifa::outline::{DrawSettings, HintingInstance, HintingOptions, OutlinePen};
 use skrifa::{FontRef, MetadataProvider};
-use spleen_font::{FONT_8X16, PSF2Font};
+use spleen_font::FONT_8X16;
 use std::cell::RefCell;
 use unifont_bitmap::Unifont;
 
@@ -68,15 +68,12 @@ impl Font {
     }
 }
 
-/// Spleen's.
+/// Spleen's: after a head of 4 bytes, which its crate's own reader takes apart wrongly, 16 rows for each character.
 fn console(character: char) -> Option<Coverage> {
-    let mut font = PSF2Font::new(FONT_8X16).ok()?;
-    let glyph = font.glyph_for_utf8(character.encode_utf8(&mut [0; 4]).as_bytes())?;
-    let mut coverage = even(0.0);
-    for (pixel, is_on) in glyph.flatten().enumerate() {
-        coverage[pixel] = f32::from(u8::from(is_on));
-    }
-    Some(coverage)
+    let place = 4 + HEIGHT * usize::from(u8::try_from(character).ok().filter(u8::is_ascii)?);
+    let rows = FONT_8X16.get(place..place + HEIGHT)?;
+    let is_on = |pixel: usize| rows[pixel / WIDTH] >> (7 - pixel % WIDTH) & 1 == 1;
+    Some(std::array::from_fn(|pixel| f32::from(u8::from(is_on(pixel)))))
 }
 
 /// Noto's.
