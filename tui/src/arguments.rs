@@ -2,6 +2,7 @@
 
 mod values;
 
+use crate::cells::eye::CHAIR;
 use crate::choice::{Auto, auto_or};
 use crate::color::Srgb;
 use crate::compare::Comparison;
@@ -22,7 +23,7 @@ use clap::{ArgMatches, Args, CommandFactory, FromArgMatches, Parser, Subcommand,
 use spherule_kernel::{Level, Tier};
 use std::ffi::OsString;
 use std::path::PathBuf;
-use values::{aspect, cell, color, level, overlay, samples, size, tier};
+use values::{aspect, cell, color, distance, level, overlay, samples, size, tier};
 
 /// Spheres in a terminal, by packets of rays.
 ///
@@ -85,6 +86,11 @@ pub struct PictureArguments {
     /// Shape of a cell, width to height [default: the terminal's, else 1:2]
     #[arg(long, value_name = "W:H", value_parser = aspect)]
     pub cell_aspect: Option<f32>,
+    /// How far away the eye is, in widths of a cell: 60 cm by default, if cells are 2.2 mm wide
+    ///
+    /// From afar an eye sees the mean of a cell, from near its pixels: glyphs and colours are chosen for both.
+    #[arg(long, value_name = "WIDTHS", default_value_t = CHAIR, value_parser = distance)]
+    pub distance: f32,
     /// error: what the tier gets wrong against exact, cell by cell; split:TIER,TIER: two tiers side by side; table: what
     /// every tier takes and gets wrong
     #[arg(long, value_name = "WHAT", value_parser = overlay, conflicts_with = "png")]

@@ -3,13 +3,16 @@
 pub mod bins;
 pub mod dither;
 pub mod dots;
+pub mod eye;
 pub mod fit;
+pub mod layers;
 pub mod letters;
 pub mod masks;
 pub mod paint;
 pub mod residual;
 pub mod shades;
 pub mod tone;
+pub mod wedges;
 
 /// A colour as a terminal names it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -117,7 +117,8 @@ impl<'a> Renderer<'a> {
     }
 
     /// Draws `scene` as `view` sees it into so many columns and rows of cells, for no more than `spending`; `search`
-    /// finds the spheres of that scene from that view.
+    /// finds the spheres of that scene from that view. Of pictures that may spend so much and no more, one of the same size
+    /// after the other, glyphs stay as they were where that is about as good.
     #[must_use]
     pub fn draw(
         &mut self,

@@ -76,6 +76,7 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
             .cell_aspect
             .or_else(|| terminal_aspect().filter(|_| is_terminal))
             .unwrap_or(Style::PLAIN.cell_aspect),
+        distance: arguments.distance,
     };
     let view = arguments.scene.view(&scene, style.picture_aspect(columns, rows));
     let ComputingArguments { structure, threads, level } = arguments.computing;

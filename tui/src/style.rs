@@ -1,5 +1,6 @@
 //! What a picture is to be: its tier, characters, colours and samples.
 
+use crate::cells::eye::CHAIR;
 use crate::choice::Auto;
 use crate::palette::Theme;
 use clap::ValueEnum;
@@ -52,6 +53,8 @@ pub struct Style {
     pub samples: Auto<u32>,
     /// Width of a cell over its height.
     pub cell_aspect: f32,
+    /// How far away the eye is, in widths of a cell.
+    pub distance: f32,
 }
 
 /// The size of a picture in a pipe.
@@ -66,6 +69,7 @@ impl Style {
         theme: Theme::XTERM,
         samples: None,
         cell_aspect: 0.5,
+        distance: CHAIR,
     };
 
     /// Width over height of a picture of `columns` x `rows` cells; 1 if it has no area.

@@ -1,7 +1,7 @@
 //! The shapes of block characters, by Unicode's charts "Block Elements", "Symbols for Legacy Computing"
 //! and its supplement.
 
-use super::cell::{Coverage, even, rectangles};
+use super::cell::{Coverage, HEIGHT, WIDTH, even, rectangles};
 
 /// The area of a block character, or of a space; `None` for every other.
 ///
@@ -42,6 +42,9 @@ pub fn coverage(character: char) -> Option<Coverage> {
             let start = eighths(place('\u{1fb76}') + 1);
             rectangles(&[[0.0, start, 1.0, start + 0.125]])
         }
+        '\u{1fb3c}'..='\u{1fb67}' => diagonal(DIAGONALS[place('\u{1fb3c}') as usize]),
+        '\u{1fb68}'..='\u{1fb6b}' => quarters(place('\u{1fb68}')).map(|share| 1.0 - share),
+        '\u{1fb6c}'..='\u{1fb6f}' => quarters(place('\u{1fb6c}')),
         '\u{1fb82}'..='\u{1fb86}' => upper(others('\u{1fb82}')),
         '\u{1fb87}'..='\u{1fb8b}' => right(others('\u{1fb87}')),
         _ => return None,
@@ -100,4 +103,89 @@ fn mosaic(bits: u8, rows: u8) -> Coverage {
         [x, y, x + 0.5, y + 1.0 / f32::from(rows)]
     });
     rectangles(&parts.collect::<Vec<_>>())
+}
+
+/// A place on the border: halves of the width, thirds of the height.
+type Place = [u8; 2];
+
+/// From where to where the edges of the diagonals run, and a corner that is filled, as the names from U+1FB3C on say.
+const DIAGONALS: [(Place, Place, Place); 44] = [
+    ([0, 2], [1, 3], [0, 3]),
+    ([0, 2], [2, 3], [0, 3]),
+    ([0, 1], [1, 3], [0, 3]),
+    ([0, 1], [2, 3], [0, 3]),
+    ([0, 0], [1, 3], [0, 3]),
+    ([0, 1], [1, 0], [2, 3]),
+    ([0, 1], [2, 0], [2, 3]),
+    ([0, 2], [1, 0], [2, 3]),
+    ([0, 2], [2, 0], [2, 3]),
+    ([0, 3], [1, 0], [2, 3]),
+    ([0, 2], [2, 1], [2, 3]),
+    ([1, 3], [2, 2], [2, 3]),
+    ([0, 3], [2, 2], [2, 3]),
+    ([1, 3], [2, 1], [2, 3]),
+    ([0, 3], [2, 1], [2, 3]),
+    ([1, 3], [2, 0], [2, 3]),
+    ([1, 0], [2, 1], [0, 3]),
+    ([0, 0], [2, 1], [0, 3]),
+    ([1, 0], [2, 2], [0, 3]),
+    ([0, 0], [2, 2], [0, 3]),
+    ([1, 0], [2, 3], [0, 3]),
+    ([0, 1], [2, 2], [0, 3]),
+    ([0, 2], [1, 3], [2, 0]),
+    ([0, 2], [2, 3], [2, 0]),
+    ([0, 1], [1, 3], [2, 0]),
+    ([0, 1], [2, 3], [2, 0]),
+    ([0, 0], [1, 3], [2, 0]),
+    ([0, 1], [1, 0], [0, 0]),
+    ([0, 1], [2, 0], [0, 0]),
+    ([0, 2], [1, 0], [0, 0]),
+    ([0, 2], [2, 0], [0, 0]),
+    ([0, 3], [1, 0], [0, 0]),
+    ([0, 2], [2, 1], [0, 0]),
+    ([1, 3], [2, 2], [0, 0]),
+    ([0, 3], [2, 2], [0, 0]),
+    ([1, 3], [2, 1], [0, 0]),
+    ([0, 3], [2, 1], [0, 0]),
+    ([1, 3], [2, 0], [0, 0]),
+    ([1, 0], [2, 1], [2, 0]),
+    ([0, 0], [2, 1], [2, 0]),
+    ([1, 0], [2, 2], [2, 0]),
+    ([0, 0], [2, 2], [2, 0]),
+    ([1, 0], [2, 3], [2, 0]),
+    ([0, 1], [2, 2], [2, 0]),
+];
+
+/// Points of a pixel, side by side, that areas are counted by.
+const POINTS: usize = 16;
+
+/// The share of each pixel's points that are filled; places are in shares of the cell.
+fn counted(filled: impl Fn(f32, f32) -> bool) -> Coverage {
+    std::array::from_fn(|pixel| {
+        let points = (0..POINTS * POINTS).filter(|point| {
+            let at =
+                |pixel: usize, point: usize| pixel as f32 + (point as f32 + 0.5) / POINTS as f32;
+            let x = at(pixel % WIDTH, point % POINTS) / WIDTH as f32;
+            filled(x, at(pixel / WIDTH, point / POINTS) / HEIGHT as f32)
+        });
+        points.count() as f32 / (POINTS * POINTS) as f32
+    })
+}
+
+fn diagonal((from, to, corner): (Place, Place, Place)) -> Coverage {
+    let [from, to, corner] =
+        [from, to, corner].map(|[x, y]| [f32::from(x) / 2.0, f32::from(y) / 3.0]);
+    let side =
+        |x: f32, y: f32| (x - from[0]) * (to[1] - from[1]) > (y - from[1]) * (to[0] - from[0]);
+    let filled = side(corner[0], corner[1]);
+    counted(|x, y| side(x, y) == filled)
+}
+
+/// Triangles from a side to the middle: left, upper, right, lower.
+fn quarters(side: u32) -> Coverage {
+    counted(|x, y| {
+        let distances = [x, y, 1.0 - x, 1.0 - y];
+        let nearest = (0..4).min_by(|&a: &usize, &b| distances[a].total_cmp(&distances[b]));
+        nearest == Some(side as usize)
+    })
 }

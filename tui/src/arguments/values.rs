@@ -58,6 +58,12 @@ pub(super) fn aspect(text: &str) -> Result<f32, &'static str> {
     ratio().filter(|ratio| ASPECTS.contains(ratio)).ok_or("W:H, such as 1:2; from 1:20 to 20:1")
 }
 
+/// Widths of a cell.
+pub(super) fn distance(text: &str) -> Result<f32, &'static str> {
+    let widths = text.parse().ok().filter(|widths: &f32| widths.is_finite() && *widths >= 0.0);
+    widths.ok_or("widths of a cell, 0 or more, such as 273")
+}
+
 /// As in scenes, and without the `#`, with which a shell begins a comment.
 pub(super) fn color(text: &str) -> Result<Srgb, String> {
     text.parse().or_else(|error| format!("#{text}").parse().map_err(|_: String| error))

@@ -46,6 +46,16 @@ impl Bins {
         }
         means
     }
+
+    /// Adds to `cover` how much of each sample lies in bin `bin`.
+    #[inline]
+    pub fn cover(&self, bin: usize, cover: &mut [f32]) {
+        let start = if bin == 0 { 0 } else { self.ends[bin - 1] };
+        let samples_a_bin = cover.len() as f32 / self.ends.len() as f32;
+        for &(sample, share) in &self.shares[start..self.ends[bin]] {
+            cover[sample as usize] += samples_a_bin * share;
+        }
+    }
 }
 
 #[cfg(test)]

@@ -1,11 +1,10 @@
 //! 256 colours: what none of them is, four of them are together.
 //!
 //! A colour is mixed of four entries of the palette, chosen one after the other so that the mean so far looks most
-//! like it; an entry that looks far from it costs something, since it is seen as a dot. Sorted by lightness, each of
-//! four neighbours in a square shows one; in a cell of one colour the halves side by side show the lightest and the
-//! darkest, and in the next row the other two, which is finer still. Which one depends on the place alone: a picture
-//! at rest stays as it is, and what moves takes no pattern along. What moves in the viewer gets the nearest entries:
-//! there each mix would be sent again for every shade that passes, which doubles the bytes of a frame.
+//! like it; an entry that looks far from it costs something, since from the chair it is seen as a dot: mostly the four are two
+//! neighbours in the palette. Sorted by lightness, each of four neighbours in a square shows one. Which one depends on the
+//! place alone: a picture at rest stays as it is, and what moves takes no pattern along. What moves in the viewer gets the nearest
+//! entries: there each mix would be sent again for every shade that passes, which doubles the bytes of a frame.
 //!
 //! Source: J. Yliluoma, "Arbitrary-palette positional dithering algorithm", 2011, the second; by distance in `OKLab`
 //! of means in linear light.
@@ -20,8 +19,9 @@ use std::collections::HashMap;
 const MIX: usize = 4;
 /// How many of the entries are looked at: those that look nearest.
 const NEAREST: usize = 16;
-/// What the squared distance of an entry itself counts beside that of the mean.
-const DOT: f32 = 0.05;
+/// What the squared distance of an entry itself counts beside that of the mean. (0.05: 2 dB more from afar, and noise on flat ground:
+/// by FLIP 1.05 of chafa's on marbles in place of 0.92, SSIM 0.2 less. 1: calmer by 0.01, 0.3 dB less from afar.)
+const DOT: f32 = 0.6;
 /// Which of a mix each place of a square shows, so that two of a row or column differ as little as can be.
 const ORDER: [[usize; 2]; 2] = [[0, 2], [3, 1]];
 
@@ -48,13 +48,6 @@ impl Dither {
     #[must_use]
     pub fn color(&mut self, light: Vec3, (x, y): (usize, usize)) -> Color {
         self.mix_of(light)[ORDER[y % 2][x % 2]]
-    }
-
-    /// The two that a cell of row `y` shows of a colour, side by side.
-    #[must_use]
-    pub fn pair(&mut self, light: Vec3, y: usize) -> [Color; 2] {
-        let mix = self.mix_of(light);
-        if y.is_multiple_of(2) { [mix[0], mix[3]] } else { [mix[1], mix[2]] }
     }
 
     /// The entry that looks nearest to a colour, which is rounded to 6 bits a channel.
@@ -143,9 +136,7 @@ mod tests {
         for index in 16..=255 {
             let light = xterm_256(index).to_linear();
             let shown = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|place| dither.color(light, place));
-            for color in
-                shown.into_iter().chain(dither.pair(light, 0)).chain([dither.nearest(light)])
-            {
+            for color in shown.into_iter().chain([dither.nearest(light)]) {
                 // Some colours have two names.
                 assert_eq!(self::light(color), light);
             }
@@ -162,14 +153,8 @@ mod tests {
             let distance = |light: Vec3| (oklab(light) - oklab(wanted)).length();
             mixed += distance(four.map(light).iter().sum::<Vec3>() / 4.0);
             single += distance(light(dither.nearest(wanted)));
-            let mut rows = [dither.pair(wanted, 0), dither.pair(wanted, 1)].concat();
-            // The rows of pairs show the same four.
-            for color in four {
-                let place = rows.iter().position(|&other| other == color).expect("one of the mix");
-                rows.swap_remove(place);
-            }
         }
-        assert!(mixed < 0.5 * single, "{mixed} of {single}");
+        assert!(mixed < 0.9 * single, "{mixed} of {single}");
     }
 
     #[test]

@@ -164,6 +164,15 @@ fn table(rows: &[&str]) -> Vec<char> {
     rows.iter().flat_map(|row| row.chars()).collect()
 }
 
+/// Bars from the left, by quarters, and from the bottom, by eighths: in all fonts that have sextants. Quarters, since
+/// cells that get sextants have four columns of samples.
+fn bars() -> [Family; 2] {
+    let quarters = LEFT_EIGHTHS.chars().skip(1).step_by(2);
+    let upright = quarters.zip(1..).map(|(glyph, count)| (!(0xff << count), glyph));
+    let level = LOWER_EIGHTHS.chars().zip(1..).map(|(glyph, count)| (!(0xff >> count), glyph));
+    [Family::new(4, 1, upright), Family::new(1, 8, level)]
+}
+
 fn eighths() -> [Family; 2] {
     let bars = |glyphs: &'static str, bits: fn(u8) -> u8| {
         glyphs.chars().zip(1..).map(move |(glyph, count)| (bits(count), glyph))
@@ -187,12 +196,19 @@ pub fn repertoire(charset: Charset) -> &'static Repertoire {
         let left_half = Family::new(2, 1, [(1, '▌')].into_iter());
         let dots = family(2, 4, &braille);
         let [upright, level] = eighths();
+        let [upright_bars, level_bars] = bars();
         let block = vec![four.clone(), six.clone(), eight.clone(), upright, level];
         [
             Repertoire { families: vec![two, left_half], mosaic: (1, 2, halves) },
             Repertoire { families: vec![four.clone()], mosaic: (2, 2, quadrants) },
-            Repertoire { families: vec![four.clone(), six], mosaic: (2, 3, sextants) },
-            Repertoire { families: vec![four, eight], mosaic: (2, 4, octants.clone()) },
+            Repertoire {
+                families: vec![four.clone(), six, upright_bars.clone(), level_bars.clone()],
+                mosaic: (2, 3, sextants),
+            },
+            Repertoire {
+                families: vec![four, eight, upright_bars, level_bars],
+                mosaic: (2, 4, octants.clone()),
+            },
             Repertoire { families: vec![dots], mosaic: (2, 4, braille) },
             Repertoire { families: block, mosaic: (2, 4, octants) },
         ]

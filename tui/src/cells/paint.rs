@@ -2,8 +2,9 @@
 
 use super::dither::Dither;
 use super::dots::Dots;
+use super::eye::Eye;
 use super::fit::Fitted;
-use super::residual::Residual;
+use super::residual::{Handing, Residual};
 use super::shades::Shades;
 use super::tone::Tones;
 use super::{Cell, Color};
@@ -12,7 +13,7 @@ use crate::palette::{Theme, entries};
 use crate::style::{Charset, ColorDepth, Style};
 use spherule_kernel::Vec3;
 
-/// The squared distance in `OKLab` below which a palette shows ink and paper as one colour, mixed.
+/// The squared distance in `OKLab` below which a palette shows ink and paper as one colour, where it is not mixed.
 const ALIKE: f32 = 0.05 * 0.05;
 
 /// What light becomes.
@@ -44,10 +45,10 @@ pub struct Painter {
 
 impl Painter {
     /// Fills `cells`, whole rows of so many `columns` from row `first` on, by `fits` that begin with row `known`.
-    /// Unless the picture is `steady`, colours are not mixed.
+    /// In a picture that is not `steady`, colours are not mixed; how much is handed on, the eye says.
     pub fn paint(
         &mut self,
-        (style, steady): (&Style, bool),
+        (style, eye, steady): (&Style, Eye, bool),
         (fits, known): (&[Fitted], usize),
         columns: usize,
         first: usize,
@@ -57,7 +58,8 @@ impl Painter {
         let rows = first - known..first - known + cells.len() / columns;
         let own = &fits[rows.start * columns..rows.end * columns];
         if style.depth != ColorDepth::Never {
-            self.residual.correct(fits, columns, rows.clone(), &mut self.corrected);
+            let handing = Handing::new(eye.handed, style.charset);
+            self.residual.correct(fits, columns, rows.clone(), handing, &mut self.corrected);
         }
         let colors = self.corrected.iter();
         let places = (first..).flat_map(|row| (0..columns).map(move |column| (column, row)));
@@ -94,21 +96,10 @@ impl Painter {
                 }
             }
             Colors::Dither(dither) => {
-                let blend = blend(style.charset);
                 for (((cell, fit), &[ink, paper]), (column, row)) in cells.zip(colors).zip(places) {
-                    let apart = (oklab(ink) - oklab(paper)).length_squared();
-                    *cell = match blend {
-                        Some(blend) if apart < ALIKE => {
-                            let mean = paper + fit.share() * (ink - paper);
-                            let [left, right] = dither.pair(mean, row);
-                            two_colors(blend, left, right)
-                        }
-                        _ => {
-                            let ink = dither.color(ink, (column, 2 * row));
-                            let paper = dither.color(paper, (column, 2 * row + 1));
-                            two_colors(fit.glyph, ink, paper)
-                        }
-                    };
+                    let ink = dither.color(ink, (column, 2 * row));
+                    let paper = dither.color(paper, (column, 2 * row + 1));
+                    *cell = two_colors(fit.glyph, ink, paper);
                 }
             }
             Colors::All => {
@@ -134,15 +125,6 @@ impl Painter {
             ColorDepth::Truecolor => Colors::All,
         };
         self.made_for = key;
-    }
-}
-
-/// The glyph that mixes two colours best, if there is one: half the cell, in as small pieces as can be.
-fn blend(charset: Charset) -> Option<char> {
-    match charset {
-        Charset::Ascii | Charset::Braille => None,
-        Charset::Half => Some('▌'),
-        _ => Some('▚'),
     }
 }
 

@@ -1,4 +1,4 @@
-//! Letters without colour: tone and shape together, as they look from reading distance.
+//! Letters without colour: tone and shape together, as they look from across the room.
 //!
 //! From there an eye sees neither ink nor paper but their mean around each point, and the picture likewise. So letters
 //! and picture are blurred by half of a cell's width and compared by lightness in each of 2 x 4 parts of a cell. Each

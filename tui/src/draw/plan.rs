@@ -2,9 +2,10 @@
 
 use super::spending::Spending;
 use super::tracer::{SampleGrid, Traced};
+use crate::cells::eye::Eye;
 use crate::cells::fit::Fitter;
 use crate::samples::CellSamples;
-use crate::style::Style;
+use crate::style::{ColorDepth, Style};
 use crate::view::View;
 use std::iter;
 use std::ops::Range;
@@ -32,6 +33,9 @@ pub(super) struct Plan<'a> {
     /// few are all.
     pub(super) many: Vec<Sampling>,
     pub(super) spending: Spending,
+    /// Whether it is drawn as well as can be, and not as one of many that pass.
+    pub(super) is_steady: bool,
+    pub(super) eye: Eye,
 }
 
 impl<'a> Plan<'a> {
@@ -42,10 +46,13 @@ impl<'a> Plan<'a> {
         (columns, rows): (u16, u16),
         spending: Spending,
     ) -> Self {
+        // Letters without colour are as good whether they move or not.
+        let is_steady = spending == Spending::ByNeed || style.depth == ColorDepth::Never;
+        let eye = if is_steady { Eye::at(style.distance) } else { Eye::MOVING };
         let sampling = |samples| Sampling {
             samples,
             grid: SampleGrid::new(view, style, samples, columns, rows),
-            fitter: Fitter::new(style, samples),
+            fitter: Fitter::new(style, eye, samples),
         };
         let many = CellSamples::many(style);
         let with_coarser = |finest: CellSamples| {
@@ -61,6 +68,8 @@ impl<'a> Plan<'a> {
             few: sampling(CellSamples::new(style)),
             many: many.into_iter().flat_map(with_coarser).map(sampling).collect(),
             spending,
+            is_steady,
+            eye,
         }
     }
 

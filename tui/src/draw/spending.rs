@@ -9,7 +9,8 @@ pub enum Spending {
     /// As many as it needs.
     ByNeed,
     /// No more than these. The few that every cell gets are taken whatever they sum up to, and nothing is saved on
-    /// samples whose number the style names. Of 256 colours the nearest are taken, unmixed: see [`crate::cells::dither`].
+    /// samples whose number the style names. Colours are [what an eye follows](crate::cells::eye), and of 256 the
+    /// nearest, [unmixed](crate::cells::dither).
     AtMost(u64),
 }
 

@@ -10,13 +10,13 @@
 
 use super::need::Looks;
 use super::plan::{Plan, Sampling};
-use super::spending::{Effort, Grant, Spending};
+use super::spending::{Effort, Grant};
 use super::tracer::{Places, SampleGrid, Tracer};
 use crate::cells::Cell;
-use crate::cells::fit::Fitted;
+use crate::cells::fit::{FitMemory, Fitted};
 use crate::cells::paint::Painter;
 use crate::color::oklab;
-use crate::style::ColorDepth;
+use crate::style::Charset;
 use crate::threads::Threads;
 use spherule_kernel::{Camera, Vec3};
 use std::ops::Range;
@@ -48,7 +48,10 @@ pub(super) struct Strip {
     needs: Vec<f32>,
     /// Of those in need.
     sorted: Vec<f32>,
+    /// Of the frame before until they are made anew.
     fits: Vec<Fitted>,
+    /// Which rows and columns they are of, in which characters.
+    fits_of: Option<(Range<usize>, usize, usize, Charset)>,
     /// One a thread.
     workers: Vec<Worker>,
 }
@@ -59,7 +62,7 @@ struct Worker {
     tracer: Tracer,
     painter: Painter,
     /// Of the fit.
-    memory: Vec<Vec3>,
+    memory: FitMemory,
     /// The cells of a band that need many samples.
     needy: Vec<(u32, u32)>,
     /// Which of those each cell of a band is, if it is one.
@@ -100,7 +103,7 @@ impl Strip {
             samples.fetch_add(traced, Ordering::Relaxed);
             shadow_rays.fetch_add(shadows, Ordering::Relaxed);
         };
-        let Self { light, looks, needs, sorted, fits, workers } = self;
+        let Self { light, looks, needs, sorted, fits, fits_of, workers } = self;
 
         let few = plan.few.samples.count() as usize;
         light.resize(sampled.len() * plan.columns * few, Vec3::ZERO);
@@ -123,6 +126,12 @@ impl Strip {
         let grant = left.grant(needs, &grids, sorted);
         let many = plan.many.get(grant.grid).map(|sampling| (sampling, grant.above));
 
+        // Of another place, or of cells of another kind, what was there says nothing.
+        let place = Some((fitted.clone(), plan.left, plan.columns, plan.style.charset));
+        if plan.is_steady || *fits_of != place {
+            fits.clear();
+        }
+        *fits_of = place;
         fits.resize(fitted.len() * plan.columns, Fitted::NONE);
         let bands = fits.chunks_mut(band).zip(needs.chunks(band));
         let bands = bands.zip(fitted.clone().step_by(BAND));
@@ -131,16 +140,15 @@ impl Strip {
             count(worker.fit(plan, many, known, first, (fits, needs)));
         });
 
-        // Dither costs bytes, and is for pictures that stay.
-        let steady = plan.spending == Spending::ByNeed || plan.style.depth != ColorDepth::Ansi256;
         let bands = cells.chunks_mut(band).zip(rows.step_by(BAND));
         threads.share(workers, bands, |worker, (cells, first)| {
             let known = (&**fits, fitted.start);
-            worker.painter.paint((plan.style, steady), known, plan.columns, first, cells);
+            let how = (plan.style, plan.eye, plan.is_steady);
+            worker.painter.paint(how, known, plan.columns, first, cells);
         });
         let samples = samples.into_inner();
         let rays = samples + shadow_rays.into_inner();
-        Effort { samples, rays, is_full: steady && grant == Grant::FULL }
+        Effort { samples, rays, is_full: plan.is_steady && grant == Grant::FULL }
     }
 }
 
@@ -198,7 +206,7 @@ impl Worker {
             let is_flat = light.iter().all(|&other| other == light[0]);
             *fit = match flat {
                 Some((color, fit)) if is_flat && color == light[0] => fit,
-                _ => plan.few.fitter.fit(light, &mut self.memory),
+                _ => plan.few.fitter.fit(light, &mut self.memory, None),
             };
             if is_flat {
                 flat = Some((light[0], *fit));
@@ -242,7 +250,8 @@ impl Worker {
             let (traced, shadow_rays) = tracer.trace(&plan.traced, grid, corners, pixels, at);
             for (&(column, row), light) in needy.iter().zip(traced.chunks(count)) {
                 let cell = (row as usize - first) * columns + column as usize - plan.left;
-                fits[cell] = fitter.fit(light, memory);
+                let before = fits[cell].glyph;
+                fits[cell] = fitter.fit(light, memory, Some(before).filter(|_| !plan.is_steady));
             }
             rays += shadow_rays;
         }

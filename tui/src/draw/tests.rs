@@ -3,6 +3,7 @@ use crate::cells::Cell;
 use crate::scene::builtin::builtin;
 use crate::structure::scene::SceneStructures;
 use crate::style::{Charset, ColorDepth};
+use crate::view::orbited;
 use clap::ValueEnum;
 use std::convert::Infallible;
 
@@ -39,10 +40,13 @@ fn drawn(style: &Style, threads: u16, most_cells: usize, spending: Spending) -> 
 fn a_budget_that_suffices_is_not_seen() {
     for charset in Charset::value_variants() {
         let style = Style { charset: *charset, ..STYLE };
-        let expected = drawn(&style, 1, STRIP, Spending::ByNeed);
-        assert!(expected.effort.is_full);
-        assert!(expected.effort.samples > 4 * 60 * 21, "nothing is in need");
-        let most = expected.effort.samples;
+        let steady = drawn(&style, 1, STRIP, Spending::ByNeed);
+        assert!(steady.effort.is_full);
+        let most = steady.effort.samples;
+        assert!(most > 4 * 60 * 21, "nothing is in need");
+        // What moves takes as many samples, and is for another eye.
+        let expected = drawn(&style, 1, STRIP, Spending::AtMost(u64::MAX));
+        assert!(!expected.effort.is_full && expected.effort.samples == most, "{charset:?}");
         let found = drawn(&style, 1, STRIP, Spending::AtMost(most));
         assert_eq!(found.effort, expected.effort, "{charset:?}");
         assert!(found.cells == expected.cells, "{charset:?}");
@@ -50,6 +54,63 @@ fn a_budget_that_suffices_is_not_seen() {
         assert!(!less.effort.is_full && less.effort.samples < most, "{charset:?}");
         assert!(less.cells != expected.cells, "{charset:?}");
     }
+    // Letters without colour are the same.
+    let style = Style { charset: Charset::Ascii, depth: ColorDepth::Never, ..STYLE };
+    let steady = drawn(&style, 1, STRIP, Spending::ByNeed);
+    let moving = drawn(&style, 1, STRIP, Spending::AtMost(u64::MAX));
+    assert_eq!(moving.effort, steady.effort);
+    assert!(moving.cells == steady.cells);
+}
+
+/// Glyphs that are not those of the picture before, in pictures of marbles from a little farther to the right each.
+fn changes_of_glyphs(keeps: bool) -> usize {
+    marbles(&STYLE, 1, STRIP, |renderer, scene, search, view| {
+        let mut changes = 0;
+        let mut last: Option<CellGrid> = None;
+        for step in 0..6_u8 {
+            let view = orbited(view, f32::from(step) * 0.007, 0.0);
+            if !keeps {
+                renderer.strip = Strip::default();
+            }
+            let spending = Spending::AtMost(u64::MAX);
+            let cells = renderer.draw(scene, search, &view, &STYLE, SIZE, spending).cells;
+            if let Some(last) = last.replace(cells.clone()) {
+                let pairs = last.cells().iter().zip(cells.cells());
+                changes += pairs.filter(|(last, cell)| last.glyph != cell.glyph).count();
+            }
+        }
+        changes
+    })
+}
+
+#[test]
+fn what_moves_keeps_its_glyphs() {
+    let (kept, anew) = (changes_of_glyphs(true), changes_of_glyphs(false));
+    assert!(kept > 0 && 10 * kept < 9 * anew, "{kept} changes, {anew} without a frame before");
+}
+
+#[test]
+fn of_another_picture_nothing_is_kept() {
+    let moving = Spending::AtMost(u64::MAX);
+    let expected = drawn(&STYLE, 1, STRIP, moving).cells;
+    let sextants = Style { charset: Charset::Sextant, ..STYLE };
+    for (style, (columns, rows), spending) in
+        [(&sextants, SIZE, moving), (&STYLE, (59, 21), moving), (&STYLE, (60, 22), moving)]
+    {
+        let found = marbles(&STYLE, 1, STRIP, |renderer, scene, search, view| {
+            let _ = renderer.draw(scene, search, view, style, (columns, rows), spending);
+            renderer.draw(scene, search, view, &STYLE, SIZE, moving).cells
+        });
+        assert!(found == expected, "{columns}x{rows}");
+    }
+    // What stays does not depend on what was there at all.
+    let expected = drawn(&STYLE, 1, STRIP, Spending::ByNeed).cells;
+    let found = marbles(&STYLE, 1, STRIP, |renderer, scene, search, view| {
+        let other = orbited(view, 0.3, 0.1);
+        let _ = renderer.draw(scene, search, &other, &STYLE, SIZE, moving);
+        renderer.draw(scene, search, view, &STYLE, SIZE, Spending::ByNeed).cells
+    });
+    assert!(found == expected);
 }
 
 #[test]

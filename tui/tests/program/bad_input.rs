@@ -34,6 +34,14 @@ fn an_unknown_option() {
 }
 
 #[test]
+fn a_distance_that_is_none() {
+    for distance in ["-1", "nan", "inf", "near", ""] {
+        let message = refusal(&run([format!("--distance={distance}")]));
+        assert!(message.contains("widths of a cell, 0 or more"), "{message}");
+    }
+}
+
+#[test]
 fn threads_and_structures_that_are_none() {
     for before in ["", "tradeoff ", "trace --spheres s.npy --rays r.npy "] {
         for (count, part) in [

@@ -9,6 +9,43 @@ use std::fs::OpenOptions;
 use std::io::{BufRead, BufReader};
 use std::process::Stdio;
 
+/// Pictures that leave nothing to choose, in all characters and colours: as many lines as rows, and of one colour lines that
+/// are the same.
+#[test]
+fn pictures_of_a_cell_or_a_colour() {
+    // Nothing is behind the eye.
+    let scene = b"[camera]\neye = [0, 0, 5]\ntarget = [0, 0, 9]\n[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n";
+    let even = file("even.toml", scene);
+    let even = even.to_str().expect("a name");
+    let equal = ["808080"; 16].join(",");
+    for charset in Charset::value_variants().iter().map(name) {
+        for color in ["never", "16", "256", "truecolor"] {
+            for (distance, size, rows) in [("0", "1x1", 1), ("273", "1x9", 9), ("1e6", "40x1", 1)] {
+                let words = format!(
+                    "marbles --charset {charset} --color {color} --distance {distance} --size {size} --palette {equal}"
+                );
+                let lines = printed(&run(words.split(' '))).lines().count();
+                assert_eq!(lines, rows, "{words}");
+            }
+            for background in ["000000", "ffffff", "7f7f7f"] {
+                let words = format!(
+                    "{even} --charset {charset} --color {color} --background {background} --size 8x4"
+                );
+                let text = printed(&run(words.split(' ')));
+                let lines: Vec<&str> = text.lines().collect();
+                assert_eq!(lines.len(), 4, "{words}: {text}");
+                if color == "truecolor" {
+                    assert!(lines.iter().all(|&line| line == lines[0]), "{words}: {text}");
+                    assert!(
+                        lines[0].contains("        ") || charset == "braille",
+                        "{words}: {text}"
+                    );
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn a_picture_is_exactly_its_rows() {
     for (size, rows) in [("80x24", 24), ("1x1", 1), ("7x3", 3), ("200x1", 1)] {
