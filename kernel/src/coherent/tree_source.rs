@@ -102,7 +102,10 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
     let mut boxes = Boxes::new();
     // Packets from `from` on are not answered; those before `run` go ray by ray, and nothing is known of them.
     let (mut from, mut run) = (0, 0);
-    ways.learnt.apart = [0, count];
+    #[cfg(feature = "alloc")]
+    {
+        ways.learnt.apart = [0, count];
+    }
     while from < count {
         let mut apart = Apart { packets: PacketSet::EMPTY, are_all: true };
         let mut end = count;
@@ -126,8 +129,12 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
                 && !waiting.is_some_and(PacketSet::is_empty)
             {
                 let rays = (source.packets(from..to), waiting);
-                ways.learnt.apart[0] += waiting.map_or(to - from, PacketSet::count);
-                let mut sharing = ways.learnt.sharing[usize::from(Q::ANY)];
+                #[cfg(feature = "alloc")]
+                {
+                    ways.learnt.apart[0] += waiting.map_or(to - from, PacketSet::count);
+                }
+                let kind = usize::from(Q::ANY) % KINDS;
+                let mut sharing = ways.learnt.sharing[kind];
                 match &mut ways.memory::<Q>(bvh, L::COUNT * (to - from)) {
                     Some(memory) => {
                         let how = (memory, &mut sharing);
@@ -138,7 +145,7 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
                         wavefront::traverse::<L, Q>(tier, token, bvh, rays, answers);
                     }
                 }
-                ways.learnt.sharing[usize::from(Q::ANY)] = sharing;
+                ways.learnt.sharing[kind] = sharing;
             }
         }
         (from, run) = (end, end);
@@ -152,14 +159,18 @@ struct Apart {
     are_all: bool,
 }
 
+/// Closest hits and any hits learn apart. Together where memory is short: a trace that a firmware copies by a function is
+/// 900 bytes of flash.
+const KINDS: usize = if cfg!(feature = "alloc") { 2 } else { 1 };
+
 /// What is learnt of rays as they come: which of them pay together.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Learnt {
     groups: Patience,
     packets: Patience,
-    /// Of closest hits, and of any.
-    sharing: [Sharing; 2],
+    sharing: [Sharing; KINDS],
     /// Of the last packets how many went by themselves, and how many they were.
+    #[cfg(feature = "alloc")]
     apart: [usize; 2],
 }
 
@@ -168,7 +179,8 @@ impl Learnt {
     pub(crate) const NOTHING: Self = Self {
         groups: Patience::NEW,
         packets: Patience::NEW,
-        sharing: [Sharing::NOTHING; 2],
+        sharing: [Sharing::NOTHING; KINDS],
+        #[cfg(feature = "alloc")]
         apart: [0; 2],
     };
 

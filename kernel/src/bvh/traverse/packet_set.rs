@@ -34,6 +34,7 @@ impl PacketSet {
     }
 
     /// How many packets.
+    #[cfg(any(feature = "alloc", test))]
     #[inline(always)]
     pub(crate) fn count(&self) -> usize {
         let mut count = 0;
