@@ -1,12 +1,14 @@
 //! Character cells: what a terminal shows, before any escape sequence.
 
 pub mod bins;
+pub mod braille;
 pub mod dither;
 pub mod dots;
 pub mod eye;
 pub mod fit;
 pub mod layers;
 pub mod letters;
+pub mod mask_fit;
 pub mod masks;
 pub mod paint;
 pub mod residual;

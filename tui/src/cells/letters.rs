@@ -93,7 +93,7 @@ impl LetterFitter {
         }
         let looks = light.map(roots);
         let mean = looks.iter().sum::<Vec3>() / BINS as f32;
-        let columns = memory.looks();
+        let columns = &mut memory.looks;
         columns.take(&looks);
 
         let mut best = [(FLAT, &LETTERS[0], Vec3::ZERO); TRIED];

@@ -1,10 +1,12 @@
 //! The fit against the definition of least squares, in double precision over all masks.
 
 use super::*;
+use crate::cells::braille::DOT;
 use crate::cells::eye::CHAIR;
-use crate::color::roots;
+use crate::cells::fit::Fitter;
+use crate::color::luminance;
 use crate::samples::CellSamples;
-use crate::style::ColorDepth;
+use crate::style::{ColorDepth, Style};
 use glam::DVec3;
 use proptest::prelude::*;
 
