@@ -3,7 +3,7 @@
 //! ```text
 //! cargo run --release -p spherule-tests --example art                # prints a summary of pictures at rest
 //! ... -- --only block --scene caffeine                               # of some modes and scenes
-//! ... -- --only ascii --font unifont --sheets /tmp/sheets            # and writes truth, ours and chafa's side by side
+//! ... -- --only ascii --font unifont --sheets FOLDER                 # and writes truth, ours and chafa's side by side
 //! ... -- --motion                                                    # and in motion
 //! ... -- --write                                                     # all, and writes docs/benchmarks/art.md
 //! ... -- --pictures                                                  # writes the README's pictures, tui/pictures

@@ -1,7 +1,6 @@
 //! Scenes that are in no program, in files for it: a dark one, and one like noise.
 
 use crate::random::Random;
-use std::fmt::Write;
 
 /// A scene in a file of `tests/cases`.
 #[derive(Clone, Copy, Debug)]
@@ -39,10 +38,7 @@ fn night() -> String {
         let radius = random.between(0.05, 0.2);
         let [x, z] = [(); 2].map(|()| random.between(-4.5, 4.5));
         let color = color(&mut random, 40);
-        let _ = writeln!(
-            text,
-            "    {{ center = [{x:.3}, {radius:.3}, {z:.3}], radius = {radius:.3}, color = \"{color}\" }},"
-        );
+        text += &ball([x, radius, z], radius, &color);
     }
     text += "]\n\n[camera]\neye = [0.3, 3.2, 8]\ntarget = [0, 0.3, 0]\nfov = 36\n";
     text
@@ -61,13 +57,17 @@ fn confetti() -> String {
         let [x, y, z] = [(); 3].map(|()| random.between(-1.2, 1.2));
         let radius = random.between(0.02, 0.04);
         let color = color(&mut random, 0);
-        let _ = writeln!(
-            text,
-            "    {{ center = [{x:.3}, {y:.3}, {z:.3}], radius = {radius:.3}, color = \"{color}\" }},"
-        );
+        text += &ball([x, y, z], radius, &color);
     }
     text += "]\n\n[camera]\neye = [0, 0, 8]\ntarget = [0, 0, 0]\nfov = 15\n";
     text
+}
+
+/// A line of a list of spheres.
+fn ball([x, y, z]: [f32; 3], radius: f32, color: &str) -> String {
+    format!(
+        "    {{ center = [{x:.3}, {y:.3}, {z:.3}], radius = {radius:.3}, color = \"{color}\" }},\n"
+    )
 }
 
 /// Red, green and blue, each of at least so much.

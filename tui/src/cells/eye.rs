@@ -5,9 +5,8 @@
 //! between both count. So three choices depend on the distance: whether a colour is what most pixels have or their mean, how much of the
 //! space around them letters and dots light up, and how much of what a cell lacks its neighbours make up for.
 //!
-//! From the chair, by FLIP at 38 pixels a degree over chafa's and by dB from across the room (halves, marbles; the figures of
-//! `docs/benchmarks/art.md`): all handed on 0.91 and 42.8, half of it 0.88 and 41.9, 0.7 of it 0.89 and 42.3; means in place of medians
-//! 0.94 and 43.3.
+//! Halves of marbles, by FLIP at 38 pixels a degree over chafa's, and by dB from across the room: all handed on 0.897 and 42.8, 0.85
+//! of it 0.892 and 42.6, 0.7 of it 0.886 and 42.3; all, and means in place of medians, 0.94 and 43.3.
 
 /// A distance in widths of a cell: 60 cm over 2.2 mm.
 pub const CHAIR: f32 = 273.0;
@@ -59,5 +58,8 @@ mod tests {
             assert!(pair[0].handed <= pair[1].handed);
         }
         assert_eq!(Eye::at(-1.0), all[0]);
+        // 60 cm, and four metres, from cells 2.2 mm wide.
+        assert_eq!((Eye::at(600.0 / 2.2).means, Eye::at(290.0).means > 0.0), (0.0, true));
+        assert!(Eye::at(4000.0 / 2.2).means == 1.0 && Eye::at(1700.0).means < 1.0);
     }
 }

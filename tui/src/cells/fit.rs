@@ -9,8 +9,8 @@ use crate::samples::CellSamples;
 use crate::style::{Charset, Style};
 use spherule_kernel::Vec3;
 
-/// The glyph of the frame before stays if it misses so much of what it would have to be better than. (0.7 and 0.4: the error of
-/// changes is 0.03 to 0.13 of chafa's less than by 1; between them it hardly differs, and the picture itself loses.)
+/// The glyph of the frame before stays if it misses so much of what it would have to be better than. (Blocks and
+/// sextants, by 0.7: the error of changes is 0.05 to 0.14 of chafa's less than by 1; by 0.4 it is as large, and the picture itself loses.)
 pub(super) const KEPT: f32 = 0.7;
 
 /// A glyph, and linear light for what it fills, for what it leaves, and for the 2 x 4 parts of the cell as they were
@@ -73,6 +73,15 @@ impl Fitter {
         match self {
             Self::Masks(fitter) => fitter.fit(light, memory, before),
             Self::Letters(fitter) => fitter.fit(light, memory, before),
+        }
+    }
+}
+
+/// Puts `next` where it belongs among the `best`, the greatest first; the least drops out.
+pub(super) fn rank<T>(best: &mut [(f32, T)], mut next: (f32, T)) {
+    for place in best {
+        if next.0 > place.0 {
+            std::mem::swap(place, &mut next);
         }
     }
 }

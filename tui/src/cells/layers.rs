@@ -10,7 +10,7 @@
 //! what 8 bits tell apart. Distances are of square roots of linear light.
 //!
 //! Source: E. Weiszfeld, "Sur le point pour lequel la somme des distances de n points donnés est minimum", 1937. Against means,
-//! by FLIP at 38 pixels a degree: 0.88 to 0.96 of chafa's in place of 0.94 to 0.99 (halves), and SSIM ahead of it in place of behind.
+//! by FLIP at 38 pixels a degree: 0.90 to 0.96 of chafa's in place of 0.94 to 0.99 (halves), and SSIM nearer to it or ahead.
 
 use spherule_kernel::Vec3;
 use wide::f32x8;

@@ -15,7 +15,7 @@
 use super::bins::Bins;
 use super::braille;
 use super::eye::Eye;
-use super::fit::{FitMemory, Fitted, KEPT};
+use super::fit::{FitMemory, Fitted, KEPT, rank};
 use super::layers::{Layers, Looks, mixed};
 use super::masks::{Family, Mask, repertoire};
 use super::wedges::{self, WEDGES, Wedge};
@@ -88,23 +88,15 @@ impl MaskFitter {
 
         // The best mask of each grid, and the best wedge: those that take most away.
         let mut best: [(f32, Option<Candidate<'_>>); TRIED] = [(FLAT, None); TRIED];
-        let mut add = |gain, candidate| {
-            let mut next = (gain, Some(candidate));
-            for place in &mut best {
-                if next.0 > place.0 {
-                    std::mem::swap(place, &mut next);
-                }
-            }
-        };
         for (bins, family) in &self.families {
             let means = bins.means(looks).map(|look| look - mean_look);
             let (gain, mask) = best_mask(family, &means);
-            add(gain, Candidate::Mask(bins, family, mask));
+            rank(&mut best, (gain, Some(Candidate::Mask(bins, family, mask))));
         }
         columns.take(looks);
         if self.wedges {
             let (gain, wedge) = best_wedge(columns);
-            add(gain, Candidate::Wedge(wedge));
+            rank(&mut best, (gain, Some(Candidate::Wedge(wedge))));
         }
         let mean = share * light.iter().sum::<Vec3>();
         let one_color = Fitted { ink: mean, paper: mean, parts, ..Fitted::NONE };

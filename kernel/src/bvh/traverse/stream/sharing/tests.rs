@@ -1,0 +1,108 @@
+//! When rays go as a stream, and when it ends.
+
+extern crate std;
+
+use super::*;
+use crate::bvh::{QueuedRay, StreamRay};
+use crate::query::{AnyHit, ClosestHit};
+use crate::testing::climb::Random;
+use crate::testing::work::{Kind, Work};
+use crate::{Exact, Intersect, Ray, SphereList, SphereTree, Trace, Vec3};
+use std::vec;
+use std::vec::Vec;
+
+/// Spheres anywhere, and rays along an axis from anywhere.
+fn scene(spheres: usize, rays: usize) -> (SphereTree, Vec<Ray>) {
+    let mut random = Random(53);
+    let mut point = || Vec3::from_array([(); 3].map(|()| random.below(1 << 20) as f32));
+    let list: SphereList = (0..spheres).map(|_| (point(), 30_000.0)).collect();
+    let mut ray = |_| Ray::new(Vec3 { z: -1e6, ..point() }, Vec3::new(0.1, 0.2, 1.0));
+    (SphereTree::new(list), (0..rays).map(&mut ray).collect())
+}
+
+#[test]
+fn rays_that_meet_go_as_a_stream_in_memory_that_a_call_takes() {
+    for (spheres, rays, is_stream) in
+        [(2000, 8192, true), (2000, 1000, false), (60, 8192, false), (3, 8192, false)]
+    {
+        let (tree, rays) = scene(spheres, rays);
+        let mut hits = vec![None; rays.len()];
+        let work = Work::of(|| tree.closest_hits(Exact, &rays, &mut hits));
+        let by_streams = work.count(Kind::StreamNode);
+        assert_eq!(by_streams > 0, is_stream, "{spheres} spheres, {by_streams}");
+        let mut trace = Trace::new().incoherent();
+        let work = Work::of(|| tree.closest_hits_with(Exact, &mut trace, &rays, &mut hits));
+        assert_eq!(work.count(Kind::StreamNode), 0);
+    }
+}
+
+#[test]
+fn few_that_meet_or_much_in_vain_end_it_and_all_is_tried_again() {
+    let seen = |boxes, entered| Seen { streams: 1, rays: 1024, boxes, entered };
+    let (tree, _) = scene(2000, 0);
+    let tree = tree.bvh();
+    let pays = |alone: u32, of: Seen| {
+        let (mut closest, mut any) = (Sharing::NOTHING, Sharing::NOTHING);
+        closest.take::<ClosestHit>(Way::AsTheyCome, of);
+        any.take_alone(Entered { rays: 128, boxes: 128 * alone });
+        any.take::<AnyHit>(Way::AsTheyCome, of);
+        let pay = [closest.may_pay::<ClosestHit>(&tree, 8192), any.may_pay::<AnyHit>(&tree, 8192)];
+        any.pass_over(PASSED_OVER[0]);
+        assert!(any.may_pay::<AnyHit>(&tree, 8192));
+        pay
+    };
+    // 1,024 that are two at a box are five if they are eight times as many.
+    assert_eq!(pays(8, seen(4096, 8192)), [false; 2]);
+    assert_eq!(pays(8, seen(3000, 8192)), [true, false]);
+    // Of eight boxes three are a good part, and two are not.
+    assert_eq!(pays(3, seen(1024, 8192)), [true; 2]);
+    assert_eq!(pays(2, seen(1024, 8192)), [true, false]);
+}
+
+#[test]
+fn rays_that_stop_at_the_first_leaf_go_by_themselves() {
+    let mut random = Random(59);
+    let mut point = || Vec3::from_array([(); 3].map(|()| random.below(1 << 20) as f32 - 5e5));
+    // One around the other, and rays from all around.
+    let list: SphereList = (1..2000).map(|size| (Vec3::ZERO, 100.0 * size as f32)).collect();
+    let tree = SphereTree::new(list);
+    let rays: Vec<_> = (0..1 << 14).map(|_| point().normalize()).collect();
+    let rays: Vec<_> =
+        rays.iter().map(|&from| Ray::new(1e6 * from, point() - 1e6 * from)).collect();
+    let mut any = vec![false; rays.len()];
+    let work = Work::of(|| tree.any_hits(Exact, &rays, &mut any));
+    let in_streams = work.count(Kind::StreamNode);
+    assert!(in_streams > 0 && in_streams < 1 << 16, "{in_streams}");
+}
+
+#[test]
+fn what_rays_enter_by_themselves_is_counted_now_and_then() {
+    let (tree, _) = scene(2000, 0);
+    let (tree, mut sharing) = (tree.bvh(), Sharing::NOTHING);
+    let mut rays = vec![StreamRay::EMPTY; TOGETHER];
+    let mut queues = vec![QueuedRay::EMPTY; 64 * TOGETHER];
+    let memory = StreamMemory::new(&mut rays, &mut queues).expect("enough");
+    let mut ways = Vec::new();
+    for _ in 0..8 {
+        let (way, rays) = sharing.next::<AnyHit>(&tree, &memory, 1 << 20, true);
+        ways.push((way == Way::AsTheyCome, rays));
+        let entered = 20 * rays as u32;
+        if way == Way::AsTheyCome {
+            let seen = Seen { streams: 1, rays: rays as u32, boxes: entered / 20, entered };
+            sharing.take::<AnyHit>(way, seen);
+        } else {
+            sharing.take_alone(Entered { rays: rays as u32, boxes: entered });
+        }
+    }
+    // Some by themselves, as many together, then as many as fit; and after 32,768 some by themselves again.
+    let [first, alone, all] = [(true, 1024), (false, 1024), (true, TOGETHER)];
+    assert_eq!(ways, [alone, first, all, all, all, all, alone, all]);
+}
+
+#[test]
+fn of_the_fewest_rays_that_are_a_stream_any_hits_go_as_one_too() {
+    let (tree, rays) = scene(2000, LEAST_RAYS);
+    let mut met = vec![false; rays.len()];
+    let work = Work::of(|| tree.any_hits(Exact, &rays, &mut met));
+    assert!(work.count(Kind::StreamNode) > 0);
+}
