@@ -1,29 +1,29 @@
 //! The command line.
 
+mod overlay;
 mod values;
 
-use crate::cells::eye::CHAIR;
-use crate::choice::{Auto, auto_or};
+use crate::choice::{Auto, auto_or, size};
 use crate::color::Srgb;
-use crate::compare::Comparison;
 use crate::error::Error;
-use crate::lecture::stations::station;
+use crate::lecture::LectureArguments;
 use crate::palette::Theme;
 use crate::scene::Scene;
 use crate::scene::builtin::DEFAULT;
 use crate::scene::open::{Format, open};
 use crate::structure::{Order, Structure};
-use crate::style::Charset;
+use crate::style::{CHAIR, Charset};
 use crate::terminal::color_depth::ColorChoice;
 use crate::threads::MOST_THREADS;
 use crate::view::{LensKind, View, with_projection};
 use clap::error::ErrorKind;
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, CommandFactory, FromArgMatches, Parser, Subcommand, value_parser};
+pub use overlay::Overlay;
 use spherule_kernel::{Level, Tier};
 use std::ffi::OsString;
 use std::path::PathBuf;
-use values::{aspect, cell, color, distance, level, overlay, samples, size, tier};
+use values::{aspect, cell, color, distance, level, overlay, samples, tier};
 
 /// Spheres in a terminal, by packets of rays.
 ///
@@ -112,26 +112,6 @@ pub struct PictureArguments {
     /// With --pick, write a JSON object
     #[arg(long, requires = "pick")]
     pub json: bool,
-}
-
-/// What `--show` asks for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Overlay {
-    /// Tiers held against each other, in place of the picture.
-    Tiers(Comparison),
-    /// What every tier takes and gets wrong, over it.
-    Table,
-}
-
-impl Overlay {
-    /// That of tiers, if it is one.
-    #[must_use]
-    pub fn comparison(self) -> Option<Comparison> {
-        match self {
-            Self::Tiers(comparison) => Some(comparison),
-            Self::Table => None,
-        }
-    }
 }
 
 /// A scene, and the rays of a picture of it.
@@ -237,26 +217,6 @@ pub struct TradeoffArguments {
     /// How it is computed.
     #[command(flatten)]
     pub computing: ComputingArguments,
-}
-
-/// The lecture, or a part of it.
-#[derive(Args, Clone, Debug)]
-pub struct LectureArguments {
-    /// The station, 1 to 14 or by its name
-    #[arg(long, value_name = "STATION", value_parser = station)]
-    pub station: Option<usize>,
-    /// Write the station, or all, also to a terminal
-    #[arg(long)]
-    pub once: bool,
-    /// List the stations, with the part of the lecture and the source files of each
-    #[arg(long)]
-    pub list: bool,
-    /// Size of a station in cells [default: 80x24; on a terminal all rows but the last]
-    #[arg(long, value_name = "COLSxROWS", value_parser = size)]
-    pub size: Option<(u16, u16)>,
-    /// Colours
-    #[arg(long, value_name = "WHEN", default_value = "auto")]
-    pub color: ColorChoice,
 }
 
 /// What the arguments ask for.

@@ -6,7 +6,9 @@ pub mod dither;
 pub mod dots;
 pub mod eye;
 pub mod fit;
+mod fitted;
 pub mod layers;
+mod letter;
 pub mod letters;
 pub mod mask_fit;
 pub mod masks;
@@ -16,19 +18,7 @@ pub mod shades;
 pub mod tone;
 pub mod wedges;
 
-/// A colour as a terminal names it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Color {
-    /// The terminal's own.
-    #[default]
-    Default,
-    /// One of the 16 that the user's theme defines.
-    Ansi16(u8),
-    /// One of the xterm palette of 256.
-    Ansi256(u8),
-    /// Red, green, blue, sRGB-encoded.
-    Rgb([u8; 3]),
-}
+pub use crate::palette::Color;
 
 /// One character and its colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,10 @@
-//! Values that have names on the command line.
+//! Values on the command line: those that have names, and sizes.
 
 use clap::ValueEnum;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+
+/// The largest picture, in columns or rows.
+const LARGEST_SIDE: u16 = 4096;
 
 /// A value that the program chooses itself if it is `None`: `auto` on the command line.
 ///
@@ -51,4 +54,17 @@ pub fn next<T: ValueEnum + Copy + PartialEq>(this: Auto<T>) -> Auto<T> {
         after.find(|&&value| this == Some(value));
     }
     after.next().copied()
+}
+
+/// Reads columns and rows of a picture: `COLSxROWS`.
+///
+/// # Errors
+/// What would be right.
+pub fn size(text: &str) -> Result<(u16, u16), String> {
+    let (columns, rows) = text.split_once(['x', 'X']).ok_or("COLSxROWS, such as 80x24")?;
+    let side = |text: &str| {
+        let side = text.parse().ok().filter(|side| (1..=LARGEST_SIDE).contains(side));
+        side.ok_or_else(|| format!("COLSxROWS, each 1 to {LARGEST_SIDE}"))
+    };
+    Ok((side(columns)?, side(rows)?))
 }

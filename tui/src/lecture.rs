@@ -9,19 +9,41 @@ mod few;
 mod frame;
 mod pixels;
 mod shot;
+mod station;
 pub mod stations;
 #[cfg(test)]
 mod tests;
 mod walk;
 
-use crate::arguments::LectureArguments;
+use crate::choice::size;
 use crate::encode;
 use crate::error::{Error, write_stdout};
 use crate::style::{PIPE_SIZE, Style};
-use crate::terminal::color_depth::Surroundings;
+use crate::terminal::color_depth::{ColorChoice, Surroundings};
+use clap::Args;
 use crossterm::terminal;
-use stations::STATIONS;
+use stations::{STATIONS, station};
 use std::io::IsTerminal;
+
+/// The lecture, or a part of it.
+#[derive(Args, Clone, Debug)]
+pub struct LectureArguments {
+    /// The station, 1 to 14 or by its name
+    #[arg(long, value_name = "STATION", value_parser = station)]
+    pub station: Option<usize>,
+    /// Write the station, or all, also to a terminal
+    #[arg(long)]
+    pub once: bool,
+    /// List the stations, with the part of the lecture and the source files of each
+    #[arg(long)]
+    pub list: bool,
+    /// Size of a station in cells [default: 80x24; on a terminal all rows but the last]
+    #[arg(long, value_name = "COLSxROWS", value_parser = size)]
+    pub size: Option<(u16, u16)>,
+    /// Colours
+    #[arg(long, value_name = "WHEN", default_value = "auto")]
+    pub color: ColorChoice,
+}
 
 /// Walks through the lecture on a terminal that can; else, with `--once` or into a pipe, prints the station that is
 /// asked for, or all of them.

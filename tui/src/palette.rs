@@ -2,11 +2,36 @@
 //!
 //! In the palettes the nearest colour is the one that looks nearest: by distance in `OKLab`.
 
-use crate::cells::Color;
 use crate::color::{Srgb, oklab};
-use crate::style::ColorDepth;
 use spherule_kernel::Vec3;
 use std::str::FromStr;
+
+/// How many colours there are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ColorDepth {
+    /// None: glyphs alone.
+    Never,
+    /// The 16 of the user's theme.
+    Ansi16,
+    /// The xterm palette.
+    Ansi256,
+    /// 24 bits.
+    Truecolor,
+}
+
+/// A colour as a terminal names it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Color {
+    /// The terminal's own.
+    #[default]
+    Default,
+    /// One of the 16 that the user's theme defines.
+    Ansi16(u8),
+    /// One of the xterm palette of 256.
+    Ansi256(u8),
+    /// Red, green, blue, sRGB-encoded.
+    Rgb([u8; 3]),
+}
 
 /// What a terminal's 16 colours are: black, red, green, yellow, blue, magenta, cyan, white, and the same bright.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,6 +3,9 @@
 use std::io::{self, IsTerminal, Write};
 use std::time::{Duration, Instant};
 
+/// How long a picture may take before there is a word about it.
+pub const PATIENCE: Duration = Duration::from_secs(1);
+
 /// A line on standard error that is written over, and gone in the end; on a terminal alone.
 #[derive(Debug)]
 pub struct Progress {

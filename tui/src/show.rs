@@ -10,7 +10,7 @@ use crate::error::{Error, write_stdout};
 use crate::machine::check_floats;
 use crate::pick::report::Report;
 use crate::pick::{Pick, cell_ray};
-use crate::progress::Progress;
+use crate::progress::{PATIENCE, Progress};
 use crate::scene::Scene;
 use crate::structure::scene::{PictureSearch, SceneStructures};
 use crate::style::{Charset, ColorDepth, PIPE_SIZE, Style};
@@ -27,13 +27,9 @@ use std::io::IsTerminal;
 use std::ops::RangeInclusive;
 use std::path::Path;
 use std::sync::Arc;
-use std::time::Duration;
 
 /// The widest cell and the narrowest that a terminal is believed to have.
 const LIKELY_ASPECTS: RangeInclusive<f32> = 0.2..=2.0;
-
-/// How long a picture may take before there is a word about it.
-const PATIENCE: Duration = Duration::from_secs(1);
 
 /// Shows a scene: in the viewer if standard output is a terminal that can, except with `--once`, `--png` and `--pick`.
 ///

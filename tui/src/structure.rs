@@ -7,6 +7,7 @@ pub mod object_order;
 pub mod scene;
 pub mod screen;
 pub mod search;
+mod tracing;
 
 use clap::ValueEnum;
 

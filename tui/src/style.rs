@@ -1,23 +1,10 @@
 //! What a picture is to be: its tier, characters, colours and samples.
 
-use crate::cells::eye::CHAIR;
 use crate::choice::Auto;
+pub use crate::palette::ColorDepth;
 use crate::palette::Theme;
 use clap::ValueEnum;
 use spherule_kernel::Tier;
-
-/// How many colours there are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ColorDepth {
-    /// None: glyphs alone.
-    Never,
-    /// The 16 of the user's theme.
-    Ansi16,
-    /// The xterm palette.
-    Ansi256,
-    /// 24 bits.
-    Truecolor,
-}
 
 /// Which characters may be used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -56,6 +43,9 @@ pub struct Style {
     /// How far away the eye is, in widths of a cell.
     pub distance: f32,
 }
+
+/// How far away the eye is if nothing is said, in widths of a cell: 60 cm over 2.2 mm.
+pub const CHAIR: f32 = 273.0;
 
 /// The size of a picture in a pipe.
 pub const PIPE_SIZE: (u16, u16) = (80, 24);

@@ -123,7 +123,8 @@ impl Question<'_> {
         let tracing = for_camera.tracing(Tier::Exact);
         let orders = Orders::count(tracing, threads, spheres, &view, &camera, watch)?;
         let scene_lit = (spheres, &*search.lights);
-        let lighting = for_shadow.lighting(&for_camera, &camera, scene_lit, most, watch)?;
+        let lighting =
+            lighting::errors([&for_camera, &for_shadow], &camera, scene_lit, most, watch)?;
         let mut tiers = Vec::new();
         for (machine, rays) in [(&for_camera, &camera), (&for_shadow, &shadow)] {
             if rays.count > 0 {

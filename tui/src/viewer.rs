@@ -12,12 +12,11 @@ mod meter;
 mod pace;
 mod picking;
 mod seam;
+mod session;
 mod state;
 mod status;
 mod table;
 
-use crate::choice::Auto;
-use crate::compare::Comparison;
 use crate::compare::error_map::ErrorMapper;
 use crate::compare::split::Times;
 use crate::draw::Renderer;
@@ -25,18 +24,14 @@ use crate::encode::Encoder;
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::scene::framing;
-use crate::structure::Structure;
 use crate::structure::scene::SceneStructures;
-use crate::style::Style;
 use crate::terminal::{LONGEST_BACKLOG, Terminal, lost};
-use crate::view::View;
-use frame::Picture;
 use meter::Meter;
 use pace::Pace;
-pub use state::{ORBIT_STEP, PAN_STEP, ZOOM_STEP};
+use session::Viewer;
+pub use state::{ORBIT_STEP, PAN_STEP, Start, ZOOM_STEP};
 use state::{Outcome, State};
 use std::env;
-use std::io;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use table::Table;
@@ -48,21 +43,6 @@ const REMOTE_RATE: u32 = 30;
 /// Set, the key `!` panics. There is no other way to test that the terminal survives a panic of
 /// the real program; it harms nobody who does not ask for it.
 const PANIC_SWITCH: &str = "SPHERULE_TEST_PANIC";
-
-/// What the viewer shows first.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Start {
-    /// From where.
-    pub view: View,
-    /// How.
-    pub style: Style,
-    /// Which structure is asked for.
-    pub structure: Auto<Structure>,
-    /// What tiers are held against each other, if they are.
-    pub comparison: Option<Comparison>,
-    /// Whether there is a table of what every tier takes and gets wrong.
-    pub table: bool,
-}
 
 /// Shows `scene` on the terminal, from `start` on, drawn by `renderer` with the chosen one of its
 /// `structures`, until the user quits.
@@ -117,30 +97,6 @@ pub fn run(
     }
 }
 
-/// The rows of the picture, of so many of the terminal: the last is the status line's, if there are two.
-fn picture_rows(rows: u16) -> u16 {
-    if rows >= 2 { rows - 1 } else { rows }
-}
-
-struct Viewer<'a> {
-    scene: &'a Arc<Scene>,
-    structures: SceneStructures<'a>,
-    terminal: Terminal,
-    state: State,
-    renderer: Renderer<'a>,
-    mapper: ErrorMapper,
-    times: Times,
-    encoder: Encoder,
-    meter: Meter,
-    pace: Pace,
-    table: Table,
-    /// The last.
-    picture: Option<Picture>,
-    /// Kept from frame to frame for its memory.
-    bytes: Vec<u8>,
-    panic_key: bool,
-}
-
 impl Viewer<'_> {
     /// How long until a frame is due; for ever if there is none to draw.
     fn wait(&self, stale: bool, last_frame: Option<Instant>) -> Option<Duration> {
@@ -193,12 +149,5 @@ impl Viewer<'_> {
             outcome = outcome.and(Outcome::Changed);
         }
         Ok(outcome)
-    }
-
-    /// Asks the terminal for its size, which may be without a cell.
-    fn learn_size(&mut self) -> io::Result<(u16, u16)> {
-        let (columns, rows) = self.terminal.size()?;
-        self.state.set_size(columns, picture_rows(rows));
-        Ok((columns, rows))
     }
 }

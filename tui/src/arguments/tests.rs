@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::choice::name;
+use crate::compare::Comparison;
 use crate::palette::THEMES;
 use clap::ValueEnum;
 

@@ -1,6 +1,6 @@
 //! Values of options, read from their words.
 
-use super::Overlay;
+use super::overlay::Overlay;
 use crate::choice::{Auto, one_of};
 use crate::color::Srgb;
 use crate::compare::Comparison;
@@ -9,20 +9,8 @@ use clap::builder::TypedValueParser;
 use spherule_kernel::{Level, LevelName, Tier};
 use std::ops::RangeInclusive;
 
-/// The largest picture, in columns or rows.
-const LARGEST_SIDE: u16 = 4096;
 /// The widest and the narrowest cell, width over height.
 const ASPECTS: RangeInclusive<f32> = 0.05..=20.0;
-
-/// Columns and rows of a picture.
-pub(super) fn size(text: &str) -> Result<(u16, u16), String> {
-    let (columns, rows) = text.split_once(['x', 'X']).ok_or("COLSxROWS, such as 80x24")?;
-    let side = |text: &str| {
-        let side = text.parse().ok().filter(|side| (1..=LARGEST_SIDE).contains(side));
-        side.ok_or_else(|| format!("COLSxROWS, each 1 to {LARGEST_SIDE}"))
-    };
-    Ok((side(columns)?, side(rows)?))
-}
 
 /// Column and row of a cell.
 pub(super) fn cell(text: &str) -> Result<(u16, u16), &'static str> {

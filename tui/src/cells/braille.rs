@@ -1,6 +1,6 @@
 //! Dots of Braille in two colours: where a cell is the lighter, as bright as the eye is far away.
 
-use super::fit::Fitted;
+use super::fitted::Fitted;
 use super::masks::repertoire;
 use crate::color::luminance;
 use crate::style::Charset;

@@ -8,8 +8,8 @@
 //! Halves of marbles, by FLIP at 38 pixels a degree over chafa's, and by dB from across the room: all handed on 0.897 and 42.8, 0.85
 //! of it 0.892 and 42.6, 0.7 of it 0.886 and 42.3; all, and means in place of medians, 0.94 and 43.3.
 
-/// A distance in widths of a cell: 60 cm over 2.2 mm.
-pub const CHAIR: f32 = 273.0;
+use crate::style::CHAIR;
+
 /// Four metres.
 const ROOM: f32 = 1800.0;
 

@@ -10,56 +10,19 @@
 
 use super::bins::Bins;
 use super::eye::Eye;
-use super::fit::{FitMemory, Fitted, KEPT, rank};
-use super::layers::{Layers, in_lines, mixed};
-use super::masks::Cover;
+use super::fitted::{FitMemory, Fitted, KEPT, rank};
+use super::layers::{Layers, mixed};
+use super::letter::{BINS, LETTERS, Letter};
 use super::tone;
 use crate::color::roots;
-use crate::ink::{DEJAVU_SANS_MONO, UNIFONT, coverage};
 use crate::style::ColorDepth;
 use spherule_kernel::Vec3;
 use std::array;
-use std::sync::LazyLock;
-use wide::f32x8;
 
-/// The parts of a cell in which ink is measured: 4 x 8.
-const BINS: usize = 32;
 /// A step that takes away less variance than this is not worth a letter.
 const FLAT: f32 = 2e-7;
 /// How many letters are held against the light one by one, besides the space.
 const TRIED: usize = 3;
-
-/// A letter, by the mean of both fonts.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Letter {
-    pub(super) glyph: char,
-    /// Of 2 x 4 parts.
-    pub(super) cover: Cover,
-    /// The share of the cell that is covered.
-    pub(super) mean: f32,
-    /// The share of each bin; the same less the mean, and the sum of its squares.
-    ink: [f32; BINS],
-    shape: [f32x8; BINS / 8],
-    energy: f32,
-}
-
-/// All letters, the space first.
-pub(super) static LETTERS: LazyLock<Vec<Letter>> = LazyLock::new(|| {
-    let letter = |glyph| {
-        let ink = |font| coverage(font, glyph).unwrap_or([0.0; BINS]);
-        let (one, other) = (ink(&UNIFONT), ink(&DEJAVU_SANS_MONO));
-        let ink: [f32; BINS] = array::from_fn(|bin| (one[bin] + other[bin]) / 2.0);
-        let mean = ink.iter().sum::<f32>() / BINS as f32;
-        let shape = ink.map(|ink| ink - mean);
-        let cover = array::from_fn(|part| {
-            let first = part / 2 * 8 + part % 2 * 2;
-            (ink[first] + ink[first + 1] + ink[first + 4] + ink[first + 5]) / 4.0
-        });
-        let energy = shape.iter().map(|ink| ink * ink).sum();
-        Letter { glyph, cover, mean, ink, shape: in_lines(&shape), energy }
-    };
-    (' '..='~').map(letter).collect()
-});
 
 /// Fits letters to cells that have so many samples.
 #[derive(Clone, Debug)]

@@ -15,7 +15,7 @@
 use super::bins::Bins;
 use super::braille;
 use super::eye::Eye;
-use super::fit::{FitMemory, Fitted, KEPT, rank};
+use super::fitted::{FitMemory, Fitted, KEPT, rank};
 use super::layers::{Layers, Looks, mixed};
 use super::masks::{Family, Mask, repertoire};
 use super::wedges::{self, WEDGES, Wedge};

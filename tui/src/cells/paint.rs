@@ -3,7 +3,7 @@
 use super::dither::Dither;
 use super::dots::Dots;
 use super::eye::Eye;
-use super::fit::Fitted;
+use super::fitted::Fitted;
 use super::residual::{Handing, Residual};
 use super::shades::Shades;
 use super::tone::Tones;

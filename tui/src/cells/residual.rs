@@ -10,7 +10,7 @@
 //!
 //! Source: M. Irani and S. Peleg, "Improving resolution by image registration", 1991, for the step.
 
-use super::fit::Fitted;
+use super::fitted::Fitted;
 use crate::color::roots;
 use crate::style::Charset;
 use spherule_kernel::Vec3;

@@ -4,8 +4,8 @@
 //! ink and paper: the one that is nearer to what was sampled. Both are judged by how ink, paper and, above all, their
 //! mean look. A shade of two colours far apart costs something, since it is seen as dots.
 
-use super::fit::Fitted;
-use super::letters::LETTERS;
+use super::fitted::Fitted;
+use super::letter::LETTERS;
 use super::{Cell, Color};
 use crate::color::oklab;
 use crate::palette::Entry;

@@ -7,8 +7,8 @@
 //!
 //! Source: J. Besag, "On the statistical analysis of dirty pictures", 1986, for the choice cell by cell.
 
-use super::fit::Fitted;
-use super::letters::{LETTERS, Letter};
+use super::fitted::Fitted;
+use super::letter::{LETTERS, Letter};
 use super::masks::Cover;
 use super::residual::TAPS;
 use crate::color::{lightness, luminance};

@@ -1,6 +1,6 @@
 //! How many samples a picture may take, and who gets them if there are not enough for all.
 
-use super::strip::ENOUGH;
+use super::need::ENOUGH;
 use std::ops::Range;
 
 /// How many samples a picture may take; shadow rays are not counted.

@@ -33,10 +33,6 @@ const AT_ONCE: usize = 1 << 12;
 /// How many rows of fits around a row have a part in its cells.
 const HALO: usize = 2;
 
-/// Above this distance from a plane, in `OKLab`, a cell's samples are too few. (0.03: 5 % more samples, and nothing
-/// gained.)
-pub(super) const ENOUGH: f32 = 0.035;
-
 /// The memory of a strip.
 #[derive(Debug, Default)]
 pub(super) struct Strip {

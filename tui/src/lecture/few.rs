@@ -1,6 +1,6 @@
 //! A few spheres before a camera of few pixels: the picture that the stations of both orders make.
 
-use super::stations::Turn;
+use super::station::Turn;
 use crate::structure::object_order::{Counts, ObjectOrder, Raster};
 use crate::structure::screen::Screen;
 use crate::structure::search::Tracing;

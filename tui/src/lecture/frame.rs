@@ -1,7 +1,8 @@
 //! The page of a station: title, words, what it draws, what its keys do.
 
 use super::canvas::{Canvas, Role};
-use super::stations::{Entry, STATIONS, Station};
+use super::station::{Entry, Station};
+use super::stations::STATIONS;
 use crate::cells::CellGrid;
 use crate::style::Style;
 

@@ -2,7 +2,7 @@
 
 use super::canvas::{Canvas, Role};
 use super::chart::Chart;
-use super::stations::{Station, Turn};
+use super::station::{Station, Turn};
 use spherule_kernel::{Ray, Sphere, Vec3};
 
 /// The sphere; its centre is in the plane of the chart.

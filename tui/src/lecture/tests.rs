@@ -2,7 +2,8 @@
 
 use super::canvas::Canvas;
 use super::frame::{LEAST, page};
-use super::stations::{STATIONS, Station, Turn, station};
+use super::station::{Station, Turn};
+use super::stations::{STATIONS, station};
 use crate::style::{ColorDepth, Style};
 use spherule_kernel::{
     Exact, Fast, Geometric, Intersect, Ray, Sphere, SphereList, Tier, Vec3, roots,

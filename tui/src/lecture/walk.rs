@@ -1,7 +1,8 @@
 //! The walk from station to station: keys in, pages out, until somebody quits.
 
 use super::frame;
-use super::stations::{STATIONS, Station, Turn};
+use super::station::{Station, Turn};
+use super::stations::STATIONS;
 use crate::encode::Encoder;
 use crate::error::Error;
 use crate::style::Style;

@@ -1,6 +1,5 @@
 //! One picture, written at once: as a tier sees it, as it is wrong, in two halves, or below a table.
 
-use super::PATIENCE;
 use crate::cells::CellGrid;
 use crate::compare::error_map::ErrorMapper;
 use crate::compare::legend::MapPainter;
@@ -8,7 +7,7 @@ use crate::compare::split::{Split, SplitPicture};
 use crate::draw::{Renderer, Spending};
 use crate::encode;
 use crate::error::{Error, write_stdout};
-use crate::progress::Progress;
+use crate::progress::{PATIENCE, Progress};
 use crate::scene::Scene;
 use crate::structure::scene::{PictureSearch, SceneStructures};
 use crate::style::Style;

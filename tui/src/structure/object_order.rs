@@ -25,7 +25,7 @@
 //! Shadow rays have no screen in common: they go through a structure.
 
 use super::screen::{Area, Screen};
-use super::search::Tracing;
+use super::tracing::Tracing;
 use spherule_kernel::{HitPacket, RayPacket, Spheres, Writes, object_packets};
 use std::ops::AddAssign;
 

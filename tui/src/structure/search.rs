@@ -1,9 +1,9 @@
 //! A scene structure that is chosen at run time.
 
 use super::object_order::{ObjectOrder, Raster};
+pub use super::tracing::Tracing;
 use spherule_kernel::{
-    Bvh, CameraTiles, Coherence, DepthList, HitPacket, Intersect, Level, RayPacket, Spheres, Tier,
-    Trace, tile_rays,
+    Bvh, CameraTiles, DepthList, HitPacket, Intersect, RayPacket, Spheres, Trace, tile_rays,
 };
 
 /// Spheres, and how rays find them. Threads may share it.
@@ -17,17 +17,6 @@ pub enum Search<'a> {
     Bvh(Bvh<'a>),
     /// Not at all: every sphere finds its rays.
     Objects(ObjectOrder<'a>),
-}
-
-/// What all rays of a call have in common.
-#[derive(Clone, Copy, Debug)]
-pub struct Tracing {
-    /// Which tier decides hits.
-    pub tier: Tier,
-    /// The instructions.
-    pub level: Level,
-    /// Whether the rays lie close together.
-    pub coherence: Coherence,
 }
 
 /// The memory that one thread lends to depth lists and to object order.

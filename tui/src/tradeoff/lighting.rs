@@ -1,7 +1,9 @@
 //! How the points that rays hit are lit by a tier: its normals, and what its shadow rays meet.
 
-use super::Machine;
+use super::machine::Machine;
 use super::rays::Rays;
+use super::report::LightingErrors;
+use super::watch::{Step, Watch};
 use crate::scene::Light;
 use crate::shade::{ShadowRays, Surfaces};
 use spherule_kernel::{HitPacket, RayPacket, Spheres, Tier, Vec3};
@@ -9,29 +11,41 @@ use spherule_kernel::{HitPacket, RayPacket, Spheres, Tier, Vec3};
 /// The least difference of a coordinate that makes a normal wrong: a step of a colour of eight bits.
 const SHOWS: f32 = 1.0 / 256.0;
 
+/// What is wrong with how every tier lights the points that it hits, if there is a light; `None` if the watch ends
+/// it.
+pub(super) fn errors(
+    [for_camera, for_shadow]: [&Machine<'_>; 2],
+    camera: &Rays,
+    (spheres, lights): (Spheres<'_>, &[Light]),
+    most: usize,
+    watch: &mut Watch<'_>,
+) -> Option<Option<Vec<LightingErrors>>> {
+    if lights.is_empty() {
+        return Some(None);
+    }
+    let step = (camera.count * lights.len()).div_ceil(most).max(1);
+    let lighting = Tier::ALL.into_iter().zip(0_u8..).map(|(tier, done)| {
+        watch.go_on(Step::Lighting, f64::from(done) / Tier::ALL.len() as f64)?;
+        let hits = for_camera.hits(tier, camera);
+        Some(Lighting::new(tier, (camera, &hits), step, (spheres, lights), for_shadow))
+    });
+    let lighting = lighting.collect::<Option<Vec<_>>>()?;
+    let exact = lighting.last()?;
+    Some(Some(lighting.iter().map(|of_tier| of_tier.errors(exact)).collect()))
+}
+
 /// The points of some rays as a tier lights them.
-pub(super) struct Lighting {
+struct Lighting {
     /// The normal of every ray's point, if it has one.
     normals: Vec<Option<Vec3>>,
     /// For every light, whether each point receives it.
     lit: Vec<Vec<bool>>,
 }
 
-/// What is wrong of it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct LightingErrors {
-    /// Rays that hit in truth as well as by the tier.
-    pub(super) points: usize,
-    /// Normals that differ by more than shows.
-    pub(super) normals: usize,
-    /// Points and lights of which one is lit, and the other is not.
-    pub(super) shadows: usize,
-}
-
 impl Lighting {
     /// Of every `step`-th packet of the `camera` rays, which have these `hits` by `tier`; `machine` finds what is
     /// between points and lights.
-    pub(super) fn new(
+    fn new(
         tier: Tier,
         (camera, hits): (&Rays, &[HitPacket]),
         step: usize,
@@ -64,7 +78,7 @@ impl Lighting {
     }
 
     /// Against what is true.
-    pub(super) fn errors(&self, truth: &Self) -> LightingErrors {
+    fn errors(&self, truth: &Self) -> LightingErrors {
         let both = |i: usize| self.normals[i].zip(truth.normals[i]);
         let points: Vec<usize> = (0..self.normals.len()).filter(|&i| both(i).is_some()).collect();
         let shows = |i: &&usize| {

@@ -1,11 +1,9 @@
 //! What measures: the kernel's calls for rays, timed and judged.
 
-use super::lighting::{Lighting, LightingErrors};
 use super::rays::{Kind, Rays, most_rays};
 use super::report::TierReport;
 use super::speed;
 use super::watch::{Step, Watch};
-use crate::scene::Light;
 use crate::structure::Structure;
 use crate::structure::search::{Scratch, Search, Tracing};
 use crate::tally::Tally;
@@ -68,30 +66,6 @@ impl Machine<'_> {
             stages: if tier == Tier::Exact { exact } else { single },
         });
         Some(tiers.collect())
-    }
-
-    /// What is wrong with how every tier lights the points that it hits, if there is a light; `None` if the watch ends
-    /// it.
-    pub(super) fn lighting(
-        &self,
-        for_camera: &Self,
-        camera: &Rays,
-        (spheres, lights): (Spheres<'_>, &[Light]),
-        most: usize,
-        watch: &mut Watch<'_>,
-    ) -> Option<Option<Vec<LightingErrors>>> {
-        if lights.is_empty() {
-            return Some(None);
-        }
-        let step = (camera.count * lights.len()).div_ceil(most).max(1);
-        let lighting = Tier::ALL.into_iter().zip(0_u8..).map(|(tier, done)| {
-            watch.go_on(Step::Lighting, f64::from(done) / Tier::ALL.len() as f64)?;
-            let hits = for_camera.hits(tier, camera);
-            Some(Lighting::new(tier, (camera, &hits), step, (spheres, lights), self))
-        });
-        let lighting = lighting.collect::<Option<Vec<_>>>()?;
-        let exact = lighting.last()?;
-        Some(Some(lighting.iter().map(|of_tier| of_tier.errors(exact)).collect()))
     }
 
     /// Which rays meet anything by a tier.

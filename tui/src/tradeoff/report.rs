@@ -1,6 +1,5 @@
 //! What `spherule tradeoff` prints: a table for people, or the keys that scripts rely on.
 
-use super::lighting::LightingErrors;
 use super::orders::Orders;
 use crate::choice::name;
 use crate::machine::RUSTC;
@@ -60,6 +59,17 @@ impl TierReport {
     fn share(&self, tests: u64) -> f64 {
         if self.stages.tests == 0 { 0.0 } else { tests as f64 / self.stages.tests as f64 }
     }
+}
+
+/// What is wrong with how a tier lights the points that rays hit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct LightingErrors {
+    /// Rays that hit in truth as well as by the tier.
+    pub(super) points: usize,
+    /// Normals that differ by more than shows.
+    pub(super) normals: usize,
+    /// Points and lights of which one is lit, and the other is not.
+    pub(super) shadows: usize,
 }
 
 /// So many of something.

@@ -1,9 +1,10 @@
 //! One frame: a picture, what is written over it, and the status line, in one write.
 
 use super::meter::Frame;
+use super::session::{Picture, Viewer, picture_rows};
 use super::state::Shown;
 use super::table::{Means, Subject};
-use super::{Viewer, help, picking, picture_rows, status};
+use super::{help, picking, status};
 use crate::cells::CellGrid;
 use crate::compare::Comparison;
 use crate::compare::legend::MapPainter;
@@ -11,23 +12,10 @@ use crate::compare::split::{Split, SplitPicture};
 use crate::draw::{Drawn, Effort, picture_workload};
 use crate::error::Error;
 use crate::pick::{Pick, cell_ray, report};
-use crate::structure::{Order, Structure};
 use crate::terminal::lost;
 use crate::tradeoff::chart;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-
-/// A picture without what is written over it.
-#[derive(Debug)]
-pub(super) struct Picture {
-    /// What it is of.
-    of: Shown,
-    /// Columns and rows.
-    size: (u16, u16),
-    /// How its rays found spheres.
-    searched: (Order, Structure),
-    drawn: Drawn,
-}
 
 impl Viewer<'_> {
     /// Draws and sends one frame, in one write.

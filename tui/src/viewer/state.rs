@@ -1,6 +1,5 @@
 //! What the viewer shows and how it moves. No terminal, no clock: input and durations come in.
 
-use super::Start;
 use super::hand::Hand;
 use super::keys::Input;
 use super::picking::Cursor;
@@ -26,6 +25,21 @@ pub const PAN_STEP: f64 = 0.05;
 const SPIN: f32 = PI / 6.0;
 /// After a suspension or on a slow link the spin goes on; it does not catch up.
 const LONGEST_STEP: Duration = Duration::from_millis(100);
+
+/// What the viewer shows first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Start {
+    /// From where.
+    pub view: View,
+    /// How.
+    pub style: Style,
+    /// Which structure is asked for.
+    pub structure: Auto<Structure>,
+    /// What tiers are held against each other, if they are.
+    pub comparison: Option<Comparison>,
+    /// Whether there is a table of what every tier takes and gets wrong.
+    pub table: bool,
+}
 
 /// What an input led to, from the least to the most.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

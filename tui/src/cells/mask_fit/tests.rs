@@ -2,10 +2,10 @@
 
 use super::*;
 use crate::cells::braille::DOT;
-use crate::cells::eye::CHAIR;
 use crate::cells::fit::Fitter;
 use crate::color::luminance;
 use crate::samples::CellSamples;
+use crate::style::CHAIR;
 use crate::style::{ColorDepth, Style};
 use glam::DVec3;
 use proptest::prelude::*;

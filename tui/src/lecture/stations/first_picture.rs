@@ -1,8 +1,8 @@
 //! The first picture: white where a ray hits.
 
-use super::{Entry, Source, Station, Turn, number, vector};
 use crate::lecture::canvas::{Canvas, Role};
 use crate::lecture::pixels::{Pixel, Pixels};
+use crate::lecture::station::{Entry, Source, Station, Turn, number, vector};
 use crate::scene::Scene;
 use crate::scene::builtin::builtin;
 use crate::view::zoomed;

@@ -1,9 +1,9 @@
 //! The sphere, solved geometrically: through the closest point.
 
-use super::{Entry, Source, flat, number};
 use crate::lecture::canvas::{Canvas, Role};
 use crate::lecture::chart::Chart;
 use crate::lecture::shot::Solved;
+use crate::lecture::station::{Entry, Source, flat, number};
 use spherule_kernel::{Geometric, Ray, Sphere, roots};
 
 pub(super) const ENTRY: Entry = Entry {

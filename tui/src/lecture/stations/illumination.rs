@@ -1,11 +1,11 @@
 //! Illumination at the point that is seen.
 
-use super::{Entry, Source, Station, Turn, number};
 use crate::cells::CellGrid;
 use crate::color::{Srgb, luminance};
 use crate::draw::draw;
 use crate::lecture::canvas::{Canvas, Role};
 use crate::lecture::few::Cursor;
+use crate::lecture::station::{Entry, Source, Station, Turn, number};
 use crate::scene::builtin::builtin;
 use crate::scene::{Light, Scene, Source as LightSource};
 use crate::style::{ColorDepth, Style};

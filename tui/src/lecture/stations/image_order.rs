@@ -1,9 +1,9 @@
 //! Image order: pixel by pixel.
 
-use super::{Entry, Source, Station, Turn, number};
 use crate::lecture::canvas::{Canvas, Role, letter};
 use crate::lecture::few::Few;
 use crate::lecture::pixels::{Pixel, Pixels};
+use crate::lecture::station::{Entry, Source, Station, Turn, number};
 use spherule_kernel::{Exact, Hit, Ray, roots};
 
 pub(super) const ENTRY: Entry = Entry {

@@ -1,8 +1,8 @@
 //! Which root counts: the interval from `t_min` to `t_max`.
 
-use super::{Entry, Source, Station, Turn, flat, number};
 use crate::lecture::canvas::{Canvas, Role};
 use crate::lecture::chart::Chart;
+use crate::lecture::station::{Entry, Source, Station, Turn, flat, number};
 use spherule_kernel::{Exact, Intersect, Ray, Sphere, SphereList, Vec3, roots};
 
 pub(super) const ENTRY: Entry = Entry {

@@ -1,9 +1,9 @@
 //! The nearest of many: `t_max` shrinks.
 
-use super::{Entry, Source, Station, Turn, number};
 use crate::lecture::canvas::{Canvas, letter};
 use crate::lecture::few::{Cursor, Few};
 use crate::lecture::pixels::{Pixel, Pixels};
+use crate::lecture::station::{Entry, Source, Station, Turn, number};
 use spherule_kernel::{Exact, Intersect, Ray, SphereList, roots};
 
 pub(super) const ENTRY: Entry = Entry {

@@ -1,9 +1,9 @@
 //! Object order: sphere by sphere.
 
-use super::{Entry, Source, Station, Turn};
 use crate::lecture::canvas::{Canvas, Role, letter};
 use crate::lecture::few::Few;
 use crate::lecture::pixels::{Pixel, Pixels};
+use crate::lecture::station::{Entry, Source, Station, Turn};
 use crate::structure::object_order::Counts;
 
 pub(super) const ENTRY: Entry = Entry {

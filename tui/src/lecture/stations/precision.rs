@@ -1,7 +1,7 @@
 //! Where single precision ends, and what `Exact` does about it.
 
-use super::{Entry, Source, Station, Turn, number};
 use crate::lecture::canvas::{Canvas, Role};
+use crate::lecture::station::{Entry, Source, Station, Turn, number};
 use crate::scene::Scene;
 use crate::scene::builtin::builtin;
 use crate::tally::{Summary, Tally};

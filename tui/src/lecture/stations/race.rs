@@ -1,9 +1,9 @@
 //! Both orders at once, by the number of tests that they have taken.
 
-use super::{Entry, Source, Station, Turn};
 use crate::lecture::canvas::{Canvas, Role, letter};
 use crate::lecture::few::Few;
 use crate::lecture::pixels::{Pixel, Pixels};
+use crate::lecture::station::{Entry, Source, Station, Turn};
 use crate::structure::object_order::Counts;
 use spherule_kernel::{Hit, Writes};
 

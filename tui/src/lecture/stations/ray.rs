@@ -1,8 +1,8 @@
 //! The ray, a half-line.
 
-use super::{Entry, Source, Station, Turn, at_degrees, flat, number};
 use crate::lecture::canvas::{Canvas, Role};
 use crate::lecture::chart::Chart;
+use crate::lecture::station::{Entry, Source, Station, Turn, at_degrees, flat, number};
 use spherule_kernel::{Ray, Vec3};
 
 pub(super) const ENTRY: Entry = Entry {

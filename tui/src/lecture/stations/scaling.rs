@@ -1,9 +1,9 @@
 //! Scaling d does not change the ray, nor the picture.
 
-use super::{Entry, Source, Station, Turn, number, vector};
 use crate::lecture::canvas::{Canvas, Role};
 use crate::lecture::few::Few;
 use crate::lecture::pixels::{Pixel, Pixels};
+use crate::lecture::station::{Entry, Source, Station, Turn, number, vector};
 use spherule_kernel::{Exact, Hit, Intersect, Ray, Vec3, surface};
 
 pub(super) const ENTRY: Entry = Entry {

@@ -1,8 +1,8 @@
 //! Vectors: sum, length, dot product, and the part of one vector along another.
 
-use super::{Entry, Source, Station, Turn, at_degrees, flat, number};
 use crate::lecture::canvas::{Canvas, Role};
 use crate::lecture::chart::Chart;
+use crate::lecture::station::{Entry, Source, Station, Turn, at_degrees, flat, number};
 use spherule_kernel::Vec3;
 
 pub(super) const ENTRY: Entry = Entry {

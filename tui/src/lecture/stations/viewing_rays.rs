@@ -1,8 +1,8 @@
 //! Viewing rays of a perspective and a parallel projection, from the side.
 
-use super::{Entry, Source, Station, Turn, number, vector};
 use crate::lecture::canvas::{Canvas, Role};
 use crate::lecture::chart::Chart;
+use crate::lecture::station::{Entry, Source, Station, Turn, number, vector};
 use crate::view::{Lens, LensKind, View, with_projection};
 use spherule_kernel::{Exact, Hit, Intersect, Projection, Ray, Sphere, SphereList, Vec3};
 
