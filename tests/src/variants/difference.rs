@@ -1,8 +1,8 @@
 //! Where a structure does not answer as brute force does.
 
-use super::{
-    Answers, Memory, Storey, Structure, Structures, Variant, brute, variants, viewpoint_of,
-};
+use super::answers::Answers;
+use super::memory::{Memory, Structures, viewpoint_of};
+use super::table::{Storey, Structure, Variant, brute, variants};
 use crate::case::HexRay;
 use spherule_kernel::{Hit, Ray, Sphere, Tier, Viewpoint};
 

@@ -1,6 +1,10 @@
 //! A camera's tiles, at every storey and in every structure that makes their rays itself.
 
-use super::{Answers, Memory, Storey, Structures, bits, brute, level, levels, stale_packet};
+use super::answers::Answers;
+use super::difference::bits;
+use super::memory::{Memory, Structures};
+use super::packing::{level, stale_packet};
+use super::table::{Storey, brute, levels};
 use crate::case::HexRay;
 use spherule_kernel::{
     Camera, CameraTiles, DepthList, Hit, HitPacket, Intersect, LaneArray, Lanes, Projection, Ray,
