@@ -168,6 +168,34 @@ fn a_beam_as_wide_as_the_scene_is_seen() {
     assert!(found > 10.0, "{found:.2} times the work");
 }
 
+/// Rays of a grid, parallel to the axes of a lattice, of which some are tangents of many spheres: line by line, and so many
+/// lines in turn.
+fn grid_on_a_lattice(in_turn: usize) -> (SphereTree, Vec<Ray>) {
+    let scene = SceneInput { scene: Scene::Lattice, spheres: 4096, ..UNIFORM };
+    let at = |number: usize| (number % 64, number / 64);
+    let ray = |(x, y): (usize, usize)| {
+        let [x, y] = [x, y].map(|i| i as f32 / 32.0 - 1.0);
+        Ray::new(Vec3::new(x, y, -4.0), Vec3::Z)
+    };
+    let count = 64 * 64;
+    let order = |i: usize| i % in_turn * (count / in_turn) + i / in_turn;
+    (scene.tree(), (0..count / in_turn * in_turn).map(|i| ray(at(order(i)))).collect())
+}
+
+#[test]
+fn tangents_of_many_spheres_are_not_decided_more_often_together() {
+    for in_turn in [1, 7] {
+        let (tree, rays) = grid_on_a_lattice(in_turn);
+        let packets: Vec<_> = rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect();
+        for any in [false, true] {
+            let [grouped, apart] = both(&tree.bvh(), &packets, any, PLAIN);
+            let found = times(packets.len(), [grouped, apart]);
+            let per_ray = [grouped, apart].map(|work| std::format!("{}", work.per_ray(rays.len())));
+            assert!(found < 1.5, "{found:.2} times the work, any: {any}: {per_ray:#?}");
+        }
+    }
+}
+
 /// Rays of real uses, in their orders.
 fn orders() -> [(&'static str, RayInput); 11] {
     let camera =

@@ -66,6 +66,10 @@ kinds! {
     ListGroup "list group" 6.0,
     /// The tier, a ray and a sphere a lane.
     TierLanes "tier" 250.0,
+    /// A ray and a sphere by exact sums, where double precision cannot decide.
+    ExactRoot "exact roots" 900.0,
+    /// Two spheres that one ray hits at one t, by exact sums.
+    ExactOrder "exact orders" 8000.0,
 }
 
 const KINDS: usize = Kind::ALL.len();

@@ -3,6 +3,7 @@
 //! Not generic and called, not inlined: where doubles are calls of a library, one estimate is as long as all the rest.
 
 use super::estimate::{Constants, Solved, Sums};
+use crate::count::count;
 use crate::exact::{Quadratic, QuadraticTerms, Root};
 use crate::{Ray, Sphere};
 
@@ -139,6 +140,7 @@ pub(super) fn line_roots(ray: &Ray, sphere: &Sphere) -> Option<[f32; 2]> {
 #[cold]
 #[inline(never)]
 pub(super) fn settled(ray: &Ray, sphere: &Sphere) -> f32 {
+    count!(ExactRoot);
     let terms = terms(ray, sphere);
     let Some(quadratic) = Quadratic::new(&terms) else { return f32::INFINITY };
     for root in [Root::Near, Root::Far] {

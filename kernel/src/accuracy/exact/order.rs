@@ -4,6 +4,7 @@
 //! its bound decides nearly always; else [`compare_roots`] does, exactly.
 
 use super::one_ray;
+use crate::count::count;
 use crate::exact::{Quadratic, Root, compare_roots};
 use crate::{Ray, Sphere};
 use core::cmp::Ordering;
@@ -47,6 +48,7 @@ pub(super) fn compare(ray: &Ray, t: f32, spheres: [&Sphere; 2]) -> Ordering {
     if second.ends[1].total_cmp(&first.ends[0]).is_lt() {
         return Ordering::Greater;
     }
+    count!(ExactOrder);
     let one = one_ray::terms(ray, one);
     let other = one_ray::terms(ray, other);
     compare_roots((&one, first.root), (&other, second.root))

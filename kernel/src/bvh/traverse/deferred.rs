@@ -68,6 +68,15 @@ impl<'a, T: Accuracy, L: Lanes, Q: Query> DeferredTests<'a, T, L, Q> {
         }
     }
 
+    /// The t above which nothing matters any more to a ray, as far as the tier has answered: `-inf` if it is done.
+    #[inline(always)]
+    pub(crate) fn limit(&self, ray: RayPlace) -> f32 {
+        match self.answers.get(ray.packet) {
+            Some(answer) => Q::limit::<L::Array>(answer, ray.lane),
+            None => f32::INFINITY,
+        }
+    }
+
     /// Adds a ray and the sphere at `place` in the leaves; tests, if that makes as many as there
     /// are lanes.
     #[inline(always)]

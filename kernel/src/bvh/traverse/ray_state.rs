@@ -222,10 +222,8 @@ impl RayState {
                         #[inline(always)]
                         || tests.test(),
                     );
-                    if let Some(answer) = tests.answers.get(self.ray.packet) {
-                        let t = Q::limit::<L::Array>(answer, self.ray.lane);
-                        self.best = least(prepared.time(self.ray.lane).after(t), self.best);
-                    }
+                    let t = tests.limit(self.ray);
+                    self.best = least(prepared.time(self.ray.lane).after(t), self.best);
                 }
                 self.candidates.push(place_of(number, (part * L::COUNT + lane) as u32), entry);
             }

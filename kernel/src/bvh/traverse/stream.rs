@@ -218,9 +218,9 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
     ) {
         let Some(ray) = self.rays.get_mut(packet * L::COUNT + lane) else { return };
         if prepared.covered >> lane & 1 == 1 {
-            ray.begin(self.tests.tier, prepared, lane, number);
+            ray.begin(prepared, lane, number);
         } else {
-            (ray.octant, ray.entry) = (StreamRay::NO_OCTANT, f32::NAN);
+            ray.leave_out();
         }
     }
 
@@ -230,7 +230,7 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
         let mut ends = [0; 8];
         for number in 0..count {
             let Some(ray) = self.rays.get(number) else { break };
-            if let Some(count) = ends.get_mut(ray.octant as usize) {
+            if let Some(count) = ends.get_mut(ray.octant() as usize) {
                 *count += 1;
             }
         }
@@ -240,7 +240,7 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
         }
         for number in 0..count {
             let Some(ray) = self.rays.get(number) else { break };
-            if let Some(end) = ends.get_mut(ray.octant as usize)
+            if let Some(end) = ends.get_mut(ray.octant() as usize)
                 && let Some(place) = self.queues.get_mut(*end)
             {
                 *place = QueuedRay { ray: number as u32, entry: f32::NEG_INFINITY };
@@ -264,9 +264,13 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
     #[inline(always)]
     fn end(&mut self, count: usize) {
         for number in 0..count {
-            let Some(ray) = self.rays.get(number) else { break };
+            let Some(ray) = self.rays.get_mut(number) else { break };
             if ray.entry <= ray.best {
-                self.tests.add(ray.whose::<L::Array>(self.first), ray.place);
+                let whose = ray.whose::<L::Array>(self.first);
+                ray.take_answer(self.tests.limit(whose));
+                if ray.entry <= ray.best {
+                    self.tests.add(whose, ray.place);
+                }
             }
         }
     }

@@ -30,10 +30,12 @@ pub(super) enum Scene {
     Line,
     /// In a plane.
     Sheet,
+    /// Each touches its neighbours, and all numbers are short: rays of a grid are tangents of many.
+    Lattice,
 }
 
 impl Scene {
-    const ALL: [Self; 7] = [
+    const ALL: [Self; 8] = [
         Self::Uniform,
         Self::Clusters,
         Self::Shells,
@@ -41,6 +43,7 @@ impl Scene {
         Self::Radii,
         Self::Line,
         Self::Sheet,
+        Self::Lattice,
     ];
 }
 
@@ -251,6 +254,10 @@ impl SceneInput {
                 }
                 Scene::Line => (Vec3::X * (2.0 * part - 1.0) + place * self.radius, self.radius),
                 Scene::Sheet => (place * Vec3::new(1.0, 1.0, 0.0), self.radius),
+                Scene::Lattice => {
+                    let at = [number % 16, number / 16 % 16, number / 256];
+                    (Vec3::from_array(at.map(|i| (i as f32 - 7.5) / 8.0)), 0.0625)
+                }
             };
             let (center, radius) = ((center + self.shift) * self.scale, radius * self.scale);
             list.push(Sphere { center, radius });

@@ -36,12 +36,12 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
         from: usize,
         to: usize,
     ) {
-        let (token, spread) = (self.tests.token, self.tests.tier.spread());
+        let (token, tier) = (self.tests.token, self.tests.tier);
         let mut kept = from;
         for at in from..to {
             let Some(&QueuedRay { ray: number, .. }) = self.queues.get(at) else { break };
             let Some(ray) = self.rays.get(number as usize) else { break };
-            let spheres = ray.may_hit::<L, SPREADS>(token, spread, leaf);
+            let spheres = ray.may_hit::<L, SPREADS>(token, tier, leaf);
             if let Some(place) = self.queues.get_mut(kept) {
                 *place = QueuedRay { ray: number, entry: f32::from_bits(spheres) };
             }
@@ -64,7 +64,7 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
         let Some(ray) = rays.get_mut(number as usize) else { return };
         let whose = ray.whose::<L::Array>(self.first);
         count!(StreamRoots);
-        let probe = ray.probe::<L>(tests.token, tests.tier.spread());
+        let probe = ray.probe::<L>(tests.token, tests.tier);
         for part in 0..WIDTH / L::COUNT {
             let interval = probe.root_interval::<SPREADS>(&leaf.columns, part);
             let (entries, bounds) = (interval.entry.store(), interval.bound.store());
@@ -86,9 +86,17 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
                     continue;
                 }
                 ray.shorten(bound);
-                // The one before may be the closest, too.
+                // The one before may be the closest, too. Of those before that one, the tier may have answered: along a row
+                // of spheres that a ray touches, each would be decided by exact sums.
                 if ray.entry <= ray.best {
-                    tests.add(whose, ray.place);
+                    ray.take_answer(tests.limit(whose));
+                    if ray.entry <= ray.best {
+                        tests.add(whose, ray.place);
+                    }
+                    if entry > ray.best {
+                        ray.entry = f32::NAN;
+                        continue;
+                    }
                 }
                 ray.place = place_of(leaf_number, (part * L::COUNT + lane) as u32);
                 ray.entry = entry;

@@ -5,7 +5,7 @@ use crate::bvh::leaf::Leaf;
 use crate::bvh::node::{WIDTH, octant_of};
 use crate::bvh::traverse::boxes::BoxProbe;
 use crate::bvh::traverse::deferred::RayPlace;
-use crate::bvh::traverse::prepared_ray::PreparedPacket;
+use crate::bvh::traverse::prepared_ray::{PreparedPacket, RayTime};
 use crate::bvh::traverse::root_interval::RayProbe;
 use crate::count::count;
 use crate::lanes::{LaneArray, Lanes};
@@ -34,13 +34,11 @@ pub struct StreamRay {
     start: [f32; 2],
     end: f32,
     absolute_error: f32,
-    raise: f32,
+    time: RayTime<f32>,
     spread: f32,
     /// Some answer, or the end of the interval, is not above.
     pub(super) best: f32,
-    /// The octant of its direction; [`NO_OCTANT`](Self::NO_OCTANT) if it is not in the stream.
-    pub(super) octant: u32,
-    /// Which of all rays, or of those that are sorted together.
+    /// Which of all rays, or of those that are sorted together; [`NOBODY`](Self::NOBODY) if it is not in the stream.
     number: u32,
 }
 
@@ -60,21 +58,19 @@ impl StreamRay {
         start: [0.0; 2],
         end: 0.0,
         absolute_error: 0.0,
-        raise: 0.0,
+        time: RayTime { per_t: 0.0, shift: 0.0, length: 0.0 },
         spread: 0.0,
         best: 0.0,
-        octant: Self::NO_OCTANT,
-        number: 0,
+        number: Self::NOBODY,
     };
 
-    /// Of a lane that is in no stream.
-    pub(super) const NO_OCTANT: u32 = 8;
+    /// The number of a lane that is in no stream.
+    const NOBODY: u32 = u32::MAX;
 
     /// Takes lane `lane` of a prepared packet.
     #[inline(always)]
     pub(super) fn begin<A: LaneArray>(
         &mut self,
-        tier: impl Accuracy,
         prepared: &PreparedPacket<A>,
         lane: usize,
         number: u32,
@@ -93,11 +89,23 @@ impl StreamRay {
         self.start = [start, prepared.start[1].get(lane)];
         self.end = prepared.end[0].get(lane);
         self.absolute_error = prepared.absolute_error.get(lane);
-        self.raise = prepared.time(lane).raise(tier);
+        self.time = prepared.time(lane);
         self.spread = spread;
         self.best = best;
         self.number = number;
-        self.octant = octant_of(axes!(i => prepared.down[i] >> (lane % 32) & 1 == 1));
+    }
+
+    /// No ray.
+    #[inline(always)]
+    pub(super) fn leave_out(&mut self) {
+        (self.number, self.entry) = (Self::NOBODY, f32::NAN);
+    }
+
+    /// The octant of its direction; 8 if it is not in the stream.
+    #[inline(always)]
+    pub(super) fn octant(&self) -> u32 {
+        let octant = octant_of(axes!(i => self.inverse[i].is_sign_negative()));
+        if self.number == Self::NOBODY { 8 } else { octant }
     }
 
     /// Where its answer goes, if the first of the rays that are numbered is of packet `first`.
@@ -122,15 +130,15 @@ impl StreamRay {
 
     /// The ray in all lanes, as leaves see it.
     #[inline(always)]
-    pub(super) fn probe<L: Lanes>(&self, token: L::Token, spread: f32) -> RayProbe<L> {
+    pub(super) fn probe<L: Lanes>(&self, token: L::Token, tier: impl Accuracy) -> RayProbe<L> {
         RayProbe {
             origin: axes!(i => L::splat(token, self.origin[i])),
             direction: axes!(i => L::splat(token, self.direction[i])),
             start: [L::splat(token, self.start[0]), L::splat(token, self.start[1])],
             end: [L::splat(token, self.end), L::splat(token, self.best)],
             absolute_error: L::splat(token, self.absolute_error),
-            raise: L::splat(token, self.raise),
-            spread,
+            raise: L::splat(token, self.time.raise(tier)),
+            spread: tier.spread(),
         }
     }
 
@@ -139,16 +147,24 @@ impl StreamRay {
     pub(super) fn may_hit<L: Lanes, const SPREADS: bool>(
         &self,
         token: L::Token,
-        spread: f32,
+        tier: impl Accuracy,
         leaf: &Leaf<'_>,
     ) -> u32 {
         count!(StreamLeaf);
-        let probe = self.probe::<L>(token, spread);
+        let probe = self.probe::<L>(token, tier);
         let mut spheres = 0;
         for part in 0..WIDTH / L::COUNT {
             spheres |= probe.may_hit::<SPREADS>(&leaf.columns, part) << (part * L::COUNT);
         }
         spheres & leaf.lanes
+    }
+
+    /// Takes a t that the tier has answered, `-inf` if no more is asked; `+inf` is none.
+    #[inline(always)]
+    pub(super) fn take_answer(&mut self, t: f32) {
+        if t < f32::INFINITY {
+            self.shorten(self.time.after(t));
+        }
     }
 
     /// Takes an s that some answer is not above, if it is less than what is known.
