@@ -1,6 +1,6 @@
 //! Where a structure does not answer as brute force does.
 
-use super::{
+use super::table::{
     Answers, Memory, Storey, Structure, Structures, Variant, brute, variants, viewpoint_of,
 };
 use crate::case::HexRay;

@@ -1,6 +1,6 @@
 //! Ray i against sphere i alone, at every storey.
 
-use super::{Storey, level, levels, packed, stale_packet};
+use super::table::{Storey, level, levels, packed, stale_packet};
 use crate::case::Case;
 use spherule_kernel::{
     Hit, HitPacket, LaneArray, Lanes, Ray, Sphere, SpherePacket, Tier, f32x4, f32x8, f32x16,

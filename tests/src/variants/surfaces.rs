@@ -1,6 +1,6 @@
 //! The surface at every hit, at every storey.
 
-use super::{Storey, level, levels, packed};
+use super::table::{Storey, level, levels, packed};
 use spherule_kernel::{
     HitPacket, Intersect, LaneArray, Lanes, Level, Ray, RayPacket, Side, SphereList, Surface,
     SurfacePacket, Tier, Towards, Trace, Vec3, f32x4, f32x8, f32x16, shadow_lanes, shadow_packets,

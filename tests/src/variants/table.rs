@@ -4,21 +4,12 @@
 //! `Exact` gives the same bits in all of them, `Stable` in its domain; `Fast` and `Geometric` in all lists of
 //! spheres, while depth list and tree may lose false hits of them.
 
-mod difference;
-mod pairs;
-mod refitted;
-mod surfaces;
-mod tiles;
-
-pub use difference::{assert_same, assert_same_from, bits, difference};
-pub use pairs::{pair_storeys, pairs_of};
+use super::refitted;
 use spherule_kernel::{
     Bvh4, Coherence, DepthList, Hit, HitColumns, HitPacket, Intersect, LaneArray, Lanes, Level,
     LevelName, QueuedRay, Ray, RayColumns, RayPacket, Sphere, SphereList, SpherePacket, SphereTree,
     StreamMemory, StreamRay, Tier, Trace, Vec3, Viewpoint, f32x4, f32x8, f32x16, pair_lanes,
 };
-pub use surfaces::{shadow_rays_of, surface_storeys, surfaces_of};
-pub use tiles::{Frame, assert_same_tiles, tile_difference};
 
 /// What holds the spheres.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -343,7 +334,7 @@ pub fn viewpoint_of(rays: &[Ray]) -> Viewpoint {
     Viewpoint::Origin(rays.first().map_or(Vec3::ZERO, |ray| ray.origin))
 }
 
-fn level(name: LevelName) -> Level {
+pub(super) fn level(name: LevelName) -> Level {
     Level::named(name).expect("a level of this CPU")
 }
 
@@ -359,7 +350,7 @@ fn columns_of(rays: &[Ray]) -> [Vec<f32>; 8] {
     })
 }
 
-fn packed<A: LaneArray>(rays: &[Ray]) -> Vec<RayPacket<A>> {
+pub(super) fn packed<A: LaneArray>(rays: &[Ray]) -> Vec<RayPacket<A>> {
     rays.chunks(A::COUNT).map(RayPacket::new).collect()
 }
 
@@ -378,7 +369,7 @@ fn unpacked<L: Lanes<Token = ()>>(
 }
 
 /// A packet that is full of hits.
-fn stale_packet<L: Lanes<Token = ()>>() -> HitPacket<L::Array> {
+pub(super) fn stale_packet<L: Lanes<Token = ()>>() -> HitPacket<L::Array> {
     let ray = Ray::new(Vec3::new(0.0, 0.0, -3.0), Vec3::Z);
     let sphere = Sphere { center: Vec3::ZERO, radius: 1.0 };
     let (rays, spheres) = (RayPacket::new(&[ray; 16]), SpherePacket::new(&[sphere; 16]));

@@ -1,6 +1,7 @@
 //! A camera's tiles, at every storey and in every structure that makes their rays itself.
 
-use super::{Answers, Memory, Storey, Structures, bits, brute, level, levels, stale_packet};
+use super::difference::bits;
+use super::table::{Answers, Memory, Storey, Structures, brute, level, levels, stale_packet};
 use crate::case::HexRay;
 use spherule_kernel::{
     Camera, CameraTiles, DepthList, Hit, HitPacket, Intersect, LaneArray, Lanes, Projection, Ray,
