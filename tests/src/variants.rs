@@ -8,10 +8,10 @@ mod table;
 mod tiles;
 
 pub use difference::{assert_same, assert_same_from, bits, difference};
-pub use pairs::{pair_storeys, pairs_of};
-pub use surfaces::{shadow_rays_of, surface_storeys, surfaces_of};
+pub use pairs::{pair_layers, pairs_of};
+pub use surfaces::{shadow_rays_of, surface_layers, surfaces_of};
 pub use table::{
-    Answers, Memory, Storey, Structure, Structures, Variant, brute, levels, lists, reference,
+    Answers, Layer, Memory, Structure, Structures, Variant, brute, levels, lists, reference,
     variants, viewpoint_of,
 };
 pub use tiles::{Frame, assert_same_tiles, tile_difference};

@@ -1,4 +1,4 @@
-//! The table of variants: tier, structure and storey of the door, each as a plain function from rays to answers, so
+//! The table of variants: tier, structure and layer of the door, each as a plain function from rays to answers, so
 //! that a test says "all of them" in one loop, and that each is compiled once, here.
 //!
 //! `Exact` gives the same bits in all of them, `Stable` in its domain; `Fast` and `Geometric` in all lists of
@@ -30,7 +30,7 @@ pub enum Structure {
 
 /// How rays come to the door, and in which lanes they go on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Storey {
+pub enum Layer {
     /// One ray a call.
     Ray,
     /// A slice of rays, and nothing said of them.
@@ -45,7 +45,7 @@ pub enum Storey {
     Lanes(usize),
 }
 
-impl Storey {
+impl Layer {
     /// How many rays may share a packet.
     #[must_use]
     pub const fn lanes(self) -> usize {
@@ -67,8 +67,8 @@ pub struct Variant {
     pub tier: Tier,
     /// The structure.
     pub structure: Structure,
-    /// The storey.
-    pub storey: Storey,
+    /// The layer.
+    pub layer: Layer,
 }
 
 /// The levels that this CPU has.
@@ -79,59 +79,59 @@ pub fn levels() -> impl Iterator<Item = LevelName> {
 /// The whole table: of a list every lane width; of the larger structures, whose source is the same in every width,
 /// two.
 pub fn variants() -> impl Iterator<Item = Variant> {
-    let of = |structure, storeys: Vec<Storey>| {
+    let of = |structure, layers: Vec<Layer>| {
         let variant = move |tier| {
-            let storeys = storeys.clone().into_iter();
-            storeys.map(move |storey| Variant { tier, structure, storey })
+            let layers = layers.clone().into_iter();
+            layers.map(move |layer| Variant { tier, structure, layer })
         };
         Tier::ALL.into_iter().flat_map(variant)
     };
-    let plain = [Storey::Ray, Storey::Slice, Storey::Columns];
+    let plain = [Layer::Ray, Layer::Slice, Layer::Columns];
     let leveled = || {
-        let packets = levels().map(Storey::Packets);
-        [Storey::SliceAt(LevelName::Baseline)].into_iter().chain(packets)
+        let packets = levels().map(Layer::Packets);
+        [Layer::SliceAt(LevelName::Baseline)].into_iter().chain(packets)
     };
     let all = |lanes: &[usize]| {
-        let lanes = lanes.iter().copied().map(Storey::Lanes);
+        let lanes = lanes.iter().copied().map(Layer::Lanes);
         leveled().chain(lanes).collect::<Vec<_>>()
     };
     of(Structure::List, [plain.to_vec(), all(&[1, 4, 8, 16])].concat())
         .chain(of(Structure::DepthList(0), plain.to_vec()))
         .chain(of(Structure::DepthList(7), all(&[1, 8])))
-        .chain(of(Structure::DepthList(1), vec![Storey::Packets(Level::best().name())]))
+        .chain(of(Structure::DepthList(1), vec![Layer::Packets(Level::best().name())]))
         .chain(of(Structure::Tree(Coherence::Detect), plain.to_vec()))
         .chain(of(Structure::Tree(Coherence::Coherent), all(&[1, 8])))
         .chain(of(Structure::Tree(Coherence::Incoherent), all(&[1, 8])))
-        .chain(of(Structure::Refitted(Coherence::Detect), vec![Storey::Slice, Storey::Lanes(1)]))
+        .chain(of(Structure::Refitted(Coherence::Detect), vec![Layer::Slice, Layer::Lanes(1)]))
         .chain(of(
             Structure::Refitted(Coherence::Incoherent),
-            levels().map(Storey::Packets).collect(),
+            levels().map(Layer::Packets).collect(),
         ))
         .chain(of(Structure::Stream(1024, 0), all(&[1, 8])))
-        .chain(of(Structure::Stream(16, 0), vec![Storey::Packets(Level::best().name())]))
+        .chain(of(Structure::Stream(16, 0), vec![Layer::Packets(Level::best().name())]))
         .chain(of(Structure::Stream(32, 100), all(&[8])))
         .chain(of(
             Structure::Bvh4,
-            [plain.to_vec(), vec![Storey::Lanes(1), Storey::Lanes(8)]].concat(),
+            [plain.to_vec(), vec![Layer::Lanes(1), Layer::Lanes(8)]].concat(),
         ))
 }
 
 /// The variants of lists that have loops of their own: rays and slices of them go through packets.
 pub fn lists() -> impl Iterator<Item = Variant> {
-    let packed = |storey| matches!(storey, Storey::Packets(_) | Storey::Lanes(_));
-    variants().filter(move |v| v.structure == Structure::List && packed(v.storey))
+    let packed = |layer| matches!(layer, Layer::Packets(_) | Layer::Lanes(_));
+    variants().filter(move |v| v.structure == Structure::List && packed(v.layer))
 }
 
 /// The readable form of a tier: a list, one lane.
 #[must_use]
 pub const fn reference(tier: Tier) -> Variant {
-    Variant { tier, structure: Structure::List, storey: Storey::Lanes(1) }
+    Variant { tier, structure: Structure::List, layer: Layer::Lanes(1) }
 }
 
 /// Brute force for large scenes: a list, sixteen lanes.
 #[must_use]
 pub const fn brute(tier: Tier) -> Variant {
-    Variant { tier, structure: Structure::List, storey: Storey::Lanes(16) }
+    Variant { tier, structure: Structure::List, layer: Layer::Lanes(16) }
 }
 
 /// Spheres, and memory for every structure of them.
@@ -253,9 +253,9 @@ impl Variant {
     }
 
     fn ask_list(&self, list: &SphereList, rays: &[Ray]) -> Answers {
-        match self.storey {
-            Storey::Lanes(4) => self.lanes::<_, f32x4>(list, Trace::new(), rays),
-            Storey::Lanes(16) => self.lanes::<_, f32x16>(list, Trace::new(), rays),
+        match self.layer {
+            Layer::Lanes(4) => self.lanes::<_, f32x4>(list, Trace::new(), rays),
+            Layer::Lanes(16) => self.lanes::<_, f32x16>(list, Trace::new(), rays),
             _ => self.ask_of(list, Trace::new(), rays),
         }
     }
@@ -267,18 +267,18 @@ impl Variant {
         let mut hits = vec![stale; rays.len() + 1];
         let mut met: Vec<bool> = (0..=rays.len()).map(|i| i % 3 == 0).collect();
         let past = met[rays.len()];
-        match self.storey {
-            Storey::Ray => {
+        match self.layer {
+            Layer::Ray => {
                 for (index, ray) in rays.iter().enumerate() {
                     hits[index] = structure.closest_hit(tier, ray);
                     met[index] = structure.any_hit(tier, ray);
                 }
             }
-            Storey::Slice => {
+            Layer::Slice => {
                 structure.closest_hits(tier, rays, &mut hits);
                 structure.any_hits(tier, rays, &mut met);
             }
-            Storey::Columns => {
+            Layer::Columns => {
                 let table = columns_of(rays);
                 let [ox, oy, oz, dx, dy, dz, t_min, t_max] = table.each_ref().map(Vec::as_slice);
                 let (origin, direction) = ([ox, oy, oz], [dx, dy, dz]);
@@ -292,12 +292,12 @@ impl Variant {
                 hits = t.iter().zip(&sphere).map(hit).collect();
                 assert_eq!(t.last(), Some(&-7.0), "{self:?}: past the rays");
             }
-            Storey::SliceAt(name) => {
+            Layer::SliceAt(name) => {
                 trace.level = level(name);
                 structure.closest_hits_with(tier, &mut trace, rays, &mut hits);
                 structure.any_hits_with(tier, &mut trace, rays, &mut met);
             }
-            Storey::Packets(name) => {
+            Layer::Packets(name) => {
                 trace.level = level(name);
                 let packets = packed(rays);
                 let mut found = vec![stale_packet::<f32x16>(); packets.len() + 1];
@@ -306,8 +306,8 @@ impl Variant {
                 structure.any_hit_packets(tier, &mut trace, &packets, &mut bits);
                 return unpacked::<f32x16>(rays.len(), &found, &bits);
             }
-            Storey::Lanes(1) => return self.lanes::<_, f32>(structure, trace, rays),
-            Storey::Lanes(_) => return self.lanes::<_, f32x8>(structure, trace, rays),
+            Layer::Lanes(1) => return self.lanes::<_, f32>(structure, trace, rays),
+            Layer::Lanes(_) => return self.lanes::<_, f32x8>(structure, trace, rays),
         }
         assert_eq!((hits.pop(), met.pop()), (Some(stale), Some(past)), "{self:?}: past the rays");
         Answers { hits, met }
