@@ -4,7 +4,7 @@ use crate::lecture::canvas::{Canvas, Role};
 use crate::lecture::station::{Knob, Numbers, Source, Station, number};
 use crate::scene::Scene;
 use crate::scene::builtin::builtin;
-use crate::tally::{Summary, Tally};
+use crate::tally::{Class, Summary, Tally};
 use spherule_kernel::{Hit, Intersect, Ray, Tier};
 
 pub(super) const STATION: Station = Station {
@@ -43,7 +43,9 @@ fn draw([index, tier]: Numbers, canvas: &mut Canvas) -> String {
     });
     let [fast, geometric, _, exact] = &hits;
     let wrong: Vec<usize> = (0..rays.len())
-        .filter(|&ray| [fast, geometric].iter().any(|hits| is_wrong(hits[ray], exact[ray])))
+        .filter(|&ray| {
+            [fast, geometric].iter().any(|hits| class(hits[ray], exact[ray]) >= Class::LostHit)
+        })
         .collect();
     let chosen = match wrong.len() {
         0 => 0,
@@ -53,7 +55,7 @@ fn draw([index, tier]: Numbers, canvas: &mut Canvas) -> String {
     let shown = &hits[tier];
     for ray in 0..rays.len() {
         let (column, row) = (ray as i32 % width, ray as i32 / width);
-        let (glyph, role) = sign(shown[ray], exact[ray]);
+        let (glyph, role) = sign(class(shown[ray], exact[ray]));
         canvas.put(column, row, glyph, role);
     }
     let (column, row) = (chosen as i32 % width, chosen as i32 / width);
@@ -91,18 +93,21 @@ fn rays(scene: &Scene, canvas: &Canvas, width: u32, height: u32) -> Vec<Ray> {
     (0..width * height).map(|ray| camera.get_ray(ray % width, ray / width)).collect()
 }
 
-fn is_wrong(answer: Option<Hit>, truth: Option<Hit>) -> bool {
-    answer.map(|hit| hit.sphere) != truth.map(|hit| hit.sphere)
+/// What is wrong with an answer.
+fn class(answer: Option<Hit>, truth: Option<Hit>) -> Class {
+    let elsewhere = answer.zip(truth).is_some_and(|(a, b)| a.sphere != b.sphere);
+    let [t, true_t] = [answer, truth].map(|hit| hit.map(|hit| hit.t));
+    Class::of(t, true_t, elsewhere).0
 }
 
 /// A right decision or a wrong one.
-fn sign(answer: Option<Hit>, truth: Option<Hit>) -> (char, Role) {
-    match (answer, truth) {
-        (None, None) => (' ', Role::Plain),
-        (Some(_), None) => ('+', Role::Wrong),
-        (None, Some(_)) => ('-', Role::Wrong),
-        _ if is_wrong(answer, truth) => ('x', Role::Wrong),
-        _ => ('#', Role::Sphere),
+fn sign(class: Class) -> (char, Role) {
+    match class {
+        Class::Miss => (' ', Role::Plain),
+        Class::FalseHit => ('+', Role::Wrong),
+        Class::LostHit => ('-', Role::Wrong),
+        Class::OtherSphere => ('x', Role::Wrong),
+        Class::Right | Class::Off(_) | Class::OtherRoot => ('#', Role::Sphere),
     }
 }
 
