@@ -11,7 +11,7 @@ use spherule_tests::inputs::{self, Scene};
 use spherule_tests::oracle;
 use spherule_tests::regimes::REGIMES;
 use spherule_tests::variants::{
-    Memory, Storey, Structure, bits, difference, lists, pair_storeys, pairs_of, reference, variants,
+    Layer, Memory, Structure, bits, difference, lists, pair_layers, pairs_of, reference, variants,
 };
 
 fn t_bits(t: Option<f32>) -> Option<u32> {
@@ -20,14 +20,14 @@ fn t_bits(t: Option<f32>) -> Option<u32> {
 
 /// The t of a case on its own, in one lane.
 fn alone(tier: Tier, case: &Case) -> Option<f32> {
-    pairs_of(tier, Storey::Lanes(1), &[*case])[0]
+    pairs_of(tier, Layer::Lanes(1), &[*case])[0]
 }
 
 /// Rule 5 in plain words, sphere by sphere, no filter between.
 fn by_rule_5(tier: Tier, ray: &Ray, spheres: &[Sphere]) -> Option<Hit> {
     let cases: Vec<Case> = spheres.iter().map(|&sphere| Case { ray: *ray, sphere }).collect();
     let mut closest: Option<Hit> = None;
-    for (index, t) in pairs_of(tier, Storey::Lanes(1), &cases).into_iter().enumerate() {
+    for (index, t) in pairs_of(tier, Layer::Lanes(1), &cases).into_iter().enumerate() {
         let Some(t) = t else { continue };
         let hit = Hit { t, sphere: index as u32 };
         if closest.is_none_or(|known| oracle::is_closer(tier, ray, spheres, hit, known)) {
@@ -65,9 +65,9 @@ fn check_pairs(cases: &[Case]) -> Result<(), TestCaseError> {
             oracle::accepted(&case.ray, roots).map(f32::to_bits)
         };
         let expected: Vec<_> = cases.iter().map(answer).collect();
-        for storey in pair_storeys() {
-            let found: Vec<_> = pairs_of(tier, storey, cases).into_iter().map(t_bits).collect();
-            prop_assert_eq!(&found, &expected, "{:?}, {:?}: {:?}", tier, storey, cases);
+        for layer in pair_layers() {
+            let found: Vec<_> = pairs_of(tier, layer, cases).into_iter().map(t_bits).collect();
+            prop_assert_eq!(&found, &expected, "{:?}, {:?}: {:?}", tier, layer, cases);
         }
     }
     Ok(())
@@ -156,7 +156,7 @@ fn the_filter_drops_nothing_in_any_regime() {
     for regime in REGIMES {
         let cases: Vec<Case> = regime.cases(2000).collect();
         for tier in Tier::ALL {
-            for (case, t) in cases.iter().zip(pairs_of(tier, Storey::Lanes(1), &cases)) {
+            for (case, t) in cases.iter().zip(pairs_of(tier, Layer::Lanes(1), &cases)) {
                 let hit = reference(tier).closest(&[case.sphere], &[case.ray])[0];
                 let found = hit.map(|hit| hit.t.to_bits());
                 assert_eq!(found, t_bits(t), "{tier:?}, {regime:?}: {case:?}");
@@ -175,9 +175,9 @@ fn neighbours_change_nothing() {
             packet[shift] = case;
             for tier in Tier::ALL {
                 let expected = t_bits(alone(tier, &case));
-                for storey in pair_storeys() {
-                    let found = t_bits(pairs_of(tier, storey, &packet)[shift]);
-                    assert_eq!(found, expected, "{tier:?}, {storey:?}: {case:?}");
+                for layer in pair_layers() {
+                    let found = t_bits(pairs_of(tier, layer, &packet)[shift]);
+                    assert_eq!(found, expected, "{tier:?}, {layer:?}: {case:?}");
                 }
             }
             let rays: Vec<Ray> = packet.iter().map(|case| case.ray).collect();

@@ -7,7 +7,7 @@ use spherule_kernel::{Ray, Sphere, Tier, Vec3, Viewpoint, discriminant, roots};
 use spherule_tests::case::Case;
 use spherule_tests::inputs::SPECIALS;
 use spherule_tests::oracle;
-use spherule_tests::variants::{Memory, Storey, pair_storeys, pairs_of, variants};
+use spherule_tests::variants::{Layer, Memory, pair_layers, pairs_of, variants};
 
 const NAN: f32 = f32::NAN;
 const INF: f32 = f32::INFINITY;
@@ -37,7 +37,7 @@ fn answers(case: &Case, expected: Option<f32>) {
                 let mut cases = [neighbour; 16];
                 cases[lane] = *case;
                 let rays = cases.map(|case| case.ray);
-                for variant in variants().filter(|variant| lane < variant.storey.lanes()) {
+                for variant in variants().filter(|variant| lane < variant.layer.lanes()) {
                     let place = format!("{variant:?}, lane {lane}: {case:?}");
                     let answers = variant.ask(structures, &rays);
                     let (hit, met) = (answers.hits[lane], answers.met[lane]);
@@ -45,10 +45,10 @@ fn answers(case: &Case, expected: Option<f32>) {
                     assert!(hit.is_none_or(|hit| hit.sphere == 0), "closest, {place}");
                     assert_eq!(met, expected.is_some(), "any, {place}");
                 }
-                for storey in pair_storeys().filter(|storey| lane < storey.lanes()) {
+                for layer in pair_layers().filter(|layer| lane < layer.lanes()) {
                     for tier in Tier::ALL {
-                        let t = pairs_of(tier, storey, &cases)[lane];
-                        assert_eq!(t.map(f32::to_bits), bits, "{tier:?}, {storey:?}: {case:?}");
+                        let t = pairs_of(tier, layer, &cases)[lane];
+                        assert_eq!(t.map(f32::to_bits), bits, "{tier:?}, {layer:?}: {case:?}");
                     }
                 }
             }
@@ -270,12 +270,12 @@ fn special_numbers_in_any_two_places() {
             };
             let cases: Vec<Case> = (0..SPECIALS.len() * SPECIALS.len()).map(pair).collect();
             for tier in Tier::ALL {
-                let reference = pairs_of(tier, Storey::Lanes(1), &cases);
-                for storey in pair_storeys() {
+                let reference = pairs_of(tier, Layer::Lanes(1), &cases);
+                for layer in pair_layers() {
                     let bits = |t: &Option<f32>| t.map(f32::to_bits);
-                    let ts = pairs_of(tier, storey, &cases);
+                    let ts = pairs_of(tier, layer, &cases);
                     let same = ts.iter().map(bits).eq(reference.iter().map(bits));
-                    assert!(same, "{tier:?}, {storey:?}, places {first} and {second}");
+                    assert!(same, "{tier:?}, {layer:?}, places {first} and {second}");
                 }
                 for (case, t) in cases.iter().zip(reference) {
                     let Some(t) = t else { continue };

@@ -1,4 +1,4 @@
-//! The door's edges: slices of unequal length, nothing to do, and what is left alone, at every storey of every
+//! The door's edges: slices of unequal length, nothing to do, and what is left alone, at every layer of every
 //! structure.
 
 use spherule_kernel::{
@@ -13,7 +13,7 @@ const RAY: Ray = Ray::new(Vec3::new(0.0, 0.0, -3.0), Vec3::Z);
 const MISS: Ray = Ray::new(Vec3::new(0.0, 0.0, -3.0), Vec3::X);
 const SPHERE: Sphere = Sphere { center: Vec3::ZERO, radius: 1.0 };
 const HIT: Option<Hit> = Some(Hit { t: 2.0, sphere: 0 });
-/// What nobody answers.
+/// What no query answers.
 const STALE: Option<Hit> = Some(Hit { t: -7.0, sphere: 7 });
 
 /// Traces of every kind of coherence at every level.

@@ -18,7 +18,7 @@ use spherule_tests::inputs::{self, Scene};
 use spherule_tests::random::Random;
 use spherule_tests::regimes::REGIMES;
 use spherule_tests::variants::{
-    Memory, Variant, bits as hit_bits, lists, pair_storeys, pairs_of, variants, viewpoint_of,
+    Memory, Variant, bits as hit_bits, lists, pair_layers, pairs_of, variants, viewpoint_of,
 };
 use spherule_tests::{oracle, vectors};
 
@@ -54,11 +54,11 @@ fn dot(v: [i64; 3], w: [i64; 3]) -> i64 {
 /// 16 cases with their answers, as pairs and each sphere as a list of its own for all 16 rays.
 fn check(cases: &[Case], expected: &[Option<f32>]) {
     let rays: Vec<Ray> = cases.iter().map(|case| case.ray).collect();
-    for storey in pair_storeys() {
-        let found = pairs_of(Tier::Exact, storey, cases);
+    for layer in pair_layers() {
+        let found = pairs_of(Tier::Exact, layer, cases);
         for index in 0..cases.len() {
             let case = cases[index];
-            assert_eq!(bits(found[index]), bits(expected[index]), "{storey:?}: {case:?}");
+            assert_eq!(bits(found[index]), bits(expected[index]), "{layer:?}: {case:?}");
         }
     }
     for (index, case) in cases.iter().enumerate() {
@@ -213,10 +213,10 @@ fn expansions_and_filter_agree_on_a_lattice_rich_in_tangents() {
                 expected = Some(Hit { t, sphere: index as u32 });
             }
         }
-        for storey in pair_storeys() {
-            let found = pairs_of(Tier::Exact, storey, &cases);
+        for layer in pair_layers() {
+            let found = pairs_of(Tier::Exact, layer, &cases);
             for (index, case) in cases.iter().enumerate() {
-                assert_eq!(bits(found[index]), bits(pure[index]), "{storey:?}: {case:?}");
+                assert_eq!(bits(found[index]), bits(pure[index]), "{layer:?}: {case:?}");
             }
         }
         for variant in exact_lists() {
@@ -273,9 +273,9 @@ proptest! {
     #[test]
     fn a_drawn_pair_is_the_oracles(case in inputs::case()) {
         let t = oracle::intersect(&case.ray, &case.sphere);
-        for storey in pair_storeys() {
-            let found = pairs_of(Tier::Exact, storey, &[case])[0];
-            prop_assert_eq!(bits(found), bits(t), "{:?}", storey);
+        for layer in pair_layers() {
+            let found = pairs_of(Tier::Exact, layer, &[case])[0];
+            prop_assert_eq!(bits(found), bits(t), "{:?}", layer);
         }
         let hit = t.map(|t| Hit { t, sphere: 0 });
         check_scene(&Scene { rays: vec![case.ray], spheres: vec![case.sphere] }, &[hit])?;
@@ -310,12 +310,12 @@ fn any_bits_change_nothing_for_their_neighbours() {
         let rays = [&cases, &disturbed]
             .map(|cases| -> Vec<Ray> { cases.iter().map(|case| case.ray).collect() });
         let others = || (0..16).filter(|&index| index != lane);
-        for storey in pair_storeys() {
+        for layer in pair_layers() {
             let [alone, beside] =
-                [&cases, &disturbed].map(|cases| pairs_of(Tier::Exact, storey, cases));
+                [&cases, &disturbed].map(|cases| pairs_of(Tier::Exact, layer, cases));
             for i in others() {
                 let (case, disturbed) = (cases[i], disturbed[lane]);
-                assert_eq!(bits(alone[i]), bits(beside[i]), "{storey:?}: {case:?} {disturbed:?}");
+                assert_eq!(bits(alone[i]), bits(beside[i]), "{layer:?}: {case:?} {disturbed:?}");
             }
         }
         // The list stays: only the ray of one lane changes.

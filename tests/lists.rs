@@ -1,7 +1,7 @@
 //! Spheres by name, in every variant: none, any number of them, full of equals, with invalid members.
 
 use spherule_kernel::{Hit, Ray, Sphere, Vec3};
-use spherule_tests::variants::{Memory, Storey, lists, variants, viewpoint_of};
+use spherule_tests::variants::{Layer, Memory, lists, variants, viewpoint_of};
 
 /// From (0, 0, -3) upwards, and the sphere of radius 1 about zero: hit at 2.
 const RAY: Ray = Ray::new(Vec3::new(0.0, 0.0, -3.0), Vec3::Z);
@@ -87,7 +87,7 @@ fn rays_that_are_none_among_others() {
 fn a_million_spheres_in_one_place() {
     let spheres = vec![SPHERE; 1_000_000];
     // In `Exact`, every sphere is a case for exact sums.
-    for variant in lists().filter(|variant| matches!(variant.storey, Storey::Lanes(_))) {
+    for variant in lists().filter(|variant| matches!(variant.layer, Layer::Lanes(_))) {
         assert_eq!(variant.closest(&spheres, &[RAY]), [Some(Hit { t: 2.0, sphere: 0 })]);
     }
     hits(&spheres[..30_000], 0);

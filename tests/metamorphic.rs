@@ -7,7 +7,7 @@ use spherule_tests::case::Case;
 use spherule_tests::inputs::{self, Scene};
 use spherule_tests::oracle::is_closer;
 use spherule_tests::random::power_of_two;
-use spherule_tests::variants::{Storey, bits, lists, pairs_of};
+use spherule_tests::variants::{Layer, bits, lists, pairs_of};
 
 fn all_bits(hits: Vec<Option<Hit>>) -> Vec<Option<(u32, u32)>> {
     hits.into_iter().map(bits).collect()
@@ -187,7 +187,7 @@ proptest! {
                 let Some(found) = found else { continue };
                 // The first in the new order that is met at this t.
                 let same_t = |&sphere: &Sphere| {
-                    let t = pairs_of(variant.tier, Storey::Lanes(1), &[Case { ray: *ray, sphere }])[0];
+                    let t = pairs_of(variant.tier, Layer::Lanes(1), &[Case { ray: *ray, sphere }])[0];
                     t == Some(found.t)
                 };
                 let tied = spheres.iter().enumerate().filter(|(_, sphere)| same_t(sphere));

@@ -18,9 +18,7 @@ mod worst_cases;
 
 use scenes::{EYE, camera, uniform};
 use spherule_kernel::{Coherence, Level, LevelName, Tier, Vec3};
-use spherule_tests::variants::{
-    Memory, Storey, Structure, Variant, levels, variants, viewpoint_of,
-};
+use spherule_tests::variants::{Layer, Memory, Structure, Variant, levels, variants, viewpoint_of};
 use std::time::Instant;
 
 const BOTH: &[Tier] = &[Tier::Exact, Tier::Stable];
@@ -44,8 +42,8 @@ fn every_level_of_this_cpu_runs() {
     assert_eq!(run, has, "the levels that the CPU has");
     assert_eq!(run.last(), Some(&Level::best().name()), "the best level is the last");
     for name in run {
-        let storey = Storey::Packets(name);
-        assert!(variants().any(|variant| variant.storey == storey), "no variant at {name:?}");
+        let layer = Layer::Packets(name);
+        assert!(variants().any(|variant| variant.layer == layer), "no variant at {name:?}");
     }
 }
 
@@ -57,8 +55,8 @@ fn many_times_as_fast_as_brute_force() {
     memory.sorted(viewpoint_of(&rays), |structures| {
         // The least of several: other tests run beside this one.
         let least = |structure| {
-            let storey = Storey::Packets(Level::best().name());
-            let variant = Variant { tier: Tier::Stable, structure, storey };
+            let layer = Layer::Packets(Level::best().name());
+            let variant = Variant { tier: Tier::Stable, structure, layer };
             let times = (0..5).map(|_| {
                 let start = Instant::now();
                 std::hint::black_box(variant.ask(structures, &rays));

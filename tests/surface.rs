@@ -6,7 +6,7 @@ use spherule_tests::case::Case;
 use spherule_tests::oracle;
 use spherule_tests::random::{Random, power_of_two};
 use spherule_tests::regimes::REGIMES;
-use spherule_tests::variants::{Storey, surface_storeys, surfaces_of};
+use spherule_tests::variants::{Layer, surface_layers, surfaces_of};
 
 /// Both roots of a line against integers; returns how many there were.
 fn check(ray: &Ray, sphere: &Sphere) -> usize {
@@ -94,9 +94,9 @@ fn exact_surfaces_are_correctly_rounded_from_afar_and_for_any_bits() {
     assert!(checked > 11_000, "{checked}");
 }
 
-/// Every storey against one ray at a time, which is against integers; every third ray misses.
+/// Every layer against one ray at a time, which is against integers; every third ray misses.
 #[test]
-fn surfaces_are_the_same_at_every_storey() {
+fn surfaces_are_the_same_at_every_layer() {
     let mut random = Random::seeded(7);
     for (far, size) in [(3.0, 1.0), (1e3, 1.0), (1e6, 0.1), (1e7, 1.0)] {
         let sphere = |random: &mut Random| Sphere {
@@ -120,11 +120,11 @@ fn surfaces_are_the_same_at_every_storey() {
                 let bits = |v: Vec3| v.to_array().map(f32::to_bits);
                 surfaces.into_iter().take(2001).map(|surface| surface.map(bits)).collect()
             };
-            let expected = bits(surfaces_of(tier, Storey::Ray, &list, &rays));
+            let expected = bits(surfaces_of(tier, Layer::Ray, &list, &rays));
             assert!(expected.iter().filter(|&&surface| surface != [[0; 3]; 2]).count() > 50);
-            for storey in surface_storeys() {
-                let found = bits(surfaces_of(tier, storey, &list, &rays));
-                assert_eq!(found, expected, "{tier:?} {storey:?} {far}");
+            for layer in surface_layers() {
+                let found = bits(surfaces_of(tier, layer, &list, &rays));
+                assert_eq!(found, expected, "{tier:?} {layer:?} {far}");
             }
         }
     }

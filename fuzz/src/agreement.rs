@@ -7,7 +7,7 @@ use spherule_kernel::{Hit, Ray, Sphere, Tier, Viewpoint, roots};
 use spherule_tests::case::Case;
 use spherule_tests::oracle::{accepted, is_closer};
 use spherule_tests::variants::{
-    Answers, Memory, Structure, Structures, Variant, bits, pair_storeys, pairs_of, reference,
+    Answers, Memory, Structure, Structures, Variant, bits, pair_layers, pairs_of, reference,
     variants,
 };
 
@@ -65,10 +65,10 @@ fn check_tier(tier: Tier, scene: &Scene, structures: Structures<'_>) {
         roots.and_then(|roots| accepted(&case.ray, roots)).map(f32::to_bits)
     };
     let expected: Vec<_> = cases.iter().map(answer).collect();
-    for storey in pair_storeys() {
+    for layer in pair_layers() {
         let found: Vec<_> =
-            pairs_of(tier, storey, &cases).into_iter().map(|t| t.map(f32::to_bits)).collect();
-        assert_eq!(found, expected, "pairs: {tier:?}, {storey:?}: {cases:?}");
+            pairs_of(tier, layer, &cases).into_iter().map(|t| t.map(f32::to_bits)).collect();
+        assert_eq!(found, expected, "pairs: {tier:?}, {layer:?}: {cases:?}");
     }
 }
 

@@ -1,4 +1,4 @@
-//! Surfaces and the rays that leave them: the same bits at every storey, by `Exact` those of integers, and nothing is
+//! Surfaces and the rays that leave them: the same bits at every layer, by `Exact` those of integers, and nothing is
 //! met where a ray leaves.
 
 use crate::geometry::Scene;
@@ -6,7 +6,7 @@ use spherule_kernel::{Intersect, Ray, Side, Sphere, SphereList, Tier, Vec3, root
 use spherule_tests::aim::double;
 use spherule_tests::oracle;
 use spherule_tests::random::dot;
-use spherule_tests::variants::{Storey, surface_storeys, surfaces_of};
+use spherule_tests::variants::{Layer, surface_layers, surfaces_of};
 
 /// Judges the surfaces that the rays of a scene hit.
 ///
@@ -15,14 +15,14 @@ use spherule_tests::variants::{Storey, surface_storeys, surfaces_of};
 pub fn check(tier: Tier, scene: &Scene) {
     let Scene { rays, spheres, .. } = scene;
     let list = SphereList::from(&spheres[..]);
-    let one_by_one = surfaces_of(tier, Storey::Ray, &list, rays);
-    for storey in surface_storeys() {
-        let found = surfaces_of(tier, storey, &list, rays);
+    let one_by_one = surfaces_of(tier, Layer::Ray, &list, rays);
+    for layer in surface_layers() {
+        let found = surfaces_of(tier, layer, &list, rays);
         for (index, (found, expected)) in found.iter().zip(&one_by_one).enumerate() {
             assert_eq!(
                 bits(*found),
                 bits(*expected),
-                "{tier:?} {storey:?}, ray {index} of {scene:?}"
+                "{tier:?} {layer:?}, ray {index} of {scene:?}"
             );
         }
     }

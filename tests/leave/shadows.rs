@@ -7,7 +7,7 @@ use spherule_kernel::{
 use spherule_tests::campaign::on_all_cores;
 use spherule_tests::oracle;
 use spherule_tests::random::Random;
-use spherule_tests::variants::{Storey, shadow_rays_of, surface_storeys};
+use spherule_tests::variants::{Layer, shadow_rays_of, surface_layers};
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// Spheres that touch, overlap, lie one in the other and twice in one place, moved by `offset`.
@@ -114,8 +114,8 @@ fn shadow_rays_of_packets_are_those_of_one_ray() {
         let light = offset + 9.0 * random.direction() + 9.0 * Vec3::Y;
         for towards in [Towards::Direction(random.direction()), Towards::Point(light)] {
             for tier in Tier::ALL {
-                let of = |storey| {
-                    let rays = shadow_rays_of(tier, storey, &list, &rays, towards);
+                let of = |layer| {
+                    let rays = shadow_rays_of(tier, layer, &list, &rays, towards);
                     let bits = |v: Vec3| v.to_array().map(f32::to_bits);
                     let all = |ray: Ray| {
                         let interval = [ray.t_min, ray.t_max].map(f32::to_bits);
@@ -123,12 +123,12 @@ fn shadow_rays_of_packets_are_those_of_one_ray() {
                     };
                     rays.into_iter().take(600).map(all).collect::<Vec<_>>()
                 };
-                let expected = of(Storey::Ray);
+                let expected = of(Layer::Ray);
                 left += expected.iter().flatten().count();
-                for storey in surface_storeys() {
-                    let found = of(storey);
+                for layer in surface_layers() {
+                    let found = of(layer);
                     for index in 0..600 {
-                        let say = (tier, storey, far, &rays[index]);
+                        let say = (tier, layer, far, &rays[index]);
                         assert_eq!(found[index], expected[index], "{say:?} {towards:?}");
                     }
                 }

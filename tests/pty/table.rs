@@ -86,7 +86,7 @@ fn escape_stops_at_once_what_is_measured() {
         // An escape is a key when no sequence has followed for 50 ms.
         assert!(asked.elapsed() < AT_ONCE, "{:?}", asked.elapsed());
     }
-    // Nobody measures any more.
+    // No one measures any more.
     viewer.session.wait_for_peace();
     viewer.quit();
 }

@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 use std::time::SystemTime;
 
 /// Where `spherule` is, built if it is older than its sources. Cargo names the binaries of another
-/// package to nobody, but it puts them two levels above a test or an example:
+/// package to no one, but it puts them two levels above a test or an example:
 /// `target/PROFILE/deps/main-HASH`.
 ///
 /// # Panics

@@ -4,7 +4,7 @@
 //! | room | holds |
 //! |---|---|
 //! | [`oracle`] | the exact answers, from big integers |
-//! | [`variants`] | the one table of tiers, structures and storeys of the door |
+//! | [`variants`] | the one table of tiers, structures and layers of the door |
 //! | [`ulp`] | steps between neighbouring numbers |
 //! | [`tally`] | what a tier's answers come to |
 //! | [`case`] | one ray and one sphere, printed so that no bit is hidden |

@@ -52,7 +52,7 @@ fn what_was_built_is_loaded() {
         let mut words = words_of(&spheres);
         assert_eq!(words.len(), Bvh4::needed(count));
         assert!(words.len() * 4 <= 12 * count + 700, "{count}: {} words", words.len());
-        // What lies behind is nobody's.
+        // What lies behind belongs to no sphere.
         words.extend([u32::MAX; 3]);
         let list = SphereList::from(spheres.as_slice());
         let tree = Bvh4::load(list.spheres(), &words).expect("what was built");

@@ -118,7 +118,7 @@ fn rays_that_do_not_fit() {
         }
         assert_same_from(Viewpoint::Origin(eye), EXACT, &rays, &spheres);
         assert_same_from(Viewpoint::Direction(-eye), EXACT, &along, &spheres);
-        // Nobody's viewpoint, and another's.
+        // No one's viewpoint, and another's.
         for odd in [f32::NAN, f32::INFINITY, 3e38, 0.0, 1e-30] {
             assert_same_from(Viewpoint::Origin(Vec3::splat(odd)), EXACT, &rays[..600], &spheres);
             assert_same_from(Viewpoint::Direction(Vec3::splat(odd)), EXACT, &rays[..600], &spheres);

@@ -55,6 +55,12 @@ pub enum Command {
     Lecture(LectureArguments),
     /// List the built-in scenes
     Scenes,
+    /// Write man pages and completions for bash, zsh and fish
+    #[command(hide = true)]
+    Generate {
+        /// Where `man/` and `completions/` are made
+        folder: PathBuf,
+    },
 }
 
 /// A scene, and how to draw it.

@@ -73,8 +73,7 @@ pub fn lecture(arguments: &LectureArguments) -> Result<(), Error> {
     let size = size.unwrap_or(PIPE_SIZE);
     let chosen = arguments.station.map_or(0..STATIONS.len(), |index| index..index + 1);
     for index in chosen {
-        let station = (STATIONS[index].start)();
-        let page = frame::page(index, &*station, false, size, style);
+        let page = frame::page(index, STATIONS[index].first(), false, size, style);
         let mut bytes = Vec::new();
         encode::full(&page, &mut bytes);
         write_stdout(&bytes)?;
@@ -86,10 +85,10 @@ pub fn lecture(arguments: &LectureArguments) -> Result<(), Error> {
 #[must_use]
 pub fn list() -> String {
     let mut text = String::new();
-    for (number, entry) in (1..).zip(&STATIONS) {
-        text += &format!("{number:>2}  {:<14} {}\n", entry.name, entry.title);
-        text += &format!("    {:<14} lecture: {}\n", "", entry.topic);
-        for source in entry.sources {
+    for (number, station) in (1..).zip(&STATIONS) {
+        text += &format!("{number:>2}  {:<14} {}\n", station.name, station.title);
+        text += &format!("    {:<14} lecture: {}\n", "", station.topic);
+        for source in station.sources {
             text += &format!("    {:<14} {}: {}\n", "", source.file, source.symbols.join(", "));
         }
     }

@@ -12,6 +12,7 @@ pub mod error;
 pub mod ink;
 pub mod lecture;
 pub mod machine;
+pub mod manual;
 pub mod npy;
 pub mod palette;
 pub mod pick;

@@ -3,7 +3,7 @@
 
 use spherule::arguments::{self, Command, Request};
 use spherule::error::{Error, write_stdout};
-use spherule::{lecture, machine, show, trace, tradeoff};
+use spherule::{lecture, machine, manual, show, trace, tradeoff};
 use spherule_kernel::Tier;
 use std::process::ExitCode;
 
@@ -35,6 +35,7 @@ fn run() -> Result<(), Error> {
                 machine::check_floats(Tier::Exact)?;
                 lecture::lecture(arguments)
             }
+            Some(Command::Generate { folder }) => manual::generate(folder),
             Some(Command::Scenes) => write_stdout(show::scenes().as_bytes()),
         },
     }

@@ -44,7 +44,7 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     if let Some(background) = arguments.background.filter(|_| !scene.names_background) {
         scene.background = background;
     }
-    // The viewer's table is measured by a thread that nobody waits for: it shares the scene.
+    // The viewer's table is measured by a thread that no one waits for: it shares the scene.
     let scene = Arc::new(scene);
     let is_terminal = std::io::stdout().is_terminal();
     let surroundings = Surroundings::of_process(is_terminal);

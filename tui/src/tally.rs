@@ -2,6 +2,43 @@
 
 use spherule_kernel::Hit;
 
+/// What is wrong with an answer, from nothing to the worst.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Class {
+    /// Both miss: right, and nothing to see.
+    Miss,
+    /// The same sphere at the same t, bit for bit.
+    Right,
+    /// The same sphere, and t off by two to this power in ulp, or up to twice as much.
+    Off(u8),
+    /// The same sphere, and t nearer to the other root of the line.
+    OtherRoot,
+    /// A miss that is a hit in truth.
+    LostHit,
+    /// A hit that is a miss in truth.
+    FalseHit,
+    /// Another sphere than the one that is hit first in truth.
+    OtherSphere,
+}
+
+impl Class {
+    /// That of the t of an answer against the true one, and how far it is off in ulp if both hit; `elsewhere` if they hit
+    /// different spheres. Which root it is takes a [verdict](crate::compare::verdict::Verdict) to tell.
+    #[must_use]
+    pub fn of(answer: Option<f32>, truth: Option<f32>, elsewhere: bool) -> (Self, u64) {
+        match (answer, truth) {
+            (None, None) => (Self::Miss, 0),
+            (Some(_), None) => (Self::FalseHit, 0),
+            (None, Some(_)) => (Self::LostHit, 0),
+            (Some(_), Some(_)) if elsewhere => (Self::OtherSphere, 0),
+            (Some(answer), Some(truth)) => {
+                let ulp = ulp_between(answer, truth);
+                (ulp.checked_ilog2().map_or(Self::Right, |log| Self::Off(log as u8)), ulp)
+            }
+        }
+    }
+}
+
 /// Answers against the truth, ray by ray.
 #[derive(Clone, Debug, Default)]
 pub struct Tally {
@@ -60,14 +97,16 @@ impl Tally {
         let counts = &mut self.counts;
         counts.rays += 1;
         counts.hits += u64::from(truth.is_some());
-        match (answer, truth) {
-            (None, None) => {}
-            (Some(_), None) => counts.wrong_hits += 1,
-            (None, Some(_)) => counts.wrong_misses += 1,
-            (Some(_), Some(_)) if elsewhere => counts.wrong_places += 1,
-            (Some(answer), Some(truth)) => {
-                counts.rounded += u64::from(answer.to_bits() == truth.to_bits());
-                self.ulp.push(ulp_between(answer, truth));
+        match Class::of(answer, truth, elsewhere) {
+            (Class::Miss, _) => {}
+            (Class::FalseHit, _) => counts.wrong_hits += 1,
+            (Class::LostHit, _) => counts.wrong_misses += 1,
+            (Class::OtherSphere, _) => counts.wrong_places += 1,
+            (Class::Right | Class::Off(_) | Class::OtherRoot, ulp) => {
+                // Zeros of either sign are one place, and have other bits.
+                let same = answer.map(f32::to_bits) == truth.map(f32::to_bits);
+                counts.rounded += u64::from(same);
+                self.ulp.push(ulp);
             }
         }
     }

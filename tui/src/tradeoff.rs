@@ -172,7 +172,7 @@ mod tests {
             told.push((step, share));
             true
         });
-        assert_eq!(whole.expect("nobody ends it").tiers.len(), 2 * Tier::ALL.len());
+        assert_eq!(whole.expect("it is not ended").tiers.len(), 2 * Tier::ALL.len());
         let shares = told.iter().map(|(_, share)| share);
         assert!(shares.is_sorted() && told.iter().all(|(_, share)| (0.0..=1.0).contains(share)));
         for end in [Step::Rays, Step::Orders, Step::Lighting, Step::Camera, Step::Shadow] {

@@ -41,7 +41,7 @@ use table::Table;
 const LOCAL_RATE: u32 = 60;
 const REMOTE_RATE: u32 = 30;
 /// Set, the key `!` panics. There is no other way to test that the terminal survives a panic of
-/// the real program; it harms nobody who does not ask for it.
+/// the real program; it has no effect unless the variable is set.
 const PANIC_SWITCH: &str = "SPHERULE_TEST_PANIC";
 
 /// Shows `scene` on the terminal, from `start` on, drawn by `renderer` with the chosen one of its

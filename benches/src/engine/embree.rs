@@ -283,7 +283,7 @@ fn flushing(calls: impl FnOnce()) -> u64 {
 /// Writes the register if there is something to write, and reads it.
 fn control_and_status(write: Option<u32>) -> u32 {
     let mut register = write.unwrap_or(0);
-    // SAFETY: loads and stores four bytes where there are four; what is loaded was stored before, but for two of its
+    // SAFETY: loads and stores four bytes where there are four; what is loaded was stored before, except for two of its
     // defined bits.
     unsafe {
         if write.is_some() {

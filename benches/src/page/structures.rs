@@ -19,7 +19,7 @@ pub(crate) fn page(origin: &str, results: &Structures) -> String {
     let mut text = format!(
         "# Many spheres, {} build\n\n{origin}\n\nOne thread; medians of {} to {} interleaved rounds [quartiles] of the \
          thread's own time; ratios round by round. Before anything is timed, every way answers as brute force does, bit for \
-         bit, on a sample of the rays (`stable`, `exact`), and others answer as `exact` but for close calls. The kernel and \
+         bit, on a sample of the rays (`stable`, `exact`), and others answer as `exact` except in close calls. The kernel and \
          Embree get {BLOCK} rays at a time, streams {STREAM}, which are brought into the cache outside the clock.{some} The \
          scenes: [scenes.rs](../../tests/src/scenes.rs).\n\n{}{}",
         build(),

@@ -36,7 +36,7 @@ fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
 /// Returns a digest of the answers, so that nothing can be left out.
 ///
 /// # Safety
-/// `numbers` points to `count` numbers that nobody writes meanwhile, or is null.
+/// `numbers` points to `count` numbers that do not change meanwhile, or is null.
 // Unsafe code: a C interface takes raw memory, and its symbol name is unchecked.
 #[allow(unsafe_code)]
 #[unsafe(no_mangle)]
@@ -223,7 +223,7 @@ impl Sum {
         }
     }
 
-    /// Every storey of the door.
+    /// Every layer of the door.
     fn structure(
         &mut self,
         tier: Tier,

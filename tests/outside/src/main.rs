@@ -1,4 +1,4 @@
-//! The rates of every traversal, a line each: level, structure and storey, million rays a second.
+//! The rates of every traversal, a line each: level, structure and layer, million rays a second.
 //!
 //! `compare` builds this in several profiles and holds their rates against each other.
 

@@ -52,7 +52,7 @@ pub(super) fn overlapping(count: usize) -> Vec<Sphere> {
 }
 
 /// Uniform in the cube from -1 to 1, a tenth as large as there is room; and in the middle of the list one in the
-/// middle of the cube, from side to side but for a tenth.
+/// middle of the cube, from side to side except a tenth.
 pub(super) fn huge_and_tiny(count: usize) -> Vec<Sphere> {
     let mut list = in_cube(count - 1, 0.1, 14);
     list.insert(count / 2, Sphere { center: Vec3::ZERO, radius: 0.9 });

@@ -1,8 +1,8 @@
 //! Where a structure does not answer as brute force does.
 
-use super::answers::Answers;
-use super::memory::{Memory, Structures, viewpoint_of};
-use super::table::{Storey, Structure, Variant, brute, variants};
+use super::table::{
+    Answers, Layer, Memory, Structure, Structures, Variant, brute, variants, viewpoint_of,
+};
 use crate::case::HexRay;
 use spherule_kernel::{Hit, Ray, Sphere, Tier, Viewpoint};
 
@@ -24,14 +24,14 @@ pub fn difference(
 ) -> Option<String> {
     let different = |structures: Structures<'_>, tier: Tier| {
         let Answers { hits: expected, .. } = brute(tier).ask(structures, rays);
-        let asked = |variant: &Variant| match variant.storey {
+        let asked = |variant: &Variant| match variant.layer {
             _ if variant.tier != tier || variant.structure == Structure::List => false,
             _ if !variant.holds(spheres.len()) => false,
             // All that it has are those of one lane.
-            Storey::Lanes(1) if variant.structure == Structure::Bvh4 => true,
-            Storey::Ray | Storey::SliceAt(_) => rays.len() * spheres.len() < 20_000,
+            Layer::Lanes(1) if variant.structure == Structure::Bvh4 => true,
+            Layer::Ray | Layer::SliceAt(_) => rays.len() * spheres.len() < 20_000,
             // Baseline's loops, of other width.
-            Storey::Lanes(1) => tier == Tier::Exact,
+            Layer::Lanes(1) => tier == Tier::Exact,
             _ => true,
         };
         for variant in variants().filter(asked) {

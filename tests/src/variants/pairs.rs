@@ -1,17 +1,16 @@
-//! Ray i against sphere i alone, at every storey.
+//! Ray i against sphere i alone, at every layer.
 
-use super::packing::{level, packed, stale_packet};
-use super::table::{Storey, levels};
+use super::table::{Layer, level, levels, packed, stale_packet};
 use crate::case::Case;
 use spherule_kernel::{
     Hit, HitPacket, LaneArray, Lanes, Ray, Sphere, SpherePacket, Tier, f32x4, f32x8, f32x16,
     pair_lanes, pair_packets, pairs,
 };
 
-/// The storeys at which pairs are intersected.
-pub fn pair_storeys() -> impl Iterator<Item = Storey> {
-    let lanes = [1, 4, 8, 16].map(Storey::Lanes).into_iter();
-    lanes.chain([Storey::Slice]).chain(levels().map(Storey::Packets))
+/// The layers at which pairs are intersected.
+pub fn pair_layers() -> impl Iterator<Item = Layer> {
+    let lanes = [1, 4, 8, 16].map(Layer::Lanes).into_iter();
+    lanes.chain([Layer::Slice]).chain(levels().map(Layer::Packets))
 }
 
 /// The t of each case on its own.
@@ -19,17 +18,17 @@ pub fn pair_storeys() -> impl Iterator<Item = Storey> {
 /// # Panics
 /// If a hit does not name its sphere: the lane of a packet, the index of a slice.
 #[must_use]
-pub fn pairs_of(tier: Tier, storey: Storey, cases: &[Case]) -> Vec<Option<f32>> {
+pub fn pairs_of(tier: Tier, layer: Layer, cases: &[Case]) -> Vec<Option<f32>> {
     let (rays, spheres): (Vec<Ray>, Vec<Sphere>) =
         cases.iter().map(|case| (case.ray, case.sphere)).unzip();
-    let (hits, lanes) = match storey {
-        Storey::Packets(name) => {
+    let (hits, lanes) = match layer {
+        Layer::Packets(name) => {
             let (rays, spheres) = (packed(&rays), sphere_packets(&spheres));
             let mut hits = vec![stale_packet::<f32x16>(); rays.len()];
             pair_packets(tier, level(name), &rays, &spheres, &mut hits);
             (hits.iter().flat_map(HitPacket::hits).take(cases.len()).collect(), 16)
         }
-        Storey::Lanes(lanes) => {
+        Layer::Lanes(lanes) => {
             let pairs = match lanes {
                 1 => pairs_in_lanes::<f32>,
                 4 => pairs_in_lanes::<f32x4>,
@@ -46,7 +45,7 @@ pub fn pairs_of(tier: Tier, storey: Storey, cases: &[Case]) -> Vec<Option<f32>> 
     };
     let t = |(index, hit): (usize, Option<Hit>)| {
         let Hit { t, sphere } = hit?;
-        assert_eq!(sphere as usize, index % lanes, "a pair's sphere, {storey:?}");
+        assert_eq!(sphere as usize, index % lanes, "a pair's sphere, {layer:?}");
         Some(t)
     };
     hits.into_iter().enumerate().map(t).collect()

@@ -1,17 +1,16 @@
-//! The surface at every hit, at every storey.
+//! The surface at every hit, at every layer.
 
-use super::packing::{level, packed};
-use super::table::{Storey, levels};
+use super::table::{Layer, level, levels, packed};
 use spherule_kernel::{
     HitPacket, Intersect, LaneArray, Lanes, Level, Ray, RayPacket, Side, SphereList, Surface,
     SurfacePacket, Tier, Towards, Trace, Vec3, f32x4, f32x8, f32x16, shadow_lanes, shadow_packets,
     surface, surface_lanes, surface_packets,
 };
 
-/// The storeys at which surfaces are computed.
-pub fn surface_storeys() -> impl Iterator<Item = Storey> {
-    let lanes = [1, 4, 8, 16].map(Storey::Lanes).into_iter();
-    lanes.chain([Storey::Ray]).chain(levels().map(Storey::Packets))
+/// The layers at which surfaces are computed.
+pub fn surface_layers() -> impl Iterator<Item = Layer> {
+    let lanes = [1, 4, 8, 16].map(Layer::Lanes).into_iter();
+    lanes.chain([Layer::Ray]).chain(levels().map(Layer::Packets))
 }
 
 /// Rays in packets, what they hit, and the surfaces there.
@@ -51,14 +50,14 @@ impl<A: LaneArray> Packets<A> {
 
 /// The normal and the point of every ray's closest hit in a list, zeros if there is none.
 #[must_use]
-pub fn surfaces_of(tier: Tier, storey: Storey, list: &SphereList, rays: &[Ray]) -> Vec<[Vec3; 2]> {
-    match storey {
-        Storey::Packets(name) => unpacked(&Packets::at(level(name), tier, list, rays).surfaces),
-        Storey::Lanes(1) => in_lanes::<f32>(tier, list, rays),
-        Storey::Lanes(4) => in_lanes::<f32x4>(tier, list, rays),
-        Storey::Lanes(8) => in_lanes::<f32x8>(tier, list, rays),
-        Storey::Lanes(_) => in_lanes::<f32x16>(tier, list, rays),
-        Storey::Ray | Storey::Slice | Storey::Columns | Storey::SliceAt(_) => {
+pub fn surfaces_of(tier: Tier, layer: Layer, list: &SphereList, rays: &[Ray]) -> Vec<[Vec3; 2]> {
+    match layer {
+        Layer::Packets(name) => unpacked(&Packets::at(level(name), tier, list, rays).surfaces),
+        Layer::Lanes(1) => in_lanes::<f32>(tier, list, rays),
+        Layer::Lanes(4) => in_lanes::<f32x4>(tier, list, rays),
+        Layer::Lanes(8) => in_lanes::<f32x8>(tier, list, rays),
+        Layer::Lanes(_) => in_lanes::<f32x16>(tier, list, rays),
+        Layer::Ray | Layer::Slice | Layer::Columns | Layer::SliceAt(_) => {
             let one = |ray: &Ray| {
                 let hit = list.closest_hit(tier, ray)?;
                 let sphere = list.spheres().get(hit.sphere as usize)?;
@@ -86,13 +85,13 @@ fn unpacked<A: LaneArray>(surfaces: &[SurfacePacket<A>]) -> Vec<[Vec3; 2]> {
 #[must_use]
 pub fn shadow_rays_of(
     tier: Tier,
-    storey: Storey,
+    layer: Layer,
     list: &SphereList,
     rays: &[Ray],
     towards: Towards,
 ) -> Vec<Ray> {
-    match storey {
-        Storey::Packets(name) => {
+    match layer {
+        Layer::Packets(name) => {
             let level = level(name);
             let Packets { rays, hits, surfaces } = Packets::at(level, tier, list, rays);
             let mut shadow_rays = vec![RayPacket::inactive(); rays.len()];
@@ -100,11 +99,11 @@ pub fn shadow_rays_of(
             shadow_packets(tier, level, list.spheres(), hit, towards, &mut shadow_rays);
             unpacked_rays(&shadow_rays)
         }
-        Storey::Lanes(1) => shadows_in_lanes::<f32>(tier, list, rays, towards),
-        Storey::Lanes(4) => shadows_in_lanes::<f32x4>(tier, list, rays, towards),
-        Storey::Lanes(8) => shadows_in_lanes::<f32x8>(tier, list, rays, towards),
-        Storey::Lanes(_) => shadows_in_lanes::<f32x16>(tier, list, rays, towards),
-        Storey::Ray | Storey::Slice | Storey::Columns | Storey::SliceAt(_) => {
+        Layer::Lanes(1) => shadows_in_lanes::<f32>(tier, list, rays, towards),
+        Layer::Lanes(4) => shadows_in_lanes::<f32x4>(tier, list, rays, towards),
+        Layer::Lanes(8) => shadows_in_lanes::<f32x8>(tier, list, rays, towards),
+        Layer::Lanes(_) => shadows_in_lanes::<f32x16>(tier, list, rays, towards),
+        Layer::Ray | Layer::Slice | Layer::Columns | Layer::SliceAt(_) => {
             let one = |ray: &Ray| {
                 let hit = list.closest_hit(tier, ray)?;
                 let sphere = list.spheres().get(hit.sphere as usize)?;

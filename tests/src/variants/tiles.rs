@@ -1,20 +1,17 @@
-//! A camera's tiles, at every storey and in every structure that makes their rays itself.
+//! A camera's tiles, at every layer and in every structure that makes their rays itself.
 
-use super::answers::Answers;
 use super::difference::bits;
-use super::memory::{Memory, Structures};
-use super::packing::{level, stale_packet};
-use super::table::{Storey, brute, levels};
+use super::table::{Answers, Layer, Memory, Structures, brute, level, levels, stale_packet};
 use crate::case::HexRay;
 use spherule_kernel::{
     Camera, CameraTiles, DepthList, Hit, HitPacket, Intersect, LaneArray, Lanes, Projection, Ray,
     RayPacket, Sphere, Tier, Trace, Vec3, Viewpoint, f32x4, f32x8, f32x16,
 };
 
-/// The storeys at which tiles are traced.
-fn tile_storeys() -> impl Iterator<Item = Storey> {
-    let lanes = [1, 4, 8, 16].map(Storey::Lanes).into_iter();
-    lanes.chain(levels().map(Storey::Packets))
+/// The layers at which tiles are traced.
+fn tile_layers() -> impl Iterator<Item = Layer> {
+    let lanes = [1, 4, 8, 16].map(Layer::Lanes).into_iter();
+    lanes.chain(levels().map(Layer::Packets))
 }
 
 /// A camera's picture, from some pixel on.
@@ -56,13 +53,13 @@ impl Frame {
 pub fn tile_difference(tiers: &[Tier], frame: &Frame, spheres: &[Sphere]) -> Option<String> {
     Memory::new(spheres).sorted(frame.viewpoint(), |structures| {
         tiers.iter().find_map(|&tier| {
-            tile_storeys().find_map(|storey| {
-                let question = Question { tier, storey, frame, structures };
-                match storey {
-                    Storey::Lanes(1) => question.different::<f32>(every_structure::<f32>),
-                    Storey::Lanes(4) => question.different::<f32x4>(list_alone::<f32x4>),
-                    Storey::Lanes(8) => question.different::<f32x8>(every_structure::<f32x8>),
-                    Storey::Lanes(_) => question.different::<f32x16>(list_alone::<f32x16>),
+            tile_layers().find_map(|layer| {
+                let question = Question { tier, layer, frame, structures };
+                match layer {
+                    Layer::Lanes(1) => question.different::<f32>(every_structure::<f32>),
+                    Layer::Lanes(4) => question.different::<f32x4>(list_alone::<f32x4>),
+                    Layer::Lanes(8) => question.different::<f32x8>(every_structure::<f32x8>),
+                    Layer::Lanes(_) => question.different::<f32x16>(list_alone::<f32x16>),
                     _ => question.different::<f32x16>(every_structure_at_a_level),
                 }
             })
@@ -89,14 +86,14 @@ type Ways = fn(&Question<'_>, CameraTiles<'_>) -> Vec<(&'static str, Traced)>;
 
 struct Question<'a> {
     tier: Tier,
-    storey: Storey,
+    layer: Layer,
     frame: &'a Frame,
     structures: Structures<'a>,
 }
 
 impl Question<'_> {
     fn different<L: Lanes<Token = ()>>(&self, ways: Ways) -> Option<String> {
-        let Self { tier, storey, frame, structures } = *self;
+        let Self { tier, layer, frame, structures } = *self;
         let corners = frame.corners::<L::Array>();
         let (width, height) = frame.size;
         let (tile_width, _) = Camera::tile::<L::Array>();
@@ -117,12 +114,12 @@ impl Question<'_> {
                 let (made, hit, expected) = (made[index], hits[index], expected[index]);
                 if !same_but_for_nan(&made, ray) {
                     return Some(format!(
-                        "{storey:?}, ray {index}: {made:?} and not {ray:?}, {frame:?}"
+                        "{layer:?}, ray {index}: {made:?} and not {ray:?}, {frame:?}"
                     ));
                 }
                 if bits(hit) != bits(expected) {
                     return Some(format!(
-                        "{tier:?} by {name}, {storey:?}, ray {index} of {}: {hit:?} and not {expected:?}; \
+                        "{tier:?} by {name}, {layer:?}, ray {index} of {}: {hit:?} and not {expected:?}; \
                          {}; {frame:?}",
                         rays.len(),
                         HexRay(ray)
@@ -201,7 +198,7 @@ fn at_a_level<S: Intersect>(
     mut trace: Trace<'_>,
     tiles: CameraTiles<'_>,
 ) -> Traced {
-    let Storey::Packets(name) = question.storey else { unreachable!("lanes of the caller's") };
+    let Layer::Packets(name) = question.layer else { unreachable!("lanes of the caller's") };
     trace.level = level(name);
     let (mut rays, mut hits) = stale::<f32x16>(tiles.corners.len());
     structure.closest_hit_tiles(question.tier, &mut trace, tiles, &mut rays, &mut hits);

@@ -91,7 +91,7 @@ pub fn case(number: u32) -> Case {
     }
 }
 
-/// A line as far from the centre as the sphere is large, but for some ulp.
+/// A line as far from the centre as the sphere is large, except for some ulp.
 fn grazing(random: &mut Random, Case { ray, sphere }: Case) -> Case {
     let away = ray.direction.cross(random.point());
     let away = away / Lanes::sqrt(away.dot(away));

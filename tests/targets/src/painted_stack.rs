@@ -26,8 +26,8 @@ const LONGEST: u32 = 0x00ff_ffff;
 #[inline(never)]
 pub fn measure(work: fn()) -> Measured {
     let top: usize;
-    // SAFETY: what is below the stack pointer is nobody's, and the board has more of it than is painted; between
-    // painting and looking only `work` runs. The timer is used by nobody else.
+    // SAFETY: what is below the stack pointer belongs to no one, and the board has more of it than is painted; between
+    // painting and looking only `work` runs. Nothing else uses the timer.
     unsafe {
         asm!("mov {}, sp", out(reg) top, options(nomem, nostack));
         let bottom = top - PAINTED;

@@ -23,7 +23,7 @@ use crate::color::roots;
 use crate::style::Charset;
 use spherule_kernel::Vec3;
 
-/// A variance of square roots that nobody sees: the cell gets one colour.
+/// A variance of square roots that cannot be seen: the cell gets one colour.
 const FLAT: f32 = 1e-6;
 
 /// Fits masks of a charset.

@@ -33,7 +33,7 @@ pub(super) const HALO: usize = 2;
 ///
 /// Of the values around these they are nearest to the truth where they also keep the order of tones: 0.97 and 0.93 of
 /// correlation on flake and on marbles. With the first at 0.08 a dark background is full of dots: 2 dB more from afar
-/// on flake, 0.03 less of correlation, and nobody wants to look at it.
+/// on flake, 0.03 less of correlation, and it looks bad.
 const TONE: [f32; 3] = [0.093, 0.44, 0.8];
 
 fn tone(lightness: f32) -> f32 {

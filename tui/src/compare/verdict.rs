@@ -1,26 +1,7 @@
 //! What one answer gets wrong against the truth, and what many come to.
 
-use crate::tally::ulp_between;
+pub use crate::tally::Class;
 use spherule_kernel::{Exact, Hit, Ray, Sphere, Spheres, roots};
-
-/// What is wrong with an answer, from nothing to the worst.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Class {
-    /// Both miss: right, and nothing to see.
-    Miss,
-    /// The same sphere at the same t, bit for bit.
-    Right,
-    /// The same sphere, and t off by two to this power in ulp, or up to twice as much.
-    Off(u8),
-    /// The same sphere, and t nearer to the other root of the line.
-    OtherRoot,
-    /// A miss that is a hit in truth.
-    LostHit,
-    /// A hit that is a miss in truth.
-    FalseHit,
-    /// Another sphere than the one that is hit first in truth.
-    OtherSphere,
-}
 
 /// A [`Class`], and how far t is off in ulp if both hit the same sphere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -38,26 +19,18 @@ impl Verdict {
     /// Holds the answer for `ray` against the truth.
     #[must_use]
     pub fn of(ray: &Ray, spheres: Spheres<'_>, answer: Option<Hit>, truth: Option<Hit>) -> Self {
-        let wrong = |class| Self { class, ulp: 0 };
-        match (answer, truth) {
-            (None, None) => Self::MISS,
-            (Some(_), None) => wrong(Class::FalseHit),
-            (None, Some(_)) => wrong(Class::LostHit),
-            (Some(answer), Some(truth)) if answer.sphere != truth.sphere => {
-                wrong(Class::OtherSphere)
+        let elsewhere = answer.zip(truth).is_some_and(|(a, b)| a.sphere != b.sphere);
+        let [t, true_t] = [answer, truth].map(|hit| hit.map(|hit| hit.t));
+        let (class, ulp) = Class::of(t, true_t, elsewhere);
+        let class = match (class, answer.zip(truth)) {
+            (Class::Off(_), Some((answer, truth)))
+                if is_at_the_other_root(ray, spheres, answer, truth) =>
+            {
+                Class::OtherRoot
             }
-            (Some(answer), Some(truth)) => {
-                let ulp = ulp_between(answer.t, truth.t);
-                let class = match ulp.checked_ilog2() {
-                    None => Class::Right,
-                    Some(_) if is_at_the_other_root(ray, spheres, answer, truth) => {
-                        Class::OtherRoot
-                    }
-                    Some(log) => Class::Off(log as u8),
-                };
-                Self { class, ulp }
-            }
-        }
+            _ => class,
+        };
+        Self { class, ulp }
     }
 }
 

@@ -50,6 +50,11 @@ impl Chart {
         }
     }
 
+    /// Of all that is left of so many columns of text.
+    pub(super) fn beside(canvas: &Canvas, text: i32, x: [f32; 2], y: [f32; 2]) -> Self {
+        Self::new((0, 0), (canvas.columns() - text, canvas.rows()), x, y)
+    }
+
     /// A mark at a point, and a name beside it.
     pub(super) fn mark(&self, canvas: &mut Canvas, point: Vec3, text: &str, role: Role) {
         let [column, row] = self.place(point).map(|x| x.floor() as i32);

@@ -1,6 +1,5 @@
 //! A few spheres before a camera of few pixels: the picture that the stations of both orders make.
 
-use super::station::Turn;
 use crate::structure::object_order::{Counts, ObjectOrder, Raster};
 use crate::structure::screen::Screen;
 use crate::structure::search::Tracing;
@@ -10,8 +9,10 @@ use spherule_kernel::{
     SphereList, Tier, Vec3, stages,
 };
 
+/// How many they are.
+pub(super) const COUNT: usize = 5;
 /// Centre and radius: A, B and so on, from far to near. Some hide others.
-const SPHERES: [[f32; 4]; 5] = [
+const SPHERES: [[f32; 4]; COUNT] = [
     [0.3, 0.1, -3.0, 1.9],
     [3.1, -0.9, -1.0, 0.7],
     [-1.9, -0.2, -0.6, 1.1],
@@ -113,34 +114,6 @@ impl Few {
             }
         }
         (hits, counts)
-    }
-}
-
-/// A pixel that arrows lead about.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Cursor {
-    right: i32,
-    down: i32,
-}
-
-impl Cursor {
-    /// So far from the middle of the picture.
-    pub(super) fn new(right: i32, down: i32) -> Self {
-        Self { right, down }
-    }
-
-    pub(super) fn turn(&mut self, turn: Turn) {
-        let (right, up) = turn.steps();
-        // No terminal is larger; and whoever leads it out of the picture soon has it back.
-        let limit = 4096;
-        self.right = (self.right + right).clamp(-limit, limit);
-        self.down = (self.down - up).clamp(-limit, limit);
-    }
-
-    /// The pixel, in a picture of `width` x `height`: at its edge if it was led beyond.
-    pub(super) fn pixel(&self, width: u32, height: u32) -> (u32, u32) {
-        let within = |off: i32, size: u32| (size as i32 / 2 + off).clamp(0, size as i32 - 1) as u32;
-        (within(self.right, width), within(self.down, height))
     }
 }
 

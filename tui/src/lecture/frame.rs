@@ -1,7 +1,7 @@
 //! The page of a station: title, words, what it draws, what its keys do.
 
 use super::canvas::{Canvas, Role};
-use super::station::{Entry, Station};
+use super::station::{Numbers, Station};
 use super::stations::STATIONS;
 use crate::cells::CellGrid;
 use crate::style::Style;
@@ -34,17 +34,17 @@ const HELP: [&str; 14] = [
 /// The page of station `index`, in so many columns and rows. What is smaller than [`LEAST`] is the top left of that.
 pub(super) fn page(
     index: usize,
-    station: &dyn Station,
+    numbers: Numbers,
     help: bool,
     (columns, rows): (u16, u16),
     style: Style,
 ) -> CellGrid {
     let (width, height) = (columns.max(LEAST.0), rows.max(LEAST.1));
     let mut page = Canvas::new(width, height, style);
-    let entry = &STATIONS[index];
-    write_words(&mut page, index, entry);
+    let station = &STATIONS[index];
+    write_words(&mut page, index, station);
     let mut drawn = Canvas::new(width - 2, height - ABOVE - BELOW, style);
-    station.draw(&mut drawn);
+    station.show(numbers, &mut drawn);
     page.copy(1, ABOVE.into(), &drawn.into_cells());
     if help {
         write_help(&mut page);
@@ -55,17 +55,17 @@ pub(super) fn page(
     cut(page, columns, rows)
 }
 
-fn write_words(page: &mut Canvas, index: usize, entry: &Entry) {
+fn write_words(page: &mut Canvas, index: usize, station: &Station) {
     let (columns, rows) = (page.columns(), page.rows());
-    let title = format!("{:>2}/{}  {}", index + 1, STATIONS.len(), entry.title);
+    let title = format!("{:>2}/{}  {}", index + 1, STATIONS.len(), station.title);
     page.write(1, 0, &title, Role::Hit);
-    let topic = format!("lecture: {}", entry.topic);
+    let topic = format!("lecture: {}", station.topic);
     page.write(columns - 1 - topic.len() as i32, 0, &topic, Role::Faint);
-    for (row, words) in (1..).zip(entry.words) {
+    for (row, words) in (1..).zip(station.words) {
         page.write(1, row, words, Role::Plain);
     }
-    page.write(1, rows - 2, entry.arrows, Role::Ray);
-    let file = entry.sources[0].file;
+    page.write(1, rows - 2, station.arrows, Role::Ray);
+    let file = station.sources[0].file;
     page.write(columns - 1 - file.len() as i32, rows - 2, file, Role::Faint);
     page.write(1, rows - 1, KEYS, Role::Faint);
 }
@@ -107,9 +107,9 @@ mod tests {
 
     #[test]
     fn what_is_too_small_says_so() {
-        let station = (STATIONS[0].start)();
+        let first = STATIONS[0].first();
         let text = |size| -> String {
-            let page = page(0, &*station, false, size, Style::PLAIN);
+            let page = page(0, first, false, size, Style::PLAIN);
             page.cells().iter().map(|cell| cell.glyph).collect()
         };
         assert!(!text(LEAST).contains("needs"));

@@ -54,6 +54,11 @@ impl Pixels {
         Self { left, top, side, width, height }
     }
 
+    /// So many, left of so many columns of text.
+    pub(super) fn beside(canvas: &Canvas, text: i32, size: (u32, u32)) -> Self {
+        Self::new((0, 0), (canvas.columns() - text, canvas.rows()), size)
+    }
+
     /// How many rows it takes, with its frame.
     pub(super) fn rows(&self) -> i32 {
         self.side * self.height + 2

@@ -1,4 +1,4 @@
-//! What a station of the lecture is, and how it writes numbers.
+//! What a station of the lecture is: words, two numbers that arrows change, and a function from these to a drawing.
 
 use super::canvas::Canvas;
 use spherule_kernel::Vec3;
@@ -12,26 +12,48 @@ pub(super) enum Turn {
     Down,
 }
 
-impl Turn {
-    /// Steps to the right, and steps upwards.
-    pub(super) fn steps(self) -> (i32, i32) {
-        match self {
-            Self::Left => (-1, 0),
-            Self::Right => (1, 0),
-            Self::Up => (0, 1),
-            Self::Down => (0, -1),
+/// A number that arrows change.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Knob {
+    first: i32,
+    /// What an arrow to the right adds, and one upwards.
+    steps: [i32; 2],
+    /// The least and the greatest.
+    ends: [i32; 2],
+    /// Whether the least follows the greatest.
+    around: bool,
+}
+
+impl Knob {
+    /// Within `ends`.
+    pub(super) const fn within(first: i32, steps: [i32; 2], ends: [i32; 2]) -> Self {
+        Self { first, steps, ends, around: false }
+    }
+
+    /// One of 0 to `count` - 1, around in a circle.
+    pub(super) const fn around(first: i32, steps: [i32; 2], count: i32) -> Self {
+        Self { first, steps, ends: [0, count - 1], around: true }
+    }
+
+    fn turned(&self, number: i32, turn: Turn) -> i32 {
+        let [right, up] = self.steps;
+        let step = match turn {
+            Turn::Left => -right,
+            Turn::Right => right,
+            Turn::Up => up,
+            Turn::Down => -up,
+        };
+        let [least, greatest] = self.ends;
+        if self.around {
+            (number + step).rem_euclid(greatest + 1)
+        } else {
+            number.saturating_add(step).clamp(least, greatest)
         }
     }
 }
 
-/// One screen of the lecture.
-pub(super) trait Station {
-    /// An arrow changes the numbers.
-    fn turn(&mut self, turn: Turn);
-
-    /// Computes what is shown, and draws it; a canvas has at least the room that the least page leaves.
-    fn draw(&self, canvas: &mut Canvas);
-}
+/// The numbers of a station.
+pub(super) type Numbers = [i32; 2];
 
 /// Where the code of a station's subject stands.
 #[derive(Clone, Copy, Debug)]
@@ -42,9 +64,9 @@ pub struct Source {
     pub symbols: &'static [&'static str],
 }
 
-/// A station, and what is said about it.
+/// One screen of the lecture.
 #[derive(Debug)]
-pub struct Entry {
+pub struct Station {
     /// In a word: what `--station` takes besides the number.
     pub name: &'static str,
     /// Its heading.
@@ -57,8 +79,30 @@ pub struct Entry {
     pub(super) arrows: &'static str,
     /// The code that does it.
     pub sources: &'static [Source],
-    /// Makes it, with its first numbers.
-    pub(super) start: fn() -> Box<dyn Station>,
+    pub(super) knobs: [Knob; 2],
+    /// How many columns at the right are for text.
+    pub(super) text: i32,
+    /// Computes what is shown, draws it, and returns the text; a canvas has at least the room that the least page
+    /// leaves.
+    pub(super) draw: fn(Numbers, &mut Canvas) -> String,
+}
+
+impl Station {
+    /// The first numbers.
+    pub(super) fn first(&self) -> Numbers {
+        self.knobs.map(|knob| knob.first)
+    }
+
+    /// The numbers after an arrow.
+    pub(super) fn turned(&self, [one, other]: Numbers, turn: Turn) -> Numbers {
+        [self.knobs[0].turned(one, turn), self.knobs[1].turned(other, turn)]
+    }
+
+    /// Draws all of it.
+    pub(super) fn show(&self, numbers: Numbers, canvas: &mut Canvas) {
+        let text = (self.draw)(numbers, canvas);
+        canvas.write_lines(canvas.columns() - self.text + 1, 0, text.lines());
+    }
 }
 
 /// A number that is read back to the same bits.

@@ -15,24 +15,24 @@ mod scaling;
 mod vectors;
 mod viewing_rays;
 
-use super::station::Entry;
+use super::station::Station;
 
 /// All of them.
-pub static STATIONS: [Entry; 14] = [
-    vectors::ENTRY,
-    ray::ENTRY,
-    scaling::ENTRY,
-    viewing_rays::ENTRY,
-    algebraic::ENTRY,
-    geometric::ENTRY,
-    interval::ENTRY,
-    first_picture::ENTRY,
-    image_order::ENTRY,
-    object_order::ENTRY,
-    race::ENTRY,
-    nearest::ENTRY,
-    illumination::ENTRY,
-    precision::ENTRY,
+pub static STATIONS: [Station; 14] = [
+    vectors::STATION,
+    ray::STATION,
+    scaling::STATION,
+    viewing_rays::STATION,
+    algebraic::STATION,
+    geometric::STATION,
+    interval::STATION,
+    first_picture::STATION,
+    image_order::STATION,
+    object_order::STATION,
+    race::STATION,
+    nearest::STATION,
+    illumination::STATION,
+    precision::STATION,
 ];
 
 /// The index of a station by its number, counted from 1, or its name.
@@ -41,7 +41,7 @@ pub static STATIONS: [Entry; 14] = [
 /// Which there are, if there is no such station.
 pub fn station(text: &str) -> Result<usize, String> {
     let by_number = text.parse().ok().and_then(|number: usize| number.checked_sub(1));
-    let by_name = || STATIONS.iter().position(|entry| entry.name == text);
+    let by_name = || STATIONS.iter().position(|station| station.name == text);
     by_number.filter(|&index| index < STATIONS.len()).or_else(by_name).ok_or_else(|| {
         format!("there is no such station: 1 to {}, or a name of --list", STATIONS.len())
     })

@@ -2,7 +2,7 @@
 
 use super::canvas::Canvas;
 use super::frame::{LEAST, page};
-use super::station::{Station, Turn};
+use super::station::{Numbers, Station, Turn};
 use super::stations::{STATIONS, station};
 use crate::style::{ColorDepth, Style};
 use spherule_kernel::{
@@ -12,9 +12,9 @@ use std::collections::HashSet;
 
 const TURNS: [Turn; 4] = [Turn::Left, Turn::Right, Turn::Up, Turn::Down];
 
-fn text(station: &dyn Station) -> String {
+fn text(station: &Station, numbers: Numbers) -> String {
     let mut canvas = Canvas::new(LEAST.0 - 2, LEAST.1 - 6, Style::PLAIN);
-    station.draw(&mut canvas);
+    station.show(numbers, &mut canvas);
     let cells = canvas.into_cells();
     let row = |row| cells.row(row).iter().map(|cell| cell.glyph).collect::<String>();
     (0..cells.rows()).map(row).collect::<Vec<_>>().join("\n")
@@ -22,21 +22,20 @@ fn text(station: &dyn Station) -> String {
 
 #[test]
 fn every_station_draws_at_every_size() {
-    for (index, entry) in STATIONS.iter().enumerate() {
-        let mut station = (entry.start)();
+    for (index, station) in STATIONS.iter().enumerate() {
+        let mut numbers = station.first();
         for turns in 0..4 {
             for size in [(80, 24), (200, 60), (20, 5), (1, 1), (81, 25), (300, 24), (80, 200)] {
                 let depth = if turns % 2 == 0 { ColorDepth::Never } else { ColorDepth::Ansi256 };
-                let page =
-                    page(index, &*station, turns == 3, size, Style { depth, ..Style::PLAIN });
+                let page = page(index, numbers, turns == 3, size, Style { depth, ..Style::PLAIN });
                 assert_eq!((page.columns(), page.rows()), size);
                 if size.0 >= LEAST.0 && size.1 >= LEAST.1 {
                     let drawn = page.cells().iter().filter(|cell| cell.glyph != ' ').count();
-                    assert!(drawn > 300, "{}: {drawn}", entry.name);
+                    assert!(drawn > 300, "{}: {drawn}", station.name);
                 }
             }
             for turn in TURNS.iter().cycle().skip(turns).take(turns % 3 + 1) {
-                station.turn(*turn);
+                numbers = station.turned(numbers, *turn);
             }
         }
     }
@@ -44,34 +43,34 @@ fn every_station_draws_at_every_size() {
 
 #[test]
 fn without_colour_there_is_none_and_every_character_is_ascii() {
-    for (index, entry) in STATIONS.iter().enumerate() {
-        let page = page(index, &*(entry.start)(), true, LEAST, Style::PLAIN);
+    for (index, station) in STATIONS.iter().enumerate() {
+        let page = page(index, station.first(), true, LEAST, Style::PLAIN);
         for cell in page.cells() {
-            assert!(cell.glyph == ' ' || cell.glyph.is_ascii_graphic(), "{}", entry.name);
+            assert!(cell.glyph == ' ' || cell.glyph.is_ascii_graphic(), "{}", station.name);
             let colors = [cell.foreground, cell.background];
-            assert_eq!(colors, [crate::cells::Color::Default; 2], "{}", entry.name);
+            assert_eq!(colors, [crate::cells::Color::Default; 2], "{}", station.name);
         }
     }
 }
 
 #[test]
 fn every_arrow_changes_what_is_shown() {
-    for entry in &STATIONS {
-        let first = text(&*(entry.start)());
-        assert_eq!(first, text(&*(entry.start)()), "{}", entry.name);
+    for station in &STATIONS {
+        let first = text(station, station.first());
+        assert_eq!(first, text(station, station.first()), "{}", station.name);
         for turn in TURNS {
             // Some arrows have nowhere to go at first.
-            let mut station = (entry.start)();
+            let mut numbers = station.first();
             let opposite = match turn {
                 Turn::Left => Turn::Right,
                 Turn::Right => Turn::Left,
                 Turn::Up => Turn::Down,
                 Turn::Down => Turn::Up,
             };
-            station.turn(opposite);
-            let before = text(&*station);
-            station.turn(turn);
-            assert_ne!(before, text(&*station), "{} {turn:?}", entry.name);
+            numbers = station.turned(numbers, opposite);
+            let before = text(station, numbers);
+            numbers = station.turned(numbers, turn);
+            assert_ne!(before, text(station, numbers), "{} {turn:?}", station.name);
         }
     }
 }
@@ -79,26 +78,26 @@ fn every_arrow_changes_what_is_shown() {
 /// Nothing that a person types takes a station out of its bounds.
 #[test]
 fn arrows_held_down_end_somewhere() {
-    for entry in &STATIONS {
+    for station in &STATIONS {
         for turn in TURNS {
-            let mut station = (entry.start)();
+            let mut numbers = station.first();
             for _ in 0..5000 {
-                station.turn(turn);
+                numbers = station.turned(numbers, turn);
             }
-            assert!(text(&*station).len() > 300, "{} {turn:?}", entry.name);
+            assert!(text(station, numbers).len() > 300, "{} {turn:?}", station.name);
         }
     }
 }
 
 /// What is shown as arrows are held down, each so many times.
 fn many(name: &str, held: &[(Turn, usize)]) -> Vec<String> {
-    let entry = STATIONS.iter().find(|entry| entry.name == name).expect(name);
-    let mut station = (entry.start)();
-    let mut texts = vec![text(&*station)];
+    let station = STATIONS.iter().find(|station| station.name == name).expect(name);
+    let mut numbers = station.first();
+    let mut texts = vec![text(station, numbers)];
     for &(turn, times) in held {
         for _ in 0..times {
-            station.turn(turn);
-            texts.push(text(&*station));
+            numbers = station.turned(numbers, turn);
+            texts.push(text(station, numbers));
         }
     }
     let distinct: HashSet<_> = texts.iter().collect();
@@ -206,20 +205,21 @@ fn the_interval_shows_the_kernels_answer() {
 
 #[test]
 fn a_power_of_two_keeps_every_bit_of_the_picture() {
-    let entry = &STATIONS[station("scaling").expect("a station")];
+    let station = &STATIONS[station("scaling").expect("a station")];
     for turn in [Turn::Left, Turn::Right] {
-        let mut station = (entry.start)();
+        let mut numbers = station.first();
         for _ in 0..30 {
-            let text = text(&*station);
+            let text = text(station, numbers);
             assert!(text.contains("0 of 162 bytes differ, 0 of 162 pixels"), "{text}");
-            station.turn(turn);
+            numbers = station.turned(numbers, turn);
         }
     }
 }
 
 #[test]
 fn the_tiers_are_wrong_where_they_are() {
-    let text = text(&*(STATIONS[station("precision").expect("a station")].start)());
+    let station = &STATIONS[station("precision").expect("a station")];
+    let text = text(station, station.first());
     let table = &text[text.find("decided wrongly:").expect("the table")..];
     let wrong = Tier::ALL.map(|tier| {
         let row = table.lines().find_map(|line| line.split_once(tier.as_str())).expect("a row").1;
@@ -233,9 +233,9 @@ fn the_tiers_are_wrong_where_they_are() {
 
 #[test]
 fn stations_have_numbers_and_names() {
-    for (index, entry) in STATIONS.iter().enumerate() {
-        assert_eq!(station(entry.name), Ok(index));
-        assert_eq!(station(&(index + 1).to_string()), Ok(index));
+    for (index, station) in STATIONS.iter().enumerate() {
+        assert_eq!(super::stations::station(station.name), Ok(index));
+        assert_eq!(super::stations::station(&(index + 1).to_string()), Ok(index));
     }
     for none in ["0", "15", "-1", "", "triangles"] {
         assert!(station(none).is_err(), "{none}");

@@ -1,7 +1,7 @@
 //! The walk from station to station: keys in, pages out, until somebody quits.
 
 use super::frame;
-use super::station::{Station, Turn};
+use super::station::{Numbers, Station, Turn};
 use super::stations::STATIONS;
 use crate::encode::Encoder;
 use crate::error::Error;
@@ -31,23 +31,23 @@ enum Input {
 struct Walk {
     index: usize,
     /// Kept when one goes on, so that coming back finds the numbers that were left.
-    stations: Vec<Box<dyn Station>>,
+    numbers: [Numbers; STATIONS.len()],
     help: bool,
 }
 
 impl Walk {
     fn new(index: usize) -> Self {
-        let stations = STATIONS.iter().map(|entry| (entry.start)()).collect();
-        Self { index, stations, help: false }
+        Self { index, numbers: STATIONS.each_ref().map(Station::first), help: false }
     }
 
     /// Does what a key asks for; `false` if that is to quit.
     fn apply(&mut self, input: Input) -> bool {
+        let (station, numbers) = (&STATIONS[self.index], &mut self.numbers[self.index]);
         match input {
             Input::Next => self.index = (self.index + 1) % STATIONS.len(),
             Input::Back => self.index = (self.index + STATIONS.len() - 1) % STATIONS.len(),
-            Input::Turn(turn) => self.stations[self.index].turn(turn),
-            Input::Reset => self.stations[self.index] = (STATIONS[self.index].start)(),
+            Input::Turn(turn) => *numbers = station.turned(*numbers, turn),
+            Input::Reset => *numbers = station.first(),
             Input::Escape if !self.help => return false,
             Input::Help | Input::Escape => self.help = !self.help,
             Input::Quit => return false,
@@ -78,8 +78,8 @@ fn show(terminal: &Terminal, walk: &Walk, encoder: &mut Encoder, style: Style) -
     if columns == 0 || rows == 0 {
         return Ok(());
     }
-    let station = &*walk.stations[walk.index];
-    let page = frame::page(walk.index, station, walk.help, (columns, rows), style);
+    let numbers = walk.numbers[walk.index];
+    let page = frame::page(walk.index, numbers, walk.help, (columns, rows), style);
     let mut bytes = Vec::new();
     encoder.encode(page, &mut bytes);
     terminal.show(&bytes)

@@ -16,7 +16,7 @@
 //! ```
 //!
 //! What is nearer is decided by the contract's rule 5, and bounds drop no hit (`screen.rs`); so both orders have the
-//! same picture, but for false hits of `Fast` and `Geometric` beside a sphere's bounds.
+//! same picture, except for false hits of `Fast` and `Geometric` beside a sphere's bounds.
 //!
 //! Bounds are found once a picture. A picture is traced strip by strip, so the loop over spheres runs once a strip;
 //! the bounds of the strip as a whole, and of its blocks of packets, rule out most spheres at once. Neither these nor
@@ -45,7 +45,7 @@ pub struct ObjectOrder<'a> {
 pub struct Counts {
     /// Tests of a ray against a sphere.
     pub tests: u64,
-    /// What was stored as the answer of a ray, and in the place of what.
+    /// How many hits were stored, and how many replaced an earlier one.
     pub writes: Writes,
 }
 

@@ -60,7 +60,7 @@ mod tests {
             last = share;
             Some(())
         });
-        let [slow_time, quick_time] = times.expect("nobody ends it");
+        let [slow_time, quick_time] = times.expect("it is not ended");
         assert!(slow_time >= 0.03 && quick_time < slow_time);
         assert!(counts[0] == counts[1] && counts[0] > ROUNDS.0);
     }

@@ -40,7 +40,7 @@ impl Pace {
         Some(since_last.map_or(Duration::ZERO, |since| from_last.saturating_sub(since)))
     }
 
-    /// What the next frame may cost. Before the first, nobody knows how long samples take; without a movement, there
+    /// What the next frame may cost. Before the first, it is not known how long samples take; without a movement, there
     /// is time.
     pub(super) fn spending(&self, moving: bool) -> Spending {
         let time = DRAWING * self.interval.as_secs_f64();

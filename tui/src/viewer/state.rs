@@ -213,7 +213,7 @@ impl State {
             Input::Split => {
                 *comparison = match (*comparison, style.accuracy) {
                     (Some(Comparison::Split(_)), _) => None,
-                    // What is wrong with exact nobody sees.
+                    // `Exact` has no visible error: compare `Fast` with it.
                     (_, Tier::Exact) => Some(Comparison::Split([Tier::Fast, Tier::Exact])),
                     (_, tier) => Some(Comparison::Split([tier, Tier::Exact])),
                 }

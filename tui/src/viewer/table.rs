@@ -1,6 +1,6 @@
-//! The table over the picture: measured by a thread of its own, which is told to end when nobody looks any more.
+//! The table over the picture: measured by a thread of its own, which is told to end when the table is closed.
 //!
-//! Nobody waits for that thread, whatever it is doing; it ends by itself after the pass that it is in. Of two the later
+//! No one waits for that thread, whatever it is doing; it ends by itself after the pass that it is in. Of two the later
 //! begins when the earlier has ended, so that they neither disturb each other's times nor add up.
 
 use super::state::Shown;
@@ -41,7 +41,7 @@ impl Subject {
     }
 }
 
-/// Who measures, and what over: owned, since nobody waits for the end.
+/// Who measures, and what over: owned, since no one waits for the end.
 pub(super) struct Means {
     pub(super) scene: Arc<Scene>,
     pub(super) style: Style,
@@ -166,7 +166,7 @@ impl Table {
         let shared = Arc::new(Shared { is_unwanted: AtomicBool::new(false), standing });
         let (theirs, earlier) = (Arc::clone(&shared), self.thread.take());
         let work = move || {
-            // Of a panic of a measurement that nobody wants any more, nobody wants to know.
+            // A panic of a measurement that is no longer wanted is not reported.
             let _ = earlier.map(JoinHandle::join);
             theirs.measure(subject, &means);
         };

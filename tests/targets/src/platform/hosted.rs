@@ -5,7 +5,7 @@ use std::io::Write as _;
 /// Prints bytes.
 ///
 /// # Panics
-/// If nobody reads them.
+/// If no one reads them.
 pub fn print(text: &[u8]) {
     std::io::stdout().write_all(text).expect("standard output");
 }

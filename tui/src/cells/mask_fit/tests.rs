@@ -172,7 +172,7 @@ proptest! {
         let next: Vec<Vec3> = light.iter().zip(&noise).map(|(&light, &noise)| light + noise).collect();
         let again = fitter.fit(&next, &mut memory, Some(first.glyph));
         let apart = roots(first.ink).distance(roots(first.paper));
-        // What nobody sees may change.
+        // What cannot be seen may change.
         if first.glyph == ' ' || light.len() <= FEW || apart < 0.1 {
             return Ok(());
         }

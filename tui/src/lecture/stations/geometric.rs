@@ -1,12 +1,11 @@
 //! The sphere, solved geometrically: through the closest point.
 
 use crate::lecture::canvas::{Canvas, Role};
-use crate::lecture::chart::Chart;
-use crate::lecture::shot::Solved;
-use crate::lecture::station::{Entry, Source, flat, number};
-use spherule_kernel::{Geometric, Ray, Sphere, roots};
+use crate::lecture::shot::{self, Shot};
+use crate::lecture::station::{Numbers, Source, Station, flat, number};
+use spherule_kernel::{Geometric, roots};
 
-pub(super) const ENTRY: Entry = Entry {
+pub(super) const STATION: Station = Station {
     name: "geometric",
     title: "ray and sphere, geometric form",
     topic: "ray-sphere intersection",
@@ -19,11 +18,14 @@ pub(super) const ENTRY: Entry = Entry {
         file: "kernel/src/accuracy/geometric.rs",
         symbols: &["roots", "middle", "Geometric"],
     }],
-    start: || Box::new(Solved::new(form)),
+    knobs: shot::KNOBS,
+    text: 38,
+    draw,
 };
 
-fn form(ray: &Ray, sphere: &Sphere, chart: &Chart, canvas: &mut Canvas) -> Vec<String> {
-    let found = roots(Geometric, ray, sphere);
+fn draw(numbers: Numbers, canvas: &mut Canvas) -> String {
+    let Shot { ray, sphere, chart } = Shot::new(numbers, canvas, STATION.text);
+    let found = roots(Geometric, &ray, &sphere);
 
     // The formula's parts, in the order in which the kernel computes them.
     let (p, d) = (ray.origin - sphere.center, ray.direction);
@@ -37,39 +39,42 @@ fn form(ray: &Ray, sphere: &Sphere, chart: &Chart, canvas: &mut Canvas) -> Vec<S
     chart.dots(canvas, [sphere.center, closest], Role::Hit);
     chart.mark(canvas, closest, "m", Role::Hit);
     chart.mark(canvas, (sphere.center + closest) / 2.0, "l", Role::Hit);
-    if let Some([near, far]) = found {
-        chart.mark(canvas, ray.at(near), "* t1", Role::Hit);
-        chart.mark(canvas, ray.at(far), "* t2", Role::Hit);
-        chart.mark(canvas, (closest + ray.at(near)) / 2.0, "dt", Role::Hit);
-        chart.mark(canvas, (closest + ray.at(far)) / 2.0, "dt", Role::Hit);
+    for (t, name) in found.iter().flatten().zip(["* t1", "* t2"]) {
+        chart.mark(canvas, ray.at(*t), name, Role::Hit);
+    }
+    for t in found.iter().flatten() {
+        chart.mark(canvas, (closest + ray.at(*t)) / 2.0, "dt", Role::Hit);
     }
 
-    let mut lines = vec![
-        format!("p - c = {}", flat(p)),
-        format!("d = {}", flat(d)),
-        format!("|d| = {}   r = {}", number(length), number(sphere.radius)),
-        format!("v = d/|d| = {}", flat(unit)),
-        String::new(),
-        format!("t_m = -p.v = {}", number(middle)),
-        format!("l^2 = p.p - t_m^2 = {}", number(ll)),
-        format!("r^2 - l^2 = {}", number(half)),
-    ];
-    match found {
-        Some([near, far]) => lines.extend([
-            format!("dt = sqrt(r^2 - l^2) = {}", number(half.sqrt())),
-            String::new(),
-            "t = (t_m -+ dt) / |d|".to_owned(),
-            format!("t1 = {}", number(near)),
-            format!("t2 = {}", number(far)),
-            String::new(),
-            "With |d| = 1 it is t_m -+ dt: the".to_owned(),
-            "kernel makes v, and scales back.".to_owned(),
-        ]),
-        None => lines.extend([
-            "l > r: the line passes the sphere".to_owned(),
-            String::new(),
-            "no root, no hit".to_owned(),
-        ]),
-    }
-    lines
+    let verdict = match found {
+        Some([near, far]) => format!(
+            "\
+dt = sqrt(r^2 - l^2) = {}
+
+t = (t_m -+ dt) / |d|
+t1 = {}
+t2 = {}
+
+With |d| = 1 it is t_m -+ dt: the
+kernel makes v, and scales back.",
+            number(half.sqrt()),
+            number(near),
+            number(far)
+        ),
+        None => "l > r: the line passes the sphere\n\nno root, no hit".to_owned(),
+    };
+    let [length, r, middle, ll, half] = [length, sphere.radius, middle, ll, half].map(number);
+    let [p, d, unit] = [p, d, unit].map(flat);
+    format!(
+        "\
+p - c = {p}
+d = {d}
+|d| = {length}   r = {r}
+v = d/|d| = {unit}
+
+t_m = -p.v = {middle}
+l^2 = p.p - t_m^2 = {ll}
+r^2 - l^2 = {half}
+{verdict}"
+    )
 }

@@ -1,12 +1,12 @@
 //! The nearest of many: `t_max` shrinks.
 
 use crate::lecture::canvas::{Canvas, letter};
-use crate::lecture::few::{Cursor, Few};
+use crate::lecture::few::Few;
 use crate::lecture::pixels::{Pixel, Pixels};
-use crate::lecture::station::{Entry, Source, Station, Turn, number};
+use crate::lecture::station::{Knob, Numbers, Source, Station, number};
 use spherule_kernel::{Exact, Intersect, Ray, SphereList, roots};
 
-pub(super) const ENTRY: Entry = Entry {
+pub(super) const STATION: Station = Station {
     name: "nearest",
     title: "the nearest of many",
     topic: "groups of surfaces",
@@ -20,67 +20,55 @@ pub(super) const ENTRY: Entry = Entry {
         Source { file: "kernel/src/intersect.rs", symbols: &["closest_hit"] },
         Source { file: "kernel/src/bvh/traverse.rs", symbols: &["wavefront"] },
     ],
-    start: || Box::new(Nearest { cursor: Cursor::new(1, 2) }),
+    knobs: [Knob::within(1, [1, 0], [-10, 9]), Knob::within(2, [0, -1], [-7, 6])],
+    text: 36,
+    draw,
 };
 
 const SIZE: (u32, u32) = (20, 14);
-/// Columns of the text.
-const TEXT: i32 = 36;
 
-struct Nearest {
-    cursor: Cursor,
-}
+fn draw([right, down]: Numbers, canvas: &mut Canvas) -> String {
+    let few = Few::new(SIZE, false);
+    let (hits, _) = few.image_order(few.pixels());
+    let (ix, iy) = (SIZE.0 / 2)
+        .checked_add_signed(right)
+        .zip((SIZE.1 / 2).checked_add_signed(down))
+        .unwrap_or_default();
+    let pixels = Pixels::beside(canvas, STATION.text, SIZE);
+    pixels
+        .draw(canvas, |x, y| Pixel::of_sphere(few.shown(hits[(y * SIZE.0 + x) as usize]), letter));
+    pixels.point_at(canvas, ix, iy);
 
-impl Station for Nearest {
-    fn turn(&mut self, turn: Turn) {
-        self.cursor.turn(turn);
+    let pixel = (iy * SIZE.0 + ix) as usize;
+    let mut ray = few.ray(pixel);
+    let mut text = format!(
+        "the ray of pixel ({ix}, {iy})\nt_min = {}  t_max = {}\n\n",
+        number(ray.t_min),
+        number(ray.t_max)
+    );
+    for (place, sphere) in few.list.spheres().iter().enumerate() {
+        let one = SphereList::from([sphere]);
+        let answer = match (one.closest_hit(Exact, &ray), roots(Exact, &ray, &sphere)) {
+            (Some(hit), _) => {
+                // A hit at t_max itself is as near: the lower index is kept.
+                ray = Ray { t_max: hit.t.next_down(), ..ray };
+                format!("t = {:<11} t_max = t", number(hit.t))
+            }
+            (None, Some([t, _])) => format!("t = {:<11} beyond t_max", number(t)),
+            (None, None) => "no hit".to_owned(),
+        };
+        text += &format!("{}  {answer}\n", letter(few.name(place)));
     }
+    let nearest = few.list.closest_hit(Exact, &few.ray(pixel)).map_or_else(
+        || "none: the background".to_owned(),
+        |hit| format!("{} at t = {}", letter(few.name(hit.sphere as usize)), number(hit.t)),
+    );
+    text + &format!(
+        "
+closest_hit of all:
+{nearest}
 
-    fn draw(&self, canvas: &mut Canvas) {
-        let few = Few::new(SIZE, false);
-        let (hits, _) = few.image_order(few.pixels());
-        let (ix, iy) = self.cursor.pixel(SIZE.0, SIZE.1);
-        let columns = canvas.columns();
-        let pixels = Pixels::new((0, 0), (columns - TEXT, canvas.rows()), SIZE);
-        pixels.draw(canvas, |x, y| {
-            Pixel::of_sphere(few.shown(hits[(y * SIZE.0 + x) as usize]), letter)
-        });
-        pixels.point_at(canvas, ix, iy);
-
-        let pixel = (iy * SIZE.0 + ix) as usize;
-        let mut ray = few.ray(pixel);
-        let mut lines = vec![
-            format!("the ray of pixel ({ix}, {iy})"),
-            format!("t_min = {}  t_max = {}", number(ray.t_min), number(ray.t_max)),
-            String::new(),
-        ];
-        for (place, sphere) in few.list.spheres().iter().enumerate() {
-            let name = letter(few.name(place));
-            let one = SphereList::from([sphere]);
-            lines.push(match (one.closest_hit(Exact, &ray), roots(Exact, &ray, &sphere)) {
-                (Some(hit), _) => {
-                    // A hit at t_max itself is as near: the lower index is kept.
-                    ray = Ray { t_max: hit.t.next_down(), ..ray };
-                    format!("{name}  t = {:<11} t_max = t", number(hit.t))
-                }
-                (None, Some([t, _])) => format!("{name}  t = {:<11} beyond t_max", number(t)),
-                (None, None) => format!("{name}  no hit"),
-            });
-        }
-        let nearest = few.list.closest_hit(Exact, &few.ray(pixel));
-        lines.extend([
-            String::new(),
-            "closest_hit of all:".to_owned(),
-            match nearest {
-                Some(hit) => {
-                    format!("{} at t = {}", letter(few.name(hit.sphere as usize)), number(hit.t))
-                }
-                None => "none: the background".to_owned(),
-            },
-            String::new(),
-            "A tree of boxes asks fewer of them,".to_owned(),
-            "and answers with the same bits.".to_owned(),
-        ]);
-        canvas.write_lines(columns - TEXT + 1, 0, lines);
-    }
+A tree of boxes asks fewer of them,
+and answers with the same bits."
+    )
 }

@@ -1,12 +1,12 @@
 //! Object order: sphere by sphere.
 
 use crate::lecture::canvas::{Canvas, Role, letter};
-use crate::lecture::few::Few;
+use crate::lecture::few::{COUNT, Few};
 use crate::lecture::pixels::{Pixel, Pixels};
-use crate::lecture::station::{Entry, Source, Station, Turn};
+use crate::lecture::station::{Knob, Numbers, Source, Station};
 use crate::structure::object_order::Counts;
 
-pub(super) const ENTRY: Entry = Entry {
+pub(super) const STATION: Station = Station {
     name: "object-order",
     title: "object order: sphere by sphere",
     topic: "object order",
@@ -20,86 +20,67 @@ pub(super) const ENTRY: Entry = Entry {
         Source { file: "kernel/src/linear/object.rs", symbols: &["object_lanes", "Writes"] },
         Source { file: "tui/src/structure/screen.rs", symbols: &["of_sphere"] },
     ],
-    start: || Box::new(BySphere { done: 2, reversed: false }),
+    knobs: [Knob::within(2, [1, 0], [0, COUNT as i32]), Knob::around(0, [0, 1], 2)],
+    text: 35,
+    draw,
 };
 
 const SIZE: (u32, u32) = (20, 11);
-/// Columns of the text.
-const TEXT: i32 = 35;
 
-struct BySphere {
-    /// How many spheres have been drawn.
-    done: usize,
-    reversed: bool,
-}
+/// How many spheres have been drawn, and whether from near to far.
+fn draw([done, reversed]: Numbers, canvas: &mut Canvas) -> String {
+    let (done, reversed) = (done as usize, reversed == 1);
+    let few = Few::new(SIZE, reversed);
+    let (hits, counts) = few.object_order(done);
+    let (before, _) = few.object_order(done.saturating_sub(1));
+    let pixels = Pixels::beside(canvas, STATION.text, SIZE);
+    // What the last sphere wrote is in capitals.
+    pixels.draw(canvas, |x, y| {
+        let pixel = (y * SIZE.0 + x) as usize;
+        let is_new = hits[pixel] != before[pixel];
+        Pixel::of_sphere(few.shown(hits[pixel]), |index| {
+            if is_new { letter(index) } else { letter(index).to_ascii_lowercase() }
+        })
+    });
+    canvas.write(0, pixels.rows(), "capitals: written by the last sphere", Role::Faint);
 
-impl Station for BySphere {
-    fn turn(&mut self, turn: Turn) {
-        let few = Few::new(SIZE, self.reversed);
-        match turn {
-            Turn::Left => self.done = self.done.saturating_sub(1),
-            Turn::Right => self.done = (self.done + 1).min(few.count()),
-            Turn::Up | Turn::Down => self.reversed = !self.reversed,
+    let mut rows = String::new();
+    let mut last = Counts::default();
+    for (place, sphere) in few.list.spheres().iter().enumerate() {
+        let name = letter(few.name(place));
+        if place < done {
+            let (_, all) = few.object_order(place + 1);
+            let new = [
+                all.tests - last.tests,
+                all.writes.stored - last.writes.stored,
+                all.writes.overwritten - last.writes.overwritten,
+            ];
+            rows += &row(&name.to_string(), new);
+            last = all;
+        } else {
+            rows += &format!("{name}       waits, at z = {}\n", sphere.center.z);
         }
     }
+    let Counts { tests, writes } = counts;
+    rows += &row("all", [tests, writes.stored, writes.overwritten]);
+    let order = if reversed {
+        "From near to far: little is\nwritten twice."
+    } else {
+        "From far to near: much is\noverwritten."
+    };
+    format!(
+        "\
+for each sphere:
+        tests  writes  overwritten
+{rows}
+Tested: blocks of 4 x 4 pixels, all
+that the sphere's bounds touch.
 
-    fn draw(&self, canvas: &mut Canvas) {
-        let few = Few::new(SIZE, self.reversed);
-        let (hits, counts) = few.object_order(self.done);
-        let (before, _) = few.object_order(self.done.saturating_sub(1));
-        let columns = canvas.columns();
-        let pixels = Pixels::new((0, 0), (columns - TEXT, canvas.rows()), SIZE);
-        // What the last sphere wrote is in capitals.
-        pixels.draw(canvas, |x, y| {
-            let pixel = (y * SIZE.0 + x) as usize;
-            let is_new = hits[pixel] != before[pixel];
-            Pixel::of_sphere(few.shown(hits[pixel]), |index| {
-                if is_new { letter(index) } else { letter(index).to_ascii_lowercase() }
-            })
-        });
-        canvas.write(0, pixels.rows(), "capitals: written by the last sphere", Role::Faint);
-
-        let mut lines =
-            vec!["for each sphere:".to_owned(), "        tests  writes  overwritten".to_owned()];
-        let mut last = Counts::default();
-        for place in 0..few.count() {
-            let name = letter(few.name(place));
-            let sphere = few.list.spheres().get(place).map_or(0.0, |sphere| sphere.center.z);
-            lines.push(if place < self.done {
-                let (_, all) = few.object_order(place + 1);
-                let line = row(
-                    &format!("{name}"),
-                    [
-                        all.tests - last.tests,
-                        all.writes.stored - last.writes.stored,
-                        all.writes.overwritten - last.writes.overwritten,
-                    ],
-                );
-                last = all;
-                line
-            } else {
-                format!("{name}       waits, at z = {sphere}")
-            });
-        }
-        let Counts { tests, writes } = counts;
-        lines.extend([
-            row("all", [tests, writes.stored, writes.overwritten]),
-            String::new(),
-            "Tested: blocks of 4 x 4 pixels, all".to_owned(),
-            "that the sphere's bounds touch.".to_owned(),
-            String::new(),
-            if self.reversed {
-                "From near to far: little is".to_owned()
-            } else {
-                "From far to near: much is".to_owned()
-            },
-            if self.reversed { "written twice.".to_owned() } else { "overwritten.".to_owned() },
-            "The picture is the same.".to_owned(),
-        ]);
-        canvas.write_lines(columns - TEXT + 1, 0, lines);
-    }
+{order}
+The picture is the same."
+    )
 }
 
 fn row(name: &str, [tests, writes, overwritten]: [u64; 3]) -> String {
-    format!("{name:<4}{tests:>9}{writes:>8}{overwritten:>13}")
+    format!("{name:<4}{tests:>9}{writes:>8}{overwritten:>13}\n")
 }

@@ -1,13 +1,13 @@
 //! Where single precision ends, and what `Exact` does about it.
 
 use crate::lecture::canvas::{Canvas, Role};
-use crate::lecture::station::{Entry, Source, Station, Turn, number};
+use crate::lecture::station::{Knob, Numbers, Source, Station, number};
 use crate::scene::Scene;
 use crate::scene::builtin::builtin;
-use crate::tally::{Summary, Tally};
+use crate::tally::{Class, Summary, Tally};
 use spherule_kernel::{Hit, Intersect, Ray, Tier};
 
-pub(super) const ENTRY: Entry = Entry {
+pub(super) const STATION: Station = Station {
     name: "precision",
     title: "where f32 ends, and what exact does",
     topic: "forms in floats",
@@ -22,119 +22,106 @@ pub(super) const ENTRY: Entry = Entry {
         Source { file: "kernel/src/accuracy/stable.rs", symbols: &["Stable"] },
         Source { file: "tui/src/tally.rs", symbols: &["Tally", "ulp_between"] },
     ],
-    start: || {
-        let scene = builtin("edge").unwrap_or_default();
-        Box::new(Precision { scene, index: 0, tier: 0 })
-    },
+    knobs: [
+        Knob::within(0, [1, 0], [i32::MIN, i32::MAX]),
+        Knob::around(0, [0, -1], Tier::ALL.len() as i32),
+    ],
+    text: 37,
+    draw,
 };
 
-/// Columns of the text.
-const TEXT: i32 = 37;
+/// Which of the rays that fast or geometric gets wrong, and whose picture it is.
+fn draw([index, tier]: Numbers, canvas: &mut Canvas) -> String {
+    let scene = builtin("edge").unwrap_or_default();
+    let tier = tier as usize;
+    let (width, height) = (canvas.columns() - STATION.text, canvas.rows() - 1);
+    let rays = rays(&scene, canvas, width as u32, height as u32);
+    let hits = Tier::ALL.map(|tier| {
+        let mut hits = vec![None; rays.len()];
+        scene.list().closest_hits(tier, &rays, &mut hits);
+        hits
+    });
+    let [fast, geometric, _, exact] = &hits;
+    let wrong: Vec<usize> = (0..rays.len())
+        .filter(|&ray| {
+            [fast, geometric].iter().any(|hits| class(hits[ray], exact[ray]) >= Class::LostHit)
+        })
+        .collect();
+    let chosen = match wrong.len() {
+        0 => 0,
+        count => wrong[index.rem_euclid(count as i32) as usize],
+    };
 
-struct Precision {
-    scene: Scene,
-    /// Which of the rays that fast or geometric gets wrong.
-    index: i32,
-    /// Whose picture it is.
-    tier: usize,
+    let shown = &hits[tier];
+    for ray in 0..rays.len() {
+        let (column, row) = (ray as i32 % width, ray as i32 / width);
+        let (glyph, role) = sign(class(shown[ray], exact[ray]));
+        canvas.put(column, row, glyph, role);
+    }
+    let (column, row) = (chosen as i32 % width, chosen as i32 / width);
+    canvas.put(column - 1, row, '[', Role::Plain);
+    canvas.put(column + 1, row, ']', Role::Plain);
+    let name = Tier::ALL[tier].as_str();
+    let legend = format!("{name}: # hit  wrong: + hit, - miss, x sphere");
+    canvas.write(0, height, &legend, Role::Faint);
+
+    let of_rays = Tier::ALL.iter().zip(&hits).map(|(tier, hits)| of_ray(*tier, hits[chosen]));
+    let of_all = Tier::ALL.iter().zip(&hits).map(|(tier, hits)| {
+        of_all(*tier, &Tally::of(hits.iter().copied(), exact.iter().copied()).summary())
+    });
+    format!(
+        "\
+[ ] ray {chosen} by every tier
+tier      sphere t         as bits
+{}
+of all {} rays, decided wrongly:
+tier       hit miss sphere max ulp
+{}
+hit: a hit that is a miss in truth.
+ulp: steps of f32 between its t
+and the right one, where it hits.",
+        of_rays.collect::<String>(),
+        rays.len(),
+        of_all.collect::<String>()
+    )
 }
 
-impl Station for Precision {
-    fn turn(&mut self, turn: Turn) {
-        let (right, up) = turn.steps();
-        self.index = self.index.wrapping_add(right);
-        let count = Tier::ALL.len() as i32;
-        self.tier = (self.tier as i32 - up).rem_euclid(count) as usize;
-    }
-
-    fn draw(&self, canvas: &mut Canvas) {
-        let (width, height) = (canvas.columns() - TEXT, canvas.rows() - 1);
-        let rays = self.rays(canvas, width as u32, height as u32);
-        let hits = Tier::ALL.map(|tier| {
-            let mut hits = vec![None; rays.len()];
-            self.scene.list().closest_hits(tier, &rays, &mut hits);
-            hits
-        });
-        let [fast, geometric, _, exact] = &hits;
-        let wrong: Vec<usize> = (0..rays.len())
-            .filter(|&ray| [fast, geometric].iter().any(|hits| is_wrong(hits[ray], exact[ray])))
-            .collect();
-        let chosen = match wrong.len() {
-            0 => 0,
-            count => wrong[self.index.rem_euclid(count as i32) as usize],
-        };
-
-        let shown = &hits[self.tier];
-        for ray in 0..rays.len() {
-            let (column, row) = (ray as i32 % width, ray as i32 / width);
-            let (glyph, role) = sign(shown[ray], exact[ray]);
-            canvas.put(column, row, glyph, role);
-        }
-        let (column, row) = (chosen as i32 % width, chosen as i32 / width);
-        canvas.put(column - 1, row, '[', Role::Plain);
-        canvas.put(column + 1, row, ']', Role::Plain);
-        let name = Tier::ALL[self.tier].as_str();
-        let legend = format!("{name}: # hit  wrong: + hit, - miss, x sphere");
-        canvas.write(0, height, &legend, Role::Faint);
-
-        let mut lines = vec![
-            format!("[ ] ray {chosen} by every tier"),
-            "tier      sphere t         as bits".to_owned(),
-        ];
-        lines.extend(Tier::ALL.iter().zip(&hits).map(|(tier, hits)| of_ray(*tier, hits[chosen])));
-        lines.extend([
-            String::new(),
-            format!("of all {} rays, decided wrongly:", rays.len()),
-            "tier       hit miss sphere max ulp".to_owned(),
-        ]);
-        lines.extend(Tier::ALL.iter().zip(&hits).map(|(tier, hits)| {
-            of_all(*tier, &Tally::of(hits.iter().copied(), exact.iter().copied()).summary())
-        }));
-        lines.extend([
-            String::new(),
-            "hit: a hit that is a miss in truth.".to_owned(),
-            "ulp: steps of f32 between its t".to_owned(),
-            "and the right one, where it hits.".to_owned(),
-        ]);
-        canvas.write_lines(canvas.columns() - TEXT + 1, 0, lines);
-    }
+/// One ray a cell.
+fn rays(scene: &Scene, canvas: &Canvas, width: u32, height: u32) -> Vec<Ray> {
+    let aspect = canvas.style().picture_aspect(width as u16, height as u16);
+    let camera = scene.first_view(aspect as f32).camera(width, height, aspect);
+    (0..width * height).map(|ray| camera.get_ray(ray % width, ray / width)).collect()
 }
 
-impl Precision {
-    /// One ray a cell.
-    fn rays(&self, canvas: &Canvas, width: u32, height: u32) -> Vec<Ray> {
-        let aspect = canvas.style().picture_aspect(width as u16, height as u16);
-        let camera = self.scene.first_view(aspect as f32).camera(width, height, aspect);
-        (0..width * height).map(|ray| camera.get_ray(ray % width, ray / width)).collect()
-    }
-}
-
-fn is_wrong(answer: Option<Hit>, truth: Option<Hit>) -> bool {
-    answer.map(|hit| hit.sphere) != truth.map(|hit| hit.sphere)
+/// What is wrong with an answer.
+fn class(answer: Option<Hit>, truth: Option<Hit>) -> Class {
+    let elsewhere = answer.zip(truth).is_some_and(|(a, b)| a.sphere != b.sphere);
+    let [t, true_t] = [answer, truth].map(|hit| hit.map(|hit| hit.t));
+    Class::of(t, true_t, elsewhere).0
 }
 
 /// A right decision or a wrong one.
-fn sign(answer: Option<Hit>, truth: Option<Hit>) -> (char, Role) {
-    match (answer, truth) {
-        (None, None) => (' ', Role::Plain),
-        (Some(_), None) => ('+', Role::Wrong),
-        (None, Some(_)) => ('-', Role::Wrong),
-        _ if is_wrong(answer, truth) => ('x', Role::Wrong),
-        _ => ('#', Role::Sphere),
+fn sign(class: Class) -> (char, Role) {
+    match class {
+        Class::Miss => (' ', Role::Plain),
+        Class::FalseHit => ('+', Role::Wrong),
+        Class::LostHit => ('-', Role::Wrong),
+        Class::OtherSphere => ('x', Role::Wrong),
+        Class::Right | Class::Off(_) | Class::OtherRoot => ('#', Role::Sphere),
     }
 }
 
 fn of_ray(tier: Tier, hit: Option<Hit>) -> String {
     match hit {
         Some(Hit { t, sphere }) => {
-            format!("{:<9} {sphere:>6} {:<9} {:08x}", tier.as_str(), number(t), t.to_bits())
+            format!("{:<9} {sphere:>6} {:<9} {:08x}\n", tier.as_str(), number(t), t.to_bits())
         }
-        None => format!("{:<9}      - miss", tier.as_str()),
+        None => format!("{:<9}      - miss\n", tier.as_str()),
     }
 }
 
 fn of_all(tier: Tier, summary: &Summary) -> String {
     let Summary { wrong_hits, wrong_misses, wrong_places, .. } = summary;
     let ulp = summary.ulp.map_or(0, |ulp| ulp.max);
-    format!("{:<9} {wrong_hits:>4} {wrong_misses:>4} {wrong_places:>6} {ulp:>7}", tier.as_str())
+    format!("{:<9} {wrong_hits:>4} {wrong_misses:>4} {wrong_places:>6} {ulp:>7}\n", tier.as_str())
 }

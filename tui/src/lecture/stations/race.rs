@@ -3,11 +3,11 @@
 use crate::lecture::canvas::{Canvas, Role, letter};
 use crate::lecture::few::Few;
 use crate::lecture::pixels::{Pixel, Pixels};
-use crate::lecture::station::{Entry, Source, Station, Turn};
+use crate::lecture::station::{Knob, Numbers, Source, Station};
 use crate::structure::object_order::Counts;
 use spherule_kernel::{Hit, Writes};
 
-pub(super) const ENTRY: Entry = Entry {
+pub(super) const STATION: Station = Station {
     name: "race",
     title: "both orders, side by side",
     topic: "image order and object order",
@@ -21,16 +21,14 @@ pub(super) const ENTRY: Entry = Entry {
         Source { file: "kernel/src/linear/object.rs", symbols: &["object_lanes", "Writes"] },
         Source { file: "tui/src/tradeoff/orders.rs", symbols: &["Orders"] },
     ],
-    start: || Box::new(Race { steps: 6 }),
+    knobs: [Knob::within(6, [1, STEPS], [0, STEPS]), Knob::within(0, [0, 0], [0, 0])],
+    text: 0,
+    draw,
 };
 
 const SIZE: (u32, u32) = (18, 10);
 /// Steps of an arrow from no test to those that image order takes.
-const STEPS: u64 = 30;
-
-struct Race {
-    steps: u64,
-}
+const STEPS: i32 = 30;
 
 /// One of the two.
 struct Racer {
@@ -57,44 +55,33 @@ fn object_order(few: &Few, budget: u64) -> Racer {
     Racer { title: "object order", hits, counts, is_done: spheres == few.count() }
 }
 
-impl Station for Race {
-    fn turn(&mut self, turn: Turn) {
-        self.steps = match turn {
-            Turn::Left => self.steps.saturating_sub(1),
-            Turn::Right => (self.steps + 1).min(STEPS),
-            Turn::Up => STEPS,
-            Turn::Down => 0,
-        };
+fn draw([steps, _]: Numbers, canvas: &mut Canvas) -> String {
+    let few = Few::new(SIZE, false);
+    let all = (few.pixels() * few.count()) as u64;
+    let budget = all * u64::from(steps.unsigned_abs()) / u64::from(STEPS.unsigned_abs());
+    let columns = canvas.columns();
+    canvas.write(0, 0, &format!("{budget} tests each, of at most {all}"), Role::Ray);
+    let room = (columns / 2, canvas.rows() - 5);
+    let below = 1 + Pixels::new((0, 1), room, SIZE).rows();
+    for (left, racer) in [(0, image_order(&few, budget)), (columns / 2, object_order(&few, budget))]
+    {
+        let Racer { title, hits, counts, is_done } = racer;
+        Pixels::new((left, 1), room, SIZE).draw(canvas, |ix, iy| {
+            match hits.get((iy * SIZE.0 + ix) as usize) {
+                Some(hit) => Pixel::of_sphere(few.shown(*hit), letter),
+                None => Pixel::WAITING,
+            }
+        });
+        let end = if is_done { "done" } else { "not done" };
+        canvas.write(left + 1, below, &format!("{title}: {end}"), Role::Hit);
+        let Counts { tests, writes } = counts;
+        let lines = [
+            format!("tests {tests}"),
+            format!("writes {}, of these overwrite {}", writes.stored, writes.overwritten),
+        ];
+        canvas.write_lines(left + 1, below + 1, lines);
     }
-
-    fn draw(&self, canvas: &mut Canvas) {
-        let few = Few::new(SIZE, false);
-        let all = (few.pixels() * few.count()) as u64;
-        let budget = all * self.steps / STEPS;
-        let columns = canvas.columns();
-        canvas.write(0, 0, &format!("{budget} tests each, of at most {all}"), Role::Ray);
-        let room = (columns / 2, canvas.rows() - 5);
-        let below = 1 + Pixels::new((0, 1), room, SIZE).rows();
-        for (left, racer) in
-            [(0, image_order(&few, budget)), (columns / 2, object_order(&few, budget))]
-        {
-            let Racer { title, hits, counts, is_done } = racer;
-            Pixels::new((left, 1), room, SIZE).draw(canvas, |ix, iy| {
-                match hits.get((iy * SIZE.0 + ix) as usize) {
-                    Some(hit) => Pixel::of_sphere(few.shown(*hit), letter),
-                    None => Pixel::WAITING,
-                }
-            });
-            let end = if is_done { "done" } else { "not done" };
-            canvas.write(left + 1, below, &format!("{title}: {end}"), Role::Hit);
-            let Counts { tests, writes } = counts;
-            let lines = [
-                format!("tests {tests}"),
-                format!("writes {}, of these overwrite {}", writes.stored, writes.overwritten),
-            ];
-            canvas.write_lines(left + 1, below + 1, lines);
-        }
-        let words = "spherule tradeoff counts both for any scene.";
-        canvas.write(1, below + 3, words, Role::Faint);
-    }
+    let words = "spherule tradeoff counts both for any scene.";
+    canvas.write(1, below + 3, words, Role::Faint);
+    String::new()
 }
