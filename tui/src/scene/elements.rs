@@ -27,11 +27,16 @@ pub struct Element {
 #[must_use]
 pub fn element(text: &str) -> Option<Element> {
     let named = |element: &&Element| element.symbol.eq_ignore_ascii_case(text);
-    match text.parse::<usize>() {
-        Ok(number) => ELEMENTS.get(number.checked_sub(1)?),
-        Err(_) => ELEMENTS.iter().find(named),
+    match text.parse() {
+        Ok(number) => of_number(number),
+        Err(_) => ELEMENTS.iter().find(named).copied(),
     }
-    .copied()
+}
+
+/// The element of an atomic number.
+#[must_use]
+pub fn of_number(number: usize) -> Option<Element> {
+    ELEMENTS.get(number.checked_sub(1)?).copied()
 }
 
 /// By atomic number, from 1.

@@ -163,7 +163,7 @@ mod tests {
         let hydrogen = scene.spheres().get(2).expect("the third atom");
         assert_eq!(hydrogen.center, Vec3::new(0.0, -0.763, -0.477));
         assert_eq!(hydrogen.radius, 1.10);
-        assert_eq!(scene.label(0), Some("O 1"));
+        assert_eq!(scene.label(0).as_deref(), Some("O 1"));
         assert!(scene.lighting == Lighting::Camera && scene.view.is_none());
     }
 

@@ -43,7 +43,7 @@ impl PictureSearch<'_> {
 /// The spheres of a scene, and what has been built over them.
 #[derive(Debug)]
 pub struct SceneStructures<'a> {
-    list: &'a SphereList,
+    list: Arc<SphereList>,
     threads: &'a Threads,
     order: Order,
     tree: Option<Arc<SphereTree>>,
@@ -57,9 +57,9 @@ pub struct SceneStructures<'a> {
 impl<'a> SceneStructures<'a> {
     /// Builds nothing yet; a tree will be built by `threads`.
     #[must_use]
-    pub fn new(list: &'a SphereList, threads: &'a Threads) -> Self {
+    pub fn new(list: &Arc<SphereList>, threads: &'a Threads) -> Self {
         Self {
-            list,
+            list: Arc::clone(list),
             threads,
             order: Order::Image,
             tree: None,
@@ -155,7 +155,8 @@ impl<'a> SceneStructures<'a> {
                 let tree = match self.tree.take() {
                     Some(tree) => tree,
                     None => {
-                        let tree = SphereTree::build_with(self.threads, self.list.clone());
+                        let tree =
+                            SphereTree::build_with(self.threads, SphereList::clone(&self.list));
                         let tree = tree.map_err(|_| no_memory("a tree", spheres))?;
                         self.build += start.elapsed();
                         Arc::new(tree)

@@ -90,7 +90,7 @@ impl Illumination {
         };
         let surface = surface(Exact, ray, hit.t, &sphere);
         let index = hit.sphere as usize;
-        let label = self.scene.label(index).unwrap_or("marble");
+        let label = self.scene.label(index).unwrap_or("marble".into());
         let mut lines = vec![
             format!("in the frame: sphere {index}, {label}"),
             format!("t = {}", number(hit.t)),
