@@ -21,6 +21,7 @@ use spherule_kernel::{
 use spherule_tests::random::Random;
 use std::hint::black_box;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// How many spheres.
 const SPHERES: [usize; 14] =
@@ -119,7 +120,7 @@ fn measure(coherent: bool, count: usize, level: Level) {
     let mut hits = vec![HitPacket::none(); rays.len()];
     let mut scratch = Scratch::default();
     for _ in 0..ROUNDS {
-        let mut structures = SceneStructures::new(&list, &threads);
+        let mut structures = SceneStructures::new(&Arc::new(list.clone()), &threads);
         let mut time = |search: Search<'_>, packets: &Range<usize>| {
             let start = cpu_ns();
             for from in packets.clone().step_by(BAND) {

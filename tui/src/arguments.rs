@@ -1,5 +1,6 @@
 //! The command line.
 
+pub mod files;
 mod overlay;
 mod values;
 
@@ -10,7 +11,6 @@ use crate::lecture::LectureArguments;
 use crate::palette::Theme;
 use crate::scene::Scene;
 use crate::scene::builtin::DEFAULT;
-use crate::scene::open::{Format, open};
 use crate::structure::{Order, Structure};
 use crate::style::{CHAIR, Charset};
 use crate::terminal::color_depth::ColorChoice;
@@ -19,6 +19,7 @@ use crate::view::{LensKind, View, with_projection};
 use clap::error::ErrorKind;
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, CommandFactory, FromArgMatches, Parser, Subcommand, value_parser};
+use files::{FileArguments, Subject};
 pub use overlay::Overlay;
 use spherule_kernel::{Level, Tier};
 use std::ffi::OsString;
@@ -123,7 +124,7 @@ pub struct PictureArguments {
 /// A scene, and the rays of a picture of it.
 #[derive(Args, Clone, Debug)]
 pub struct SceneArguments {
-    /// A built-in scene, a file (.toml, .xyz), or - for standard input
+    /// A built-in scene, a file, or - for standard input; --format lists the formats that are told by content
     #[arg(value_name = "SCENE", default_value = DEFAULT)]
     pub name: String,
     /// Picture size in cells, each 1 to 4096 [default: 80x24; on a terminal all rows but the last]
@@ -138,18 +139,18 @@ pub struct SceneArguments {
     /// Which loop is the outer one, over rays or spheres; with object there is no --structure
     #[arg(long, value_name = "ORDER", default_value = "image")]
     pub order: Order,
-    /// Format of the scene [default: by name; of standard input by its first line]
-    #[arg(long, value_name = "FORMAT")]
-    pub format: Option<Format>,
+    /// What is to know of a file.
+    #[command(flatten)]
+    pub file: FileArguments,
 }
 
 impl SceneArguments {
-    /// The scene.
+    /// The scene, and what follows it.
     ///
     /// # Errors
     /// [`Error::Input`] if there is no such scene, or it cannot be read.
-    pub fn open(&self) -> Result<Scene, Error> {
-        open(&self.name, self.format).map_err(|error| Error::Input(error.to_string()))
+    pub fn open(&self) -> Result<Subject, Error> {
+        self.file.open(&self.name)
     }
 
     /// Where the scene is first seen from, in a picture of `aspect`, width over height.

@@ -11,6 +11,7 @@ use spherule_kernel::{
     ClosestHit, Hit, HitPacket, Level, Ray, RayPacket, Sphere, Spheres, Tier, discriminant, roots,
     stages,
 };
+use std::borrow::Cow;
 
 /// The ray through the middle of a cell, and its hits.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,7 +30,7 @@ pub struct PickedSphere<'a> {
     /// Its place in the scene.
     pub index: u32,
     /// What the scene calls it.
-    pub label: Option<&'a str>,
+    pub label: Option<Cow<'a, str>>,
     /// The sphere.
     pub sphere: Sphere,
     /// Entry and exit of the line by every tier, in the order of [`Tier::ALL`]; `None` by those that see none.
@@ -161,7 +162,7 @@ mod tests {
         let middle = pick(&scene, Ray::new(VIEW.eye, Vec3::NEG_Z));
         assert_eq!(middle.hits, [Some(Hit { t: 2.0, sphere: 0 }); 4]);
         let sphere = middle.sphere.expect("a sphere");
-        assert_eq!((sphere.index, sphere.label), (0, Some("one")));
+        assert_eq!((sphere.index, sphere.label.as_deref()), (0, Some("one")));
         assert_eq!(sphere.roots, [Some([2.0, 4.0]); 4]);
         assert_eq!((sphere.discriminant.0, sphere.decided_by), (1.0, Stage::Double));
 

@@ -1,28 +1,39 @@
 //! What there is to see: spheres, their colours, how they are lit, and a first view.
 
+pub mod attributes;
 pub mod builtin;
 pub mod elements;
+mod format;
+pub mod frames;
 pub mod framing;
+mod input;
 mod lighting;
-mod lines;
+mod notes;
+mod number;
 pub mod open;
+mod particles;
 mod read_error;
 pub mod toml;
-pub mod xyz;
 
+pub use format::Format;
 pub use lighting::{Light, Lighting, Source};
 pub use read_error::ReadError;
 
 use crate::color::Srgb;
 use crate::view::View;
+use attributes::Attributes;
 use spherule_kernel::{Sphere, SphereList, Spheres};
+use std::borrow::Cow;
+use std::sync::Arc;
 
 /// Spheres, how they are lit, and a first view.
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
-    list: SphereList,
+    list: Arc<SphereList>,
     colors: Vec<Srgb>,
+    /// By their index; none past its end.
     labels: Vec<Option<Box<str>>>,
+    attributes: Attributes,
     /// The colour of what no sphere covers.
     pub background: Srgb,
     /// Whether the scene itself says so: then it is not the user's to choose.
@@ -42,16 +53,31 @@ impl Scene {
         Self::default()
     }
 
-    /// Adds a sphere after the others.
-    pub fn push(&mut self, sphere: Sphere, color: Srgb, label: Option<&str>) {
-        self.list.push(sphere);
-        self.colors.push(color);
-        self.labels.push(label.map(Into::into));
+    /// The spheres of a file, in colours as many, and what it says of them.
+    #[must_use]
+    pub fn of_spheres(list: SphereList, colors: Vec<Srgb>, attributes: Attributes) -> Self {
+        Self { list: Arc::new(list), colors, attributes, ..Self::default() }
     }
 
-    /// The spheres.
+    /// The same particles, as many spheres elsewhere.
     #[must_use]
-    pub fn list(&self) -> &SphereList {
+    pub fn moved(&self, list: SphereList) -> Self {
+        Self { list: Arc::new(list), ..self.clone() }
+    }
+
+    /// Adds a sphere after the others. Without attributes: they are a file's.
+    pub fn push(&mut self, sphere: Sphere, color: Srgb, label: Option<&str>) {
+        Arc::make_mut(&mut self.list).push(sphere);
+        self.colors.push(color);
+        if let Some(label) = label {
+            self.labels.resize(self.colors.len() - 1, None);
+            self.labels.push(Some(label.into()));
+        }
+    }
+
+    /// The spheres. They are shared with what is built over them.
+    #[must_use]
+    pub fn list(&self) -> &Arc<SphereList> {
         &self.list
     }
 
@@ -67,10 +93,22 @@ impl Scene {
         &self.colors
     }
 
-    /// The label of sphere `index`; `None` if it has none, or there is no such sphere.
+    /// Sets the colours, one a sphere: those that are chosen by attributes.
+    pub fn set_colors(&mut self, colors: Vec<Srgb>) {
+        self.colors = colors;
+    }
+
+    /// What the scene's file says of its spheres.
     #[must_use]
-    pub fn label(&self, index: usize) -> Option<&str> {
-        self.labels.get(index)?.as_deref()
+    pub fn attributes(&self) -> &Attributes {
+        &self.attributes
+    }
+
+    /// The label of sphere `index`, its own or made of its attributes; `None` if it has none, or there is no such sphere.
+    #[must_use]
+    pub fn label(&self, index: usize) -> Option<Cow<'_, str>> {
+        let own = self.labels.get(index).and_then(Option::as_deref);
+        own.map(Cow::Borrowed).or_else(|| self.attributes.label(index).map(Cow::Owned))
     }
 
     /// The scene's own view, or one that shows all of it in a picture of `aspect`, width over

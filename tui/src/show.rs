@@ -1,7 +1,9 @@
 //! One picture, or the viewer: what `spherule [SCENE]` does.
 
 mod once;
+mod still;
 
+use crate::arguments::files::Subject;
 use crate::arguments::{ComputingArguments, Overlay, PictureArguments};
 use crate::compare::Comparison;
 use crate::draw::pixels::PixelGrid;
@@ -12,6 +14,7 @@ use crate::pick::report::Report;
 use crate::pick::{Pick, cell_ray};
 use crate::progress::{PATIENCE, Progress};
 use crate::scene::Scene;
+use crate::scene::frames::Frames;
 use crate::structure::scene::{PictureSearch, SceneStructures};
 use crate::style::{Charset, ColorDepth, PIPE_SIZE, Style};
 use crate::terminal::color_depth::Surroundings;
@@ -19,6 +22,7 @@ use crate::terminal::locale::is_without_unicode;
 use crate::threads::Threads;
 use crate::tradeoff::Question;
 use crate::view::View;
+use crate::viewer::film::Film;
 use crate::{png_file, scene, viewer};
 use crossterm::terminal;
 use once::Once;
@@ -27,6 +31,7 @@ use std::io::IsTerminal;
 use std::ops::RangeInclusive;
 use std::path::Path;
 use std::sync::Arc;
+use still::Still;
 
 /// The widest cell and the narrowest that a terminal is believed to have.
 const LIKELY_ASPECTS: RangeInclusive<f32> = 0.2..=2.0;
@@ -40,15 +45,23 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         // What is wrong is what differs from exact.
         check_floats(Tier::Exact)?;
     }
-    let mut scene = arguments.scene.open()?;
-    if let Some(background) = arguments.background.filter(|_| !scene.names_background) {
-        scene.background = background;
-    }
+    let Subject { scene, frame, frames } = arguments.scene.open()?;
+    let prepared = |mut scene: Scene| {
+        if let Some(background) = arguments.background.filter(|_| !scene.names_background) {
+            scene.background = background;
+        }
+        scene
+    };
+    let scene = prepared(scene);
     // The viewer's table is measured by a thread that no one waits for: it shares the scene.
     let scene = Arc::new(scene);
     let is_terminal = std::io::stdout().is_terminal();
     let surroundings = Surroundings::of_process(is_terminal);
-    let at_once = arguments.once || arguments.png.is_some() || arguments.pick.is_some();
+    let of_frames = arguments.scene.file.frames.clone();
+    let at_once = arguments.once
+        || arguments.png.is_some()
+        || arguments.pick.is_some()
+        || of_frames.is_some();
     let in_viewer = is_terminal && !at_once && !surroundings.is_dumb();
     let depth = surroundings.depth(arguments.color);
     let on_terminal = || {
@@ -93,7 +106,15 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         let comparison = arguments.show.and_then(Overlay::comparison);
         let table = arguments.show == Some(Overlay::Table);
         let start = viewer::Start { view, style, structure, comparison, table };
-        return viewer::run(&scene, structures, start, renderer);
+        if scene.spheres().len() >= MANY {
+            // Before the terminal is taken: then Ctrl-C ends it at once.
+            let _progress = Progress::say("building");
+            let workload =
+                picture_workload(scene.spheres().len(), &style, columns, rows, f64::INFINITY);
+            structures.picture(structure, &workload, &view, &scene.lighting)?;
+        }
+        let film = frames.map(|frames| Film::new(frames, frame, &scene, arguments.background));
+        return viewer::run(&scene, structures, start, renderer, film.transpose()?);
     }
     let ray = arguments.pick.map(|cell| ray_of_pick(&view, &style, (columns, rows), cell));
     let ray = ray.transpose()?;
@@ -107,7 +128,13 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     }
     let once = Once { scene: &scene, view, style, size: (columns, rows), is_terminal };
     match arguments.show {
-        None => once.picture(&mut renderer, &search),
+        None => {
+            once.picture(&mut renderer, &search)?;
+            let Some(mut frames) = frames else { return Ok(()) };
+            let Some(range) = of_frames else { return say_more(&mut frames, frame) };
+            let still = Still { view, style, structure, size: (columns, rows), is_terminal };
+            still.pictures(&mut renderer, structures, &mut frames, frame + 1..range.end, prepared)
+        }
         Some(Overlay::Tiers(Comparison::Errors)) => once.errors(&renderer, &search),
         Some(Overlay::Tiers(Comparison::Split(tiers))) => once.split(tiers, &mut renderer, &search),
         Some(Overlay::Table) => {
@@ -118,6 +145,19 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
             once.table(cells, &question, &mut structures)
         }
     }
+}
+
+/// So many spheres take a while to build a tree over.
+const MANY: usize = 1_000_000;
+
+/// Says that there are frames that are not shown.
+fn say_more(frames: &mut Frames, frame: usize) -> Result<(), Error> {
+    // What comes behind the picture does not make it wrong.
+    if !frames.follows() && frames.has(frame + 1).unwrap_or(false) {
+        frames.note(format!("frame {frame} is shown; there are more: --frame N, --frames A..B"));
+        frames.report();
+    }
+    Ok(())
 }
 
 /// The ray through a cell of `--pick`, and that cell.

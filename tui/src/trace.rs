@@ -18,6 +18,7 @@ use batches::{batches, runs, workload};
 use passes::{Passes, Query};
 use report::Report;
 use spherule_kernel::{Coherence, Hit, Level, Ray, RayPacket, SphereList, Vec3};
+use std::sync::Arc;
 
 /// Traces what `arguments` say, writes the hits, and prints a line about it.
 ///
@@ -39,7 +40,7 @@ pub fn trace(arguments: &TraceArguments) -> Result<(), Error> {
         }
         (_, choice) => choice,
     };
-    let list = SphereList::from(npy::read_rows::<4>(&arguments.spheres)?);
+    let list = Arc::new(SphereList::from(npy::read_rows::<4>(&arguments.spheres)?));
     let rays: Vec<_> = npy::read_rows(&arguments.rays)?.into_iter().map(ray).collect();
     check_counts(arguments, list.len(), rays.len())?;
 

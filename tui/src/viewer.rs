@@ -4,6 +4,7 @@
 //! not late ones. A frame of a movement gets no more samples than there is time for; when it is over, a full one
 //! follows. Then nothing is drawn and nothing is sent, but how far a measurement is.
 
+pub mod film;
 mod frame;
 mod hand;
 mod help;
@@ -26,6 +27,7 @@ use crate::scene::Scene;
 use crate::scene::framing;
 use crate::structure::scene::SceneStructures;
 use crate::terminal::{LONGEST_BACKLOG, Terminal, lost};
+use film::Film;
 use meter::Meter;
 use pace::Pace;
 use session::Viewer;
@@ -55,11 +57,13 @@ pub fn run(
     structures: SceneStructures<'_>,
     start: Start,
     renderer: Renderer<'_>,
+    film: Option<Film>,
 ) -> Result<(), Error> {
     let rate = if env::var_os("SSH_CONNECTION").is_some() { REMOTE_RATE } else { LOCAL_RATE };
     let interval = Duration::from_secs(1) / rate;
     let mut viewer = Viewer {
-        scene,
+        scene: Arc::clone(scene),
+        film,
         structures,
         terminal: Terminal::enter().map_err(|error| lost(&error))?,
         state: State::new(start),
@@ -78,12 +82,14 @@ pub fn run(
     let mut last_frame: Option<Instant> = None;
     let mut stale = true;
     loop {
-        let wait = viewer.wait(stale, last_frame);
+        let film = viewer.film.as_ref().and_then(Film::wait);
+        let wait = viewer.wait(stale, last_frame).into_iter().chain(film).min();
         match viewer.take_input(wait)? {
             Outcome::Quit => return Ok(()),
             Outcome::Changed => stale = true,
             Outcome::Unchanged => {}
         }
+        stale |= viewer.go_on();
         if viewer.wait(stale, last_frame) == Some(Duration::ZERO) {
             let now = Instant::now();
             let moving = stale || viewer.state.shown.spinning;
@@ -137,6 +143,14 @@ impl Viewer<'_> {
                         outcome = outcome.and(self.state.frame(sphere));
                     }
                 }
+                Some(keys::Input::Spin) if self.plays() => {
+                    self.film.iter_mut().for_each(Film::play);
+                    outcome = outcome.and(Outcome::Changed);
+                }
+                Some(keys::Input::Step(forward)) if self.film.is_some() => {
+                    self.film.iter_mut().for_each(|film| film.step(forward));
+                    outcome = outcome.and(Outcome::Changed);
+                }
                 Some(input) => outcome = outcome.and(self.state.apply(input)),
                 None => {}
             }
@@ -149,5 +163,20 @@ impl Viewer<'_> {
             outcome = outcome.and(Outcome::Changed);
         }
         Ok(outcome)
+    }
+
+    /// Whether there is something to play.
+    fn plays(&self) -> bool {
+        self.film.as_ref().is_some_and(Film::has_more)
+    }
+
+    /// Goes on to the next frame of the file, if it is time and it is there.
+    fn go_on(&mut self) -> bool {
+        let Some(scene) = self.film.as_mut().and_then(Film::next) else { return false };
+        self.structures.go_on(scene.list());
+        self.scene = scene;
+        // It is of another scene.
+        self.picture = None;
+        true
     }
 }

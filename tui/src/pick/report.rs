@@ -93,7 +93,8 @@ pub fn lines(pick: &Pick<'_>, printable: impl Fn(&str) -> String) -> Vec<String>
         return vec![ray, format!("no sphere is hit, by {} or {last}", others.join(", "))];
     };
     let PickedSphere { index, label, sphere, discriminant: (d, bound), decided_by, .. } = picked;
-    let label = label.map_or_else(String::new, |label| format!(" \"{}\"", printable(label)));
+    let label =
+        label.as_ref().map_or_else(String::new, |label| format!(" \"{}\"", printable(label)));
     let mut lines = vec![
         ray,
         format!(

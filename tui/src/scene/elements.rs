@@ -15,6 +15,8 @@ use std::sync::LazyLock;
 /// An element of the periodic table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Element {
+    /// The atomic number.
+    pub number: u8,
     /// `H`, `He` and so on.
     pub symbol: &'static str,
     /// The van der Waals radius in angstrom.
@@ -27,22 +29,28 @@ pub struct Element {
 #[must_use]
 pub fn element(text: &str) -> Option<Element> {
     let named = |element: &&Element| element.symbol.eq_ignore_ascii_case(text);
-    match text.parse::<usize>() {
-        Ok(number) => ELEMENTS.get(number.checked_sub(1)?),
-        Err(_) => ELEMENTS.iter().find(named),
+    match text.parse() {
+        Ok(number) => of_number(number),
+        Err(_) => ELEMENTS.iter().find(named).copied(),
     }
-    .copied()
+}
+
+/// The element of an atomic number.
+#[must_use]
+pub fn of_number(number: usize) -> Option<Element> {
+    ELEMENTS.get(number.checked_sub(1)?).copied()
 }
 
 /// By atomic number, from 1.
 static ELEMENTS: LazyLock<Vec<Element>> = LazyLock::new(|| {
-    let element = |line: &'static str| {
+    let element = |(index, line): (usize, &'static str)| {
         let mut words = line.split_whitespace();
+        let number = u8::try_from(index + 1).ok()?;
         let symbol = words.next()?;
         let (radius, color) = (words.next()?.parse().ok()?, words.next()?.parse().ok()?);
-        Some(Element { symbol, radius, color })
+        Some(Element { number, symbol, radius, color })
     };
-    include_str!("elements.txt").lines().filter_map(element).collect()
+    include_str!("elements.txt").lines().enumerate().filter_map(element).collect()
 });
 
 #[cfg(test)]

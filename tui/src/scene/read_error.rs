@@ -13,19 +13,28 @@ pub struct ReadError {
     pub column: Option<usize>,
     /// What is wrong with it.
     pub what: String,
+    /// Whether it ends too early, so that it may be well when more of it has been written.
+    pub ends_early: bool,
 }
 
 impl ReadError {
     /// About a file as a whole.
     #[must_use]
     pub fn whole(source: &str, what: impl Into<String>) -> Self {
-        Self { source: source.to_owned(), line: None, column: None, what: what.into() }
+        let (source, what) = (source.to_owned(), what.into());
+        Self { source, line: None, column: None, what, ends_early: false }
     }
 
     /// About a place in a file.
     #[must_use]
     pub fn at(source: &str, line: usize, column: usize, what: impl Into<String>) -> Self {
         Self { line: Some(line), column: Some(column), ..Self::whole(source, what) }
+    }
+
+    /// The same, of an input that ends too early.
+    #[must_use]
+    pub fn of_end(self) -> Self {
+        Self { ends_early: true, ..self }
     }
 }
 

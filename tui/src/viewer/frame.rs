@@ -1,5 +1,6 @@
 //! One frame: a picture, what is written over it, and the status line, in one write.
 
+use super::film::Film;
 use super::meter::Frame;
 use super::session::{Picture, Viewer, picture_rows};
 use super::state::Shown;
@@ -63,7 +64,14 @@ impl Viewer<'_> {
                 self.meter.count(frame, now)
             }
         };
-        status::write(&mut cells, status_row, &self.state, picture.searched, figures);
+        let film = self.film.as_ref().filter(|film| film.has_more()).map(Film::status);
+        status::write(
+            &mut cells,
+            status_row,
+            (&self.state, film.as_deref()),
+            picture.searched,
+            figures,
+        );
         self.encoder.encode(cells, &mut self.bytes);
         self.picture = Some(picture);
         self.terminal.show(&self.bytes).map_err(|error| lost(&error))
@@ -75,10 +83,10 @@ impl Viewer<'_> {
         let (count, lighting) = (self.scene.spheres().len(), &self.scene.lighting);
         let workload = picture_workload(count, style, size.0, size.1, f64::INFINITY);
         let search = self.structures.picture(*structure, &workload, view, lighting)?;
-        let (scene, spending) = ((&**self.scene, &search), self.pace.spending(moving));
+        let (scene, spending) = ((&*self.scene, &search), self.pace.spending(moving));
         let started = Instant::now();
         let drawn = match comparison {
-            None => self.renderer.draw(self.scene, &search, view, style, size, spending),
+            None => self.renderer.draw(&self.scene, &search, view, style, size, spending),
             Some(Comparison::Split(tiers)) => {
                 let split = Split { tiers: *tiers, seam: self.state.seam() };
                 let SplitPicture { mut drawn, ns_a_ray } =
@@ -114,7 +122,7 @@ impl Viewer<'_> {
     ) -> Result<(), Error> {
         if self.state.shown.table {
             let means = || Means {
-                scene: Arc::clone(self.scene),
+                scene: Arc::clone(&self.scene),
                 style: self.state.shown.style,
                 tree: self.structures.tree(),
                 order: self.structures.order(),
@@ -148,6 +156,6 @@ impl Viewer<'_> {
         let search = self.structures.picture(*structure, &workload, view, lighting)?;
         let ray = cell_ray(view, style, size, (cursor.column, cursor.row));
         let level = self.renderer.machine().0;
-        Ok(ray.map(|ray| Pick::new(self.scene, &search, level, ray)))
+        Ok(ray.map(|ray| Pick::new(&self.scene, &search, level, ray)))
     }
 }

@@ -1,5 +1,6 @@
 //! What the viewer holds while it runs.
 
+use super::film::Film;
 use super::meter::Meter;
 use super::pace::Pace;
 use super::state::{Shown, State};
@@ -16,7 +17,9 @@ use std::sync::Arc;
 
 /// The scene and the terminal, and what is kept from frame to frame.
 pub(super) struct Viewer<'a> {
-    pub(super) scene: &'a Arc<Scene>,
+    pub(super) scene: Arc<Scene>,
+    /// Its file, if it may have more frames.
+    pub(super) film: Option<Film>,
     pub(super) structures: SceneStructures<'a>,
     pub(super) terminal: Terminal,
     pub(super) state: State,

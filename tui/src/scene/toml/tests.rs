@@ -37,7 +37,7 @@ fn everything_that_can_be_said() {
     let lens = Lens::Perspective { fov: 35.0 };
     assert_eq!(scene.view, Some(View { eye, target: Vec3::ZERO, up, lens }));
     assert_eq!(scene.colors(), [Srgb([0xd0, 0x40, 0x20]), Srgb::WHITE]);
-    assert_eq!((scene.label(0), scene.label(1)), (Some("C 12"), None));
+    assert_eq!((scene.label(0).as_deref(), scene.label(1)), (Some("C 12"), None));
     let second = Sphere { center: Vec3::new(1e3, -0.5, 2.0), radius: 0.0 };
     assert_eq!(scene.spheres().get(1), Some(second));
     let Lighting::World(lights) = scene.lighting else { panic!("{:?}", scene.lighting) };
