@@ -98,6 +98,15 @@ pub struct PictureArguments {
     /// How it is computed.
     #[command(flatten)]
     pub computing: ComputingArguments,
+    /// Ask the terminal nothing: not what it can do, nor how far it has come
+    #[arg(long)]
+    pub no_probe: bool,
+    /// Send every frame of the viewer as it is, and none that looks alike
+    #[arg(long)]
+    pub lossless: bool,
+    /// Frames a second of the viewer at most, 1 to 240 [default: 60, over SSH 30]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=240))]
+    pub fps: Option<u16>,
     /// Write one picture, also to a terminal
     #[arg(long)]
     pub once: bool,

@@ -16,6 +16,7 @@ use crate::structure::scene::{PictureSearch, SceneStructures};
 use crate::style::{Charset, ColorDepth, PIPE_SIZE, Style};
 use crate::terminal::color_depth::Surroundings;
 use crate::terminal::locale::is_without_unicode;
+use crate::terminal::{Abilities, Terminal, lost};
 use crate::threads::Threads;
 use crate::tradeoff::Question;
 use crate::view::View;
@@ -45,15 +46,23 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         check_floats(Tier::Exact)?;
     }
     let mut scene = arguments.scene.open()?;
-    if let Some(background) = arguments.background.filter(|_| !scene.names_background) {
+    let is_terminal = std::io::stdout().is_terminal();
+    let mut surroundings = Surroundings::of_process(is_terminal);
+    let at_once = arguments.once || arguments.png.is_some() || arguments.pick.is_some();
+    let in_viewer = is_terminal && !at_once && !surroundings.is_dumb();
+    let threads = Threads::new(arguments.computing.threads)?;
+    // From here on every error is told by `main`, after the terminal was given back.
+    let terminal = in_viewer.then(|| Terminal::enter(!arguments.no_probe)).transpose();
+    let terminal = terminal.map_err(|error| lost(&error))?;
+    let abilities =
+        terminal.as_ref().map_or_else(Abilities::default, |terminal| *terminal.abilities());
+    surroundings.told = abilities.truecolor;
+    let background = arguments.background.or(abilities.background);
+    if let Some(background) = background.filter(|_| !scene.names_background) {
         scene.background = background;
     }
     // The viewer's table is measured by a thread that nobody waits for: it shares the scene.
     let scene = Arc::new(scene);
-    let is_terminal = std::io::stdout().is_terminal();
-    let surroundings = Surroundings::of_process(is_terminal);
-    let at_once = arguments.once || arguments.png.is_some() || arguments.pick.is_some();
-    let in_viewer = is_terminal && !at_once && !surroundings.is_dumb();
     let depth = surroundings.depth(arguments.color);
     let on_terminal = || {
         let (columns, rows) = terminal::size().ok().filter(|&size| is_usable(size))?;
@@ -74,13 +83,12 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         samples: arguments.scene.samples,
         cell_aspect: arguments
             .cell_aspect
-            .or_else(|| terminal_aspect().filter(|_| is_terminal))
+            .or_else(|| terminal_aspect(abilities.cell_pixels).filter(|_| is_terminal))
             .unwrap_or(Style::PLAIN.cell_aspect),
         distance: arguments.distance,
     };
     let view = arguments.scene.view(&scene, style.picture_aspect(columns, rows));
-    let ComputingArguments { structure, threads, level } = arguments.computing;
-    let threads = Threads::new(threads)?;
+    let ComputingArguments { structure, level, .. } = arguments.computing;
     let mut renderer = Renderer::new(level.unwrap_or_else(Level::best), &threads);
     let mut structures =
         SceneStructures::new(scene.list(), &threads).in_order(arguments.scene.order);
@@ -93,11 +101,13 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         let search = structures.picture(structure, &workload, &view, &scene.lighting)?;
         return write_png(&scene, &search, &grid, &style, &renderer, file);
     }
-    if in_viewer {
+    if let Some(terminal) = terminal {
         let comparison = arguments.show.and_then(Overlay::comparison);
         let table = arguments.show == Some(Overlay::Table);
         let start = viewer::Start { view, style, structure, comparison, table };
-        return viewer::run(&scene, structures, start, renderer);
+        let (color, lossless, rate) = (arguments.color, arguments.lossless, arguments.fps);
+        let wire = viewer::Wire { terminal, surroundings, color, rate, lossless };
+        return viewer::run(&scene, structures, start, renderer, wire);
     }
     let ray = arguments.pick.map(|cell| ray_of_pick(&view, &style, (columns, rows), cell));
     let ray = ray.transpose()?;
@@ -166,12 +176,16 @@ fn is_usable((columns, rows): (u16, u16)) -> bool {
     (1..=4096).contains(&columns) && (1..=4096).contains(&rows)
 }
 
-/// The shape of the terminal's cells, if it knows how many pixels they have.
-fn terminal_aspect() -> Option<f32> {
-    let size = terminal::window_size().ok()?;
-    let width = f32::from(size.width) / f32::from(size.columns);
-    let aspect = width / (f32::from(size.height) / f32::from(size.rows));
-    LIKELY_ASPECTS.contains(&aspect).then_some(aspect)
+/// The shape of the terminal's cells, if it knows how many pixels they have: by the system's word, else by its own.
+fn terminal_aspect(told: Option<(u16, u16)>) -> Option<f32> {
+    let likely = |width: f32, height: f32| {
+        Some(width / height).filter(|aspect| LIKELY_ASPECTS.contains(aspect))
+    };
+    let known = terminal::window_size().ok().and_then(|size| {
+        let width = f32::from(size.width) / f32::from(size.columns);
+        likely(width, f32::from(size.height) / f32::from(size.rows))
+    });
+    known.or_else(|| told.and_then(|(width, height)| likely(width.into(), height.into())))
 }
 
 /// The built-in scenes, a line each: name, number of spheres, description.

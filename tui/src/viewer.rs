@@ -4,6 +4,7 @@
 //! not late ones. A frame of a movement gets no more samples than there is time for; when it is over, a full one
 //! follows. Then nothing is drawn and nothing is sent, but how far a measurement is.
 
+mod flow;
 mod frame;
 mod hand;
 mod help;
@@ -28,8 +29,10 @@ use crate::scene::framing;
 use crate::structure::Structure;
 use crate::structure::scene::SceneStructures;
 use crate::style::Style;
-use crate::terminal::{LONGEST_BACKLOG, Terminal, lost};
+use crate::terminal::color_depth::{ColorChoice, Surroundings};
+use crate::terminal::{Incoming, LONGEST_BACKLOG, Reply, Terminal, lost};
 use crate::view::View;
+use flow::Flow;
 use frame::Picture;
 use meter::Meter;
 use pace::Pace;
@@ -43,8 +46,8 @@ use table::Table;
 
 /// Frames a second while something moves, at most; over SSH every frame is waited for by the
 /// keys behind it.
-const LOCAL_RATE: u32 = 60;
-const REMOTE_RATE: u32 = 30;
+const LOCAL_RATE: u16 = 60;
+const REMOTE_RATE: u16 = 30;
 /// Set, the key `!` panics. There is no other way to test that the terminal survives a panic of
 /// the real program; it harms nobody who does not ask for it.
 const PANIC_SWITCH: &str = "SPHERULE_TEST_PANIC";
@@ -64,6 +67,21 @@ pub struct Start {
     pub table: bool,
 }
 
+/// The terminal, and what the user says of it.
+#[derive(Debug)]
+pub struct Wire {
+    /// That of the viewer.
+    pub terminal: Terminal,
+    /// What decides how many colours there are: what the terminal says late counts, too.
+    pub surroundings: Surroundings,
+    /// What `--color` says.
+    pub color: ColorChoice,
+    /// Frames a second at most; as many as suit a link if it is not said.
+    pub rate: Auto<u16>,
+    /// Whether every frame is sent as it is, and none that looks alike.
+    pub lossless: bool,
+}
+
 /// Shows `scene` on the terminal, from `start` on, drawn by `renderer` with the chosen one of its
 /// `structures`, until the user quits.
 ///
@@ -75,13 +93,19 @@ pub fn run(
     structures: SceneStructures<'_>,
     start: Start,
     renderer: Renderer<'_>,
+    wire: Wire,
 ) -> Result<(), Error> {
-    let rate = if env::var_os("SSH_CONNECTION").is_some() { REMOTE_RATE } else { LOCAL_RATE };
-    let interval = Duration::from_secs(1) / rate;
+    let Wire { terminal, surroundings, color, rate, lossless } = wire;
+    let usual = if env::var_os("SSH_CONNECTION").is_some() { REMOTE_RATE } else { LOCAL_RATE };
+    let interval = Duration::from_secs(1) / u32::from(rate.unwrap_or(usual)).max(1);
     let mut viewer = Viewer {
         scene,
         structures,
-        terminal: Terminal::enter().map_err(|error| lost(&error))?,
+        terminal,
+        surroundings,
+        color,
+        lossless,
+        flow: Flow::default(),
         state: State::new(start),
         renderer,
         mapper: ErrorMapper::default(),
@@ -94,6 +118,7 @@ pub fn run(
         bytes: Vec::new(),
         panic_key: env::var_os(PANIC_SWITCH).is_some(),
     };
+    viewer.heed_abilities();
     viewer.learn_size().map_err(|error| lost(&error))?;
     let mut last_frame: Option<Instant> = None;
     let mut stale = true;
@@ -126,6 +151,10 @@ struct Viewer<'a> {
     scene: &'a Arc<Scene>,
     structures: SceneStructures<'a>,
     terminal: Terminal,
+    surroundings: Surroundings,
+    color: ColorChoice,
+    lossless: bool,
+    flow: Flow,
     state: State,
     renderer: Renderer<'a>,
     mapper: ErrorMapper,
@@ -147,7 +176,9 @@ impl Viewer<'_> {
         let (shown, since_last) = (&self.state.shown, last_frame.map(|at| at.elapsed()));
         let picture = self.pace.wait(stale || shown.spinning, since_last);
         let table = self.table.wait(shown, self.state.size(), since_last);
-        picture.into_iter().chain(table).min()
+        let due = picture.into_iter().chain(table).min()?;
+        // An answer is input, and comes sooner.
+        Some(self.flow.wait(Instant::now()).map_or(due, |flow| flow.max(due)))
     }
 
     /// Waits for input, for ever without `wait`, and takes all there is.
@@ -155,9 +186,20 @@ impl Viewer<'_> {
         let mut outcome = Outcome::Unchanged;
         let mut wait = wait;
         for _ in 0..LONGEST_BACKLOG {
-            let event = self.terminal.next_event(wait).map_err(|error| lost(&error))?;
-            let Some(event) = event else { break };
+            let incoming = self.terminal.next_event(wait).map_err(|error| lost(&error))?;
+            let Some(incoming) = incoming else { break };
             wait = Some(Duration::ZERO);
+            let event = match incoming {
+                Incoming::User(event) => event,
+                Incoming::Reply(Reply::Status) => {
+                    self.flow.answered(Instant::now());
+                    continue;
+                }
+                Incoming::Reply(_) => {
+                    outcome = outcome.and(self.heed_abilities());
+                    continue;
+                }
+            };
             if self.panic_key && keys::is_panic(&event) {
                 panic!("asked for by {PANIC_SWITCH}");
             }
@@ -190,9 +232,18 @@ impl Viewer<'_> {
         }
         if self.terminal.was_resumed() {
             self.encoder.forget();
+            self.flow.forget();
             outcome = outcome.and(Outcome::Changed);
         }
         Ok(outcome)
+    }
+
+    /// Does as the terminal can.
+    fn heed_abilities(&mut self) -> Outcome {
+        let abilities = self.terminal.abilities();
+        self.encoder.set_synchronized(abilities.synchronized);
+        self.surroundings.told = abilities.truecolor;
+        self.state.set_depth(self.surroundings.depth(self.color))
     }
 
     /// Asks the terminal for its size, which may be without a cell.

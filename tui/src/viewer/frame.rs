@@ -1,6 +1,7 @@
 //! One frame: a picture, what is written over it, and the status line, in one write.
 
 use super::meter::Frame;
+use super::pace::Debt;
 use super::state::Shown;
 use super::table::{Means, Subject};
 use super::{Viewer, help, picking, picture_rows, status};
@@ -9,11 +10,13 @@ use crate::compare::Comparison;
 use crate::compare::legend::MapPainter;
 use crate::compare::split::{Split, SplitPicture};
 use crate::draw::{Drawn, Effort, picture_workload};
+use crate::encode::Economy;
 use crate::error::Error;
 use crate::pick::{Pick, cell_ray, report};
 use crate::structure::{Order, Structure};
 use crate::terminal::lost;
 use crate::tradeoff::chart;
+use std::io;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -66,19 +69,45 @@ impl Viewer<'_> {
                 cells.cells_mut()[last_row..].copy_from_slice(&shown.cells()[last_row..]);
             }
         }
-        self.encoder.encode(cells.clone(), &mut self.bytes);
+        // What passes may look alike; at rest all is sent, a part at a time if the link is slow.
+        let economy = match (moving, self.lossless) {
+            (false, _) => Economy { most_bytes: self.flow.most_bytes(), ..Economy::NONE },
+            (true, false) => Economy { tolerance: self.flow.tolerance(), ..Economy::NONE },
+            (true, true) => Economy::NONE,
+        };
+        self.encoder.encode_part(&cells, economy, &mut self.bytes);
+        let is_exact = self.encoder.is_exact();
+        self.pace.owes(match (is_exact, moving) {
+            (true, _) => Debt::None,
+            (false, true) => Debt::AtRest,
+            (false, false) => Debt::Now,
+        });
         let figures = match drawing {
             None => self.meter.figures(),
             Some(drawing) => {
                 let (making, rays) = (started.elapsed(), drawn.effort.rays);
-                let frame = Frame { drawing, making, rays, bytes: self.bytes.len() };
+                let (bytes, round_trip) = (self.bytes.len(), self.flow.round_trip());
+                let frame = Frame { drawing, making, rays, bytes, round_trip };
                 self.meter.count(frame, now)
             }
         };
         status::write(&mut cells, status_row, &self.state, picture.searched, figures);
-        self.encoder.encode(cells, &mut self.bytes);
+        self.encoder.encode_row(&cells, status_row, &mut self.bytes);
+        self.encoder.bracket(0, &mut self.bytes);
         self.picture = Some(picture);
-        self.terminal.show(&self.bytes).map_err(|error| lost(&error))
+        self.send().map_err(|error| lost(&error))
+    }
+
+    /// Sends what is to be sent, and asks for an answer if the terminal gives any.
+    fn send(&mut self) -> io::Result<()> {
+        let abilities = self.terminal.abilities();
+        if self.bytes.is_empty() || !(abilities.has_answered && abilities.reports_status) {
+            return self.terminal.show(&self.bytes);
+        }
+        let bytes = self.bytes.len();
+        self.terminal.show_and_ask(&mut self.bytes)?;
+        self.flow.sent(bytes, Instant::now());
+        Ok(())
     }
 
     /// Draws the picture of the moment.

@@ -10,7 +10,7 @@ use crate::compare::Comparison;
 use crate::machine::check_floats;
 use crate::scene::framing::reframed;
 use crate::structure::Structure;
-use crate::style::{Charset, Style};
+use crate::style::{Charset, ColorDepth, Style};
 use crate::view::{LensKind, View, orbited, panned, with_projection, zoomed};
 use spherule_kernel::{Sphere, Tier};
 use std::f32::consts::PI;
@@ -101,6 +101,13 @@ impl State {
     pub(super) fn set_size(&mut self, columns: u16, rows: u16) {
         self.size = (columns.max(1), rows.max(1));
         self.shown.cursor = self.shown.cursor.map(|cursor| cursor.within(self.size));
+    }
+
+    /// Tells how many colours there are.
+    pub(super) fn set_depth(&mut self, depth: ColorDepth) -> Outcome {
+        let before = self.shown;
+        self.shown.style.depth = depth;
+        self.since(&before)
     }
 
     /// Columns and rows of the picture.
