@@ -2,13 +2,18 @@
 //!
 //! Needs no controlling terminal: `setsid -w cargo test -p spherule-tests pty </dev/null` passes as well.
 
+mod emulated;
 mod leaving;
 mod lecture;
+mod link;
 mod look;
 mod modes;
 mod once;
 mod picking;
 mod picture;
+mod pixels;
+mod probe;
+mod replies;
 mod session;
 mod table;
 mod viewer;

@@ -33,7 +33,7 @@ fn bytes_a_frame(depth: ColorDepth) -> usize {
             let spending = Spending::AtMost(u64::MAX);
             let drawn = renderer.draw(&scene, &search, &view, &style, (200, 60), spending);
             bytes.clear();
-            encoder.encode(drawn.cells, &mut bytes);
+            encoder.encode(&drawn.cells, &mut bytes);
             all += if frame == 0 { 0 } else { bytes.len() };
         }
     }

@@ -3,6 +3,7 @@
 //! Nothing here sleeps for a fixed time, except to see that nothing happens: whatever is waited for is looked for
 //! until it is there, and a test fails when it has not come for [`PATIENCE`].
 
+use super::emulated::{Answers, Emulated};
 use super::modes;
 use portable_pty::{
     Child, CommandBuilder, ExitStatus, MasterPty, PtySize, SlavePty, native_pty_system,
@@ -42,13 +43,15 @@ impl Output {
     }
 }
 
+/// What is typed, and what the terminal answers.
+pub(crate) type Keys = Arc<Mutex<Box<dyn Write + Send>>>;
 type Shared = Arc<(Mutex<Output>, Condvar)>;
 
 /// A running program, its terminal, and the terminal's modes from before.
 pub(crate) struct Session {
     child: Box<dyn Child + Send + Sync>,
     pid: Pid,
-    keys: Box<dyn Write + Send>,
+    keys: Keys,
     master: Box<dyn MasterPty + Send>,
     /// The program's side. Kept open, or the last bytes may be lost with the last who has it.
     line: OwnedFd,
@@ -91,8 +94,19 @@ pub(crate) fn command(
 }
 
 impl Session {
-    /// Starts `program` in a terminal of `columns` x `rows`.
+    /// Starts `program` in a terminal of `columns` x `rows` that answers as a good one does.
     pub(crate) fn start(
+        program: impl AsRef<OsStr>,
+        arguments: &[&str],
+        variables: &[(&str, &str)],
+        size: (u16, u16),
+    ) -> Self {
+        Self::start_in(Emulated::good(), program, arguments, variables, size)
+    }
+
+    /// The same in a terminal, and over a link, of some other kind.
+    pub(crate) fn start_in(
+        emulated: Emulated,
         program: impl AsRef<OsStr>,
         arguments: &[&str],
         variables: &[(&str, &str)],
@@ -113,21 +127,35 @@ impl Session {
         let terminal = vt100::Parser::new(cells(rows), cells(columns), 0);
         let output: Shared =
             Arc::new((Mutex::new(Output { terminal, sent: Vec::new() }), Condvar::new()));
-        let mut reader = pair.master.try_clone_reader().expect("output can be read");
+        let reader = pair.master.try_clone_reader().expect("output can be read");
+        let keys = pair.master.take_writer().expect("input can be written");
+        let keys: Keys = Arc::new(Mutex::new(keys));
+        let Emulated { answers, link } = emulated;
+        let mut answers = Answers::new(answers, Arc::clone(&keys));
         let shared = Arc::clone(&output);
-        thread::spawn(move || {
-            let mut bytes = [0; 4096];
-            while let Ok(count @ 1..) = reader.read(&mut bytes) {
-                let mut output = shared.0.lock().expect("no test panics while it reads");
-                output.terminal.process(&bytes[..count]);
-                output.sent.extend_from_slice(&bytes[..count]);
-                shared.1.notify_all();
+        let mut take = move |bytes: &[u8]| {
+            let mut output = shared.0.lock().expect("no test panics while it reads");
+            output.terminal.process(bytes);
+            output.sent.extend_from_slice(bytes);
+            answers.look(&output.sent);
+            shared.1.notify_all();
+        };
+        match link {
+            None => {
+                let mut reader: Box<dyn Read + Send> = reader;
+                thread::spawn(move || {
+                    let mut bytes = [0; 4096];
+                    while let Ok(count @ 1..) = reader.read(&mut bytes) {
+                        take(&bytes[..count]);
+                    }
+                });
             }
-        });
+            Some(link) => link.carry(reader, take),
+        }
         Self {
             child,
             pid: Pid::from_raw(pid).expect("it is not 0"),
-            keys: pair.master.take_writer().expect("input can be written"),
+            keys,
             master: pair.master,
             line,
             _slave: pair.slave,
@@ -138,7 +166,8 @@ impl Session {
 
     /// Types `keys`.
     pub(crate) fn type_in(&mut self, keys: &str) {
-        self.keys.write_all(keys.as_bytes()).and_then(|()| self.keys.flush()).expect("it listens");
+        let mut writer = self.keys.lock().expect("whoever answers does not panic");
+        writer.write_all(keys.as_bytes()).and_then(|()| writer.flush()).expect("it listens");
     }
 
     /// Sends `signal` to the program alone.

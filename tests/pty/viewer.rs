@@ -1,5 +1,6 @@
 //! The viewer on a scene of the tests' own.
 
+use super::emulated::Emulated;
 use super::look::{Look, last_row, look};
 use super::picture::{OPTIONS, SceneFile};
 use super::session::{Output, Session};
@@ -48,6 +49,19 @@ impl Viewer {
         Self::start_by(options, &[], COLUMNS, ROWS)
     }
 
+    /// In a terminal of some other kind.
+    pub(crate) fn start_in(
+        emulated: Emulated,
+        more: &[&str],
+        variables: &[(&str, &str)],
+        size: (u16, u16),
+    ) -> Self {
+        let scene = SceneFile::new(&VIEW);
+        let arguments = [&[scene.path()], OPTIONS.as_slice(), more].concat();
+        let session = Session::start_in(emulated, spherule(), &arguments, variables, size);
+        Self { session, _scene: scene }
+    }
+
     fn start_by(options: &[&str], variables: &[(&str, &str)], columns: u16, rows: u16) -> Self {
         let scene = SceneFile::new(&VIEW);
         let mut arguments = vec![scene.path()];
@@ -74,6 +88,13 @@ impl Viewer {
         });
     }
 
+    /// The same of a terminal that is not known to draw between brackets.
+    pub(crate) fn wait_for_look(&self, what: &str, expected: &[Vec<Look>]) {
+        let rows = expected.len() as u16;
+        self.session
+            .wait_for(what, |output| (look(output.screen(), rows) == expected).then_some(()));
+    }
+
     pub(crate) fn quit(mut self) {
         self.session.type_in("q");
         let status = self.session.wait_for_end();
@@ -85,6 +106,6 @@ impl Viewer {
 /// A whole frame: all bytes of it, the status line among them.
 pub(crate) fn shows_a_frame(output: &Output) -> bool {
     output.screen().alternate_screen()
-        && output.sent.ends_with(b"\x1b[?2026l")
+        && (output.sent.ends_with(b"\x1b[?2026l") || output.sent.ends_with(b"\x1b[?2026l\x1b[5n"))
         && !last_row(output.screen()).trim().is_empty()
 }

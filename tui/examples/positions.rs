@@ -3,7 +3,8 @@
 //! `positions FILE [FRAME [TOPOLOGY]]` writes x, y, z of every sphere to standard output, as little-endian `float32`.
 //! `positions --time FILE` reads all frames and prints bytes, frames, spheres and seconds; the file is read once before.
 
-use spherule::scene::open::{Opened, Reading, open};
+use spherule::scene::open::{Opened, open};
+use spherule::scene::reading::Reading;
 use std::error::Error;
 use std::io::{Write, stdout};
 use std::time::Instant;

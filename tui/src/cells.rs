@@ -89,6 +89,11 @@ impl CellGrid {
         self.marked = Some((column, row));
     }
 
+    /// Marks a cell in place of the one that is, or none.
+    pub fn set_mark(&mut self, marked: Option<(u16, u16)>) {
+        self.marked = marked;
+    }
+
     /// Column and row of the cell that is marked.
     #[must_use]
     pub fn marked(&self) -> Option<(u16, u16)> {

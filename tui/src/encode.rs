@@ -2,16 +2,20 @@
 //! library that reads the environment again would decide otherwise.
 //!
 //! [`full`] writes lines for a pipe or a file. [`Encoder`] writes what changed, for a terminal in
-//! raw mode; it knows what that terminal shows.
+//! raw mode; it knows what that terminal shows, which need not be what was wanted: where that looks alike, it may stay.
+//! What is shown is remembered, so errors do not add up, and a frame without tolerance makes good for all of them.
 
 mod cursor;
 mod sgr;
 #[cfg(test)]
 mod tests;
+mod tolerance;
 
+use crate::cells::masks::opposite;
 use crate::cells::{Cell, CellGrid};
 use cursor::{Cursor, push_glyph};
 use sgr::Pen;
+use tolerance::Tolerance;
 
 /// From here on a terminal that can hold back its picture does.
 const BEGIN_SYNCHRONIZED: &[u8] = b"\x1b[?2026h";
@@ -43,69 +47,6 @@ pub fn full(grid: &CellGrid, out: &mut Vec<u8>) {
     }
 }
 
-/// Appends what turns a terminal that shows `previous` into one that shows `next`, or nothing if
-/// they look the same. Without `previous`, or with one of another size, the screen is cleared
-/// first. The terminal must be in raw mode; its pen is reset before and after.
-pub fn diff(previous: Option<&CellGrid>, next: &CellGrid, out: &mut Vec<u8>) {
-    let start = out.len();
-    out.extend_from_slice(BEGIN_SYNCHRONIZED);
-    let header = out.len();
-    let same_size =
-        |grid: &&CellGrid| (grid.columns(), grid.rows()) == (next.columns(), next.rows());
-    if let Some(previous) = previous.filter(same_size) {
-        let shown = |index: usize| previous.cells()[index];
-        changed_cells(shown, previous.marked(), Cursor::LOST, next, out);
-        if out.len() == header {
-            out.truncate(start);
-            return;
-        }
-    } else {
-        out.extend_from_slice(CLEAR);
-        changed_cells(|_| Cell::BLANK, None, Cursor::HOME, next, out);
-    }
-    out.extend_from_slice(END_SYNCHRONIZED);
-}
-
-fn changed_cells(
-    shown: impl Fn(usize) -> Cell,
-    was_marked: Option<(u16, u16)>,
-    mut cursor: Cursor,
-    next: &CellGrid,
-    out: &mut Vec<u8>,
-) {
-    let mut pen = Pen::RESET;
-    for row in 0..next.rows() {
-        let cells = next.row(row);
-        let first = usize::from(row) * cells.len();
-        let marked = next.marked().and_then(|(column, of)| (of == row).then_some(column));
-        for (column, cell) in (0..next.columns()).zip(cells) {
-            let is_marked = marked == Some(column);
-            let same_mark = is_marked == (was_marked == Some((column, row)));
-            if same_mark && look_same(&shown(first + usize::from(column)), cell) {
-                continue;
-            }
-            if !cursor.rewrite_gap(row, column, (cells, marked), &pen, out) {
-                cursor.go_to(row, column, out);
-            }
-            if is_marked {
-                pen.put_down(out);
-                out.extend_from_slice(INVERSE);
-                pen.take_up(cell, out);
-                push_glyph(cell.glyph, out);
-                out.extend_from_slice(RESET);
-                pen = Pen::RESET;
-                cursor.advance(next.columns());
-                continue;
-            }
-            let cell = pen.nearer_form(cell);
-            pen.take_up(&cell, out);
-            push_glyph(cell.glyph, out);
-            cursor.advance(next.columns());
-        }
-    }
-    pen.put_down(out);
-}
-
 /// The ink of a space cannot be seen.
 fn look_same(a: &Cell, b: &Cell) -> bool {
     a.background == b.background
@@ -113,10 +54,27 @@ fn look_same(a: &Cell, b: &Cell) -> bool {
         && (a.foreground == b.foreground || a.glyph == ' ')
 }
 
+/// What a frame may save.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Economy {
+    /// How far from what is wanted colours may be that are shown, in `OKLab`; at most 0.03.
+    pub tolerance: f32,
+    /// After so many bytes the rest of the cells is left for the next frame, unless the screen was cleared.
+    pub most_bytes: usize,
+}
+
+impl Economy {
+    /// All is shown as it is wanted.
+    pub const NONE: Self = Self { tolerance: 0.0, most_bytes: usize::MAX };
+}
+
 /// Remembers what the terminal shows, so that a frame costs only what it changes.
 #[derive(Debug, Default)]
 pub struct Encoder {
     shown: Option<CellGrid>,
+    is_exact: bool,
+    /// Whether the terminal holds its picture back between brackets.
+    synchronized: bool,
 }
 
 impl Encoder {
@@ -126,10 +84,21 @@ impl Encoder {
         Self::default()
     }
 
+    /// Tells whether the terminal holds its picture back between the brackets of mode 2026: then frames have them.
+    pub fn set_synchronized(&mut self, synchronized: bool) {
+        self.synchronized = synchronized;
+    }
+
     /// What the terminal shows, as far as is known.
     #[must_use]
     pub fn shown(&self) -> Option<&CellGrid> {
         self.shown.as_ref()
+    }
+
+    /// Whether the terminal shows just what was wanted last, and not what looks alike.
+    #[must_use]
+    pub fn is_exact(&self) -> bool {
+        self.is_exact
     }
 
     /// After a resize, a suspension, or anything else that may have written to the screen.
@@ -137,9 +106,201 @@ impl Encoder {
         self.shown = None;
     }
 
-    /// Appends what makes the terminal show `next`; nothing if it does already.
-    pub fn encode(&mut self, next: CellGrid, out: &mut Vec<u8>) {
-        diff(self.shown.as_ref(), &next, out);
-        self.shown = Some(next);
+    /// Appends a frame: what makes the terminal show `next`; nothing if it does already. The terminal must be in raw mode;
+    /// its pen is reset before and after.
+    pub fn encode(&mut self, next: &CellGrid, out: &mut Vec<u8>) {
+        let start = out.len();
+        self.encode_part(next, Economy::NONE, out);
+        self.bracket(start, out);
     }
+
+    /// Appends what makes the terminal show `next`, or what is as near as `economy` says: a part of a frame, without
+    /// brackets.
+    ///
+    /// Without anything shown, or if that has another size, the screen is cleared first.
+    pub fn encode_part(&mut self, next: &CellGrid, economy: Economy, out: &mut Vec<u8>) {
+        let size = (next.columns(), next.rows());
+        let same_size = |grid: &CellGrid| (grid.columns(), grid.rows()) == size;
+        let mut update =
+            Update::new(economy.tolerance, out.len().saturating_add(economy.most_bytes));
+        let mut shown = self.shown.take().filter(same_size).unwrap_or_else(|| {
+            out.extend_from_slice(CLEAR);
+            update.cursor = Cursor::HOME;
+            update.end = usize::MAX;
+            CellGrid::new(size.0, size.1)
+        });
+        let was_marked = shown.marked();
+        for row in 0..next.rows() {
+            update.row(row, next, was_marked, &mut shown, out);
+        }
+        update.pen.put_down(out);
+        shown.set_mark(next.marked());
+        self.is_exact = update.is_exact;
+        self.shown = Some(shown);
+    }
+
+    /// Appends what makes the terminal show `row` of `next` just as it is, and no other; nothing if nothing is known of
+    /// the rest, or there is no such row.
+    pub fn encode_row(&mut self, next: &CellGrid, row: u16, out: &mut Vec<u8>) {
+        let Some(shown) = &mut self.shown else { return };
+        if row < next.rows().min(shown.rows()) && next.columns() == shown.columns() {
+            let mut update = Update::new(0.0, usize::MAX);
+            update.row(row, next, shown.marked(), shown, out);
+            update.pen.put_down(out);
+        }
+    }
+
+    /// Appends what clears the screen, and takes note of it; nothing if a screen of this size is known.
+    pub fn clear(&mut self, columns: u16, rows: u16, out: &mut Vec<u8>) -> bool {
+        let is_known = self
+            .shown
+            .as_ref()
+            .is_some_and(|shown| (shown.columns(), shown.rows()) == (columns, rows));
+        if !is_known {
+            out.extend_from_slice(CLEAR);
+            self.shown = Some(CellGrid::new(columns, rows));
+        }
+        !is_known
+    }
+
+    /// Something else was drawn over the first `rows`: what is not blank in `next` must be written again.
+    pub fn covered(&mut self, rows: u16, next: &CellGrid) {
+        let count = usize::from(rows) * usize::from(next.columns());
+        let Some(shown) = &mut self.shown else { return };
+        for (shown, wanted) in shown.cells_mut().iter_mut().zip(next.cells()).take(count) {
+            let is_blank = *wanted == Cell::BLANK;
+            *shown = if is_blank { Cell::BLANK } else { Cell { glyph: '\0', ..Cell::BLANK } };
+        }
+    }
+
+    /// Puts what was appended since `start` between brackets, if there is anything and the terminal knows them.
+    pub fn bracket(&self, start: usize, out: &mut Vec<u8>) {
+        if self.synchronized && out.len() > start {
+            out.splice(start..start, BEGIN_SYNCHRONIZED.iter().copied());
+            out.extend_from_slice(END_SYNCHRONIZED);
+        }
+    }
+}
+
+/// A frame that is being written.
+struct Update {
+    cursor: Cursor,
+    pen: Pen,
+    tolerance: Tolerance,
+    /// From this length of the output on, nothing more is written.
+    end: usize,
+    /// Whether nothing has been left or written that only looks alike.
+    is_exact: bool,
+}
+
+impl Update {
+    fn new(tolerance: f32, end: usize) -> Self {
+        let tolerance = Tolerance::new(tolerance);
+        Self { cursor: Cursor::LOST, pen: Pen::RESET, tolerance, end, is_exact: true }
+    }
+
+    fn row(
+        &mut self,
+        row: u16,
+        next: &CellGrid,
+        was_marked: Option<(u16, u16)>,
+        shown: &mut CellGrid,
+        out: &mut Vec<u8>,
+    ) {
+        let (wanted, columns) = (next.row(row), next.columns());
+        let first = usize::from(row) * usize::from(columns);
+        let shown = &mut shown.cells_mut()[first..first + wanted.len()];
+        let marked = next.marked().and_then(|(column, of)| (of == row).then_some(column));
+        for (column, cell) in (0..columns).zip(wanted) {
+            let index = usize::from(column);
+            let is_marked = marked == Some(column);
+            let same_mark = is_marked == (was_marked == Some((column, row)));
+            if same_mark && look_same(&shown[index], cell) {
+                continue;
+            }
+            // A mark is where it should be, whatever it costs.
+            let may_stay = out.len() >= self.end || self.tolerance.lets_stay(&shown[index], cell);
+            if same_mark && may_stay {
+                self.is_exact = false;
+                continue;
+            }
+            let gap = Gap { row, column, wanted, marked };
+            if !self.rewrite_gap(&gap, shown, out) {
+                self.cursor.go_to(row, column, out);
+            }
+            if is_marked {
+                self.pen.put_down(out);
+                out.extend_from_slice(INVERSE);
+                self.pen.take_up(cell, out);
+                push_glyph(cell.glyph, out);
+                out.extend_from_slice(RESET);
+                self.pen = Pen::RESET;
+                shown[index] = *cell;
+            } else {
+                shown[index] = self.write(cell, out);
+            }
+            self.cursor.advance(columns);
+        }
+    }
+
+    /// Writes `cell`, or what looks alike; returns what the terminal shows then.
+    fn write(&mut self, cell: &Cell, out: &mut Vec<u8>) -> Cell {
+        let like = self.tolerance.without_ink(cell);
+        let sent = self.pen.nearest_form(&like, self.tolerance);
+        self.pen.take_up(&sent, out);
+        push_glyph(sent.glyph, out);
+        self.note(cell, sent)
+    }
+
+    /// Takes note of what was sent for `wanted`: as that names it, if it is the same with ink and paper exchanged.
+    fn note(&mut self, wanted: &Cell, sent: Cell) -> Cell {
+        let is_exchanged = sent.glyph != wanted.glyph && opposite(sent.glyph) == Some(wanted.glyph);
+        let shown = if is_exchanged {
+            Cell { glyph: wanted.glyph, foreground: sent.background, background: sent.foreground }
+        } else {
+            sent
+        };
+        self.is_exact &= look_same(&shown, wanted);
+        shown
+    }
+
+    /// Crosses cells that may stay by writing them again, if the pen suits them and that is no longer
+    /// than a jump. Whether the cursor is now where it should be.
+    fn rewrite_gap(&mut self, gap: &Gap<'_>, shown: &mut [Cell], out: &mut Vec<u8>) -> bool {
+        let Some(from) = self.cursor.column_in(gap.row).filter(|&from| from <= gap.column) else {
+            return false;
+        };
+        let columns = from..gap.column;
+        if columns.is_empty() {
+            return true;
+        }
+        let most = Cursor::jump_length(gap.column - from);
+        let cells = usize::from(from)..usize::from(gap.column);
+        // A glyph has at least one byte: a wide gap need not be looked at.
+        if gap.marked.is_some_and(|marked| columns.contains(&marked))
+            || cells.len() > most
+            || gap.wanted[cells.clone()].iter().map(|cell| cell.glyph.len_utf8()).sum::<usize>()
+                > most
+            || !gap.wanted[cells.clone()].iter().all(|cell| self.pen.suits(cell, self.tolerance))
+        {
+            return false;
+        }
+        for index in cells {
+            let cell = &gap.wanted[index];
+            push_glyph(cell.glyph, out);
+            shown[index] = self.note(cell, self.pen.painted(cell.glyph));
+        }
+        self.cursor.cross_to(gap.column);
+        true
+    }
+}
+
+/// Cells between the cursor and the column where something is to be written.
+struct Gap<'a> {
+    row: u16,
+    column: u16,
+    /// Of the whole row.
+    wanted: &'a [Cell],
+    /// The column in it that is marked, which no pen suits.
+    marked: Option<u16>,
 }

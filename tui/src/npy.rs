@@ -27,7 +27,7 @@ pub struct Array {
 /// Rows that are read at once.
 const BLOCK: usize = 1 << 14;
 
-/// More columns than that nobody means.
+/// More columns than that no one means.
 const MOST_COLUMNS: u64 = 64;
 
 impl Array {

@@ -23,7 +23,7 @@ impl Progress {
         Self { on_terminal, from: Instant::now() + wait, shown: None }
     }
 
-    /// Shows at once what is being done, of which nobody knows how much is.
+    /// Shows at once what is being done, of which no one knows how much is.
     #[must_use]
     pub fn say(doing: &str) -> Self {
         let mut progress = Self::after(Duration::ZERO);

@@ -3,7 +3,7 @@
 pub mod attributes;
 pub mod builtin;
 pub mod elements;
-mod format;
+pub mod format;
 pub mod frames;
 pub mod framing;
 mod input;
@@ -13,9 +13,9 @@ mod number;
 pub mod open;
 mod particles;
 mod read_error;
+pub mod reading;
 pub mod toml;
 
-pub use format::Format;
 pub use lighting::{Light, Lighting, Source};
 pub use read_error::ReadError;
 

@@ -1,12 +1,13 @@
 //! One picture, or the viewer: what `spherule [SCENE]` does.
 
+mod cast;
 mod once;
 mod still;
 
 use crate::arguments::files::Subject;
 use crate::arguments::{ComputingArguments, Overlay, PictureArguments};
 use crate::compare::Comparison;
-use crate::draw::pixels::PixelGrid;
+use crate::draw::pixels::{PixelGrid, SAMPLES};
 use crate::draw::{Renderer, picture_workload};
 use crate::error::{Error, write_stdout};
 use crate::machine::check_floats;
@@ -17,8 +18,9 @@ use crate::scene::Scene;
 use crate::scene::frames::Frames;
 use crate::structure::scene::{PictureSearch, SceneStructures};
 use crate::style::{Charset, ColorDepth, PIPE_SIZE, Style};
-use crate::terminal::color_depth::Surroundings;
+use crate::terminal::color_depth::{ColorChoice, Surroundings};
 use crate::terminal::locale::is_without_unicode;
+use crate::terminal::{Abilities, Terminal, lost, pixels_of_cell};
 use crate::threads::Threads;
 use crate::tradeoff::Question;
 use crate::view::View;
@@ -45,25 +47,48 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         // What is wrong is what differs from exact.
         check_floats(Tier::Exact)?;
     }
-    let Subject { scene, frame, frames } = arguments.scene.open()?;
+    let Subject { mut scene, frame, frames } = arguments.scene.open()?;
+    let is_terminal = std::io::stdout().is_terminal();
+    let mut surroundings = Surroundings::of_process(is_terminal);
+    let PictureArguments { png, cast, pick, .. } = arguments;
+    let of_frames = arguments.scene.file.frames.clone();
+    let at_once =
+        arguments.once || png.is_some() || pick.is_some() || cast.is_some() || of_frames.is_some();
+    let in_viewer = is_terminal && !at_once && !surroundings.is_dumb();
+    let ComputingArguments { structure, level, threads } = arguments.computing;
+    let threads = Threads::new(threads)?;
+    let mut structures =
+        SceneStructures::new(scene.list(), &threads).in_order(arguments.scene.order);
+    if in_viewer && scene.spheres().len() >= MANY {
+        // Before the terminal is taken: then Ctrl-C ends it at once.
+        let _progress = Progress::say("building");
+        let (style, (columns, rows)) = (Style::PLAIN, PIPE_SIZE);
+        let count = scene.spheres().len();
+        let workload = picture_workload(count, &style, columns, rows, f64::INFINITY);
+        let view = arguments.scene.view(&scene, style.picture_aspect(columns, rows));
+        structures.picture(structure, &workload, &view, &scene.lighting)?;
+    }
+    // From here on every error is told by `main`, after the terminal was given back.
+    let terminal = in_viewer.then(|| Terminal::enter(!arguments.no_probe)).transpose();
+    let terminal = terminal.map_err(|error| lost(&error))?;
+    let abilities =
+        terminal.as_ref().map_or_else(Abilities::default, |terminal| *terminal.abilities());
+    surroundings.told = abilities.truecolor;
+    let background = arguments.background.or(abilities.background);
     let prepared = |mut scene: Scene| {
-        if let Some(background) = arguments.background.filter(|_| !scene.names_background) {
+        if let Some(background) = background.filter(|_| !scene.names_background) {
             scene.background = background;
         }
         scene
     };
-    let scene = prepared(scene);
+    scene = prepared(scene);
     // The viewer's table is measured by a thread that no one waits for: it shares the scene.
     let scene = Arc::new(scene);
-    let is_terminal = std::io::stdout().is_terminal();
-    let surroundings = Surroundings::of_process(is_terminal);
-    let of_frames = arguments.scene.file.frames.clone();
-    let at_once = arguments.once
-        || arguments.png.is_some()
-        || arguments.pick.is_some()
-        || of_frames.is_some();
-    let in_viewer = is_terminal && !at_once && !surroundings.is_dumb();
-    let depth = surroundings.depth(arguments.color);
+    let depth = match arguments.color {
+        // Who plays it has colours.
+        ColorChoice::Auto if cast.is_some() && !surroundings.no_color => ColorDepth::Truecolor,
+        choice => surroundings.depth(choice),
+    };
     let on_terminal = || {
         let (columns, rows) = terminal::size().ok().filter(|&size| is_usable(size))?;
         // The prompt comes back below a picture, and pushes the top row out if there is no row left.
@@ -83,17 +108,24 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         samples: arguments.scene.samples,
         cell_aspect: arguments
             .cell_aspect
-            .or_else(|| terminal_aspect().filter(|_| is_terminal))
+            .or_else(|| terminal_aspect(abilities.cell_pixels).filter(|_| is_terminal))
             .unwrap_or(Style::PLAIN.cell_aspect),
         distance: arguments.distance,
     };
     let view = arguments.scene.view(&scene, style.picture_aspect(columns, rows));
-    let ComputingArguments { structure, threads, level } = arguments.computing;
-    let threads = Threads::new(threads)?;
     let mut renderer = Renderer::new(level.unwrap_or_else(Level::best), &threads);
-    let mut structures =
-        SceneStructures::new(scene.list(), &threads).in_order(arguments.scene.order);
-    if let Some(file) = &arguments.png {
+    if let Some(file) = cast {
+        if is_terminal && file == Path::new("-") {
+            return Err(Error::Input("--cast -: standard output is a terminal".to_owned()));
+        }
+        let frames = arguments.scene.file.turn().map_err(Error::Input)?;
+        let rate = arguments.fps.unwrap_or(30);
+        let turn = cast::Turn { frames, rate, lossless: arguments.lossless };
+        let picture = (&view, &style, (columns, rows));
+        let search = (&mut structures, structure);
+        return cast::write(file, turn, &scene, search, picture, &mut renderer);
+    }
+    if let Some(file) = png {
         if is_terminal && file == Path::new("-") {
             return Err(Error::Input("--png -: standard output is a terminal".to_owned()));
         }
@@ -102,19 +134,21 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         let search = structures.picture(structure, &workload, &view, &scene.lighting)?;
         return write_png(&scene, &search, &grid, &style, &renderer, file);
     }
-    if in_viewer {
+    if let Some(terminal) = terminal {
         let comparison = arguments.show.and_then(Overlay::comparison);
         let table = arguments.show == Some(Overlay::Table);
         let start = viewer::Start { view, style, structure, comparison, table };
-        if scene.spheres().len() >= MANY {
-            // Before the terminal is taken: then Ctrl-C ends it at once.
-            let _progress = Progress::say("building");
-            let workload =
-                picture_workload(scene.spheres().len(), &style, columns, rows, f64::INFINITY);
-            structures.picture(structure, &workload, &view, &scene.lighting)?;
-        }
-        let film = frames.map(|frames| Film::new(frames, frame, &scene, arguments.background));
-        return viewer::run(&scene, structures, start, renderer, film.transpose()?);
+        let wire = viewer::Wire {
+            terminal,
+            surroundings,
+            color: arguments.color,
+            rate: arguments.fps,
+            lossless: arguments.lossless,
+            output: arguments.output,
+            scene_name: arguments.scene.name.clone(),
+        };
+        let film = frames.map(|frames| Film::new(frames, frame, &scene, background));
+        return viewer::run(&scene, structures, start, renderer, (wire, film.transpose()?));
     }
     let ray = arguments.pick.map(|cell| ray_of_pick(&view, &style, (columns, rows), cell));
     let ray = ray.transpose()?;
@@ -125,6 +159,15 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         let report = Report { scene: &arguments.scene.name, size: (columns, rows), cell, pick };
         let text = if arguments.json { report.json() } else { report.text() };
         return write_stdout(text.as_bytes());
+    }
+    let protocol = arguments.output.protocol(&abilities).filter(|_| arguments.show.is_none());
+    if let Some(protocol) = protocol {
+        let cell = pixels_of_cell(None).unwrap_or_else(|| PixelGrid::usual_cell(&style));
+        let grid = PixelGrid::in_cells(&view, &style, (columns, rows), cell, SAMPLES);
+        let image = renderer.draw_image(&scene, &search, style.accuracy, &grid);
+        let mut bytes = Vec::new();
+        protocol.write_in_line(&image, (columns, rows), &mut bytes);
+        return write_stdout(&bytes);
     }
     let once = Once { scene: &scene, view, style, size: (columns, rows), is_terminal };
     match arguments.show {
@@ -203,11 +246,9 @@ fn is_usable((columns, rows): (u16, u16)) -> bool {
 }
 
 /// The shape of the terminal's cells, if it knows how many pixels they have.
-fn terminal_aspect() -> Option<f32> {
-    let size = terminal::window_size().ok()?;
-    let width = f32::from(size.width) / f32::from(size.columns);
-    let aspect = width / (f32::from(size.height) / f32::from(size.rows));
-    LIKELY_ASPECTS.contains(&aspect).then_some(aspect)
+fn terminal_aspect(told: Option<(u16, u16)>) -> Option<f32> {
+    let (width, height) = pixels_of_cell(told)?;
+    Some(width as f32 / height as f32).filter(|aspect| LIKELY_ASPECTS.contains(aspect))
 }
 
 /// The built-in scenes, a line each: name, number of spheres, description.

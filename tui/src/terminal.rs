@@ -4,21 +4,28 @@
 //! comes before the message of a panic, and a thread watches for signals (see `signals`). Giving
 //! back twice does no harm.
 
+mod abilities;
 pub mod color_depth;
 mod input;
 pub mod locale;
+mod reply;
 mod screen;
 mod signals;
 mod wish;
 
 use crate::error::{Error, cause};
-use crossterm::event::Event;
+pub use abilities::Abilities;
+use abilities::{PATIENCE, questions};
 use crossterm::terminal;
+pub use input::Incoming;
 use input::Input;
+pub use reply::Reply;
+use std::collections::VecDeque;
+use std::env;
 use std::io;
 use std::panic;
 use std::sync::Once;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 pub use wish::{Wish, wish};
 
 /// Events taken before something is drawn all the same: whoever pastes a file sees something.
@@ -30,28 +37,83 @@ const LARGEST_SIZE: u16 = 4096;
 #[derive(Debug)]
 pub struct Terminal {
     input: Input,
+    abilities: Abilities,
+    /// What the user did while answers were waited for.
+    early: VecDeque<Incoming>,
+    /// Questions that are not answered yet, such as how far it has come.
+    open_questions: u32,
 }
 
+/// Asks how far the terminal has come (DSR 5): it answers when it has taken everything before.
+const ASK_STATUS: &[u8] = b"\x1b[5n";
+
 impl Terminal {
-    /// Takes the terminal.
+    /// Takes the terminal, and asks it what it can do, if it may be asked: at most a fifth of a second is waited for the
+    /// answers.
     ///
     /// # Errors
     /// If there is no terminal to read keys from, or it does not do what it is told.
-    pub fn enter() -> io::Result<Self> {
+    pub fn enter(may_ask: bool) -> io::Result<Self> {
         signals::watch()?;
         restore_before_panic_message();
-        let this = Self { input: Input::open().map_err(|error| screen::no_terminal(&error))? };
+        let mut this = Self {
+            input: Input::open().map_err(|error| screen::no_terminal(&error))?,
+            abilities: Abilities::default(),
+            early: VecDeque::new(),
+            open_questions: 0,
+        };
         screen::enter()?;
+        if may_ask {
+            this.ask()?;
+        }
         Ok(this)
     }
 
+    fn ask(&mut self) -> io::Result<()> {
+        self.input.await_answers(true);
+        screen::show(&questions(&env::var_os("TERM").unwrap_or_default().to_string_lossy()))?;
+        let deadline = Instant::now() + PATIENCE;
+        while !self.abilities.has_answered {
+            let left = deadline.saturating_duration_since(Instant::now());
+            match self.input.next(Some(left))? {
+                Some(Incoming::Reply(reply)) => self.learn(reply),
+                Some(incoming) => self.early.push_back(incoming),
+                None => break,
+            }
+        }
+        Ok(())
+    }
+
+    fn learn(&mut self, reply: Reply) {
+        self.abilities.learn(reply);
+        if reply == Reply::Status {
+            self.open_questions = self.open_questions.saturating_sub(1);
+        }
+        if self.abilities.has_answered && self.open_questions == 0 {
+            self.input.await_answers(false);
+        }
+    }
+
+    /// What is known of the terminal by now.
+    #[must_use]
+    pub fn abilities(&self) -> &Abilities {
+        &self.abilities
+    }
+
     /// The next thing that the terminal has to say, if it does within `wait`; without, whenever
-    /// it does. A resize tells that the size must be read, not what it is.
+    /// it does. A resize tells that the size must be read, not what it is. An answer is taken note of already.
     ///
     /// # Errors
     /// If the terminal cannot be read.
-    pub fn next_event(&mut self, wait: Option<Duration>) -> io::Result<Option<Event>> {
-        self.input.next(wait)
+    pub fn next_event(&mut self, wait: Option<Duration>) -> io::Result<Option<Incoming>> {
+        if let Some(early) = self.early.pop_front() {
+            return Ok(Some(early));
+        }
+        let incoming = self.input.next(wait)?;
+        if let Some(Incoming::Reply(reply)) = incoming {
+            self.learn(reply);
+        }
+        Ok(incoming)
     }
 
     /// Columns and rows, each at most 4096; either may be 0.
@@ -68,7 +130,23 @@ impl Terminal {
     /// # Errors
     /// If the terminal is gone.
     pub fn show(&self, bytes: &[u8]) -> io::Result<()> {
-        screen::show(bytes)
+        screen::show(bytes).map_err(or_hung_up)
+    }
+
+    /// Sends `bytes` in one piece, and asks the terminal to answer [`Reply::Status`] when it has taken them.
+    ///
+    /// # Errors
+    /// If the terminal is gone.
+    pub fn show_and_ask(&mut self, bytes: &mut Vec<u8>) -> io::Result<()> {
+        bytes.extend_from_slice(ASK_STATUS);
+        self.open_questions += 1;
+        self.input.await_answers(true);
+        screen::show(bytes).map_err(or_hung_up)
+    }
+
+    /// From now on `bytes` are sent before the terminal is given back, whenever that is: what removes images.
+    pub fn remove_when_leaving(&self, bytes: Vec<u8>) {
+        screen::set_removal(bytes);
     }
 
     /// Gives the terminal back and stops the process group, as Ctrl-Z does outside of raw mode.
@@ -94,6 +172,23 @@ impl Drop for Terminal {
     fn drop(&mut self) {
         screen::restore();
     }
+}
+
+/// A terminal that is gone in the middle of a frame is gone as one that is found so when it is read.
+fn or_hung_up(error: io::Error) -> io::Error {
+    let is_gone = error.raw_os_error() == Some(rustix::io::Errno::IO.raw_os_error());
+    if is_gone { input::hung_up() } else { error }
+}
+
+/// Width and height of a cell in pixels: by the system's word, else by what the terminal has told.
+#[must_use]
+pub fn pixels_of_cell(told: Option<(u16, u16)>) -> Option<(u32, u32)> {
+    let of_system = || {
+        let size = terminal::window_size().ok()?;
+        let pixels = |all: u16, cells: u16| all.checked_div(cells).filter(|&pixels| pixels > 0);
+        Some((pixels(size.width, size.columns)?, pixels(size.height, size.rows)?))
+    };
+    of_system().or(told).map(|(width, height)| (u32::from(width), u32::from(height)))
 }
 
 /// The terminal is not there.

@@ -4,47 +4,79 @@
 //! not late ones. A frame of a movement gets no more samples than there is time for; when it is over, a full one
 //! follows. Then nothing is drawn and nothing is sent, but how far a measurement is.
 
+mod command_line;
 pub mod film;
+mod flow;
 mod frame;
 mod hand;
 mod help;
 mod keys;
 mod meter;
+mod notice;
 mod pace;
 mod picking;
+mod pixel_frame;
+mod pixels;
+mod recording;
 mod seam;
 mod session;
 mod state;
 mod status;
 mod table;
 
+use crate::choice::Auto;
 use crate::compare::error_map::ErrorMapper;
 use crate::compare::split::Times;
 use crate::draw::Renderer;
 use crate::encode::Encoder;
-use crate::error::Error;
+use crate::error::{Error, write_stdout};
+use crate::pixels::Output;
 use crate::scene::Scene;
 use crate::scene::framing;
 use crate::structure::scene::SceneStructures;
-use crate::terminal::{LONGEST_BACKLOG, Terminal, lost};
+use crate::terminal::color_depth::{ColorChoice, Surroundings};
+use crate::terminal::{Incoming, LONGEST_BACKLOG, Reply, Terminal, lost};
+use crossterm::event::Event;
 use film::Film;
+use flow::Flow;
 use meter::Meter;
 use pace::Pace;
+use pixels::Pixels;
 use session::Viewer;
 pub use state::{ORBIT_STEP, PAN_STEP, Start, ZOOM_STEP};
 use state::{Outcome, State};
 use std::env;
+use std::mem;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use table::Table;
 
 /// Frames a second while something moves, at most; over SSH every frame is waited for by the
 /// keys behind it.
-const LOCAL_RATE: u32 = 60;
-const REMOTE_RATE: u32 = 30;
+const LOCAL_RATE: u16 = 60;
+const REMOTE_RATE: u16 = 30;
 /// Set, the key `!` panics. There is no other way to test that the terminal survives a panic of
 /// the real program; it has no effect unless the variable is set.
 const PANIC_SWITCH: &str = "SPHERULE_TEST_PANIC";
+
+/// The terminal, and what the user says of it.
+#[derive(Debug)]
+pub struct Wire {
+    /// That of the viewer.
+    pub terminal: Terminal,
+    /// What decides how many colours there are: what the terminal says late counts, too.
+    pub surroundings: Surroundings,
+    /// What `--color` says.
+    pub color: ColorChoice,
+    /// Frames a second at most; as many as suit a link if it is not said.
+    pub rate: Auto<u16>,
+    /// Whether every frame is sent as it is, and none that looks alike.
+    pub lossless: bool,
+    /// What `--output` says.
+    pub output: Output,
+    /// What the scene is called on the command line.
+    pub scene_name: String,
+}
 
 /// Shows `scene` on the terminal, from `start` on, drawn by `renderer` with the chosen one of its
 /// `structures`, until the user quits.
@@ -57,15 +89,27 @@ pub fn run(
     structures: SceneStructures<'_>,
     start: Start,
     renderer: Renderer<'_>,
-    film: Option<Film>,
+    (wire, film): (Wire, Option<Film>),
 ) -> Result<(), Error> {
-    let rate = if env::var_os("SSH_CONNECTION").is_some() { REMOTE_RATE } else { LOCAL_RATE };
-    let interval = Duration::from_secs(1) / rate;
+    let Wire { terminal, surroundings, color, rate, lossless, output, scene_name } = wire;
+    let usual = if env::var_os("SSH_CONNECTION").is_some() { REMOTE_RATE } else { LOCAL_RATE };
+    let interval = Duration::from_secs(1) / u32::from(rate.unwrap_or(usual)).max(1);
     let mut viewer = Viewer {
         scene: Arc::clone(scene),
         film,
         structures,
-        terminal: Terminal::enter().map_err(|error| lost(&error))?,
+        surroundings,
+        color,
+        lossless,
+        pixels: Pixels::new(output, &terminal),
+        terminal,
+        scene_name,
+        notice: None,
+        told: Vec::new(),
+        recording: None,
+        failure: None,
+        pending_removal: Vec::new(),
+        flow: Flow::default(),
         state: State::new(start),
         renderer,
         mapper: ErrorMapper::default(),
@@ -78,6 +122,8 @@ pub fn run(
         bytes: Vec::new(),
         panic_key: env::var_os(PANIC_SWITCH).is_some(),
     };
+    viewer.heed_abilities();
+    viewer.say_no_pixels();
     viewer.learn_size().map_err(|error| lost(&error))?;
     let mut last_frame: Option<Instant> = None;
     let mut stale = true;
@@ -85,7 +131,7 @@ pub fn run(
         let film = viewer.film.as_ref().and_then(Film::wait);
         let wait = viewer.wait(stale, last_frame).into_iter().chain(film).min();
         match viewer.take_input(wait)? {
-            Outcome::Quit => return Ok(()),
+            Outcome::Quit => return viewer.leave(),
             Outcome::Changed => stale = true,
             Outcome::Unchanged => {}
         }
@@ -109,7 +155,9 @@ impl Viewer<'_> {
         let (shown, since_last) = (&self.state.shown, last_frame.map(|at| at.elapsed()));
         let picture = self.pace.wait(stale || shown.spinning, since_last);
         let table = self.table.wait(shown, self.state.size(), since_last);
-        picture.into_iter().chain(table).min()
+        let due = picture.into_iter().chain(table).min()?;
+        // An answer is input, and comes sooner.
+        Some(self.flow.wait(Instant::now()).map_or(due, |flow| flow.max(due)))
     }
 
     /// Waits for input, for ever without `wait`, and takes all there is.
@@ -117,9 +165,22 @@ impl Viewer<'_> {
         let mut outcome = Outcome::Unchanged;
         let mut wait = wait;
         for _ in 0..LONGEST_BACKLOG {
-            let event = self.terminal.next_event(wait).map_err(|error| lost(&error))?;
-            let Some(event) = event else { break };
+            let incoming = self.terminal.next_event(wait).map_err(|error| lost(&error))?;
+            let Some(incoming) = incoming else { break };
             wait = Some(Duration::ZERO);
+            let event = match incoming {
+                Incoming::User(event) => event,
+                Incoming::Reply(reply) => {
+                    if reply == Reply::Status {
+                        self.flow.answered(Instant::now());
+                    }
+                    outcome = outcome.and(self.heed_image_reply(reply)).and(self.heed_abilities());
+                    continue;
+                }
+            };
+            if matches!(event, Event::Key(_)) && self.notice.take().is_some() {
+                outcome = outcome.and(Outcome::Changed);
+            }
             if self.panic_key && keys::is_panic(&event) {
                 panic!("asked for by {PANIC_SWITCH}");
             }
@@ -132,6 +193,14 @@ impl Viewer<'_> {
                     self.encoder.forget();
                     self.learn_size().map_err(|error| lost(&error))?;
                     outcome = Outcome::Changed;
+                }
+                Some(keys::Input::CommandLine) => {
+                    self.tell_command_line();
+                    outcome = outcome.and(Outcome::Changed);
+                }
+                Some(keys::Input::Record) => {
+                    self.record();
+                    outcome = outcome.and(Outcome::Changed);
                 }
                 Some(keys::Input::FrameAll) => {
                     let all = framing::subject(self.scene.spheres());
@@ -160,6 +229,7 @@ impl Viewer<'_> {
         }
         if self.terminal.was_resumed() {
             self.encoder.forget();
+            self.flow.forget();
             outcome = outcome.and(Outcome::Changed);
         }
         Ok(outcome)
@@ -178,5 +248,26 @@ impl Viewer<'_> {
         // It is of another scene.
         self.picture = None;
         true
+    }
+
+    /// Gives the terminal back, and then tells what there is to tell.
+    fn leave(mut self) -> Result<(), Error> {
+        if self.recording.is_some() {
+            self.record();
+        }
+        let (told, failure) = (mem::take(&mut self.told), self.failure.take());
+        drop(self);
+        if !told.is_empty() {
+            write_stdout((told.join("\n") + "\n").as_bytes())?;
+        }
+        failure.map_or(Ok(()), Err)
+    }
+
+    /// Does as the terminal can.
+    fn heed_abilities(&mut self) -> Outcome {
+        let abilities = self.terminal.abilities();
+        self.encoder.set_synchronized(abilities.synchronized);
+        self.surroundings.told = abilities.truecolor;
+        self.state.set_depth(self.surroundings.depth(self.color))
     }
 }

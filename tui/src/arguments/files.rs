@@ -1,9 +1,11 @@
 //! What the command line says of a scene's file: its format, its columns, its frames.
 
 use crate::error::Error;
+use crate::scene::format::Format;
 use crate::scene::frames::Frames;
-use crate::scene::open::{Opened, Reading, open};
-use crate::scene::{Format, ReadError, Scene};
+use crate::scene::open::{Opened, open};
+use crate::scene::reading::Reading;
+use crate::scene::{ReadError, Scene};
 use clap::Args;
 use std::ops::Range;
 
@@ -25,7 +27,7 @@ pub struct FileArguments {
     /// The frame that is shown first, from 0
     #[arg(long, value_name = "N", default_value_t = 0, conflicts_with = "frames")]
     pub frame: usize,
-    /// Write the pictures of frames A to B - 1, from 0; without B, up to the last
+    /// Write the pictures of frames A to B - 1, from 0; without B, up to the last; N is 0..N
     #[arg(long, value_name = "A..B", value_parser = range)]
     pub frames: Option<Range<usize>>,
     /// Wait for frames that are still being written
@@ -83,13 +85,32 @@ impl FileArguments {
     }
 }
 
+impl FileArguments {
+    /// How many frames a turn around the scene has.
+    ///
+    /// # Errors
+    /// Why it cannot have so many.
+    pub fn turn(&self) -> Result<u16, String> {
+        let frames =
+            self.frames.as_ref().map_or(120, |frames| frames.end.saturating_sub(frames.start));
+        let count = u16::try_from(frames).ok().filter(|count| (1..=MOST_OF_TURN).contains(count));
+        count.ok_or_else(|| format!("--frames: a turn has 1 to {MOST_OF_TURN} frames"))
+    }
+}
+
+/// The most frames of a turn.
+const MOST_OF_TURN: u16 = 3600;
+
 /// Between two looks at a file that grows.
 pub const FOLLOW: std::time::Duration = std::time::Duration::from_millis(200);
 
-/// `A..B` or `A..`.
+/// `A..B`, `A..`, or `N` for `0..N`.
 fn range(text: &str) -> Result<Range<usize>, String> {
-    let wrong = || "A..B, A below B, or A..".to_owned();
-    let (start, end) = text.split_once("..").ok_or_else(wrong)?;
+    let wrong = || "A..B, A below B, or A.., or N".to_owned();
+    let (start, end) = text.split_once("..").unwrap_or(("0", text));
+    if end.is_empty() && !text.contains("..") {
+        return Err(wrong());
+    }
     let start = if start.is_empty() { 0 } else { start.parse().map_err(|_| wrong())? };
     let end = if end.is_empty() { usize::MAX } else { end.parse().map_err(|_| wrong())? };
     if start < end { Ok(start..end) } else { Err(wrong()) }

@@ -1,8 +1,5 @@
 //! Where the cursor is, and the shortest way to where it should be.
 
-use super::sgr::Pen;
-use crate::cells::Cell;
-
 /// A control character, say from the name of a file, must not reach the terminal as one.
 pub(super) fn printable(glyph: char) -> char {
     if glyph.is_control() { '?' } else { glyph }
@@ -36,40 +33,22 @@ impl Cursor {
         }
     }
 
-    /// Crosses unchanged cells by writing them again, if the pen suits them and that is no longer
-    /// than a jump. `cells` is the row, and the column in it that is marked, which no pen suits. Whether the cursor is now
-    /// at `column`.
-    pub(super) fn rewrite_gap(
-        &mut self,
-        row: u16,
-        column: u16,
-        (cells, marked): (&[Cell], Option<u16>),
-        pen: &Pen,
-        out: &mut Vec<u8>,
-    ) -> bool {
-        let Some((here, from)) = self.position else { return false };
-        if here != row || from > column || self.wrap_pending {
-            return false;
-        }
-        if from == column {
-            return true;
-        }
-        let gap = &cells[usize::from(from)..usize::from(column)];
+    /// The column that it is in for sure, if it is in this row.
+    pub(super) fn column_in(&self, row: u16) -> Option<u16> {
+        let (here, column) = self.position.filter(|_| !self.wrap_pending)?;
+        (here == row).then_some(column)
+    }
+
+    /// How many bytes the jump takes over so many columns to the right.
+    pub(super) fn jump_length(columns: u16) -> usize {
         let mut jump = Way::new();
-        jump.right(column - from);
-        // A glyph has at least one byte: a wide gap need not be looked at.
-        if marked.is_some_and(|marked| (from..column).contains(&marked))
-            || gap.len() > jump.length
-            || gap.iter().map(|cell| cell.glyph.len_utf8()).sum::<usize>() > jump.length
-            || !gap.iter().all(|cell| pen.suits(cell))
-        {
-            return false;
-        }
-        for cell in gap {
-            push_glyph(cell.glyph, out);
-        }
-        self.position = Some((row, column));
-        true
+        jump.right(columns);
+        jump.length
+    }
+
+    /// Glyphs have been written up to this column, which is not past the last.
+    pub(super) fn cross_to(&mut self, column: u16) {
+        self.position = self.position.map(|(row, _)| (row, column));
     }
 
     /// Appends the shortest of the ways that lead down or to the right.

@@ -1,5 +1,6 @@
 //! Colours as SGR parameters.
 
+use super::tolerance::Tolerance;
 use crate::cells::masks::opposite;
 use crate::cells::{Cell, Color};
 
@@ -14,31 +15,45 @@ impl Pen {
     /// After a reset.
     pub(super) const RESET: Self = Self { foreground: Color::Default, background: Color::Default };
 
-    /// Whether `cell` can be drawn without a word about colour. A space has no ink.
-    pub(super) fn suits(self, cell: &Cell) -> bool {
-        self.background == cell.background
-            && (self.foreground == cell.foreground || cell.glyph == ' ')
+    /// Whether `cell` can be drawn without a word about colour, or what looks alike. A space has no ink.
+    pub(super) fn suits(self, cell: &Cell, tolerance: Tolerance) -> bool {
+        tolerance.allows(self.background, cell.background)
+            && (cell.glyph == ' ' || tolerance.allows(self.foreground, cell.foreground))
     }
 
-    /// `cell`, or what looks the same with ink and paper exchanged, if that takes fewer colours.
-    pub(super) fn nearer_form(self, cell: &Cell) -> Cell {
+    /// The cell that `glyph` makes.
+    pub(super) fn painted(self, glyph: char) -> Cell {
+        Cell { glyph, foreground: self.foreground, background: self.background }
+    }
+
+    /// `cell`, or what looks the same with ink and paper exchanged, if that takes fewer colours; and in place of colours
+    /// the pen's own, if they look alike.
+    pub(super) fn nearest_form(self, cell: &Cell, tolerance: Tolerance) -> Cell {
         let Cell { glyph, foreground, background } = *cell;
-        let kept =
-            |ink, paper| u8::from(self.foreground == ink) + u8::from(self.background == paper);
+        let kept = |ink, paper| {
+            u8::from(tolerance.allows(self.foreground, ink))
+                + u8::from(tolerance.allows(self.background, paper))
+        };
         // The terminal's own ink is not its own paper, and of the 16 some have only eight for paper.
         let is_free = |color| matches!(color, Color::Ansi256(_) | Color::Rgb(_));
         let other = opposite(glyph).filter(|_| is_free(foreground) && is_free(background));
-        match other {
+        let form = match other {
             Some(glyph) if kept(background, foreground) > kept(foreground, background) => {
                 Cell { glyph, foreground: background, background: foreground }
             }
             _ => *cell,
+        };
+        let nearest = |own, color| if tolerance.allows(own, color) { own } else { color };
+        Cell {
+            glyph: form.glyph,
+            foreground: nearest(self.foreground, form.foreground),
+            background: nearest(self.background, form.background),
         }
     }
 
     /// Appends the shortest change that suits `cell`; whether there was one.
     pub(super) fn take_up(&mut self, cell: &Cell, out: &mut Vec<u8>) -> bool {
-        if self.suits(cell) {
+        if self.suits(cell, Tolerance::NONE) {
             return false;
         }
         let inkless = cell.glyph == ' ';

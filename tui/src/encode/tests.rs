@@ -1,6 +1,7 @@
 //! The screen model is vt100's: what it shows after our bytes is what we meant.
 
-use super::{Encoder, diff, full, look_same};
+use super::tolerance::Tolerance;
+use super::{Economy, Encoder, LONGEST_CELL, full, look_same};
 use crate::cells::masks::opposite;
 use crate::cells::{Cell, CellGrid, Color};
 use proptest::prelude::*;
@@ -64,6 +65,28 @@ fn any_color() -> impl Strategy<Value = Color> {
     ]
 }
 
+/// Frames of colours that are nearly the same.
+fn frames_alike() -> impl Strategy<Value = Vec<CellGrid>> {
+    let color =
+        (0..12_u8, 0..3_u8).prop_map(|(level, hue)| Color::Rgb([128 + level, 128, 128 + hue]));
+    let color = prop_oneof![9 => color, 1 => any_color()];
+    let glyph = prop::sample::select(vec![' ', '▀', '▄', '▌', '▚', '█', 'x']);
+    let cell = (glyph, color.clone(), color).prop_map(|(glyph, foreground, background)| Cell {
+        glyph,
+        foreground,
+        background,
+    });
+    (1..20_u16, 1..6_u16).prop_flat_map(move |(columns, rows)| {
+        let count = usize::from(columns) * usize::from(rows);
+        let grid = prop::collection::vec(cell.clone(), count).prop_map(move |cells| {
+            let mut grid = CellGrid::new(columns, rows);
+            grid.cells_mut().copy_from_slice(&cells);
+            grid
+        });
+        prop::collection::vec(grid, 1..5)
+    })
+}
+
 /// Few different cells, so that neighbours share colours and frames share cells.
 fn any_frames() -> impl Strategy<Value = Vec<CellGrid>> {
     let glyph = prop::sample::select(vec![' ', 'a', '@', '\u{2580}', '\u{2584}', '\x1b', '\n']);
@@ -110,13 +133,47 @@ proptest! {
         let mut encoder = Encoder::new();
         for frame in frames {
             let mut bytes = Vec::new();
-            encoder.encode(frame.clone(), &mut bytes);
+            encoder.encode(&frame, &mut bytes);
             terminal.process(&bytes);
             assert_shows(&terminal, &frame);
             let mut again = Vec::new();
-            encoder.encode(frame, &mut again);
+            encoder.encode(&frame, &mut again);
             prop_assert!(again.is_empty());
         }
+    }
+
+    /// What is shown is known, each cell is as near as it should be, and nothing adds up.
+    #[test]
+    fn what_looks_alike_is_as_near_as_asked_for(frames in frames_alike(), most_bytes in 0..400_usize) {
+        let economy = Economy { tolerance: 0.02, most_bytes: usize::MAX };
+        let mut terminal = terminal(frames[0].columns(), frames[0].rows());
+        let mut encoder = Encoder::new();
+        for frame in &frames {
+            let mut bytes = Vec::new();
+            encoder.encode_part(frame, economy, &mut bytes);
+            terminal.process(&bytes);
+            let shown = encoder.shown().expect("something");
+            assert_shows(&terminal, shown);
+            for (shown, wanted) in shown.cells().iter().zip(frame.cells()) {
+                prop_assert!(
+                    look_same(shown, wanted) || Tolerance::new(0.02).lets_stay(shown, wanted),
+                    "{shown:?} for {wanted:?}"
+                );
+            }
+            prop_assert_eq!(encoder.is_exact(), shown.cells().iter().zip(frame.cells()).all(|(a, b)| look_same(a, b)));
+        }
+        // Then all of it, a part at a time.
+        let last = frames.last().expect("a frame");
+        let mut parts = 0;
+        while !encoder.is_exact() {
+            let mut bytes = Vec::new();
+            encoder.encode_part(last, Economy { tolerance: 0.0, most_bytes: most_bytes.max(1) }, &mut bytes);
+            prop_assert!(bytes.len() <= most_bytes + 2 * LONGEST_CELL);
+            terminal.process(&bytes);
+            parts += 1;
+            prop_assert!(parts <= last.cells().len());
+        }
+        assert_shows(&terminal, last);
     }
 
     #[test]
@@ -178,6 +235,28 @@ fn colours_are_said_once() {
     assert_eq!(encoded(&line), "\x1b[31;44ma\x1b[39mb \x1b[0m\n");
 }
 
+/// The status line is sent with the frame, and by itself.
+#[test]
+fn a_row_is_sent_by_itself() {
+    let grid = |rows: [&str; 2]| {
+        let mut grid = CellGrid::new(3, 2);
+        for (row, text) in (0..).zip(rows) {
+            grid.write(0, row, text, Color::Default, Color::Default);
+        }
+        grid
+    };
+    let (mut encoder, mut bytes) = (Encoder::new(), Vec::new());
+    encoder.encode_row(&grid(["abc", "def"]), 1, &mut bytes);
+    assert!(bytes.is_empty(), "nothing is known of the rest");
+    encoder.encode_part(&grid(["abc", "def"]), Economy::NONE, &mut bytes);
+    bytes.clear();
+    encoder.encode_row(&grid(["xyz", "deF"]), 1, &mut bytes);
+    encoder.encode_row(&grid(["xyz", "deF"]), 2, &mut bytes);
+    assert_eq!(bytes, b"\x1b[2;3HF");
+    encoder.bracket(0, &mut bytes);
+    assert_eq!(bytes, b"\x1b[2;3HF", "no brackets for a terminal that may not know them");
+}
+
 fn changes(from: &[&str], to: &[&str]) -> String {
     let grid = |lines: &[&str]| {
         let mut grid = CellGrid::new(lines[0].len() as u16, lines.len() as u16);
@@ -186,8 +265,16 @@ fn changes(from: &[&str], to: &[&str]) -> String {
         }
         grid
     };
-    let mut bytes = Vec::new();
-    diff(Some(&grid(from)), &grid(to), &mut bytes);
+    between(&grid(from), &grid(to))
+}
+
+/// What turns a terminal that knows brackets from one picture to another.
+fn between(from: &CellGrid, to: &CellGrid) -> String {
+    let (mut encoder, mut bytes) = (Encoder::new(), Vec::new());
+    encoder.set_synchronized(true);
+    encoder.encode(from, &mut bytes);
+    bytes.clear();
+    encoder.encode(to, &mut bytes);
     String::from_utf8(bytes).expect("UTF-8")
 }
 
@@ -215,11 +302,7 @@ fn a_mark_is_inverse_without_a_colour_and_leaves_nothing_behind() {
         }
         grid
     };
-    let between = |from, to| {
-        let mut bytes = Vec::new();
-        diff(Some(&line(from)), &line(to), &mut bytes);
-        String::from_utf8(bytes).expect("UTF-8")
-    };
+    let between = |from, to| between(&line(from), &line(to));
     let frame = |body: &str| format!("\x1b[?2026h{body}\x1b[?2026l");
     assert_eq!(between(None, Some(1)), frame("\x1b[;2H\x1b[7mb\x1b[m"));
     assert_eq!(between(Some(0), Some(1)), frame("\x1b[Ha\x1b[7mb\x1b[m"));
@@ -232,7 +315,7 @@ fn the_last_cell_does_not_scroll() {
     let mut grid = CellGrid::new(4, 2);
     grid.cells_mut().fill(ink('x', Color::Ansi16(2)));
     let mut bytes = Vec::new();
-    diff(None, &grid, &mut bytes);
+    Encoder::new().encode(&grid, &mut bytes);
     let mut terminal = terminal(4, 2);
     terminal.process(&bytes);
     assert_eq!(terminal.screen().contents(), "xxxx\nxxxx");
@@ -242,12 +325,12 @@ fn the_last_cell_does_not_scroll() {
 #[test]
 fn a_new_size_is_drawn_in_full() {
     let mut encoder = Encoder::new();
-    encoder.encode(CellGrid::new(4, 2), &mut Vec::new());
+    encoder.encode(&CellGrid::new(4, 2), &mut Vec::new());
     let mut bytes = Vec::new();
-    encoder.encode(CellGrid::new(3, 2), &mut bytes);
+    encoder.encode(&CellGrid::new(3, 2), &mut bytes);
     assert!(bytes.windows(4).any(|piece| piece == b"\x1b[2J"));
     let mut empty = Vec::new();
-    encoder.encode(CellGrid::new(0, 0), &mut empty);
+    encoder.encode(&CellGrid::new(0, 0), &mut empty);
     assert!(!empty.is_empty());
 }
 
@@ -260,8 +343,6 @@ fn ink_and_paper_change_places_where_that_is_shorter() {
     };
     // The second cell's ink is the first one's paper; the third is the second, exchanged by hand.
     let line = one_line(&[cell('▀', 100, 101), cell('▀', 101, 102), cell('▄', 102, 101)]);
-    let mut bytes = Vec::new();
-    diff(Some(&one_line(&[Cell::BLANK; 3])), &line, &mut bytes);
-    let text = String::from_utf8(bytes).expect("UTF-8");
+    let text = between(&one_line(&[Cell::BLANK; 3]), &line);
     assert!(text.contains("\x1b[38;5;100;48;5;101m▀\x1b[38;5;102m▄▄\x1b[m"), "{text:?}");
 }

@@ -6,7 +6,7 @@ use super::stations::STATIONS;
 use crate::encode::Encoder;
 use crate::error::Error;
 use crate::style::Style;
-use crate::terminal::{LONGEST_BACKLOG, Terminal, Wish, lost, wish};
+use crate::terminal::{Incoming, LONGEST_BACKLOG, Terminal, Wish, lost, wish};
 use crossterm::event::{Event, KeyCode};
 use std::io;
 use std::time::Duration;
@@ -62,7 +62,7 @@ impl Walk {
 /// # Errors
 /// [`Error::Running`] if there is no terminal to read keys from, or it goes away.
 pub(super) fn walk(index: usize, style: Style) -> Result<(), Error> {
-    let mut terminal = Terminal::enter().map_err(|error| lost(&error))?;
+    let mut terminal = Terminal::enter(true).map_err(|error| lost(&error))?;
     let mut walk = Walk::new(index);
     let mut encoder = Encoder::new();
     loop {
@@ -81,7 +81,8 @@ fn show(terminal: &Terminal, walk: &Walk, encoder: &mut Encoder, style: Style) -
     let numbers = walk.numbers[walk.index];
     let page = frame::page(walk.index, numbers, walk.help, (columns, rows), style);
     let mut bytes = Vec::new();
-    encoder.encode(page, &mut bytes);
+    encoder.set_synchronized(terminal.abilities().synchronized);
+    encoder.encode(&page, &mut bytes);
     terminal.show(&bytes)
 }
 
@@ -89,8 +90,9 @@ fn show(terminal: &Terminal, walk: &Walk, encoder: &mut Encoder, style: Style) -
 fn take_input(terminal: &mut Terminal, walk: &mut Walk, encoder: &mut Encoder) -> io::Result<bool> {
     let mut wait = None;
     for _ in 0..LONGEST_BACKLOG {
-        let Some(event) = terminal.next_event(wait)? else { break };
+        let Some(incoming) = terminal.next_event(wait)? else { break };
         wait = Some(Duration::ZERO);
+        let Incoming::User(event) = incoming else { continue };
         let Some(input) = input(&event) else { continue };
         match input {
             Input::Suspend => terminal.suspend()?,

@@ -1,6 +1,7 @@
 //! The scenes that come with the program.
 
-use super::{Light, Lighting, ReadError, Scene, Source, open::read, toml};
+use super::reading::read;
+use super::{Light, Lighting, ReadError, Scene, Source, toml};
 use crate::color::Srgb;
 use crate::view::{Lens, View};
 use spherule_kernel::{Sphere, Vec3};

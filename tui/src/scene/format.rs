@@ -1,27 +1,27 @@
 //! The formats of files: what each is told by, and who reads it.
 
+mod context;
 mod gro;
 mod lammps;
 mod mmcif;
+mod mmcif_columns;
 mod npy_points;
 mod pdb;
 mod ply;
-mod recognise;
+pub(super) mod recognise;
 mod table;
 mod urdf;
 mod words;
 mod xtc;
 mod xyz;
 
-pub(super) use mmcif::Columns as MmcifColumns;
-pub(super) use recognise::recognise;
+pub(super) use context::Context;
 
 use super::input::Input;
-use super::notes::Notes;
 use super::read_error::ReadError;
 use super::{Scene, toml};
 use clap::ValueEnum;
-use std::sync::Arc;
+use context::LONGEST_TEXT;
 
 /// The formats that scenes are read from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -51,19 +51,6 @@ pub enum Format {
     Xtc,
     /// A robot whose parts are spheres
     Urdf,
-}
-
-/// What a reader knows besides the input.
-#[derive(Debug, Default)]
-pub(super) struct Context {
-    /// The columns that a table is to be read from.
-    pub(super) columns: Option<String>,
-    /// What the particles of a trajectory are.
-    pub(super) topology: Option<Arc<Scene>>,
-    /// What to tell.
-    pub(super) notes: Notes,
-    /// The columns of an mmCIF table, once they have been read.
-    pub(super) mmcif: Option<MmcifColumns>,
 }
 
 impl Format {
@@ -113,9 +100,6 @@ impl Format {
         }
     }
 }
-
-/// The longest text that is read as a whole, in bytes: some half a million spheres.
-const LONGEST_TEXT: usize = 64 << 20;
 
 fn of_toml(input: &mut Input) -> Result<Scene, ReadError> {
     let (bytes, source) = (input.rest(LONGEST_TEXT)?, input.source());

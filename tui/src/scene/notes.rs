@@ -31,7 +31,7 @@ impl Notes {
         }
     }
 
-    /// Notes how many particles are of types that nobody knows: the `names`, the first of them in `line`. Of a file the
+    /// Notes how many particles are of types that no one knows: the `names`, the first of them in `line`. Of a file the
     /// first frame tells.
     ///
     /// # Errors

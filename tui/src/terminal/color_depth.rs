@@ -37,6 +37,8 @@ pub struct Surroundings {
     pub term: String,
     /// `COLORTERM` promises 24 bits.
     pub truecolor: bool,
+    /// What the terminal itself says of 24 bits, if it was asked and has answered.
+    pub told: Option<bool>,
 }
 
 impl Surroundings {
@@ -52,6 +54,7 @@ impl Surroundings {
             // Not `anstyle_query::term_supports_color`: an empty name promises no colour.
             term: text("TERM"),
             truecolor: anstyle_query::truecolor(),
+            told: None,
         }
     }
 
@@ -82,7 +85,7 @@ impl Surroundings {
         self.term == "dumb"
     }
 
-    /// What `TERM` and `COLORTERM` promise. ssh does not send `COLORTERM`, so some terminals are
+    /// What the terminal says, else what `TERM` and `COLORTERM` promise. ssh does not send `COLORTERM`, so some terminals are
     /// known by name; GNU screen hands it on but cannot keep the promise.
     fn terminal_depth(&self) -> ColorDepth {
         const KNOWN: [&str; 7] =
@@ -91,6 +94,8 @@ impl Surroundings {
             if self.term.contains("256color") { ColorDepth::Ansi256 } else { ColorDepth::Ansi16 };
         match self.term.as_str() {
             "" | "dumb" => ColorDepth::Never,
+            _ if self.told == Some(true) => ColorDepth::Truecolor,
+            _ if self.told == Some(false) => of_palette,
             term if term.starts_with("screen") => of_palette,
             term if self.truecolor || KNOWN.iter().any(|known| term.contains(known)) => {
                 ColorDepth::Truecolor
@@ -148,8 +153,28 @@ mod tests {
                 force: force == 1,
                 term: term.to_owned(),
                 truecolor: truecolor == 1,
+                told: None,
             };
             assert_eq!(surroundings.depth(choice), depth, "{row:?}");
         }
+    }
+
+    #[test]
+    fn the_terminal_knows_better_than_its_name_and_the_user_best() {
+        let surroundings = |told, term: &str| Surroundings {
+            is_terminal: true,
+            term: term.to_owned(),
+            truecolor: true,
+            told,
+            ..Surroundings::default()
+        };
+        let told_no = surroundings(Some(false), "xterm-256color");
+        assert_eq!(told_no.depth(Auto), ColorDepth::Ansi256);
+        assert_eq!(told_no.depth(ColorChoice::Truecolor), ColorDepth::Truecolor);
+        let told_yes = Surroundings { truecolor: false, ..surroundings(Some(true), "xterm") };
+        assert_eq!(told_yes.depth(Auto), ColorDepth::Truecolor);
+        assert_eq!(Surroundings { told: None, ..told_yes.clone() }.depth(Auto), ColorDepth::Ansi16);
+        assert_eq!(Surroundings { no_color: true, ..told_yes }.depth(Auto), ColorDepth::Never);
+        assert_eq!(surroundings(Some(true), "dumb").depth(Auto), ColorDepth::Never);
     }
 }

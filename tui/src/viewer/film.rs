@@ -1,7 +1,7 @@
 //! The frames of a file in the viewer: a thread reads them before they are wanted.
 //!
 //! It reads at most [`AHEAD`] frames ahead, fewer of large ones, and keeps one behind; the rest is read again when it
-//! is wanted. Nobody waits for it: where a frame is not there yet, the picture stays.
+//! is wanted. No one waits for it: where a frame is not there yet, the picture stays.
 
 use crate::arguments::files::FOLLOW;
 use crate::color::Srgb;
@@ -184,7 +184,7 @@ impl Drop for Film {
     }
 }
 
-/// Reads what is wanted and what follows it, until nobody looks any more.
+/// Reads what is wanted and what follows it, until no one looks any more.
 fn read_ahead(mut frames: Frames, shared: &Shared, background: Option<Srgb>) {
     loop {
         let index = {
@@ -245,7 +245,8 @@ fn missing(state: &State) -> Option<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::open::{Opened, Reading, open};
+    use crate::scene::open::{Opened, open};
+    use crate::scene::reading::Reading;
 
     fn film(name: &str, count: usize) -> Film {
         let text: String = (0..count).map(|index| format!("1\n\nC {index} 0 0\n")).collect();

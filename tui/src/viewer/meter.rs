@@ -14,6 +14,8 @@ pub(super) struct Frame {
     pub(super) making: Duration,
     pub(super) rays: u64,
     pub(super) bytes: usize,
+    /// From the end of a frame to the terminal's answer, the last time.
+    pub(super) round_trip: Option<Duration>,
 }
 
 /// Means over the last frames; zero before the first.
@@ -24,6 +26,8 @@ pub(super) struct Figures {
     pub(super) milliseconds: f64,
     pub(super) megarays_per_second: f64,
     pub(super) bytes: usize,
+    /// From the end of a frame to the terminal's answer, the last time.
+    pub(super) round_trip: Option<Duration>,
 }
 
 /// Adds frames up until there is something new to say.
@@ -52,6 +56,7 @@ impl Meter {
         self.sum.making += frame.making;
         self.sum.rays += frame.rays;
         self.sum.bytes += frame.bytes;
+        self.sum.round_trip = frame.round_trip;
         let elapsed = self.since.map_or(Duration::ZERO, |since| now - since);
         if elapsed >= WINDOW {
             let rate = f64::from(self.frames) / elapsed.as_secs_f64();
@@ -81,6 +86,7 @@ fn means(sum: &Frame, frames: u32) -> Figures {
         milliseconds: 1e3 * sum.making.as_secs_f64() / f64::from(frames),
         megarays_per_second: if drawing > 0.0 { sum.rays as f64 / drawing / 1e6 } else { 0.0 },
         bytes: sum.bytes / frames as usize,
+        round_trip: sum.round_trip,
     }
 }
 
@@ -93,6 +99,7 @@ mod tests {
         making: Duration::from_millis(3),
         rays: 4000,
         bytes: 500,
+        round_trip: None,
     };
 
     #[test]

@@ -22,20 +22,34 @@ pub(super) struct Pace {
     rate: Option<f64>,
     /// Whether what was drawn last is all there is to see.
     is_full: bool,
+    /// What the terminal does not show yet of what was drawn last.
+    debt: Debt,
+}
+
+/// What the terminal does not show yet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Debt {
+    /// It shows all.
+    None,
+    /// What looks alike while something moves: made good at rest.
+    AtRest,
+    /// What was too much for one frame at rest.
+    Now,
 }
 
 impl Pace {
     /// Nothing has been drawn yet.
     pub(super) fn new(interval: Duration) -> Self {
-        Self { interval, rate: None, is_full: true }
+        Self { interval, rate: None, is_full: true, debt: Debt::None }
     }
 
     /// How long it takes until a frame is due, `since_last` one began; none if all is shown and nothing moves.
     pub(super) fn wait(&self, moving: bool, since_last: Option<Duration>) -> Option<Duration> {
-        let from_last = match (moving, self.is_full) {
-            (true, _) => self.interval,
-            (false, false) => REST,
-            (false, true) => return None,
+        let from_last = match (moving, self.is_full, self.debt) {
+            (true, ..) => self.interval,
+            (false, true, Debt::None) => return None,
+            (false, true, Debt::Now) => Duration::ZERO,
+            (false, ..) => REST,
         };
         Some(since_last.map_or(Duration::ZERO, |since| from_last.saturating_sub(since)))
     }
@@ -48,6 +62,11 @@ impl Pace {
             Some(rate) if moving => Spending::AtMost((rate * time) as u64),
             _ => Spending::ByNeed,
         }
+    }
+
+    /// Takes note of what is left to be sent.
+    pub(super) fn owes(&mut self, debt: Debt) {
+        self.debt = debt;
     }
 
     /// Takes note of a frame that took so long to draw.
@@ -111,6 +130,22 @@ mod tests {
         for since in [0, 100, 1000] {
             assert_eq!(pace.wait(false, Some(since * MS)), None);
         }
+    }
+
+    #[test]
+    fn what_only_looks_alike_is_made_good_at_rest() {
+        let mut pace = pace();
+        pace.owes(Debt::AtRest);
+        assert_eq!(pace.wait(true, Some(MS)), Some(19 * MS));
+        assert_eq!(pace.wait(false, Some(30 * MS)), Some(70 * MS));
+        pace.owes(Debt::Now);
+        assert_eq!(pace.wait(false, Some(MS)), Some(Duration::ZERO));
+        // A coarse picture is no time sooner.
+        pace.drawn(effort(8000, false), 8 * MS);
+        assert_eq!(pace.wait(false, Some(30 * MS)), Some(70 * MS));
+        pace.drawn(effort(20_000, true), 20 * MS);
+        pace.owes(Debt::None);
+        assert_eq!(pace.wait(false, Some(MS)), None);
     }
 
     #[test]

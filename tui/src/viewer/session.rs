@@ -1,18 +1,24 @@
 //! What the viewer holds while it runs.
 
 use super::film::Film;
+use super::flow::Flow;
 use super::meter::Meter;
 use super::pace::Pace;
+use super::pixels::Pixels;
+use super::recording::Recording;
 use super::state::{Shown, State};
 use super::table::Table;
 use crate::compare::error_map::ErrorMapper;
 use crate::compare::split::Times;
 use crate::draw::{Drawn, Renderer};
 use crate::encode::Encoder;
+use crate::error::Error;
+use crate::picture::Image;
 use crate::scene::Scene;
 use crate::structure::scene::SceneStructures;
 use crate::structure::{Order, Structure};
 use crate::terminal::Terminal;
+use crate::terminal::color_depth::{ColorChoice, Surroundings};
 use std::sync::Arc;
 
 /// The scene and the terminal, and what is kept from frame to frame.
@@ -22,6 +28,21 @@ pub(super) struct Viewer<'a> {
     pub(super) film: Option<Film>,
     pub(super) structures: SceneStructures<'a>,
     pub(super) terminal: Terminal,
+    pub(super) surroundings: Surroundings,
+    pub(super) color: ColorChoice,
+    pub(super) lossless: bool,
+    pub(super) pixels: Pixels,
+    pub(super) scene_name: String,
+    /// A word of the program, until the next key.
+    pub(super) notice: Option<String>,
+    /// Command lines that were asked for: printed when the terminal is given back.
+    pub(super) told: Vec<String>,
+    pub(super) recording: Option<Recording>,
+    /// Why a recording could not be written.
+    pub(super) failure: Option<Error>,
+    /// What removes images, with the next frame.
+    pub(super) pending_removal: Vec<u8>,
+    pub(super) flow: Flow,
     pub(super) state: State,
     pub(super) renderer: Renderer<'a>,
     pub(super) mapper: ErrorMapper,
@@ -47,6 +68,8 @@ pub(super) struct Picture {
     /// How its rays found spheres.
     pub(super) searched: (Order, Structure),
     pub(super) drawn: Drawn,
+    /// In place of cells.
+    pub(super) image: Option<Image>,
 }
 
 impl Viewer<'_> {

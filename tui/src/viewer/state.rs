@@ -9,7 +9,7 @@ use crate::compare::Comparison;
 use crate::machine::check_floats;
 use crate::scene::framing::reframed;
 use crate::structure::Structure;
-use crate::style::{Charset, Style};
+use crate::style::{Charset, ColorDepth, Style};
 use crate::view::{LensKind, View, orbited, panned, with_projection, zoomed};
 use spherule_kernel::{Sphere, Tier};
 use std::f32::consts::PI;
@@ -91,6 +91,7 @@ pub(super) struct State {
     hand: Hand,
     /// Whether it holds the seam.
     pulls_seam: bool,
+    pub(super) recording: bool,
     /// Columns and rows of the picture: a drag over all rows is half a turn.
     size: (u16, u16),
 }
@@ -108,13 +109,27 @@ impl State {
             table,
             cursor: None,
         };
-        Self { home: view, shown, hand: Hand::default(), pulls_seam: false, size: (1, 1) }
+        Self {
+            home: view,
+            shown,
+            hand: Hand::default(),
+            pulls_seam: false,
+            recording: false,
+            size: (1, 1),
+        }
     }
 
     /// Tells the size of the picture.
     pub(super) fn set_size(&mut self, columns: u16, rows: u16) {
         self.size = (columns.max(1), rows.max(1));
         self.shown.cursor = self.shown.cursor.map(|cursor| cursor.within(self.size));
+    }
+
+    /// Tells how many colours there are.
+    pub(super) fn set_depth(&mut self, depth: ColorDepth) -> Outcome {
+        let before = self.shown;
+        self.shown.style.depth = depth;
+        self.since(&before)
     }
 
     /// Columns and rows of the picture.
@@ -238,7 +253,9 @@ impl State {
             | Input::Resize
             | Input::Step(_)
             | Input::FrameAll
-            | Input::FramePicked => {}
+            | Input::FramePicked
+            | Input::CommandLine
+            | Input::Record => {}
         }
         self.since(&before)
     }

@@ -43,11 +43,12 @@ fn names(state: &State, order: Order) -> String {
     let Shown { view, style, .. } = &state.shown;
     let (lens, charset) = (name(&view.lens_kind()), name(&style.charset));
     let order = if order == Order::Object { " object" } else { "" };
-    format!("{} {lens} {charset}{order}", style.accuracy.as_str())
+    let recording = if state.recording { " rec" } else { "" };
+    format!("{} {lens} {charset}{order}{recording}", style.accuracy.as_str())
 }
 
 /// From the one that is missed the most.
-fn figure_texts(figures: Figures) -> [String; 4] {
+fn figure_texts(figures: Figures) -> [String; 5] {
     let rate =
         figures.frames_per_second.map_or_else(|| "--".to_owned(), |rate| format!("{rate:.0}"));
     [
@@ -55,6 +56,9 @@ fn figure_texts(figures: Figures) -> [String; 4] {
         format!(" {:>5.1} ms", figures.milliseconds),
         format!(" {:>5.1} Mrays/s", figures.megarays_per_second),
         format!(" {:>5.1} kB", figures.bytes as f64 / 1e3),
+        figures
+            .round_trip
+            .map_or_else(String::new, |time| format!(" rtt {:>3.0} ms", 1e3 * time.as_secs_f64())),
     ]
 }
 
@@ -67,6 +71,7 @@ mod tests {
     use crate::viewer::Start;
     use clap::ValueEnum;
     use spherule_kernel::Tier;
+    use std::time::Duration;
 
     fn state(choice: Auto<Structure>) -> State {
         let style = Style { accuracy: Tier::Stable, charset: Charset::Half, ..Style::PLAIN };
@@ -95,6 +100,7 @@ mod tests {
             milliseconds: 3.21,
             megarays_per_second: 12.34,
             bytes: 45_678,
+            round_trip: None,
         };
         text(columns, &state(choice), (order, Structure::Bvh), figures)
     }
@@ -107,6 +113,16 @@ mod tests {
         assert_eq!(
             line(90, AUTO),
             " stable perspective half bvh  60 fps   3.2 ms  12.3 Mrays/s  45.7 kB       ? help  q quit "
+        );
+    }
+
+    #[test]
+    fn the_round_trip_is_the_last_figure() {
+        let figures = Figures { round_trip: Some(Duration::from_millis(23)), ..Figures::default() };
+        let text = text(100, &state(AUTO), (Order::Image, Structure::Bvh), figures);
+        assert_eq!(
+            text,
+            " stable perspective half bvh  -- fps   0.0 ms   0.0 Mrays/s   0.0 kB rtt  23 ms      ? help  q quit "
         );
     }
 
@@ -154,6 +170,7 @@ mod tests {
                         milliseconds: scale,
                         megarays_per_second: scale,
                         bytes: (1e4 * scale) as usize,
+                        round_trip: Some(Duration::from_secs_f64(scale / 1e3)),
                     };
                     let structure = choice.unwrap_or(Structure::DepthList);
                     for order in [Order::Image, Order::Object] {

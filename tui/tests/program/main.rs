@@ -3,12 +3,14 @@
 
 mod bad_input;
 mod cargo;
+mod cast;
 mod files;
 mod lecture;
 mod light;
 mod orders;
 mod output;
 mod pick;
+mod pixels;
 mod png;
 mod run;
 mod scenes;

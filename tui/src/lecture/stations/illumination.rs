@@ -111,7 +111,7 @@ n     ({})
 sum of n.l times light: {:.3}
 times colour #{red:02x}{green:02x}{blue:02x}, and a
 little light from everywhere",
-        scene.label(index).unwrap_or("marble"),
+        scene.label(index).unwrap_or("marble".into()),
         number(hit.t),
         coordinates(point),
         coordinates(surface.normal),

@@ -2,7 +2,8 @@
 //!
 //! All else is passed over. Of alternate locations the first is drawn. Grammar: "CIF 1.1 syntax", IUCr.
 
-use super::Context;
+use super::context::Context;
+use super::mmcif_columns::Columns;
 use super::words::coordinate;
 use crate::scene::Scene;
 use crate::scene::attributes::{Naming, NumberColumn};
@@ -13,47 +14,6 @@ use crate::scene::particles::Particles;
 use crate::scene::read_error::ReadError;
 use spherule_kernel::Vec3;
 use std::ops::Range;
-
-/// Which column of the table is what.
-#[derive(Clone, Debug, Default)]
-pub(in super::super) struct Columns {
-    count: usize,
-    position: [usize; 3],
-    symbol: Option<usize>,
-    name: Option<usize>,
-    residue: Option<usize>,
-    chain: Option<usize>,
-    residue_number: Option<usize>,
-    entity: Option<usize>,
-    location: Option<usize>,
-    model: Option<usize>,
-    numbers: [Option<usize>; 2],
-}
-
-impl Columns {
-    fn of(tags: &[String], line: &Line<'_>) -> Result<Self, ReadError> {
-        let find = |names: &[&str]| {
-            names.iter().find_map(|name| tags.iter().position(|tag| tag.eq_ignore_ascii_case(name)))
-        };
-        let axis = |name: &str| {
-            find(&[name])
-                .ok_or_else(|| line.error(0, format!("no _atom_site.{name} before the atoms")))
-        };
-        Ok(Self {
-            count: tags.len(),
-            position: [axis("Cartn_x")?, axis("Cartn_y")?, axis("Cartn_z")?],
-            symbol: find(&["type_symbol"]),
-            name: find(&["auth_atom_id", "label_atom_id"]),
-            residue: find(&["auth_comp_id", "label_comp_id"]),
-            chain: find(&["auth_asym_id", "label_asym_id"]),
-            residue_number: find(&["auth_seq_id", "label_seq_id"]),
-            entity: find(&["label_entity_id"]),
-            location: find(&["label_alt_id"]),
-            model: find(&["pdbx_PDB_model_num"]),
-            numbers: [find(&["occupancy"]), find(&["B_iso_or_equiv"])],
-        })
-    }
-}
 
 /// Reads the next model.
 ///

@@ -6,8 +6,10 @@ mod good;
 
 use super::Format;
 use crate::scene::frames::Frames;
-use crate::scene::open::{Opened, Reading, open};
-use crate::scene::{ReadError, Scene, open::read};
+use crate::scene::open::{Opened, open};
+use crate::scene::reading::Reading;
+use crate::scene::reading::read;
+use crate::scene::{ReadError, Scene};
 use std::io::{Cursor, Write};
 use std::path::PathBuf;
 

@@ -4,7 +4,7 @@
 //! Frames are chained from the root by the `origin` of joints, in double precision. Specification:
 //! <https://wiki.ros.org/urdf/XML>.
 
-use super::LONGEST_TEXT;
+use super::context::LONGEST_TEXT;
 use crate::scene::Scene;
 use crate::scene::attributes::Naming;
 use crate::scene::input::Input;

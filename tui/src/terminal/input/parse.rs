@@ -1,67 +1,121 @@
-//! What terminals send for keys and mouse, as far as the viewer has a use for it. What it has no
-//! use for is taken in whole, so that its parts are not mistaken for keys.
+//! What terminals send: keys, the mouse and answers, as far as the program has a use for them. What it has no use for
+//! is taken in whole, so that its parts are not mistaken for keys.
 
+use super::super::reply::{self, Reply};
 use crossterm::event::{
     Event, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind,
 };
 
 const ESCAPE: u8 = 0x1b;
+/// Ends an operating system command as the string terminator does.
+const BELL: u8 = 0x07;
 /// No sequence that means something is longer.
 const LONGEST_SEQUENCE: usize = 64;
+
+/// What comes from the terminal.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Incoming {
+    /// Of the user: keys, the mouse, another size.
+    User(Event),
+    /// Of the terminal itself, which was asked.
+    Reply(Reply),
+}
 
 /// What the first bytes are.
 #[derive(Debug, PartialEq)]
 pub(super) enum Parsed {
     /// So many bytes, and what they mean.
-    Taken(usize, Option<Event>),
+    Taken(usize, Option<Incoming>),
     /// Nothing, or the beginning of something.
     Unfinished,
 }
 
-/// Takes one key, or one report of the mouse, from the front of `bytes`.
+/// Takes one key, one report of the mouse, or one answer from the front of `bytes`.
 pub(super) fn parse(bytes: &[u8], more_may_come: bool) -> Parsed {
     let parsed = match bytes {
         [] => return Parsed::Unfinished,
         [ESCAPE] => Parsed::Unfinished,
         [ESCAPE, b'[', rest @ ..] => control_sequence(rest),
+        [ESCAPE, kind @ (b']' | b'P' | b'_' | b'^' | b'X'), rest @ ..] => string(*kind, rest),
         [ESCAPE, b'O'] => Parsed::Unfinished,
-        [ESCAPE, b'O', key, ..] => Parsed::Taken(3, arrow(*key)),
-        [ESCAPE, ESCAPE, ..] => Parsed::Taken(1, Some(key(KeyCode::Esc))),
+        [ESCAPE, b'O', last, ..] => Parsed::Taken(3, arrow(*last).map(user)),
+        [ESCAPE, ESCAPE, ..] => Parsed::Taken(1, Some(user(key(KeyCode::Esc)))),
         // A key with Alt.
         [ESCAPE, _, ..] => Parsed::Taken(2, None),
-        [b'\r', ..] => Parsed::Taken(1, Some(key(KeyCode::Enter))),
+        [b'\r', ..] => Parsed::Taken(1, Some(user(key(KeyCode::Enter)))),
         [control @ 1..=26, ..] => {
             let letter = KeyCode::Char(char::from(control + b'a' - 1));
-            Parsed::Taken(1, Some(Event::Key(KeyEvent::new(letter, KeyModifiers::CONTROL))))
+            let event = Event::Key(KeyEvent::new(letter, KeyModifiers::CONTROL));
+            Parsed::Taken(1, Some(user(event)))
         }
         [printable @ b' '..=b'~', ..] => {
-            Parsed::Taken(1, Some(key(KeyCode::Char(char::from(*printable)))))
+            Parsed::Taken(1, Some(user(key(KeyCode::Char(char::from(*printable))))))
         }
         [_, ..] => Parsed::Taken(1, None),
     };
     match parsed {
-        Parsed::Unfinished if bytes.len() > LONGEST_SEQUENCE => Parsed::Taken(bytes.len(), None),
         Parsed::Unfinished if !more_may_come => {
-            Parsed::Taken(bytes.len(), (bytes == [ESCAPE]).then(|| key(KeyCode::Esc)))
+            Parsed::Taken(bytes.len(), (bytes == [ESCAPE]).then(|| user(key(KeyCode::Esc))))
         }
         parsed => parsed,
     }
 }
 
+/// Whether `bytes`, which are unfinished, are the beginning of a string, of which there may be any number.
+pub(super) fn is_string(bytes: &[u8]) -> bool {
+    matches!(bytes, [ESCAPE, b']' | b'P' | b'_' | b'^' | b'X', ..])
+}
+
+/// Whether `bytes`, which are unfinished, may be a key: an escape without a rest.
+pub(super) fn may_be_a_key(bytes: &[u8]) -> bool {
+    bytes == [ESCAPE]
+}
+
+/// What follows `ESC` and `kind`, the introducer of an operating system command (OSC), a device control string (DCS), an
+/// application program command (APC), a privacy message (PM) or a string (SOS): all up to the string terminator.
+///
+/// Another escape begins something else, and the string is broken off. So it is by a control character that no string
+/// holds: whoever types Ctrl-C means it, whatever the terminal has begun to say.
+fn string(kind: u8, rest: &[u8]) -> Parsed {
+    for (at, &byte) in rest.iter().enumerate() {
+        let ended = |length| {
+            Parsed::Taken(2 + at + length, reply::of_string(kind, &rest[..at]).map(Incoming::Reply))
+        };
+        match (byte, rest.get(at + 1)) {
+            (BELL, _) if kind == b']' => return ended(1),
+            (ESCAPE, Some(b'\\')) => return ended(2),
+            (ESCAPE, None) => return Parsed::Unfinished,
+            // Backspace to carriage return are those that ECMA-48 has in strings.
+            (ESCAPE | 0..0x08 | 0x0e..0x20, _) => return Parsed::Taken(2 + at, None),
+            _ => {}
+        }
+    }
+    Parsed::Unfinished
+}
+
 /// What follows `ESC [`: parameters, and a final byte that says what they are for.
 fn control_sequence(rest: &[u8]) -> Parsed {
     let Some(end) = rest.iter().position(|byte| !matches!(byte, b' '..=b'?')) else {
-        return Parsed::Unfinished;
+        let is_overlong = rest.len() > LONGEST_SEQUENCE;
+        return if is_overlong { Parsed::Taken(2 + rest.len(), None) } else { Parsed::Unfinished };
     };
-    let event = match rest[end] {
+    let (parameters, last) = (&rest[..end], rest[end]);
+    let is_plain = parameters.iter().all(|byte| matches!(byte, b'0'..=b'9' | b';'));
+    let of_user = match last {
         // Not a final byte: the sequence is broken off, and another thing begins.
         0..=0x1f => return Parsed::Taken(2 + end, None),
-        last @ (b'M' | b'm') if rest[0] == b'<' => mouse(&rest[1..end], last == b'm'),
-        b'~' => page(&rest[..end]),
+        b'M' | b'm' if parameters.first() == Some(&b'<') => mouse(&parameters[1..], last == b'm'),
+        b'~' if is_plain => page(parameters),
         // Parameters of an arrow are modifiers.
-        last => arrow(last),
+        _ if is_plain => arrow(last),
+        _ => None,
     };
-    Parsed::Taken(2 + end + 1, event)
+    let of_terminal = || reply::of_sequence(parameters, last).map(Incoming::Reply);
+    Parsed::Taken(2 + end + 1, of_user.map(user).or_else(of_terminal))
+}
+
+fn user(event: Event) -> Incoming {
+    Incoming::User(event)
 }
 
 fn key(code: KeyCode) -> Event {
@@ -93,12 +147,17 @@ fn mouse(parameters: &[u8], is_release: bool) -> Option<Event> {
     let mut next = || numbers.next()?.ok();
     let (button, column, row) = (next()?, next()?, next()?);
     // Bits 2 to 4 are modifiers.
-    let kind = match (button & !0b1_1100, is_release) {
-        (0, false) => MouseEventKind::Down(MouseButton::Left),
-        (0, true) => MouseEventKind::Up(MouseButton::Left),
-        (2, false) => MouseEventKind::Down(MouseButton::Right),
-        (32, false) => MouseEventKind::Drag(MouseButton::Left),
-        (34, false) => MouseEventKind::Drag(MouseButton::Right),
+    let code = button & !0b1_1100;
+    let held = match code & 0b11 {
+        0 => MouseButton::Left,
+        1 => MouseButton::Middle,
+        2 => MouseButton::Right,
+        _ => return None,
+    };
+    let kind = match (code, is_release) {
+        (0..=2, false) => MouseEventKind::Down(held),
+        (0..=2, true) => MouseEventKind::Up(held),
+        (32..=34, false) => MouseEventKind::Drag(held),
         (64, false) => MouseEventKind::ScrollUp,
         (65, false) => MouseEventKind::ScrollDown,
         _ => return None,
@@ -112,80 +171,4 @@ fn mouse(parameters: &[u8], is_release: bool) -> Option<Event> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    fn taken(bytes: &str) -> (usize, Option<Event>) {
-        match parse(bytes.as_bytes(), true) {
-            Parsed::Taken(count, event) => (count, event),
-            Parsed::Unfinished => (0, None),
-        }
-    }
-
-    #[test]
-    fn keys() {
-        assert_eq!(taken("q!"), (1, Some(key(KeyCode::Char('q')))));
-        assert_eq!(taken("\x1b[Cq"), (3, Some(key(KeyCode::Right))));
-        assert_eq!(taken("\x1b[1;5Cq"), (6, Some(key(KeyCode::Right))));
-        assert_eq!(taken("\x1bOAq"), (3, Some(key(KeyCode::Up))));
-        assert_eq!(taken("\r\r"), (1, Some(key(KeyCode::Enter))));
-        assert_eq!(taken("\x1b[5~q"), (4, Some(key(KeyCode::PageUp))));
-        assert_eq!(taken("\x1b[6;2~q"), (6, Some(key(KeyCode::PageDown))));
-        let control = KeyEvent::new(KeyCode::Char('z'), KeyModifiers::CONTROL);
-        assert_eq!(taken("\x1a"), (1, Some(Event::Key(control))));
-    }
-
-    #[test]
-    fn an_escape_is_a_key_when_nothing_follows() {
-        assert_eq!(parse(b"\x1b", true), Parsed::Unfinished);
-        assert_eq!(parse(b"\x1b", false), Parsed::Taken(1, Some(key(KeyCode::Esc))));
-        assert_eq!(parse(b"\x1b[1;", true), Parsed::Unfinished);
-        assert_eq!(parse(b"\x1b[1;", false), Parsed::Taken(4, None));
-        assert_eq!(taken("\x1b\x1b"), (1, Some(key(KeyCode::Esc))));
-    }
-
-    #[test]
-    fn the_mouse() {
-        let report = |kind, column, row| {
-            let modifiers = KeyModifiers::NONE;
-            Some(Event::Mouse(MouseEvent { kind, column, row, modifiers }))
-        };
-        let down = MouseEventKind::Down(MouseButton::Left);
-        assert_eq!(taken("\x1b[<0;11;6M"), (10, report(down, 10, 5)));
-        let drag = MouseEventKind::Drag(MouseButton::Left);
-        // With Ctrl held.
-        assert_eq!(taken("\x1b[<48;300;8M"), (12, report(drag, 299, 7)));
-        assert_eq!(taken("\x1b[<65;1;1M"), (10, report(MouseEventKind::ScrollDown, 0, 0)));
-        assert_eq!(
-            taken("\x1b[<0;11;6m"),
-            (10, report(MouseEventKind::Up(MouseButton::Left), 10, 5))
-        );
-        let pull = MouseEventKind::Drag(MouseButton::Right);
-        assert_eq!(taken("\x1b[<34;11;6M"), (11, report(pull, 10, 5)));
-        let press = MouseEventKind::Down(MouseButton::Right);
-        assert_eq!(taken("\x1b[<2;11;6M"), (10, report(press, 10, 5)));
-        assert_eq!(taken("\x1b[<2;11;6m"), (10, None));
-        assert_eq!(taken("\x1b[<64;11;6m"), (11, None));
-        assert_eq!(taken("\x1b[<0;99999;6M"), (13, None));
-    }
-
-    #[test]
-    fn what_means_nothing_is_taken_whole() {
-        assert_eq!(taken("\x1b[200~q"), (6, None));
-        assert_eq!(taken("\x1b[?1;2cq"), (7, None));
-        assert_eq!(taken("\x1bq"), (2, None));
-    }
-
-    proptest! {
-        #[test]
-        fn any_bytes_come_to_an_end(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
-            let mut rest = &bytes[..];
-            while let Parsed::Taken(count, _) = parse(rest, false) {
-                prop_assert!(count > 0);
-                rest = &rest[count..];
-            }
-            prop_assert!(rest.is_empty());
-        }
-    }
-}
+mod tests;

@@ -1,0 +1,220 @@
+//! The terminal is asked what it can do, and never trusted.
+
+use super::emulated::{
+    ATTRIBUTES, BACKGROUND, CELL_PIXELS, Emulated, IMAGE, Manner, PEN, Rule, STATUS, SYNCHRONIZED,
+};
+use super::look::{last_row, look};
+use super::picture::once;
+use super::session::{Output, Session};
+use super::viewer::{COLUMNS, PICTURE_ROWS, ROWS, VIEW, Viewer};
+use spherule_tests::binary::spherule;
+use std::thread;
+use std::time::Duration;
+use vt100::Color;
+
+const TERMINALS: &str = include_str!("../cases/terminals.txt");
+const QUESTIONS: [(&str, &str); 7] = [
+    ("attributes", ATTRIBUTES),
+    ("status", STATUS),
+    ("synchronized", SYNCHRONIZED),
+    ("cell-pixels", CELL_PIXELS),
+    ("background", BACKGROUND),
+    ("pen", PEN),
+    ("image", IMAGE),
+];
+
+/// What the terminals of the file answer.
+fn terminals() -> Vec<(&'static str, Vec<Rule>)> {
+    let mut terminals: Vec<(&str, Vec<Rule>)> = Vec::new();
+    for line in TERMINALS.lines().filter(|line| !line.starts_with('#')) {
+        let mut words = line.splitn(3, ' ');
+        let mut next = || words.next().expect("three words");
+        let (terminal, name, answer) = (next(), next(), next());
+        let question = QUESTIONS.iter().find(|(word, _)| *word == name).expect("a question").1;
+        let answer = answer.replace("\\e", "\x1b").replace("\\\\", "\\").leak();
+        match terminals.last_mut().filter(|(last, _)| *last == terminal) {
+            Some((_, rules)) => rules.push((question, answer)),
+            None => terminals.push((terminal, vec![(question, answer)])),
+        }
+    }
+    terminals
+}
+
+fn knows(rules: &[Rule], asked: &str, part: &str) -> bool {
+    rules.iter().any(|(question, answer)| *question == asked && answer.contains(part))
+}
+
+fn shows_the_picture(output: &Output) -> bool {
+    look(output.screen(), PICTURE_ROWS) == once(&VIEW, COLUMNS, PICTURE_ROWS)
+        && last_row(output.screen()).contains("? help  q quit")
+}
+
+/// The picture as it should be, all keys do what they do, and nothing is left behind.
+fn assert_is_usable(mut viewer: Viewer, what: &str) {
+    viewer.wait_for_look(what, &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    for (key, tier) in [("1", " fast "), ("3", " exact ")] {
+        viewer.session.type_in(key);
+        viewer
+            .session
+            .wait_for(tier, |output| last_row(output.screen()).contains(tier).then_some(()));
+    }
+    viewer.wait_for_look(what, &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.session.type_in("q");
+    assert!(viewer.session.wait_for_end().success(), "{what}");
+    assert_eq!(viewer.session.left_behind(), [""; 0], "{what}");
+    assert_eq!(viewer.session.output().screen().contents(), "", "{what}");
+}
+
+#[test]
+fn every_terminal_shows_the_picture_and_is_left_as_it_was() {
+    let terminals = terminals();
+    assert!(terminals.iter().any(|(name, _)| *name == "tmux") && terminals.len() == 6);
+    for (name, rules) in terminals {
+        for is_torn in [false, true] {
+            let mut emulated = Emulated::with(&rules);
+            emulated.answers.is_torn = is_torn;
+            let term = if name == "linux" { "linux" } else { "xterm-256color" };
+            let viewer = Viewer::start_in(emulated, &[], &[("TERM", term)], (COLUMNS, ROWS));
+            let what = format!("{name}, torn: {is_torn}");
+            viewer.wait_for_look(&what, &once(&VIEW, COLUMNS, PICTURE_ROWS));
+            {
+                let sent = &viewer.session.output().sent;
+                let has = |what: &[u8]| sent.windows(what.len()).any(|bytes| bytes == what);
+                // Torn, some answers may be late, and count from then on.
+                if !is_torn {
+                    let is_known = knows(&rules, SYNCHRONIZED, ";2$");
+                    assert_eq!(has(b"\x1b[?2026h"), is_known, "{what}");
+                    let asked = sent.windows(4).filter(|bytes| *bytes == b"\x1b[5n").count();
+                    assert!(asked > 1, "{what}: it is not asked how far it has come");
+                }
+                assert!(term != "linux" || !(has(b"\x1bP") || has(b"\x1b]") || has(b"\x1b_")));
+            }
+            assert_is_usable(viewer, &what);
+        }
+    }
+}
+
+#[test]
+fn a_silent_terminal_is_waited_for_no_longer_than_a_moment_and_asked_no_more() {
+    let viewer = Viewer::start_in(Emulated::with(&[]), &[], &[], (COLUMNS, ROWS));
+    viewer.wait_for_look("the picture", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    let count = |what: &[u8]| {
+        let sent = &viewer.session.output().sent;
+        sent.windows(what.len()).filter(|bytes| *bytes == what).count()
+    };
+    assert_eq!((count(b"\x1b[c"), count(b"\x1b[5n"), count(b"\x1b[?2026h")), (1, 1, 0));
+    assert_is_usable(viewer, "silent");
+}
+
+#[test]
+fn no_probe_asks_nothing() {
+    let viewer = Viewer::start_in(Emulated::good(), &["--no-probe"], &[], (COLUMNS, ROWS));
+    viewer.wait_for_look("the picture", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    {
+        let sent = String::from_utf8_lossy(&viewer.session.output().sent).into_owned();
+        for question in QUESTIONS {
+            assert!(!sent.contains(question.1), "{question:?}");
+        }
+    }
+    assert_is_usable(viewer, "not asked");
+}
+
+/// Three seconds late, what is still of use counts, and nothing is a key.
+#[test]
+fn late_answers_count_from_then_on() {
+    for (name, rules) in terminals() {
+        let answers = Manner { rules, delay: Duration::from_secs(3), is_torn: false };
+        let is_known = knows(&answers.rules, SYNCHRONIZED, ";2$");
+        let emulated = Emulated { answers, link: None };
+        let mut viewer = Viewer::start_in(emulated, &[], &[], (COLUMNS, ROWS));
+        viewer.wait_for_look(name, &once(&VIEW, COLUMNS, PICTURE_ROWS));
+        thread::sleep(Duration::from_millis(3300));
+        let sent = viewer.session.output().sent.len();
+        viewer.session.type_in("1");
+        viewer.session.wait_for("a frame", |output| {
+            last_row(output.screen()).contains(" fast ").then_some(())
+        });
+        viewer.session.type_in("3");
+        viewer.session.wait_for("a frame", |output| {
+            last_row(output.screen()).contains(" exact ").then_some(())
+        });
+        let has_brackets =
+            |output: &Output| output.sent[sent..].windows(8).any(|bytes| bytes == b"\x1b[?2026h");
+        assert_eq!(has_brackets(&viewer.session.output()), is_known, "{name}");
+        assert_is_usable(viewer, name);
+    }
+}
+
+/// Half an answer with keys in it, whole ones that follow it at once, and a stream without an end.
+#[test]
+fn half_a_string_for_ever_is_no_key() {
+    for half in ["\x1b]11;rgb:q c", "\x1b]11;rgb:1e1e/q"] {
+        let rules = [(BACKGROUND, half)];
+        let viewer = Viewer::start_in(Emulated::with(&rules), &[], &[], (COLUMNS, ROWS));
+        viewer.wait_for_look(half, &once(&VIEW, COLUMNS, PICTURE_ROWS));
+        // Until it has been given up.
+        thread::sleep(Duration::from_millis(700));
+        assert_is_usable(viewer, half);
+    }
+    let mut viewer = Viewer::start_in(Emulated::with(&[]), &[], &[], (COLUMNS, ROWS));
+    viewer.wait_for_look("the picture", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.session.type_in("\x1b]11;");
+    for _ in 0..300 {
+        viewer.session.type_in("q c ");
+        thread::sleep(Duration::from_millis(5));
+    }
+    assert!(shows_the_picture(&viewer.session.output()), "a key of it acted");
+    thread::sleep(Duration::from_millis(700));
+    assert_is_usable(viewer, "a stream");
+}
+
+/// A terminal that is known by no name tells its depth; what the user says counts more.
+#[test]
+fn colours_are_as_many_as_the_terminal_tells() {
+    let depth = |rules: &[Rule], arguments: &[&str], variables: &[(&str, &str)]| {
+        let arguments = [&["unit"], arguments].concat();
+        let emulated = Emulated::with(rules);
+        let mut session =
+            Session::start_in(emulated, spherule(), &arguments, variables, (COLUMNS, ROWS));
+        let found = session.wait_for("a picture", |output| {
+            let edge = (0..COLUMNS).filter_map(|column| output.screen().cell(10, column));
+            let mut colors = edge.map(vt100::Cell::fgcolor);
+            colors.find(|color| *color != Color::Default)
+        });
+        session.type_in("q");
+        assert!(session.wait_for_end().success());
+        matches!(found, Color::Rgb(..))
+    };
+    let over_ssh = [("TERM", "xterm-256color"), ("COLORTERM", "")];
+    let (rest, told) = ((ATTRIBUTES, "\x1b[?62c"), (PEN, "\x1bP1$r0;48:2::1:2:3m\x1b\\"));
+    assert!(!depth(&[rest], &[], &over_ssh));
+    assert!(depth(&[told, rest], &[], &over_ssh));
+    assert!(!depth(&[told, rest], &["--color", "256"], &over_ssh));
+    assert!(!depth(&[told, rest], &["--no-probe"], &over_ssh));
+    let palette = (PEN, "\x1bP1$r0;48:5:16m\x1b\\");
+    assert!(!depth(&[palette, rest], &[], &[]));
+    assert!(depth(&[palette, rest], &["--color", "truecolor"], &[]));
+}
+
+/// Behind a scene that names no background is the terminal's own.
+#[test]
+fn the_background_is_the_terminals_where_nobody_names_one() {
+    let rules = [(BACKGROUND, "\x1b]11;rgb:f0f0/e0e0/d0d0\x1b\\"), (ATTRIBUTES, "\x1b[?62c")];
+    let corner = |arguments: &[&str], expected: Color| {
+        let mut session = Session::start_in(
+            Emulated::with(&rules),
+            spherule(),
+            &[arguments, &["--color", "truecolor"]].concat(),
+            &[],
+            (COLUMNS, ROWS),
+        );
+        session.wait_for("the background", |output| {
+            (output.screen().cell(0, 0)?.bgcolor() == expected).then_some(())
+        });
+        session.type_in("q");
+        assert!(session.wait_for_end().success());
+    };
+    corner(&["unit"], Color::Rgb(0xf0, 0xe0, 0xd0));
+    corner(&["unit", "--background", "#102030"], Color::Rgb(0x10, 0x20, 0x30));
+    corner(&["unit", "--no-probe"], Color::Rgb(0, 0, 0));
+}

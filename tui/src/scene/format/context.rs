@@ -1,0 +1,22 @@
+//! What a reader of a format knows besides the input.
+
+use super::mmcif_columns::Columns;
+use crate::scene::Scene;
+use crate::scene::notes::Notes;
+use std::sync::Arc;
+
+/// What a reader knows besides the input.
+#[derive(Debug, Default)]
+pub(in crate::scene) struct Context {
+    /// The columns that a table is to be read from.
+    pub(in crate::scene) columns: Option<String>,
+    /// What the particles of a trajectory are.
+    pub(in crate::scene) topology: Option<Arc<Scene>>,
+    /// What to tell.
+    pub(in crate::scene) notes: Notes,
+    /// The columns of an mmCIF table, once they have been read.
+    pub(in crate::scene) mmcif: Option<Columns>,
+}
+
+/// The longest text that is read as a whole, in bytes: some half a million spheres.
+pub(in crate::scene) const LONGEST_TEXT: usize = 64 << 20;

@@ -1,0 +1,96 @@
+//! What a terminal can do, by its own word, and the questions for it.
+//!
+//! Questions are asked once, together, and the last is one that every terminal answers: what has not been answered
+//! before it never will be. An answer that comes late counts from then on.
+
+use super::reply::{RARE_COLOR, Reply};
+use crate::color::Srgb;
+use std::time::Duration;
+
+/// How long the answers are waited for before the first picture.
+pub(super) const PATIENCE: Duration = Duration::from_millis(200);
+/// The number of an image that is asked about and never sent.
+const ASKED_IMAGE: u32 = 31;
+
+/// What is known of a terminal. What it has not said is not known.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Abilities {
+    /// Whether it has answered all that it ever will.
+    pub has_answered: bool,
+    /// Whether it tells how far it has come.
+    pub reports_status: bool,
+    /// Whether it holds its picture back between brackets (mode 2026).
+    pub synchronized: bool,
+    /// Whether it has 24 bits of colour.
+    pub truecolor: Option<bool>,
+    /// Width and height of a cell in pixels.
+    pub cell_pixels: Option<(u16, u16)>,
+    /// The colour behind its cells.
+    pub background: Option<Srgb>,
+    /// Whether it shows images by kitty's protocol.
+    pub kitty: bool,
+    /// Whether it shows sixels.
+    pub sixel: bool,
+}
+
+impl Abilities {
+    /// Takes note of an answer, whenever it comes.
+    pub(super) fn learn(&mut self, reply: Reply) {
+        match reply {
+            Reply::Attributes { sixel } => (self.has_answered, self.sixel) = (true, sixel),
+            Reply::Synchronized(is_known) => self.synchronized = is_known,
+            Reply::CellPixels(width, height) => self.cell_pixels = Some((width, height)),
+            Reply::Background(color) => self.background = Some(color),
+            Reply::Truecolor(has) => self.truecolor = Some(has),
+            Reply::Image(ASKED_IMAGE, is_well) => self.kitty = is_well,
+            Reply::Image(..) => {}
+            Reply::Status => self.reports_status = true,
+        }
+    }
+}
+
+/// The questions, for a terminal called `term`.
+///
+/// The console of Linux gets those alone that it answers: old ones show the letters of strings that they do not know.
+pub(super) fn questions(term: &str) -> Vec<u8> {
+    const LAST: &str = "\x1b[5n\x1b[c";
+    if term == "linux" {
+        return LAST.into();
+    }
+    let [red, green, blue] = RARE_COLOR;
+    format!(
+        "\x1b[48;2;{red};{green};{blue}m\x1bP$qm\x1b\\\x1b[m\
+         \x1b[?2026$p\x1b[16t\x1b]11;?\x1b\\\
+         \x1b_Gi={ASKED_IMAGE},s=1,v=1,a=q,t=d,f=24;AAAA\x1b\\{LAST}"
+    )
+    .into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_answered_is_not_known() {
+        let mut abilities = Abilities::default();
+        abilities.learn(Reply::Status);
+        abilities.learn(Reply::Image(7, true));
+        abilities.learn(Reply::Attributes { sixel: false });
+        let known = Abilities { has_answered: true, reports_status: true, ..Abilities::default() };
+        assert_eq!(abilities, known);
+        // Late, it counts all the same.
+        abilities.learn(Reply::Synchronized(true));
+        abilities.learn(Reply::Image(ASKED_IMAGE, true));
+        assert_eq!(abilities, Abilities { synchronized: true, kitty: true, ..known });
+    }
+
+    #[test]
+    fn the_questions_leave_the_pen_alone_and_end_with_the_one_that_all_answer() {
+        for term in ["xterm-256color", "linux"] {
+            let questions = String::from_utf8(questions(term)).expect("UTF-8");
+            assert!(questions.ends_with("\x1b[c"), "{questions:?}");
+            assert_eq!(questions.contains("48;2;"), questions.contains("\x1b[m"));
+            assert!(term != "linux" || !questions.contains(['P', ']', '_', '$']));
+        }
+    }
+}

@@ -1,0 +1,157 @@
+use super::*;
+use crate::color::Srgb;
+use proptest::prelude::*;
+
+fn taken(bytes: &str) -> (usize, Option<Incoming>) {
+    match parse(bytes.as_bytes(), true) {
+        Parsed::Taken(count, event) => (count, event),
+        Parsed::Unfinished => (0, None),
+    }
+}
+
+fn pressed(code: KeyCode) -> Option<Incoming> {
+    Some(Incoming::User(key(code)))
+}
+
+fn control(letter: char) -> Incoming {
+    Incoming::User(Event::Key(KeyEvent::new(KeyCode::Char(letter), KeyModifiers::CONTROL)))
+}
+
+#[test]
+fn keys() {
+    assert_eq!(taken("q!"), (1, pressed(KeyCode::Char('q'))));
+    assert_eq!(taken("\x1b[Cq"), (3, pressed(KeyCode::Right)));
+    assert_eq!(taken("\x1b[1;5Cq"), (6, pressed(KeyCode::Right)));
+    assert_eq!(taken("\x1bOAq"), (3, pressed(KeyCode::Up)));
+    assert_eq!(taken("\r\r"), (1, pressed(KeyCode::Enter)));
+    assert_eq!(taken("\x1b[5~q"), (4, pressed(KeyCode::PageUp)));
+    assert_eq!(taken("\x1b[6;2~q"), (6, pressed(KeyCode::PageDown)));
+    assert_eq!(taken("\x1a"), (1, Some(control('z'))));
+}
+
+#[test]
+fn an_escape_is_a_key_when_nothing_follows() {
+    assert_eq!(parse(b"\x1b", true), Parsed::Unfinished);
+    assert_eq!(parse(b"\x1b", false), Parsed::Taken(1, pressed(KeyCode::Esc)));
+    assert_eq!(parse(b"\x1b[1;", true), Parsed::Unfinished);
+    assert_eq!(parse(b"\x1b[1;", false), Parsed::Taken(4, None));
+    assert_eq!(taken("\x1b\x1b"), (1, pressed(KeyCode::Esc)));
+}
+
+#[test]
+fn the_mouse() {
+    let report = |kind, column, row| {
+        let modifiers = KeyModifiers::NONE;
+        Some(Incoming::User(Event::Mouse(MouseEvent { kind, column, row, modifiers })))
+    };
+    let down = MouseEventKind::Down(MouseButton::Left);
+    assert_eq!(taken("\x1b[<0;11;6M"), (10, report(down, 10, 5)));
+    let drag = MouseEventKind::Drag(MouseButton::Left);
+    // With Ctrl held.
+    assert_eq!(taken("\x1b[<48;300;8M"), (12, report(drag, 299, 7)));
+    assert_eq!(taken("\x1b[<65;1;1M"), (10, report(MouseEventKind::ScrollDown, 0, 0)));
+    let pull = MouseEventKind::Drag(MouseButton::Right);
+    assert_eq!(taken("\x1b[<34;11;6M"), (11, report(pull, 10, 5)));
+    let buttons = [MouseButton::Left, MouseButton::Middle, MouseButton::Right];
+    for (code, button) in buttons.into_iter().enumerate() {
+        let (pressed, let_go) = (format!("\x1b[<{code};11;6M"), format!("\x1b[<{code};11;6m"));
+        assert_eq!(taken(&pressed), (10, report(MouseEventKind::Down(button), 10, 5)));
+        assert_eq!(taken(&let_go), (10, report(MouseEventKind::Up(button), 10, 5)));
+    }
+    assert_eq!(taken("\x1b[<64;11;6m"), (11, None));
+    assert_eq!(taken("\x1b[<3;11;6M"), (10, None));
+    assert_eq!(taken("\x1b[<0;99999;6M"), (13, None));
+}
+
+#[test]
+fn what_means_nothing_is_taken_whole() {
+    assert_eq!(taken("\x1b[200~q"), (6, None));
+    assert_eq!(taken("\x1b[?1;2Dq"), (7, None));
+    assert_eq!(taken("\x1b[>0;95;0cq"), (10, None));
+    assert_eq!(taken("\x1bq"), (2, None));
+    let overlong = format!("\x1b[{}", "1;".repeat(40));
+    assert_eq!(taken(&overlong), (overlong.len(), None));
+}
+
+/// Answers with letters that are keys, as terminals send them, and what is understood of them.
+fn answers() -> Vec<(String, Option<Reply>)> {
+    let truecolor = Reply::Truecolor(true);
+    [
+        ("\x1bP>|tmux 3.3a\x1b\\", None),
+        ("\x1bP>|kitty(0.43.1)\x1b\\", None),
+        ("\x1b]11;rgb:2828/2c2c/3434\x1b\\", Some(Reply::Background(Srgb([0x28, 0x2c, 0x34])))),
+        ("\x1b]11;rgb:eeee/eeee/eeee\x07", Some(Reply::Background(Srgb([0xee; 3])))),
+        ("\x1b_Gi=1;OK\x1b\\", Some(Reply::Image(1, true))),
+        ("\x1b_Gi=31,p=1;ENOENT:no such q\x1b\\", Some(Reply::Image(31, false))),
+        ("\x1bP1$r0;48:2:1:2:3m\x1b\\", Some(truecolor)),
+        ("\x1bP1$r0;48:2::1:2:3m\x1b\\", Some(truecolor)),
+        ("\x1bP1+r524742=38\x1b\\", None),
+        ("\x1bP0$r\x1b\\", None),
+        ("\x1b^q is a privacy message\x1b\\", None),
+        ("\x1bXqqq\x1b\\", None),
+        ("\x1b]52;c;cXE=\x1b\\", None),
+        ("\x1b[?62;4;22c", Some(Reply::Attributes { sixel: true })),
+        ("\x1b[?62;22c", Some(Reply::Attributes { sixel: false })),
+        ("\x1b[?2026;2$y", Some(Reply::Synchronized(true))),
+        ("\x1b[6;20;10t", Some(Reply::CellPixels(10, 20))),
+        ("\x1b[0n", Some(Reply::Status)),
+        ("\x1b[1;1R", None),
+    ]
+    .map(|(bytes, reply)| (bytes.to_owned(), reply))
+    .into()
+}
+
+/// Whatever is read at a time: an answer is one event, or none, and what follows is the key that it is.
+#[test]
+fn answers_are_no_keys_wherever_they_are_split() {
+    for (answer, reply) in answers() {
+        let bytes = format!("{answer}q");
+        for split in 0..=bytes.len() {
+            let (mut pending, mut events) = (Vec::new(), Vec::new());
+            for part in [&bytes[..split], &bytes[split..]] {
+                pending.extend_from_slice(part.as_bytes());
+                let mut start = 0;
+                while let Parsed::Taken(count, event) = parse(&pending[start..], true) {
+                    start += count;
+                    events.extend(event);
+                }
+                pending.drain(..start);
+            }
+            let expected: Vec<_> =
+                reply.map(Incoming::Reply).into_iter().chain(pressed(KeyCode::Char('q'))).collect();
+            assert_eq!(events, expected, "{answer:?} at {split}");
+            assert!(pending.is_empty());
+        }
+    }
+}
+
+#[test]
+fn a_string_without_an_end_is_dropped_whole() {
+    for begun in ["\x1b]11;rgb:q", "\x1bP1$rq", "\x1b_Gq\x1b", "\x1b^q", "\x1bXq"] {
+        assert_eq!(parse(begun.as_bytes(), true), Parsed::Unfinished, "{begun:?}");
+        assert_eq!(parse(begun.as_bytes(), false), Parsed::Taken(begun.len(), None), "{begun:?}");
+    }
+}
+
+/// Else a terminal that begins a string and never ends it could not be left.
+#[test]
+fn an_escape_or_a_control_key_breaks_a_string_off() {
+    assert_eq!(taken("\x1b]11;rgb:q\x1b[A"), (10, None));
+    assert_eq!(taken("\x1b]11;rgb:q\x03"), (10, None));
+    assert_eq!(taken("\x1b]11;rgb:q\x1a"), (10, None));
+    // Not a bell, which ends operating system commands alone, nor what strings may hold.
+    assert_eq!(taken("\x1bPq\x07"), (3, None));
+    assert_eq!(taken("\x1bPq\r\nq\x1b\\"), (8, None));
+}
+
+proptest! {
+    #[test]
+    fn any_bytes_come_to_an_end(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
+        let mut rest = &bytes[..];
+        while let Parsed::Taken(count, _) = parse(rest, false) {
+            prop_assert!(count > 0);
+            rest = &rest[count..];
+        }
+        prop_assert!(rest.is_empty());
+    }
+}

@@ -1,0 +1,163 @@
+//! How frames follow each other over a link: at most two under way, as far as the terminal tells.
+//!
+//! After every frame the terminal is asked how far it has come. While two are unanswered none is drawn, and what is
+//! drawn next is what is wanted then: frames are left out, never queued. So a key is seen after two frames at most,
+//! however much the link would take. Without answers nothing is known, and nothing is held back.
+//!
+//! No clock: instants come in.
+
+use std::collections::VecDeque;
+use std::time::{Duration, Instant};
+
+/// Frames under way.
+const MOST: usize = 2;
+/// An answer that has not come for so long never will: longer than links stall.
+const LOST: Duration = Duration::from_secs(15);
+/// What the last frame says of the link, against all before it.
+const WEIGHT: f64 = 0.3;
+/// Seconds on the link that a frame may take; of two and the next one, a key waits for three.
+const FRAME_TIME: f64 = 0.06;
+/// Tolerances in `OKLab`: no one sees the first, and the last while something moves few.
+const TOLERANCES: [f32; 3] = [0.01, 0.02, 0.03];
+/// Bytes of a frame that say something of the link: less is answered at once, whatever the link.
+const TELLING: usize = 4096;
+
+/// What is under way.
+#[derive(Debug, Default)]
+pub(super) struct Flow {
+    under_way: VecDeque<Sent>,
+    /// From the end of a frame to its answer, the last time.
+    round_trip: Option<Duration>,
+    /// Bytes a second, as far as is known.
+    rate: Option<f64>,
+    /// When the last answer came.
+    answered: Option<Instant>,
+    /// Which tolerance frames get.
+    step: usize,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Sent {
+    at: Instant,
+    bytes: usize,
+}
+
+impl Flow {
+    /// How long until a frame may be sent; none if it may now.
+    pub(super) fn wait(&self, now: Instant) -> Option<Duration> {
+        let oldest = self.under_way.front().filter(|_| self.under_way.len() >= MOST)?;
+        let left = LOST.saturating_sub(now.saturating_duration_since(oldest.at));
+        (!left.is_zero()).then_some(left)
+    }
+
+    /// A frame of so many bytes was sent, and its answer is awaited.
+    pub(super) fn sent(&mut self, bytes: usize, now: Instant) {
+        if self.under_way.len() >= MOST {
+            self.under_way.pop_front();
+        }
+        self.under_way.push_back(Sent { at: now, bytes });
+    }
+
+    /// The oldest frame has come to the terminal.
+    pub(super) fn answered(&mut self, now: Instant) {
+        let Some(Sent { at, bytes }) = self.under_way.pop_front() else { return };
+        self.round_trip = Some(now.saturating_duration_since(at));
+        // The link began with it when it was done with the one before.
+        let since = self.answered.map_or(at, |answered| answered.max(at));
+        self.answered = Some(now);
+        let seconds = now.saturating_duration_since(since).as_secs_f64();
+        if bytes < TELLING || seconds <= 0.0 {
+            return;
+        }
+        let rate = bytes as f64 / seconds;
+        self.rate = Some(self.rate.map_or(rate, |before| before + WEIGHT * (rate - before)));
+        if seconds > FRAME_TIME {
+            self.step = (self.step + 1).min(TOLERANCES.len() - 1);
+        } else if seconds < FRAME_TIME / 2.0 {
+            self.step = self.step.saturating_sub(1);
+        }
+    }
+
+    /// Nothing that was sent will be answered.
+    pub(super) fn forget(&mut self) {
+        self.under_way.clear();
+        self.answered = None;
+    }
+
+    /// From the end of a frame to its answer, the last time.
+    pub(super) fn round_trip(&self) -> Option<Duration> {
+        self.round_trip
+    }
+
+    /// How far colours of a frame that passes may be from what is wanted: the slower the link, the farther.
+    pub(super) fn tolerance(&self) -> f32 {
+        TOLERANCES[self.step]
+    }
+
+    /// How many bytes a frame may have that can wait: as many as the link takes in its time.
+    pub(super) fn most_bytes(&self) -> usize {
+        let bytes = |rate: f64| ((rate * FRAME_TIME) as usize).max(TELLING);
+        self.rate.map_or(usize::MAX, bytes)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MS: Duration = Duration::from_millis(1);
+
+    #[test]
+    fn two_are_under_way_and_the_third_waits_for_an_answer() {
+        let (mut flow, start) = (Flow::default(), Instant::now());
+        for _ in 0..2 {
+            assert_eq!(flow.wait(start), None);
+            flow.sent(10_000, start);
+        }
+        assert_eq!(flow.wait(start + MS), Some(LOST - MS));
+        flow.answered(start + 20 * MS);
+        assert_eq!(flow.wait(start + 20 * MS), None);
+        assert_eq!(flow.round_trip(), Some(20 * MS));
+    }
+
+    #[test]
+    fn an_answer_that_never_comes_is_given_up() {
+        let (mut flow, start) = (Flow::default(), Instant::now());
+        flow.sent(10_000, start);
+        flow.sent(10_000, start);
+        assert!(flow.wait(start + 10_000 * MS).is_some(), "a link may stall");
+        assert_eq!(flow.wait(start + LOST), None);
+        flow.sent(10_000, start + LOST);
+        assert_eq!(flow.under_way.len(), 2);
+        flow.forget();
+        assert_eq!(flow.wait(start), None);
+        // One that no one asked for.
+        flow.answered(start + LOST);
+        assert_eq!(flow.wait(start), None);
+    }
+
+    /// Half a megabyte a second: frames become smaller until the link takes them in time.
+    #[test]
+    fn a_slow_link_gets_coarser_colours_and_a_fast_one_fine_ones() {
+        let (mut flow, mut now) = (Flow::default(), Instant::now());
+        let mut frame = |flow: &mut Flow, bytes: u32, rate: f64| {
+            flow.sent(bytes as usize, now);
+            now += Duration::from_secs_f64(f64::from(bytes) / rate);
+            flow.answered(now);
+        };
+        assert_eq!((flow.tolerance(), flow.most_bytes()), (TOLERANCES[0], usize::MAX));
+        for _ in 0..3 {
+            frame(&mut flow, 50_000, 0.5e6);
+        }
+        assert_eq!(flow.tolerance(), TOLERANCES[2]);
+        assert!(flow.most_bytes().abs_diff(30_000) < 10, "{}", flow.most_bytes());
+        // A little says nothing.
+        frame(&mut flow, 100, 1e3);
+        assert!(flow.most_bytes().abs_diff(30_000) < 10);
+        for _ in 0..30 {
+            frame(&mut flow, 50_000, 50e6);
+        }
+        assert_eq!(flow.tolerance(), TOLERANCES[0]);
+        assert!(flow.most_bytes() > 1_000_000);
+    }
+}
