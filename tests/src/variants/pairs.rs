@@ -1,11 +1,11 @@
 //! Ray i against sphere i alone, at every storey.
 
 use super::{Storey, level, levels, packed, stale_packet};
-use crate::case::Case;
 use spherule_kernel::{
     Hit, HitPacket, LaneArray, Lanes, Ray, Sphere, SpherePacket, Tier, f32x4, f32x8, f32x16,
     pair_lanes, pair_packets, pairs,
 };
+use spherule_referee::case::Case;
 
 /// The storeys at which pairs are intersected.
 pub fn pair_storeys() -> impl Iterator<Item = Storey> {

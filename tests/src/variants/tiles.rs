@@ -1,11 +1,11 @@
 //! A camera's tiles, at every storey and in every structure that makes their rays itself.
 
 use super::{Answers, Memory, Storey, Structures, bits, brute, level, levels, stale_packet};
-use crate::case::HexRay;
 use spherule_kernel::{
     Camera, CameraTiles, DepthList, Hit, HitPacket, Intersect, LaneArray, Lanes, Projection, Ray,
     RayPacket, Sphere, Tier, Trace, Vec3, Viewpoint, f32x4, f32x8, f32x16,
 };
+use spherule_referee::case::HexRay;
 
 /// The storeys at which tiles are traced.
 fn tile_storeys() -> impl Iterator<Item = Storey> {
