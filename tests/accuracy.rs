@@ -1,10 +1,10 @@
 //! Each tier against the oracle: by the budget table.
 
 use spherule_kernel::Tier;
+use spherule_referee::case::Case;
+use spherule_referee::ulp::step;
 use spherule_tests::budget::{self, Row, SETS, Set};
-use spherule_tests::case::Case;
 use spherule_tests::tally::{Errors, Summary, Ulp};
-use spherule_tests::ulp::step;
 
 fn check(set: Set) {
     let Some(fresh) = budget::measure(set) else { return };

@@ -6,10 +6,11 @@ use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
 use spherule_kernel::Tier::{Exact, Stable};
 use spherule_kernel::{Hit, Ray, Sphere, Tier, Vec3, Viewpoint, roots};
-use spherule_tests::case::Case;
-use spherule_tests::inputs::{self, Scene};
+use spherule_referee::case::Case;
+use spherule_referee::families::FAMILIES;
+use spherule_referee::scene::Scene;
+use spherule_referee::strategies;
 use spherule_tests::oracle;
-use spherule_tests::regimes::REGIMES;
 use spherule_tests::variants::{
     Layer, Memory, Structure, bits, difference, lists, pair_layers, pairs_of, reference, variants,
 };
@@ -77,45 +78,45 @@ const BOTH: &[Tier] = &[Exact, Stable];
 const EXACT: &[Tier] = &[Exact];
 
 proptest! {
-    #![proptest_config(inputs::config(1000))]
+    #![proptest_config(strategies::config(1000))]
 
     #[test]
-    fn scenes_are_their_spheres_on_the_lattice(scene in inputs::scene(inputs::lattice)) {
+    fn scenes_are_their_spheres_on_the_lattice(scene in strategies::scene(strategies::lattice)) {
         check_scene(&scene, BOTH)?;
     }
 
     #[test]
-    fn scenes_are_their_spheres_near_the_lattice(scene in inputs::scene(inputs::walked)) {
+    fn scenes_are_their_spheres_near_the_lattice(scene in strategies::scene(strategies::walked)) {
         check_scene(&scene, BOTH)?;
     }
 
     #[test]
-    fn scenes_are_their_spheres_in_every_size(scene in inputs::sized_scene()) {
+    fn scenes_are_their_spheres_in_every_size(scene in strategies::sized_scene()) {
         check_scene(&scene, EXACT)?;
     }
 
     #[test]
-    fn scenes_are_their_spheres_for_any_bits(scene in inputs::scene(inputs::wild)) {
+    fn scenes_are_their_spheres_for_any_bits(scene in strategies::scene(strategies::wild)) {
         check_scene(&scene, EXACT)?;
     }
 
     #[test]
-    fn scenes_are_their_spheres_in_every_regime(scene in inputs::scene(inputs::hard)) {
+    fn scenes_are_their_spheres_in_every_family(scene in strategies::scene(strategies::hard)) {
         check_scene(&scene, EXACT)?;
     }
 
     #[test]
-    fn scenes_are_their_spheres_whatever_the_neighbours(scene in inputs::scene(inputs::case)) {
+    fn scenes_are_their_spheres_whatever_the_neighbours(scene in strategies::scene(strategies::case)) {
         check_scene(&scene, EXACT)?;
     }
 }
 
 proptest! {
-    #![proptest_config(inputs::config(300))]
+    #![proptest_config(strategies::config(300))]
 
     /// The first ray's origin and direction are the viewpoint's; most others share one of them.
     #[test]
-    fn rays_that_share_a_viewpoint(scene in inputs::scene(inputs::case), alone in any::<bool>()) {
+    fn rays_that_share_a_viewpoint(scene in strategies::scene(strategies::case), alone in any::<bool>()) {
         let Scene { mut rays, spheres } = scene;
         let first = rays[0];
         for viewpoint in [Viewpoint::Origin(first.origin), Viewpoint::Direction(first.direction)] {
@@ -133,33 +134,33 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(inputs::config(5000))]
+    #![proptest_config(strategies::config(5000))]
 
     #[test]
     fn pairs_are_their_roots_in_every_width(
-        cases in prop::collection::vec(inputs::case(), 1..=35)
+        cases in prop::collection::vec(strategies::case(), 1..=35)
     ) {
         check_pairs(&cases)?;
     }
 
     #[test]
     fn pairs_are_their_roots_for_any_bits(
-        cases in prop::collection::vec(inputs::wild(), 1..=35)
+        cases in prop::collection::vec(strategies::wild(), 1..=35)
     ) {
         check_pairs(&cases)?;
     }
 }
 
-/// The filter on what it is hardest for: 2,000 cases a regime, each its own list of one.
+/// The filter on what it is hardest for: 2,000 cases a family, each its own list of one.
 #[test]
-fn the_filter_drops_nothing_in_any_regime() {
-    for regime in REGIMES {
-        let cases: Vec<Case> = regime.cases(2000).collect();
+fn the_filter_drops_nothing_in_any_family() {
+    for family in FAMILIES {
+        let cases: Vec<Case> = family.cases(2000).collect();
         for tier in Tier::ALL {
             for (case, t) in cases.iter().zip(pairs_of(tier, Layer::Lanes(1), &cases)) {
                 let hit = reference(tier).closest(&[case.sphere], &[case.ray])[0];
                 let found = hit.map(|hit| hit.t.to_bits());
-                assert_eq!(found, t_bits(t), "{tier:?}, {regime:?}: {case:?}");
+                assert_eq!(found, t_bits(t), "{tier:?}, {family:?}: {case:?}");
             }
         }
     }
@@ -168,9 +169,9 @@ fn the_filter_drops_nothing_in_any_regime() {
 /// A lane's bits do not change with its neighbours, nor with its place.
 #[test]
 fn neighbours_change_nothing() {
-    for regime in REGIMES {
-        let strangers: Vec<Case> = REGIMES[19].cases(16).collect();
-        for (case, shift) in regime.cases(64).zip((0..16).cycle()) {
+    for family in FAMILIES {
+        let strangers: Vec<Case> = FAMILIES[19].cases(16).collect();
+        for (case, shift) in family.cases(64).zip((0..16).cycle()) {
             let mut packet = strangers.clone();
             packet[shift] = case;
             for tier in Tier::ALL {

@@ -4,8 +4,8 @@
 //! tested is how they are judged.
 
 use spherule_kernel::{Ray, Sphere, Tier, Vec3, Viewpoint, discriminant, roots};
-use spherule_tests::case::Case;
-use spherule_tests::inputs::SPECIALS;
+use spherule_referee::case::Case;
+use spherule_referee::strategies::SPECIALS;
 use spherule_tests::oracle;
 use spherule_tests::variants::{Layer, Memory, pair_layers, pairs_of, variants};
 

@@ -1,6 +1,6 @@
 //! `Exact` against the truth: in every variant, alone and through the filter, t bit for bit.
 //!
-//! `cargo test` takes a fixed number of cases. The nightly run takes 10^6 a regime and 10^7 of the
+//! `cargo test` takes a fixed number of cases. The nightly run takes 10^6 a family and 10^7 of the
 //! lattice, some ten minutes on a core:
 //!
 //! ```text
@@ -13,10 +13,11 @@ use num_bigint::BigInt;
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
 use spherule_kernel::{Hit, Ray, Sphere, Tier, Vec3, discriminant, roots};
-use spherule_tests::case::Case;
-use spherule_tests::inputs::{self, Scene};
-use spherule_tests::random::Random;
-use spherule_tests::regimes::REGIMES;
+use spherule_referee::case::Case;
+use spherule_referee::families::FAMILIES;
+use spherule_referee::random::Random;
+use spherule_referee::scene::Scene;
+use spherule_referee::strategies;
 use spherule_tests::variants::{
     Memory, Variant, bits as hit_bits, lists, pair_layers, pairs_of, variants, viewpoint_of,
 };
@@ -27,12 +28,12 @@ fn exact_lists() -> impl Iterator<Item = Variant> {
     lists().filter(|variant| variant.tier == Tier::Exact)
 }
 
-/// Cases a regime.
+/// Cases a family.
 fn count() -> u64 {
     variable("SPHERULE_CASES").unwrap_or(1500)
 }
 
-/// Where in the regimes' streams to begin: past the kept cases and those of other tests.
+/// Where in the families' streams to begin: past the kept cases and those of other tests.
 fn first() -> u64 {
     (1 + variable("SPHERULE_SEED").unwrap_or(0)) << 40
 }
@@ -72,9 +73,9 @@ fn check(cases: &[Case], expected: &[Option<f32>]) {
 #[test]
 fn the_vectors_are_answered_bit_for_bit() {
     let vectors = vectors::read().unwrap_or_else(|| {
-        let own = REGIMES.iter().flat_map(|regime| {
-            regime.cases(1000).map(|case| vectors::Vector {
-                regime: regime.number,
+        let own = FAMILIES.iter().flat_map(|family| {
+            family.cases(1000).map(|case| vectors::Vector {
+                regime: family.number,
                 case,
                 expected: oracle::intersect(&case.ray, &case.sphere),
             })
@@ -90,12 +91,12 @@ fn the_vectors_are_answered_bit_for_bit() {
 }
 
 #[test]
-fn fresh_cases_of_every_regime_are_answered_as_the_oracle_does() {
-    for regime in REGIMES {
+fn fresh_cases_of_every_family_are_answered_as_the_oracle_does() {
+    for family in FAMILIES {
         let (mut hits, mut ties, mut done) = (0_u64, 0_u64, 0_u64);
         while done < count() {
             let cases: Vec<Case> =
-                (done..done + 16).map(|index| regime.case(first() + index)).collect();
+                (done..done + 16).map(|index| family.case(first() + index)).collect();
             let mut expected = Vec::new();
             for case in &cases {
                 let truth = oracle::roots_and_ties(&case.ray, &case.sphere);
@@ -113,7 +114,7 @@ fn fresh_cases_of_every_regime_are_answered_as_the_oracle_does() {
             check(&cases, &expected);
             done += 16;
         }
-        println!("{regime:?}: {done} cases, {hits} hits, {ties} ties, 0 mismatches");
+        println!("{family:?}: {done} cases, {hits} hits, {ties} ties, 0 mismatches");
     }
 }
 
@@ -132,9 +133,9 @@ fn double_units(x: f64) -> BigInt {
 #[test]
 fn the_discriminant_is_within_its_bound() {
     let (mut done, mut rounded, mut beyond_a_part) = (0_u64, 0_u64, 0_u64);
-    for regime in REGIMES {
+    for family in FAMILIES {
         for index in 0..count() {
-            let Case { ray, sphere } = regime.case(first() + index);
+            let Case { ray, sphere } = family.case(first() + index);
             let truth = oracle::discriminant(&ray, &sphere);
             let found = discriminant(&ray, &sphere);
             assert_eq!(found.is_some(), truth.is_some(), "{ray:?} {sphere:?}");
@@ -233,10 +234,10 @@ fn expansions_and_filter_agree_on_a_lattice_rich_in_tangents() {
 fn the_closest_of_many_hard_spheres_is_the_oracles() {
     let scenes = count() / 30;
     let (mut hits, mut equal) = (0, 0);
-    for regime in REGIMES {
+    for family in FAMILIES {
         for scene in 0..scenes {
             let cases: Vec<Case> =
-                (0..9).map(|index| regime.case(first() + scene * 9 + index)).collect();
+                (0..9).map(|index| family.case(first() + scene * 9 + index)).collect();
             let rays: Vec<Ray> = cases.iter().map(|case| case.ray).collect();
             // Every sphere twice, groups of four apart: equal t, of which the first must win.
             let spheres: Vec<Sphere> = (0..18).map(|i| cases[i * 7 % 9].sphere).collect();
@@ -244,7 +245,7 @@ fn the_closest_of_many_hard_spheres_is_the_oracles() {
             hits += expected.iter().flatten().count();
             equal += expected.iter().flatten().filter(|hit| hit.sphere < 9).count();
             if let Err(difference) = check_scene(&Scene { rays, spheres }, &expected) {
-                panic!("{regime:?}: {difference}");
+                panic!("{family:?}: {difference}");
             }
         }
     }
@@ -267,11 +268,11 @@ fn check_scene(scene: &Scene, expected: &[Option<Hit>]) -> Result<(), TestCaseEr
 }
 
 proptest! {
-    #![proptest_config(inputs::config(256))]
+    #![proptest_config(strategies::config(256))]
 
     /// What fails is shrunk to a case that can be read.
     #[test]
-    fn a_drawn_pair_is_the_oracles(case in inputs::case()) {
+    fn a_drawn_pair_is_the_oracles(case in strategies::case()) {
         let t = oracle::intersect(&case.ray, &case.sphere);
         for layer in pair_layers() {
             let found = pairs_of(Tier::Exact, layer, &[case])[0];
@@ -285,7 +286,7 @@ proptest! {
     }
 
     #[test]
-    fn the_closest_of_a_drawn_scene_is_the_oracles(scene in inputs::scene(inputs::case)) {
+    fn the_closest_of_a_drawn_scene_is_the_oracles(scene in strategies::scene(strategies::case)) {
         let expected: Vec<_> =
             scene.rays.iter().map(|ray| oracle::closest(ray, &scene.spheres)).collect();
         check_scene(&scene, &expected)?;
@@ -297,14 +298,14 @@ proptest! {
 fn any_bits_change_nothing_for_their_neighbours() {
     let mut random = Random::new(37, first());
     for round in 0..count() * 4 {
-        let regime = random.pick(&REGIMES);
-        let cases: Vec<Case> = (0..16).map(|i| regime.case(first() + round * 16 + i)).collect();
+        let family = random.pick(&FAMILIES);
+        let cases: Vec<Case> = (0..16).map(|i| family.case(first() + round * 16 + i)).collect();
         let lane = random.integer(0, 15) as usize;
         let mut disturbed = cases.clone();
         disturbed[lane] = if random.one_in(2) {
             Case::from_numbers([(); Case::NUMBERS].map(|()| random.any_f32()))
         } else {
-            let other = random.pick(&REGIMES);
+            let other = random.pick(&FAMILIES);
             other.case(random.bits())
         };
         let rays = [&cases, &disturbed]

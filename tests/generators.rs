@@ -3,14 +3,15 @@
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::TestRunner;
 use spherule_kernel::{Sphere, Vec3};
-use spherule_tests::aim::{Aim, double, line_distance};
-use spherule_tests::case::Case;
-use spherule_tests::inputs::{SPECIALS, Scene, lattice, number, scene, walked};
-use spherule_tests::measured::MEASURED;
+use spherule_referee::aim::{Aim, double, line_distance};
+use spherule_referee::case::Case;
+use spherule_referee::families::FAMILIES;
+use spherule_referee::measured::MEASURED;
+use spherule_referee::random::{Random, dot};
+use spherule_referee::scene::Scene;
+use spherule_referee::strategies::{SPECIALS, lattice, number, scene, walked};
+use spherule_referee::ulp::step;
 use spherule_tests::oracle::{self, dot as dot_exact, units, units3};
-use spherule_tests::random::{Random, dot};
-use spherule_tests::regimes::REGIMES;
-use spherule_tests::ulp::step;
 use std::cmp::Ordering;
 
 const COUNT: u64 = 400;
@@ -18,9 +19,9 @@ const COUNT: u64 = 400;
 type OfCase = fn(&Case) -> bool;
 type OfNumber = fn(f32) -> bool;
 
-/// In how many of the first [`COUNT`] cases of a regime `claim` holds.
-fn count(regime: usize, claim: impl Fn(&Case) -> bool) -> u64 {
-    REGIMES[regime].cases(COUNT).filter(claim).count() as u64
+/// In how many of the first [`COUNT`] cases of a family `claim` holds.
+fn count(family: usize, claim: impl Fn(&Case) -> bool) -> u64 {
+    FAMILIES[family].cases(COUNT).filter(claim).count() as u64
 }
 
 fn hits(case: &Case) -> bool {
@@ -44,16 +45,16 @@ fn distance_in_radii(case: &Case) -> f64 {
 
 #[test]
 fn each_is_at_its_number() {
-    for (index, regime) in REGIMES.iter().enumerate() {
-        assert_eq!(usize::from(regime.number), index);
+    for (index, family) in FAMILIES.iter().enumerate() {
+        assert_eq!(usize::from(family.number), index);
     }
 }
 
 #[test]
 fn both_answers_occur() {
-    for regime in REGIMES {
-        let hits = count(usize::from(regime.number), hits);
-        let (least_hits, least_misses) = match regime.number {
+    for family in FAMILIES {
+        let hits = count(usize::from(family.number), hits);
+        let (least_hits, least_misses) = match family.number {
             // From inside, or made to be a hit.
             7 | 17 => (COUNT / 2, 0),
             21 => (COUNT / 2, COUNT / 50),
@@ -61,17 +62,17 @@ fn both_answers_occur() {
             19 => (COUNT / 50, COUNT / 2),
             _ => (COUNT / 10, COUNT / 20),
         };
-        assert!(hits >= least_hits, "{regime:?}: {hits} hits of {COUNT}");
-        assert!(COUNT - hits >= least_misses, "{regime:?}: {hits} hits of {COUNT}");
+        assert!(hits >= least_hits, "{family:?}: {hits} hits of {COUNT}");
+        assert!(COUNT - hits >= least_misses, "{family:?}: {hits} hits of {COUNT}");
     }
 }
 
 #[test]
 fn distances_are_what_the_names_say() {
-    for (regime, low, high) in
+    for (family, low, high) in
         [(0, 1.0, 25.0), (1, 49.0, 201.0), (2, 4.9e3, 2.01e4), (3, 4.9e5, 2.01e6)]
     {
-        assert_eq!(count(regime, |case| (low..high).contains(&distance_in_radii(case))), COUNT);
+        assert_eq!(count(family, |case| (low..high).contains(&distance_in_radii(case))), COUNT);
     }
     assert_eq!(count(7, |case| (0.9..1.001).contains(&distance_in_radii(case))), COUNT);
     assert_eq!(count(21, |case| (0.999..1.1).contains(&distance_in_radii(case))), COUNT);
@@ -187,7 +188,7 @@ fn roots_overflow_and_underflow() {
 
 #[test]
 fn random_bits_are_of_every_kind() {
-    let bits: Vec<f32> = REGIMES[19].cases(COUNT).flat_map(|case| case.numbers()).collect();
+    let bits: Vec<f32> = FAMILIES[19].cases(COUNT).flat_map(|case| case.numbers()).collect();
     let kinds: [OfNumber; 4] =
         [f32::is_nan, f32::is_subnormal, f32::is_sign_negative, |x| x.abs() > 1e30];
     for claim in kinds {
@@ -197,7 +198,7 @@ fn random_bits_are_of_every_kind() {
 
 #[test]
 fn exponents_are_wide() {
-    let exponents = REGIMES[20].cases(COUNT).map(|case| case.sphere.radius.to_bits() >> 23);
+    let exponents = FAMILIES[20].cases(COUNT).map(|case| case.sphere.radius.to_bits() >> 23);
     let distinct: std::collections::BTreeSet<u32> = exponents.collect();
     assert!(distinct.len() > 100, "{} exponents of the radius", distinct.len());
 }

@@ -1,6 +1,6 @@
 //! The cases in files: kept ones, and the vectors of another hand.
 
-use spherule_tests::regimes::REGIMES;
+use spherule_referee::families::HARD;
 use spherule_tests::{kept, oracle, vectors};
 use std::path::PathBuf;
 
@@ -17,7 +17,7 @@ fn the_file_is_what_generator_and_oracle_say() {
 fn cases_go_round_and_have_the_oracle_s_answers() {
     let kept = kept::parse(&kept::read());
     assert_eq!(kept.len() as u64, 22 * kept::CASES_A_REGIME);
-    for regime in REGIMES {
+    for regime in HARD {
         let number = usize::from(regime.number);
         let cases = kept.iter().filter(|kept| kept.regime == number);
         for (kept, case) in cases.zip(regime.cases(kept::CASES_A_REGIME)) {
@@ -45,7 +45,7 @@ fn what_must_be_there_is_not_skipped() {
 fn every_regime_has_its_cases() {
     let Some(vectors) = vectors::read() else { return };
     assert_eq!(vectors.len(), 100_000);
-    for regime in REGIMES {
+    for regime in HARD {
         let cases = vectors.iter().filter(|vector| vector.regime == regime.number).count();
         assert!(cases > 1000, "{regime:?}: {cases} cases");
     }

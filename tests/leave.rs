@@ -5,10 +5,10 @@ mod shadows;
 use spherule_kernel::{
     Exact, Intersect, Ray, Side, Sphere, SphereList, Surface, Tier, Vec3, roots, side, surface,
 };
+use spherule_referee::random::{Random, power_of_two};
+use spherule_referee::ulp::step;
 use spherule_tests::campaign::on_all_cores;
 use spherule_tests::oracle::{self, units, units3};
-use spherule_tests::random::{Random, power_of_two};
-use spherule_tests::ulp::step;
 use std::cmp::Ordering;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 

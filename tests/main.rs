@@ -24,3 +24,4 @@ mod pty;
 mod scenes;
 mod structures;
 mod surface;
+mod truth;

@@ -3,10 +3,11 @@
 
 use proptest::prelude::*;
 use spherule_kernel::{Hit, Ray, Sphere, Tier, Vec3, roots};
-use spherule_tests::case::Case;
-use spherule_tests::inputs::{self, Scene};
+use spherule_referee::case::Case;
+use spherule_referee::random::power_of_two;
+use spherule_referee::scene::Scene;
+use spherule_referee::strategies;
 use spherule_tests::oracle::is_closer;
-use spherule_tests::random::power_of_two;
 use spherule_tests::variants::{Layer, bits, lists, pairs_of};
 
 fn all_bits(hits: Vec<Option<Hit>>) -> Vec<Option<(u32, u32)>> {
@@ -16,8 +17,8 @@ fn all_bits(hits: Vec<Option<Hit>>) -> Vec<Option<(u32, u32)>> {
 /// A lattice scene, or one a few ulp off: nothing in it comes near under- or overflow. Point
 /// spheres are left out, since the discriminant of one is all rounding, down to its square.
 fn common() -> impl Strategy<Value = Scene> {
-    let case = || prop_oneof![inputs::lattice(), inputs::walked()];
-    inputs::scene(case).prop_map(|mut scene| {
+    let case = || prop_oneof![strategies::lattice(), strategies::walked()];
+    strategies::scene(case).prop_map(|mut scene| {
         for sphere in &mut scene.spheres {
             sphere.radius += if sphere.radius == 0.0 { 1.0 } else { 0.0 };
         }
@@ -26,7 +27,7 @@ fn common() -> impl Strategy<Value = Scene> {
 }
 
 fn any_scene() -> impl Strategy<Value = Scene> {
-    inputs::scene(inputs::case)
+    strategies::scene(strategies::case)
 }
 
 /// The scene with other points and directions, and radii times `by`.
@@ -54,7 +55,7 @@ fn scaled(t: f32, exponent: i64) -> f32 {
 }
 
 proptest! {
-    #![proptest_config(inputs::config(600))]
+    #![proptest_config(strategies::config(600))]
 
     /// r(t) = o + t d: with d twice as long, every t is half as large, exactly.
     #[test]
@@ -90,7 +91,7 @@ proptest! {
 
     /// Looking back along a line: entry and exit change places and signs.
     #[test]
-    fn looking_back_turns_the_roots(case in inputs::case()) {
+    fn looking_back_turns_the_roots(case in strategies::case()) {
         let back = Ray { direction: -case.ray.direction, ..case.ray };
         for tier in Tier::ALL {
             let forth = roots(tier, &case.ray, &case.sphere);

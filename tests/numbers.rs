@@ -1,8 +1,8 @@
 //! Random numbers, steps in ulp and printed cases are what they claim to be.
 
-use spherule_tests::case::{Case, Hex};
-use spherule_tests::random::{Random, dot, power_of_two};
-use spherule_tests::ulp::step;
+use spherule_referee::case::{Case, Hex};
+use spherule_referee::random::{Random, dot, power_of_two};
+use spherule_referee::ulp::step;
 
 /// The first numbers of the reference implementation for seed 1234567.
 #[test]

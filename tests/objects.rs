@@ -6,7 +6,8 @@ use spherule_kernel::{
     Hit, HitPacket, Lanes, Level, Ray, RayPacket, Sphere, SphereList, Spheres, Tier, Vec3, Writes,
     f32x4, f32x8, f32x16, object_lanes, object_packets,
 };
-use spherule_tests::inputs::{self, Scene};
+use spherule_referee::scene::Scene;
+use spherule_referee::strategies;
 use spherule_tests::variants::{bits, levels, reference};
 
 /// Object order in lanes.
@@ -74,20 +75,20 @@ fn check(Scene { rays, spheres }: &Scene) -> Result<(), TestCaseError> {
 }
 
 proptest! {
-    #![proptest_config(inputs::config(300))]
+    #![proptest_config(strategies::config(300))]
 
     #[test]
-    fn objects_are_their_list_on_the_lattice(scene in inputs::scene(inputs::lattice)) {
+    fn objects_are_their_list_on_the_lattice(scene in strategies::scene(strategies::lattice)) {
         check(&scene)?;
     }
 
     #[test]
-    fn objects_are_their_list_in_every_regime(scene in inputs::scene(inputs::hard)) {
+    fn objects_are_their_list_in_every_regime(scene in strategies::scene(strategies::hard)) {
         check(&scene)?;
     }
 
     #[test]
-    fn objects_are_their_list_for_any_bits(scene in inputs::scene(inputs::wild)) {
+    fn objects_are_their_list_for_any_bits(scene in strategies::scene(strategies::wild)) {
         check(&scene)?;
     }
 }

@@ -2,9 +2,9 @@
 
 use proptest::prelude::*;
 use spherule_kernel::{Exact, Hit, Intersect, Ray, Sphere, SphereTree, Tier, Vec3, compare_hits};
+use spherule_referee::random::Random;
 use spherule_tests::campaign::on_all_cores;
 use spherule_tests::oracle;
-use spherule_tests::random::Random;
 use spherule_tests::variants::{Memory, bits, variants, viewpoint_of};
 use std::cmp::Ordering;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};

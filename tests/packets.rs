@@ -4,11 +4,11 @@ use spherule_kernel::{
     Camera, HitPacket, Lanes, Projection, Ray, RayPacket, Sphere, SpherePacket, Tier, Vec3, f32x4,
     f32x8, f32x16, pair_lanes,
 };
-use spherule_tests::regimes::REGIMES;
+use spherule_referee::families::FAMILIES;
 
 /// Some rays of any bits.
 fn rays(count: u64) -> Vec<Ray> {
-    REGIMES[19].cases(count).map(|case| case.ray).collect()
+    FAMILIES[19].cases(count).map(|case| case.ray).collect()
 }
 
 fn bits(ray: &Ray) -> [u32; 8] {
@@ -58,7 +58,7 @@ fn has_no_hit_without_a_lane<L: Lanes<Token = ()>>() {
 
 /// The rays of a tile are those of its pixels, row by row; outside the picture there is none.
 fn holds_the_rays_of_a_tile<L: Lanes>() {
-    let vector = |seed: u64| REGIMES[0].case(seed).ray.origin;
+    let vector = |seed: u64| FAMILIES[0].case(seed).ray.origin;
     for projection in
         [Projection::Perspective { eye: vector(1) }, Projection::Parallel { direction: vector(2) }]
     {

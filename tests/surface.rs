@@ -1,11 +1,11 @@
 //! The surface at a hit: by `Exact` every coordinate correctly rounded, by the others within what is stated.
 
 use spherule_kernel::{Exact, Ray, Sphere, SphereList, Stable, Tier, Vec3, roots, surface};
-use spherule_tests::aim::line_distance;
-use spherule_tests::case::Case;
+use spherule_referee::aim::line_distance;
+use spherule_referee::case::Case;
+use spherule_referee::families::FAMILIES;
+use spherule_referee::random::{Random, power_of_two};
 use spherule_tests::oracle;
-use spherule_tests::random::{Random, power_of_two};
-use spherule_tests::regimes::REGIMES;
 use spherule_tests::variants::{Layer, surface_layers, surfaces_of};
 
 /// Both roots of a line against integers; returns how many there were.
@@ -34,10 +34,10 @@ fn check(ray: &Ray, sphere: &Sphere) -> usize {
 }
 
 #[test]
-fn exact_surfaces_are_correctly_rounded_in_every_regime() {
+fn exact_surfaces_are_correctly_rounded_in_every_family() {
     let mut checked = 0;
-    for regime in REGIMES {
-        for case in regime.cases(300) {
+    for family in FAMILIES {
+        for case in family.cases(300) {
             checked += check(&case.ray, &case.sphere);
         }
     }

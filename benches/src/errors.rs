@@ -5,8 +5,8 @@ use crate::engine::marks::{DOUBLE, GEOMETRIC, marks};
 use crate::engine::{Query, Rays};
 use crate::measure::Effort;
 use spherule_kernel::{Intersect, SphereList, Tier};
-use spherule_tests::case::Case;
-use spherule_tests::measured::{MEASURED, Measured};
+use spherule_referee::case::Case;
+use spherule_referee::measured::{MEASURED, Measured};
 use spherule_tests::scenes::Scene;
 use spherule_tests::tally::{Summary, Ulp, measure as tally};
 

@@ -2,6 +2,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use spherule_fuzz::{agreement, geometry::Scene};
+use spherule_fuzz::agreement;
+use spherule_referee::bytes::AimedScene;
 
-fuzz_target!(|bytes: &[u8]| agreement::check(&Scene::from_bytes(bytes)));
+fuzz_target!(|scene: AimedScene| agreement::check(&scene));

@@ -1,11 +1,11 @@
 //! Every variant against one lane, bit for bit; and the rules of the contract, on the answers of the
 //! tier itself. These hold whatever bits come in, in the tier's domain or not.
 
-use crate::geometry::Scene;
 use crate::{promise, surfaces, tiles};
 use spherule_kernel::{Hit, Ray, Sphere, Tier, Viewpoint, roots};
-use spherule_tests::case::Case;
-use spherule_tests::oracle::{accepted, is_closer};
+use spherule_referee::bytes::AimedScene;
+use spherule_referee::case::Case;
+use spherule_tests::oracle::{self, accepted, is_closer};
 use spherule_tests::variants::{
     Answers, Memory, Structure, Structures, Variant, bits, pair_layers, pairs_of, reference,
     variants,
@@ -15,7 +15,7 @@ use spherule_tests::variants::{
 ///
 /// # Panics
 /// If an answer is wrong.
-pub fn check(scene: &Scene) {
+pub fn check(scene: &AimedScene) {
     let Ray { origin, direction, .. } = scene.rays[0];
     let mut memory = Memory::new(&scene.spheres);
     for viewpoint in [Viewpoint::Origin(origin), Viewpoint::Direction(direction)] {
@@ -31,8 +31,8 @@ pub fn check(scene: &Scene) {
     tiles::check(scene);
 }
 
-fn check_tier(tier: Tier, scene: &Scene, structures: Structures<'_>) {
-    let Scene { rays, aims, spheres } = scene;
+fn check_tier(tier: Tier, scene: &AimedScene, structures: Structures<'_>) {
+    let AimedScene { rays, aims, spheres } = scene;
     let single = reference(tier).closest(spheres, rays);
     for (ray, &hit) in rays.iter().zip(&single) {
         check_rules(tier, ray, spheres, hit);
@@ -95,7 +95,7 @@ fn check_rules(tier: Tier, ray: &Ray, spheres: &[Sphere], hit: Option<Hit>) {
 /// Bytes for the tests.
 #[cfg(test)]
 pub(crate) fn random_bytes(seed: u64) -> Vec<u8> {
-    let mut random = spherule_tests::random::Random::new(seed, 0);
+    let mut random = spherule_referee::random::Random::new(seed, 0);
     (0..700).map(|_| random.bits() as u8).collect()
 }
 
@@ -106,8 +106,25 @@ mod tests {
     #[test]
     fn random_scenes_pass() {
         for seed in 0..500 {
-            check(&Scene::from_bytes(&random_bytes(seed)));
+            check(&AimedScene::from_bytes(&random_bytes(seed)));
         }
+    }
+
+    #[test]
+    fn random_bytes_make_geometry_worth_judging() {
+        let (mut judged, mut met, mut all) = (0, 0, 0);
+        for seed in 0..200 {
+            let scene = AimedScene::from_bytes(&random_bytes(seed));
+            for (ray, &aim) in scene.rays.iter().zip(&scene.aims) {
+                let sphere = &scene.spheres[aim];
+                all += 1;
+                judged += i32::from(promise::in_domain(ray, sphere));
+                met += i32::from(oracle::meets(ray, sphere));
+            }
+        }
+        println!("{judged} judged, {met} met of {all}");
+        assert!(judged * 3 > all, "{judged} of {all} in the domain");
+        assert!(met * 4 > all, "{met} of {all} meet");
     }
 
     #[test]
@@ -118,7 +135,7 @@ mod tests {
             let path = entry.expect("an entry").path();
             let bytes = std::fs::read(&path).expect("a file");
             println!("{}", path.display());
-            check(&Scene::from_bytes(&bytes));
+            check(&AimedScene::from_bytes(&bytes));
             files += 1;
         }
         assert!(files >= 20, "{files} files");
@@ -127,7 +144,7 @@ mod tests {
     #[test]
     #[should_panic(expected = "rules")]
     fn a_hit_that_breaks_the_rules_is_seen() {
-        let scene = Scene::from_bytes(&[]);
+        let scene = AimedScene::from_bytes(&[]);
         let hit = Some(Hit { t: 1.0, sphere: 0 });
         check_rules(Tier::Stable, &scene.rays[0], &scene.spheres, hit);
     }

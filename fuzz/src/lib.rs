@@ -2,7 +2,6 @@
 //!
 //! | room | holds |
 //! |---|---|
-//! | [`geometry`] | how bytes become rays and spheres that are worth intersecting |
 //! | [`agreement`] | every variant against one lane, and the rules of the contract on a tier's own answers |
 //! | [`promise`] | a tier's roots against the exact ones, within what the tier promises |
 //! | [`surfaces`], [`tiles`] | surfaces of hits; a camera made of the rays |
@@ -10,7 +9,6 @@
 #![forbid(unsafe_code)]
 
 pub mod agreement;
-pub mod geometry;
 pub mod promise;
 pub mod surfaces;
 pub mod tiles;

@@ -1,19 +1,19 @@
 //! Surfaces and the rays that leave them: the same bits at every layer, by `Exact` those of integers, and nothing is
 //! met where a ray leaves.
 
-use crate::geometry::Scene;
 use spherule_kernel::{Intersect, Ray, Side, Sphere, SphereList, Tier, Vec3, roots, side, surface};
-use spherule_tests::aim::double;
+use spherule_referee::aim::double;
+use spherule_referee::bytes::AimedScene;
+use spherule_referee::random::dot;
 use spherule_tests::oracle;
-use spherule_tests::random::dot;
 use spherule_tests::variants::{Layer, surface_layers, surfaces_of};
 
 /// Judges the surfaces that the rays of a scene hit.
 ///
 /// # Panics
 /// If one is wrong.
-pub fn check(tier: Tier, scene: &Scene) {
-    let Scene { rays, spheres, .. } = scene;
+pub fn check(tier: Tier, scene: &AimedScene) {
+    let AimedScene { rays, spheres, .. } = scene;
     let list = SphereList::from(&spheres[..]);
     let one_by_one = surfaces_of(tier, Layer::Ray, &list, rays);
     for layer in surface_layers() {

@@ -1,15 +1,15 @@
 //! A camera made of a scene's rays: tiles against one lane, bit for bit.
 
-use crate::geometry::Scene;
 use spherule_kernel::{Camera, Projection, Ray, Tier};
+use spherule_referee::bytes::AimedScene;
 use spherule_tests::variants::{Frame, assert_same_tiles};
 
 /// Asks for a picture through the first ray, in steps towards other rays.
 ///
 /// # Panics
 /// If an answer or a ray is another.
-pub fn check(scene: &Scene) {
-    let Scene { rays, spheres, .. } = scene;
+pub fn check(scene: &AimedScene) {
+    let AimedScene { rays, spheres, .. } = scene;
     let ray = |index: usize| rays[index % rays.len()];
     let Ray { origin, direction, .. } = rays[0];
     // Smaller steps for every sphere: from pixels that are far apart to those that rounding makes one.

@@ -4,9 +4,9 @@ use super::departing;
 use spherule_kernel::{
     Exact, Intersect, Ray, Side, Sphere, SphereList, Tier, Towards, Vec3, surface,
 };
+use spherule_referee::random::Random;
 use spherule_tests::campaign::on_all_cores;
 use spherule_tests::oracle;
-use spherule_tests::random::Random;
 use spherule_tests::variants::{Layer, shadow_rays_of, surface_layers};
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 

@@ -11,12 +11,12 @@
 //! writes the table again, reasons kept; `git diff` then says what the
 //! change was worth. A reason says why the figure is what it is, and is part of the review.
 
-use crate::case::Case;
-use crate::measured::MEASURED;
-use crate::regimes::REGIMES;
 use crate::tally::{self, Errors, Summary};
 use crate::vectors;
 use spherule_kernel::{Intersect, SphereList, Tier};
+use spherule_referee::case::Case;
+use spherule_referee::families::HARD;
+use spherule_referee::measured::MEASURED;
 use std::fmt::Write;
 use std::fs;
 
@@ -25,7 +25,7 @@ use std::fs;
 pub enum Set {
     /// [`MEASURED`], 50,000 cases a regime.
     Measured,
-    /// [`REGIMES`], 5,000 cases a regime.
+    /// [`HARD`], 5,000 cases a regime.
     Hard,
     /// The [vectors], if they are present: some 4,500 a regime.
     Vectors,
@@ -152,19 +152,19 @@ pub fn pin(fresh: &[Row]) {
 pub fn measure(set: Set) -> Option<Vec<Row>> {
     let rows = match set {
         Set::Measured => {
-            let rows = |m: &crate::measured::Measured| measure_cases(set, m.name, m.cases(50_000));
+            let rows = |m: &spherule_referee::measured::Measured| {
+                measure_cases(set, m.name, m.cases(50_000))
+            };
             MEASURED.iter().flat_map(rows).collect()
         }
-        Set::Hard => {
-            REGIMES.iter().flat_map(|r| measure_cases(set, r.name, r.cases(5_000))).collect()
-        }
+        Set::Hard => HARD.iter().flat_map(|r| measure_cases(set, r.name, r.cases(5_000))).collect(),
         Set::Vectors => {
             let vectors = vectors::read()?;
-            let rows = |regime: &crate::regimes::Regime| {
+            let rows = |regime: &spherule_referee::families::Family| {
                 let own = vectors.iter().filter(|vector| vector.regime == regime.number);
                 measure_cases(set, regime.name, own.map(|vector| vector.case))
             };
-            REGIMES.iter().flat_map(rows).collect()
+            HARD.iter().flat_map(rows).collect()
         }
     };
     Some(rows)

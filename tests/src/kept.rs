@@ -5,9 +5,9 @@
 //! start with `#` say where the cases come from. A reader needs neither our generator nor our
 //! oracle, so that a change of either is noticed.
 
-use crate::case::Case;
 use crate::oracle;
-use crate::regimes::REGIMES;
+use spherule_referee::case::Case;
+use spherule_referee::families::HARD;
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -17,7 +17,7 @@ pub const CASES_A_REGIME: u64 = 30;
 /// A case with its answer.
 #[derive(Clone, Copy, Debug)]
 pub struct Kept {
-    /// Which of the [`REGIMES`].
+    /// Which of the [`HARD`].
     pub regime: usize,
     /// Ray and sphere.
     pub case: Case,
@@ -44,13 +44,13 @@ pub fn read() -> String {
 #[must_use]
 pub fn write() -> String {
     let mut text = String::from(
-        "# Cases of the 22 hard regimes: the generator of tests/src/regimes.rs, answered by the\n\
+        "# Cases of the 22 hard families: the generator of tests/referee/src/families.rs, answered by the\n\
          # integer oracle of tests/src/oracle.rs. Made again by:\n\
          #   cargo test -p spherule-tests -- --ignored keep_cases\n\
          # A line: regime; origin x y z, direction x y z, t_min, t_max, centre x y z, radius; t\n\
          # of the hit or miss. Numbers are the bits of single-precision floats, hexadecimal.\n",
     );
-    for regime in REGIMES {
+    for regime in HARD {
         let _ = writeln!(text, "# {} {}", regime.number, regime.name);
         for case in regime.cases(CASES_A_REGIME) {
             let _ = write!(text, "{}", regime.number);

@@ -30,9 +30,9 @@ mod rays;
 
 pub use extent::Extent;
 
-use crate::random::Random;
 use rays::Rays;
 use spherule_kernel::{Ray, Spheres};
+use spherule_referee::random::Random;
 
 /// An order of rays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -29,8 +29,8 @@ mod rays;
 pub mod small;
 mod spheres;
 
-use crate::random::power_of_two;
 use spherule_kernel::{Ray, Sphere, SphereList, SphereTree, Vec3, Viewpoint};
+use spherule_referee::random::power_of_two;
 use std::f64::consts::PI;
 use std::rc::Rc;
 

@@ -1,11 +1,11 @@
 //! Answers to single cases, held against the oracle's by the program's own [engine](spherule::tally).
 
-use crate::aim::double;
-use crate::case::Case;
 use crate::oracle;
-use crate::random::{dot, power_of_two};
 use spherule::tally::Tally;
 pub use spherule::tally::{Summary, Ulp};
+use spherule_referee::aim::double;
+use spherule_referee::case::Case;
+use spherule_referee::random::{dot, power_of_two};
 
 /// What one engine gets wrong.
 #[derive(Clone, Debug, Default)]

@@ -4,7 +4,7 @@
 //! it is not set, they are looked for in `shared/vectors` beside the workspace; a test that does not find them says
 //! so and goes on.
 
-use crate::case::Case;
+use spherule_referee::case::Case;
 use std::fs::File;
 use std::io::{BufReader, Write};
 use std::path::{Path, PathBuf};

@@ -3,10 +3,10 @@
 use super::scenes::{diffuse, end_at_answers, mixed, point, uniform, unit};
 use super::{BOTH, EXACT};
 use spherule_kernel::{Ray, Sphere, Tier, Vec3, roots};
-use spherule_tests::case::{Case, HexRay};
-use spherule_tests::inputs::SPECIALS;
-use spherule_tests::random::Random;
-use spherule_tests::regimes::REGIMES;
+use spherule_referee::case::{Case, HexRay};
+use spherule_referee::families::FAMILIES;
+use spherule_referee::random::Random;
+use spherule_referee::strategies::SPECIALS;
 use spherule_tests::variants::{
     Memory, assert_same, bits, brute, difference, variants, viewpoint_of,
 };
@@ -115,16 +115,16 @@ fn rays_of_any_components() {
     assert_same(EXACT, &rays, &uniform(300));
 }
 
-/// The hard cases' rays against the hard cases' spheres, of one regime and of all.
+/// The hard cases' rays against the hard cases' spheres, of one family and of all.
 #[test]
-fn regimes() {
+fn families() {
     let mut all: Vec<Case> = Vec::new();
-    for regime in REGIMES {
-        let cases: Vec<Case> = regime.cases(400).collect();
+    for family in FAMILIES {
+        let cases: Vec<Case> = family.cases(400).collect();
         let rays: Vec<Ray> = cases.iter().map(|case| case.ray).collect();
         let spheres: Vec<Sphere> = cases.iter().map(|case| case.sphere).collect();
         if let Some(difference) = difference(EXACT, &rays, &spheres, viewpoint_of(&rays)) {
-            panic!("{regime:?}: {difference}");
+            panic!("{family:?}: {difference}");
         }
         // Beside a scene, moved to where it is.
         let mut beside = uniform(400);

@@ -4,8 +4,8 @@
 use super::scenes::{end_at_answers, point, uniform, unit};
 use super::{BOTH, EXACT};
 use spherule_kernel::{Ray, Sphere, Vec3};
-use spherule_tests::aim::{double, single};
-use spherule_tests::random::{Random, dot, power_of_two};
+use spherule_referee::aim::{double, single};
+use spherule_referee::random::{Random, dot, power_of_two};
 use spherule_tests::variants::assert_same;
 
 /// Rays of a bundle.

@@ -7,7 +7,7 @@ use spherule_kernel::{
     Bvh, BvhNode, DepthList, QueuedRay, Sphere, SphereList, SphereTree, StreamMemory, StreamRay,
     TooSmall, Vec3, Viewpoint,
 };
-use spherule_tests::random::Random;
+use spherule_referee::random::Random;
 use spherule_tests::variants::{assert_same, assert_same_from};
 
 #[test]

@@ -5,8 +5,8 @@ use proptest::prelude::*;
 use spherule_kernel::{
     Bvh4, Bvh4Error, Hit, Intersect, Ray, Sphere, SphereList, Tier, TooSmall, Vec3,
 };
-use spherule_tests::inputs;
-use spherule_tests::random::Random;
+use spherule_referee::random::Random;
+use spherule_referee::strategies;
 use spherule_tests::variants::bits;
 use std::iter::repeat_with;
 
@@ -169,7 +169,7 @@ fn a_lost_sphere_is_seen() {
 }
 
 proptest! {
-    #![proptest_config(inputs::config(300))]
+    #![proptest_config(strategies::config(300))]
 
     /// Whatever the words: an error, or a tree that answers as the list does.
     #[test]

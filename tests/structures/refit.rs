@@ -5,7 +5,7 @@ use spherule_kernel::{
     Bvh, BvhMemory, BvhNode, Coherence, Intersect, Level, Ray, RefitError, Sphere, SphereList,
     SphereTree, Tier, Trace, Vec3,
 };
-use spherule_tests::random::Random;
+use spherule_referee::random::Random;
 use spherule_tests::variants::{bits, levels};
 
 /// Asserts that a tree answers as the list of its spheres does, in every level, however its rays are said to be.

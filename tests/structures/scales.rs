@@ -8,7 +8,7 @@ use spherule_kernel::{
     Coherence, DepthList, HitPacket, Intersect, Ray, RayPacket, Sphere, SphereList, SphereTree,
     Tier, Trace, Vec3, Viewpoint,
 };
-use spherule_tests::random::{Random, power_of_two};
+use spherule_referee::random::{Random, power_of_two};
 use spherule_tests::variants::{assert_same, bits, brute};
 
 /// Exponents of scenes: what structures saw before scaling ended at 2^40 and 2^-58.

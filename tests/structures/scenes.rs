@@ -1,8 +1,8 @@
 //! Scenes and rays that structures may stumble over.
 
 use spherule_kernel::{Ray, Sphere, Tier, Vec3};
-use spherule_tests::aim::single;
-use spherule_tests::random::Random;
+use spherule_referee::aim::single;
+use spherule_referee::random::Random;
 use spherule_tests::variants::brute;
 
 /// Where most pictures are seen from.

@@ -8,8 +8,8 @@ use spherule_kernel::{
     Coherence, HitPacket, Intersect, Ray, RayPacket, Sphere, SphereTree, Tier, Trace, Vec3,
     Viewpoint,
 };
-use spherule_tests::inputs;
-use spherule_tests::random::{Random, power_of_two};
+use spherule_referee::random::{Random, power_of_two};
+use spherule_referee::strategies;
 use spherule_tests::variants::{assert_same, assert_same_from, difference};
 
 /// Scenes of many sizes.
@@ -117,7 +117,7 @@ fn exponent() -> impl Strategy<Value = i64> {
 }
 
 proptest! {
-    #![proptest_config(inputs::config(150))]
+    #![proptest_config(strategies::config(150))]
 
     /// Spheres and rays of any size, directions of any length, and intervals of both.
     #[test]

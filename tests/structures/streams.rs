@@ -3,7 +3,7 @@
 use super::scenes::{diffuse, point, uniform, unit};
 use super::{BOTH, EXACT};
 use spherule_kernel::{Ray, Sphere, Vec3};
-use spherule_tests::random::Random;
+use spherule_referee::random::Random;
 use spherule_tests::variants::assert_same;
 
 /// None, one, and packets that are not full.

@@ -3,8 +3,8 @@
 use super::scenes::{self, point, uniform, unit};
 use super::{BOTH, EXACT};
 use spherule_kernel::{Camera, Projection, Sphere, Vec3};
-use spherule_tests::inputs::SPECIALS;
-use spherule_tests::random::Random;
+use spherule_referee::random::Random;
+use spherule_referee::strategies::SPECIALS;
 use spherule_tests::variants::{Frame, assert_same_tiles};
 
 /// A picture of `pixels` x `pixels` from `eye`, or along the way to the target, `slope` or so many units of the scene

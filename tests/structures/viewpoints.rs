@@ -3,8 +3,8 @@
 use super::scenes::{self, EYE, camera, diffuse, end_at_answers, parallel, point, uniform};
 use super::{BOTH, EXACT};
 use spherule_kernel::{Ray, Sphere, Vec3, Viewpoint};
-use spherule_tests::inputs::SPECIALS;
-use spherule_tests::random::Random;
+use spherule_referee::random::Random;
+use spherule_referee::strategies::SPECIALS;
 use spherule_tests::variants::assert_same_from;
 
 /// Every scene from afar, from its middle and along parallels.

@@ -3,7 +3,7 @@
 use super::EXACT;
 use super::scenes::{mixed, point};
 use spherule_kernel::{Bvh, Sphere, SphereTree, Vec3};
-use spherule_tests::random::Random;
+use spherule_referee::random::Random;
 use spherule_tests::variants::assert_same;
 use std::time::{Duration, Instant};
 

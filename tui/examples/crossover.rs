@@ -18,7 +18,7 @@ use spherule_kernel::{
     Camera, CameraTiles, Coherence, HitPacket, Level, LevelName, Projection, Ray, RayPacket,
     Sphere, SphereList, Tier, Vec3, Viewpoint,
 };
-use spherule_tests::random::Random;
+use spherule_referee::random::Random;
 use std::hint::black_box;
 use std::ops::Range;
 use std::sync::Arc;

@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 pub mod arguments;
+pub mod cases;
 pub mod cast;
 pub mod cells;
 pub mod choice;
@@ -11,6 +12,7 @@ pub mod draw;
 pub mod encode;
 pub mod error;
 pub mod ink;
+pub mod judge;
 pub mod lecture;
 pub mod machine;
 pub mod manual;

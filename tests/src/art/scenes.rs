@@ -1,6 +1,6 @@
 //! Scenes that are in no program, in files for it: a dark one, and one like noise.
 
-use crate::random::Random;
+use spherule_referee::random::Random;
 
 /// A scene in a file of `tests/cases`.
 #[derive(Clone, Copy, Debug)]

@@ -1,8 +1,8 @@
 //! The rays that orders are made of, in double precision, rounded once.
 
 use super::Extent;
-use crate::random::{Random, cross, dot};
 use spherule_kernel::{Ray, Sphere, Spheres, Vec3};
+use spherule_referee::random::{Random, cross, dot};
 use std::f64::consts::TAU;
 
 type Point = [f64; 3];

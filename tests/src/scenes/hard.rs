@@ -2,8 +2,8 @@
 
 use super::point::{direction, plus, rounded, within};
 use super::spheres::{in_cube, uniform};
-use crate::random::Random;
 use spherule_kernel::{Sphere, Vec3};
+use spherule_referee::random::Random;
 use std::f64::consts::PI;
 
 /// How often each of the [`duplicates`] stands in the list.

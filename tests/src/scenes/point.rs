@@ -1,7 +1,7 @@
 //! Points and directions in double precision: scenes are made so, and rounded once.
 
-use crate::random::Random;
 use spherule_kernel::Vec3;
+use spherule_referee::random::Random;
 use std::f64::consts::TAU;
 
 /// A point, or a direction.

@@ -1,8 +1,8 @@
 //! The rays of the large scenes: two cameras, and two kinds of rays that have nothing in common.
 
 use super::point::{Point, direction, plus, rounded, unit, within};
-use crate::random::{Random, cross};
 use spherule_kernel::Ray;
+use spherule_referee::random::{Random, cross};
 
 /// Pixels to a side of a tile: sixteen rays.
 const TILE: usize = 4;

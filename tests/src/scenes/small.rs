@@ -1,8 +1,8 @@
 //! The small scenes, for brute force: 1024 rays, few enough to stay in the first cache, against a cube of spheres.
 
 use super::{Kind, Scene};
-use crate::random::Random;
 use spherule_kernel::{Ray, Sphere, Vec3};
+use spherule_referee::random::Random;
 use std::rc::Rc;
 
 /// Half the side of the cube of the centres.

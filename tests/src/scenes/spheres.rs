@@ -1,8 +1,8 @@
 //! The spheres of the large scenes.
 
 use super::point::{Point, normal, plus, rounded, unit, within};
-use crate::random::{Random, cross};
 use spherule_kernel::{Sphere, Vec3};
+use spherule_referee::random::{Random, cross};
 use std::f64::consts::{FRAC_PI_3, FRAC_PI_6};
 
 /// The unit sphere.

@@ -3,8 +3,8 @@
 use super::table::{
     Answers, Layer, Memory, Structure, Structures, Variant, brute, variants, viewpoint_of,
 };
-use crate::case::HexRay;
 use spherule_kernel::{Hit, Ray, Sphere, Tier, Viewpoint};
+use spherule_referee::case::HexRay;
 
 /// The bits of a hit: -0 is not 0 here, and a NaN is itself.
 #[must_use]

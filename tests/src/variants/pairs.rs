@@ -1,11 +1,11 @@
 //! Ray i against sphere i alone, at every layer.
 
 use super::table::{Layer, level, levels, packed, stale_packet};
-use crate::case::Case;
 use spherule_kernel::{
     Hit, HitPacket, LaneArray, Lanes, Ray, Sphere, SpherePacket, Tier, f32x4, f32x8, f32x16,
     pair_lanes, pair_packets, pairs,
 };
+use spherule_referee::case::Case;
 
 /// The layers at which pairs are intersected.
 pub fn pair_layers() -> impl Iterator<Item = Layer> {

@@ -2,11 +2,11 @@
 
 use super::difference::bits;
 use super::table::{Answers, Layer, Memory, Structures, brute, level, levels, stale_packet};
-use crate::case::HexRay;
 use spherule_kernel::{
     Camera, CameraTiles, DepthList, Hit, HitPacket, Intersect, LaneArray, Lanes, Projection, Ray,
     RayPacket, Sphere, Tier, Trace, Vec3, Viewpoint, f32x4, f32x8, f32x16,
 };
+use spherule_referee::case::HexRay;
 
 /// The layers at which tiles are traced.
 fn tile_layers() -> impl Iterator<Item = Layer> {

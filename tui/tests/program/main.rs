@@ -5,6 +5,7 @@ mod bad_input;
 mod cargo;
 mod cast;
 mod files;
+mod judge;
 mod lecture;
 mod light;
 mod orders;

@@ -1,6 +1,6 @@
 //! Spheres and rays as rows of numbers, the same in every run.
 
-use spherule_tests::random::Random;
+use spherule_referee::random::Random;
 
 fn triple(random: &mut Random) -> [f32; 3] {
     random.in_cube(1.0).to_array()

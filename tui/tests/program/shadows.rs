@@ -7,8 +7,8 @@ use spherule::structure::search::Tracing;
 use spherule_kernel::{
     Coherence, HitPacket, Intersect, Level, Ray, RayPacket, Sphere, SphereList, Tier, Trace, Vec3,
 };
+use spherule_referee::random::Random;
 use spherule_tests::oracle;
-use spherule_tests::random::Random;
 
 /// What a ray hits, as shading sees it: one lane of a packet.
 struct Point {

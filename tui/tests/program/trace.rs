@@ -4,7 +4,7 @@ use crate::run::{array, file, npy, refusal, run, spherule};
 use crate::scenes::inward;
 use crate::traced::traced;
 use spherule_kernel::{Intersect, Ray, SphereList, Tier, Vec3};
-use spherule_tests::random::Random;
+use spherule_referee::random::Random;
 
 /// 7 spheres and 101 rays (so that the last packet is not full), hostile ones among them.
 fn data() -> (Vec<f32>, Vec<f32>) {

@@ -3,10 +3,9 @@
 use super::{lattice, plain};
 use crate::aim::{double, single};
 use crate::case::Case;
-use crate::oracle;
 use crate::random::{Random, power_of_two};
 use crate::ulp::step;
-use spherule_kernel::{Ray, Sphere};
+use spherule_kernel::{Exact, Ray, Sphere, roots};
 
 /// An origin at `radius * (1 + off)` from the centre, and any direction.
 fn near_surface(random: &mut Random, off: f64) -> Case {
@@ -55,7 +54,7 @@ pub(super) fn range_at_root(random: &mut Random) -> Case {
     loop {
         let draw = random.pick(&[plain::ordinary, inside, lattice::tangent, lattice::tie]);
         let mut case = draw(random);
-        let Some(roots) = oracle::roots(&case.ray, &case.sphere) else { continue };
+        let Some(roots) = roots(Exact, &case.ray, &case.sphere) else { continue };
         let end = step(random.pick(&roots), random.integer(-2, 2));
         if random.one_in(2) {
             case.ray.t_min = end;

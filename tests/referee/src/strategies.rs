@@ -2,17 +2,18 @@
 //!
 //! Cases come in four kinds: on a lattice of small integers, where tangents, ties and equal t are
 //! common and a shrunk case is a few digits; a few ulp away from such a case; wild, any number
-//! anywhere; and from the [regimes](crate::regimes).
+//! anywhere; and from the [families](crate::families).
 
-use crate::case::{Case, HexRay, HexSphere};
+use crate::case::Case;
+use crate::families::FAMILIES;
 use crate::random::power_of_two;
-use crate::regimes::REGIMES;
+use crate::scene::Scene;
 use crate::ulp::step;
 use proptest::prelude::*;
 use proptest::sample::select;
 use proptest::test_runner::Config;
-use spherule_kernel::{Ray, Sphere, Vec3};
-use std::{env, fmt};
+use spherule_kernel::Vec3;
+use std::env;
 
 /// `cases` cases a test, or as many as the environment variable `PROPTEST_CASES` says; failures
 /// are printed and not written to files, since what is printed can be pasted into a test.
@@ -108,35 +109,14 @@ pub fn wild() -> impl Strategy<Value = Case> {
     [(); Case::NUMBERS].map(|()| number()).prop_map(Case::from_numbers)
 }
 
-/// A case of any of the regimes.
+/// A case of any of the families.
 pub fn hard() -> impl Strategy<Value = Case> {
-    (select(&REGIMES[..]), any::<u64>()).prop_map(|(regime, index)| regime.case(index))
+    (select(&FAMILIES[..]), any::<u64>()).prop_map(|(family, index)| family.case(index))
 }
 
 /// A case of any kind.
 pub fn case() -> impl Strategy<Value = Case> {
     prop_oneof![lattice(), walked(), wild(), hard()]
-}
-
-/// Rays, and a list of spheres that they share.
-#[derive(Clone, PartialEq)]
-pub struct Scene {
-    /// The rays.
-    pub rays: Vec<Ray>,
-    /// The spheres.
-    pub spheres: Vec<Sphere>,
-}
-
-impl fmt::Debug for Scene {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (index, ray) in self.rays.iter().enumerate() {
-            write!(formatter, "\n  {index}: {}", HexRay(ray))?;
-        }
-        for (index, sphere) in self.spheres.iter().enumerate() {
-            write!(formatter, "\n  {index}: {}", HexSphere(sphere))?;
-        }
-        Ok(())
-    }
 }
 
 /// Up to 35 rays, so that packets of every width are full and begun, and 0 to 40 spheres, so that

@@ -1,7 +1,7 @@
 //! The regimes in which the error of a tier is measured: for the budget table and the reports.
 //!
 //! Those of the project's first measurements, so that figures can be held beside each other: one
-//! ray, one sphere, `t` in `[0, +inf]`. Unlike the [regimes](crate::regimes) of hard cases these
+//! ray, one sphere, `t` in `[0, +inf]`. Unlike the [families](crate::families) of hard cases these
 //! are what scenes are made of, or would be, and a rate of wrong answers in them means something.
 
 use crate::aim::{Aim, line_distance, single};

@@ -19,3 +19,9 @@ pub fn step(x: f32, steps: i64) -> f32 {
     let magnitude = f32::from_bits(u32::try_from(place.abs()).expect("at most infinity"));
     if place < 0 { -magnitude } else { magnitude }
 }
+
+/// How many steps apart two numbers are, across zero too; zeros of either sign are one place.
+#[must_use]
+pub const fn ulp_between(a: f32, b: f32) -> u64 {
+    ordered(a).abs_diff(ordered(b))
+}

@@ -1,0 +1,325 @@
+//! Answers against the truth, ray by ray, under an intersector's own rules and under the contract.
+//!
+//! Rays may come in any number: what is kept are counts, and of each kind of failure the worst and the simplest.
+
+use crate::answer::Answer;
+use crate::counts::Counts;
+use crate::families::FAMILIES;
+use crate::rules::Rules;
+use crate::simplicity::weight;
+use crate::truth::{self, Shared, Truth};
+use crate::verdict::{Kind, Verdict, margin, verdict};
+use spherule_kernel::{Hit, Ray, Sphere};
+
+/// t that is off by less is no good example of a t that is off: half of the digits are right.
+pub const PLAINLY_OFF: f64 = 4096.0;
+/// Up to so many spheres a failure has all.
+const FEW_SPHERES: usize = 16;
+/// How finely [`Score::places`] are told: by powers of two of how near to a tangent the line passes.
+pub const PLACES: usize = 26;
+
+/// An answer that is wrong under an intersector's own rules.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Failure {
+    /// How.
+    pub kind: Kind,
+    /// How much, as [`Verdict::Wrong`] says.
+    pub severity: f64,
+    /// The ray.
+    pub ray: Ray,
+    /// The spheres: all if they are few, else the true one and the one that was answered.
+    pub spheres: Vec<Sphere>,
+    /// What was answered; the sphere is an index of `spheres`.
+    pub answer: Option<Answer>,
+    /// What is true; the sphere is an index of `spheres`.
+    pub truth: Option<Hit>,
+    /// The number of the family, if it is known.
+    pub family: Option<u8>,
+    /// Which ray it was; `None` once it has been shrunk.
+    pub row: Option<u64>,
+}
+
+/// What the answers of one family come to.
+#[derive(Clone, Debug, Default)]
+pub struct Score {
+    /// Under the rules of the intersector.
+    pub by_rules: Counts,
+    /// Under the contract.
+    pub by_contract: Counts,
+    /// Judged and wrong decisions under the rules, by how near to a tangent the line passes: place i has lines with |D| / (a r^2) of
+    /// 4^-i to 4^-(i + 1), the last all that are nearer, the first all others.
+    pub places: [[u64; 2]; PLACES],
+}
+
+/// A judge, and what it has seen.
+#[derive(Clone, Debug)]
+pub struct Judge {
+    rules: Rules,
+    maps_places: bool,
+    scores: Vec<Score>,
+    worst: [Option<Failure>; Kind::ALL.len()],
+    simplest: [Option<Failure>; Kind::ALL.len()],
+    rows: u64,
+}
+
+impl Judge {
+    /// A judge under these rules. If `maps_places`, it keeps [`Score::places`]: some 30 ns a ray.
+    #[must_use]
+    pub fn new(rules: Rules, maps_places: bool) -> Self {
+        let scores = vec![Score::default(); FAMILIES.len() + 1];
+        let none = || [const { None }; Kind::ALL.len()];
+        Self { rules, maps_places, scores, worst: none(), simplest: none(), rows: 0 }
+    }
+
+    /// Judges the answers to `rays[i]` against `spheres[i]` alone, whose index is 0.
+    ///
+    /// `families[i]` is the family of ray i; without any it is not known.
+    pub fn pairs(
+        &mut self,
+        rays: &[Ray],
+        spheres: &[Sphere],
+        answers: &[Option<Answer>],
+        families: &[u8],
+    ) {
+        let (mut by_rules, mut by_contract) = (Vec::new(), Vec::new());
+        truth::of_pairs(&Rules::CONTRACT, rays, spheres, &mut by_contract);
+        let same = self.rules.closed_as_contract();
+        if !same {
+            truth::of_pairs(&self.rules, rays, spheres, &mut by_rules);
+        }
+        for (index, (ray, answer)) in rays.iter().zip(answers).enumerate() {
+            let sphere = &spheres[index];
+            let truths =
+                [if same { by_contract[index] } else { by_rules[index] }, by_contract[index]];
+            let covered = self.rules.cover_ray(ray) && self.rules.cover_sphere(sphere);
+            let judged = Judged { ray, truths, answer: *answer, covered };
+            let spheres = std::slice::from_ref(sphere);
+            let is_there = |answered: u32| answered == 0;
+            self.row(&judged, spheres, families.get(index).copied(), |_, _, answered| {
+                is_there(answered)
+            });
+        }
+    }
+
+    /// Judges the answers to rays that share their spheres. If one of the spheres is not covered by the rules, nothing is
+    /// promised of any ray.
+    pub fn shared(
+        &mut self,
+        shared: &Shared<'_>,
+        rays: &[Ray],
+        answers: &[Option<Answer>],
+        families: &[u8],
+    ) {
+        let (mut by_rules, mut by_contract) = (Vec::new(), Vec::new());
+        shared.truths(&Rules::CONTRACT, rays, &mut by_contract);
+        let same = self.rules.closed_as_contract();
+        if !same {
+            shared.truths(&self.rules, rays, &mut by_rules);
+        }
+        let rules = self.rules;
+        let all_covered =
+            rules.covers_all() || shared.spheres().iter().all(|sphere| rules.cover_sphere(sphere));
+        for (index, (ray, answer)) in rays.iter().zip(answers).enumerate() {
+            let truths =
+                [if same { by_contract[index] } else { by_rules[index] }, by_contract[index]];
+            let covered = all_covered && rules.cover_ray(ray);
+            let judged = Judged { ray, truths, answer: *answer, covered };
+            let family = families.get(index).copied();
+            self.row(&judged, shared.spheres(), family, |rules, truth, answered| {
+                shared.is_as_close(rules, ray, truth, answered)
+            });
+        }
+    }
+
+    fn row(
+        &mut self,
+        judged: &Judged<'_>,
+        spheres: &[Sphere],
+        family: Option<u8>,
+        is_as_close: impl Fn(&Rules, Hit, u32) -> bool,
+    ) {
+        let row = self.rows;
+        self.rows += 1;
+        let place = family.map(usize::from).filter(|&place| place < FAMILIES.len());
+        let score = &mut self.scores[place.unwrap_or(FAMILIES.len())];
+        let Judged { ray, truths, answer, covered } = *judged;
+        let rules = [self.rules, Rules::CONTRACT];
+        let named = answer.and_then(|answer| answer.sphere);
+        let there = |index: u32| spheres.get(index as usize);
+        // Under the contract itself there is one verdict, counted twice.
+        let count_of_rules = if rules[0] == rules[1] { 1 } else { 2 };
+        for (which, (rules, truth)) in rules.iter().zip(truths).take(count_of_rules).enumerate() {
+            let counts = if which == 0 { &mut score.by_rules } else { &mut score.by_contract };
+            if which == 0 && !covered {
+                counts.unpromised += 1;
+                continue;
+            }
+            if truth == Truth::Open {
+                counts.open += 1;
+                continue;
+            }
+            let hit = truth.hit();
+            let found = if named.is_some_and(|named| there(named).is_none()) {
+                Verdict::Wrong { kind: Kind::NoAnswer, severity: f64::INFINITY }
+            } else {
+                let sphere = hit.map(|hit| hit.sphere).or(named).and_then(there);
+                let sphere = sphere.or(if spheres.len() == 1 { spheres.first() } else { None });
+                let is_true = hit.is_none_or(|hit| {
+                    named.is_none_or(|named| named == hit.sphere || is_as_close(rules, hit, named))
+                });
+                verdict(ray, sphere, hit, answer, (is_true, rules.ulp))
+            };
+            counts.add(hit.is_some(), found);
+            if which == 1 {
+                continue;
+            }
+            let is_contract = *rules == Rules::CONTRACT;
+            if is_contract {
+                score.by_contract.add(hit.is_some(), found);
+            }
+            if self.maps_places
+                && let Some(sphere) =
+                    hit.map(|hit| hit.sphere).or(named).or(Some(0)).and_then(there)
+            {
+                let place = place_of(margin(ray, sphere));
+                score.places[place][0] += 1;
+                let decided_wrong = |kind| kind != Kind::T;
+                let is_wrong = matches!(found, Verdict::Wrong { kind, .. } if decided_wrong(kind));
+                score.places[place][1] += u64::from(is_wrong);
+            }
+            let Verdict::Wrong { kind, severity } = found else { continue };
+            let keeps = Keeps {
+                worst: self.worst[kind as usize].as_ref(),
+                simplest: self.simplest[kind as usize].as_ref(),
+            };
+            let [is_worst, is_simplest] = keeps.takes(kind, severity, ray, spheres);
+            if is_worst || is_simplest {
+                let (spheres, [truth, named]) =
+                    relevant(spheres, [hit.map(|hit| hit.sphere), named]);
+                let failure = Failure {
+                    kind,
+                    severity,
+                    ray: *ray,
+                    spheres,
+                    answer: answer.map(|answer| Answer { sphere: named, ..answer }),
+                    truth: hit.zip(truth).map(|(hit, sphere)| Hit { sphere, ..hit }),
+                    family,
+                    row: Some(row),
+                };
+                if is_worst {
+                    self.worst[kind as usize] = Some(failure.clone());
+                }
+                if is_simplest {
+                    self.simplest[kind as usize] = Some(failure);
+                }
+            }
+        }
+    }
+
+    /// The rules.
+    #[must_use]
+    pub fn rules(&self) -> &Rules {
+        &self.rules
+    }
+
+    /// The families of which there were rays, by number, and last those of no known family.
+    pub fn scores(&self) -> impl Iterator<Item = (Option<u8>, &Score)> {
+        let number = |place: usize| (place < FAMILIES.len()).then_some(place as u8);
+        let seen = |score: &Score| score.by_contract.judged + score.by_rules.unpromised > 0;
+        let all = self.scores.iter().enumerate();
+        all.filter(move |(_, score)| seen(score)).map(move |(place, score)| (number(place), score))
+    }
+
+    /// All families together.
+    #[must_use]
+    pub fn total(&self) -> Score {
+        let mut total = Score::default();
+        for (_, score) in self.scores() {
+            total.by_rules.add_all(&score.by_rules);
+            total.by_contract.add_all(&score.by_contract);
+            for (sum, place) in total.places.iter_mut().zip(score.places) {
+                *sum = [sum[0] + place[0], sum[1] + place[1]];
+            }
+        }
+        total
+    }
+
+    /// The worst failure of a kind.
+    #[must_use]
+    pub fn worst(&self, kind: Kind) -> Option<&Failure> {
+        self.worst[kind as usize].as_ref()
+    }
+
+    /// The failure of a kind that has the fewest digits; of t, of those that are plainly off if there are any.
+    #[must_use]
+    pub fn simplest(&self, kind: Kind) -> Option<&Failure> {
+        self.simplest[kind as usize].as_ref()
+    }
+}
+
+impl Rules {
+    /// Whether truths under them are those under the contract.
+    fn closed_as_contract(&self) -> bool {
+        self.follow_from_roots() && self.interval == Rules::CONTRACT.interval
+    }
+
+    /// Whether every sphere is covered.
+    fn covers_all(&self) -> bool {
+        let Self { invalid, smallest, largest, .. } = Rules::CONTRACT;
+        (self.invalid, self.smallest, self.largest) == (invalid, smallest, largest)
+    }
+}
+
+/// A ray with its truths, under the rules and under the contract, and the answer.
+struct Judged<'a> {
+    ray: &'a Ray,
+    truths: [Truth; 2],
+    answer: Option<Answer>,
+    covered: bool,
+}
+
+/// The failures of a kind that are known.
+struct Keeps<'a> {
+    worst: Option<&'a Failure>,
+    simplest: Option<&'a Failure>,
+}
+
+impl Keeps<'_> {
+    /// Whether another failure is worse, and whether it is simpler.
+    fn takes(&self, kind: Kind, severity: f64, ray: &Ray, spheres: &[Sphere]) -> [bool; 2] {
+        // What has no size is the least of all.
+        let size = |severity: f64| if severity.is_nan() { -1.0 } else { severity };
+        let is_worst = self.worst.is_none_or(|worst| size(severity) > size(worst.severity));
+        let faint = |severity: f64| kind == Kind::T && severity < PLAINLY_OFF;
+        let weight_of =
+            |ray: &Ray, spheres: &[Sphere]| weight(ray, &spheres[..spheres.len().min(FEW_SPHERES)]);
+        let is_simplest = self.simplest.is_none_or(|simplest| {
+            let key = (faint(severity), weight_of(ray, spheres));
+            key < (faint(simplest.severity), weight_of(&simplest.ray, &simplest.spheres))
+        });
+        [is_worst, is_simplest]
+    }
+}
+
+/// The spheres of a failure, and the places among them of those with an index.
+fn relevant(spheres: &[Sphere], indices: [Option<u32>; 2]) -> (Vec<Sphere>, [Option<u32>; 2]) {
+    if spheres.len() <= FEW_SPHERES {
+        return (spheres.to_vec(), indices);
+    }
+    let mut kept: Vec<u32> = indices.into_iter().flatten().collect();
+    kept.sort_unstable();
+    kept.dedup();
+    let place = |index: u32| kept.iter().position(|&kept| kept == index).map(|place| place as u32);
+    let places = indices.map(|index| index.and_then(place));
+    let there = |index: &u32| spheres.get(*index as usize).copied();
+    (kept.iter().filter_map(there).collect(), places)
+}
+
+fn place_of(margin: f64) -> usize {
+    let size = margin.abs();
+    if !(size < 1.0) {
+        return 0;
+    }
+    // Of zero the logarithm is infinite, and the place the last.
+    ((-size.log2() / 2.0) as usize).min(PLACES - 1)
+}

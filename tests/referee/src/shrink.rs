@@ -1,0 +1,164 @@
+//! The smallest case that fails in the same way: one sphere if one does, small integers, few digits.
+//!
+//! From a case that fails, simpler ones are tried, the simplest first; the first that fails is the next to begin with, until none
+//! does or the time is over. Cases are tried many at once, since a call of what is judged may be dear.
+
+use crate::judge::{Failure, PLAINLY_OFF};
+use crate::simplicity::weight;
+use crate::verdict::Kind;
+use spherule_kernel::{Ray, Sphere, Vec3};
+use std::time::{Duration, Instant};
+
+/// How many bits of a significand are kept.
+const BITS: [u32; 12] = [1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 18, 21];
+
+/// A ray and its spheres.
+pub type Candidate = (Ray, Vec<Sphere>);
+
+/// The simplest case found within a time that fails as `failure` does.
+///
+/// `failures` judges up to `at_once` cases: an entry each, `None` where the answer is right. Of a t that is off only one plainly off, or as
+/// much as the first was, counts.
+pub fn shrink(
+    failure: &Failure,
+    (time, at_once): (Duration, usize),
+    mut failures: impl FnMut(&[Candidate]) -> Vec<Option<Failure>>,
+) -> Failure {
+    let (start, mut best) = (Instant::now(), failure.clone());
+    let least = if failure.kind == Kind::T { failure.severity.min(PLAINLY_OFF) } else { 0.0 };
+    let is_alike = |found: &Failure| {
+        found.kind == failure.kind && (failure.kind != Kind::T || found.severity >= least)
+    };
+    loop {
+        let mut simpler = candidates(&best);
+        simpler.sort_by_key(|(ray, spheres)| weight(ray, spheres));
+        simpler.dedup();
+        let mut next = None;
+        for some in simpler.chunks(at_once.max(1)) {
+            if start.elapsed() >= time {
+                return best;
+            }
+            next = failures(some).into_iter().flatten().find(is_alike);
+            if next.is_some() {
+                break;
+            }
+        }
+        match next {
+            Some(found) => best = Failure { family: failure.family, row: None, ..found },
+            None => return best,
+        }
+    }
+}
+
+/// Simpler cases than this one.
+fn candidates(failure: &Failure) -> Vec<Candidate> {
+    let Failure { ray, spheres, .. } = failure;
+    let now = weight(ray, spheres);
+    let mut all: Vec<Candidate> = Vec::new();
+    if spheres.len() > 1 {
+        for index in 0..spheres.len() {
+            all.push((*ray, vec![spheres[index]]));
+            let others = spheres.iter().enumerate().filter(|(other, _)| *other != index);
+            all.push((*ray, others.map(|(_, sphere)| *sphere).collect()));
+        }
+    }
+    let numbers = numbers_of(ray, spheres);
+    let mut push = |numbers: &[f32]| all.push(case_of(numbers));
+    // One number.
+    for place in 0..numbers.len() {
+        for simple in simpler_numbers(numbers[place], place) {
+            let mut changed = numbers.clone();
+            changed[place] = simple;
+            push(&changed);
+        }
+    }
+    // All lengths, or the direction, by a power of two; all numbers with fewer bits.
+    let spheres_at = 8;
+    let is_length = |place: usize| place < 3 || place >= spheres_at;
+    for exponent in [-64, -16, -4, -1, 1, 4, 16, 64] {
+        let scale = |x: f32| (f64::from(x) * 2.0_f64.powi(exponent)) as f32;
+        let mut lengths = numbers.clone();
+        let mut both = numbers.clone();
+        let mut direction = numbers.clone();
+        for place in 0..numbers.len() {
+            if is_length(place) {
+                lengths[place] = scale(numbers[place]);
+                both[place] = scale(numbers[place]);
+            } else if place < 6 {
+                both[place] = scale(numbers[place]);
+                direction[place] = scale(numbers[place]);
+            }
+        }
+        [lengths, both, direction].iter().for_each(|changed| push(changed));
+    }
+    for bits in BITS {
+        let rounded: Vec<f32> = numbers.iter().map(|&x| with_bits(x, bits)).collect();
+        push(&rounded);
+    }
+    let whole: Vec<f32> =
+        numbers.iter().map(|x| if x.is_finite() { x.round() } else { *x }).collect();
+    push(&whole);
+    // An axis moved, so that the ray or a sphere is at its zero; a direction along an axis; an axis for another.
+    for axis in 0..3 {
+        for zero in [axis, spheres_at + axis] {
+            let by = numbers[zero];
+            let mut moved = numbers.clone();
+            for place in (0..numbers.len()).filter(|&place| is_length(place)) {
+                let of_axis = if place < 3 { place } else { (place - spheres_at) % 4 };
+                if of_axis == axis {
+                    moved[place] -= by;
+                }
+            }
+            push(&moved);
+        }
+        let mut along = numbers.clone();
+        for other in (0..3).filter(|&other| other != axis) {
+            along[3 + other] = 0.0;
+        }
+        push(&along);
+    }
+    all.retain(|(ray, spheres)| weight(ray, spheres) < now);
+    all
+}
+
+/// Simpler numbers to stand in its place.
+fn simpler_numbers(x: f32, place: usize) -> Vec<f32> {
+    let mut simple = vec![0.0, 1.0, -1.0, 2.0, 3.0, -x];
+    // t_max.
+    if place == 7 {
+        simple.push(f32::INFINITY);
+    }
+    if x.is_finite() {
+        simple.extend([x.round(), x.trunc(), x / 2.0, x * 2.0, x - 1.0, x + 1.0]);
+        simple.extend(BITS.map(|bits| with_bits(x, bits)));
+        let exponent = x.abs().log2();
+        if exponent.is_finite() {
+            let half = 2.0_f64.powi(-(exponent / 2.0) as i32);
+            simple.push((f64::from(x) * half) as f32);
+        }
+    }
+    simple
+}
+
+/// Cut to so many bits of the significand.
+fn with_bits(x: f32, bits: u32) -> f32 {
+    if x.is_finite() { f32::from_bits(x.to_bits() & (u32::MAX << (24 - bits.min(24)))) } else { x }
+}
+
+fn numbers_of(ray: &Ray, spheres: &[Sphere]) -> Vec<f32> {
+    let mut numbers = Vec::with_capacity(8 + 4 * spheres.len());
+    numbers.extend(ray.origin.to_array());
+    numbers.extend(ray.direction.to_array());
+    numbers.extend([ray.t_min, ray.t_max]);
+    for sphere in spheres {
+        numbers.extend(sphere.center.to_array());
+        numbers.push(sphere.radius);
+    }
+    numbers
+}
+
+fn case_of(numbers: &[f32]) -> Candidate {
+    let vector = |from: usize| Vec3::from_slice(&numbers[from..from + 3]);
+    let ray = Ray { origin: vector(0), direction: vector(3), t_min: numbers[6], t_max: numbers[7] };
+    (ray, numbers[8..].as_chunks::<4>().0.iter().map(|&row| row.into()).collect())
+}

@@ -1,0 +1,114 @@
+//! How an answer is wrong.
+
+use crate::answer::Answer;
+use crate::ulp::ulp_between;
+use spherule_kernel::{Exact, Hit, Ray, Sphere, discriminant, roots};
+
+/// A way to be wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A hit that is a miss in truth.
+    FalseHit,
+    /// A miss that is a hit in truth.
+    LostHit,
+    /// The right sphere, but nearer to its other root.
+    OtherRoot,
+    /// Another sphere than the closest.
+    OtherSphere,
+    /// The right root, but t is off by more ulp than the rules allow.
+    T,
+    /// NaN, an infinite t, or a sphere that there is not.
+    NoAnswer,
+}
+
+impl Kind {
+    /// All of them.
+    pub const ALL: [Self; 6] = [
+        Self::FalseHit,
+        Self::LostHit,
+        Self::OtherRoot,
+        Self::OtherSphere,
+        Self::T,
+        Self::NoAnswer,
+    ];
+
+    /// What it is called.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::FalseHit => "false hit",
+            Self::LostHit => "lost hit",
+            Self::OtherRoot => "other root",
+            Self::OtherSphere => "other sphere",
+            Self::T => "t off",
+            Self::NoAnswer => "no answer",
+        }
+    }
+}
+
+/// What an answer comes to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Verdict {
+    /// Right, with t off by so many ulp, as few as the rules allow.
+    Right {
+        /// How many; `None` of a miss.
+        ulp: Option<u64>,
+    },
+    /// Wrong.
+    Wrong {
+        /// How.
+        kind: Kind,
+        /// How much: ulp of t; of false and lost hits |D| / (a r^2), by how much of its square the line passes.
+        severity: f64,
+    },
+}
+
+/// Judges an answer against the true hit. `is_true_sphere` says whether the sphere that was answered may stand for the true
+/// one; `sphere` is the true one, or of a false hit the one that was answered.
+#[must_use]
+pub fn verdict(
+    ray: &Ray,
+    sphere: Option<&Sphere>,
+    truth: Option<Hit>,
+    answer: Option<Answer>,
+    (is_true_sphere, most_ulp): (bool, u64),
+) -> Verdict {
+    let margin = || sphere.map_or(f64::INFINITY, |sphere| margin(ray, sphere).abs());
+    let wrong = |kind, severity| Verdict::Wrong { kind, severity };
+    match (truth, answer) {
+        (_, Some(answer)) if !answer.t.is_finite() => wrong(Kind::NoAnswer, f64::INFINITY),
+        (None, None) => Verdict::Right { ulp: None },
+        (None, Some(_)) => wrong(Kind::FalseHit, margin()),
+        (Some(_), None) => wrong(Kind::LostHit, margin()),
+        (Some(truth), Some(answer)) => {
+            let ulp = ulp_between(answer.t as f32, truth.t);
+            if !is_true_sphere {
+                return wrong(Kind::OtherSphere, ulp as f64);
+            }
+            if ulp == 0 {
+                return Verdict::Right { ulp: Some(0) };
+            }
+            let away = |t: f32| (answer.t - f64::from(t)).abs();
+            let roots = sphere.and_then(|sphere| roots(Exact, ray, sphere));
+            let is_elsewhere =
+                roots.is_some_and(|roots| roots.iter().any(|&root| away(root) < away(truth.t)));
+            if is_elsewhere {
+                wrong(Kind::OtherRoot, ulp as f64)
+            } else if ulp > most_ulp {
+                wrong(Kind::T, ulp as f64)
+            } else {
+                Verdict::Right { ulp: Some(ulp) }
+            }
+        }
+    }
+}
+
+/// D / (a r^2) = 1 - l^2 / r^2, with l the distance of the line from the centre: above zero where the line meets the sphere,
+/// near zero where it grazes it. NaN for invalid input, and for points.
+#[must_use]
+pub fn margin(ray: &Ray, sphere: &Sphere) -> f64 {
+    let Some((d, _)) = discriminant(ray, sphere) else { return f64::NAN };
+    let a: f64 = ray.direction.to_array().map(f64::from).iter().map(|x| x * x).sum();
+    let r = f64::from(sphere.radius);
+    d / (a * r * r)
+}

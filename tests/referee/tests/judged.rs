@@ -1,0 +1,222 @@
+//! Intersectors whose faults are known, judged.
+
+use spherule_kernel::Tier;
+use spherule_referee::answer::Answer;
+use spherule_referee::families::{FAMILIES, Family};
+use spherule_referee::intersector::{Kernel, Pair};
+use spherule_referee::rules::{Inside, Interval, Promise, Starts, Tangents};
+use spherule_referee::verdict::Kind;
+use spherule_referee::watched::Mishap;
+use spherule_referee::{Intersector, Ray, Rules, Sphere, Trial, snippet};
+use std::time::Duration;
+
+fn trial() -> Trial {
+    Trial { cases: 300, shrinking: Duration::from_secs(5), ..Trial::default() }
+}
+
+fn named(names: &[&str]) -> Vec<Family> {
+    names.iter().map(|name| Family::named(name).expect("a family")).collect()
+}
+
+#[path = "../examples/textbook.rs"]
+#[allow(dead_code)]
+mod textbook;
+
+/// In double precision, by the contract's rules.
+fn double(ray: &Ray, sphere: &Sphere) -> Option<f64> {
+    let [o, d, c] = [ray.origin, ray.direction, sphere.center].map(|v| v.to_array().map(f64::from));
+    let dot = |v: [f64; 3], w: [f64; 3]| v[0] * w[0] + v[1] * w[1] + v[2] * w[2];
+    let p = [0, 1, 2].map(|i| c[i] - o[i]);
+    let r = f64::from(sphere.radius);
+    let (a, b) = (dot(d, d), dot(d, p));
+    let root = (b * b - a * (dot(p, p) - r * r)).sqrt();
+    let ends = f64::from(ray.t_min)..=f64::from(ray.t_max);
+    [(b - root) / a, (b + root) / a].into_iter().find(|t| ends.contains(t))
+}
+
+#[test]
+fn exact_is_never_wrong() {
+    let report = trial().run(&Kernel(Tier::Exact));
+    let total = report.judge.total();
+    assert_eq!((report.wrong(), total.by_contract.wrong(), report.first), (0, 0, None), "{report}");
+    assert_eq!(total.by_rules.judged, 2 * 300 * FAMILIES.len() as u64);
+    assert!(total.by_rules.hits * 3 > total.by_rules.judged);
+    assert_eq!(total.by_rules.ulp.max(), Some(0));
+}
+
+#[test]
+fn other_tiers_are_wrong_where_they_are_known_to_be() {
+    for tier in [Tier::Fast, Tier::Geometric, Tier::Stable] {
+        let trial = Trial { families: named(&["far-1e4"]), shrinking: Duration::ZERO, ..trial() };
+        let counts = trial.run(&Kernel(tier)).judge.total().by_rules;
+        let wrong = counts.of(Kind::FalseHit) + counts.of(Kind::LostHit);
+        assert_eq!(wrong > 50, tier != Tier::Stable, "{tier:?}: {wrong}");
+    }
+}
+
+#[test]
+fn a_textbook_is_shrunk_to_what_can_be_read() {
+    let report = trial().run(&Pair::new("textbook", textbook::textbook));
+    println!("{report}");
+    assert!(report.first.is_some_and(|first| first < Duration::from_secs(1)));
+    let kinds: Vec<Kind> = report.smallest.iter().map(|failure| failure.kind).collect();
+    assert!(kinds.contains(&Kind::FalseHit) && kinds.contains(&Kind::LostHit), "{kinds:?}");
+    for failure in &report.smallest {
+        assert_eq!(failure.spheres.len(), if failure.kind == Kind::OtherSphere { 2 } else { 1 });
+        // What is pasted still fails.
+        let again = textbook::textbook(&failure.ray, &failure.spheres[0]).map(f64::from);
+        if failure.spheres.len() == 1 {
+            let answered = failure.answer.map(|answer| answer.t);
+            assert_eq!(again.map(f64::to_bits), answered.map(f64::to_bits), "{failure:?}");
+        }
+        assert!(
+            snippet::c(failure).contains("expected") && snippet::python(failure).contains("h(")
+        );
+    }
+}
+
+#[test]
+fn double_precision_is_judged_where_single_can_tell() {
+    let contract = Pair::new("double", double);
+    let rules = Rules {
+        precision: spherule_referee::rules::Precision::F64,
+        // The sign of D = 0 it cannot tell.
+        tangents: Tangents::Either,
+        ..contract.rules()
+    };
+    let by = |rules| {
+        let trial = Trial {
+            families: named(&["far-1e6", "inside", "tie"]),
+            shrinking: Duration::ZERO,
+            ..trial()
+        };
+        trial.run(&Pair::new("double", double).with_rules(rules)).judge.total().by_rules
+    };
+    let counts = by(rules);
+    assert_eq!(counts.decided_wrong(), 0, "{counts:?}");
+    assert!(counts.judged > 1000);
+}
+
+/// A rule changes what is true, and nothing else does.
+#[test]
+fn rules_are_kept_or_broken() {
+    // A ball that is not seen from inside, with open ends, without tangents.
+    fn open(ray: &Ray, sphere: &Sphere) -> Option<f32> {
+        let inside =
+            spherule_kernel::side(ray.origin, sphere) == Some(spherule_kernel::Side::Inside);
+        let roots = spherule_kernel::roots(spherule_kernel::Exact, ray, sphere)?;
+        let is_tangent = spherule_kernel::roots(
+            spherule_kernel::Exact,
+            ray,
+            &Sphere { radius: sphere.radius.next_down(), ..*sphere },
+        )
+        .is_none()
+            && roots[0] == roots[1];
+        if inside || is_tangent {
+            return None;
+        }
+        roots.into_iter().find(|t| ray.t_min < *t && *t < ray.t_max && t.is_finite())
+    }
+    let rules = Rules {
+        interval: Interval::Open,
+        tangents: Tangents::Either,
+        inside: Inside::Miss,
+        ..Pair::new("open", open).rules()
+    };
+    let families =
+        named(&["ordinary", "tangent", "inside", "on-surface", "interval-at-root", "outside"]);
+    let trial = Trial { families, shrinking: Duration::ZERO, ..trial() };
+    let total = trial.run(&Pair::new("open", open).with_rules(rules)).judge.total();
+    assert_eq!(total.by_rules.decided_wrong(), 0, "{:?}", total.by_rules);
+    assert!(total.by_rules.open > 300 && total.by_contract.of(Kind::LostHit) > 500);
+    let total = trial.run(&Pair::new("open", open)).judge.total();
+    assert!(total.by_rules.of(Kind::LostHit) > 500);
+}
+
+#[test]
+fn what_is_not_promised_is_not_judged() {
+    let rules = Rules {
+        invalid: Promise::None,
+        starts: Starts::NotBehind,
+        largest: 1e18,
+        ..Rules::CONTRACT
+    };
+    let trial = Trial {
+        families: named(&["overflow", "degenerate"]),
+        shrinking: Duration::ZERO,
+        ..trial()
+    };
+    let total =
+        trial.run(&Pair::new("textbook", textbook::textbook).with_rules(rules)).judge.total();
+    assert!(total.by_rules.unpromised > 600, "{total:?}");
+    assert_eq!(
+        total.by_rules.judged + total.by_rules.open + total.by_rules.unpromised,
+        total.by_contract.judged
+    );
+}
+
+/// Panics at some rays, hangs at others, answers too few.
+#[derive(Clone)]
+struct Faulty(Fault);
+
+#[derive(Clone, Copy, PartialEq)]
+enum Fault {
+    Panics,
+    Hangs,
+    AnswersTooFew,
+    AnswersNonsense,
+}
+
+impl Intersector for Faulty {
+    fn name(&self) -> &str {
+        "faulty"
+    }
+
+    fn closest_hits(&mut self, spheres: &[Sphere], rays: &[Ray]) -> Vec<Option<Answer>> {
+        let fails = rays.iter().any(|ray| ray.direction == spherule_referee::Vec3::ZERO);
+        let mut answers = Kernel(Tier::Exact).closest_hits(spheres, rays);
+        match self.0 {
+            Fault::Panics if fails => panic!("a zero direction"),
+            Fault::Hangs if fails => std::thread::sleep(Duration::from_secs(3600)),
+            Fault::AnswersTooFew if fails => drop(answers.pop()),
+            Fault::AnswersNonsense if fails => {
+                answers[0] = Some(Answer { t: f64::NAN, sphere: Some(9) });
+            }
+            _ => {}
+        }
+        answers
+    }
+}
+
+#[test]
+fn mishaps_are_reported_and_the_trial_goes_on() {
+    for (fault, expected) in [
+        (Fault::Panics, Mishap::Panicked("a zero direction".to_owned())),
+        (Fault::Hangs, Mishap::Hung(Duration::from_millis(300))),
+        (Fault::AnswersTooFew, Mishap::Count { answers: 0, rays: 1 }),
+    ] {
+        let trial = Trial {
+            families: named(&["degenerate", "ordinary"]),
+            cases: 40,
+            patience: Duration::from_millis(300),
+            ..trial()
+        };
+        let report = trial.run(&Faulty(fault));
+        let first = report.unanswered.first().expect("a mishap");
+        assert_eq!((&first.mishap, first.spheres.len()), (&expected, 1));
+        assert_eq!(first.ray.direction, spherule_referee::Vec3::ZERO);
+        assert!(report.unanswered.iter().all(|unanswered| unanswered.family.name == "degenerate"));
+        // All of the other family, and nothing wrong.
+        let ordinary =
+            report.judge.scores().find(|(number, _)| *number == Some(0)).expect("scores").1;
+        assert_eq!((ordinary.by_rules.judged, report.judge.total().by_rules.wrong()), (80, 0));
+    }
+}
+
+#[test]
+fn nonsense_is_no_answer() {
+    let trial = Trial { families: named(&["degenerate"]), cases: 40, ..trial() };
+    let report = trial.run(&Faulty(Fault::AnswersNonsense));
+    assert!(report.judge.total().by_rules.of(Kind::NoAnswer) > 0);
+    assert_eq!(report.smallest.len(), 1);
+}
