@@ -3,11 +3,9 @@
 //! What double precision cannot prove, a few tangents, rounding ties and roots that nearly coincide, comes here:
 //! slow, scalar, and right for every finite `f32`.
 
-#[cfg(test)]
-mod cost;
-mod long_accumulator;
-mod order;
-mod quadratic;
+pub(crate) mod long_accumulator;
+pub(crate) mod order;
+pub(crate) mod quadratic;
 mod surface;
 
 #[cfg(test)]

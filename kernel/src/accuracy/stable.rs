@@ -27,8 +27,8 @@
 //! back.
 
 use super::beyond::{Beyond, longest};
+use super::formula::{Tier, TierFormula, Underflow};
 use super::roots::{RayLanes, Roots, line_roots_of};
-use super::tier::{Tier, TierFormula, Underflow};
 use crate::numeric::axes::{axes, dot};
 use crate::numeric::error_free::{VeltkampSplit, two_sum};
 use crate::numeric::power_of_two::inverse_powers_of_two;
@@ -198,9 +198,6 @@ fn squares_less_square<L: Lanes>(v: [(L, L); 3], radius: L) -> L {
     let (sum, sum_low) = two_sum(xy, zr);
     sum + ((sum_low + (xy_low + zr_low)) + ((x.1 + y.1) + (z.1 - rr_low)))
 }
-
-#[cfg(test)]
-mod worst;
 
 #[cfg(test)]
 mod tests {

@@ -6,7 +6,7 @@
 //! they are of another column or leaf, and a mask takes them out.
 
 use super::node::{LEAF, WIDTH};
-use super::traverse::root_interval::SphereColumns;
+use crate::geometry::sphere_columns::SphereColumns;
 
 /// Leaves begin at multiples of this many places, and are as long.
 pub(crate) const STEP: usize = 4;

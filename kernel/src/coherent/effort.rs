@@ -126,7 +126,7 @@ impl Effort {
         slot: usize,
     ) -> bool {
         #[cfg(test)]
-        if crate::testing::work::groups_persist() {
+        if crate::proofs::work::groups_persist() {
             return false;
         }
         let mut roots = 0_u32;
@@ -167,7 +167,7 @@ impl Effort {
     #[inline(always)]
     fn takes<L: Lanes>(&self, states: &[PacketState<'_, L>], part: u64, of: u64) -> bool {
         #[cfg(test)]
-        if crate::testing::work::groups_persist() {
+        if crate::proofs::work::groups_persist() {
             return false;
         }
         let (mut roots, mut ray_roots, mut tests) = (0_u32, 0_u32, 0_u32);

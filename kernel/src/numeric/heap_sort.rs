@@ -41,7 +41,7 @@ mod tests {
     extern crate std;
 
     use super::heap_sort;
-    use crate::testing::climb::Random;
+    use crate::proofs::climb::Random;
     use std::vec::Vec;
 
     #[test]

@@ -48,7 +48,7 @@ mod tests {
     extern crate std;
 
     use super::radix_sort;
-    use crate::testing::climb::Random;
+    use crate::proofs::climb::Random;
     use std::vec;
     use std::vec::Vec;
 
