@@ -9,6 +9,12 @@ use core::hint::black_box;
 /// have set flush-to-zero, denormals-are-zero or another rounding mode; AArch32 NEON always
 /// flushes. Where this is false, [`Exact`](crate::Exact) promises nothing. Costs some
 /// nanoseconds: ask once, at the start.
+///
+/// ```
+/// use spherule_kernel::float_environment_is_sound;
+///
+/// assert!(float_environment_is_sound());
+/// ```
 #[must_use]
 #[inline(never)]
 pub fn float_environment_is_sound() -> bool {
