@@ -6,7 +6,7 @@ macro_rules! count {
         $crate::count::count!($kind, 1);
     };
     ($kind:ident, $times:expr) => {
-        #[cfg(test)]
+        #[cfg(all(test, proofs))]
         $crate::proofs::work::add($crate::proofs::work::Kind::$kind, $times);
     };
 }

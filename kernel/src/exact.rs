@@ -8,7 +8,7 @@ pub(crate) mod order;
 pub(crate) mod quadratic;
 mod surface;
 
-#[cfg(test)]
+#[cfg(all(test, proofs))]
 pub(crate) use long_accumulator::{Product, SumOfSixes};
 pub(crate) use order::compare_roots;
 pub(crate) use quadratic::{Quadratic, QuadraticTerms, Root};

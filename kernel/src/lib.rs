@@ -71,8 +71,9 @@ pub use surface::{surface, surface_lanes};
 pub use trace::Trace;
 pub use wide::{f32x4, f32x8, f32x16};
 
-/// Proofs and tests of what is private. They are no part of this package: `tests/proofs` compiles this source with them.
-#[cfg(test)]
+/// Proofs and tests of what is private. They are no part of this package: `tests/proofs` compiles this source with
+/// them, and sets `proofs`.
+#[cfg(all(test, proofs))]
 #[path = "../../tests/proofs/src/proofs.rs"]
 mod proofs;
 

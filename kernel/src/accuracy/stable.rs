@@ -199,7 +199,7 @@ fn squares_less_square<L: Lanes>(v: [(L, L); 3], radius: L) -> L {
     sum + ((sum_low + (xy_low + zr_low)) + ((x.1 + y.1) + (z.1 - rr_low)))
 }
 
-#[cfg(test)]
+#[cfg(all(test, proofs))]
 mod tests {
     use crate::{Ray, Sphere, Stable, Vec3, roots};
 

@@ -73,7 +73,7 @@ pub(crate) const fn number_of(place: u32) -> (u32, usize) {
     (place / WIDTH as u32, place as usize % WIDTH)
 }
 
-#[cfg(test)]
+#[cfg(all(test, proofs))]
 mod tests {
     use super::*;
 

@@ -125,7 +125,7 @@ impl Effort {
         node: &BvhNode,
         slot: usize,
     ) -> bool {
-        #[cfg(test)]
+        #[cfg(all(test, proofs))]
         if crate::proofs::work::groups_persist() {
             return false;
         }
@@ -166,7 +166,7 @@ impl Effort {
     /// Whether what it has done is more than a multiple of what its rays would have done apart.
     #[inline(always)]
     fn takes<L: Lanes>(&self, states: &[PacketState<'_, L>], part: u64, of: u64) -> bool {
-        #[cfg(test)]
+        #[cfg(all(test, proofs))]
         if crate::proofs::work::groups_persist() {
             return false;
         }

@@ -76,7 +76,7 @@ impl Product {
     }
 
     /// A double that is finite and no subnormal: as few bits of mantissa as it has.
-    #[cfg(test)]
+    #[cfg(all(test, proofs))]
     pub(crate) fn of_double(x: f64) -> Self {
         let bits = x.to_bits();
         let (exponent, fraction) = ((bits >> 52 & 0x7ff) as i32, bits & ((1 << 52) - 1));
@@ -243,7 +243,7 @@ impl<const LIMBS: usize> LongAccumulator<LIMBS> {
             if number > limbs.len() && !carry {
                 return;
             }
-            #[cfg(test)]
+            #[cfg(all(test, proofs))]
             crate::proofs::limbs::touch();
             // Bits that leave a limb at its top come in at the next one's bottom.
             let limb = limbs.get(number).copied().unwrap_or(0);

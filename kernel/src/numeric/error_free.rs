@@ -67,7 +67,7 @@ impl<L: Lanes> VeltkampSplit<L> {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, proofs))]
 mod tests {
     use super::{VeltkampSplit, two_sum};
     use crate::proofs::climb::Random;

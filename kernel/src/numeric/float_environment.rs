@@ -44,7 +44,7 @@ pub fn float_environment_is_sound() -> bool {
         && black_box(tiny * black_box(9_007_199_254_740_992.0)) == f64::from_bits(2 << 52)
 }
 
-#[cfg(test)]
+#[cfg(all(test, proofs))]
 mod tests {
     // The answers that are false need another environment, which only unsafe code can set: see
     // tests/machine.

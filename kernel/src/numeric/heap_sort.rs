@@ -36,7 +36,7 @@ fn sink(heap: &mut [u32], mut at: usize) {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, proofs))]
 mod tests {
     extern crate std;
 

@@ -43,7 +43,7 @@ const fn digit(key: u32, round: u32) -> usize {
     (key >> (DIGIT * round % u32::BITS)) as usize % (1 << DIGIT)
 }
 
-#[cfg(test)]
+#[cfg(all(test, proofs))]
 mod tests {
     extern crate std;
 

@@ -133,7 +133,7 @@ fn exponent_of(size: f32) -> usize {
     (size.to_bits() >> 23) as usize % EXPONENTS
 }
 
-#[cfg(test)]
+#[cfg(all(test, proofs))]
 mod tests {
     use super::*;
     use crate::proofs::climb::Random;

@@ -101,7 +101,7 @@ const ROWS: &[Row] = rows! {
     "W, of δ r", LEAF, "const SLACK", SLACK[0], AS_IT_IS, [0.5, 0.5], HALF, |x| leaves::holds(SLACK[0], x);
     "W, of δ²", LEAF, "const SLACK", SLACK[1], AS_IT_IS, [0.3125, 0.1111], &[0.25], |x| leaves::holds(SLACK[1], x);
     "turn of a slope, of |w|", FRUSTUM, "const TURN", TURN[0], IN_U, [16.0, 12.01], HALF, |x| frustum::needs().turn[0] * U <= x;
-    "turn of a slope, besides", FRUSTUM, "const TURN", TURN[1], IN_U, [0.015625, 0.00806], HALF, |x| frustum::needs().turn[1] * U <= x;
+    "turn of a slope, besides", FRUSTUM, "const TURN", TURN[1], IN_U, [0.015_625, 0.00806], HALF, |x| frustum::needs().turn[1] * U <= x;
     "margin of a plane, in absolute errors", FRUSTUM, "const MARGIN", MARGIN, AS_IT_IS, [1.0, 0.875], HALF, |x| frustum::needs().margin <= x;
     "what radii are larger by", FRUSTUM, "const LARGER", LARGER - 1.0, IN_U, [64.0, 34.41], HALF, |x| frustum::needs().larger * U <= x;
     "error of a camera's point", "geometry/camera/tiles.rs", "const POINT_ERROR", POINT_ERROR, IN_U, [4.0, 3.0], HALF,

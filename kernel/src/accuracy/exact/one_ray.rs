@@ -158,7 +158,7 @@ pub(super) fn terms(ray: &Ray, sphere: &Sphere) -> QuadraticTerms {
     QuadraticTerms::new(origin, direction, sphere.center.to_array(), sphere.radius)
 }
 
-#[cfg(test)]
+#[cfg(all(test, proofs))]
 mod tests {
     use super::super::estimate::Estimate;
     use super::estimate;

@@ -301,5 +301,5 @@ fn node_over(run: &mut Run<'_>, parts: &[Part], first: usize) -> BvhNode {
     node
 }
 
-#[cfg(test)]
+#[cfg(all(test, proofs))]
 mod tests;

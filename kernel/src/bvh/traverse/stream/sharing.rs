@@ -268,6 +268,6 @@ impl Sharing {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, proofs))]
 #[cfg(feature = "std")]
 mod tests;
