@@ -48,6 +48,7 @@ pub fn judge(tier: Tier, ray: &Ray, sphere: &Sphere, found: Option<[f32; 2]>) {
             assert_eq!(bits(found), bits(exact), "exact: {}", place());
             return;
         }
+        other => unreachable!("no promise of {other:?}"),
     };
     band.judge(tier.as_str(), ray, sphere, found);
 }

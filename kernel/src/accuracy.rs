@@ -11,26 +11,26 @@
 //! for all of them. Name a tier at build time by its type, `Exact`, or at run time by [`Tier`]: the
 //! answers are the same bits.
 
-mod beyond;
-mod exact;
-mod fast;
-mod geometric;
+pub(crate) mod beyond;
+pub(crate) mod constants;
+pub(crate) mod exact;
+pub(crate) mod fast;
+mod formula;
+pub(crate) mod geometric;
 mod roots;
-mod stable;
+pub(crate) mod stable;
 mod surface;
 mod tier;
 
 pub use exact::Exact;
 pub use fast::Fast;
+pub use formula::Tier;
 pub use geometric::Geometric;
 pub use stable::Stable;
-pub use tier::{Accuracy, Tier};
+pub use tier::Accuracy;
 
-#[cfg(test)]
-pub(crate) use fast::derived::fast_row;
-#[cfg(test)]
-pub(crate) use geometric::derived::geometric_row;
+pub(crate) use formula::{TierFormula, TierWork, Underflow};
 pub(crate) use roots::{RayLanes, all_finite};
 #[cfg(feature = "std")]
 pub(crate) use tier::test_one;
-pub(crate) use tier::{TierFormula, TierWork, Underflow, is_closer, test_lanes};
+pub(crate) use tier::{is_closer, test_lanes};

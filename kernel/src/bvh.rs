@@ -42,14 +42,17 @@ pub(crate) mod memory;
 pub(crate) mod node;
 #[cfg(feature = "alloc")]
 pub(crate) mod owned;
+mod prefetch;
+pub(crate) mod source;
 pub(crate) mod traverse;
 pub(crate) mod tree;
 mod unplaced;
 
 #[cfg(feature = "alloc")]
 pub use self::owned::SphereTree;
+pub use build::budget::BvhSize;
 pub use build::join::{InTurn, Join};
 pub use memory::{BvhMemory, RefitError};
 pub use node::BvhNode;
 pub use traverse::stream::{QueuedRay, StreamMemory, StreamRay};
-pub use tree::{Bvh, BvhSize};
+pub use tree::Bvh;

@@ -9,20 +9,17 @@ pub(crate) mod depth_list;
 mod depth_sort;
 mod effort;
 mod fit;
-mod frustum;
+pub(crate) mod frustum;
 pub(crate) mod list_source;
 mod listed;
 mod packet_group;
 pub(crate) mod packet_source;
 mod packet_state;
 mod survey;
-mod tile_fit;
+pub(crate) mod tile_fit;
 mod tree_group;
 pub(crate) mod tree_source;
 pub(crate) mod view;
-#[cfg(test)]
-#[cfg(feature = "alloc")]
-mod worst;
 
 pub use depth_list::DepthList;
 pub use view::Viewpoint;

@@ -1,13 +1,13 @@
 //! Work that tests count: a line where it is done, of which a build keeps nothing.
 
-/// Counts work of a [kind](crate::testing::work::Kind), once or so many times.
+/// Counts work of a [kind](crate::proofs::work::Kind), once or so many times.
 macro_rules! count {
     ($kind:ident) => {
         $crate::count::count!($kind, 1);
     };
     ($kind:ident, $times:expr) => {
-        #[cfg(test)]
-        $crate::testing::work::add($crate::testing::work::Kind::$kind, $times);
+        #[cfg(all(test, proofs))]
+        $crate::proofs::work::add($crate::proofs::work::Kind::$kind, $times);
     };
 }
 

@@ -11,7 +11,7 @@ mod build_target;
 pub(crate) mod compiled;
 
 #[cfg(not(feature = "std"))]
-pub(crate) use build_target::{BuildLanes, fill, of_the_build, tiles_of_the_build};
+pub(crate) use build_target::{BuildLanes, fill};
 
 /// An instruction set that the CPU has.
 #[derive(Clone, Copy, Debug)]
@@ -22,6 +22,7 @@ pub struct Level(
 
 /// The name of a [`Level`], whether or not the CPU has it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum LevelName {
     /// What the build's target guarantees: SSE2 on x86-64.
     Baseline,
@@ -59,6 +60,14 @@ impl Level {
     /// use spherule_kernel::{Level, LevelName};
     ///
     /// assert!(Level::best().name() >= LevelName::Baseline);
+    /// ```
+    ///
+    /// ```
+    /// use spherule_kernel::{Level, LevelName};
+    ///
+    /// // Without `std` there is one level.
+    /// assert_eq!(Level::best().name(), Level::best().name());
+    /// assert!(LevelName::ALL.contains(&Level::best().name()));
     /// ```
     #[must_use]
     #[cfg(feature = "std")]

@@ -18,7 +18,7 @@
 //! costs the loop no operation, and a huge or far sphere widens no bound but its own.
 //!
 //! The bound, kappa = 114 u, and the sizes for which it holds, are proven in `docs/numerics.md`;
-//! `filter/worst.rs` climbs towards it. Sizes are those in the units of a block of spheres; and where a tier's own
+//! `tests/proofs` climbs towards it. Sizes are those in the units of a block of spheres; and where a tier's own
 //! squares underflow, what it finds is left to it. A sphere outside of those sizes passes always (w = +inf), as does a
 //! ray (threshold -inf); an invalid sphere never does, and an inactive ray only beside a sphere out of
 //! range. Within those rules no NaN can arise, so the maximum of four means what it says.
@@ -41,22 +41,23 @@ const BLOCK: usize = 32;
 pub(crate) const BLOCK_SPHERES: usize = BLOCK * GROUP;
 
 /// 114 u.
-const KAPPA: f32 = 114.0 / 16_777_216.0;
+pub(crate) const KAPPA: f32 = 114.0 / 16_777_216.0;
 /// 2^-60: no sphere counts as smaller.
-const LEAST_SIZE: f32 = 1.0 / (1_u64 << 60) as f32;
+pub(crate) const LEAST_SIZE: f32 = 1.0 / (1_u64 << 60) as f32;
 /// 2^-60: a squared direction below, or above 2^100, is not used: the direction is scaled before.
 const SHORTEST: f32 = 1.0 / (1_u64 << 60) as f32;
 
 /// Four spheres as the filter reads them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FilterGroup {
-    center: [[f32; GROUP]; 3],
+    pub(crate) center: [[f32; GROUP]; 3],
     /// r^2 - |c|^2, raised by the bound; `-inf` never passes, `+inf` always.
-    excess: [f32; GROUP],
+    pub(crate) excess: [f32; GROUP],
 }
 
 impl FilterGroup {
-    const EMPTY: Self = Self { center: [[0.0; GROUP]; 3], excess: [f32::NEG_INFINITY; GROUP] };
+    pub(crate) const EMPTY: Self =
+        Self { center: [[0.0; GROUP]; 3], excess: [f32::NEG_INFINITY; GROUP] };
 
     #[inline(always)]
     fn put(&mut self, slot: usize, sphere: &Sphere, frame: &Frame, kappa: f32) {
@@ -79,30 +80,30 @@ impl FilterGroup {
 
 /// r^2 - |c|^2, raised by the bound.
 #[inline(always)]
-fn excess<L: Lanes>(c: [L; 3], r: L, kappa: f32, least_size: f32) -> L {
+pub(crate) fn excess<L: Lanes>(c: [L; 3], r: L, kappa: f32, least_size: f32) -> L {
     let (cc, rr) = (dot(c, c), r * r);
     (rr - cc) + r.like(kappa) * (cc + rr).filter_max(r.like(least_size * least_size))
 }
 
 /// The space that a block of spheres, or a ball, is seen in.
 #[derive(Clone, Copy, Debug)]
-struct Frame {
+pub(crate) struct Frame {
     /// The power of two that lengths are multiplied by.
-    scale: f32,
+    pub(crate) scale: f32,
     /// K, scaled.
-    shift: [f32; 3],
+    pub(crate) shift: [f32; 3],
     /// No sphere counts as smaller, scaled. (As a square it was seen that the compiler multiplies it by itself beside what
     /// is needed, to a subnormal number: half of the time of `Fast`.)
-    least_size: f32,
+    pub(crate) least_size: f32,
     /// A direction without a larger component is not judged.
-    least_length: f32,
+    pub(crate) least_length: f32,
 }
 
 impl Frame {
     /// Around a point among the spheres of a block, that one sphere far away cannot move far: coordinate by
     /// coordinate the median of three of them; scaled so that the median of their sizes is some 1, or, if rays that
     /// start at `far` would be out of range then, so that `far` is. Any finite point, and any scale, would be right.
-    fn of(
+    pub(crate) fn of(
         spheres: &(impl SphereRun + ?Sized),
         first: usize,
         underflow: Underflow,
@@ -143,7 +144,7 @@ fn median([a, b, c]: [f32; 3]) -> f32 {
 pub(crate) struct FilterBlock {
     groups: [FilterGroup; BLOCK],
     count: usize,
-    frame: Frame,
+    pub(crate) frame: Frame,
     /// Whether it is seen in the units of rays that start far away.
     from_afar: bool,
 }
@@ -184,7 +185,7 @@ impl FilterBlock {
         }
     }
 
-    fn in_frame(
+    pub(crate) fn in_frame(
         spheres: &(impl SphereRun + ?Sized),
         first: usize,
         frame: Frame,
@@ -214,13 +215,13 @@ impl FilterBlock {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FilterRays<L: Lanes> {
     /// d, of unit length up to 4.5 u.
-    direction: [L; 3],
+    pub(crate) direction: [L; 3],
     /// 2 o.
-    twice_origin: [L; 3],
+    pub(crate) twice_origin: [L; 3],
     /// -d.o.
-    minus_along: L,
+    pub(crate) minus_along: L,
     /// |o|^2, lowered by the bound; what passes lies above.
-    threshold: L,
+    pub(crate) threshold: L,
 }
 
 impl<L: Lanes> FilterRays<L> {
@@ -230,7 +231,7 @@ impl<L: Lanes> FilterRays<L> {
     }
 
     #[inline(always)]
-    fn widened(token: L::Token, rays: &RayLanes<L>, frame: &Frame, kappa: f32) -> Self {
+    pub(crate) fn widened(token: L::Token, rays: &RayLanes<L>, frame: &Frame, kappa: f32) -> Self {
         let Frame { scale, shift, least_length, .. } = *frame;
         let (mut direction, mut a) = (rays.direction, dot(rays.direction, rays.direction));
         // Rays that the bound does not cover are replaced by one that it does.
@@ -270,7 +271,7 @@ impl<L: Lanes> FilterRays<L> {
 
     /// D/a + |o|^2, raised by the bound.
     #[inline(always)]
-    fn raised(&self, group: &FilterGroup, slot: usize) -> L {
+    pub(crate) fn raised(&self, group: &FilterGroup, slot: usize) -> L {
         let token = self.threshold.token();
         let [dx, dy, dz] = self.direction;
         let [fx, fy, fz] = self.twice_origin;
@@ -316,10 +317,3 @@ pub(crate) fn may_come_near<L: Lanes>(token: L::Token, rays: &RayLanes<L>, radiu
     group.put(0, &ball, &frame, KAPPA);
     FilterRays::widened(token, rays, &frame, KAPPA).may_meet(&group, 0)
 }
-
-#[cfg(test)]
-mod derived;
-#[cfg(test)]
-mod toy;
-#[cfg(test)]
-mod worst;

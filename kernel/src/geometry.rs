@@ -6,6 +6,7 @@ pub(crate) mod hit;
 pub(crate) mod many;
 pub(crate) mod ray;
 pub(crate) mod sphere;
+pub(crate) mod sphere_columns;
 #[cfg(feature = "alloc")]
 pub(crate) mod sphere_list;
 pub(crate) mod sphere_run;

@@ -229,9 +229,3 @@ pub trait DoubleLanes:
 fn plain_call<R>(work: impl FnOnce() -> R) -> R {
     work()
 }
-
-#[cfg(test)]
-mod bit_for_bit;
-
-#[cfg(test)]
-mod moves;

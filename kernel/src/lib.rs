@@ -1,6 +1,7 @@
 #![doc = include_str!("lib.md")]
 #![no_std]
 #![forbid(unsafe_code)]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 // Loops over lanes count: an iterator or closure of the standard library is a call in a build of many codegen
 // units without link-time optimisation (`lanes/array.rs`).
 #![allow(clippy::needless_range_loop, clippy::manual_map)]
@@ -13,6 +14,7 @@ extern crate std;
 pub mod accuracy;
 pub mod bvh;
 pub mod bvh4;
+mod coherence;
 mod coherent;
 mod count;
 mod dispatch;
@@ -28,11 +30,10 @@ mod numeric;
 mod query;
 mod scale;
 mod slices;
+#[cfg(feature = "stages")]
 mod stages;
 mod structures;
 mod surface;
-#[cfg(test)]
-mod testing;
 mod trace;
 
 pub use accuracy::{Accuracy, Exact, Fast, Geometric, Stable, Tier};
@@ -42,6 +43,7 @@ pub use bvh::{
     Bvh, BvhMemory, BvhNode, BvhSize, InTurn, Join, QueuedRay, RefitError, StreamMemory, StreamRay,
 };
 pub use bvh4::{Bvh4, Bvh4Error};
+pub use coherence::Coherence;
 pub use coherent::{DepthList, Viewpoint};
 pub use dispatch::{Level, LevelName};
 pub use geometry::camera::tiles::CameraTiles;
@@ -63,13 +65,19 @@ pub use memory::TooSmall;
 pub use numeric::float_environment::float_environment_is_sound;
 pub use query::{AnyHit, ClosestHit, Query};
 pub use slices::{object_packets, pair_packets, pairs, shadow_packets, surface_packets, tile_rays};
+#[cfg(feature = "stages")]
 pub use stages::{Stages, stages};
 pub use surface::{surface, surface_lanes};
-pub use trace::{Coherence, Trace};
+pub use trace::Trace;
 pub use wide::{f32x4, f32x8, f32x16};
 
-/// The READMEs' examples are tests.
+/// Proofs and tests of what is private. They are no part of this package: `tests/proofs` compiles this source with
+/// them, and sets `proofs`.
+#[cfg(all(test, proofs))]
+#[path = "../../tests/proofs/src/proofs.rs"]
+mod proofs;
+
+/// The README's examples are tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
-#[doc = include_str!("../../README.md")]
-struct Readmes;
+struct Readme;

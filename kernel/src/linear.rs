@@ -2,25 +2,25 @@
 
 mod line;
 mod object;
+mod one_sphere;
 mod pairs;
 mod ray_by_ray;
 
 use crate::Accuracy;
-use crate::accuracy::{RayLanes, TierFormula, TierWork, Underflow, is_closer};
+use crate::accuracy::{RayLanes, TierFormula, TierWork, Underflow};
 use crate::count::count;
 use crate::filter::{BLOCK_SPHERES, FilterBlock, FilterGroup, FilterRays, GROUP};
-use crate::geometry::hit::Hit;
 use crate::geometry::ray::RayPacket;
 use crate::geometry::sphere::{Sphere, Spheres};
 use crate::geometry::sphere_run::SphereRun;
-use crate::lanes::{LaneArray, LaneMask, Lanes};
-use crate::numeric::axes::axes;
+use crate::lanes::{LaneMask, Lanes};
 use crate::query::Query;
 use ray_by_ray::RayByRay;
 
 pub use line::{compare_hits, discriminant, roots};
 pub(crate) use object::one_object;
 pub use object::{Writes, object_lanes};
+pub(crate) use one_sphere::meet_sphere;
 pub(crate) use pairs::each_pair;
 pub use pairs::pair_lanes;
 
@@ -218,59 +218,5 @@ impl<L: Lanes, Q: Query> GroupTest<'_, '_, L, Q> {
                 limits = meet_sphere::<F, L, Q, true>(rays, spheres, sphere, asked, limits, answer);
             }
         }
-    }
-}
-
-/// Takes a valid sphere where it is closer; returns the new limits. Of equals the first comes first: where spheres do
-/// not come in the order of their indices they are compared.
-#[inline(always)]
-pub(crate) fn meet_sphere<F: TierFormula, L: Lanes, Q: Query, const IN_ORDER: bool>(
-    (packet, rays, prepared): (&RayPacket<L::Array>, &RayLanes<L>, &F::Prepared<L>),
-    spheres: &Spheres<'_>,
-    (sphere, index): (Sphere, u32),
-    asked: L::Mask,
-    limits: L,
-    answer: &mut Q::Packet<L::Array>,
-) -> L {
-    count!(TierLanes);
-    let infinity = limits.like(f32::INFINITY);
-    let center = sphere.center();
-    let center = axes!(i => limits.like(center[i]));
-    let radius = limits.like(sphere.radius);
-    let t = F::first_root(rays, prepared, center, radius, asked, limits);
-    let t = L::select(asked, t, infinity);
-    if (F::ORDERS_ROOTS || !IN_ORDER) && !Q::ANY {
-        let tied = (t.le(limits) & limits.le(t) & t.lt(infinity)).bits();
-        if tied != 0 {
-            take_closer::<F, L, Q>(packet, spheres, index, tied, &t.store(), answer);
-        }
-    }
-    Q::accept::<L>(answer, index, t, limits)
-}
-
-/// Takes sphere `index` in those of the lanes `tied`, where it is hit at the t that is known, in which it is closer.
-#[cold]
-#[inline(never)]
-fn take_closer<F: TierFormula, L: Lanes, Q: Query>(
-    packet: &RayPacket<L::Array>,
-    spheres: &Spheres<'_>,
-    index: u32,
-    tied: u32,
-    t: &L::Array,
-    answer: &mut Q::Packet<L::Array>,
-) {
-    // Of one lane there is no loop.
-    let mut tied = if L::COUNT == 1 { 1 } else { tied };
-    while tied != 0 {
-        let lane = tied.trailing_zeros() as usize;
-        tied &= tied - 1;
-        let t = t.get(lane);
-        Q::take::<L::Array>(
-            answer,
-            lane,
-            Hit { t, sphere: index },
-            #[inline(always)]
-            |old| is_closer(F::THIS, spheres, &packet.ray(lane), t, [index, old]),
-        );
     }
 }

@@ -31,28 +31,6 @@ const PAIRS: usize = RayPacket::COUNT;
 #[cfg(not(feature = "std"))]
 const PAIRS: usize = <BuildLanes as crate::Lanes>::COUNT;
 
-/// Answers one ray: without `std` in one lane, since firmware seldom has more, and little room.
-pub(crate) fn one<S: Traverse + ?Sized, Q: LevelQuery>(
-    structure: &S,
-    tier: impl Accuracy,
-    trace: &mut Trace<'_>,
-    ray: &Ray,
-) -> Q::One {
-    let rays = core::slice::from_ref(ray);
-    #[cfg(feature = "std")]
-    {
-        let mut answers = [Q::none::<[f32; 16]>()];
-        structure.in_packets::<Q>(tier, trace, &[RayPacket::new(rays)], &mut answers);
-        Q::one(&answers[0], 0)
-    }
-    #[cfg(not(feature = "std"))]
-    {
-        let mut answers = [Q::none::<[f32; 1]>()];
-        structure.in_lanes::<f32, Q>(tier, (), trace, &[RayPacket::new(rays)], &mut answers);
-        Q::one(&answers[0], 0)
-    }
-}
-
 /// Answers every ray, as far as there is room for answers.
 pub(crate) fn traverse<S: Traverse + ?Sized, Q: LevelQuery>(
     structure: &S,

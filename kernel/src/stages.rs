@@ -100,7 +100,7 @@ fn count<L: Lanes, Q: Query>(
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, proofs))]
 mod tests {
     use super::*;
     use crate::{AnyHit, ClosestHit, Ray, Vec3};

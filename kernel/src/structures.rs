@@ -4,10 +4,14 @@ use crate::Accuracy;
 use crate::bvh::StreamMemory;
 use crate::bvh::tree::Bvh;
 use crate::bvh4::{Bvh4, walk};
+#[cfg(feature = "alloc")]
+use crate::coherence::Coherence;
 use crate::coherent::depth_list::DepthList;
 use crate::coherent::packet_source::PacketSource;
 use crate::coherent::tree_source::Ways;
 use crate::coherent::{list_source, tree_source};
+#[cfg(not(feature = "std"))]
+use crate::dispatch::BuildLanes;
 #[cfg(feature = "std")]
 use crate::dispatch::compiled::Compiled;
 use crate::geometry::camera::tiles::CameraTiles;
@@ -18,9 +22,6 @@ use crate::geometry::sphere::Spheres;
 use crate::lanes::Lanes;
 use crate::linear;
 use crate::query::{ClosestHit, Query};
-use crate::slices;
-#[cfg(feature = "alloc")]
-use crate::trace::Coherence;
 use crate::trace::Trace;
 
 /// The traversals of a structure.
@@ -69,9 +70,21 @@ pub trait Traverse {
         None
     }
 
-    /// One ray, at a level.
+    /// One ray, at a level; without `std` in one lane, since firmware seldom has more, and little room.
     fn one<Q: LevelQuery>(&self, tier: impl Accuracy, trace: &mut Trace<'_>, ray: &Ray) -> Q::One {
-        slices::one::<Self, Q>(self, tier, trace, ray)
+        let rays = core::slice::from_ref(ray);
+        #[cfg(feature = "std")]
+        {
+            let mut answers = [Q::none::<[f32; 16]>()];
+            self.in_packets::<Q>(tier, trace, &[RayPacket::new(rays)], &mut answers);
+            Q::one(&answers[0], 0)
+        }
+        #[cfg(not(feature = "std"))]
+        {
+            let mut answers = [Q::none::<[f32; 1]>()];
+            self.in_lanes::<f32, Q>(tier, (), trace, &[RayPacket::new(rays)], &mut answers);
+            Q::one(&answers[0], 0)
+        }
     }
 
     /// What tiles of a camera hit, whose rays are made in `rays`, in lanes of any kind.
@@ -106,7 +119,56 @@ pub trait Traverse {
             self.in_packets::<ClosestHit>(tier, trace, rays, hits);
         }
         #[cfg(not(feature = "std"))]
-        crate::dispatch::tiles_of_the_build(self, tier, trace, tiles, rays, hits);
+        tiles_of_the_build(self, tier, trace, tiles, rays, hits);
+    }
+}
+
+/// Without `std`: answers packets in the lanes of the build.
+#[cfg(not(feature = "std"))]
+fn of_the_build<S: Traverse + ?Sized, Q: Query>(
+    structure: &S,
+    tier: impl Accuracy,
+    trace: &mut Trace<'_>,
+    rays: &[RayPacket],
+    answers: &mut [Q::Packet<[f32; 16]>],
+) {
+    if BuildLanes::COUNT == RayPacket::COUNT {
+        structure.in_lanes::<wide::f32x16, Q>(tier, (), trace, rays, answers);
+        return;
+    }
+    for (packet, answer) in rays.iter().zip(answers.iter_mut()) {
+        *answer = Q::none::<[f32; 16]>();
+        for lane in 0..RayPacket::COUNT {
+            let ray = [RayPacket::new(&[packet.ray(lane)])];
+            let mut one = [Q::none::<[f32; 1]>()];
+            structure.in_lanes::<f32, Q>(tier, (), trace, &ray, &mut one);
+            Q::put(answer, lane, Q::one(&one[0], 0));
+        }
+    }
+}
+
+/// Without `std`: what a camera's tiles hit, in the lanes of the build.
+#[cfg(not(feature = "std"))]
+fn tiles_of_the_build<S: Traverse + ?Sized>(
+    structure: &S,
+    tier: impl Accuracy,
+    trace: &mut Trace<'_>,
+    tiles: CameraTiles<'_>,
+    rays: &mut [RayPacket],
+    hits: &mut [HitPacket],
+) {
+    if BuildLanes::COUNT == RayPacket::COUNT {
+        return structure.tiles_in_lanes::<wide::f32x16>(tier, (), trace, tiles, rays, hits);
+    }
+    let CameraTiles { camera, size: (width, height), corners } = tiles;
+    for ((packet, hits), &(x, y)) in rays.iter_mut().zip(hits.iter_mut()).zip(corners) {
+        *packet = camera.packet(x, y, width, height);
+        structure.in_packets::<ClosestHit>(
+            tier,
+            trace,
+            core::slice::from_ref(packet),
+            core::slice::from_mut(hits),
+        );
     }
 }
 
@@ -153,7 +215,7 @@ macro_rules! traverse {
                 #[cfg(feature = "std")]
                 Q::$compiled($trace.level, tier.tier(), $($argument,)* rays, answers);
                 #[cfg(not(feature = "std"))]
-                crate::dispatch::of_the_build::<Self, Q>(self, tier, $trace, rays, answers);
+                of_the_build::<Self, Q>(self, tier, $trace, rays, answers);
             }
         }
     };
@@ -186,7 +248,7 @@ impl Traverse for Bvh<'_> {
         #[cfg(feature = "std")]
         Q::tree(trace.level, tier.tier(), self, ways(trace), PacketSource::Packets(rays), answers);
         #[cfg(not(feature = "std"))]
-        crate::dispatch::of_the_build::<Self, Q>(self, tier, trace, rays, answers);
+        of_the_build::<Self, Q>(self, tier, trace, rays, answers);
     }
 
     #[cfg(feature = "std")]

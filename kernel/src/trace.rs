@@ -3,6 +3,7 @@
 use crate::bvh::StreamMemory;
 #[cfg(feature = "alloc")]
 use crate::bvh::traverse::stream::KeptMemory;
+use crate::coherence::Coherence;
 use crate::coherent::tree_source::Learnt;
 use crate::dispatch::Level;
 
@@ -18,6 +19,7 @@ use crate::dispatch::Level;
 /// assert!(baseline.level.name() <= trace.level.name());
 /// ```
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct Trace<'m> {
     /// The instruction set.
     pub level: Level,
@@ -37,24 +39,16 @@ pub struct Trace<'m> {
     pub(crate) learnt: Learnt,
 }
 
-/// What rays that come one after the other have in common.
-///
-/// The words of Embree's `RTCRayQueryFlags`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Coherence {
-    /// Found out as they come: packets are tried together, and those that do not pay go ray by ray.
-    #[default]
-    Detect,
-    /// An origin or a direction, or nearly so, and they lie close together: camera rays, shadow rays
-    /// to one light. Of packets that do not pay fewer are passed over before others are tried. Said falsely, it costs as
-    /// much as to try.
-    Coherent,
-    /// Nothing, or there are many more spheres between them than they share: ray by ray.
-    Incoherent,
-}
-
 impl<'m> Trace<'m> {
     /// At the best level that the CPU has; coherence is detected; no scratch memory.
+    ///
+    /// ```
+    /// use spherule_kernel::{Coherence, Level, Trace};
+    ///
+    /// let trace = Trace::new();
+    /// assert_eq!(trace.coherence, Coherence::Detect);
+    /// assert_eq!(trace.level.name(), Level::best().name());
+    /// ```
     #[must_use]
     #[inline]
     pub fn new() -> Self {
@@ -70,30 +64,62 @@ impl<'m> Trace<'m> {
     }
 
     /// At `level`.
+    ///
+    /// ```
+    /// use spherule_kernel::{Level, LevelName, Trace};
+    ///
+    /// let baseline = Level::named(LevelName::Baseline).unwrap_or(Level::best());
+    /// assert_eq!(Trace::new().at(baseline).level.name(), baseline.name());
+    /// ```
     #[must_use]
     pub fn at(self, level: Level) -> Self {
         Self { level, ..self }
     }
 
     /// For rays of that coherence.
+    ///
+    /// ```
+    /// use spherule_kernel::{Coherence, Trace};
+    ///
+    /// assert_eq!(Trace::new().with(Coherence::Coherent).coherence, Coherence::Coherent);
+    /// ```
     #[must_use]
     pub fn with(self, coherence: Coherence) -> Self {
         Self { coherence, ..self }
     }
 
     /// For coherent rays.
+    ///
+    /// ```
+    /// use spherule_kernel::{Coherence, Trace};
+    ///
+    /// assert_eq!(Trace::new().coherent().coherence, Coherence::Coherent);
+    /// ```
     #[must_use]
     pub fn coherent(self) -> Self {
         Self { coherence: Coherence::Coherent, ..self }
     }
 
     /// For incoherent rays.
+    ///
+    /// ```
+    /// use spherule_kernel::{Coherence, Trace};
+    ///
+    /// assert_eq!(Trace::new().incoherent().coherence, Coherence::Incoherent);
+    /// ```
     #[must_use]
     pub fn incoherent(self) -> Self {
         Self { coherence: Coherence::Incoherent, ..self }
     }
 
     /// With working memory.
+    ///
+    /// ```
+    /// use spherule_kernel::{DepthList, Trace};
+    ///
+    /// let mut memory = vec![0.0; DepthList::scratch(100)];
+    /// assert_eq!(Trace::new().with_scratch(&mut memory).scratch.len(), 1536);
+    /// ```
     #[must_use]
     pub fn with_scratch(self, scratch: &'m mut [f32]) -> Self {
         Self { scratch, ..self }
@@ -102,6 +128,16 @@ impl<'m> Trace<'m> {
     /// With memory for streams, in place of what a tree takes by itself, and for rays that are said to be incoherent, too.
     /// Rays that have nothing in common go so where enough of them meet, which is seen as they go; with less than 8 places in
     /// queues a ray they never do.
+    ///
+    /// ```
+    /// use spherule_kernel::{QueuedRay, StreamMemory, StreamRay, Trace};
+    ///
+    /// let mut rays = vec![StreamRay::EMPTY; 1024];
+    /// let mut queues = vec![QueuedRay::EMPTY; 32 * 1024];
+    /// let trace = Trace::new().incoherent().with_stream(StreamMemory::new(&mut rays, &mut queues)?);
+    /// assert!(trace.stream.is_some());
+    /// # Ok::<(), spherule_kernel::TooSmall>(())
+    /// ```
     #[must_use]
     pub fn with_stream(self, memory: StreamMemory<'m>) -> Self {
         Self { stream: Some(memory), ..self }

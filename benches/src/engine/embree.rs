@@ -74,6 +74,7 @@ impl Embree {
             LevelName::Baseline => c"threads=1,isa=sse4.2",
             LevelName::Avx2 => c"threads=1,isa=avx2",
             LevelName::Avx512 => c"threads=1,isa=avx512",
+            other => unreachable!("Embree is not asked for {other:?}"),
         };
         // SAFETY: the configuration ends with a zero.
         let device = unsafe { (library.new_device)(configuration.as_ptr()) };
@@ -118,6 +119,7 @@ pub(crate) fn engines(embree: &Rc<Embree>) -> Vec<Engine> {
         LevelName::Baseline => &[(4, "4 rays a call")],
         LevelName::Avx2 => &[(4, "4 rays a call"), (8, "8 rays a call")],
         LevelName::Avx512 => &[(8, "8 rays a call"), (16, "16 rays a call")],
+        other => unreachable!("Embree is not asked for {other:?}"),
     };
     let packets = packets.iter().map(|&(n, name)| (n, false, name));
     let stream = embree.library.intersect_stream.map(|_| (1, true, "streams"));

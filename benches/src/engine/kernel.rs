@@ -138,6 +138,7 @@ impl<'a> Kernel<'a> {
             // Grazing rays lose a few bits of t.
             Tier::Stable => Promise::Near(0.0, 64),
             Tier::Exact => Promise::Near(0.0, 0),
+            other => unreachable!("no promise of {other:?}"),
         };
         let most_rays = match (way, kind) {
             _ if is_brute_force => TESTS / self.scene.spheres.len().max(1),

@@ -22,16 +22,16 @@ pub struct Beyond<L> {
     /// d; scaled where its square might over- or underflow.
     direction: [L; 3],
     /// d.d.
-    a: L,
+    pub(crate) a: L,
     /// d.d times how many multiples of d a t of 1 is; NaN, which no comparison passes, where d is subnormal.
-    per_limit: L,
+    pub(crate) per_limit: L,
     /// |d|, rounded up.
     length: L,
 }
 
 impl<L: Lanes> Beyond<L> {
     #[inline(always)]
-    pub(super) fn new(rays: &RayLanes<L>) -> Self {
+    pub(crate) fn new(rays: &RayLanes<L>) -> Self {
         let (mut direction, mut a) = (rays.direction, dot(rays.direction, rays.direction));
         let mut per_limit = a;
         let usual = a.like(SHORTEST).le(a) & a.le(a.like(1.0 / SHORTEST));
@@ -46,7 +46,7 @@ impl<L: Lanes> Beyond<L> {
 
     /// For a direction, and its square, that were scaled by a power of two.
     #[inline(always)]
-    pub(super) fn of_scaled(direction: [L; 3], a: L, scale: L) -> Self {
+    pub(crate) fn of_scaled(direction: [L; 3], a: L, scale: L) -> Self {
         let length = a.sqrt() * a.like(1.0 + 8.0 * f32::EPSILON);
         Self { direction, a, per_limit: Self::per_limit(a, scale), length }
     }
@@ -62,7 +62,7 @@ impl<L: Lanes> Beyond<L> {
     ///
     /// The margin is proven in `docs/numerics.md`. What overflows is not told.
     #[inline(always)]
-    pub(super) fn limit(&self, rays: &RayLanes<L>, center: [L; 3], radius: L, limit: L) -> L::Mask {
+    pub(crate) fn limit(&self, rays: &RayLanes<L>, center: [L; 3], radius: L, limit: L) -> L::Mask {
         let bounded = limit.lt(limit.like(f32::INFINITY));
         if L::COUNT > 1 && !bounded.any() {
             return bounded;
@@ -91,14 +91,14 @@ impl<L: Lanes> Beyond<L> {
 
     /// p, and |d| (|p| + r).
     #[inline(always)]
-    fn size(&self, rays: &RayLanes<L>, center: [L; 3], radius: L) -> ([L; 3], L) {
+    pub(crate) fn size(&self, rays: &RayLanes<L>, center: [L; 3], radius: L) -> ([L; 3], L) {
         let p = axes!(i => center[i] - rays.origin[i]);
         (p, (p[0].abs() + p[1].abs() + p[2].abs() + radius) * self.length)
     }
 
     /// limit a; b; D.
     #[inline(always)]
-    fn terms(&self, p: [L; 3], radius: L, limit: L) -> [L; 3] {
+    pub(crate) fn terms(&self, p: [L; 3], radius: L, limit: L) -> [L; 3] {
         let d = self.direction;
         // Among subnormals the next t may be twice the last, more than any margin: past the limit
         // by one of them is not past it yet.
@@ -115,18 +115,13 @@ pub(super) fn longest<L: Lanes>(d: [L; 3]) -> L {
 }
 
 /// 64v.
-const RAISE: f32 = 32.0 * f32::EPSILON;
+pub(crate) const RAISE: f32 = 32.0 * f32::EPSILON;
 /// 2^-20.
-const MARGIN: f32 = 8.0 * f32::EPSILON;
+pub(crate) const MARGIN: f32 = 8.0 * f32::EPSILON;
 /// 2^-38: below it, the squares of |p| and r might underflow in `Stable`.
 const LEAST_SIZE: f32 = 1.0 / (1u64 << 38) as f32;
 
 /// 2^-60: a squared direction below, or above the inverse, is not used.
 const SHORTEST: f32 = 1.0 / (1_u64 << 60) as f32;
 /// 2^-120.
-const LEAST_A: f32 = 1.0 / (1u128 << 120) as f32;
-
-#[cfg(test)]
-mod derived;
-#[cfg(test)]
-mod worst;
+pub(crate) const LEAST_A: f32 = 1.0 / (1u128 << 120) as f32;

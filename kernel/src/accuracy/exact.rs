@@ -9,9 +9,9 @@
 //! start on the surface - go one by one through [`Quadratic`], which is always right. So is, then,
 //! every lane: the bound decides what is spent, never what is answered.
 //!
-//! The bound is proven in `docs/numerics.md`; `exact/estimate/worst.rs` climbs towards it.
+//! The bound is proven in `docs/numerics.md`; `tests/proofs` climbs towards it.
 
-pub(super) mod estimate;
+pub(crate) mod estimate;
 mod from_start;
 mod one_ray;
 mod order;
@@ -20,9 +20,9 @@ mod surface;
 use self::estimate::Estimate;
 use self::one_ray::Bracketed;
 use super::beyond::Beyond;
+use super::formula::{Tier, TierFormula};
 use super::roots::RayLanes;
 use super::surface::SurfaceLanes;
-use super::tier::{Tier, TierFormula};
 use crate::geometry::surface::Surface;
 use crate::lanes::{DoubleLanes, LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::axes;
@@ -145,6 +145,7 @@ impl Exact {
 
     /// Of the lanes `asked`, those that [`TierFormula::first_root`] takes to double precision, and of
     /// these, those that it takes to exact sums.
+    #[cfg(feature = "stages")]
     #[inline(always)]
     pub(crate) fn reached<L: Lanes>(
         rays: &RayLanes<L>,
@@ -159,6 +160,7 @@ impl Exact {
     }
 
     /// `limit`, or the t of [`TierFormula::first_root`] where that is smaller.
+    #[cfg(feature = "stages")]
     #[inline(always)]
     pub(crate) fn nearer<L: Lanes>(
         rays: &RayLanes<L>,
@@ -174,7 +176,7 @@ impl Exact {
 
 /// For every lane the least and the greatest `f32` that each root can round to: both `+inf` where
 /// the line surely misses, `-inf` and `+inf` where it is not known to meet the sphere.
-struct Brackets<L: Lanes> {
+pub(crate) struct Brackets<L: Lanes> {
     token: L::Token,
     near: [L::Array; 2],
     far: [L::Array; 2],
@@ -192,7 +194,7 @@ struct Judged<L: Lanes> {
 
 impl<L: Lanes> Brackets<L> {
     #[inline(always)]
-    fn new(rays: &RayLanes<L>, center: [L; 3], radius: L, asked: L::Mask) -> Self {
+    pub(crate) fn new(rays: &RayLanes<L>, center: [L; 3], radius: L, asked: L::Mask) -> Self {
         let mut brackets = Self {
             token: radius.token(),
             near: [L::Array::filled(0.0); 2],
@@ -239,7 +241,7 @@ impl<L: Lanes> Brackets<L> {
 
     /// The t of rules 2 to 4, and the lanes in which that is the answer.
     #[inline(always)]
-    fn decide(&self, rays: &RayLanes<L>, limit: L) -> (L, L::Mask) {
+    pub(crate) fn decide(&self, rays: &RayLanes<L>, limit: L) -> (L, L::Mask) {
         let near = self.judge(self.near, rays, limit);
         let far = self.judge(self.far, rays, limit);
         // The far root does not matter where the near one is taken, or lies past the limit.
@@ -300,6 +302,3 @@ fn first<L: Lanes>([x, y, z]: [L; 3], radius: L) -> Sphere {
 fn lane<L: Lanes>(numbers: L) -> f32 {
     numbers.store().get(0)
 }
-
-#[cfg(test)]
-mod toy;

@@ -4,8 +4,8 @@
 //! p.p - r^2 cancels where the sphere is far for its size, and b - sqrt D where the ray starts
 //! near the surface: that is what the tier trades for speed, and what the report counts.
 
+use super::formula::{Tier, TierFormula, Underflow};
 use super::roots::{RayLanes, Roots, line_roots_of};
-use super::tier::{Tier, TierFormula, Underflow};
 use crate::numeric::axes::{axes, dot};
 use crate::{Lanes, Ray, Sphere};
 
@@ -62,7 +62,7 @@ impl TierFormula for Fast {
 }
 
 #[inline(always)]
-fn roots<L: Lanes>(rays: &FastRays<L>, center: [L; 3], radius: L) -> Roots<L> {
+pub(crate) fn roots<L: Lanes>(rays: &FastRays<L>, center: [L; 3], radius: L) -> Roots<L> {
     let FastRays { origin: o, direction: d, a, per_a } = *rays;
     let p = axes!(i => center[i] - o[i]);
     let b = dot(d, p);
@@ -71,6 +71,3 @@ fn roots<L: Lanes>(rays: &FastRays<L>, center: [L; 3], radius: L) -> Roots<L> {
     let root = discriminant.sqrt();
     Roots { meets: a.like(0.0).le(discriminant), near: (b - root) * per_a, far: (b + root) * per_a }
 }
-
-#[cfg(test)]
-pub(crate) mod derived;

@@ -6,8 +6,8 @@
 //! and b - sqrt D do in [`Fast`](super::Fast). The unit direction is rounded besides, and |v| = 1 is taken for
 //! granted. [`Stable`](super::Stable) is what becomes of this form when each of these is cured.
 
+use super::formula::{Tier, TierFormula, Underflow};
 use super::roots::{RayLanes, Roots, line_roots_of};
-use super::tier::{Tier, TierFormula, Underflow};
 use crate::numeric::axes::{axes, dot};
 use crate::{Lanes, Ray, Sphere};
 
@@ -25,7 +25,7 @@ pub struct Geometric;
 #[derive(Clone, Copy, Debug)]
 pub struct GeometricRays<L> {
     origin: [L; 3],
-    unit: [L; 3],
+    pub(crate) unit: [L; 3],
     per_length: L,
 }
 
@@ -69,7 +69,7 @@ impl TierFormula for Geometric {
 }
 
 #[inline(always)]
-fn roots<L: Lanes>(rays: &GeometricRays<L>, center: [L; 3], radius: L) -> Roots<L> {
+pub(crate) fn roots<L: Lanes>(rays: &GeometricRays<L>, center: [L; 3], radius: L) -> Roots<L> {
     let GeometricRays { origin: o, unit, per_length } = *rays;
     let p = axes!(i => center[i] - o[i]);
     let middle = dot(unit, p);
@@ -82,8 +82,3 @@ fn roots<L: Lanes>(rays: &GeometricRays<L>, center: [L; 3], radius: L) -> Roots<
         far: (middle + half) * per_length,
     }
 }
-
-#[cfg(test)]
-mod beside_fast;
-#[cfg(test)]
-pub(crate) mod derived;

@@ -57,7 +57,7 @@ pub(crate) fn all_finite<L: Lanes>(v: [L; 3]) -> L::Mask {
 
 /// Where the lines of a packet meet a sphere, as a tier computed it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Roots<L: Lanes> {
+pub(crate) struct Roots<L: Lanes> {
     /// Whether the line meets the sphere at all; tangents do.
     pub(super) meets: L::Mask,
     /// The smaller root; unspecified if the line does not meet the sphere.

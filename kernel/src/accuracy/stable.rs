@@ -27,8 +27,8 @@
 //! back.
 
 use super::beyond::{Beyond, longest};
+use super::formula::{Tier, TierFormula, Underflow};
 use super::roots::{RayLanes, Roots, line_roots_of};
-use super::tier::{Tier, TierFormula, Underflow};
 use crate::numeric::axes::{axes, dot};
 use crate::numeric::error_free::{VeltkampSplit, two_sum};
 use crate::numeric::power_of_two::inverse_powers_of_two;
@@ -199,10 +199,7 @@ fn squares_less_square<L: Lanes>(v: [(L, L); 3], radius: L) -> L {
     sum + ((sum_low + (xy_low + zr_low)) + ((x.1 + y.1) + (z.1 - rr_low)))
 }
 
-#[cfg(test)]
-mod worst;
-
-#[cfg(test)]
+#[cfg(all(test, proofs))]
 mod tests {
     use crate::{Ray, Sphere, Stable, Vec3, roots};
 

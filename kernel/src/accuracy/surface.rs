@@ -14,7 +14,7 @@
 //! away. Without that loss, where it matters: the products of single precision are exact, and so is the sum of two of
 //! them in two terms. By `Exact` both have bounds (`docs/numerics.md`).
 
-use super::exact::estimate::Constants;
+use super::constants::Constants;
 use super::roots::RayLanes;
 use crate::lanes::{DoubleLanes, LaneArray, Lanes};
 use crate::numeric::axes::{axes, dot};

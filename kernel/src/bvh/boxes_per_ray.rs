@@ -6,8 +6,7 @@
 //! median distance from the median along each axis, and the median diameter. Of up to 32 spheres, the same of a list
 //! wherever they are, which takes a microsecond. No box is entered more than once.
 
-use super::build::top_down::FEW;
-use super::node::{BvhNode, LEAF, NO_CHILD, WIDTH};
+use super::node::{BvhNode, FEW, LEAF, NO_CHILD, WIDTH};
 use crate::geometry::sphere::Spheres;
 use crate::numeric::axes::axes;
 use crate::scale::scene::SceneScale;

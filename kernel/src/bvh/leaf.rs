@@ -6,7 +6,7 @@
 //! they are of another column or leaf, and a mask takes them out.
 
 use super::node::{LEAF, WIDTH};
-use super::traverse::root_interval::SphereColumns;
+use crate::geometry::sphere_columns::SphereColumns;
 
 /// Leaves begin at multiples of this many places, and are as long.
 pub(crate) const STEP: usize = 4;
@@ -73,7 +73,7 @@ pub(crate) const fn number_of(place: u32) -> (u32, usize) {
     (place / WIDTH as u32, place as usize % WIDTH)
 }
 
-#[cfg(test)]
+#[cfg(all(test, proofs))]
 mod tests {
     use super::*;
 

@@ -76,6 +76,16 @@ impl<'m> BvhMemory<'m> {
     /// Memory whose contents do not matter. [`Bvh::needed`] says how much a tree needs.
     ///
     /// With as many indices as that and one more for each sphere, no refit is [`TooSmall`].
+    ///
+    /// ```
+    /// use spherule_kernel::{Bvh, BvhMemory, RefitError, Spheres};
+    ///
+    /// const NEEDED: usize = Bvh::needed(1).places;
+    /// let (mut nodes, mut places, mut indices) = ([], [[0.0; 4]; NEEDED], [0; NEEDED]);
+    /// let mut memory = BvhMemory::new(&mut nodes, &mut places, &mut indices);
+    /// let spheres = Spheres::new(&[0.0], &[0.0], &[5.0], &[1.0]).expect("equal lengths");
+    /// assert_eq!(memory.refit(spheres).err(), Some(RefitError::NoTree));
+    /// ```
     #[must_use]
     pub const fn new(
         nodes: &'m mut [BvhNode],
@@ -89,6 +99,17 @@ impl<'m> BvhMemory<'m> {
     ///
     /// # Errors
     /// As [`Bvh::build`]: there is no tree in the memory then.
+    ///
+    /// ```
+    /// use spherule_kernel::{Bvh, BvhMemory, Spheres};
+    ///
+    /// const NEEDED: usize = Bvh::needed(1).places;
+    /// let (mut nodes, mut places, mut indices) = ([], [[0.0; 4]; NEEDED], [0; NEEDED]);
+    /// let mut memory = BvhMemory::new(&mut nodes, &mut places, &mut indices);
+    /// let spheres = Spheres::new(&[0.0], &[0.0], &[5.0], &[1.0]).expect("equal lengths");
+    /// assert_eq!(memory.build(spheres)?.spheres().len(), 1);
+    /// # Ok::<(), spherule_kernel::TooSmall>(())
+    /// ```
     pub fn build<'a>(&'a mut self, spheres: Spheres<'a>) -> Result<Bvh<'a>, TooSmall> {
         self.tree = None;
         let Self { nodes, places, indices, tree } = self;
@@ -113,6 +134,20 @@ impl<'m> BvhMemory<'m> {
     /// # Errors
     /// [`RefitError`] where the number of spheres is another, where indices are too few for the spheres that no box holds, or
     /// where there is no tree. A tree in the memory is as it was.
+    ///
+    /// ```
+    /// use spherule_kernel::{Bvh, BvhMemory, Exact, Intersect, Ray, Spheres, Vec3};
+    ///
+    /// const NEEDED: usize = Bvh::needed(1).places;
+    /// let (mut nodes, mut places, mut indices) = ([], [[0.0; 4]; NEEDED], [0; NEEDED]);
+    /// let mut memory = BvhMemory::new(&mut nodes, &mut places, &mut indices);
+    /// let spheres = Spheres::new(&[0.0], &[0.0], &[5.0], &[1.0]).expect("equal lengths");
+    /// memory.build(spheres)?;
+    /// let moved = Spheres::new(&[0.0], &[0.0], &[7.0], &[1.0])?;
+    /// let hit = memory.refit(moved)?.closest_hit(Exact, &Ray::new(Vec3::ZERO, Vec3::Z));
+    /// assert_eq!(hit.map(|hit| hit.t), Some(6.0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn refit<'a>(&'a mut self, spheres: Spheres<'a>) -> Result<Bvh<'a>, RefitError> {
         let Self { nodes, places, indices, tree } = self;
         let Some((built, count)) = tree else { return Err(RefitError::NoTree) };

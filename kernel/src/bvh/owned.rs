@@ -36,6 +36,13 @@ impl SphereTree {
     /// Builds a tree over anything that becomes a [`SphereList`], on this thread.
     ///
     /// Cost: as [`Bvh::build`]. Aborts, as `Vec` does, if there is no memory.
+    ///
+    /// ```
+    /// use spherule_kernel::SphereTree;
+    ///
+    /// let tree = SphereTree::new([[0.0, 0.0, 5.0, 1.0], [0.0, 0.0, 9.0, 1.0]]);
+    /// assert_eq!(tree.list().len(), 2);
+    /// ```
     #[must_use]
     pub fn new(spheres: impl Into<SphereList>) -> Self {
         let spheres = spheres.into();
@@ -50,6 +57,15 @@ impl SphereTree {
     ///
     /// # Errors
     /// `TryReserveError` if there is no memory.
+    ///
+    /// ```
+    /// use spherule_kernel::{InTurn, SphereList, SphereTree};
+    ///
+    /// let list = SphereList::from([[0.0, 0.0, 5.0, 1.0], [0.0, 0.0, 9.0, 1.0]]);
+    /// let tree = SphereTree::build_with(&InTurn, list)?;
+    /// assert_eq!(tree.bvh().depth(), 0);
+    /// # Ok::<(), std::collections::TryReserveError>(())
+    /// ```
     pub fn build_with(join: &impl Join, spheres: SphereList) -> Result<Self, TryReserveError> {
         let needed = Bvh::needed(spheres.spheres().len());
         let (mut nodes, mut places, mut indices) = (Vec::new(), Vec::new(), Vec::new());
@@ -126,6 +142,13 @@ impl SphereTree {
     }
 
     /// The tree, borrowed: a few words.
+    ///
+    /// ```
+    /// use spherule_kernel::SphereTree;
+    ///
+    /// let tree = SphereTree::new([[0.0, 0.0, 5.0, 1.0], [0.0, 0.0, 9.0, 1.0]]);
+    /// assert_eq!(tree.bvh().spheres().len(), 2);
+    /// ```
     #[must_use]
     pub fn bvh(&self) -> Bvh<'_> {
         let (places, indices) = (&self.places, &self.indices);
@@ -133,6 +156,13 @@ impl SphereTree {
     }
 
     /// The list that the tree was built from.
+    ///
+    /// ```
+    /// use spherule_kernel::SphereTree;
+    ///
+    /// let tree = SphereTree::new([[0.0, 0.0, 5.0, 1.0], [0.0, 0.0, 9.0, 1.0]]);
+    /// assert_eq!(tree.list().spheres().get(1).map(|sphere| sphere.center.z), Some(9.0));
+    /// ```
     #[must_use]
     pub const fn list(&self) -> &SphereList {
         &self.spheres

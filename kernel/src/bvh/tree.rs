@@ -1,26 +1,17 @@
 //! The tree, borrowed.
 
 use super::boxes_per_ray::BoxesPerRay;
-use super::build::budget::{nodes_needed, places_needed, spare_nodes, spare_places};
+use super::build::budget::{BvhSize, needed};
 use super::build::join::{InTurn, Join};
 use super::build::top_down;
 use super::built::Built;
-use super::leaf::{BEFORE, BEHIND, Leaf, MOST_PLACES, extent_of, number_of};
+use super::leaf::{Leaf, extent_of, number_of};
 use super::node::{BvhNode, DEPTH, LEAF, NO_CHILD, WIDTH};
-use super::traverse::source::{InsideSpheres, OutsideSpheres, SphereSource};
+use super::source::{InsideSpheres, OutsideSpheres, SphereSource};
 use crate::geometry::sphere::{Sphere, Spheres};
 use crate::memory::TooSmall;
 use crate::scale::scene::SceneScale;
 use glam::Vec3;
-
-/// How much memory a tree takes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct BvhSize {
-    /// Nodes, of 512 bytes.
-    pub nodes: usize,
-    /// Places of spheres, of 16 bytes, and as many indices, of 4.
-    pub places: usize,
-}
 
 /// A tree over a list of spheres, in memory of the caller's.
 ///
@@ -100,12 +91,7 @@ impl<'a> Bvh<'a> {
     /// ```
     #[must_use]
     pub const fn needed(count: usize) -> BvhSize {
-        let places = places_needed(if count < MOST_PLACES { count } else { MOST_PLACES });
-        let places = places + spare_places(places) + BEFORE + BEHIND + 1;
-        if count > MOST_PLACES / 2 {
-            return BvhSize { nodes: usize::MAX, places: usize::MAX };
-        }
-        BvhSize { nodes: nodes_needed(count) + spare_nodes(count), places }
+        needed(count)
     }
 
     /// Builds a tree over `spheres` in the memory given, whose contents do not matter.
@@ -120,6 +106,17 @@ impl<'a> Bvh<'a> {
     /// # Errors
     /// [`TooSmall`] if a slice is shorter than [`Bvh::needed`] says; longer is no error, and the
     /// rest is left alone.
+    ///
+    /// ```
+    /// use spherule_kernel::{Bvh, Spheres};
+    ///
+    /// const NEEDED: usize = Bvh::needed(1).places;
+    /// let (mut nodes, mut places, mut indices) = ([], [[0.0; 4]; NEEDED], [0; NEEDED]);
+    /// let spheres = Spheres::new(&[0.0], &[0.0], &[5.0], &[1.0]).expect("equal lengths");
+    /// let tree = Bvh::build(spheres, &mut nodes, &mut places, &mut indices)?;
+    /// assert_eq!(tree.depth(), 0);
+    /// # Ok::<(), spherule_kernel::TooSmall>(())
+    /// ```
     pub fn build(
         spheres: Spheres<'a>,
         nodes: &'a mut [BvhNode],
@@ -135,6 +132,17 @@ impl<'a> Bvh<'a> {
     ///
     /// # Errors
     /// As [`Bvh::build`].
+    ///
+    /// ```
+    /// use spherule_kernel::{Bvh, InTurn, Spheres};
+    ///
+    /// const NEEDED: usize = Bvh::needed(1).places;
+    /// let (mut nodes, mut places, mut indices) = ([], [[0.0; 4]; NEEDED], [0; NEEDED]);
+    /// let spheres = Spheres::new(&[0.0], &[0.0], &[5.0], &[1.0]).expect("equal lengths");
+    /// let tree = Bvh::build_with(&InTurn, spheres, &mut nodes, &mut places, &mut indices)?;
+    /// assert_eq!(tree.spheres().len(), 1);
+    /// # Ok::<(), spherule_kernel::TooSmall>(())
+    /// ```
     pub fn build_with(
         join: &impl Join,
         spheres: Spheres<'a>,
@@ -211,6 +219,13 @@ impl<'a> Bvh<'a> {
     }
 
     /// The list that the tree was built from.
+    ///
+    /// ```
+    /// use spherule_kernel::SphereTree;
+    ///
+    /// let tree = SphereTree::new([[0.0, 0.0, 5.0, 1.0], [0.0, 0.0, 9.0, 1.0]]);
+    /// assert_eq!(tree.bvh().spheres().get(0).map(|sphere| sphere.radius), Some(1.0));
+    /// ```
     #[must_use]
     pub const fn spheres(&self) -> Spheres<'a> {
         self.spheres
@@ -224,18 +239,41 @@ impl<'a> Bvh<'a> {
     /// (MacDonald and Booth 1990), for rays through the space in which most of the spheres are; a scene that moves, grows or shrinks
     /// as a whole has not grown. Sixteen spheres that no box holds, which every ray must meet, count as one box that every
     /// ray enters. Up to 64 spheres have no boxes that a ray looks at.
+    ///
+    /// ```
+    /// use spherule_kernel::SphereTree;
+    ///
+    /// let tree = SphereTree::new([[0.0, 0.0, 5.0, 1.0], [0.0, 0.0, 9.0, 1.0]]);
+    /// assert_eq!(tree.bvh().growth(), 1.0);
+    /// ```
     #[must_use]
     pub fn growth(&self) -> f32 {
         self.boxes_per_ray.cost(self.outside.len()) / self.cost_when_built
     }
 
     /// The memory that the tree takes: at most what was needed.
+    ///
+    /// ```
+    /// use spherule_kernel::{Bvh, SphereTree};
+    ///
+    /// let tree = SphereTree::new([[0.0, 0.0, 5.0, 1.0], [0.0, 0.0, 9.0, 1.0]]);
+    /// let (size, needed) = (tree.bvh().size(), Bvh::needed(2));
+    /// assert!(size.nodes <= needed.nodes && size.places <= needed.places);
+    /// ```
     #[must_use]
     pub const fn size(&self) -> BvhSize {
         BvhSize { nodes: self.nodes.len(), places: self.indices.len() + self.outside.len() }
     }
 
     /// How many nodes lie one below the other: 0 for up to sixteen spheres, at most 10.
+    ///
+    /// ```
+    /// use spherule_kernel::SphereTree;
+    ///
+    /// let at = |i: usize| [i as f32, 0.0, 0.0, 0.1];
+    /// let tree = SphereTree::new((0..100).map(at).collect::<Vec<_>>());
+    /// assert_eq!(tree.bvh().depth(), 1);
+    /// ```
     #[must_use]
     pub fn depth(&self) -> usize {
         // Children come after their parents, so one pass from the back would need memory;

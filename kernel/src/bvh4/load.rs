@@ -40,33 +40,55 @@ impl fmt::Display for Bvh4Error {
 
 impl core::error::Error for Bvh4Error {}
 
-/// The tree that the words are.
-pub(super) fn load<'a>(spheres: Spheres<'a>, words: &'a [u32]) -> Result<Bvh4<'a>, Bvh4Error> {
-    let Some((&[mark, count, inside, valid, factor], rest)) = words.split_first_chunk::<HEADER>()
-    else {
-        return Err(Bvh4Error::Length);
-    };
-    if mark != MARK {
-        return Err(Bvh4Error::Mark);
+impl<'a> Bvh4<'a> {
+    /// The tree that [`words`](Bvh4::words) of a tree over `spheres` are, wherever they come from.
+    ///
+    /// Any words return, and what is loaded answers as the list does.
+    /// Cost: each box is computed anew from its spheres, some hundreds of operations a sphere. Stack: half a kilobyte on 32
+    /// bits. No other memory.
+    ///
+    /// # Errors
+    /// [`Bvh4Error`] says what is wrong of words that are not a tree over these spheres, bit for bit. More words than the tree's
+    /// are no error.
+    ///
+    /// ```
+    /// use spherule_kernel::{Bvh4, Bvh4Error, Spheres};
+    ///
+    /// let spheres = Spheres::new(&[0.0], &[0.0], &[5.0], &[1.0]).expect("equal lengths");
+    /// let mut memory = [0; Bvh4::needed(1)];
+    /// let words = Bvh4::build(spheres, &mut memory)?.words();
+    /// assert_eq!(Bvh4::load(spheres, words)?.words(), words);
+    /// assert_eq!(Bvh4::load(spheres, &words[..3]).err(), Some(Bvh4Error::Length));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn load(spheres: Spheres<'a>, words: &'a [u32]) -> Result<Self, Bvh4Error> {
+        let Some((&[mark, count, inside, valid, factor], rest)) =
+            words.split_first_chunk::<HEADER>()
+        else {
+            return Err(Bvh4Error::Length);
+        };
+        if mark != MARK {
+            return Err(Bvh4Error::Mark);
+        }
+        if count as usize != spheres.len() || count as usize > MOST {
+            return Err(Bvh4Error::Count);
+        }
+        if inside > valid || valid > count {
+            return Err(Bvh4Error::Order);
+        }
+        let scale = SceneScale::from_factor(f32::from_bits(factor)).ok_or(Bvh4Error::Scale)?;
+        let shape = Shape::new(inside);
+        let Some((order, rest)) = rest.split_at_checked(count as usize) else {
+            return Err(Bvh4Error::Length);
+        };
+        let Some(nodes) = rest.get(..shape.nodes as usize * NODE) else {
+            return Err(Bvh4Error::Length);
+        };
+        check_order(&spheres, &scale, order, [inside, valid])?;
+        let boxes = Boxes { spheres, scale, shape };
+        check_boxes(&boxes, order, nodes)?;
+        Ok(Self::of(boxes, words, valid))
     }
-    if count as usize != spheres.len() || count as usize > MOST {
-        return Err(Bvh4Error::Count);
-    }
-    if inside > valid || valid > count {
-        return Err(Bvh4Error::Order);
-    }
-    let scale = SceneScale::from_factor(f32::from_bits(factor)).ok_or(Bvh4Error::Scale)?;
-    let shape = Shape::new(inside);
-    let Some((order, rest)) = rest.split_at_checked(count as usize) else {
-        return Err(Bvh4Error::Length);
-    };
-    let Some(nodes) = rest.get(..shape.nodes as usize * NODE) else {
-        return Err(Bvh4Error::Length);
-    };
-    check_order(&spheres, &scale, order, [inside, valid])?;
-    let boxes = Boxes { spheres, scale, shape };
-    check_boxes(&boxes, order, nodes)?;
-    Ok(Bvh4::of(boxes, words, valid))
 }
 
 /// Every sphere is in one place, which is among its kind.

@@ -102,7 +102,7 @@ pub(super) fn part_bits(shape: &Shape) -> impl Iterator<Item = u32> + use<> {
     (LEAF_BITS + 1..=size_bits(shape.height)).rev()
 }
 
-#[cfg(test)]
+#[cfg(all(test, proofs))]
 mod tests {
     use super::*;
 

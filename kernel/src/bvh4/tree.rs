@@ -1,7 +1,6 @@
 //! The tree, borrowed: words, and the list that it is over.
 
 use super::boxes::{Boxes, NODE, ROWS};
-use super::load::{Bvh4Error, load};
 use super::order;
 use super::shape::{MOST, Place, Shape, WIDTH};
 use crate::geometry::sphere::Spheres;
@@ -80,6 +79,16 @@ impl<'a> Bvh4<'a> {
     ///
     /// # Errors
     /// [`TooSmall`] if there are fewer words than [`Bvh4::needed`] says; more are no error, and the rest is left alone.
+    ///
+    /// ```
+    /// use spherule_kernel::{Bvh4, Exact, Intersect, Ray, Spheres, Vec3};
+    ///
+    /// let spheres = Spheres::new(&[0.0], &[0.0], &[5.0], &[1.0]).expect("equal lengths");
+    /// let mut memory = [0; Bvh4::needed(1)];
+    /// let tree = Bvh4::build(spheres, &mut memory)?;
+    /// assert!(tree.any_hit(Exact, &Ray::new(Vec3::ZERO, Vec3::Z)));
+    /// # Ok::<(), spherule_kernel::TooSmall>(())
+    /// ```
     pub fn build(spheres: Spheres<'a>, words: &'a mut [u32]) -> Result<Self, TooSmall> {
         let needed = Self::needed(spheres.len());
         TooSmall::check(needed, words.len())?;
@@ -107,19 +116,6 @@ impl<'a> Bvh4<'a> {
         Ok(Self::of(boxes, words, valid))
     }
 
-    /// The tree that [`words`](Bvh4::words) of a tree over `spheres` are, wherever they come from.
-    ///
-    /// Any words return, and what is loaded answers as the list does.
-    /// Cost: each box is computed anew from its spheres, some hundreds of operations a sphere. Stack: half a kilobyte on 32
-    /// bits. No other memory.
-    ///
-    /// # Errors
-    /// [`Bvh4Error`] says what is wrong of words that are not a tree over these spheres, bit for bit. More words than the tree's
-    /// are no error.
-    pub fn load(spheres: Spheres<'a>, words: &'a [u32]) -> Result<Self, Bvh4Error> {
-        load(spheres, words)
-    }
-
     /// The words of a tree that was checked or built.
     pub(super) fn of(boxes: Boxes<'a>, words: &'a [u32], valid: u32) -> Self {
         let count = boxes.spheres.len();
@@ -132,12 +128,31 @@ impl<'a> Bvh4<'a> {
     }
 
     /// The list that the tree is over.
+    ///
+    /// ```
+    /// use spherule_kernel::{Bvh4, Spheres};
+    ///
+    /// let spheres = Spheres::new(&[0.0], &[0.0], &[5.0], &[1.0]).expect("equal lengths");
+    /// let mut memory = [0; Bvh4::needed(1)];
+    /// assert_eq!(Bvh4::build(spheres, &mut memory)?.spheres().len(), 1);
+    /// # Ok::<(), spherule_kernel::TooSmall>(())
+    /// ```
     #[must_use]
     pub const fn spheres(&self) -> Spheres<'a> {
         self.boxes.spheres
     }
 
     /// What the tree is: as many words as are needed for the spheres that bounds see, the same on every target.
+    ///
+    /// ```
+    /// use spherule_kernel::{Bvh4, Spheres};
+    ///
+    /// let spheres = Spheres::new(&[0.0], &[0.0], &[5.0], &[1.0]).expect("equal lengths");
+    /// let mut memory = [0; Bvh4::needed(1)];
+    /// let words = Bvh4::build(spheres, &mut memory)?.words();
+    /// assert!(words.len() <= Bvh4::needed(1));
+    /// # Ok::<(), spherule_kernel::TooSmall>(())
+    /// ```
     #[must_use]
     pub const fn words(&self) -> &'a [u32] {
         self.words

@@ -97,6 +97,15 @@ impl<'a> DepthList<'a> {
     ///
     /// # Errors
     /// [`TooSmall`] if `memory` is shorter than [`DepthList::needed`] says; longer is no error.
+    ///
+    /// ```
+    /// use spherule_kernel::{DepthList, Spheres, Vec3, Viewpoint};
+    ///
+    /// let spheres = Spheres::new(&[0.0], &[0.0], &[5.0], &[1.0]).expect("equal lengths");
+    /// let mut memory = [0.0; DepthList::needed(1)];
+    /// assert!(DepthList::sort(spheres, Viewpoint::Direction(Vec3::Z), &mut memory).is_ok());
+    /// assert!(DepthList::sort(spheres, Viewpoint::Direction(Vec3::Z), &mut []).is_err());
+    /// ```
     pub fn sort(
         spheres: Spheres<'a>,
         viewpoint: Viewpoint,
@@ -126,6 +135,16 @@ impl<'a> DepthList<'a> {
     }
 
     /// The list that was sorted.
+    ///
+    /// ```
+    /// use spherule_kernel::{DepthList, Spheres, Vec3, Viewpoint};
+    ///
+    /// let spheres = Spheres::new(&[0.0], &[0.0], &[5.0], &[1.0]).expect("equal lengths");
+    /// let mut memory = [0.0; DepthList::needed(1)];
+    /// let list = DepthList::sort(spheres, Viewpoint::Origin(Vec3::ZERO), &mut memory)?;
+    /// assert_eq!(list.spheres().len(), 1);
+    /// # Ok::<(), spherule_kernel::TooSmall>(())
+    /// ```
     #[must_use]
     pub const fn spheres(&self) -> Spheres<'a> {
         self.spheres

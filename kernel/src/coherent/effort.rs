@@ -125,8 +125,8 @@ impl Effort {
         node: &BvhNode,
         slot: usize,
     ) -> bool {
-        #[cfg(test)]
-        if crate::testing::work::groups_persist() {
+        #[cfg(all(test, proofs))]
+        if crate::proofs::work::groups_persist() {
             return false;
         }
         let mut roots = 0_u32;
@@ -166,8 +166,8 @@ impl Effort {
     /// Whether what it has done is more than a multiple of what its rays would have done apart.
     #[inline(always)]
     fn takes<L: Lanes>(&self, states: &[PacketState<'_, L>], part: u64, of: u64) -> bool {
-        #[cfg(test)]
-        if crate::testing::work::groups_persist() {
+        #[cfg(all(test, proofs))]
+        if crate::proofs::work::groups_persist() {
             return false;
         }
         let (mut roots, mut ray_roots, mut tests) = (0_u32, 0_u32, 0_u32);

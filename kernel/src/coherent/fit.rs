@@ -2,6 +2,7 @@
 
 use super::frustum::{Frustum, Sides, across, margin, turn};
 use super::packet_state::PacketState;
+use crate::bvh::traverse::prepared_ray::ABSOLUTE_ERROR;
 use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::axes;
 use crate::numeric::rounding::{U, least, most};
@@ -203,7 +204,7 @@ impl Fit {
 /// What the spread of a tier adds to depths in a scene of that extent.
 #[inline(always)]
 pub(super) fn spread_of(spread: f32, extent: f32, absolute_error: f32) -> f32 {
-    4.0 * spread * (extent + absolute_error * (0.125 / U))
+    4.0 * spread * (extent + absolute_error * (1.0 / ABSOLUTE_ERROR / U))
 }
 
 /// The largest magnitude of four slopes.

@@ -11,12 +11,12 @@
 //! its centre is by more than its radius times the length of the normal. Along k itself the group
 //! is bounded by its origins, and by how far its rays still go.
 //!
-//! Slopes are moved by 16 u |w| + u, D by 16 u (F + 2^-11 T) (1 + |w|) and 2^-57, the lengths of normals by
+//! Slopes are moved by 16 u |w| + u / 64, D by 8 u (F + 2^-11 T) (1 + |w|) and 2^-58, the lengths of normals by
 //! 64 u: `docs/traversal-margins.md` proves that this is enough, and `tests/structures/far.rs` guards it.
 
 use crate::bvh::node::{BvhNode, WIDTH};
-use crate::bvh::traverse::root_interval::SphereColumns;
 use crate::count::count;
+use crate::geometry::sphere_columns::SphereColumns;
 use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::axes;
 use crate::numeric::rounding::U;
@@ -31,29 +31,40 @@ struct Line {
     length: f32,
 }
 
+/// By how many absolute errors, times 1 + |w|, planes are moved.
+pub(crate) const MARGIN: f32 = 1.0;
+/// By how much slopes are moved: a part of |w|, and an amount.
+pub(crate) const TURN: [f32; 2] = [16.0 * U, U / 64.0];
+/// How much larger a radius counts: 64u.
+pub(crate) const LARGER: f32 = 1.0 + 64.0 * U;
+
 /// How far a plane of that slope, at least zero, is moved; the error is the rays' largest.
 #[inline(always)]
-pub(super) fn margin(slope: f32, absolute_error: f32) -> f32 {
-    2.0 * absolute_error * (1.0 + slope)
+pub(crate) fn margin<L: Lanes>(slope: L, absolute_error: L) -> L {
+    slope.like(MARGIN) * absolute_error * (slope.like(1.0) + slope)
 }
 
 /// How far that slope is moved.
 #[inline(always)]
-pub(super) fn turn(slope: f32) -> f32 {
-    16.0 * U * slope + U
+pub(crate) fn turn<L: Lanes>(slope: L) -> L {
+    slope.like(TURN[0]) * slope + slope.like(TURN[1])
 }
 
-/// How much larger a radius counts: 64u.
-const LARGER: f32 = 1.0 + 64.0 * U;
+/// At least the length of the normal of a plane of that slope, and not much more where that is below one; larger by what
+/// radii count.
+#[inline(always)]
+pub(crate) fn length<L: Lanes>(slope: L) -> L {
+    slope * slope * slope.like(0.5 * LARGER) + slope.like(LARGER)
+}
 
 /// The four planes: two lines for each of the axes across, below and above the rays; first those of the first axis.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Sides {
+pub(crate) struct Sides {
     /// The axis that all rays run along.
-    along: usize,
-    slope: [f32; 4],
-    offset: [f32; 4],
-    length: [f32; 4],
+    pub(crate) along: usize,
+    pub(crate) slope: [f32; 4],
+    pub(crate) offset: [f32; 4],
+    pub(crate) length: [f32; 4],
 }
 
 /// The axes that are not `along`.
@@ -94,9 +105,8 @@ impl Sides {
 
     #[inline(always)]
     fn of_lines(along: usize, slope: f32x4, offset: f32x4) -> Self {
-        // At least the root of 1 + slope^2, and not much more where the slope is below one.
-        let length = slope * slope * f32x4::splat(0.5 * LARGER) + f32x4::splat(LARGER);
-        let (slope, offset, length) = (slope.to_array(), offset.to_array(), length.to_array());
+        let (slope, offset, length) =
+            (slope.to_array(), offset.to_array(), length(slope).to_array());
         Self { along: along % 3, slope, offset, length }
     }
 
@@ -121,7 +131,7 @@ impl Sides {
     /// Which of sixteen spheres may be between the planes; each counts as larger by `spread` times its
     /// distance.
     #[inline(always)]
-    pub(super) fn look<L: Lanes>(
+    pub(crate) fn look<L: Lanes>(
         &self,
         token: L::Token,
         spheres: &SphereColumns<'_>,

@@ -13,7 +13,7 @@ use super::survey::{Survey, reaches};
 use super::view::View;
 use crate::Accuracy;
 use crate::accuracy::RayLanes;
-use crate::bvh::traverse::source::SphereSource;
+use crate::bvh::source::SphereSource;
 use crate::geometry::ray::RayPacket;
 use crate::geometry::sphere::{Sphere, Spheres};
 use crate::lanes::{LaneMask, Lanes};

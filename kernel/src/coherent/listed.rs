@@ -1,7 +1,7 @@
 //! Spheres in the order of their depth, column by column, in blocks of sixteen.
 
 use super::survey::Survey;
-use crate::bvh::traverse::root_interval::SphereColumns;
+use crate::geometry::sphere_columns::SphereColumns;
 use crate::lanes::{LaneArray, Lanes, WIDTH};
 
 /// x, y, z, radius, depth, index.

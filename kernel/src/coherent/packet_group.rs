@@ -3,10 +3,10 @@
 use super::effort::Effort;
 use super::packet_state::PacketState;
 use crate::Accuracy;
+use crate::bvh::source::SphereSource;
 use crate::bvh::traverse::prepared_ray::far_away;
-use crate::bvh::traverse::root_interval::SphereColumns;
-use crate::bvh::traverse::source::SphereSource;
 use crate::count::count;
+use crate::geometry::sphere_columns::SphereColumns;
 use crate::lanes::{LaneMask, Lanes};
 use crate::numeric::rounding::most;
 use crate::query::Query;

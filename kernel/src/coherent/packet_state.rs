@@ -10,12 +10,13 @@
 use super::frustum::Sides;
 use crate::Accuracy;
 use crate::accuracy::{RayLanes, is_closer, test_lanes};
+use crate::bvh::source::{SphereLanes, SphereSource};
 use crate::bvh::traverse::prepared_ray::PreparedLanes;
-use crate::bvh::traverse::root_interval::{Pass, RootInterval, SphereColumns};
-use crate::bvh::traverse::source::{SphereLanes, SphereSource};
+use crate::bvh::traverse::root_interval::{Pass, RootInterval};
 use crate::count::count;
 use crate::geometry::hit::HitPacket;
 use crate::geometry::ray::RayPacket;
+use crate::geometry::sphere_columns::SphereColumns;
 use crate::lanes::{LaneArray, LaneMask, Lanes, WIDTH};
 use crate::numeric::axes::axes;
 use crate::query::Query;

@@ -10,20 +10,19 @@
 //! ray is looked at but the first. Proof: `docs/traversal-margins.md`.
 
 use super::fit::{ALONG, Fit, greatest_of, heading, spread_of};
-use super::frustum::{Frustum, Sides, across, margin};
+use super::frustum::{Frustum, Sides, across, margin, turn};
 use super::packet_group::GROUP;
 use super::packet_state::PacketState;
 use crate::geometry::camera::Projection;
 use crate::geometry::camera::tiles::CameraTiles;
 use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::{axes, dot};
-use crate::numeric::rounding::U;
 use wide::f32x4;
 
 /// How often the error of a point counts: at a corner and at a pixel, and a quarter for what is of second order.
-const ERRORS: f32 = 2.5;
+pub(crate) const ERRORS: f32 = 2.5;
 /// The most of the least depth that a point may be off.
-const SMALL: f32 = 1.0 / 64.0;
+pub(crate) const SMALL: f32 = 1.0 / 64.0;
 /// 2^100: with a larger error a point may not be finite.
 const MOST_ERROR: f32 = (1_u128 << 100) as f32;
 /// 14^2: where |n_k| is at least 1/14 at the corners, it is at least 1/16 in between.
@@ -79,8 +78,8 @@ pub(super) fn enclose<L: Lanes>(
 
     // Each packet's planes. Slopes are moved for rays once more, and become slopes per x_k; as `Fit::sides` does it.
     let (signs, steepest) = (f32x4::splat(sign), steepest(&slopes));
-    let turn = steepest * f32x4::splat(16.0 * U) + f32x4::splat(U);
-    let margins = (f32x4::ONE + steepest) * f32x4::splat(2.0 * error);
+    let turn = turn(steepest);
+    let margins = margin(steepest, f32x4::splat(error));
     let mut turned = slopes;
     for side in 0..2 {
         turned[side] = [-signs * (slopes[side][0] + turn), signs * (slopes[side][1] + turn)];
@@ -126,19 +125,19 @@ pub(super) fn enclose<L: Lanes>(
 }
 
 /// The points of the corner pixels of tiles, a lane a tile: directions in perspective, origins in parallel projection.
-struct Points {
-    at_corners: [[f32x4; 3]; 4],
+pub(crate) struct Points {
+    pub(crate) at_corners: [[f32x4; 3]; 4],
     /// How far a point may be off.
-    error: [f32; 3],
+    pub(crate) error: [f32; 3],
     /// The axis that the rays run along, and which way.
-    heading: (usize, f32),
+    pub(crate) heading: (usize, f32),
 }
 
 impl Points {
     /// Of directions: the slopes per depth; `None` if one runs too far aslant for its rays, or is off too much. A
     /// range is looked at only `if_wide`: that of one pixel is zero.
     #[inline(always)]
-    fn slopes(&self, if_wide: bool) -> Option<Ranges> {
+    pub(crate) fn slopes(&self, if_wide: bool) -> Option<Ranges> {
         let (k, sign) = (self.heading.0 % 3, f32x4::splat(self.heading.1));
         let (zero, none) = (f32x4::ZERO, f32x4::splat(f32::NEG_INFINITY));
         let (mut fits, mut minus_nearest) = (zero.le(zero), none);
@@ -174,7 +173,13 @@ impl Points {
 
     /// Of origins: where planes of those slopes lie, moved outward by the margins, too.
     #[inline(always)]
-    fn offsets(&self, slopes: &Ranges, steepest: f32x4, factor: f32, margins: f32x4) -> Ranges {
+    pub(crate) fn offsets(
+        &self,
+        slopes: &Ranges,
+        steepest: f32x4,
+        factor: f32,
+        margins: f32x4,
+    ) -> Ranges {
         let (k, scale) = (self.heading.0 % 3, f32x4::splat(factor));
         let none = f32x4::splat(f32::NEG_INFINITY);
         let mut offsets = [[none; 2]; 2];
@@ -255,6 +260,3 @@ fn steepest(slopes: &Ranges) -> f32x4 {
     let (c, d) = (c.filter_max(-c), d.filter_max(-d));
     a.filter_max(b).filter_max(c.filter_max(d))
 }
-
-#[cfg(test)]
-mod corners;

@@ -160,6 +160,7 @@ impl Boxes {
             self.top -= 1;
             let at = self.top & (STACK - 1);
             let (depth, place) = (self.depths[at], self.places[at]);
+            // At the end, too, nothing matters: it is raised by more than an answer is off. So `>=` would be as right.
             if depth > frustum.end {
                 continue;
             }

@@ -19,12 +19,12 @@ use crate::bvh::traverse::stream::{self, Sharing, StreamMemory};
 use crate::bvh::traverse::stream::{KeptMemory, MOST_SORTED};
 use crate::bvh::traverse::wavefront;
 use crate::bvh::tree::Bvh;
+use crate::coherence::Coherence;
 use crate::geometry::ray::RayPacket;
 use crate::geometry::sphere_run::SphereRun;
 use crate::lanes::Lanes;
 use crate::linear;
 use crate::query::Query;
-use crate::trace::Coherence;
 use core::ops::Range;
 
 /// What a caller says of the rays, memory for streams, and what is learnt of rays.

@@ -15,6 +15,9 @@ use crate::numeric::rounding::{LARGEST, LEAST_COMPONENT, U};
 use crate::scale::rays::ScaledRays;
 use glam::Vec3;
 
+/// By how much depths are lowered, of |x| + r.
+pub(crate) const DEPTH_MARGIN: f32 = 64.0 * U;
+
 /// What the rays of a run have in common.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Viewpoint {
@@ -58,7 +61,7 @@ impl View {
     /// The distance is 4u off, |x| - r one more, x.n 5u; an answer lies at |s| >= |p| - r, |s| >= r - |p|
     /// and s >= p.n - r, except for 32 u (|p| + r) (`docs/traversal-margins.md`).
     pub(super) fn see(&self, sphere: &Sphere) -> ([f32; 3], f32) {
-        let margin = |away: f32| 64.0 * U * (away + sphere.radius) + LEAST_COMPONENT;
+        let margin = |away: f32| DEPTH_MARGIN * (away + sphere.radius) + LEAST_COMPONENT;
         match self {
             Self::Perspective { scaled, .. } => {
                 let center = axes!(i => sphere.center[i] - scaled[i]);

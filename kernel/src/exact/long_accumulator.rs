@@ -76,7 +76,7 @@ impl Product {
     }
 
     /// A double that is finite and no subnormal: as few bits of mantissa as it has.
-    #[cfg(test)]
+    #[cfg(all(test, proofs))]
     pub(crate) fn of_double(x: f64) -> Self {
         let bits = x.to_bits();
         let (exponent, fraction) = ((bits >> 52 & 0x7ff) as i32, bits & ((1 << 52) - 1));
@@ -171,7 +171,7 @@ fn multiply(sum: &mut [Limb], a: &[Limb; WIDE], b: &[Limb]) {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LongAccumulator<const LIMBS: usize> {
     /// Two's complement, the lowest first.
-    limbs: [Limb; LIMBS],
+    pub(crate) limbs: [Limb; LIMBS],
 }
 
 impl<const LIMBS: usize> LongAccumulator<LIMBS> {
@@ -243,8 +243,8 @@ impl<const LIMBS: usize> LongAccumulator<LIMBS> {
             if number > limbs.len() && !carry {
                 return;
             }
-            #[cfg(test)]
-            crate::testing::limbs::touch();
+            #[cfg(all(test, proofs))]
+            crate::proofs::limbs::touch();
             // Bits that leave a limb at its top come in at the next one's bottom.
             let limb = limbs.get(number).copied().unwrap_or(0);
             let more = limb << shift | from_below;
@@ -293,6 +293,3 @@ impl<const LIMBS: usize> LongAccumulator<LIMBS> {
         f64::from_bits(sign + (((exponent + 1022) as u64) << 52) + (bits as u64 >> 11))
     }
 }
-
-#[cfg(test)]
-mod against_integers;

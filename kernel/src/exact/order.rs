@@ -199,6 +199,3 @@ impl TwoSpheres<'_> {
         }
     }
 }
-
-#[cfg(test)]
-mod against_integers;

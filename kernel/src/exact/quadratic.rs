@@ -290,6 +290,3 @@ impl<'a> Quadratic<'a> {
         }
     }
 }
-
-#[cfg(test)]
-mod by_hand;

@@ -45,6 +45,18 @@ impl Camera {
     /// The ray through pixel `(ix, iy)`, with `t` in `[0, +inf]`.
     ///
     /// Indices are rounded to `f32`: exact up to 2^24.
+    ///
+    /// ```
+    /// use spherule_kernel::{Camera, Projection, Vec3};
+    ///
+    /// let camera = Camera {
+    ///     projection: Projection::Perspective { eye: Vec3::ZERO },
+    ///     corner: Vec3::NEG_Z,
+    ///     step_x: Vec3::X,
+    ///     step_y: Vec3::NEG_Y,
+    /// };
+    /// assert_eq!(camera.get_ray(2, 1).direction, Vec3::new(2.0, -1.0, -1.0));
+    /// ```
     #[must_use]
     #[inline]
     pub fn get_ray(&self, ix: u32, iy: u32) -> Ray {
@@ -56,6 +68,12 @@ impl Camera {
     }
 
     /// The width and height in pixels of the tile that fills a packet: as square as can be.
+    ///
+    /// ```
+    /// use spherule_kernel::Camera;
+    ///
+    /// assert_eq!(Camera::tile::<[f32; 16]>(), (4, 4));
+    /// ```
     #[must_use]
     pub const fn tile<A: LaneArray>() -> (u32, u32) {
         let mut height = 1;
@@ -67,6 +85,21 @@ impl Camera {
 
     /// The rays of the tile whose first pixel is `(ix, iy)`, row by row; lanes outside the image
     /// of `width` x `height` pixels are inactive. Bit for bit [`Camera::get_ray`] of each pixel.
+    ///
+    /// ```
+    /// use spherule_kernel::{Camera, Projection, Vec3};
+    ///
+    /// let camera = Camera {
+    ///     projection: Projection::Perspective { eye: Vec3::ZERO },
+    ///     corner: Vec3::NEG_Z,
+    ///     step_x: Vec3::X,
+    ///     step_y: Vec3::NEG_Y,
+    /// };
+    /// let packet = camera.packet::<[f32; 16]>(0, 0, 3, 4);
+    /// assert_eq!(packet.ray(5), camera.get_ray(1, 1));
+    /// // The last column is outside of the picture.
+    /// assert_eq!(packet.live(), 0b0111_0111_0111_0111);
+    /// ```
     #[must_use]
     pub fn packet<A: LaneArray>(&self, ix: u32, iy: u32, width: u32, height: u32) -> RayPacket<A> {
         let (tile_width, _) = Self::tile::<A>();
@@ -81,6 +114,3 @@ impl Camera {
         packet
     }
 }
-
-#[cfg(test)]
-mod packets;

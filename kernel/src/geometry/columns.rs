@@ -38,6 +38,15 @@ pub struct RayColumns<'a> {
 
 impl<'a> RayColumns<'a> {
     /// How many rays: as many as the shortest column has numbers.
+    ///
+    /// ```
+    /// use spherule_kernel::RayColumns;
+    ///
+    /// let (zero, one, infinity) = ([0.0; 2], [1.0; 2], [f32::INFINITY; 2]);
+    /// let rays =
+    ///     RayColumns { origin: [&zero; 3], direction: [&zero, &zero, &one], t_min: &zero, t_max: &infinity };
+    /// assert_eq!(rays.len(), 2);
+    /// ```
     #[must_use]
     pub fn len(&self) -> usize {
         let ([ox, oy, oz], [dx, dy, dz]) = (self.origin, self.direction);
@@ -49,12 +58,31 @@ impl<'a> RayColumns<'a> {
     }
 
     /// Whether there is none.
+    ///
+    /// ```
+    /// use spherule_kernel::RayColumns;
+    ///
+    /// let (zero, one, infinity) = ([0.0; 2], [1.0; 2], [f32::INFINITY; 2]);
+    /// let rays =
+    ///     RayColumns { origin: [&zero; 3], direction: [&zero, &zero, &one], t_min: &zero, t_max: &infinity };
+    /// assert!(!rays.is_empty());
+    /// ```
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
     /// Ray `index`; `None` past the end.
+    ///
+    /// ```
+    /// use spherule_kernel::{Ray, RayColumns, Vec3};
+    ///
+    /// let (zero, one, infinity) = ([0.0; 2], [1.0; 2], [f32::INFINITY; 2]);
+    /// let rays =
+    ///     RayColumns { origin: [&zero; 3], direction: [&zero, &zero, &one], t_min: &zero, t_max: &infinity };
+    /// assert_eq!(rays.ray(1), Some(Ray::new(Vec3::ZERO, Vec3::Z)));
+    /// assert_eq!(rays.ray(2), None);
+    /// ```
     #[must_use]
     #[inline(always)]
     pub fn ray(&self, index: usize) -> Option<Ray> {
@@ -125,18 +153,42 @@ pub struct HitColumns<'a> {
 
 impl HitColumns<'_> {
     /// How many hits there is room for: the shorter of the two columns.
+    ///
+    /// ```
+    /// use spherule_kernel::{HitColumns, HitPacket};
+    ///
+    /// let (mut t, mut sphere) = ([4.0, f32::INFINITY, 0.0], [7, HitPacket::<[f32; 16]>::NO_SPHERE]);
+    /// let hits = HitColumns { t: &mut t, sphere: &mut sphere };
+    /// assert_eq!(hits.len(), 2);
+    /// ```
     #[must_use]
     pub fn len(&self) -> usize {
         self.t.len().min(self.sphere.len())
     }
 
     /// Whether there is none.
+    ///
+    /// ```
+    /// use spherule_kernel::{HitColumns, HitPacket};
+    ///
+    /// let (mut t, mut sphere) = ([4.0, f32::INFINITY, 0.0], [7, HitPacket::<[f32; 16]>::NO_SPHERE]);
+    /// let hits = HitColumns { t: &mut t, sphere: &mut sphere };
+    /// assert!(!hits.is_empty());
+    /// ```
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
     /// Hit `index`; `None` if there is none, or past the end.
+    ///
+    /// ```
+    /// use spherule_kernel::{Hit, HitColumns, HitPacket};
+    ///
+    /// let (mut t, mut sphere) = ([4.0, f32::INFINITY, 0.0], [7, HitPacket::<[f32; 16]>::NO_SPHERE]);
+    /// let hits = HitColumns { t: &mut t, sphere: &mut sphere };
+    /// assert_eq!([hits.hit(0), hits.hit(1)], [Some(Hit { t: 4.0, sphere: 7 }), None]);
+    /// ```
     #[must_use]
     pub fn hit(&self, index: usize) -> Option<Hit> {
         let hit = Hit { t: *self.t.get(index)?, sphere: *self.sphere.get(index)? };

@@ -26,6 +26,12 @@ impl<A: LaneArray> HitPacket<A> {
     pub const NO_SPHERE: u32 = u32::MAX;
 
     /// No hit in any lane: `t` is `+inf`, the sphere [`Self::NO_SPHERE`].
+    ///
+    /// ```
+    /// use spherule_kernel::HitPacket;
+    ///
+    /// assert_eq!(HitPacket::<[f32; 4]>::none().t(), [f32::INFINITY; 4]);
+    /// ```
     #[must_use]
     #[inline(always)]
     pub const fn none() -> Self {
@@ -46,18 +52,55 @@ impl<A: LaneArray> HitPacket<A> {
     }
 
     /// The `t` of every lane; `+inf` if the ray hits nothing.
+    ///
+    /// ```
+    /// use spherule_kernel::{
+    ///     Exact, HitPacket, Intersect, Ray, RayPacket, SphereList, Trace, Vec3,
+    /// };
+    ///
+    /// let list = SphereList::from([[0.0, 0.0, 5.0, 1.0], [0.0, 0.0, 9.0, 1.0]]);
+    /// let rays = [RayPacket::new(&[Ray::new(Vec3::ZERO, Vec3::Z)])];
+    /// let mut hits = [HitPacket::none()];
+    /// list.closest_hit_packets(Exact, &mut Trace::new(), &rays, &mut hits);
+    /// assert_eq!(hits[0].t()[..2], [4.0, f32::INFINITY]);
+    /// ```
     #[must_use]
     pub fn t(&self) -> &[f32] {
         self.t.as_ref()
     }
 
     /// The sphere index of every lane; [`Self::NO_SPHERE`] if the ray hits nothing.
+    ///
+    /// ```
+    /// use spherule_kernel::{
+    ///     Exact, HitPacket, Intersect, Ray, RayPacket, SphereList, Trace, Vec3,
+    /// };
+    ///
+    /// let list = SphereList::from([[0.0, 0.0, 5.0, 1.0], [0.0, 0.0, 9.0, 1.0]]);
+    /// let rays = [RayPacket::new(&[Ray::new(Vec3::ZERO, Vec3::Z)])];
+    /// let mut hits = [HitPacket::none()];
+    /// list.closest_hit_packets(Exact, &mut Trace::new(), &rays, &mut hits);
+    /// assert_eq!(hits[0].spheres()[..2], [0, u32::MAX]);
+    /// ```
     #[must_use]
     pub fn spheres(&self) -> &[u32] {
         self.sphere.as_ref()
     }
 
     /// The hit in `lane`; `None` if there is none, or no such lane.
+    ///
+    /// ```
+    /// use spherule_kernel::{
+    ///     Exact, HitPacket, Intersect, Ray, RayPacket, SphereList, Trace, Vec3,
+    /// };
+    ///
+    /// let list = SphereList::from([[0.0, 0.0, 5.0, 1.0], [0.0, 0.0, 9.0, 1.0]]);
+    /// let rays = [RayPacket::new(&[Ray::new(Vec3::ZERO, Vec3::Z)])];
+    /// let mut hits = [HitPacket::none()];
+    /// list.closest_hit_packets(Exact, &mut Trace::new(), &rays, &mut hits);
+    /// assert_eq!(hits[0].hit(0).map(|hit| hit.t), Some(4.0));
+    /// assert_eq!(hits[0].hit(16), None);
+    /// ```
     #[must_use]
     #[inline(always)]
     pub fn hit(&self, lane: usize) -> Option<Hit> {
@@ -66,6 +109,18 @@ impl<A: LaneArray> HitPacket<A> {
     }
 
     /// The hit of every lane, in order.
+    ///
+    /// ```
+    /// use spherule_kernel::{
+    ///     Exact, HitPacket, Intersect, Ray, RayPacket, SphereList, Trace, Vec3,
+    /// };
+    ///
+    /// let list = SphereList::from([[0.0, 0.0, 5.0, 1.0], [0.0, 0.0, 9.0, 1.0]]);
+    /// let rays = [RayPacket::new(&[Ray::new(Vec3::ZERO, Vec3::Z)])];
+    /// let mut hits = [HitPacket::none()];
+    /// list.closest_hit_packets(Exact, &mut Trace::new(), &rays, &mut hits);
+    /// assert_eq!(hits[0].hits().flatten().count(), 1);
+    /// ```
     pub fn hits(&self) -> impl ExactSizeIterator<Item = Option<Hit>> {
         (0..A::COUNT).map(|lane| self.hit(lane))
     }

@@ -33,12 +33,27 @@ impl Ray {
     };
 
     /// The half-line from `origin`: `t` in `[0, +inf]`.
+    ///
+    /// ```
+    /// use spherule_kernel::{Ray, Vec3};
+    ///
+    /// let ray = Ray::new(Vec3::ZERO, Vec3::Z);
+    /// assert_eq!((ray.t_min, ray.t_max), (0.0, f32::INFINITY));
+    /// ```
     #[must_use]
     pub const fn new(origin: Vec3, direction: Vec3) -> Self {
         Self { origin, direction, t_min: 0.0, t_max: f32::INFINITY }
     }
 
     /// Whether the ray can hit anything: rule 1, and an interval that is not empty.
+    ///
+    /// ```
+    /// use spherule_kernel::{Ray, Vec3};
+    ///
+    /// let ray = Ray::new(Vec3::ZERO, Vec3::Z);
+    /// assert!(ray.is_live() && !Ray { t_max: -1.0, ..ray }.is_live());
+    /// assert!(!Ray::new(Vec3::ZERO, Vec3::ZERO).is_live());
+    /// ```
     #[must_use]
     pub fn is_live(&self) -> bool {
         self.origin.is_finite()
@@ -55,6 +70,12 @@ impl Ray {
     }
 
     /// The point at `t`, each coordinate with two roundings.
+    ///
+    /// ```
+    /// use spherule_kernel::{Ray, Vec3};
+    ///
+    /// assert_eq!(Ray::new(Vec3::X, Vec3::Z).at(2.0), Vec3::new(1.0, 0.0, 2.0));
+    /// ```
     #[must_use]
     pub fn at(&self, t: f32) -> Vec3 {
         self.origin + t * self.direction
@@ -77,6 +98,13 @@ pub struct RayPacket<A: LaneArray = [f32; 16]> {
 
 impl<A: LaneArray> RayPacket<A> {
     /// A packet whose every lane is [`Ray::INACTIVE`].
+    ///
+    /// ```
+    /// use spherule_kernel::{Ray, RayPacket};
+    ///
+    /// let packet: RayPacket = RayPacket::inactive();
+    /// assert_eq!((packet.live(), packet.ray(0)), (0, Ray::INACTIVE));
+    /// ```
     #[must_use]
     #[inline(always)]
     pub const fn inactive() -> Self {
@@ -91,6 +119,13 @@ impl<A: LaneArray> RayPacket<A> {
 
     /// Ray `i` in lane `i`; lanes past the end of `rays` are inactive, rays past the last lane
     /// are left out.
+    ///
+    /// ```
+    /// use spherule_kernel::{Ray, RayPacket, Vec3};
+    ///
+    /// let packet = RayPacket::<[f32; 4]>::new(&[Ray::new(Vec3::ZERO, Vec3::Z)]);
+    /// assert_eq!(packet.live(), 0b0001);
+    /// ```
     #[must_use]
     #[inline(always)]
     pub fn new(rays: &[Ray]) -> Self {
@@ -124,6 +159,14 @@ impl<A: LaneArray> RayPacket<A> {
     }
 
     /// Puts `ray` in `lane`; does nothing if there is no such lane.
+    ///
+    /// ```
+    /// use spherule_kernel::{Ray, RayPacket, Vec3};
+    ///
+    /// let mut packet = RayPacket::<[f32; 4]>::inactive();
+    /// packet.set(2, &Ray::new(Vec3::ZERO, Vec3::Z));
+    /// assert_eq!(packet.live(), 0b0100);
+    /// ```
     #[inline(always)]
     pub fn set(&mut self, lane: usize, ray: &Ray) {
         if lane >= A::COUNT {
@@ -139,6 +182,14 @@ impl<A: LaneArray> RayPacket<A> {
     }
 
     /// The ray in `lane`; [`Ray::INACTIVE`] if there is no such lane.
+    ///
+    /// ```
+    /// use spherule_kernel::{Ray, RayPacket, Vec3};
+    ///
+    /// let ray = Ray::new(Vec3::ZERO, Vec3::Z);
+    /// let packet = RayPacket::<[f32; 4]>::new(&[ray]);
+    /// assert_eq!([packet.ray(0), packet.ray(9)], [ray, Ray::INACTIVE]);
+    /// ```
     #[must_use]
     #[inline(always)]
     pub fn ray(&self, lane: usize) -> Ray {
@@ -155,6 +206,13 @@ impl<A: LaneArray> RayPacket<A> {
     }
 
     /// The direction of every lane, coordinate by coordinate.
+    ///
+    /// ```
+    /// use spherule_kernel::{Ray, RayPacket, Vec3};
+    ///
+    /// let packet = RayPacket::<[f32; 4]>::new(&[Ray::new(Vec3::ZERO, Vec3::Z)]);
+    /// assert_eq!(packet.directions()[2], [1.0, 0.0, 0.0, 0.0]);
+    /// ```
     #[must_use]
     pub fn directions(&self) -> [&[f32]; 3] {
         self.direction.each_ref().map(A::as_ref)
@@ -196,6 +254,15 @@ impl RayPacket {
 
     /// As many packets as `rays` fill, in `packets`; returns those that were filled. The last is
     /// filled up with inactive lanes. Rays that find no room are left out.
+    ///
+    /// ```
+    /// use spherule_kernel::{Ray, RayPacket, Vec3};
+    ///
+    /// let rays = [Ray::new(Vec3::ZERO, Vec3::Z); 20];
+    /// let mut packets = [RayPacket::inactive(); 4];
+    /// let filled = RayPacket::pack(&rays, &mut packets);
+    /// assert_eq!((filled.len(), filled[1].live()), (2, 0b1111));
+    /// ```
     pub fn pack<'a>(rays: &[Ray], packets: &'a mut [Self]) -> &'a [Self] {
         let mut filled = 0;
         let mut rest = rays;

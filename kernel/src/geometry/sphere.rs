@@ -24,6 +24,13 @@ impl Sphere {
     }
 
     /// Whether the sphere is a surface at all: every number finite, the radius not negative.
+    ///
+    /// ```
+    /// use spherule_kernel::Sphere;
+    ///
+    /// let sphere = Sphere::from([0.0, 0.0, 5.0, 1.0]);
+    /// assert!(sphere.is_valid() && !Sphere { radius: -1.0, ..sphere }.is_valid());
+    /// ```
     #[must_use]
     pub fn is_valid(&self) -> bool {
         self.center.is_finite() && self.radius.is_finite() && self.radius >= 0.0
@@ -90,6 +97,13 @@ impl<'a> Spheres<'a> {
     ///
     /// # Errors
     /// [`SpheresError`] where the lengths differ or exceed 2^32 - 1.
+    ///
+    /// ```
+    /// use spherule_kernel::{Spheres, SpheresError};
+    ///
+    /// assert_eq!(Spheres::new(&[0.0], &[0.0], &[5.0], &[1.0]).map(|list| list.len()), Ok(1));
+    /// assert!(Spheres::new(&[0.0], &[], &[5.0], &[1.0]).is_err());
+    /// ```
     pub const fn new(
         x: &'a [f32],
         y: &'a [f32],
@@ -114,18 +128,40 @@ impl<'a> Spheres<'a> {
     }
 
     /// How many spheres.
+    ///
+    /// ```
+    /// use spherule_kernel::Spheres;
+    ///
+    /// let spheres = Spheres::new(&[0.0], &[0.0], &[5.0], &[1.0]).expect("equal lengths");
+    /// assert_eq!(spheres.len(), 1);
+    /// ```
     #[must_use]
     pub const fn len(&self) -> usize {
         self.x.len()
     }
 
     /// Whether there is none.
+    ///
+    /// ```
+    /// use spherule_kernel::Spheres;
+    ///
+    /// let spheres = Spheres::new(&[0.0], &[0.0], &[5.0], &[1.0]).expect("equal lengths");
+    /// assert!(!spheres.is_empty());
+    /// ```
     #[must_use]
     pub const fn is_empty(&self) -> bool {
         self.x.is_empty()
     }
 
     /// Sphere `index`; `None` past the end.
+    ///
+    /// ```
+    /// use spherule_kernel::{Sphere, Spheres};
+    ///
+    /// let spheres = Spheres::new(&[0.0], &[0.0], &[5.0], &[1.0]).expect("equal lengths");
+    /// assert_eq!(spheres.get(0), Some(Sphere::from([0.0, 0.0, 5.0, 1.0])));
+    /// assert_eq!(spheres.get(1), None);
+    /// ```
     #[must_use]
     #[inline(always)]
     pub fn get(&self, index: usize) -> Option<Sphere> {
@@ -142,6 +178,13 @@ impl<'a> Spheres<'a> {
     }
 
     /// The spheres in the order of their indices.
+    ///
+    /// ```
+    /// use spherule_kernel::Spheres;
+    ///
+    /// let spheres = Spheres::new(&[0.0], &[0.0], &[5.0], &[1.0]).expect("equal lengths");
+    /// assert_eq!(spheres.iter().map(|sphere| sphere.radius).sum::<f32>(), 1.0);
+    /// ```
     pub fn iter(&self) -> impl ExactSizeIterator<Item = Sphere> + use<'a> {
         let Self { x, y, z, r } = *self;
         x.iter()
@@ -164,6 +207,18 @@ pub struct SpherePacket<A: LaneArray = [f32; 16]> {
 impl<A: LaneArray> SpherePacket<A> {
     /// Sphere `i` in lane `i`; lanes past the end of `spheres` hold a sphere that nothing hits,
     /// spheres past the last lane are left out.
+    ///
+    /// ```
+    /// use spherule_kernel::{
+    ///     HitPacket, Level, Ray, RayPacket, SpherePacket, Tier, Vec3, pair_packets,
+    /// };
+    ///
+    /// let spheres = SpherePacket::new(&[[0.0, 0.0, 5.0, 1.0].into()]);
+    /// let rays = RayPacket::new(&[Ray::new(Vec3::ZERO, Vec3::Z)]);
+    /// let mut hits = [HitPacket::none()];
+    /// pair_packets(Tier::Exact, Level::best(), &[rays], &[spheres], &mut hits);
+    /// assert_eq!(hits[0].hits().flatten().count(), 1);
+    /// ```
     #[must_use]
     pub fn new(spheres: &[Sphere]) -> Self {
         let (center, radius) = ([A::ZEROS; 3], A::filled(-1.0));

@@ -28,12 +28,26 @@ pub struct SphereList {
 
 impl SphereList {
     /// An empty list.
+    ///
+    /// ```
+    /// use spherule_kernel::SphereList;
+    ///
+    /// assert!(SphereList::new().is_empty());
+    /// ```
     #[must_use]
     pub const fn new() -> Self {
         Self { x: Vec::new(), y: Vec::new(), z: Vec::new(), r: Vec::new() }
     }
 
     /// Appends a sphere.
+    ///
+    /// ```
+    /// use spherule_kernel::SphereList;
+    ///
+    /// let mut list = SphereList::new();
+    /// list.push([0.0, 0.0, 5.0, 1.0]);
+    /// assert_eq!(list.len(), 1);
+    /// ```
     pub fn push(&mut self, sphere: impl Into<Sphere>) {
         let Sphere { center, radius } = sphere.into();
         self.x.push(center.x);
@@ -43,18 +57,39 @@ impl SphereList {
     }
 
     /// How many spheres.
+    ///
+    /// ```
+    /// use spherule_kernel::SphereList;
+    ///
+    /// let list = SphereList::from([[0.0, 0.0, 5.0, 1.0], [0.0, 0.0, 9.0, 1.0]]);
+    /// assert_eq!(list.len(), 2);
+    /// ```
     #[must_use]
     pub const fn len(&self) -> usize {
         self.x.len()
     }
 
     /// Whether there is none.
+    ///
+    /// ```
+    /// use spherule_kernel::SphereList;
+    ///
+    /// let list = SphereList::from([[0.0, 0.0, 5.0, 1.0], [0.0, 0.0, 9.0, 1.0]]);
+    /// assert!(!list.is_empty());
+    /// ```
     #[must_use]
     pub const fn is_empty(&self) -> bool {
         self.x.is_empty()
     }
 
     /// The list, borrowed: the first 2^32 - 1 spheres, since a hit can name no more.
+    ///
+    /// ```
+    /// use spherule_kernel::SphereList;
+    ///
+    /// let list = SphereList::from([[0.0, 0.0, 5.0, 1.0], [0.0, 0.0, 9.0, 1.0]]);
+    /// assert_eq!(list.spheres().get(1).map(|sphere| sphere.center.z), Some(9.0));
+    /// ```
     #[must_use]
     pub fn spheres(&self) -> Spheres<'_> {
         Spheres::first_of(&self.x, &self.y, &self.z, &self.r)

@@ -27,6 +27,12 @@ pub struct SurfacePacket<A: LaneArray = [f32; 16]> {
 
 impl<A: LaneArray> SurfacePacket<A> {
     /// Zeros in every lane, as of rays that hit nothing.
+    ///
+    /// ```
+    /// use spherule_kernel::{SurfacePacket, Vec3};
+    ///
+    /// assert_eq!(SurfacePacket::<[f32; 4]>::none().normal(0), Vec3::ZERO);
+    /// ```
     #[must_use]
     #[inline(always)]
     pub const fn none() -> Self {
@@ -35,18 +41,57 @@ impl<A: LaneArray> SurfacePacket<A> {
     }
 
     /// The unit normal of every lane, coordinate by coordinate; zeros if the ray hits nothing.
+    ///
+    /// ```
+    /// use spherule_kernel::{
+    ///     Exact, HitPacket, Intersect, Level, Ray, RayPacket, SphereTree, SurfacePacket, Trace, Vec3, surface_packets,
+    /// };
+    ///
+    /// let tree = SphereTree::new([[0.0, 0.0, 5.0, 1.0], [0.0, 0.0, 9.0, 1.0]]);
+    /// let rays = [RayPacket::new(&[Ray::new(Vec3::ZERO, Vec3::Z)])];
+    /// let (mut hits, mut surfaces) = ([HitPacket::none()], [SurfacePacket::none()]);
+    /// tree.closest_hit_packets(Exact, &mut Trace::new(), &rays, &mut hits);
+    /// surface_packets(Exact, Level::best(), tree.list().spheres(), &rays, &hits, &mut surfaces);
+    /// assert_eq!(surfaces[0].normals()[2][..2], [-1.0, 0.0]);
+    /// ```
     #[must_use]
     pub fn normals(&self) -> [&[f32]; 3] {
         self.normal.each_ref().map(A::as_ref)
     }
 
     /// The point of every lane as seen from the sphere's centre, coordinate by coordinate.
+    ///
+    /// ```
+    /// use spherule_kernel::{
+    ///     Exact, HitPacket, Intersect, Level, Ray, RayPacket, SphereTree, SurfacePacket, Trace, Vec3, surface_packets,
+    /// };
+    ///
+    /// let tree = SphereTree::new([[0.0, 0.0, 5.0, 1.0], [0.0, 0.0, 9.0, 1.0]]);
+    /// let rays = [RayPacket::new(&[Ray::new(Vec3::ZERO, Vec3::Z)])];
+    /// let (mut hits, mut surfaces) = ([HitPacket::none()], [SurfacePacket::none()]);
+    /// tree.closest_hit_packets(Exact, &mut Trace::new(), &rays, &mut hits);
+    /// surface_packets(Exact, Level::best(), tree.list().spheres(), &rays, &hits, &mut surfaces);
+    /// assert_eq!(surfaces[0].points()[2][..2], [-1.0, 0.0]);
+    /// ```
     #[must_use]
     pub fn points(&self) -> [&[f32]; 3] {
         self.point.each_ref().map(A::as_ref)
     }
 
     /// The unit normal in `lane`; zero if there is no such lane.
+    ///
+    /// ```
+    /// use spherule_kernel::{
+    ///     Exact, HitPacket, Intersect, Level, Ray, RayPacket, SphereTree, SurfacePacket, Trace, Vec3, surface_packets,
+    /// };
+    ///
+    /// let tree = SphereTree::new([[0.0, 0.0, 5.0, 1.0], [0.0, 0.0, 9.0, 1.0]]);
+    /// let rays = [RayPacket::new(&[Ray::new(Vec3::ZERO, Vec3::Z)])];
+    /// let (mut hits, mut surfaces) = ([HitPacket::none()], [SurfacePacket::none()]);
+    /// tree.closest_hit_packets(Exact, &mut Trace::new(), &rays, &mut hits);
+    /// surface_packets(Exact, Level::best(), tree.list().spheres(), &rays, &hits, &mut surfaces);
+    /// assert_eq!(surfaces[0].normal(0), Vec3::NEG_Z);
+    /// ```
     #[must_use]
     #[inline(always)]
     pub fn normal(&self, lane: usize) -> Vec3 {
@@ -54,6 +99,19 @@ impl<A: LaneArray> SurfacePacket<A> {
     }
 
     /// The point in `lane` as seen from the sphere's centre; zero if there is no such lane.
+    ///
+    /// ```
+    /// use spherule_kernel::{
+    ///     Exact, HitPacket, Intersect, Level, Ray, RayPacket, SphereTree, SurfacePacket, Trace, Vec3, surface_packets,
+    /// };
+    ///
+    /// let tree = SphereTree::new([[0.0, 0.0, 5.0, 1.0], [0.0, 0.0, 9.0, 1.0]]);
+    /// let rays = [RayPacket::new(&[Ray::new(Vec3::ZERO, Vec3::Z)])];
+    /// let (mut hits, mut surfaces) = ([HitPacket::none()], [SurfacePacket::none()]);
+    /// tree.closest_hit_packets(Exact, &mut Trace::new(), &rays, &mut hits);
+    /// surface_packets(Exact, Level::best(), tree.list().spheres(), &rays, &hits, &mut surfaces);
+    /// assert_eq!(surfaces[0].point(0), Vec3::NEG_Z);
+    /// ```
     #[must_use]
     #[inline(always)]
     pub fn point(&self, lane: usize) -> Vec3 {
@@ -61,6 +119,19 @@ impl<A: LaneArray> SurfacePacket<A> {
     }
 
     /// The surface in `lane`; zeros if the ray hits nothing, or there is no such lane.
+    ///
+    /// ```
+    /// use spherule_kernel::{
+    ///     Exact, HitPacket, Intersect, Level, Ray, RayPacket, SphereTree, SurfacePacket, Trace, Vec3, surface_packets,
+    /// };
+    ///
+    /// let tree = SphereTree::new([[0.0, 0.0, 5.0, 1.0], [0.0, 0.0, 9.0, 1.0]]);
+    /// let rays = [RayPacket::new(&[Ray::new(Vec3::ZERO, Vec3::Z)])];
+    /// let (mut hits, mut surfaces) = ([HitPacket::none()], [SurfacePacket::none()]);
+    /// tree.closest_hit_packets(Exact, &mut Trace::new(), &rays, &mut hits);
+    /// surface_packets(Exact, Level::best(), tree.list().spheres(), &rays, &hits, &mut surfaces);
+    /// assert_eq!(surfaces[0].surface(0).normal, Vec3::NEG_Z);
+    /// ```
     #[must_use]
     #[inline(always)]
     pub fn surface(&self, lane: usize) -> Surface {

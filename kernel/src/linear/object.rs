@@ -1,6 +1,6 @@
 //! Object order: one sphere after the other, each against the rays that may meet it.
 
-use super::take_closer;
+use super::one_sphere::take_closer;
 use crate::Accuracy;
 use crate::accuracy::{RayLanes, TierFormula, TierWork};
 use crate::geometry::hit::HitPacket;

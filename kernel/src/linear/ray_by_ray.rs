@@ -3,7 +3,7 @@
 //! What a block of prepared spheres costs is paid for by many packets that share it. A ray alone would pay for 128
 //! spheres, in 2 KiB of stack; it asks the tier about each.
 
-use super::meet_sphere;
+use super::one_sphere::meet_sphere;
 use crate::accuracy::{RayLanes, TierFormula, TierWork};
 use crate::geometry::ray::RayPacket;
 use crate::geometry::sphere_run::SphereRun;

@@ -29,8 +29,8 @@ const fn splitter(unit_roundoff: f32) -> f32 {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct VeltkampSplit<L> {
     pub(crate) value: L,
-    high: L,
-    low: L,
+    pub(crate) high: L,
+    pub(crate) low: L,
 }
 
 impl<L: Lanes> VeltkampSplit<L> {
@@ -67,13 +67,10 @@ impl<L: Lanes> VeltkampSplit<L> {
     }
 }
 
-#[cfg(test)]
-mod toy;
-
-#[cfg(test)]
+#[cfg(all(test, proofs))]
 mod tests {
     use super::{VeltkampSplit, two_sum};
-    use crate::testing::climb::Random;
+    use crate::proofs::climb::Random;
 
     /// Double precision holds a sum of singles exactly where their sizes are within 2^28.
     #[test]

@@ -9,6 +9,12 @@ use core::hint::black_box;
 /// have set flush-to-zero, denormals-are-zero or another rounding mode; AArch32 NEON always
 /// flushes. Where this is false, [`Exact`](crate::Exact) promises nothing. Costs some
 /// nanoseconds: ask once, at the start.
+///
+/// ```
+/// use spherule_kernel::float_environment_is_sound;
+///
+/// assert!(float_environment_is_sound());
+/// ```
 #[must_use]
 #[inline(never)]
 pub fn float_environment_is_sound() -> bool {
@@ -38,7 +44,7 @@ pub fn float_environment_is_sound() -> bool {
         && black_box(tiny * black_box(9_007_199_254_740_992.0)) == f64::from_bits(2 << 52)
 }
 
-#[cfg(test)]
+#[cfg(all(test, proofs))]
 mod tests {
     // The answers that are false need another environment, which only unsafe code can set: see
     // tests/machine.

@@ -36,12 +36,12 @@ fn sink(heap: &mut [u32], mut at: usize) {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, proofs))]
 mod tests {
     extern crate std;
 
     use super::heap_sort;
-    use crate::testing::climb::Random;
+    use crate::proofs::climb::Random;
     use std::vec::Vec;
 
     #[test]

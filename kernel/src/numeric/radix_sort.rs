@@ -43,12 +43,12 @@ const fn digit(key: u32, round: u32) -> usize {
     (key >> (DIGIT * round % u32::BITS)) as usize % (1 << DIGIT)
 }
 
-#[cfg(test)]
+#[cfg(all(test, proofs))]
 mod tests {
     extern crate std;
 
     use super::radix_sort;
-    use crate::testing::climb::Random;
+    use crate::proofs::climb::Random;
     use std::vec;
     use std::vec::Vec;
 

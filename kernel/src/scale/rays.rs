@@ -23,8 +23,8 @@ pub(crate) struct ScaledRays<L: Lanes> {
 const LEAST_PER_T: f32 = (1_u64 << 40) as f32;
 /// 2^-89 and 2^-60: together the least number.
 const LEAST: [f32; 2] = [1.0 / (1_u128 << 89) as f32, 1.0 / (1_u64 << 60) as f32];
-/// 2^-18.
-const NEAR: f32 = 1.0 / (1_u64 << 18) as f32;
+/// 2^-20: f of 2^-150 at most, times a t below 2^128, times a direction of length 2 sqrt 3 at most.
+pub(crate) const NEAR: f32 = 1.0 / (1_u64 << 20) as f32;
 
 impl<L: Lanes> ScaledRays<L> {
     /// Of rays whose directions have any usual length.

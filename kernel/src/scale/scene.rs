@@ -11,11 +11,11 @@ use wide::f32x4;
 /// 2^126: a larger power has no normal inverse.
 const MOST: f32 = 1.0 / f32::MIN_POSITIVE;
 /// 2^-40: no sphere that is scaled is smaller, except for one of size zero.
-const SMALLEST: f32 = 1.0 / (1_u64 << 40) as f32;
+pub(crate) const SMALLEST: f32 = 1.0 / (1_u64 << 40) as f32;
 /// 2^41: nor is any larger.
-const LARGEST: f32 = (1_u64 << 41) as f32;
+pub(crate) const LARGEST: f32 = (1_u64 << 41) as f32;
 /// How many powers of two are in a range.
-const RANGE: usize = 80;
+pub(crate) const RANGE: usize = 80;
 /// How many of them are below 1 where a range is full.
 const BELOW: usize = 40;
 /// How many exponents there are.
@@ -133,11 +133,25 @@ fn exponent_of(size: f32) -> usize {
     (size.to_bits() >> 23) as usize % EXPONENTS
 }
 
-#[cfg(test)]
+#[cfg(all(test, proofs))]
 mod tests {
     use super::*;
-    use crate::testing::climb::Random;
+    use crate::proofs::climb::Random;
     use glam::Vec3;
+
+    /// The largest size of a range that begins with the least one is seen, and no larger one.
+    #[test]
+    fn bounds_see_eighty_powers_of_two() {
+        let scale = SceneScale::from_factor(1.0).expect("a power");
+        let seen = |radius: f32| scale.scaled(&Sphere { center: Vec3::ZERO, radius }).is_some();
+        let largest = 2.0_f32.powi(41);
+        assert_eq!([largest, largest.next_up()].map(seen), [true, false]);
+        assert_eq!([2.0_f32.powi(-40), 2.0_f32.powi(-40).next_down()].map(seen), [true, false]);
+        let [x, y, z, r] = [[0.0; 2], [0.0; 2], [0.0; 2], [2.0_f32.powi(-40), largest.next_down()]];
+        let both = Spheres::new(&x, &y, &z, &r).expect("equal lengths");
+        let scale = SceneScale::of(&both);
+        assert!(both.iter().all(|sphere| scale.scaled(&sphere).is_some()), "{scale:?}");
+    }
 
     /// Four at once as one by one, of any bits.
     #[test]

@@ -2,52 +2,19 @@
 //! [`exact`](super) proves.
 
 use crate::DoubleLanes;
+use crate::accuracy::constants::Constants;
 use crate::numeric::axes::{axes, dot};
-
-/// What the terms of the two bounds are multiplied by.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::accuracy) struct Constants {
-    /// Of A + L, in the bound of D.
-    pub(in crate::accuracy) sums: f64,
-    /// Of X G, in the bound of D.
-    pub(in crate::accuracy) cross: f64,
-    /// Of G^2, in the bound of D.
-    pub(in crate::accuracy) square: f64,
-    /// Of G / a, in the bound of t.
-    pub(in crate::accuracy) slope: f64,
-    /// Of sqrt D / a, in the bound of t.
-    pub(in crate::accuracy) root: f64,
-    /// Of |t|, in the bound of t.
-    pub(in crate::accuracy) t: f64,
-}
-
-impl Constants {
-    /// Those of the proof, of double precision.
-    pub(in crate::accuracy) const PROVEN: Self = Self::of(f64::EPSILON / 2.0);
-
-    /// Those of the proof, in a precision with that u.
-    pub(in crate::accuracy) const fn of(u: f64) -> Self {
-        Self {
-            sums: 5.0 * u,
-            cross: 8.0 * u,
-            square: 32.0 * u * u,
-            slope: 5.0 * u,
-            root: 2.0 * u,
-            t: 11.0 * u,
-        }
-    }
-}
 
 /// D and the roots as computed, each with a bound on its error.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Estimate<D> {
-    pub(super) discriminant: D,
+pub(crate) struct Estimate<D> {
+    pub(crate) discriminant: D,
     /// E.
-    pub(super) error: D,
+    pub(crate) error: D,
     /// t and T of the smaller root; no number where D is not above E.
-    pub(super) near: (D, D),
+    pub(crate) near: (D, D),
     /// Of the larger root.
-    pub(super) far: (D, D),
+    pub(crate) far: (D, D),
 }
 
 /// The sums of an estimate over the axes.
@@ -127,10 +94,10 @@ impl<D: DoubleLanes> Solved<D> {
 
 impl<D: DoubleLanes> Estimate<D> {
     /// [`Constants::of`] the precision of these lanes.
-    pub(super) const PROVEN: Constants = Constants::of(D::UNIT_ROUNDOFF);
+    pub(crate) const PROVEN: Constants = Constants::of(D::UNIT_ROUNDOFF);
 
     #[inline(always)]
-    pub(super) fn new(
+    pub(crate) fn new(
         origin: [D; 3],
         d: [D; 3],
         center: [D; 3],
@@ -150,8 +117,3 @@ impl<D: DoubleLanes> Estimate<D> {
 fn sum_of_magnitudes<D: DoubleLanes>(v: [D; 3]) -> D {
     v[0].abs() + v[1].abs() + v[2].abs()
 }
-
-#[cfg(test)]
-mod derived;
-#[cfg(test)]
-mod worst;

@@ -2,7 +2,8 @@
 //!
 //! Not generic and called, not inlined: where doubles are calls of a library, one estimate is as long as all the rest.
 
-use super::estimate::{Constants, Solved, Sums};
+use super::estimate::{Solved, Sums};
+use crate::accuracy::constants::Constants;
 use crate::count::count;
 use crate::exact::{Quadratic, QuadraticTerms, Root};
 use crate::{Ray, Sphere};
@@ -159,11 +160,11 @@ pub(super) fn terms(ray: &Ray, sphere: &Sphere) -> QuadraticTerms {
     QuadraticTerms::new(origin, direction, sphere.center.to_array(), sphere.radius)
 }
 
-#[cfg(test)]
+#[cfg(all(test, proofs))]
 mod tests {
     use super::super::estimate::Estimate;
     use super::estimate;
-    use crate::testing::climb::Random;
+    use crate::proofs::climb::Random;
     use crate::{Ray, Sphere};
 
     /// Bit for bit: what is proven of the estimate in lanes holds of one ray.

@@ -60,6 +60,9 @@ pub(super) struct Bounds {
     pub(super) centers: Corners,
 }
 
+/// By how much of its largest coordinate a node's box is larger.
+pub(crate) const PAD: f32 = 40.0 * U;
+
 /// The corners of a box that is rounded outward, as nodes have them: farther out by what of the margins is in
 /// proportion to the box itself (`docs/traversal-margins.md`).
 pub(crate) fn padded(low: [f32; 3], high: [f32; 3]) -> [[f32; 3]; 2] {
@@ -67,7 +70,7 @@ pub(crate) fn padded(low: [f32; 3], high: [f32; 3]) -> [[f32; 3]; 2] {
     for axis in 0..3 {
         largest = largest.max(low[axis].abs()).max(high[axis].abs());
     }
-    let pad = 40.0 * U * largest;
+    let pad = PAD * largest;
     let low = low.map(|coordinate| (coordinate - pad).next_down());
     [low, high.map(|coordinate| (coordinate + pad).next_up())]
 }

@@ -5,7 +5,7 @@
 //! runs that wait is there for the first that asks: a cut that cannot be afforded is not made, and the node is cut in
 //! equal parts. So the memory is known before, whatever the spheres are.
 
-use crate::bvh::leaf::STEP;
+use crate::bvh::leaf::{BEFORE, BEHIND, MOST_PLACES, STEP};
 use crate::bvh::node::WIDTH;
 
 /// How many nodes a run of `count` spheres needs: those of equal parts; none for a leaf.
@@ -57,4 +57,23 @@ impl Budget {
         let share = |whole: usize| (whole as u64 * count as u64 / all.max(1) as u64) as usize;
         Self { nodes: share(self.nodes), places: share(self.places) }
     }
+}
+
+/// How much memory a tree takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BvhSize {
+    /// Nodes, of 512 bytes.
+    pub nodes: usize,
+    /// Places of spheres, of 16 bytes, and as many indices, of 4.
+    pub places: usize,
+}
+
+/// The memory that any list of `count` spheres needs.
+pub(crate) const fn needed(count: usize) -> BvhSize {
+    let places = places_needed(if count < MOST_PLACES { count } else { MOST_PLACES });
+    let places = places + spare_places(places) + BEFORE + BEHIND + 1;
+    if count > MOST_PLACES / 2 {
+        return BvhSize { nodes: usize::MAX, places: usize::MAX };
+    }
+    BvhSize { nodes: nodes_needed(count) + spare_nodes(count), places }
 }

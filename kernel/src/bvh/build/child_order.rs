@@ -129,7 +129,7 @@ fn ranks(keys: &[i32; WIDTH]) -> [u32; WIDTH] {
     ranks
 }
 
-#[cfg(test)]
+#[cfg(all(test, proofs))]
 mod tests {
     use super::{order_children, ranks};
     use crate::bvh::build::join::InTurn;

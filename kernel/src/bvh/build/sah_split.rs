@@ -103,5 +103,5 @@ fn half_areas([x, y, z]: &[Corners; 3]) -> f32x4 {
     x * y + y * z + z * x
 }
 
-#[cfg(test)]
+#[cfg(all(test, proofs))]
 mod tests;

@@ -8,7 +8,7 @@
 //! nodes as it may take (`budget.rs`). Then the nodes move together.
 //! So the tree does not depend on what runs at the same time.
 
-use super::budget::{Budget, nodes_needed};
+use super::budget::{Budget, needed, nodes_needed};
 use super::child_order::order_children;
 use super::children::{Children, Part, children, in_equal_parts};
 use super::join::Join;
@@ -17,14 +17,10 @@ use super::run::Run;
 use crate::bvh::boxes_per_ray::inverse_of_body;
 use crate::bvh::built::Built;
 use crate::bvh::leaf::{BEFORE, BEHIND, STEP};
-use crate::bvh::node::{BvhNode, DEPTH, LEAF, NO_CHILD, WIDTH};
-use crate::bvh::tree::Bvh;
+use crate::bvh::node::{BvhNode, DEPTH, FEW, LEAF, NO_CHILD, WIDTH};
 use crate::bvh::unplaced::Unplaced;
 use crate::geometry::sphere::{Sphere, Spheres};
 use crate::scale::scene::SceneScale;
-
-/// Of so few spheres all leaves are full: such trees are traversed without boxes (`traverse/few.rs`).
-pub(crate) const FEW: usize = 64;
 
 /// Bytes of a line of the cache.
 const LINE: usize = 64;
@@ -45,7 +41,7 @@ pub(crate) fn build(
     indices: &mut [u32],
 ) -> Built {
     let scale = SceneScale::of(spheres);
-    let all = Bvh::needed(spheres.len()).places.min(places.len()).min(indices.len());
+    let all = needed(spheres.len()).places.min(places.len()).min(indices.len());
     let (places, indices) =
         (places.get_mut(..all).unwrap_or_default(), indices.get_mut(..all).unwrap_or_default());
     let first = fill(places, indices, spheres, &scale);
@@ -305,5 +301,5 @@ fn node_over(run: &mut Run<'_>, parts: &[Part], first: usize) -> BvhNode {
     node
 }
 
-#[cfg(test)]
+#[cfg(all(test, proofs))]
 mod tests;

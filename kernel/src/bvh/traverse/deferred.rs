@@ -4,9 +4,9 @@
 //! them at once.
 
 use super::packet_set::PacketSet;
-use super::source::SphereSource;
 use crate::Accuracy;
 use crate::accuracy::{RayLanes, is_closer, test_lanes};
+use crate::bvh::source::SphereSource;
 use crate::bvh::tree::Bvh;
 use crate::geometry::hit::Hit;
 use crate::geometry::ray::RayPacket;

@@ -255,5 +255,5 @@ struct Frame {
     best: f32,
 }
 
-#[cfg(test)]
+#[cfg(all(test, proofs))]
 mod tests;

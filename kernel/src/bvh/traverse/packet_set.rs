@@ -58,7 +58,7 @@ impl PacketSet {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, proofs))]
 mod tests {
     use super::{PacketSet, RUN};
 

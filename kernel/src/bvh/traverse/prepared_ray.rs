@@ -112,6 +112,10 @@ impl<L: Lanes> RayTime<L> {
 
 /// Rays are moved where the closest point is farther than this many times the distance that is left.
 const WORTH_IT: f32 = 8.0;
+/// The absolute error of F + 2^-11 T, in u.
+pub(crate) const ABSOLUTE_ERROR: f32 = 8.0;
+/// How often the absolute error is the ray's pad of a slab.
+pub(crate) const PADS: f32 = 2.0;
 /// 2^-58.
 const LEAST_ERROR: f32 = 1.0 / (1_u64 << 58) as f32;
 
@@ -201,7 +205,7 @@ impl<L: Lanes> PreparedLanes<L> {
     #[inline(always)]
     pub(super) fn slab_of(&self, axis: usize, direction: L, length: L) -> Slab<L> {
         let origin = self.origin[axis % 3];
-        let pad = self.absolute_error + self.absolute_error;
+        let pad = self.absolute_error * origin.like(PADS);
         let down = direction.lt(origin.like(0.0));
         let least = length * length.like(LEAST_COMPONENT);
         let clamped = least.filter_max(direction.abs());
@@ -214,7 +218,10 @@ impl<L: Lanes> PreparedLanes<L> {
     #[inline(always)]
     pub(super) fn spread_of_boxes(&self, extent: f32, spread: f32) -> L {
         let error = self.absolute_error;
-        let size = error.filter_mul_add(error.like(0.125 / L::UNIT_ROUNDOFF), error.like(extent));
+        let size = error.filter_mul_add(
+            error.like(1.0 / ABSOLUTE_ERROR / L::UNIT_ROUNDOFF),
+            error.like(extent),
+        );
         size * size.like(4.0 * spread)
     }
 
@@ -230,14 +237,16 @@ impl<L: Lanes> PreparedLanes<L> {
 /// the coordinates' origin is farther from where it begins than sqrt 3 F.
 #[inline(always)]
 pub(crate) fn far_away<L: Lanes>(rays: L::Mask, absolute_error: L, extent: f32) -> L::Mask {
-    rays & absolute_error.like(WORTH_IT * 8.0 * L::UNIT_ROUNDOFF * extent).lt(absolute_error)
+    rays & absolute_error
+        .like(WORTH_IT * ABSOLUTE_ERROR * L::UNIT_ROUNDOFF * extent)
+        .lt(absolute_error)
 }
 
 /// The absolute error for rays of that size, F + 2^-11 T, and that step.
 #[inline(always)]
 fn absolute_error<L: Lanes>(size: L, step: L) -> L {
     let least = step.filter_mul_add(step.like(4.0), step.like(LEAST_ERROR));
-    size.filter_mul_add(size.like(8.0 * L::UNIT_ROUNDOFF), least)
+    size.filter_mul_add(size.like(ABSOLUTE_ERROR * L::UNIT_ROUNDOFF), least)
 }
 
 /// The rays of a packet, prepared, in memory: to be traced one by one.
@@ -367,8 +376,3 @@ impl<A: LaneArray> PreparedPacket<A> {
         }
     }
 }
-
-#[cfg(test)]
-mod derived;
-#[cfg(test)]
-mod worst;

@@ -17,7 +17,8 @@
 //! A far root that is surely in the interval is a bound too where the near one is not: the answer is one
 //! of them.
 
-use crate::lanes::{LaneMask, Lanes, WIDTH};
+use crate::geometry::sphere_columns::SphereColumns;
+use crate::lanes::{LaneMask, Lanes};
 use crate::numeric::axes::axes;
 
 /// Between which s spheres are hit.
@@ -29,13 +30,6 @@ pub(crate) struct RootInterval<L: Lanes> {
     pub(crate) entry: L,
     /// No root above can be answered by less than this sphere's answer; `+inf` where none is sure.
     pub(crate) bound: L,
-}
-
-/// Sixteen spheres, coordinate by coordinate, as leaves and depth lists have them.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct SphereColumns<'a> {
-    pub(crate) center: [&'a [f32; WIDTH]; 3],
-    pub(crate) radius: &'a [f32; WIDTH],
 }
 
 /// One ray in all lanes, as leaves see it.
@@ -93,14 +87,19 @@ impl<L: Lanes> RayProbe<L> {
 /// known at build time, cost the others 7 % on u10k.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pass<L> {
-    radius: L,
-    middle: L,
+    pub(crate) radius: L,
+    pub(crate) middle: L,
     /// l^2.
-    ll: L,
+    pub(crate) ll: L,
     /// S.
-    size: L,
-    delta: L,
+    pub(crate) size: L,
+    pub(crate) delta: L,
 }
+
+/// delta of S, in u.
+pub(crate) const DELTA: f32 = 48.0;
+/// W of delta r, and of delta^2.
+pub(crate) const SLACK: [f32; 2] = [0.5, 0.3125];
 
 impl<L: Lanes> Pass<L> {
     #[inline(always)]
@@ -118,7 +117,7 @@ impl<L: Lanes> Pass<L> {
         let ll = q[2].filter_mul_add(q[2], q[1].filter_mul_add(q[1], q[0] * q[0]));
 
         let size = middle.abs() + radius;
-        let delta = size.filter_mul_add(radius.like(48.0 * L::UNIT_ROUNDOFF), absolute_error);
+        let delta = size.filter_mul_add(radius.like(DELTA * L::UNIT_ROUNDOFF), absolute_error);
         Self { radius, middle, ll, size, delta }
     }
 
@@ -133,14 +132,21 @@ impl<L: Lanes> Pass<L> {
         self.ll.le(reach * reach) & (self.middle - reach).le(end) & start.le(self.middle + reach)
     }
 
+    /// W.
+    #[inline(always)]
+    pub(crate) fn slack(&self) -> L {
+        let Self { radius, delta, .. } = *self;
+        let half = radius * radius.like(SLACK[0]);
+        delta * delta.filter_mul_add(radius.like(SLACK[1]), half)
+    }
+
     /// Which are surely hit near by between the s `start` and `end`, as far as can be told without a root: no near root
     /// is below m - r - delta, or above m + delta.
     #[cfg(feature = "std")]
     #[inline(always)]
     pub(super) fn is_hit(&self, start: L, end: L) -> L::Mask {
         let Self { middle, radius, delta, ll, .. } = *self;
-        let half = radius * radius.like(0.5);
-        let slack = delta * delta.filter_mul_add(radius.like(0.3125), half);
+        let slack = self.slack();
         radius.like(0.0).lt(radius * radius - ll - slack)
             & start.le(middle - (radius + delta))
             & (middle + delta).le(end)
@@ -158,8 +164,7 @@ impl<L: Lanes> Pass<L> {
     ) -> RootInterval<L> {
         let Self { middle, radius, delta, ll, size } = *self;
         let zero = radius.like(0.0);
-        let half = radius * radius.like(0.5);
-        let mut slack = delta * delta.filter_mul_add(radius.like(0.3125), half);
+        let mut slack = self.slack();
         if SPREADS {
             let spread = size * radius.like(spread);
             slack = spread.filter_mul_add(spread, slack);
@@ -185,9 +190,3 @@ impl<L: Lanes> Pass<L> {
         RootInterval { candidates, entry, bound: bound + raise }
     }
 }
-
-#[cfg(test)]
-mod derived;
-
-#[cfg(test)]
-mod worst;

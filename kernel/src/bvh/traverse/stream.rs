@@ -46,7 +46,7 @@ pub use ray::StreamRay;
 pub(crate) use sharing::Sharing;
 
 use self::queue::{FRAMES, Frame};
-use self::sharing::{Seen, Way};
+use self::sharing::{Seen, TOGETHER, Way};
 use self::sort::by_start;
 use super::deferred::DeferredTests;
 use super::in_flight::{begin, begin_packet};
@@ -118,10 +118,6 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
         );
     }
 }
-
-/// Rays that go down together, if there is memory for so many. In u10k 4,096 are 3 to 5 % slower, and 2,048 a sixth;
-/// 32,768 take longer at all levels but AVX-512.
-const TOGETHER: usize = 8192;
 
 /// Packets whose rays go down the tree.
 struct Stream<'a, 'm, T, L: Lanes, Q: Query> {

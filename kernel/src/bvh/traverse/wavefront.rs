@@ -20,11 +20,12 @@
 //! leaves are traversed without boxes (`few.rs`).
 
 use super::deferred::DeferredTests;
+use super::few;
 use super::in_flight::{PacketsInFlight, Round, Step};
 use super::packet_set::PacketSet;
 use super::ray_state::RayState;
-use super::{few, prefetch};
 use crate::Accuracy;
+use crate::bvh::prefetch;
 use crate::bvh::tree::Bvh;
 use crate::count::count;
 use crate::geometry::ray::RayPacket;
@@ -78,7 +79,7 @@ fn by_boxes<T: Accuracy, L: Lanes, Q: Query>(tests: &mut DeferredTests<'_, T, L,
     let mut in_flight = PacketsInFlight::<L::Array>::none();
     let mut round = Round::<L::Array>::empty();
     let mut entered = Entered::default();
-    let far = prefetch::pays(bvh);
+    let far = prefetch::pays(bvh.nodes, bvh.numbers);
     loop {
         round.clear();
         for number in 0..states.len() {

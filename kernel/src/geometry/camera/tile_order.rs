@@ -52,7 +52,7 @@ fn every_other_bit(place: u32) -> u32 {
     place & 1 | place >> 1 & 2
 }
 
-#[cfg(test)]
+#[cfg(all(test, proofs))]
 mod tests {
     extern crate std;
 

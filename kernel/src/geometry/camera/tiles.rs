@@ -24,6 +24,9 @@ pub struct CameraTiles<'a> {
 /// Indices below are numbers exactly: 2^24.
 const EXACT: u32 = 1 << 24;
 
+/// How far a point may be off, of what it is summed of.
+pub(crate) const POINT_ERROR: f32 = 4.0 * U;
+
 impl CameraTiles<'_> {
     /// Makes the rays of the tiles that begin at `corners`, as many as there is room for; returns whether each of them is
     /// whole.
@@ -126,7 +129,7 @@ impl CameraTiles<'_> {
         let (from, step_x, step_y) = (corner.to_array(), step_x.to_array(), step_y.to_array());
         let (width, height) = (self.size.0 as f32, self.size.1 as f32);
         axes!(i => {
-            4.0 * U * (from[i].abs() + width * step_x[i].abs() + height * step_y[i].abs())
+            POINT_ERROR * (from[i].abs() + width * step_x[i].abs() + height * step_y[i].abs())
         })
     }
 }

@@ -7,7 +7,7 @@ use super::super::join::InTurn;
 use super::super::run::Run;
 use super::super::sah_bins::BINS;
 use crate::bvh::node::WIDTH;
-use crate::testing::climb::Random;
+use crate::proofs::climb::Random;
 use std::vec::Vec;
 
 /// Spheres of which many share coordinates, on a grid of `steps`, or on a line of it.

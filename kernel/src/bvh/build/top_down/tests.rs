@@ -9,7 +9,7 @@ use crate::bvh::leaf::{BEFORE, BEHIND, STEP, extent_of};
 use crate::bvh::node::{BvhNode, DEPTH, LEAF, NO_CHILD, WIDTH};
 use crate::bvh::tree::Bvh;
 use crate::geometry::sphere::{Sphere, Spheres};
-use crate::testing::climb::Random;
+use crate::proofs::climb::Random;
 use glam::Vec3;
 use std::vec;
 use std::vec::Vec;

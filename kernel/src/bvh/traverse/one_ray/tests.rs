@@ -1,4 +1,4 @@
-use crate::testing::climb::Random;
+use crate::proofs::climb::Random;
 use crate::{
     Accuracy, Exact, HitPacket, Intersect, Level, LevelName, Ray, RayPacket, Sphere, SphereTree,
     Stable, Trace, Vec3,

@@ -20,6 +20,12 @@ impl<'m> StreamMemory<'m> {
     /// How many places in queues a stream of so many rays needs at least: one a ray, and 256.
     ///
     /// With less than 8 a ray memory is not used, except [everywhere](Self::everywhere); with 32 few queues are cut short.
+    ///
+    /// ```
+    /// use spherule_kernel::StreamMemory;
+    ///
+    /// assert_eq!(StreamMemory::queues_needed(1024), 1280);
+    /// ```
     #[must_use]
     pub const fn queues_needed(rays: usize) -> usize {
         rays.saturating_add(WIDTH * FRAMES)
@@ -30,6 +36,16 @@ impl<'m> StreamMemory<'m> {
     /// # Errors
     /// [`TooSmall`] if there is no place for a packet of sixteen rays, or if the queues are shorter than
     /// [`queues_needed`](Self::queues_needed).
+    ///
+    /// ```
+    /// use spherule_kernel::{QueuedRay, StreamMemory, StreamRay, Trace};
+    ///
+    /// let mut rays = vec![StreamRay::EMPTY; 1024];
+    /// let mut queues = vec![QueuedRay::EMPTY; 32 * 1024];
+    /// let trace = Trace::new().with_stream(StreamMemory::new(&mut rays, &mut queues)?);
+    /// assert!(trace.stream.is_some());
+    /// # Ok::<(), spherule_kernel::TooSmall>(())
+    /// ```
     pub fn new(rays: &'m mut [StreamRay], queues: &'m mut [QueuedRay]) -> Result<Self, TooSmall> {
         TooSmall::check(WIDTH, rays.len())?;
         TooSmall::check(Self::queues_needed(rays.len()), queues.len())?;
@@ -38,6 +54,17 @@ impl<'m> StreamMemory<'m> {
 
     /// Sorts rays by where they start, half as many at a time as `order` has places, where that may be faster: for the
     /// closest hit in trees of megabytes, if there is a ray for sixteen spheres.
+    ///
+    /// ```
+    /// use spherule_kernel::{QueuedRay, StreamMemory, StreamRay, Trace};
+    ///
+    /// let mut rays = vec![StreamRay::EMPTY; 1024];
+    /// let mut queues = vec![QueuedRay::EMPTY; 32 * 1024];
+    /// let mut order = vec![0; 2 * 1024];
+    /// let memory = StreamMemory::new(&mut rays, &mut queues)?.sorting(&mut order);
+    /// assert!(Trace::new().with_stream(memory).stream.is_some());
+    /// # Ok::<(), spherule_kernel::TooSmall>(())
+    /// ```
     #[must_use]
     pub fn sorting(self, order: &'m mut [u64]) -> Self {
         Self { order, ..self }
@@ -45,6 +72,22 @@ impl<'m> StreamMemory<'m> {
 
     /// As a stream even where ray by ray is faster, and sorted if there are more than go down together: for measurements
     /// and tests.
+    ///
+    /// ```
+    /// use spherule_kernel::{
+    ///     Exact, Intersect, QueuedRay, Ray, SphereTree, StreamMemory, StreamRay, Trace, Vec3,
+    /// };
+    ///
+    /// let mut rays = vec![StreamRay::EMPTY; 1024];
+    /// let mut queues = vec![QueuedRay::EMPTY; 32 * 1024];
+    /// let tree = SphereTree::new([[0.0, 0.0, 5.0, 1.0], [0.0, 0.0, 9.0, 1.0]]);
+    /// let memory = StreamMemory::new(&mut rays, &mut queues)?.everywhere();
+    /// let mut hits = [None; 64];
+    /// let all = [Ray::new(Vec3::ZERO, Vec3::Z); 64];
+    /// tree.closest_hits_with(Exact, &mut Trace::new().with_stream(memory), &all, &mut hits);
+    /// assert!(hits.iter().flatten().all(|hit| hit.t == 4.0));
+    /// # Ok::<(), spherule_kernel::TooSmall>(())
+    /// ```
     #[must_use]
     pub fn everywhere(self) -> Self {
         Self { everywhere: true, ..self }

@@ -4,9 +4,9 @@ extern crate std;
 
 use super::*;
 use crate::bvh::{QueuedRay, StreamRay};
+use crate::proofs::climb::Random;
+use crate::proofs::work::{Kind, Work};
 use crate::query::{AnyHit, ClosestHit};
-use crate::testing::climb::Random;
-use crate::testing::work::{Kind, Work};
 use crate::{Exact, Intersect, Ray, SphereList, SphereTree, Trace, Vec3};
 use std::vec;
 use std::vec::Vec;

@@ -1,0 +1,157 @@
+//! What a tier is: its formula, and its name as a value.
+
+use super::roots::RayLanes;
+use super::surface::{self, SurfaceLanes};
+#[cfg(feature = "std")]
+use crate::geometry::ray::RayPacket;
+use crate::geometry::surface::Surface;
+use crate::{Lanes, Ray, Sphere};
+use core::cmp::Ordering;
+use core::fmt::{Debug, Formatter};
+use glam::Vec3;
+
+/// A tier that is chosen at run time.
+///
+/// ```
+/// use spherule_kernel::{Accuracy, Exact, Tier};
+///
+/// assert_eq!(Tier::ALL.map(Tier::as_str), ["fast", "geometric", "stable", "exact"]);
+/// assert_eq!(Exact.tier(), Tier::Exact);
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+pub enum Tier {
+    /// [`Fast`](super::Fast).
+    Fast,
+    /// [`Geometric`](super::Geometric).
+    Geometric,
+    /// [`Stable`](super::Stable).
+    Stable,
+    /// [`Exact`](super::Exact).
+    Exact,
+}
+
+impl Tier {
+    /// Every tier: the two forms of the lecture, then what is more accurate.
+    pub const ALL: [Self; 4] = [Self::Fast, Self::Geometric, Self::Stable, Self::Exact];
+
+    /// The name on the command line and in reports.
+    ///
+    /// ```
+    /// use spherule_kernel::Tier;
+    ///
+    /// assert_eq!(Tier::Exact.as_str(), "exact");
+    /// ```
+    #[must_use]
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::Fast => "fast",
+            Self::Geometric => "geometric",
+            Self::Stable => "stable",
+            Self::Exact => "exact",
+        }
+    }
+}
+
+/// Its name.
+impl Debug for Tier {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> core::fmt::Result {
+        formatter.write_str(self.as_str())
+    }
+}
+
+/// The formula of a tier.
+pub trait TierFormula: Copy + Debug {
+    /// The tier as a value of its own type.
+    const THIS: Self;
+    /// The same as a value of all tiers' type.
+    const TIER: Tier;
+
+    /// How far off the tier may be beside the few ulp of s that are allowed to all: as if r^2
+    /// were changed by up to (`SPREAD` (|p| + r))^2. Zero except for [`Fast`](super::Fast) and
+    /// [`Geometric`](super::Geometric).
+    const SPREAD: f32 = 0.0;
+
+    /// Whether the roots themselves are in order, where t are equal: rule 5.
+    const ORDERS_ROOTS: bool = false;
+
+    /// Below which sizes the tier may see hits that it owes to underflow.
+    const UNDERFLOW: Underflow = Underflow::NONE;
+
+    /// What the tier computes once a packet.
+    type Prepared<L: Lanes>: Copy;
+
+    /// Computes what depends on the rays alone.
+    fn prepare<L: Lanes>(rays: &RayLanes<L>) -> Self::Prepared<L>;
+
+    /// The t of rules 2 to 4 for one sphere a lane, `+inf` if there is none.
+    ///
+    /// Read only in the lanes `asked`, where ray and sphere are valid; may be `+inf` where t is
+    /// larger than `limit`. Every bit pattern must return.
+    fn first_root<L: Lanes>(
+        rays: &RayLanes<L>,
+        prepared: &Self::Prepared<L>,
+        center: [L; 3],
+        radius: L,
+        asked: L::Mask,
+        limit: L,
+    ) -> L;
+
+    /// [`first_root`](TierFormula::first_root) of a valid ray and a valid sphere, whatever it is.
+    #[cfg(feature = "std")]
+    #[inline(always)]
+    fn first_root_of(ray: &Ray, sphere: &Sphere) -> f32 {
+        let rays = RayLanes::<f32>::load((), &RayPacket::new(core::slice::from_ref(ray)));
+        let (center, radius, limit) = (sphere.center.to_array(), sphere.radius, f32::INFINITY);
+        Self::first_root(&rays, &Self::prepare(&rays), center, radius, true, limit)
+    }
+
+    /// Both roots of the line of a valid ray and a valid sphere, the smaller first, never -0.
+    fn line_roots(ray: &Ray, sphere: &Sphere) -> Option<[f32; 2]>;
+
+    /// How two spheres compare that `ray` hits at the same `t`: `Equal` if the tier knows no more than t.
+    fn compare_at(_ray: &Ray, _t: f32, _spheres: [&Sphere; 2]) -> Ordering {
+        Ordering::Equal
+    }
+
+    /// The surface of a sphere of positive radius that a valid ray hits at `t`, where [`TierFormula::surfaces`] does
+    /// not know it.
+    fn surface_at(_ray: &Ray, _t: f32, _sphere: &Sphere) -> Surface {
+        Surface { normal: Vec3::ZERO, point: Vec3::ZERO, rest: Vec3::ZERO }
+    }
+
+    /// The surfaces of spheres of positive radius that rays hit at `t`, and those of the lanes `asked` in which they
+    /// are known.
+    #[inline(always)]
+    fn surfaces<L: Lanes>(
+        rays: &RayLanes<L>,
+        t: L,
+        center: [L; 3],
+        radius: L,
+        asked: L::Mask,
+    ) -> (SurfaceLanes<L>, L::Mask) {
+        (surface::in_lanes(rays, t, center, radius), asked)
+    }
+}
+
+/// Below which sizes a tier may see hits where there are none, since its squares underflow: a filter leaves such to it.
+#[derive(Clone, Copy, Debug)]
+pub struct Underflow {
+    /// Of the largest component of a direction.
+    pub length: f32,
+    /// Of the root of |p|^2 + r^2.
+    pub size: f32,
+}
+
+impl Underflow {
+    /// The tier sees none.
+    pub const NONE: Self = Self { length: 0.0, size: 0.0 };
+}
+
+/// Work that is compiled once a tier.
+pub trait TierWork {
+    /// What comes of it.
+    type Output;
+    /// Does the work by the formula of one tier.
+    fn run<F: TierFormula>(self) -> Self::Output;
+}

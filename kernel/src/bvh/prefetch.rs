@@ -1,0 +1,43 @@
+//! Prefetching: trees that no cache near the core holds.
+//!
+//! Rays in flight look into nodes and leaves all over the tree, one after the other, and each
+//! has several lines of memory. Before they do, one number of every line is read, for all rays: then
+//! all lines are on their way at once, and the latency is paid once a round, not once a ray. (A
+//! million spheres, incoherent rays: 1.2 times as fast for the closest hit, 1.3 times for any. An
+//! instruction for it would do the same and need `unsafe`.)
+
+use super::leaf::extent_of;
+use super::node::BvhNode;
+
+/// Trees of more bytes are prefetched: what the second cache of a core holds where that was measured. (Where
+/// all is in it, at 10,000 spheres, prefetching took a tenth more time.)
+const NEAR: usize = 1 << 20;
+
+/// Whether it pays, for a tree of those nodes and leaves.
+#[inline(always)]
+pub(crate) fn pays(nodes: &[BvhNode], numbers: &[f32]) -> bool {
+    size_of_val(nodes) + size_of_val(numbers) > NEAR
+}
+
+/// A bit pattern that depends on every line of a node.
+#[inline(always)]
+pub(crate) fn node(node: &BvhNode) -> u32 {
+    let mut bits = node.child[0] ^ node.order[0] as u32;
+    for axis in 0..3 {
+        bits ^= node.low[axis][0].to_bits() ^ node.high[axis][0].to_bits();
+    }
+    bits
+}
+
+/// The same of a leaf, except the indices, which few rays need.
+#[inline(always)]
+pub(crate) fn leaf(numbers: &[f32], number: u32) -> u32 {
+    let (begin, lanes) = extent_of(number);
+    let mut bits = 0;
+    for line in 0..=lanes / 4 {
+        if let Some(number) = numbers.get(4 * begin + 16 * line) {
+            bits ^= number.to_bits();
+        }
+    }
+    bits
+}

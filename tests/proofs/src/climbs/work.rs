@@ -1,0 +1,255 @@
+//! How much more work the plain call does than ray by ray, as far as a search finds it, without a clock.
+//!
+//! The search climbs over scenes, and over rays of any order, count, spread and interval (`work/input.rs`). Work is
+//! what `work.rs` counts and weighs. `SPHERULE_CLIMB` makes it longer; `cargo test -p spherule-proofs
+//! work_of_orders -- --ignored --nocapture` writes what groups do of each kind, and what rays do by themselves.
+
+mod input;
+
+use self::input::{Bundle, Genes, Input, OF_TREE, RayInput, Scene, SceneInput, step};
+use crate::proofs::climb::{Random, climb};
+use crate::proofs::work::{Work, while_groups_persist};
+use crate::query::{AnyHit, ClosestHit, Query};
+use crate::structures::Traverse;
+use crate::{Bvh, Exact, Ray, RayPacket, SphereTree, Trace, Vec3};
+use std::collections::HashMap;
+use std::println;
+use std::vec;
+use std::vec::Vec;
+use wide::f32x16;
+
+/// How rays are said to be.
+type Said = fn(Trace<'static>) -> Trace<'static>;
+const PLAIN: Said = |trace| trace;
+
+/// The work of a call, and its answers.
+#[inline(never)]
+fn call<Q: Query>(
+    bvh: &Bvh<'_>,
+    rays: &[RayPacket],
+    said: Said,
+) -> (Work, Vec<Q::Packet<[f32; 16]>>) {
+    let mut answers = vec![Q::none::<[f32; 16]>(); rays.len()];
+    let mut trace = said(Trace::new());
+    let work = Work::of(|| {
+        bvh.in_lanes::<f32x16, Q>(Exact, (), &mut trace, rays, &mut answers);
+    });
+    (work, answers)
+}
+
+/// The work of a call as is said, and ray by ray.
+fn both(bvh: &Bvh<'_>, rays: &[RayPacket], any: bool, said: Said) -> [Work; 2] {
+    if any {
+        let (work, answers) = call::<AnyHit>(bvh, rays, said);
+        let (apart, expected) = call::<AnyHit>(bvh, rays, Trace::incoherent);
+        assert_eq!(answers, expected);
+        [work, apart]
+    } else {
+        let (work, answers) = call::<ClosestHit>(bvh, rays, said);
+        let (apart, expected) = call::<ClosestHit>(bvh, rays, Trace::incoherent);
+        assert_eq!(answers, expected);
+        [work, apart]
+    }
+}
+
+/// What a packet takes beside its way, however that is: as a call by slices takes for sixteen rays and their answers.
+const A_PACKET: f64 = 80.0;
+
+/// How many times the work of ray by ray.
+fn times(packets: usize, [work, apart]: [Work; 2]) -> f64 {
+    let beside = A_PACKET * packets as f64;
+    (work.units() + beside) / (apart.units() + beside)
+}
+
+/// The highest `score` that a search finds, of the work of calls as is said and ray by ray. Prints the input.
+fn most(seed: u64, effort: [u32; 2], said: Said, score: impl Fn(usize, f64) -> f64) -> f64 {
+    // Built anew only where the climb has changed it.
+    let mut built: Option<([u16; OF_TREE], SphereTree)> = None;
+    let mut of = |genes: &Genes| {
+        let input = Input::of(genes);
+        let of_tree: [u16; OF_TREE] = *genes.map(step).first_chunk().expect("genes of a tree");
+        if built.as_ref().is_none_or(|(of, _)| *of != of_tree) {
+            built = Some((of_tree, input.scene.tree()));
+        }
+        let (_, tree) = built.as_ref().expect("built");
+        let rays = input.packets();
+        (rays.len(), both(&tree.bvh(), &rays, input.any, said))
+    };
+    let mut seen = HashMap::new();
+    let start = |random: &mut Random| {
+        [(); _].map(|()| f32::from_bits(1.0_f32.to_bits() | random.bits() as u32 >> 9))
+    };
+    let (found, genes) = climb(seed, effort, None, start, |genes| {
+        *seen.entry(genes.map(step)).or_insert_with(|| {
+            let (packets, works) = of(genes);
+            score(packets, times(packets, works))
+        })
+    });
+    let (input, (packets, [work, apart])) = (Input::of(&genes), of(&genes));
+    let (rays, times) = (input.rays.count, times(packets, [work, apart]));
+    println!("{times:.2} times the work of ray by ray: {input:?}");
+    println!("as said: {}\napart:   {}", work.per_ray(rays), apart.per_ray(rays));
+    found
+}
+
+/// The control of the search: it finds what groups are for.
+#[test]
+fn groups_do_a_small_part_of_the_work_of_ray_by_ray() {
+    let found = most(67, [8, 800], PLAIN, |_, times| 1.0 / times);
+    assert!(found > 4.0, "1/{found:.2} of the work");
+}
+
+/// Calls of fewer packets have one group or a few, and nothing that is learnt serves the next.
+const MANY: usize = 32;
+
+/// Twice is what is wanted. What is found above it are trees of one leaf, where a ray takes 12 units and to ask a group 23.
+#[test]
+fn the_plain_call_does_little_more_than_twice_the_work_of_ray_by_ray() {
+    let score = |packets, times| if packets < MANY { 0.25 * times } else { times };
+    let found = most(62, [12, 2400], PLAIN, score);
+    assert!(found <= 2.2, "{found:.2} times the work");
+}
+
+/// A single group that is too wide, and in the end gives up, or packets that are tried alone.
+#[test]
+fn a_short_call_does_at_most_three_times_the_work() {
+    let found = most(62, [12, 2400], PLAIN, |_, times| times);
+    assert!(found <= 3.0, "{found:.2} times the work");
+}
+
+#[test]
+fn rays_falsely_said_to_be_coherent_take_at_most_three_times_the_work() {
+    let found = most(63, [12, 2400], Trace::coherent, |_, times| times);
+    assert!(found <= 3.0, "{found:.2} times the work");
+}
+
+/// Parallel rays from anywhere, in no order.
+const BEAM: Bundle = Bundle {
+    from: Vec3::new(0.0, 0.0, -4.0),
+    from_spread: 1.0,
+    to: Vec3::new(0.1, 0.2, 0.0),
+    to_spread: 0.0,
+    parallel: 1.0,
+};
+
+const UNIFORM: SceneInput = SceneInput {
+    scene: Scene::Uniform,
+    spheres: 3000,
+    radius: 0.01,
+    scale: 1.0,
+    shift: Vec3::ZERO,
+    seed: 0,
+};
+
+const IN_NO_ORDER: RayInput = RayInput {
+    bundles: [BEAM; 2],
+    alternate: 0,
+    run: 1,
+    within_run: 0.0,
+    lines: false,
+    shuffled: 0.0,
+    dead: 0.0,
+    t_min: 0.0,
+    t_max: f32::INFINITY,
+    length: 1.0,
+    count: 1024,
+    seed: 0,
+};
+
+/// The control of the counts: that a group which is as wide as the scene is counted, if it goes on.
+#[test]
+fn a_beam_as_wide_as_the_scene_is_seen() {
+    let input = Input { scene: UNIFORM, rays: IN_NO_ORDER, any: false };
+    let (tree, rays) = (input.scene.tree(), input.packets());
+    let works = while_groups_persist(|| both(&tree.bvh(), &rays, false, Trace::coherent));
+    let found = times(rays.len(), works);
+    assert!(found > 10.0, "{found:.2} times the work");
+}
+
+/// Rays of a grid, parallel to the axes of a lattice, of which some are tangents of many spheres: line by line, and so many
+/// lines in turn.
+fn grid_on_a_lattice(in_turn: usize) -> (SphereTree, Vec<Ray>) {
+    let scene = SceneInput { scene: Scene::Lattice, spheres: 4096, ..UNIFORM };
+    let at = |number: usize| (number % 64, number / 64);
+    let ray = |(x, y): (usize, usize)| {
+        let [x, y] = [x, y].map(|i| i as f32 / 32.0 - 1.0);
+        Ray::new(Vec3::new(x, y, -4.0), Vec3::Z)
+    };
+    let count = 64 * 64;
+    let order = |i: usize| i % in_turn * (count / in_turn) + i / in_turn;
+    (scene.tree(), (0..count / in_turn * in_turn).map(|i| ray(at(order(i)))).collect())
+}
+
+#[test]
+fn tangents_of_many_spheres_are_not_decided_more_often_together() {
+    for in_turn in [1, 7] {
+        let (tree, rays) = grid_on_a_lattice(in_turn);
+        let packets: Vec<_> = rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect();
+        for any in [false, true] {
+            let [grouped, apart] = both(&tree.bvh(), &packets, any, PLAIN);
+            let found = times(packets.len(), [grouped, apart]);
+            let per_ray = [grouped, apart].map(|work| std::format!("{}", work.per_ray(rays.len())));
+            assert!(found < 1.5, "{found:.2} times the work, any: {any}: {per_ray:#?}");
+        }
+    }
+}
+
+/// Rays of real uses, in their orders.
+fn orders() -> [(&'static str, RayInput); 11] {
+    let camera =
+        Bundle { from: Vec3::new(0.1, 0.2, -3.0), from_spread: 0.0, to_spread: 1.0, ..BEAM };
+    let camera = Bundle { to: Vec3::ZERO, parallel: 0.0, ..camera };
+    let lens = Bundle { from: Vec3::new(0.0, 0.0, -100.0), to_spread: 1.3, ..camera };
+    let diffuse = Bundle { from: Vec3::ZERO, to: Vec3::ZERO, to_spread: 1.0, ..BEAM };
+    let light = Bundle { from: Vec3::ZERO, to: Vec3::new(0.3, 3.0, 0.2), parallel: 0.0, ..BEAM };
+    let of = |bundle| RayInput { bundles: [bundle; 2], count: 1 << 14, ..IN_NO_ORDER };
+    [
+        ("camera, lines", RayInput { lines: true, ..of(camera) }),
+        ("camera, shuffled", of(camera)),
+        ("narrow camera, shuffled", of(Bundle { to_spread: 0.6, ..camera })),
+        ("long lens, shuffled", of(lens)),
+        ("beam", of(BEAM)),
+        ("nearly parallel", of(Bundle { to_spread: 0.05, ..BEAM })),
+        ("to one light", RayInput { t_max: 1.0, ..of(light) }),
+        ("to a far light", RayInput { t_max: 1.0, ..of(Bundle { to: light.to * 3.0, ..light }) }),
+        ("diffuse", of(diffuse)),
+        ("bursts of 16", RayInput { run: 16, within_run: 0.02, ..of(diffuse) }),
+        ("bursts of 64", RayInput { run: 64, within_run: 0.02, ..of(diffuse) }),
+    ]
+}
+
+/// Line by line to tiles of eight by eight.
+fn in_tiles(rays: &[Ray]) -> Vec<Ray> {
+    let wide = rays.len().isqrt();
+    let at = |number: usize| {
+        let (tile, within) = (number / 64, number % 64);
+        let (x, y) = (tile % (wide / 8) * 8 + within % 8, tile / (wide / 8) * 8 + within / 8);
+        rays[y * wide + x]
+    };
+    (0..rays.len()).map(at).collect()
+}
+
+#[test]
+#[ignore = "a table to read"]
+fn work_of_orders() {
+    for scene in [SceneInput { spheres: 1000, radius: 0.02, ..UNIFORM }, UNIFORM] {
+        let tree = scene.tree();
+        let show = |name: &str, rays: &[Ray], any: bool| {
+            let packets: Vec<_> = rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect();
+            let [grouped, apart] = both(&tree.bvh(), &packets, any, Trace::coherent);
+            let times = times(packets.len(), [grouped, apart]);
+            println!("{} spheres, {name}, any: {any}, {times:.2} times", scene.spheres);
+            println!("  groups {}", grouped.per_ray(rays.len()));
+            println!("  apart  {}", apart.per_ray(rays.len()));
+        };
+        for (name, rays) in orders() {
+            for any in [false, true] {
+                let rays = Input { scene, rays, any }.rays();
+                show(name, &rays, any);
+                if name == "camera, lines" {
+                    show("camera, tiles", &in_tiles(&rays), any);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,74 @@
+//! The raise of D and the margin of a limit as they follow from the source.
+//!
+//! Put in by hand: no component of d is longer than d; r |d| and |d.p| are no more than the size; and what `Stable`
+//! is off.
+
+use super::{U, name_differences, operands, ray};
+use crate::accuracy::beyond::{Beyond, RAISE};
+use crate::proofs::polynomial::{Monomial, Polynomial};
+use crate::proofs::recorded::{Operation, record};
+use crate::proofs::running_error::{Input, RunningError};
+use std::vec::Vec;
+
+/// In u: the least raise, and the least margin of the size and of limit a.
+pub(in crate::proofs) fn needs() -> [f64; 3] {
+    let names = ["ox", "oy", "oz", "dx", "dy", "dz", "cx", "cy", "cz", "r", "limit"];
+    let witness = [0.5, 0.1, 0.2, 1.0, 0.5, 0.25, 3.0, 2.0, 1.0, 1.5, 0.5];
+    let ((), graph) = record(witness, |[ox, oy, oz, dx, dy, dz, cx, cy, cz, r, limit]| {
+        let rays = ray([ox, oy, oz], [dx, dy, dz]);
+        let _ = Beyond::new(&rays).limit(&rays, [cx, cy, cz], r, limit);
+    });
+    let operands = |node: usize| operands(&graph, node);
+    let mut roots = (0..graph.len()).filter(|node| matches!(graph[*node], Operation::Root(_)));
+    let roots = [roots.next().expect("|d|"), roots.next().expect("the root of D")];
+    // The last sum is end + margin; margin is MARGIN (size + |end|) and what covers underflow.
+    let [end, margin] = operands(graph.len() - 1);
+    let [size, _] = operands(operands(operands(margin)[0])[1]);
+    let [larger, raise] = operands(operands(roots[1])[0]);
+    let discriminant = operands(larger)[0];
+    let [later, a] = operands(end);
+    let entry = graph.iter().find_map(|operation| match *operation {
+        Operation::Difference(b, root) if root == roots[1] => Some(b),
+        _ => None,
+    });
+    let b = entry.expect("b less the root");
+
+    let inputs = names.map(|name| Input { positive: name == "r", ..Input::named(name) });
+    let mut rules = RunningError::new(24, &inputs);
+    name_differences(&mut rules, &graph, &["px", "py", "pz", "xx", "xy", "xz"]);
+    rules.name(a, "a");
+    rules.name(roots[0], "|d|");
+    rules.name(end, "end");
+    rules.name_and_charge(later, "later");
+    rules.run(&graph);
+    let [error_of_d, error_of_b] = [discriminant, b].map(|node| rules.bound(node).error().clone());
+    let [raised, sized] = [raise, size].map(|node| rules.bound(node).low.clone());
+    let high = rules.bound(size).high.clone();
+
+    // In lengths: of x what it is made of; of d its length, of which a is the square.
+    let [length, end] = ["|d|", "end"].map(|name| rules.symbol(name));
+    let d = Polynomial::of(1.0 + 8.0 * U, Monomial::of(&[(length, 1)]));
+    let mut bounds: Vec<_> = ["xx", "xy", "xz"]
+        .map(|name| rules.symbol(name))
+        .map(|symbol| (symbol, rules.upper[&symbol].clone()))
+        .to_vec();
+    bounds.extend(["dx", "dy", "dz"].map(|name| (rules.symbol(name), d.clone())));
+    bounds.push((rules.symbol("a"), &d * &d));
+    let in_lengths = |polynomial: &Polynomial| {
+        bounds.iter().fold(polynomial.clone(), |sum, (symbol, bound)| sum.with(*symbol, bound))
+    };
+
+    // D, and its sum with the raise, which is rounded; D is at most a r^2.
+    let r = Polynomial::symbol(rules.symbol("r"));
+    let reach = &(&d * &d) * &(&r * &r);
+    let raise = &in_lengths(&error_of_d) + &(&reach + &raised).scaled(2.0 * U);
+    let raise = raise.over(&in_lengths(&raised)) * f64::from(RAISE);
+
+    // b; the root, and its difference with b: each is the size at most, except for the raise; and what `Stable` is off.
+    let stable = 4.0 * U;
+    let need = &in_lengths(&error_of_b) + &high.scaled(3.0 * U * (1.0 + 1.0 / 256.0) + stable);
+    let of_size = need.over(&in_lengths(&sized));
+    // limit a; half of what is between t and the next one; the sum with the margin.
+    let off = rules.off_by(end) + 2.0 * U;
+    [raise, of_size, off].map(|part| part * (1.0 + 64.0 * U) / U)
+}

@@ -1,0 +1,3 @@
+mod long_accumulator;
+mod order;
+mod units;

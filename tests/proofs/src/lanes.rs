@@ -1,0 +1,2 @@
+mod bit_for_bit;
+mod moves;

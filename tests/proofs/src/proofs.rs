@@ -1,0 +1,18 @@
+//! Proofs of the kernel's bounds by machine, and tests of what is private in it: `docs/proofs.md`.
+
+mod by_hand;
+mod camera_packets;
+pub(crate) mod climb;
+mod climbs;
+mod corners;
+mod cost;
+mod derived;
+mod integers;
+mod lanes;
+pub(crate) mod limbs;
+mod polynomial;
+mod recorded;
+mod rows;
+mod running_error;
+mod toy;
+pub(crate) mod work;

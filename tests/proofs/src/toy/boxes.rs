@@ -1,0 +1,250 @@
+//! Boxes and leaves over toy floats: what a ray is answered with is never left out, for all rays and spheres of small
+//! sets, in a plane.
+//!
+//! Margins are up to 48 u, so that floats of five bits would leave nothing to be tested: numbers are integers
+//! of few bits, and the floats have ten. The answer is the root, rounded as `Exact` does.
+//!
+//! Rays that are moved, from far away, have twelve bits: the 2^-11 T of their error covers 2 u T from there on. The
+//! build of the tree is written for `f32` alone, and repeated here.
+
+use super::pairs;
+use crate::accuracy::RayLanes;
+use crate::bvh::build::bounds::PAD;
+use crate::bvh::node::{BvhNode, NO_CHILD};
+use crate::bvh::traverse::deferred::RayPlace;
+use crate::bvh::traverse::prepared_ray::{PreparedLanes, PreparedPacket};
+use crate::bvh::traverse::ray_state::RayState;
+use crate::bvh::traverse::root_interval::Pass;
+use crate::numeric::rounding::U;
+use crate::proofs::toy::floats::{Format, Toy};
+use crate::query::ClosestHit;
+use std::println;
+
+formats! {
+    Fused: 10, Self, FUSED: bool = true;
+    Unfused: 10, Self;
+    Sixteenth: 10, Self, MARGIN: f64 = 0.0625;
+    Without: 10, Self, MARGIN: f64 = 0.001;
+    FarFused: 12, Self, FUSED: bool = true;
+    FarUnfused: 12, Self;
+    FarWithout: 12, Self, MARGIN: f64 = 0.001;
+}
+
+/// The pad of a box.
+const PAD_IN_U: f64 = (PAD / U) as f64;
+/// No ray is moved before a scene of that extent; and of the scenes here.
+const ENDLESS: f32 = 1_048_576.0;
+const EXTENT: f32 = 2048.0;
+
+/// A ray and a sphere in a plane.
+#[derive(Clone, Copy, Debug)]
+struct Case {
+    o: [i64; 2],
+    d: [i64; 2],
+    c: [i64; 2],
+    r: i64,
+    extent: f32,
+}
+
+impl Case {
+    /// Both roots as real numbers: doubles are that, beside floats of ten bits.
+    fn roots(&self) -> Option<[f64; 2]> {
+        let Self { o, d, c, r, .. } = *self;
+        let p = [c[0] - o[0], c[1] - o[1]];
+        let (a, b, x) =
+            (d[0] * d[0] + d[1] * d[1], d[0] * p[0] + d[1] * p[1], d[0] * p[1] - d[1] * p[0]);
+        let discriminant = a * r * r - x * x;
+        let root = (discriminant as f64).sqrt();
+        (discriminant >= 0).then(|| [(b as f64 - root) / a as f64, (b as f64 + root) / a as f64])
+    }
+
+    fn length(&self) -> f64 {
+        ((self.d[0] * self.d[0] + self.d[1] * self.d[1]) as f64).sqrt()
+    }
+
+    fn rays<F: Format>(&self, [t_min, t_max]: [f64; 2]) -> RayLanes<Toy<F>> {
+        let lanes = |v: [i64; 2]| [v[0], v[1], 0].map(|x| Toy::new(x as f64));
+        RayLanes {
+            origin: lanes(self.o),
+            direction: lanes(self.d),
+            t_min: Toy::new(t_min),
+            t_max: Toy::new(t_max),
+            live: true,
+        }
+    }
+
+    /// A box that holds the sphere, farther out by `pad` u of its size, as the build makes it.
+    fn node<F: Format>(&self, pad: f64) -> BvhNode {
+        let [c, r] = [[self.c[0] as f64, self.c[1] as f64, 0.0], [self.r as f64; 3]];
+        let step = |x: f64, sign: f64| F::round(x + sign * x.abs().max(1e-9) * F::U * 1.01);
+        let low = [0, 1, 2].map(|i| step(F::round(c[i] - r[i]), -1.0));
+        let high = [0, 1, 2].map(|i| step(F::round(c[i] + r[i]), 1.0));
+        let largest = low.iter().chain(&high).fold(0.0_f64, |most, x| most.max(x.abs()));
+        let pad = F::round(pad * F::U * largest);
+        let mut node = BvhNode::EMPTY;
+        for i in 0..3 {
+            node.low[i][0] = step(F::round(low[i] - pad), -1.0) as f32;
+            node.high[i][0] = step(F::round(high[i] + pad), 1.0) as f32;
+        }
+        node.child[0] = 0;
+        node
+    }
+
+    /// Whether a ray whose interval is no more than that answer enters the box.
+    fn enters<F: Format>(&self, t: f64, pad: f64) -> bool {
+        let mut packet = PreparedPacket::<[f32; 1]>::none();
+        packet.prepare(&self.rays::<F>([t, t]), 1.0, self.extent, 0.0);
+        let mut state = RayState::NEW;
+        state.begin(&packet, 0, RayPlace::FIRST, 0);
+        state.stack.clear();
+        let node = self.node::<F>(pad);
+        state.enter::<Toy<F>, ClosestHit>((), &packet, (0, &node));
+        state.stack.pop(&[node]) != NO_CHILD
+    }
+
+    /// What a leaf gets wrong of an answer t, one bit each: the ray with no more than that answer sees no
+    /// candidate; its entry is later; a bound is sooner, or without an answer.
+    fn leaf<F: Format>(&self, interval: [f64; 2], roots: Option<[f64; 2]>) -> u32 {
+        let rays = self.rays::<F>(interval);
+        let prepared = PreparedLanes::of_any_length(&rays, 1.0, Some(self.extent));
+        // In multiples of the direction as it was given.
+        let shift = prepared.time.shift.get() / prepared.time.per_t.get();
+        assert_eq!(shift > 0.0, self.extent < ENDLESS, "{self:?}");
+        let center = [self.c[0], self.c[1], 0].map(|x| Toy::new(x as f64));
+        let pass = Pass::new(
+            prepared.origin,
+            prepared.direction,
+            prepared.absolute_error,
+            center,
+            Toy::new(self.r as f64),
+        );
+        let zero = Toy::new(0.0);
+        let found = pass.root_interval::<false>(prepared.start, prepared.end, zero, 0.0);
+        let may = pass.may_hit::<false>(prepared.start[0], prepared.end[1], 0.0);
+        let accepted = |t: &f64| (interval[0]..=interval[1]).contains(&F::round(*t));
+        let answer = roots.and_then(|roots| roots.into_iter().find(accepted));
+        let Some(root) = answer else {
+            return u32::from(found.bound.get() < f64::INFINITY) << 2;
+        };
+        // Of a ray that was moved the ends of the interval have the error of t; entry and bound are a root's.
+        let t = if shift == 0.0 { F::round(root) } else { root };
+        let [s, root] = [t, root].map(|t| (t - shift) * self.length());
+        // What doubles may be off.
+        let hair = (root.abs() + shift * self.length()) * 1e-12;
+        u32::from(!found.candidates || !may)
+            | u32::from(found.entry.get() > s.min(root) + hair) << 1
+            | u32::from(found.bound.get() < s.max(root) - hair) << 2
+    }
+}
+
+/// All cases of those rays and centres: radii are about the distance of the line, so that lines are tangents, or miss or
+/// meet by little.
+fn cases(o: [i64; 2], d: [i64; 2], centers: &[i64], extent: f32, work: &mut dyn FnMut(&Case)) {
+    for (cx, cy) in pairs(centers, centers) {
+        let mut case = Case { o, d, c: [cx, cy], r: 0, extent };
+        let side = (d[0] * (cy - o[1]) - d[1] * (cx - o[0])).abs();
+        let across = (side as f64 / case.length()).ceil() as i64;
+        for more in [-1, 0, 1, 3, across / 64, across / 8, across] {
+            case.r = across + more;
+            if (0..1024).contains(&case.r) {
+                work(&case);
+            }
+        }
+    }
+}
+
+/// Directions into every quadrant.
+fn directions() -> impl Iterator<Item = [i64; 2]> {
+    pairs(&[4, 5, 6, 7], &[-6, -3, 0, 1, 2, 3, 5, 7]).flat_map(|(x, y)| [[x, y], [y, -x]])
+}
+
+/// Near the origin.
+fn all(work: &mut dyn FnMut(&Case)) {
+    let centers = [-1021, -777, -100, -3, 0, 1, 2, 33, 101, 701, 999];
+    for d in directions() {
+        for o in [[0, 0], [37, 0], [-1023, 513], [0, -5], [-511, 37]] {
+            cases(o, d, &centers, ENDLESS, work);
+        }
+    }
+}
+
+/// From far away: the ray is moved.
+fn far(work: &mut dyn FnMut(&Case)) {
+    for d in directions() {
+        // Lines beside the coordinates' origin have origins of more bits than few: a multiple of 64.
+        for (away, [ox, oy]) in
+            pairs(&[1 << 14, 3 << 14, 1 << 16], &[[0, 0], [64, -192], [-1024, 512]])
+        {
+            let o = [ox - away * d[0], oy - away * d[1]]
+                .map(|x| Toy::<FarFused>::new(x as f64).get() as i64);
+            cases(o, d, &[-1021, -100, -3, 0, 2, 33, 701], EXTENT, work);
+        }
+    }
+}
+
+/// Answers, and those whose box is not entered.
+fn boxes<F: Format>(pad: f64, set: impl Fn(&mut dyn FnMut(&Case))) -> [u64; 2] {
+    let mut counts = [0; 2];
+    set(&mut |case| {
+        for root in case.roots().into_iter().flatten() {
+            counts[0] += 1;
+            counts[1] += u64::from(!case.enters::<F>(F::round(root), pad));
+        }
+    });
+    counts
+}
+
+/// Answers, and what leaves get wrong of them: [`Case::leaf`].
+fn leaves<F: Format>(set: impl Fn(&mut dyn FnMut(&Case))) -> (u64, [u64; 3]) {
+    let (mut count, mut wrong) = (0, [0; 3]);
+    set(&mut |case| {
+        let roots = case.roots();
+        let [near, far] = roots.map_or([0.0, 1.0], |roots| roots.map(F::round));
+        let behind = near + near.abs() * 2.1 * F::U;
+        let all = f64::INFINITY;
+        for interval in
+            [[near, near], [far, far], [-all, all], [near, far], [0.0, near], [behind, all]]
+        {
+            count += 1;
+            let found = case.leaf::<F>(interval.map(F::round), roots);
+            for (bit, wrong) in wrong.iter_mut().enumerate() {
+                *wrong += u64::from(found >> bit & 1);
+            }
+        }
+    });
+    (count, wrong)
+}
+
+#[test]
+fn no_box_of_an_answer_is_passed() {
+    for (name, [answers, passed]) in [
+        ("fused", boxes::<Fused>(PAD_IN_U, all)),
+        ("not fused", boxes::<Unfused>(PAD_IN_U, all)),
+        ("from afar, fused", boxes::<FarFused>(PAD_IN_U, far)),
+        ("from afar, not fused", boxes::<FarUnfused>(PAD_IN_U, far)),
+    ] {
+        println!("{name}: {answers} answers, {passed} passed");
+        assert!(passed == 0 && answers > 100_000, "{name}: {passed} of {answers}");
+    }
+    // Either pad covers for the other: without both, boxes are passed.
+    let [_, passed] = boxes::<Without>(0.0, all);
+    let [_, from_afar] = boxes::<FarWithout>(0.0, far);
+    println!("without pads: {passed} passed, {from_afar} from afar");
+    assert!(passed > 0 && from_afar > 0, "no box is hard");
+}
+
+#[test]
+fn no_leaf_loses_an_answer() {
+    for (name, (tests, wrong)) in [
+        ("fused", leaves::<Fused>(all)),
+        ("not fused", leaves::<Unfused>(all)),
+        ("from afar, fused", leaves::<FarFused>(far)),
+        ("from afar, not fused", leaves::<FarUnfused>(far)),
+    ] {
+        println!("{name}: {tests} tests, wrong {wrong:?}");
+        assert!(wrong == [0; 3] && tests > 100_000, "{name}: {wrong:?} of {tests}");
+    }
+    let (_, wrong) = leaves::<Sixteenth>(all);
+    println!("with a sixteenth of the margins: {wrong:?}");
+    assert!(wrong.iter().all(|wrong| *wrong > 0), "nothing is hard: {wrong:?}");
+}
