@@ -16,9 +16,6 @@ _spherule() {
             ",$1")
                 cmd="spherule"
                 ;;
-            spherule,generate)
-                cmd="spherule__subcmd__generate"
-                ;;
             spherule,lecture)
                 cmd="spherule__subcmd__lecture"
                 ;;
@@ -38,7 +35,7 @@ _spherule() {
 
     case "${cmd}" in
         spherule)
-            opts="-h -V --size --samples --projection --order --format --accuracy --charset --color --background --palette --cell-aspect --distance --show --structure --threads --level --once --png --pick --json --help --version trace tradeoff lecture scenes generate"
+            opts="-h -V --size --samples --projection --order --format --accuracy --charset --color --background --palette --cell-aspect --distance --show --structure --threads --level --once --png --pick --json --help --version trace tradeoff lecture scenes"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -116,20 +113,6 @@ _spherule() {
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
-                *)
-                    COMPREPLY=()
-                    ;;
-            esac
-            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
-            return 0
-            ;;
-        spherule__subcmd__generate)
-            opts="-h --help"
-            if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
-                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
-                return 0
-            fi
-            case "${prev}" in
                 *)
                     COMPREPLY=()
                     ;;

@@ -73,7 +73,6 @@ complete -c spherule -n "__fish_spherule_needs_command" -a "trace" -d 'Trace ray
 complete -c spherule -n "__fish_spherule_needs_command" -a "tradeoff" -d 'Measure speed and error of every tier on a scene, on this machine'
 complete -c spherule -n "__fish_spherule_needs_command" -a "lecture" -d 'Walk through the graphics lecture: fourteen stations whose numbers are computed as they are shown'
 complete -c spherule -n "__fish_spherule_needs_command" -a "scenes" -d 'List the built-in scenes'
-complete -c spherule -n "__fish_spherule_needs_command" -a "generate" -d 'Write man pages and completions for bash, zsh and fish'
 complete -c spherule -n "__fish_spherule_using_subcommand trace" -l spheres -d 'Spheres: .npy, float32, (N, 4): centre xyz, radius' -r -F
 complete -c spherule -n "__fish_spherule_using_subcommand trace" -l rays -d 'Rays: .npy, float32, (M, 8): origin xyz, direction xyz, `t_min`, `t_max`' -r -F
 complete -c spherule -n "__fish_spherule_using_subcommand trace" -l out-t -d 'Where to write t: .npy, float32, (M,), +inf if a ray has no hit' -r -F
@@ -125,4 +124,3 @@ complete -c spherule -n "__fish_spherule_using_subcommand lecture" -l once -d 'W
 complete -c spherule -n "__fish_spherule_using_subcommand lecture" -l list -d 'List the stations, with the part of the lecture and the source files of each'
 complete -c spherule -n "__fish_spherule_using_subcommand lecture" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c spherule -n "__fish_spherule_using_subcommand scenes" -s h -l help -d 'Print help'
-complete -c spherule -n "__fish_spherule_using_subcommand generate" -s h -l help -d 'Print help'
