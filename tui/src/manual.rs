@@ -1,8 +1,8 @@
 //! `spherule generate`: man pages and completions, made from the command line as it is defined.
 
 use crate::arguments::Arguments;
-use crate::error::Error;
-use clap::CommandFactory;
+use crate::error::{Error, cause};
+use clap::{Command, CommandFactory};
 use clap_complete::Shell;
 use std::fs::create_dir_all;
 use std::io;
@@ -16,7 +16,8 @@ const SHELLS: [Shell; 3] = [Shell::Bash, Shell::Zsh, Shell::Fish];
 /// # Errors
 /// [`Error::Running`] if a file cannot be written.
 pub fn generate(folder: &Path) -> Result<(), Error> {
-    write(folder).map_err(|error| Error::Running(format!("{}: {error}", folder.display())))
+    write(folder)
+        .map_err(|error| Error::Running(format!("{}: {}", folder.display(), cause(&error))))
 }
 
 fn write(folder: &Path) -> io::Result<()> {
@@ -25,9 +26,19 @@ fn write(folder: &Path) -> io::Result<()> {
     create_dir_all(&completions)?;
     clap_mangen::generate_to(Arguments::command(), man)?;
     for shell in SHELLS {
-        clap_complete::generate_to(shell, &mut Arguments::command(), "spherule", &completions)?;
+        clap_complete::generate_to(shell, &mut visible(), "spherule", &completions)?;
     }
     Ok(())
+}
+
+/// The command line without what is hidden, which completions would offer.
+fn visible() -> Command {
+    let all = Arguments::command();
+    Command::new("spherule")
+        .version(env!("CARGO_PKG_VERSION"))
+        .disable_help_subcommand(true)
+        .args(all.get_arguments().cloned())
+        .subcommands(all.get_subcommands().filter(|command| !command.is_hide_set()).cloned())
 }
 
 #[cfg(test)]
@@ -57,6 +68,7 @@ mod tests {
         generate(folder.path()).expect("it can be written");
         let (made, packed) = (files(folder.path()), files(Path::new(env!("CARGO_MANIFEST_DIR"))));
         assert!(made.len() >= 8, "{}", made.len());
+        assert!(!made.iter().any(|(_, text)| text.contains("generate")), "it is hidden");
         assert!(made == packed, "stale: cargo run -p spherule -- generate tui");
     }
 

@@ -35,7 +35,10 @@ pub fn trace(arguments: &TraceArguments) -> Result<(), Error> {
     let structure = match (query, structure) {
         (Query::Pairs, None) => Some(Structure::Brute),
         (Query::Pairs, Some(other)) if other != Structure::Brute => {
-            let what = format!("--pairs with --structure {}: auto or brute", name(&other));
+            let what = format!(
+                "--pairs with --structure {}: pairs need no structure; auto or brute",
+                name(&other)
+            );
             return Err(Error::Input(what));
         }
         (_, choice) => choice,
@@ -96,12 +99,15 @@ pub fn trace(arguments: &TraceArguments) -> Result<(), Error> {
 /// Whether there are as many spheres and rays as can be.
 fn check_counts(arguments: &TraceArguments, spheres: usize, rays: usize) -> Result<(), Error> {
     if arguments.pairs && spheres != rays {
-        let what = format!("{rays} rays and {spheres} spheres are no pairs");
+        let what = format!("{rays} rays, {spheres} spheres; --pairs needs as many of each");
         return Err(Error::Input(format!("{}: {what}", arguments.rays.display())));
     }
     // A hit is written as an int32.
     if spheres.max(rays) > i32::MAX as usize {
-        let what = format!("{}: more than 2^31 - 1 rows", arguments.spheres.display());
+        let what = format!(
+            "{}: too many rows; at most 2^31 - 1, since an index is an int32",
+            arguments.spheres.display()
+        );
         return Err(Error::Input(what));
     }
     Ok(())

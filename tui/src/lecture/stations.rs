@@ -43,6 +43,6 @@ pub fn station(text: &str) -> Result<usize, String> {
     let by_number = text.parse().ok().and_then(|number: usize| number.checked_sub(1));
     let by_name = || STATIONS.iter().position(|station| station.name == text);
     by_number.filter(|&index| index < STATIONS.len()).or_else(by_name).ok_or_else(|| {
-        format!("there is no such station: 1 to {}, or a name of --list", STATIONS.len())
+        format!("unknown station; 1 to {}, or a name that --list prints", STATIONS.len())
     })
 }

@@ -80,7 +80,7 @@ fn a_size_is_kept_and_one_that_is_too_small_is_named() {
 fn a_station_that_is_none_is_refused() {
     for station in ["0", "15", "triangles", "-1"] {
         let message = refusal(&run(["lecture", &format!("--station={station}")]));
-        assert!(message.contains("there is no such station: 1 to 14"), "{message}");
+        assert!(message.contains("unknown station; 1 to 14"), "{message}");
     }
     assert!(refusal(&run(["lecture", "--size", "0x0"])).contains("each 1 to 4096"));
     assert!(refusal(&run(["lecture", "unit"])).contains("unit"));

@@ -130,7 +130,10 @@ fn pairs_have_no_structure() {
     for choice in ["depth-list", "bvh"] {
         let words = format!("trace --spheres s.npy --rays r.npy --pairs --structure {choice}");
         let message = refusal(&run(words.split(' ')));
-        assert_eq!(message, format!("--pairs with --structure {choice}: auto or brute"));
+        assert_eq!(
+            message,
+            format!("--pairs with --structure {choice}: pairs need no structure; auto or brute")
+        );
     }
 }
 

@@ -162,7 +162,7 @@ fn rays_and_spheres_that_do_not_fit() {
     let rays = file("unpaired.r.npy", &array(101, 8, &rays));
     let words = ["trace".as_ref(), "--pairs".as_ref(), "--spheres".as_ref(), spheres.as_os_str()];
     let message = refusal(&run(words.into_iter().chain(["--rays".as_ref(), rays.as_os_str()])));
-    assert!(message.ends_with("101 rays and 7 spheres are no pairs"), "{message}");
+    assert!(message.ends_with("101 rays, 7 spheres; --pairs needs as many of each"), "{message}");
     assert!(refusal(&run(["trace", "--rays", "r.npy"])).contains("--spheres"));
     let both = "trace --spheres s --rays r --any --out-t t".split(' ');
     assert!(refusal(&run(both)).contains("cannot be used with"));

@@ -1,0 +1,126 @@
+# Print an optspec for argparse to handle cmd's options that are independent of any subcommand.
+function __fish_spherule_global_optspecs
+    string join \n size= samples= projection= order= format= accuracy= charset= color= background= palette= cell-aspect= distance= show= structure= threads= level= once png= pick= json h/help V/version
+end
+
+function __fish_spherule_needs_command
+    # Figure out if the current invocation already has a command.
+    set -l cmd (commandline -opc)
+    set -e cmd[1]
+    argparse -s (__fish_spherule_global_optspecs) -- $cmd 2>/dev/null
+    or return
+    if set -q argv[1]
+        # Also print the command, so this can be used to figure out what it is.
+        echo $argv[1]
+        return 1
+    end
+    return 0
+end
+
+function __fish_spherule_using_subcommand
+    set -l cmd (__fish_spherule_needs_command)
+    test -z "$cmd"
+    and return 1
+    contains -- $cmd[1] $argv
+end
+
+complete -c spherule -n "__fish_spherule_needs_command" -l size -d 'Picture size in cells, each 1 to 4096 [default: 80x24; on a terminal all rows but the last]' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l samples -d 'Rays a cell, 1 to 256; auto: more where they are needed' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l projection -d 'The projection, whatever the scene says' -r -f -a "perspective\t'Far things look smaller'
+parallel\t'They do not'"
+complete -c spherule -n "__fish_spherule_needs_command" -l order -d 'Which loop is the outer one, over rays or spheres; with object there is no --structure' -r -f -a "image\t'For each ray the spheres, by a structure'
+object\t'For each sphere the rays that may meet it'"
+complete -c spherule -n "__fish_spherule_needs_command" -l format -d 'Format of the scene [default: by name; of standard input by its first line]' -r -f -a "toml\t'Spheres, lights and a camera, as in the README'
+xyz\t'A molecule'"
+complete -c spherule -n "__fish_spherule_needs_command" -l accuracy -d 'How far hits may be trusted; algebraic is another name for fast' -r -f -a "fast\t''
+geometric\t''
+stable\t''
+exact\t''"
+complete -c spherule -n "__fish_spherule_needs_command" -l charset -d 'Characters; auto: half with colour, else ascii' -r -f -a "auto\t'Whatever suits'
+ascii\t'Printable ASCII; in every font'
+half\t'Halves of a cell; in every font'
+quadrant\t'Quarters; in most fonts'
+sextant\t'Sixths; in fonts with Unicode 13'
+octant\t'Eighths of two columns; in fonts with Unicode 16'
+braille\t'Dots, as plots have them; in most fonts'
+block\t'All of these that are blocks, and bars; in fonts with Unicode 16'"
+complete -c spherule -n "__fish_spherule_needs_command" -l color -d 'Colours' -r -f -a "auto\t'As the environment and the terminal say'
+never\t'No colour'
+always\t'As many colours as the terminal has, also into a pipe'
+16\t'The 16 of the user\'s theme'
+256\t'The xterm palette'
+truecolor\t'24 bits'"
+complete -c spherule -n "__fish_spherule_needs_command" -l background -d 'The colour of what no sphere covers, unless the scene names one' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l palette -d 'What the terminal\'s 16 colours are: xterm, vga, tango, solarized, or 16 of six digits, with commas' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l cell-aspect -d 'Shape of a cell, width to height [default: the terminal\'s, else 1:2]' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l distance -d 'How far away the eye is, in widths of a cell: 60 cm by default, if cells are 2.2 mm wide' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l show -d 'error: what the tier gets wrong against exact, cell by cell; split:TIER,TIER: two tiers side by side; table: what every tier takes and gets wrong' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l structure -d 'How spheres are searched' -r -f -a "auto\t'Whatever suits'
+brute\t'All spheres, from end to end'
+depth-list\t'The spheres by their depth, sorted for every picture'
+bvh\t'A tree of boxes, built once'"
+complete -c spherule -n "__fish_spherule_needs_command" -l threads -d 'Threads, 1 to 1024 [default: all that the machine has]' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l level -d 'Instructions [default: the best that the CPU has]' -r -f -a "baseline\t''
+avx2\t''
+avx512\t''"
+complete -c spherule -n "__fish_spherule_needs_command" -l png -d 'Write one picture as a PNG of 8x16 pixels a cell; - for standard output' -r -F
+complete -c spherule -n "__fish_spherule_needs_command" -l pick -d 'In place of a picture, write what the ray through the middle of a cell meets, by every tier' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l once -d 'Write one picture, also to a terminal'
+complete -c spherule -n "__fish_spherule_needs_command" -l json -d 'With --pick, write a JSON object'
+complete -c spherule -n "__fish_spherule_needs_command" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c spherule -n "__fish_spherule_needs_command" -s V -l version -d 'Print version'
+complete -c spherule -n "__fish_spherule_needs_command" -a "trace" -d 'Trace rays from a file against spheres from a file'
+complete -c spherule -n "__fish_spherule_needs_command" -a "tradeoff" -d 'Measure speed and error of every tier on a scene, on this machine'
+complete -c spherule -n "__fish_spherule_needs_command" -a "lecture" -d 'Walk through the graphics lecture: fourteen stations whose numbers are computed as they are shown'
+complete -c spherule -n "__fish_spherule_needs_command" -a "scenes" -d 'List the built-in scenes'
+complete -c spherule -n "__fish_spherule_using_subcommand trace" -l spheres -d 'Spheres: .npy, float32, (N, 4): centre xyz, radius' -r -F
+complete -c spherule -n "__fish_spherule_using_subcommand trace" -l rays -d 'Rays: .npy, float32, (M, 8): origin xyz, direction xyz, `t_min`, `t_max`' -r -F
+complete -c spherule -n "__fish_spherule_using_subcommand trace" -l out-t -d 'Where to write t: .npy, float32, (M,), +inf if a ray has no hit' -r -F
+complete -c spherule -n "__fish_spherule_using_subcommand trace" -l out-id -d 'Where to write the sphere: .npy, int32, (M,), -1 if a ray has no hit; with --any 1 or 0' -r -F
+complete -c spherule -n "__fish_spherule_using_subcommand trace" -l repeat -d 'Passes, 1 or more; the speed is that of their median' -r
+complete -c spherule -n "__fish_spherule_using_subcommand trace" -l accuracy -d 'How far hits may be trusted; algebraic is another name for fast' -r -f -a "fast\t''
+geometric\t''
+stable\t''
+exact\t''"
+complete -c spherule -n "__fish_spherule_using_subcommand trace" -l structure -d 'How spheres are searched' -r -f -a "auto\t'Whatever suits'
+brute\t'All spheres, from end to end'
+depth-list\t'The spheres by their depth, sorted for every picture'
+bvh\t'A tree of boxes, built once'"
+complete -c spherule -n "__fish_spherule_using_subcommand trace" -l threads -d 'Threads, 1 to 1024 [default: all that the machine has]' -r
+complete -c spherule -n "__fish_spherule_using_subcommand trace" -l level -d 'Instructions [default: the best that the CPU has]' -r -f -a "baseline\t''
+avx2\t''
+avx512\t''"
+complete -c spherule -n "__fish_spherule_using_subcommand trace" -l pairs -d 'Ray i meets sphere i alone'
+complete -c spherule -n "__fish_spherule_using_subcommand trace" -l any -d 'Only whether a ray meets anything'
+complete -c spherule -n "__fish_spherule_using_subcommand trace" -l json -d 'Report as a JSON object'
+complete -c spherule -n "__fish_spherule_using_subcommand trace" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l size -d 'Picture size in cells, each 1 to 4096 [default: 80x24; on a terminal all rows but the last]' -r
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l samples -d 'Rays a cell, 1 to 256; auto: more where they are needed' -r
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l projection -d 'The projection, whatever the scene says' -r -f -a "perspective\t'Far things look smaller'
+parallel\t'They do not'"
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l order -d 'Which loop is the outer one, over rays or spheres; with object there is no --structure' -r -f -a "image\t'For each ray the spheres, by a structure'
+object\t'For each sphere the rays that may meet it'"
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l format -d 'Format of the scene [default: by name; of standard input by its first line]' -r -f -a "toml\t'Spheres, lights and a camera, as in the README'
+xyz\t'A molecule'"
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l structure -d 'How spheres are searched' -r -f -a "auto\t'Whatever suits'
+brute\t'All spheres, from end to end'
+depth-list\t'The spheres by their depth, sorted for every picture'
+bvh\t'A tree of boxes, built once'"
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l threads -d 'Threads, 1 to 1024 [default: all that the machine has]' -r
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l level -d 'Instructions [default: the best that the CPU has]' -r -f -a "baseline\t''
+avx2\t''
+avx512\t''"
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l json -d 'Report as a JSON object'
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c spherule -n "__fish_spherule_using_subcommand lecture" -l station -d 'The station, 1 to 14 or by its name' -r
+complete -c spherule -n "__fish_spherule_using_subcommand lecture" -l size -d 'Size of a station in cells [default: 80x24; on a terminal all rows but the last]' -r
+complete -c spherule -n "__fish_spherule_using_subcommand lecture" -l color -d 'Colours' -r -f -a "auto\t'As the environment and the terminal say'
+never\t'No colour'
+always\t'As many colours as the terminal has, also into a pipe'
+16\t'The 16 of the user\'s theme'
+256\t'The xterm palette'
+truecolor\t'24 bits'"
+complete -c spherule -n "__fish_spherule_using_subcommand lecture" -l once -d 'Write the station, or all, also to a terminal'
+complete -c spherule -n "__fish_spherule_using_subcommand lecture" -l list -d 'List the stations, with the part of the lecture and the source files of each'
+complete -c spherule -n "__fish_spherule_using_subcommand lecture" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c spherule -n "__fish_spherule_using_subcommand scenes" -s h -l help -d 'Print help'
