@@ -7,3 +7,4 @@ mod motion;
 mod scenes;
 mod scorer;
 mod spin;
+mod turning;

@@ -42,7 +42,7 @@ fn bytes_a_frame(depth: ColorDepth) -> usize {
 
 #[test]
 fn a_turning_picture_costs_no_more_bytes() {
-    for (depth, most) in [(ColorDepth::Ansi256, 13_500), (ColorDepth::Truecolor, 125_000)] {
+    for (depth, most) in [(ColorDepth::Ansi256, 10_800), (ColorDepth::Truecolor, 125_000)] {
         let bytes = bytes_a_frame(depth);
         assert!(bytes <= most && bytes > most * 9 / 10, "{depth:?}: {bytes} bytes of {most}");
     }

@@ -2,6 +2,7 @@
 
 pub mod bins;
 pub mod braille;
+pub mod change;
 pub mod dither;
 pub mod dots;
 pub mod eye;

@@ -133,10 +133,8 @@ impl Intersector for Kernel {
     fn rules(&self) -> Rules {
         match self.0 {
             Tier::Exact => Rules::CONTRACT,
-            // They know no more than T.
-            Tier::Fast | Tier::Geometric | Tier::Stable => {
-                Rules { ties: Ties::Rounded, ..Rules::CONTRACT }
-            }
+            // The others know no more than T.
+            _ => Rules { ties: Ties::Rounded, ..Rules::CONTRACT },
         }
     }
 }

@@ -31,5 +31,5 @@ pub(super) fn dots(
     let [ink, paper] = [mean + (1.0 - share) * step, mean - share * step]
         .map(|look| look.clamp(Vec3::ZERO, Vec3::ONE))
         .map(|look| look * look);
-    Fitted { glyph: glyphs[usize::from(bits)], cover, ink, paper, parts }
+    Fitted { glyph: glyphs[usize::from(bits)], cover, ink, paper, parts, ..Fitted::NONE }
 }

@@ -26,10 +26,8 @@ pub struct Eye {
 }
 
 impl Eye {
-    /// What follows a picture that moves: an edge that passes through a cell changes a mean little by little, and what most
-    /// pixels have at once. (By the error of changes from frame to frame, an orbit of 0.4 degrees a frame: 1.08 of chafa's in place of
-    /// 1.22, all blocks of marbles.)
-    pub const MOVING: Self = Self { means: 1.0, lent: 0.0, handed: 0.85 };
+    /// What follows a picture that moves: [what changes](super::change) counts, and what is handed on would change the neighbours, too.
+    pub const MOVING: Self = Self { means: 1.0, lent: 0.0, handed: 0.0 };
 
     /// From so many widths of a cell; less than 0 counts as 0.
     #[must_use]

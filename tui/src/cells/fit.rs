@@ -28,10 +28,10 @@ impl Fitter {
         }
     }
 
-    /// The fit to `light`, the cell's samples row by row; `memory` is used and left as it happens to be. The glyph that the cell had
-    /// `before`, if it had one, is kept where it is about as good.
+    /// The fit to `light`, the cell's samples row by row; `memory` is used and left as it happens to be. In motion, what the
+    /// cell was `before` says how it [changes](super::change); [`Fitted::NONE`] if nothing was.
     #[must_use]
-    pub fn fit(&self, light: &[Vec3], memory: &mut FitMemory, before: Option<char>) -> Fitted {
+    pub fn fit(&self, light: &[Vec3], memory: &mut FitMemory, before: Option<&Fitted>) -> Fitted {
         match self {
             Self::Masks(fitter) => fitter.fit(light, memory, before),
             Self::Letters(fitter) => fitter.fit(light, memory, before),

@@ -4,10 +4,6 @@ use super::layers::Looks;
 use super::masks::{Cover, Mask};
 use spherule_kernel::Vec3;
 
-/// The glyph of the frame before stays if it misses so much of what it would have to be better than. (Blocks and
-/// sextants, by 0.7: the error of changes is 0.05 to 0.14 of chafa's less than by 1; by 0.4 it is as large, and the picture itself loses.)
-pub(super) const KEPT: f32 = 0.7;
-
 /// A glyph, and linear light for what it fills, for what it leaves, and for the 2 x 4 parts of the cell as they were
 /// sampled.
 #[derive(Clone, Copy, Debug)]
@@ -22,6 +18,8 @@ pub struct Fitted {
     pub paper: Vec3,
     /// The light of the parts.
     pub parts: [Vec3; 8],
+    /// In motion: what is shown of the parts less what was sampled, as it [looks](super::change).
+    pub excess: [Vec3; 8],
 }
 
 impl Fitted {
@@ -32,6 +30,7 @@ impl Fitted {
         ink: Vec3::ZERO,
         paper: Vec3::ZERO,
         parts: [Vec3::ZERO; 8],
+        excess: [Vec3::ZERO; 8],
     };
 
     /// How much of the cell the glyph covers.

@@ -97,6 +97,23 @@ impl Looks {
         })
     }
 
+    /// What two such means miss: the mean squared distance of the samples to them.
+    #[must_use]
+    pub fn spread(&self, means: [Vec3; 2]) -> f32 {
+        let mut sum = 0.0;
+        for (mean, layer) in means.iter().zip(&self.layers) {
+            let mut squares = f32x8::ZERO;
+            for (&of_layer, line) in layer.iter().zip(0..self.lines()) {
+                for (&mean, channel) in mean.as_ref().iter().zip(&self.channels) {
+                    let apart = channel[line] - f32x8::splat(mean);
+                    squares += of_layer * apart * apart;
+                }
+            }
+            sum += squares.reduce_add();
+        }
+        sum / self.count.max(1) as f32
+    }
+
     /// How much the looks follow a shape, what a glyph covers of each sample less the mean of that: the sum of products.
     #[must_use]
     #[inline]

@@ -6,13 +6,15 @@
 //! `sum (g-G)(t-T) / n G(1-G)`: less, since a thin letter in a loud colour stands out from what it is to stand for. The
 //! [eye](super::eye) is somewhere between; steps are cut to what a display has. Of the letters that gain most, and the
 //! space, the one is taken that [misses least](super::layers). (Of letters by bins alone FLIP was 0.98 to 1.10 of chafa's, and SSIM
-//! 0.03 to 0.07 below.) Without colour the letter must have the tone as well as the shape: see [`tone`].
+//! 0.03 to 0.07 below.) In motion it counts [what changes](super::change), too. Without colour the letter must have the tone as well as the shape: see [`tone`].
 
 use super::bins::Bins;
+use super::change;
 use super::eye::Eye;
-use super::fitted::{FitMemory, Fitted, KEPT, rank};
-use super::layers::{Layers, mixed};
+use super::fitted::{FitMemory, Fitted, rank};
+use super::layers::{Layers, in_lines, mixed};
 use super::letter::{BINS, LETTERS, Letter};
+use super::masks::Cover;
 use super::tone;
 use crate::color::roots;
 use crate::style::ColorDepth;
@@ -42,17 +44,14 @@ impl LetterFitter {
         &self,
         light: &[Vec3],
         memory: &mut FitMemory,
-        before: Option<char>,
+        before: Option<&Fitted>,
     ) -> Fitted {
         let light: [Vec3; BINS] = self.bins.means(light);
-        let parts = array::from_fn(|part| {
-            let first = part / 2 * 8 + part % 2 * 2;
-            (light[first] + light[first + 1] + light[first + 4] + light[first + 5]) / 4.0
-        });
+        let parts = of_parts(&light);
         if !self.colored {
             let letter = tone::alone(&parts);
             let (glyph, cover) = (letter.glyph, letter.cover);
-            return Fitted { glyph, cover, ink: Vec3::ONE, paper: Vec3::ZERO, parts };
+            return Fitted { glyph, cover, ink: Vec3::ONE, parts, ..Fitted::NONE };
         }
         let looks = light.map(roots);
         let mean = looks.iter().sum::<Vec3>() / BINS as f32;
@@ -60,31 +59,61 @@ impl LetterFitter {
         columns.take(&looks);
 
         let mut best = [(FLAT, (&LETTERS[0], Vec3::ZERO)); TRIED];
-        for letter in &LETTERS[1..] {
+        let fit_of = |letter: &'static Letter| {
             let of_pixels = BINS as f32 * letter.mean * (1.0 - letter.mean);
             let energy = of_pixels + self.eye.lent * (letter.energy - of_pixels);
             let pull = columns.pull(&letter.shape);
             let step = possible_step(letter, pull / energy, mean);
             let gain = (step * (2.0 * pull - energy * step)).element_sum() / BINS as f32;
-            rank(&mut best, (gain, (letter, step)));
+            (gain, (letter, step))
+        };
+        for letter in &LETTERS[1..] {
+            rank(&mut best, fit_of(letter));
+        }
+        let space = (0.0, (&LETTERS[0], Vec3::ZERO));
+        let tried = best.into_iter().filter(|&(gain, _)| gain > FLAT);
+        if let Some(before) = before {
+            let kept = LETTERS[1..].iter().find(|letter| letter.glyph == before.glyph).map(fit_of);
+            let part_looks = of_parts(&looks);
+            let variance =
+                looks.iter().map(|look| look.distance_squared(mean)).sum::<f32>() / BINS as f32;
+            let mut least = (f32::INFINITY, Fitted::NONE);
+            for (gain, (letter, step)) in tried.chain(kept).chain([space]) {
+                let paper = mean - letter.mean * step;
+                let colors = [paper + step, paper].map(|look| look.max(Vec3::ZERO));
+                let excess = change::excess(&letter.cover, colors, &part_looks);
+                let cost = change::cost(variance - gain, letter.glyph, &excess, before);
+                if cost < least.0 {
+                    let [ink, paper] = colors.map(|look| look * look);
+                    let (glyph, cover) = (letter.glyph, letter.cover);
+                    least = (cost, Fitted { glyph, cover, ink, paper, parts, excess });
+                }
+            }
+            return least.1;
         }
         let mut least = (f32::INFINITY, Fitted { parts, ..Fitted::NONE });
-        let tried = best.into_iter().filter(|&(gain, _)| gain > FLAT);
-        for (_, (letter, step)) in tried.chain([(0.0, (&LETTERS[0], Vec3::ZERO))]) {
+        for (_, (letter, step)) in tried.chain([space]) {
             let paper = mean - letter.mean * step;
             let means = [paper + step, paper];
             columns.cover(&letter.ink);
             let Layers { looks, missed } = columns.layers(means);
-            let missed = if before == Some(letter.glyph) { KEPT * missed } else { missed };
             if missed < least.0 {
                 let [ink, paper] = [0, 1]
                     .map(|layer| mixed(looks[layer], means[layer] * means[layer], self.eye.means));
                 let (glyph, cover) = (letter.glyph, letter.cover);
-                least = (missed, Fitted { glyph, cover, ink, paper, parts });
+                least = (missed, Fitted { glyph, cover, ink, paper, parts, ..Fitted::NONE });
             }
         }
         least.1
     }
+}
+
+/// The means of 2 x 4 parts.
+fn of_parts(bins: &[Vec3; BINS]) -> [Vec3; 8] {
+    array::from_fn(|part| {
+        let first = part / 2 * 8 + part % 2 * 2;
+        (bins[first] + bins[first + 1] + bins[first + 4] + bins[first + 5]) / 4.0
+    })
 }
 
 /// The part of a step that leaves ink and paper between black and full light.

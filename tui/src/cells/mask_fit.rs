@@ -7,15 +7,17 @@
 //! letter: `sum (g-G)(t-T)` squared over `sum (g-G)^2`, see [`letters`](super::letters).
 //!
 //! Of the best of each grid, the two that gain most are held against the samples themselves; the one that
-//! [misses least](super::layers) is taken, in its colours.
+//! [misses least](super::layers) is taken, in its colours. In motion it counts [what changes](super::change), and the glyph of the
+//! frame before is held against them, too.
 //!
 //! All is compared by square roots of linear light. Of other spaces `OKLab` was as good, at ten times the cost, except that
 //! glyphs of all kinds together scored below sextants alone on flake; linear light lost 1 dB on marbles.
 
 use super::bins::Bins;
 use super::braille;
+use super::change;
 use super::eye::Eye;
-use super::fitted::{FitMemory, Fitted, KEPT, rank};
+use super::fitted::{FitMemory, Fitted, rank};
 use super::layers::{Layers, Looks, mixed};
 use super::masks::{Family, Mask, repertoire};
 use super::wedges::{self, WEDGES, Wedge};
@@ -77,7 +79,7 @@ impl MaskFitter {
         &self,
         light: &[Vec3],
         memory: &mut FitMemory,
-        before: Option<char>,
+        before: Option<&Fitted>,
     ) -> Fitted {
         let FitMemory { roots: looks, looks: columns, cover } = memory;
         looks.clear();
@@ -99,7 +101,13 @@ impl MaskFitter {
             rank(&mut best, (gain, Some(Candidate::Wedge(wedge))));
         }
         let mean = share * light.iter().sum::<Vec3>();
-        let one_color = Fitted { ink: mean, paper: mean, parts, ..Fitted::NONE };
+        let mut one_color = Fitted { ink: mean, paper: mean, parts, ..Fitted::NONE };
+        let mut part_looks = [Vec3::ZERO; 8];
+        if before.is_some() {
+            part_looks = self.parts.means(looks);
+            one_color.excess = change::excess(&one_color.cover, [mean_look; 2], &part_looks);
+            (one_color.ink, one_color.paper) = (mean_look * mean_look, mean_look * mean_look);
+        }
 
         if self.dots {
             return match best[0].1 {
@@ -119,7 +127,7 @@ impl MaskFitter {
         // Of those the one that misses least of the samples.
         let mut least = (f32::INFINITY, one_color);
         let tried = best.iter().take(self.tried).filter_map(|&(_, candidate)| candidate);
-        let kept = best[0].1.and(before).and_then(|glyph| self.candidate(glyph));
+        let kept = best[0].1.and(before).and_then(|before| self.candidate(before.glyph));
         for candidate in tried.chain(kept) {
             cover.clear();
             let (glyph, of_parts) = match candidate {
@@ -137,17 +145,26 @@ impl MaskFitter {
             };
             columns.cover(cover);
             let means = columns.means();
+            if let Some(before) = before {
+                let excess = change::excess(&of_parts, means, &part_looks);
+                let cost = change::cost(columns.spread(means), glyph, &excess, before);
+                if cost < least.0 {
+                    let [ink, paper] = means.map(|look| look * look);
+                    least = (cost, Fitted { glyph, cover: of_parts, ink, paper, parts, excess });
+                }
+                continue;
+            }
             let Layers { looks, missed } = if light.len() > FEW {
                 columns.layers(means)
             } else {
                 Layers { looks: means, missed: 0.0 }
             };
-            let missed = if before == Some(glyph) { KEPT * missed } else { missed };
             if missed < least.0 {
                 let means = if self.eye.means > 0.0 { light_means(light, cover) } else { means };
                 let [ink, paper] =
                     [0, 1].map(|layer| mixed(looks[layer], means[layer], self.eye.means));
-                least = (missed, Fitted { glyph, cover: of_parts, ink, paper, parts });
+                least =
+                    (missed, Fitted { glyph, cover: of_parts, ink, paper, parts, ..Fitted::NONE });
             }
         }
         least.1

@@ -45,7 +45,8 @@ pub struct Painter {
 
 impl Painter {
     /// Fills `cells`, whole rows of so many `columns` from row `first` on, by `fits` that begin with row `known`.
-    /// In a picture that is not `steady`, colours are not mixed; how much is handed on, the eye says.
+    /// In a picture that is not `steady`, colours are not mixed, and there are the cells of the frame `before`, from some row on; how
+    /// much is handed on, the eye says.
     pub fn paint(
         &mut self,
         (style, eye, steady): (&Style, Eye, bool),
@@ -53,6 +54,7 @@ impl Painter {
         columns: usize,
         first: usize,
         cells: &mut [Cell],
+        before: Option<(&[Cell], usize)>,
     ) {
         self.make_for(style);
         let rows = first - known..first - known + cells.len() / columns;
@@ -66,7 +68,12 @@ impl Painter {
         let cells = cells.iter_mut().zip(own);
         match &mut self.colors {
             Colors::Letters => {
-                let glyphs = self.tones.choose(fits, columns, rows);
+                let glyphs = self.tones.choose(
+                    fits,
+                    columns,
+                    rows,
+                    before.map(|(cells, row)| (cells, row - known)),
+                );
                 for ((cell, _), &glyph) in cells.zip(glyphs) {
                     *cell = Cell { glyph, ..Cell::BLANK };
                 }
@@ -84,13 +91,18 @@ impl Painter {
             Colors::Dither(dither) if !steady => {
                 // What hardly differs is one colour here, and what neighbours lack is left out: both would cross the
                 // border between two entries here and there, a tenth of the bytes each.
-                for (cell, fit) in cells {
+                let start = before.map_or(0, |(_, row)| (first - row) * columns);
+                for (index, (cell, fit)) in cells.enumerate() {
+                    let before = before.and_then(|(cells, _)| cells.get(start + index));
                     let apart = (oklab(fit.ink) - oklab(fit.paper)).length_squared();
                     *cell = if apart < ALIKE {
-                        let mean = dither.nearest(fit.paper + fit.share() * (fit.ink - fit.paper));
+                        let mean = fit.paper + fit.share() * (fit.ink - fit.paper);
+                        let mean = dither.as_before(mean, before.map(|cell| cell.background));
                         two_colors(' ', mean, mean)
                     } else {
-                        let [ink, paper] = [fit.ink, fit.paper].map(|color| dither.nearest(color));
+                        let before = before.filter(|cell| cell.glyph == fit.glyph);
+                        let ink = dither.as_before(fit.ink, before.map(|cell| cell.foreground));
+                        let paper = dither.as_before(fit.paper, before.map(|cell| cell.background));
                         two_colors(fit.glyph, ink, paper)
                     };
                 }

@@ -90,6 +90,12 @@ impl Residual {
         handing: Handing,
         corrected: &mut Vec<[Vec3; 2]>,
     ) {
+        if handing.share == 0.0 {
+            corrected.clear();
+            let own = &fits[rows.start * columns..rows.end * columns];
+            corrected.extend(own.iter().map(|fit| [fit.ink, fit.paper]));
+            return;
+        }
         let (height, width) = (4 * (fits.len() / columns), 2 * columns * 3);
         let (first, last) = (4 * rows.start, 4 * rows.end);
         self.blurred.clear();

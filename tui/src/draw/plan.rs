@@ -5,9 +5,8 @@ use super::tracer::{SampleGrid, Traced};
 use crate::cells::eye::Eye;
 use crate::cells::fit::Fitter;
 use crate::samples::CellSamples;
-use crate::style::{ColorDepth, Style};
+use crate::style::Style;
 use crate::view::View;
-use std::iter;
 use std::ops::Range;
 
 /// Samples of every cell, and what is made of them.
@@ -46,8 +45,7 @@ impl<'a> Plan<'a> {
         (columns, rows): (u16, u16),
         spending: Spending,
     ) -> Self {
-        // Letters without colour are as good whether they move or not.
-        let is_steady = spending == Spending::ByNeed || style.depth == ColorDepth::Never;
+        let is_steady = spending == Spending::ByNeed;
         let eye = if is_steady { Eye::at(style.distance) } else { Eye::MOVING };
         let sampling = |samples| Sampling {
             samples,
@@ -56,8 +54,9 @@ impl<'a> Plan<'a> {
         };
         let many = CellSamples::many(style);
         let with_coarser = |finest: CellSamples| {
-            let coarser = finest.coarser().filter(move |_| spending != Spending::ByNeed);
-            iter::once(finest).chain(coarser)
+            let finer = finest.finer(style.charset).filter(|_| !is_steady);
+            let coarser = finest.coarser().filter(move |_| !is_steady);
+            finer.into_iter().chain([finest]).chain(coarser)
         };
         Self {
             traced,

@@ -16,7 +16,7 @@ use crate::cells::Cell;
 use crate::cells::fit::{FitMemory, Fitted};
 use crate::cells::paint::Painter;
 use crate::color::oklab;
-use crate::style::Charset;
+use crate::style::{Charset, ColorDepth};
 use crate::threads::Threads;
 use spherule_kernel::{Camera, Vec3};
 use std::ops::Range;
@@ -46,8 +46,10 @@ pub(super) struct Strip {
     sorted: Vec<f32>,
     /// Of the frame before until they are made anew.
     fits: Vec<Fitted>,
-    /// Which rows and columns they are of, in which characters.
-    fits_of: Option<(Range<usize>, usize, usize, Charset)>,
+    /// The cells that were made of them.
+    shown: Vec<Cell>,
+    /// Which rows and columns they are of, in which characters and colours.
+    fits_of: Option<(Range<usize>, usize, usize, Charset, ColorDepth)>,
     /// One a thread.
     workers: Vec<Worker>,
 }
@@ -99,7 +101,7 @@ impl Strip {
             samples.fetch_add(traced, Ordering::Relaxed);
             shadow_rays.fetch_add(shadows, Ordering::Relaxed);
         };
-        let Self { light, looks, needs, sorted, fits, fits_of, workers } = self;
+        let Self { light, looks, needs, sorted, fits, shown, fits_of, workers } = self;
 
         let few = plan.few.samples.count() as usize;
         light.resize(sampled.len() * plan.columns * few, Vec3::ZERO);
@@ -123,9 +125,11 @@ impl Strip {
         let many = plan.many.get(grant.grid).map(|sampling| (sampling, grant.above));
 
         // Of another place, or of cells of another kind, what was there says nothing.
-        let place = Some((fitted.clone(), plan.left, plan.columns, plan.style.charset));
+        let place =
+            Some((fitted.clone(), plan.left, plan.columns, plan.style.charset, plan.style.depth));
         if plan.is_steady || *fits_of != place {
             fits.clear();
+            shown.clear();
         }
         *fits_of = place;
         fits.resize(fitted.len() * plan.columns, Fitted::NONE);
@@ -136,12 +140,17 @@ impl Strip {
             count(worker.fit(plan, many, known, first, (fits, needs)));
         });
 
-        let bands = cells.chunks_mut(band).zip(rows.step_by(BAND));
+        let before = Some((&**shown, rows.start)).filter(|(shown, _)| shown.len() == cells.len());
+        let bands = cells.chunks_mut(band).zip(rows.clone().step_by(BAND));
         threads.share(workers, bands, |worker, (cells, first)| {
             let known = (&**fits, fitted.start);
             let how = (plan.style, plan.eye, plan.is_steady);
-            worker.painter.paint(how, known, plan.columns, first, cells);
+            worker.painter.paint(how, known, plan.columns, first, cells, before);
         });
+        if !plan.is_steady {
+            shown.clear();
+            shown.extend_from_slice(cells);
+        }
         let samples = samples.into_inner();
         let rays = samples + shadow_rays.into_inner();
         Effort { samples, rays, is_full: plan.is_steady && grant == Grant::FULL }
@@ -202,7 +211,11 @@ impl Worker {
             let is_flat = light.iter().all(|&other| other == light[0]);
             *fit = match flat {
                 Some((color, fit)) if is_flat && color == light[0] => fit,
-                _ => plan.few.fitter.fit(light, &mut self.memory, None),
+                _ => {
+                    let before = *fit;
+                    let before = (!plan.is_steady).then_some(&before);
+                    plan.few.fitter.fit(light, &mut self.memory, before)
+                }
             };
             if is_flat {
                 flat = Some((light[0], *fit));
@@ -246,8 +259,8 @@ impl Worker {
             let (traced, shadow_rays) = tracer.trace(&plan.traced, grid, corners, pixels, at);
             for (&(column, row), light) in needy.iter().zip(traced.chunks(count)) {
                 let cell = (row as usize - first) * columns + column as usize - plan.left;
-                let before = fits[cell].glyph;
-                fits[cell] = fitter.fit(light, memory, Some(before).filter(|_| !plan.is_steady));
+                let before = fits[cell];
+                fits[cell] = fitter.fit(light, memory, (!plan.is_steady).then_some(&before));
             }
             rays += shadow_rays;
         }

@@ -44,9 +44,10 @@ fn a_budget_that_suffices_is_not_seen() {
         assert!(steady.effort.is_full);
         let most = steady.effort.samples;
         assert!(most > 4 * 60 * 21, "nothing is in need");
-        // What moves takes as many samples, and is for another eye.
+        // What moves takes as many samples or finer grids, and is for another eye.
         let expected = drawn(&style, 1, STRIP, Spending::AtMost(u64::MAX));
-        assert!(!expected.effort.is_full && expected.effort.samples == most, "{charset:?}");
+        assert!(!expected.effort.is_full && expected.effort.samples >= most, "{charset:?}");
+        let most = expected.effort.samples;
         let found = drawn(&style, 1, STRIP, Spending::AtMost(most));
         assert_eq!(found.effort, expected.effort, "{charset:?}");
         assert!(found.cells == expected.cells, "{charset:?}");
@@ -54,17 +55,11 @@ fn a_budget_that_suffices_is_not_seen() {
         assert!(!less.effort.is_full && less.effort.samples < most, "{charset:?}");
         assert!(less.cells != expected.cells, "{charset:?}");
     }
-    // Letters without colour are the same.
-    let style = Style { charset: Charset::Ascii, depth: ColorDepth::Never, ..STYLE };
-    let steady = drawn(&style, 1, STRIP, Spending::ByNeed);
-    let moving = drawn(&style, 1, STRIP, Spending::AtMost(u64::MAX));
-    assert_eq!(moving.effort, steady.effort);
-    assert!(moving.cells == steady.cells);
 }
 
 /// Glyphs that are not those of the picture before, in pictures of marbles from a little farther to the right each.
-fn changes_of_glyphs(keeps: bool) -> usize {
-    marbles(&STYLE, 1, STRIP, |renderer, scene, search, view| {
+fn changes_of_glyphs(style: &Style, keeps: bool) -> usize {
+    marbles(style, 1, STRIP, |renderer, scene, search, view| {
         let mut changes = 0;
         let mut last: Option<CellGrid> = None;
         for step in 0..6_u8 {
@@ -73,7 +68,7 @@ fn changes_of_glyphs(keeps: bool) -> usize {
                 renderer.strip = Strip::default();
             }
             let spending = Spending::AtMost(u64::MAX);
-            let cells = renderer.draw(scene, search, &view, &STYLE, SIZE, spending).cells;
+            let cells = renderer.draw(scene, search, &view, style, SIZE, spending).cells;
             if let Some(last) = last.replace(cells.clone()) {
                 let pairs = last.cells().iter().zip(cells.cells());
                 changes += pairs.filter(|(last, cell)| last.glyph != cell.glyph).count();
@@ -85,8 +80,12 @@ fn changes_of_glyphs(keeps: bool) -> usize {
 
 #[test]
 fn what_moves_keeps_its_glyphs() {
-    let (kept, anew) = (changes_of_glyphs(true), changes_of_glyphs(false));
-    assert!(kept > 0 && 10 * kept < 9 * anew, "{kept} changes, {anew} without a frame before");
+    let letters = Style { charset: Charset::Ascii, depth: ColorDepth::Never, ..STYLE };
+    for (style, most) in [(STYLE, 0.9), (letters, 0.6)] {
+        let [kept, anew] = [true, false].map(|keeps| changes_of_glyphs(&style, keeps));
+        let is_calm = (kept as f64) < most * anew as f64;
+        assert!(kept > 0 && is_calm, "{style:?}: {kept} changes, {anew} without a frame before");
+    }
 }
 
 #[test]
@@ -192,7 +191,7 @@ fn what_moves_is_not_mixed_of_256_colours() {
     let steady = drawn(&style, 1, STRIP, Spending::ByNeed);
     let moving = drawn(&style, 1, STRIP, Spending::AtMost(u64::MAX));
     assert!(steady.effort.is_full && !moving.effort.is_full);
-    assert_eq!(moving.effort.samples, steady.effort.samples);
+    assert!(moving.effort.samples >= steady.effort.samples);
     let changes = |drawn: &Drawn| {
         let pairs = drawn.cells.cells().windows(2);
         pairs.filter(|pair| pair[0].background != pair[1].background).count()

@@ -168,9 +168,9 @@ proptest! {
         let style = Style { charset, depth: ColorDepth::Truecolor, ..Style::PLAIN };
         let fitter = Fitter::new(&style, Eye::MOVING, CellSamples { across: grid.0, down: grid.1 });
         let mut memory = FitMemory::default();
-        let first = fitter.fit(&light, &mut memory, None);
+        let first = fitter.fit(&light, &mut memory, Some(&Fitted::NONE));
         let next: Vec<Vec3> = light.iter().zip(&noise).map(|(&light, &noise)| light + noise).collect();
-        let again = fitter.fit(&next, &mut memory, Some(first.glyph));
+        let again = fitter.fit(&next, &mut memory, Some(&first));
         let apart = roots(first.ink).distance(roots(first.paper));
         // What cannot be seen may change.
         if first.glyph == ' ' || light.len() <= FEW || apart < 0.1 {
@@ -178,7 +178,8 @@ proptest! {
         }
         prop_assert_eq!(again.glyph, first.glyph);
         // What no such cell can have is nothing to keep.
-        prop_assert_eq!(fitter.fit(&light, &mut memory, Some('x')).glyph, first.glyph);
+        let none = Fitted { glyph: 'x', ..first };
+        prop_assert_eq!(fitter.fit(&light, &mut memory, Some(&none)).glyph, first.glyph);
     }
 }
 

@@ -172,3 +172,16 @@ fn of_fine_glyphs_nothing_is_handed_across_a_silhouette() {
         assert_eq!(corrected[0][1].x > 0.02, is_handed, "{charset:?}: {}", corrected[0][1]);
     }
 }
+
+#[test]
+fn a_part_counts_where_some_of_it_is_covered() {
+    // A letter covers less than half of any part.
+    let bright = Vec3::splat(0.8);
+    let mut fit = Fitted { parts: [Vec3::splat(0.2); 8], ..Fitted::NONE };
+    fit.parts[3] = bright;
+    for (cover, expected) in [(0.05, 0.2), (0.3, 0.8)] {
+        fit.cover[3] = cover;
+        let [low, high] = limits(&fit, 0, Vec3::splat(0.2), f32::INFINITY);
+        assert_eq!((low.x, high.x), (0.2, expected), "{cover}");
+    }
+}
