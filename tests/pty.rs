@@ -2,6 +2,7 @@
 //!
 //! Needs no controlling terminal: `setsid -w cargo test -p spherule-tests pty </dev/null` passes as well.
 
+mod frames;
 mod leaving;
 mod lecture;
 mod look;

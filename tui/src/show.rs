@@ -112,7 +112,8 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         let start = viewer::Start { view, style, structure, comparison, table };
         if scene.spheres().len() >= MANY {
             // Before the terminal is taken: then Ctrl-C ends it at once.
-            let _progress = Progress::say("building");
+            let mut progress = Progress::after(Duration::ZERO);
+            progress.say("building a tree");
             let workload =
                 picture_workload(scene.spheres().len(), &style, columns, rows, f64::INFINITY);
             structures.picture(structure, &workload, &view, &scene.lighting)?;

@@ -46,7 +46,8 @@ pub(in super::super) fn recognise(head: &[u8]) -> Result<Format, &'static str> {
     if first.starts_with(b"ITEM: ") {
         return Ok(Format::LammpsDump);
     }
-    if number(first).is_some_and(|value| value.fract() == 0.0) {
+    let digits = first.strip_prefix(b"-").unwrap_or(first);
+    if !digits.is_empty() && digits.iter().all(u8::is_ascii_digit) {
         return Ok(Format::Xyz);
     }
     if is_gro(&lines) {
