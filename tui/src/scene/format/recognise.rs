@@ -74,8 +74,7 @@ pub(in super::super) fn recognise(head: &[u8]) -> Result<Format, &'static str> {
             && line.len() >= 54
             && line[34] == b'.'
     };
-    if is_record(&spoken_first) && !is_toml(spoken_first) || lines.iter().any(|line| is_atom(&line))
-    {
+    if is_record(&spoken_first) && !is_toml(spoken_first) || lines.iter().any(is_atom) {
         return Ok(Format::Pdb);
     }
     if is_lammps_data(&lines) {
@@ -124,7 +123,7 @@ fn is_lammps_data(lines: &[&[u8]]) -> bool {
         let words = words(line);
         words.len() == 2 && words[1] == b"atoms" && super::words::count(&words[0]).is_some()
     };
-    lines.iter().take(40).any(|line| says(&line))
+    lines.iter().take(40).any(says)
 }
 
 /// A header that names positions, or three numbers or more.
