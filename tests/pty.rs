@@ -3,6 +3,7 @@
 //! Needs no controlling terminal: `setsid -w cargo test -p spherule-tests pty </dev/null` passes as well.
 
 mod emulated;
+mod frames;
 mod leaving;
 mod lecture;
 mod link;

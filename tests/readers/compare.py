@@ -26,7 +26,9 @@ import numpy as np
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 FETCHED = os.path.join(HERE, "fetched")
-PROGRAM = os.path.join(HERE, "..", "..", "target", "release", "examples", "positions")
+# Another build of the example can be named.
+BUILT = os.path.join(HERE, "..", "..", "target", "release", "examples", "positions")
+PROGRAM = os.environ.get("SPHERULE_POSITIONS", BUILT)
 ENDINGS = {
     "pdb": "pdb", "ent": "pdb", "cif": "cif", "xyz": "xyz", "gro": "gro", "xtc": "xtc",
     "lammpsdump": "dump", "lammpstrj": "dump", "dump": "dump", "data": "data", "lmp": "data",
@@ -103,12 +105,10 @@ def first_locations(rows):
 def by_mdanalysis(path, kind):
     """Positions a frame, of the first and the last."""
     import MDAnalysis as mda
-    from MDAnalysis.lib.util import anyopen
     from MDAnalysis.coordinates.core import get_reader_for
 
     if kind == "data":
-        universe = mda.Universe(path, format="DATA", atom_style=None) if False else mda.Universe(path, format="DATA")
-        return [universe.atoms.positions.copy()]
+        return [mda.Universe(path, format="DATA").atoms.positions.copy()]
     formats = {"xyz": "XYZ", "gro": "GRO", "xtc": "XTC", "dump": "LAMMPSDUMP"}
     reader = get_reader_for(path, format=formats[kind])(path)
     result = [reader[0].positions.copy()]

@@ -23,12 +23,9 @@ impl Progress {
         Self { on_terminal, from: Instant::now() + wait, shown: None }
     }
 
-    /// Shows at once what is being done, of which no one knows how much is.
-    #[must_use]
-    pub fn say(doing: &str) -> Self {
-        let mut progress = Self::after(Duration::ZERO);
-        progress.write(format!("{doing} ..."));
-        progress
+    /// Shows what is being done, of which no one knows how much is.
+    pub fn say(&mut self, doing: &str) {
+        self.write(format!("{doing} ..."));
     }
 
     /// Shows what is being done and how much of it is, from 0 to 1.

@@ -33,6 +33,7 @@ use std::io::IsTerminal;
 use std::ops::RangeInclusive;
 use std::path::Path;
 use std::sync::Arc;
+use std::time::Duration;
 use still::Still;
 
 /// The widest cell and the narrowest that a terminal is believed to have.
@@ -61,7 +62,8 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         SceneStructures::new(scene.list(), &threads).in_order(arguments.scene.order);
     if in_viewer && scene.spheres().len() >= MANY {
         // Before the terminal is taken: then Ctrl-C ends it at once.
-        let _progress = Progress::say("building");
+        let mut progress = Progress::after(Duration::ZERO);
+        progress.say("building a tree");
         let (style, (columns, rows)) = (Style::PLAIN, PIPE_SIZE);
         let count = scene.spheres().len();
         let workload = picture_workload(count, &style, columns, rows, f64::INFINITY);

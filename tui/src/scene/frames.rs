@@ -52,8 +52,10 @@ impl Frames {
         self.input.can_be_read_again()
     }
 
-    /// Writes what there is to say besides the picture to standard error, each once.
+    /// Writes what there is to say besides the picture to standard error, each once; from then on it does not tell how far
+    /// reading is.
     pub fn report(&mut self) {
+        self.input.be_quiet();
         let source = self.input.source().to_owned();
         self.context.notes.report(&source);
     }
@@ -126,7 +128,7 @@ impl Frames {
         // What has no end of line yet may go on.
         let is_partial = match &result {
             Ok(_) => !self.input.is_terminated(),
-            Err(error) => error.ends_early,
+            Err(error) => error.ends_early || !self.input.is_terminated(),
         };
         if self.follows && is_partial {
             self.input.go_anew(before)?;

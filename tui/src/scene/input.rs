@@ -7,10 +7,12 @@ mod compressed;
 
 use super::read_error::ReadError;
 use crate::error::cause;
+use crate::progress::Progress;
 use compressed::decompressed;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// The longest line, in bytes: a million columns have room.
 pub(super) const LONGEST_LINE: usize = 16 << 20;
@@ -20,6 +22,9 @@ const BLOCK: usize = 256 << 10;
 
 /// How much of an input is looked at to tell what it is.
 const HEAD: usize = 64 << 10;
+
+/// How long reading may take before there is a word about it.
+const PATIENCE: Duration = Duration::from_secs(1);
 
 /// A place in an input, before a line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -46,6 +51,10 @@ pub(super) struct Input {
     last: Place,
     /// Whether the last line had an end.
     terminated: bool,
+    /// Tells how far it is, until it is told not to.
+    progress: Option<Progress>,
+    /// Of a file that is not compressed.
+    size: Option<u64>,
 }
 
 impl std::fmt::Debug for Input {
@@ -84,8 +93,14 @@ impl Input {
     /// # Errors
     /// [`ReadError`] if it cannot be read.
     pub(super) fn of_file(file: File, path: PathBuf, source: &str) -> Result<Self, ReadError> {
+        let failed = |error: io::Error| ReadError::whole(source, cause(&error));
+        let size = if compressed::is_plain(&file).map_err(failed)? {
+            file.metadata().ok().map(|metadata| metadata.len())
+        } else {
+            None
+        };
         let mut input = Self::of_reader(Box::new(file), source)?;
-        input.file = Some(path);
+        (input.file, input.size) = (Some(path), size);
         Ok(input)
     }
 
@@ -107,6 +122,8 @@ impl Input {
             number: 0,
             last: Place::default(),
             terminated: true,
+            progress: Some(Progress::after(PATIENCE)),
+            size: None,
         })
     }
 
@@ -114,6 +131,11 @@ impl Input {
     #[cfg(test)]
     pub(super) fn room(&self) -> usize {
         self.buffer.len()
+    }
+
+    /// Tells no longer how far it is.
+    pub(super) fn be_quiet(&mut self) {
+        self.progress = None;
     }
 
     /// The name of the input in errors.
@@ -149,11 +171,22 @@ impl Input {
             match self.reader.read(&mut self.buffer[self.end..]) {
                 Ok(read) => {
                     self.end += read;
+                    self.tell();
                     return Ok(read > 0);
                 }
                 Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
                 Err(error) => return Err(self.failed(&error)),
             }
+        }
+    }
+
+    /// Tells how far it is.
+    fn tell(&mut self) {
+        let Some(progress) = &mut self.progress else { return };
+        let read = self.before + self.end as u64;
+        match self.size.filter(|&size| size > 0) {
+            Some(size) => progress.show("reading", read as f64 / size as f64),
+            None => progress.say(&format!("reading, {} MB", read / 10_000_000 * 10)),
         }
     }
 
@@ -331,6 +364,7 @@ impl Read for Input {
             if bytes.len() >= BLOCK {
                 let read = self.reader.read(bytes)?;
                 self.before += read as u64;
+                self.tell();
                 return Ok(read);
             }
             if !self.fill().map_err(|error| io::Error::other(error.what))? {

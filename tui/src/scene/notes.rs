@@ -13,6 +13,8 @@ pub(super) struct Notes {
     strict: bool,
     texts: Vec<Cow<'static, str>>,
     said: usize,
+    /// Records that are ignored, and how many of them have been said.
+    ignored: (Vec<&'static str>, usize),
     unknown_said: bool,
 }
 
@@ -28,6 +30,13 @@ impl Notes {
         let text = text.into();
         if !self.texts.contains(&text) {
             self.texts.push(text);
+        }
+    }
+
+    /// Notes that a kind of record is ignored, once.
+    pub(super) fn ignore(&mut self, record: &'static str) {
+        if !self.ignored.0.contains(&record) {
+            self.ignored.0.push(record);
         }
     }
 
@@ -67,6 +76,12 @@ impl Notes {
 
     /// What has been noted since the last call.
     pub(super) fn take(&mut self) -> Vec<Cow<'static, str>> {
+        let (records, said) = &mut self.ignored;
+        if records.len() > *said {
+            let text = format!("ignored: {}", records[*said..].join(", "));
+            *said = records.len();
+            self.texts.push(text.into());
+        }
         let new = self.texts[self.said..].to_vec();
         self.said = self.texts.len();
         new

@@ -147,7 +147,7 @@ impl Particles {
             };
             match &kinds {
                 Some(kinds) => {
-                    colors.extend(kinds.indices().iter().map(|&kind| by_kind[kind as usize]))
+                    colors.extend(kinds.indices().iter().map(|&kind| by_kind[kind as usize]));
                 }
                 None => colors.resize(count, NEUTRAL),
             }

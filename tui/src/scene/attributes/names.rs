@@ -31,20 +31,49 @@ impl Names {
 }
 
 /// Names, as a file is read.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct NamesBuilder {
     names: Names,
     known: HashMap<Box<[u8]>, u32>,
-    /// The bytes of the last name: neighbours often share theirs.
-    last: Vec<u8>,
+    /// Short names that came last, and their indices: most names are short, and few.
+    recent: [(u64, u32); RECENT],
+}
+
+/// So many short names are at hand.
+const RECENT: usize = 64;
+
+impl Default for NamesBuilder {
+    fn default() -> Self {
+        let (names, known) = (Names::default(), HashMap::new());
+        Self { names, known, recent: [(u64::MAX, 0); RECENT] }
+    }
+}
+
+/// The bytes of a name and its length in a word, if it is short.
+fn word(name: &[u8]) -> Option<u64> {
+    let mut bytes = [0; 8];
+    bytes.get_mut(..name.len())?.copy_from_slice(name);
+    bytes[7] = if name.len() < 8 { name.len() as u8 } else { return None };
+    Some(u64::from_le_bytes(bytes))
 }
 
 impl NamesBuilder {
     /// Adds the name of the next sphere; what is no UTF-8 in it is replaced. Empty: it has none.
     pub fn push(&mut self, name: &[u8]) {
-        let index = match self.names.indices.last() {
-            Some(&index) if self.last == name => index,
-            _ => self.index_of(name),
+        let index = match word(name) {
+            None => self.index_of(name),
+            Some(word) => {
+                // The high bits of a product depend on all of its factor's.
+                let place = (word.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 58) as usize;
+                match self.recent[place] {
+                    (recent, index) if recent == word => index,
+                    _ => {
+                        let index = self.index_of(name);
+                        self.recent[place] = (word, index);
+                        index
+                    }
+                }
+            }
         };
         self.names.indices.push(index);
     }
@@ -61,8 +90,6 @@ impl NamesBuilder {
     }
 
     fn index_of(&mut self, name: &[u8]) -> u32 {
-        self.last.clear();
-        self.last.extend_from_slice(name);
         if let Some(&index) = self.known.get(name) {
             return index;
         }
@@ -96,6 +123,21 @@ mod tests {
         assert_eq!(names.table().len(), 5);
         assert_eq!((names.get(3), names.get(4), names.get(7)), (Some("A"), None, None));
         assert_eq!(names.get(6), Some("\u{fffd}"));
+    }
+
+    #[test]
+    fn long_and_short_names_are_told_apart() {
+        let mut builder = NamesBuilder::default();
+        let all: Vec<String> =
+            (0..1000).map(|index| "x".repeat(index % 20) + &index.to_string()).collect();
+        for name in all.iter().chain(&all) {
+            builder.push(name.as_bytes());
+        }
+        let names = builder.finish().expect("names");
+        assert_eq!(names.table().len(), 1000);
+        assert!(
+            all.iter().chain(&all).enumerate().all(|(index, name)| names.get(index) == Some(name))
+        );
     }
 
     #[test]

@@ -16,7 +16,7 @@ use crate::scene::read_error::ReadError;
 use spherule_kernel::Vec3;
 
 /// The records that say what a picture of spheres does not show.
-const IGNORED: [&[u8]; 6] = [b"ANISOU", b"CONECT", b"HELIX ", b"SHEET ", b"SSBOND", b"SIGATM"];
+const IGNORED: [&str; 6] = ["ANISOU", "CONECT", "HELIX", "SHEET", "SSBOND", "SIGATM"];
 
 /// Reads the next model.
 ///
@@ -38,8 +38,8 @@ pub(super) fn frame(input: &mut Input, notes: &mut Notes) -> Result<Option<Scene
             && !atoms.is_empty()
         {
             break;
-        } else if let Some(name) = IGNORED.iter().find(|name| record.starts_with(name)) {
-            notes.note(format!("{} is ignored", String::from_utf8_lossy(name.trim_ascii())));
+        } else if let Some(name) = IGNORED.iter().find(|name| record.starts_with(name.as_bytes())) {
+            notes.ignore(name);
         }
     }
     // What remains may be connections and no atom: then there is no further frame.

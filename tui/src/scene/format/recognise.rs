@@ -46,7 +46,8 @@ pub(in super::super) fn recognise(head: &[u8]) -> Result<Format, &'static str> {
     if first.starts_with(b"ITEM: ") {
         return Ok(Format::LammpsDump);
     }
-    if number(first).is_some_and(|value| value.fract() == 0.0) {
+    let digits = first.strip_prefix(b"-").unwrap_or(first);
+    if !digits.is_empty() && digits.iter().all(u8::is_ascii_digit) {
         return Ok(Format::Xyz);
     }
     if is_gro(&lines) {
@@ -73,8 +74,7 @@ pub(in super::super) fn recognise(head: &[u8]) -> Result<Format, &'static str> {
             && line.len() >= 54
             && line[34] == b'.'
     };
-    if is_record(&spoken_first) && !is_toml(spoken_first) || lines.iter().any(|line| is_atom(&line))
-    {
+    if is_record(&spoken_first) && !is_toml(spoken_first) || lines.iter().any(is_atom) {
         return Ok(Format::Pdb);
     }
     if is_lammps_data(&lines) {
@@ -123,7 +123,7 @@ fn is_lammps_data(lines: &[&[u8]]) -> bool {
         let words = words(line);
         words.len() == 2 && words[1] == b"atoms" && super::words::count(&words[0]).is_some()
     };
-    lines.iter().take(40).any(|line| says(&line))
+    lines.iter().take(40).any(says)
 }
 
 /// A header that names positions, or three numbers or more.

@@ -126,12 +126,9 @@ pub(super) fn read(input: &mut Input, context: &mut Context) -> Result<Scene, Re
     if !is_header {
         input.give_back();
     }
-    let mut particles = Particles::default();
-    particles.columns = columns
-        .kept
-        .iter()
-        .map(|(_, name)| NumberColumn { name: name.clone(), values: Vec::new() })
-        .collect();
+    let kept = columns.kept.iter();
+    let kept = kept.map(|(_, name)| NumberColumn { name: name.clone(), values: Vec::new() });
+    let mut particles = Particles { columns: kept.collect(), ..Particles::default() };
     let (mut fields, mut scale) = (Vec::new(), ColorScale::default());
     let mut raw = Vec::new();
     while let Some(line) = input.line()? {

@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 /// Data that grows to more than so many times its size ...
 const LARGEST_GROWTH: u64 = 200;
 /// ... is none, where it is longer than this.
-const ALWAYS_READ: u64 = 256 << 20;
+const ALWAYS_READ: u64 = 32 << 20;
 
 /// What is in `reader`.
 ///

@@ -90,10 +90,10 @@ pub(in super::super) fn frame(
                 Kind::Element => particles.kind(word, line.number),
                 Kind::Molecule => particles.naming(Naming::Molecule).push(word),
                 Kind::Radius => {
-                    particles.radii.push(coordinate(&line, byte, word, name, 1.0)?.abs())
+                    particles.radii.push(coordinate(&line, byte, word, name, 1.0)?.abs());
                 }
                 Kind::Diameter => {
-                    particles.radii.push(coordinate(&line, byte, word, name, 0.5)?.abs())
+                    particles.radii.push(coordinate(&line, byte, word, name, 0.5)?.abs());
                 }
                 Kind::Number => {
                     let value = number(word).map_or(f32::NAN, |value| value as f32);
@@ -166,7 +166,7 @@ fn header(input: &mut Input) -> Result<Option<(usize, usize, Cell)>, ReadError> 
 
 fn bounds(input: &mut Input) -> Result<Cell, ReadError> {
     let (mut cell, mut high) = (Cell::default(), [0.0; 3]);
-    for axis in 0..3 {
+    for (axis, high) in high.iter_mut().enumerate() {
         let line = input.expect("the box")?;
         let mut words = Words::of(line);
         let mut value = |name: &str| {
@@ -174,7 +174,7 @@ fn bounds(input: &mut Input) -> Result<Cell, ReadError> {
             number(word)
                 .ok_or_else(|| line.error(byte, format!("{name} is {}: no number", excerpt(word))))
         };
-        (cell.low[axis], high[axis]) = (value("low")?, value("high")?);
+        (cell.low[axis], *high) = (value("low")?, value("high")?);
         cell.tilt[axis] = value("tilt").unwrap_or(0.0);
     }
     // The bounds are those of a box around the sheared one.
@@ -184,9 +184,7 @@ fn bounds(input: &mut Input) -> Result<Cell, ReadError> {
     high[0] -= corners.iter().copied().fold(0.0, f64::max);
     cell.low[1] -= yz.min(0.0);
     high[1] -= yz.max(0.0);
-    for axis in 0..3 {
-        cell.length[axis] = high[axis] - cell.low[axis];
-    }
+    cell.length = std::array::from_fn(|axis| high[axis] - cell.low[axis]);
     Ok(cell)
 }
 
@@ -202,7 +200,7 @@ fn columns(line: &Line<'_>) -> Result<Named, ReadError> {
     // Unwrapped before wrapped, plain before scaled: what is written twice is taken once.
     let sets = [["x", "y", "z"], ["xu", "yu", "zu"], ["xs", "ys", "zs"], ["xsu", "ysu", "zsu"]];
     let has = |name: &&str| names.iter().any(|other| other == name);
-    let Some(set) = sets.iter().position(|set| set.iter().all(|name| has(&name))) else {
+    let Some(set) = sets.iter().position(|set| set.iter().all(&has)) else {
         return Err(line.error(0, "no x y z, xu yu zu, xs ys zs or xsu ysu zsu among the columns"));
     };
     let kind = |name: &String| match name.as_str() {

@@ -140,7 +140,7 @@ fn damaged_and_growing_gz() {
     assert!(scene(&bz[..bz.len() / 2]).is_err());
     // A gigabyte of zeros in a megabyte, and lines that never end to come.
     let zeros = gz(&vec![b'\n'; 1 << 20]);
-    let bomb: Vec<u8> = std::iter::repeat_n(zeros, 300).flatten().collect();
+    let bomb: Vec<u8> = std::iter::repeat_n(zeros, 40).flatten().collect();
     let message = error([gz(b"data_x\n"), bomb].concat());
     assert!(message.contains("grows to more than 200 times its size"), "{message}");
 }
@@ -167,9 +167,7 @@ fn an_empty_model() {
 
 #[test]
 fn arrays_that_lie() {
-    assert!(
-        error(npy("<f4", "False", "(4611686018427387904, 4)", b"")).contains("more than any file")
-    );
+    assert!(error(npy("<f4", "False", "(4611686018427387904, 4)", b"")).contains("any file"));
     assert!(error(npy("<f4", "False", "(1000000000, 4)", b"")).contains("fewer bytes"));
     assert!(error(npy("<f4", "True", "(1000000000, 4)", b"")).contains("fewer bytes"));
     assert!(error(npy("<f4", "False", "(1, 4)", &[0; 17])).contains("more bytes"));

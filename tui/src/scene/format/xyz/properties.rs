@@ -62,7 +62,7 @@ pub(super) fn properties(comment: &Line<'_>) -> Result<Option<Vec<Property>>, Re
     };
     let wrong = |what: String| Err(comment.error(start, what));
     let words: Vec<&[u8]> = value.split(|&byte| byte == b':').collect();
-    if words.len() % 3 != 0 {
+    if !words.len().is_multiple_of(3) {
         return wrong(format!("Properties={}: not name:type:columns, ...", excerpt(value)));
     }
     let (mut found, mut all) = (Vec::new(), Vec::with_capacity(words.len() / 3));

@@ -1,0 +1,41 @@
+//! The frames of a file in the viewer: keys step and play, the status line counts.
+
+use super::picture::OPTIONS;
+use super::session::{Output, Session};
+use super::viewer::{COLUMNS, ROWS, shows_a_frame};
+use spherule_tests::binary::spherule;
+use std::fs;
+
+fn contents(output: &Output) -> String {
+    output.screen().contents()
+}
+
+/// Steps on, back, and plays to the end and on from the beginning; a file of one frame spins as before.
+#[test]
+fn keys_step_and_play() {
+    let path = std::env::temp_dir().join(format!("spherule-{}-frames.xyz", std::process::id()));
+    let text: String =
+        (0..12).map(|index| format!("2\n\nC {index} 0 0\nO 0 {index} 0\n")).collect();
+    fs::write(&path, text).expect("a temporary file");
+    let name = path.to_str().expect("a path that is text");
+    let arguments = [&[name], OPTIONS.as_slice()].concat();
+    let mut session = Session::start(spherule(), &arguments, &[], (COLUMNS, ROWS));
+    session.wait_for("a frame", |output| shows_a_frame(output).then_some(()));
+    let wait_for = |session: &Session, words: &str| {
+        session.wait_for(words, |output| contents(output).contains(words).then_some(()));
+    };
+    wait_for(&session, " 0/");
+    session.type_in("..");
+    wait_for(&session, " 2/");
+    session.type_in(",");
+    wait_for(&session, " 1/");
+    session.type_in(" ");
+    wait_for(&session, ">11/12");
+    wait_for(&session, ">3/12");
+    session.type_in(" ");
+    session.wait_for_peace();
+    fs::remove_file(&path).expect("it can be removed");
+    session.type_in("q");
+    assert!(session.wait_for_end().success());
+    assert_eq!(session.left_behind(), [""; 0]);
+}
