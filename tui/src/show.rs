@@ -71,7 +71,8 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         structures.picture(structure, &workload, &view, &scene.lighting)?;
     }
     // From here on every error is told by `main`, after the terminal was given back.
-    let terminal = in_viewer.then(|| Terminal::enter(!arguments.no_probe)).transpose();
+    let has_color = surroundings.depth(arguments.color) != ColorDepth::Never;
+    let terminal = in_viewer.then(|| Terminal::enter(!arguments.no_probe, has_color)).transpose();
     let terminal = terminal.map_err(|error| lost(&error))?;
     let abilities =
         terminal.as_ref().map_or_else(Abilities::default, |terminal| *terminal.abilities());

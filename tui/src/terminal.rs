@@ -44,16 +44,18 @@ pub struct Terminal {
     open_questions: u32,
 }
 
+/// How long answers are waited for when the terminal is given back. Who is asked is known to answer.
+const LAST_WORDS: Duration = Duration::from_millis(500);
 /// Asks how far the terminal has come (DSR 5): it answers when it has taken everything before.
 const ASK_STATUS: &[u8] = b"\x1b[5n";
 
 impl Terminal {
-    /// Takes the terminal, and asks it what it can do, if it may be asked: at most a fifth of a second is waited for the
+    /// Takes the terminal, and asks it what it can do, if it may be asked, about colours if there is any: at most a fifth of a second is waited for the
     /// answers.
     ///
     /// # Errors
     /// If there is no terminal to read keys from, or it does not do what it is told.
-    pub fn enter(may_ask: bool) -> io::Result<Self> {
+    pub fn enter(may_ask: bool, has_color: bool) -> io::Result<Self> {
         signals::watch()?;
         restore_before_panic_message();
         let mut this = Self {
@@ -64,14 +66,17 @@ impl Terminal {
         };
         screen::enter()?;
         if may_ask {
-            this.ask()?;
+            this.ask(has_color)?;
         }
         Ok(this)
     }
 
-    fn ask(&mut self) -> io::Result<()> {
+    fn ask(&mut self, has_color: bool) -> io::Result<()> {
         self.input.await_answers(true);
-        screen::show(&questions(&env::var_os("TERM").unwrap_or_default().to_string_lossy()))?;
+        screen::show(&questions(
+            &env::var_os("TERM").unwrap_or_default().to_string_lossy(),
+            has_color,
+        ))?;
         let deadline = Instant::now() + PATIENCE;
         while !self.abilities.has_answered {
             let left = deadline.saturating_duration_since(Instant::now());
@@ -154,11 +159,27 @@ impl Terminal {
     ///
     /// # Errors
     /// If the group cannot be stopped.
-    pub fn suspend(&self) -> io::Result<()> {
+    pub fn suspend(&mut self) -> io::Result<()> {
+        self.take_open_answers();
         screen::leave();
         // SIGTSTP sent to oneself is dropped where the group is orphaned; SIGSTOP never is.
         rustix::process::kill_current_process_group(rustix::process::Signal::STOP)?;
         Ok(())
+    }
+
+    /// Waits for the answers that are on their way: they would come to whoever has the terminal next, who would take them
+    /// for keys.
+    fn take_open_answers(&mut self) {
+        let deadline = Instant::now() + LAST_WORDS;
+        while self.open_questions > 0 {
+            let left = deadline.saturating_duration_since(Instant::now());
+            match self.input.next(Some(left)) {
+                Ok(Some(Incoming::Reply(reply))) => self.learn(reply),
+                Ok(Some(Incoming::User(_))) => {}
+                Ok(None) | Err(_) => break,
+            }
+        }
+        self.open_questions = 0;
     }
 
     /// Whether the screen was taken again since the last call: nothing drawn before is on it.
@@ -170,6 +191,7 @@ impl Terminal {
 
 impl Drop for Terminal {
     fn drop(&mut self) {
+        self.take_open_answers();
         screen::restore();
     }
 }
