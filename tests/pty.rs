@@ -11,6 +11,7 @@ mod modes;
 mod once;
 mod picking;
 mod picture;
+mod pixels;
 mod probe;
 mod replies;
 mod session;

@@ -9,6 +9,7 @@ use crate::compare::Comparison;
 use crate::error::Error;
 use crate::lecture::stations::station;
 use crate::palette::Theme;
+use crate::pixels::Output;
 use crate::scene::Scene;
 use crate::scene::builtin::DEFAULT;
 use crate::scene::open::{Format, open};
@@ -16,14 +17,16 @@ use crate::structure::{Order, Structure};
 use crate::style::Charset;
 use crate::terminal::color_depth::ColorChoice;
 use crate::threads::MOST_THREADS;
-use crate::view::{LensKind, View, with_projection};
+use crate::view::{Lens, LensKind, View, orbited, with_projection};
 use clap::error::ErrorKind;
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, CommandFactory, FromArgMatches, Parser, Subcommand, value_parser};
-use spherule_kernel::{Level, Tier};
+use spherule_kernel::{Level, Tier, Vec3};
 use std::ffi::OsString;
 use std::path::PathBuf;
-use values::{aspect, cell, color, distance, level, overlay, samples, size, tier};
+use values::{
+    aspect, cell, color, distance, field_of_view, level, orbit, overlay, point, samples, size, tier,
+};
 
 /// Spheres in a terminal, by packets of rays.
 ///
@@ -107,9 +110,18 @@ pub struct PictureArguments {
     /// Frames a second of the viewer at most, 1 to 240 [default: 60, over SSH 30]
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=240))]
     pub fps: Option<u16>,
+    /// What is written: cells, or pixels by a protocol of terminals
+    #[arg(long, value_name = "HOW", default_value = "cells", conflicts_with_all = ["cast", "pick"])]
+    pub output: Output,
     /// Write one picture, also to a terminal
     #[arg(long)]
     pub once: bool,
+    /// Write one turn around the scene as a recording of a terminal (asciinema, version 2); - for standard output
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["png", "pick", "show"])]
+    pub cast: Option<PathBuf>,
+    /// Frames of --cast, 1 to 3600 [default: 120]; --fps are 30 then, unless said
+    #[arg(long, value_name = "N", requires = "cast", value_parser = value_parser!(u16).range(1..=3600))]
+    pub frames: Option<u16>,
     /// Write one picture as a PNG of 8x16 pixels a cell; - for standard output
     #[arg(long, value_name = "FILE")]
     pub png: Option<PathBuf>,
@@ -158,6 +170,18 @@ pub struct SceneArguments {
     /// The projection, whatever the scene says
     #[arg(long, value_name = "KIND")]
     pub projection: Option<LensKind>,
+    /// Where the eye is, whatever the scene says
+    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
+    pub eye: Option<Vec3>,
+    /// What it looks at, whatever the scene says
+    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
+    pub target: Option<Vec3>,
+    /// The vertical field of view in degrees; of a parallel projection, the angle from the eye that is as high at the target
+    #[arg(long, value_name = "DEGREES", value_parser = field_of_view)]
+    pub fov: Option<f32>,
+    /// Then leads the eye around the target: degrees to the right, degrees up
+    #[arg(long, value_name = "RIGHT,UP", value_parser = orbit, allow_hyphen_values = true)]
+    pub orbit: Option<[f32; 2]>,
     /// Which loop is the outer one, over rays or spheres; with object there is no --structure
     #[arg(long, value_name = "ORDER", default_value = "image")]
     pub order: Order,
@@ -178,8 +202,15 @@ impl SceneArguments {
     /// Where the scene is first seen from, in a picture of `aspect`, width over height.
     #[must_use]
     pub fn view(&self, scene: &Scene, aspect: f64) -> View {
-        let view = scene.first_view(aspect as f32);
-        self.projection.map_or(view, |kind| with_projection(&view, kind))
+        let mut view = scene.first_view(aspect as f32);
+        let kind = self.projection.unwrap_or(view.lens_kind());
+        view.eye = self.eye.unwrap_or(view.eye);
+        view.target = self.target.unwrap_or(view.target);
+        view.lens = self.fov.map_or(view.lens, |fov| Lens::Perspective { fov });
+        if let Some([right, up]) = self.orbit {
+            view = orbited(&view, right.to_radians(), up.to_radians());
+        }
+        with_projection(&view, kind)
     }
 }
 

@@ -150,6 +150,29 @@ impl Encoder {
         }
     }
 
+    /// Appends what clears the screen, and takes note of it; nothing if a screen of this size is known.
+    pub fn clear(&mut self, columns: u16, rows: u16, out: &mut Vec<u8>) -> bool {
+        let is_known = self
+            .shown
+            .as_ref()
+            .is_some_and(|shown| (shown.columns(), shown.rows()) == (columns, rows));
+        if !is_known {
+            out.extend_from_slice(CLEAR);
+            self.shown = Some(CellGrid::new(columns, rows));
+        }
+        !is_known
+    }
+
+    /// Something else was drawn over the first `rows`: what is not blank in `next` must be written again.
+    pub fn covered(&mut self, rows: u16, next: &CellGrid) {
+        let count = usize::from(rows) * usize::from(next.columns());
+        let Some(shown) = &mut self.shown else { return };
+        for (shown, wanted) in shown.cells_mut().iter_mut().zip(next.cells()).take(count) {
+            let is_blank = *wanted == Cell::BLANK;
+            *shown = if is_blank { Cell::BLANK } else { Cell { glyph: '\0', ..Cell::BLANK } };
+        }
+    }
+
     /// Puts what was appended since `start` between brackets, if there is anything and the terminal knows them.
     pub fn bracket(&self, start: usize, out: &mut Vec<u8>) {
         if self.synchronized && out.len() > start {

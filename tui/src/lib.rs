@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 pub mod arguments;
+pub mod cast;
 pub mod cells;
 pub mod choice;
 pub mod color;
@@ -16,6 +17,7 @@ pub mod npy;
 pub mod palette;
 pub mod pick;
 pub mod picture;
+pub mod pixels;
 pub mod png_file;
 pub mod progress;
 pub mod samples;

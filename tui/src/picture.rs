@@ -8,6 +8,17 @@ pub struct Picture {
     pixels: Vec<Vec3>,
 }
 
+/// A picture in encoded pixels.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Image {
+    /// Pixels side by side.
+    pub width: u32,
+    /// Rows of them.
+    pub height: u32,
+    /// Red, green and blue of every pixel, row by row from the top left.
+    pub rgb: Vec<u8>,
+}
+
 impl Picture {
     /// So many black pixels; the memory is kept.
     pub fn reset(&mut self, pixels: usize) {

@@ -1,10 +1,11 @@
 //! One picture, or the viewer: what `spherule [SCENE]` does.
 
+mod cast;
 mod once;
 
 use crate::arguments::{ComputingArguments, Overlay, PictureArguments};
 use crate::compare::Comparison;
-use crate::draw::pixels::PixelGrid;
+use crate::draw::pixels::{PixelGrid, SAMPLES};
 use crate::draw::{Renderer, picture_workload};
 use crate::error::{Error, write_stdout};
 use crate::machine::check_floats;
@@ -14,9 +15,9 @@ use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::structure::scene::{PictureSearch, SceneStructures};
 use crate::style::{Charset, ColorDepth, PIPE_SIZE, Style};
-use crate::terminal::color_depth::Surroundings;
+use crate::terminal::color_depth::{ColorChoice, Surroundings};
 use crate::terminal::locale::is_without_unicode;
-use crate::terminal::{Abilities, Terminal, lost};
+use crate::terminal::{Abilities, Terminal, lost, pixels_of_cell};
 use crate::threads::Threads;
 use crate::tradeoff::Question;
 use crate::view::View;
@@ -48,7 +49,8 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     let mut scene = arguments.scene.open()?;
     let is_terminal = std::io::stdout().is_terminal();
     let mut surroundings = Surroundings::of_process(is_terminal);
-    let at_once = arguments.once || arguments.png.is_some() || arguments.pick.is_some();
+    let PictureArguments { png, cast, pick, .. } = arguments;
+    let at_once = arguments.once || png.is_some() || pick.is_some() || cast.is_some();
     let in_viewer = is_terminal && !at_once && !surroundings.is_dumb();
     let threads = Threads::new(arguments.computing.threads)?;
     // From here on every error is told by `main`, after the terminal was given back.
@@ -63,7 +65,11 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     }
     // The viewer's table is measured by a thread that nobody waits for: it shares the scene.
     let scene = Arc::new(scene);
-    let depth = surroundings.depth(arguments.color);
+    let depth = match arguments.color {
+        // Who plays it has colours.
+        ColorChoice::Auto if cast.is_some() && !surroundings.no_color => ColorDepth::Truecolor,
+        choice => surroundings.depth(choice),
+    };
     let on_terminal = || {
         let (columns, rows) = terminal::size().ok().filter(|&size| is_usable(size))?;
         // The prompt comes back below a picture, and pushes the top row out if there is no row left.
@@ -92,7 +98,17 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     let mut renderer = Renderer::new(level.unwrap_or_else(Level::best), &threads);
     let mut structures =
         SceneStructures::new(scene.list(), &threads).in_order(arguments.scene.order);
-    if let Some(file) = &arguments.png {
+    if let Some(file) = cast {
+        if is_terminal && file == Path::new("-") {
+            return Err(Error::Input("--cast -: standard output is a terminal".to_owned()));
+        }
+        let (frames, rate) = (arguments.frames.unwrap_or(120), arguments.fps.unwrap_or(30));
+        let turn = cast::Turn { frames, rate, lossless: arguments.lossless };
+        let picture = (&view, &style, (columns, rows));
+        let search = (&mut structures, structure);
+        return cast::write(file, turn, &scene, search, picture, &mut renderer);
+    }
+    if let Some(file) = png {
         if is_terminal && file == Path::new("-") {
             return Err(Error::Input("--png -: standard output is a terminal".to_owned()));
         }
@@ -105,8 +121,15 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         let comparison = arguments.show.and_then(Overlay::comparison);
         let table = arguments.show == Some(Overlay::Table);
         let start = viewer::Start { view, style, structure, comparison, table };
-        let (color, lossless, rate) = (arguments.color, arguments.lossless, arguments.fps);
-        let wire = viewer::Wire { terminal, surroundings, color, rate, lossless };
+        let wire = viewer::Wire {
+            terminal,
+            surroundings,
+            color: arguments.color,
+            rate: arguments.fps,
+            lossless: arguments.lossless,
+            output: arguments.output,
+            scene_name: arguments.scene.name.clone(),
+        };
         return viewer::run(&scene, structures, start, renderer, wire);
     }
     let ray = arguments.pick.map(|cell| ray_of_pick(&view, &style, (columns, rows), cell));
@@ -118,6 +141,15 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         let report = Report { scene: &arguments.scene.name, size: (columns, rows), cell, pick };
         let text = if arguments.json { report.json() } else { report.text() };
         return write_stdout(text.as_bytes());
+    }
+    let protocol = arguments.output.protocol(&abilities).filter(|_| arguments.show.is_none());
+    if let Some(protocol) = protocol {
+        let cell = pixels_of_cell(None).unwrap_or_else(|| PixelGrid::usual_cell(&style));
+        let grid = PixelGrid::in_cells(&view, &style, (columns, rows), cell, SAMPLES);
+        let image = renderer.draw_image(&scene, &search, style.accuracy, &grid);
+        let mut bytes = Vec::new();
+        protocol.write_in_line(&image, (columns, rows), &mut bytes);
+        return write_stdout(&bytes);
     }
     let once = Once { scene: &scene, view, style, size: (columns, rows), is_terminal };
     match arguments.show {
@@ -176,16 +208,10 @@ fn is_usable((columns, rows): (u16, u16)) -> bool {
     (1..=4096).contains(&columns) && (1..=4096).contains(&rows)
 }
 
-/// The shape of the terminal's cells, if it knows how many pixels they have: by the system's word, else by its own.
+/// The shape of the terminal's cells, if it knows how many pixels they have.
 fn terminal_aspect(told: Option<(u16, u16)>) -> Option<f32> {
-    let likely = |width: f32, height: f32| {
-        Some(width / height).filter(|aspect| LIKELY_ASPECTS.contains(aspect))
-    };
-    let known = terminal::window_size().ok().and_then(|size| {
-        let width = f32::from(size.width) / f32::from(size.columns);
-        likely(width, f32::from(size.height) / f32::from(size.rows))
-    });
-    known.or_else(|| told.and_then(|(width, height)| likely(width.into(), height.into())))
+    let (width, height) = pixels_of_cell(told)?;
+    Some(width as f32 / height as f32).filter(|aspect| LIKELY_ASPECTS.contains(aspect))
 }
 
 /// The built-in scenes, a line each: name, number of spheres, description.

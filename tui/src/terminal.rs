@@ -144,6 +144,11 @@ impl Terminal {
         screen::show(bytes).map_err(or_hung_up)
     }
 
+    /// From now on `bytes` are sent before the terminal is given back, whenever that is: what removes images.
+    pub fn remove_when_leaving(&self, bytes: Vec<u8>) {
+        screen::set_removal(bytes);
+    }
+
     /// Gives the terminal back and stops the process group, as Ctrl-Z does outside of raw mode.
     /// The screen is taken again by the thread that sees SIGCONT.
     ///
@@ -173,6 +178,17 @@ impl Drop for Terminal {
 fn or_hung_up(error: io::Error) -> io::Error {
     let is_gone = error.raw_os_error() == Some(rustix::io::Errno::IO.raw_os_error());
     if is_gone { input::hung_up() } else { error }
+}
+
+/// Width and height of a cell in pixels: by the system's word, else by what the terminal has told.
+#[must_use]
+pub fn pixels_of_cell(told: Option<(u16, u16)>) -> Option<(u32, u32)> {
+    let of_system = || {
+        let size = terminal::window_size().ok()?;
+        let pixels = |all: u16, cells: u16| all.checked_div(cells).filter(|&pixels| pixels > 0);
+        Some((pixels(size.width, size.columns)?, pixels(size.height, size.rows)?))
+    };
+    of_system().or(told).map(|(width, height)| (u32::from(width), u32::from(height)))
 }
 
 /// The terminal is not there.

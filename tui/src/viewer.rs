@@ -4,14 +4,18 @@
 //! not late ones. A frame of a movement gets no more samples than there is time for; when it is over, a full one
 //! follows. Then nothing is drawn and nothing is sent, but how far a measurement is.
 
+mod command_line;
 mod flow;
 mod frame;
 mod hand;
 mod help;
 mod keys;
 mod meter;
+mod notice;
 mod pace;
 mod picking;
+mod pixel_frame;
+mod recording;
 mod seam;
 mod state;
 mod status;
@@ -23,7 +27,8 @@ use crate::compare::error_map::ErrorMapper;
 use crate::compare::split::Times;
 use crate::draw::Renderer;
 use crate::encode::Encoder;
-use crate::error::Error;
+use crate::error::{Error, write_stdout};
+use crate::pixels::Output;
 use crate::scene::Scene;
 use crate::scene::framing;
 use crate::structure::Structure;
@@ -32,14 +37,18 @@ use crate::style::Style;
 use crate::terminal::color_depth::{ColorChoice, Surroundings};
 use crate::terminal::{Incoming, LONGEST_BACKLOG, Reply, Terminal, lost};
 use crate::view::View;
+use crossterm::event::Event;
 use flow::Flow;
 use frame::Picture;
 use meter::Meter;
 use pace::Pace;
+use pixel_frame::Pixels;
+use recording::Recording;
 pub use state::{ORBIT_STEP, PAN_STEP, ZOOM_STEP};
 use state::{Outcome, State};
 use std::env;
 use std::io;
+use std::mem;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use table::Table;
@@ -80,6 +89,10 @@ pub struct Wire {
     pub rate: Auto<u16>,
     /// Whether every frame is sent as it is, and none that looks alike.
     pub lossless: bool,
+    /// What `--output` says.
+    pub output: Output,
+    /// What the scene is called on the command line.
+    pub scene_name: String,
 }
 
 /// Shows `scene` on the terminal, from `start` on, drawn by `renderer` with the chosen one of its
@@ -95,16 +108,23 @@ pub fn run(
     renderer: Renderer<'_>,
     wire: Wire,
 ) -> Result<(), Error> {
-    let Wire { terminal, surroundings, color, rate, lossless } = wire;
+    let Wire { terminal, surroundings, color, rate, lossless, output, scene_name } = wire;
     let usual = if env::var_os("SSH_CONNECTION").is_some() { REMOTE_RATE } else { LOCAL_RATE };
     let interval = Duration::from_secs(1) / u32::from(rate.unwrap_or(usual)).max(1);
     let mut viewer = Viewer {
         scene,
         structures,
-        terminal,
         surroundings,
         color,
         lossless,
+        pixels: Pixels::new(output, &terminal),
+        terminal,
+        scene_name,
+        notice: None,
+        told: Vec::new(),
+        recording: None,
+        failure: None,
+        pending_removal: Vec::new(),
         flow: Flow::default(),
         state: State::new(start),
         renderer,
@@ -119,13 +139,14 @@ pub fn run(
         panic_key: env::var_os(PANIC_SWITCH).is_some(),
     };
     viewer.heed_abilities();
+    viewer.say_no_pixels();
     viewer.learn_size().map_err(|error| lost(&error))?;
     let mut last_frame: Option<Instant> = None;
     let mut stale = true;
     loop {
         let wait = viewer.wait(stale, last_frame);
         match viewer.take_input(wait)? {
-            Outcome::Quit => return Ok(()),
+            Outcome::Quit => return viewer.leave(),
             Outcome::Changed => stale = true,
             Outcome::Unchanged => {}
         }
@@ -154,6 +175,17 @@ struct Viewer<'a> {
     surroundings: Surroundings,
     color: ColorChoice,
     lossless: bool,
+    pixels: Pixels,
+    scene_name: String,
+    /// A word of the program, until the next key.
+    notice: Option<String>,
+    /// Command lines that were asked for: printed when the terminal is given back.
+    told: Vec<String>,
+    recording: Option<Recording>,
+    /// Why a recording could not be written.
+    failure: Option<Error>,
+    /// What removes images, with the next frame.
+    pending_removal: Vec<u8>,
     flow: Flow,
     state: State,
     renderer: Renderer<'a>,
@@ -191,15 +223,17 @@ impl Viewer<'_> {
             wait = Some(Duration::ZERO);
             let event = match incoming {
                 Incoming::User(event) => event,
-                Incoming::Reply(Reply::Status) => {
-                    self.flow.answered(Instant::now());
-                    continue;
-                }
-                Incoming::Reply(_) => {
-                    outcome = outcome.and(self.heed_abilities());
+                Incoming::Reply(reply) => {
+                    if reply == Reply::Status {
+                        self.flow.answered(Instant::now());
+                    }
+                    outcome = outcome.and(self.heed_image_reply(reply)).and(self.heed_abilities());
                     continue;
                 }
             };
+            if matches!(event, Event::Key(_)) && self.notice.take().is_some() {
+                outcome = outcome.and(Outcome::Changed);
+            }
             if self.panic_key && keys::is_panic(&event) {
                 panic!("asked for by {PANIC_SWITCH}");
             }
@@ -212,6 +246,14 @@ impl Viewer<'_> {
                     self.encoder.forget();
                     self.learn_size().map_err(|error| lost(&error))?;
                     outcome = Outcome::Changed;
+                }
+                Some(keys::Input::CommandLine) => {
+                    self.tell_command_line();
+                    outcome = outcome.and(Outcome::Changed);
+                }
+                Some(keys::Input::Record) => {
+                    self.record();
+                    outcome = outcome.and(Outcome::Changed);
                 }
                 Some(keys::Input::FrameAll) => {
                     let all = framing::subject(self.scene.spheres());
@@ -236,6 +278,19 @@ impl Viewer<'_> {
             outcome = outcome.and(Outcome::Changed);
         }
         Ok(outcome)
+    }
+
+    /// Gives the terminal back, and then tells what there is to tell.
+    fn leave(mut self) -> Result<(), Error> {
+        if self.recording.is_some() {
+            self.record();
+        }
+        let (told, failure) = (mem::take(&mut self.told), self.failure.take());
+        drop(self);
+        if !told.is_empty() {
+            write_stdout((told.join("\n") + "\n").as_bytes())?;
+        }
+        failure.map_or(Ok(()), Err)
     }
 
     /// Does as the terminal can.

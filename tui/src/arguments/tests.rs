@@ -54,6 +54,15 @@ fn every_option_is_read() {
     assert_eq!(arguments.png, Some("a.png".into()));
     assert_eq!(picture("--order object").scene.order, Order::Object);
     assert_eq!(picture("--order image --structure bvh").scene.order, Order::Image);
+    let arguments = picture("--eye -1,2.5,3 --target 0,-1e3,0 --fov 12.5 --orbit -30,5 unit").scene;
+    assert_eq!(arguments.eye, Some(Vec3::new(-1.0, 2.5, 3.0)));
+    assert_eq!((arguments.target, arguments.fov), (Some(Vec3::new(0.0, -1e3, 0.0)), Some(12.5)));
+    assert_eq!(arguments.orbit, Some([-30.0, 5.0]));
+    let arguments = picture("--no-probe --lossless --fps 24 --output sixel");
+    assert_eq!((arguments.no_probe, arguments.lossless, arguments.fps), (true, true, Some(24)));
+    assert_eq!((arguments.output, picture("").output), (Output::Sixel, Output::Cells));
+    let arguments = picture("--cast a.cast --frames 36");
+    assert_eq!((arguments.cast, arguments.frames), (Some("a.cast".into()), Some(36)));
     let arguments = picture("--pick 0,65535 --json --once");
     assert_eq!((arguments.pick, arguments.json), (Some((0, 65535)), true));
 }
@@ -88,6 +97,18 @@ fn what_is_wrong_is_said_in_one_line() {
         ("--pick nan,0", "COL,ROW"),
         ("--pick 1,1 --png a.png", "cannot be used with"),
         ("--json", "--pick <COL,ROW>"),
+        ("--eye 1,2", "X,Y,Z"),
+        ("--eye 1,2,nan", "X,Y,Z"),
+        ("--target 1,2,1e39", "X,Y,Z"),
+        ("--orbit 30", "RIGHT,UP"),
+        ("--fov 180", "below 180"),
+        ("--fov 0", "below 180"),
+        ("--fps 0", "1..=240"),
+        ("--frames 3", "--cast <FILE>"),
+        ("--cast a --frames 0", "1..=3600"),
+        ("--cast a --png b", "cannot be used with"),
+        ("--cast a --output kitty", "cannot be used with"),
+        ("--output pixels", "auto, cells, kitty, sixel, iterm2"),
         ("--background red", "\"red\" is no colour: write \"#rrggbb\""),
         ("--background ##ffeedd", "is no colour"),
         ("--background #ffeeddcc", "is no colour"),

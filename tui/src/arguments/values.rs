@@ -6,7 +6,7 @@ use crate::color::Srgb;
 use crate::compare::Comparison;
 use crate::samples::MOST_SAMPLES;
 use clap::builder::TypedValueParser;
-use spherule_kernel::{Level, LevelName, Tier};
+use spherule_kernel::{Level, LevelName, Tier, Vec3};
 use std::ops::RangeInclusive;
 
 /// The largest picture, in columns or rows.
@@ -31,6 +31,31 @@ pub(super) fn cell(text: &str) -> Result<(u16, u16), &'static str> {
         Some((column.parse().ok()?, row.parse().ok()?))
     };
     cell().ok_or("COL,ROW, counted from 0, such as 40,12")
+}
+
+/// So many finite numbers.
+fn numbers<const N: usize>(text: &str) -> Option<[f32; N]> {
+    let numbers: Vec<f32> = text.split(',').map(|word| word.parse().ok()).collect::<Option<_>>()?;
+    numbers
+        .try_into()
+        .ok()
+        .filter(|numbers: &[f32; N]| numbers.iter().all(|number| number.is_finite()))
+}
+
+/// A point of the scene.
+pub(super) fn point(text: &str) -> Result<Vec3, &'static str> {
+    numbers(text).map(Vec3::from_array).ok_or("X,Y,Z, such as 0,1.5,-3")
+}
+
+/// Two angles in degrees.
+pub(super) fn orbit(text: &str) -> Result<[f32; 2], &'static str> {
+    numbers(text).ok_or("RIGHT,UP in degrees, such as 30,-10")
+}
+
+/// An angle in degrees.
+pub(super) fn field_of_view(text: &str) -> Result<f32, &'static str> {
+    let degrees = text.parse().ok().filter(|degrees: &f32| *degrees > 0.0 && *degrees < 180.0);
+    degrees.ok_or("degrees, above 0 and below 180, such as 40")
 }
 
 /// What is to be shown.

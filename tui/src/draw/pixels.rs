@@ -3,6 +3,7 @@
 use super::Renderer;
 use super::tracer::{Places, SampleGrid, Traced, Tracer};
 use crate::color::Srgb;
+use crate::picture::Image;
 use crate::scene::Scene;
 use crate::structure::choose::Workload;
 use crate::structure::scene::PictureSearch;
@@ -10,11 +11,12 @@ use crate::structure::search::Tracing;
 use crate::style::Style;
 use crate::view::View;
 use spherule_kernel::{Camera, Tier};
+use std::convert::Infallible;
 
 /// Pixels across a cell.
 const ACROSS_A_CELL: u32 = 8;
-/// Samples across a pixel, and down.
-const SAMPLES: u32 = 4;
+/// Samples across a pixel, and down, where nothing is saved.
+pub const SAMPLES: u32 = 4;
 /// Pixels across a tile, and down: what a thread traces at a time.
 const TILE: (u32, u32) = (32, 16);
 const TILE_AREA: usize = (TILE.0 * TILE.1) as usize;
@@ -25,6 +27,8 @@ const STRIP: u32 = 1 << 18;
 #[derive(Clone, Copy, Debug)]
 pub struct PixelGrid {
     samples: SampleGrid,
+    /// Samples across a pixel, and down.
+    across: u32,
 }
 
 impl PixelGrid {
@@ -32,17 +36,34 @@ impl PixelGrid {
     /// as whole numbers do.
     #[must_use]
     pub fn new(view: &View, style: &Style, columns: u16, rows: u16) -> Self {
-        let down = (ACROSS_A_CELL as f32 / style.cell_aspect).round().max(1.0) as u32;
-        let width = u32::from(columns) * ACROSS_A_CELL * SAMPLES;
-        let height = u32::from(rows) * down * SAMPLES;
+        Self::in_cells(view, style, (columns, rows), Self::usual_cell(style), SAMPLES)
+    }
+
+    /// Of cells of so many pixels, with so many samples across a pixel, and as many down.
+    #[must_use]
+    pub fn in_cells(
+        view: &View,
+        style: &Style,
+        (columns, rows): (u16, u16),
+        cell: (u32, u32),
+        across: u32,
+    ) -> Self {
+        let width = u32::from(columns) * cell.0 * across;
+        let height = u32::from(rows) * cell.1 * across;
         let camera = view.camera(width, height, style.picture_aspect(columns, rows));
-        Self { samples: SampleGrid { camera, width, height } }
+        Self { samples: SampleGrid { camera, width, height }, across }
+    }
+
+    /// The pixels of a cell across, and down, of which nothing is known but its shape.
+    #[must_use]
+    pub fn usual_cell(style: &Style) -> (u32, u32) {
+        (ACROSS_A_CELL, (ACROSS_A_CELL as f32 / style.cell_aspect).round().max(1.0) as u32)
     }
 
     /// Pixels across the picture, and down.
     #[must_use]
     pub fn size(&self) -> (u32, u32) {
-        (self.samples.width / SAMPLES, self.samples.height / SAMPLES)
+        (self.samples.width / self.across, self.samples.height / self.across)
     }
 
     /// The camera's rays, against so many spheres.
@@ -54,6 +75,26 @@ impl PixelGrid {
 }
 
 impl Renderer<'_> {
+    /// Draws `scene` into the pixels of `grid`, all at once.
+    #[must_use]
+    pub fn draw_image(
+        &self,
+        scene: &Scene,
+        search: &PictureSearch<'_>,
+        accuracy: Tier,
+        grid: &PixelGrid,
+    ) -> Image {
+        let (width, height) = grid.size();
+        let mut rgb = Vec::with_capacity(3 * width as usize * height as usize);
+        let taken: Result<(), Infallible> =
+            self.draw_pixels(scene, search, accuracy, grid, |row| {
+                rgb.extend_from_slice(row);
+                Ok(())
+            });
+        let Ok(()) = taken;
+        Image { width, height, rgb }
+    }
+
     /// Draws `scene` into the pixels of `grid`, and hands row after row on to `take`: red, green and blue of every
     /// pixel. `search` finds the spheres of that scene from the grid's view.
     ///
@@ -105,16 +146,16 @@ fn trace_tile(
     (left, top): (u32, u32),
     pixels: &mut [[u8; 3]],
 ) {
-    let (width, height) = grid.size();
+    let ((width, height), across) = (grid.size(), grid.across);
     let corners = Camera::tile_corners::<[f32; 16]>(
-        TILE.0.min(width - left) * SAMPLES,
-        TILE.1.min(height - top) * SAMPLES,
+        TILE.0.min(width - left) * across,
+        TILE.1.min(height - top) * across,
     )
-    .map(|(x, y)| (left * SAMPLES + x, top * SAMPLES + y));
-    let share = 1.0 / (SAMPLES * SAMPLES) as f32;
+    .map(|(x, y)| (left * across + x, top * across + y));
+    let share = 1.0 / (across * across) as f32;
     let places = |corner| {
-        let of_column = |x| (x / SAMPLES - left) as usize;
-        Places::new(corner, of_column, |y| ((y / SAMPLES - top) * TILE.0) as usize)
+        let of_column = |x| (x / across - left) as usize;
+        Places::new(corner, of_column, |y| ((y / across - top) * TILE.0) as usize)
     };
     let (light, _) = tracer.trace(traced, &grid.samples, corners, (pixels.len(), share), places);
     for (pixel, &light) in pixels.iter_mut().zip(light) {

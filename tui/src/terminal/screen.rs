@@ -4,7 +4,7 @@ use crossterm::terminal;
 use std::io;
 use std::os::fd::AsFd;
 use std::sync::atomic::{AtomicBool, Ordering::SeqCst};
-use std::sync::{Mutex, MutexGuard, TryLockError};
+use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -23,6 +23,8 @@ static RUNNING: AtomicBool = AtomicBool::new(false);
 static SHOWN: AtomicBool = AtomicBool::new(false);
 /// The screen was taken back after a suspension, and nothing has been drawn since.
 static RESUMED: AtomicBool = AtomicBool::new(false);
+/// What removes images that were sent, before the rest is given back.
+static REMOVAL: Mutex<Vec<u8>> = Mutex::new(Vec::new());
 /// Held while bytes or modes go to the terminal.
 static OUTPUT: Mutex<()> = Mutex::new(());
 
@@ -57,7 +59,7 @@ pub(super) fn restore() {
 pub(super) fn leave() {
     let _output = output();
     if SHOWN.swap(false, SeqCst) {
-        let _ = write(LEAVE);
+        let _ = write(&leaving());
         let _ = terminal::disable_raw_mode();
     }
 }
@@ -82,7 +84,7 @@ pub(super) fn resume() {
         }
         // Stopped by SIGSTOP from outside, nothing was given back; who knows what the modes are.
         if SHOWN.load(SeqCst) {
-            let _ = write(LEAVE);
+            let _ = write(&leaving());
             let _ = terminal::disable_raw_mode();
         }
         if take().is_err() {
@@ -92,6 +94,17 @@ pub(super) fn resume() {
     }
     // A resize wakes up the viewer, which may be waiting for a key.
     let _ = signal_hook::low_level::raise(signal_hook::consts::SIGWINCH);
+}
+
+/// From now on `bytes` are sent before the terminal is given back.
+pub(super) fn set_removal(bytes: Vec<u8>) {
+    *REMOVAL.lock().unwrap_or_else(PoisonError::into_inner) = bytes;
+}
+
+/// All that gives the terminal back, in one piece.
+fn leaving() -> Vec<u8> {
+    let removal = REMOVAL.lock().unwrap_or_else(PoisonError::into_inner);
+    [removal.as_slice(), LEAVE].concat()
 }
 
 /// The right to write, or after a while no right but still the need.

@@ -2,9 +2,10 @@
 
 use super::meter::Frame;
 use super::pace::Debt;
+use super::pixel_frame::NO_TEXT;
 use super::state::Shown;
 use super::table::{Means, Subject};
-use super::{Viewer, help, picking, picture_rows, status};
+use super::{Viewer, help, notice, picking, picture_rows, status};
 use crate::cells::CellGrid;
 use crate::compare::Comparison;
 use crate::compare::legend::MapPainter;
@@ -13,6 +14,8 @@ use crate::draw::{Drawn, Effort, picture_workload};
 use crate::encode::Economy;
 use crate::error::Error;
 use crate::pick::{Pick, cell_ray, report};
+use crate::picture::Image;
+use crate::pixels::Protocol;
 use crate::structure::{Order, Structure};
 use crate::terminal::lost;
 use crate::tradeoff::chart;
@@ -30,6 +33,8 @@ pub(super) struct Picture {
     /// How its rays found spheres.
     searched: (Order, Structure),
     drawn: Drawn,
+    /// In place of cells.
+    image: Option<Image>,
 }
 
 impl Viewer<'_> {
@@ -47,12 +52,23 @@ impl Viewer<'_> {
         // Where nothing but what is written over it has changed, it is not drawn again.
         let last = self.picture.take();
         let rests = last.as_ref().is_some_and(|last| Subject::new(&last.of, last.size) == subject);
-        let same =
-            |last: &Picture| last.of == pictured && last.size == size && last.drawn.effort.is_full;
+        let protocol = self.protocol();
+        if protocol.is_none() {
+            self.remove_images();
+        }
+        let same = |last: &Picture| {
+            last.of == pictured
+                && last.size == size
+                && last.drawn.effort.is_full
+                && last.image.is_some() == protocol.is_some()
+        };
         let (picture, drawing) = match last.filter(same) {
             Some(last) => (last, None),
             None => {
-                let picture = self.draw(size, moving)?;
+                let picture = match protocol {
+                    Some(protocol) => self.draw_pixels(protocol, size, moving)?,
+                    None => self.draw(size, moving)?,
+                };
                 (picture, Some(started.elapsed()))
             }
         };
@@ -61,20 +77,27 @@ impl Viewer<'_> {
         let drawn = &picture.drawn;
         cells.cells_mut()[..drawn.cells.cells().len()].copy_from_slice(drawn.cells.cells());
         self.write_over(&mut cells, status_row, (subject, rests))?;
+        if let Some(notice) = &self.notice {
+            notice::write(&mut cells, status_row, notice);
+        }
         // The picture first: then the status line can tell what it cost.
         self.bytes.clear();
+        self.bytes.append(&mut self.pending_removal);
+        // What passes may look alike; at rest all is sent, a part at a time if the link is slow.
+        let economy = match (moving, self.lossless || picture.image.is_some()) {
+            (false, _) => Economy { most_bytes: self.flow.most_bytes(), ..Economy::NONE },
+            (true, false) => Economy { tolerance: self.flow.tolerance(), ..Economy::NONE },
+            (true, true) => Economy::NONE,
+        };
+        if let (Some(protocol), Some(image)) = (protocol, &picture.image) {
+            self.write_image(protocol, (image, drawing.is_some()), &mut cells, status_row);
+        }
         if let Some(shown) = self.encoder.shown() {
             let last_row = usize::from(status_row) * usize::from(columns);
             if shown.cells().len() == cells.cells().len() {
                 cells.cells_mut()[last_row..].copy_from_slice(&shown.cells()[last_row..]);
             }
         }
-        // What passes may look alike; at rest all is sent, a part at a time if the link is slow.
-        let economy = match (moving, self.lossless) {
-            (false, _) => Economy { most_bytes: self.flow.most_bytes(), ..Economy::NONE },
-            (true, false) => Economy { tolerance: self.flow.tolerance(), ..Economy::NONE },
-            (true, true) => Economy::NONE,
-        };
         self.encoder.encode_part(&cells, economy, &mut self.bytes);
         let is_exact = self.encoder.is_exact();
         self.pace.owes(match (is_exact, moving) {
@@ -94,20 +117,54 @@ impl Viewer<'_> {
         status::write(&mut cells, status_row, &self.state, picture.searched, figures);
         self.encoder.encode_row(&cells, status_row, &mut self.bytes);
         self.encoder.bracket(0, &mut self.bytes);
+        if picture.image.is_none() {
+            self.note_recording(&cells, now, economy);
+        }
         self.picture = Some(picture);
         self.send().map_err(|error| lost(&error))
     }
 
+    /// Whether the terminal is asked after every frame how far it has come: it is known to tell.
+    pub(super) fn asks_for_status(&self) -> bool {
+        let abilities = self.terminal.abilities();
+        abilities.has_answered && abilities.reports_status
+    }
+
     /// Sends what is to be sent, and asks for an answer if the terminal gives any.
     fn send(&mut self) -> io::Result<()> {
-        let abilities = self.terminal.abilities();
-        if self.bytes.is_empty() || !(abilities.has_answered && abilities.reports_status) {
+        if self.bytes.is_empty() || !self.asks_for_status() {
             return self.terminal.show(&self.bytes);
         }
         let bytes = self.bytes.len();
         self.terminal.show_and_ask(&mut self.bytes)?;
         self.flow.sent(bytes, Instant::now());
         Ok(())
+    }
+
+    /// Takes note of a frame of cells, if there is a recording.
+    fn note_recording(&mut self, cells: &CellGrid, now: Instant, economy: Economy) {
+        let Some(recording) = &mut self.recording else { return };
+        recording.frame(cells, now, Economy { most_bytes: usize::MAX, ..economy });
+        if recording.is_full() {
+            self.record();
+        }
+    }
+
+    /// Draws the picture of the moment in pixels.
+    fn draw_pixels(
+        &mut self,
+        protocol: Protocol,
+        size: (u16, u16),
+        moving: bool,
+    ) -> Result<Picture, Error> {
+        let started = Instant::now();
+        let (image, effort, searched) = self.draw_image(protocol, size, moving)?;
+        self.pace.drawn(effort, started.elapsed());
+        let mut cells = CellGrid::new(size.0, size.1);
+        cells.cells_mut().fill(NO_TEXT);
+        let (of, drawn, image) =
+            (self.state.shown.pictured(), Drawn { cells, effort }, Some(image));
+        Ok(Picture { of, size, searched, drawn, image })
     }
 
     /// Draws the picture of the moment.
@@ -143,7 +200,7 @@ impl Viewer<'_> {
         };
         self.pace.drawn(drawn.effort, started.elapsed());
         let searched = (search.order(), search.structure);
-        Ok(Picture { of: self.state.shown.pictured(), size, searched, drawn })
+        Ok(Picture { of: self.state.shown.pictured(), size, searched, drawn, image: None })
     }
 
     /// Writes what is open over the first `rows` rows: the table of a subject, a pick, the keys.

@@ -51,6 +51,10 @@ pub(super) enum Input {
     Reset,
     /// Show or hide the keys.
     Help,
+    /// Tell the command line that shows this view.
+    CommandLine,
+    /// Begin a recording, or write it.
+    Record,
     /// Close what is open, else quit.
     Escape,
     /// End.
@@ -101,6 +105,8 @@ fn key_input(key: KeyCode) -> Option<Input> {
         KeyCode::Char('p') => Input::Pick,
         KeyCode::Char('f') => Input::FrameAll,
         KeyCode::Enter => Input::FramePicked,
+        KeyCode::Char('y') => Input::CommandLine,
+        KeyCode::Char('R') => Input::Record,
         KeyCode::Char('?') => Input::Help,
         KeyCode::Char('q') => Input::Quit,
         KeyCode::Esc => Input::Escape,

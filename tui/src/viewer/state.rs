@@ -77,6 +77,7 @@ pub(super) struct State {
     hand: Hand,
     /// Whether it holds the seam.
     pulls_seam: bool,
+    pub(super) recording: bool,
     /// Columns and rows of the picture: a drag over all rows is half a turn.
     size: (u16, u16),
 }
@@ -94,7 +95,14 @@ impl State {
             table,
             cursor: None,
         };
-        Self { home: view, shown, hand: Hand::default(), pulls_seam: false, size: (1, 1) }
+        Self {
+            home: view,
+            shown,
+            hand: Hand::default(),
+            pulls_seam: false,
+            recording: false,
+            size: (1, 1),
+        }
     }
 
     /// Tells the size of the picture.
@@ -227,7 +235,12 @@ impl State {
             Input::Reset => (*view, *spinning) = (self.home, false),
             Input::Help => *help = !*help,
             // What concerns the terminal or asks for the scene.
-            Input::Suspend | Input::Resize | Input::FrameAll | Input::FramePicked => {}
+            Input::Suspend
+            | Input::Resize
+            | Input::FrameAll
+            | Input::FramePicked
+            | Input::CommandLine
+            | Input::Record => {}
         }
         self.since(&before)
     }

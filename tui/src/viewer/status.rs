@@ -42,7 +42,8 @@ fn names(state: &State, order: Order) -> String {
     let Shown { view, style, .. } = &state.shown;
     let (lens, charset) = (name(&view.lens_kind()), name(&style.charset));
     let order = if order == Order::Object { " object" } else { "" };
-    format!("{} {lens} {charset}{order}", style.accuracy.as_str())
+    let recording = if state.recording { " rec" } else { "" };
+    format!("{} {lens} {charset}{order}{recording}", style.accuracy.as_str())
 }
 
 /// From the one that is missed the most.

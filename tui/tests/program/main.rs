@@ -3,11 +3,13 @@
 
 mod bad_input;
 mod cargo;
+mod cast;
 mod lecture;
 mod light;
 mod orders;
 mod output;
 mod pick;
+mod pixels;
 mod png;
 mod run;
 mod scenes;

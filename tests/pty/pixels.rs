@@ -1,0 +1,222 @@
+//! Pixels in the viewer: what is sent is what `--png` writes, and nothing is left.
+
+use super::emulated::{ATTRIBUTES, CELL_PIXELS, Emulated, IMAGE, Rule, STATUS, SYNCHRONIZED};
+use super::look::last_row;
+use super::picture::{SceneFile, once};
+use super::session::{Output, Session};
+use super::viewer::{COLUMNS, PICTURE_ROWS, ROWS, VIEW, Viewer};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use flate2::read::ZlibDecoder;
+use rustix::process::Signal;
+use spherule_tests::binary::spherule;
+use std::io::{Cursor, Read};
+use std::process::Command;
+
+/// A kitty whose cells have 8x16 pixels.
+const KITTY: [Rule; 6] = [
+    (SYNCHRONIZED, "\x1b[?2026;2$y"),
+    (CELL_PIXELS, "\x1b[6;16;8t"),
+    (IMAGE, "\x1b_Gi=31;OK\x1b\\"),
+    (STATUS, "\x1b[0n"),
+    (ATTRIBUTES, "\x1b[?62;c"),
+    // The first image, which is the only one that is to be answered.
+    (",q=0,m=1;", "\x1b_Gi=5460040;OK\x1b\\"),
+];
+const REMOVED: [&str; 2] =
+    ["\x1b_Ga=d,d=I,i=5460040,q=2\x1b\\", "\x1b_Ga=d,d=I,i=5460041,q=2\x1b\\"];
+
+/// Width, height and pixels of the last image that is whole.
+fn last_image(sent: &[u8]) -> Option<(u32, u32, Vec<u8>)> {
+    let text = String::from_utf8_lossy(sent);
+    let start = text.rfind("\x1b_Ga=T")?;
+    let (mut payload, mut keys, mut is_whole) = (String::new(), "", false);
+    for piece in text[start..].split("\x1b_G").skip(1) {
+        let (control, data) = piece.split("\x1b\\").next()?.split_once(';').unwrap_or_default();
+        if keys.is_empty() {
+            keys = control;
+        }
+        payload += data;
+        if control.ends_with("m=0") {
+            is_whole = true;
+            break;
+        }
+    }
+    let number = |name: &str| keys.split(',').find_map(|key| key.strip_prefix(name))?.parse().ok();
+    let mut rgb = Vec::new();
+    ZlibDecoder::new(&*STANDARD.decode(payload).ok()?).read_to_end(&mut rgb).ok()?;
+    is_whole.then_some((number("s=")?, number("v=")?, rgb))
+}
+
+fn png() -> (u32, u32, Vec<u8>) {
+    let scene = SceneFile::new(&VIEW);
+    let size = format!("{COLUMNS}x{PICTURE_ROWS}");
+    let output = Command::new(spherule())
+        .args([scene.path(), "--size", &size, "--png", "-"])
+        .output()
+        .expect("spherule runs");
+    let mut reader = png::Decoder::new(Cursor::new(output.stdout)).read_info().expect("a PNG");
+    let (width, height) = reader.info().size();
+    let mut rgb = vec![0; reader.output_buffer_size().expect("a size")];
+    reader.next_frame(&mut rgb).expect("all of it");
+    (width, height, rgb)
+}
+
+fn text(output: &Output) -> String {
+    String::from_utf8_lossy(&output.sent).into_owned()
+}
+
+#[test]
+fn kitty_shows_the_pixels_of_the_png_and_nothing_is_left() {
+    let expected = png();
+    let emulated = Emulated::with(&KITTY);
+    let mut viewer = Viewer::start_in(emulated, &["--output", "kitty"], &[], (COLUMNS, ROWS));
+    let wait = |viewer: &Viewer, what: &str| {
+        viewer.session.wait_for(what, |output| {
+            (last_image(&output.sent)? == expected && last_row(output.screen()).contains("? help"))
+                .then_some(())
+        });
+    };
+    wait(&viewer, "the pixels of the PNG");
+    // Moved there and back, it is the same at rest; text is over it, and goes.
+    viewer.session.type_in("lr?");
+    viewer
+        .session
+        .wait_for("the help", |output| output.screen().contents().contains("wheel").then_some(()));
+    viewer.session.type_in("?");
+    wait(&viewer, "the same pixels");
+    viewer.session.wait_for("no help", |output| {
+        (!output.screen().contents().contains("wheel")).then_some(())
+    });
+    viewer.session.wait_for_peace();
+    // What is made of cells is shown in cells, without an image behind it.
+    viewer.session.type_in("e");
+    viewer.session.wait_for("the errors", |output| {
+        (output.screen().contents().contains("exact: all right")
+            && text(output).rfind(REMOVED[0]) > text(output).rfind("\x1b_Ga=T"))
+        .then_some(())
+    });
+    viewer.session.type_in("e");
+    wait(&viewer, "the pixels again");
+    // Suspended.
+    viewer.session.type_in("\x1a");
+    viewer.session.wait_until_stopped();
+    let is_removed = |output: &Output| {
+        let text = text(output);
+        REMOVED.iter().all(|removed| text.rfind(removed) > text.rfind("\x1b_Ga=T"))
+    };
+    viewer.session.wait_for("the removal", |output| is_removed(output).then_some(()));
+    viewer.session.signal(Signal::CONT);
+    wait(&viewer, "the pixels after a stop");
+    viewer.session.type_in("q");
+    assert!(viewer.session.wait_for_end().success());
+    assert_eq!(viewer.session.left_behind(), [""; 0]);
+    assert!(is_removed(&viewer.session.output()));
+}
+
+/// It claims to have kitty's images, and has none: the first is not answered.
+#[test]
+fn a_terminal_that_lies_gets_cells() {
+    let mut viewer =
+        Viewer::start_in(Emulated::with(&KITTY[..5]), &["--output", "kitty"], &[], (COLUMNS, ROWS));
+    viewer.session.wait_for("a word about it", |output| {
+        output.screen().contents().contains("--output kitty: the terminal has none").then_some(())
+    });
+    viewer.session.type_in("13");
+    viewer.wait_for_picture("cells", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.quit();
+}
+
+/// Nothing of pixels goes to a terminal that says that it has none.
+#[test]
+fn a_terminal_that_has_no_pixels_gets_cells() {
+    for (output, begins) in [("kitty", "\x1b_Ga=T"), ("sixel", "\x1bP0;1"), ("auto", "\x1b_Ga=T")] {
+        let mut viewer =
+            Viewer::start_in(Emulated::good(), &["--output", output], &[], (COLUMNS, ROWS));
+        viewer.session.type_in("13");
+        viewer.wait_for_picture("cells", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+        assert!(!text(&viewer.session.output()).contains(begins), "{output}");
+        viewer.quit();
+    }
+}
+
+#[test]
+fn auto_takes_the_pixels_that_there_are() {
+    let sixel =
+        [(CELL_PIXELS, "\x1b[6;16;8t"), (STATUS, "\x1b[0n"), (ATTRIBUTES, "\x1b[?62;4;22c")];
+    for (rules, begins) in [(&KITTY[..], "\x1b_Ga=T"), (&sixel[..], "\x1bP0;1;0q\"1;1;640;304")] {
+        let emulated = Emulated::with(rules);
+        let mut viewer = Viewer::start_in(emulated, &["--output", "auto"], &[], (COLUMNS, ROWS));
+        viewer.session.wait_for("pixels", |output| text(output).contains(begins).then_some(()));
+        viewer.session.type_in("q");
+        assert!(viewer.session.wait_for_end().success());
+        assert_eq!(viewer.session.left_behind(), [""; 0]);
+    }
+}
+
+/// `y` tells the command line of the view, and it is printed at the end: it draws what was seen.
+#[test]
+fn the_command_line_that_y_tells_draws_what_is_seen() {
+    for keys in ["lllk", "o+l", "-HK"] {
+        let mut viewer = Viewer::start();
+        viewer.session.type_in(keys);
+        viewer.session.wait_for_peace();
+        let seen = super::look::look(viewer.session.output().screen(), PICTURE_ROWS);
+        viewer.session.type_in("y");
+        viewer.session.wait_for("the line", |output| {
+            output.screen().contents().contains(" --eye ").then_some(())
+        });
+        viewer.session.type_in("yq");
+        assert!(viewer.session.wait_for_end().success());
+        let text = text(&viewer.session.output());
+        let line = text.rsplit("\x1b[?1049l").next().expect("the normal screen");
+        let line = line.lines().next().expect("a line").trim();
+        let words: Vec<&str> = line.split(' ').skip(2).collect();
+        assert_eq!(super::picture::once_with(&words, &VIEW, COLUMNS, PICTURE_ROWS), seen, "{line}");
+    }
+}
+
+/// `R` begins a recording, and ends it in a file that plays; where none can be written, that is one line, and 1.
+#[test]
+fn r_records() {
+    let folder = std::env::temp_dir().join(format!("spherule-cast-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let script = format!("cd {} && exec \"$0\" \"$@\"", folder.display());
+    let program = spherule();
+    let program = program.to_str().expect("text");
+    let record = |script: &str| {
+        let arguments = ["-c", script, program, "marbles", "--color", "truecolor"];
+        let mut session = Session::start("sh", &arguments, &[], (COLUMNS, ROWS));
+        session.wait_for("a frame", |output| {
+            last_row(output.screen()).contains("? help").then_some(())
+        });
+        session.type_in("R");
+        session.wait_for("a recording", |output| {
+            last_row(output.screen()).contains(" rec").then_some(())
+        });
+        session.type_in("l");
+        session.wait_for_peace();
+        session.type_in("l");
+        session.wait_for_peace();
+        session.type_in("R");
+        session.wait_for("its end", |output| {
+            output.screen().contents().contains("marbles-1.cast: ").then_some(())
+        });
+        session
+    };
+    let mut session = record(&script);
+    session.type_in("q");
+    assert!(session.wait_for_end().success());
+    let text = std::fs::read_to_string(folder.join("marbles-1.cast")).expect("a recording");
+    assert!(text.starts_with("{") && text.lines().count() > 3, "{text}");
+    std::fs::remove_dir_all(&folder).expect("it can be removed");
+    // A folder that is gone.
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let gone = format!("cd {0} && rmdir {0} && exec \"$0\" \"$@\"", folder.display());
+    let mut session = record(&gone);
+    session.type_in("q");
+    assert_eq!(session.wait_for_end().exit_code(), 1);
+    let shown = session.output().screen().contents();
+    assert_eq!(shown, "spherule: marbles-1.cast: no such file or directory");
+    assert_eq!(session.left_behind(), [""; 0]);
+}

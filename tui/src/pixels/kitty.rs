@@ -1,0 +1,138 @@
+//! Images by kitty's protocol: deflated pixels in pieces, behind the text.
+//!
+//! Every frame is an image of its own, one number after the other of two; the one before is removed when the next is
+//! there, so nothing flickers. Under tmux, which knows no images, they are wrapped for the terminal behind it, and
+//! shown where placeholders are, which are text to tmux.
+//!
+//! Source: kitty's "Terminal graphics protocol".
+
+use super::diacritics::mark;
+use crate::picture::Image;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use flate2::Compression;
+use flate2::write::ZlibEncoder;
+use std::fmt::Write as _;
+use std::io::Write as _;
+
+/// The numbers of our images: those of others are left alone. In 24 bits, as colours of placeholders have them.
+pub const NUMBERS: [u32; 2] = [0x53_5048, 0x53_5049];
+/// Bytes of a piece, encoded: no more is allowed.
+const PIECE: usize = 4096;
+/// Behind text, and behind the background of text that has one.
+const LAYER: i32 = i32::MIN / 2 - 1;
+/// Shows the part of an image that its marks and its colour name.
+const PLACEHOLDER: char = '\u{10EEEE}';
+
+/// Appends image `number` in so many columns and rows, and what removes the other one.
+pub(super) fn write(
+    image: &Image,
+    cells: (u16, u16),
+    number: u32,
+    through_tmux: bool,
+    out: &mut Vec<u8>,
+) {
+    let [even, odd] = NUMBERS;
+    if through_tmux {
+        // The same number: placeholders stay, whatever they show.
+        send(image, even, &format!("U=1,{},q=2", size(cells)), through_tmux, out);
+        placeholders(cells, even, out);
+        return;
+    }
+    let (own, other) = if number.is_multiple_of(2) { (even, odd) } else { (odd, even) };
+    out.extend_from_slice(b"\x1b[H");
+    // The first is answered: who is silent, or complains, has no such images.
+    let quiet = if number == 0 { 0 } else { 2 };
+    send(image, own, &format!("{},C=1,z={LAYER},q={quiet}", size(cells)), false, out);
+    if number > 0 {
+        command(&format!("a=d,d=I,i={other},q=2"), "", false, out);
+    }
+}
+
+/// Appends an image where the cursor is.
+pub(super) fn write_in_line(
+    image: &Image,
+    cells: (u16, u16),
+    through_tmux: bool,
+    out: &mut Vec<u8>,
+) {
+    if through_tmux {
+        send(image, NUMBERS[0], &format!("U=1,{},q=2", size(cells)), true, out);
+        for row in 0..cells.1 {
+            if row > 0 {
+                out.push(b'\n');
+            }
+            placeholder_row(cells.0, row, NUMBERS[0], out);
+        }
+    } else {
+        // Without a number, so that the next one leaves it where it is.
+        command_with_pixels(image, &format!("{},q=2", size(cells)), false, out);
+    }
+}
+
+/// Appends what removes both images and frees their memory.
+pub(super) fn remove(through_tmux: bool, out: &mut Vec<u8>) {
+    for number in NUMBERS {
+        command(&format!("a=d,d=I,i={number},q=2"), "", through_tmux, out);
+    }
+}
+
+fn size((columns, rows): (u16, u16)) -> String {
+    format!("c={columns},r={rows}")
+}
+
+fn send(image: &Image, number: u32, keys: &str, through_tmux: bool, out: &mut Vec<u8>) {
+    command_with_pixels(image, &format!("i={number},{keys}"), through_tmux, out);
+}
+
+fn command_with_pixels(image: &Image, keys: &str, through_tmux: bool, out: &mut Vec<u8>) {
+    let mut deflated = ZlibEncoder::new(Vec::new(), Compression::fast());
+    // A vector takes all there is.
+    let _ = deflated.write_all(&image.rgb);
+    let payload = STANDARD.encode(deflated.finish().unwrap_or_default());
+    let mut keys = format!("a=T,f=24,o=z,s={},v={},{keys},", image.width, image.height);
+    let mut pieces = payload.as_bytes().chunks(PIECE).peekable();
+    while let Some(piece) = pieces.next() {
+        let _ = write!(keys, "m={}", u8::from(pieces.peek().is_some()));
+        // Base64 is text.
+        command(&keys, str::from_utf8(piece).unwrap_or_default(), through_tmux, out);
+        keys.clear();
+    }
+}
+
+fn command(keys: &str, payload: &str, through_tmux: bool, out: &mut Vec<u8>) {
+    let separator = if payload.is_empty() { "" } else { ";" };
+    // tmux hands on what is in its string, where an escape is written twice.
+    let (begin, end) = if through_tmux {
+        ("\x1bPtmux;\x1b\x1b_G", "\x1b\x1b\\\x1b\\")
+    } else {
+        ("\x1b_G", "\x1b\\")
+    };
+    for part in [begin, keys, separator, payload, end] {
+        out.extend_from_slice(part.as_bytes());
+    }
+}
+
+/// Appends cells that show the image, from the top left on.
+fn placeholders((columns, rows): (u16, u16), number: u32, out: &mut Vec<u8>) {
+    for row in 0..rows {
+        out.extend_from_slice(format!("\x1b[{}H", row + 1).as_bytes());
+        placeholder_row(columns, row, number, out);
+    }
+}
+
+/// Appends a row of them; nothing past the last row that can be named.
+fn placeholder_row(columns: u16, row: u16, number: u32, out: &mut Vec<u8>) {
+    let (Some(mark_of_row), Some(mark_of_column)) = (mark(row), mark(0)) else { return };
+    let [_, red, green, blue] = number.to_be_bytes();
+    let mut text = format!("\x1b[38;2;{red};{green};{blue}m");
+    for column in 0..columns {
+        text.push(PLACEHOLDER);
+        // The next ones go on where the first one is.
+        if column == 0 {
+            text.extend([mark_of_row, mark_of_column]);
+        }
+    }
+    text += "\x1b[m";
+    out.extend_from_slice(text.as_bytes());
+}

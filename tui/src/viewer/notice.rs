@@ -1,0 +1,77 @@
+//! Words of the program, over the last rows of the picture until the next key.
+
+use super::Viewer;
+use super::command_line::command_line;
+use super::recording::Recording;
+use crate::cells::{CellGrid, Color};
+use crate::error::{Error, cause};
+use std::path::Path;
+use std::time::Instant;
+
+impl Viewer<'_> {
+    /// Tells the command line that shows what is seen now; it is printed at the end, too.
+    pub(super) fn tell_command_line(&mut self) {
+        let line = command_line(&self.scene_name, &self.state.shown.view);
+        if self.told.last() != Some(&line) {
+            self.told.push(line.clone());
+        }
+        self.notice = Some(line);
+    }
+
+    /// Begins a recording, or ends it and writes its file.
+    pub(super) fn record(&mut self) {
+        let now = Instant::now();
+        self.notice = Some(match self.recording.take() {
+            None if self.pixels.are_shown() => "no recording of pixels: --output cells".to_owned(),
+            None => {
+                self.recording = Some(Recording::new(now));
+                "recording: R ends it".to_owned()
+            }
+            Some(recording) => {
+                let stem = Path::new(&self.scene_name).file_stem().unwrap_or_default();
+                let stem = stem.to_string_lossy();
+                // Standard input is called `-`, which begins an option.
+                let name = if stem.starts_with('-') { "spherule" } else { &*stem };
+                match recording.write(name, now) {
+                    Ok((path, frames)) => format!("{}: {frames} frames", path.display()),
+                    Err((path, error)) => {
+                        let failure = format!("{}: {}", path.display(), cause(&error));
+                        self.failure = Some(Error::Running(failure.clone()));
+                        failure
+                    }
+                }
+            }
+        });
+        self.state.recording = self.recording.is_some();
+    }
+}
+
+/// Writes `text` over the last of the first `rows` rows, in as many as it needs.
+pub(super) fn write(cells: &mut CellGrid, rows: u16, text: &str) {
+    let columns = usize::from(cells.columns()).max(1);
+    let letters: Vec<char> =
+        format!(" {} ", text.escape_debug().collect::<String>().replace("\\'", "'"))
+            .chars()
+            .collect();
+    let lines: Vec<String> = letters.chunks(columns).map(|line| line.iter().collect()).collect();
+    let first = usize::from(rows).saturating_sub(lines.len());
+    for (row, line) in (first..usize::from(rows)).zip(lines) {
+        let Ok(row) = u16::try_from(row) else { return };
+        cells.write(0, row, &format!("{line:columns$}"), Color::Default, Color::Default);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_is_wrapped_over_the_last_rows() {
+        let mut cells = CellGrid::new(5, 4);
+        write(&mut cells, 3, "abcdefg");
+        let row = |row| cells.row(row).iter().map(|cell| cell.glyph).collect::<String>();
+        assert_eq!([row(0), row(1), row(2), row(3)], ["     ", " abcd", "efg  ", "     "]);
+        write(&mut CellGrid::new(1, 1), 1, "abc");
+        write(&mut CellGrid::new(0, 0), 0, "abc");
+    }
+}

@@ -1,0 +1,172 @@
+//! Frames in pixels, with text over them.
+
+use super::Viewer;
+use super::state::{Outcome, Shown};
+use crate::cells::{Cell, CellGrid, Color};
+use crate::choice::Auto;
+use crate::color::Srgb;
+use crate::draw::pixels::{PixelGrid, SAMPLES};
+use crate::draw::{Effort, Spending};
+use crate::error::Error;
+use crate::picture::Image;
+use crate::pixels::{Output, Protocol, kitty};
+use crate::structure::{Order, Structure};
+use crate::terminal::{Reply, Terminal, pixels_of_cell};
+
+/// Where the picture is seen, and no text: no glyph of any font.
+pub(super) const NO_TEXT: Cell = Cell { glyph: '\u{10FFFF}', ..Cell::BLANK };
+/// Pixels of a picture that the terminal enlarges, at most: more take longer than they are seen.
+const MOST_PIXELS: u32 = 2_500_000;
+/// Text over pixels, where the terminal has not told the colour behind it.
+const INK: Color = Color::Rgb([229; 3]);
+const PAPER: Color = Color::Rgb([0; 3]);
+
+/// Whether frames are pixels, and what of them the terminal has.
+#[derive(Debug)]
+pub(super) struct Pixels {
+    output: Output,
+    protocol: Auto<Protocol>,
+    /// How many images were sent.
+    sent: u32,
+    /// Whether one is on the screen.
+    is_shown: bool,
+    /// Whether the terminal has still to say that it has shown the first.
+    awaits_first: bool,
+}
+
+impl Pixels {
+    pub(super) fn new(output: Output, terminal: &Terminal) -> Self {
+        let protocol = output.protocol(terminal.abilities());
+        Self { output, protocol, sent: 0, is_shown: false, awaits_first: false }
+    }
+
+    /// Whether frames are pixels, where nothing is shown that is made of cells.
+    pub(super) fn are_shown(&self) -> bool {
+        self.protocol.is_some()
+    }
+}
+
+impl Viewer<'_> {
+    /// The protocol for what is shown now; what tiers get wrong is shown in cells.
+    pub(super) fn protocol(&self) -> Auto<Protocol> {
+        self.pixels.protocol.filter(|_| self.state.shown.comparison.is_none())
+    }
+
+    /// Falls back to cells where the terminal has told that it knows no such images, or has said nothing of the first.
+    pub(super) fn heed_image_reply(&mut self, reply: Reply) -> Outcome {
+        let has_failed = match reply {
+            Reply::Image(number, is_well) if kitty::NUMBERS.contains(&number) => {
+                self.pixels.awaits_first = false;
+                !is_well
+            }
+            // It has come past the image, without a word about it.
+            Reply::Status => self.pixels.awaits_first,
+            _ => false,
+        };
+        let abilities = self.terminal.abilities();
+        let is_denied = self.pixels.output.protocol(abilities).is_none();
+        if self.pixels.protocol.is_some() && (has_failed || is_denied) {
+            self.remove_images();
+            self.pixels.protocol = None;
+            self.say_no_pixels();
+            return Outcome::Changed;
+        }
+        Outcome::Unchanged
+    }
+
+    /// Where pixels were asked for by name and are not to be had, that is said.
+    pub(super) fn say_no_pixels(&mut self) {
+        let name = crate::choice::name(&self.pixels.output);
+        if self.pixels.protocol.is_none()
+            && !matches!(self.pixels.output, Output::Auto | Output::Cells)
+        {
+            self.notice = Some(format!("--output {name}: the terminal has none of these pixels"));
+        }
+    }
+
+    /// Draws the picture of the moment in pixels; how its rays found spheres, too.
+    pub(super) fn draw_image(
+        &mut self,
+        protocol: Protocol,
+        size: (u16, u16),
+        moving: bool,
+    ) -> Result<(Image, Effort, (Order, Structure)), Error> {
+        let Shown { view, style, structure, .. } = &self.state.shown;
+        let told = self.terminal.abilities().cell_pixels;
+        let mut cell = pixels_of_cell(told).unwrap_or_else(|| PixelGrid::usual_cell(style));
+        let area = u32::from(size.0) * u32::from(size.1);
+        // Sixels are not enlarged.
+        while protocol != Protocol::Sixel
+            && cell.0.min(cell.1) > 1
+            && area.saturating_mul(cell.0 * cell.1) > MOST_PIXELS
+        {
+            cell = (cell.0 / 2, cell.1 / 2);
+        }
+        let pixels = u64::from(area) * u64::from(cell.0 * cell.1);
+        let across = match self.pace.spending(moving) {
+            Spending::AtMost(most) if most < 4 * pixels => 1,
+            Spending::AtMost(_) => 2,
+            _ => SAMPLES,
+        };
+        let grid = PixelGrid::in_cells(view, style, size, cell, across);
+        let workload = grid.workload(self.scene.spheres().len());
+        let search = self.structures.picture(*structure, &workload, view, &self.scene.lighting)?;
+        let image = self.renderer.draw_image(self.scene, &search, style.accuracy, &grid);
+        let samples = pixels * u64::from(across * across);
+        let effort = Effort { samples, rays: samples, is_full: across == SAMPLES };
+        Ok((image, effort, (search.order(), search.structure)))
+    }
+
+    /// Appends the image if it is new or must be shown again, then the text that is over it: all of `cells` but their last
+    /// row, if that is not one of the `rows` of the picture.
+    pub(super) fn write_image(
+        &mut self,
+        protocol: Protocol,
+        (image, is_new): (&Image, bool),
+        cells: &mut CellGrid,
+        rows: u16,
+    ) {
+        let (ink, paper) = match self.terminal.abilities().background {
+            Some(Srgb(background)) => (Color::Default, Color::Rgb(background)),
+            None => (INK, PAPER),
+        };
+        let count = usize::from(rows) * usize::from(cells.columns());
+        for cell in cells.cells_mut().iter_mut().take(count) {
+            if *cell == NO_TEXT {
+                *cell = Cell::BLANK;
+                continue;
+            }
+            let or = |color, own| if color == Color::Default { own } else { color };
+            (cell.foreground, cell.background) =
+                (or(cell.foreground, ink), or(cell.background, paper));
+        }
+        let is_cleared = self.encoder.clear(cells.columns(), cells.rows(), &mut self.bytes);
+        // Where text was on the same layer, the image has a hole.
+        let has_hole = !protocol.has_layers()
+            && self.encoder.shown().is_some_and(|shown| {
+                let pairs = shown.cells().iter().zip(cells.cells()).take(count);
+                pairs.into_iter().any(|(shown, wanted)| *wanted == Cell::BLANK && shown != wanted)
+            });
+        if is_new || is_cleared || has_hole || !self.pixels.is_shown {
+            self.terminal.remove_when_leaving(protocol.removal());
+            protocol.write(image, (cells.columns(), rows), self.pixels.sent, &mut self.bytes);
+            // Who tells how far it has come has said a word about the image before that.
+            let is_told = self.asks_for_status();
+            self.pixels.awaits_first |= self.pixels.sent == 0 && protocol.has_layers() && is_told;
+            self.pixels.sent += 1;
+            self.pixels.is_shown = true;
+            if !protocol.has_layers() {
+                self.encoder.covered(rows, cells);
+            }
+        }
+    }
+
+    /// Appends what removes the image, if there is one, so that cells can be shown.
+    pub(super) fn remove_images(&mut self) {
+        if let Some(protocol) = self.pixels.protocol.filter(|_| self.pixels.is_shown) {
+            self.pending_removal.extend(protocol.removal());
+            self.pixels.is_shown = false;
+            self.encoder.forget();
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! What the viewer shows, recorded: kept until it ends, then written in one piece.
+
+use crate::cast::Cast;
+use crate::cells::CellGrid;
+use crate::encode::Economy;
+use std::fs::File;
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// A recording takes no more memory than this: then it ends by itself.
+const MOST_BYTES: usize = 256 << 20;
+/// More recordings of one scene lie in no folder.
+const MOST_NAMES: u32 = 10_000;
+
+/// A recording that goes on.
+#[derive(Debug)]
+pub(super) struct Recording {
+    cast: Cast,
+    since: Instant,
+    text: Vec<u8>,
+    frames: u32,
+}
+
+impl Recording {
+    /// Begins now.
+    pub(super) fn new(now: Instant) -> Self {
+        Self { cast: Cast::default(), since: now, text: Vec::new(), frames: 0 }
+    }
+
+    /// Takes note of what is shown from `now` on.
+    pub(super) fn frame(&mut self, cells: &CellGrid, now: Instant, economy: Economy) {
+        let seconds = (now - self.since).as_secs_f64();
+        // A vector takes all there is.
+        let _ = self.cast.frame(cells, seconds, economy, &mut self.text);
+        self.frames += 1;
+    }
+
+    /// Whether it is as long as it may be.
+    pub(super) fn is_full(&self) -> bool {
+        self.text.len() >= MOST_BYTES
+    }
+
+    /// Ends, and writes a file that is called `name` and a number, in this folder; returns what it is called, and how many
+    /// frames are in it.
+    ///
+    /// # Errors
+    /// What it would have been called, and why it cannot be written: there is no file then.
+    pub(super) fn write(
+        mut self,
+        name: &str,
+        now: Instant,
+    ) -> Result<(PathBuf, u32), (PathBuf, io::Error)> {
+        let seconds = (now - self.since).as_secs_f64();
+        let _ = self.cast.end(seconds, &mut self.text);
+        let mut number = 1;
+        let (path, mut file) = loop {
+            let path = PathBuf::from(format!("{name}-{number}.cast"));
+            match File::create_new(&path) {
+                Ok(file) => break (path, file),
+                Err(error)
+                    if error.kind() == io::ErrorKind::AlreadyExists && number < MOST_NAMES =>
+                {
+                    number += 1;
+                }
+                Err(error) => return Err((path, error)),
+            }
+        };
+        match file.write_all(&self.text).and_then(|()| file.sync_all()) {
+            Ok(()) => Ok((path, self.frames)),
+            Err(error) => {
+                let _ = std::fs::remove_file(&path);
+                Err((path, error))
+            }
+        }
+    }
+}
