@@ -19,7 +19,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let size = words.next().unwrap_or_else(|| "960x640".to_owned());
     let (width, height) = size.split_once('x').ok_or("WIDTHxHEIGHT")?;
     let cells = (width.parse::<u16>()? / 8, height.parse::<u16>()? / 16);
-    let threads = Threads::new(None)?;
+    let threads = Threads::new(None).expect("threads");
     println!("{} threads, medians of {frames} frames", threads.count());
     println!(
         "scene     rays a pixel  draw ms   kitty ms (MB)   sixel ms (MB)  iterm2 ms (MB)  frames a second by kitty"
@@ -38,7 +38,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             let (mut drawing, mut encoding, mut bytes) = (vec![], [vec![], vec![], vec![]], [0; 3]);
             for frame in 0..frames {
                 let view = view::orbited(&home, 0.02 * frame as f32, 0.0);
-                let search = structures.picture(None, &workload, &view, &scene.lighting)?;
+                let search = structures.picture(None, &workload, &view, &scene.lighting);
+                let search = search.expect("memory for a structure");
                 let start = Instant::now();
                 let grid = PixelGrid::in_cells(&view, &style, cells, (8, 16), across);
                 let image = renderer.draw_image(&scene, &search, style.accuracy, &grid);

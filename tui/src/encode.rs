@@ -245,8 +245,10 @@ impl Update {
 
     /// Writes `cell`, or what looks alike; returns what the terminal shows then.
     fn write(&mut self, cell: &Cell, out: &mut Vec<u8>) -> Cell {
-        let like = self.tolerance.without_ink(cell);
-        let sent = self.pen.nearest_form(&like, self.tolerance);
+        // Without ink, and then in the pen's colour, it may be too far in two steps that are not.
+        let inkless = self.pen.nearest_form(&self.tolerance.without_ink(cell), self.tolerance);
+        let is_near = look_same(&inkless, cell) || self.tolerance.lets_stay(&inkless, cell);
+        let sent = if is_near { inkless } else { self.pen.nearest_form(cell, self.tolerance) };
         self.pen.take_up(&sent, out);
         push_glyph(sent.glyph, out);
         self.note(cell, sent)
