@@ -89,7 +89,7 @@ fn cost(grids: &[CellGrid], tolerance: f32) -> Result<Cost, Box<dyn Error>> {
         times.push(time);
         is_exact &= encoder.is_exact();
         // Some of the frames: a picture takes longer to judge than to draw.
-        if frame % 8 == 0 {
+        if frame.is_multiple_of(8) {
             let shown = encoder.shown().ok_or("nothing is shown")?;
             squares.push(mean_square(&pixels(shown)?, &pixels(grid)?));
         }
