@@ -134,7 +134,8 @@ fn it_ends_with_its_terminal() {
     let mut reader = pair.master.try_clone_reader().expect("output can be read");
     let mut sent = Vec::new();
     let mut bytes = [0; 4096];
-    while !sent.ends_with(b"\x1b[?2026l") {
+    // The end of the status line: a terminal that answers nothing gets no brackets.
+    while !sent.windows(6).any(|bytes| bytes == b"q quit") {
         let count = reader.read(&mut bytes).expect("the program writes");
         sent.extend_from_slice(&bytes[..count]);
     }

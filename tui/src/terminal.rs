@@ -44,6 +44,8 @@ pub struct Terminal {
     open_questions: u32,
 }
 
+/// How long answers are waited for when the terminal is given back. Who is asked is known to answer.
+const LAST_WORDS: Duration = Duration::from_millis(500);
 /// Asks how far the terminal has come (DSR 5): it answers when it has taken everything before.
 const ASK_STATUS: &[u8] = b"\x1b[5n";
 
@@ -154,11 +156,27 @@ impl Terminal {
     ///
     /// # Errors
     /// If the group cannot be stopped.
-    pub fn suspend(&self) -> io::Result<()> {
+    pub fn suspend(&mut self) -> io::Result<()> {
+        self.take_open_answers();
         screen::leave();
         // SIGTSTP sent to oneself is dropped where the group is orphaned; SIGSTOP never is.
         rustix::process::kill_current_process_group(rustix::process::Signal::STOP)?;
         Ok(())
+    }
+
+    /// Waits for the answers that are on their way: they would come to whoever has the terminal next, who would take them
+    /// for keys.
+    fn take_open_answers(&mut self) {
+        let deadline = Instant::now() + LAST_WORDS;
+        while self.open_questions > 0 {
+            let left = deadline.saturating_duration_since(Instant::now());
+            match self.input.next(Some(left)) {
+                Ok(Some(Incoming::Reply(reply))) => self.learn(reply),
+                Ok(Some(Incoming::User(_))) => {}
+                Ok(None) | Err(_) => break,
+            }
+        }
+        self.open_questions = 0;
     }
 
     /// Whether the screen was taken again since the last call: nothing drawn before is on it.
@@ -170,6 +188,7 @@ impl Terminal {
 
 impl Drop for Terminal {
     fn drop(&mut self) {
+        self.take_open_answers();
         screen::restore();
     }
 }
