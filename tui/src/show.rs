@@ -54,7 +54,8 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     let in_viewer = is_terminal && !at_once && !surroundings.is_dumb();
     let threads = Threads::new(arguments.computing.threads)?;
     // From here on every error is told by `main`, after the terminal was given back.
-    let terminal = in_viewer.then(|| Terminal::enter(!arguments.no_probe)).transpose();
+    let has_color = surroundings.depth(arguments.color) != ColorDepth::Never;
+    let terminal = in_viewer.then(|| Terminal::enter(!arguments.no_probe, has_color)).transpose();
     let terminal = terminal.map_err(|error| lost(&error))?;
     let abilities =
         terminal.as_ref().map_or_else(Abilities::default, |terminal| *terminal.abilities());

@@ -50,12 +50,12 @@ const LAST_WORDS: Duration = Duration::from_millis(500);
 const ASK_STATUS: &[u8] = b"\x1b[5n";
 
 impl Terminal {
-    /// Takes the terminal, and asks it what it can do, if it may be asked: at most a fifth of a second is waited for the
+    /// Takes the terminal, and asks it what it can do, if it may be asked, about colours if there is any: at most a fifth of a second is waited for the
     /// answers.
     ///
     /// # Errors
     /// If there is no terminal to read keys from, or it does not do what it is told.
-    pub fn enter(may_ask: bool) -> io::Result<Self> {
+    pub fn enter(may_ask: bool, has_color: bool) -> io::Result<Self> {
         signals::watch()?;
         restore_before_panic_message();
         let mut this = Self {
@@ -66,14 +66,17 @@ impl Terminal {
         };
         screen::enter()?;
         if may_ask {
-            this.ask()?;
+            this.ask(has_color)?;
         }
         Ok(this)
     }
 
-    fn ask(&mut self) -> io::Result<()> {
+    fn ask(&mut self, has_color: bool) -> io::Result<()> {
         self.input.await_answers(true);
-        screen::show(&questions(&env::var_os("TERM").unwrap_or_default().to_string_lossy()))?;
+        screen::show(&questions(
+            &env::var_os("TERM").unwrap_or_default().to_string_lossy(),
+            has_color,
+        ))?;
         let deadline = Instant::now() + PATIENCE;
         while !self.abilities.has_answered {
             let left = deadline.saturating_duration_since(Instant::now());

@@ -4,7 +4,7 @@ use super::frame;
 use super::stations::{STATIONS, Station, Turn};
 use crate::encode::Encoder;
 use crate::error::Error;
-use crate::style::Style;
+use crate::style::{ColorDepth, Style};
 use crate::terminal::{Incoming, LONGEST_BACKLOG, Terminal, Wish, lost, wish};
 use crossterm::event::{Event, KeyCode};
 use std::io;
@@ -61,7 +61,8 @@ impl Walk {
 /// # Errors
 /// [`Error::Running`] if there is no terminal to read keys from, or it goes away.
 pub(super) fn walk(index: usize, style: Style) -> Result<(), Error> {
-    let mut terminal = Terminal::enter(true).map_err(|error| lost(&error))?;
+    let mut terminal =
+        Terminal::enter(true, style.depth != ColorDepth::Never).map_err(|error| lost(&error))?;
     let mut walk = Walk::new(index);
     let mut encoder = Encoder::new();
     loop {

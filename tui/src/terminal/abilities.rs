@@ -49,18 +49,19 @@ impl Abilities {
     }
 }
 
-/// The questions, for a terminal called `term`.
+/// The questions, for a terminal called `term`; without colour, not that for colours, which sets one.
 ///
 /// The console of Linux gets those alone that it answers: old ones show the letters of strings that they do not know.
-pub(super) fn questions(term: &str) -> Vec<u8> {
+pub(super) fn questions(term: &str, has_color: bool) -> Vec<u8> {
     const LAST: &str = "\x1b[5n\x1b[c";
     if term == "linux" {
         return LAST.into();
     }
     let [red, green, blue] = RARE_COLOR;
+    let pen = format!("\x1b[48;2;{red};{green};{blue}m\x1bP$qm\x1b\\\x1b[m");
+    let pen = if has_color { &*pen } else { "" };
     format!(
-        "\x1b[48;2;{red};{green};{blue}m\x1bP$qm\x1b\\\x1b[m\
-         \x1b[?2026$p\x1b[16t\x1b]11;?\x1b\\\
+        "{pen}\x1b[?2026$p\x1b[16t\x1b]11;?\x1b\\\
          \x1b_Gi={ASKED_IMAGE},s=1,v=1,a=q,t=d,f=24;AAAA\x1b\\{LAST}"
     )
     .into()
@@ -87,7 +88,7 @@ mod tests {
     #[test]
     fn the_questions_leave_the_pen_alone_and_end_with_the_one_that_all_answer() {
         for term in ["xterm-256color", "linux"] {
-            let questions = String::from_utf8(questions(term)).expect("UTF-8");
+            let questions = String::from_utf8(questions(term, true)).expect("UTF-8");
             assert!(questions.ends_with("\x1b[c"), "{questions:?}");
             assert_eq!(questions.contains("48;2;"), questions.contains("\x1b[m"));
             assert!(term != "linux" || !questions.contains(['P', ']', '_', '$']));
