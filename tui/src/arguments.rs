@@ -5,6 +5,8 @@ mod values;
 use crate::cells::eye::CHAIR;
 use crate::choice::{Auto, auto_or};
 use crate::color::Srgb;
+use crate::coloring::ColorBy;
+use crate::coloring::scale::Range;
 use crate::compare::Comparison;
 use crate::error::Error;
 use crate::lecture::stations::station;
@@ -12,14 +14,17 @@ use crate::palette::Theme;
 use crate::scene::Scene;
 use crate::scene::builtin::DEFAULT;
 use crate::scene::open::{Format, open};
+use crate::scene::radii::{RadiusBy, set_radii};
 use crate::structure::{Order, Structure};
-use crate::style::Charset;
+use crate::style::{Aids, Charset};
 use crate::terminal::color_depth::ColorChoice;
 use crate::threads::MOST_THREADS;
 use crate::view::{LensKind, View, with_projection};
 use clap::error::ErrorKind;
 use clap::parser::ValueSource;
-use clap::{ArgMatches, Args, CommandFactory, FromArgMatches, Parser, Subcommand, value_parser};
+use clap::{
+    ArgMatches, Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum, value_parser,
+};
 use spherule_kernel::{Level, Tier};
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -95,6 +100,9 @@ pub struct PictureArguments {
     /// every tier takes and gets wrong
     #[arg(long, value_name = "WHAT", value_parser = overlay, conflicts_with = "png")]
     pub show: Option<Overlay>,
+    /// What tells spheres of a crowd apart.
+    #[command(flatten)]
+    pub crowd: CrowdArguments,
     /// How it is computed.
     #[command(flatten)]
     pub computing: ComputingArguments,
@@ -134,6 +142,64 @@ impl Overlay {
     }
 }
 
+/// On, or off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Switch {
+    /// Shown
+    On,
+    /// Not shown
+    Off,
+}
+
+/// What tells spheres of a crowd apart.
+#[derive(Args, Clone, Debug)]
+pub struct CrowdArguments {
+    /// What spheres are coloured by: scene, element, chain, residue, molecule, type, or a column of numbers [default:
+    /// chain if there are several, else scene]
+    #[arg(long, value_name = "WHAT")]
+    pub color_by: Option<ColorBy>,
+    /// The numbers with the darkest and the lightest colour, with --color-by a column [default: the least and the
+    /// largest]
+    #[arg(long, value_name = "LOW:HIGH", requires = "color_by", allow_hyphen_values = true)]
+    pub range: Option<Range>,
+    /// Write what colours mean over the picture, also outside the viewer
+    #[arg(long, conflicts_with_all = ["png", "pick"])]
+    pub legend: bool,
+    /// Less light where others are in the way; auto: if there are several chains
+    #[arg(long, value_name = "WHEN", default_value = "auto", value_parser = auto_or::<Switch>())]
+    #[arg(num_args = 0..=1, require_equals = true, default_missing_value = "on")]
+    pub occlusion: Auto<Switch>,
+    /// Dark edges before what is far behind, and around chains; auto: if there are several chains
+    #[arg(long, value_name = "WHEN", default_value = "auto", value_parser = auto_or::<Switch>())]
+    #[arg(num_args = 0..=1, require_equals = true, default_missing_value = "on")]
+    pub edges: Auto<Switch>,
+    /// What is far away fades; auto: if there are several chains
+    #[arg(long, value_name = "WHEN", default_value = "auto", value_parser = auto_or::<Switch>())]
+    #[arg(num_args = 0..=1, require_equals = true, default_missing_value = "on")]
+    pub depth_cue: Auto<Switch>,
+}
+
+impl CrowdArguments {
+    /// What a scene is coloured by.
+    #[must_use]
+    pub fn color_by(&self, scene: &Scene) -> ColorBy {
+        self.color_by.clone().unwrap_or_else(|| ColorBy::usual(scene.attributes()))
+    }
+
+    /// The aids of its pictures.
+    #[must_use]
+    pub fn aids(&self, scene: &Scene) -> Aids {
+        let usual = Aids::usual(scene);
+        let is_on =
+            |switch: Auto<Switch>, usual: bool| switch.map_or(usual, |switch| switch == Switch::On);
+        Aids {
+            occlusion: is_on(self.occlusion, usual.occlusion),
+            edges: is_on(self.edges, usual.edges),
+            depth_cue: is_on(self.depth_cue, usual.depth_cue),
+        }
+    }
+}
+
 /// A scene, and the rays of a picture of it.
 #[derive(Args, Clone, Debug)]
 pub struct SceneArguments {
@@ -155,6 +221,9 @@ pub struct SceneArguments {
     /// Format of the scene [default: by name; of standard input by its first line]
     #[arg(long, value_name = "FORMAT")]
     pub format: Option<Format>,
+    /// How large spheres are: van-der-waals, covalent, a number, or a column of numbers [default: as the scene says]
+    #[arg(long, value_name = "WHAT", allow_hyphen_values = true)]
+    pub radius: Option<RadiusBy>,
 }
 
 impl SceneArguments {
@@ -163,7 +232,13 @@ impl SceneArguments {
     /// # Errors
     /// [`Error::Input`] if there is no such scene, or it cannot be read.
     pub fn open(&self) -> Result<Scene, Error> {
-        open(&self.name, self.format).map_err(|error| Error::Input(error.to_string()))
+        let scene = open(&self.name, self.format);
+        let mut scene = scene.map_err(|error| Error::Input(error.to_string()))?;
+        if let Some(radius) = &self.radius {
+            let set = set_radii(&mut scene, radius);
+            set.map_err(|error| Error::Input(format!("{}: {error}", self.name)))?;
+        }
+        Ok(scene)
     }
 
     /// Where the scene is first seen from, in a picture of `aspect`, width over height.

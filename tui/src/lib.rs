@@ -5,6 +5,7 @@ pub mod arguments;
 pub mod cells;
 pub mod choice;
 pub mod color;
+pub mod coloring;
 pub mod compare;
 pub mod draw;
 pub mod encode;

@@ -7,6 +7,7 @@ pub mod framing;
 mod lighting;
 mod lines;
 pub mod open;
+pub mod radii;
 mod read_error;
 pub mod toml;
 pub mod xyz;
@@ -80,6 +81,14 @@ impl Scene {
     #[must_use]
     pub fn colors(&self) -> &[Srgb] {
         &self.colors
+    }
+
+    /// Sets the radii, one a sphere.
+    pub fn resize_spheres(&mut self, radii: &[f32]) {
+        let spheres = self.list.spheres();
+        let resized =
+            spheres.iter().zip(radii).map(|(sphere, &radius)| Sphere { radius, ..sphere });
+        self.list = Arc::new(resized.collect());
     }
 
     /// Sets the colours, one a sphere: those that are chosen by attributes.

@@ -3,6 +3,7 @@
 mod once;
 
 use crate::arguments::{ComputingArguments, Overlay, PictureArguments};
+use crate::coloring::coloring;
 use crate::compare::Comparison;
 use crate::draw::pixels::PixelGrid;
 use crate::draw::{Renderer, picture_workload};
@@ -48,12 +49,20 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     if let Some(background) = arguments.background.filter(|_| !scene.names_background) {
         scene.background = background;
     }
+    let crowd = &arguments.crowd;
+    let color_by = crowd.color_by(&scene);
+    let colored = coloring(&scene, &color_by, crowd.range);
+    let colored =
+        colored.map_err(|error| Error::Input(format!("{}: {error}", arguments.scene.name)))?;
     // The viewer's table is measured by a thread that nobody waits for: it shares the scene.
-    let scene = Arc::new(scene);
     let is_terminal = std::io::stdout().is_terminal();
     let surroundings = Surroundings::of_process(is_terminal);
     let at_once = arguments.once || arguments.png.is_some() || arguments.pick.is_some();
     let in_viewer = is_terminal && !at_once && !surroundings.is_dumb();
+    if let Some(colors) = colored.colors.filter(|_| !in_viewer) {
+        scene.set_colors(colors);
+    }
+    let scene = Arc::new(scene);
     let depth = surroundings.depth(arguments.color);
     let on_terminal = || {
         let (columns, rows) = terminal::size().ok().filter(|&size| is_usable(size))?;
@@ -77,6 +86,7 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
             .or_else(|| terminal_aspect().filter(|_| is_terminal))
             .unwrap_or(Style::PLAIN.cell_aspect),
         distance: arguments.distance,
+        aids: arguments.crowd.aids(&scene),
     };
     let view = arguments.scene.view(&scene, style.picture_aspect(columns, rows));
     let ComputingArguments { structure, threads, level } = arguments.computing;
@@ -84,6 +94,7 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     let mut renderer = Renderer::new(level.unwrap_or_else(Level::best), &threads);
     let mut structures =
         SceneStructures::new(scene.list(), &threads).in_order(arguments.scene.order);
+    structures.set_aids(style.aids);
     if let Some(file) = &arguments.png {
         if is_terminal && file == Path::new("-") {
             return Err(Error::Input("--png -: standard output is a terminal".to_owned()));
@@ -96,8 +107,10 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     if in_viewer {
         let comparison = arguments.show.and_then(Overlay::comparison);
         let table = arguments.show == Some(Overlay::Table);
-        let start = viewer::Start { view, style, structure, comparison, table };
-        return viewer::run(&scene, structures, start, renderer);
+        let start =
+            viewer::Start { view, style, structure, comparison, table, legend: crowd.legend };
+        let colors = (&color_by, crowd.range);
+        return viewer::run(scene, colors, structures, start, renderer);
     }
     let ray = arguments.pick.map(|cell| ray_of_pick(&view, &style, (columns, rows), cell));
     let ray = ray.transpose()?;
@@ -111,7 +124,7 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     }
     let once = Once { scene: &scene, view, style, size: (columns, rows), is_terminal };
     match arguments.show {
-        None => once.picture(&mut renderer, &search),
+        None => once.picture(&mut renderer, &search, colored.legend.filter(|_| crowd.legend)),
         Some(Overlay::Tiers(Comparison::Errors)) => once.errors(&renderer, &search),
         Some(Overlay::Tiers(Comparison::Split(tiers))) => once.split(tiers, &mut renderer, &search),
         Some(Overlay::Table) => {

@@ -4,6 +4,7 @@
 //! not late ones. A frame of a movement gets no more samples than there is time for; when it is over, a full one
 //! follows. Then nothing is drawn and nothing is sent, but how far a measurement is.
 
+mod colors;
 mod frame;
 mod hand;
 mod help;
@@ -17,6 +18,8 @@ mod status;
 mod table;
 
 use crate::choice::Auto;
+use crate::coloring::ColorBy;
+use crate::coloring::scale::Range;
 use crate::compare::Comparison;
 use crate::compare::error_map::ErrorMapper;
 use crate::compare::split::Times;
@@ -30,6 +33,7 @@ use crate::structure::scene::SceneStructures;
 use crate::style::Style;
 use crate::terminal::{LONGEST_BACKLOG, Terminal, lost};
 use crate::view::View;
+use colors::Colors;
 use frame::Picture;
 use meter::Meter;
 use pace::Pace;
@@ -62,27 +66,32 @@ pub struct Start {
     pub comparison: Option<Comparison>,
     /// Whether there is a table of what every tier takes and gets wrong.
     pub table: bool,
+    /// Whether it is said what colours mean.
+    pub legend: bool,
 }
 
-/// Shows `scene` on the terminal, from `start` on, drawn by `renderer` with the chosen one of its
+/// Shows `scene`, which has its own colours, on the terminal, coloured by something and from `start` on, drawn by `renderer` with the chosen one of its
 /// `structures`, until the user quits.
 ///
 /// # Errors
 /// [`Error::Running`] if there is no terminal to read keys from, or it goes away, or there is no
 /// memory for a structure.
 pub fn run(
-    scene: &Arc<Scene>,
+    scene: Arc<Scene>,
+    (color_by, range): (&ColorBy, Option<Range>),
     structures: SceneStructures<'_>,
     start: Start,
     renderer: Renderer<'_>,
 ) -> Result<(), Error> {
     let rate = if env::var_os("SSH_CONNECTION").is_some() { REMOTE_RATE } else { LOCAL_RATE };
     let interval = Duration::from_secs(1) / rate;
+    let colors = Colors::new(&scene, color_by, range);
     let mut viewer = Viewer {
         scene,
         structures,
         terminal: Terminal::enter().map_err(|error| lost(&error))?,
-        state: State::new(start),
+        state: State::new(start, colors.start()),
+        colors,
         renderer,
         mapper: ErrorMapper::default(),
         times: Times::default(),
@@ -123,7 +132,8 @@ fn picture_rows(rows: u16) -> u16 {
 }
 
 struct Viewer<'a> {
-    scene: &'a Arc<Scene>,
+    scene: Arc<Scene>,
+    colors: Colors,
     structures: SceneStructures<'a>,
     terminal: Terminal,
     state: State,

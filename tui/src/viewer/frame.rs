@@ -83,14 +83,16 @@ impl Viewer<'_> {
 
     /// Draws the picture of the moment.
     fn draw(&mut self, size: (u16, u16), moving: bool) -> Result<Picture, Error> {
+        self.colors.show(&mut self.scene, self.state.shown.coloring);
         let Shown { view, style, structure, comparison, .. } = &self.state.shown;
+        self.structures.set_aids(style.aids);
         let (count, lighting) = (self.scene.spheres().len(), &self.scene.lighting);
         let workload = picture_workload(count, style, size.0, size.1, f64::INFINITY);
         let search = self.structures.picture(*structure, &workload, view, lighting)?;
-        let (scene, spending) = ((&**self.scene, &search), self.pace.spending(moving));
+        let (scene, spending) = ((&*self.scene, &search), self.pace.spending(moving));
         let started = Instant::now();
         let drawn = match comparison {
-            None => self.renderer.draw(self.scene, &search, view, style, size, spending),
+            None => self.renderer.draw(&self.scene, &search, view, style, size, spending),
             Some(Comparison::Split(tiers)) => {
                 let split = Split { tiers: *tiers, seam: self.state.seam() };
                 let SplitPicture { mut drawn, ns_a_ray } =
@@ -126,7 +128,7 @@ impl Viewer<'_> {
     ) -> Result<(), Error> {
         if self.state.shown.table {
             let means = || Means {
-                scene: Arc::clone(self.scene),
+                scene: Arc::clone(&self.scene),
                 style: self.state.shown.style,
                 tree: self.structures.tree(),
                 order: self.structures.order(),
@@ -144,6 +146,9 @@ impl Viewer<'_> {
             let lines = pick.map(|pick| report::lines(&pick, printable)).unwrap_or_default();
             picking::write(cells, rows, cursor, &lines);
         }
+        if let Some(legend) = self.colors.legend.as_ref().filter(|_| self.state.shown.legend) {
+            legend.write(cells, rows, &self.state.shown.style);
+        }
         if self.state.shown.help {
             help::write(cells, rows);
         }
@@ -160,6 +165,6 @@ impl Viewer<'_> {
         let search = self.structures.picture(*structure, &workload, view, lighting)?;
         let ray = cell_ray(view, style, size, (cursor.column, cursor.row));
         let level = self.renderer.machine().0;
-        Ok(ray.map(|ray| Pick::new(self.scene, &search, level, ray)))
+        Ok(ray.map(|ray| Pick::new(&self.scene, &search, level, ray)))
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::cells::{CellGrid, Color};
 
-const LINES: [&str; 24] = [
+const LINES: [&str; 27] = [
     "                                         ",
     "  arrows, h j k l, drag   around          ",
     "  H J K L, right drag     along the picture ",
@@ -22,6 +22,9 @@ const LINES: [&str; 24] = [
     "  c                       ascii, half, quadrant, sextant, ",
     "                          octant, braille, block ",
     "  s                       auto, brute, depth-list, bvh ",
+    "                                         ",
+    "  C, g                    what colours are by, what they mean ",
+    "  a, E, d                 occlusion, edges, depth cue ",
     "                                         ",
     "  ?                       this            ",
     "  Ctrl-Z                  stop, fg goes on",

@@ -55,6 +55,9 @@ pub(super) struct Shown {
     /// Between two tiers.
     pub(super) seam: Seam,
     pub(super) help: bool,
+    /// Which of the things to colour by, and whether it is said what colours mean.
+    pub(super) coloring: usize,
+    pub(super) legend: bool,
     pub(super) spinning: bool,
     /// Whether there is a table of what every tier takes and gets wrong; then no cell is picked.
     pub(super) table: bool,
@@ -65,7 +68,7 @@ pub(super) struct Shown {
 impl Shown {
     /// What the picture itself depends on.
     pub(super) fn pictured(&self) -> Self {
-        Self { help: false, spinning: false, table: false, cursor: None, ..*self }
+        Self { help: false, legend: false, spinning: false, table: false, cursor: None, ..*self }
     }
 }
 
@@ -79,10 +82,14 @@ pub(super) struct State {
     pulls_seam: bool,
     /// Columns and rows of the picture: a drag over all rows is half a turn.
     size: (u16, u16),
+    /// How many things there are to colour by.
+    colorings: usize,
 }
 
 impl State {
-    pub(super) fn new(Start { view, style, structure, comparison, table }: Start) -> Self {
+    /// With so many things to colour by, first by one of them.
+    pub(super) fn new(start: Start, (coloring, colorings): (usize, usize)) -> Self {
+        let Start { view, style, structure, comparison, table, legend } = start;
         let shown = Shown {
             view,
             style,
@@ -90,11 +97,20 @@ impl State {
             comparison,
             seam: Seam::default(),
             help: false,
+            coloring,
+            legend,
             spinning: false,
             table,
             cursor: None,
         };
-        Self { home: view, shown, hand: Hand::default(), pulls_seam: false, size: (1, 1) }
+        Self {
+            home: view,
+            shown,
+            hand: Hand::default(),
+            pulls_seam: false,
+            size: (1, 1),
+            colorings,
+        }
     }
 
     /// Tells the size of the picture.
@@ -143,8 +159,19 @@ impl State {
 
     pub(super) fn apply(&mut self, input: Input) -> Outcome {
         let before = self.shown;
-        let Shown { view, style, structure, comparison, help, spinning, table, cursor, .. } =
-            &mut self.shown;
+        let Shown {
+            view,
+            style,
+            structure,
+            comparison,
+            help,
+            spinning,
+            table,
+            cursor,
+            coloring,
+            legend,
+            ..
+        } = &mut self.shown;
         match input {
             Input::Quit => return Outcome::Quit,
             Input::Escape if *help => *help = false,
@@ -215,6 +242,11 @@ impl State {
             Input::Charset => {
                 style.charset = next(Some(style.charset)).unwrap_or(Charset::Ascii);
             }
+            Input::Occlusion => style.aids.occlusion = !style.aids.occlusion,
+            Input::Edges => style.aids.edges = !style.aids.edges,
+            Input::DepthCue => style.aids.depth_cue = !style.aids.depth_cue,
+            Input::Coloring => *coloring = (*coloring + 1) % self.colorings.max(1),
+            Input::Legend => *legend = !*legend,
             Input::Structure => *structure = next(*structure),
             Input::Spin => *spinning = !*spinning,
             Input::Reset => (*view, *spinning) = (self.home, false),
