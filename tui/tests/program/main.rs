@@ -3,6 +3,7 @@
 
 mod bad_input;
 mod cargo;
+mod crowd;
 mod lecture;
 mod light;
 mod orders;
