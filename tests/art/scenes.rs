@@ -4,7 +4,7 @@
 //! cargo test -p spherule-tests -- --ignored pin_scenes
 //! ```
 
-use spherule::scene::open::open;
+use spherule::scene::open;
 use spherule_tests::art::scenes::KEPT;
 use std::fs;
 
@@ -13,7 +13,7 @@ fn scenes_are_as_made() {
     for (kept, spheres) in KEPT.iter().zip([301, 3000]) {
         let text = fs::read_to_string(kept.path()).expect("a file");
         assert!(text == (kept.text)(), "{} is not as it is made", kept.name);
-        let scene = open(&kept.path(), None).expect("a scene");
+        let scene = open::scene(&kept.path()).expect("a scene");
         assert_eq!(scene.spheres().len(), spheres, "{}", kept.name);
     }
 }

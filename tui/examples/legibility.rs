@@ -25,7 +25,7 @@ use spherule::structure::scene::SceneStructures;
 use spherule::style::{Charset, ColorDepth, Style};
 use spherule::threads::Threads;
 use spherule::view::View;
-use spherule_kernel::{Exact, HitPacket, Intersect, Level, RayPacket, SphereTree, Trace, Vec3};
+use spherule_kernel::{Exact, HitPacket, Intersect, Level, RayPacket, SphereList, SphereTree, Trace, Vec3};
 use std::error::Error;
 
 const SIZE: (u16, u16) = (120, 40);
@@ -57,7 +57,7 @@ struct Legibility {
 fn legibility(arguments: &Arguments) -> Result<Legibility, Box<dyn Error>> {
     let said = |error: spherule::error::Error| format!("{error:?}");
     let picture = &arguments.picture;
-    let mut scene = picture.scene.open().map_err(said)?;
+    let mut scene = picture.scene.open().map_err(said)?.scene;
     let by = picture.crowd.color_by(&scene);
     if let Some(colors) = coloring(&scene, &by, picture.crowd.range)?.colors {
         scene.set_colors(colors);
@@ -146,7 +146,7 @@ fn truth(
         (0..width * height).map(|at| camera.get_ray(at % width, at / width)).collect();
     let packets: Vec<_> = rays.chunks(RayPacket::COUNT).map(RayPacket::<[f32; 16]>::new).collect();
     let mut hits = vec![HitPacket::none(); packets.len()];
-    let tree = SphereTree::new(scene.spheres().iter());
+    let tree = SphereTree::new(scene.spheres().iter().collect::<SphereList>());
     tree.closest_hit_packets(Exact, &mut Trace::new(), &packets, &mut hits);
     let chains = scene.attributes().names(Naming::Chain);
     let shown = |index: usize, depth| {

@@ -1,5 +1,6 @@
 //! The command line.
 
+pub mod files;
 mod values;
 
 use crate::cells::eye::CHAIR;
@@ -13,7 +14,6 @@ use crate::lecture::stations::station;
 use crate::palette::Theme;
 use crate::scene::Scene;
 use crate::scene::builtin::DEFAULT;
-use crate::scene::open::{Format, open};
 use crate::scene::radii::{RadiusBy, set_radii};
 use crate::structure::{Order, Structure};
 use crate::style::{Aids, Charset};
@@ -25,6 +25,7 @@ use clap::parser::ValueSource;
 use clap::{
     ArgMatches, Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum, value_parser,
 };
+use files::{FileArguments, Subject};
 use spherule_kernel::{Level, Tier};
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -203,7 +204,7 @@ impl CrowdArguments {
 /// A scene, and the rays of a picture of it.
 #[derive(Args, Clone, Debug)]
 pub struct SceneArguments {
-    /// A built-in scene, a file (.toml, .xyz), or - for standard input
+    /// A built-in scene, a file, or - for standard input; --format lists the formats that are told by content
     #[arg(value_name = "SCENE", default_value = DEFAULT)]
     pub name: String,
     /// Picture size in cells, each 1 to 4096 [default: 80x24; on a terminal all rows but the last]
@@ -218,27 +219,32 @@ pub struct SceneArguments {
     /// Which loop is the outer one, over rays or spheres; with object there is no --structure
     #[arg(long, value_name = "ORDER", default_value = "image")]
     pub order: Order,
-    /// Format of the scene [default: by name; of standard input by its first line]
-    #[arg(long, value_name = "FORMAT")]
-    pub format: Option<Format>,
+    /// What is to know of a file.
+    #[command(flatten)]
+    pub file: FileArguments,
     /// How large spheres are: van-der-waals, covalent, a number, or a column of numbers [default: as the scene says]
     #[arg(long, value_name = "WHAT", allow_hyphen_values = true)]
     pub radius: Option<RadiusBy>,
 }
 
 impl SceneArguments {
-    /// The scene.
+    /// The scene, and what follows it.
     ///
     /// # Errors
     /// [`Error::Input`] if there is no such scene, or it cannot be read.
-    pub fn open(&self) -> Result<Scene, Error> {
-        let scene = open(&self.name, self.format);
-        let mut scene = scene.map_err(|error| Error::Input(error.to_string()))?;
-        if let Some(radius) = &self.radius {
-            let set = set_radii(&mut scene, radius);
-            set.map_err(|error| Error::Input(format!("{}: {error}", self.name)))?;
-        }
-        Ok(scene)
+    pub fn open(&self) -> Result<Subject, Error> {
+        let mut subject = self.file.open(&self.name)?;
+        let set = self.set_radii(&mut subject.scene);
+        set.map_err(|error| Error::Input(format!("{}: {error}", self.name)))?;
+        Ok(subject)
+    }
+
+    /// Gives a scene the radii that are asked for.
+    ///
+    /// # Errors
+    /// If it does not have them.
+    pub fn set_radii(&self, scene: &mut Scene) -> Result<(), String> {
+        self.radius.as_ref().map_or(Ok(()), |radius| set_radii(scene, radius))
     }
 
     /// Where the scene is first seen from, in a picture of `aspect`, width over height.

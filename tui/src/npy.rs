@@ -2,7 +2,7 @@
 //! does not make: a header may lie about its own length and about the array's.
 
 use crate::error::{Error, cause};
-use npyz::{DType, NpyFile, NpyHeader, Order, Serialize, WriteOptions, WriterBuilder};
+use npyz::{DType, NpyHeader, Order, Serialize, WriteOptions, WriterBuilder};
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Read, Write};
 use std::path::Path;
@@ -13,7 +13,152 @@ const LONGEST_HEADER: usize = 1024;
 /// The most digits in a header: of so many the product of the shape cannot overflow.
 const MOST_DIGITS: usize = 19;
 
-/// The rows of a little-endian `float32` array in C order with `N` columns.
+/// An array of rows, whose header has been read.
+#[derive(Clone, Copy, Debug)]
+pub struct Array {
+    rows: u64,
+    width: u64,
+    /// Bytes a number: 4 or 8.
+    size: usize,
+    is_big_endian: bool,
+    is_fortran: bool,
+}
+
+/// Rows that are read at once.
+const BLOCK: usize = 1 << 14;
+
+/// More columns than that nobody means.
+const MOST_COLUMNS: u64 = 64;
+
+impl Array {
+    /// Reads the header of an array of two dimensions: `f4` or `f8`, of either byte order, in C or Fortran order.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn of(reader: &mut impl Read) -> Result<Self, String> {
+        let header = read_header(reader)?;
+        let dtype = header.dtype().descr();
+        let (order, size) = match dtype.as_str() {
+            "'<f4'" => (false, 4),
+            "'>f4'" => (true, 4),
+            "'<f8'" => (false, 8),
+            "'>f8'" => (true, 8),
+            _ => return Err(format!("dtype {dtype}, not float32 or float64")),
+        };
+        let &[rows, width] = header.shape() else {
+            return Err(format!("shape {:?}: not of two dimensions", header.shape()));
+        };
+        if width > MOST_COLUMNS {
+            return Err(format!("shape ({rows}, {width}): more than {MOST_COLUMNS} columns"));
+        }
+        let is_fortran = header.order() == Order::Fortran;
+        Ok(Self { rows, width, size, is_big_endian: order, is_fortran })
+    }
+
+    /// Rows and columns.
+    #[must_use]
+    pub fn shape(&self) -> (u64, u64) {
+        (self.rows, self.width)
+    }
+
+    /// Calls `row` with the index and the numbers of every row, each rounded to single precision.
+    ///
+    /// In C order rows are read as they come; in Fortran order a copy is made. Memory grows with the file, not with
+    /// what its header claims.
+    ///
+    /// # Errors
+    /// What `row` says, or that there are fewer bytes than the header claims, or more.
+    pub fn each(
+        &self,
+        reader: &mut impl Read,
+        mut row: impl FnMut(usize, &[f32]) -> Result<(), String>,
+    ) -> Result<(), String> {
+        let width = self.width as usize;
+        let total = self.rows.checked_mul(self.width * self.size as u64);
+        let total =
+            total.ok_or_else(|| format!("{} rows are more than any file has", self.rows))?;
+        let fewer = || {
+            let shape = format!("({}, {})", self.rows, self.width);
+            format!("fewer bytes than the {total} of its shape {shape}")
+        };
+        let mut numbers = Vec::new();
+        if self.is_fortran {
+            let mut columns: Vec<Vec<f32>> = Vec::new();
+            for _ in 0..width {
+                let mut column = Vec::new();
+                self.blocks(reader, self.rows, &mut numbers, fewer, |block| {
+                    column.extend_from_slice(block);
+                    Ok(())
+                })?;
+                columns.push(column);
+            }
+            let mut one = vec![0.0; width];
+            for index in 0..self.rows as usize {
+                for (value, column) in one.iter_mut().zip(&columns) {
+                    *value = column[index];
+                }
+                row(index, &one)?;
+            }
+        } else {
+            let mut index = 0;
+            self.blocks(reader, self.rows * self.width, &mut numbers, fewer, |block| {
+                for one in block.chunks_exact(width) {
+                    row(index, one)?;
+                    index += 1;
+                }
+                Ok(())
+            })?;
+        }
+        match reader.take(1).read_to_end(&mut Vec::new()) {
+            Ok(0) => Ok(()),
+            Ok(_) => {
+                let shape = format!("({}, {})", self.rows, self.width);
+                Err(format!("more bytes than the {total} of its shape {shape}"))
+            }
+            Err(error) => Err(cause(&error)),
+        }
+    }
+
+    /// So many numbers, in blocks of whole rows.
+    fn blocks(
+        &self,
+        reader: &mut impl Read,
+        count: u64,
+        numbers: &mut Vec<f32>,
+        fewer: impl Fn() -> String,
+        mut block: impl FnMut(&[f32]) -> Result<(), String>,
+    ) -> Result<(), String> {
+        let most = BLOCK as u64 * self.width;
+        let (mut left, mut bytes) = (count, Vec::new());
+        while left > 0 {
+            let now = left.min(most);
+            left -= now;
+            let length = now as usize * self.size;
+            bytes.clear();
+            let read = reader.take(length as u64).read_to_end(&mut bytes);
+            if read.map_err(|error| cause(&error))? < length {
+                return Err(fewer());
+            }
+            numbers.clear();
+            let four = |bytes: &[u8; 4]| match self.is_big_endian {
+                true => f32::from_be_bytes(*bytes),
+                false => f32::from_le_bytes(*bytes),
+            };
+            let eight = |bytes: &[u8; 8]| match self.is_big_endian {
+                true => f64::from_be_bytes(*bytes) as f32,
+                false => f64::from_le_bytes(*bytes) as f32,
+            };
+            match self.size {
+                4 => numbers.extend(bytes.as_chunks().0.iter().map(four)),
+                _ => numbers.extend(bytes.as_chunks().0.iter().map(eight)),
+            }
+            block(numbers)?;
+        }
+        Ok(())
+    }
+}
+
+/// The rows of an array of `float32` or `float64` with `N` columns, rounded to `f32`.
 ///
 /// Memory grows with the file, not with what its header claims.
 ///
@@ -22,37 +167,20 @@ const MOST_DIGITS: usize = 19;
 pub fn read_rows<const N: usize>(path: &Path) -> Result<Vec<[f32; N]>, Error> {
     let name = path.display();
     let wrong = |what: String| Error::Input(format!("{name}: {what}"));
-    let failed = |error: io::Error| wrong(cause(&error));
-    let mut reader = BufReader::new(File::open(path).map_err(failed)?);
-
-    let header = read_header(&mut reader).map_err(wrong)?;
-    let dtype = header.dtype().descr();
-    if dtype != "'<f4'" {
-        return Err(wrong(format!("dtype {dtype}, not '<f4' (little-endian float32)")));
-    }
-    if header.order() != Order::C {
-        return Err(wrong("in Fortran order, not in C order".to_owned()));
-    }
-    let &[rows, width] = header.shape() else {
-        return Err(wrong(format!("shape {:?}, not (N, {N})", header.shape())));
-    };
+    let file = File::open(path).map_err(|error| wrong(cause(&error)))?;
+    let mut reader = BufReader::new(file);
+    let array = Array::of(&mut reader).map_err(wrong)?;
+    let (rows, width) = array.shape();
     if width != N as u64 {
         return Err(wrong(format!("shape ({rows}, {width}), not (N, {N})")));
     }
-
-    // Read what is there, at most a byte more than announced.
-    let length = rows.checked_mul(4 * N as u64).filter(|&length| length < u64::MAX);
-    let length = length.ok_or_else(|| wrong(format!("{rows} rows are more than any file has")))?;
-    let mut bytes = Vec::new();
-    reader.take(length + 1).read_to_end(&mut bytes).map_err(failed)?;
-    if bytes.len() as u64 != length {
-        let relation = if (bytes.len() as u64) < length { "fewer" } else { "more" };
-        let what = format!("{relation} bytes than the {length} of its shape ({rows}, {N})");
-        return Err(wrong(what));
-    }
-    let values: Vec<f32> =
-        NpyFile::with_header(header, bytes.as_slice()).into_vec().map_err(failed)?;
-    Ok(values.as_chunks().0.to_vec())
+    let mut values = Vec::new();
+    let read = array.each(&mut reader, |_, row| {
+        values.extend(<[f32; N]>::try_from(row));
+        Ok(())
+    });
+    read.map_err(wrong)?;
+    Ok(values)
 }
 
 /// Writes a one-dimensional array of the type that numpy calls `dtype`.
@@ -99,7 +227,7 @@ fn read_header(reader: &mut impl Read) -> Result<NpyHeader, String> {
     take(length, &mut bytes)?;
     let size = bytes[8..].iter().rev().fold(0, |size, &byte| size << 8 | usize::from(byte));
     if size > LONGEST_HEADER {
-        return Err(format!("a header of {size} bytes is none of a plain float32 array"));
+        return Err(format!("a header of {size} bytes is none of a plain array of numbers"));
     }
     take(size, &mut bytes)?;
     let text = &bytes[8 + digits..];

@@ -20,12 +20,23 @@ impl Progress {
         Self { on_terminal, from: Instant::now() + wait, shown: None }
     }
 
+    /// Shows at once what is being done, of which nobody knows how much is.
+    #[must_use]
+    pub fn say(doing: &str) -> Self {
+        let mut progress = Self::after(Duration::ZERO);
+        progress.write(format!("{doing} ..."));
+        progress
+    }
+
     /// Shows what is being done and how much of it is, from 0 to 1.
     pub fn show(&mut self, doing: &str, share: f64) {
+        self.write(format!("{doing}: {:3.0} %", 100.0 * share));
+    }
+
+    fn write(&mut self, text: String) {
         if !self.on_terminal || Instant::now() < self.from {
             return;
         }
-        let text = format!("{doing}: {:3.0} %", 100.0 * share);
         if self.shown.as_ref() != Some(&text) {
             // If it cannot be shown, what is done still comes.
             let _ = write!(io::stderr(), "\r{text}\x1b[K");

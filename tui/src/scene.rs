@@ -3,15 +3,20 @@
 pub mod attributes;
 pub mod builtin;
 pub mod elements;
+mod format;
+pub mod frames;
 pub mod framing;
+mod input;
 mod lighting;
-mod lines;
+mod notes;
+mod number;
 pub mod open;
+mod particles;
 pub mod radii;
 mod read_error;
 pub mod toml;
-pub mod xyz;
 
+pub use format::Format;
 pub use lighting::{Light, Lighting, Source};
 pub use read_error::ReadError;
 
@@ -53,6 +58,12 @@ impl Scene {
     #[must_use]
     pub fn of_spheres(list: SphereList, colors: Vec<Srgb>, attributes: Attributes) -> Self {
         Self { list: Arc::new(list), colors, attributes, ..Self::default() }
+    }
+
+    /// The same particles, as many spheres elsewhere.
+    #[must_use]
+    pub fn moved(&self, list: SphereList) -> Self {
+        Self { list: Arc::new(list), ..self.clone() }
     }
 
     /// Adds a sphere after the others. Without attributes: they are a file's.

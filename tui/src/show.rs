@@ -1,8 +1,11 @@
 //! One picture, or the viewer: what `spherule [SCENE]` does.
 
 mod once;
+mod still;
 
+use crate::arguments::files::Subject;
 use crate::arguments::{ComputingArguments, Overlay, PictureArguments};
+use crate::color::Srgb;
 use crate::coloring::coloring;
 use crate::compare::Comparison;
 use crate::draw::pixels::PixelGrid;
@@ -13,6 +16,7 @@ use crate::pick::report::Report;
 use crate::pick::{Pick, cell_ray};
 use crate::progress::Progress;
 use crate::scene::Scene;
+use crate::scene::frames::Frames;
 use crate::structure::scene::{PictureSearch, SceneStructures};
 use crate::style::{Charset, ColorDepth, PIPE_SIZE, Style};
 use crate::terminal::color_depth::Surroundings;
@@ -20,6 +24,7 @@ use crate::terminal::locale::is_without_unicode;
 use crate::threads::Threads;
 use crate::tradeoff::Question;
 use crate::view::View;
+use crate::viewer::film::Film;
 use crate::{png_file, scene, viewer};
 use crossterm::terminal;
 use once::Once;
@@ -29,6 +34,7 @@ use std::ops::RangeInclusive;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
+use still::Still;
 
 /// The widest cell and the narrowest that a terminal is believed to have.
 const LIKELY_ASPECTS: RangeInclusive<f32> = 0.2..=2.0;
@@ -45,10 +51,9 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         // What is wrong is what differs from exact.
         check_floats(Tier::Exact)?;
     }
-    let mut scene = arguments.scene.open()?;
-    if let Some(background) = arguments.background.filter(|_| !scene.names_background) {
-        scene.background = background;
-    }
+    let Subject { mut scene, frame, frames } = arguments.scene.open()?;
+    let background = arguments.background;
+    paint_background(&mut scene, background);
     let crowd = &arguments.crowd;
     let color_by = crowd.color_by(&scene);
     let colored = coloring(&scene, &color_by, crowd.range);
@@ -57,7 +62,11 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     // The viewer's table is measured by a thread that nobody waits for: it shares the scene.
     let is_terminal = std::io::stdout().is_terminal();
     let surroundings = Surroundings::of_process(is_terminal);
-    let at_once = arguments.once || arguments.png.is_some() || arguments.pick.is_some();
+    let of_frames = arguments.scene.file.frames.clone();
+    let at_once = arguments.once
+        || arguments.png.is_some()
+        || arguments.pick.is_some()
+        || of_frames.is_some();
     let in_viewer = is_terminal && !at_once && !surroundings.is_dumb();
     if let Some(colors) = colored.colors.filter(|_| !in_viewer) {
         scene.set_colors(colors);
@@ -110,7 +119,21 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         let start =
             viewer::Start { view, style, structure, comparison, table, legend: crowd.legend };
         let colors = (&color_by, crowd.range);
-        return viewer::run(scene, colors, structures, start, renderer);
+        if scene.spheres().len() >= MANY {
+            // Before the terminal is taken: then Ctrl-C ends it at once.
+            let _progress = Progress::say("building");
+            let workload =
+                picture_workload(scene.spheres().len(), &style, columns, rows, f64::INFINITY);
+            structures.picture(structure, &workload, &view, &scene.lighting)?;
+        }
+        let asked = arguments.scene.clone();
+        let prepare = move |scene: &mut Scene| {
+            paint_background(scene, background);
+            // What a frame does not have, it goes without.
+            let _ = asked.set_radii(scene);
+        };
+        let film = frames.map(|frames| Film::new(frames, frame, prepare));
+        return viewer::run(scene, colors, structures, start, renderer, film.transpose()?);
     }
     let ray = arguments.pick.map(|cell| ray_of_pick(&view, &style, (columns, rows), cell));
     let ray = ray.transpose()?;
@@ -124,7 +147,23 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     }
     let once = Once { scene: &scene, view, style, size: (columns, rows), is_terminal };
     match arguments.show {
-        None => once.picture(&mut renderer, &search, colored.legend.filter(|_| crowd.legend)),
+        None => {
+            once.picture(&mut renderer, &search, colored.legend.filter(|_| crowd.legend))?;
+            let prepared = |mut scene: Scene| {
+                paint_background(&mut scene, background);
+                // What a frame does not have, it goes without.
+                let _ = arguments.scene.set_radii(&mut scene);
+                let colored = coloring(&scene, &color_by, crowd.range).ok();
+                if let Some(colors) = colored.and_then(|colored| colored.colors) {
+                    scene.set_colors(colors);
+                }
+                scene
+            };
+            let Some(mut frames) = frames else { return Ok(()) };
+            let Some(range) = of_frames else { return say_more(&mut frames, frame) };
+            let still = Still { view, style, structure, size: (columns, rows), is_terminal };
+            still.pictures(&mut renderer, structures, &mut frames, frame + 1..range.end, prepared)
+        }
         Some(Overlay::Tiers(Comparison::Errors)) => once.errors(&renderer, &search),
         Some(Overlay::Tiers(Comparison::Split(tiers))) => once.split(tiers, &mut renderer, &search),
         Some(Overlay::Table) => {
@@ -134,6 +173,26 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
                 Question { scene: &scene, view, style, size: (columns, rows), structure, machine };
             once.table(cells, &question, &mut structures)
         }
+    }
+}
+
+/// So many spheres take a while to build a tree over.
+const MANY: usize = 1_000_000;
+
+/// Says that there are frames that are not shown.
+fn say_more(frames: &mut Frames, frame: usize) -> Result<(), Error> {
+    // What comes behind the picture does not make it wrong.
+    if !frames.follows() && frames.has(frame + 1).unwrap_or(false) {
+        frames.note(format!("frame {frame} is shown; there are more: --frame N, --frames A..B"));
+        frames.report();
+    }
+    Ok(())
+}
+
+/// Gives a scene that names no background the user's.
+fn paint_background(scene: &mut Scene, background: Option<Srgb>) {
+    if let Some(background) = background.filter(|_| !scene.names_background) {
+        scene.background = background;
     }
 }
 

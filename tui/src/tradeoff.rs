@@ -54,7 +54,7 @@ pub struct Question<'a> {
 /// # Errors
 /// [`Error`] if there is no such scene, or the report cannot be written.
 pub fn tradeoff(arguments: &TradeoffArguments) -> Result<(), Error> {
-    let scene = arguments.scene.open()?;
+    let scene = arguments.scene.open()?.scene;
     let ComputingArguments { structure, threads, level } = arguments.computing;
     let threads = Threads::new(threads)?;
     let (columns, rows) = arguments.scene.size.unwrap_or(PIPE_SIZE);

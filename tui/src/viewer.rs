@@ -5,6 +5,7 @@
 //! follows. Then nothing is drawn and nothing is sent, but how far a measurement is.
 
 mod colors;
+pub mod film;
 mod frame;
 mod hand;
 mod help;
@@ -34,6 +35,7 @@ use crate::style::Style;
 use crate::terminal::{LONGEST_BACKLOG, Terminal, lost};
 use crate::view::View;
 use colors::Colors;
+use film::Film;
 use frame::Picture;
 use meter::Meter;
 use pace::Pace;
@@ -82,12 +84,14 @@ pub fn run(
     structures: SceneStructures<'_>,
     start: Start,
     renderer: Renderer<'_>,
+    film: Option<Film>,
 ) -> Result<(), Error> {
     let rate = if env::var_os("SSH_CONNECTION").is_some() { REMOTE_RATE } else { LOCAL_RATE };
     let interval = Duration::from_secs(1) / rate;
     let colors = Colors::new(&scene, color_by, range);
     let mut viewer = Viewer {
         scene,
+        film,
         structures,
         terminal: Terminal::enter().map_err(|error| lost(&error))?,
         state: State::new(start, colors.start()),
@@ -107,12 +111,14 @@ pub fn run(
     let mut last_frame: Option<Instant> = None;
     let mut stale = true;
     loop {
-        let wait = viewer.wait(stale, last_frame);
+        let film = viewer.film.as_ref().and_then(Film::wait);
+        let wait = viewer.wait(stale, last_frame).into_iter().chain(film).min();
         match viewer.take_input(wait)? {
             Outcome::Quit => return Ok(()),
             Outcome::Changed => stale = true,
             Outcome::Unchanged => {}
         }
+        stale |= viewer.go_on();
         if viewer.wait(stale, last_frame) == Some(Duration::ZERO) {
             let now = Instant::now();
             let moving = stale || viewer.state.shown.spinning;
@@ -134,6 +140,8 @@ fn picture_rows(rows: u16) -> u16 {
 struct Viewer<'a> {
     scene: Arc<Scene>,
     colors: Colors,
+    /// Its file, if it may have more frames.
+    film: Option<Film>,
     structures: SceneStructures<'a>,
     terminal: Terminal,
     state: State,
@@ -191,6 +199,14 @@ impl Viewer<'_> {
                         outcome = outcome.and(self.state.frame(sphere));
                     }
                 }
+                Some(keys::Input::Spin) if self.plays() => {
+                    self.film.iter_mut().for_each(Film::play);
+                    outcome = outcome.and(Outcome::Changed);
+                }
+                Some(keys::Input::Step(forward)) if self.film.is_some() => {
+                    self.film.iter_mut().for_each(|film| film.step(forward));
+                    outcome = outcome.and(Outcome::Changed);
+                }
                 Some(input) => outcome = outcome.and(self.state.apply(input)),
                 None => {}
             }
@@ -203,6 +219,22 @@ impl Viewer<'_> {
             outcome = outcome.and(Outcome::Changed);
         }
         Ok(outcome)
+    }
+
+    /// Whether there is something to play.
+    fn plays(&self) -> bool {
+        self.film.as_ref().is_some_and(Film::has_more)
+    }
+
+    /// Goes on to the next frame of the file, if it is time and it is there.
+    fn go_on(&mut self) -> bool {
+        let Some(scene) = self.film.as_mut().and_then(Film::next) else { return false };
+        self.structures.go_on(scene.list());
+        self.scene = scene;
+        self.colors.begin_anew();
+        // It is of another scene.
+        self.picture = None;
+        true
     }
 
     /// Asks the terminal for its size, which may be without a cell.

@@ -6,7 +6,7 @@ use spherule::draw::{Renderer, Spending, picture_workload};
 use spherule::encode;
 use spherule::scene::Scene;
 use spherule::scene::builtin::builtin;
-use spherule::scene::open::open;
+use spherule::scene::open;
 use spherule::structure::scene::SceneStructures;
 use spherule::style::Style;
 use spherule::threads::Threads;
@@ -30,7 +30,7 @@ impl Subject {
     pub(crate) fn open(name: &'static str) -> Result<Self, Box<dyn Error>> {
         let kept = KEPT.iter().find(|kept| kept.name == name);
         let scene = match kept {
-            Some(kept) => open(&kept.path(), None).map_err(|error| error.to_string())?,
+            Some(kept) => open::scene(&kept.path()).map_err(|error| error.to_string())?,
             None => builtin(name).ok_or("no such scene")?,
         };
         let home = scene.first_view(Style::PLAIN.picture_aspect(SIZE.0, SIZE.1) as f32);

@@ -44,7 +44,7 @@ fn every_option_is_read() {
     assert_eq!(arguments.charset, Some(Charset::Half));
     assert_eq!(arguments.color, ColorChoice::Ansi256);
     assert_eq!(arguments.scene.projection, Some(LensKind::Parallel));
-    assert_eq!(arguments.scene.format, Some(Format::Xyz));
+    assert_eq!(arguments.scene.file.format, Some(crate::scene::Format::Xyz));
     assert_eq!(arguments.cell_aspect, Some(0.75));
     assert_eq!(arguments.background, Some(Srgb([0xff, 0xee, 0xdd])));
     assert_eq!(picture("--background FFeedd").background, arguments.background);

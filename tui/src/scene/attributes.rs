@@ -33,7 +33,7 @@ impl Naming {
 /// A column of numbers that the file has a name for.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NumberColumn {
-    /// The name in the file: `charge`, `b_factor`, `phot_g_mean_mag`.
+    /// The name in the file: charge, b_factor, a magnitude.
     pub name: Box<str>,
     /// One a sphere; NaN where there is none.
     pub values: Vec<f32>,
@@ -47,7 +47,7 @@ pub struct Attributes {
     /// The numbers of residues in their chains.
     pub residue_numbers: Option<Vec<i32>>,
     /// Names, in the order of [`Naming::ALL`].
-    names: [Option<Names>; Naming::ALL.len()],
+    pub(super) names: [Option<Names>; Naming::ALL.len()],
     /// Other numbers.
     pub columns: Vec<NumberColumn>,
     /// Whether the file names a colour for every sphere, or a radius.

@@ -1,6 +1,6 @@
 //! The scenes that come with the program.
 
-use super::{Light, Lighting, ReadError, Scene, Source, toml, xyz};
+use super::{Light, Lighting, ReadError, Scene, Source, open::read, toml};
 use crate::color::Srgb;
 use crate::view::{Lens, View};
 use spherule_kernel::{Sphere, Vec3};
@@ -82,7 +82,11 @@ fn far() -> Scene {
 }
 
 fn caffeine() -> Scene {
-    expect(xyz::read(include_bytes!("../../scenes/caffeine.xyz").as_slice(), "caffeine.xyz"))
+    expect(read(
+        Box::new(include_bytes!("../../scenes/caffeine.xyz").as_slice()),
+        "caffeine.xyz",
+        None,
+    ))
 }
 
 fn of_toml(text: &str) -> Scene {

@@ -19,6 +19,8 @@ use std::sync::LazyLock;
 /// An element of the periodic table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Element {
+    /// The atomic number.
+    pub number: u8,
     /// `H`, `He` and so on.
     pub symbol: &'static str,
     /// The van der Waals radius in angstrom.
@@ -47,14 +49,15 @@ pub fn of_number(number: usize) -> Option<Element> {
 
 /// By atomic number, from 1.
 static ELEMENTS: LazyLock<Vec<Element>> = LazyLock::new(|| {
-    let element = |line: &'static str| {
+    let element = |(index, line): (usize, &'static str)| {
         let mut words = line.split_whitespace();
+        let number = u8::try_from(index + 1).ok()?;
         let symbol = words.next()?;
         let (radius, covalent_radius) = (words.next()?.parse().ok()?, words.next()?.parse().ok()?);
         let color = words.next()?.parse().ok()?;
-        Some(Element { symbol, radius, covalent_radius, color })
+        Some(Element { number, symbol, radius, covalent_radius, color })
     };
-    include_str!("elements.txt").lines().filter_map(element).collect()
+    include_str!("elements.txt").lines().enumerate().filter_map(element).collect()
 });
 
 #[cfg(test)]

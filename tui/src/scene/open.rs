@@ -1,42 +1,59 @@
 //! From the name of a scene to the scene: built in, a file, or standard input.
 
+use super::format::{Context, recognise};
+use super::frames::Frames;
+use super::input::Input;
+use super::notes::Notes;
 use super::read_error::ReadError;
-use super::{Scene, builtin, lines, toml, xyz};
+use super::{Format, Scene, builtin};
 use crate::error::cause;
 use clap::ValueEnum;
 use std::fs::File;
-use std::io::{self, BufRead, BufReader, Read};
+use std::io::{self, Read};
 use std::path::Path;
+use std::sync::Arc;
 
-/// The formats that scenes are read from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Format {
-    /// Spheres, lights and a camera, as in the README
-    Toml,
-    /// A molecule
-    Xyz,
+/// What is asked of a file besides its name.
+#[derive(Clone, Debug, Default)]
+pub struct Reading {
+    /// The format, whatever the file looks like.
+    pub format: Option<Format>,
+    /// The columns of a table, with commas.
+    pub columns: Option<String>,
+    /// The file that says what the particles of a trajectory are.
+    pub topology: Option<String>,
+    /// Whether particles of unknown types are an error.
+    pub strict: bool,
+    /// Whether more may be written to the file.
+    pub follow: bool,
 }
 
-/// The longest TOML text, in bytes: some half a million spheres.
-const LONGEST_TOML: u64 = 64 << 20;
+/// What a name stands for.
+#[derive(Debug)]
+pub enum Opened {
+    /// A built-in scene.
+    Builtin(Scene),
+    /// A file, or standard input.
+    File(Frames),
+}
 
-/// Opens the scene called `name`: a built-in one, a file (its format told by its ending), or for
-/// `-` standard input. `format` overrides what the name or the first line tells.
+/// Opens what is called `name`: a built-in scene, a file, or for `-` standard input. What a file is, its content tells,
+/// unless `reading` does.
 ///
 /// # Errors
 /// [`ReadError`] if there is no such scene, or it cannot be read.
-pub fn open(name: &str, format: Option<Format>) -> Result<Scene, ReadError> {
+pub fn open(name: &str, reading: &Reading) -> Result<Opened, ReadError> {
     if name == "-" {
-        return read(io::stdin().lock(), "-", format);
+        return frames(Input::of_reader(Box::new(io::stdin()), "-")?, reading).map(Opened::File);
     }
     if let Some(scene) = builtin::builtin(name) {
-        return Ok(scene);
+        return Ok(Opened::Builtin(scene));
     }
     let file = match File::open(name) {
         Ok(file) => file,
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
             return match builtin::shipped_file(name) {
-                Some(scene) => Ok(scene),
+                Some(scene) => Ok(Opened::Builtin(scene)),
                 None if is_plain_word(name) => {
                     Err(ReadError::whole(name, "no such scene, built in or in a file"))
                 }
@@ -45,53 +62,87 @@ pub fn open(name: &str, format: Option<Format>) -> Result<Scene, ReadError> {
         }
         Err(error) => return Err(ReadError::whole(name, cause(&error))),
     };
-    if file.metadata().is_ok_and(|metadata| metadata.is_dir()) {
+    let metadata = file.metadata().map_err(|error| ReadError::whole(name, cause(&error)))?;
+    if metadata.is_dir() {
         return Err(ReadError::whole(name, "is a directory"));
     }
-    match format.or_else(|| format_of(name)) {
-        Some(format) => read(BufReader::new(file), name, Some(format)),
-        None => Err(ReadError::whole(name, "of no known format: .toml, .xyz, or say --format")),
+    let input = if metadata.is_file() {
+        Input::of_file(file, name.into(), name)?
+    } else {
+        Input::of_reader(Box::new(file), name)?
+    };
+    frames(input, reading).map(Opened::File)
+}
+
+/// The scene called `name`: of a file its first frame.
+///
+/// # Errors
+/// As [`open`].
+pub fn scene(name: &str) -> Result<Scene, ReadError> {
+    match open(name, &Reading::default())? {
+        Opened::Builtin(scene) => Ok(scene),
+        Opened::File(frames) => first(frames),
     }
 }
 
-/// Reads a scene; without a format, one whose first line is an integer is XYZ, else TOML.
+/// Reads the first frame of `reader`.
 ///
 /// # Errors
 /// [`ReadError`] if it is none.
 pub fn read(
-    mut reader: impl BufRead,
+    reader: Box<dyn Read + Send>,
     source: &str,
     format: Option<Format>,
 ) -> Result<Scene, ReadError> {
-    let mut first = Vec::new();
-    let format = match format {
+    let reading = Reading { format, ..Reading::default() };
+    first(frames(Input::of_reader(reader, source)?, &reading)?)
+}
+
+fn first(mut frames: Frames) -> Result<Scene, ReadError> {
+    let source = frames.source().to_owned();
+    frames.read(0)?.ok_or_else(|| ReadError::whole(&source, "no particles"))
+}
+
+fn frames(mut input: Input, reading: &Reading) -> Result<Frames, ReadError> {
+    let format = match reading.format {
         Some(format) => format,
-        None => {
-            let mut limited = reader.by_ref().take(lines::LONGEST_LINE);
-            let line = limited.read_until(b'\n', &mut first);
-            line.map_err(|error| ReadError::whole(source, cause(&error)))?;
-            let line = String::from_utf8_lossy(&first);
-            let line = line.trim_start_matches('\u{feff}').trim();
-            if line.parse::<i128>().is_ok() { Format::Xyz } else { Format::Toml }
-        }
+        None => format_of(&mut input)?,
     };
-    let mut reader = first.chain(reader);
-    match format {
-        Format::Xyz => xyz::read(reader, source),
-        Format::Toml => {
-            let mut bytes = Vec::new();
-            let read = reader.by_ref().take(LONGEST_TOML + 1).read_to_end(&mut bytes);
-            read.map_err(|error| ReadError::whole(source, cause(&error)))?;
-            if bytes.len() as u64 > LONGEST_TOML {
-                return Err(ReadError::whole(source, "a scene of more than 64 MiB"));
-            }
-            let text = std::str::from_utf8(&bytes).map_err(|error| {
-                let line = bytes[..error.valid_up_to()].split(|&byte| byte == b'\n').count();
-                ReadError { line: Some(line), ..ReadError::whole(source, "no UTF-8 text") }
-            })?;
-            toml::read(text, source)
+    let topology = match &reading.topology {
+        None => None,
+        Some(name) if format != Format::Xtc => {
+            let what = format!(
+                "--topology {name}: for .xtc; this file says itself what its particles are"
+            );
+            return Err(ReadError::whole(input.source(), what));
         }
+        Some(name) => Some(Arc::new(scene(name)?)),
+    };
+    let columns = reading.columns.clone();
+    if columns.is_some() && format != Format::Csv {
+        return Err(ReadError::whole(input.source(), "--columns: for tables; this file is none"));
     }
+    let notes = Notes::new(reading.strict);
+    let context = Context { columns, topology, notes, mmcif: None };
+    Ok(Frames::new(input, format, context, reading.follow))
+}
+
+/// What the content tells, or else the name.
+fn format_of(input: &mut Input) -> Result<Format, ReadError> {
+    let source = input.source().to_owned();
+    let head = input.head()?;
+    if head.is_empty() {
+        return Err(ReadError::whole(&source, "the file is empty"));
+    }
+    recognise(head).or_else(|what| {
+        let known = || {
+            ending(&source).ok_or_else(|| {
+                let hint = if what == "of no known format" { "; --format names one" } else { "" };
+                ReadError::whole(&source, format!("{what}{hint}"))
+            })
+        };
+        known()
+    })
 }
 
 fn is_plain_word(name: &str) -> bool {
@@ -99,50 +150,9 @@ fn is_plain_word(name: &str) -> bool {
     path.extension().is_none() && path.components().count() == 1
 }
 
-fn format_of(name: &str) -> Option<Format> {
+/// The format that the name ends in.
+fn ending(name: &str) -> Option<Format> {
+    let name = name.strip_suffix(".gz").or_else(|| name.strip_suffix(".bz2")).unwrap_or(name);
     let ending = Path::new(name).extension()?.to_str()?;
     Format::from_str(ending, true).ok()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_first_line_tells_the_format() {
-        assert!(read(" 1 \n\nH 0 0 0\n".as_bytes(), "-", None).is_ok());
-        let toml = "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n";
-        assert!(read(toml.as_bytes(), "-", None).is_ok());
-        assert!(read(toml.as_bytes(), "-", Some(Format::Xyz)).is_err());
-        let negative = read("-1\n".as_bytes(), "-", None).expect_err("no molecule");
-        assert!(negative.to_string().contains("number of atoms"));
-        let empty = read("".as_bytes(), "-", None).expect_err("nothing");
-        assert!(empty.to_string().contains("empty scene"), "{empty}");
-    }
-
-    #[test]
-    fn names_and_endings() {
-        assert!(open("marbles", None).is_ok());
-        assert!(open("caffeine.xyz", None).is_ok());
-        let message = |name| open(name, None).expect_err(name).to_string();
-        assert_eq!(message("nonesuch"), "nonesuch: no such scene, built in or in a file");
-        assert_eq!(message("none/such.xyz"), "none/such.xyz: no such file");
-        assert_eq!(message("src"), "src: is a directory");
-        assert!(message("Cargo.lock.txt").contains("no such file"));
-        assert!(message("src/lib.rs").contains("of no known format"));
-        assert_eq!(format_of("a/B.XYZ"), Some(Format::Xyz));
-    }
-
-    #[test]
-    fn endless_input_is_refused() {
-        let endless = || BufReader::new(io::repeat(b'#'));
-        assert!(read(endless(), "-", Some(Format::Xyz)).is_err());
-        assert!(read(endless(), "-", None).expect_err("endless").to_string().contains("64 MiB"));
-    }
-
-    #[test]
-    fn what_is_no_text_has_a_line() {
-        let error = read(b"# one\n# \xff\n".as_slice(), "s.toml", None).expect_err("no text");
-        assert_eq!(error.to_string(), "s.toml:2: no UTF-8 text");
-    }
 }

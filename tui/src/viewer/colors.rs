@@ -14,7 +14,8 @@ pub(super) struct Colors {
     /// Of the column that was asked for first.
     range: Option<Range>,
     first: usize,
-    shown: usize,
+    /// None of a scene that nobody has looked at.
+    shown: Option<usize>,
     /// The scene's own colours, while it has others.
     own: Option<Vec<Srgb>>,
     pub(super) legend: Option<Legend>,
@@ -26,7 +27,7 @@ impl Colors {
         let choices = ColorBy::choices(scene.attributes());
         let is_first = |choice: &ColorBy| choice.name().eq_ignore_ascii_case(first.name());
         let first = choices.iter().position(is_first).unwrap_or(0);
-        Self { choices, range, first, shown: 0, own: None, legend: None }
+        Self { choices, range, first, shown: None, own: None, legend: None }
     }
 
     /// The choice that was asked for, and how many there are.
@@ -34,24 +35,28 @@ impl Colors {
         (self.first, self.choices.len())
     }
 
-    /// Colours `scene` by another choice, if it is one.
+    /// Takes note of another scene of the same file, which has its own colours.
+    pub(super) fn begin_anew(&mut self) {
+        (self.shown, self.own) = (None, None);
+    }
+
+    /// Colours `scene` by a choice, if it is not already.
     pub(super) fn show(&mut self, scene: &mut Arc<Scene>, choice: usize) {
-        if choice == self.shown {
+        if self.shown == Some(choice) {
             return;
         }
-        self.shown = choice;
+        self.shown = Some(choice);
         let range = self.range.filter(|_| choice == self.first);
         let found = self.choices.get(choice).and_then(|by| coloring(scene, by, range).ok());
         let (colors, legend) = found.map_or((None, None), |found| (found.colors, found.legend));
         self.legend = legend;
-        // The one that measures may still look at the scene: then this is another.
-        let scene = Arc::make_mut(scene);
+        // Others may look at the scene too, who measure or read ahead: then this becomes another.
         match (colors, self.own.take()) {
             (Some(colors), own) => {
                 self.own = own.or_else(|| Some(scene.colors().to_vec()));
-                scene.set_colors(colors);
+                Arc::make_mut(scene).set_colors(colors);
             }
-            (None, Some(own)) => scene.set_colors(own),
+            (None, Some(own)) => Arc::make_mut(scene).set_colors(own),
             (None, None) => {}
         }
     }

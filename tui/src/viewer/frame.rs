@@ -1,5 +1,6 @@
 //! One frame: a picture, what is written over it, and the status line, in one write.
 
+use super::film::Film;
 use super::meter::Frame;
 use super::state::Shown;
 use super::table::{Means, Subject};
@@ -75,7 +76,14 @@ impl Viewer<'_> {
                 self.meter.count(frame, now)
             }
         };
-        status::write(&mut cells, status_row, &self.state, picture.searched, figures);
+        let film = self.film.as_ref().filter(|film| film.has_more()).map(Film::status);
+        status::write(
+            &mut cells,
+            status_row,
+            (&self.state, film.as_deref()),
+            picture.searched,
+            figures,
+        );
         self.encoder.encode(cells, &mut self.bytes);
         self.picture = Some(picture);
         self.terminal.show(&self.bytes).map_err(|error| lost(&error))

@@ -2,12 +2,13 @@
 
 use crate::cells::{CellGrid, Color};
 
-const LINES: [&str; 27] = [
+const LINES: [&str; 28] = [
     "                                         ",
     "  arrows, h j k l, drag   around          ",
     "  H J K L, right drag     along the picture ",
     "  + -, wheel              nearer, farther ",
-    "  space                   spin            ",
+    "  space                   spin; play the frames of a file ",
+    "  , .                     a frame back, on ",
     "  f                       all of the scene",
     "  r                       first view      ",
     "  o                       projection      ",

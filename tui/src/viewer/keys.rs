@@ -55,8 +55,10 @@ pub(super) enum Input {
     Legend,
     /// The next structure.
     Structure,
-    /// Start or stop to spin.
+    /// Start or stop to play the frames of a file; where there is one, to spin.
     Spin,
+    /// One frame on, or back.
+    Step(bool),
     /// Back to the first view.
     Reset,
     /// Show or hide the keys.
@@ -112,6 +114,8 @@ fn key_input(key: KeyCode) -> Option<Input> {
         KeyCode::Char('g') => Input::Legend,
         KeyCode::Char('s') => Input::Structure,
         KeyCode::Char(' ') => Input::Spin,
+        KeyCode::Char('.') => Input::Step(true),
+        KeyCode::Char(',') => Input::Step(false),
         KeyCode::Char('r') => Input::Reset,
         KeyCode::Char('p') => Input::Pick,
         KeyCode::Char('f') => Input::FrameAll,

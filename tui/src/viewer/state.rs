@@ -252,7 +252,11 @@ impl State {
             Input::Reset => (*view, *spinning) = (self.home, false),
             Input::Help => *help = !*help,
             // What concerns the terminal or asks for the scene.
-            Input::Suspend | Input::Resize | Input::FrameAll | Input::FramePicked => {}
+            Input::Suspend
+            | Input::Resize
+            | Input::Step(_)
+            | Input::FrameAll
+            | Input::FramePicked => {}
         }
         self.since(&before)
     }

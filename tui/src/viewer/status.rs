@@ -11,18 +11,19 @@ const HINT: &str = "? help  q quit ";
 
 /// Writes the status line into `row`: names and figures from the left, the hint from the right.
 ///
-/// Where there is no room for all of it, what goes first is the `structure` that the program chose itself, then the
+/// Before them stands which frame of a `film` is shown. Where there is no room for all of it, what goes first is the `structure` that the program chose itself, then the
 /// figures from the last; a structure that the user chose stays, and so does object order. The hint goes where there is no room for it beside
 /// the names.
 pub(super) fn write(
     cells: &mut CellGrid,
     row: u16,
-    state: &State,
+    (state, film): (&State, Option<&str>),
     (order, structure): (Order, Structure),
     figures: Figures,
 ) {
     let columns = usize::from(cells.columns());
-    let (names, figures) = (names(state, order), figure_texts(figures));
+    let film = film.map_or_else(String::new, |film| format!("{film}  "));
+    let (names, figures) = (film + &names(state, order), figure_texts(figures));
     let word = format!(" {}", name(&structure));
     let chosen = if state.shown.structure.is_some() { &*word } else { "" };
     let line = |structure: &str, count: usize| {
@@ -84,7 +85,7 @@ mod tests {
 
     fn text(columns: u16, state: &State, searched: (Order, Structure), figures: Figures) -> String {
         let mut cells = CellGrid::new(columns, 2);
-        write(&mut cells, 1, state, searched, figures);
+        write(&mut cells, 1, (state, None), searched, figures);
         cells.row(1).iter().map(|cell| cell.glyph).collect()
     }
 

@@ -4,6 +4,7 @@
 mod bad_input;
 mod cargo;
 mod crowd;
+mod files;
 mod lecture;
 mod light;
 mod orders;

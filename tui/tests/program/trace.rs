@@ -119,19 +119,15 @@ fn arrays_that_are_none() {
     assert_eq!(refused("short.npy", b"\x93NUM"), ": no .npy file: it ends within its header");
     assert_eq!(refused("empty.npy", b""), ": no .npy file: it ends within its header");
     let dtype = |name, descr| refused(name, &npy(&header(descr, "False", "(1, 8)"), &[0; 64]));
-    assert!(dtype("double.npy", "'<f8'").starts_with(": dtype '<f8', not '<f4'"));
-    assert!(dtype("big.npy", "'>f4'").starts_with(": dtype '>f4', not '<f4'"));
-    assert!(dtype("int.npy", "'<i4'").starts_with(": dtype '<i4', not '<f4'"));
-    assert!(dtype("object.npy", "'|O'").starts_with(": dtype '|O', not '<f4'"));
+    assert!(dtype("int.npy", "'<i4'").starts_with(": dtype '<i4', not float32"));
+    assert!(dtype("object.npy", "'|O'").starts_with(": dtype '|O', not float32"));
     assert!(dtype("record.npy", "[('x', '<f4')]").starts_with(": dtype [('x', '<f4')"));
-    let fortran = npy(&header("'<f4'", "True", "(1, 8)"), &data);
-    assert!(refused("fortran.npy", &fortran).starts_with(": in Fortran order"));
     for (name, shape) in
         [("flat", "(8,)"), ("cube", "(1, 8, 1)"), ("wide", "(1, 4)"), ("none", "()")]
     {
         let message =
             refused(&format!("{name}.npy"), &npy(&header("'<f4'", "False", shape), &data));
-        assert!(message.starts_with(": shape ") && message.ends_with("not (N, 8)"), "{message}");
+        assert!(message.starts_with(": shape ") && message.contains("not "), "{message}");
     }
     let fewer = refused("fewer.npy", &npy(&good, &data[1..]));
     assert_eq!(fewer, ": fewer bytes than the 32 of its shape (1, 8)");
@@ -190,5 +186,55 @@ fn an_output_that_cannot_be_written_is_a_failure() {
         let stderr = String::from_utf8_lossy(&output.stderr);
         assert_eq!((output.status.code(), output.stdout.len()), (Some(1), 0), "{stderr}");
         assert!(stderr.starts_with(&format!("spherule: {target}: ")), "{stderr}");
+    }
+}
+
+/// Numbers of either size and byte order, in either order of axes: the same rays and spheres.
+#[test]
+fn arrays_of_numpy_s_own_kinds() {
+    let (spheres, rays) = data();
+    let expected = traced("kinds", &spheres, &rays, "").text;
+    let hits =
+        |text: &str| text.split(' ').find(|word| word.starts_with("hits=")).map(str::to_owned);
+    for (descr, size, is_big) in [("<f8", 8, false), (">f8", 8, true), (">f4", 4, true)] {
+        for order in ["False", "True"] {
+            let array = |values: &[f32], width: usize| {
+                let rows = values.len() / width;
+                let place = |index: usize| match order {
+                    "True" => index % rows * width + index / rows,
+                    _ => index,
+                };
+                let value = |index: usize| {
+                    let value = values[place(index)];
+                    let mut bytes = if size == 8 {
+                        f64::from(value).to_le_bytes().to_vec()
+                    } else {
+                        value.to_le_bytes().to_vec()
+                    };
+                    if is_big {
+                        bytes.reverse();
+                    }
+                    bytes
+                };
+                let header = format!(
+                    "{{'descr': '{descr}', 'fortran_order': {order}, 'shape': ({rows}, {width}), }}\n"
+                );
+                npy(&header, &(0..values.len()).flat_map(value).collect::<Vec<u8>>())
+            };
+            let name = format!("kind{size}{is_big}{order}");
+            let (s, r) = (
+                file(&format!("{name}.s.npy"), &array(&spheres, 4)),
+                file(&format!("{name}.r.npy"), &array(&rays, 8)),
+            );
+            let words = [
+                "trace".as_ref(),
+                "--spheres".as_ref(),
+                s.as_os_str(),
+                "--rays".as_ref(),
+                r.as_os_str(),
+            ];
+            let found = crate::run::printed(&run(words));
+            assert_eq!(hits(&found), hits(&expected), "{name}");
+        }
     }
 }

@@ -3,7 +3,7 @@
 use crate::run::{file, printed, refusal, run};
 use serde_json::Value;
 use spherule::draw::sample_grid;
-use spherule::scene::{builtin::builtin, open::open};
+use spherule::scene::{builtin::builtin, open};
 use spherule::style::Style;
 use spherule_kernel::{Fast, Intersect, Ray, Sphere};
 use std::sync::LazyLock;
@@ -163,7 +163,7 @@ fn the_counts_are_those_of_a_scalar_loop() {
 fn a_scene_without_light_has_camera_rays_alone() {
     let path = file("dark.toml", b"[[sphere]]\ncenter = [0, 0, 0]\nradius = 1.0\n");
     let path = path.to_str().expect("UTF-8");
-    assert!(open(path, None).expect("a scene").lighting.is_plain());
+    assert!(open::scene(path).expect("a scene").lighting.is_plain());
     let report = measured(&[path, "--size", "10x5"]);
     assert_eq!(report["tiers"].as_array().map(Vec::len), Some(4));
     // Nothing to see: rays that miss, and no ulp.

@@ -49,6 +49,17 @@ impl NamesBuilder {
         self.names.indices.push(index);
     }
 
+    /// How many names there are, the empty one among them.
+    #[must_use]
+    pub fn known(&self) -> usize {
+        self.names.table.len()
+    }
+
+    /// Brings the spheres into another order.
+    pub(in super::super) fn permute(&mut self, permute: impl FnOnce(&mut Vec<u32>)) {
+        permute(&mut self.names.indices);
+    }
+
     fn index_of(&mut self, name: &[u8]) -> u32 {
         self.last.clear();
         self.last.extend_from_slice(name);

@@ -1,0 +1,96 @@
+//! What the command line says of a scene's file: its format, its columns, its frames.
+
+use crate::error::Error;
+use crate::scene::frames::Frames;
+use crate::scene::open::{Opened, Reading, open};
+use crate::scene::{Format, ReadError, Scene};
+use clap::Args;
+use std::ops::Range;
+
+/// A file, and which of its frames.
+#[derive(Args, Clone, Debug, Default)]
+pub struct FileArguments {
+    /// Format of the scene [default: by content; .gz and .bz2 are unpacked]
+    #[arg(long, value_name = "FORMAT")]
+    pub format: Option<Format>,
+    /// Columns of a table for x, y, z and perhaps the radius: names, or numbers from 1
+    #[arg(long, value_name = "X,Y,Z[,R]")]
+    pub columns: Option<String>,
+    /// Refuse particles of unknown types, which are drawn grey otherwise
+    #[arg(long)]
+    pub strict: bool,
+    /// The file that says what the particles of an .xtc are
+    #[arg(long, value_name = "FILE")]
+    pub topology: Option<String>,
+    /// The frame that is shown first, from 0
+    #[arg(long, value_name = "N", default_value_t = 0, conflicts_with = "frames")]
+    pub frame: usize,
+    /// Write the pictures of frames A to B - 1, from 0; without B, up to the last
+    #[arg(long, value_name = "A..B", value_parser = range)]
+    pub frames: Option<Range<usize>>,
+    /// Wait for frames that are still being written
+    #[arg(long)]
+    pub follow: bool,
+}
+
+/// A scene, and the file it is from.
+#[derive(Debug)]
+pub struct Subject {
+    /// The frame that is shown first.
+    pub scene: Scene,
+    /// Its number.
+    pub frame: usize,
+    /// Its file, if it has one.
+    pub frames: Option<Frames>,
+}
+
+impl FileArguments {
+    /// The first frame that is asked for.
+    ///
+    /// # Errors
+    /// [`Error::Input`] if there is no such scene or frame, or it cannot be read.
+    pub fn open(&self, name: &str) -> Result<Subject, Error> {
+        let wrong = |error: ReadError| Error::Input(error.to_string());
+        let reading = Reading {
+            format: self.format,
+            columns: self.columns.clone(),
+            topology: self.topology.clone(),
+            strict: self.strict,
+            follow: self.follow,
+        };
+        let first = self.frames.as_ref().map_or(self.frame, |frames| frames.start);
+        match open(name, &reading).map_err(wrong)? {
+            Opened::Builtin(_) if first > 0 => {
+                Err(Error::Input(format!("{name}: frame {first}: it has one frame")))
+            }
+            Opened::Builtin(scene) => Ok(Subject { scene, frame: 0, frames: None }),
+            Opened::File(mut frames) => {
+                let scene = loop {
+                    match frames.read(first).map_err(wrong)? {
+                        Some(scene) => break scene,
+                        None if frames.follows() => std::thread::sleep(FOLLOW),
+                        None => {
+                            return Err(Error::Input(format!(
+                                "{name}: no frame {first}; frames count from 0"
+                            )));
+                        }
+                    }
+                };
+                frames.report();
+                Ok(Subject { scene, frame: first, frames: Some(frames) })
+            }
+        }
+    }
+}
+
+/// Between two looks at a file that grows.
+pub const FOLLOW: std::time::Duration = std::time::Duration::from_millis(200);
+
+/// `A..B` or `A..`.
+fn range(text: &str) -> Result<Range<usize>, String> {
+    let wrong = || "A..B, A below B, or A..".to_owned();
+    let (start, end) = text.split_once("..").ok_or_else(wrong)?;
+    let start = if start.is_empty() { 0 } else { start.parse().map_err(|_| wrong())? };
+    let end = if end.is_empty() { usize::MAX } else { end.parse().map_err(|_| wrong())? };
+    if start < end { Ok(start..end) } else { Err(wrong()) }
+}

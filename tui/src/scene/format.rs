@@ -1,0 +1,131 @@
+//! The formats of files: what each is told by, and who reads it.
+
+mod gro;
+mod lammps;
+mod mmcif;
+mod npy_points;
+mod pdb;
+mod ply;
+mod recognise;
+mod table;
+mod urdf;
+mod words;
+mod xtc;
+mod xyz;
+
+pub(super) use mmcif::Columns as MmcifColumns;
+pub(super) use recognise::recognise;
+
+use super::input::Input;
+use super::notes::Notes;
+use super::read_error::ReadError;
+use super::{Scene, toml};
+use clap::ValueEnum;
+use std::sync::Arc;
+
+/// The formats that scenes are read from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// Spheres, lights and a camera, as in the README
+    Toml,
+    /// XYZ and extended XYZ
+    Xyz,
+    /// Protein Data Bank
+    Pdb,
+    /// Macromolecular Crystallographic Information File
+    Mmcif,
+    /// GROMACS's .gro
+    Gro,
+    /// A trajectory of LAMMPS
+    LammpsDump,
+    /// The input of LAMMPS
+    LammpsData,
+    /// A table: comma, tab, semicolon or space between columns
+    #[value(alias = "tsv")]
+    Csv,
+    /// Stanford's polygons: their points
+    Ply,
+    /// numpy's array, (N, 3) or (N, 4)
+    Npy,
+    /// GROMACS's compressed trajectory
+    Xtc,
+    /// A robot whose parts are spheres
+    Urdf,
+}
+
+/// What a reader knows besides the input.
+#[derive(Debug, Default)]
+pub(super) struct Context {
+    /// The columns that a table is to be read from.
+    pub(super) columns: Option<String>,
+    /// What the particles of a trajectory are.
+    pub(super) topology: Option<Arc<Scene>>,
+    /// What to tell.
+    pub(super) notes: Notes,
+    /// The columns of an mmCIF table, once they have been read.
+    pub(super) mmcif: Option<MmcifColumns>,
+}
+
+impl Format {
+    /// Whether a file of it may have more than a frame.
+    pub(super) fn has_frames(self) -> bool {
+        matches!(
+            self,
+            Self::Xyz | Self::Pdb | Self::Mmcif | Self::Gro | Self::LammpsDump | Self::Xtc
+        )
+    }
+
+    /// Reads the next frame; `None` after the last.
+    ///
+    /// # Errors
+    /// [`ReadError`] if it is none.
+    pub(super) fn frame(
+        self,
+        input: &mut Input,
+        context: &mut Context,
+    ) -> Result<Option<Scene>, ReadError> {
+        let scene = match self {
+            Self::Xyz => return xyz::frame(input, &mut context.notes),
+            Self::Pdb => return pdb::frame(input, &mut context.notes),
+            Self::Mmcif => return mmcif::frame(input, context),
+            Self::Gro => return gro::frame(input, &mut context.notes),
+            Self::LammpsDump => return lammps::dump::frame(input, &mut context.notes),
+            Self::Xtc => return xtc::frame(input, context),
+            Self::LammpsData => lammps::data::read(input, &mut context.notes),
+            Self::Csv => table::read(input, context),
+            Self::Ply => ply::read(input, &mut context.notes),
+            Self::Npy => npy_points::read(input, &mut context.notes),
+            Self::Urdf => urdf::read(input, &mut context.notes),
+            Self::Toml => of_toml(input),
+        };
+        scene.map(Some)
+    }
+
+    /// Leaves out a frame; `false` if there is none.
+    ///
+    /// # Errors
+    /// [`ReadError`] if it is none.
+    pub(super) fn skip(self, input: &mut Input, context: &mut Context) -> Result<bool, ReadError> {
+        match self {
+            Self::Xyz => xyz::skip(input),
+            Self::LammpsDump => lammps::dump::skip(input),
+            _ => Ok(self.frame(input, context)?.is_some()),
+        }
+    }
+}
+
+/// The longest text that is read as a whole, in bytes: some half a million spheres.
+const LONGEST_TEXT: usize = 64 << 20;
+
+fn of_toml(input: &mut Input) -> Result<Scene, ReadError> {
+    let (bytes, source) = (input.rest(LONGEST_TEXT)?, input.source());
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
+    let text = std::str::from_utf8(bytes).map_err(|error| {
+        let line = bytes[..error.valid_up_to()].split(|&byte| byte == b'\n').count();
+        ReadError { line: Some(line), ..ReadError::whole(source, "no UTF-8 text") }
+    })?;
+    toml::read(text, source)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,85 @@
+//! GROMACS's `.gro`: a title, the number of atoms, a line of fixed width an atom, and the box; frame after frame.
+//!
+//! Lengths are in nanometres there, and in angstrom in a scene, as radii are. How wide a number is, the distance between
+//! decimal points tells (GROMACS reference manual, "gro file format").
+
+use super::words::{coordinate, count, excerpt};
+use crate::scene::Scene;
+use crate::scene::attributes::Naming;
+use crate::scene::input::{Input, Line};
+use crate::scene::notes::Notes;
+use crate::scene::particles::{Particles, Symbols};
+use crate::scene::read_error::ReadError;
+use spherule_kernel::Vec3;
+
+/// Angstrom a nanometre.
+pub(super) const ANGSTROM: f32 = 10.0;
+
+/// Where coordinates begin.
+const COORDINATES: usize = 20;
+
+/// Reads the next frame.
+///
+/// # Errors
+/// [`ReadError`] at the first line that is not what it should be.
+pub(super) fn frame(input: &mut Input, notes: &mut Notes) -> Result<Option<Scene>, ReadError> {
+    if input.is_over_but_blanks()? && input.place() != Default::default() {
+        return Ok(None);
+    }
+    input.expect("a title")?;
+    let line = input.expect("a number of atoms")?;
+    let (atoms, first) = match count(line.trimmed()) {
+        Some(0) => return Err(line.error(0, "no atoms")),
+        Some(atoms) => (atoms, line.number),
+        None => {
+            return Err(line.error(0, format!("{} is no number of atoms", excerpt(line.trimmed()))));
+        }
+    };
+    let mut particles = Particles { symbols: Symbols::AtomNames, ..Particles::default() };
+    let (mut width, mut velocities) = (0, false);
+    for atom in 0..atoms {
+        let ends =
+            format!("the file ends after {atom} of the {atoms} atoms that line {first} says");
+        let Some(line) = input.line()? else { return Err(input.ends(ends)) };
+        if atom == 0 {
+            width = width_of(&line)?;
+        }
+        let end = COORDINATES + 3 * width;
+        let Some(fixed) = line.bytes.get(..end) else {
+            return Err(line.error(line.bytes.len(), format!("the line ends before column {end}")));
+        };
+        let at = |axis: usize, name| {
+            let from = COORDINATES + axis * width;
+            coordinate(&line, from, fixed[from..from + width].trim_ascii(), name, ANGSTROM)
+        };
+        particles.centers.push(Vec3::new(at(0, "x")?, at(1, "y")?, at(2, "z")?));
+        let (residue, name) = (fixed[5..10].trim_ascii(), fixed[10..15].trim_ascii());
+        particles.kind(name, line.number);
+        particles.naming(Naming::Name).push(name);
+        particles.naming(Naming::Residue).push(residue);
+        let number =
+            std::str::from_utf8(fixed[..5].trim_ascii()).ok().and_then(|text| text.parse().ok());
+        particles.residue_numbers.push(number.unwrap_or(0));
+        velocities |= !line.bytes[end..].trim_ascii().is_empty();
+    }
+    if input.is_over()? {
+        return Err(input.ends("the file ends before the box"));
+    }
+    input.expect("the box")?;
+    if velocities {
+        notes.note("velocities are ignored");
+    }
+    particles.finish(notes, input.source()).map(Some)
+}
+
+/// From point to point.
+fn width_of(line: &Line<'_>) -> Result<usize, ReadError> {
+    let rest = line.bytes.get(COORDINATES..).unwrap_or_default();
+    let mut points = rest.iter().enumerate().filter(|(_, byte)| **byte == b'.').map(|(at, _)| at);
+    match (points.next(), points.next(), points.next()) {
+        (Some(one), Some(two), Some(three)) if three - two == two - one && two - one < 32 => {
+            Ok(two - one)
+        }
+        _ => Err(line.error(COORDINATES, "no three coordinates of one width")),
+    }
+}

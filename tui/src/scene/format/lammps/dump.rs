@@ -1,0 +1,239 @@
+//! `ITEM: TIMESTEP`, number of atoms, box, and `ITEM: ATOMS` with the names of columns; frame after frame.
+//!
+//! Atoms are in the order of their `id`, since LAMMPS writes them in any. Positions are `x`, `xu`, or in fractions of the
+//! box `xs`, `xsu`: then they are scaled, as the documentation of `dump` has it, also where the box is sheared.
+
+use super::super::words::{Words, coordinate, count, excerpt};
+use crate::scene::Scene;
+use crate::scene::attributes::{Naming, NumberColumn};
+use crate::scene::input::{Input, Line};
+use crate::scene::notes::Notes;
+use crate::scene::number::number;
+use crate::scene::particles::{Particles, Symbols};
+use crate::scene::read_error::ReadError;
+use spherule_kernel::Vec3;
+
+/// What a column is taken for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Position(usize),
+    Id,
+    Type,
+    Element,
+    Molecule,
+    Radius,
+    Diameter,
+    Number,
+}
+
+/// The corner of the box and its three edges.
+#[derive(Clone, Copy, Debug, Default)]
+struct Cell {
+    low: [f64; 3],
+    length: [f64; 3],
+    /// xy, xz, yz.
+    tilt: [f64; 3],
+}
+
+impl Cell {
+    fn point(&self, [x, y, z]: [f64; 3]) -> Vec3 {
+        let Self { low, length, tilt: [xy, xz, yz] } = self;
+        Vec3::new(
+            (low[0] + x * length[0] + y * xy + z * xz) as f32,
+            (low[1] + y * length[1] + z * yz) as f32,
+            (low[2] + z * length[2]) as f32,
+        )
+    }
+}
+
+/// Reads the next frame.
+///
+/// # Errors
+/// [`ReadError`] at the first line that is not what it should be.
+pub(in super::super) fn frame(
+    input: &mut Input,
+    notes: &mut Notes,
+) -> Result<Option<Scene>, ReadError> {
+    let Some((atoms, first, cell)) = header(input)? else { return Ok(None) };
+    let (kinds, names, scaled) = columns(&input.expect("ITEM: ATOMS")?)?;
+    let mut particles = Particles { symbols: Symbols::Numbers, ..Particles::default() };
+    let has_element = kinds.contains(&Kind::Element);
+    if has_element {
+        particles.symbols = Symbols::Elements;
+    }
+    let numbers = kinds.iter().zip(&names).filter(|(kind, _)| **kind == Kind::Number);
+    particles.columns = numbers
+        .map(|(_, name)| NumberColumn { name: name.as_str().into(), values: Vec::new() })
+        .collect();
+    let mut ids = Vec::new();
+    for atom in 0..atoms {
+        let ends =
+            || format!("the file ends after {atom} of the {atoms} atoms that line {first} says");
+        let Some(line) = input.line()? else { return Err(input.ends(ends())) };
+        let (mut words, mut position, mut column) = (Words::of(line), [0.0; 3], 0);
+        for (kind, name) in kinds.iter().zip(&names) {
+            let (byte, word) = words.expect(name)?;
+            match *kind {
+                Kind::Position(axis) => {
+                    position[axis] = match number(word) {
+                        Some(value) if (value as f32).is_finite() => value,
+                        _ => f64::from(coordinate(&line, byte, word, name, 1.0)?),
+                    }
+                }
+                Kind::Id => ids.push(id(&line, byte, word)?),
+                Kind::Type => {
+                    particles.naming(Naming::Type).push(word);
+                    if !has_element {
+                        particles.kind(word, line.number);
+                    }
+                }
+                Kind::Element => particles.kind(word, line.number),
+                Kind::Molecule => particles.naming(Naming::Molecule).push(word),
+                Kind::Radius => {
+                    particles.radii.push(coordinate(&line, byte, word, name, 1.0)?.abs())
+                }
+                Kind::Diameter => {
+                    particles.radii.push(coordinate(&line, byte, word, name, 0.5)?.abs())
+                }
+                Kind::Number => {
+                    let value = number(word).map_or(f32::NAN, |value| value as f32);
+                    particles.columns[column].values.push(value);
+                    column += 1;
+                }
+            }
+        }
+        particles.centers.push(if scaled {
+            cell.point(position)
+        } else {
+            Vec3::from_array(position.map(|value| value as f32))
+        });
+    }
+    particles.sort_by(&ids);
+    particles.finish(notes, input.source()).map(Some)
+}
+
+/// Leaves out a frame.
+///
+/// # Errors
+/// [`ReadError`] if it is none.
+pub(in super::super) fn skip(input: &mut Input) -> Result<bool, ReadError> {
+    let Some((atoms, first, _)) = header(input)? else { return Ok(false) };
+    for line in 0..=atoms {
+        if input.line()?.is_none() {
+            let atom = line.saturating_sub(1);
+            return Err(input.ends(format!(
+                "the file ends after {atom} of the {atoms} atoms that line {first} says"
+            )));
+        }
+    }
+    Ok(true)
+}
+
+/// Up to `ITEM: ATOMS`, which is next then: how many atoms, the line that says so, and the box.
+fn header(input: &mut Input) -> Result<Option<(usize, usize, Cell)>, ReadError> {
+    if input.is_over_but_blanks()? {
+        return Ok(None);
+    }
+    let (mut atoms, mut cell) = (None, Cell::default());
+    loop {
+        let line = input.expect("ITEM: ATOMS")?;
+        let Some(item) = line.bytes.strip_prefix(b"ITEM: ") else {
+            return Err(line.error(0, format!("{} where an ITEM: should be", excerpt(line.bytes))));
+        };
+        if item.starts_with(b"ATOMS") {
+            input.give_back();
+            let Some((atoms, first)) = atoms else {
+                return Err(input.ends("ITEM: ATOMS before ITEM: NUMBER OF ATOMS"));
+            };
+            return Ok(Some((atoms, first, cell)));
+        } else if item.starts_with(b"NUMBER OF ATOMS") {
+            let line = input.expect("the number of atoms")?;
+            let found = count(line.trimmed());
+            let Some(found) = found.filter(|&found| found > 0) else {
+                return Err(
+                    line.error(0, format!("{} is no number of atoms", excerpt(line.trimmed())))
+                );
+            };
+            atoms = Some((found, line.number));
+        } else if item.starts_with(b"BOX BOUNDS") {
+            cell = bounds(input)?;
+        } else {
+            // A time step, units, a time: a value in a line.
+            input.expect("its value")?;
+        }
+    }
+}
+
+fn bounds(input: &mut Input) -> Result<Cell, ReadError> {
+    let (mut cell, mut high) = (Cell::default(), [0.0; 3]);
+    for axis in 0..3 {
+        let line = input.expect("the box")?;
+        let mut words = Words::of(line);
+        let mut value = |name: &str| {
+            let (byte, word) = words.expect(name)?;
+            number(word)
+                .ok_or_else(|| line.error(byte, format!("{name} is {}: no number", excerpt(word))))
+        };
+        (cell.low[axis], high[axis]) = (value("low")?, value("high")?);
+        cell.tilt[axis] = value("tilt").unwrap_or(0.0);
+    }
+    // The bounds are those of a box around the sheared one.
+    let [xy, xz, yz] = cell.tilt;
+    let corners = [0.0, xy, xz, xy + xz];
+    cell.low[0] -= corners.iter().copied().fold(0.0, f64::min);
+    high[0] -= corners.iter().copied().fold(0.0, f64::max);
+    cell.low[1] -= yz.min(0.0);
+    high[1] -= yz.max(0.0);
+    for axis in 0..3 {
+        cell.length[axis] = high[axis] - cell.low[axis];
+    }
+    Ok(cell)
+}
+
+type Named = (Vec<Kind>, Vec<String>, bool);
+
+fn columns(line: &Line<'_>) -> Result<Named, ReadError> {
+    let text = line.bytes.strip_prefix(b"ITEM: ATOMS").unwrap_or_default();
+    let names: Vec<String> = text
+        .split(u8::is_ascii_whitespace)
+        .filter(|word| !word.is_empty())
+        .map(|word| String::from_utf8_lossy(word).into_owned())
+        .collect();
+    // Unwrapped before wrapped, plain before scaled: what is written twice is taken once.
+    let sets = [["x", "y", "z"], ["xu", "yu", "zu"], ["xs", "ys", "zs"], ["xsu", "ysu", "zsu"]];
+    let has = |name: &&str| names.iter().any(|other| other == name);
+    let Some(set) = sets.iter().position(|set| set.iter().all(|name| has(&name))) else {
+        return Err(line.error(0, "no x y z, xu yu zu, xs ys zs or xsu ysu zsu among the columns"));
+    };
+    let kind = |name: &String| match name.as_str() {
+        "id" => Kind::Id,
+        "type" => Kind::Type,
+        "element" => Kind::Element,
+        "mol" => Kind::Molecule,
+        "radius" => Kind::Radius,
+        "diameter" => Kind::Diameter,
+        name => match sets[set].iter().position(|axis| *axis == name) {
+            Some(axis) => Kind::Position(axis),
+            None => Kind::Number,
+        },
+    };
+    let mut kinds: Vec<Kind> = names.iter().map(kind).collect();
+    // The second of a name is a number like any other.
+    for index in 1..kinds.len() {
+        if kinds[..index].contains(&kinds[index]) {
+            kinds[index] = Kind::Number;
+        }
+    }
+    if kinds.contains(&Kind::Radius) {
+        for kind in kinds.iter_mut().filter(|kind| **kind == Kind::Diameter) {
+            *kind = Kind::Number;
+        }
+    }
+    Ok((kinds, names, set >= 2))
+}
+
+/// The number of an atom.
+pub(super) fn id(line: &Line<'_>, byte: usize, word: &[u8]) -> Result<i64, ReadError> {
+    let id = std::str::from_utf8(word).ok().and_then(|text| text.parse().ok());
+    id.ok_or_else(|| line.error(byte, format!("{} is no id", excerpt(word))))
+}

@@ -1,0 +1,301 @@
+//! mmCIF: the loop over `_atom_site`, whose columns are named; a frame is a `pdbx_PDB_model_num`.
+//!
+//! All else is passed over. Of alternate locations the first is drawn. Grammar: "CIF 1.1 syntax", IUCr.
+
+use super::Context;
+use super::words::coordinate;
+use crate::scene::Scene;
+use crate::scene::attributes::{Naming, NumberColumn};
+use crate::scene::input::{Input, Line};
+use crate::scene::notes::Notes;
+use crate::scene::number::number;
+use crate::scene::particles::Particles;
+use crate::scene::read_error::ReadError;
+use spherule_kernel::Vec3;
+use std::ops::Range;
+
+/// Which column of the table is what.
+#[derive(Clone, Debug, Default)]
+pub(in super::super) struct Columns {
+    count: usize,
+    position: [usize; 3],
+    symbol: Option<usize>,
+    name: Option<usize>,
+    residue: Option<usize>,
+    chain: Option<usize>,
+    residue_number: Option<usize>,
+    entity: Option<usize>,
+    location: Option<usize>,
+    model: Option<usize>,
+    numbers: [Option<usize>; 2],
+}
+
+impl Columns {
+    fn of(tags: &[String], line: &Line<'_>) -> Result<Self, ReadError> {
+        let find = |names: &[&str]| {
+            names.iter().find_map(|name| tags.iter().position(|tag| tag.eq_ignore_ascii_case(name)))
+        };
+        let axis = |name: &str| {
+            find(&[name])
+                .ok_or_else(|| line.error(0, format!("no _atom_site.{name} before the atoms")))
+        };
+        Ok(Self {
+            count: tags.len(),
+            position: [axis("Cartn_x")?, axis("Cartn_y")?, axis("Cartn_z")?],
+            symbol: find(&["type_symbol"]),
+            name: find(&["auth_atom_id", "label_atom_id"]),
+            residue: find(&["auth_comp_id", "label_comp_id"]),
+            chain: find(&["auth_asym_id", "label_asym_id"]),
+            residue_number: find(&["auth_seq_id", "label_seq_id"]),
+            entity: find(&["label_entity_id"]),
+            location: find(&["label_alt_id"]),
+            model: find(&["pdbx_PDB_model_num"]),
+            numbers: [find(&["occupancy"]), find(&["B_iso_or_equiv"])],
+        })
+    }
+}
+
+/// Reads the next model.
+///
+/// # Errors
+/// [`ReadError`] at the first atom whose coordinates are none, and if there is no table of atoms.
+pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<Scene>, ReadError> {
+    if input.place() == Default::default() {
+        context.mmcif = None;
+        find_atoms(input, context)?;
+    }
+    let Some(columns) = context.mmcif.clone() else {
+        return Ok(None);
+    };
+    let mut atoms = Atoms::new(&columns);
+    let mut row = Row::default();
+    while let Some(line) = input.line()? {
+        if !row.is_begun() && ends_loop(line.trimmed()) {
+            break;
+        }
+        if row.is_begun() && line.bytes.starts_with(b";") {
+            return Err(line.error(0, "a text of many lines among atoms"));
+        }
+        row.add(&line)?;
+        if row.words.len() < columns.count {
+            continue;
+        }
+        if row.words.len() > columns.count {
+            let what =
+                format!("{} values; the table has {} columns", row.words.len(), columns.count);
+            return Err(line.error(0, what));
+        }
+        if !atoms.add(&line, &row)? {
+            input.give_back();
+            break;
+        }
+        row.clear();
+    }
+    if row.is_begun() && row.words.len() < columns.count {
+        return Err(input.ends(format!(
+            "the file ends after {} of {} values of an atom",
+            row.words.len(),
+            columns.count
+        )));
+    }
+    if atoms.particles.centers.is_empty() {
+        return Ok(None);
+    }
+    atoms.finish(&mut context.notes, input.source()).map(Some)
+}
+
+/// Whether a line cannot be a row of a table any more.
+fn ends_loop(text: &[u8]) -> bool {
+    text.first().is_none_or(|first| matches!(first, b'#' | b'_'))
+        || text.len() >= 5
+            && (text[..5].eq_ignore_ascii_case(b"loop_")
+                || text[..5].eq_ignore_ascii_case(b"data_"))
+}
+
+/// Goes to the first row of the table of atoms.
+fn find_atoms(input: &mut Input, context: &mut Context) -> Result<(), ReadError> {
+    let (mut tags, mut in_text) = (Vec::new(), false);
+    let mut fractions = false;
+    while let Some(line) = input.line()? {
+        if line.bytes.starts_with(b";") {
+            in_text = !in_text;
+            continue;
+        }
+        if in_text {
+            continue;
+        }
+        let text = line.trimmed();
+        let is_tag = text.len() > 11 && text[..11].eq_ignore_ascii_case(b"_atom_site.");
+        fractions |= text.len() > 16 && text[..17].eq_ignore_ascii_case(b"_atom_site_fract_");
+        if is_tag {
+            let tag = text.split(u8::is_ascii_whitespace).next().unwrap_or_default();
+            if tag.len() < text.len() && !text[tag.len()..].trim_ascii().starts_with(b"#") {
+                return Err(line.error(tag.len() + 1, "_atom_site is no loop"));
+            }
+            tags.push(String::from_utf8_lossy(&tag[11..]).into_owned());
+        } else if !tags.is_empty() && !text.is_empty() && text[0] != b'#' {
+            context.mmcif = Some(Columns::of(&tags, &line)?);
+            input.give_back();
+            return Ok(());
+        }
+    }
+    let what = if fractions {
+        "atoms in fractions of a cell: only _atom_site.Cartn_x, _y, _z are read"
+    } else {
+        "no loop over _atom_site"
+    };
+    Err(ReadError::whole(input.source(), what))
+}
+
+/// The values of a row, which may go over several lines.
+#[derive(Default)]
+struct Row {
+    text: Vec<u8>,
+    words: Vec<Range<usize>>,
+}
+
+impl Row {
+    fn is_begun(&self) -> bool {
+        !self.words.is_empty()
+    }
+
+    fn clear(&mut self) {
+        self.text.clear();
+        self.words.clear();
+    }
+
+    fn word(&self, column: usize) -> &[u8] {
+        &self.text[self.words[column].clone()]
+    }
+
+    /// As `word`, but empty where there is none: `.` or `?`.
+    fn value(&self, column: Option<usize>) -> &[u8] {
+        match column.map(|column| self.word(column)) {
+            None | Some(b"." | b"?") => b"",
+            Some(word) => word,
+        }
+    }
+
+    fn add(&mut self, line: &Line<'_>) -> Result<(), ReadError> {
+        let from = self.text.len();
+        self.text.extend_from_slice(line.bytes);
+        self.text.push(b' ');
+        let text = &self.text;
+        let mut at = from;
+        while at < text.len() {
+            if text[at] <= b' ' {
+                at += 1;
+                continue;
+            }
+            let quote = text[at];
+            if quote == b'#' {
+                break;
+            }
+            if quote == b'\'' || quote == b'"' {
+                // A quote ends a value only before white space.
+                let end = (at + 1..text.len() - 1)
+                    .find(|&end| text[end] == quote && text[end + 1] <= b' ');
+                let Some(end) = end else {
+                    return Err(line.error(at - from, "a quote that does not end in its line"));
+                };
+                self.words.push(at + 1..end);
+                at = end + 1;
+            } else {
+                let start = at;
+                while text[at] > b' ' {
+                    at += 1;
+                }
+                self.words.push(start..at);
+            }
+        }
+        Ok(())
+    }
+}
+
+struct Atoms<'a> {
+    columns: &'a Columns,
+    particles: Particles,
+    model: Option<Vec<u8>>,
+    residue: Vec<u8>,
+    /// The names of those atoms of the residue that have locations.
+    located: Vec<Box<[u8]>>,
+    left_out: usize,
+    scratch: Vec<u8>,
+}
+
+impl<'a> Atoms<'a> {
+    fn new(columns: &'a Columns) -> Self {
+        let column = |name: &str| NumberColumn { name: name.into(), values: Vec::new() };
+        let kept = vec![column("occupancy"), column("b_factor")];
+        let particles = Particles { columns: kept, ..Particles::default() };
+        Self {
+            columns,
+            particles,
+            model: None,
+            residue: Vec::new(),
+            located: Vec::new(),
+            left_out: 0,
+            scratch: Vec::new(),
+        }
+    }
+
+    /// `false` if the atom is of the next model.
+    fn add(&mut self, line: &Line<'_>, row: &Row) -> Result<bool, ReadError> {
+        let columns = self.columns;
+        let model = row.value(columns.model);
+        match &self.model {
+            None => self.model = Some(model.to_vec()),
+            Some(of) if of != model => return Ok(false),
+            Some(_) => {}
+        }
+        let (chain, number_text, name) =
+            (row.value(columns.chain), row.value(columns.residue_number), row.value(columns.name));
+        if !row.value(columns.location).is_empty() {
+            self.scratch.clear();
+            for part in [chain, b" ", number_text] {
+                self.scratch.extend_from_slice(part);
+            }
+            if self.scratch != self.residue {
+                std::mem::swap(&mut self.scratch, &mut self.residue);
+                self.located.clear();
+            }
+            if self.located.iter().any(|located| **located == *name) {
+                self.left_out += 1;
+                return Ok(true);
+            }
+            self.located.push(name.into());
+        }
+        let at = |axis: usize, called: &str| {
+            let word = row.word(columns.position[axis]);
+            // A standard uncertainty may follow in brackets.
+            let word = word.split(|&byte| byte == b'(').next().unwrap_or_default();
+            coordinate(line, 0, word, called, 1.0)
+        };
+        let center = Vec3::new(at(0, "Cartn_x")?, at(1, "Cartn_y")?, at(2, "Cartn_z")?);
+        let particles = &mut self.particles;
+        particles.centers.push(center);
+        particles.kind(row.value(columns.symbol), line.number);
+        particles.naming(Naming::Name).push(name);
+        particles.naming(Naming::Residue).push(row.value(columns.residue));
+        particles.naming(Naming::Chain).push(chain);
+        particles.naming(Naming::Molecule).push(row.value(columns.entity));
+        let residue_number =
+            std::str::from_utf8(number_text).ok().and_then(|text| text.parse().ok());
+        particles.residue_numbers.push(residue_number.unwrap_or(0));
+        for (column, kept) in columns.numbers.iter().zip(&mut particles.columns) {
+            kept.values.push(number(row.value(*column)).map_or(f32::NAN, |value| value as f32));
+        }
+        Ok(true)
+    }
+
+    fn finish(self, notes: &mut Notes, source: &str) -> Result<Scene, ReadError> {
+        if self.left_out > 0 {
+            let atoms = if self.left_out == 1 { "atom is" } else { "atoms are" };
+            notes.note(format!(
+                "{} {atoms} left out: alternate locations after the first",
+                self.left_out
+            ));
+        }
+        self.particles.finish(notes, source)
+    }
+}

@@ -1,0 +1,172 @@
+//! PDB: columns of fixed width; a frame is a `MODEL`, or all that comes before `END`.
+//!
+//! Of alternate locations the first is drawn. Serial numbers are not read, so it does not matter that there are none for
+//! more than 99,999 atoms; the numbers of residues may be in hybrid-36. Format: wwPDB, "Atomic Coordinate Entry Format
+//! Description", version 3.3 (2012); hybrid-36: R. W. Grosse-Kunstleve, <https://cci.lbl.gov/hybrid_36/>.
+
+use super::words::coordinate;
+use crate::scene::Scene;
+use crate::scene::attributes::{Naming, NumberColumn};
+use crate::scene::elements::element;
+use crate::scene::input::{Input, Line};
+use crate::scene::notes::Notes;
+use crate::scene::number::number;
+use crate::scene::particles::{Particles, Symbols};
+use crate::scene::read_error::ReadError;
+use spherule_kernel::Vec3;
+
+/// The records that say what a picture of spheres does not show.
+const IGNORED: [&[u8]; 6] = [b"ANISOU", b"CONECT", b"HELIX ", b"SHEET ", b"SSBOND", b"SIGATM"];
+
+/// Reads the next model.
+///
+/// # Errors
+/// [`ReadError`] at the first atom without coordinates, and if there is no atom in the file.
+pub(super) fn frame(input: &mut Input, notes: &mut Notes) -> Result<Option<Scene>, ReadError> {
+    let is_first = input.place() == Default::default();
+    let mut atoms = Atoms::new();
+    while let Some(line) = input.line()? {
+        let record = line.bytes;
+        if record.starts_with(b"ATOM") || record.starts_with(b"HETATM") {
+            atoms.add(line)?;
+        } else if record.starts_with(b"MODEL") {
+            if !atoms.is_empty() {
+                input.give_back();
+                break;
+            }
+        } else if (record.starts_with(b"ENDMDL") || record.trim_ascii_end() == b"END")
+            && !atoms.is_empty()
+        {
+            break;
+        } else if let Some(name) = IGNORED.iter().find(|name| record.starts_with(name)) {
+            notes.note(format!("{} is ignored", String::from_utf8_lossy(name.trim_ascii())));
+        }
+    }
+    // What remains may be connections and no atom: then there is no further frame.
+    if atoms.is_empty() {
+        return if is_first {
+            Err(ReadError::whole(input.source(), "no ATOM and no HETATM"))
+        } else {
+            Ok(None)
+        };
+    }
+    atoms.finish(notes, input.source()).map(Some)
+}
+
+/// The atoms of a model.
+struct Atoms {
+    particles: Particles,
+    /// Chain, number and insertion of the residue of the last atom, ...
+    residue: [u8; 6],
+    /// ... and the names of those of its atoms that have locations.
+    located: Vec<[u8; 4]>,
+    left_out: usize,
+}
+
+impl Atoms {
+    fn new() -> Self {
+        let column = |name: &str| NumberColumn { name: name.into(), values: Vec::new() };
+        let columns = vec![column("occupancy"), column("b_factor")];
+        let particles = Particles { columns, ..Particles::default() };
+        Self { particles, residue: [0; 6], located: Vec::new(), left_out: 0 }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.particles.centers.is_empty()
+    }
+
+    #[inline]
+    fn add(&mut self, line: Line<'_>) -> Result<(), ReadError> {
+        let bytes = line.bytes;
+        let Some(fixed) = bytes.get(..54) else {
+            return Err(line.error(bytes.len(), "the line ends before column 54: no coordinates"));
+        };
+        let residue = [fixed[21], fixed[22], fixed[23], fixed[24], fixed[25], fixed[26]];
+        let name = [fixed[12], fixed[13], fixed[14], fixed[15]];
+        if residue != self.residue {
+            (self.residue, _) = (residue, self.located.clear());
+        }
+        if fixed[16] != b' ' {
+            if self.located.contains(&name) {
+                self.left_out += 1;
+                return Ok(());
+            }
+            self.located.push(name);
+        }
+        let at = |from: usize, axis| {
+            let word = fixed[from..from + 8].trim_ascii();
+            coordinate(&line, from, word, axis, 1.0)
+        };
+        let center = Vec3::new(at(30, "x")?, at(38, "y")?, at(46, "z")?);
+        let particles = &mut self.particles;
+        particles.centers.push(center);
+        let symbol = bytes.get(76..bytes.len().min(78)).unwrap_or_default().trim_ascii();
+        if symbol.first().is_some_and(u8::is_ascii_alphabetic) {
+            particles.kind(symbol, line.number);
+        } else {
+            particles.kind(symbol_of(&name), line.number);
+        }
+        particles.naming(Naming::Name).push(name.trim_ascii());
+        particles.naming(Naming::Residue).push(fixed[17..21].trim_ascii());
+        let chain = match fixed[21] {
+            b' ' => bytes.get(72..bytes.len().min(76)).unwrap_or_default().trim_ascii(),
+            _ => &fixed[21..22],
+        };
+        particles.naming(Naming::Chain).push(chain);
+        particles
+            .residue_numbers
+            .push(residue_number([fixed[22], fixed[23], fixed[24], fixed[25]]));
+        let field = |from: usize| {
+            let word = bytes.get(from..bytes.len().min(from + 6)).unwrap_or_default().trim_ascii();
+            number(word).map_or(f32::NAN, |value| value as f32)
+        };
+        particles.columns[0].values.push(field(54));
+        particles.columns[1].values.push(field(60));
+        Ok(())
+    }
+
+    fn finish(mut self, notes: &mut Notes, source: &str) -> Result<Scene, ReadError> {
+        if self.left_out > 0 {
+            let atoms = if self.left_out == 1 { "atom is" } else { "atoms are" };
+            notes.note(format!(
+                "{} {atoms} left out: alternate locations after the first",
+                self.left_out
+            ));
+        }
+        self.particles.symbols = Symbols::Elements;
+        self.particles.finish(notes, source)
+    }
+}
+
+/// The element in the name of an atom: it is right-justified in the first two columns.
+fn symbol_of(name: &[u8; 4]) -> &[u8] {
+    let two = &name[..2];
+    if two[0].is_ascii_alphabetic() {
+        let is_element = std::str::from_utf8(two).ok().and_then(element).is_some();
+        // Four letters begin a hydrogen's name in the first column.
+        return if name[0] == b'H' && !name.contains(&b' ') || !is_element {
+            &name[..1]
+        } else {
+            two
+        };
+    }
+    let first = name.iter().position(u8::is_ascii_alphabetic);
+    first.map_or(b"", |first| &name[first..=first])
+}
+
+/// The number of a residue: four digits, or hybrid-36 from 10,000 on; 0 where it is neither.
+fn residue_number(field: [u8; 4]) -> i32 {
+    let text = field.trim_ascii();
+    if text.first().is_some_and(u8::is_ascii_alphabetic) && text.len() == 4 {
+        let value =
+            std::str::from_utf8(text).ok().and_then(|text| i32::from_str_radix(text, 36).ok());
+        let Some(value) = value else { return 0 };
+        let (digits, letters) = (10 * 36_i32.pow(3), 26 * 36_i32.pow(3));
+        return if text[0].is_ascii_uppercase() {
+            value - digits + 10_000
+        } else {
+            value - digits + letters + 10_000
+        };
+    }
+    std::str::from_utf8(text).ok().and_then(|text| text.parse().ok()).unwrap_or(0)
+}

@@ -1,0 +1,293 @@
+//! PLY: the vertices, in text or in binary of either order; `x y z`, and perhaps `radius`, `red green blue`.
+//!
+//! Faces and all else are passed over: only spheres are drawn. G. Turk, "The PLY Polygon File Format" (1994).
+
+use super::words::{count, excerpt};
+use crate::color::Srgb;
+use crate::scene::Scene;
+use crate::scene::attributes::NumberColumn;
+use crate::scene::input::Input;
+use crate::scene::notes::Notes;
+use crate::scene::number::number;
+use crate::scene::particles::Particles;
+use crate::scene::read_error::ReadError;
+use spherule_kernel::Vec3;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Scalar {
+    Int(usize),
+    Uint(usize),
+    Float,
+    Double,
+}
+
+impl Scalar {
+    fn named(name: &[u8]) -> Option<Self> {
+        Some(match name {
+            b"char" | b"int8" => Self::Int(1),
+            b"uchar" | b"uint8" => Self::Uint(1),
+            b"short" | b"int16" => Self::Int(2),
+            b"ushort" | b"uint16" => Self::Uint(2),
+            b"int" | b"int32" => Self::Int(4),
+            b"uint" | b"uint32" => Self::Uint(4),
+            b"float" | b"float32" => Self::Float,
+            b"double" | b"float64" => Self::Double,
+            _ => return None,
+        })
+    }
+
+    fn size(self) -> usize {
+        match self {
+            Self::Int(size) | Self::Uint(size) => size,
+            Self::Float => 4,
+            Self::Double => 8,
+        }
+    }
+
+    /// The value of little-endian bytes.
+    fn value(self, bytes: [u8; 8]) -> f64 {
+        let bits = u64::from_le_bytes(bytes);
+        match self {
+            Self::Uint(_) => bits as f64,
+            Self::Int(size) => {
+                let spare = 64 - 8 * size as u32;
+                (((bits << spare) as i64) >> spare) as f64
+            }
+            Self::Float => f64::from(f32::from_bits(bits as u32)),
+            Self::Double => f64::from_bits(bits),
+        }
+    }
+}
+
+#[derive(Clone, Debug)]
+struct Property {
+    name: String,
+    kind: Scalar,
+    /// The type of the length, if it is a list.
+    list: Option<Scalar>,
+}
+
+#[derive(Clone, Debug)]
+struct Element {
+    is_vertex: bool,
+    count: usize,
+    properties: Vec<Property>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Encoding {
+    Ascii,
+    Little,
+    Big,
+}
+
+/// Reads the vertices.
+///
+/// # Errors
+/// [`ReadError`] if the header is none, or the data ends early, or a position is not finite.
+pub(super) fn read(input: &mut Input, notes: &mut Notes) -> Result<Scene, ReadError> {
+    let (encoding, elements) = header(input)?;
+    let source = input.source().to_owned();
+    let Some(at) = elements.iter().position(|element| element.is_vertex && element.count > 0)
+    else {
+        return Err(ReadError::whole(&source, "no vertices"));
+    };
+    for element in &elements[..at] {
+        for _ in 0..element.count {
+            skip(input, encoding, element)?;
+        }
+    }
+    if elements.len() > at + 1 {
+        notes.note("only the vertices are drawn");
+    }
+    vertices(input, encoding, &elements[at], notes)
+}
+
+fn vertices(
+    input: &mut Input,
+    encoding: Encoding,
+    element: &Element,
+    notes: &mut Notes,
+) -> Result<Scene, ReadError> {
+    let names = &element.properties;
+    let find = |wanted: &[&str]| {
+        names.iter().position(|property| wanted.contains(&property.name.as_str()))
+    };
+    let source = input.source().to_owned();
+    let (Some(x), Some(y), Some(z)) = (find(&["x"]), find(&["y"]), find(&["z"])) else {
+        return Err(ReadError::whole(&source, "vertices without x, y, z"));
+    };
+    let radius = find(&["radius"]);
+    let color = [find(&["red", "r"]), find(&["green", "g"]), find(&["blue", "b"])];
+    let color = color.iter().all(Option::is_some).then(|| color.map(Option::unwrap_or_default));
+    let taken = |index: usize| {
+        [x, y, z].contains(&index)
+            || radius == Some(index)
+            || color.is_some_and(|color| color.contains(&index))
+    };
+    let kept: Vec<usize> = (0..names.len())
+        .filter(|&index| !taken(index) && names[index].list.is_none())
+        .take(4)
+        .collect();
+    let mut particles = Particles {
+        columns: kept
+            .iter()
+            .map(|&index| NumberColumn {
+                name: names[index].name.as_str().into(),
+                values: Vec::new(),
+            })
+            .collect(),
+        ..Particles::default()
+    };
+    let mut values = vec![0.0; names.len()];
+    for vertex in 0..element.count {
+        let line = row(input, encoding, element, &mut values, vertex)?;
+        let place = |what: String| match line {
+            Some(line) => ReadError::at(&source, line, 1, what),
+            None => ReadError::whole(&source, what),
+        };
+        let center = Vec3::new(values[x] as f32, values[y] as f32, values[z] as f32);
+        if !center.is_finite() {
+            return Err(place(format!(
+                "vertex {vertex} is at {center}: not finite in single precision"
+            )));
+        }
+        particles.centers.push(center);
+        if let Some(radius) = radius {
+            let radius = values[radius] as f32;
+            if !(radius.is_finite() && radius >= 0.0) {
+                return Err(place(format!("vertex {vertex} has the radius {radius}")));
+            }
+            particles.radii.push(radius);
+        }
+        if let Some(color) = color {
+            let scale = match names[color[0]].kind {
+                Scalar::Float | Scalar::Double => 255.0,
+                Scalar::Uint(2) => 1.0 / 257.0,
+                _ => 1.0,
+            };
+            let channel = |index: usize| (values[index] * scale).round().clamp(0.0, 255.0) as u8;
+            particles.colors.push(Srgb(color.map(channel)));
+        }
+        for (column, &index) in particles.columns.iter_mut().zip(&kept) {
+            column.values.push(values[index] as f32);
+        }
+    }
+    particles.finish(notes, &source)
+}
+
+fn header(input: &mut Input) -> Result<(Encoding, Vec<Element>), ReadError> {
+    let (mut encoding, mut elements) = (None, Vec::<Element>::new());
+    input.expect("ply")?;
+    loop {
+        let line = input.expect("end_header")?;
+        let words: Vec<&[u8]> =
+            line.bytes.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()).collect();
+        match words.as_slice() {
+            [b"end_header"] => break,
+            [b"comment" | b"obj_info", ..] | [] => {}
+            [b"format", name, b"1.0"] => {
+                encoding = match *name {
+                    b"ascii" => Some(Encoding::Ascii),
+                    b"binary_little_endian" => Some(Encoding::Little),
+                    b"binary_big_endian" => Some(Encoding::Big),
+                    _ => None,
+                };
+                if encoding.is_none() {
+                    return Err(line.error(0, format!("the format {} is not known", excerpt(name))));
+                }
+            }
+            [b"element", name, number] => {
+                let Some(count) = count(number) else {
+                    return Err(
+                        line.error(0, format!("{} is no number of elements", excerpt(number)))
+                    );
+                };
+                elements.push(Element {
+                    is_vertex: *name == b"vertex",
+                    count,
+                    properties: Vec::new(),
+                });
+            }
+            [b"property", rest @ ..] => {
+                let property = match rest {
+                    [b"list", length, kind, name] => {
+                        let length = Scalar::named(length);
+                        Scalar::named(kind).zip(length).map(|(kind, list)| (kind, Some(list), name))
+                    }
+                    [kind, name] => Scalar::named(kind).map(|kind| (kind, None, name)),
+                    _ => None,
+                };
+                let (Some((kind, list, name)), Some(element)) = (property, elements.last_mut())
+                else {
+                    return Err(line.error(0, format!("{} is no property", excerpt(line.bytes))));
+                };
+                let name = String::from_utf8_lossy(name).into_owned();
+                element.properties.push(Property { name, kind, list });
+            }
+            _ => {
+                return Err(
+                    line.error(0, format!("{} is not known in a header", excerpt(line.bytes)))
+                );
+            }
+        }
+    }
+    let encoding =
+        encoding.ok_or_else(|| ReadError::whole(input.source(), "no format in the header"))?;
+    Ok((encoding, elements))
+}
+
+/// Reads an element; the line if it is in one. A list is passed over.
+fn row(
+    input: &mut Input,
+    encoding: Encoding,
+    element: &Element,
+    values: &mut [f64],
+    index: usize,
+) -> Result<Option<usize>, ReadError> {
+    if encoding == Encoding::Ascii {
+        let ends = format!("the file ends after {index} of {} elements", element.count);
+        let Some(line) = input.line()? else { return Err(input.ends(ends)) };
+        let mut words = super::words::Words::of(line);
+        for (property, value) in element.properties.iter().zip(values) {
+            let mut next = || {
+                let (byte, word) = words.expect(&property.name)?;
+                number(word).ok_or_else(|| {
+                    line.error(byte, format!("{} is {}: no number", property.name, excerpt(word)))
+                })
+            };
+            *value = next()?;
+            if property.list.is_some() {
+                for _ in 0..*value as usize {
+                    next()?;
+                }
+            }
+        }
+        return Ok(Some(line.number));
+    }
+    for (property, value) in element.properties.iter().zip(values) {
+        *value = scalar(input, encoding, property.list.unwrap_or(property.kind))?;
+        if property.list.is_some() {
+            for _ in 0..*value as u64 {
+                scalar(input, encoding, property.kind)?;
+            }
+        }
+    }
+    Ok(None)
+}
+
+fn skip(input: &mut Input, encoding: Encoding, element: &Element) -> Result<(), ReadError> {
+    let mut values = vec![0.0; element.properties.len()];
+    row(input, encoding, element, &mut values, 0).map(|_| ())
+}
+
+#[inline]
+fn scalar(input: &mut Input, encoding: Encoding, kind: Scalar) -> Result<f64, ReadError> {
+    let mut bytes = [0; 8];
+    let own = &mut bytes[..kind.size()];
+    input.exactly(own)?;
+    if encoding == Encoding::Big {
+        own.reverse();
+    }
+    Ok(kind.value(bytes))
+}

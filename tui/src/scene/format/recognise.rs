@@ -1,0 +1,150 @@
+//! What an input is, told by its first bytes.
+
+use super::Format;
+use super::table::{Separator, has_axes};
+use crate::scene::number::number;
+
+/// The records that a PDB file begins with.
+const PDB: [&str; 24] = [
+    "HEADER", "OBSLTE", "TITLE ", "SPLIT ", "CAVEAT", "COMPND", "SOURCE", "KEYWDS", "EXPDTA",
+    "NUMMDL", "MDLTYP", "AUTHOR", "REVDAT", "SPRSDE", "JRNL  ", "REMARK", "DBREF ", "SEQRES",
+    "CRYST1", "ORIGX1", "MODEL ", "ATOM  ", "HETATM", "MASTER",
+];
+
+/// Formats that are known and not read.
+const OTHERS: [(&[u8], &str); 7] = [
+    (b"PK\x03\x04", "a zip archive, such as .npz: unpack it first"),
+    (b"\x89HDF", "HDF5, which is not read"),
+    (b"CDF", "NetCDF, which is not read"),
+    (b"\x00\x00\x07\xc9", "a TRR trajectory, which is not read; .xtc is"),
+    (b"\x54\x00\x00\x00CORD", "a DCD trajectory, which is not read; .xtc is"),
+    (b"7z\xbc\xaf", "a 7z archive: unpack it first"),
+    (b"\xfd7zXZ", "xz, which is not read; .gz and .bz2 are"),
+];
+
+/// The format of what begins with `head`.
+///
+/// # Errors
+/// What it is instead, as far as that can be told.
+pub(in super::super) fn recognise(head: &[u8]) -> Result<Format, &'static str> {
+    if head.starts_with(b"\x93NUMPY") {
+        return Ok(Format::Npy);
+    }
+    if head.starts_with(b"\x00\x00\x07\xcb") || head.starts_with(b"\x00\x00\x07\xe7") {
+        return Ok(Format::Xtc);
+    }
+    if let Some((_, what)) = OTHERS.iter().find(|(magic, _)| head.starts_with(magic)) {
+        return Err(what);
+    }
+    let head = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head);
+    let lines: Vec<&[u8]> =
+        head.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii_end).take(400).collect();
+    let first = lines[0].trim_ascii();
+    if first == b"ply" {
+        return Ok(Format::Ply);
+    }
+    if first.starts_with(b"ITEM: ") {
+        return Ok(Format::LammpsDump);
+    }
+    if number(first).is_some_and(|value| value.fract() == 0.0) {
+        return Ok(Format::Xyz);
+    }
+    if is_gro(&lines) {
+        return Ok(Format::Gro);
+    }
+    if first.starts_with(b"<") {
+        return if contains(head, b"<robot") {
+            Ok(Format::Urdf)
+        } else {
+            Err("XML, but no <robot>")
+        };
+    }
+    let mut spoken =
+        lines.iter().filter(|line| !matches!(line.trim_ascii().first(), None | Some(b'#')));
+    let spoken_first = spoken.next().copied().unwrap_or_default();
+    let is_cif = |line: &[u8]| line.len() >= 5 && line[..5].eq_ignore_ascii_case(b"data_");
+    if is_cif(spoken_first.trim_ascii()) {
+        return Ok(Format::Mmcif);
+    }
+    let is_record =
+        |line: &&[u8]| PDB.iter().any(|name| line.starts_with(name.trim_end().as_bytes()));
+    let is_atom = |line: &&[u8]| {
+        (line.starts_with(b"ATOM  ") || line.starts_with(b"HETATM"))
+            && line.len() >= 54
+            && line[34] == b'.'
+    };
+    if is_record(&spoken_first) && !is_toml(spoken_first) || lines.iter().any(|line| is_atom(&line))
+    {
+        return Ok(Format::Pdb);
+    }
+    if is_lammps_data(&lines) {
+        return Ok(Format::LammpsData);
+    }
+    if is_toml(spoken_first) {
+        return Ok(Format::Toml);
+    }
+    if is_table(&lines) {
+        return Ok(Format::Csv);
+    }
+    Err("of no known format")
+}
+
+fn contains(text: &[u8], part: &[u8]) -> bool {
+    memchr::memmem::find(text, part).is_some()
+}
+
+/// A table, or a key and its value.
+fn is_toml(line: &[u8]) -> bool {
+    let line = line.trim_ascii();
+    let key = line
+        .iter()
+        .take_while(|byte| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'-' | b'.'))
+        .count();
+    line.starts_with(b"[") || key > 0 && line[key..].trim_ascii_start().starts_with(b"=")
+}
+
+/// The second line is a number; the third has names in its first columns and points behind them.
+fn is_gro(lines: &[&[u8]]) -> bool {
+    let [_, count, atom, ..] = lines else { return false };
+    let is_count = super::words::count(count.trim_ascii()).is_some();
+    is_count && atom.len() >= 44 && atom[20..].iter().filter(|&&byte| byte == b'.').count() >= 3
+}
+
+/// Counts in the first lines, and a box.
+fn is_lammps_data(lines: &[&[u8]]) -> bool {
+    let words = |line: &[u8]| -> Vec<Vec<u8>> {
+        let text = line.split(|&byte| byte == b'#').next().unwrap_or_default();
+        text.split(u8::is_ascii_whitespace)
+            .filter(|word| !word.is_empty())
+            .map(<[u8]>::to_vec)
+            .collect()
+    };
+    let says = |line: &&[u8]| {
+        let words = words(line);
+        words.len() == 2 && words[1] == b"atoms" && super::words::count(&words[0]).is_some()
+    };
+    lines.iter().take(40).any(|line| says(&line))
+}
+
+/// A header that names positions, or three numbers or more.
+fn is_table(lines: &[&[u8]]) -> bool {
+    let mut fields = Vec::new();
+    for line in lines.iter().filter(|line| !line.trim_ascii().is_empty()) {
+        let text = line.trim_ascii();
+        let text = text.strip_prefix(b"#").unwrap_or(text).trim_ascii();
+        let separator = Separator::of(text);
+        separator.split(text, 1 << 10, &mut fields);
+        let words: Vec<&[u8]> = fields.iter().map(|field| &text[field.clone()]).collect();
+        if has_axes(&words) {
+            return true;
+        }
+        if line.trim_ascii().starts_with(b"#") {
+            continue;
+        }
+        let is_separated = separator != Separator::Space;
+        return words.len() >= 3
+            && (is_separated && words.iter().all(|word| word.len() < 256)
+                || words.iter().take(3).all(|word| number(word).is_some()));
+    }
+    false
+}

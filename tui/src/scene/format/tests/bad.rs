@@ -1,0 +1,221 @@
+use super::*;
+use crate::scene::input::{Input, LONGEST_LINE};
+use std::io::{self, Read};
+
+#[test]
+fn a_count_that_lies() {
+    assert_eq!(
+        error("4\n\nH 0 0 0\n"),
+        "f:4:1: the file ends after 1 of the 4 atoms that line 1 says"
+    );
+    assert!(error("18446744073709551615\n\nH 0 0 0\n").contains("after 1 of"));
+    assert!(error("18446744073709551616\n\nH 0 0 0\n").starts_with("f:1:1: "));
+    assert_eq!(
+        error("1\n\nH 0 0 0\nH 0 0 1\n"),
+        "f:4:1: one atom more than the 1 that line 1 says"
+    );
+    assert_eq!(error("1"), "f:2:1: the file ends before its comment");
+    assert_eq!(error("0\nnothing\n"), "f:1:1: a molecule without atoms");
+    assert_eq!(error(""), "f: the file is empty");
+    assert!(error("-3\n\n").starts_with("f:1:1: "));
+    let dump = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n9\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\nITEM: ATOMS id type x y z\n1 1 0 0 0\n";
+    assert_eq!(error(dump), "f:11:1: the file ends after 1 of the 9 atoms that line 4 says");
+    assert!(
+        error("t\n 2\n    1SOL     OW    1   0.000   1.624   1.679\n")
+            .contains("ends after 1 of the 2")
+    );
+}
+
+#[test]
+fn coordinates_are_finite_numbers() {
+    assert_eq!(error("1\n\nH 0 nan 0\n"), "f:3:5: y is \"nan\": not finite in single precision");
+    assert!(error("1\n\nH inf 0 0\n").starts_with("f:3:3: x is"));
+    assert!(error("1\n\nH 0 0 1e39\n").starts_with("f:3:7: z is"));
+    assert_eq!(error("1\n\nH 0 0 zero\n"), "f:3:7: z is \"zero\": no number");
+    assert_eq!(error("1\n\nH 0 0\n"), "f:3:6: z is missing");
+    assert_eq!(error("1\n\n\n"), "f:3:1: an element is missing");
+    assert!(error("x,y,z\n1,NaN,2\n").starts_with("f:2:3: y is \"NaN\": not finite"));
+    assert!(error("x,y,z\n1,,2\n").starts_with("f:2:3: y is \"\": no number"));
+    assert!(error("x,y,z\n1,2\n").contains("z is missing"));
+    let nan: Vec<u8> = [0.0, f32::NAN, 0.0].iter().flat_map(|value| value.to_le_bytes()).collect();
+    assert!(error(npy("<f4", "False", "(1, 3)", &nan)).contains("row 0"));
+    assert!(error(PDB.replace("  11.104", "     nan")).starts_with("f:4:31: x is"));
+}
+
+/// The largest numbers there are can be drawn.
+#[test]
+fn far_away_is_no_error() {
+    let scene = good("2\n\nH 1e38 0 0\nH -1e38 0 3e38\n");
+    assert!(scene.first_view(1.0).eye.is_finite());
+    assert_eq!(good("x,y,z\n1e38,0,0\n-1e38,3e38,0\n").spheres().len(), 2);
+}
+
+#[test]
+fn properties_that_lie() {
+    let message =
+        |properties: &str, atom: &str| error(format!("1\nProperties={properties}\n{atom}\n"));
+    assert!(message("species:S:1:forces:R:3", "H 0 0 0").starts_with("f:2:12: Properties="));
+    assert!(message("species:S:1:pos:R:2", "H 0 0").contains("positions have 3"));
+    assert!(message("species:S:1:pos:R", "H 0 0 0").contains("not name:type:columns"));
+    assert!(message("species:S:one:pos:R:3", "H 0 0 0").contains("no name:type:columns"));
+    assert!(message("species:Q:1:pos:R:3", "H 0 0 0").contains("no name:type:columns"));
+    assert!(message("pos:R:3:pos:R:3", "0 0 0 0 0 0").contains("second column"));
+    assert!(message("species:S:1:pos:R:3:q:R:1", "H 0 0 0").starts_with("f:3:8: q is missing"));
+    assert!(message("species:S:1:pos:R:3", "H 0 0 0 7").starts_with("f:3:9: more columns"));
+    assert!(
+        message("species:S:1:pos:R:3:v:R:99999999999", "H 0 0 0").contains("no name:type:columns")
+    );
+    assert!(message("species:S:1:pos:R:3:radius:R:1", "H 0 0 0 -1").contains("negative"));
+}
+
+#[test]
+fn a_million_columns() {
+    let numbers = " 7".repeat(1_000_000);
+    let xyz = good(format!("1\nProperties=many:R:1000000:pos:R:3\n{numbers} 1 2 3\n"));
+    assert_eq!(centers(&xyz), [[1.0, 2.0, 3.0]]);
+    assert_eq!(centers(&good(format!("1\n\nH 1 2 3{numbers}\n"))), [[1.0, 2.0, 3.0]]);
+    let names: String = (0..1_000_000).map(|column| format!("c{column},")).collect();
+    let table = format!("{names}x,y,z\n{}1,2,3\n", "7,".repeat(1_000_000));
+    assert_eq!(centers(&good(table)), [[1.0, 2.0, 3.0]]);
+}
+
+/// So many bytes without an end of line, made as they are read.
+struct Endless {
+    left: u64,
+    head: &'static [u8],
+}
+
+impl Read for Endless {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        if !self.head.is_empty() {
+            return self.head.read(bytes);
+        }
+        let count = self.left.min(bytes.len() as u64) as usize;
+        bytes[..count].fill(b'7');
+        self.left -= count as u64;
+        Ok(count)
+    }
+}
+
+#[test]
+fn ten_gigabytes_in_a_line() {
+    for (head, place) in [
+        ("", "f:1:1: "),
+        ("1\n\nH ", "f:3:1: "),
+        ("x,y,z\n", "f:2:1: "),
+        ("data_x\n_a ", "f:2:1: "),
+        ("HEADER\nATOM", "f:2:1: "),
+    ] {
+        let endless = Endless { left: 10_000_000_000, head: head.as_bytes() };
+        let message = read(Box::new(endless), "f", None).expect_err("endless").to_string();
+        assert!(
+            message.starts_with(place) && message.ends_with("a line of more than 16 MiB"),
+            "{message}"
+        );
+    }
+    let endless = Endless { left: 10_000_000_000, head: b"" };
+    let mut input = Input::of_reader(Box::new(endless), "f").expect("an input");
+    assert!(input.line().is_err());
+    assert!(input.room() <= 4 * LONGEST_LINE, "{}", input.room());
+}
+
+#[test]
+fn damaged_and_growing_gz() {
+    let text: String =
+        (0..5000).map(|index| format!("H {index} 0 {}\n", index * 7919 % 1000)).collect();
+    let whole = gz(format!("5000\n\n{text}").as_bytes());
+    for length in [11, whole.len() / 2, whole.len() - 9, whole.len() - 1] {
+        let message = error(&whole[..length]);
+        assert!(
+            message.starts_with("f:") && message.contains("the compressed data ends early"),
+            "{length}: {message}"
+        );
+    }
+    let mut damaged = whole.clone();
+    for byte in &mut damaged[whole.len() / 2..whole.len() / 2 + 40] {
+        *byte ^= 0x55;
+    }
+    assert!(scene(damaged).is_err());
+    let bz = bz2(text.as_bytes());
+    assert!(scene(&bz[..bz.len() / 2]).is_err());
+    // A gigabyte of zeros in a megabyte, and lines that never end to come.
+    let zeros = gz(&vec![b'\n'; 1 << 20]);
+    let bomb: Vec<u8> = std::iter::repeat_n(zeros, 300).flatten().collect();
+    let message = error([gz(b"data_x\n"), bomb].concat());
+    assert!(message.contains("grows to more than 200 times its size"), "{message}");
+}
+
+#[test]
+fn an_empty_model() {
+    let empty = "MODEL        1\nENDMDL\n".to_owned();
+    let scene = good(empty.clone() + &PDB[PDB.find("MODEL").expect("a model")..]);
+    assert_eq!(scene.spheres().len(), 3);
+    assert_eq!(error(empty), "f: no ATOM and no HETATM");
+    assert_eq!(error("data_x\n_a.b c\n"), "f: no loop over _atom_site");
+    assert!(
+        error("data_x\nloop_\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n#\n")
+            .starts_with("f: no")
+    );
+    assert!(
+        error("ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nend_header\n")
+            .contains("no vertices")
+    );
+    assert!(error(npy("<f4", "False", "(0, 3)", b"")).contains("without rows"));
+    assert!(error("x,y,z\n").contains("no line with numbers"));
+    assert!(error("<robot name='r'/>").contains("without spheres"));
+}
+
+#[test]
+fn arrays_that_lie() {
+    assert!(
+        error(npy("<f4", "False", "(4611686018427387904, 4)", b"")).contains("more than any file")
+    );
+    assert!(error(npy("<f4", "False", "(1000000000, 4)", b"")).contains("fewer bytes"));
+    assert!(error(npy("<f4", "True", "(1000000000, 4)", b"")).contains("fewer bytes"));
+    assert!(error(npy("<f4", "False", "(1, 4)", &[0; 17])).contains("more bytes"));
+    assert!(error(npy("<i4", "False", "(1, 4)", &[0; 16])).contains("float32 or float64"));
+    assert!(error(npy("<f4", "False", "(1, 5)", &[0; 20])).contains("(N, 3) or (N, 4)"));
+    assert!(error(npy("<f4", "False", "(4,)", &[0; 16])).contains("two dimensions"));
+    assert!(
+        error(npy("<f4", "False", "(1, 4)", &[0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 128, 191]))
+            .contains("radius")
+    );
+}
+
+#[test]
+fn a_trajectory_that_is_none() {
+    let frame = |magic: u32, atoms: u32, again: u32, rest: &[u8]| {
+        let mut bytes = magic.to_be_bytes().to_vec();
+        bytes.extend(atoms.to_be_bytes());
+        bytes.extend([0; 44]);
+        bytes.extend(again.to_be_bytes());
+        bytes.extend(rest);
+        bytes
+    };
+    let three: Vec<u8> = [0.1_f32, 0.2, 0.3].iter().flat_map(|value| value.to_be_bytes()).collect();
+    assert_eq!(centers(&good(frame(1995, 1, 1, &three))), [[0.1 * 10.0, 0.2 * 10.0, 0.3 * 10.0]]);
+    assert!(error(frame(1995, 1, 2, &three)).contains("two numbers of atoms"));
+    assert!(error(frame(1995, 2, 2, &three)).contains("ends within a frame"));
+    let huge = [vec![0; 32], 100_u32.to_be_bytes().to_vec(), vec![0; 100]].concat();
+    assert!(
+        error(frame(1995, 4_000_000_000, 4_000_000_000, &huge))
+            .contains("4000000000 atoms in 100 bytes")
+    );
+    for seed in 0_u8..50 {
+        let noise: Vec<u8> = (0..136_u32)
+            .map(|index| (index.wrapping_mul(2_654_435_761) >> 13) as u8 ^ seed)
+            .collect();
+        let noise = [&noise[..32], &100_u32.to_be_bytes(), &noise[36..]].concat();
+        assert!(scene(frame(1995, 100, 100, &noise)).is_err() || seed > 0);
+    }
+}
+
+#[test]
+fn what_is_known_and_not_read() {
+    assert!(error(b"PK\x03\x04............").contains("zip archive"));
+    assert!(error(b"\x89HDF\r\n\x1a\n").contains("HDF5"));
+    assert!(error("//! Some text, of a program.\nfn main() {}\n").contains("of no known format"));
+    assert!(error("<html></html>").contains("no <robot>"));
+    assert!(error("a,b,c\n1,2,3\n").contains("--columns names others"));
+    assert!(error("data_x\nloop_\n_atom_site_fract_x\n0.5\n").contains("fractions"));
+}

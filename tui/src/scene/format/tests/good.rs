@@ -1,0 +1,291 @@
+use super::*;
+use crate::color::Srgb;
+use crate::scene::attributes::Naming;
+
+#[test]
+fn xyz_as_it_always_was() {
+    let scene = good("3\nwater\nO 0 0 0.119\n h 0 0.763 -0.477 extra 7\n1\t0 -0.763 -4.77e-1\n");
+    assert_eq!(centers(&scene)[2], [0.0, -0.763, -0.477]);
+    assert_eq!(spheres(&scene)[2][3], 1.10);
+    assert_eq!(scene.label(0).as_deref(), Some("O 1"));
+    assert_eq!(scene.attributes().element(1), Some(1));
+}
+
+#[test]
+fn line_ends_a_byte_order_mark_and_latin1_do_not_matter() {
+    let plain = "2\nwater\nO 0 0 0.119\nH 0 0.763 -0.477\n";
+    for text in [
+        plain.replace('\n', "\r\n"),
+        plain.trim_end().to_owned(),
+        format!("{plain}\n\n"),
+        format!("\u{feff}{plain}"),
+    ] {
+        assert_eq!(good(text).spheres().len(), 2);
+    }
+    assert_eq!(
+        good([b"1\n\xc5ngstr\xf6m\n".as_slice(), b"He 0 0 0\n"].concat()).spheres().len(),
+        1
+    );
+}
+
+/// The order of columns is what Properties say: forces are never taken for positions.
+#[test]
+fn properties_are_obeyed() {
+    let text = "2\nLattice=\"9 0 0 0 9 0 0 0 9\" Properties=forces:R:3:species:S:1:pos:R:3:radius:R:1:color:R:3:q:R:1 pbc=\"T T T\"\n\
+        9 9 9 C 1 2 3 0.5 1 0 0.5 -1\n8 8 8 O 4 5 6 0.25 0 1 0 2.5\n";
+    let scene = good(text);
+    assert_eq!(spheres(&scene), [[1.0, 2.0, 3.0, 0.5], [4.0, 5.0, 6.0, 0.25]]);
+    assert_eq!(scene.colors(), [Srgb([255, 0, 128]), Srgb([0, 255, 0])]);
+    assert_eq!(scene.attributes().column("q").map(|q| q.values.clone()), Some(vec![-1.0, 2.5]));
+    assert!(scene.attributes().own.radii && scene.attributes().own.colors);
+    let without = good("1\nProperties=\"pos:R:3\"\n1 2 3\n");
+    assert_eq!(centers(&without), [[1.0, 2.0, 3.0]]);
+}
+
+#[test]
+fn an_unknown_type_is_grey() {
+    let scene = good("3\n\nH 0 0 0\nXx 1 0 0\nMW 2 0 0\n");
+    assert_eq!(scene.colors()[1], crate::scene::particles::NEUTRAL);
+    assert_eq!(scene.attributes().names(Naming::Type).and_then(|names| names.get(1)), Some("Xx"));
+    let reading = Reading { strict: true, ..Reading::default() };
+    let refused = frames_of("strict.xyz", b"2\n\nH 0 0 0\nXx 1 0 0\n", &reading).read(0);
+    let message = refused.expect_err("strict").to_string();
+    assert!(message.contains("strict.xyz:4:1: \"Xx\" is no element"), "{message}");
+    let mut frames =
+        frames_of("grey.xyz", b"3\n\nXx 0 0 0\nYy 1 0 0\nXx 2 0 0\n", &Reading::default());
+    assert!(frames.read(0).is_ok());
+    assert_eq!(frames.notes(), ["3 particles are of 2 unknown types (Xx, Yy): drawn grey"]);
+    assert!(frames.notes().is_empty());
+}
+
+#[test]
+fn pdb_by_its_columns() {
+    let scene = good(PDB);
+    assert_eq!(
+        centers(&scene),
+        [[11.104, 6.134, -6.504], [11.639, 6.071, -5.147], [1.0, 2.0, 3.0]]
+    );
+    assert_eq!(scene.label(1).as_deref(), Some("CA ALA 1 A"));
+    // A000 is what follows 9999.
+    assert_eq!(scene.label(2).as_deref(), Some("FE HEM 10000 B"));
+    assert_eq!(scene.attributes().elements, Some(vec![7, 6, 26]));
+    assert_eq!(scene.attributes().column("b_factor").map(|b| b.values[1]), Some(11.0));
+    let frames = &mut frames_of("alt.pdb", PDB.as_bytes(), &Reading::default());
+    assert_eq!(
+        frames.read(1).expect("a model").map(|scene| centers(&scene)),
+        Some(vec![[21.104, 6.134, -6.504]])
+    );
+    assert!(frames.read(2).expect("no error").is_none());
+    assert!(frames.notes().iter().any(|note| note.starts_with("1 atom is left out: alternate")));
+}
+
+#[test]
+fn mmcif_by_the_names_of_columns() {
+    let text = "data_X\n#\n_entry.id X\n_struct.title\n;many\nlines\n;\nloop_\n_atom_site.group_PDB\n_atom_site.type_symbol\n\
+        _atom_site.Cartn_z\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.auth_asym_id\n_atom_site.label_alt_id\n\
+        _atom_site.label_atom_id\n_atom_site.auth_comp_id\n_atom_site.auth_seq_id\n_atom_site.pdbx_PDB_model_num\n\
+        ATOM C 3 1 2.5(3) AA . \"C1'\" DA 7 1\nATOM N 6 4 5 AA A N DA 7 1\nATOM N 9 4 5 AA B N DA\n7 1\n\
+        ATOM O 30 10 20 AB . O DA 7 2\n#\nloop_\n_x.y\n1\n";
+    let scene = good(text);
+    assert_eq!(centers(&scene), [[1.0, 2.5, 3.0], [4.0, 5.0, 6.0]]);
+    assert_eq!(scene.label(0).as_deref(), Some("C1' DA 7 AA"));
+    let frames = &mut frames_of("models.cif", text.as_bytes(), &Reading::default());
+    assert_eq!(
+        frames.read(1).expect("a model").map(|scene| centers(&scene)),
+        Some(vec![[10.0, 20.0, 30.0]])
+    );
+    assert!(frames.read(2).expect("no error").is_none());
+    assert_eq!(frames.read(0).expect("a model").map(|scene| scene.spheres().len()), Some(2));
+}
+
+#[test]
+fn gro_in_angstrom() {
+    let text = "water t= 1.0\n    3\n    1SOL     OW    1   0.126   1.624   1.679  0.1227 -0.0580  0.0434\n\
+            1SOL    HW1    2   0.190   1.661   1.747\n    1SOL     MW    3   0.177   1.568   1.613\n   1.82060   1.82060   1.82060\n";
+    let scene = good(text);
+    assert_eq!(centers(&scene)[0], [0.126 * 10.0, 1.624 * 10.0, 1.679 * 10.0]);
+    assert_eq!(scene.attributes().elements, Some(vec![8, 1, 0]));
+    assert_eq!(scene.label(1).as_deref(), Some("HW1 SOL 1"));
+}
+
+#[test]
+fn lammps_dumps_in_order_scaled_and_sheared() {
+    let dump = |columns: &str, atoms: &str| {
+        format!(
+            "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp pp\n-1 3\n0 10\n0 10\nITEM: ATOMS {columns}\n{atoms}"
+        )
+    };
+    let plain = good(dump("id type x y z vx", "2 1 4 5 6 0.5\n1 2 1 2 3 0.25\n"));
+    assert_eq!(centers(&plain), [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
+    assert_eq!(plain.label(0).as_deref(), Some("2 1"));
+    assert_eq!(plain.attributes().column("vx").map(|v| v.values.clone()), Some(vec![0.25, 0.5]));
+    let scaled = good(dump("id type xs ys zs radius", "1 1 0.5 0.1 0.2 2\n2 1 0 0 1 3\n"));
+    assert_eq!(spheres(&scaled), [[1.0, 1.0, 2.0, 2.0], [-1.0, 0.0, 10.0, 3.0]]);
+    // xlo_bound = xlo + min(0, xy, xz, xy + xz): lo is 0, and hi 4.
+    let sheared = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS xy xz yz pp pp pp\n0 6 2\n0 10 0\n0 10 0\nITEM: ATOMS id element xs ys zs\n1 Fe 0.5 0.5 0\n";
+    let sheared = good(sheared);
+    assert_eq!(centers(&sheared), [[3.0, 5.0, 0.0]]);
+    assert_eq!(sheared.attributes().elements, Some(vec![26]));
+}
+
+#[test]
+fn lammps_data_by_style_and_by_columns() {
+    let data = |head: &str, atoms: &str| {
+        format!(
+            "LAMMPS data\n\n2 atoms\n1 atom types\n\n0 10 xlo xhi\n\nMasses\n\n1 12.0\n\n{head}\n\n{atoms}\nBonds\n\n1 1 1 2\n"
+        )
+    };
+    for (head, atoms) in [
+        ("Atoms # full", "2 1 1 -0.5 4 5 6 0 0 0\n1 1 1 0.5 1 2 3 0 0 0\n"),
+        ("Atoms", "1 1 1 0.5 1 2 3 0 0 0\n2 1 1 -0.5 4 5 6 0 0 0\n"),
+        ("Atoms", "1 1 1 0.5 1 2 3\n2 1 1 -0.5 4 5 6\n"),
+        ("Atoms # atomic", "1 1 1 2 3\n2 1 4 5 6\n"),
+        ("Atoms", "1 1 1 2 3\n2 1 4 5 6\n"),
+        ("Atoms", "1 1 0.5 1 2 3\n2 1 -0.5 4 5 6\n"),
+        ("Atoms", "1 7 1 1 2 3\n2 7 1 4 5 6\n"),
+    ] {
+        assert_eq!(
+            centers(&good(data(head, atoms))),
+            [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]],
+            "{head}\n{atoms}"
+        );
+    }
+}
+
+#[test]
+fn tables_by_header_and_without() {
+    let expected = [[1.0, 2.0, 3.0, 0.5], [4.0, 5.0, 6.0, 0.25]];
+    for text in [
+        "mag,X,y,z,radius\n7,1,2,3,0.5\n8,4,5,6,0.25\n",
+        "# x y z radius\n1 2 3 0.5\n# a comment\n\n4 5 6 0.25\n",
+        "z\tradius\ty\tx\n3\t0.5\t2\t1\n6\t0.25\t5\t4\n",
+        "1;2;3;0.5\r\n4;5;6;0.25\r\n",
+        "\u{feff}\"x\",\"y\",\"z\",\"name, of\",radius\n1,2,3,\"a, b\",0.5\n\"4\",5,6,c,0.25",
+        "1.0 2 3 0.5\n4 5 6 0.25\n",
+    ] {
+        assert_eq!(spheres(&good(text)), expected, "{text}");
+    }
+    let colored = good("x,y,z,r,g,b,v\n0,0,0,255,0,128,9\n1,0,0,0,255,0,8\n");
+    assert_eq!(colored.colors(), [Srgb([255, 0, 128]), Srgb([0, 255, 0])]);
+    assert_eq!(colored.attributes().column("v").map(|v| v.values.clone()), Some(vec![9.0, 8.0]));
+    for columns in ["b,c,d,a", "2,3,4,1"] {
+        let reading = Reading { columns: Some(columns.to_owned()), ..Reading::default() };
+        let mut frames = frames_of("columns.csv", b"a,b,c,d\n0.5,1,2,3\n0.25,4,5,6\n", &reading);
+        assert_eq!(
+            frames.read(0).expect("a table").map(|scene| spheres(&scene)),
+            Some(expected.to_vec())
+        );
+    }
+}
+
+#[test]
+fn ply_in_text_and_in_both_orders() {
+    let header = |format: &str| {
+        format!(
+            "ply\nformat {format} 1.0\ncomment c\nelement face 1\nproperty list uchar int vertex_indices\nelement vertex 2\nproperty float x\nproperty double y\nproperty short z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nproperty float radius\nend_header\n"
+        )
+    };
+    let text = header("ascii") + "3 0 1 1\n1 2 -3 255 0 128 0.5\n4 5 6 0 255 0 0.25\n";
+    let binary = |format: &str, is_big: bool| {
+        let mut bytes = header(format).into_bytes();
+        let mut add = |mut value: Vec<u8>| {
+            if is_big {
+                value.reverse();
+            }
+            bytes.extend(value);
+        };
+        add(vec![3]);
+        for index in [0_i32, 1, 1] {
+            add(index.to_le_bytes().to_vec());
+        }
+        for (x, y, z, color, radius) in
+            [(1_f32, 2_f64, -3_i16, [255, 0, 128], 0.5_f32), (4.0, 5.0, 6, [0, 255, 0], 0.25)]
+        {
+            add(x.to_le_bytes().to_vec());
+            add(y.to_le_bytes().to_vec());
+            add(z.to_le_bytes().to_vec());
+            color.iter().for_each(|channel| add(vec![*channel]));
+            add(radius.to_le_bytes().to_vec());
+        }
+        bytes
+    };
+    for bytes in [
+        text.into_bytes(),
+        binary("binary_little_endian", false),
+        binary("binary_big_endian", true),
+    ] {
+        let scene = good(bytes);
+        assert_eq!(spheres(&scene), [[1.0, 2.0, -3.0, 0.5], [4.0, 5.0, 6.0, 0.25]]);
+        assert_eq!(scene.colors(), [Srgb([255, 0, 128]), Srgb([0, 255, 0])]);
+    }
+}
+
+#[test]
+fn npy_of_every_order_and_size() {
+    let rows = [[1.0, 2.0, 3.0, 0.5], [4.0, 5.0, 6.0, 0.25]];
+    let c: Vec<f64> = rows.iter().flatten().copied().collect();
+    let f: Vec<f64> = (0..4).flat_map(|column| rows.map(|row| row[column])).collect();
+    let four = |values: &[f64], big: bool| -> Vec<u8> {
+        let bytes = |value: &f64| {
+            if big { (*value as f32).to_be_bytes() } else { (*value as f32).to_le_bytes() }
+        };
+        values.iter().flat_map(bytes).collect()
+    };
+    let eight = |values: &[f64], big: bool| -> Vec<u8> {
+        let bytes = |value: &f64| if big { value.to_be_bytes() } else { value.to_le_bytes() };
+        values.iter().flat_map(bytes).collect()
+    };
+    for (fortran, values) in [("False", &c), ("True", &f)] {
+        for (descr, data) in [
+            ("<f4", four(values, false)),
+            (">f4", four(values, true)),
+            ("<f8", eight(values, false)),
+            (">f8", eight(values, true)),
+        ] {
+            let scene = good(npy(descr, fortran, "(2, 4)", &data));
+            assert_eq!(
+                spheres(&scene),
+                rows.map(|row| row.map(|value| value as f32)),
+                "{descr} {fortran}"
+            );
+        }
+    }
+    let three = good(npy("<f4", "False", "(2, 3)", &four(&[0.0, 0.0, 0.0, 8.0, 0.0, 0.0], false)));
+    assert_eq!(centers(&three), [[0.0; 3], [8.0, 0.0, 0.0]]);
+    assert!(spheres(&three)[0][3] > 0.0);
+}
+
+#[test]
+fn a_robot_of_spheres() {
+    let text = "<?xml version=\"1.0\"?>\n<robot name=\"r\"><link name=\"base\"><collision><origin xyz=\"0 0 1\"/><geometry><sphere radius=\"0.5\"/></geometry></collision>\
+        <visual><geometry><mesh filename=\"m\"/></geometry></visual></link>\n\
+        <link name=\"arm\"><collision><origin xyz=\"1 0 0\"/><geometry><sphere radius=\"0.25\"/></geometry></collision></link>\
+        <joint name=\"j\" type=\"revolute\"><parent link=\"base\"/><child link=\"arm\"/><origin xyz=\"0 0 2\" rpy=\"0 0 1.5707963267948966\"/></joint></robot>";
+    let found = spheres(&good(text));
+    let expected = [[0.0, 0.0, 1.0, 0.5], [0.0, 1.0, 2.0, 0.25]];
+    for (found, expected) in found.iter().flatten().zip(expected.iter().flatten()) {
+        assert!((found - expected).abs() < 1e-6, "{found} {expected}");
+    }
+    assert_eq!(found.len(), 2);
+}
+
+#[test]
+fn compressed_by_its_bytes_from_a_pipe_too() {
+    let xyz = b"2\n\nH 0 0 0\nC 1 2 3\n";
+    assert_eq!(good(gz(xyz)).spheres().len(), 2);
+    assert_eq!(good(bz2(xyz)).spheres().len(), 2);
+    // Two members are one text.
+    assert_eq!(good([gz(&xyz[..5]), gz(&xyz[5..])].concat()).spheres().len(), 2);
+    assert_eq!(good(gz(PDB.as_bytes())).spheres().len(), 3);
+}
+
+#[test]
+fn toml_still_is() {
+    assert_eq!(good("[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n").spheres().len(), 1);
+    assert_eq!(
+        good("# a comment\nshadows = true\n[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n")
+            .spheres()
+            .len(),
+        1
+    );
+}

@@ -1,0 +1,134 @@
+//! A robot in URDF whose links are spheres, as planners approximate them: every `<sphere>` of a `<collision>`, or of a
+//! `<visual>` where no link has a collision sphere, with all joints at zero.
+//!
+//! Frames are chained from the root by the `origin` of joints, in double precision. Specification:
+//! <https://wiki.ros.org/urdf/XML>.
+
+use super::LONGEST_TEXT;
+use crate::scene::Scene;
+use crate::scene::attributes::Naming;
+use crate::scene::input::Input;
+use crate::scene::notes::Notes;
+use crate::scene::particles::{Particles, Symbols};
+use crate::scene::read_error::ReadError;
+use glam::{DAffine3, DQuat, DVec3};
+use roxmltree::{Document, Node, ParsingOptions};
+use std::collections::HashMap;
+
+/// Joints from the root to a link, at most: then there is a circle.
+const DEEPEST: usize = 1024;
+
+/// Reads the robot.
+///
+/// # Errors
+/// [`ReadError`] if it is no XML, has no spheres, a joint in a circle, or a number that is none.
+pub(super) fn read(input: &mut Input, notes: &mut Notes) -> Result<Scene, ReadError> {
+    let bytes = input.rest(LONGEST_TEXT)?;
+    let source = input.source();
+    let text =
+        std::str::from_utf8(&bytes).map_err(|_| ReadError::whole(source, "no UTF-8 text"))?;
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let options = ParsingOptions { nodes_limit: 1 << 22, ..ParsingOptions::default() };
+    let document = Document::parse_with_options(text, options).map_err(|error| {
+        let place = error.pos();
+        ReadError::at(source, place.row as usize, place.col as usize, error.to_string())
+    })?;
+    let robot = document.root_element();
+    let wrong = |node: Node<'_, '_>, what: String| {
+        let place = document.text_pos_at(node.range().start);
+        ReadError::at(source, place.row as usize, place.col as usize, what)
+    };
+    if robot.tag_name().name() != "robot" {
+        return Err(wrong(robot, format!("<{}>, not <robot>", robot.tag_name().name())));
+    }
+    let origin = |node: Node<'_, '_>| -> Result<DAffine3, ReadError> {
+        let Some(origin) = child(node, "origin") else { return Ok(DAffine3::IDENTITY) };
+        let three = |name| match origin.attribute(name) {
+            None => Ok(DVec3::ZERO),
+            Some(text) => vector(text)
+                .ok_or_else(|| wrong(origin, format!("{name} is {text:?}: not three numbers"))),
+        };
+        let angles = three("rpy")?;
+        // Roll about x, then pitch about y, then yaw about z, all fixed.
+        let turn = DQuat::from_rotation_z(angles.z)
+            * DQuat::from_rotation_y(angles.y)
+            * DQuat::from_rotation_x(angles.x);
+        Ok(DAffine3::from_rotation_translation(turn, three("xyz")?))
+    };
+
+    // Every link has at most one joint above it.
+    let mut above: HashMap<&str, (&str, DAffine3)> = HashMap::new();
+    for joint in robot.children().filter(|node| node.has_tag_name("joint")) {
+        let link = |name| child(joint, name).and_then(|node| node.attribute("link"));
+        let (Some(parent), Some(below)) = (link("parent"), link("child")) else {
+            // A joint of a transmission has neither.
+            continue;
+        };
+        if above.insert(below, (parent, origin(joint)?)).is_some() {
+            return Err(wrong(joint, format!("the link {below:?} has two joints above it")));
+        }
+    }
+    let place = |link: Node<'_, '_>, name: &str| {
+        let (mut transform, mut at, mut depth) = (DAffine3::IDENTITY, name.to_owned(), 0);
+        while let Some((parent, joint)) = above.get(at.as_str()) {
+            transform = *joint * transform;
+            at = (*parent).to_owned();
+            depth += 1;
+            if depth > DEEPEST {
+                return Err(wrong(link, format!("the link {name:?} hangs on itself")));
+            }
+        }
+        Ok(transform)
+    };
+
+    for kind in ["collision", "visual"] {
+        let mut particles = Particles { symbols: Symbols::Numbers, ..Particles::default() };
+        let mut others = 0;
+        for link in robot.children().filter(|node| node.has_tag_name("link")) {
+            let name = link.attribute("name").unwrap_or_default();
+            let transform = place(link, name)?;
+            for part in link.children().filter(|node| node.has_tag_name(kind)) {
+                let Some(geometry) = child(part, "geometry") else { continue };
+                let Some(sphere) = child(geometry, "sphere") else {
+                    others += 1;
+                    continue;
+                };
+                let text = sphere.attribute("radius").unwrap_or_default();
+                let radius = text.trim().parse::<f64>().map_or(f32::NAN, |radius| radius as f32);
+                if !(radius.is_finite() && radius >= 0.0) {
+                    return Err(wrong(
+                        sphere,
+                        format!("radius is {text:?}: no number of zero or more"),
+                    ));
+                }
+                let center = (transform * origin(part)?).translation.as_vec3();
+                if !center.is_finite() {
+                    return Err(wrong(
+                        sphere,
+                        format!("at {center}: not finite in single precision"),
+                    ));
+                }
+                particles.centers.push(center);
+                particles.radii.push(radius);
+                particles.kind(name.as_bytes(), 1);
+                particles.naming(Naming::Molecule).push(name.as_bytes());
+            }
+        }
+        if !particles.centers.is_empty() {
+            if others > 0 {
+                notes.note(format!("{others} shapes that are no spheres are ignored"));
+            }
+            return particles.finish(notes, source);
+        }
+    }
+    Err(ReadError::whole(source, "a robot without spheres"))
+}
+
+fn child<'a, 'i>(node: Node<'a, 'i>, name: &str) -> Option<Node<'a, 'i>> {
+    node.children().find(|child| child.has_tag_name(name))
+}
+
+fn vector(text: &str) -> Option<DVec3> {
+    let values: Result<Vec<f64>, _> = text.split_whitespace().map(str::parse).collect();
+    <[f64; 3]>::try_from(values.ok()?).ok().map(DVec3::from_array)
+}

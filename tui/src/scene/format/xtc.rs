@@ -1,0 +1,131 @@
+//! GROMACS's compressed trajectory, decompressed by the crate `molly`, behind checks that it does not make.
+//!
+//! It has positions alone: what the particles are, another file says.
+
+use super::Context;
+use super::gro::ANGSTROM;
+use crate::scene::Scene;
+use crate::scene::input::Input;
+use crate::scene::particles::Particles;
+use crate::scene::read_error::ReadError;
+use molly::{Frame, XTCReader};
+use spherule_kernel::{Sphere, Vec3};
+use std::cell::Cell;
+use std::io::Read as _;
+use std::panic::{self, AssertUnwindSafe, catch_unwind};
+use std::sync::Once;
+
+/// Magic, atoms, step, time, box, atoms again.
+const HEADER: usize = 56;
+/// Of more than nine atoms: precision, least and most coordinates, the index of the small differences.
+const COMPRESSED: usize = 32;
+/// The fewest bits an atom takes, less than which there is none: a bit says whether its run goes on.
+const MOST_ATOMS_A_BYTE: u64 = 8;
+
+/// Reads the next frame.
+///
+/// # Errors
+/// [`ReadError`] if it is none, or another number of particles than the topology has.
+pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<Scene>, ReadError> {
+    if input.is_over()? {
+        return Ok(None);
+    }
+    let source = input.source().to_owned();
+    let wrong = |what: String| ReadError::whole(&source, what);
+    let bytes = raw(input)?;
+    let mut frame = Frame::default();
+    match decoded(&bytes, &mut frame) {
+        Ok(()) => {}
+        Err(error) => return Err(wrong(format!("a damaged frame: {error}"))),
+    }
+    let centers = frame.coords().map(|point| Vec3::from_array(point) * ANGSTROM);
+    let centers: Vec<Vec3> = centers.collect();
+    if centers.is_empty() || !centers.iter().all(|center| center.is_finite()) {
+        return Err(wrong(
+            "a frame without atoms, or with one that is not at a finite point".to_owned(),
+        ));
+    }
+    let Some(topology) = &context.topology else {
+        context.notes.note("positions alone: --topology FILE says what the particles are");
+        let particles = Particles { centers, ..Particles::default() };
+        return particles.finish(&mut context.notes, &source).map(Some);
+    };
+    let spheres = topology.spheres();
+    if spheres.len() != centers.len() {
+        return Err(wrong(format!(
+            "{} atoms in a frame; the topology has {}",
+            centers.len(),
+            spheres.len()
+        )));
+    }
+    let list = spheres
+        .iter()
+        .zip(centers)
+        .map(|(Sphere { radius, .. }, center)| Sphere { center, radius });
+    Ok(Some(topology.moved(list.collect())))
+}
+
+/// The bytes of a frame.
+fn raw(input: &mut Input) -> Result<Vec<u8>, ReadError> {
+    let wrong = |input: &Input, what: String| Err(ReadError::whole(input.source(), what));
+    let mut bytes = vec![0; HEADER];
+    input.exactly(&mut bytes)?;
+    let word = |bytes: &[u8], at: usize| {
+        u32::from_be_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]])
+    };
+    let (magic, atoms) = (word(&bytes, 0), u64::from(word(&bytes, 4)));
+    if ![1995, 2023].contains(&magic) {
+        return wrong(input, format!("a frame begins with {magic}, not with 1995 or 2023"));
+    }
+    if u64::from(word(&bytes, HEADER - 4)) != atoms {
+        return wrong(input, "a frame that states two numbers of atoms".to_owned());
+    }
+    let rest = if atoms <= 9 {
+        12 * atoms
+    } else {
+        let size = if magic == 2023 { 8 } else { 4 };
+        let from = bytes.len();
+        bytes.resize(from + COMPRESSED + size, 0);
+        input.exactly(&mut bytes[from..])?;
+        let length =
+            bytes[from + COMPRESSED..].iter().fold(0, |sum, &byte| sum << 8 | u64::from(byte));
+        if atoms > length.saturating_mul(MOST_ATOMS_A_BYTE) {
+            return wrong(input, format!("a frame of {atoms} atoms in {length} bytes"));
+        }
+        length.next_multiple_of(4)
+    };
+    let from = bytes.len();
+    // Memory grows with what is there.
+    let read = std::io::Read::take(&mut *input, rest).read_to_end(&mut bytes);
+    read.map_err(|error| ReadError::whole(input.source(), error.to_string()))?;
+    if ((bytes.len() - from) as u64) < rest {
+        return Err(ReadError::whole(input.source(), "the file ends within a frame").of_end());
+    }
+    Ok(bytes)
+}
+
+thread_local! {
+    /// Whether a panic is caught, and need not be told.
+    static IS_CAUGHT: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Decodes a frame. The crate panics where bits run out: that is an error here.
+fn decoded(bytes: &[u8], frame: &mut Frame) -> Result<(), String> {
+    static HOOK: Once = Once::new();
+    HOOK.call_once(|| {
+        let print = panic::take_hook();
+        panic::set_hook(Box::new(move |panic| {
+            if !IS_CAUGHT.get() {
+                print(panic);
+            }
+        }));
+    });
+    IS_CAUGHT.set(true);
+    let read = catch_unwind(AssertUnwindSafe(|| XTCReader::new(bytes).read_frame(frame)));
+    IS_CAUGHT.set(false);
+    match read {
+        Ok(Ok(())) => Ok(()),
+        Ok(Err(error)) => Err(error.to_string()),
+        Err(_) => Err("its bits run out".to_owned()),
+    }
+}

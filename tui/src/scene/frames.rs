@@ -1,0 +1,145 @@
+//! The frames of a file: read one by one, in any order where the file can be read again.
+//!
+//! Where each frame begins is remembered as it is passed: 16 bytes a frame. Nothing is read before it is asked for.
+
+use super::Scene;
+use super::format::{Context, Format};
+use super::input::{Input, Place};
+use super::read_error::ReadError;
+
+/// A file that has one frame or more.
+#[derive(Debug)]
+pub struct Frames {
+    input: Input,
+    format: Format,
+    context: Context,
+    /// Where frames begin, as far as that is known: one more than have been passed.
+    places: Vec<Place>,
+    /// The frame before which the input is.
+    at: usize,
+    /// How many there are, once that is known.
+    count: Option<usize>,
+    follows: bool,
+}
+
+impl Frames {
+    pub(super) fn new(input: Input, format: Format, context: Context, follows: bool) -> Self {
+        let places = vec![input.place()];
+        Self { input, format, context, places, at: 0, count: None, follows }
+    }
+
+    /// The name of the file.
+    #[must_use]
+    pub fn source(&self) -> &str {
+        self.input.source()
+    }
+
+    /// How many frames there are, once the end has been seen. A file that is followed has none.
+    #[must_use]
+    pub fn count(&self) -> Option<usize> {
+        self.count.filter(|_| !self.follows)
+    }
+
+    /// Whether more may be written to the file.
+    #[must_use]
+    pub fn follows(&self) -> bool {
+        self.follows
+    }
+
+    /// Whether frames that have been read can be read again.
+    #[must_use]
+    pub fn can_go_back(&self) -> bool {
+        self.input.can_be_read_again()
+    }
+
+    /// Writes what there is to say besides the picture to standard error, each once.
+    pub fn report(&mut self) {
+        let source = self.input.source().to_owned();
+        self.context.notes.report(&source);
+    }
+
+    /// What there is to say besides the picture, each once.
+    pub fn notes(&mut self) -> Vec<String> {
+        self.context.notes.take().into_iter().map(Into::into).collect()
+    }
+
+    /// Notes something.
+    pub fn note(&mut self, text: String) {
+        self.context.notes.note(text);
+    }
+
+    /// Reads frame `index`, from 0; `None` if there is none, or, of a file that is followed, not yet.
+    ///
+    /// Frames in between are passed over. A frame before the one that is next needs a file that can be read again.
+    ///
+    /// # Errors
+    /// [`ReadError`] if a frame is none.
+    pub fn read(&mut self, index: usize) -> Result<Option<Scene>, ReadError> {
+        let nearest = index.min(self.places.len() - 1);
+        if self.at != nearest && (index < self.at || nearest > self.at) {
+            self.input.go(self.places[nearest])?;
+            self.at = nearest;
+        }
+        while self.at < index {
+            let format = self.format;
+            if !self.attempt(|input, context| format.skip(input, context))?.unwrap_or(false) {
+                return Ok(None);
+            }
+            self.passed();
+        }
+        if !self.format.has_frames() && index > 0 {
+            self.count = Some(1);
+            return Ok(None);
+        }
+        let format = self.format;
+        let scene = self.attempt(|input, context| format.frame(input, context))?.flatten();
+        if scene.is_some() {
+            self.passed();
+        }
+        Ok(scene)
+    }
+
+    /// Whether there is a frame `index`, without reading more of it than need be.
+    ///
+    /// # Errors
+    /// [`ReadError`] if one before it is none.
+    pub fn has(&mut self, index: usize) -> Result<bool, ReadError> {
+        if !self.format.has_frames() {
+            return Ok(index == 0);
+        }
+        if index < self.places.len() - 1 {
+            return Ok(true);
+        }
+        if self.at == index {
+            return Ok(!self.input.is_over_but_blanks()?);
+        }
+        Ok(self.read(index)?.is_some())
+    }
+
+    /// Tries to read what may not be there yet: then the input is where it was.
+    fn attempt<T>(
+        &mut self,
+        read: impl FnOnce(&mut Input, &mut Context) -> Result<T, ReadError>,
+    ) -> Result<Option<T>, ReadError> {
+        let before = self.input.place();
+        let result = read(&mut self.input, &mut self.context);
+        // What has no end of line yet may go on.
+        let is_partial = match &result {
+            Ok(_) => !self.input.is_terminated(),
+            Err(error) => error.ends_early,
+        };
+        if self.follows && is_partial {
+            self.input.go_anew(before)?;
+            return Ok(None);
+        }
+        let result = result?;
+        Ok(Some(result))
+    }
+
+    fn passed(&mut self) {
+        self.at += 1;
+        if self.at == self.places.len() {
+            self.places.push(self.input.place());
+        }
+    }
+}

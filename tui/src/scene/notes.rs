@@ -1,0 +1,86 @@
+//! What a reader of a file should know besides its picture, each once: what is ignored, what is not known.
+
+use super::read_error::ReadError;
+use std::borrow::Cow;
+use std::io::{self, Write};
+
+/// The most names in a note.
+const MOST_NAMES: usize = 6;
+
+/// What there is to say about a file, and what has been said.
+#[derive(Debug, Default)]
+pub(super) struct Notes {
+    strict: bool,
+    texts: Vec<Cow<'static, str>>,
+    said: usize,
+    unknown_said: bool,
+}
+
+impl Notes {
+    /// Nothing yet; `strict`: an unknown type of particle is an error.
+    #[must_use]
+    pub(super) fn new(strict: bool) -> Self {
+        Self { strict, ..Self::default() }
+    }
+
+    /// Notes something, once.
+    pub(super) fn note(&mut self, text: impl Into<Cow<'static, str>>) {
+        let text = text.into();
+        if !self.texts.contains(&text) {
+            self.texts.push(text);
+        }
+    }
+
+    /// Notes how many particles are of types that nobody knows: the `names`, the first of them in `line`. Of a file the
+    /// first frame tells.
+    ///
+    /// # Errors
+    /// [`ReadError`] where that is not allowed.
+    pub(super) fn unknown(
+        &mut self,
+        source: &str,
+        line: usize,
+        count: usize,
+        names: &[&str],
+    ) -> Result<(), ReadError> {
+        if self.strict {
+            let what = format!("{:?} is no element; without --strict it is drawn grey", names[0]);
+            return Err(ReadError::at(source, line, 1, what));
+        }
+        if self.unknown_said {
+            return Ok(());
+        }
+        self.unknown_said = true;
+        let mut list = names[..names.len().min(MOST_NAMES)].join(", ");
+        if names.len() > MOST_NAMES {
+            list += ", ...";
+        }
+        let (particles, are) = if count == 1 { ("particle", "is") } else { ("particles", "are") };
+        let types = if names.len() == 1 {
+            "an unknown type".to_owned()
+        } else {
+            format!("{} unknown types", names.len())
+        };
+        self.note(format!("{count} {particles} {are} of {types} ({list}): drawn grey"));
+        Ok(())
+    }
+
+    /// What has been noted since the last call.
+    pub(super) fn take(&mut self) -> Vec<Cow<'static, str>> {
+        let new = self.texts[self.said..].to_vec();
+        self.said = self.texts.len();
+        new
+    }
+
+    /// Writes what has been noted since the last call to standard error, a line each.
+    pub(super) fn report(&mut self, source: &str) {
+        for text in self.take() {
+            let line: String = format!("{source}: {text}")
+                .chars()
+                .map(|c| if c.is_control() { '\u{fffd}' } else { c })
+                .collect();
+            // If it cannot be said, the picture still comes.
+            let _ = writeln!(io::stderr(), "spherule: {line}");
+        }
+    }
+}

@@ -1,0 +1,65 @@
+//! Numbers in text, fast: most have few digits, and are exact by one division.
+
+/// The number that `word` is, as the standard library reads it: the nearest `f64`. `None` if it is none.
+///
+/// Where the digits make an integer below 2^53 and the power of ten is at most 22, both are exact in `f64`, and so one
+/// rounding makes the nearest (W. D. Clinger, "How to read floating point numbers accurately", PLDI 1990). All else
+/// goes to the standard library.
+#[inline]
+pub(super) fn number(word: &[u8]) -> Option<f64> {
+    let (negative, digits) = match word {
+        [b'-', rest @ ..] => (true, rest),
+        [b'+', rest @ ..] => (false, rest),
+        _ => (false, word),
+    };
+    let (mut mantissa, mut count, mut after, mut point) = (0_u64, 0_u32, 0_usize, false);
+    for &byte in digits {
+        match byte {
+            b'0'..=b'9' => {
+                mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(byte - b'0'));
+                count += 1;
+                after += usize::from(point);
+            }
+            b'.' if !point => point = true,
+            _ => return slowly(word),
+        }
+    }
+    if count == 0 || count > 18 || mantissa > 1 << 53 || after >= POWERS.len() {
+        return slowly(word);
+    }
+    let value = mantissa as f64 / POWERS[after];
+    Some(if negative { -value } else { value })
+}
+
+#[cold]
+fn slowly(word: &[u8]) -> Option<f64> {
+    std::str::from_utf8(word).ok()?.parse().ok()
+}
+
+const POWERS: [f64; 23] = [
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
+    1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn what_is_no_number() {
+        for word in
+            ["", "-", ".", "+-1", "1-", "1.2.3", "0x1", "1e", "1_0", "--1", " 1", "\u{ff11}"]
+        {
+            assert_eq!(number(word.as_bytes()), None, "{word}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn the_nearest_as_the_standard_library_reads_it(word in r"[-+]?[0-9]{0,21}(\.[0-9]{0,25})?([eE][-+]?[0-9]{1,3})?") {
+            let expected = word.parse::<f64>().ok();
+            prop_assert_eq!(number(word.as_bytes()).map(f64::to_bits), expected.map(f64::to_bits));
+        }
+    }
+}

@@ -1,0 +1,275 @@
+//! The particles of a frame, as a file states them, and the scene that they become.
+//!
+//! Which element a particle is is asked once a name, not once a particle. What has no element and no radius of its own
+//! is as large as particles are apart, or, beside elements, as a small atom.
+
+use super::attributes::{Attributes, Names, NamesBuilder, Naming, NumberColumn};
+use super::elements::{element, of_number};
+use super::notes::Notes;
+use super::read_error::ReadError;
+use super::{Lighting, Scene};
+use crate::color::Srgb;
+use spherule_kernel::{Sphere, Vec3};
+
+/// What is behind particles.
+const BACKGROUND: Srgb = Srgb([0x10, 0x12, 0x1a]);
+
+/// The colour of what nothing is known of.
+pub(super) const NEUTRAL: Srgb = Srgb([0xa8, 0xa8, 0xa8]);
+
+/// In angstrom; the radius of an unknown particle beside atoms.
+const UNKNOWN_RADIUS: f32 = 1.2;
+
+/// Colours that the colour-blind tell apart, for types without an element: M. Okabe, K. Ito, "Color Universal Design"
+/// (2002), without black.
+const TYPE_COLORS: [Srgb; 7] = [
+    Srgb([0x56, 0xb4, 0xe9]),
+    Srgb([0xe6, 0x9f, 0x00]),
+    Srgb([0x00, 0x9e, 0x73]),
+    Srgb([0xcc, 0x79, 0xa7]),
+    Srgb([0xf0, 0xe4, 0x42]),
+    Srgb([0xd5, 0x5e, 0x00]),
+    Srgb([0x00, 0x72, 0xb2]),
+];
+
+/// How a name tells an element.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Symbols {
+    /// It is a symbol or an atomic number, perhaps with a number behind it, as in `C12`.
+    #[default]
+    Elements,
+    /// It is the name of an atom in a molecule: `CA`, `1HB2`, `OW`.
+    AtomNames,
+    /// It tells none: types are numbered.
+    Numbers,
+}
+
+/// The particles of a frame. What is not empty has a value a particle.
+#[derive(Debug, Default)]
+pub(super) struct Particles {
+    pub(super) centers: Vec<Vec3>,
+    /// NaN where there is none.
+    pub(super) radii: Vec<f32>,
+    pub(super) colors: Vec<Srgb>,
+    /// What tells the element.
+    pub(super) kinds: NamesBuilder,
+    pub(super) symbols: Symbols,
+    /// The lines in which names of `kinds` first occur.
+    pub(super) lines: Vec<usize>,
+    /// By [`Naming`].
+    pub(super) names: [NamesBuilder; Naming::ALL.len()],
+    pub(super) residue_numbers: Vec<i32>,
+    pub(super) columns: Vec<NumberColumn>,
+}
+
+impl Particles {
+    /// Adds what tells the element of the next particle, which is in `line`.
+    #[inline]
+    pub(super) fn kind(&mut self, name: &[u8], line: usize) {
+        self.kinds.push(name);
+        if self.kinds.known() > self.lines.len() {
+            self.lines.push(line);
+        }
+    }
+
+    /// The names of one kind.
+    #[inline]
+    pub(super) fn naming(&mut self, naming: Naming) -> &mut NamesBuilder {
+        &mut self.names[naming as usize]
+    }
+
+    /// Brings the particles into the order of `keys`, one a particle.
+    pub(super) fn sort_by(&mut self, keys: &[i64]) {
+        if keys.is_sorted() {
+            return;
+        }
+        let mut order: Vec<u32> = (0..keys.len() as u32).collect();
+        order.sort_by_key(|&index| keys[index as usize]);
+        permute(&mut self.centers, &order);
+        permute(&mut self.radii, &order);
+        permute(&mut self.colors, &order);
+        permute(&mut self.residue_numbers, &order);
+        for column in &mut self.columns {
+            permute(&mut column.values, &order);
+        }
+        for names in self.names.iter_mut().chain([&mut self.kinds]) {
+            names.permute(|indices| permute(indices, &order));
+        }
+    }
+
+    /// The scene. `source` is the file in errors.
+    ///
+    /// # Errors
+    /// [`ReadError`] if there is no particle, or one of an unknown type where `notes` are strict.
+    pub(super) fn finish(self, notes: &mut Notes, source: &str) -> Result<Scene, ReadError> {
+        let Self {
+            centers,
+            radii,
+            mut colors,
+            kinds,
+            symbols,
+            lines,
+            names,
+            residue_numbers,
+            mut columns,
+        } = self;
+        let count = centers.len();
+        let kinds = kinds.finish();
+        let known = kinds.as_ref().map(|kinds| resolved(kinds, symbols));
+        let number_of = |index: usize| -> u8 {
+            let of = kinds.as_ref().zip(known.as_ref());
+            of.map_or(0, |(kinds, known)| known[kinds.indices()[index] as usize])
+        };
+        let has_elements =
+            known.as_ref().is_some_and(|known| known.iter().any(|&number| number > 0));
+        let own = super::attributes::Own { colors: !colors.is_empty(), radii: !radii.is_empty() };
+        if let (Some(kinds), Some(known)) = (&kinds, &known)
+            && symbols != Symbols::Numbers
+            && !(own.colors && own.radii)
+        {
+            note_unknown(kinds, known, &lines, notes, source)?;
+        }
+
+        if colors.is_empty() {
+            colors.reserve_exact(count);
+            // Every element once, not once an atom.
+            let by_kind: Vec<Srgb> = match (&kinds, &known) {
+                (Some(kinds), Some(known)) => (0..kinds.table().len())
+                    .map(|kind| match of_number(known[kind].into()) {
+                        Some(element) => element.color,
+                        None if symbols == Symbols::Numbers => {
+                            TYPE_COLORS[kind % TYPE_COLORS.len()]
+                        }
+                        None => NEUTRAL,
+                    })
+                    .collect(),
+                _ => Vec::new(),
+            };
+            match &kinds {
+                Some(kinds) => {
+                    colors.extend(kinds.indices().iter().map(|&kind| by_kind[kind as usize]))
+                }
+                None => colors.resize(count, NEUTRAL),
+            }
+        }
+        let missing = if has_elements { UNKNOWN_RADIUS } else { half_spacing(&centers) };
+        let radius_of_number: Vec<f32> = (0..=u8::MAX)
+            .map(|number| of_number(number.into()).map_or(missing, |element| element.radius))
+            .collect();
+        let radius = |index: usize| match radii.get(index) {
+            Some(radius) if !radius.is_nan() => *radius,
+            _ => radius_of_number[usize::from(number_of(index))],
+        };
+        let list = centers.iter().enumerate();
+        let list = list.map(|(index, &center)| Sphere { center, radius: radius(index) }).collect();
+
+        columns.retain(|column| column.values.len() == count);
+        let mut attributes = Attributes { columns, own, ..Attributes::default() };
+        attributes.elements = has_elements.then(|| (0..count).map(number_of).collect());
+        attributes.residue_numbers =
+            (residue_numbers.len() == count && count > 0).then_some(residue_numbers);
+        for (naming, builder) in Naming::ALL.into_iter().zip(names) {
+            attributes.set_names(naming, builder.finish());
+        }
+        if attributes.names(Naming::Type).is_none() && attributes.names(Naming::Name).is_none() {
+            attributes.set_names(Naming::Type, kinds);
+        }
+        let mut scene = Scene::of_spheres(list, colors, attributes);
+        scene.background = BACKGROUND;
+        scene.lighting = Lighting::Camera;
+        Ok(scene)
+    }
+}
+
+fn permute<T: Copy>(values: &mut Vec<T>, order: &[u32]) {
+    if values.len() == order.len() {
+        *values = order.iter().map(|&index| values[index as usize]).collect();
+    }
+}
+
+/// The atomic number of every name; 0 where none is known.
+fn resolved(kinds: &Names, symbols: Symbols) -> Vec<u8> {
+    let number = |name: &str| {
+        let found = match symbols {
+            Symbols::Elements => element(name).or_else(|| {
+                element(name.trim_end_matches(|c: char| c.is_ascii_digit() || c == '+' || c == '-'))
+            }),
+            Symbols::AtomNames => of_atom_name(name),
+            Symbols::Numbers => None,
+        };
+        found.map_or(0, |element| element.number)
+    };
+    kinds.table().iter().map(|name| number(name)).collect()
+}
+
+/// The element that the name of an atom tells. In molecules of life a C, H, N, O, P or S begins the names of all of
+/// their atoms; ions are called as they are.
+fn of_atom_name(name: &str) -> Option<super::elements::Element> {
+    let letters = name.trim_start_matches(|c: char| c.is_ascii_digit());
+    let stem = letters.trim_end_matches(|c: char| !c.is_ascii_alphabetic());
+    let ion = [
+        "NA", "CL", "MG", "ZN", "FE", "MN", "BR", "LI", "CU", "CO", "NI", "CAL", "SOD", "CLA",
+        "POT",
+    ];
+    let alias = match stem {
+        "CAL" => "CA",
+        "SOD" => "NA",
+        "CLA" => "CL",
+        "POT" => "K",
+        _ => stem,
+    };
+    if ion.contains(&stem) {
+        return element(alias);
+    }
+    let first = letters.get(..1)?;
+    if ["C", "H", "N", "O", "P", "S", "F", "K", "I"].contains(&first) {
+        element(first)
+    } else {
+        element(stem)
+    }
+}
+
+fn note_unknown(
+    kinds: &Names,
+    known: &[u8],
+    lines: &[usize],
+    notes: &mut Notes,
+    source: &str,
+) -> Result<(), ReadError> {
+    let is_unknown = |kind: usize| known[kind] == 0 && !kinds.table()[kind].is_empty();
+    let unknown: Vec<usize> = (0..known.len()).filter(|&kind| is_unknown(kind)).collect();
+    if unknown.is_empty() {
+        return Ok(());
+    }
+    let count = kinds.indices().iter().filter(|&&kind| is_unknown(kind as usize)).count();
+    let names: Vec<&str> = unknown.iter().map(|&kind| &*kinds.table()[kind]).collect();
+    notes.unknown(source, lines.get(unknown[0]).copied().unwrap_or(1), count, &names)
+}
+
+/// Half of how far particles are apart, if they fill what most of them are in; 1 if that has no size.
+pub(super) fn half_spacing(centers: &[Vec3]) -> f32 {
+    /// So many tell where most are.
+    const MOST: usize = 10_000;
+    let some: Vec<Vec3> =
+        centers.iter().step_by(centers.len().div_ceil(MOST).max(1)).copied().collect();
+    if some.len() < 2 {
+        return 1.0;
+    }
+    let (mut volume, mut dimensions) = (1.0_f64, 0_u8);
+    for axis in 0..3 {
+        let mut along: Vec<f32> = some.iter().map(|center| center[axis]).collect();
+        along.sort_by(f32::total_cmp);
+        let cut = along.len() / 20;
+        let range = f64::from(along[along.len() - 1 - cut]) - f64::from(along[cut]);
+        if range > 0.0 {
+            volume *= range / 0.9;
+            dimensions += 1;
+        }
+    }
+    if dimensions == 0 {
+        return 1.0;
+    }
+    let apart = (volume / centers.len() as f64).powf(1.0 / f64::from(dimensions));
+    let half = (0.5 * apart) as f32;
+    if half.is_finite() && half > 0.0 { half } else { 1.0 }
+}

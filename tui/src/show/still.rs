@@ -1,0 +1,55 @@
+//! Pictures of frames, one after another, from where the first is seen.
+
+use super::once::Once;
+use crate::choice::Auto;
+use crate::draw::{Renderer, picture_workload};
+use crate::error::Error;
+use crate::scene::Scene;
+use crate::scene::frames::Frames;
+use crate::structure::Structure;
+use crate::structure::scene::SceneStructures;
+use crate::style::Style;
+use crate::view::View;
+use std::ops::Range;
+
+/// What the frames have in common.
+pub(super) struct Still {
+    pub(super) view: View,
+    pub(super) style: Style,
+    pub(super) structure: Auto<Structure>,
+    /// Columns and rows.
+    pub(super) size: (u16, u16),
+    pub(super) is_terminal: bool,
+}
+
+impl Still {
+    /// Writes the pictures of a range of frames.
+    pub(super) fn pictures(
+        &self,
+        renderer: &mut Renderer<'_>,
+        mut structures: SceneStructures<'_>,
+        frames: &mut Frames,
+        range: Range<usize>,
+        prepared: impl Fn(Scene) -> Scene,
+    ) -> Result<(), Error> {
+        let Self { view, style, structure, size: (columns, rows), is_terminal } = *self;
+        for index in range {
+            let scene = loop {
+                let read = frames.read(index).map_err(|error| Error::Input(error.to_string()))?;
+                match read {
+                    Some(scene) => break scene,
+                    None if frames.follows() => std::thread::sleep(crate::arguments::files::FOLLOW),
+                    None => return Ok(()),
+                }
+            };
+            frames.report();
+            let scene = prepared(scene);
+            structures.go_on(scene.list());
+            let workload = picture_workload(scene.spheres().len(), &style, columns, rows, 1.0);
+            let search = structures.picture(structure, &workload, &view, &scene.lighting)?;
+            let once = Once { scene: &scene, view, style, size: self.size, is_terminal };
+            once.picture(renderer, &search, None)?;
+        }
+        Ok(())
+    }
+}

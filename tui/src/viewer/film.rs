@@ -1,0 +1,305 @@
+//! The frames of a file in the viewer: a thread reads them before they are wanted.
+//!
+//! It reads at most [`AHEAD`] frames ahead, fewer of large ones, and keeps one behind; the rest is read again when it
+//! is wanted. Nobody waits for it: where a frame is not there yet, the picture stays.
+
+use crate::arguments::files::FOLLOW;
+use crate::error::Error;
+use crate::scene::Scene;
+use crate::scene::frames::Frames;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread::Builder;
+use std::time::{Duration, Instant};
+
+/// Frames that are read before they are wanted, at most ...
+const AHEAD: usize = 8;
+/// ... and spheres in them.
+const MOST_SPHERES: usize = 8_000_000;
+/// Frames a second while it plays, at most.
+pub(super) const RATE: u32 = 25;
+
+/// What the viewer and the reading thread share.
+#[derive(Debug, Default)]
+struct State {
+    /// The frame that is wanted next.
+    wanted: usize,
+    ready: BTreeMap<usize, Arc<Scene>>,
+    /// How many frames there are, once that is known.
+    count: Option<usize>,
+    /// Why there is no further frame.
+    failure: Option<(usize, String)>,
+    is_over: bool,
+}
+
+#[derive(Debug, Default)]
+struct Shared {
+    state: Mutex<State>,
+    changed: Condvar,
+}
+
+impl Shared {
+    fn lock(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// The frames of a file, and which is shown.
+#[derive(Debug)]
+pub struct Film {
+    shared: Arc<Shared>,
+    /// The frame that is shown.
+    shown: usize,
+    /// The one that is to be shown as soon as it is there.
+    target: usize,
+    is_playing: bool,
+    last: Instant,
+    can_go_back: bool,
+    may_have_more: bool,
+}
+
+impl Film {
+    /// A file of which `frame` is shown; `prepare` does to others what was done to that one.
+    ///
+    /// # Errors
+    /// [`Error::Running`] if there is no thread to read it.
+    pub fn new(
+        frames: Frames,
+        frame: usize,
+        prepare: impl Fn(&mut Scene) + Send + 'static,
+    ) -> Result<Self, Error> {
+        let shared = Arc::new(Shared::default());
+        let first = frame + 1;
+        shared.lock().wanted = first;
+        let (can_go_back, may_have_more) = (frames.can_go_back(), frames.follows());
+        let theirs = Arc::clone(&shared);
+        let read = move || read_ahead(frames, &theirs, prepare);
+        let thread = Builder::new().name("frames".to_owned()).spawn(read);
+        thread.map_err(|error| Error::Running(format!("a thread: {error}")))?;
+        let (shown, target, last) = (frame, frame, Instant::now());
+        Ok(Self { shared, shown, target, is_playing: false, last, can_go_back, may_have_more })
+    }
+
+    /// Plays, or stops. At the end it begins again.
+    pub(super) fn play(&mut self) {
+        self.is_playing = !self.is_playing;
+        self.target = self.shown;
+    }
+
+    /// Whether there may be a frame besides the one that is shown.
+    pub(super) fn has_more(&self) -> bool {
+        self.may_have_more || self.shown > 0 || {
+            let state = self.shared.lock();
+            state.count.is_none_or(|count| count > 1)
+        }
+    }
+
+    /// One frame on or back.
+    pub(super) fn step(&mut self, forward: bool) {
+        self.is_playing = false;
+        let count = self.shared.lock().count;
+        let target = if forward { self.target + 1 } else { self.target.saturating_sub(1) };
+        if count.is_none_or(|count| target < count) {
+            self.want(target);
+        }
+    }
+
+    fn want(&mut self, target: usize) {
+        self.target = target;
+        let mut state = self.shared.lock();
+        state.wanted = target;
+        state.failure = None;
+        self.shared.changed.notify_all();
+    }
+
+    /// How long until it should be asked for a frame; `None` if nothing is to come.
+    pub(super) fn wait(&self) -> Option<Duration> {
+        /// Between two looks for a frame that is still being read.
+        const LOOK: Duration = Duration::from_millis(5);
+        if self.is_playing {
+            let next = Duration::from_secs(1) / RATE;
+            return Some(next.saturating_sub(self.last.elapsed()).max(LOOK));
+        }
+        let failed = || self.shared.lock().failure.is_some();
+        (self.target != self.shown && !failed()).then_some(LOOK)
+    }
+
+    /// The next frame, if it is time for one and it is there.
+    pub(super) fn next(&mut self) -> Option<Arc<Scene>> {
+        if self.is_playing && self.last.elapsed() >= Duration::from_secs(1) / RATE {
+            let count = self.shared.lock().count;
+            let next = self.shown + 1;
+            let ends = count.is_some_and(|count| next >= count);
+            let next = match (ends, self.can_go_back) {
+                (false, _) => next,
+                (true, true) => 0,
+                (true, false) => {
+                    self.is_playing = false;
+                    self.shown
+                }
+            };
+            if next != self.target {
+                self.want(next);
+            }
+        }
+        if self.target == self.shown {
+            return None;
+        }
+        let mut state = self.shared.lock();
+        if state.count.is_some_and(|count| self.target >= count) {
+            self.target = self.shown;
+            return None;
+        }
+        let scene = state.ready.get(&self.target).cloned()?;
+        self.shown = self.target;
+        // What follows is read while this one is drawn.
+        state.wanted = self.shown + 1;
+        drop(state);
+        self.shared.changed.notify_all();
+        self.last = Instant::now();
+        Some(scene)
+    }
+
+    /// For the status line: which frame of how many, or why there is none.
+    pub(super) fn status(&self) -> String {
+        let state = self.shared.lock();
+        if let Some((index, why)) = &state.failure {
+            return format!("frame {index}: {why}");
+        }
+        let mark = if self.is_playing { ">" } else { "" };
+        let more = if state.count.is_none() { "+" } else { "" };
+        let of = state.count.or_else(|| state.ready.keys().last().map(|last| last + 1));
+        let of = of.unwrap_or(0).max(self.shown + 1);
+        format!("{mark}{}/{of}{more}", self.shown)
+    }
+}
+
+impl Drop for Film {
+    fn drop(&mut self) {
+        self.shared.lock().is_over = true;
+        self.shared.changed.notify_all();
+    }
+}
+
+/// Reads what is wanted and what follows it, until nobody looks any more.
+fn read_ahead(mut frames: Frames, shared: &Shared, prepare: impl Fn(&mut Scene)) {
+    loop {
+        let index = {
+            let mut state = shared.lock();
+            loop {
+                if state.is_over {
+                    return;
+                }
+                if let Some(index) = missing(&state) {
+                    break index;
+                }
+                state = shared.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
+            }
+        };
+        let read = frames.read(index);
+        let mut state = shared.lock();
+        match read {
+            Ok(Some(mut scene)) => {
+                prepare(&mut scene);
+                state.ready.insert(index, Arc::new(scene));
+                let wanted = state.wanted;
+                state.ready.retain(|&index, _| index + 2 >= wanted && index <= wanted + AHEAD);
+            }
+            Ok(None) if frames.follows() => {
+                let waited = shared.changed.wait_timeout(state, FOLLOW);
+                drop(waited.unwrap_or_else(PoisonError::into_inner));
+            }
+            Ok(None) => {
+                let count = frames.count().unwrap_or(index);
+                state.count = Some(state.count.map_or(count, |known| known.min(count)));
+            }
+            Err(error) => {
+                state.count = Some(index);
+                state.failure = Some((index, error.to_string()));
+            }
+        }
+    }
+}
+
+/// The next frame to read, if there is one.
+fn missing(state: &State) -> Option<usize> {
+    let spheres = state.ready.values().map(|scene| scene.spheres().len()).sum::<usize>();
+    let is_there = |index: usize| state.ready.contains_key(&index);
+    let exists = |index: usize| state.count.is_none_or(|count| index < count);
+    if !is_there(state.wanted) {
+        return exists(state.wanted).then_some(state.wanted);
+    }
+    if spheres >= MOST_SPHERES {
+        return None;
+    }
+    (state.wanted..=state.wanted + AHEAD)
+        .find(|&index| !is_there(index))
+        .filter(|&index| exists(index))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::open::{Opened, Reading, open};
+
+    fn film(name: &str, count: usize) -> Film {
+        let text: String = (0..count).map(|index| format!("1\n\nC {index} 0 0\n")).collect();
+        let path = std::env::temp_dir().join(format!("spherule-{}-{name}", std::process::id()));
+        std::fs::write(&path, text).expect("a file");
+        let Ok(Opened::File(mut frames)) = open(path.to_str().expect("UTF-8"), &Reading::default())
+        else {
+            panic!("no file")
+        };
+        let _ = frames.read(0).expect("a frame").expect("a frame");
+        Film::new(frames, 0, |_| ()).expect("a thread")
+    }
+
+    /// x of the next frame, once it is there.
+    fn next(film: &mut Film) -> f32 {
+        for _ in 0..2000 {
+            if let Some(scene) = film.next() {
+                return scene.spheres().get(0).expect("an atom").center.x;
+            }
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        panic!("no frame comes: {}", film.status());
+    }
+
+    #[test]
+    fn steps_go_on_and_back_and_end_at_the_ends() {
+        let mut film = film("steps.xyz", 3);
+        assert!(film.next().is_none() && film.wait().is_none());
+        for (forward, x) in [(true, 1.0), (true, 2.0), (false, 1.0), (false, 0.0), (true, 1.0)] {
+            film.step(forward);
+            assert!(film.wait().is_some());
+            assert_eq!(next(&mut film), x);
+        }
+        film.step(true);
+        assert_eq!(next(&mut film), 2.0);
+        // The end has been seen by now, or is seen by this.
+        film.step(true);
+        std::thread::sleep(Duration::from_millis(100));
+        assert!(film.next().is_none());
+        assert_eq!(film.status(), "2/3");
+    }
+
+    #[test]
+    fn it_plays_all_and_begins_again() {
+        let mut film = film("plays.xyz", 4);
+        film.play();
+        let seen: Vec<f32> = (0..7).map(|_| next(&mut film)).collect();
+        assert_eq!(seen, [1.0, 2.0, 3.0, 0.0, 1.0, 2.0, 3.0]);
+        film.play();
+        assert!(film.next().is_none() && film.wait().is_none());
+    }
+
+    #[test]
+    fn no_more_is_read_than_has_room() {
+        let mut film = film("room.xyz", 500);
+        film.step(true);
+        assert_eq!(next(&mut film), 1.0);
+        std::thread::sleep(Duration::from_millis(200));
+        let ready = film.shared.lock().ready.len();
+        assert!(ready <= AHEAD + 3, "{ready}");
+    }
+}

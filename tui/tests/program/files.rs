@@ -1,0 +1,83 @@
+//! Other people's files, on the command line: frames, notes, pipes.
+
+use crate::run::{file, printed, refusal, run, run_with_input};
+use std::io::Write;
+use std::process::Output;
+
+const TWO: &str = "1\none\nC 0 0 0\n2\ntwo\nC 0 0 0\nO 3 0 0\n";
+
+fn with(path: &std::path::Path, words: &str) -> Output {
+    run([path.as_os_str()].into_iter().chain(words.split_whitespace().map(AsRef::as_ref)))
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).expect("UTF-8")
+}
+
+#[test]
+fn a_frame_is_named_and_further_frames_are_said() {
+    let path = file("two.xyz", TWO.as_bytes());
+    let first = with(&path, "--size 20x5");
+    assert!(
+        stderr(&first)
+            .ends_with("two.xyz: frame 0 is shown; there are more: --frame N, --frames A..B\n")
+    );
+    let second = printed(&with(&path, "--size 20x5 --frame 1"));
+    assert_ne!(String::from_utf8_lossy(&first.stdout), second);
+    let both = printed(&with(&path, "--size 20x5 --frames 0..2"));
+    assert_eq!(both.lines().count(), 10);
+    assert!(both.starts_with(&*String::from_utf8_lossy(&first.stdout)));
+    assert_eq!(printed(&with(&path, "--size 20x5 --frames 0..")), both);
+    assert_eq!(printed(&with(&path, "--size 20x5 --frames 1..9")), second);
+    assert!(refusal(&with(&path, "--frame 2")).ends_with("no frame 2; frames count from 0"));
+    for range in ["2..2", "3..1", "x..", "5"] {
+        assert!(refusal(&with(&path, &format!("--frames {range}"))).contains("A..B"));
+    }
+    assert!(refusal(&run(["marbles", "--frame", "1"])).contains("it has one frame"));
+}
+
+/// From a pipe, compressed, each frame as from the file.
+#[test]
+fn a_pipe_is_unpacked_and_has_frames() {
+    let mut gz = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::fast());
+    gz.write_all(TWO.as_bytes()).expect("memory");
+    let gz = gz.finish().expect("memory");
+    let path = file("pipe.xyz", TWO.as_bytes());
+    let expected = printed(&with(&path, "--size 20x5 --frames 0..2"));
+    assert_eq!(printed(&run_with_input("- --size 20x5 --frames 0..2", &gz)), expected);
+    assert_eq!(printed(&run_with_input("- --size 20x5 --frames 0..2", TWO.as_bytes())), expected);
+    let cut = refusal(&run_with_input("-", &gz[..gz.len() - 5]));
+    assert!(cut.contains("the compressed data ends early"), "{cut}");
+}
+
+#[test]
+fn what_is_unknown_or_ignored_is_said_once() {
+    let atoms: String = (0..1000).map(|index| format!("Xx {index} 0 0 7\n")).collect();
+    let path = file("unknown.xyz", format!("1000\n\n{atoms}").as_bytes());
+    let output = with(&path, "--size 20x5");
+    assert!(output.status.success());
+    let said = stderr(&output);
+    assert_eq!(said.lines().count(), 2, "{said}");
+    assert!(said.contains("unknown.xyz: 1000 particles are of an unknown type (Xx): drawn grey\n"));
+    assert!(said.contains("columns behind x, y and z are ignored"));
+    let strict = refusal(&with(&path, "--strict"));
+    assert!(
+        strict
+            .ends_with("unknown.xyz:3:1: \"Xx\" is no element; without --strict it is drawn grey"),
+        "{strict}"
+    );
+}
+
+#[test]
+fn options_that_a_file_has_no_use_for() {
+    let path = file("options.xyz", b"1\n\nC 0 0 0\n");
+    assert!(
+        refusal(&with(&path, "--columns 1,2,3"))
+            .ends_with("--columns: for tables; this file is none")
+    );
+    assert!(refusal(&with(&path, "--topology marbles")).contains("for .xtc"));
+    let table = file("options.csv", b"a,b,c\n1,2,3\n");
+    assert!(refusal(&with(&table, "--columns a,b")).contains("three for x, y and z"));
+    assert!(refusal(&with(&table, "--columns a,b,q")).contains("no column \"q\""));
+    assert!(printed(&with(&table, "--columns a,b,c --size 9x3")).lines().count() == 3);
+}
