@@ -25,7 +25,9 @@ use spherule::structure::scene::SceneStructures;
 use spherule::style::{Charset, ColorDepth, Style};
 use spherule::threads::Threads;
 use spherule::view::View;
-use spherule_kernel::{Exact, HitPacket, Intersect, Level, RayPacket, SphereList, SphereTree, Trace, Vec3};
+use spherule_kernel::{
+    Exact, HitPacket, Intersect, Level, RayPacket, SphereList, SphereTree, Trace, Vec3,
+};
 use std::error::Error;
 
 const SIZE: (u16, u16) = (120, 40);
