@@ -42,41 +42,44 @@ pub(crate) mod vision {
     /// G. M. Machado, M. M. Oliveira, L. A. F. Fernandes, "A Physiologically-based Model for Simulation of Color Vision
     /// Deficiency", 2009, at full severity.
     #[derive(Clone, Copy, Debug)]
-    pub(crate) struct Sight(&'static str, [Vec3; 3]);
+    pub(crate) struct Sight {
+        pub(crate) name: &'static str,
+        rows: [Vec3; 3],
+    }
 
     impl Sight {
         /// The light that looks to all as `light` does to those.
         pub(crate) fn seen(self, light: Vec3) -> Vec3 {
-            Vec3::from_array(self.1.map(|row| row.dot(light))).clamp(Vec3::ZERO, Vec3::ONE)
+            Vec3::from_array(self.rows.map(|row| row.dot(light))).clamp(Vec3::ZERO, Vec3::ONE)
         }
     }
 
     pub(crate) const SIGHTS: [Sight; 4] = [
-        Sight("all", [Vec3::X, Vec3::Y, Vec3::Z]),
-        Sight(
-            "deuteranopia",
-            [
+        Sight { name: "all", rows: [Vec3::X, Vec3::Y, Vec3::Z] },
+        Sight {
+            name: "deuteranopia",
+            rows: [
                 Vec3::new(0.367_322, 0.860_646, -0.227_968),
                 Vec3::new(0.280_085, 0.672_501, 0.047_413),
                 Vec3::new(-0.011_82, 0.042_94, 0.968_881),
             ],
-        ),
-        Sight(
-            "protanopia",
-            [
+        },
+        Sight {
+            name: "protanopia",
+            rows: [
                 Vec3::new(0.152_286, 1.052_583, -0.204_868),
                 Vec3::new(0.114_503, 0.786_281, 0.099_216),
                 Vec3::new(-0.003_882, -0.048_116, 1.051_998),
             ],
-        ),
-        Sight(
-            "tritanopia",
-            [
+        },
+        Sight {
+            name: "tritanopia",
+            rows: [
                 Vec3::new(1.255_528, -0.076_749, -0.178_779),
                 Vec3::new(-0.078_411, 0.930_809, 0.147_602),
                 Vec3::new(0.004_733, 0.691_367, 0.303_9),
             ],
-        ),
+        },
     ];
 }
 

@@ -9,11 +9,9 @@ fn scene() -> Scene {
         chains.push(name.as_bytes());
     }
     let column = NumberColumn { name: "b_factor".into(), values: vec![10.0, 20.0, 30.0, f32::NAN] };
-    let mut attributes = Attributes {
-        elements: Some(vec![6, 7, 8, 0]),
-        columns: vec![column],
-        ..Attributes::default()
-    };
+    let mut attributes = Attributes::default();
+    attributes.elements = Some(vec![6, 7, 8, 0]);
+    attributes.columns = vec![column];
     attributes.set_names(Naming::Chain, chains.finish());
     let list = SphereList::from_iter([(Vec3::ZERO, 1.0); 4]);
     Scene::of_spheres(list, vec![Srgb::WHITE; 4], attributes)

@@ -36,9 +36,9 @@ impl DepthCue {
     #[must_use]
     #[inline]
     pub fn veil(&self, depth: f32) -> f32 {
-        // The other way around NaN would be the most.
-        let share = ((depth - self.near) * self.inverse).max(0.0).min(1.0);
-        MOST * share
+        let share = (depth - self.near) * self.inverse;
+        // NaN is not above zero.
+        if share > 0.0 { MOST * share.min(1.0) } else { 0.0 }
     }
 
     /// What is seen of `light` at `depth` before `background`.
