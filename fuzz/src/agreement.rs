@@ -5,6 +5,8 @@ use crate::{promise, surfaces, tiles};
 use spherule_kernel::{Hit, Ray, Sphere, Tier, Viewpoint, roots};
 use spherule_referee::bytes::AimedScene;
 use spherule_referee::case::Case;
+#[cfg(test)]
+use spherule_tests::oracle;
 use spherule_tests::oracle::{accepted, is_closer};
 use spherule_tests::variants::{
     Answers, Memory, Structure, Structures, Variant, bits, pair_layers, pairs_of, reference,

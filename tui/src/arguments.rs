@@ -1,5 +1,6 @@
 //! The command line.
 
+mod crowd;
 pub mod files;
 mod overlay;
 mod values;
@@ -14,6 +15,7 @@ use crate::palette::Theme;
 use crate::pixels::Output;
 use crate::scene::Scene;
 use crate::scene::builtin::DEFAULT;
+use crate::scene::radii::{RadiusBy, set_radii};
 use crate::structure::{Order, Structure};
 use crate::style::{CHAIR, Charset};
 use crate::terminal::color_depth::ColorChoice;
@@ -22,6 +24,7 @@ use crate::view::{Lens, LensKind, View, orbited, with_projection};
 use clap::error::ErrorKind;
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, CommandFactory, FromArgMatches, Parser, Subcommand, value_parser};
+pub use crowd::CrowdArguments;
 use files::{FileArguments, Subject};
 pub use overlay::Overlay;
 use spherule_kernel::{Level, Tier, Vec3};
@@ -111,6 +114,9 @@ pub struct PictureArguments {
     /// every tier takes and gets wrong
     #[arg(long, value_name = "WHAT", value_parser = overlay, conflicts_with = "png")]
     pub show: Option<Overlay>,
+    /// What tells spheres of a crowd apart.
+    #[command(flatten)]
+    pub crowd: CrowdArguments,
     /// How it is computed.
     #[command(flatten)]
     pub computing: ComputingArguments,
@@ -180,6 +186,9 @@ pub struct SceneArguments {
     /// What is to know of a file.
     #[command(flatten)]
     pub file: FileArguments,
+    /// How large spheres are: van-der-waals, covalent, a number, or a column of numbers [default: as the scene says]
+    #[arg(long, value_name = "WHAT", allow_hyphen_values = true)]
+    pub radius: Option<RadiusBy>,
 }
 
 impl SceneArguments {
@@ -188,7 +197,18 @@ impl SceneArguments {
     /// # Errors
     /// [`Error::Input`] if there is no such scene, or it cannot be read.
     pub fn open(&self) -> Result<Subject, Error> {
-        self.file.open(&self.name)
+        let mut subject = self.file.open(&self.name)?;
+        let set = self.set_radii(&mut subject.scene);
+        set.map_err(|error| Error::Input(format!("{}: {error}", self.name)))?;
+        Ok(subject)
+    }
+
+    /// Gives a scene the radii that are asked for.
+    ///
+    /// # Errors
+    /// If it does not have them.
+    pub fn set_radii(&self, scene: &mut Scene) -> Result<(), String> {
+        self.radius.as_ref().map_or(Ok(()), |radius| set_radii(scene, radius))
     }
 
     /// Where the scene is first seen from, in a picture of `aspect`, width over height.

@@ -1,5 +1,6 @@
 //! From a scene to cells: the whole pipeline in one page.
 
+mod finish;
 mod need;
 pub mod pixels;
 mod plan;
@@ -14,7 +15,7 @@ use crate::samples::CellSamples;
 use crate::scene::Scene;
 use crate::structure::Structure;
 use crate::structure::choose::Workload;
-use crate::structure::scene::PictureSearch;
+use crate::structure::scene::{PictureSearch, Setting};
 use crate::structure::search::{Search, Tracing};
 use crate::style::Style;
 use crate::threads::Threads;
@@ -34,7 +35,7 @@ pub struct Drawn {
     pub effort: Effort,
 }
 
-/// Draws `scene` as `view` sees it into `columns` x `rows` cells, on this thread and by brute force.
+/// Draws `scene` as `view` sees it into `columns` x `rows` cells, on this thread, by brute force, and without aids.
 ///
 /// To draw more than once, keep a [`Renderer`].
 #[must_use]
@@ -57,6 +58,7 @@ pub fn brute_force<'a>(scene: &'a Scene, view: &View) -> PictureSearch<'a> {
         camera,
         lights,
         to_lights,
+        setting: Setting::default(),
     }
 }
 

@@ -7,6 +7,7 @@ pub mod cast;
 pub mod cells;
 pub mod choice;
 pub mod color;
+pub mod coloring;
 pub mod compare;
 pub mod draw;
 pub mod encode;

@@ -144,6 +144,22 @@ pub fn entries(depth: ColorDepth, theme: &Theme) -> Vec<Entry> {
     }
 }
 
+/// The colour of a terminal of this depth that looks most like `srgb`; its own where there are none.
+#[must_use]
+pub fn shown(srgb: Srgb, depth: ColorDepth, theme: &Theme) -> Color {
+    match depth {
+        ColorDepth::Never => Color::Default,
+        ColorDepth::Truecolor => Color::Rgb(srgb.0),
+        ColorDepth::Ansi16 | ColorDepth::Ansi256 => {
+            let look = oklab(srgb.to_linear());
+            let away = |entry: &Entry| entry.look.distance_squared(look);
+            let nearest =
+                entries(depth, theme).into_iter().min_by(|a, b| away(a).total_cmp(&away(b)));
+            nearest.map_or(Color::Default, |entry| entry.color)
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -32,6 +32,11 @@ impl Picture {
         self.pixels[pixel] += light;
     }
 
+    /// All pixels, to be changed.
+    pub fn pixels_mut(&mut self) -> &mut [Vec3] {
+        &mut self.pixels
+    }
+
     /// All pixels.
     #[must_use]
     pub fn pixels(&self) -> &[Vec3] {

@@ -12,6 +12,7 @@ mod notes;
 mod number;
 pub mod open;
 mod particles;
+pub mod radii;
 mod read_error;
 pub mod reading;
 pub mod toml;
@@ -91,6 +92,14 @@ impl Scene {
     #[must_use]
     pub fn colors(&self) -> &[Srgb] {
         &self.colors
+    }
+
+    /// Sets the radii, one a sphere.
+    pub fn resize_spheres(&mut self, radii: &[f32]) {
+        let spheres = self.list.spheres();
+        let resized =
+            spheres.iter().zip(radii).map(|(sphere, &radius)| Sphere { radius, ..sphere });
+        self.list = Arc::new(resized.collect());
     }
 
     /// Sets the colours, one a sphere: those that are chosen by attributes.

@@ -5,10 +5,13 @@
 //! owe nothing to t, and shadow rays start where the kernel proves that they do not meet the sphere that they leave:
 //! there is no distance to choose, nothing shadows itself, and no shadow is lost.
 
+pub mod depth_cue;
 mod exposure;
+pub mod silhouettes;
 
 use crate::picture::Picture;
 use crate::scene::{Light, Scene, Source};
+use crate::structure::openness::OpennessMemory;
 use crate::structure::scene::PictureSearch;
 use crate::structure::search::{Scratch, Search, Tracing};
 use exposure::Exposure;
@@ -107,9 +110,17 @@ pub struct Shader {
     counts: Vec<usize>,
     surfaces: Surfaces,
     shadow_rays: ShadowRays,
+    /// Whether it is seen how open the scene is.
+    is_open: bool,
+    openness: OpennessMemory,
 }
 
 impl Shader {
+    /// Says whether it is to be seen how open the scene is around its spheres, from now on.
+    pub fn show_openness(&mut self, shown: bool) {
+        self.is_open = shown;
+    }
+
     /// Begins with the samples of the next packet.
     #[inline]
     pub fn begin_packet(&mut self) {
@@ -117,7 +128,7 @@ impl Shader {
     }
 
     /// Adds a sample that met a sphere of `color` (times the sample's share) to `pixel`; at once
-    /// if the scene has no light.
+    /// if the scene has no light, and nothing else asks for its surface.
     #[inline]
     pub fn add(
         &mut self,
@@ -127,7 +138,7 @@ impl Shader {
         pixel: u32,
         color: Vec3,
     ) {
-        if scene.lighting.is_plain() {
+        if scene.lighting.is_plain() && !self.is_open {
             picture.add(pixel as usize, color);
         } else if let Some(count) = self.counts.last_mut() {
             *count += 1;
@@ -136,7 +147,7 @@ impl Shader {
     }
 
     /// Lights what was added since the last call: hits of these packets; `search` is that of the picture.
-    /// Returns how many shadow rays that took.
+    /// Returns how many rays that took: to lights, and to see how open it is.
     pub fn light(
         &mut self,
         tracing: Tracing,
@@ -146,7 +157,7 @@ impl Shader {
         (rays, hits): (&[RayPacket], &[HitPacket]),
         picture: &mut Picture,
     ) -> u64 {
-        let Self { samples, counts, surfaces, shadow_rays } = self;
+        let Self { samples, counts, surfaces, shadow_rays, openness, .. } = self;
         let mut traced = 0;
         if !samples.is_empty() {
             let surfaces = surfaces.compute(tracing, scene.spheres(), rays, hits);
@@ -169,10 +180,30 @@ impl Shader {
                     }
                 }
             }
-            let exposure = Exposure::of(&scene.lighting);
-            for sample in samples.iter() {
-                let seen = exposure.seen(sample.received + exposure.ambient);
-                picture.add(sample.pixel as usize, seen * sample.color);
+            match &search.setting.around {
+                None => {
+                    let exposure = Exposure::of(&scene.lighting);
+                    for sample in samples.iter() {
+                        let seen = exposure.seen(sample.received + exposure.ambient);
+                        picture.add(sample.pixel as usize, seen * sample.color);
+                    }
+                }
+                Some(around) => {
+                    let met = hits.iter().flat_map(HitPacket::spheres).copied();
+                    traced += around.learn(tracing.level, scratch, openness, met);
+                    let exposure = Exposure::of_open(&scene.lighting);
+                    let mut samples = samples.iter();
+                    for (packet, &count) in counts.iter().enumerate() {
+                        let spheres = hits[packet].spheres();
+                        for sample in samples.by_ref().take(count) {
+                            let normal = surfaces[packet].normal(sample.lane);
+                            let open = around.openness.towards(spheres[sample.lane], normal);
+                            let received = exposure.lights * sample.received + exposure.ambient;
+                            let seen = exposure.seen(Exposure::left(open) * received);
+                            picture.add(sample.pixel as usize, seen * sample.color);
+                        }
+                    }
+                }
             }
         }
         self.samples.clear();

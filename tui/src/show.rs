@@ -6,6 +6,8 @@ mod still;
 
 use crate::arguments::files::Subject;
 use crate::arguments::{ComputingArguments, Overlay, PictureArguments};
+use crate::color::Srgb;
+use crate::coloring::coloring;
 use crate::compare::Comparison;
 use crate::draw::pixels::{PixelGrid, SAMPLES};
 use crate::draw::{Renderer, picture_workload};
@@ -51,11 +53,15 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     let Subject { mut scene, frame, frames } = arguments.scene.open()?;
     let is_terminal = std::io::stdout().is_terminal();
     let mut surroundings = Surroundings::of_process(is_terminal);
-    let PictureArguments { png, cast, pick, .. } = arguments;
+    let PictureArguments { png, cast, pick, crowd, .. } = arguments;
     let of_frames = arguments.scene.file.frames.clone();
     let at_once =
         arguments.once || png.is_some() || pick.is_some() || cast.is_some() || of_frames.is_some();
     let in_viewer = is_terminal && !at_once && !surroundings.is_dumb();
+    let color_by = crowd.color_by(&scene);
+    let colored = coloring(&scene, &color_by, crowd.range);
+    let colored =
+        colored.map_err(|error| Error::Input(format!("{}: {error}", arguments.scene.name)))?;
     let ComputingArguments { structure, level, threads } = arguments.computing;
     let threads = Threads::new(threads)?;
     let mut structures =
@@ -78,13 +84,11 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         terminal.as_ref().map_or_else(Abilities::default, |terminal| *terminal.abilities());
     surroundings.told = abilities.truecolor;
     let background = arguments.background.or(abilities.background);
-    let prepared = |mut scene: Scene| {
-        if let Some(background) = background.filter(|_| !scene.names_background) {
-            scene.background = background;
-        }
-        scene
-    };
-    scene = prepared(scene);
+    paint_background(&mut scene, background);
+    // The viewer goes from its own colours to others.
+    if let Some(colors) = colored.colors.filter(|_| !in_viewer) {
+        scene.set_colors(colors);
+    }
     // The viewer's table is measured by a thread that no one waits for: it shares the scene.
     let scene = Arc::new(scene);
     let depth = match arguments.color {
@@ -114,9 +118,11 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
             .or_else(|| terminal_aspect(abilities.cell_pixels).filter(|_| is_terminal))
             .unwrap_or(Style::PLAIN.cell_aspect),
         distance: arguments.distance,
+        aids: arguments.crowd.aids(&scene),
     };
     let view = arguments.scene.view(&scene, style.picture_aspect(columns, rows));
     let mut renderer = Renderer::new(level.unwrap_or_else(Level::best), &threads);
+    structures.set_aids(style.aids);
     if let Some(file) = cast {
         if is_terminal && file == Path::new("-") {
             return Err(Error::Input("--cast -: standard output is a terminal".to_owned()));
@@ -140,7 +146,9 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     if let Some(terminal) = terminal {
         let comparison = arguments.show.and_then(Overlay::comparison);
         let table = arguments.show == Some(Overlay::Table);
-        let start = viewer::Start { view, style, structure, comparison, table };
+        let start =
+            viewer::Start { view, style, structure, comparison, table, legend: crowd.legend };
+        let colors = (&color_by, crowd.range);
         let wire = viewer::Wire {
             terminal,
             surroundings,
@@ -150,8 +158,14 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
             output: arguments.output,
             scene_name: arguments.scene.name.clone(),
         };
-        let film = frames.map(|frames| Film::new(frames, frame, &scene, background));
-        return viewer::run(&scene, structures, start, renderer, (wire, film.transpose()?));
+        let asked = arguments.scene.clone();
+        let prepare = move |scene: &mut Scene| {
+            paint_background(scene, background);
+            // What a frame does not have, it goes without.
+            let _ = asked.set_radii(scene);
+        };
+        let film = frames.map(|frames| Film::new(frames, frame, prepare));
+        return viewer::run(scene, colors, structures, start, renderer, (wire, film.transpose()?));
     }
     let ray = arguments.pick.map(|cell| ray_of_pick(&view, &style, (columns, rows), cell));
     let ray = ray.transpose()?;
@@ -175,7 +189,17 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     let once = Once { scene: &scene, view, style, size: (columns, rows), is_terminal };
     match arguments.show {
         None => {
-            once.picture(&mut renderer, &search)?;
+            once.picture(&mut renderer, &search, colored.legend.filter(|_| crowd.legend))?;
+            let prepared = |mut scene: Scene| {
+                paint_background(&mut scene, background);
+                // What a frame does not have, it goes without.
+                let _ = arguments.scene.set_radii(&mut scene);
+                let colored = coloring(&scene, &color_by, crowd.range).ok();
+                if let Some(colors) = colored.and_then(|colored| colored.colors) {
+                    scene.set_colors(colors);
+                }
+                scene
+            };
             let Some(mut frames) = frames else { return Ok(()) };
             let Some(range) = of_frames else { return say_more(&mut frames, frame) };
             let still = Still { view, style, structure, size: (columns, rows), is_terminal };
@@ -204,6 +228,13 @@ fn say_more(frames: &mut Frames, frame: usize) -> Result<(), Error> {
         frames.report();
     }
     Ok(())
+}
+
+/// Gives a scene that names no background the user's.
+fn paint_background(scene: &mut Scene, background: Option<Srgb>) {
+    if let Some(background) = background.filter(|_| !scene.names_background) {
+        scene.background = background;
+    }
 }
 
 /// The ray through a cell of `--pick`, and that cell.

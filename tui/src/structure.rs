@@ -4,6 +4,7 @@
 
 pub mod choose;
 pub mod object_order;
+pub mod openness;
 pub mod scene;
 pub mod screen;
 pub mod search;

@@ -3,6 +3,8 @@
 use crate::choice::Auto;
 pub use crate::palette::ColorDepth;
 use crate::palette::Theme;
+use crate::scene::Scene;
+use crate::scene::attributes::Naming;
 use clap::ValueEnum;
 use spherule_kernel::Tier;
 
@@ -42,6 +44,33 @@ pub struct Style {
     pub cell_aspect: f32,
     /// How far away the eye is, in widths of a cell.
     pub distance: f32,
+    /// What tells spheres of a crowd apart.
+    pub aids: Aids,
+}
+
+/// What tells spheres of a crowd apart, beside their colours. None costs anything where it is not asked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Aids {
+    /// Little light where others are in the way.
+    pub occlusion: bool,
+    /// Dark edges where something lies far behind what is beside it, or is part of something else.
+    pub edges: bool,
+    /// What is far away fades into the background.
+    pub depth_cue: bool,
+}
+
+impl Aids {
+    /// None.
+    pub const NONE: Self = Self { occlusion: false, edges: false, depth_cue: false };
+    /// All of a scene with several chains, which is a heap of atoms without; none of another.
+    #[must_use]
+    pub fn usual(scene: &Scene) -> Self {
+        let chains = scene.attributes().names(Naming::Chain);
+        if chains.is_some_and(|names| names.table().len() > 1) { Self::ALL } else { Self::NONE }
+    }
+
+    /// All.
+    pub const ALL: Self = Self { occlusion: true, edges: true, depth_cue: true };
 }
 
 /// How far away the eye is if nothing is said, in widths of a cell: 60 cm over 2.2 mm.
@@ -60,6 +89,7 @@ impl Style {
         samples: None,
         cell_aspect: 0.5,
         distance: CHAIR,
+        aids: Aids::NONE,
     };
 
     /// Width over height of a picture of `columns` x `rows` cells; 1 if it has no area.

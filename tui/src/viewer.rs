@@ -4,6 +4,7 @@
 //! not late ones. A frame of a movement gets no more samples than there is time for; when it is over, a full one
 //! follows. Then nothing is drawn and nothing is sent, but how far a measurement is.
 
+mod colors;
 mod command_line;
 pub mod film;
 mod flow;
@@ -25,6 +26,8 @@ mod status;
 mod table;
 
 use crate::choice::Auto;
+use crate::coloring::ColorBy;
+use crate::coloring::scale::Range;
 use crate::compare::error_map::ErrorMapper;
 use crate::compare::split::Times;
 use crate::draw::Renderer;
@@ -36,6 +39,7 @@ use crate::scene::framing;
 use crate::structure::scene::SceneStructures;
 use crate::terminal::color_depth::{ColorChoice, Surroundings};
 use crate::terminal::{Incoming, LONGEST_BACKLOG, Reply, Terminal, lost};
+use colors::Colors;
 use crossterm::event::Event;
 use film::Film;
 use flow::Flow;
@@ -78,14 +82,15 @@ pub struct Wire {
     pub scene_name: String,
 }
 
-/// Shows `scene` on the terminal, from `start` on, drawn by `renderer` with the chosen one of its
+/// Shows `scene`, which has its own colours, on the terminal, coloured by something and from `start` on, drawn by `renderer` with the chosen one of its
 /// `structures`, until the user quits.
 ///
 /// # Errors
 /// [`Error::Running`] if there is no terminal to read keys from, or it goes away, or there is no
 /// memory for a structure.
 pub fn run(
-    scene: &Arc<Scene>,
+    scene: Arc<Scene>,
+    (color_by, range): (&ColorBy, Option<Range>),
     structures: SceneStructures<'_>,
     start: Start,
     renderer: Renderer<'_>,
@@ -94,8 +99,9 @@ pub fn run(
     let Wire { terminal, surroundings, color, rate, lossless, output, scene_name } = wire;
     let usual = if env::var_os("SSH_CONNECTION").is_some() { REMOTE_RATE } else { LOCAL_RATE };
     let interval = Duration::from_secs(1) / u32::from(rate.unwrap_or(usual)).max(1);
+    let colors = Colors::new(&scene, color_by, range);
     let mut viewer = Viewer {
-        scene: Arc::clone(scene),
+        scene,
         film,
         structures,
         surroundings,
@@ -110,7 +116,8 @@ pub fn run(
         failure: None,
         pending_removal: Vec::new(),
         flow: Flow::default(),
-        state: State::new(start),
+        state: State::new(start, colors.start()),
+        colors,
         renderer,
         mapper: ErrorMapper::default(),
         times: Times::default(),
@@ -245,6 +252,7 @@ impl Viewer<'_> {
         let Some(scene) = self.film.as_mut().and_then(Film::next) else { return false };
         self.structures.go_on(scene.list());
         self.scene = scene;
+        self.colors.begin_anew();
         // It is of another scene.
         self.picture = None;
         true

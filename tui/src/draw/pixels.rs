@@ -1,21 +1,24 @@
 //! Pixels in place of cells: the picture that cells approximate, row by row.
 
 use super::Renderer;
+use super::finish::Finish;
 use super::tracer::{Places, SampleGrid, Traced, Tracer};
 use crate::color::Srgb;
 use crate::picture::Image;
+use crate::samples::CellSamples;
 use crate::scene::Scene;
+use crate::shade::silhouettes::{Seen, SeenGrid};
 use crate::structure::choose::Workload;
 use crate::structure::scene::PictureSearch;
 use crate::structure::search::Tracing;
 use crate::style::Style;
 use crate::view::View;
-use spherule_kernel::{Camera, Tier};
+use spherule_kernel::{Camera, Tier, Vec3};
 use std::convert::Infallible;
 
 /// Pixels across a cell.
 const ACROSS_A_CELL: u32 = 8;
-/// Samples across a pixel, and down, where nothing is saved.
+/// Samples across a pixel, and down.
 pub const SAMPLES: u32 = 4;
 /// Pixels across a tile, and down: what a thread traces at a time.
 const TILE: (u32, u32) = (32, 16);
@@ -29,6 +32,12 @@ pub struct PixelGrid {
     samples: SampleGrid,
     /// Samples across a pixel, and down.
     across: u32,
+    view: View,
+    style: Style,
+    /// Columns and rows of cells.
+    cells: (u16, u16),
+    /// Pixels across a cell, and down.
+    cell: (u32, u32),
 }
 
 impl PixelGrid {
@@ -51,7 +60,14 @@ impl PixelGrid {
         let width = u32::from(columns) * cell.0 * across;
         let height = u32::from(rows) * cell.1 * across;
         let camera = view.camera(width, height, style.picture_aspect(columns, rows));
-        Self { samples: SampleGrid { camera, width, height }, across }
+        Self {
+            samples: SampleGrid { camera, width, height },
+            across,
+            view: *view,
+            style: *style,
+            cells: (columns, rows),
+            cell,
+        }
     }
 
     /// The pixels of a cell across, and down, of which nothing is known but its shape.
@@ -110,19 +126,45 @@ impl Renderer<'_> {
     ) -> Result<(), E> {
         let tracing = Tracing { tier: accuracy, level: self.level, coherence: search.coherence };
         let traced = Traced { tracing, scene, search };
+        let (style, (columns, cell_rows)) = (&grid.style, grid.cells);
+        let few = CellSamples::FEW;
+        let few_grid = SampleGrid::new(&grid.view, style, few, columns, cell_rows);
+        let finish = Finish::new(&traced, &grid.view, style, (few, &few_grid));
         let (width, height) = grid.size();
         let across = width.div_ceil(TILE.0);
         let strip_height = TILE.1 * (STRIP / (width * TILE.1).max(1)).max(1);
         let tiles_in = |rows: u32| across * rows.div_ceil(TILE.1);
         // Tile after tile, each of the whole area.
         let mut strip = vec![[0; 3]; tiles_in(strip_height.min(height)) as usize * TILE_AREA];
-        let (mut tracers, mut row) = (Vec::new(), Vec::new());
+        let (mut tracers, mut row, mut seen) = (Vec::<Worker>::new(), Vec::new(), Vec::new());
         for top in (0..height).step_by(strip_height as usize) {
             let rows = strip_height.min(height - top);
+            // What the cells of these rows and around them show, if edges are to be seen.
+            let first = (top / grid.cell.1).saturating_sub(1) as usize;
+            let last = ((top + rows).div_ceil(grid.cell.1) + 1).min(cell_rows.into()) as usize;
+            let edges = finish.as_ref().filter(|finish| finish.edges).map(|finish| {
+                let a_row = usize::from(columns) * few.count() as usize;
+                seen.clear();
+                seen.resize((last - first) * a_row, Seen::NOTHING);
+                let lines = seen.chunks_mut(a_row.max(1)).zip(first..);
+                self.threads.share(&mut tracers, lines, |worker, (seen, row)| {
+                    let (how, part) = ((&traced, Some(finish)), (0, columns.into()));
+                    let tracer = &mut worker.tracer;
+                    let shown = tracer.trace_cells(how, (few, &few_grid), part, row..row + 1);
+                    seen.copy_from_slice(shown.seen);
+                });
+                (finish.grid(&seen, columns.into()), first)
+            });
             let tiles = strip.chunks_mut(TILE_AREA).zip(0..tiles_in(rows));
-            self.threads.share(&mut tracers, tiles, |tracer, (pixels, tile)| {
+            self.threads.share(&mut tracers, tiles, |worker, (pixels, tile)| {
                 let corner = (tile % across * TILE.0, top + tile / across * TILE.1);
-                trace_tile(tracer, &traced, grid, corner, pixels);
+                match &finish {
+                    None => trace_tile(&mut worker.tracer, &traced, grid, corner, pixels),
+                    Some(finish) => {
+                        let how = (&traced, finish, edges.as_ref());
+                        finish_tile(worker, how, grid, corner, pixels);
+                    }
+                }
             });
             for y in 0..rows {
                 row.clear();
@@ -138,6 +180,73 @@ impl Renderer<'_> {
     }
 }
 
+/// The packets of the tile with this corner.
+fn tile_corners(
+    grid: &PixelGrid,
+    (left, top): (u32, u32),
+) -> impl Iterator<Item = (u32, u32)> + use<> {
+    let (width, height) = grid.size();
+    let ((across, down), samples) =
+        ((TILE.0.min(width - left), TILE.1.min(height - top)), grid.across);
+    Camera::tile_corners::<[f32; 16]>(across * samples, down * samples)
+        .map(move |(x, y)| (left * samples + x, top * samples + y))
+}
+
+/// The memory of a thread.
+#[derive(Debug, Default)]
+struct Worker {
+    tracer: Tracer,
+    /// Samples of a tile.
+    finished: Vec<Vec3>,
+}
+
+/// As `trace_tile`, with samples that are finished one by one; and the grid by which edges get dark, with the row of cells
+/// that it begins with.
+fn finish_tile(
+    Worker { tracer, finished }: &mut Worker,
+    (traced, finish, edges): (&Traced<'_>, &Finish<'_>, Option<&(SeenGrid<'_>, usize)>),
+    grid: &PixelGrid,
+    (left, top): (u32, u32),
+    pixels: &mut [[u8; 3]],
+) {
+    let corners = tile_corners(grid, (left, top));
+    let samples_across = grid.across;
+    let row = TILE.0 * samples_across;
+    let places = |corner| {
+        Places::new(
+            corner,
+            |x| (x - left * samples_across) as usize,
+            |y| ((y - top * samples_across) * row) as usize,
+        )
+    };
+    let samples = pixels.len() * (samples_across * samples_across) as usize;
+    let traced =
+        tracer.trace((traced, Some(finish)), &grid.samples, corners, (samples, 1.0), places);
+    finished.clear();
+    finished.extend_from_slice(traced.pixels);
+    if let Some((seen_grid, first)) = edges {
+        let (few_across, few_down) = seen_grid.samples;
+        let (across, down) = (grid.cell.0 * samples_across, grid.cell.1 * samples_across);
+        let above = *first as u32 * down;
+        for (index, (light, seen)) in (0..).zip(finished.iter_mut().zip(traced.seen)) {
+            let (x, y) =
+                (left * samples_across + index % row, top * samples_across + index / row - above);
+            let x = Finish::place(x, across, few_across as u32);
+            let y = Finish::place(y, down, few_down as u32);
+            finish.darken(light, seen, seen_grid, (x, y));
+        }
+    }
+    for (index, pixel) in (0..).zip(pixels) {
+        let (left, top) = (index % TILE.0 * samples_across, index / TILE.0 * samples_across);
+        let lines = (top..top + samples_across).map(|y| (y * row + left) as usize);
+        let sum: Vec3 = lines
+            .flat_map(|start| &finished[start..start + samples_across as usize])
+            .copied()
+            .sum();
+        *pixel = Srgb::from_linear(sum / (samples_across * samples_across) as f32).0;
+    }
+}
+
 /// Fills the `pixels` of the tile with this corner; those outside the picture are left alone.
 fn trace_tile(
     tracer: &mut Tracer,
@@ -146,19 +255,16 @@ fn trace_tile(
     (left, top): (u32, u32),
     pixels: &mut [[u8; 3]],
 ) {
-    let ((width, height), across) = (grid.size(), grid.across);
-    let corners = Camera::tile_corners::<[f32; 16]>(
-        TILE.0.min(width - left) * across,
-        TILE.1.min(height - top) * across,
-    )
-    .map(|(x, y)| (left * across + x, top * across + y));
+    let corners = tile_corners(grid, (left, top));
+    let across = grid.across;
     let share = 1.0 / (across * across) as f32;
     let places = |corner| {
         let of_column = |x| (x / across - left) as usize;
         Places::new(corner, of_column, |y| ((y / across - top) * TILE.0) as usize)
     };
-    let (light, _) = tracer.trace(traced, &grid.samples, corners, (pixels.len(), share), places);
-    for (pixel, &light) in pixels.iter_mut().zip(light) {
+    let how = (traced, None);
+    let traced = tracer.trace(how, &grid.samples, corners, (pixels.len(), share), places);
+    for (pixel, &light) in pixels.iter_mut().zip(traced.pixels) {
         *pixel = Srgb::from_linear(light).0;
     }
 }

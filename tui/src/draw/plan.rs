@@ -1,5 +1,6 @@
 //! What is decided about a picture before its first ray.
 
+use super::finish::Finish;
 use super::spending::Spending;
 use super::tracer::{SampleGrid, Traced};
 use crate::cells::eye::Eye;
@@ -35,6 +36,8 @@ pub(super) struct Plan<'a> {
     /// Whether it is drawn as well as can be, and not as one of many that pass.
     pub(super) is_steady: bool,
     pub(super) eye: Eye,
+    /// What is done to samples when depths are known, if anything is.
+    pub(super) finish: Option<Finish<'a>>,
 }
 
 impl<'a> Plan<'a> {
@@ -52,6 +55,8 @@ impl<'a> Plan<'a> {
             grid: SampleGrid::new(view, style, samples, columns, rows),
             fitter: Fitter::new(style, eye, samples),
         };
+        let few = sampling(CellSamples::new(style));
+        let finish = Finish::new(&traced, view, style, (few.samples, &few.grid));
         let many = CellSamples::many(style);
         let with_coarser = |finest: CellSamples| {
             let finer = finest.finer(style.charset).filter(|_| !is_steady);
@@ -64,11 +69,12 @@ impl<'a> Plan<'a> {
             left: 0,
             columns: columns.into(),
             rows: rows.into(),
-            few: sampling(CellSamples::new(style)),
+            few,
             many: many.into_iter().flat_map(with_coarser).map(sampling).collect(),
             spending,
             is_steady,
             eye,
+            finish,
         }
     }
 

@@ -8,17 +8,20 @@
 //!
 //! What a band gets depends on nothing else, so the picture is the same for every number of threads.
 
+use super::finish::Finish;
 use super::need::Looks;
 use super::plan::{Plan, Sampling};
 use super::spending::{Effort, Grant};
-use super::tracer::{Places, SampleGrid, Tracer};
+use super::tracer::{Places, Tracer};
 use crate::cells::Cell;
 use crate::cells::fit::{FitMemory, Fitted};
 use crate::cells::paint::Painter;
 use crate::color::oklab;
+use crate::shade::silhouettes::{Seen, SeenGrid};
 use crate::style::{Charset, ColorDepth};
 use crate::threads::Threads;
 use spherule_kernel::{Camera, Vec3};
+use std::iter;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -38,6 +41,8 @@ const HALO: usize = 2;
 pub(super) struct Strip {
     /// Of the few samples, cell by cell.
     light: Vec<Vec3>,
+    /// What they show, if edges are to be seen.
+    seen: Vec<Seen>,
     /// The same in `OKLab`.
     looks: Vec<Vec3>,
     /// How far those of a cell disagree.
@@ -65,6 +70,8 @@ struct Worker {
     needy: Vec<(u32, u32)>,
     /// Which of those each cell of a band is, if it is one.
     places: Vec<usize>,
+    /// The light of many samples, with edges.
+    finished: Vec<Vec3>,
 }
 
 /// Rows of cells, from the first on, counted over the whole picture.
@@ -80,6 +87,25 @@ fn write_looks(light: &[Vec3], looks: &mut [Vec3]) {
             last = (light, oklab(light));
         }
         *look = last.1;
+    }
+}
+
+/// Chunks of what is there; empty ones without end if nothing is.
+fn chunks_or_nothing<T>(all: &mut [T], size: usize) -> impl Iterator<Item = &mut [T]> {
+    let nothing = all.is_empty();
+    all.chunks_mut(size.max(1))
+        .chain(iter::repeat_with(Default::default).take_while(move |_: &&mut [T]| nothing))
+}
+
+/// Darkens the edges of the few samples of the cells from row `first` of the grid on.
+fn darken(finish: &Finish<'_>, grid: &SeenGrid<'_>, first: usize, light: &mut [Vec3]) {
+    let (across, down) = grid.samples;
+    let start = first * grid.columns * across * down;
+    for (index, (light, seen)) in light.iter_mut().zip(&grid.seen[start..]).enumerate() {
+        let (cell, sample) = (index / (across * down), index % (across * down));
+        let x = cell % grid.columns * across + sample % across;
+        let y = (first + cell / grid.columns) * down + sample / across;
+        finish.darken(light, seen, grid, (x as f32, y as f32));
     }
 }
 
@@ -101,17 +127,30 @@ impl Strip {
             samples.fetch_add(traced, Ordering::Relaxed);
             shadow_rays.fetch_add(shadows, Ordering::Relaxed);
         };
-        let Self { light, looks, needs, sorted, fits, shown, fits_of, workers } = self;
+        let Self { light, seen, looks, needs, sorted, fits, shown, fits_of, workers } = self;
 
         let few = plan.few.samples.count() as usize;
         light.resize(sampled.len() * plan.columns * few, Vec3::ZERO);
         looks.resize(light.len(), Vec3::ZERO);
+        let edges = plan.finish.as_ref().filter(|finish| finish.edges);
+        seen.resize(if edges.is_some() { light.len() } else { 0 }, Seen::NOTHING);
         let bands = light.chunks_mut(band * few).zip(looks.chunks_mut(band * few));
+        let bands = bands.zip(chunks_or_nothing(seen, band * few));
         let bands = bands.zip(sampled.clone().step_by(BAND));
-        threads.share(workers, bands, |worker, ((light, looks), first)| {
-            count(worker.sample(plan, first, light));
-            write_looks(light, looks);
+        threads.share(workers, bands, |worker, (((light, looks), seen), first)| {
+            count(worker.sample(plan, first, light, seen));
+            if edges.is_none() {
+                write_looks(light, looks);
+            }
         });
+        let edges = edges.map(|finish| (finish, finish.grid(seen, plan.columns)));
+        if let Some((finish, grid)) = &edges {
+            let bands = light.chunks_mut(band * few).zip(looks.chunks_mut(band * few));
+            threads.share(workers, bands.zip((0..).step_by(BAND)), |_, ((light, looks), first)| {
+                darken(finish, grid, first, light);
+                write_looks(light, looks);
+            });
+        }
 
         needs.resize(fitted.len() * plan.columns, 0.0);
         let known = Looks { looks, columns: plan.columns, rows: sampled.len() };
@@ -137,7 +176,14 @@ impl Strip {
         let bands = bands.zip(fitted.clone().step_by(BAND));
         let known = (&**light, sampled.start);
         threads.share(workers, bands, |worker, ((fits, needs), first)| {
-            count(worker.fit(plan, many, known, first, (fits, needs)));
+            count(worker.fit(
+                plan,
+                many,
+                known,
+                first,
+                (fits, needs),
+                edges.as_ref().map(|(_, grid)| grid),
+            ));
         });
 
         let before = Some((&**shown, rows.start)).filter(|(shown, _)| shown.len() == cells.len());
@@ -158,28 +204,26 @@ impl Strip {
 }
 
 impl Worker {
-    /// Writes the light of the few samples of the cells from row `first` on, cell by cell; returns how many samples
+    /// Writes the light of the few samples of the cells from row `first` on, cell by cell, and what they show, if that is
+    /// asked; returns how many samples
     /// and shadow rays that took.
-    fn sample(&mut self, plan: &Plan<'_>, first: usize, light: &mut [Vec3]) -> (u64, u64) {
+    fn sample(
+        &mut self,
+        plan: &Plan<'_>,
+        first: usize,
+        light: &mut [Vec3],
+        seen: &mut [Seen],
+    ) -> (u64, u64) {
         let Sampling { samples, grid, .. } = &plan.few;
-        let (across, down, count) = (samples.across, samples.down, samples.count());
-        let columns = plan.columns as u32;
-        let (left, top) = (plan.left as u32 * across, first as u32 * down);
-        // As if the picture ended with these rows.
-        let grid = SampleGrid { height: top + light.len() as u32 / (columns * across), ..*grid };
-        let corners = Camera::tile_corners::<[f32; 16]>(grid.width - left, grid.height - top)
-            .map(|(x, y)| (left + x, top + y));
-        let places = |corner| {
-            let of_column = |x| ((x - left) / across * count + x % across) as usize;
-            Places::new(corner, of_column, |y: u32| {
-                let y = y - top;
-                (y / down * columns * count + y % down * across) as usize
-            })
-        };
-        let (traced, shadow_rays) =
-            self.tracer.trace(&plan.traced, &grid, corners, (light.len(), 1.0), places);
-        light.copy_from_slice(traced);
-        (light.len() as u64, shadow_rays)
+        let how = (&plan.traced, plan.finish.as_ref());
+        let rows = first..first + light.len() / (plan.columns * samples.count() as usize);
+        let part = (plan.left, plan.columns);
+        let traced = self.tracer.trace_cells(how, (*samples, grid), part, rows);
+        light.copy_from_slice(traced.pixels);
+        if !seen.is_empty() {
+            seen.copy_from_slice(traced.seen);
+        }
+        (light.len() as u64, traced.other_rays)
     }
 
     /// Fits glyphs to the cells from row `first` on, of which those get `many` samples whose needs are above something.
@@ -191,6 +235,7 @@ impl Worker {
         (light, known): (&[Vec3], usize),
         first: usize,
         (fits, needs): (&mut [Fitted], &[f32]),
+        edges: Option<&SeenGrid<'_>>,
     ) -> (u64, u64) {
         let columns = plan.columns;
         self.needy.clear();
@@ -221,7 +266,8 @@ impl Worker {
                 flat = Some((light[0], *fit));
             }
         }
-        many.map_or((0, 0), |(many, _)| self.fit_needy(plan, many, first, fits))
+        let edges = edges.map(|grid| (grid, known));
+        many.map_or((0, 0), |(many, _)| self.fit_needy(plan, many, first, fits, edges))
     }
 
     /// Fits glyphs to those of the cells from row `first` on that get many samples.
@@ -231,8 +277,9 @@ impl Worker {
         many: &Sampling,
         first: usize,
         fits: &mut [Fitted],
+        edges: Option<(&SeenGrid<'_>, usize)>,
     ) -> (u64, u64) {
-        let Self { tracer, memory, needy, places, .. } = self;
+        let Self { tracer, memory, needy, places, finished, .. } = self;
         let columns = plan.columns;
         let Sampling { samples, grid, fitter } = many;
         let (across, down, count) = (samples.across, samples.down, samples.count() as usize);
@@ -256,13 +303,33 @@ impl Worker {
                 Places::new((left, top), of_column, |y| (y % down * across) as usize)
             };
             let pixels = (needy.len() * count, 1.0);
-            let (traced, shadow_rays) = tracer.trace(&plan.traced, grid, corners, pixels, at);
-            for (&(column, row), light) in needy.iter().zip(traced.chunks(count)) {
+            let how = (&plan.traced, plan.finish.as_ref());
+            let traced = tracer.trace(how, grid, corners, pixels, at);
+            rays += traced.other_rays;
+            let light = match (&plan.finish, edges) {
+                (Some(finish), Some((seen_grid, known))) => {
+                    finished.clear();
+                    finished.extend_from_slice(traced.pixels);
+                    let (few_across, few_down) = seen_grid.samples;
+                    let samples = finished.iter_mut().zip(traced.seen).enumerate();
+                    for (index, (light, seen)) in samples {
+                        let (column, row) = needy[index / count];
+                        let sample = (index % count) as u32;
+                        let x = (column as usize - plan.left) as u32 * across + sample % across;
+                        let y = (row as usize - known) as u32 * down + sample / across;
+                        let x = Finish::place(x, across, few_across as u32);
+                        let y = Finish::place(y, down, few_down as u32);
+                        finish.darken(light, seen, seen_grid, (x, y));
+                    }
+                    &**finished
+                }
+                _ => traced.pixels,
+            };
+            for (&(column, row), light) in needy.iter().zip(light.chunks(count)) {
                 let cell = (row as usize - first) * columns + column as usize - plan.left;
                 let before = fits[cell];
                 fits[cell] = fitter.fit(light, memory, (!plan.is_steady).then_some(&before));
             }
-            rays += shadow_rays;
         }
         ((needy.len() * count) as u64, rays)
     }

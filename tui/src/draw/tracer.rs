@@ -1,15 +1,18 @@
 //! From packets of camera rays to light: the work of one thread at a time.
 
+use super::finish::Finish;
 use crate::picture::Picture;
 use crate::samples::CellSamples;
 use crate::scene::Scene;
 use crate::shade::Shader;
+use crate::shade::silhouettes::Seen;
 use crate::structure::scene::PictureSearch;
 use crate::structure::search::{Scratch, Tracing};
 use crate::style::Style;
 use crate::view::View;
 use spherule_kernel::{Camera, CameraTiles, HitPacket, RayPacket, Vec3};
 use std::array;
+use std::ops::Range;
 
 /// What is traced, and how.
 #[derive(Clone, Copy, Debug)]
@@ -77,22 +80,61 @@ pub(super) struct Tracer {
     scratch: Scratch,
     shader: Shader,
     picture: Picture,
+    /// What each pixel shows.
+    seen: Vec<Seen>,
+}
+
+/// What was traced.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Light<'a> {
+    /// Of every pixel.
+    pub(super) pixels: &'a [Vec3],
+    /// What each of them shows, if pixels are samples that are to be finished.
+    pub(super) seen: &'a [Seen],
+    /// How many rays it took besides the camera's.
+    pub(super) other_rays: u64,
 }
 
 impl Tracer {
-    /// Traces the packets of `grid` whose top left samples are `corners`, and returns the light of so many `pixels`
-    /// and how many shadow rays it took.
+    /// Traces all samples of some columns and rows of cells, as if the picture ended with these rows: cell by cell.
+    pub(super) fn trace_cells(
+        &mut self,
+        how: (&Traced<'_>, Option<&Finish<'_>>),
+        (samples, grid): (CellSamples, &SampleGrid),
+        (left, columns): (usize, usize),
+        rows: Range<usize>,
+    ) -> Light<'_> {
+        let (across, down, count) = (samples.across, samples.down, samples.count());
+        let columns = columns as u32;
+        let (left, top) = (left as u32 * across, rows.start as u32 * down);
+        let height = rows.len() as u32 * down;
+        let grid = SampleGrid { height: top + height, ..*grid };
+        let corners = Camera::tile_corners::<[f32; 16]>(grid.width - left, height)
+            .map(|(x, y)| (left + x, top + y));
+        let places = |corner| {
+            let of_column = |x| ((x - left) / across * count + x % across) as usize;
+            Places::new(corner, of_column, |y: u32| {
+                let y = y - top;
+                (y / down * columns * count + y % down * across) as usize
+            })
+        };
+        let pixels = rows.len() * (columns * count) as usize;
+        self.trace(how, &grid, corners, (pixels, 1.0), places)
+    }
+
+    /// Traces the packets of `grid` whose top left samples are `corners`, and returns the light of so many `pixels`. If
+    /// it is to be finished, they are samples, and have faded already.
     ///
     /// Every sample adds its `share` to the pixel that `places` names. In the order of the packets, so that sums are
     /// the same whoever computes them.
     pub(super) fn trace(
         &mut self,
-        traced: &Traced<'_>,
+        (traced, finish): (&Traced<'_>, Option<&Finish<'_>>),
         grid: &SampleGrid,
         corners: impl Iterator<Item = (u32, u32)>,
         (pixels, share): (usize, f32),
         places: impl Fn((u32, u32)) -> Places,
-    ) -> (&[Vec3], u64) {
+    ) -> Light<'_> {
         let &Traced { tracing, scene, search } = traced;
         let &SampleGrid { camera, width, height } = grid;
 
@@ -107,6 +149,9 @@ impl Tracer {
 
         // The background is light already; what was met is noted for the shader.
         self.picture.reset(pixels);
+        self.shader.show_openness(search.setting.around.is_some());
+        self.seen.clear();
+        self.seen.resize(if finish.is_some() { pixels } else { 0 }, Seen::NOTHING);
         let background = share * scene.background.to_linear();
         for (&(left, top), hits) in self.corners.iter().zip(&self.hits) {
             self.shader.begin_packet();
@@ -125,13 +170,21 @@ impl Tracer {
                     }
                     None => self.picture.add(pixel, background),
                 }
+                if let (Some(finish), Some(hit)) = (finish, hit) {
+                    self.seen[pixel] = finish.seen(hit);
+                }
             }
         }
 
         // Light.
         let hits = (&*self.rays, &*self.hits);
-        let shadow_rays =
+        let other_rays =
             self.shader.light(tracing, &mut self.scratch, scene, search, hits, &mut self.picture);
-        (self.picture.pixels(), shadow_rays)
+        if let Some(finish) = finish {
+            for (light, seen) in self.picture.pixels_mut().iter_mut().zip(&self.seen) {
+                finish.fade(light, seen);
+            }
+        }
+        Light { pixels: self.picture.pixels(), seen: &self.seen, other_rays }
     }
 }

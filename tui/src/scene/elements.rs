@@ -6,6 +6,10 @@
 //! others up to Es: S. Alvarez, "A cartography of the van der Waals territories", Dalton Trans.
 //! 42, 8617 (2013). For Pm and from Fm on none is published; they get 2.00.
 //!
+//! Covalent radii up to Cm: B. Cordero and others, "Covalent radii revisited", Dalton Trans. 2832 (2008); of C that of sp3,
+//! of Mn, Fe and Co that of low spin. From Bk on: P. Pyykkö, M. Atsumi, "Molecular Single-Bond Covalent Radii for
+//! Elements 1-118", Chem. Eur. J. 15, 186 (2009).
+//!
 //! Colours are those of Jmol (<https://jmol.sourceforge.net/jscolors/>), an extension of Corey,
 //! Pauling and Koltun's; the elements after Mt, which it does not list, get that of Mt.
 
@@ -21,6 +25,8 @@ pub struct Element {
     pub symbol: &'static str,
     /// The van der Waals radius in angstrom.
     pub radius: f32,
+    /// The covalent radius in angstrom.
+    pub covalent_radius: f32,
     /// The colour of its atoms.
     pub color: Srgb,
 }
@@ -47,8 +53,9 @@ static ELEMENTS: LazyLock<Vec<Element>> = LazyLock::new(|| {
         let mut words = line.split_whitespace();
         let number = u8::try_from(index + 1).ok()?;
         let symbol = words.next()?;
-        let (radius, color) = (words.next()?.parse().ok()?, words.next()?.parse().ok()?);
-        Some(Element { number, symbol, radius, color })
+        let (radius, covalent_radius) = (words.next()?.parse().ok()?, words.next()?.parse().ok()?);
+        let color = words.next()?.parse().ok()?;
+        Some(Element { number, symbol, radius, covalent_radius, color })
     };
     include_str!("elements.txt").lines().enumerate().filter_map(element).collect()
 });
@@ -61,6 +68,7 @@ mod tests {
     fn symbols_in_any_case_and_numbers() {
         let carbon = element("C").expect("carbon");
         assert_eq!((carbon.symbol, carbon.radius, carbon.color), ("C", 1.70, Srgb([0x90; 3])));
+        assert_eq!(carbon.covalent_radius, 0.76);
         assert_eq!(element("c"), element("6"));
         assert_eq!(element("cl").map(|e| e.symbol), Some("Cl"));
         assert_eq!(element("CL"), element("17"));
@@ -79,6 +87,8 @@ mod tests {
         for number in 1..=118 {
             let element = element(&number.to_string()).expect("an element");
             assert!(element.radius >= 1.0 && element.radius < 4.0, "{element:?}");
+            let covalent = element.covalent_radius;
+            assert!(covalent > 0.25 && covalent < 2.7 && covalent < element.radius, "{element:?}");
             assert_ne!(element.color, Srgb::BLACK);
         }
     }

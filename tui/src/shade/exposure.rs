@@ -6,6 +6,8 @@ use spherule_kernel::Vec3;
 /// How received light is seen: times a gain, and above a knee less and less of it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Exposure {
+    /// How much of the lights counts.
+    pub(super) lights: f32,
     /// What every surface receives from everywhere.
     pub(super) ambient: f32,
     gain: f32,
@@ -13,12 +15,20 @@ pub(super) struct Exposure {
     knee: f32,
 }
 
+/// What is left of the light where nothing is open: a hole is to be seen, not missed.
+const DARKEST: f32 = 0.4;
+
 impl Exposure {
     /// A scene that names its lights is seen as it names them.
-    const AS_IT_IS: Self = Self { ambient: 0.06, gain: 1.0, knee: f32::INFINITY };
+    const AS_IT_IS: Self = Self { lights: 1.0, ambient: 0.06, gain: 1.0, knee: f32::INFINITY };
     /// Bright enough for dark elements, and the camera's lights together stay below full light: a white atom keeps its
     /// shape.
-    const SOFT: Self = Self { ambient: 0.04, gain: 1.35, knee: 0.4 };
+    const SOFT: Self = Self { lights: 1.0, ambient: 0.04, gain: 1.35, knee: 0.4 };
+    /// Where it is seen how open the scene is, most light comes from everywhere, and what is left of the camera's
+    /// lights makes spheres round: of atoms as small as pixels more of it is noise.
+    const OPEN: Self = Self { lights: 0.1, ambient: 0.72, ..Self::SOFT };
+    /// Without lights all is seen in its own colour, as far as it is open.
+    const PLAIN: Self = Self { ambient: 1.0, ..Self::AS_IT_IS };
 
     /// That of a scene lit like this.
     pub(super) fn of(lighting: &Lighting) -> Self {
@@ -26,6 +36,20 @@ impl Exposure {
             Lighting::Plain | Lighting::World(_) => Self::AS_IT_IS,
             Lighting::Camera => Self::SOFT,
         }
+    }
+
+    /// The same where it is seen how open the scene is.
+    pub(super) fn of_open(lighting: &Lighting) -> Self {
+        match lighting {
+            Lighting::Plain => Self::PLAIN,
+            Lighting::World(_) => Self::AS_IT_IS,
+            Lighting::Camera => Self::OPEN,
+        }
+    }
+
+    /// The light that a surface receives which is so open, 0 to 1, of all the light there is.
+    pub(super) fn left(openness: f32) -> f32 {
+        DARKEST + (1.0 - DARKEST) * openness
     }
 
     /// The light that is seen: above the knee a parabola that goes on as steeply, and flat where it reaches 1.

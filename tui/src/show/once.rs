@@ -1,6 +1,7 @@
 //! One picture, written at once: as a tier sees it, as it is wrong, in two halves, or below a table.
 
 use crate::cells::CellGrid;
+use crate::coloring::legend::Legend;
 use crate::compare::error_map::ErrorMapper;
 use crate::compare::legend::MapPainter;
 use crate::compare::split::{Split, SplitPicture};
@@ -10,7 +11,7 @@ use crate::error::{Error, write_stdout};
 use crate::progress::{PATIENCE, Progress};
 use crate::scene::Scene;
 use crate::structure::scene::{PictureSearch, SceneStructures};
-use crate::style::Style;
+use crate::style::{Aids, Style};
 use crate::tradeoff::Question;
 use crate::tradeoff::chart::{self, Standing};
 use crate::view::View;
@@ -35,12 +36,19 @@ impl Once<'_> {
         (!self.is_terminal).then(|| Progress::after(PATIENCE))
     }
 
-    /// Writes the scene as the tier of the style sees it.
+    /// Writes the scene as the tier of the style sees it, and over it what colours mean, if that is asked: then it is not
+    /// written in strips.
     pub(super) fn picture(
         &self,
         renderer: &mut Renderer<'_>,
         search: &PictureSearch<'_>,
+        legend: Option<Legend>,
     ) -> Result<(), Error> {
+        if let Some(legend) = legend {
+            let mut cells = self.drawn(renderer, search);
+            legend.write(&mut cells, self.size.1, &self.style);
+            return write(&cells);
+        }
         let (mut done, mut bytes, mut progress) = (0_u32, Vec::new(), self.progress());
         renderer.draw_strips(self.scene, search, &self.view, &self.style, self.size, |cells| {
             bytes.clear();
@@ -118,6 +126,8 @@ impl Once<'_> {
         question: &Question<'_>,
         structures: &mut SceneStructures<'_>,
     ) -> Result<(), Error> {
+        // What is measured are rays of the camera and to lights.
+        structures.set_aids(Aids::NONE);
         let mut progress = Progress::after(PATIENCE);
         let report = question.measure(structures, &mut |step, share| {
             progress.show(step.doing(), share);

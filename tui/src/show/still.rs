@@ -48,7 +48,7 @@ impl Still {
             let workload = picture_workload(scene.spheres().len(), &style, columns, rows, 1.0);
             let search = structures.picture(structure, &workload, &view, &scene.lighting)?;
             let once = Once { scene: &scene, view, style, size: self.size, is_terminal };
-            once.picture(renderer, &search)?;
+            once.picture(renderer, &search, None)?;
         }
         Ok(())
     }

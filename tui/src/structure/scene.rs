@@ -2,15 +2,18 @@
 
 use super::choose::{Workload, choose};
 use super::object_order::ObjectOrder;
+use super::openness::{Around, Openness};
 use super::screen::{Area, Screen};
 use super::search::Search;
 use super::{Order, Structure};
 use crate::choice::Auto;
 use crate::error::Error;
+use crate::scene::framing::subject;
 use crate::scene::{Light, Lighting, Source};
+use crate::style::Aids;
 use crate::threads::Threads;
 use crate::view::View;
-use spherule_kernel::{Coherence, DepthList, SphereList, SphereTree, Spheres, Viewpoint};
+use spherule_kernel::{Coherence, DepthList, Sphere, SphereList, SphereTree, Spheres, Viewpoint};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -27,7 +30,23 @@ pub struct PictureSearch<'a> {
     pub lights: Vec<Light>,
     /// Those to the lights, one a light.
     pub to_lights: Vec<Search<'a>>,
+    /// What aids need of the scene.
+    pub setting: Setting,
 }
+
+/// A scene as a whole, as far as the aids of a picture need it.
+#[derive(Clone, Debug, Default)]
+pub struct Setting {
+    /// A sphere around what there is to see, if depth is to be seen.
+    pub subject: Option<Sphere>,
+    /// How open it is around the spheres, if that is to be seen.
+    pub around: Option<Around>,
+}
+
+/// Of so many spheres or fewer all are asked, whether they are in the way.
+const FEW: usize = 64;
+/// What is farther away than that, over the radius of all there is to see, is in nobody's way: a sky around it.
+const REACH: f32 = 2.0;
 
 impl PictureSearch<'_> {
     /// That of the camera's rays.
@@ -49,7 +68,10 @@ pub struct SceneStructures<'a> {
     list: Arc<SphereList>,
     threads: &'a Threads,
     order: Order,
+    aids: Aids,
     tree: Option<Arc<SphereTree>>,
+    subject: Option<Sphere>,
+    openness: Option<Arc<Openness>>,
     /// The memory of depth lists, one a viewpoint.
     depth_lists: Vec<Vec<f32>>,
     /// Where the spheres are on the screen.
@@ -65,7 +87,10 @@ impl<'a> SceneStructures<'a> {
             list: Arc::clone(list),
             threads,
             order: Order::Image,
+            aids: Aids::NONE,
             tree: None,
+            subject: None,
+            openness: None,
             depth_lists: Vec::new(),
             areas: Vec::new(),
             build: Duration::ZERO,
@@ -76,6 +101,11 @@ impl<'a> SceneStructures<'a> {
     #[must_use]
     pub fn in_order(self, order: Order) -> Self {
         Self { order, ..self }
+    }
+
+    /// Which aids the next pictures have.
+    pub fn set_aids(&mut self, aids: Aids) {
+        self.aids = aids;
     }
 
     /// In which order camera rays and spheres meet.
@@ -102,6 +132,7 @@ impl<'a> SceneStructures<'a> {
     /// Of a million spheres that move a little, a refit takes a fraction of what a build takes.
     pub fn go_on(&mut self, list: &Arc<SphereList>) {
         self.list = Arc::clone(list);
+        (self.subject, self.openness) = (None, None);
         let Some(tree) = self.tree.take() else { return };
         // One that others look at is left to them.
         let Ok(mut tree) = Arc::try_unwrap(tree) else { return };
@@ -144,7 +175,11 @@ impl<'a> SceneStructures<'a> {
         view: &View,
         lighting: &Lighting,
     ) -> Result<PictureSearch<'_>, Error> {
-        let (structure, coherence) = (self.structure(choice, workload), workload.coherence());
+        let setting = self.setting()?;
+        // A tree that is there is as good as any other.
+        let there = setting.around.as_ref().and_then(Around::structure);
+        let structure = self.structure(choice.or(there), workload);
+        let coherence = workload.coherence();
         let lights = lighting.lights(view);
         let towards = lights.iter().map(|light| match light.source {
             Source::Direction(direction) => Some(Viewpoint::Direction(direction)),
@@ -157,7 +192,31 @@ impl<'a> SceneStructures<'a> {
         let viewpoints: Vec<_> = camera.into_iter().chain(towards).collect();
         let mut to_lights = self.searches(structure, &viewpoints, screen)?;
         let camera = to_lights.remove(0);
-        Ok(PictureSearch { structure, coherence, camera, lights, to_lights })
+        Ok(PictureSearch { structure, coherence, camera, lights, to_lights, setting })
+    }
+
+    /// What the aids need, found once.
+    fn setting(&mut self) -> Result<Setting, Error> {
+        let Aids { occlusion, depth_cue, .. } = self.aids;
+        if !occlusion && !depth_cue {
+            return Ok(Setting::default());
+        }
+        let subject = *self.subject.get_or_insert_with(|| subject(self.list.spheres()));
+        let around = if occlusion { Some(self.around(subject.radius)?) } else { None };
+        Ok(Setting { subject: depth_cue.then_some(subject), around })
+    }
+
+    /// What is known of how open it is in a scene that is so large.
+    fn around(&mut self, radius: f32) -> Result<Around, Error> {
+        let tree = if self.list.len() > FEW {
+            Some(Arc::clone(built(&mut self.tree, &self.list, self.threads, &mut self.build)?))
+        } else {
+            None
+        };
+        let openness = self
+            .openness
+            .get_or_insert_with(|| Arc::new(Openness::new(self.list.len(), REACH * radius)));
+        Ok(Around { openness: Arc::clone(openness), list: Arc::clone(&self.list), tree })
     }
 
     /// One search a viewpoint; before them, the spheres in object order if there is a screen.
@@ -174,17 +233,8 @@ impl<'a> SceneStructures<'a> {
         let searches = match structure {
             Structure::Brute => Ok(vec![Search::Brute(spheres); viewpoints.len()]),
             Structure::Bvh => {
-                let tree = match self.tree.take() {
-                    Some(tree) => tree,
-                    None => {
-                        let tree =
-                            SphereTree::build_with(self.threads, SphereList::clone(&self.list));
-                        let tree = tree.map_err(|_| no_memory("a tree", spheres))?;
-                        self.build += start.elapsed();
-                        Arc::new(tree)
-                    }
-                };
-                Ok(vec![Search::Bvh(self.tree.insert(tree).bvh()); viewpoints.len()])
+                let tree = built(&mut self.tree, &self.list, self.threads, &mut self.build)?;
+                Ok(vec![Search::Bvh(tree.bvh()); viewpoints.len()])
             }
             Structure::DepthList => {
                 self.depth_lists
@@ -206,6 +256,26 @@ impl<'a> SceneStructures<'a> {
     pub fn build_time(&self) -> Duration {
         self.build
     }
+}
+
+/// The tree, built if there is none, in time that is added up.
+fn built<'a>(
+    tree: &'a mut Option<Arc<SphereTree>>,
+    list: &SphereList,
+    threads: &Threads,
+    time: &mut Duration,
+) -> Result<&'a Arc<SphereTree>, Error> {
+    let there = match tree.take() {
+        Some(there) => there,
+        None => {
+            let start = Instant::now();
+            let built = SphereTree::build_with(threads, list.clone());
+            let built = built.map_err(|_| no_memory("a tree", list.spheres()))?;
+            *time += start.elapsed();
+            Arc::new(built)
+        }
+    };
+    Ok(tree.insert(there))
 }
 
 /// Sorts the spheres in the memory given.

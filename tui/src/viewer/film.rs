@@ -4,7 +4,6 @@
 //! is wanted. No one waits for it: where a frame is not there yet, the picture stays.
 
 use crate::arguments::files::FOLLOW;
-use crate::color::Srgb;
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::scene::frames::Frames;
@@ -60,23 +59,21 @@ pub struct Film {
 }
 
 impl Film {
-    /// A file of which `frame` is shown; `background` is the user's.
+    /// A file of which `frame` is shown; `prepare` does to others what was done to that one.
     ///
     /// # Errors
     /// [`Error::Running`] if there is no thread to read it.
     pub fn new(
         frames: Frames,
         frame: usize,
-        scene: &Scene,
-        background: Option<Srgb>,
+        prepare: impl Fn(&mut Scene) + Send + 'static,
     ) -> Result<Self, Error> {
         let shared = Arc::new(Shared::default());
         let first = frame + 1;
         shared.lock().wanted = first;
         let (can_go_back, may_have_more) = (frames.can_go_back(), frames.follows());
-        let background = background.filter(|_| !scene.names_background);
         let theirs = Arc::clone(&shared);
-        let read = move || read_ahead(frames, &theirs, background);
+        let read = move || read_ahead(frames, &theirs, prepare);
         let thread = Builder::new().name("frames".to_owned()).spawn(read);
         thread.map_err(|error| Error::Running(format!("a thread: {error}")))?;
         let (shown, target, last) = (frame, frame, Instant::now());
@@ -185,7 +182,7 @@ impl Drop for Film {
 }
 
 /// Reads what is wanted and what follows it, until no one looks any more.
-fn read_ahead(mut frames: Frames, shared: &Shared, background: Option<Srgb>) {
+fn read_ahead(mut frames: Frames, shared: &Shared, prepare: impl Fn(&mut Scene)) {
     loop {
         let index = {
             let mut state = shared.lock();
@@ -203,9 +200,7 @@ fn read_ahead(mut frames: Frames, shared: &Shared, background: Option<Srgb>) {
         let mut state = shared.lock();
         match read {
             Ok(Some(mut scene)) => {
-                if let Some(background) = background {
-                    scene.background = background;
-                }
+                prepare(&mut scene);
                 state.ready.insert(index, Arc::new(scene));
                 let wanted = state.wanted;
                 state.ready.retain(|&index, _| index + 2 >= wanted && index <= wanted + AHEAD);
@@ -256,8 +251,8 @@ mod tests {
         else {
             panic!("no file")
         };
-        let scene = frames.read(0).expect("a frame").expect("a frame");
-        Film::new(frames, 0, &scene, None).expect("a thread")
+        let _ = frames.read(0).expect("a frame").expect("a frame");
+        Film::new(frames, 0, |_| ()).expect("a thread")
     }
 
     /// x of the next frame, once it is there.

@@ -162,7 +162,9 @@ impl Viewer<'_> {
 
     /// Draws the picture of the moment.
     fn draw(&mut self, size: (u16, u16), moving: bool) -> Result<Picture, Error> {
+        self.colors.show(&mut self.scene, self.state.shown.coloring);
         let Shown { view, style, structure, comparison, .. } = &self.state.shown;
+        self.structures.set_aids(style.aids);
         let (count, lighting) = (self.scene.spheres().len(), &self.scene.lighting);
         let workload = picture_workload(count, style, size.0, size.1, f64::INFINITY);
         let search = self.structures.picture(*structure, &workload, view, lighting)?;
@@ -222,6 +224,9 @@ impl Viewer<'_> {
             let pick = self.pick()?;
             let lines = pick.map(|pick| report::lines(&pick, printable)).unwrap_or_default();
             picking::write(cells, rows, cursor, &lines);
+        }
+        if let Some(legend) = self.colors.legend.as_ref().filter(|_| self.state.shown.legend) {
+            legend.write(cells, rows, &self.state.shown.style);
         }
         if self.state.shown.help {
             help::write(cells, rows);

@@ -2,7 +2,7 @@
 
 use crate::cells::{CellGrid, Color};
 
-const LINES: [&str; 25] = [
+const LINES: [&str; 27] = [
     "                                         ",
     "  arrows, h j k l, drag   around          ",
     "  H J K L, right drag     along the picture ",
@@ -24,6 +24,8 @@ const LINES: [&str; 25] = [
     "  c                       ascii, half, quadrant, sextant, ",
     "                          octant, braille, block ",
     "  s                       auto, brute, depth-list, bvh ",
+    "  C, g                    what colours are by, what they mean ",
+    "  a, E, d                 occlusion, edges, depth cue ",
     "  ?                       this            ",
     "  Ctrl-Z                  stop, fg goes on",
     "  q, Esc, Ctrl-C          quit            ",

@@ -43,6 +43,16 @@ pub(super) enum Input {
     Projection,
     /// The next charset.
     Charset,
+    /// Less light where others are in the way, or as before.
+    Occlusion,
+    /// Dark edges, or none.
+    Edges,
+    /// What is far away fades, or does not.
+    DepthCue,
+    /// Colour by the next thing.
+    Coloring,
+    /// Say what colours mean, or no longer.
+    Legend,
     /// The next structure.
     Structure,
     /// Start or stop to play the frames of a file; where there is one, to spin.
@@ -101,6 +111,11 @@ fn key_input(key: KeyCode) -> Option<Input> {
         KeyCode::Char(']') => Input::Seam(1),
         KeyCode::Char('o') => Input::Projection,
         KeyCode::Char('c') => Input::Charset,
+        KeyCode::Char('a') => Input::Occlusion,
+        KeyCode::Char('E') => Input::Edges,
+        KeyCode::Char('d') => Input::DepthCue,
+        KeyCode::Char('C') => Input::Coloring,
+        KeyCode::Char('g') => Input::Legend,
         KeyCode::Char('s') => Input::Structure,
         KeyCode::Char(' ') => Input::Spin,
         KeyCode::Char('.') => Input::Step(true),

@@ -1,5 +1,6 @@
 //! What the viewer holds while it runs.
 
+use super::colors::Colors;
 use super::film::Film;
 use super::flow::Flow;
 use super::meter::Meter;
@@ -24,6 +25,7 @@ use std::sync::Arc;
 /// The scene and the terminal, and what is kept from frame to frame.
 pub(super) struct Viewer<'a> {
     pub(super) scene: Arc<Scene>,
+    pub(super) colors: Colors,
     /// Its file, if it may have more frames.
     pub(super) film: Option<Film>,
     pub(super) structures: SceneStructures<'a>,

@@ -39,6 +39,8 @@ pub struct Start {
     pub comparison: Option<Comparison>,
     /// Whether there is a table of what every tier takes and gets wrong.
     pub table: bool,
+    /// Whether it is said what colours mean.
+    pub legend: bool,
 }
 
 /// What an input led to, from the least to the most.
@@ -69,6 +71,9 @@ pub(super) struct Shown {
     /// Between two tiers.
     pub(super) seam: Seam,
     pub(super) help: bool,
+    /// Which of the things to colour by, and whether it is said what colours mean.
+    pub(super) coloring: usize,
+    pub(super) legend: bool,
     pub(super) spinning: bool,
     /// Whether there is a table of what every tier takes and gets wrong; then no cell is picked.
     pub(super) table: bool,
@@ -79,7 +84,7 @@ pub(super) struct Shown {
 impl Shown {
     /// What the picture itself depends on.
     pub(super) fn pictured(&self) -> Self {
-        Self { help: false, spinning: false, table: false, cursor: None, ..*self }
+        Self { help: false, legend: false, spinning: false, table: false, cursor: None, ..*self }
     }
 }
 
@@ -94,10 +99,14 @@ pub(super) struct State {
     pub(super) recording: bool,
     /// Columns and rows of the picture: a drag over all rows is half a turn.
     size: (u16, u16),
+    /// How many things there are to colour by.
+    colorings: usize,
 }
 
 impl State {
-    pub(super) fn new(Start { view, style, structure, comparison, table }: Start) -> Self {
+    /// With so many things to colour by, first by one of them.
+    pub(super) fn new(start: Start, (coloring, colorings): (usize, usize)) -> Self {
+        let Start { view, style, structure, comparison, table, legend } = start;
         let shown = Shown {
             view,
             style,
@@ -105,6 +114,8 @@ impl State {
             comparison,
             seam: Seam::default(),
             help: false,
+            coloring,
+            legend,
             spinning: false,
             table,
             cursor: None,
@@ -116,6 +127,7 @@ impl State {
             pulls_seam: false,
             recording: false,
             size: (1, 1),
+            colorings,
         }
     }
 
@@ -172,8 +184,19 @@ impl State {
 
     pub(super) fn apply(&mut self, input: Input) -> Outcome {
         let before = self.shown;
-        let Shown { view, style, structure, comparison, help, spinning, table, cursor, .. } =
-            &mut self.shown;
+        let Shown {
+            view,
+            style,
+            structure,
+            comparison,
+            help,
+            spinning,
+            table,
+            cursor,
+            coloring,
+            legend,
+            ..
+        } = &mut self.shown;
         match input {
             Input::Quit => return Outcome::Quit,
             Input::Escape if *help => *help = false,
@@ -244,6 +267,11 @@ impl State {
             Input::Charset => {
                 style.charset = next(Some(style.charset)).unwrap_or(Charset::Ascii);
             }
+            Input::Occlusion => style.aids.occlusion = !style.aids.occlusion,
+            Input::Edges => style.aids.edges = !style.aids.edges,
+            Input::DepthCue => style.aids.depth_cue = !style.aids.depth_cue,
+            Input::Coloring => *coloring = (*coloring + 1) % self.colorings.max(1),
+            Input::Legend => *legend = !*legend,
             Input::Structure => *structure = next(*structure),
             Input::Spin => *spinning = !*spinning,
             Input::Reset => (*view, *spinning) = (self.home, false),

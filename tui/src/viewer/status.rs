@@ -75,13 +75,17 @@ mod tests {
 
     fn state(choice: Auto<Structure>) -> State {
         let style = Style { accuracy: Tier::Stable, charset: Charset::Half, ..Style::PLAIN };
-        State::new(Start {
-            view: View::FRONT,
-            style,
-            structure: choice,
-            comparison: None,
-            table: false,
-        })
+        State::new(
+            Start {
+                view: View::FRONT,
+                style,
+                structure: choice,
+                comparison: None,
+                table: false,
+                legend: false,
+            },
+            (0, 3),
+        )
     }
 
     fn text(columns: u16, state: &State, searched: (Order, Structure), figures: Figures) -> String {

@@ -6,7 +6,7 @@ use spherule::scene::builtin::builtin;
 use spherule::scene::{Light, Lighting, Scene, Source};
 use spherule::shade::Shader;
 use spherule::structure::Structure;
-use spherule::structure::scene::PictureSearch;
+use spherule::structure::scene::{PictureSearch, Setting};
 use spherule::structure::search::{Scratch, Search, Tracing};
 use spherule::view::View;
 use spherule_kernel::{Camera, Coherence, HitPacket, Level, RayPacket, Tier, Vec3};
@@ -24,6 +24,7 @@ fn sphere_pixels(scene: &Scene, view: &View) -> Vec<(u32, Srgb)> {
         camera,
         to_lights: vec![camera; lights.len()],
         lights,
+        setting: Setting::default(),
     };
     let tracing =
         Tracing { tier: Tier::Exact, level: Level::best(), coherence: Coherence::Coherent };

@@ -4,6 +4,7 @@
 mod bad_input;
 mod cargo;
 mod cast;
+mod crowd;
 mod files;
 mod judge;
 mod lecture;

@@ -97,11 +97,12 @@ fn strips_tiles_and_threads_do_not_show() {
     let mut tracer = Tracer::default();
     for (x, y) in [(0, 0), (31, 15), (32, 16), (719, 428), (100, 370), (359, 200)] {
         let corner = std::iter::once((x * SAMPLES, y * SAMPLES));
-        let (light, _) = tracer.trace(&traced, &grid.samples, corner, (1, 1.0 / 16.0), |corner| {
+        let how = (&traced, None);
+        let light = tracer.trace(how, &grid.samples, corner, (1, 1.0 / 16.0), |corner| {
             Places::new(corner, |_| 0, |_| 0)
         });
         let found = &expected[y as usize][3 * x as usize..][..3];
-        assert_eq!(found, Srgb::from_linear(light[0]).0, "at {x}, {y}");
+        assert_eq!(found, Srgb::from_linear(light.pixels[0]).0, "at {x}, {y}");
     }
 }
 

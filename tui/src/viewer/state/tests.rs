@@ -5,13 +5,17 @@ use clap::ValueEnum;
 
 pub(super) fn state() -> State {
     let style = Style { accuracy: Tier::Stable, charset: Charset::Half, ..Style::PLAIN };
-    let mut state = State::new(Start {
-        view: View::FRONT,
-        style,
-        structure: None,
-        comparison: None,
-        table: false,
-    });
+    let mut state = State::new(
+        Start {
+            view: View::FRONT,
+            style,
+            structure: None,
+            comparison: None,
+            table: false,
+            legend: false,
+        },
+        (0, 3),
+    );
     state.set_size(80, 36);
     state
 }

@@ -1,0 +1,181 @@
+//! Which colours spheres have: their own, or by what the scene's file says of them.
+//!
+//! Names get colours that everybody can tell apart, in the order in which they first occur; numbers a scale that gets lighter
+//! from the least to the largest. Colours of elements are the ones that chemists know.
+
+pub mod categories;
+pub mod legend;
+pub mod scale;
+
+use crate::color::Srgb;
+use crate::scene::Scene;
+use crate::scene::attributes::{Attributes, Naming, Own};
+use crate::scene::elements::of_number;
+use categories::category;
+use legend::{Entries, Legend};
+use scale::{Range, color_of};
+use std::str::FromStr;
+
+/// By what spheres are coloured.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ColorBy {
+    /// The scene's own colours.
+    Scene,
+    /// The chemical element.
+    Element,
+    /// Names of one kind.
+    Names(Naming),
+    /// A column of numbers, by its name.
+    Column(Box<str>),
+}
+
+/// What has no name, no number, no element that is known.
+pub const NEUTRAL: Srgb = Srgb([0x9a, 0x9a, 0x9a]);
+
+/// The kinds of names by which spheres can be coloured.
+const NAMINGS: [(&str, Naming); 4] = [
+    ("chain", Naming::Chain),
+    ("residue", Naming::Residue),
+    ("molecule", Naming::Molecule),
+    ("type", Naming::Type),
+];
+
+impl ColorBy {
+    /// Its name: on the command line, and in a legend.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Scene => "scene",
+            Self::Element => "element",
+            Self::Names(naming) => {
+                let named = NAMINGS.iter().find(|(_, other)| other == naming);
+                named.map_or("name", |(name, _)| name)
+            }
+            Self::Column(name) => name,
+        }
+    }
+
+    /// What there is in a scene to colour by, its own colours first.
+    #[must_use]
+    pub fn choices(attributes: &Attributes) -> Vec<Self> {
+        let names = NAMINGS.iter().filter(|(_, naming)| attributes.names(*naming).is_some());
+        let names = names.map(|(_, naming)| Self::Names(*naming));
+        let element = attributes.elements.as_ref().map(|_| Self::Element);
+        let columns = attributes.columns.iter().map(|column| Self::Column(column.name.clone()));
+        [Self::Scene].into_iter().chain(element).chain(names).chain(columns).collect()
+    }
+
+    /// What a scene is coloured by unless somebody says so: of several chains those, else its own colours.
+    #[must_use]
+    pub fn usual(attributes: &Attributes) -> Self {
+        let has_chains =
+            attributes.names(Naming::Chain).is_some_and(|names| names.table().len() > 1);
+        let Own { colors, .. } = attributes.own;
+        if has_chains && !colors { Self::Names(Naming::Chain) } else { Self::Scene }
+    }
+
+    /// The choice after this one, around in a circle.
+    #[must_use]
+    pub fn next(&self, attributes: &Attributes) -> Self {
+        let choices = Self::choices(attributes);
+        let place = choices.iter().position(|choice| choice == self).map_or(0, |place| place + 1);
+        choices.into_iter().cycle().nth(place).unwrap_or(Self::Scene)
+    }
+}
+
+impl FromStr for ColorBy {
+    type Err = String;
+
+    /// Reads `scene`, `element`, the name of a kind of names, or any other as that of a column.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let naming = NAMINGS.iter().find(|(name, _)| *name == text);
+        match text {
+            "" => {
+                Err("scene, element, chain, residue, molecule, type, or a column of numbers"
+                    .to_owned())
+            }
+            "scene" => Ok(Self::Scene),
+            "element" => Ok(Self::Element),
+            _ => Ok(naming
+                .map_or_else(|| Self::Column(text.into()), |(_, naming)| Self::Names(*naming))),
+        }
+    }
+}
+
+/// Colours, one a sphere, and what they mean.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coloring {
+    /// None: the scene's own.
+    pub colors: Option<Vec<Srgb>>,
+    /// What they mean; none of colours that have no meaning that is known.
+    pub legend: Option<Legend>,
+}
+
+/// Finds the colours of `scene` by something; numbers from one end of `range` to the other, or of the numbers that there are.
+///
+/// # Errors
+/// What `scene` has instead, if it does not have that.
+pub fn coloring(scene: &Scene, by: &ColorBy, range: Option<Range>) -> Result<Coloring, String> {
+    let attributes = scene.attributes();
+    let missing = || {
+        let has = ColorBy::choices(attributes);
+        let has: Vec<_> = has.iter().map(ColorBy::name).collect();
+        format!("no {} in this scene to colour by; it has {}", by.name(), has.join(", "))
+    };
+    match by {
+        ColorBy::Scene => Ok(Coloring { colors: None, legend: None }),
+        ColorBy::Element => {
+            let elements = attributes.elements.as_ref().ok_or_else(missing)?;
+            let color =
+                |&number: &u8| of_number(number.into()).map_or(NEUTRAL, |element| element.color);
+            let mut counts = [0_usize; 256];
+            elements.iter().for_each(|&number| counts[usize::from(number)] += 1);
+            let mut present: Vec<_> =
+                (0..=255).filter(|&number| counts[usize::from(number)] > 0).collect();
+            present.sort_by_key(|&number: &u8| std::cmp::Reverse(counts[usize::from(number)]));
+            let name =
+                |number: &u8| of_number((*number).into()).map_or("?", |element| element.symbol);
+            let entries = present.iter().map(|number| (color(number), name(number).to_owned()));
+            let legend = Legend::new(by.name(), Entries::Names(entries.collect()));
+            Ok(Coloring {
+                colors: Some(elements.iter().map(color).collect()),
+                legend: Some(legend),
+            })
+        }
+        ColorBy::Names(naming) => {
+            let names = attributes.names(*naming).ok_or_else(missing)?;
+            let mut places = 0..;
+            // What has no name takes no colour away.
+            let table: Vec<_> = names
+                .table()
+                .iter()
+                .map(|name| {
+                    if name.is_empty() { NEUTRAL } else { places.next().map_or(NEUTRAL, category) }
+                })
+                .collect();
+            let color = |&index: &u32| table.get(index as usize).copied().unwrap_or(NEUTRAL);
+            let shown =
+                |name: &str| if name.is_empty() { "none".to_owned() } else { name.to_owned() };
+            let entries = table.iter().copied().zip(names.table().iter().map(|name| shown(name)));
+            let legend = Legend::new(by.name(), Entries::Names(entries.collect()));
+            Ok(Coloring {
+                colors: Some(names.indices().iter().map(color).collect()),
+                legend: Some(legend),
+            })
+        }
+        ColorBy::Column(name) => {
+            let column = attributes.column(name).ok_or_else(missing)?;
+            let range = range.unwrap_or_else(|| Range::of(&column.values));
+            let color = |&value: &f32| range.place(value).map_or(NEUTRAL, color_of);
+            let has_none = column.values.iter().any(|value| value.is_nan());
+            let legend = Legend::new(&column.name, Entries::Numbers { range, has_none });
+            Ok(Coloring {
+                colors: Some(column.values.iter().map(color).collect()),
+                legend: Some(legend),
+            })
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,94 @@
+use super::*;
+use crate::scene::attributes::{NamesBuilder, NumberColumn};
+use spherule_kernel::{SphereList, Vec3};
+
+/// Four atoms: C and N of chain A, O of chain B, and one that nobody knows anything of.
+fn scene() -> Scene {
+    let mut chains = NamesBuilder::default();
+    for name in ["A", "A", "B", ""] {
+        chains.push(name.as_bytes());
+    }
+    let column = NumberColumn { name: "b_factor".into(), values: vec![10.0, 20.0, 30.0, f32::NAN] };
+    let mut attributes = Attributes::default();
+    attributes.elements = Some(vec![6, 7, 8, 0]);
+    attributes.columns = vec![column];
+    attributes.set_names(Naming::Chain, chains.finish());
+    let list = SphereList::from_iter([(Vec3::ZERO, 1.0); 4]);
+    Scene::of_spheres(list, vec![Srgb::WHITE; 4], attributes)
+}
+
+fn colors(by: &str, range: Option<Range>) -> Vec<Srgb> {
+    let by: ColorBy = by.parse().expect("a choice");
+    let coloring = coloring(&scene(), &by, range).expect("colours");
+    coloring.colors.expect("not the scene's own")
+}
+
+#[test]
+fn names_have_colours_in_the_order_in_which_they_occur() {
+    assert_eq!(colors("chain", None), [category(0), category(0), category(1), NEUTRAL]);
+}
+
+#[test]
+fn elements_have_the_colours_that_chemists_know() {
+    let [carbon, nitrogen, oxygen] =
+        [6, 7, 8].map(|number| of_number(number).expect("known").color);
+    assert_eq!(colors("element", None), [carbon, nitrogen, oxygen, NEUTRAL]);
+}
+
+#[test]
+fn numbers_have_a_scale_of_their_own_range_or_another() {
+    assert_eq!(colors("b_factor", None), [color_of(0.0), color_of(0.5), color_of(1.0), NEUTRAL]);
+    let range = Some(Range { low: 20.0, high: 40.0 });
+    assert_eq!(colors("B_FACTOR", range), [color_of(0.0), color_of(0.0), color_of(0.5), NEUTRAL]);
+}
+
+#[test]
+fn what_a_scene_does_not_have_is_said_with_what_it_has() {
+    for by in ["residue", "charge"] {
+        let by: ColorBy = by.parse().expect("a choice");
+        let error = coloring(&scene(), &by, None).expect_err("missing");
+        let expected = format!(
+            "no {} in this scene to colour by; it has scene, element, chain, b_factor",
+            by.name()
+        );
+        assert_eq!(error, expected);
+    }
+    assert!("".parse::<ColorBy>().is_err());
+}
+
+#[test]
+fn a_key_goes_through_all_there_is_in_a_circle() {
+    let scene = scene();
+    let mut by = ColorBy::Scene;
+    let mut seen = Vec::new();
+    for _ in 0..5 {
+        seen.push(by.name().to_owned());
+        by = by.next(scene.attributes());
+    }
+    assert_eq!(seen, ["scene", "element", "chain", "b_factor", "scene"]);
+    assert_eq!(ColorBy::Scene.next(Scene::new().attributes()), ColorBy::Scene);
+}
+
+#[test]
+fn several_chains_are_coloured_unless_the_file_has_colours() {
+    assert_eq!(ColorBy::usual(scene().attributes()), ColorBy::Names(Naming::Chain));
+    assert_eq!(ColorBy::usual(Scene::new().attributes()), ColorBy::Scene);
+    let mut attributes = scene().attributes().clone();
+    attributes.own.colors = true;
+    assert_eq!(ColorBy::usual(&attributes), ColorBy::Scene);
+}
+
+#[test]
+fn legends_say_what_there_is() {
+    let legend = |by: &str| {
+        let by: ColorBy = by.parse().expect("a choice");
+        coloring(&scene(), &by, None).expect("colours").legend
+    };
+    let names = [(category(0), "A"), (category(1), "B"), (NEUTRAL, "none")];
+    let names = names.map(|(color, name)| (color, name.to_owned())).to_vec();
+    assert_eq!(legend("chain"), Some(Legend::new("chain", Entries::Names(names))));
+    let range = Range { low: 10.0, high: 30.0 };
+    let numbers = Entries::Numbers { range, has_none: true };
+    assert_eq!(legend("b_factor"), Some(Legend::new("b_factor", numbers)));
+    assert_eq!(legend("scene"), None);
+}

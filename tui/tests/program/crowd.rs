@@ -1,0 +1,132 @@
+//! What tells spheres of a crowd apart: what is off changes nothing, what is on does, at every size and distance.
+
+use crate::run::{file, printed, refusal, run};
+
+fn words(arguments: &str) -> Vec<&str> {
+    arguments.split_whitespace().collect()
+}
+
+fn picture(scene: &str, options: &str) -> String {
+    let arguments = format!("{scene} --once --size 60x20 --color truecolor {options}");
+    printed(&run(words(&arguments)))
+}
+
+#[test]
+fn what_is_off_changes_no_byte_and_each_that_is_on_does() {
+    for scene in ["marbles", "caffeine", "flake"] {
+        let usual = picture(scene, "");
+        assert!(picture(scene, "--occlusion=off --edges=off --depth-cue=off") == usual, "{scene}");
+        assert!(picture(scene, "--occlusion=auto --color-by scene") == usual, "{scene}");
+        let others = ["--occlusion", "--edges", "--depth-cue", "--occlusion --edges --depth-cue"];
+        let pictures = others.map(|options| picture(scene, options));
+        for (index, picture) in pictures.iter().enumerate() {
+            assert!(*picture != usual, "{scene} {}", others[index]);
+            assert!(!pictures[..index].contains(picture), "{scene} {}", others[index]);
+        }
+    }
+}
+
+#[test]
+fn threads_levels_orders_and_structures_do_not_show() {
+    let all = "--occlusion --edges --depth-cue";
+    let usual = picture("flake", all);
+    for option in [
+        "--threads 1",
+        "--threads 5",
+        "--level baseline",
+        "--order object",
+        "--structure brute",
+        "--structure depth-list",
+        "--structure bvh",
+    ] {
+        assert!(picture("flake", &format!("{all} {option}")) == usual, "{option}");
+    }
+}
+
+/// A heap of spheres, so many times as large, or so many times its size away from zero.
+fn heap(scale: f64, away: f64) -> String {
+    let mut text = "light = \"camera\"\n".to_owned();
+    for index in 0..60 {
+        let place = [index % 4, index / 4 % 4, index / 16].map(|step| f64::from(step));
+        let [x, y, z] = place.map(|step| scale * (1.25 * step + away));
+        text +=
+            &format!("[[sphere]]\ncenter = [{x:e}, {y:e}, {z:e}]\nradius = {:e}\n", 0.5 * scale);
+    }
+    text
+}
+
+#[test]
+fn a_scene_has_no_size_and_no_place() {
+    let draw = |name: &str, scale: f64, away: f64| {
+        let path = file(name, heap(scale, away).as_bytes());
+        picture(path.to_str().expect("UTF-8"), "--occlusion --edges --depth-cue")
+    };
+    let usual = draw("crowd.toml", 1.0, 0.0);
+    // By powers of two no number is rounded in another way.
+    for power in [-40, 40] {
+        assert!(draw("crowd-scaled.toml", 2.0_f64.powi(power), 0.0) == usual, "2^{power}");
+    }
+    // Far away it is about the same picture: as many cells as elsewhere have the background.
+    let far = draw("crowd-far.toml", 1.0, 65_536.0);
+    let blanks = |picture: &str| picture.matches(' ').count();
+    assert!(blanks(&far).abs_diff(blanks(&usual)) < 60, "{} and {}", blanks(&far), blanks(&usual));
+}
+
+#[test]
+fn a_picture_in_pixels_has_them_too() {
+    let folder = env!("CARGO_TARGET_TMPDIR");
+    let png = |name: &str, options: &str| {
+        let path = format!("{folder}/{name}");
+        printed(&run(words(&format!("flake --size 20x8 --png {path} {options}"))));
+        std::fs::read(path).expect("a picture")
+    };
+    let usual = png("crowd-0.png", "");
+    assert!(png("crowd-1.png", "--occlusion=off --edges=off") == usual);
+    let others =
+        ["--occlusion", "--edges", "--depth-cue"].map(|options| png("crowd-2.png", options));
+    assert!(
+        others.iter().all(|other| *other != usual)
+            && others[0] != others[1]
+            && others[1] != others[2]
+    );
+}
+
+#[test]
+fn what_a_scene_does_not_have_is_refused() {
+    let error = |options: &str| refusal(&run(words(&format!("marbles --once {options}"))));
+    assert_eq!(
+        error("--color-by chain"),
+        "marbles: no chain in this scene to colour by; it has scene"
+    );
+    assert_eq!(
+        error("--radius covalent"),
+        "marbles: no elements in this scene, by which there were radii"
+    );
+    assert!(error("--radius mass").contains("no mass in this scene"));
+    assert!(error("--radius -1").contains("not negative"));
+    assert!(error("--color-by chain --range 1").contains("LOW:HIGH"));
+    assert!(error("--range 1:2").contains("--color-by"));
+    assert!(error("--edges=maybe").contains("maybe"));
+}
+
+#[test]
+fn radii_are_as_asked_for() {
+    let usual = picture("caffeine", "");
+    assert!(picture("caffeine", "--radius vdw") == usual);
+    assert!(picture("caffeine", "--radius covalent") != usual);
+    assert!(picture("caffeine", "--radius 0.3") != picture("caffeine", "--radius 0.6"));
+}
+
+#[test]
+fn a_legend_says_what_colours_mean() {
+    let lines = picture("caffeine", "--color-by element --legend");
+    let lines: Vec<_> = lines.lines().collect();
+    assert!(lines[0].contains(" element "), "{}", lines[0]);
+    // As many H as there are, C, N, O: from the most frequent.
+    let rows: Vec<_> = ["H", "C", "N", "O"]
+        .iter()
+        .map(|name| lines.iter().position(|line| line.contains(&format!(" {name} "))))
+        .collect();
+    assert_eq!(rows, [Some(1), Some(2), Some(3), Some(4)]);
+    assert!(!picture("caffeine", "--color-by element").contains(" element "));
+}
