@@ -173,11 +173,11 @@ mod tests {
         assert_eq!(
             lines[..6],
             [
-                "...... chain  ",
-                "......    N0  ",
-                "......    N1  ",
-                "......    N2  ",
-                "...... 27 more",
+                "..... chain   ",
+                ".....    N0   ",
+                ".....    N1   ",
+                ".....    N2   ",
+                "..... 27 more ",
                 ".............."
             ]
         );
@@ -209,7 +209,7 @@ mod tests {
     #[test]
     fn numbers_are_short() {
         let texts = [0.0, 0.5, -12.3456, 1e-7, 123.45, 1e9, 99_999.0].map(number);
-        assert_eq!(texts, ["0", "0.5", "-12.35", "1.000e-7", "123.5", "1.000e9", "99999"]);
+        assert_eq!(texts, ["0", "0.5", "-12.35", "1.000e-7", "123.4", "1.000e9", "99999"]);
         assert_eq!(printable("Ångström and more of it"), "\\u{c5}ngstr...");
     }
 }
