@@ -3,9 +3,11 @@
 mod overlay;
 mod values;
 
+use crate::cases::CasesArguments;
 use crate::choice::{Auto, auto_or, size};
 use crate::color::Srgb;
 use crate::error::Error;
+use crate::judge::JudgeArguments;
 use crate::lecture::LectureArguments;
 use crate::palette::Theme;
 use crate::scene::Scene;
@@ -53,6 +55,10 @@ pub enum Command {
     /// On a terminal ? shows the keys. Into a pipe or a file, on a dumb terminal, or with --once, the station that
     /// --station names is written, or all of them.
     Lecture(LectureArguments),
+    /// Write cases in which ray-sphere intersection goes wrong, or list their families
+    Cases(CasesArguments),
+    /// Judge another program's answers against exact truth
+    Judge(JudgeArguments),
     /// List the built-in scenes
     Scenes,
 }

@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 pub mod arguments;
+pub mod cases;
 pub mod cells;
 pub mod choice;
 pub mod color;
@@ -10,6 +11,7 @@ pub mod draw;
 pub mod encode;
 pub mod error;
 pub mod ink;
+pub mod judge;
 pub mod lecture;
 pub mod machine;
 pub mod npy;

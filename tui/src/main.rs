@@ -3,7 +3,7 @@
 
 use spherule::arguments::{self, Command, Request};
 use spherule::error::{Error, write_stdout};
-use spherule::{lecture, machine, show, trace, tradeoff};
+use spherule::{cases, judge, lecture, machine, show, trace, tradeoff};
 use spherule_kernel::Tier;
 use std::process::ExitCode;
 
@@ -34,6 +34,14 @@ fn run() -> Result<(), Error> {
             Some(Command::Lecture(arguments)) => {
                 machine::check_floats(Tier::Exact)?;
                 lecture::lecture(arguments)
+            }
+            Some(Command::Cases(arguments)) => {
+                machine::check_floats(Tier::Exact)?;
+                cases::cases(arguments)
+            }
+            Some(Command::Judge(arguments)) => {
+                machine::check_floats(Tier::Exact)?;
+                judge::judge(arguments)
             }
             Some(Command::Scenes) => write_stdout(show::scenes().as_bytes()),
         },

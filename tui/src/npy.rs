@@ -77,7 +77,7 @@ pub fn write_column<T: Serialize>(
 }
 
 /// The header, once it is known to be harmless.
-fn read_header(reader: &mut impl Read) -> Result<NpyHeader, String> {
+pub(crate) fn read_header(reader: &mut impl Read) -> Result<NpyHeader, String> {
     let mut bytes = Vec::new();
     let mut take = |count: usize, bytes: &mut Vec<u8>| {
         let read = reader.take(count as u64).read_to_end(bytes);

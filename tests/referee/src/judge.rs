@@ -146,7 +146,9 @@ impl Judge {
         let rules = [self.rules, Rules::CONTRACT];
         let named = answer.and_then(|answer| answer.sphere);
         let there = |index: u32| spheres.get(index as usize);
-        for (which, (rules, truth)) in rules.iter().zip(truths).enumerate() {
+        // Under the contract itself there is one verdict, counted twice.
+        let count_of_rules = if rules[0] == rules[1] { 1 } else { 2 };
+        for (which, (rules, truth)) in rules.iter().zip(truths).take(count_of_rules).enumerate() {
             let counts = if which == 0 { &mut score.by_rules } else { &mut score.by_contract };
             if which == 0 && !covered {
                 counts.unpromised += 1;
@@ -170,6 +172,10 @@ impl Judge {
             counts.add(hit.is_some(), found);
             if which == 1 {
                 continue;
+            }
+            let is_contract = *rules == Rules::CONTRACT;
+            if is_contract {
+                score.by_contract.add(hit.is_some(), found);
             }
             if self.maps_places
                 && let Some(sphere) =
@@ -311,7 +317,7 @@ fn relevant(spheres: &[Sphere], indices: [Option<u32>; 2]) -> (Vec<Sphere>, [Opt
 
 fn place_of(margin: f64) -> usize {
     let size = margin.abs();
-    if !(size < 1.0) {
+    if size.is_nan() || size >= 1.0 {
         return 0;
     }
     // Of zero the logarithm is infinite, and the place the last.

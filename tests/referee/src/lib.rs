@@ -1,7 +1,7 @@
 //! Judges anyone's ray-sphere intersector against exact truth.
 //!
 //! ```
-//! use spherule_referee::{Intersector, Ray, Sphere, Trial, answer::Answer, intersector::Pair};
+//! use spherule_referee::{Ray, Sphere, Trial, intersector::Pair};
 //!
 //! /// Anybody's function: where the ray meets the sphere first, if it does.
 //! fn textbook(ray: &Ray, sphere: &Sphere) -> Option<f32> {
@@ -25,6 +25,7 @@
 //! | [`rules`], [`truth`] | what an intersector promises, and what is true by that |
 //! | [`answer`], [`verdict`], [`counts`], [`judge`] | an answer, how it is wrong, how many are, and which is the worst |
 //! | [`simplicity`], [`shrink`], [`snippet`] | how readable a case is, the smallest that fails, and lines to paste |
+//! | [`table`] | counts as a table, and a picture of where in a family it fails |
 //! | [`intersector`], [`watched`], [`trial`] | what is judged; a thread that may panic or hang; all families at once |
 //! | [`bytes`], `strategies`, `timed` | a fuzzer's bytes; proptest's strategies; criterion's clock, started after the judge |
 //!
@@ -50,6 +51,7 @@ pub mod simplicity;
 pub mod snippet;
 #[cfg(feature = "proptest")]
 pub mod strategies;
+pub mod table;
 mod tangent;
 #[cfg(feature = "criterion")]
 pub mod timed;

@@ -94,6 +94,19 @@ pub enum Precision {
     F64,
 }
 
+/// Where intervals begin.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Deserialize), serde(rename_all = "kebab-case"))]
+pub enum Starts {
+    /// Anywhere.
+    #[default]
+    Any,
+    /// At the origin or after it: `t_min >= 0`.
+    NotBehind,
+    /// At the origin: `t_min = 0`.
+    Zero,
+}
+
 /// What is promised. The default is the contract.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
@@ -112,8 +125,8 @@ pub struct Rules {
     pub ties: Ties,
     /// Lengths of directions.
     pub directions: Directions,
-    /// Of rays whose interval begins before t = 0.
-    pub behind: Promise,
+    /// Where intervals begin.
+    pub starts: Starts,
     /// Of NaN, infinity (but as an end of the interval), directions of zero, negative radii and empty intervals.
     pub invalid: Promise,
     /// The precision of t.
@@ -152,7 +165,7 @@ impl Rules {
         inside: Inside::Surface,
         ties: Ties::First,
         directions: Directions::Any,
-        behind: Promise::Judged,
+        starts: Starts::Any,
         invalid: Promise::Judged,
         precision: Precision::F32,
         smallest: 0.0,
@@ -172,8 +185,8 @@ impl Rules {
             "smallest and largest: no size is between them"
         } else if self.inside == Inside::Solid && open_start {
             "inside = \"solid\" answers t = 0, where the interval begins, and interval leaves its beginning out"
-        } else if self.inside == Inside::Solid && self.behind == Promise::Judged {
-            "inside = \"solid\" answers t = 0, and behind = \"judged\" what lies before it"
+        } else if self.inside == Inside::Solid && self.starts == Starts::Any {
+            "inside = \"solid\" answers t = 0, and starts = \"any\" what lies before it"
         } else {
             return Ok(self);
         };
@@ -212,7 +225,11 @@ impl Rules {
             (square - 1.0).abs() <= 2.0 / f64::from(1 << 20)
         };
         (self.invalid == Promise::Judged || is_valid)
-            && (self.behind == Promise::Judged || t_min >= 0.0 || t_min.is_nan())
+            && match self.starts {
+                Starts::Any => true,
+                Starts::NotBehind => t_min >= 0.0 || t_min.is_nan(),
+                Starts::Zero => t_min == 0.0,
+            }
             && (self.directions == Directions::Any || is_unit())
             && self.have_sizes(&origin.to_array())
             && self.have_sizes(&direction.to_array())
@@ -246,11 +263,11 @@ mod tests {
     #[test]
     fn contradictions_are_refused() {
         assert_eq!(CONTRACT.consistent(), Ok(CONTRACT));
-        let solid = Rules { inside: Inside::Solid, behind: Promise::None, ..CONTRACT };
+        let solid = Rules { inside: Inside::Solid, starts: Starts::Zero, ..CONTRACT };
         assert_eq!(solid.consistent(), Ok(solid));
         for rules in [
             Rules { interval: Interval::Open, ..solid },
-            Rules { behind: Promise::Judged, ..solid },
+            Rules { starts: Starts::Any, ..solid },
             Rules { smallest: 2.0, largest: 1.0, ..CONTRACT },
             Rules { smallest: f32::NAN, ..CONTRACT },
         ] {
@@ -262,7 +279,8 @@ mod tests {
     fn what_is_not_promised_is_not_covered() {
         let none =
             |rules: Rules, ray: Ray| assert!(!rules.cover_ray(&ray) && CONTRACT.cover_ray(&ray));
-        none(Rules { behind: Promise::None, ..CONTRACT }, Ray { t_min: -1.0, ..RAY });
+        none(Rules { starts: Starts::NotBehind, ..CONTRACT }, Ray { t_min: -1.0, ..RAY });
+        none(Rules { starts: Starts::Zero, ..CONTRACT }, Ray { t_min: 1.0, ..RAY });
         none(
             Rules { directions: Directions::Unit, ..CONTRACT },
             Ray { direction: Vec3::ONE, ..RAY },
@@ -273,7 +291,7 @@ mod tests {
         none(Rules { smallest: 0.1, ..CONTRACT }, Ray { origin: Vec3::X * 0.01, ..RAY });
         let all = Rules {
             directions: Directions::Unit,
-            behind: Promise::None,
+            starts: Starts::NotBehind,
             invalid: Promise::None,
             ..CONTRACT
         };

@@ -9,21 +9,19 @@ use crate::verdict::Kind;
 use spherule_kernel::{Ray, Sphere, Vec3};
 use std::time::{Duration, Instant};
 
-/// Cases that are tried at once.
-const AT_ONCE: usize = 64;
 /// How many bits of a significand are kept.
 const BITS: [u32; 12] = [1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 18, 21];
 
 /// A ray and its spheres.
 pub type Candidate = (Ray, Vec<Sphere>);
 
-/// The simplest case found within `time` that fails as `failure` does.
+/// The simplest case found within a time that fails as `failure` does.
 ///
-/// `failures` judges many cases: an entry each, `None` where the answer is right. Of a t that is off only one plainly off, or as
+/// `failures` judges up to `at_once` cases: an entry each, `None` where the answer is right. Of a t that is off only one plainly off, or as
 /// much as the first was, counts.
 pub fn shrink(
     failure: &Failure,
-    time: Duration,
+    (time, at_once): (Duration, usize),
     mut failures: impl FnMut(&[Candidate]) -> Vec<Option<Failure>>,
 ) -> Failure {
     let (start, mut best) = (Instant::now(), failure.clone());
@@ -36,7 +34,7 @@ pub fn shrink(
         simpler.sort_by_key(|(ray, spheres)| weight(ray, spheres));
         simpler.dedup();
         let mut next = None;
-        for some in simpler.chunks(AT_ONCE) {
+        for some in simpler.chunks(at_once.max(1)) {
             if start.elapsed() >= time {
                 return best;
             }

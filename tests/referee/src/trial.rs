@@ -6,6 +6,7 @@ use crate::judge::{Failure, Judge};
 use crate::rules::Rules;
 use crate::shrink::{Candidate, shrink};
 use crate::snippet::{rust, sentence};
+use crate::table::write_counts;
 use crate::truth::Shared;
 use crate::verdict::Kind;
 use crate::watched::{Mishap, Question, Watched};
@@ -17,6 +18,8 @@ use std::time::{Duration, Instant};
 const PAIRS: u64 = 1024;
 /// Rays and spheres of one scene.
 const SCENE: usize = 8;
+/// Cases that are shrunk at once.
+const AT_ONCE: usize = 64;
 /// After so many mishaps, or one hang, the rest of a family is left out.
 const MOST_MISHAPS: usize = 3;
 
@@ -103,7 +106,7 @@ impl Trial {
         }
         for kind in Kind::ALL {
             let Some(failure) = report.judge.simplest(kind) else { continue };
-            let smallest = shrink(failure, self.shrinking, |candidates| {
+            let smallest = shrink(failure, (self.shrinking, AT_ONCE), |candidates| {
                 candidates.iter().map(|case| failure_of(case, rules, &mut watched)).collect()
             });
             report.smallest.push(smallest);
@@ -233,28 +236,8 @@ impl Report {
 impl fmt::Display for Report {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { name, judge, smallest, unanswered, .. } = self;
-        writeln!(formatter, "{name}, under its own rules and (decided wrong) under the contract")?;
-        write!(formatter, "{:20} {:>8}", "family", "judged")?;
-        for kind in Kind::ALL {
-            write!(formatter, " {:>12}", kind.name())?;
-        }
-        writeln!(formatter, " {:>12} {:>10} {:>10}", "(contract)", "p99.9 ulp", "max ulp")?;
-        let total = judge.total();
-        let rows = judge.scores().map(|(number, score)| {
-            let family = number.and_then(|number| FAMILIES.get(usize::from(number)));
-            (family.map_or("unknown", |family| family.name), score)
-        });
-        for (name, score) in rows.chain([("all", &total)]) {
-            let counts = &score.by_rules;
-            write!(formatter, "{name:20} {:>8}", counts.judged)?;
-            for kind in Kind::ALL {
-                write!(formatter, " {:>12}", counts.of(kind))?;
-            }
-            let ulp = |ulp: Option<u64>| ulp.map_or_else(|| "-".to_owned(), |ulp| ulp.to_string());
-            let [p999, max] = [counts.ulp.quantile(999), counts.ulp.max()].map(ulp);
-            let contract = score.by_contract.decided_wrong();
-            writeln!(formatter, " {contract:>12} {p999:>10} {max:>10}")?;
-        }
+        writeln!(formatter, "{name}, under its own rules")?;
+        write_counts(judge, formatter)?;
         for Unanswered { family, mishap, .. } in unanswered {
             writeln!(formatter, "{}: {mishap}", family.name)?;
         }

@@ -4,7 +4,7 @@ use spherule_kernel::Tier;
 use spherule_referee::answer::Answer;
 use spherule_referee::families::{FAMILIES, Family};
 use spherule_referee::intersector::{Kernel, Pair};
-use spherule_referee::rules::{Inside, Interval, Promise, Tangents};
+use spherule_referee::rules::{Inside, Interval, Promise, Starts, Tangents};
 use spherule_referee::verdict::Kind;
 use spherule_referee::watched::Mishap;
 use spherule_referee::{Intersector, Ray, Rules, Sphere, Trial, snippet};
@@ -135,8 +135,12 @@ fn rules_are_kept_or_broken() {
 
 #[test]
 fn what_is_not_promised_is_not_judged() {
-    let rules =
-        Rules { invalid: Promise::None, behind: Promise::None, largest: 1e18, ..Rules::CONTRACT };
+    let rules = Rules {
+        invalid: Promise::None,
+        starts: Starts::NotBehind,
+        largest: 1e18,
+        ..Rules::CONTRACT
+    };
     let trial = Trial {
         families: named(&["overflow", "degenerate"]),
         shrinking: Duration::ZERO,

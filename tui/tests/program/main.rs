@@ -3,6 +3,7 @@
 
 mod bad_input;
 mod cargo;
+mod judge;
 mod lecture;
 mod light;
 mod orders;

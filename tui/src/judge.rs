@@ -1,0 +1,175 @@
+//! `spherule judge`: another program's answers, from files, against exact truth.
+//!
+//! Files are read side by side, some rows at a time, so that memory does not grow with the number of rays; with `--pairs`
+//! not with that of spheres either. Nothing is printed before all rows are judged.
+
+mod arrays;
+mod asked_again;
+mod report;
+
+use crate::error::{Error, write_stdout};
+use arrays::{Answers, Array, DTYPE_F4, DTYPE_U1, paired_rows};
+use asked_again::smaller;
+use clap::Args;
+use report::Report;
+use spherule_kernel::{Ray, Sphere, Vec3};
+use spherule_referee::families::FAMILIES;
+use spherule_referee::judge::{Failure, Judge};
+use spherule_referee::rules::{Precision, Rules};
+use spherule_referee::truth::Shared;
+use spherule_referee::verdict::Kind;
+use std::path::{Path, PathBuf};
+
+/// Rows that are read at once.
+const ROWS: usize = 1 << 14;
+
+/// Rays, spheres and answers.
+#[derive(Args, Clone, Debug)]
+pub struct JudgeArguments {
+    /// Spheres: .npy, float32, (N, 4): centre xyz, radius
+    #[arg(long, value_name = "S.npy")]
+    pub spheres: PathBuf,
+    /// Rays: .npy, float32, (M, 8): origin xyz, direction xyz, `t_min`, `t_max`
+    #[arg(long, value_name = "R.npy")]
+    pub rays: PathBuf,
+    /// Answers: .npy, float32 or float64, (M,), +inf if a ray has no hit
+    #[arg(long, value_name = "T.npy")]
+    pub t: PathBuf,
+    /// The spheres that were answered: .npy, int32, int64 or uint32, (M,), -1 if a ray has no hit
+    #[arg(long, value_name = "I.npy")]
+    pub id: Option<PathBuf>,
+    /// Ray i meets sphere i alone
+    #[arg(long)]
+    pub pairs: bool,
+    /// The family of each ray, as `spherule cases` writes them: .npy, uint8, (M,)
+    #[arg(long, value_name = "F.npy")]
+    pub family: Option<PathBuf>,
+    /// What the program promises otherwise than Spherule does: a .toml file
+    #[arg(long, value_name = "FILE")]
+    pub rules: Option<PathBuf>,
+    /// A command that answers other pairs: it is called with the names of S.npy and R.npy, which it reads, and T.npy, which it
+    /// writes; so the smallest failures are made smaller
+    #[arg(long, value_name = "COMMAND", requires = "pairs")]
+    pub again: Option<String>,
+    /// Report as a JSON object
+    #[arg(long, conflicts_with = "chart")]
+    pub json: bool,
+    /// Show where in each family answers are wrong
+    #[arg(long)]
+    pub chart: bool,
+}
+
+/// Judges what `arguments` say, and prints the counts, the worst failures and the simplest.
+///
+/// # Errors
+/// [`Error::Input`] if a file is not what it should be, or what it holds is no answer.
+pub fn judge(arguments: &JudgeArguments) -> Result<(), Error> {
+    let mut spheres = Array::open(&arguments.spheres, &[DTYPE_F4], Some(4))?;
+    let mut rays = Array::open(&arguments.rays, &[DTYPE_F4], Some(8))?;
+    let mut answers = Answers::open(&arguments.t, arguments.id.as_deref())?;
+    let mut families =
+        arguments.family.as_deref().map(|path| Array::open(path, &[DTYPE_U1], None)).transpose()?;
+    answers.check_rows(&rays)?;
+    families.iter().try_for_each(|families| paired_rows(families, &rays))?;
+    if arguments.pairs {
+        paired_rows(&spheres, &rays)?;
+    }
+    let rules = rules(arguments.rules.as_deref(), &answers)?;
+
+    let mut judge = Judge::new(rules, arguments.chart || arguments.json);
+    let (count_of_rays, count_of_spheres) = (rays.rows(), spheres.rows());
+    let all: Vec<Sphere> = if arguments.pairs {
+        Vec::new()
+    } else {
+        spheres
+            .read_rows::<4>(usize::try_from(count_of_spheres).unwrap_or(usize::MAX))?
+            .into_iter()
+            .map(Sphere::from)
+            .collect()
+    };
+    let shared = Shared::new(&all);
+    let mut from = 0;
+    while from < count_of_rays {
+        let count = usize::try_from(count_of_rays - from).map_or(ROWS, |left| left.min(ROWS));
+        let some: Vec<Ray> = rays.read_rows(count)?.into_iter().map(ray).collect();
+        let numbers = match &mut families {
+            Some(families) => read_families(families, from, count)?,
+            None => Vec::new(),
+        };
+        if arguments.pairs {
+            let own: Vec<Sphere> =
+                spheres.read_rows::<4>(count)?.into_iter().map(Sphere::from).collect();
+            let found = answers.read(from, count, None)?;
+            judge.pairs(&some, &own, &found, &numbers);
+        } else {
+            let found = answers.read(from, count, Some(count_of_spheres))?;
+            judge.shared(&shared, &some, &found, &numbers);
+        }
+        from += count as u64;
+    }
+    for array in [Some(&mut rays), Some(&mut spheres), families.as_mut()].into_iter().flatten() {
+        array.check_end()?;
+    }
+    answers.check_end()?;
+    let mut smallest: Vec<Failure> =
+        Kind::ALL.iter().filter_map(|&kind| judge.simplest(kind).cloned()).collect();
+    if let Some(command) = &arguments.again {
+        for failure in &mut smallest {
+            *failure = smaller(command, failure, rules)?;
+        }
+    }
+    let report = Report {
+        judge: &judge,
+        smallest: &smallest,
+        rays: count_of_rays,
+        spheres: count_of_spheres,
+        pairs: arguments.pairs,
+    };
+    let text = if arguments.json { report.json() } else { report.text(arguments.chart) };
+    write_stdout(text.as_bytes())
+}
+
+/// The numbers of families, all of which are known.
+fn read_families(families: &mut Array, from: u64, count: usize) -> Result<Vec<u8>, Error> {
+    let numbers = families.read(count)?.to_vec();
+    match numbers.iter().position(|&number| usize::from(number) >= FAMILIES.len()) {
+        None => Ok(numbers),
+        Some(place) => {
+            let (row, number) = (from + place as u64, numbers[place]);
+            let what = format!("row {row}: no family {number}; 0 to {}", FAMILIES.len() - 1);
+            Err(families.wrong(&what))
+        }
+    }
+}
+
+/// What the file says, and the precision that the answers have.
+fn rules(path: Option<&Path>, answers: &Answers) -> Result<Rules, Error> {
+    let mut rules = Rules::CONTRACT;
+    if let Some(path) = path {
+        let name = path.display();
+        let text = std::fs::read_to_string(path)
+            .map_err(|error| Error::Input(format!("{name}: {}", crate::error::cause(&error))))?;
+        rules = toml::from_str(&text).map_err(|error| in_a_line(path, &text, &error))?;
+        rules = rules.consistent().map_err(|why| Error::Input(format!("{name}: {why}")))?;
+        if rules.precision == Precision::F64 && !answers.are_double() {
+            let what = "precision = \"f64\", and the answers are float32";
+            return Err(Error::Input(format!("{name}: {what}")));
+        }
+    }
+    if answers.are_double() {
+        rules.precision = Precision::F64;
+    }
+    Ok(rules)
+}
+
+/// Where in the file, and what, up to the first end of a line.
+fn in_a_line(path: &Path, text: &str, error: &toml::de::Error) -> Error {
+    let place = error.span().map_or(0, |span| span.start.min(text.len()));
+    let line = text[..place].matches('\n').count() + 1;
+    let what = error.message().lines().next().unwrap_or_default();
+    Error::Input(format!("{}:{line}: {what}", path.display()))
+}
+
+fn ray([x, y, z, dx, dy, dz, t_min, t_max]: [f32; 8]) -> Ray {
+    Ray { origin: Vec3::new(x, y, z), direction: Vec3::new(dx, dy, dz), t_min, t_max }
+}

@@ -1,0 +1,118 @@
+//! Failures made smaller: the program that was judged is asked about simpler cases, by its command.
+
+use super::arrays::Answers;
+use crate::cases::{bytes_of_row, header};
+use crate::error::Error;
+use spherule_kernel::{Ray, Sphere};
+use spherule_referee::judge::{Failure, Judge};
+use spherule_referee::rules::Rules;
+use spherule_referee::shrink::{Candidate, shrink};
+use spherule_referee::verdict::Kind;
+use std::fs;
+use std::io;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+/// How long the smallest case of a kind is looked for.
+const SHRINKING: Duration = Duration::from_secs(5);
+/// How long the command may take.
+const PATIENCE: Duration = Duration::from_secs(10);
+/// Cases of one call: more than there are simpler ones, since a call may be dear.
+const AT_ONCE: usize = 4096;
+
+/// The failure, or a smaller one of its kind.
+///
+/// # Errors
+/// [`Error::Running`] if the command cannot be asked, fails, hangs, or answers something else than its cases.
+pub(super) fn smaller(command: &str, failure: &Failure, rules: Rules) -> Result<Failure, Error> {
+    let mut wrong = None;
+    let found = shrink(failure, (SHRINKING, AT_ONCE), |candidates| {
+        if wrong.is_some() {
+            return Vec::new();
+        }
+        failures(command, candidates, rules).unwrap_or_else(|error| {
+            wrong = Some(error);
+            Vec::new()
+        })
+    });
+    wrong.map_or(Ok(found), Err)
+}
+
+/// How each case fails, if it does; those of several spheres are not asked.
+fn failures(
+    command: &str,
+    candidates: &[Candidate],
+    rules: Rules,
+) -> Result<Vec<Option<Failure>>, Error> {
+    let alone: Vec<(Ray, Sphere)> = candidates
+        .iter()
+        .filter_map(
+            |(ray, spheres)| if let [sphere] = spheres[..] { Some((*ray, sphere)) } else { None },
+        )
+        .collect();
+    if alone.is_empty() {
+        return Ok(Vec::new());
+    }
+    let failed = |error: io::Error| Error::of_output("--again", &error);
+    let folder = tempfile::tempdir().map_err(failed)?;
+    let [spheres, rays, t] = ["S.npy", "R.npy", "T.npy"].map(|name| folder.path().join(name));
+    let rows = alone.len();
+    let write = |path: &Path, width: usize, row: &dyn Fn(&(Ray, Sphere)) -> Vec<u8>| {
+        let mut bytes = header("<f4", &format!("({rows}, {width})"));
+        alone.iter().for_each(|case| bytes.extend(row(case)));
+        fs::write(path, bytes).map_err(failed)
+    };
+    write(&spheres, 4, &|(_, sphere)| {
+        let [x, y, z] = sphere.center.to_array();
+        bytes_of_row(&[x, y, z, sphere.radius])
+    })?;
+    write(&rays, 8, &|(ray, _)| {
+        let ([x, y, z], [dx, dy, dz]) = (ray.origin.to_array(), ray.direction.to_array());
+        bytes_of_row(&[x, y, z, dx, dy, dz, ray.t_min, ray.t_max])
+    })?;
+    ask(command, [&spheres, &rays, &t])?;
+    let mut answers = Answers::open(&t, None)?;
+    if answers.rows() != rows as u64 {
+        let what = format!("--again: {} answers to {rows} cases", answers.rows());
+        return Err(Error::Running(what));
+    }
+    let answers = answers.read(0, rows, None)?;
+    let judged = |((ray, sphere), answer): (&(Ray, Sphere), _)| {
+        let mut judge = Judge::new(rules, false);
+        judge.pairs(&[*ray], &[*sphere], &[answer], &[]);
+        Kind::ALL.into_iter().find_map(|kind| judge.worst(kind).cloned())
+    };
+    Ok(alone.iter().zip(answers).map(judged).collect())
+}
+
+/// Runs the command with three more arguments.
+fn ask(command: &str, files: [&Path; 3]) -> Result<(), Error> {
+    let wrong = |what: String| Error::Running(format!("--again: {what}"));
+    let failed = |error: io::Error| Error::of_output("--again", &error);
+    let mut child = Command::new("sh")
+        .args(["-c", &format!("exec {command} \"$@\""), "sh"])
+        .args(files)
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .map_err(failed)?;
+    let start = Instant::now();
+    loop {
+        match child.try_wait().map_err(failed)? {
+            Some(status) if status.success() => return Ok(()),
+            Some(status) => return Err(wrong(format!("the command ends with {status}"))),
+            None if start.elapsed() >= PATIENCE => {
+                let _ = child.kill();
+                let _ = child.wait();
+                return Err(wrong(format!(
+                    "the command has not ended in {} s",
+                    PATIENCE.as_secs()
+                )));
+            }
+            None => sleep(Duration::from_millis(2)),
+        }
+    }
+}
