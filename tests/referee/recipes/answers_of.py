@@ -17,4 +17,4 @@ start = time.perf_counter()
 found = answers.answer(spheres, rays)
 seconds = time.perf_counter() - start
 np.save(t, found)
-print(seconds)
+print(f"\n{seconds}")

@@ -317,7 +317,7 @@ fn relevant(spheres: &[Sphere], indices: [Option<u32>; 2]) -> (Vec<Sphere>, [Opt
 
 fn place_of(margin: f64) -> usize {
     let size = margin.abs();
-    if !(size < 1.0) {
+    if size.is_nan() || size >= 1.0 {
         return 0;
     }
     // Of zero the logarithm is infinite, and the place the last.

@@ -1,7 +1,7 @@
 //! Judges anyone's ray-sphere intersector against exact truth.
 //!
 //! ```
-//! use spherule_referee::{Intersector, Ray, Sphere, Trial, answer::Answer, intersector::Pair};
+//! use spherule_referee::{Ray, Sphere, Trial, intersector::Pair};
 //!
 //! /// Anybody's function: where the ray meets the sphere first, if it does.
 //! fn textbook(ray: &Ray, sphere: &Sphere) -> Option<f32> {

@@ -193,7 +193,7 @@ impl Rules {
         Err(Contradiction(contradiction))
     }
 
-    /// Whether they say of every case what the contract says, except the ends of the interval.
+    /// Whether they say of every case what the contract says, except for the ends of the interval.
     pub(crate) fn follow_from_roots(&self) -> bool {
         self.tangents == Tangents::Hit
             && self.inside == Inside::Surface
@@ -227,7 +227,7 @@ impl Rules {
         (self.invalid == Promise::Judged || is_valid)
             && match self.starts {
                 Starts::Any => true,
-                Starts::NotBehind => !(t_min < 0.0),
+                Starts::NotBehind => t_min >= 0.0 || t_min.is_nan(),
                 Starts::Zero => t_min == 0.0,
             }
             && (self.directions == Directions::Any || is_unit())

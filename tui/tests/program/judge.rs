@@ -282,8 +282,8 @@ fn what_is_asked_again_is_smaller() {
     );
     let script = file("judge-again.sh", script.as_bytes());
     let again = |command: String| {
-        let mut judge = files.judge("--pairs --json --again");
-        judge.push(command.into());
+        let mut judge = files.judge("--pairs --json");
+        judge.extend(["--again".into(), command.into()]);
         run(judge)
     };
     let report: Value =

@@ -7,7 +7,7 @@ use crate::ulp::step;
 /// Small integers throughout, half of the directions along an axis, and common intervals.
 pub(super) fn integers(random: &mut Random) -> Case {
     let mut point = |reach: i64| [(); 3].map(|()| random.integer(-reach, reach) as f32);
-    let ([ox, oy, oz], [cx, cy, cz]) = (point(9), point(3));
+    let ([ox, oy, oz], [cx, cy, cz]) = (point(4), point(2));
     let mut direction = point(2);
     if random.one_in(2) || direction == [0.0; 3] {
         direction = [0.0; 3];
