@@ -11,7 +11,7 @@ use crate::color::Srgb;
 use crate::scene::Scene;
 use crate::scene::attributes::{Attributes, Naming, Own};
 use crate::scene::elements::of_number;
-use categories::category;
+use categories::{NEUTRAL, category};
 use legend::{Entries, Legend};
 use scale::{Range, color_of};
 use std::str::FromStr;
@@ -28,9 +28,6 @@ pub enum ColorBy {
     /// A column of numbers, by its name.
     Column(Box<str>),
 }
-
-/// What has no name, no number, no element that is known.
-pub const NEUTRAL: Srgb = Srgb([0x9a, 0x9a, 0x9a]);
 
 /// The kinds of names by which spheres can be coloured.
 const NAMINGS: [(&str, Naming); 4] = [

@@ -4,6 +4,7 @@ mod finish;
 mod need;
 pub mod pixels;
 mod plan;
+mod sample_grid;
 mod spending;
 mod strip;
 mod tracer;
@@ -21,10 +22,10 @@ use crate::style::Style;
 use crate::threads::Threads;
 use crate::view::View;
 use plan::Plan;
+use sample_grid::{SampleGrid, Traced};
 use spherule_kernel::{Camera, Coherence, Level};
 use std::ops::Range;
 use strip::Strip;
-use tracer::{SampleGrid, Traced};
 
 /// A drawn picture.
 #[derive(Clone, Debug)]

@@ -2,6 +2,9 @@
 
 use crate::color::Srgb;
 
+/// What has no name, no number, no element that is known.
+pub const NEUTRAL: Srgb = Srgb([0x9a, 0x9a, 0x9a]);
+
 /// Twelve colours, each as far as can be from all before it, to the eye that tells it from them the least: of all colours that are
 /// light enough for a shade (`OKLab` 0.5 to 0.9, and some chroma), by their distance in `OKLab` to those who see three cones, and
 /// two of any kind. The first four are 0.18 apart or more, eight 0.09, all 0.075.

@@ -1,6 +1,6 @@
 //! What colours mean, over the top right of a picture.
 
-use super::NEUTRAL;
+use super::categories::NEUTRAL;
 use super::scale::{Range, color_of};
 use crate::cells::{CellGrid, Color};
 use crate::color::Srgb;

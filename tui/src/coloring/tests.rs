@@ -2,7 +2,7 @@ use super::*;
 use crate::scene::attributes::{NamesBuilder, NumberColumn};
 use spherule_kernel::{SphereList, Vec3};
 
-/// Four atoms: C and N of chain A, O of chain B, and one that nobody knows anything of.
+/// Four atoms: C and N of chain A, O of chain B, and one that no one knows anything of.
 fn scene() -> Scene {
     let mut chains = NamesBuilder::default();
     for name in ["A", "A", "B", ""] {

@@ -1,6 +1,6 @@
 //! What is done to the light of samples when it is known how far away they are: it fades, and edges get dark.
 
-use super::tracer::{SampleGrid, Traced};
+use super::sample_grid::{SampleGrid, Traced};
 use crate::samples::CellSamples;
 use crate::scene::attributes::Naming;
 use crate::shade::depth_cue::DepthCue;

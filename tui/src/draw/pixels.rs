@@ -2,7 +2,8 @@
 
 use super::Renderer;
 use super::finish::Finish;
-use super::tracer::{Places, SampleGrid, Traced, Tracer};
+use super::sample_grid::{SampleGrid, Traced};
+use super::tracer::{Places, Tracer};
 use crate::color::Srgb;
 use crate::picture::Image;
 use crate::samples::CellSamples;

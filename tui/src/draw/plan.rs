@@ -1,8 +1,8 @@
 //! What is decided about a picture before its first ray.
 
 use super::finish::Finish;
+use super::sample_grid::{SampleGrid, Traced};
 use super::spending::Spending;
-use super::tracer::{SampleGrid, Traced};
 use crate::cells::eye::Eye;
 use crate::cells::fit::Fitter;
 use crate::samples::CellSamples;

@@ -1,49 +1,15 @@
 //! From packets of camera rays to light: the work of one thread at a time.
 
 use super::finish::Finish;
+use super::sample_grid::{SampleGrid, Traced};
 use crate::picture::Picture;
 use crate::samples::CellSamples;
-use crate::scene::Scene;
 use crate::shade::Shader;
 use crate::shade::silhouettes::Seen;
-use crate::structure::scene::PictureSearch;
-use crate::structure::search::{Scratch, Tracing};
-use crate::style::Style;
-use crate::view::View;
+use crate::structure::search::Scratch;
 use spherule_kernel::{Camera, CameraTiles, HitPacket, RayPacket, Vec3};
 use std::array;
 use std::ops::Range;
-
-/// What is traced, and how.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Traced<'a> {
-    pub(super) tracing: Tracing,
-    pub(super) scene: &'a Scene,
-    pub(super) search: &'a PictureSearch<'a>,
-}
-
-/// A grid of samples over the whole picture: sample `(x, y)` is the ray `camera.get_ray(x, y)`.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct SampleGrid {
-    pub(super) camera: Camera,
-    pub(super) width: u32,
-    pub(super) height: u32,
-}
-
-impl SampleGrid {
-    /// So many samples in every cell of a picture of `columns` x `rows`.
-    pub(super) fn new(
-        view: &View,
-        style: &Style,
-        samples: CellSamples,
-        columns: u16,
-        rows: u16,
-    ) -> Self {
-        let (width, height) = (u32::from(columns) * samples.across, u32::from(rows) * samples.down);
-        let camera = view.camera(width, height, style.picture_aspect(columns, rows));
-        Self { camera, width, height }
-    }
-}
 
 /// Columns and rows of samples in a packet.
 const TILE: (u32, u32) = Camera::tile::<[f32; 16]>();

@@ -33,7 +33,7 @@ const AT_ONCE: usize = 16 * RayPacket::COUNT;
 const NEAR: f32 = 4.0;
 
 /// Which tier says what rays meet, whichever draws the picture: four numbers are known once, and those of the others are the
-/// same but for a ray in a million.
+/// same except for a ray in a million.
 const TIER: Tier = Tier::Stable;
 
 /// Directions that lie evenly on the sphere: a Fibonacci lattice of one half, and the opposite ones.
@@ -82,14 +82,14 @@ pub struct OpennessMemory {
 }
 
 impl Openness {
-    /// Of so many spheres, none known; what is farther than `reach` is in nobody's way.
+    /// Of so many spheres, none known; what is farther than `reach` is in no one's way.
     #[must_use]
     pub fn new(spheres: usize, reach: f32) -> Self {
         Self { known: (0..spheres).map(|_| AtomicU32::new(UNKNOWN)).collect(), reach }
     }
 
     /// How much of the light from everywhere a surface of this sphere receives whose unit normal is `normal`: 0 to 1; 1 if
-    /// nobody has found out, or there is no such sphere.
+    /// no one has found out, or there is no such sphere.
     #[must_use]
     #[inline]
     pub fn towards(&self, sphere: u32, normal: Vec3) -> f32 {
@@ -112,7 +112,7 @@ impl Around {
         self.tree.as_ref().map(|_| Structure::Bvh)
     }
 
-    /// Finds out how open it is around those of `spheres` of which nobody knows. Returns how many rays that took.
+    /// Finds out how open it is around those of `spheres` of which no one knows. Returns how many rays that took.
     pub fn learn(
         &self,
         level: Level,

@@ -45,7 +45,7 @@ pub struct Setting {
 
 /// Of so many spheres or fewer all are asked, whether they are in the way.
 const FEW: usize = 64;
-/// What is farther away than that, over the radius of all there is to see, is in nobody's way: a sky around it.
+/// What is farther away than that, over the radius of all there is to see, is in no one's way: a sky around it.
 const REACH: f32 = 2.0;
 
 impl PictureSearch<'_> {

@@ -14,7 +14,7 @@ pub(super) struct Colors {
     /// Of the column that was asked for first.
     range: Option<Range>,
     first: usize,
-    /// None of a scene that nobody has looked at.
+    /// None of a scene that no one has looked at.
     shown: Option<usize>,
     /// The scene's own colours, while it has others.
     own: Option<Vec<Srgb>>,

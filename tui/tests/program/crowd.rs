@@ -47,7 +47,7 @@ fn threads_levels_orders_and_structures_do_not_show() {
 fn heap(scale: f64, away: f64) -> String {
     let mut text = "light = \"camera\"\n".to_owned();
     for index in 0..60 {
-        let place = [index % 4, index / 4 % 4, index / 16].map(|step| f64::from(step));
+        let place = [index % 4, index / 4 % 4, index / 16].map(f64::from);
         let [x, y, z] = place.map(|step| scale * (1.25 * step + away));
         text +=
             &format!("[[sphere]]\ncenter = [{x:e}, {y:e}, {z:e}]\nradius = {:e}\n", 0.5 * scale);
