@@ -111,7 +111,18 @@ fn named(color: Srgb, name: &str) -> Vec<Part> {
 /// In ASCII, and cut if it is long.
 fn printable(text: &str) -> String {
     let text = text.escape_default().to_string();
-    if text.len() > LONGEST { format!("{}...", &text[..LONGEST - 3]) } else { text }
+    if text.len() <= LONGEST {
+        return text;
+    }
+    let mut cut = &text[..LONGEST - 3];
+    // An escape is whole or not there.
+    if let Some(start) = cut
+        .rfind('\\')
+        .filter(|&start| text[start..].starts_with("\\u{") && !cut[start..].contains('}'))
+    {
+        cut = &cut[..start];
+    }
+    format!("{cut}...")
 }
 
 /// With four digits, or as many as there are before the point.

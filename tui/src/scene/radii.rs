@@ -79,9 +79,11 @@ mod tests {
 
     fn scene() -> Scene {
         let values = vec![0.5, f32::NAN, -1.0, f32::INFINITY];
-        let mut attributes = Attributes::default();
-        attributes.elements = Some(vec![6, 0, 1, 92]);
-        attributes.columns = vec![NumberColumn { name: "size".into(), values }];
+        let attributes = Attributes {
+            elements: Some(vec![6, 0, 1, 92]),
+            columns: vec![NumberColumn { name: "size".into(), values }],
+            ..Attributes::default()
+        };
         let list = SphereList::from_iter([(Vec3::X, 7.0); 4]);
         Scene::of_spheres(list, vec![Srgb::WHITE; 4], attributes)
     }

@@ -20,7 +20,9 @@ fn what_is_off_changes_no_byte_and_each_that_is_on_does() {
         let others = ["--occlusion", "--edges", "--depth-cue", "--occlusion --edges --depth-cue"];
         let pictures = others.map(|options| picture(scene, options));
         for (index, picture) in pictures.iter().enumerate() {
-            assert!(*picture != usual, "{scene} {}", others[index]);
+            // Nothing in caffeine is far behind anything.
+            let has_none = scene == "caffeine" && others[index] == "--edges";
+            assert!((*picture != usual) != has_none, "{scene} {}", others[index]);
             assert!(!pictures[..index].contains(picture), "{scene} {}", others[index]);
         }
     }

@@ -16,7 +16,8 @@ pub(super) const STATION: Station = Station {
     ],
     arrows: "arrows: another pixel",
     sources: &[
-        Source { file: "kernel/src/linear.rs", symbols: &["traverse", "is_closer"] },
+        Source { file: "kernel/src/linear.rs", symbols: &["traverse"] },
+        Source { file: "kernel/src/accuracy/tier.rs", symbols: &["is_closer"] },
         Source { file: "kernel/src/intersect.rs", symbols: &["closest_hit"] },
         Source { file: "kernel/src/bvh/traverse.rs", symbols: &["wavefront"] },
     ],
