@@ -7,6 +7,7 @@ mod estimate;
 mod filter;
 mod leaves;
 mod stable;
+#[cfg(feature = "alloc")]
 mod work;
 
 use crate::accuracy::RayLanes;
