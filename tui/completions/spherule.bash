@@ -16,6 +16,12 @@ _spherule() {
             ",$1")
                 cmd="spherule"
                 ;;
+            spherule,cases)
+                cmd="spherule__subcmd__cases"
+                ;;
+            spherule,judge)
+                cmd="spherule__subcmd__judge"
+                ;;
             spherule,lecture)
                 cmd="spherule__subcmd__lecture"
                 ;;
@@ -35,7 +41,7 @@ _spherule() {
 
     case "${cmd}" in
         spherule)
-            opts="-h -V --size --samples --projection --order --format --accuracy --charset --color --background --palette --cell-aspect --distance --show --structure --threads --level --once --png --pick --json --help --version trace tradeoff lecture scenes"
+            opts="-h -V --size --samples --projection --eye --target --fov --orbit --order --format --columns --strict --topology --frame --frames --follow --radius --accuracy --charset --color --background --palette --cell-aspect --distance --show --color-by --range --legend --occlusion --edges --depth-cue --structure --threads --level --no-probe --lossless --fps --output --once --cast --png --pick --json --help --version trace tradeoff lecture cases judge scenes"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -53,12 +59,48 @@ _spherule() {
                     COMPREPLY=($(compgen -W "perspective parallel" -- "${cur}"))
                     return 0
                     ;;
+                --eye)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --target)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --fov)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --orbit)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
                 --order)
                     COMPREPLY=($(compgen -W "image object" -- "${cur}"))
                     return 0
                     ;;
                 --format)
-                    COMPREPLY=($(compgen -W "toml xyz" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "toml xyz pdb mmcif gro lammps-dump lammps-data csv ply npy xtc urdf" -- "${cur}"))
+                    return 0
+                    ;;
+                --columns)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --topology)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --frame)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --frames)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --radius)
+                    COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
                 --accuracy)
@@ -93,6 +135,26 @@ _spherule() {
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
+                --color-by)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --range)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --occlusion)
+                    COMPREPLY=($(compgen -W "auto on off" -- "${cur}"))
+                    return 0
+                    ;;
+                --edges)
+                    COMPREPLY=($(compgen -W "auto on off" -- "${cur}"))
+                    return 0
+                    ;;
+                --depth-cue)
+                    COMPREPLY=($(compgen -W "auto on off" -- "${cur}"))
+                    return 0
+                    ;;
                 --structure)
                     COMPREPLY=($(compgen -W "auto brute depth-list bvh" -- "${cur}"))
                     return 0
@@ -105,11 +167,103 @@ _spherule() {
                     COMPREPLY=($(compgen -W "baseline avx2 avx512" -- "${cur}"))
                     return 0
                     ;;
+                --fps)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --output)
+                    COMPREPLY=($(compgen -W "auto cells kitty sixel iterm2" -- "${cur}"))
+                    return 0
+                    ;;
+                --cast)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
                 --png)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
                 --pick)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
+        spherule__subcmd__cases)
+            opts="-h --family --count --seed --unit --out-spheres --out-rays --out-family --json --help"
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                --family)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --count)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --seed)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --out-spheres)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --out-rays)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --out-family)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
+        spherule__subcmd__judge)
+            opts="-h --spheres --rays --t --id --pairs --family --rules --again --json --chart --help"
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                --spheres)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --rays)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --t)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --id)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --family)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --rules)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --again)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
@@ -211,7 +365,7 @@ _spherule() {
             return 0
             ;;
         spherule__subcmd__tradeoff)
-            opts="-h --size --samples --projection --order --format --json --structure --threads --level --help"
+            opts="-h --size --samples --projection --eye --target --fov --orbit --order --format --columns --strict --topology --frame --frames --follow --radius --json --structure --threads --level --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -229,12 +383,48 @@ _spherule() {
                     COMPREPLY=($(compgen -W "perspective parallel" -- "${cur}"))
                     return 0
                     ;;
+                --eye)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --target)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --fov)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --orbit)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
                 --order)
                     COMPREPLY=($(compgen -W "image object" -- "${cur}"))
                     return 0
                     ;;
                 --format)
-                    COMPREPLY=($(compgen -W "toml xyz" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "toml xyz pdb mmcif gro lammps-dump lammps-data csv ply npy xtc urdf" -- "${cur}"))
+                    return 0
+                    ;;
+                --columns)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --topology)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --frame)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --frames)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --radius)
+                    COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
                 --structure)

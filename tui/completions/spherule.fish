@@ -1,6 +1,6 @@
 # Print an optspec for argparse to handle cmd's options that are independent of any subcommand.
 function __fish_spherule_global_optspecs
-    string join \n size= samples= projection= order= format= accuracy= charset= color= background= palette= cell-aspect= distance= show= structure= threads= level= once png= pick= json h/help V/version
+    string join \n size= samples= projection= eye= target= fov= orbit= order= format= columns= strict topology= frame= frames= follow radius= accuracy= charset= color= background= palette= cell-aspect= distance= show= color-by= range= legend occlusion= edges= depth-cue= structure= threads= level= no-probe lossless fps= output= once cast= png= pick= json h/help V/version
 end
 
 function __fish_spherule_needs_command
@@ -28,10 +28,29 @@ complete -c spherule -n "__fish_spherule_needs_command" -l size -d 'Picture size
 complete -c spherule -n "__fish_spherule_needs_command" -l samples -d 'Rays a cell, 1 to 256; auto: more where they are needed' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l projection -d 'The projection, whatever the scene says' -r -f -a "perspective\t'Far things look smaller'
 parallel\t'They do not'"
+complete -c spherule -n "__fish_spherule_needs_command" -l eye -d 'Where the eye is, whatever the scene says' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l target -d 'What it looks at, whatever the scene says' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l fov -d 'The vertical field of view in degrees; of a parallel projection, the angle from the eye that is as high at the target' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l orbit -d 'Then leads the eye around the target: degrees to the right, degrees up' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l order -d 'Which loop is the outer one, over rays or spheres; with object there is no --structure' -r -f -a "image\t'For each ray the spheres, by a structure'
 object\t'For each sphere the rays that may meet it'"
-complete -c spherule -n "__fish_spherule_needs_command" -l format -d 'Format of the scene [default: by name; of standard input by its first line]' -r -f -a "toml\t'Spheres, lights and a camera, as in the README'
-xyz\t'A molecule'"
+complete -c spherule -n "__fish_spherule_needs_command" -l format -d 'Format of the scene [default: by content; .gz and .bz2 are unpacked]' -r -f -a "toml\t'Spheres, lights and a camera, as in the README'
+xyz\t'XYZ and extended XYZ'
+pdb\t'Protein Data Bank'
+mmcif\t'Macromolecular Crystallographic Information File'
+gro\t'GROMACS\'s .gro'
+lammps-dump\t'A trajectory of LAMMPS'
+lammps-data\t'The input of LAMMPS'
+csv\t'A table: comma, tab, semicolon or space between columns'
+ply\t'Stanford\'s polygons: their points'
+npy\t'numpy\'s array, (N, 3) or (N, 4)'
+xtc\t'GROMACS\'s compressed trajectory'
+urdf\t'A robot whose parts are spheres'"
+complete -c spherule -n "__fish_spherule_needs_command" -l columns -d 'Columns of a table for x, y, z and perhaps the radius: names, or numbers from 1' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l topology -d 'The file that says what the particles of an .xtc are' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l frame -d 'The frame that is shown first, from 0' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l frames -d 'Write the pictures of frames A to B - 1, from 0; without B, up to the last; N is 0..N' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l radius -d 'How large spheres are: van-der-waals, covalent, a number, or a column of numbers [default: as the scene says]' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l accuracy -d 'How far hits may be trusted; algebraic is another name for fast' -r -f -a "fast\t''
 geometric\t''
 stable\t''
@@ -55,6 +74,17 @@ complete -c spherule -n "__fish_spherule_needs_command" -l palette -d 'What the 
 complete -c spherule -n "__fish_spherule_needs_command" -l cell-aspect -d 'Shape of a cell, width to height [default: the terminal\'s, else 1:2]' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l distance -d 'How far away the eye is, in widths of a cell: 60 cm by default, if cells are 2.2 mm wide' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l show -d 'error: what the tier gets wrong against exact, cell by cell; split:TIER,TIER: two tiers side by side; table: what every tier takes and gets wrong' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l color-by -d 'What spheres are coloured by: scene, element, chain, residue, molecule, type, or a column of numbers [default: chain if there are several, else scene]' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l range -d 'The numbers with the darkest and the lightest colour, with --color-by a column [default: the least and the largest]' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l occlusion -d 'Less light where others are in the way; auto: if there are several chains' -r -f -a "auto\t'Whatever suits'
+on\t'Shown'
+off\t'Not shown'"
+complete -c spherule -n "__fish_spherule_needs_command" -l edges -d 'Dark edges before what is far behind, and around chains; auto: if there are several chains' -r -f -a "auto\t'Whatever suits'
+on\t'Shown'
+off\t'Not shown'"
+complete -c spherule -n "__fish_spherule_needs_command" -l depth-cue -d 'What is far away fades; auto: if there are several chains' -r -f -a "auto\t'Whatever suits'
+on\t'Shown'
+off\t'Not shown'"
 complete -c spherule -n "__fish_spherule_needs_command" -l structure -d 'How spheres are searched' -r -f -a "auto\t'Whatever suits'
 brute\t'All spheres, from end to end'
 depth-list\t'The spheres by their depth, sorted for every picture'
@@ -63,8 +93,20 @@ complete -c spherule -n "__fish_spherule_needs_command" -l threads -d 'Threads, 
 complete -c spherule -n "__fish_spherule_needs_command" -l level -d 'Instructions [default: the best that the CPU has]' -r -f -a "baseline\t''
 avx2\t''
 avx512\t''"
+complete -c spherule -n "__fish_spherule_needs_command" -l fps -d 'Frames a second of the viewer at most, 1 to 240 [default: 60, over SSH 30]' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l output -d 'What is written: cells, or pixels by a protocol of terminals' -r -f -a "auto\t'Pixels if the terminal says that it has them, else cells'
+cells\t'Characters'
+kitty\t'Pixels by kitty\'s protocol; under tmux by placeholders, with allow-passthrough on'
+sixel\t'Pixels in 256 colours'
+iterm2\t'Pixels by iTerm2\'s protocol'"
+complete -c spherule -n "__fish_spherule_needs_command" -l cast -d 'Write one turn around the scene as a recording of a terminal (asciinema, version 2); - for standard output' -r -F
 complete -c spherule -n "__fish_spherule_needs_command" -l png -d 'Write one picture as a PNG of 8x16 pixels a cell; - for standard output' -r -F
 complete -c spherule -n "__fish_spherule_needs_command" -l pick -d 'In place of a picture, write what the ray through the middle of a cell meets, by every tier' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l strict -d 'Refuse particles of unknown types, which are drawn grey otherwise'
+complete -c spherule -n "__fish_spherule_needs_command" -l follow -d 'Wait for frames that are still being written'
+complete -c spherule -n "__fish_spherule_needs_command" -l legend -d 'Write what colours mean over the picture, also outside the viewer'
+complete -c spherule -n "__fish_spherule_needs_command" -l no-probe -d 'Ask the terminal nothing: not what it can do, nor how far it has come'
+complete -c spherule -n "__fish_spherule_needs_command" -l lossless -d 'Send every frame of the viewer as it is, and none that looks alike'
 complete -c spherule -n "__fish_spherule_needs_command" -l once -d 'Write one picture, also to a terminal'
 complete -c spherule -n "__fish_spherule_needs_command" -l json -d 'With --pick, write a JSON object'
 complete -c spherule -n "__fish_spherule_needs_command" -s h -l help -d 'Print help (see more with \'--help\')'
@@ -72,6 +114,8 @@ complete -c spherule -n "__fish_spherule_needs_command" -s V -l version -d 'Prin
 complete -c spherule -n "__fish_spherule_needs_command" -a "trace" -d 'Trace rays from a file against spheres from a file'
 complete -c spherule -n "__fish_spherule_needs_command" -a "tradeoff" -d 'Measure speed and error of every tier on a scene, on this machine'
 complete -c spherule -n "__fish_spherule_needs_command" -a "lecture" -d 'Walk through the graphics lecture: fourteen stations whose numbers are computed as they are shown'
+complete -c spherule -n "__fish_spherule_needs_command" -a "cases" -d 'Write cases in which ray-sphere intersection goes wrong, or list their families'
+complete -c spherule -n "__fish_spherule_needs_command" -a "judge" -d 'Judge another program\'s answers against exact truth'
 complete -c spherule -n "__fish_spherule_needs_command" -a "scenes" -d 'List the built-in scenes'
 complete -c spherule -n "__fish_spherule_using_subcommand trace" -l spheres -d 'Spheres: .npy, float32, (N, 4): centre xyz, radius' -r -F
 complete -c spherule -n "__fish_spherule_using_subcommand trace" -l rays -d 'Rays: .npy, float32, (M, 8): origin xyz, direction xyz, `t_min`, `t_max`' -r -F
@@ -98,10 +142,29 @@ complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l size -d '
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l samples -d 'Rays a cell, 1 to 256; auto: more where they are needed' -r
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l projection -d 'The projection, whatever the scene says' -r -f -a "perspective\t'Far things look smaller'
 parallel\t'They do not'"
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l eye -d 'Where the eye is, whatever the scene says' -r
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l target -d 'What it looks at, whatever the scene says' -r
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l fov -d 'The vertical field of view in degrees; of a parallel projection, the angle from the eye that is as high at the target' -r
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l orbit -d 'Then leads the eye around the target: degrees to the right, degrees up' -r
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l order -d 'Which loop is the outer one, over rays or spheres; with object there is no --structure' -r -f -a "image\t'For each ray the spheres, by a structure'
 object\t'For each sphere the rays that may meet it'"
-complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l format -d 'Format of the scene [default: by name; of standard input by its first line]' -r -f -a "toml\t'Spheres, lights and a camera, as in the README'
-xyz\t'A molecule'"
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l format -d 'Format of the scene [default: by content; .gz and .bz2 are unpacked]' -r -f -a "toml\t'Spheres, lights and a camera, as in the README'
+xyz\t'XYZ and extended XYZ'
+pdb\t'Protein Data Bank'
+mmcif\t'Macromolecular Crystallographic Information File'
+gro\t'GROMACS\'s .gro'
+lammps-dump\t'A trajectory of LAMMPS'
+lammps-data\t'The input of LAMMPS'
+csv\t'A table: comma, tab, semicolon or space between columns'
+ply\t'Stanford\'s polygons: their points'
+npy\t'numpy\'s array, (N, 3) or (N, 4)'
+xtc\t'GROMACS\'s compressed trajectory'
+urdf\t'A robot whose parts are spheres'"
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l columns -d 'Columns of a table for x, y, z and perhaps the radius: names, or numbers from 1' -r
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l topology -d 'The file that says what the particles of an .xtc are' -r
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l frame -d 'The frame that is shown first, from 0' -r
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l frames -d 'Write the pictures of frames A to B - 1, from 0; without B, up to the last; N is 0..N' -r
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l radius -d 'How large spheres are: van-der-waals, covalent, a number, or a column of numbers [default: as the scene says]' -r
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l structure -d 'How spheres are searched' -r -f -a "auto\t'Whatever suits'
 brute\t'All spheres, from end to end'
 depth-list\t'The spheres by their depth, sorted for every picture'
@@ -110,6 +173,8 @@ complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l threads -
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l level -d 'Instructions [default: the best that the CPU has]' -r -f -a "baseline\t''
 avx2\t''
 avx512\t''"
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l strict -d 'Refuse particles of unknown types, which are drawn grey otherwise'
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l follow -d 'Wait for frames that are still being written'
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l json -d 'Report as a JSON object'
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c spherule -n "__fish_spherule_using_subcommand lecture" -l station -d 'The station, 1 to 14 or by its name' -r
@@ -123,4 +188,24 @@ truecolor\t'24 bits'"
 complete -c spherule -n "__fish_spherule_using_subcommand lecture" -l once -d 'Write the station, or all, also to a terminal'
 complete -c spherule -n "__fish_spherule_using_subcommand lecture" -l list -d 'List the stations, with the part of the lecture and the source files of each'
 complete -c spherule -n "__fish_spherule_using_subcommand lecture" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c spherule -n "__fish_spherule_using_subcommand cases" -l family -d 'Families, with commas between them [default: all]' -r
+complete -c spherule -n "__fish_spherule_using_subcommand cases" -l count -d 'How many cases, of all families together and in turns' -r
+complete -c spherule -n "__fish_spherule_using_subcommand cases" -l seed -d 'Their seed' -r
+complete -c spherule -n "__fish_spherule_using_subcommand cases" -l out-spheres -d 'Where to write spheres: .npy, float32, (N, 4): centre xyz, radius' -r -F
+complete -c spherule -n "__fish_spherule_using_subcommand cases" -l out-rays -d 'Where to write rays: .npy, float32, (N, 8): origin xyz, direction xyz, `t_min`, `t_max`' -r -F
+complete -c spherule -n "__fish_spherule_using_subcommand cases" -l out-family -d 'Where to write the numbers of families: .npy, uint8, (N,)' -r -F
+complete -c spherule -n "__fish_spherule_using_subcommand cases" -l unit -d 'Bring directions to unit length, as near as float32 does'
+complete -c spherule -n "__fish_spherule_using_subcommand cases" -l json -d 'Write each case as a line of JSON, numbers as hexadecimal floats, with the true t; without files, whose families are listed'
+complete -c spherule -n "__fish_spherule_using_subcommand cases" -s h -l help -d 'Print help'
+complete -c spherule -n "__fish_spherule_using_subcommand judge" -l spheres -d 'Spheres: .npy, float32, (N, 4): centre xyz, radius' -r -F
+complete -c spherule -n "__fish_spherule_using_subcommand judge" -l rays -d 'Rays: .npy, float32, (M, 8): origin xyz, direction xyz, `t_min`, `t_max`' -r -F
+complete -c spherule -n "__fish_spherule_using_subcommand judge" -l t -d 'Answers: .npy, float32 or float64, (M,), +inf if a ray has no hit' -r -F
+complete -c spherule -n "__fish_spherule_using_subcommand judge" -l id -d 'The spheres that were answered: .npy, int32, int64 or uint32, (M,), -1 if a ray has no hit' -r -F
+complete -c spherule -n "__fish_spherule_using_subcommand judge" -l family -d 'The family of each ray, as `spherule cases` writes them: .npy, uint8, (M,)' -r -F
+complete -c spherule -n "__fish_spherule_using_subcommand judge" -l rules -d 'What the program promises otherwise than Spherule does: a .toml file' -r -F
+complete -c spherule -n "__fish_spherule_using_subcommand judge" -l again -d 'A command that answers other pairs: it is called with the names of S.npy and R.npy, which it reads, and T.npy, which it writes; so the smallest failures are made smaller' -r
+complete -c spherule -n "__fish_spherule_using_subcommand judge" -l pairs -d 'Ray i meets sphere i alone'
+complete -c spherule -n "__fish_spherule_using_subcommand judge" -l json -d 'Report as a JSON object'
+complete -c spherule -n "__fish_spherule_using_subcommand judge" -l chart -d 'Show where in each family answers are wrong'
+complete -c spherule -n "__fish_spherule_using_subcommand judge" -s h -l help -d 'Print help'
 complete -c spherule -n "__fish_spherule_using_subcommand scenes" -s h -l help -d 'Print help'
