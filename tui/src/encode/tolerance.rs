@@ -24,6 +24,11 @@ impl Tolerance {
         a == b || self.0 > 0.0 && distance(a, b) <= self.0
     }
 
+    /// Whether ink of this colour is not seen on paper of that one. The terminal's own ink is not its own paper.
+    fn hides(self, ink: Color, paper: Color) -> bool {
+        self.0 > 0.0 && matches!(ink, Color::Rgb(_)) && self.allows(ink, paper)
+    }
+
     /// Whether `shown` may stay where `wanted` should be: each part that is of one colour in both is near enough. Of
     /// two glyphs no one knows which parts these are, so all may be.
     pub(super) fn lets_stay(self, shown: &Cell, wanted: &Cell) -> bool {
@@ -36,15 +41,14 @@ impl Tolerance {
         let inks = [(shown, wanted), (wanted, shown)];
         inks.iter().all(|(of, other)| {
             of.glyph == ' '
-                || self.allows(of.foreground, other.background)
+                || self.hides(of.foreground, other.background)
                     && (other.glyph == ' ' || self.allows(of.foreground, other.foreground))
         })
     }
 
     /// `cell` without its ink, if that looks alike.
     pub(super) fn without_ink(self, cell: &Cell) -> Cell {
-        let is_alike =
-            cell.glyph != ' ' && self.0 > 0.0 && self.allows(cell.foreground, cell.background);
+        let is_alike = cell.glyph != ' ' && self.hides(cell.foreground, cell.background);
         if is_alike { Cell { glyph: ' ', foreground: cell.background, ..*cell } } else { *cell }
     }
 }
@@ -91,6 +95,17 @@ mod tests {
                     assert!(a.distance(b) > 0.03, "{pair:?}: {}", a.distance(b));
                 }
             }
+        }
+    }
+
+    /// What is written over a picture has the terminal's own colours.
+    #[test]
+    fn text_is_never_taken_for_blank() {
+        let tolerance = Tolerance::new(0.01);
+        let text = |glyph| cell(glyph, Color::Default, Color::Default);
+        assert_eq!(tolerance.without_ink(&text('x')), text('x'));
+        for (shown, wanted) in [(' ', 'x'), ('x', ' '), ('x', 'y')] {
+            assert!(!tolerance.lets_stay(&text(shown), &text(wanted)), "{shown} for {wanted}");
         }
     }
 
