@@ -28,10 +28,10 @@ pub fn bench<M: Measurement>(
     });
 }
 
-/// Judges what [`bench`] times.
+/// Judges what [`bench()`] times.
 ///
 /// # Panics
-/// As [`bench`] does.
+/// As [`bench()`] does.
 pub fn check(
     intersector: &mut impl Intersector,
     (spheres, rays): (&[Sphere], &[Ray]),

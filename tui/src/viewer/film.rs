@@ -1,6 +1,6 @@
 //! The frames of a file in the viewer: a thread reads them before they are wanted.
 //!
-//! It reads at most [`AHEAD`] frames ahead, fewer of large ones, and keeps one behind; the rest is read again when it
+//! It reads a few frames ahead, fewer of large ones, and keeps one behind; the rest is read again when it
 //! is wanted. No one waits for it: where a frame is not there yet, the picture stays.
 
 use crate::arguments::files::FOLLOW;
