@@ -1,8 +1,8 @@
 //! Where a structure does not answer as brute force does.
 
-use super::table::{
-    Answers, Layer, Memory, Structure, Structures, Variant, brute, variants, viewpoint_of,
-};
+use super::answers::Answers;
+use super::memory::{Memory, Structures, viewpoint_of};
+use super::table::{Layer, Structure, Variant, brute, variants};
 use spherule_kernel::{Hit, Ray, Sphere, Tier, Viewpoint};
 use spherule_referee::case::HexRay;
 

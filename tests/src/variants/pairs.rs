@@ -1,6 +1,7 @@
 //! Ray i against sphere i alone, at every layer.
 
-use super::table::{Layer, level, levels, packed, stale_packet};
+use super::packing::{level, packed, stale_packet};
+use super::table::{Layer, levels};
 use spherule_kernel::{
     Hit, HitPacket, LaneArray, Lanes, Ray, Sphere, SpherePacket, Tier, f32x4, f32x8, f32x16,
     pair_lanes, pair_packets, pairs,

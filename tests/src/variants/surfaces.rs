@@ -1,6 +1,7 @@
 //! The surface at every hit, at every layer.
 
-use super::table::{Layer, level, levels, packed};
+use super::packing::{level, packed};
+use super::table::{Layer, levels};
 use spherule_kernel::{
     HitPacket, Intersect, LaneArray, Lanes, Level, Ray, RayPacket, Side, SphereList, Surface,
     SurfacePacket, Tier, Towards, Trace, Vec3, f32x4, f32x8, f32x16, shadow_lanes, shadow_packets,

@@ -1,7 +1,10 @@
 //! A camera's tiles, at every layer and in every structure that makes their rays itself.
 
+use super::answers::Answers;
 use super::difference::bits;
-use super::table::{Answers, Layer, Memory, Structures, brute, level, levels, stale_packet};
+use super::memory::{Memory, Structures};
+use super::packing::{level, stale_packet};
+use super::table::{Layer, brute, levels};
 use spherule_kernel::{
     Camera, CameraTiles, DepthList, Hit, HitPacket, Intersect, LaneArray, Lanes, Projection, Ray,
     RayPacket, Sphere, Tier, Trace, Vec3, Viewpoint, f32x4, f32x8, f32x16,

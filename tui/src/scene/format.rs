@@ -106,7 +106,7 @@ fn of_toml(input: &mut Input) -> Result<Scene, ReadError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let line = bytes[..error.valid_up_to()].split(|&byte| byte == b'\n').count();
-        ReadError { line: Some(line), ..ReadError::whole(source, "no UTF-8 text") }
+        ReadError { line: Some(line), ..ReadError::whole(source, "not valid UTF-8") }
     })?;
     toml::read(text, source)
 }

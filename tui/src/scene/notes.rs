@@ -33,6 +33,15 @@ impl Notes {
         }
     }
 
+    /// Notes that so many columns are not kept, if there are any.
+    pub(super) fn further_columns(&mut self, count: usize) {
+        match count {
+            0 => {}
+            1 => self.note("1 further column is ignored"),
+            _ => self.note(format!("{count} further columns are ignored")),
+        }
+    }
+
     /// Notes that a kind of record is ignored, once.
     pub(super) fn ignore(&mut self, record: &'static str) {
         if !self.ignored.0.contains(&record) {

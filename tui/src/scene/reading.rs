@@ -1,12 +1,13 @@
 //! From bytes to the frames of a file, whose format its content tells.
 
 use super::Scene;
-use super::format::recognise::recognise;
+use super::format::recognise::{UNKNOWN, recognise};
 use super::format::{Context, Format};
 use super::frames::Frames;
 use super::input::Input;
 use super::notes::Notes;
 use super::read_error::ReadError;
+use crate::choice;
 use crate::error::cause;
 use clap::ValueEnum;
 use std::fs::File;
@@ -82,14 +83,17 @@ fn format_of(input: &mut Input) -> Result<Format, ReadError> {
         return Err(ReadError::whole(&source, "the file is empty"));
     }
     recognise(head).or_else(|what| {
-        let known = || {
-            ending(&source).ok_or_else(|| {
-                let hint = if what == "of no known format" { "; --format names one" } else { "" };
-                ReadError::whole(&source, format!("{what}{hint}"))
-            })
-        };
-        known()
+        ending(&source).ok_or_else(|| {
+            let what = if what == UNKNOWN { unknown() } else { what.to_owned() };
+            ReadError::whole(&source, what)
+        })
     })
+}
+
+/// That the format is not known, and which are.
+fn unknown() -> String {
+    let names: Vec<_> = Format::value_variants().iter().map(choice::name).collect();
+    format!("{UNKNOWN}; --format names one of {}", names.join(", "))
 }
 
 /// The format that the name ends in.

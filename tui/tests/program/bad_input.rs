@@ -122,17 +122,18 @@ fn standard_input_that_is_no_scene() {
     let message = refusal(&run_with_input("-", b"2\n\nH 0 0 0\n"));
     assert!(message.starts_with("-:4:1: the file ends"), "{message}");
     assert!(refusal(&run_with_input("- --format toml", b"2\n")).starts_with("-:1:"));
-    assert!(refusal(&run_with_input("-", b"\xff\xfe\n")).contains("of no known format"));
+    assert!(refusal(&run_with_input("-", b"\xff\xfe\n")).contains("unknown format"));
     assert!(
-        refusal(&run_with_input("- --format toml", b"\xff\xfe\n")).starts_with("-:1: no UTF-8")
+        refusal(&run_with_input("- --format toml", b"\xff\xfe\n"))
+            .starts_with("-:1: not valid UTF-8")
     );
 }
 
 /// The content tells, not the name.
 #[test]
-fn a_file_of_no_known_format() {
+fn a_file_of_an_unknown_format() {
     let path = file("scene.txt", b"1\n\nH 0 0 0\n");
     assert!(run([path.as_os_str()]).status.success());
     let path = file("text.txt", b"Some text.\n");
-    assert!(refusal(&run([path.as_os_str()])).ends_with("of no known format; --format names one"));
+    assert!(refusal(&run([path.as_os_str()])).ends_with("unknown format; --format names one of toml, xyz, pdb, mmcif, gro, lammps-dump, lammps-data, csv, ply, npy, xtc, urdf"));
 }

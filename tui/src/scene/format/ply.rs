@@ -13,6 +13,9 @@ use crate::scene::particles::Particles;
 use crate::scene::read_error::ReadError;
 use spherule_kernel::Vec3;
 
+/// So many other properties are kept: they take memory.
+const MOST_KEPT: usize = 4;
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Scalar {
     Int(usize),
@@ -125,10 +128,10 @@ fn vertices(
             || radius == Some(index)
             || color.is_some_and(|color| color.contains(&index))
     };
-    let kept: Vec<usize> = (0..names.len())
-        .filter(|&index| !taken(index) && names[index].list.is_none())
-        .take(4)
-        .collect();
+    let mut kept: Vec<usize> =
+        (0..names.len()).filter(|&index| !taken(index) && names[index].list.is_none()).collect();
+    notes.further_columns(kept.len().saturating_sub(MOST_KEPT));
+    kept.truncate(MOST_KEPT);
     let mut particles = Particles {
         columns: kept
             .iter()

@@ -4,6 +4,9 @@ use super::Format;
 use super::table::{Separator, has_axes};
 use crate::scene::number::number;
 
+/// What nothing tells the format of is.
+pub(in crate::scene) const UNKNOWN: &str = "unknown format";
+
 /// The records that a PDB file begins with.
 const PDB: [&str; 24] = [
     "HEADER", "OBSLTE", "TITLE ", "SPLIT ", "CAVEAT", "COMPND", "SOURCE", "KEYWDS", "EXPDTA",
@@ -86,7 +89,7 @@ pub(in super::super) fn recognise(head: &[u8]) -> Result<Format, &'static str> {
     if is_table(&lines) {
         return Ok(Format::Csv);
     }
-    Err("of no known format")
+    Err(UNKNOWN)
 }
 
 fn contains(text: &[u8], part: &[u8]) -> bool {

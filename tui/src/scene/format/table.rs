@@ -92,6 +92,8 @@ struct Columns {
     color: Option<[usize; 3]>,
     kind: Option<usize>,
     kept: Vec<(usize, Box<str>)>,
+    /// How many more there are, which are ignored.
+    further: usize,
     /// As many fields of a line are looked at.
     most: usize,
 }
@@ -126,6 +128,7 @@ pub(super) fn read(input: &mut Input, context: &mut Context) -> Result<Scene, Re
     if !is_header {
         input.give_back();
     }
+    context.notes.further_columns(columns.further);
     let kept = columns.kept.iter();
     let kept = kept.map(|(_, name)| NumberColumn { name: name.clone(), values: Vec::new() });
     let mut particles = Particles { columns: kept.collect(), ..Particles::default() };
@@ -275,8 +278,9 @@ impl Columns {
                 || [columns.radius, columns.kind].contains(&Some(column))
                 || columns.color.is_some_and(|color| color.contains(&column))
         };
-        let kept: Vec<(usize, Box<str>)> = (0..names.len())
-            .filter(|&column| !taken(column))
+        let others = (0..names.len()).filter(|&column| !taken(column));
+        columns.further = others.clone().count().saturating_sub(MOST_KEPT);
+        let kept: Vec<(usize, Box<str>)> = others
             .take(MOST_KEPT)
             .map(|column| {
                 let name = if is_header {

@@ -26,7 +26,7 @@ pub(super) fn read(input: &mut Input, notes: &mut Notes) -> Result<Scene, ReadEr
     let bytes = input.rest(LONGEST_TEXT)?;
     let source = input.source();
     let text =
-        std::str::from_utf8(&bytes).map_err(|_| ReadError::whole(source, "no UTF-8 text"))?;
+        std::str::from_utf8(&bytes).map_err(|_| ReadError::whole(source, "not valid UTF-8"))?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let options = ParsingOptions { nodes_limit: 1 << 22, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, options).map_err(|error| {

@@ -38,7 +38,7 @@ pub struct StreamRay {
     spread: f32,
     /// Some answer, or the end of the interval, is not above.
     pub(super) best: f32,
-    /// Which of all rays, or of those that are sorted together; [`NOBODY`](Self::NOBODY) if it is not in the stream.
+    /// Which of all rays, or of those that are sorted together; [`NO_RAY`](Self::NO_RAY) if it is not in the stream.
     number: u32,
 }
 
@@ -61,11 +61,11 @@ impl StreamRay {
         time: RayTime { per_t: 0.0, shift: 0.0, length: 0.0 },
         spread: 0.0,
         best: 0.0,
-        number: Self::NOBODY,
+        number: Self::NO_RAY,
     };
 
     /// The number of a lane that is in no stream.
-    const NOBODY: u32 = u32::MAX;
+    const NO_RAY: u32 = u32::MAX;
 
     /// Takes lane `lane` of a prepared packet.
     #[inline(always)]
@@ -98,14 +98,14 @@ impl StreamRay {
     /// No ray.
     #[inline(always)]
     pub(super) fn leave_out(&mut self) {
-        (self.number, self.entry) = (Self::NOBODY, f32::NAN);
+        (self.number, self.entry) = (Self::NO_RAY, f32::NAN);
     }
 
     /// The octant of its direction; 8 if it is not in the stream.
     #[inline(always)]
     pub(super) fn octant(&self) -> u32 {
         let octant = octant_of(axes!(i => self.inverse[i].is_sign_negative()));
-        if self.number == Self::NOBODY { 8 } else { octant }
+        if self.number == Self::NO_RAY { 8 } else { octant }
     }
 
     /// Where its answer goes, if the first of the rays that are numbered is of packet `first`.

@@ -87,6 +87,12 @@ pub(in super::super) fn read(input: &mut Input, notes: &mut Notes) -> Result<Sce
         if let Some(number) = text.strip_suffix(b"atoms") {
             announced = count(number.trim_ascii()).map(|count| (count, line.number));
         }
+        for record in ["bonds", "angles", "dihedrals", "impropers"] {
+            let number = text.strip_suffix(record.as_bytes()).map(<[u8]>::trim_ascii);
+            if number.and_then(count).is_some_and(|count| count > 0) {
+                notes.ignore(record);
+            }
+        }
     };
     let Some((atoms, first)) = announced.filter(|&(atoms, _)| atoms > 0) else {
         return Err(ReadError::whole(

@@ -212,7 +212,10 @@ fn a_trajectory_that_is_none() {
 fn what_is_known_and_not_read() {
     assert!(error(b"PK\x03\x04............").contains("zip archive"));
     assert!(error(b"\x89HDF\r\n\x1a\n").contains("HDF5"));
-    assert!(error("//! Some text, of a program.\nfn main() {}\n").contains("of no known format"));
+    assert!(
+        error("//! Some text, of a program.\nfn main() {}\n")
+            .contains("unknown format; --format names one of toml, xyz, pdb")
+    );
     assert!(error("<html></html>").contains("no <robot>"));
     assert!(error("a,b,c\n1,2,3\n").contains("--columns names others"));
     assert!(error("data_x\nloop_\n_atom_site_fract_x\n0.5\n").contains("fractions"));

@@ -297,3 +297,27 @@ fn toml_still_is() {
         1
     );
 }
+
+#[test]
+fn what_is_ignored_is_said() {
+    let notes = |name: &str, text: &str| {
+        let mut frames = frames_of(name, text.as_bytes(), &Reading::default());
+        frames.read(0).unwrap_or_else(|error| panic!("{error}")).expect("a frame");
+        frames.notes()
+    };
+    let names: String = (0..12).map(|column| format!(",c{column}")).collect();
+    let numbers = ",1".repeat(12);
+    assert_eq!(
+        notes("wide.csv", &format!("x,y,z{names}\n1,2,3{numbers}\n")),
+        ["4 further columns are ignored"]
+    );
+    let property = |name: &str| format!("property float {name}\n");
+    let properties: String = ["x", "y", "z", "a", "b", "c", "d", "e"].map(property).concat();
+    let ply = format!(
+        "ply\nformat ascii 1.0\nelement vertex 1\n{properties}end_header\n1 2 3 4 5 6 7 8\n"
+    );
+    assert_eq!(notes("wide.ply", &ply), ["1 further column is ignored"]);
+    let lammps = "LAMMPS data\n\n2 atoms\n1 bonds\n0 angles\n1 atom types\n\nAtoms # full\n\n\
+        1 1 1 0.5 0 0 0\n2 1 1 -0.5 1 0 0\n\nBonds\n\n1 1 1 2\n";
+    assert_eq!(notes("bonded.data", lammps), ["ignored: bonds"]);
+}

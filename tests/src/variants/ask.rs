@@ -1,0 +1,132 @@
+//! What the rays of a test hit, by a row of the table.
+
+use super::answers::Answers;
+use super::memory::Structures;
+use super::packing::{columns_of, level, packed, stale_packet, unpacked};
+use super::table::{Layer, Structure, Variant};
+use spherule_kernel::{
+    DepthList, Hit, HitColumns, Intersect, Lanes, QueuedRay, Ray, RayColumns, Sphere, SphereList,
+    StreamMemory, StreamRay, Trace, f32x4, f32x8, f32x16,
+};
+
+impl Variant {
+    /// What these rays hit.
+    ///
+    /// # Panics
+    /// Where the structure does not [hold](Variant::holds) the spheres.
+    #[must_use]
+    pub fn ask(&self, structures: Structures<'_>, rays: &[Ray]) -> Answers {
+        let Structures { list, depth_list, tree, refitted, bvh4 } = structures;
+        match self.structure {
+            Structure::List => self.ask_list(list, rays),
+            Structure::DepthList(sevenths) => {
+                let words = DepthList::scratch(list.spheres().len()) * sevenths / 7;
+                let mut scratch = vec![f32::NAN; words];
+                self.ask_of(depth_list, Trace::new().with_scratch(&mut scratch), rays)
+            }
+            Structure::Tree(coherence) => self.ask_of(tree, Trace::new().with(coherence), rays),
+            Structure::Refitted(coherence) => {
+                self.ask_of(refitted, Trace::new().with(coherence), rays)
+            }
+            Structure::Stream(count, sorted) => {
+                // The least that queues need for few, and for more what they like to have.
+                let needed = StreamMemory::queues_needed(count);
+                let queues = if count < 100 { needed } else { needed + 32 * count };
+                let (mut queues, mut order) = (vec![QueuedRay::EMPTY; queues], vec![0; 2 * sorted]);
+                let mut memory = vec![StreamRay::EMPTY; count];
+                let memory = StreamMemory::new(&mut memory, &mut queues).expect("enough");
+                let memory = memory.sorting(&mut order).everywhere();
+                self.ask_of(tree, Trace::new().incoherent().with_stream(memory), rays)
+            }
+            Structure::Bvh4 => {
+                self.ask_of(&bvh4.expect("no more spheres than it holds"), Trace::new(), rays)
+            }
+        }
+    }
+
+    /// The closest hits in a list, whatever the structure.
+    ///
+    /// # Panics
+    /// If a ray that hits anything has no closest hit, or the reverse.
+    #[must_use]
+    pub fn closest(&self, spheres: &[Sphere], rays: &[Ray]) -> Vec<Option<Hit>> {
+        let Answers { hits, met } = self.ask_list(&SphereList::from(spheres), rays);
+        assert!(hits.iter().map(Option::is_some).eq(met), "{self:?}: closest hits and any hits");
+        hits
+    }
+
+    fn ask_list(&self, list: &SphereList, rays: &[Ray]) -> Answers {
+        match self.layer {
+            Layer::Lanes(4) => self.lanes::<_, f32x4>(list, Trace::new(), rays),
+            Layer::Lanes(16) => self.lanes::<_, f32x16>(list, Trace::new(), rays),
+            _ => self.ask_of(list, Trace::new(), rays),
+        }
+    }
+
+    fn ask_of(&self, structure: &impl Intersect, mut trace: Trace<'_>, rays: &[Ray]) -> Answers {
+        let tier = self.tier;
+        // What was there before must not show; nothing past the rays is touched.
+        let stale = Some(Hit { t: -7.0, sphere: 7 });
+        let mut hits = vec![stale; rays.len() + 1];
+        let mut met: Vec<bool> = (0..=rays.len()).map(|i| i % 3 == 0).collect();
+        let past = met[rays.len()];
+        match self.layer {
+            Layer::Ray => {
+                for (index, ray) in rays.iter().enumerate() {
+                    hits[index] = structure.closest_hit(tier, ray);
+                    met[index] = structure.any_hit(tier, ray);
+                }
+            }
+            Layer::Slice => {
+                structure.closest_hits(tier, rays, &mut hits);
+                structure.any_hits(tier, rays, &mut met);
+            }
+            Layer::Columns => {
+                let table = columns_of(rays);
+                let [ox, oy, oz, dx, dy, dz, t_min, t_max] = table.each_ref().map(Vec::as_slice);
+                let (origin, direction) = ([ox, oy, oz], [dx, dy, dz]);
+                let columns = RayColumns { origin, direction, t_min, t_max };
+                let (mut t, mut sphere) = (vec![-7.0; rays.len() + 2], vec![7; rays.len() + 1]);
+                let found = HitColumns { t: &mut t, sphere: &mut sphere };
+                structure.closest_hit_columns(tier, &mut trace, columns, found);
+                structure.any_hit_columns(tier, &mut trace, columns, &mut met);
+                let none = |t: f32, sphere: u32| sphere == u32::MAX && t == f32::INFINITY;
+                let hit = |(&t, &sphere)| (!none(t, sphere)).then_some(Hit { t, sphere });
+                hits = t.iter().zip(&sphere).map(hit).collect();
+                assert_eq!(t.last(), Some(&-7.0), "{self:?}: past the rays");
+            }
+            Layer::SliceAt(name) => {
+                trace.level = level(name);
+                structure.closest_hits_with(tier, &mut trace, rays, &mut hits);
+                structure.any_hits_with(tier, &mut trace, rays, &mut met);
+            }
+            Layer::Packets(name) => {
+                trace.level = level(name);
+                let packets = packed(rays);
+                let mut found = vec![stale_packet::<f32x16>(); packets.len() + 1];
+                let mut bits = vec![u32::MAX; packets.len() + 1];
+                structure.closest_hit_packets(tier, &mut trace, &packets, &mut found);
+                structure.any_hit_packets(tier, &mut trace, &packets, &mut bits);
+                return unpacked::<f32x16>(rays.len(), &found, &bits);
+            }
+            Layer::Lanes(1) => return self.lanes::<_, f32>(structure, trace, rays),
+            Layer::Lanes(_) => return self.lanes::<_, f32x8>(structure, trace, rays),
+        }
+        assert_eq!((hits.pop(), met.pop()), (Some(stale), Some(past)), "{self:?}: past the rays");
+        Answers { hits, met }
+    }
+
+    fn lanes<S: Intersect, L: Lanes<Token = ()>>(
+        &self,
+        structure: &S,
+        mut trace: Trace<'_>,
+        rays: &[Ray],
+    ) -> Answers {
+        let packets = packed(rays);
+        let mut found = vec![stale_packet::<L>(); packets.len() + 1];
+        let mut bits = vec![u32::MAX; packets.len() + 1];
+        structure.closest_hit_lanes::<L>(self.tier, (), &mut trace, &packets, &mut found);
+        structure.any_hit_lanes::<L>(self.tier, (), &mut trace, &packets, &mut bits);
+        unpacked::<L>(rays.len(), &found, &bits)
+    }
+}
