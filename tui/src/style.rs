@@ -62,11 +62,13 @@ pub struct Aids {
 impl Aids {
     /// None.
     pub const NONE: Self = Self { occlusion: false, edges: false, depth_cue: false };
-    /// All of a scene with several chains, which is a heap of atoms without; none of another.
+    /// All of a scene with chains, which is a heap of atoms without; none of another.
     #[must_use]
     pub fn usual(scene: &Scene) -> Self {
         let chains = scene.attributes().names(Naming::Chain);
-        if chains.is_some_and(|names| names.table().len() > 1) { Self::ALL } else { Self::NONE }
+        let is_named = |name: &Box<str>| !name.is_empty();
+        let has_chains = chains.is_some_and(|names| names.table().iter().any(is_named));
+        if has_chains { Self::ALL } else { Self::NONE }
     }
 
     /// All.

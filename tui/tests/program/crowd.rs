@@ -132,3 +132,30 @@ fn a_legend_says_what_colours_mean() {
     assert_eq!(rows, [Some(1), Some(2), Some(3), Some(4)]);
     assert!(!picture("caffeine", "--color-by element").contains(" element "));
 }
+
+/// A file with chains is seen with all aids, of several in their colours; what has none is as it always was.
+#[test]
+fn chains_are_told_apart_unless_somebody_says_otherwise() {
+    let pdb = |name: &str, chains: [char; 2]| {
+        let atom = |(number, chain): (usize, &char)| {
+            let x = 1.2 * number as f32;
+            format!(
+                "ATOM  {number:5}  CA  ALA {chain}{number:4}    {x:8.3}   0.000{:8.3}",
+                -4.0 * x
+            ) + "  1.00  0.00           C\n"
+        };
+        let text: String = (1..).zip(&chains).map(atom).collect();
+        file(name, text.as_bytes()).display().to_string()
+    };
+    let (one, two) = (pdb("one-chain.pdb", ['A', 'A']), pdb("two-chains.pdb", ['A', 'B']));
+    let none = pdb("no-chain.pdb", [' ', ' ']);
+    let (all, off) = (
+        "--occlusion --edges --depth-cue --color-by scene",
+        "--occlusion=off --edges=off --depth-cue=off --color-by scene",
+    );
+    assert!(picture(&one, "") == picture(&one, all) && picture(&one, "") != picture(&one, off));
+    let of_chains = all.replace("scene", "chain");
+    assert!(picture(&two, "") == picture(&two, &of_chains));
+    assert!(picture(&two, "") != picture(&two, all));
+    assert!(picture(&none, "") == picture(&none, off) && picture(&none, "") != picture(&none, all));
+}
