@@ -76,13 +76,13 @@ complete -c spherule -n "__fish_spherule_needs_command" -l distance -d 'How far 
 complete -c spherule -n "__fish_spherule_needs_command" -l show -d 'error: what the tier gets wrong against exact, cell by cell; split:TIER,TIER: two tiers side by side; table: what every tier takes and gets wrong' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l color-by -d 'What spheres are coloured by: scene, element, chain, residue, molecule, type, or a column of numbers [default: chain if there are several, else scene]' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l range -d 'The numbers with the darkest and the lightest colour, with --color-by a column [default: the least and the largest]' -r
-complete -c spherule -n "__fish_spherule_needs_command" -l occlusion -d 'Less light where others are in the way; auto: if there are several chains' -r -f -a "auto\t'Whatever suits'
+complete -c spherule -n "__fish_spherule_needs_command" -l occlusion -d 'Less light where others are in the way; auto: if there are chains' -r -f -a "auto\t'Whatever suits'
 on\t'Shown'
 off\t'Not shown'"
-complete -c spherule -n "__fish_spherule_needs_command" -l edges -d 'Dark edges before what is far behind, and around chains; auto: if there are several chains' -r -f -a "auto\t'Whatever suits'
+complete -c spherule -n "__fish_spherule_needs_command" -l edges -d 'Dark edges before what is far behind, and around chains; auto: if there are chains' -r -f -a "auto\t'Whatever suits'
 on\t'Shown'
 off\t'Not shown'"
-complete -c spherule -n "__fish_spherule_needs_command" -l depth-cue -d 'What is far away fades; auto: if there are several chains' -r -f -a "auto\t'Whatever suits'
+complete -c spherule -n "__fish_spherule_needs_command" -l depth-cue -d 'What is far away fades; auto: if there are chains' -r -f -a "auto\t'Whatever suits'
 on\t'Shown'
 off\t'Not shown'"
 complete -c spherule -n "__fish_spherule_needs_command" -l structure -d 'How spheres are searched' -r -f -a "auto\t'Whatever suits'
