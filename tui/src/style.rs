@@ -62,17 +62,17 @@ pub struct Aids {
 impl Aids {
     /// None.
     pub const NONE: Self = Self { occlusion: false, edges: false, depth_cue: false };
+    /// All.
+    pub const ALL: Self = Self { occlusion: true, edges: true, depth_cue: true };
+
     /// All of a scene with chains, which is a heap of atoms without; none of another.
     #[must_use]
     pub fn usual(scene: &Scene) -> Self {
         let chains = scene.attributes().names(Naming::Chain);
-        let is_named = |name: &Box<str>| !name.is_empty();
-        let has_chains = chains.is_some_and(|names| names.table().iter().any(is_named));
+        let has_chains =
+            chains.is_some_and(|names| names.table().iter().any(|name| !name.is_empty()));
         if has_chains { Self::ALL } else { Self::NONE }
     }
-
-    /// All.
-    pub const ALL: Self = Self { occlusion: true, edges: true, depth_cue: true };
 }
 
 /// How far away the eye is if nothing is said, in widths of a cell: 60 cm over 2.2 mm.
