@@ -6,6 +6,7 @@
 //! What is shown is remembered, so errors do not add up, and a frame without tolerance makes good for all of them.
 
 mod cursor;
+mod perceived;
 mod sgr;
 #[cfg(test)]
 mod tests;
@@ -15,7 +16,7 @@ use crate::cells::masks::opposite;
 use crate::cells::{Cell, CellGrid};
 use cursor::{Cursor, push_glyph};
 use sgr::Pen;
-use tolerance::Tolerance;
+use tolerance::{Tolerance, look_same};
 
 /// From here on a terminal that can hold back its picture does.
 const BEGIN_SYNCHRONIZED: &[u8] = b"\x1b[?2026h";
@@ -47,13 +48,6 @@ pub fn full(grid: &CellGrid, out: &mut Vec<u8>) {
     }
 }
 
-/// The ink of a space cannot be seen.
-fn look_same(a: &Cell, b: &Cell) -> bool {
-    a.background == b.background
-        && a.glyph == b.glyph
-        && (a.foreground == b.foreground || a.glyph == ' ')
-}
-
 /// What a frame may save.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Economy {
@@ -75,6 +69,7 @@ pub struct Encoder {
     is_exact: bool,
     /// Whether the terminal holds its picture back between brackets.
     synchronized: bool,
+    tolerance: Tolerance,
 }
 
 impl Encoder {
@@ -121,8 +116,9 @@ impl Encoder {
     pub fn encode_part(&mut self, next: &CellGrid, economy: Economy, out: &mut Vec<u8>) {
         let size = (next.columns(), next.rows());
         let same_size = |grid: &CellGrid| (grid.columns(), grid.rows()) == size;
-        let mut update =
-            Update::new(economy.tolerance, out.len().saturating_add(economy.most_bytes));
+        self.tolerance.set(economy.tolerance);
+        let end = out.len().saturating_add(economy.most_bytes);
+        let mut update = Update::new(&self.tolerance, end);
         let mut shown = self.shown.take().filter(same_size).unwrap_or_else(|| {
             out.extend_from_slice(CLEAR);
             update.cursor = Cursor::HOME;
@@ -144,7 +140,8 @@ impl Encoder {
     pub fn encode_row(&mut self, next: &CellGrid, row: u16, out: &mut Vec<u8>) {
         let Some(shown) = &mut self.shown else { return };
         if row < next.rows().min(shown.rows()) && next.columns() == shown.columns() {
-            let mut update = Update::new(0.0, usize::MAX);
+            self.tolerance.set(0.0);
+            let mut update = Update::new(&self.tolerance, usize::MAX);
             update.row(row, next, shown.marked(), shown, out);
             update.pen.put_down(out);
         }
@@ -183,19 +180,18 @@ impl Encoder {
 }
 
 /// A frame that is being written.
-struct Update {
+struct Update<'a> {
     cursor: Cursor,
     pen: Pen,
-    tolerance: Tolerance,
+    tolerance: &'a Tolerance,
     /// From this length of the output on, nothing more is written.
     end: usize,
     /// Whether nothing has been left or written that only looks alike.
     is_exact: bool,
 }
 
-impl Update {
-    fn new(tolerance: f32, end: usize) -> Self {
-        let tolerance = Tolerance::new(tolerance);
+impl<'a> Update<'a> {
+    fn new(tolerance: &'a Tolerance, end: usize) -> Self {
         Self { cursor: Cursor::LOST, pen: Pen::RESET, tolerance, end, is_exact: true }
     }
 

@@ -1,6 +1,6 @@
 //! Colours as SGR parameters.
 
-use super::tolerance::Tolerance;
+use super::tolerance::{Tolerance, look_same};
 use crate::cells::masks::opposite;
 use crate::cells::{Cell, Color};
 
@@ -16,7 +16,7 @@ impl Pen {
     pub(super) const RESET: Self = Self { foreground: Color::Default, background: Color::Default };
 
     /// Whether `cell` can be drawn without a word about colour, or what looks alike. A space has no ink.
-    pub(super) fn suits(self, cell: &Cell, tolerance: Tolerance) -> bool {
+    pub(super) fn suits(self, cell: &Cell, tolerance: &Tolerance) -> bool {
         tolerance.allows(self.background, cell.background)
             && (cell.glyph == ' ' || tolerance.allows(self.foreground, cell.foreground))
     }
@@ -28,7 +28,7 @@ impl Pen {
 
     /// `cell`, or what looks the same with ink and paper exchanged, if that takes fewer colours; and in place of colours
     /// the pen's own, if they look alike.
-    pub(super) fn nearest_form(self, cell: &Cell, tolerance: Tolerance) -> Cell {
+    pub(super) fn nearest_form(self, cell: &Cell, tolerance: &Tolerance) -> Cell {
         let Cell { glyph, foreground, background } = *cell;
         let kept = |ink, paper| {
             u8::from(tolerance.allows(self.foreground, ink))
@@ -53,7 +53,7 @@ impl Pen {
 
     /// Appends the shortest change that suits `cell`; whether there was one.
     pub(super) fn take_up(&mut self, cell: &Cell, out: &mut Vec<u8>) -> bool {
-        if self.suits(cell, Tolerance::NONE) {
+        if look_same(&self.painted(cell.glyph), cell) {
             return false;
         }
         let inkless = cell.glyph == ' ';

@@ -146,6 +146,8 @@ proptest! {
     #[test]
     fn what_looks_alike_is_as_near_as_asked_for(frames in frames_alike(), most_bytes in 0..400_usize) {
         let economy = Economy { tolerance: 0.02, most_bytes: usize::MAX };
+        let mut near = Tolerance::default();
+        near.set(0.02);
         let mut terminal = terminal(frames[0].columns(), frames[0].rows());
         let mut encoder = Encoder::new();
         for frame in &frames {
@@ -156,7 +158,7 @@ proptest! {
             assert_shows(&terminal, shown);
             for (shown, wanted) in shown.cells().iter().zip(frame.cells()) {
                 prop_assert!(
-                    look_same(shown, wanted) || Tolerance::new(0.02).lets_stay(shown, wanted),
+                    look_same(shown, wanted) || near.lets_stay(shown, wanted),
                     "{shown:?} for {wanted:?}"
                 );
             }

@@ -1,38 +1,47 @@
 //! What may stay on the screen though something else is wanted.
 
+use super::perceived::Perceived;
 use crate::cells::{Cell, Color};
-use crate::color::{Srgb, oklab};
 
 /// Channels that differ by more are no colours that look alike.
 const UNLIKE: u8 = 128;
 
 /// How far colours may be from what is wanted, in `OKLab`; of colours that the terminal has no light for, not at all.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Tolerance(f32);
+/// At first it is zero.
+#[derive(Debug, Default)]
+pub(super) struct Tolerance {
+    most: f32,
+    perceived: Perceived,
+}
 
 impl Tolerance {
-    /// Not at all.
-    pub(super) const NONE: Self = Self(0.0);
-
-    /// At most 0.03, which can be seen.
-    pub(super) fn new(distance: f32) -> Self {
-        Self(distance.clamp(0.0, 0.03))
+    /// Sets it to `distance`, at most to 0.03, which can be seen.
+    pub(super) fn set(&mut self, distance: f32) {
+        self.most = distance.clamp(0.0, 0.03);
     }
 
     /// Whether `a` may be shown for `b`.
-    pub(super) fn allows(self, a: Color, b: Color) -> bool {
-        a == b || self.0 > 0.0 && distance(a, b) <= self.0
+    pub(super) fn allows(&self, a: Color, b: Color) -> bool {
+        a == b || self.most > 0.0 && self.distance(a, b) <= self.most
+    }
+
+    fn distance(&self, a: Color, b: Color) -> f32 {
+        let (Color::Rgb(a), Color::Rgb(b)) = (a, b) else { return f32::INFINITY };
+        if a.iter().zip(b).any(|(a, b)| a.abs_diff(b) > UNLIKE) {
+            return f32::INFINITY;
+        }
+        self.perceived.color(a).distance(self.perceived.color(b))
     }
 
     /// Whether ink of this colour is not seen on paper of that one. The terminal's own ink is not its own paper.
-    fn hides(self, ink: Color, paper: Color) -> bool {
-        self.0 > 0.0 && matches!(ink, Color::Rgb(_)) && self.allows(ink, paper)
+    fn hides(&self, ink: Color, paper: Color) -> bool {
+        self.most > 0.0 && matches!(ink, Color::Rgb(_)) && self.allows(ink, paper)
     }
 
     /// Whether `shown` may stay where `wanted` should be: each part that is of one colour in both is near enough. Of
     /// two glyphs no one knows which parts these are, so all may be.
-    pub(super) fn lets_stay(self, shown: &Cell, wanted: &Cell) -> bool {
-        if self.0 <= 0.0 || !self.allows(shown.background, wanted.background) {
+    pub(super) fn lets_stay(&self, shown: &Cell, wanted: &Cell) -> bool {
+        if self.most <= 0.0 || !self.allows(shown.background, wanted.background) {
             return false;
         }
         if shown.glyph == wanted.glyph {
@@ -47,27 +56,33 @@ impl Tolerance {
     }
 
     /// `cell` without its ink, if that looks alike.
-    pub(super) fn without_ink(self, cell: &Cell) -> Cell {
+    pub(super) fn without_ink(&self, cell: &Cell) -> Cell {
         let is_alike = cell.glyph != ' ' && self.hides(cell.foreground, cell.background);
         if is_alike { Cell { glyph: ' ', foreground: cell.background, ..*cell } } else { *cell }
     }
 }
 
-fn distance(a: Color, b: Color) -> f32 {
-    let (Color::Rgb(a), Color::Rgb(b)) = (a, b) else { return f32::INFINITY };
-    if a.iter().zip(b).any(|(a, b)| a.abs_diff(b) > UNLIKE) {
-        return f32::INFINITY;
-    }
-    oklab(Srgb(a).to_linear()).distance(oklab(Srgb(b).to_linear()))
+/// Whether a terminal shows both alike, to the bit: the ink of a space cannot be seen.
+pub(super) fn look_same(a: &Cell, b: &Cell) -> bool {
+    a.background == b.background
+        && a.glyph == b.glyph
+        && (a.foreground == b.foreground || a.glyph == ' ')
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::color::{Srgb, oklab};
 
     const GREY: Color = Color::Rgb([128; 3]);
     const NEAR: Color = Color::Rgb([129, 128, 128]);
     const FAR: Color = Color::Rgb([150, 128, 128]);
+
+    fn tolerance(distance: f32) -> Tolerance {
+        let mut tolerance = Tolerance::default();
+        tolerance.set(distance);
+        tolerance
+    }
 
     fn cell(glyph: char, foreground: Color, background: Color) -> Cell {
         Cell { glyph, foreground, background }
@@ -75,11 +90,12 @@ mod tests {
 
     #[test]
     fn near_colours_are_allowed_and_others_are_not() {
-        let tolerance = Tolerance::new(0.01);
+        let tolerance = tolerance(0.01);
         assert!(tolerance.allows(GREY, NEAR) && !tolerance.allows(GREY, FAR));
         assert!(tolerance.allows(Color::Default, Color::Default));
         assert!(!tolerance.allows(Color::Ansi256(244), GREY));
-        assert!(!Tolerance::new(0.0).allows(GREY, NEAR) && Tolerance::new(0.0).allows(GREY, GREY));
+        let exact = Tolerance::default();
+        assert!(!exact.allows(GREY, NEAR) && exact.allows(GREY, GREY));
     }
 
     /// The quick answer is no other.
@@ -101,7 +117,7 @@ mod tests {
     /// What is written over a picture has the terminal's own colours.
     #[test]
     fn text_is_never_taken_for_blank() {
-        let tolerance = Tolerance::new(0.01);
+        let tolerance = tolerance(0.01);
         let text = |glyph| cell(glyph, Color::Default, Color::Default);
         assert_eq!(tolerance.without_ink(&text('x')), text('x'));
         for (shown, wanted) in [(' ', 'x'), ('x', ' '), ('x', 'y')] {
@@ -111,7 +127,7 @@ mod tests {
 
     #[test]
     fn a_glyph_stays_for_another_where_neither_can_be_seen() {
-        let tolerance = Tolerance::new(0.01);
+        let tolerance = tolerance(0.01);
         let stays = |shown, wanted| tolerance.lets_stay(&shown, &wanted);
         assert!(stays(cell('▀', GREY, NEAR), cell('▌', NEAR, GREY)));
         assert!(stays(cell(' ', FAR, NEAR), cell('▌', NEAR, GREY)));
