@@ -14,7 +14,7 @@ use crate::scene::{Light, Scene, Source};
 use crate::structure::openness::OpennessMemory;
 use crate::structure::scene::PictureSearch;
 use crate::structure::search::{Scratch, Search, Tracing};
-use exposure::Exposure;
+use exposure::{Exposure, STEEPNESS};
 use spherule_kernel::{
     HitPacket, RayPacket, Spheres, SurfaceHits, SurfacePacket, Towards, Vec3, shadow_packets,
     surface_packets,
@@ -196,7 +196,7 @@ impl Shader {
                     for (packet, &count) in counts.iter().enumerate() {
                         let spheres = hits[packet].spheres();
                         for sample in samples.by_ref().take(count) {
-                            let normal = surfaces[packet].normal(sample.lane);
+                            let normal = STEEPNESS * surfaces[packet].normal(sample.lane);
                             let open = around.openness.towards(spheres[sample.lane], normal);
                             let received = exposure.lights * sample.received + exposure.ambient;
                             let seen = exposure.seen(Exposure::left(open) * received);

@@ -1,10 +1,11 @@
-//! What is far away fades into the background.
+//! What is far away fades into the background, evenly as it is seen: lightness is about the cube root of light, so that
+//! the third power of what is left of it is left of the light.
 
 use crate::view::View;
 use spherule_kernel::{Sphere, Vec3};
 
-/// How much of the background is seen of what is farthest.
-const MOST: f32 = 0.7;
+/// How much of its lightness what is farthest loses.
+const MOST: f32 = 0.85;
 
 /// The depths between which a picture fades.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,13 +33,14 @@ impl DepthCue {
         }
     }
 
-    /// The share of the background in what is seen at `depth`, along the line of sight: 0 to 0.7; 0 if that is NaN.
+    /// The share of the background in what is seen at `depth`, along the line of sight: 0 to 0.997; 0 if that is NaN.
     #[must_use]
     #[inline]
     pub fn veil(&self, depth: f32) -> f32 {
         let share = (depth - self.near) * self.inverse;
         // NaN is not above zero.
-        if share > 0.0 { MOST * share.min(1.0) } else { 0.0 }
+        let left = if share > 0.0 { 1.0 - MOST * share.min(1.0) } else { 1.0 };
+        1.0 - left * left * left
     }
 
     /// What is seen of `light` at `depth` before `background`.
@@ -54,6 +56,11 @@ mod tests {
     use super::*;
     use crate::view::{Lens, LensKind, with_projection};
 
+    /// At the far end: 0.85 of the lightness is lost, and 0.15^3 of the light is left.
+    const FARTHEST: f32 = 0.996_625;
+    /// Half way: 0.575^3 is left.
+    const HALF_WAY: f32 = 0.809_890_6;
+
     fn subject(place: Vec3, radius: f32) -> Sphere {
         Sphere { center: place, radius }
     }
@@ -67,7 +74,7 @@ mod tests {
                 let cue = DepthCue::new(&view, subject(Vec3::ZERO, scale));
                 let veils =
                     [eye - scale, eye, eye + scale, 2.0 * eye + scale].map(|depth| cue.veil(depth));
-                for (veil, expected) in veils.into_iter().zip([0.0, 0.35, 0.7, 0.7]) {
+                for (veil, expected) in veils.into_iter().zip([0.0, HALF_WAY, FARTHEST, FARTHEST]) {
                     assert!((veil - expected).abs() < 1e-5, "{scale}: {veils:?}");
                 }
             }
@@ -78,7 +85,7 @@ mod tests {
     fn far_away_it_fades_as_near() {
         let place = Vec3::new(0.0, 0.0, -1e6);
         let cue = DepthCue::new(&View::FRONT, subject(place, 10.0));
-        assert!(cue.veil(1e6 - 5.0) < 0.02 && cue.veil(1e6 + 15.0) > 0.68);
+        assert!(cue.veil(1e6 - 5.0) < 0.05 && cue.veil(1e6 + 15.0) > 0.996);
     }
 
     #[test]
@@ -90,7 +97,7 @@ mod tests {
         };
         let cue = DepthCue::new(&view, subject(Vec3::ZERO, 1.0));
         assert_eq!(cue.veil(0.0), 0.0);
-        assert!((cue.veil(1.5) - 0.7).abs() < 1e-6);
+        assert!((cue.veil(1.5) - FARTHEST).abs() < 1e-6);
     }
 
     #[test]
@@ -110,6 +117,7 @@ mod tests {
         }
         let cue = DepthCue::new(&View::FRONT, subject(Vec3::ZERO, 1.0));
         assert_eq!(cue.veil(f32::NAN), 0.0);
-        assert_eq!(cue.seen(Vec3::X, 6.0, Vec3::Y), Vec3::X + 0.7 * (Vec3::Y - Vec3::X));
+        let seen = cue.seen(Vec3::X, 6.0, Vec3::Y);
+        assert!(seen.abs_diff_eq(Vec3::new(1.0 - FARTHEST, FARTHEST, 0.0), 1e-6), "{seen}");
     }
 }

@@ -6,19 +6,19 @@
 //! to the eye by more than a surface of touching spheres goes back from one sample to the next: three radii of the
 //! smaller sphere (so that neither is as thick), and twice the way from sample to sample, where spheres are smaller than that.
 //! From there on it gets darker until twice as far. What belongs to another part, a chain or a molecule, is told apart at
-//! every distance. The nearer a sample is to the edge the darker it gets: the shade lies on what is behind, three quarters
-//! of a cell wide, and the edge itself stays sharp. What no sphere covers has no shade.
+//! every distance. The nearer a sample is to the edge the darker it gets: the shade lies on what is behind, nearly
+//! a cell wide, and the edge itself stays sharp. What no sphere covers has no shade.
 //!
 //! Nothing here has a length of its own: a scene of another size, or from farther away, has the same edges.
 
 use spherule_kernel::{Camera, Projection, Vec3};
 
 /// How much of the light an edge takes.
-const DARKNESS: f32 = 0.8;
+const DARKNESS: f32 = 0.25;
 /// How wide a shade is, in heights of a cell.
-const WIDTH: f32 = 0.75;
+const WIDTH: f32 = 0.85;
 /// So much of the width is as dark as the edge.
-const CORE: f32 = 0.25;
+const CORE: f32 = 0.4;
 /// How much farther away is far behind: over the smaller radius, and over the way between samples.
 const RADII: f32 = 3.0;
 const PITCHES: f32 = 2.0;
@@ -209,6 +209,6 @@ mod tests {
     fn an_edge_takes_light_from_the_surface_and_leaves_the_veil() {
         let (light, veil) = (Vec3::splat(0.5), Vec3::splat(0.2));
         assert_eq!(darkened(light, veil, 0.0), light);
-        assert!((darkened(light, veil, 1.0) - Vec3::splat(0.26)).abs().max_element() < 1e-6);
+        assert!((darkened(light, veil, 1.0) - Vec3::splat(0.425)).abs().max_element() < 1e-6);
     }
 }

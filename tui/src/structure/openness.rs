@@ -89,7 +89,7 @@ impl Openness {
     }
 
     /// How much of the light from everywhere a surface of this sphere receives whose unit normal is `normal`: 0 to 1; 1 if
-    /// no one has found out, or there is no such sphere.
+    /// no one has found out, or there is no such sphere. Of a shorter normal it is nearer to the mean of all sides.
     #[must_use]
     #[inline]
     pub fn towards(&self, sphere: u32, normal: Vec3) -> f32 {
