@@ -4,6 +4,8 @@ import ctypes as c
 import numpy as np
 
 POINTER = c.c_void_p
+# FLT_LARGE of its source.
+LARGEST = np.float32(1.844e18)
 
 
 def answer(path, version, spheres, rays):
@@ -29,8 +31,10 @@ def answer(path, version, spheres, rays):
     embree.rtcIntersect1.argtypes = [POINTER, POINTER, POINTER]
     t = np.full(len(rays), np.inf, np.float32)
     for index in range(len(rays)):
-        # It allows no others, and a build with assertions stops at them.
-        if not (0 <= rays[index, 6] <= rays[index, 7] and np.isfinite(rays[index, :6]).all()):
+        # It allows no others, and a build with assertions stops at them; so is Debian's Embree 3, which is asked for no more than
+        # the ranges that `ray.valid()` lets pass.
+        largest = LARGEST if version == 3 else np.finfo(np.float32).max
+        if not (0 <= rays[index, 6] <= rays[index, 7] and (np.abs(rays[index, :6]) <= largest).all()):
             continue
         scene = embree.rtcNewScene(device)
         geometry = embree.rtcNewGeometry(device, 50)
