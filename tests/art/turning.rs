@@ -31,7 +31,7 @@ const MOST: [(Charset, ColorDepth, f64); 7] = [
     (Charset::Block, ColorDepth::Truecolor, 12.3),
     (Charset::Braille, ColorDepth::Truecolor, 13.4),
     (Charset::Ascii, ColorDepth::Truecolor, 13.9),
-    (Charset::Half, ColorDepth::Ansi256, 19.4),
+    (Charset::Half, ColorDepth::Ansi256, 17.9),
     (Charset::Ascii, ColorDepth::Never, 27.5),
 ];
 

@@ -10,6 +10,7 @@
 
 use super::fitted::Fitted;
 use super::masks::Cover;
+use crate::color::roots;
 use spherule_kernel::Vec3;
 
 /// What an error of change counts beside one of the picture. (2: as much as 0.)
@@ -22,6 +23,11 @@ const KEPT: f32 = 0.5;
 #[must_use]
 pub fn excess(cover: &Cover, [ink, paper]: [Vec3; 2], parts: &[Vec3; 8]) -> [Vec3; 8] {
     std::array::from_fn(|part| paper + cover[part] * (ink - paper) - parts[part])
+}
+
+/// Makes of a cell that was drawn at rest what was before a movement.
+pub fn at_rest(fit: &mut Fitted) {
+    fit.excess = excess(&fit.cover, [fit.ink, fit.paper].map(roots), &fit.parts.map(roots));
 }
 
 /// What a glyph costs that misses so much, the mean squared distance to the samples, and is off by `excess`, after the frame
@@ -54,6 +60,18 @@ mod tests {
         // By as much, the picture not.
         let now = excess(&UPPER, [Vec3::splat(0.35), Vec3::splat(0.95)], &parts);
         assert!((cost(0.01, '▌', &now, &before) - 0.01 - 8.0 * 0.03).abs() < 1e-5);
+    }
+
+    #[test]
+    fn at_rest_an_error_is_what_is_shown_less_what_was_sampled() {
+        let [ink, paper] = [Vec3::splat(0.25), Vec3::splat(0.04)];
+        let parts = [0.16, 0.25, 0.25, 0.25, 0.09, 0.04, 0.04, 0.04].map(Vec3::splat);
+        let mut fit = Fitted { glyph: '▀', cover: UPPER, ink, paper, parts, ..Fitted::NONE };
+        at_rest(&mut fit);
+        let expected = [0.1, 0.0, 0.0, 0.0, -0.1, 0.0, 0.0, 0.0].map(Vec3::splat);
+        for (found, expected) in fit.excess.iter().zip(expected) {
+            assert!((found - expected).length() < 1e-6, "{:?}", fit.excess);
+        }
     }
 
     #[test]

@@ -13,9 +13,9 @@ use super::need::Looks;
 use super::plan::{Plan, Sampling};
 use super::spending::{Effort, Grant};
 use super::tracer::{Places, Tracer};
-use crate::cells::Cell;
 use crate::cells::fit::{FitMemory, Fitted};
 use crate::cells::paint::Painter;
+use crate::cells::{Cell, change};
 use crate::color::oklab;
 use crate::shade::silhouettes::{Seen, SeenGrid};
 use crate::style::{Charset, ColorDepth};
@@ -55,6 +55,8 @@ pub(super) struct Strip {
     shown: Vec<Cell>,
     /// Which rows and columns they are of, in which characters and colours.
     fits_of: Option<(Range<usize>, usize, usize, Charset, ColorDepth)>,
+    /// Whether they were drawn at rest.
+    at_rest: bool,
     /// One a thread.
     workers: Vec<Worker>,
 }
@@ -127,7 +129,8 @@ impl Strip {
             samples.fetch_add(traced, Ordering::Relaxed);
             shadow_rays.fetch_add(shadows, Ordering::Relaxed);
         };
-        let Self { light, seen, looks, needs, sorted, fits, shown, fits_of, workers } = self;
+        let Self { light, seen, looks, needs, sorted, fits, shown, fits_of, at_rest, workers } =
+            self;
 
         let few = plan.few.samples.count() as usize;
         light.resize(sampled.len() * plan.columns * few, Vec3::ZERO);
@@ -171,6 +174,11 @@ impl Strip {
             shown.clear();
         }
         *fits_of = place;
+        // A movement begins with what was there at rest.
+        if *at_rest && !plan.is_steady {
+            fits.iter_mut().for_each(change::at_rest);
+        }
+        *at_rest = plan.is_steady;
         fits.resize(fitted.len() * plan.columns, Fitted::NONE);
         let bands = fits.chunks_mut(band).zip(needs.chunks(band));
         let bands = bands.zip(fitted.clone().step_by(BAND));
@@ -193,10 +201,8 @@ impl Strip {
             let how = (plan.style, plan.eye, plan.is_steady);
             worker.painter.paint(how, known, plan.columns, first, cells, before);
         });
-        if !plan.is_steady {
-            shown.clear();
-            shown.extend_from_slice(cells);
-        }
+        shown.clear();
+        shown.extend_from_slice(cells);
         let samples = samples.into_inner();
         let rays = samples + shadow_rays.into_inner();
         Effort { samples, rays, is_full: plan.is_steady && grant == Grant::FULL }

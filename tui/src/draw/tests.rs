@@ -89,6 +89,27 @@ fn what_moves_keeps_its_glyphs() {
 }
 
 #[test]
+fn a_movement_begins_with_what_was_there_at_rest() {
+    let of_256 = Style { charset: Charset::Half, depth: ColorDepth::Ansi256, ..STYLE };
+    let letters = Style { charset: Charset::Ascii, depth: ColorDepth::Never, ..STYLE };
+    for (style, most) in [(of_256, 0.8), (letters, 0.6)] {
+        let moving = Spending::AtMost(u64::MAX);
+        let [at_rest, anew] =
+            [Spending::ByNeed, moving].map(|spending| drawn(&style, 1, STRIP, spending).cells);
+        let begun = marbles(&style, 1, STRIP, |renderer, scene, search, view| {
+            let _ = renderer.draw(scene, search, view, &style, SIZE, Spending::ByNeed);
+            renderer.draw(scene, search, view, &style, SIZE, moving).cells
+        });
+        let changes = |cells: &CellGrid| {
+            let pairs = at_rest.cells().iter().zip(cells.cells());
+            pairs.filter(|(then, now)| then != now).count()
+        };
+        let [begun, anew] = [&begun, &anew].map(changes);
+        assert!((begun as f64) < most * anew as f64, "{style:?}: {begun} changes, {anew} anew");
+    }
+}
+
+#[test]
 fn of_another_picture_nothing_is_kept() {
     let moving = Spending::AtMost(u64::MAX);
     let expected = drawn(&STYLE, 1, STRIP, moving).cells;
