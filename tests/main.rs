@@ -10,7 +10,6 @@ mod exact;
 mod generators;
 mod golden;
 mod kept;
-mod leave;
 mod lists;
 mod metamorphic;
 mod numbers;
@@ -22,6 +21,7 @@ mod packets;
 #[cfg(target_os = "linux")]
 mod pty;
 mod scenes;
+mod spawn_ray;
 mod structures;
 mod surface;
 mod truth;

@@ -1,5 +1,5 @@
-//! Surfaces and the rays that leave them: the same bits at every layer, by `Exact` those of integers, and nothing is
-//! met where a ray leaves.
+//! Surfaces and the rays spawned on them: the same bits at every layer, by `Exact` those of integers, and nothing is
+//! met where a ray is spawned.
 
 use spherule_kernel::{Intersect, Ray, Side, Sphere, SphereList, Tier, Vec3, roots, side, surface};
 use spherule_referee::aim::double;
@@ -33,7 +33,7 @@ pub fn check(tier: Tier, scene: &AimedScene) {
             is_that_of_integers(ray, hit.t, &sphere, *surface);
         }
         for to in [Side::Outside, Side::Inside] {
-            leaves_unmet(tier, ray, hit.t, &sphere, to);
+            spawned_ray_misses(tier, ray, hit.t, &sphere, to);
         }
     }
 }
@@ -53,7 +53,7 @@ fn is_that_of_integers(ray: &Ray, t: f32, sphere: &Sphere, found: [Vec3; 2]) {
     }
 }
 
-fn leaves_unmet(tier: Tier, ray: &Ray, t: f32, sphere: &Sphere, to: Side) {
+fn spawned_ray_misses(tier: Tier, ray: &Ray, t: f32, sphere: &Sphere, to: Side) {
     let surface = surface(tier, ray, t, sphere);
     let outward = if to == Side::Outside { surface.normal } else { -surface.normal };
     // Away, by the ray's own direction turned, and along the normal.
@@ -63,7 +63,7 @@ fn leaves_unmet(tier: Tier, ray: &Ray, t: f32, sphere: &Sphere, to: Side) {
         ray.direction
     };
     for direction in [turned, outward] {
-        let Some(left) = surface.leave(tier, sphere, to, direction) else { continue };
+        let Some(left) = surface.spawn_ray(tier, sphere, to, direction) else { continue };
         assert_eq!(side(left.origin, sphere), Some(to), "{left:?} {sphere:?}");
         let met = roots(tier, &left, sphere);
         match to {

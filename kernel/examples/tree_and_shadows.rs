@@ -35,7 +35,12 @@ fn main() {
         .map(|(ray, hit)| {
             let hit = hit.as_ref()?;
             let sphere = tree.list().spheres().get(hit.sphere as usize)?;
-            surface(Exact, ray, hit.t, &sphere).leave(Exact, &sphere, Side::Outside, towards_light)
+            surface(Exact, ray, hit.t, &sphere).spawn_ray(
+                Exact,
+                &sphere,
+                Side::Outside,
+                towards_light,
+            )
         })
         .map(|ray| ray.unwrap_or(Ray::INACTIVE))
         .collect();

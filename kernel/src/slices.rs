@@ -11,12 +11,12 @@ use crate::geometry::many::ManyRays;
 use crate::geometry::ray::{Ray, RayPacket};
 use crate::geometry::sphere::{Sphere, SpherePacket, Spheres};
 use crate::geometry::surface::SurfacePacket;
-use crate::leave::packets::{SurfaceHits, Towards};
 use crate::linear::Writes;
+use crate::spawn_ray::packets::{SurfaceHits, Towards};
 use crate::structures::{LevelQuery, Traverse};
 use crate::trace::Trace;
 #[cfg(not(feature = "std"))]
-use crate::{dispatch::BuildLanes, leave::packets, linear, surface};
+use crate::{dispatch::BuildLanes, linear, spawn_ray::packets, surface};
 
 /// How many packets are traced at a time: enough that preparing 128 spheres of a list for them is a
 /// hundredth of the work; for firmware as many as its stack holds.

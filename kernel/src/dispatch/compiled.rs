@@ -19,9 +19,9 @@ use crate::geometry::many::ManyRays;
 use crate::geometry::ray::{Ray, RayPacket};
 use crate::geometry::sphere::{SpherePacket, Spheres};
 use crate::geometry::surface::SurfacePacket;
-use crate::leave::packets::{self, SurfaceHits, Towards};
 use crate::linear::Writes;
 use crate::query::{Answers, AnyHit, ClosestHit};
+use crate::spawn_ray::packets::{self, SurfaceHits, Towards};
 use crate::{linear, surface};
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 use fearless_simd::Simd;

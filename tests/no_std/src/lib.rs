@@ -142,21 +142,21 @@ impl Sum {
         }
     }
 
-    /// A normal, and rays that leave.
+    /// A normal, and spawned rays.
     fn surface(&mut self, tier: Tier, ray: &Ray, spheres: Spheres<'_>) {
         let Some(hit) = spheres.closest_hit(tier, ray) else { return };
         let Some(sphere) = spheres.get(hit.sphere as usize) else { return };
         let surface = surface(tier, ray, hit.t, &sphere);
         self.bits(surface.normal.to_array().map(f32::to_bits));
-        let outside = surface.leave(tier, &sphere, Side::Outside, ray.origin);
-        let inside = surface.leave_to(tier, &sphere, Side::Inside, ray.origin);
+        let outside = surface.spawn_ray(tier, &sphere, Side::Outside, ray.origin);
+        let inside = surface.spawn_ray_to(tier, &sphere, Side::Inside, ray.origin);
         for ray in [outside, inside].into_iter().flatten() {
             self.word(u32::from(side(ray.origin, &sphere) == Some(Side::Outside)));
             self.bits(ray.origin.to_array().map(f32::to_bits));
         }
     }
 
-    /// Normals and points in packets, and rays that leave.
+    /// Normals and points in packets, and spawned rays.
     #[cfg(feature = "vectors")]
     fn surfaces(&mut self, tier: Tier, rays: &[Ray], spheres: Spheres<'_>) {
         let packets = [RayPacket::new(rays)];

@@ -123,8 +123,10 @@ pub fn shadow_rays_of(
                     return None;
                 }
                 match towards {
-                    Towards::Direction(direction) => surface.leave(tier, &sphere, side, direction),
-                    Towards::Point(point) => surface.leave_to(tier, &sphere, side, point),
+                    Towards::Direction(direction) => {
+                        surface.spawn_ray(tier, &sphere, side, direction)
+                    }
+                    Towards::Point(point) => surface.spawn_ray_to(tier, &sphere, side, point),
                 }
             };
             rays.iter().map(|ray| one(ray).unwrap_or(Ray::INACTIVE)).collect()

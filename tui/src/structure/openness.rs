@@ -1,8 +1,8 @@
-//! How open a scene is around its spheres: ambient occlusion, by rays that leave them.
+//! How open a scene is around its spheres: ambient occlusion, by rays spawned on them.
 //!
 //! # Method
 //!
-//! From a sphere, 64 rays leave in 64 directions d, each from where d is the normal, and V(d) is 1 if the ray meets
+//! From a sphere, 64 rays are spawned in 64 directions d, each from where d is the normal, and V(d) is 1 if the ray meets
 //! nothing between two diameters of the sphere and a reach. What is nearer is left out: in a molecule every atom is in
 //! the way of its neighbours on all sides, and that makes noise of what should tell a groove from a ridge (of two neighbouring
 //! pixels of four proteins it could be told, in a model of the picture, with an AUC of 0.71 to 0.77 in place of 0.82 to 0.87 whether they lie on
@@ -29,7 +29,7 @@ const RAYS: usize = 64;
 /// Spheres whose rays are traced at a time: those of a direction together, since they run the same way.
 const AT_ONCE: usize = 16 * RayPacket::COUNT;
 
-/// Where rays begin to count, over the radius of the sphere that they leave.
+/// Where rays begin to count, over the radius of the sphere that they are spawned on.
 const NEAR: f32 = 4.0;
 
 /// Which tier says what rays meet, whichever draws the picture: four numbers are known once, and those of the others are the
@@ -62,7 +62,7 @@ pub struct Openness {
     reach: f32,
 }
 
-/// What rays that leave spheres for all sides meet, and what is known of it.
+/// What rays spawned on spheres, to all sides, meet, and what is known of it.
 #[derive(Clone, Debug)]
 pub struct Around {
     /// What is known.
@@ -142,7 +142,7 @@ impl Around {
                 rays.extend(
                     packets
                         .iter()
-                        .map(|packet| packet.leave(level, direction, self.openness.reach)),
+                        .map(|packet| packet.spawn_rays(level, direction, self.openness.reach)),
                 );
                 met.clear();
                 met.resize(rays.len(), 0);
@@ -187,9 +187,9 @@ impl Sixteen {
         Self { columns, packet: SpherePacket::new(&all), count: wanted.len() }
     }
 
-    /// Rays that leave each sphere in `direction`, from where that is the normal; inactive where there is no such place in
+    /// Rays spawned on each sphere in `direction`, from where that is the normal; inactive where there is no such place in
     /// single precision.
-    fn leave(&self, level: Level, direction: Vec3, reach: f32) -> RayPacket {
+    fn spawn_rays(&self, level: Level, direction: Vec3, reach: f32) -> RayPacket {
         let [x, y, z, radius] = &self.columns;
         let Ok(spheres) = Spheres::new(x, y, z, radius) else { return RayPacket::inactive() };
         // From outside to the middle: where that ray hits, the other leaves.

@@ -23,7 +23,7 @@ pub(super) const STATION: Station = Station {
     sources: &[
         Source { file: "tui/src/shade.rs", symbols: &["Shader", "ShadowRays", "cosine"] },
         Source { file: "kernel/src/surface.rs", symbols: &["surface"] },
-        Source { file: "kernel/src/leave.rs", symbols: &["leave"] },
+        Source { file: "kernel/src/spawn_ray.rs", symbols: &["spawn_ray"] },
     ],
     knobs: [Knob::within(3, [1, 0], [-4096, 4096]), Knob::within(-2, [0, -1], [-4096, 4096])],
     text: 35,
@@ -78,9 +78,9 @@ fn lit(scene: &Scene, ray: &Ray, lights: &[Light]) -> String {
     let (mut of_lights, mut received) = (String::new(), Vec3::ZERO);
     for (number, light) in (1..).zip(lights) {
         let (to_light, shadow) = match light.source {
-            LightSource::Direction(way) => (way, surface.leave(Exact, &sphere, from, way)),
+            LightSource::Direction(way) => (way, surface.spawn_ray(Exact, &sphere, from, way)),
             LightSource::Position(place) => {
-                (place - point, surface.leave_to(Exact, &sphere, from, place))
+                (place - point, surface.spawn_ray_to(Exact, &sphere, from, place))
             }
         };
         let to_light = to_light.normalize_or_zero();

@@ -62,12 +62,12 @@ fn shadows(seed: u64, rays_a_place: u32) -> [u32; 2] {
                 (Side::Outside, surface.normal)
             };
             let direction = departing(&mut random, outward);
-            let leaving = surface.leave(Exact, &sphere, to, direction).expect("an origin");
+            let spawned = surface.spawn_ray(Exact, &sphere, to, direction).expect("an origin");
             let others = spheres.iter().enumerate();
             let met = others
                 .filter(|&(index, _)| index != hit.sphere as usize || to == Side::Inside)
-                .any(|(_, sphere)| oracle::intersect(&leaving, sphere).is_some());
-            assert_eq!(list.any_hit(Exact, &leaving), met, "{leaving:?} of {spheres:?}");
+                .any(|(_, sphere)| oracle::intersect(&spawned, sphere).is_some());
+            assert_eq!(list.any_hit(Exact, &spawned), met, "{spawned:?} of {spheres:?}");
             rays += 1;
             dark += u32::from(met);
         }

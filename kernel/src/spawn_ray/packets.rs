@@ -1,4 +1,4 @@
-//! Shadow rays from the hits of packets: in lanes what [`Surface::leave`](crate::Surface::leave) is for one ray.
+//! Shadow rays from the hits of packets: in lanes what [`Surface::spawn_ray`](crate::Surface::spawn_ray) is for one ray.
 //!
 //! Steps are tried in double-precision lanes; a ray that these cannot decide goes on alone.
 
@@ -33,7 +33,7 @@ pub type SurfaceHits<'a, A = [f32; 16]> =
 /// Rays to a light from what the rays of a packet hit: from the side of the surface that each came from, if that
 /// faces the light; inactive in the other lanes.
 ///
-/// A ray is bit for bit that of [`Surface::leave`](crate::Surface::leave) or `leave_to`, in every lane width. `hits`
+/// A ray is bit for bit that of [`Surface::spawn_ray`](crate::Surface::spawn_ray) or `spawn_ray_to`, in every lane width. `hits`
 /// and `surfaces` are the answers of `tier` for `rays` among `spheres`. Cost: in sixteen lanes some 10 ns a ray.
 ///
 /// ```
@@ -64,11 +64,11 @@ pub fn shadow_lanes<L: Lanes>(
     let Some(HitSpheres { center, radius, hit }) = HitSpheres::gather(token, &spheres, hits) else {
         return RayPacket::inactive();
     };
-    let departure = Departure::<L>::new(rays, surfaces, center, radius);
+    let spawn = Spawn::<L>::new(rays, surfaces, center, radius);
     let (zero, none) = (radius.like(0.0), L::mask(token, 0));
-    let from = departure.origin(surfaces, zero, 0.0);
-    let step = departure.step(from);
-    let faces = departure.faces(direction_from(from, towards));
+    let from = spawn.origin(surfaces, zero, 0.0);
+    let step = spawn.step(from);
+    let faces = spawn.faces(direction_from(from, towards));
 
     let (mut waiting, mut left, mut alone) = (L::mask(token, hit) & faces, none, none);
     let (mut origin, mut direction) = ([zero; 3], [zero; 3]);
@@ -77,8 +77,8 @@ pub fn shadow_lanes<L: Lanes>(
         if !waiting.any() {
             break;
         }
-        let tried = departure.try_from(tier, surfaces, step, steps, towards, waiting);
-        let taken = waiting & tried.leaves;
+        let tried = spawn.try_from(tier, surfaces, step, steps, towards, waiting);
+        let taken = waiting & tried.spawned;
         for i in 0..3 {
             origin[i] = L::select(taken, tried.origin[i], origin[i]);
             direction[i] = L::select(taken, tried.direction[i], direction[i]);
@@ -147,8 +147,8 @@ fn one_by_one<A: LaneArray>(
         let came = rays.ray(lane).direction;
         let side = if surface.normal.dot(came) > 0.0 { Side::Inside } else { Side::Outside };
         let ray = match towards {
-            Towards::Direction(direction) => surface.leave(tier, &sphere, side, direction),
-            Towards::Point(target) => surface.leave_to(tier, &sphere, side, target),
+            Towards::Direction(direction) => surface.spawn_ray(tier, &sphere, side, direction),
+            Towards::Point(target) => surface.spawn_ray_to(tier, &sphere, side, target),
         };
         shadow_rays.set(lane, &ray.unwrap_or(Ray::INACTIVE));
     }
@@ -162,9 +162,9 @@ fn direction_from<L: Lanes>(from: [L; 3], towards: Towards) -> [L; 3] {
     }
 }
 
-/// What rays leave.
+/// Where rays are spawned.
 #[derive(Clone, Copy)]
-struct Departure<L: Lanes> {
+struct Spawn<L: Lanes> {
     center: [L; 3],
     radius: L,
     normal: [L; 3],
@@ -176,13 +176,13 @@ struct Departure<L: Lanes> {
 struct Tried<L: Lanes> {
     origin: [L; 3],
     direction: [L; 3],
-    /// The ray leaves.
-    leaves: L::Mask,
+    /// The ray is spawned.
+    spawned: L::Mask,
     /// Double precision cannot tell.
     unknown: L::Mask,
 }
 
-impl<L: Lanes> Departure<L> {
+impl<L: Lanes> Spawn<L> {
     #[inline(always)]
     fn new(
         rays: &RayPacket<L::Array>,
@@ -204,7 +204,7 @@ impl<L: Lanes> Departure<L> {
         (self.inside & cosine.lt(zero)) | (!self.inside & zero.lt(cosine))
     }
 
-    /// A step to the side where the ray leaves.
+    /// A step to the side where the ray is spawned.
     #[inline(always)]
     fn step(&self, point: [L; 3]) -> L {
         let step = step_of(point, self.radius);
@@ -262,8 +262,8 @@ impl<L: Lanes> Departure<L> {
         let on_side = (self.inside & inner) | (!self.inside & outer);
         let unsure = !(inner | outer);
         if tier.tier() == Tier::Exact {
-            let leaves = on_side & (self.inside | L::mask(token, away));
-            return Tried { origin, direction, leaves, unknown: unsure | (on_side & !leaves) };
+            let spawned = on_side & (self.inside | L::mask(token, away));
+            return Tried { origin, direction, spawned, unknown: unsure | (on_side & !spawned) };
         }
 
         // The tier says whether it sees the sphere; from inside of which root, one by one.
@@ -277,7 +277,7 @@ impl<L: Lanes> Departure<L> {
             live: outside,
         };
         let t = test_lanes(tier, &rays, self.center, self.radius, outside, infinity);
-        let leaves = outside & !t.lt(infinity);
-        Tried { origin, direction, leaves, unknown: unsure | (on_side & self.inside) }
+        let spawned = outside & !t.lt(infinity);
+        Tried { origin, direction, spawned, unknown: unsure | (on_side & self.inside) }
     }
 }

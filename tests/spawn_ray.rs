@@ -1,4 +1,4 @@
-//! Rays that leave a sphere: where they start, and that they do not meet it there.
+//! Spawned rays: where they start, and that they do not meet it there.
 
 mod shadows;
 
@@ -113,7 +113,7 @@ fn origins_are_within_two_steps_of_the_point() {
         for to in [Side::Outside, Side::Inside] {
             let outward = if to == Side::Outside { surface.normal } else { -surface.normal };
             let direction = departing(&mut random, outward);
-            let left = surface.leave(Exact, &sphere, to, direction).expect("an origin");
+            let left = surface.spawn_ray(Exact, &sphere, to, direction).expect("an origin");
             assert_eq!((left.direction, left.t_max), (direction, f32::INFINITY));
             assert_eq!(true_side(left.origin, &sphere), Some(to), "{ray:?} {sphere:?}");
             // The height over the surface, and how far from the point, whose coordinates are half an ulp of r off.
@@ -146,7 +146,7 @@ fn along(direction: Vec3, normal: Vec3) -> f64 {
 }
 
 /// Returns how many rays left.
-fn leaves_unmet(tier: Tier, seed: u64, count: u32) -> u32 {
+fn spawned_rays_miss(tier: Tier, seed: u64, count: u32) -> u32 {
     let mut random = Random::seeded(seed);
     let (mut left, mut lost) = (0, 0);
     while left < count {
@@ -156,28 +156,28 @@ fn leaves_unmet(tier: Tier, seed: u64, count: u32) -> u32 {
         for to in [Side::Outside, Side::Inside] {
             let outward = if to == Side::Outside { surface.normal } else { -surface.normal };
             let direction = departing(&mut random, outward);
-            let leaving = if random.one_in(4) {
+            let spawned = if random.one_in(4) {
                 let target = surface.point + sphere.center + direction;
-                surface.leave_to(tier, &sphere, to, target)
+                surface.spawn_ray_to(tier, &sphere, to, target)
             } else {
-                surface.leave(tier, &sphere, to, direction)
+                surface.spawn_ray(tier, &sphere, to, direction)
             };
-            let Some(leaving) = leaving else {
+            let Some(spawned) = spawned else {
                 lost += 1;
                 continue;
             };
-            let found = list.closest_hit(tier, &leaving);
+            let found = list.closest_hit(tier, &spawned);
             match to {
-                Side::Outside if along(leaving.direction, outward) >= 0.0 => {
-                    assert_eq!(found, None, "{tier:?} {leaving:?} {sphere:?}");
+                Side::Outside if along(spawned.direction, outward) >= 0.0 => {
+                    assert_eq!(found, None, "{tier:?} {spawned:?} {sphere:?}");
                 }
                 Side::Outside => {}
                 Side::Inside => {
-                    let far = roots(tier, &leaving, &sphere).map(|[_, far]| far);
-                    let met = far.filter(|far| leaving.t_min <= *far && *far <= leaving.t_max);
-                    assert_eq!(found.map(|hit| hit.t), met, "{tier:?} {leaving:?} {sphere:?}");
-                    let is_lost = met.is_none() && leaving.t_max > 1.0 && far != Some(0.0);
-                    assert!(tier != Tier::Exact || !is_lost, "{leaving:?} {sphere:?}");
+                    let far = roots(tier, &spawned, &sphere).map(|[_, far]| far);
+                    let met = far.filter(|far| spawned.t_min <= *far && *far <= spawned.t_max);
+                    assert_eq!(found.map(|hit| hit.t), met, "{tier:?} {spawned:?} {sphere:?}");
+                    let is_lost = met.is_none() && spawned.t_max > 1.0 && far != Some(0.0);
+                    assert!(tier != Tier::Exact || !is_lost, "{spawned:?} {sphere:?}");
                 }
             }
             left += 1;
@@ -188,20 +188,20 @@ fn leaves_unmet(tier: Tier, seed: u64, count: u32) -> u32 {
 }
 
 #[test]
-fn no_tier_meets_the_sphere_where_a_ray_leaves_it() {
+fn no_tier_meets_the_sphere_where_a_ray_is_spawned() {
     for (tier, seed) in [(Tier::Fast, 31), (Tier::Stable, 32), (Tier::Geometric, 34)] {
-        leaves_unmet(tier, seed, 200_000);
+        spawned_rays_miss(tier, seed, 200_000);
     }
-    leaves_unmet(Tier::Exact, 33, 600_000);
+    spawned_rays_miss(Tier::Exact, 33, 600_000);
 }
 
 /// Some half an hour: `cargo test --test main a_billion -- --ignored --nocapture`.
 #[test]
 #[ignore = "a billion rays"]
-fn a_billion_rays_leave() {
+fn a_billion_rays_are_spawned() {
     let left = AtomicU64::new(0);
     on_all_cores(2000, |seed| {
-        left.fetch_add(leaves_unmet(Tier::Exact, 1000 + seed, 500_000).into(), Relaxed);
+        left.fetch_add(spawned_rays_miss(Tier::Exact, 1000 + seed, 500_000).into(), Relaxed);
     });
     assert!(left.into_inner() >= 1_000_000_000);
 }
@@ -212,21 +212,21 @@ fn what_has_no_such_origin_is_none() {
     let sphere = Sphere { center: Vec3::splat(1e7), radius: 0.25 };
     let ray = Ray::new(Vec3::new(1e7, 1e7, 0.0), Vec3::Z);
     let surface = hit(Tier::Exact, &ray, &sphere).expect("a hit");
-    let left = surface.leave(Exact, &sphere, Side::Inside, Vec3::Z).expect("an origin");
+    let left = surface.spawn_ray(Exact, &sphere, Side::Inside, Vec3::Z).expect("an origin");
     assert_eq!(left.origin, sphere.center);
-    let left = surface.leave(Exact, &sphere, Side::Outside, -Vec3::Z).expect("an origin");
+    let left = surface.spawn_ray(Exact, &sphere, Side::Outside, -Vec3::Z).expect("an origin");
     assert_eq!(true_side(left.origin, &sphere), Some(Side::Outside));
 
     // Past the end of numbers.
     let sphere = Sphere { center: Vec3::new(0.0, 0.0, f32::MAX), radius: f32::MAX };
     let surface = spherule_kernel::surface(Exact, &Ray::new(Vec3::ZERO, Vec3::Z), 0.0, &sphere);
-    assert!(surface.leave(Exact, &sphere, Side::Outside, -Vec3::Z).is_some());
+    assert!(surface.spawn_ray(Exact, &sphere, Side::Outside, -Vec3::Z).is_some());
 
     // A point: nothing is inside, and a ray starts beside it.
     let sphere = Sphere { center: Vec3::Z, radius: 0.0 };
     let surface = hit(Tier::Exact, &Ray::new(Vec3::ZERO, Vec3::Z), &sphere).expect("a hit");
-    assert_eq!(surface.leave(Exact, &sphere, Side::Inside, Vec3::Z), None);
-    let left = surface.leave(Exact, &sphere, Side::Outside, -Vec3::Z).expect("an origin");
+    assert_eq!(surface.spawn_ray(Exact, &sphere, Side::Inside, Vec3::Z), None);
+    let left = surface.spawn_ray(Exact, &sphere, Side::Outside, -Vec3::Z).expect("an origin");
     assert!(!SphereList::from([sphere]).any_hit(Exact, &left));
 
     // What is not valid returns, whatever it returns.
@@ -236,7 +236,7 @@ fn what_has_no_such_origin_is_none() {
         let ray = Ray::new(Vec3::splat(bad), Vec3::splat(bad));
         let surface = spherule_kernel::surface(Exact, &ray, bad, &sphere);
         for to in [Side::Outside, Side::Inside] {
-            if let Some(left) = surface.leave(Exact, &sphere, to, Vec3::splat(bad)) {
+            if let Some(left) = surface.spawn_ray(Exact, &sphere, to, Vec3::splat(bad)) {
                 assert_eq!(side(left.origin, &sphere), Some(to));
             }
         }

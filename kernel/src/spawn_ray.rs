@@ -1,4 +1,4 @@
-//! Rays that leave a sphere, without an epsilon.
+//! Rays spawned on a sphere, without an epsilon.
 //!
 //! # Method
 //!
@@ -102,32 +102,32 @@ impl Surface {
     /// let hit = spheres.closest_hit(Exact, &ray).expect("a hit");
     /// let sphere = spheres.spheres().get(hit.sphere as usize).expect("its sphere");
     /// let surface = surface(Exact, &ray, hit.t, &sphere);
-    /// let shadow = surface.leave(Exact, &sphere, Side::Outside, Vec3::NEG_Z).expect("an origin");
+    /// let shadow = surface.spawn_ray(Exact, &sphere, Side::Outside, Vec3::NEG_Z).expect("an origin");
     /// assert!(!spheres.any_hit(Exact, &shadow));
     /// ```
     #[must_use]
-    pub fn leave(
+    pub fn spawn_ray(
         &self,
         tier: impl Accuracy,
         sphere: &Sphere,
         side: Side,
         direction: Vec3,
     ) -> Option<Ray> {
-        self.depart(tier.tier(), sphere, side, |origin| Ray::new(origin, direction))
+        self.spawn(tier.tier(), sphere, side, |origin| Ray::new(origin, direction))
     }
 
-    /// As [`leave`](Surface::leave), along the way to `target`, which is at t = 1, where the interval ends.
+    /// As [`spawn_ray`](Surface::spawn_ray), along the way to `target`, which is at t = 1, where the interval ends.
     ///
     /// ```
     /// use spherule_kernel::{Exact, Ray, Side, Sphere, Vec3, surface};
     ///
     /// let sphere = Sphere::from([0.0, 0.0, 5.0, 1.0]);
     /// let surface = surface(Exact, &Ray::new(Vec3::ZERO, Vec3::Z), 4.0, &sphere);
-    /// let ray = surface.leave_to(Exact, &sphere, Side::Outside, Vec3::Y).expect("an origin");
+    /// let ray = surface.spawn_ray_to(Exact, &sphere, Side::Outside, Vec3::Y).expect("an origin");
     /// assert_eq!((ray.at(1.0), ray.t_max), (Vec3::Y, 1.0));
     /// ```
     #[must_use]
-    pub fn leave_to(
+    pub fn spawn_ray_to(
         &self,
         tier: impl Accuracy,
         sphere: &Sphere,
@@ -135,11 +135,11 @@ impl Surface {
         target: Vec3,
     ) -> Option<Ray> {
         let ray = |origin| Ray { t_max: 1.0, ..Ray::new(origin, target - origin) };
-        self.depart(tier.tier(), sphere, side, ray)
+        self.spawn(tier.tier(), sphere, side, ray)
     }
 
     /// The point in the frame of the scene, every coordinate rounded once from double precision. It lies on either
-    /// side of `sphere`, the one that was hit: rays start from [`leave`](Surface::leave).
+    /// side of `sphere`, the one that was hit: rays start from [`spawn_ray`](Surface::spawn_ray).
     ///
     /// ```
     /// use spherule_kernel::{Exact, Ray, Sphere, Vec3, surface};
@@ -157,7 +157,7 @@ impl Surface {
         axes!(i => f64::from(sphere.center()[i]) + (f64::from(self.point[i]) + f64::from(self.rest[i])))
     }
 
-    fn depart(
+    fn spawn(
         &self,
         tier: Tier,
         sphere: &Sphere,
