@@ -45,12 +45,17 @@ fn check_scene(scene: &Scene, tiers: &[Tier]) -> Result<(), TestCaseError> {
         for tier in Tier::ALL {
             let expected: Vec<_> =
                 rays.iter().map(|ray| bits(by_rule_5(tier, ray, spheres))).collect();
-            let met: Vec<_> = expected.iter().map(Option::is_some).collect();
+            let occluded: Vec<_> = expected.iter().map(Option::is_some).collect();
             for variant in variants().filter(|variant| variant.tier == tier) {
                 if variant.structure == Structure::List || tiers.contains(&tier) {
                     let answers = variant.ask(structures, rays);
                     let hits: Vec<_> = answers.hits.into_iter().map(bits).collect();
-                    prop_assert_eq!((&hits, &answers.met), (&expected, &met), "{:?}", variant);
+                    prop_assert_eq!(
+                        (&hits, &answers.occluded),
+                        (&expected, &occluded),
+                        "{:?}",
+                        variant
+                    );
                 }
             }
         }

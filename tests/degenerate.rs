@@ -40,10 +40,10 @@ fn answers(case: &Case, expected: Option<f32>) {
                 for variant in variants().filter(|variant| lane < variant.layer.lanes()) {
                     let place = format!("{variant:?}, lane {lane}: {case:?}");
                     let answers = variant.ask(structures, &rays);
-                    let (hit, met) = (answers.hits[lane], answers.met[lane]);
+                    let (hit, occluded) = (answers.hits[lane], answers.occluded[lane]);
                     assert_eq!(hit.map(|hit| hit.t.to_bits()), bits, "closest, {place}");
                     assert!(hit.is_none_or(|hit| hit.sphere == 0), "closest, {place}");
-                    assert_eq!(met, expected.is_some(), "any, {place}");
+                    assert_eq!(occluded, expected.is_some(), "any, {place}");
                 }
                 for layer in pair_layers().filter(|layer| lane < layer.lanes()) {
                     for tier in Tier::ALL {

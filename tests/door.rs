@@ -31,7 +31,7 @@ fn traces(check: impl Fn(Trace<'_>)) {
 
 /// Rays past the end of the output are left out, output past the rays is left alone.
 fn slices(structure: &impl Intersect, hit: Option<Hit>) {
-    let met = hit.is_some();
+    let occluded = hit.is_some();
     for (rays, outputs) in [
         (0, 0),
         (0, 3),
@@ -46,17 +46,22 @@ fn slices(structure: &impl Intersect, hit: Option<Hit>) {
     ] {
         let (given, common) = (vec![RAY; rays], rays.min(outputs));
         let expected = [vec![hit; common], vec![STALE; outputs - common]].concat();
-        let expected_met = [vec![met; common], vec![!met; outputs - common]].concat();
+        let expected_occluded =
+            [vec![occluded; common], vec![!occluded; outputs - common]].concat();
         for tier in Tier::ALL {
-            let (mut hits, mut flags) = (vec![STALE; outputs], vec![!met; outputs]);
+            let (mut hits, mut flags) = (vec![STALE; outputs], vec![!occluded; outputs]);
             structure.closest_hits(tier, &given, &mut hits);
             structure.any_hits(tier, &given, &mut flags);
-            assert_eq!((&hits, &flags), (&expected, &expected_met), "{tier:?}, {rays} rays");
+            assert_eq!((&hits, &flags), (&expected, &expected_occluded), "{tier:?}, {rays} rays");
             traces(|mut trace| {
-                let (mut hits, mut flags) = (vec![STALE; outputs], vec![!met; outputs]);
+                let (mut hits, mut flags) = (vec![STALE; outputs], vec![!occluded; outputs]);
                 structure.closest_hits_with(tier, &mut trace, &given, &mut hits);
                 structure.any_hits_with(tier, &mut trace, &given, &mut flags);
-                assert_eq!((&hits, &flags), (&expected, &expected_met), "{tier:?}, {rays} rays");
+                assert_eq!(
+                    (&hits, &flags),
+                    (&expected, &expected_occluded),
+                    "{tier:?}, {rays} rays"
+                );
             });
         }
     }
@@ -83,10 +88,10 @@ fn columns(structure: &impl Intersect, hit: Option<Hit>) {
             let common = given.len().min(room_t).min(room);
             traces(|mut trace| {
                 let (mut t, mut sphere) = (vec![-7.0; room_t], vec![7; room]);
-                let mut met = vec![hit.is_none(); outputs];
+                let mut occluded = vec![hit.is_none(); outputs];
                 let hits = HitColumns { t: &mut t, sphere: &mut sphere };
                 structure.closest_hit_columns(Tier::Exact, &mut trace, given, hits);
-                structure.any_hit_columns(Tier::Exact, &mut trace, given, &mut met);
+                structure.any_hit_columns(Tier::Exact, &mut trace, given, &mut occluded);
                 let case = format!("{rays} rays, {outputs} outputs, column {shorter} is shorter");
                 for (index, &t) in t.iter().enumerate() {
                     assert_eq!(t, if index < common { found.0 } else { -7.0 }, "{case}, {index}");
@@ -95,8 +100,8 @@ fn columns(structure: &impl Intersect, hit: Option<Hit>) {
                     assert_eq!(sphere, if index < common { found.1 } else { 7 }, "{case}, {index}");
                 }
                 let asked = given.len().min(outputs);
-                for (index, &met) in met.iter().enumerate() {
-                    assert_eq!(met, hit.is_some() == (index < asked), "{case}, {index}");
+                for (index, &occluded) in occluded.iter().enumerate() {
+                    assert_eq!(occluded, hit.is_some() == (index < asked), "{case}, {index}");
                 }
             });
         }
@@ -117,11 +122,11 @@ fn packets(structure: &impl Intersect, hit: Option<Hit>) {
             structure.closest_hit_packets(tier, &mut trace, &[], &mut hits);
             assert_eq!(hits.map(|packet| packet.hit(15)), [None, hit, None], "{tier:?}");
 
-            let mut met = [7; 3];
-            structure.any_hit_packets(tier, &mut trace, &[hitting; 3], &mut met[..2]);
-            assert_eq!(met, [all, all, 7], "{tier:?}");
-            structure.any_hit_packets(tier, &mut trace, &[missing], &mut met);
-            assert_eq!(met, [0, all, 7], "{tier:?}");
+            let mut occluded = [7; 3];
+            structure.any_hit_packets(tier, &mut trace, &[hitting; 3], &mut occluded[..2]);
+            assert_eq!(occluded, [all, all, 7], "{tier:?}");
+            structure.any_hit_packets(tier, &mut trace, &[missing], &mut occluded);
+            assert_eq!(occluded, [0, all, 7], "{tier:?}");
         });
     }
 }
@@ -138,11 +143,11 @@ fn lanes<L: Lanes<Token = ()>>() {
         structure.closest_hit_lanes::<L>(tier, (), &mut trace, &[missing], &mut hits);
         assert_eq!(hits.map(|packet| packet.hit(L::COUNT - 1)), [None, HIT, None], "{tier:?}");
 
-        let mut met = [7; 3];
-        structure.any_hit_lanes::<L>(tier, (), &mut trace, &[hitting; 3], &mut met[..2]);
-        assert_eq!(met, [all, all, 7], "{tier:?}");
-        structure.any_hit_lanes::<L>(tier, (), &mut trace, &[missing], &mut met);
-        assert_eq!(met, [0, all, 7], "{tier:?}");
+        let mut occluded = [7; 3];
+        structure.any_hit_lanes::<L>(tier, (), &mut trace, &[hitting; 3], &mut occluded[..2]);
+        assert_eq!(occluded, [all, all, 7], "{tier:?}");
+        structure.any_hit_lanes::<L>(tier, (), &mut trace, &[missing], &mut occluded);
+        assert_eq!(occluded, [0, all, 7], "{tier:?}");
     }
 }
 

@@ -10,11 +10,15 @@ const SPHERE: Sphere = Sphere { center: Vec3::ZERO, radius: 1.0 };
 /// Every variant gives these answers.
 #[track_caller]
 fn answers(spheres: &[Sphere], rays: &[Ray], expected: &[Option<Hit>]) {
-    let met: Vec<bool> = expected.iter().map(Option::is_some).collect();
+    let occluded: Vec<bool> = expected.iter().map(Option::is_some).collect();
     Memory::new(spheres).sorted(viewpoint_of(rays), |structures| {
         for variant in variants() {
             let answers = variant.ask(structures, rays);
-            assert_eq!((&answers.hits[..], &answers.met), (expected, &met), "{variant:?}");
+            assert_eq!(
+                (&answers.hits[..], &answers.occluded),
+                (expected, &occluded),
+                "{variant:?}"
+            );
         }
     });
 }

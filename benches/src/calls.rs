@@ -181,9 +181,9 @@ struct Work<'a> {
     packets: Vec<RayPacket>,
     columns: [Vec<f32>; 8],
     hits: Vec<Option<Hit>>,
-    met: Vec<bool>,
+    occluded: Vec<bool>,
     packet_hits: Vec<HitPacket>,
-    packets_met: Vec<u32>,
+    packets_occluded: Vec<u32>,
     column_hits: (Vec<f32>, Vec<u32>),
     last: Call,
 }
@@ -207,9 +207,9 @@ impl<'a> Work<'a> {
                 column(|ray| ray.t_max),
             ],
             hits: vec![None; count],
-            met: vec![false; count],
+            occluded: vec![false; count],
             packet_hits: vec![HitPacket::none(); packets],
-            packets_met: vec![0; packets],
+            packets_occluded: vec![0; packets],
             column_hits: (vec![0.0; count], vec![0; count]),
             last: Call::Packets,
         }
@@ -218,7 +218,7 @@ impl<'a> Work<'a> {
     /// Answers every ray. Returns how many nanoseconds it took.
     fn run(&mut self, call: Call, level: Level, query: Query) -> f64 {
         self.last = call;
-        let Self { tree, rays, packets, hits, met, packet_hits, packets_met, .. } = self;
+        let Self { tree, rays, packets, hits, occluded, packet_hits, packets_occluded, .. } = self;
         let mut trace = Trace::new().at(level);
         let trace = &mut trace;
         match (call, query) {
@@ -228,20 +228,22 @@ impl<'a> Work<'a> {
                 }
             }),
             (Call::OneRay, Query::AnyHit) => timed(|| {
-                for (ray, met) in rays.iter().zip(met) {
-                    *met = tree.any_hit_with(Exact, trace, ray);
+                for (ray, occluded) in rays.iter().zip(occluded) {
+                    *occluded = tree.any_hit_with(Exact, trace, ray);
                 }
             }),
             (Call::Packets, Query::ClosestHit) => {
                 timed(|| tree.closest_hit_packets(Exact, trace, packets, packet_hits))
             }
             (Call::Packets, Query::AnyHit) => {
-                timed(|| tree.any_hit_packets(Exact, trace, packets, packets_met))
+                timed(|| tree.any_hit_packets(Exact, trace, packets, packets_occluded))
             }
             (Call::Slices, Query::ClosestHit) => {
                 timed(|| tree.closest_hits_with(Exact, trace, rays, hits))
             }
-            (Call::Slices, Query::AnyHit) => timed(|| tree.any_hits_with(Exact, trace, rays, met)),
+            (Call::Slices, Query::AnyHit) => {
+                timed(|| tree.any_hits_with(Exact, trace, rays, occluded))
+            }
             (Call::Columns, query) => {
                 let [ox, oy, oz, dx, dy, dz, t_min, t_max] =
                     self.columns.each_ref().map(Vec::as_slice);
@@ -253,29 +255,29 @@ impl<'a> Work<'a> {
                         let found = HitColumns { t, sphere };
                         tree.closest_hit_columns(Exact, trace, columns, found);
                     }
-                    Query::AnyHit => tree.any_hit_columns(Exact, trace, columns, met),
+                    Query::AnyHit => tree.any_hit_columns(Exact, trace, columns, occluded),
                 })
             }
             // What a call learns is for the next as well: each begins anew.
             (Call::ShortPackets, query) => timed(|| {
                 let many = packets.chunks(SHORT / RayPacket::COUNT);
                 let hits = packet_hits.chunks_mut(SHORT / RayPacket::COUNT);
-                let met = packets_met.chunks_mut(SHORT / RayPacket::COUNT);
-                for ((packets, hits), met) in many.zip(hits).zip(met) {
+                let occluded = packets_occluded.chunks_mut(SHORT / RayPacket::COUNT);
+                for ((packets, hits), occluded) in many.zip(hits).zip(occluded) {
                     let trace = &mut Trace::new().at(level);
                     match query {
                         Query::ClosestHit => tree.closest_hit_packets(Exact, trace, packets, hits),
-                        Query::AnyHit => tree.any_hit_packets(Exact, trace, packets, met),
+                        Query::AnyHit => tree.any_hit_packets(Exact, trace, packets, occluded),
                     }
                 }
             }),
             (Call::ShortSlices, query) => timed(|| {
                 let many = rays.chunks(SHORT).zip(hits.chunks_mut(SHORT));
-                for ((rays, hits), met) in many.zip(met.chunks_mut(SHORT)) {
+                for ((rays, hits), occluded) in many.zip(occluded.chunks_mut(SHORT)) {
                     let trace = &mut Trace::new().at(level);
                     match query {
                         Query::ClosestHit => tree.closest_hits_with(Exact, trace, rays, hits),
-                        Query::AnyHit => tree.any_hits_with(Exact, trace, rays, met),
+                        Query::AnyHit => tree.any_hits_with(Exact, trace, rays, occluded),
                     }
                 }
             }),
@@ -290,8 +292,8 @@ impl<'a> Work<'a> {
         let answer = |ray: usize| {
             let (packet, lane) = (ray / RayPacket::COUNT, ray % RayPacket::COUNT);
             match (query, self.last) {
-                (Query::AnyHit, _) if is_packed => (self.packets_met[packet] >> lane & 1, 0),
-                (Query::AnyHit, _) => (u32::from(self.met[ray]), 0),
+                (Query::AnyHit, _) if is_packed => (self.packets_occluded[packet] >> lane & 1, 0),
+                (Query::AnyHit, _) => (u32::from(self.occluded[ray]), 0),
                 (_, Call::Columns) => (self.column_hits.0[ray].to_bits(), self.column_hits.1[ray]),
                 _ if is_packed => bits(self.packet_hits[packet].hit(lane)),
                 _ => bits(self.hits[ray]),

@@ -49,12 +49,12 @@ fn check_tier(tier: Tier, scene: &AimedScene, structures: Structures<'_>) {
     // only lists are as the reference is.
     let same = |variant: &Variant| tier == Tier::Exact || variant.structure == Structure::List;
     for variant in variants().filter(|variant| variant.tier == tier).filter(same) {
-        let Answers { hits, met } = variant.ask(structures, rays);
+        let Answers { hits, occluded } = variant.ask(structures, rays);
         for (index, expected) in single.iter().enumerate() {
-            let (hit, met) = (hits[index], met[index]);
+            let (hit, occluded) = (hits[index], occluded[index]);
             let say = || format!("{variant:?}, ray {index} of {scene:?}");
             assert_eq!(bits(hit), bits(*expected), "closest: {}", say());
-            assert_eq!(met, expected.is_some(), "any: {}", say());
+            assert_eq!(occluded, expected.is_some(), "any: {}", say());
         }
     }
 

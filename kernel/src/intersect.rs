@@ -144,12 +144,12 @@ pub trait Intersect: Traverse {
     /// use spherule_kernel::{Exact, Intersect, Ray, SphereTree, Vec3};
     ///
     /// let tree = SphereTree::new([[0.0, 0.0, 5.0, 1.0]]);
-    /// let mut met = [false; 2];
-    /// tree.any_hits(Exact, &[Vec3::Z, Vec3::X].map(|d| Ray::new(Vec3::ZERO, d)), &mut met);
-    /// assert_eq!(met, [true, false]);
+    /// let mut occluded = [false; 2];
+    /// tree.any_hits(Exact, &[Vec3::Z, Vec3::X].map(|d| Ray::new(Vec3::ZERO, d)), &mut occluded);
+    /// assert_eq!(occluded, [true, false]);
     /// ```
-    fn any_hits(&self, tier: impl Accuracy, rays: &[Ray], met: &mut [bool]) {
-        self.any_hits_with(tier, &mut Trace::new(), rays, met);
+    fn any_hits(&self, tier: impl Accuracy, rays: &[Ray], occluded: &mut [bool]) {
+        self.any_hits_with(tier, &mut Trace::new(), rays, occluded);
     }
 
     /// [`closest_hits`](Intersect::closest_hits), traced as `trace` says.
@@ -180,18 +180,18 @@ pub trait Intersect: Traverse {
     /// use spherule_kernel::{Exact, Intersect, Ray, SphereTree, Trace, Vec3};
     ///
     /// let tree = SphereTree::new([[0.0, 0.0, 5.0, 1.0]]);
-    /// let mut met = [false];
-    /// tree.any_hits_with(Exact, &mut Trace::new().coherent(), &[Ray::new(Vec3::ZERO, Vec3::Z)], &mut met);
-    /// assert!(met[0]);
+    /// let mut occluded = [false];
+    /// tree.any_hits_with(Exact, &mut Trace::new().coherent(), &[Ray::new(Vec3::ZERO, Vec3::Z)], &mut occluded);
+    /// assert!(occluded[0]);
     /// ```
     fn any_hits_with(
         &self,
         tier: impl Accuracy,
         trace: &mut Trace<'_>,
         rays: &[Ray],
-        met: &mut [bool],
+        occluded: &mut [bool],
     ) {
-        slices::traverse::<Self, AnyHit>(self, tier, trace, ManyRays::Slice(rays), met);
+        slices::traverse::<Self, AnyHit>(self, tier, trace, ManyRays::Slice(rays), occluded);
     }
 
     /// The closest hit of every ray of eight columns, in two: number `i` of each becomes what ray `i` hits, `+inf` and
@@ -236,18 +236,18 @@ pub trait Intersect: Traverse {
     ///     t_min: &zero,
     ///     t_max: &ends,
     /// };
-    /// let mut met = [true; 2];
-    /// spheres.any_hit_columns(Exact, &mut Trace::new(), rays, &mut met);
-    /// assert_eq!(met, [false, true]);
+    /// let mut occluded = [true; 2];
+    /// spheres.any_hit_columns(Exact, &mut Trace::new(), rays, &mut occluded);
+    /// assert_eq!(occluded, [false, true]);
     /// ```
     fn any_hit_columns(
         &self,
         tier: impl Accuracy,
         trace: &mut Trace<'_>,
         rays: RayColumns<'_>,
-        met: &mut [bool],
+        occluded: &mut [bool],
     ) {
-        slices::traverse::<Self, AnyHit>(self, tier, trace, ManyRays::Columns(rays), met);
+        slices::traverse::<Self, AnyHit>(self, tier, trace, ManyRays::Columns(rays), occluded);
     }
 
     /// The closest hit of every ray of every packet: `hits[i]` is overwritten with what `rays[i]` hits.
@@ -272,25 +272,25 @@ pub trait Intersect: Traverse {
         self.in_packets::<ClosestHit>(tier, trace, rays, hits);
     }
 
-    /// Whether every ray of every packet hits anything: lane `i` in bit `i` of `met[k]` for `rays[k]`.
+    /// Whether every ray of every packet hits anything: lane `i` in bit `i` of `occluded[k]` for `rays[k]`.
     ///
     /// ```
     /// use spherule_kernel::{Exact, Intersect, Ray, RayPacket, SphereList, Trace, Vec3};
     ///
     /// let spheres = SphereList::from([[0.0, 0.0, 5.0, 1.0]]);
     /// let rays = [RayPacket::new(&[Ray::new(Vec3::ZERO, Vec3::Z)])];
-    /// let mut met = [0];
-    /// spheres.any_hit_packets(Exact, &mut Trace::new(), &rays, &mut met);
-    /// assert_eq!(met, [1]);
+    /// let mut occluded = [0];
+    /// spheres.any_hit_packets(Exact, &mut Trace::new(), &rays, &mut occluded);
+    /// assert_eq!(occluded, [1]);
     /// ```
     fn any_hit_packets(
         &self,
         tier: impl Accuracy,
         trace: &mut Trace<'_>,
         rays: &[RayPacket],
-        met: &mut [u32],
+        occluded: &mut [u32],
     ) {
-        self.in_packets::<AnyHit>(tier, trace, rays, met);
+        self.in_packets::<AnyHit>(tier, trace, rays, occluded);
     }
 
     /// The closest hit of the rays of a camera's tiles: tile `i` in packet `i`, as far as there are tiles, rays and hits.
@@ -365,9 +365,9 @@ pub trait Intersect: Traverse {
     ///
     /// let spheres = SphereList::from([[0.0, 0.0, 5.0, 1.0]]);
     /// let rays = [RayPacket::<[f32; 1]>::new(&[Ray::new(Vec3::ZERO, Vec3::Z)])];
-    /// let mut met = [0];
-    /// spheres.any_hit_lanes::<f32>(Exact, (), &mut Trace::new(), &rays, &mut met);
-    /// assert_eq!(met, [1]);
+    /// let mut occluded = [0];
+    /// spheres.any_hit_lanes::<f32>(Exact, (), &mut Trace::new(), &rays, &mut occluded);
+    /// assert_eq!(occluded, [1]);
     /// ```
     #[inline(always)]
     fn any_hit_lanes<L: Lanes>(
@@ -376,9 +376,9 @@ pub trait Intersect: Traverse {
         token: L::Token,
         trace: &mut Trace<'_>,
         rays: &[RayPacket<L::Array>],
-        met: &mut [u32],
+        occluded: &mut [u32],
     ) {
-        self.in_lanes::<L, AnyHit>(tier, token, trace, rays, met);
+        self.in_lanes::<L, AnyHit>(tier, token, trace, rays, occluded);
     }
 
     /// [`closest_hit_tiles`](Intersect::closest_hit_tiles) in lanes of the caller's, with their token; tiles are as large as

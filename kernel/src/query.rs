@@ -4,7 +4,7 @@
 //! what it changes in each traversal.
 
 use crate::geometry::hit::{Hit, HitPacket};
-use crate::geometry::many::{ManyHits, write_met};
+use crate::geometry::many::{ManyHits, write_occluded};
 use crate::lanes::{LaneArray, LaneMask, Lanes};
 use core::fmt::Debug;
 
@@ -247,6 +247,6 @@ impl Answers for AnyHit {
     #[cfg_attr(feature = "std", inline(always))]
     #[cfg_attr(not(feature = "std"), inline(never))]
     fn write(many: &mut &mut [bool], packets: &[u32], from: usize, to: usize) {
-        write_met(packets, many.get_mut(from..to).unwrap_or_default());
+        write_occluded(packets, many.get_mut(from..to).unwrap_or_default());
     }
 }

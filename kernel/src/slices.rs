@@ -233,9 +233,9 @@ pub fn surface_packets(
 /// let mut shadow_rays = [RayPacket::inactive()];
 /// let light = Towards::Point(Vec3::new(0.0, 0.0, -20.0));
 /// shadow_packets(Exact, level, spheres, (&rays, &hits, &surfaces), light, &mut shadow_rays);
-/// let mut met = [0];
-/// tree.any_hit_packets(Exact, &mut Trace::new(), &shadow_rays, &mut met);
-/// assert_eq!(met, [1]); // the other sphere is in the way
+/// let mut occluded = [0];
+/// tree.any_hit_packets(Exact, &mut Trace::new(), &shadow_rays, &mut occluded);
+/// assert_eq!(occluded, [1]); // the other sphere is in the way
 /// ```
 pub fn shadow_packets(
     tier: impl Accuracy,

@@ -64,12 +64,12 @@ fn shadows(seed: u64, rays_a_place: u32) -> [u32; 2] {
             let direction = departing(&mut random, outward);
             let spawned = surface.spawn_ray(Exact, &sphere, to, direction).expect("an origin");
             let others = spheres.iter().enumerate();
-            let met = others
+            let occluded = others
                 .filter(|&(index, _)| index != hit.sphere as usize || to == Side::Inside)
                 .any(|(_, sphere)| oracle::intersect(&spawned, sphere).is_some());
-            assert_eq!(list.any_hit(Exact, &spawned), met, "{spawned:?} of {spheres:?}");
+            assert_eq!(list.any_hit(Exact, &spawned), occluded, "{spawned:?} of {spheres:?}");
             rays += 1;
-            dark += u32::from(met);
+            dark += u32::from(occluded);
         }
     }
     [dark, rays]

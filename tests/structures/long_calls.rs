@@ -15,20 +15,21 @@ type Answers = (Vec<Option<(u32, u32)>>, Vec<bool>);
 
 /// By slices, the trace as it is, and as it has become.
 fn by_slices(tree: &SphereTree, trace: &mut Trace<'_>, rays: &[Ray]) -> Answers {
-    let (mut hits, mut met) = (vec![None::<Hit>; rays.len()], vec![false; rays.len()]);
+    let (mut hits, mut occluded) = (vec![None::<Hit>; rays.len()], vec![false; rays.len()]);
     tree.closest_hits_with(Exact, trace, rays, &mut hits);
-    tree.any_hits_with(Exact, trace, rays, &mut met);
-    (hits.into_iter().map(bits).collect(), met)
+    tree.any_hits_with(Exact, trace, rays, &mut occluded);
+    (hits.into_iter().map(bits).collect(), occluded)
 }
 
 fn by_packets(tree: &SphereTree, trace: &mut Trace<'_>, rays: &[Ray]) -> Answers {
     let packets: Vec<_> = rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect();
-    let (mut hits, mut met) = (vec![HitPacket::none(); packets.len()], vec![0; packets.len()]);
+    let (mut hits, mut occluded) = (vec![HitPacket::none(); packets.len()], vec![0; packets.len()]);
     tree.closest_hit_packets(Exact, trace, &packets, &mut hits);
-    tree.any_hit_packets(Exact, trace, &packets, &mut met);
+    tree.any_hit_packets(Exact, trace, &packets, &mut occluded);
     let hits = hits.iter().flat_map(HitPacket::hits).take(rays.len()).map(bits).collect();
-    let is_met = |ray: usize| met[ray / RayPacket::COUNT] >> (ray % RayPacket::COUNT) & 1 == 1;
-    (hits, (0..rays.len()).map(is_met).collect())
+    let is_occluded =
+        |ray: usize| occluded[ray / RayPacket::COUNT] >> (ray % RayPacket::COUNT) & 1 == 1;
+    (hits, (0..rays.len()).map(is_occluded).collect())
 }
 
 fn by_columns(tree: &SphereTree, trace: &mut Trace<'_>, rays: &[Ray]) -> Answers {
@@ -44,11 +45,11 @@ fn by_columns(tree: &SphereTree, trace: &mut Trace<'_>, rays: &[Ray]) -> Answers
         t_max: &t_max,
     };
     let (mut t, mut sphere) = (vec![0.0; rays.len()], vec![0; rays.len()]);
-    let mut met = vec![false; rays.len()];
+    let mut occluded = vec![false; rays.len()];
     tree.closest_hit_columns(Exact, trace, columns, HitColumns { t: &mut t, sphere: &mut sphere });
-    tree.any_hit_columns(Exact, trace, columns, &mut met);
+    tree.any_hit_columns(Exact, trace, columns, &mut occluded);
     let hit = |(t, sphere): (f32, u32)| (sphere != u32::MAX).then_some((t.to_bits(), sphere));
-    (t.into_iter().zip(sphere).map(hit).collect(), met)
+    (t.into_iter().zip(sphere).map(hit).collect(), occluded)
 }
 
 /// # Panics

@@ -17,13 +17,13 @@ fn assert_as_list(tree: &impl Intersect, list: &SphereList, tiers: &[Tier], rays
             for coherence in [Coherence::Incoherent, Coherence::Coherent, Coherence::Detect] {
                 let level = Level::named(level).expect("of this CPU");
                 let mut trace = Trace::new().at(level).with(coherence);
-                let (mut hits, mut met) = (vec![None; rays.len()], vec![false; rays.len()]);
+                let (mut hits, mut occluded) = (vec![None; rays.len()], vec![false; rays.len()]);
                 tree.closest_hits_with(tier, &mut trace, rays, &mut hits);
-                tree.any_hits_with(tier, &mut trace, rays, &mut met);
+                tree.any_hits_with(tier, &mut trace, rays, &mut occluded);
                 for (ray, expected) in expected.iter().enumerate() {
                     let context = format!("{tier:?}, {level:?}, {coherence:?}, ray {ray}");
                     assert_eq!(bits(hits[ray]), bits(*expected), "{context}");
-                    assert_eq!(met[ray], expected.is_some(), "{context}");
+                    assert_eq!(occluded[ray], expected.is_some(), "{context}");
                 }
             }
         }

@@ -69,12 +69,12 @@ fn counted(
     packets: &[RayPacket<[f32; COUNT]>],
 ) -> [u64; 2] {
     let mut hits = vec![HitPacket::none(); packets.len()];
-    let mut met = vec![0; packets.len()];
+    let mut occluded = vec![0; packets.len()];
     let closest = operations(|| {
         structure.closest_hit_lanes::<Counted<f32>>(tier, (), trace, packets, &mut hits);
     });
     let any = operations(|| {
-        structure.any_hit_lanes::<Counted<f32>>(tier, (), trace, packets, &mut met);
+        structure.any_hit_lanes::<Counted<f32>>(tier, (), trace, packets, &mut occluded);
     });
     [closest, any]
 }

@@ -100,15 +100,15 @@ fn shorter_outputs() {
     let packets: Vec<_> = rays.chunks(16).map(RayPacket::<[f32; 16]>::new).collect();
     let ask = |coherence: Coherence, count: usize| {
         let mut trace = Trace::new().with(coherence);
-        let (mut hits, mut met) = (vec![HitPacket::none(); count], vec![u32::MAX; count]);
+        let (mut hits, mut occluded) = (vec![HitPacket::none(); count], vec![u32::MAX; count]);
         tree.closest_hit_packets(Tier::Exact, &mut trace, &packets, &mut hits);
-        tree.any_hit_packets(Tier::Exact, &mut trace, &packets, &mut met);
-        (hits, met)
+        tree.any_hit_packets(Tier::Exact, &mut trace, &packets, &mut occluded);
+        (hits, occluded)
     };
     for coherence in [Coherence::Coherent, Coherence::Incoherent] {
-        let (all, met) = ask(coherence, packets.len());
-        let (some, some_met) = ask(coherence, 5);
-        assert_eq!((&some[..], &some_met[..]), (&all[..5], &met[..5]), "{coherence:?}");
+        let (all, occluded) = ask(coherence, packets.len());
+        let (some, some_occluded) = ask(coherence, 5);
+        assert_eq!((&some[..], &some_occluded[..]), (&all[..5], &occluded[..5]), "{coherence:?}");
     }
 }
 

@@ -40,7 +40,7 @@ pub struct Surfaces(Vec<SurfacePacket>);
 pub struct ShadowRays {
     rays: Vec<RayPacket>,
     /// Which of them meet anything, a bit a lane: none until they are traced.
-    met: Vec<u32>,
+    occluded: Vec<u32>,
 }
 
 impl Surfaces {
@@ -91,14 +91,14 @@ impl ShadowRays {
         self.rays.resize(hit.0.len(), RayPacket::inactive());
         let Tracing { tier, level, .. } = tracing;
         shadow_packets(tier, level, spheres, hit, towards, &mut self.rays);
-        self.met.clear();
-        self.met.resize(self.rays.len(), 0);
+        self.occluded.clear();
+        self.occluded.resize(self.rays.len(), 0);
         &self.rays
     }
 
     /// Finds which of them meet anything.
     fn trace(&mut self, tracing: Tracing, scratch: &mut Scratch, search: &Search<'_>) {
-        search.any_hits(tracing, scratch, &self.rays, &mut self.met);
+        search.any_hits(tracing, scratch, &self.rays, &mut self.occluded);
     }
 }
 
@@ -170,11 +170,11 @@ impl Shader {
                 let mut samples = samples.iter_mut();
                 for (packet, &count) in counts.iter().enumerate() {
                     let rays = &shadow_rays.rays[packet];
-                    let (live, met) = (rays.live(), shadow_rays.met[packet]);
+                    let (live, occluded) = (rays.live(), shadow_rays.occluded[packet]);
                     let cosines = cosines(&surfaces[packet], rays);
                     for sample in samples.by_ref().take(count) {
                         traced += u64::from(scene.shadows && live >> sample.lane & 1 == 1);
-                        if (live & !met) >> sample.lane & 1 == 1 {
+                        if (live & !occluded) >> sample.lane & 1 == 1 {
                             sample.received += cosines[sample.lane] * brightness;
                         }
                     }

@@ -29,9 +29,9 @@ impl<A: LaneArray> Default for Memory<A> {
 impl<A: LaneArray> Memory<A> {
     /// Makes room for the answers of so many packets, and for a block of so many.
     fn reserve(&mut self, packets: usize, block: usize) {
-        let room = |(hits, met): &mut Answers<A>, count: usize| {
+        let room = |(hits, occluded): &mut Answers<A>, count: usize| {
             hits.resize(count.max(hits.len()), HitPacket::none());
-            met.resize(count.max(met.len()), 0);
+            occluded.resize(count.max(occluded.len()), 0);
         };
         room(&mut self.answers, packets);
         room(&mut self.block_answers, block);
@@ -72,20 +72,21 @@ impl<A: LaneArray> Blocks<'_, A> {
     ) {
         let count = self.rays.len();
         if self.is_single() {
-            let (hits, met) = &mut self.memory.answers;
-            return search(self.rays, &mut hits[..count], &mut met[..count]);
+            let (hits, occluded) = &mut self.memory.answers;
+            return search(self.rays, &mut hits[..count], &mut occluded[..count]);
         }
         for from in (0..count).step_by(self.size) {
             let here = from..count.min(from + self.size);
             let count = here.len();
             self.memory.rays[..count].copy_from_slice(&self.rays[here.clone()]);
-            let Memory { answers, rays, block_answers: (hits, met) } = &mut *self.memory;
-            let (rays, hits, met) = (&rays[..count], &mut hits[..count], &mut met[..count]);
+            let Memory { answers, rays, block_answers: (hits, occluded) } = &mut *self.memory;
+            let (rays, hits, occluded) =
+                (&rays[..count], &mut hits[..count], &mut occluded[..count]);
             let start = thread_time();
-            search(rays, hits, met);
+            search(rays, hits, occluded);
             self.nanoseconds += thread_time() - start;
             answers.0[here.clone()].copy_from_slice(hits);
-            answers.1[here].copy_from_slice(met);
+            answers.1[here].copy_from_slice(occluded);
         }
     }
 }
@@ -135,11 +136,11 @@ impl<A: LaneArray, S: FnMut(Query, &mut Blocks<'_, A>)> Run for InPackets<A, S> 
     }
 
     fn hits(&self) -> Vec<Option<Hit>> {
-        let (hits, met) = &self.memory.borrow().answers;
+        let (hits, occluded) = &self.memory.borrow().answers;
         let hit = |ray: usize| {
             let (packet, lane) = (ray / A::COUNT, ray % A::COUNT);
-            let met = || met[packet] >> lane & 1 == 1;
-            let any = || met().then_some(Hit { t: 0.0, sphere: 0 });
+            let occluded = || occluded[packet] >> lane & 1 == 1;
+            let any = || occluded().then_some(Hit { t: 0.0, sphere: 0 });
             if self.any_hit { any() } else { hits[packet].hit(lane) }
         };
         (0..self.count).map(hit).collect()

@@ -156,12 +156,12 @@ impl<'a> Kernel<'a> {
         Box::new(move |rays| {
             let tree = Rc::clone(&tree);
             let search = move |query, blocks: &mut Blocks<'_, L::Array>| {
-                blocks.each(|rays, hits, met| match query {
+                blocks.each(|rays, hits, occluded| match query {
                     Query::ClosestHit => {
                         tree.list().closest_hit_lanes::<L>(tier, (), &mut Trace::new(), rays, hits);
                     }
                     Query::AnyHit => {
-                        tree.list().any_hit_lanes::<L>(tier, (), &mut Trace::new(), rays, met);
+                        tree.list().any_hit_lanes::<L>(tier, (), &mut Trace::new(), rays, occluded);
                     }
                 });
             };
@@ -217,8 +217,8 @@ fn answer(
     (query, tier): (Query, Tier),
     blocks: &mut Blocks<'_>,
 ) {
-    blocks.each(|rays, hits, met| match query {
+    blocks.each(|rays, hits, occluded| match query {
         Query::ClosestHit => structure.closest_hit_packets(tier, &mut trace, rays, hits),
-        Query::AnyHit => structure.any_hit_packets(tier, &mut trace, rays, met),
+        Query::AnyHit => structure.any_hit_packets(tier, &mut trace, rays, occluded),
     });
 }

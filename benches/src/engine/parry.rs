@@ -33,19 +33,19 @@ pub(crate) fn build(spheres: Spheres<'_>) -> Engine {
             tree.cast_ray(ray, AT_MOST, root).map(|(sphere, t)| Hit { t, sphere })
         },
         |(tree, spheres), (prepared, ray)| {
-            let mut met = false;
+            let mut occluded = false;
             tree.traverse(|node: &BvhNode| {
                 if node.cast_ray(ray, AT_MOST) >= AT_MOST {
                     return TraversalAction::Prune;
                 }
                 let Some(index) = node.leaf_data() else { return TraversalAction::Continue };
                 if prepared.first_root(&spheres[index as usize]) < f32::INFINITY {
-                    met = true;
+                    occluded = true;
                     return TraversalAction::EarlyExit;
                 }
                 TraversalAction::Continue
             });
-            met
+            occluded
         },
     )
 }

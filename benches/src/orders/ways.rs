@@ -81,9 +81,9 @@ pub(super) struct Work<'a> {
     viewpoint: Option<Viewpoint>,
     packets: Vec<RayPacket>,
     hits: Vec<Option<Hit>>,
-    met: Vec<bool>,
+    occluded: Vec<bool>,
     packet_hits: Vec<HitPacket>,
-    packets_met: Vec<u32>,
+    packets_occluded: Vec<u32>,
     stream: Vec<StreamRay>,
     queues: Vec<QueuedRay>,
     order: Vec<u64>,
@@ -107,9 +107,9 @@ impl<'a> Work<'a> {
             viewpoint: None,
             packets: Vec::new(),
             hits: Vec::new(),
-            met: Vec::new(),
+            occluded: Vec::new(),
             packet_hits: Vec::new(),
-            packets_met: Vec::new(),
+            packets_occluded: Vec::new(),
             stream: vec![StreamRay::EMPTY; STREAM],
             queues: vec![QueuedRay::EMPTY; STREAM * QUEUES],
             order: Vec::new(),
@@ -123,9 +123,9 @@ impl<'a> Work<'a> {
         self.packets = rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect();
         self.viewpoint = viewpoint(&rays);
         self.hits.resize(rays.len(), None);
-        self.met.resize(rays.len(), false);
+        self.occluded.resize(rays.len(), false);
         self.packet_hits.resize(self.packets.len(), HitPacket::none());
-        self.packets_met.resize(self.packets.len(), 0);
+        self.packets_occluded.resize(self.packets.len(), 0);
         self.order.resize(if rays.len() > STREAM { 2 * rays.len() } else { 0 }, 0);
         self.rays = rays;
         if Way::DepthList.is_for(self) {
@@ -174,10 +174,10 @@ impl<'a> Work<'a> {
     }
 
     fn slices(&mut self, mut trace: Trace<'_>, query: Query) -> f64 {
-        let Self { tree, rays, hits, met, .. } = self;
+        let Self { tree, rays, hits, occluded, .. } = self;
         timed(|| match query {
             Query::ClosestHit => tree.closest_hits_with(TIER, &mut trace, rays, hits),
-            Query::AnyHit => tree.any_hits_with(TIER, &mut trace, rays, met),
+            Query::AnyHit => tree.any_hits_with(TIER, &mut trace, rays, occluded),
         })
     }
 
@@ -188,17 +188,19 @@ impl<'a> Work<'a> {
         mut trace: Trace<'_>,
         query: Query,
     ) -> f64 {
-        let Self { packets, packet_hits, packets_met, .. } = &mut *self;
+        let Self { packets, packet_hits, packets_occluded, .. } = &mut *self;
         let trace = &mut trace;
         let time = timed(|| match query {
             Query::ClosestHit => structure.closest_hit_packets(TIER, trace, packets, packet_hits),
-            Query::AnyHit => structure.any_hit_packets(TIER, trace, packets, packets_met),
+            Query::AnyHit => structure.any_hit_packets(TIER, trace, packets, packets_occluded),
         });
         for index in 0..self.rays.len() {
             let (packet, lane) = (index / RayPacket::COUNT, index % RayPacket::COUNT);
             match query {
                 Query::ClosestHit => self.hits[index] = self.packet_hits[packet].hit(lane),
-                Query::AnyHit => self.met[index] = self.packets_met[packet] >> lane & 1 == 1,
+                Query::AnyHit => {
+                    self.occluded[index] = self.packets_occluded[packet] >> lane & 1 == 1;
+                }
             }
         }
         time
@@ -208,7 +210,7 @@ impl<'a> Work<'a> {
     pub(super) fn answers(&self, query: Query) -> Answers {
         match query {
             Query::ClosestHit => Answers::Closest(self.hits.iter().map(bits).collect()),
-            Query::AnyHit => Answers::Any(self.met.clone()),
+            Query::AnyHit => Answers::Any(self.occluded.clone()),
         }
     }
 
@@ -216,9 +218,9 @@ impl<'a> Work<'a> {
     pub(super) fn forget(&mut self) {
         let wrong = Some(Hit { t: f32::NAN, sphere: u32::MAX });
         self.hits.fill(wrong);
-        self.met.iter_mut().for_each(|met| *met = !*met);
+        self.occluded.iter_mut().for_each(|occluded| *occluded = !*occluded);
         self.packet_hits.fill(HitPacket::none());
-        self.packets_met.iter_mut().for_each(|met| *met = !*met);
+        self.packets_occluded.iter_mut().for_each(|occluded| *occluded = !*occluded);
     }
 
     /// The answers of ray by ray.
@@ -238,7 +240,9 @@ impl<'a> Work<'a> {
         list.closest_hits_with(TIER, &mut Trace::new().at(level), rays, &mut hits);
         let is_same = match &answers {
             Answers::Closest(answers) => hits.iter().map(bits).eq(answers[..rays.len()].to_vec()),
-            Answers::Any(met) => hits.iter().map(Option::is_some).eq(met[..rays.len()].to_vec()),
+            Answers::Any(occluded) => {
+                hits.iter().map(Option::is_some).eq(occluded[..rays.len()].to_vec())
+            }
         };
         assert!(is_same, "{name}: ray by ray differs from brute force");
         answers
@@ -259,7 +263,7 @@ impl Answers {
     pub(super) fn is_hit(&self, ray: usize) -> bool {
         match self {
             Self::Closest(hits) => hits[ray].is_some(),
-            Self::Any(met) => met[ray],
+            Self::Any(occluded) => occluded[ray],
         }
     }
 }

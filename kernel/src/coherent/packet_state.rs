@@ -263,10 +263,10 @@ impl<'a, L: Lanes> PacketState<'a, L> {
     fn shorten<Q: Query>(&mut self) {
         let infinity = self.t.like(f32::INFINITY);
         if Q::ANY {
-            let met = self.t.lt(infinity);
-            self.live = self.live & !met;
-            self.best = L::select(met, -infinity, self.best);
-            self.entry = L::select(met, self.entry.like(f32::NAN), self.entry);
+            let occluded = self.t.lt(infinity);
+            self.live = self.live & !occluded;
+            self.best = L::select(occluded, -infinity, self.best);
+            self.entry = L::select(occluded, self.entry.like(f32::NAN), self.entry);
         } else {
             let bound = self.rays.time.after(self.t);
             self.best = L::select(bound.lt(self.best), bound, self.best);

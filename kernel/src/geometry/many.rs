@@ -113,23 +113,23 @@ fn write_slice(packets: &[HitPacket], hits: &mut [Option<Hit>]) {
 
 /// Writes a lane's bit of packets as a truth value each.
 #[inline(always)]
-pub(crate) fn write_met(packets: &[u32], met: &mut [bool]) {
+pub(crate) fn write_occluded(packets: &[u32], occluded: &mut [bool]) {
     let mut at = 0;
     for bits in packets {
-        let rest = met.get_mut(at..).unwrap_or_default();
+        let rest = occluded.get_mut(at..).unwrap_or_default();
         at += 16;
         if let Some(sixteen) = rest.first_chunk_mut::<16>() {
             // Not shifted: that has a vector instruction from AVX2 on.
             for lane in 0..16 {
-                if let Some(met) = sixteen.get_mut(lane) {
-                    *met = bits & 1 << lane != 0;
+                if let Some(occluded) = sixteen.get_mut(lane) {
+                    *occluded = bits & 1 << lane != 0;
                 }
             }
             continue;
         }
         for lane in 0..16 {
-            if let Some(met) = rest.get_mut(lane) {
-                *met = bits & 1 << lane != 0;
+            if let Some(occluded) = rest.get_mut(lane) {
+                *occluded = bits & 1 << lane != 0;
             }
         }
     }

@@ -65,9 +65,9 @@ fn lists<L: Lanes<Token = ()>>(fnv: &mut Fnv, tier: Tier, cases: &[Case], sphere
     let rays: Vec<_> = cases.iter().map(|case| case.ray).collect();
     let packets: Vec<_> = rays.chunks(L::COUNT).map(RayPacket::<L::Array>::new).collect();
     // Slices and columns, at the best level that the CPU has, whatever L is.
-    let (mut slice, mut met) = (vec![None; rays.len()], vec![false; rays.len()]);
+    let (mut slice, mut occluded) = (vec![None; rays.len()], vec![false; rays.len()]);
     spheres.closest_hits(tier, &rays, &mut slice);
-    spheres.any_hits(tier, &rays, &mut met);
+    spheres.any_hits(tier, &rays, &mut occluded);
     let column = |get: fn(&Ray) -> f32| rays.iter().map(get).collect::<Vec<_>>();
     let origin = [column(|r| r.origin.x), column(|r| r.origin.y), column(|r| r.origin.z)];
     let direction =
@@ -84,21 +84,21 @@ fn lists<L: Lanes<Token = ()>>(fnv: &mut Fnv, tier: Tier, cases: &[Case], sphere
     for ray in 0..rays.len() {
         slice[ray].into_iter().for_each(|hit| fnv.t(hit.t));
         fnv.word(slice[ray].map_or(u32::MAX, |hit| hit.sphere));
-        fnv.word(u32::from(met[ray]));
+        fnv.word(u32::from(occluded[ray]));
         fnv.t(t[ray]);
         fnv.word(sphere[ray]);
     }
 
-    let (mut hits, mut met) = (vec![HitPacket::none(); packets.len()], vec![0; packets.len()]);
+    let (mut hits, mut occluded) = (vec![HitPacket::none(); packets.len()], vec![0; packets.len()]);
     spheres.closest_hit_lanes::<L>(tier, (), &mut Trace::new(), &packets, &mut hits);
-    spheres.any_hit_lanes::<L>(tier, (), &mut Trace::new(), &packets, &mut met);
+    spheres.any_hit_lanes::<L>(tier, (), &mut Trace::new(), &packets, &mut occluded);
     let mut surfaces = SurfacePacket::none();
     // Ray by ray: a packet by a packet would be another order in every width.
     for ray in 0..rays.len() {
         let (packet, lane) = (ray / L::COUNT, ray % L::COUNT);
         fnv.t(hits[packet].t()[lane]);
         fnv.word(hits[packet].spheres()[lane]);
-        fnv.word(met[packet] >> lane & 1);
+        fnv.word(occluded[packet] >> lane & 1);
         let (rays, hits) = (&packets[packet], &hits[packet]);
         if lane == 0 {
             surfaces = surface_lanes::<L>(tier, (), spheres, rays, hits);

@@ -232,13 +232,13 @@ impl Sum {
         scratch: &mut [f32],
         structure: &impl Intersect,
     ) {
-        let (mut hits, mut met) = ([None; 20], [false; 20]);
+        let (mut hits, mut occluded) = ([None; 20], [false; 20]);
         self.hits([structure.closest_hit(tier, &rays[0])]);
         self.word(u32::from(structure.any_hit(tier, &rays[0])));
         structure.closest_hits(tier, rays, &mut hits);
         self.hits(hits);
-        structure.any_hits(tier, rays, &mut met);
-        self.bits(met);
+        structure.any_hits(tier, rays, &mut occluded);
+        self.bits(occluded);
         let mut numbers = [[0.0; 20]; 8];
         for (place, ray) in rays.iter().take(20).enumerate() {
             let ([ox, oy, oz], [dx, dy, dz]) = (ray.origin.to_array(), ray.direction.to_array());
@@ -264,18 +264,23 @@ impl Sum {
             structure.closest_hit_columns(tier, &mut trace, columns, found);
             self.bits(t.map(f32::to_bits));
             self.bits(spheres);
-            structure.any_hit_columns(tier, &mut trace, columns, black_box(met.as_mut_slice()));
-            self.bits(met);
+            structure.any_hit_columns(
+                tier,
+                &mut trace,
+                columns,
+                black_box(occluded.as_mut_slice()),
+            );
+            self.bits(occluded);
             structure.closest_hits_with(tier, &mut trace, rays, &mut hits);
             self.hits(hits);
-            structure.any_hits_with(tier, &mut trace, rays, &mut met);
-            self.bits(met);
+            structure.any_hits_with(tier, &mut trace, rays, &mut occluded);
+            self.bits(occluded);
             let packets = [camera.packet(0, 0, 8, 8), camera.packet(4, 4, 8, 8)];
-            let (mut hits, mut met) = ([HitPacket::none(); 2], [0; 2]);
+            let (mut hits, mut occluded) = ([HitPacket::none(); 2], [0; 2]);
             structure.closest_hit_packets(tier, &mut trace, &packets, &mut hits);
             self.hits(hits.iter().flat_map(HitPacket::hits));
-            structure.any_hit_packets(tier, &mut trace, &packets, &mut met);
-            self.bits(met);
+            structure.any_hit_packets(tier, &mut trace, &packets, &mut occluded);
+            self.bits(occluded);
             let (mut made, corners) = ([RayPacket::inactive(); 2], [(0, 0), (4, 4)]);
             let tiles = CameraTiles { camera: *camera, size: black_box((8, 8)), corners: &corners };
             structure.closest_hit_tiles(tier, &mut trace, tiles, &mut made, &mut hits);
@@ -298,11 +303,11 @@ impl Sum {
             [camera.packet(0, 0, 8, 8), camera.packet(4, 4, 8, 8)];
         rays[1].set(1, &camera.get_ray(7, 7));
         rays[0].set(0, &rays[1].ray(L::COUNT - 1));
-        let (mut hits, mut met) = ([HitPacket::none(); 2], [0; 2]);
+        let (mut hits, mut occluded) = ([HitPacket::none(); 2], [0; 2]);
         structure.closest_hit_lanes::<L>(tier, (), trace, &rays, &mut hits);
         self.hits(hits.iter().flat_map(HitPacket::hits));
-        structure.any_hit_lanes::<L>(tier, (), trace, &rays, &mut met);
-        self.bits(met);
+        structure.any_hit_lanes::<L>(tier, (), trace, &rays, &mut occluded);
+        self.bits(occluded);
         // A picture of any size, of which there are too few packets.
         let size: (u32, u32) = black_box((8, 8));
         let mut corners = [(0, 0); 4];

@@ -8,5 +8,5 @@ pub struct Answers {
     /// The closest hit of each ray.
     pub hits: Vec<Option<Hit>>,
     /// Whether each ray hits anything.
-    pub met: Vec<bool>,
+    pub occluded: Vec<bool>,
 }

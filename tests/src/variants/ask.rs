@@ -50,8 +50,11 @@ impl Variant {
     /// If a ray that hits anything has no closest hit, or the reverse.
     #[must_use]
     pub fn closest(&self, spheres: &[Sphere], rays: &[Ray]) -> Vec<Option<Hit>> {
-        let Answers { hits, met } = self.ask_list(&SphereList::from(spheres), rays);
-        assert!(hits.iter().map(Option::is_some).eq(met), "{self:?}: closest hits and any hits");
+        let Answers { hits, occluded } = self.ask_list(&SphereList::from(spheres), rays);
+        assert!(
+            hits.iter().map(Option::is_some).eq(occluded),
+            "{self:?}: closest hits and any hits"
+        );
         hits
     }
 
@@ -68,18 +71,18 @@ impl Variant {
         // What was there before must not show; nothing past the rays is touched.
         let stale = Some(Hit { t: -7.0, sphere: 7 });
         let mut hits = vec![stale; rays.len() + 1];
-        let mut met: Vec<bool> = (0..=rays.len()).map(|i| i % 3 == 0).collect();
-        let past = met[rays.len()];
+        let mut occluded: Vec<bool> = (0..=rays.len()).map(|i| i % 3 == 0).collect();
+        let past = occluded[rays.len()];
         match self.layer {
             Layer::Ray => {
                 for (index, ray) in rays.iter().enumerate() {
                     hits[index] = structure.closest_hit(tier, ray);
-                    met[index] = structure.any_hit(tier, ray);
+                    occluded[index] = structure.any_hit(tier, ray);
                 }
             }
             Layer::Slice => {
                 structure.closest_hits(tier, rays, &mut hits);
-                structure.any_hits(tier, rays, &mut met);
+                structure.any_hits(tier, rays, &mut occluded);
             }
             Layer::Columns => {
                 let table = columns_of(rays);
@@ -89,7 +92,7 @@ impl Variant {
                 let (mut t, mut sphere) = (vec![-7.0; rays.len() + 2], vec![7; rays.len() + 1]);
                 let found = HitColumns { t: &mut t, sphere: &mut sphere };
                 structure.closest_hit_columns(tier, &mut trace, columns, found);
-                structure.any_hit_columns(tier, &mut trace, columns, &mut met);
+                structure.any_hit_columns(tier, &mut trace, columns, &mut occluded);
                 let none = |t: f32, sphere: u32| sphere == u32::MAX && t == f32::INFINITY;
                 let hit = |(&t, &sphere)| (!none(t, sphere)).then_some(Hit { t, sphere });
                 hits = t.iter().zip(&sphere).map(hit).collect();
@@ -98,7 +101,7 @@ impl Variant {
             Layer::SliceAt(name) => {
                 trace.level = level(name);
                 structure.closest_hits_with(tier, &mut trace, rays, &mut hits);
-                structure.any_hits_with(tier, &mut trace, rays, &mut met);
+                structure.any_hits_with(tier, &mut trace, rays, &mut occluded);
             }
             Layer::Packets(name) => {
                 trace.level = level(name);
@@ -112,8 +115,12 @@ impl Variant {
             Layer::Lanes(1) => return self.lanes::<_, f32>(structure, trace, rays),
             Layer::Lanes(_) => return self.lanes::<_, f32x8>(structure, trace, rays),
         }
-        assert_eq!((hits.pop(), met.pop()), (Some(stale), Some(past)), "{self:?}: past the rays");
-        Answers { hits, met }
+        assert_eq!(
+            (hits.pop(), occluded.pop()),
+            (Some(stale), Some(past)),
+            "{self:?}: past the rays"
+        );
+        Answers { hits, occluded }
     }
 
     fn lanes<S: Intersect, L: Lanes<Token = ()>>(

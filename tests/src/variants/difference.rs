@@ -35,14 +35,14 @@ pub fn difference(
             _ => true,
         };
         for variant in variants().filter(asked) {
-            let Answers { hits, met } = variant.ask(structures, rays);
+            let Answers { hits, occluded } = variant.ask(structures, rays);
             for (i, ray) in rays.iter().enumerate() {
-                if bits(hits[i]) != bits(expected[i]) || met[i] != expected[i].is_some() {
-                    let (hit, met, expected) = (hits[i], met[i], expected[i]);
+                if bits(hits[i]) != bits(expected[i]) || occluded[i] != expected[i].is_some() {
+                    let (hit, occluded, expected) = (hits[i], occluded[i], expected[i]);
                     let (rays, spheres) = (rays.len(), spheres.len());
                     return Some(format!(
                         "{variant:?}, ray {i} of {rays}, {spheres} spheres, {viewpoint:?}: {hit:?} \
-                         any {met}, by brute force {expected:?}; {}",
+                         any {occluded}, by brute force {expected:?}; {}",
                         HexRay(ray)
                     ));
                 }

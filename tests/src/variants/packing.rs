@@ -36,7 +36,7 @@ pub(super) fn unpacked<L: Lanes<Token = ()>>(
     assert!(found[past].hits().eq(stale_packet::<L>().hits()) && bits[past] == u32::MAX);
     Answers {
         hits: found.iter().flat_map(HitPacket::hits).take(count).collect(),
-        met: (0..count).map(|ray| bits[ray / L::COUNT] >> (ray % L::COUNT) & 1 == 1).collect(),
+        occluded: (0..count).map(|ray| bits[ray / L::COUNT] >> (ray % L::COUNT) & 1 == 1).collect(),
     }
 }
 

@@ -78,7 +78,7 @@ pub struct Around {
 pub struct OpennessMemory {
     wanted: Vec<u32>,
     rays: Vec<RayPacket>,
-    met: Vec<u32>,
+    occluded: Vec<u32>,
 }
 
 impl Openness {
@@ -125,7 +125,7 @@ impl Around {
         let is_wanted = |&sphere: &u32| {
             known.get(sphere as usize).is_some_and(|one| one.load(Ordering::Relaxed) == UNKNOWN)
         };
-        let OpennessMemory { wanted, rays, met } = memory;
+        let OpennessMemory { wanted, rays, occluded } = memory;
         wanted.clear();
         wanted.extend(spheres.filter(is_wanted));
         wanted.sort_unstable();
@@ -144,12 +144,12 @@ impl Around {
                         .iter()
                         .map(|packet| packet.spawn_rays(level, direction, self.openness.reach)),
                 );
-                met.clear();
-                met.resize(rays.len(), 0);
-                search.any_hits(tracing, scratch, rays, met);
-                for (seen, met) in seen.chunks_mut(RayPacket::COUNT).zip(&*met) {
+                occluded.clear();
+                occluded.resize(rays.len(), 0);
+                search.any_hits(tracing, scratch, rays, occluded);
+                for (seen, occluded) in seen.chunks_mut(RayPacket::COUNT).zip(&*occluded) {
                     for (lane, (count, sum)) in seen.iter_mut().enumerate() {
-                        if met >> lane & 1 == 0 {
+                        if occluded >> lane & 1 == 0 {
                             *count += 1;
                             *sum += direction;
                         }

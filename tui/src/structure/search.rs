@@ -96,15 +96,17 @@ impl Search<'_> {
         tracing: Tracing,
         scratch: &mut Scratch,
         rays: &[RayPacket],
-        met: &mut [u32],
+        occluded: &mut [u32],
     ) {
         let tier = tracing.tier;
         let trace = &mut scratch.of(self, tracing).0;
         match self {
-            Self::Brute(spheres) => spheres.any_hit_packets(tier, trace, rays, met),
-            Self::DepthList(list) => list.any_hit_packets(tier, trace, rays, met),
-            Self::Bvh(tree) => tree.any_hit_packets(tier, trace, rays, met),
-            Self::Objects(objects) => objects.spheres().any_hit_packets(tier, trace, rays, met),
+            Self::Brute(spheres) => spheres.any_hit_packets(tier, trace, rays, occluded),
+            Self::DepthList(list) => list.any_hit_packets(tier, trace, rays, occluded),
+            Self::Bvh(tree) => tree.any_hit_packets(tier, trace, rays, occluded),
+            Self::Objects(objects) => {
+                objects.spheres().any_hit_packets(tier, trace, rays, occluded);
+            }
         }
     }
 }

@@ -44,11 +44,12 @@ impl Passes<'_> {
         let packets: Vec<_> = rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect();
         let tracing = self.tracing;
         if self.query == Query::Any {
-            let mut met = vec![0; packets.len()];
-            let passes = self.timed(structures, &mut met, |search, task, scratch, met| {
-                search.any_hits(tracing, scratch, &packets[task], met);
-            })?;
-            let bit = |i: usize| met[i / RayPacket::COUNT] >> (i % RayPacket::COUNT) & 1 == 1;
+            let mut occluded = vec![0; packets.len()];
+            let passes =
+                self.timed(structures, &mut occluded, |search, task, scratch, occluded| {
+                    search.any_hits(tracing, scratch, &packets[task], occluded);
+                })?;
+            let bit = |i: usize| occluded[i / RayPacket::COUNT] >> (i % RayPacket::COUNT) & 1 == 1;
             let hit = |index| bit(index).then_some(Hit { t: f32::NAN, sphere: 0 });
             return Ok(((0..rays.len()).map(hit).collect(), passes));
         }

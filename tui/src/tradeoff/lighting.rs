@@ -65,9 +65,10 @@ impl Lighting {
             shadow_rays.cast(tracing, spheres, hit, light).to_vec()
         };
         let rays = Rays::of_lights(lights.iter().map(of_light));
-        let met = machine.any_hits(tier, &rays);
-        let lit = rays.packets.iter().zip(met).flat_map(|(rays, met)| {
-            (0..RayPacket::COUNT).map(move |lane| rays.ray(lane).is_live() && met >> lane & 1 == 0)
+        let occluded = machine.any_hits(tier, &rays);
+        let lit = rays.packets.iter().zip(occluded).flat_map(|(rays, occluded)| {
+            (0..RayPacket::COUNT)
+                .map(move |lane| rays.ray(lane).is_live() && occluded >> lane & 1 == 0)
         });
         let lit: Vec<bool> = lit.collect();
         let of_light = camera.len() * RayPacket::COUNT;

@@ -70,27 +70,27 @@ impl Machine<'_> {
 
     /// Which rays meet anything by a tier.
     pub(super) fn any_hits(&self, tier: Tier, rays: &Rays) -> Vec<u32> {
-        let mut met = vec![0; rays.packets.len()];
-        self.trace(rays, &mut met, |search, rays, scratch, met| {
-            search.any_hits(self.tracing(tier), scratch, rays, met);
+        let mut occluded = vec![0; rays.packets.len()];
+        self.trace(rays, &mut occluded, |search, rays, scratch, occluded| {
+            search.any_hits(self.tracing(tier), scratch, rays, occluded);
         });
-        met
+        occluded
     }
 
     /// What is timed: the kernel's calls for all rays.
     fn pass<'a>(&'a self, tier: Tier, rays: &'a Rays) -> impl FnMut() + 'a {
         let mut hits = vec![HitPacket::none(); rays.packets.len()];
-        let mut met = vec![0; rays.packets.len()];
+        let mut occluded = vec![0; rays.packets.len()];
         move || match rays.kind {
             Kind::Camera => {
                 self.closest_hits(tier, rays, &mut hits);
                 black_box(&hits);
             }
             Kind::Shadow => {
-                self.trace(rays, &mut met, |search, rays, scratch, met| {
-                    search.any_hits(self.tracing(tier), scratch, rays, met);
+                self.trace(rays, &mut occluded, |search, rays, scratch, occluded| {
+                    search.any_hits(self.tracing(tier), scratch, rays, occluded);
                 });
-                black_box(&met);
+                black_box(&occluded);
             }
         }
     }

@@ -169,12 +169,12 @@ impl Asked {
     /// The closest hit of every ray, and whether there is any.
     fn ask(&self, fnv: &mut Fnv, structure: &impl Intersect, rays: &[Ray], scratch: &mut [f32]) {
         let mut trace = Trace::new().at(self.level).with_scratch(scratch);
-        let (mut hits, mut met): ([Option<Hit>; 128], _) = ([None; 128], [false; 128]);
+        let (mut hits, mut occluded): ([Option<Hit>; 128], _) = ([None; 128], [false; 128]);
         structure.closest_hits_with(self.tier, &mut trace, rays, &mut hits);
-        structure.any_hits_with(self.tier, &mut trace, rays, &mut met);
-        for (hit, met) in hits.into_iter().zip(met).take(rays.len()) {
+        structure.any_hits_with(self.tier, &mut trace, rays, &mut occluded);
+        for (hit, occluded) in hits.into_iter().zip(occluded).take(rays.len()) {
             fnv.hit(hit);
-            fnv.word(u32::from(met));
+            fnv.word(u32::from(occluded));
         }
     }
 }

@@ -102,7 +102,7 @@ fn what_rays_enter_by_themselves_is_counted_now_and_then() {
 #[test]
 fn of_the_fewest_rays_that_are_a_stream_any_hits_go_as_one_too() {
     let (tree, rays) = scene(2000, LEAST_RAYS);
-    let mut met = vec![false; rays.len()];
-    let work = Work::of(|| tree.any_hits(Exact, &rays, &mut met));
+    let mut occluded = vec![false; rays.len()];
+    let work = Work::of(|| tree.any_hits(Exact, &rays, &mut occluded));
     assert!(work.count(Kind::StreamNode) > 0);
 }
