@@ -211,11 +211,12 @@ impl<L: Lanes, Q: Query> GroupTest<'_, '_, L, Q> {
         let prepared = F::prepare(rays);
         for slot in 0..GROUP {
             let Some((sphere, index)) = candidates.sphere(slot) else { continue };
-            let asked = rays.live & filter.may_meet(group, slot);
-            if sphere.is_valid() && asked.any() {
+            let active = rays.live & filter.may_meet(group, slot);
+            if sphere.is_valid() && active.any() {
                 let rays = (packet, rays, &prepared);
                 let sphere = (sphere, index);
-                limits = meet_sphere::<F, L, Q, true>(rays, spheres, sphere, asked, limits, answer);
+                limits =
+                    meet_sphere::<F, L, Q, true>(rays, spheres, sphere, active, limits, answer);
             }
         }
     }

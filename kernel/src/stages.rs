@@ -85,17 +85,17 @@ fn count<L: Lanes, Q: Query>(
     let mut limit = Q::limits::<L>(token, answer);
     for slot in 0..GROUP {
         let Some((sphere, _)) = candidates.sphere(slot) else { continue };
-        let asked = rays.live & filter.may_meet(group, slot);
-        if !sphere.is_valid() || !asked.any() {
+        let active = rays.live & filter.may_meet(group, slot);
+        if !sphere.is_valid() || !active.any() {
             continue;
         }
         let center = axes!(i => L::splat(token, sphere.center[i]));
         let radius = L::splat(token, sphere.radius);
-        let [double, expansions] = Exact::reached(rays, center, radius, asked, limit);
+        let [double, expansions] = Exact::reached(rays, center, radius, active, limit);
         stages.double += u64::from(double.bits().count_ones());
         stages.expansions += u64::from(expansions.bits().count_ones());
         if !Q::ANY {
-            limit = Exact::nearer(rays, center, radius, asked, limit);
+            limit = Exact::nearer(rays, center, radius, active, limit);
         }
     }
 }

@@ -160,8 +160,8 @@ impl<L: Lanes> TierWork for Surfaces<'_, L> {
         let rays = RayLanes::<L>::load(token, packet);
         let t = L::load(token, &hits.t);
         let zero = t.like(0.0);
-        let asked = L::mask(token, hit) & zero.lt(radius);
-        let (found, known) = F::surfaces(&rays, t, center, radius, asked);
+        let active = L::mask(token, hit) & zero.lt(radius);
+        let (found, known) = F::surfaces(&rays, t, center, radius, active);
         for i in 0..3 {
             surfaces.normal[i] = L::select(known, found.normal[i], zero).store();
             surfaces.point[i] = L::select(known, found.point[i], zero).store();

@@ -65,12 +65,12 @@ impl TierFormula for Exact {
         beyond: &Beyond<L>,
         center: [L; 3],
         radius: L,
-        asked: L::Mask,
+        active: L::Mask,
         limit: L,
     ) -> L {
         let infinity = radius.like(f32::INFINITY);
-        let asked = asked & !beyond.limit(rays, center, radius, limit);
-        if !asked.any() {
+        let active = active & !beyond.limit(rays, center, radius, limit);
+        if !active.any() {
             return infinity;
         }
         if L::COUNT == 1 {
@@ -81,10 +81,10 @@ impl TierFormula for Exact {
             };
             return infinity.like(t);
         }
-        let (t, decided) = Brackets::new(rays, center, radius, asked).decide(rays, limit);
-        let undecided = (asked & !decided).bits();
+        let (t, decided) = Brackets::new(rays, center, radius, active).decide(rays, limit);
+        let undecided = (active & !decided).bits();
         // Adding zero turns -0 into +0.
-        let t = L::select(asked, t + t.like(0.0), infinity);
+        let t = L::select(active, t + t.like(0.0), infinity);
         if undecided == 0 {
             return t;
         }
@@ -130,9 +130,9 @@ impl TierFormula for Exact {
         t: L,
         center: [L; 3],
         radius: L,
-        asked: L::Mask,
+        active: L::Mask,
     ) -> (SurfaceLanes<L>, L::Mask) {
-        surface::in_lanes(rays, t, center, radius, asked)
+        surface::in_lanes(rays, t, center, radius, active)
     }
 }
 
@@ -143,7 +143,7 @@ impl Exact {
         (discriminant, error)
     }
 
-    /// Of the lanes `asked`, those that [`TierFormula::first_root`] takes to double precision, and of
+    /// Of the lanes `active`, those that [`TierFormula::first_root`] takes to double precision, and of
     /// these, those that it takes to exact sums.
     #[cfg(feature = "stages")]
     #[inline(always)]
@@ -151,10 +151,10 @@ impl Exact {
         rays: &RayLanes<L>,
         center: [L; 3],
         radius: L,
-        asked: L::Mask,
+        active: L::Mask,
         limit: L,
     ) -> [L::Mask; 2] {
-        let double = asked & !Beyond::new(rays).limit(rays, center, radius, limit);
+        let double = active & !Beyond::new(rays).limit(rays, center, radius, limit);
         let (_, decided) = Brackets::new(rays, center, radius, double).decide(rays, limit);
         [double, double & !decided]
     }
@@ -166,11 +166,11 @@ impl Exact {
         rays: &RayLanes<L>,
         center: [L; 3],
         radius: L,
-        asked: L::Mask,
+        active: L::Mask,
         limit: L,
     ) -> L {
-        let t = Self::first_root(rays, &Beyond::new(rays), center, radius, asked, limit);
-        L::select(asked & t.lt(limit), t, limit)
+        let t = Self::first_root(rays, &Beyond::new(rays), center, radius, active, limit);
+        L::select(active & t.lt(limit), t, limit)
     }
 }
 
@@ -194,16 +194,16 @@ struct Judged<L: Lanes> {
 
 impl<L: Lanes> Brackets<L> {
     #[inline(always)]
-    pub(crate) fn new(rays: &RayLanes<L>, center: [L; 3], radius: L, asked: L::Mask) -> Self {
+    pub(crate) fn new(rays: &RayLanes<L>, center: [L; 3], radius: L, active: L::Mask) -> Self {
         let mut brackets = Self {
             token: radius.token(),
             near: [L::Array::filled(0.0); 2],
             far: [L::Array::filled(0.0); 2],
         };
-        let asked = asked.bits();
+        let active = active.bits();
         for part in 0..L::PARTS {
             let first = part * L::Double::COUNT;
-            if (asked >> first) & ((1 << L::Double::COUNT) - 1) != 0 {
+            if (active >> first) & ((1 << L::Double::COUNT) - 1) != 0 {
                 brackets.fill(
                     part,
                     axes!(i => rays.origin[i].widen(part)),

@@ -49,7 +49,7 @@ impl TierFormula for Fast {
         prepared: &FastRays<L>,
         center: [L; 3],
         radius: L,
-        _asked: L::Mask,
+        _active: L::Mask,
         _limit: L,
     ) -> L {
         roots(prepared, center, radius).first_accepted(rays)

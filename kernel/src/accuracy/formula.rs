@@ -86,14 +86,14 @@ pub trait TierFormula: Copy + Debug {
 
     /// The t of rules 2 to 4 for one sphere a lane, `+inf` if there is none.
     ///
-    /// Read only in the lanes `asked`, where ray and sphere are valid; may be `+inf` where t is
+    /// Read only in the lanes `active`, where ray and sphere are valid; may be `+inf` where t is
     /// larger than `limit`. Every bit pattern must return.
     fn first_root<L: Lanes>(
         rays: &RayLanes<L>,
         prepared: &Self::Prepared<L>,
         center: [L; 3],
         radius: L,
-        asked: L::Mask,
+        active: L::Mask,
         limit: L,
     ) -> L;
 
@@ -120,7 +120,7 @@ pub trait TierFormula: Copy + Debug {
         Surface { normal: Vec3::ZERO, point: Vec3::ZERO, rest: Vec3::ZERO }
     }
 
-    /// The surfaces of spheres of positive radius that rays hit at `t`, and those of the lanes `asked` in which they
+    /// The surfaces of spheres of positive radius that rays hit at `t`, and those of the lanes `active` in which they
     /// are known.
     #[inline(always)]
     fn surfaces<L: Lanes>(
@@ -128,9 +128,9 @@ pub trait TierFormula: Copy + Debug {
         t: L,
         center: [L; 3],
         radius: L,
-        asked: L::Mask,
+        active: L::Mask,
     ) -> (SurfaceLanes<L>, L::Mask) {
-        (surface::in_lanes(rays, t, center, radius), asked)
+        (surface::in_lanes(rays, t, center, radius), active)
     }
 }
 

@@ -56,7 +56,7 @@ impl TierFormula for Geometric {
         prepared: &GeometricRays<L>,
         center: [L; 3],
         radius: L,
-        _asked: L::Mask,
+        _active: L::Mask,
         _limit: L,
     ) -> L {
         roots(prepared, center, radius).first_accepted(rays)

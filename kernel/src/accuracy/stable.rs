@@ -93,16 +93,16 @@ impl TierFormula for Stable {
         prepared: &StableRays<L>,
         center: [L; 3],
         radius: L,
-        asked: L::Mask,
+        active: L::Mask,
         limit: L,
     ) -> L {
-        let asked = asked & !prepared.beyond.limit(rays, center, radius, limit);
+        let active = active & !prepared.beyond.limit(rays, center, radius, limit);
         let infinity = limit.like(f32::INFINITY);
-        if !asked.any() {
+        if !active.any() {
             return infinity;
         }
         let t = roots(prepared, center, radius).first_accepted(rays);
-        L::select(asked, t, infinity)
+        L::select(active, t, infinity)
     }
 
     fn line_roots(ray: &Ray, sphere: &Sphere) -> Option<[f32; 2]> {

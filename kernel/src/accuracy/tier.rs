@@ -157,7 +157,7 @@ fn sphere(spheres: &Spheres<'_>, index: u32) -> Option<Sphere> {
     spheres.get(index as usize)
 }
 
-/// Tests one sphere a lane: t if there is a hit in a lane that is `asked`, else `+inf`.
+/// Tests one sphere a lane: t if there is a hit in a lane that is `active`, else `+inf`.
 ///
 /// The one place where scene structures do so, and a function of its own for each tier: a tier is long,
 /// and would be compiled into every traversal several times.
@@ -167,10 +167,10 @@ pub(crate) fn test_lanes<L: Lanes>(
     rays: &RayLanes<L>,
     center: [L; 3],
     radius: L,
-    asked: L::Mask,
+    active: L::Mask,
     limit: L,
 ) -> L {
-    tier.with_formula(LaneTest { rays, center, radius, asked, limit })
+    tier.with_formula(LaneTest { rays, center, radius, active, limit })
 }
 
 /// Tests a live ray against a valid sphere: t if there is a hit, else `+inf`.
@@ -202,7 +202,7 @@ struct LaneTest<'a, L: Lanes> {
     rays: &'a RayLanes<L>,
     center: [L; 3],
     radius: L,
-    asked: L::Mask,
+    active: L::Mask,
     limit: L,
 }
 
@@ -212,13 +212,13 @@ impl<L: Lanes> TierWork for LaneTest<'_, L> {
     #[inline(always)]
     fn run<F: TierFormula>(self) -> L {
         count!(TierLanes);
-        let Self { rays, center, radius, asked, limit } = self;
+        let Self { rays, center, radius, active, limit } = self;
         L::out_of_line(
             limit.token(),
             #[inline(always)]
             || {
-                let t = F::first_root(rays, &F::prepare(rays), center, radius, asked, limit);
-                L::select(asked, t, limit.like(f32::INFINITY))
+                let t = F::first_root(rays, &F::prepare(rays), center, radius, active, limit);
+                L::select(active, t, limit.like(f32::INFINITY))
             },
         )
     }

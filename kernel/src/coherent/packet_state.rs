@@ -210,35 +210,35 @@ impl<'a, L: Lanes> PacketState<'a, L> {
         true
     }
 
-    /// Tests the pending spheres of the lanes `asked`, which have none then.
+    /// Tests the pending spheres of the lanes `active`, which have none then.
     #[inline(always)]
     fn settle<Q: Query>(
         &mut self,
         tier: impl Accuracy,
         source: &impl SphereSource,
-        asked: L::Mask,
+        active: L::Mask,
     ) {
         let token = self.token();
         let rays = RayLanes::load(token, self.packet);
         let SphereLanes { center, radius, index } =
             SphereLanes::gather(source, self.place, self.shared);
-        let t = test_lanes(tier, &rays, center, radius, asked, self.t);
-        self.take(tier, source, asked, t, index);
-        self.entry = L::select(asked, self.entry.like(f32::NAN), self.entry);
+        let t = test_lanes(tier, &rays, center, radius, active, self.t);
+        self.take(tier, source, active, t, index);
+        self.entry = L::select(active, self.entry.like(f32::NAN), self.entry);
         self.shorten::<Q>();
     }
 
-    /// Takes the answers of the lanes `asked` that are closer.
+    /// Takes the answers of the lanes `active` that are closer.
     #[inline(always)]
     fn take(
         &mut self,
         tier: impl Accuracy,
         source: &impl SphereSource,
-        asked: L::Mask,
+        active: L::Mask,
         t: L,
         sphere: L,
     ) {
-        let found = asked & t.lt(t.like(f32::INFINITY));
+        let found = active & t.lt(t.like(f32::INFINITY));
         let mut nearer = found & t.lt(self.t);
         let mut equal = (found & t.le(self.t) & self.t.le(t)).bits();
         if equal != 0 {

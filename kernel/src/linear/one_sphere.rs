@@ -16,7 +16,7 @@ pub(crate) fn meet_sphere<F: TierFormula, L: Lanes, Q: Query, const IN_ORDER: bo
     (packet, rays, prepared): (&RayPacket<L::Array>, &RayLanes<L>, &F::Prepared<L>),
     spheres: &Spheres<'_>,
     (sphere, index): (Sphere, u32),
-    asked: L::Mask,
+    active: L::Mask,
     limits: L,
     answer: &mut Q::Packet<L::Array>,
 ) -> L {
@@ -25,8 +25,8 @@ pub(crate) fn meet_sphere<F: TierFormula, L: Lanes, Q: Query, const IN_ORDER: bo
     let center = sphere.center();
     let center = axes!(i => limits.like(center[i]));
     let radius = limits.like(sphere.radius);
-    let t = F::first_root(rays, prepared, center, radius, asked, limits);
-    let t = L::select(asked, t, infinity);
+    let t = F::first_root(rays, prepared, center, radius, active, limits);
+    let t = L::select(active, t, infinity);
     if (F::ORDERS_ROOTS || !IN_ORDER) && !Q::ANY {
         let tied = (t.le(limits) & limits.le(t) & t.lt(infinity)).bits();
         if tied != 0 {

@@ -32,8 +32,8 @@ pub fn pair_lanes<L: Lanes>(
     let center = axes!(i => L::load(token, &spheres.center[i]));
     let radius = L::load(token, &spheres.radius);
     let (zero, infinity) = (radius.like(0.0), radius.like(f32::INFINITY));
-    let asked = rays.live & all_finite(center) & zero.le(radius) & radius.lt(infinity);
-    let t = test_lanes(tier, &rays, center, radius, asked, infinity);
+    let active = rays.live & all_finite(center) & zero.le(radius) & radius.lt(infinity);
+    let t = test_lanes(tier, &rays, center, radius, active, infinity);
     let mut hits = HitPacket::none();
     hits.t = t.store();
     let (met, indices) = (t.lt(infinity).bits(), hits.sphere.as_mut());

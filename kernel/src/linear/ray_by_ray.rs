@@ -42,8 +42,8 @@ impl<L: Lanes, Q: Query, S: SphereRun + ?Sized> TierWork for RayByRay<'_, L, Q, 
             let mut limits = Q::limits::<L>(token, answer);
             for number in 0..spheres.count() {
                 let index = spheres.index(number);
-                let asked = rays.live & !Q::done::<L>(token, answer);
-                if !asked.any() {
+                let active = rays.live & !Q::done::<L>(token, answer);
+                if !active.any() {
                     break;
                 }
                 if let Some(sphere) = list.get(index as usize)
@@ -51,7 +51,7 @@ impl<L: Lanes, Q: Query, S: SphereRun + ?Sized> TierWork for RayByRay<'_, L, Q, 
                 {
                     let (rays, sphere) = ((packet, &rays, &prepared), (sphere, index));
                     limits =
-                        meet_sphere::<F, L, Q, true>(rays, &list, sphere, asked, limits, answer);
+                        meet_sphere::<F, L, Q, true>(rays, &list, sphere, active, limits, answer);
                 }
             }
         }

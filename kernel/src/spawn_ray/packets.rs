@@ -238,7 +238,7 @@ impl<L: Lanes> Spawn<L> {
         step: L,
         steps: f64,
         towards: Towards,
-        asked: L::Mask,
+        active: L::Mask,
     ) -> Tried<L> {
         let token = step.token();
         let origin = self.origin(surfaces, step, steps);
@@ -268,7 +268,7 @@ impl<L: Lanes> Spawn<L> {
 
         // The tier says whether it sees the sphere; from inside of which root, one by one.
         let infinity = step.like(f32::INFINITY);
-        let outside = asked & on_side & !self.inside;
+        let outside = active & on_side & !self.inside;
         let rays = RayLanes {
             origin,
             direction,

@@ -64,17 +64,17 @@ fn normal_error<D: DoubleLanes>(of_point: D, per_radius: D) -> D {
     of_point * per_radius * per_radius.like(1.0 + 8.0 * U) + per_radius.like(8.0 * U)
 }
 
-/// The same in lanes, and those of the lanes `asked` in which double precision knows it.
+/// The same in lanes, and those of the lanes `active` in which double precision knows it.
 #[inline(always)]
 pub(super) fn in_lanes<L: Lanes>(
     rays: &RayLanes<L>,
     t: L,
     center: [L; 3],
     radius: L,
-    asked: L::Mask,
+    active: L::Mask,
 ) -> (SurfaceLanes<L>, L::Mask) {
-    let (first, known) = estimated::<L, false>(rays, t, center, radius, asked);
-    let open = asked & !known;
+    let (first, known) = estimated::<L, false>(rays, t, center, radius, active);
+    let open = active & !known;
     if !open.any() {
         return (first, known);
     }
@@ -100,14 +100,14 @@ fn estimated<L: Lanes, const IN_TWO_TERMS: bool>(
     t: L,
     center: [L; 3],
     radius: L,
-    asked: L::Mask,
+    active: L::Mask,
 ) -> (SurfaceLanes<L>, L::Mask) {
     let (token, zeros) = (t.token(), L::Array::filled(0.0));
     // From below and from above.
     let [mut normal, mut point] = [[[zeros; 2]; 3]; 2];
     let mut rests = [zeros; 3];
     let mut known = 0_u32;
-    let lanes = asked.bits();
+    let lanes = active.bits();
     for part in 0..L::PARTS {
         let first = part * L::Double::COUNT;
         if (lanes >> first) & ((1 << L::Double::COUNT) - 1) == 0 {
@@ -129,7 +129,7 @@ fn estimated<L: Lanes, const IN_TWO_TERMS: bool>(
         }
     }
 
-    let mut known = asked & L::mask(token, known);
+    let mut known = active & L::mask(token, known);
     let zero = t.like(0.0);
     for i in 0..3 {
         let [low, high] = &normal[i];

@@ -112,14 +112,14 @@ impl<'a, T: Accuracy, L: Lanes, Q: Query> DeferredTests<'a, T, L, Q> {
         if self.count == 0 {
             return;
         }
-        let (token, asked) = (self.token, (1_u64 << self.count) - 1);
+        let (token, active) = (self.token, (1_u64 << self.count) - 1);
         self.count = 0;
         let rays = RayLanes::<L>::load(token, &self.rays);
-        let asked = rays.live & L::mask(token, asked as u32);
+        let active = rays.live & L::mask(token, active as u32);
         let center = axes!(i => L::load(token, &self.center[i]));
         let radius = L::load(token, &self.radius);
         let infinity = L::splat(token, f32::INFINITY);
-        let t = test_lanes(self.tier, &rays, center, radius, asked, infinity).store();
+        let t = test_lanes(self.tier, &rays, center, radius, active, infinity).store();
         for lane in 0..L::COUNT {
             let t = t.get(lane);
             if t < f32::INFINITY
