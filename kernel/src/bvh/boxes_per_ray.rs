@@ -6,7 +6,7 @@
 //! median distance from the median along each axis, and the median diameter. Of up to 32 spheres, the same of a list
 //! wherever they are, which takes a microsecond. No box is entered more than once.
 
-use super::node::{BvhNode, FEW, LEAF, NO_CHILD, WIDTH};
+use super::node::{BvhNode, LEAF, NO_CHILD, SMALL_TREE, WIDTH};
 use crate::geometry::sphere::Spheres;
 use crate::numeric::axes::axes;
 use crate::scale::scene::SceneScale;
@@ -55,7 +55,7 @@ impl Add for BoxesPerRay {
 /// to enter it. `+inf` where every box is entered: nothing can be said, or the spheres are so few that no box is looked at.
 pub(crate) fn inverse_of_body(spheres: &Spheres<'_>, scale: &SceneScale) -> f32 {
     let count = spheres.len();
-    if count <= FEW {
+    if count <= SMALL_TREE {
         return f32::INFINITY;
     }
     let mut columns = [[0.0; SAMPLE]; 4];

@@ -41,5 +41,5 @@ pub(crate) fn octant_of(down: [bool; 3]) -> u32 {
     u32::from(down[0]) | u32::from(down[1]) << 1 | u32::from(down[2]) << 2
 }
 
-/// Of so few spheres all leaves are full: such trees are traversed without boxes (`traverse/few.rs`).
-pub(crate) const FEW: usize = 64;
+/// Of so few spheres all leaves are full: a small tree, traversed without boxes (`traverse/small_tree.rs`).
+pub(crate) const SMALL_TREE: usize = 64;

@@ -3,7 +3,6 @@
 
 pub(crate) mod boxes;
 pub(crate) mod deferred;
-pub(crate) mod few;
 mod in_flight;
 #[cfg(feature = "std")]
 pub(crate) mod one_ray;
@@ -11,6 +10,7 @@ pub(crate) mod packet_set;
 pub(crate) mod prepared_ray;
 pub(crate) mod ray_state;
 pub(crate) mod root_interval;
+pub(crate) mod small_tree;
 mod stack;
 pub(crate) mod stream;
 pub(crate) mod wavefront;

@@ -9,7 +9,7 @@
 //! * each ray would have begun and ended by itself;
 //! * each ray that came near a sphere would have met one;
 //! * of the rays, a part enters each box that the group looks into. The part is sampled: some boxes are held against the
-//!   rays of one packet. In a tree of few leaves all rays look into all of them.
+//!   rays of one packet. In a small tree all rays look into all of them.
 //!
 //! A group that has done more gives up. So does one that holds many spheres against the rays of packets
 //! which come near few of them: its packets are too wide, and that is seen after some leaves. The rays go on by
@@ -37,11 +37,11 @@ const RAY: u32 = 7;
 const RAY_NODE: u32 = 5;
 const RAY_LEAF: u32 = 6;
 const RAY_ROOTS: u32 = 16;
-/// The same in a tree of few leaves, where rays have no boxes, and seldom look for roots before the tier does.
-const RAY_OF_FEW: u32 = 2;
-const LEAF_OF_FEW: u32 = 1;
-const ROOTS_OF_FEW: u32 = 2;
-/// What it takes to lay planes around a group: not much but where there are few leaves.
+/// The same in a small tree, where rays have no boxes, and seldom look for roots before the tier does.
+const RAY_OF_SMALL_TREE: u32 = 2;
+const LEAF_OF_SMALL_TREE: u32 = 1;
+const ROOTS_OF_SMALL_TREE: u32 = 2;
+/// What it takes to lay planes around a group: not much but in a small tree.
 const FIT: u32 = 24;
 /// So many spheres may be held against packets for each that a ray comes near, and for each ray: of groups that pay two
 /// to six a sphere that is near, of those that are too wide fifty and more.
@@ -56,8 +56,8 @@ const STRIDE: u32 = 8;
 /// What a group has done.
 pub(super) struct Effort {
     rays: u32,
-    /// Whether rays have a way of their own through few leaves.
-    few: bool,
+    /// Whether the tree is small: then rays have a way of their own through it.
+    is_small_tree: bool,
     /// Without roots.
     work: u32,
     /// Spheres that were held against packets, and how many may have been before it is asked whether that was in vain.
@@ -72,19 +72,19 @@ pub(super) struct Effort {
 }
 
 impl Effort {
-    /// Of a group that has done nothing, in a tree of so `few` leaves, if they are few.
+    /// Of a group that has done nothing, in a tree of so many leaves, if it is small.
     #[inline(always)]
-    pub(super) fn of<L: Lanes>(states: &[PacketState<'_, L>], few: Option<u32>) -> Self {
+    pub(super) fn of<L: Lanes>(states: &[PacketState<'_, L>], leaves: Option<u32>) -> Self {
         let rays = live_rays(states);
         let most_spheres = SPHERES_IN_VAIN * rays;
         Self {
             rays,
-            few: few.is_some(),
+            is_small_tree: leaves.is_some(),
             work: 0,
             spheres: 0,
             most_spheres,
-            apart: rays * few.map_or(RAY_NODE, |leaves| LEAF_OF_FEW * leaves),
-            until: if few.is_some() { u32::MAX } else { 1 },
+            apart: rays * leaves.map_or(RAY_NODE, |leaves| LEAF_OF_SMALL_TREE * leaves),
+            until: if leaves.is_some() { u32::MAX } else { 1 },
             stride: 2,
             packet: 0,
         }
@@ -152,11 +152,11 @@ impl Effort {
         self.takes(states, 4, 5)
     }
 
-    /// Whether all that it has done is so much more that the next is better not tried. (What few leaves cost is known;
+    /// Whether all that it has done is so much more that the next is better not tried. (What a small tree costs is known;
     /// of others half of the rays' own work may not have been seen.)
     #[inline(always)]
     pub(super) fn is_at_a_loss<L: Lanes>(&mut self, states: &[PacketState<'_, L>]) -> bool {
-        if self.few {
+        if self.is_small_tree {
             self.work = self.work.wrapping_add(FIT);
             return self.takes(states, 10, 7);
         }
@@ -180,7 +180,11 @@ impl Effort {
             + u64::from(ROOTS) * u64::from(roots)
             + u64::from(TIER) * u64::from(tests);
         // By itself a ray meets what is nearest first, and few others.
-        let [ray, ray_root] = if self.few { [RAY_OF_FEW, ROOTS_OF_FEW] } else { [RAY, RAY_ROOTS] };
+        let [ray, ray_root] = if self.is_small_tree {
+            [RAY_OF_SMALL_TREE, ROOTS_OF_SMALL_TREE]
+        } else {
+            [RAY, RAY_ROOTS]
+        };
         let apart = ray * self.rays + ray_root * ray_roots.min(self.rays);
         part * work > of * (u64::from(apart) + u64::from(self.apart))
     }

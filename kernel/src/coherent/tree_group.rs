@@ -22,7 +22,7 @@ use crate::Accuracy;
 use crate::accuracy::RayLanes;
 use crate::bvh::leaf::Leaf;
 use crate::bvh::node::{DEPTH, LEAF, WIDTH};
-use crate::bvh::traverse::few::leaves_of_few;
+use crate::bvh::traverse::small_tree;
 use crate::bvh::tree::Bvh;
 use crate::count::count;
 use crate::geometry::ray::RayPacket;
@@ -154,7 +154,7 @@ impl Boxes {
         self.depths[0] = f32::NEG_INFINITY;
         self.places[0] = ROOT;
         self.top = 1;
-        let mut effort = Effort::of(states, leaves_of_few(bvh));
+        let mut effort = Effort::of(states, small_tree::leaf_count(bvh));
         let mut inside = Inside { places: 0, depths: [0.0; WIDTH] };
         while self.top > 0 {
             self.top -= 1;

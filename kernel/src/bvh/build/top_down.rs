@@ -17,7 +17,7 @@ use super::run::Run;
 use crate::bvh::boxes_per_ray::inverse_of_body;
 use crate::bvh::built::Built;
 use crate::bvh::leaf::{BEFORE, BEHIND, STEP};
-use crate::bvh::node::{BvhNode, DEPTH, FEW, LEAF, NO_CHILD, WIDTH};
+use crate::bvh::node::{BvhNode, DEPTH, LEAF, NO_CHILD, SMALL_TREE, WIDTH};
 use crate::bvh::unplaced::Unplaced;
 use crate::geometry::sphere::{Sphere, Spheres};
 use crate::scale::scene::SceneScale;
@@ -194,7 +194,7 @@ fn build_tree(
     budget: Budget,
 ) -> usize {
     let count = root.count;
-    let made = if count <= FEW {
+    let made = if count <= SMALL_TREE {
         in_equal_parts(join, run, root, budget)
     } else {
         children(join, run, root, budget)

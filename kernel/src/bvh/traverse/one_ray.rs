@@ -6,7 +6,7 @@
 //! is left of a node are bits, the nearest first; where the ray enters its boxes is not kept: when a hit is closer than
 //! what was known, the boxes of the nodes on the way are tested once more. So nothing large is
 //! made for a ray: 256 bytes, not the 2 KiB of a stack that other traversals make once for many rays. At the end the tier
-//! tests what may be the closest, one sphere after the other, in one lane. In a tree of few leaves a ray looks into all
+//! tests what may be the closest, one sphere after the other, in one lane. In a small tree a ray looks into all
 //! of them, without boxes.
 //!
 //! What limits it is how long one step waits for the last, and branches that cannot be foreseen. So numbers of the ray stay in
@@ -17,9 +17,9 @@ mod found;
 
 use self::found::{MOST, Search};
 use super::boxes::{BoxProbe, Boxes};
-use super::few::{AT_ONCE, few};
 use super::prepared_ray::{PreparedLanes, RayTime, far_away};
 use super::root_interval::RayProbe;
+use super::small_tree::{self, AT_ONCE};
 use crate::Accuracy;
 use crate::accuracy::RayLanes;
 use crate::bvh::leaf::place_of;
@@ -132,7 +132,7 @@ fn search<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
         raise: L::splat(token, time.raise(tier)),
         spread,
     };
-    if let Some(leaves) = few(bvh) {
+    if let Some(leaves) = small_tree::leaves(bvh) {
         let may_hit = search.may_hit::<L, SPREADS>(&spheres, leaves);
         if !Q::ANY && may_hit.count_ones() <= AT_ONCE {
             search.keep(leaves, may_hit);

@@ -17,13 +17,13 @@
 //! in flight: 0.97.)
 //!
 //! What a packet's rays need is worked out once, in lanes, and read where it lies. Trees of up to four
-//! leaves are traversed without boxes (`few.rs`).
+//! leaves are traversed without boxes (`small_tree.rs`).
 
 use super::deferred::DeferredTests;
-use super::few;
 use super::in_flight::{PacketsInFlight, Round, Step};
 use super::packet_set::PacketSet;
 use super::ray_state::RayState;
+use super::small_tree;
 use crate::Accuracy;
 use crate::bvh::prefetch;
 use crate::bvh::tree::Bvh;
@@ -51,8 +51,8 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
             let count = rays.len().min(answers.len());
             let (rays, answers) = (rays.get(..count).unwrap_or_default(), answers);
             let mut tests = DeferredTests::<_, L, Q>::new(tier, token, bvh, rays, answers, waiting);
-            let entered = if let Some(leaves) = few::few(bvh) {
-                few::traverse(&mut tests, leaves);
+            let entered = if let Some(leaves) = small_tree::leaves(bvh) {
+                small_tree::traverse(&mut tests, leaves);
                 Entered::default()
             } else {
                 by_boxes(&mut tests)

@@ -5,10 +5,10 @@ use crate::accuracy::{RayLanes, is_closer, test_one};
 use crate::bvh::leaf::place_of;
 use crate::bvh::node::{LEAF, WIDTH};
 use crate::bvh::source::SphereSource;
-use crate::bvh::traverse::few::FEW;
 use crate::bvh::traverse::in_flight::test_from_afar;
 use crate::bvh::traverse::prepared_ray::RayTime;
 use crate::bvh::traverse::root_interval::RayProbe;
+use crate::bvh::traverse::small_tree::MOST_LEAVES;
 use crate::bvh::tree::Bvh;
 use crate::geometry::hit::Hit;
 use crate::geometry::ray::{Ray, RayPacket};
@@ -65,10 +65,10 @@ impl<T: Accuracy, Q: Query> Search<'_, T, Q> {
     pub(super) fn may_hit<L: Lanes, const SPREADS: bool>(
         &self,
         probe: &RayProbe<L>,
-        leaves: [u32; FEW],
+        leaves: [u32; MOST_LEAVES],
     ) -> u64 {
         let mut may_hit = 0;
-        for number in 0..FEW {
+        for number in 0..MOST_LEAVES {
             let Some(leaf) = self.bvh.leaf(leaves[number] & !LEAF) else { break };
             for part in 0..WIDTH / L::COUNT {
                 let here = probe.may_hit::<SPREADS>(&leaf.columns, part) << (part * L::COUNT);
@@ -78,13 +78,13 @@ impl<T: Accuracy, Q: Query> Search<'_, T, Q> {
         may_hit
     }
 
-    /// Keeps what may be hit of few leaves.
+    /// Keeps what may be hit of a small tree.
     #[inline(always)]
-    pub(super) fn keep(&mut self, leaves: [u32; FEW], mut may_hit: u64) {
+    pub(super) fn keep(&mut self, leaves: [u32; MOST_LEAVES], mut may_hit: u64) {
         while may_hit != 0 {
             let bit = may_hit.trailing_zeros();
             may_hit &= may_hit - 1;
-            let leaf = leaves[bit as usize / WIDTH % FEW] & !LEAF;
+            let leaf = leaves[bit as usize / WIDTH % MOST_LEAVES] & !LEAF;
             self.places[self.count % MOST] = place_of(leaf, bit % WIDTH as u32);
             self.entries[self.count % MOST] = f32::NEG_INFINITY;
             self.count = self.count % MOST + 1;
@@ -98,13 +98,13 @@ impl<T: Accuracy, Q: Query> Search<'_, T, Q> {
         token: L::Token,
         probe: &mut RayProbe<L>,
         time: RayTime<f32>,
-        leaves: [u32; FEW],
+        leaves: [u32; MOST_LEAVES],
         mut may_hit: u64,
     ) -> bool {
         while may_hit != 0 {
             let number = may_hit.trailing_zeros() as usize / WIDTH;
             may_hit &= !(0xffff << (number * WIDTH));
-            if self.look::<L, SPREADS>(token, probe, time, leaves[number % FEW] & !LEAF) {
+            if self.look::<L, SPREADS>(token, probe, time, leaves[number % MOST_LEAVES] & !LEAF) {
                 return true;
             }
         }

@@ -1,4 +1,4 @@
-//! Trees of so few leaves that a ray looks into all of them.
+//! Small trees: of so few leaves that a ray looks into all of them.
 //!
 //! Boxes would spare a ray some leaves, and cost it more. All leaves are tested one behind the other, which
 //! depends on nothing; what is left of them is seldom more than a sphere or two, and goes
@@ -16,14 +16,14 @@ use crate::bvh::tree::Bvh;
 use crate::lanes::Lanes;
 use crate::query::Query;
 
-/// How many leaves are few: as many as have their spheres in the bits of a number.
-pub(super) const FEW: usize = u64::BITS as usize / WIDTH;
+/// How many leaves a small tree has at most: as many as have their spheres in the bits of a number.
+pub(super) const MOST_LEAVES: usize = u64::BITS as usize / WIDTH;
 /// So many spheres are deferred at once.
 pub(super) const AT_ONCE: u32 = 2;
 
-/// The leaves of a tree that has few, all in one node; else `None`.
+/// The leaves of a small tree, all in one node; `None` of a larger one.
 #[inline(always)]
-pub(crate) fn few(bvh: &Bvh<'_>) -> Option<[u32; FEW]> {
+pub(crate) fn leaves(bvh: &Bvh<'_>) -> Option<[u32; MOST_LEAVES]> {
     match bvh.nodes {
         [] => Some([bvh.root, NO_CHILD, NO_CHILD, NO_CHILD]),
         [BvhNode { child: [a, b, c, d, NO_CHILD, ..], .. }] => Some([*a, *b, *c, *d]),
@@ -31,14 +31,14 @@ pub(crate) fn few(bvh: &Bvh<'_>) -> Option<[u32; FEW]> {
     }
 }
 
-/// How many leaves such a tree has; else `None`.
+/// How many leaves a small tree has; `None` of a larger one.
 #[inline(always)]
-pub(crate) fn leaves_of_few(bvh: &Bvh<'_>) -> Option<u32> {
-    few(bvh).map(
+pub(crate) fn leaf_count(bvh: &Bvh<'_>) -> Option<u32> {
+    leaves(bvh).map(
         #[inline(always)]
         |leaves| {
             let mut count = 0;
-            for number in 0..FEW {
+            for number in 0..MOST_LEAVES {
                 count += u32::from(leaves[number] != NO_CHILD);
             }
             count
@@ -46,11 +46,11 @@ pub(crate) fn leaves_of_few(bvh: &Bvh<'_>) -> Option<u32> {
     )
 }
 
-/// Answers every ray by testing it against all spheres of such a tree.
+/// Answers every ray by testing it against all spheres of a small tree.
 #[inline(always)]
 pub(crate) fn traverse<T: Accuracy, L: Lanes, Q: Query>(
     tests: &mut DeferredTests<'_, T, L, Q>,
-    leaves: [u32; FEW],
+    leaves: [u32; MOST_LEAVES],
 ) {
     // Found once: to look for them costs as much as to test them.
     let bvh = tests.bvh;
@@ -78,7 +78,7 @@ pub(crate) fn traverse<T: Accuracy, L: Lanes, Q: Query>(
 #[inline(always)]
 fn all_leaves<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
     tests: &mut DeferredTests<'_, T, L, Q>,
-    leaves: &[(u32, Option<Leaf<'_>>); FEW],
+    leaves: &[(u32, Option<Leaf<'_>>); MOST_LEAVES],
     packet: usize,
     prepared: &PreparedPacket<L::Array>,
     state: &mut RayState,
@@ -91,7 +91,7 @@ fn all_leaves<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
         state.begin(prepared, 0, ray, bvh.root);
 
         let mut candidates = 0;
-        for number in 0..FEW {
+        for number in 0..MOST_LEAVES {
             let Some(leaf) = &leaves[number].1 else { break };
             let here = state.may_hit::<T, L, Q, SPREADS>(tests, prepared, leaf);
             candidates |= u64::from(here) << (number * WIDTH);
@@ -99,12 +99,15 @@ fn all_leaves<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
         if candidates.count_ones() <= AT_ONCE {
             while candidates != 0 {
                 let bit = candidates.trailing_zeros();
-                tests.add(ray, place_of(leaves[bit as usize / WIDTH % FEW].0, bit % WIDTH as u32));
+                tests.add(
+                    ray,
+                    place_of(leaves[bit as usize / WIDTH % MOST_LEAVES].0, bit % WIDTH as u32),
+                );
                 candidates &= candidates - 1;
             }
             continue;
         }
-        for number in 0..FEW {
+        for number in 0..MOST_LEAVES {
             if candidates >> (number * WIDTH) & 0xffff != 0 {
                 state.meet::<T, L, Q, SPREADS>(tests, prepared, leaves[number].0);
             }
