@@ -37,6 +37,7 @@ mod queue;
 mod ray;
 mod sharing;
 mod sort;
+mod strategy;
 
 #[cfg(feature = "alloc")]
 pub(crate) use kept::{KeptMemory, MOST_SORTED};
@@ -46,8 +47,9 @@ pub use ray::StreamRay;
 pub(crate) use sharing::Sharing;
 
 use self::queue::{FRAMES, Frame};
-use self::sharing::{Seen, TOGETHER, Way};
+use self::sharing::{Seen, TOGETHER};
 use self::sort::by_start;
+use self::strategy::StreamStrategy;
 use super::deferred::DeferredTests;
 use super::in_flight::{begin, begin_packet};
 use super::packet_set::PacketSet;
@@ -75,7 +77,7 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
     let mut from = 0;
     while from < count {
         let left = (count - from) * L::COUNT;
-        let (way, next) = sharing.next::<Q>(bvh, memory, left, waiting.is_none());
+        let (strategy, next) = sharing.next::<Q>(bvh, memory, left, waiting.is_none());
         let to = count.min(from + next.div_ceil(L::COUNT).max(1));
         let (Some(rays), Some(answers)) = (rays.get(from..to), answers.get_mut(from..to)) else {
             break;
@@ -85,7 +87,7 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
             |waiting| waiting.after(from),
         );
         from = to;
-        if way == Way::RayByRay {
+        if strategy == StreamStrategy::RayByRay {
             let rays = (rays, waiting.as_ref());
             let entered = wavefront::traverse::<L, Q>(tier, token, bvh, rays, answers);
             sharing.take_alone(entered);
@@ -110,10 +112,10 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
                     frames: [Frame::EMPTY; FRAMES],
                     seen: Seen::default(),
                 };
-                let half = if way == Way::Sorted { order.len() / 2 } else { 0 };
+                let half = if strategy == StreamStrategy::Sorted { order.len() / 2 } else { 0 };
                 stream.all(count, order.split_at_mut(half));
                 stream.tests.test();
-                sharing.take::<Q>(way, stream.seen);
+                sharing.take::<Q>(strategy, stream.seen);
             },
         );
     }

@@ -50,25 +50,18 @@
 //! | nested, a shuffled camera | 202 | 0.80 | 1.34, 1.31 |
 //! | 10,000, diffuse | 7.1 | 0.84 | 0.95, 0.97 |
 //!
-//! Small trees have a way of their own (`small_tree.rs`), which is faster.
+//! Small trees have a traversal of their own (`small_tree.rs`), which is faster.
 //!
 //! Where too few meet, sorting may bring them together, if the tree is far from the core, and rays are many: a million
 //! spheres, 65,536 rays, closest hit: to a light 1.43, a beam 1.17, diffuse 0.91 (262,144: 1.08). Rays that are done at
 //! their first hit lose by it.
 
 use super::StreamMemory;
+use super::strategy::StreamStrategy;
 use crate::bvh::traverse::small_tree;
 use crate::bvh::traverse::wavefront::Entered;
 use crate::bvh::tree::Bvh;
 use crate::query::Query;
-
-/// How rays that have nothing in common go through a tree.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Way {
-    RayByRay,
-    AsTheyCome,
-    Sorted,
-}
 
 /// So many rays must meet at a box, on average: for the closest hit, and for any.
 const ENOUGH: [f32; 2] = [6.0, 10.0];
@@ -192,22 +185,26 @@ impl Sharing {
         is_for && are_many && self.sorted.left == 0
     }
 
-    /// The way of the next rays of so many, and of how many; they can be sorted if there is nothing known of any.
+    /// The strategy for the next rays of so many, and of how many; they can be sorted if there is nothing known of any.
     pub(super) fn next<Q: Query>(
         &mut self,
         bvh: &Bvh<'_>,
         memory: &StreamMemory<'_>,
         rays: usize,
         is_new: bool,
-    ) -> (Way, usize) {
+    ) -> (StreamStrategy, usize) {
         let together = memory.rays.len().min(TOGETHER);
         let sortable = if is_new { rays.min(memory.order.len() / 2) } else { 0 };
         if memory.everywhere {
             let is_sorted = bvh.outside.is_empty() && sortable > together;
-            return if is_sorted { (Way::Sorted, rays) } else { (Way::AsTheyCome, rays) };
+            return if is_sorted {
+                (StreamStrategy::Sorted, rays)
+            } else {
+                (StreamStrategy::AsTheyCome, rays)
+            };
         }
         if small_tree::leaves(bvh).is_some() || memory.queues.len() < LEAST_QUEUES * together {
-            return (Way::RayByRay, rays);
+            return (StreamStrategy::RayByRay, rays);
         }
 
         let batch = rays.min(together);
@@ -217,16 +214,16 @@ impl Sharing {
             let first = (rays / 8).clamp(FIRST[0], FIRST[1]).min(batch);
             if Q::ANY && self.believed == 0 {
                 self.believed = BELIEVED;
-                return (Way::RayByRay, first);
+                return (StreamStrategy::RayByRay, first);
             }
-            return (Way::AsTheyCome, if pays { batch } else { first });
+            return (StreamStrategy::AsTheyCome, if pays { batch } else { first });
         }
         if self.met.is_nan() && self.may_sort::<Q>(bvh, sortable) {
-            return (Way::Sorted, sortable);
+            return (StreamStrategy::Sorted, sortable);
         }
         let passed = rays.min(TOGETHER);
         self.pass_over(passed);
-        (Way::RayByRay, passed)
+        (StreamStrategy::RayByRay, passed)
     }
 
     /// So many rays went by themselves.
@@ -243,13 +240,13 @@ impl Sharing {
     }
 
     /// Takes what a stream has seen.
-    pub(super) fn take<Q: Query>(&mut self, way: Way, seen: Seen) {
+    pub(super) fn take<Q: Query>(&mut self, strategy: StreamStrategy, seen: Seen) {
         // Rays that enter no box tell nothing.
         if seen.boxes == 0 {
             return;
         }
         let met = seen.entered as f32 / seen.boxes as f32;
-        if way == Way::Sorted {
+        if strategy == StreamStrategy::Sorted {
             self.sorted.take(met >= ENOUGH_SORTED);
             return;
         }

@@ -43,9 +43,9 @@ fn few_that_meet_or_much_in_vain_end_it_and_all_is_tried_again() {
     let tree = tree.bvh();
     let pays = |alone: u32, of: Seen| {
         let (mut closest, mut any) = (Sharing::NOTHING, Sharing::NOTHING);
-        closest.take::<ClosestHit>(Way::AsTheyCome, of);
+        closest.take::<ClosestHit>(StreamStrategy::AsTheyCome, of);
         any.take_alone(Entered { rays: 128, boxes: 128 * alone });
-        any.take::<AnyHit>(Way::AsTheyCome, of);
+        any.take::<AnyHit>(StreamStrategy::AsTheyCome, of);
         let pay = [closest.may_pay::<ClosestHit>(&tree, 8192), any.may_pay::<AnyHit>(&tree, 8192)];
         any.pass_over(PASSED_OVER[0]);
         assert!(any.may_pay::<AnyHit>(&tree, 8192));
@@ -82,21 +82,21 @@ fn what_rays_enter_by_themselves_is_counted_now_and_then() {
     let mut rays = vec![StreamRay::EMPTY; TOGETHER];
     let mut queues = vec![QueuedRay::EMPTY; 64 * TOGETHER];
     let memory = StreamMemory::new(&mut rays, &mut queues).expect("enough");
-    let mut ways = Vec::new();
+    let mut strategies = Vec::new();
     for _ in 0..8 {
-        let (way, rays) = sharing.next::<AnyHit>(&tree, &memory, 1 << 20, true);
-        ways.push((way == Way::AsTheyCome, rays));
+        let (strategy, rays) = sharing.next::<AnyHit>(&tree, &memory, 1 << 20, true);
+        strategies.push((strategy == StreamStrategy::AsTheyCome, rays));
         let entered = 20 * rays as u32;
-        if way == Way::AsTheyCome {
+        if strategy == StreamStrategy::AsTheyCome {
             let seen = Seen { streams: 1, rays: rays as u32, boxes: entered / 20, entered };
-            sharing.take::<AnyHit>(way, seen);
+            sharing.take::<AnyHit>(strategy, seen);
         } else {
             sharing.take_alone(Entered { rays: rays as u32, boxes: entered });
         }
     }
     // Some by themselves, as many together, then as many as fit; and after 32,768 some by themselves again.
     let [first, alone, all] = [(true, 1024), (false, 1024), (true, TOGETHER)];
-    assert_eq!(ways, [alone, first, all, all, all, all, alone, all]);
+    assert_eq!(strategies, [alone, first, all, all, all, all, alone, all]);
 }
 
 #[test]
