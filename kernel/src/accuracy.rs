@@ -11,12 +11,12 @@
 //! for all of them. Name a tier at build time by its type, `Exact`, or at run time by [`Tier`]: the
 //! answers are the same bits.
 
-pub(crate) mod beyond;
 pub(crate) mod constants;
 pub(crate) mod exact;
 pub(crate) mod fast;
 mod formula;
 pub(crate) mod geometric;
+pub(crate) mod range_limits;
 mod roots;
 pub(crate) mod stable;
 mod surface;

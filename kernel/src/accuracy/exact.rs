@@ -19,8 +19,8 @@ mod surface;
 
 use self::estimate::Estimate;
 use self::one_ray::Bracketed;
-use super::beyond::Beyond;
 use super::formula::{Tier, TierFormula};
+use super::range_limits::RangeLimits;
 use super::roots::RayLanes;
 use super::surface::SurfaceLanes;
 use crate::geometry::surface::Surface;
@@ -52,24 +52,24 @@ impl TierFormula for Exact {
     const THIS: Self = Self;
     const TIER: Tier = Tier::Exact;
     const ORDERS_ROOTS: bool = true;
-    type Prepared<L: Lanes> = Beyond<L>;
+    type Prepared<L: Lanes> = RangeLimits<L>;
 
     #[inline(always)]
-    fn prepare<L: Lanes>(rays: &RayLanes<L>) -> Beyond<L> {
-        Beyond::new(rays)
+    fn prepare<L: Lanes>(rays: &RayLanes<L>) -> RangeLimits<L> {
+        RangeLimits::new(rays)
     }
 
     #[inline(always)]
     fn first_root<L: Lanes>(
         rays: &RayLanes<L>,
-        beyond: &Beyond<L>,
+        range_limits: &RangeLimits<L>,
         center: [L; 3],
         radius: L,
         active: L::Mask,
         limit: L,
     ) -> L {
         let infinity = radius.like(f32::INFINITY);
-        let active = active & !beyond.limit(rays, center, radius, limit);
+        let active = active & !range_limits.limit(rays, center, radius, limit);
         if !active.any() {
             return infinity;
         }
@@ -154,7 +154,7 @@ impl Exact {
         active: L::Mask,
         limit: L,
     ) -> [L::Mask; 2] {
-        let double = active & !Beyond::new(rays).limit(rays, center, radius, limit);
+        let double = active & !RangeLimits::new(rays).limit(rays, center, radius, limit);
         let (_, decided) = Brackets::new(rays, center, radius, double).decide(rays, limit);
         [double, double & !decided]
     }
@@ -169,7 +169,7 @@ impl Exact {
         active: L::Mask,
         limit: L,
     ) -> L {
-        let t = Self::first_root(rays, &Beyond::new(rays), center, radius, active, limit);
+        let t = Self::first_root(rays, &RangeLimits::new(rays), center, radius, active, limit);
         L::select(active & t.lt(limit), t, limit)
     }
 }

@@ -26,8 +26,8 @@
 //! The direction is scaled by a power of two to a length near one, which is exact, and t scaled
 //! back.
 
-use super::beyond::{Beyond, longest};
 use super::formula::{Tier, TierFormula, Underflow};
+use super::range_limits::{RangeLimits, longest};
 use super::roots::{RayLanes, Roots, line_roots_of};
 use crate::numeric::axes::{axes, dot};
 use crate::numeric::error_free::{VeltkampSplit, two_sum};
@@ -58,7 +58,7 @@ pub struct StableRays<L> {
     /// a = d.d of the scaled direction, and 1/a.
     a: L,
     per_a: L,
-    beyond: Beyond<L>,
+    range_limits: RangeLimits<L>,
     /// The power of two that the direction was scaled by; t is scaled back by the same.
     scale: L,
 }
@@ -82,7 +82,7 @@ impl TierFormula for Stable {
             direction: axes!(i => VeltkampSplit::new(d[i])),
             a,
             per_a: a.like(1.0) / a,
-            beyond: Beyond::of_scaled(d, a, scale),
+            range_limits: RangeLimits::of_scaled(d, a, scale),
             scale,
         }
     }
@@ -96,7 +96,7 @@ impl TierFormula for Stable {
         active: L::Mask,
         limit: L,
     ) -> L {
-        let active = active & !prepared.beyond.limit(rays, center, radius, limit);
+        let active = active & !prepared.range_limits.limit(rays, center, radius, limit);
         let infinity = limit.like(f32::INFINITY);
         if !active.any() {
             return infinity;

@@ -1,11 +1,11 @@
 //! How much of bounds is used, as far as searches find it.
 
 mod beside_fast;
-mod beyond;
 mod boxes;
 mod estimate;
 mod filter;
 mod leaves;
+mod range_limits;
 mod stable;
 #[cfg(feature = "alloc")]
 mod work;

@@ -1,11 +1,11 @@
 //! What bounds need, as it follows from the source: its formulas record themselves, and their roundings are summed.
 
-pub(super) mod beyond;
 pub(super) mod boxes;
 pub(super) mod estimate;
 pub(super) mod filter;
 pub(super) mod frustum;
 pub(super) mod leaves;
+pub(super) mod range_limits;
 pub(super) mod tiers;
 
 use super::recorded::{Operation, Recorded};

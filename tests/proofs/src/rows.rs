@@ -4,10 +4,10 @@
 //! needs more. The table of `docs/proofs.md` is this one.
 
 use super::derived::tiers::{fast_row, geometric_row};
-use super::derived::{U, beyond, boxes, estimate, filter, frustum, leaves};
+use super::derived::{U, boxes, estimate, filter, frustum, leaves, range_limits};
 use crate::accuracy::TierFormula;
-use crate::accuracy::beyond::{MARGIN as LIMIT, RAISE};
 use crate::accuracy::constants::Constants;
+use crate::accuracy::range_limits::{MARGIN as LIMIT, RAISE};
 use crate::bvh::build::bounds::PAD;
 use crate::bvh::traverse::prepared_ray::{ABSOLUTE_ERROR, PADS};
 use crate::bvh::traverse::root_interval::{DELTA, SLACK};
@@ -87,10 +87,10 @@ const ROWS: &[Row] = rows! {
         |x| fast_row().iter().all(|part| part * U <= x);
     "spread of `Geometric`, squared", "accuracy/geometric.rs", "const SPREAD", Geometric::SPREAD * Geometric::SPREAD, IN_U,
         [64.0, 25.0], &[0.25], |x| geometric_row().iter().all(|part| part * U <= x);
-    "what D is raised by, of size²", "accuracy/beyond.rs", "const RAISE", RAISE, IN_U, [64.0, 20.0], &[0.25],
-        |x| beyond::needs()[0] * U <= x;
-    "margin of a limit", "accuracy/beyond.rs", "const MARGIN", LIMIT, IN_U, [16.0, 11.012], HALF,
-        |x| beyond::needs()[1..].iter().all(|part| part * U <= x);
+    "what D is raised by, of size²", "accuracy/range_limits.rs", "const RAISE", RAISE, IN_U, [64.0, 20.0], &[0.25],
+        |x| range_limits::needs()[0] * U <= x;
+    "margin of a limit", "accuracy/range_limits.rs", "const MARGIN", LIMIT, IN_U, [16.0, 11.012], HALF,
+        |x| range_limits::needs()[1..].iter().all(|part| part * U <= x);
     "κ", "filter.rs", "const KAPPA", KAPPA, IN_U, [114.0, 112.0], &[0.5, 112.0 / 114.0], filter::holds;
     "pad of a box, of C", "bvh/build/bounds.rs", "const PAD", PAD, IN_U, [40.0, 35.0], HALF, |x| boxes::needs()[0] * U <= x;
     "absolute error, of F, by slabs", "bvh/traverse/prepared_ray.rs", "const ABSOLUTE_ERROR", ABSOLUTE_ERROR, AS_IT_IS, [8.0, 6.5],

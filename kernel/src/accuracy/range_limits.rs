@@ -18,7 +18,7 @@ use crate::{LaneMask, Lanes};
 
 /// What tells whether both roots of a sphere lie past a limit.
 #[derive(Clone, Copy, Debug)]
-pub struct Beyond<L> {
+pub struct RangeLimits<L> {
     /// d; scaled where its square might over- or underflow.
     direction: [L; 3],
     /// d.d.
@@ -29,7 +29,7 @@ pub struct Beyond<L> {
     length: L,
 }
 
-impl<L: Lanes> Beyond<L> {
+impl<L: Lanes> RangeLimits<L> {
     #[inline(always)]
     pub(crate) fn new(rays: &RayLanes<L>) -> Self {
         let (mut direction, mut a) = (rays.direction, dot(rays.direction, rays.direction));

@@ -4,7 +4,7 @@
 //! is off.
 
 use super::{U, name_differences, operands, ray};
-use crate::accuracy::beyond::{Beyond, RAISE};
+use crate::accuracy::range_limits::{RAISE, RangeLimits};
 use crate::proofs::polynomial::{Monomial, Polynomial};
 use crate::proofs::recorded::{Operation, record};
 use crate::proofs::running_error::{Input, RunningError};
@@ -16,7 +16,7 @@ pub(in crate::proofs) fn needs() -> [f64; 3] {
     let witness = [0.5, 0.1, 0.2, 1.0, 0.5, 0.25, 3.0, 2.0, 1.0, 1.5, 0.5];
     let ((), graph) = record(witness, |[ox, oy, oz, dx, dy, dz, cx, cy, cz, r, limit]| {
         let rays = ray([ox, oy, oz], [dx, dy, dz]);
-        let _ = Beyond::new(&rays).limit(&rays, [cx, cy, cz], r, limit);
+        let _ = RangeLimits::new(&rays).limit(&rays, [cx, cy, cz], r, limit);
     });
     let operands = |node: usize| operands(&graph, node);
     let mut roots = (0..graph.len()).filter(|node| matches!(graph[*node], Operation::Root(_)));

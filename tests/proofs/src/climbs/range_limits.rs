@@ -6,7 +6,7 @@
 
 use super::{Numbers, cross, lane, numbers, square, wide};
 use crate::accuracy::TierFormula;
-use crate::accuracy::beyond::{Beyond, LEAST_A, MARGIN, RAISE};
+use crate::accuracy::range_limits::{LEAST_A, MARGIN, RAISE, RangeLimits};
 use crate::numeric::axes;
 use crate::proofs::climb::{Random, assert_published, climb_twice};
 use crate::{Exact, Ray, Sphere, Stable, roots};
@@ -17,14 +17,14 @@ fn used<A: TierFormula>(numbers: &Numbers, which: usize) -> f64 {
     let (line, sphere) = super::line(numbers);
     let Some(roots) = A::line_roots(&line, &sphere) else { return f64::NEG_INFINITY };
     let rays = lane(&line);
-    let beyond = Beyond::new(&rays);
+    let range_limits = RangeLimits::new(&rays);
     let limit = roots[which];
-    let told = beyond.limit(&rays, sphere.center.to_array(), sphere.radius, limit);
+    let told = range_limits.limit(&rays, sphere.center.to_array(), sphere.radius, limit);
     assert!(!told, "{} at {limit:e} is dropped: {numbers:?}", A::TIER.as_str());
-    let (p, size) = beyond.size(&rays, sphere.center.to_array(), sphere.radius);
-    let [end, b, _] = beyond.terms(p, sphere.radius, limit).map(f64::from);
+    let (p, size) = range_limits.size(&rays, sphere.center.to_array(), sphere.radius);
+    let [end, b, _] = range_limits.terms(p, sphere.radius, limit).map(f64::from);
     let size = f64::from(size);
-    let entry = b - discriminant(&line, &sphere).max(0.0).sqrt() / per_t(&beyond);
+    let entry = b - discriminant(&line, &sphere).max(0.0).sqrt() / per_t(&range_limits);
     let used = (entry - end - f64::from(LEAST_A)) / ((size + end.abs()) * f64::from(MARGIN));
     if used.is_nan() { f64::NEG_INFINITY } else { used }
 }
@@ -36,19 +36,19 @@ fn discriminant(line: &Ray, sphere: &Sphere) -> f64 {
 }
 
 /// How many multiples of the scaled direction a t of 1 is.
-fn per_t(beyond: &Beyond<f32>) -> f64 {
-    f64::from(beyond.per_limit) / f64::from(beyond.a)
+fn per_t(range_limits: &RangeLimits<f32>) -> f64 {
+    f64::from(range_limits.per_limit) / f64::from(range_limits.a)
 }
 
 /// The part of what D is raised by that its error uses.
 fn raised(numbers: &Numbers) -> f64 {
     let (line, sphere) = super::line(numbers);
     let rays = lane(&line);
-    let beyond = Beyond::new(&rays);
-    let (p, size) = beyond.size(&rays, sphere.center.to_array(), sphere.radius);
-    let [_, _, computed] = beyond.terms(p, sphere.radius, 0.0).map(f64::from);
+    let range_limits = RangeLimits::new(&rays);
+    let (p, size) = range_limits.size(&rays, sphere.center.to_array(), sphere.radius);
+    let [_, _, computed] = range_limits.terms(p, sphere.radius, 0.0).map(f64::from);
     let size = f64::from(size);
-    let truth = discriminant(&line, &sphere) / (per_t(&beyond) * per_t(&beyond));
+    let truth = discriminant(&line, &sphere) / (per_t(&range_limits) * per_t(&range_limits));
     let error = truth - computed - f64::from(LEAST_A);
     let used = error / (size * size * f64::from(RAISE));
     if used.is_nan() { f64::NEG_INFINITY } else { used }
@@ -117,9 +117,9 @@ fn no_root_up_to_the_limit_is_dropped() {
         let Some(roots) = roots(Exact, &line, &sphere) else { continue };
         met += 1;
         let rays = lane(&line);
-        let beyond = Beyond::new(&rays);
+        let range_limits = RangeLimits::new(&rays);
         for limit in [roots[0], roots[0].next_up(), roots[1], f32::MAX, f32::INFINITY] {
-            let told = beyond.limit(&rays, sphere.center.to_array(), sphere.radius, limit);
+            let told = range_limits.limit(&rays, sphere.center.to_array(), sphere.radius, limit);
             assert!(!told || limit < roots[0], "{numbers:?} at {limit:e}");
         }
     }
@@ -141,9 +141,9 @@ fn no_graze_is_told_to_miss() {
         }
         let rays = lane(&line);
         let center = sphere.center.to_array();
-        let misses = Beyond::new(&rays).limit(&rays, center, sphere.radius, f32::INFINITY);
+        let misses = RangeLimits::new(&rays).limit(&rays, center, sphere.radius, f32::INFINITY);
         let stable =
-            Beyond::of_scaled(rays.direction, axes::dot(rays.direction, rays.direction), 1.0);
+            RangeLimits::of_scaled(rays.direction, axes::dot(rays.direction, rays.direction), 1.0);
         let stable_misses = stable.limit(&rays, center, sphere.radius, f32::INFINITY);
         let seen = [Exact::line_roots(&line, &sphere), Stable::line_roots(&line, &sphere)];
         assert!(seen[0].is_none() || !misses, "exact: {numbers:?}");
