@@ -31,7 +31,7 @@ fn main() {
         let workload =
             picture_workload(scene.spheres().len(), &exact, size.0, size.1, f64::INFINITY);
         let mut structures = SceneStructures::new(scene.list(), &threads);
-        let search = structures.picture(None, &workload, &view, &scene.lighting);
+        let search = structures.picture(None, &workload, &view, &scene);
         let search = search.expect("memory for a structure");
         let mut renderer = Renderer::new(level, &threads);
         let mut mapper = ErrorMapper::default();

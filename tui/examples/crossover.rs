@@ -174,7 +174,8 @@ impl Times {
         let test = brute / count as f64;
         // What was chosen, and how much longer it takes than the best.
         let choice = |pictures: f64| {
-            let chosen = choose(count, &Workload { rays: PICTURE, pictures, coherent });
+            let chosen = Workload::of_pictures(pictures, PICTURE, count);
+            let chosen = choose(count, &Workload { coherent, ..chosen }, 1, false);
             let a_ray = count as f64 / PICTURE as f64;
             let taken = |structure| match structure {
                 Structure::Brute => brute,

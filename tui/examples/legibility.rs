@@ -78,7 +78,7 @@ fn legibility(arguments: &Arguments) -> Result<Legibility, Box<dyn Error>> {
     structures.set_aids(style.aids);
     let count = scene.spheres().len();
     let workload = picture_workload(count, &style, size.0, size.1, 1.0);
-    let search = structures.picture(None, &workload, &view, &scene.lighting).map_err(said)?;
+    let search = structures.picture(None, &workload, &view, &scene).map_err(said)?;
     let mut renderer = Renderer::new(Level::best(), &threads);
     let drawn = renderer.draw(&scene, &search, &view, &style, size, Spending::ByNeed);
 

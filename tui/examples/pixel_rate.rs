@@ -38,7 +38,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             let (mut drawing, mut encoding, mut bytes) = (vec![], [vec![], vec![], vec![]], [0; 3]);
             for frame in 0..frames {
                 let view = view::orbited(&home, 0.02 * frame as f32, 0.0);
-                let search = structures.picture(None, &workload, &view, &scene.lighting);
+                let search = structures.picture(None, &workload, &view, &scene);
                 let search = search.map_err(|error| format!("{error:?}"))?;
                 let start = Instant::now();
                 let grid = PixelGrid::in_cells(&view, &style, cells, (8, 16), across);

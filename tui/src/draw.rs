@@ -52,7 +52,7 @@ pub fn draw(scene: &Scene, view: &View, style: &Style, columns: u16, rows: u16) 
 pub fn brute_force<'a>(scene: &'a Scene, view: &View) -> PictureSearch<'a> {
     let camera = Search::Brute(scene.spheres());
     let lights = scene.lighting.lights(view);
-    let to_lights = vec![camera; lights.len()];
+    let to_lights = if scene.shadows { vec![camera; lights.len()] } else { Vec::new() };
     PictureSearch {
         structure: Structure::Brute,
         coherence: Coherence::Coherent,

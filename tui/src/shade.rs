@@ -161,9 +161,10 @@ impl Shader {
         let mut traced = 0;
         if !samples.is_empty() {
             let surfaces = surfaces.compute(tracing, scene.spheres(), rays, hits);
-            for (light, towards) in search.lights.iter().zip(&search.to_lights) {
+            for (index, light) in search.lights.iter().enumerate() {
                 shadow_rays.cast(tracing, scene.spheres(), (rays, hits, surfaces), light);
-                if scene.shadows {
+                let towards = search.to_lights.get(index);
+                if let Some(towards) = towards {
                     shadow_rays.trace(tracing, scratch, towards);
                 }
                 let brightness = light.color.to_linear();
@@ -173,7 +174,7 @@ impl Shader {
                     let (live, occluded) = (rays.live(), shadow_rays.occluded[packet]);
                     let cosines = cosines(&surfaces[packet], rays);
                     for sample in samples.by_ref().take(count) {
-                        traced += u64::from(scene.shadows && live >> sample.lane & 1 == 1);
+                        traced += u64::from(towards.is_some() && live >> sample.lane & 1 == 1);
                         if (live & !occluded) >> sample.lane & 1 == 1 {
                             sample.received += cosines[sample.lane] * brightness;
                         }

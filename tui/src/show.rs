@@ -2,6 +2,7 @@
 
 mod cast;
 mod once;
+mod reading;
 mod still;
 
 use crate::arguments::files::Subject;
@@ -74,7 +75,7 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         let count = scene.spheres().len();
         let workload = picture_workload(count, &style, columns, rows, f64::INFINITY);
         let view = arguments.scene.view(&scene, style.picture_aspect(columns, rows));
-        structures.picture(structure, &workload, &view, &scene.lighting)?;
+        structures.picture(structure, &workload, &view, &scene)?;
     }
     // From here on every error is told by `main`, after the terminal was given back.
     let has_color = surroundings.depth(arguments.color) != ColorDepth::Never;
@@ -140,7 +141,7 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         }
         let grid = PixelGrid::new(&view, &style, columns, rows);
         let workload = grid.workload(scene.spheres().len());
-        let search = structures.picture(structure, &workload, &view, &scene.lighting)?;
+        let search = structures.picture(structure, &workload, &view, &scene)?;
         return write_png(&scene, &search, &grid, &style, &renderer, file);
     }
     if let Some(terminal) = terminal {
@@ -169,8 +170,10 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     }
     let ray = arguments.pick.map(|cell| ray_of_pick(&view, &style, (columns, rows), cell));
     let ray = ray.transpose()?;
-    let workload = picture_workload(scene.spheres().len(), &style, columns, rows, 1.0);
-    let search = structures.picture(structure, &workload, &view, &scene.lighting)?;
+    let moves = of_frames.as_ref().map_or(0, |range| range.len().saturating_sub(1));
+    let workload = picture_workload(scene.spheres().len(), &style, columns, rows, 1.0)
+        .with_moves(moves as f64);
+    let search = structures.picture(structure, &workload, &view, &scene)?;
     if let Some((cell, ray)) = ray {
         let pick = Pick::new(&scene, &search, renderer.machine().0, ray);
         let report = Report { scene: &arguments.scene.name, size: (columns, rows), cell, pick };

@@ -100,7 +100,10 @@ impl Question<'_> {
         // As if there were pictures without end.
         let workload =
             picture_workload(scene.spheres().len(), &style, columns, rows, f64::INFINITY);
-        let search = structures.picture(structure, &workload, &view, &scene.lighting)?;
+        // Rays to lights are measured whether the scene casts shadows or not.
+        let mut casting = scene.clone();
+        casting.shadows = true;
+        let search = structures.picture(structure, &workload, &view, &casting)?;
         Ok(self.report(&search, &mut watch))
     }
 

@@ -25,7 +25,7 @@ fn marbles<T>(
     let view = scene.first_view(style.picture_aspect(SIZE.0, SIZE.1) as f32);
     let mut structures = SceneStructures::new(scene.list(), &threads);
     let workload = picture_workload(scene.list().len(), style, SIZE.0, SIZE.1, 1.0);
-    let search = structures.picture(None, &workload, &view, &scene.lighting).expect("memory");
+    let search = structures.picture(None, &workload, &view, &scene).expect("memory");
     let mut renderer = Renderer { most_cells, ..Renderer::new(Level::best(), &threads) };
     draw(&mut renderer, &scene, &search, &view)
 }

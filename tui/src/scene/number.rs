@@ -7,28 +7,45 @@
 /// goes to the standard library.
 #[inline]
 pub(super) fn number(word: &[u8]) -> Option<f64> {
-    let (negative, digits) = match word {
-        [b'-', rest @ ..] => (true, rest),
-        [b'+', rest @ ..] => (false, rest),
-        _ => (false, word),
-    };
-    let (mut mantissa, mut count, mut after, mut point) = (0_u64, 0_u32, 0_usize, false);
-    for &byte in digits {
-        match byte {
-            b'0'..=b'9' => {
-                mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(byte - b'0'));
-                count += 1;
-                after += usize::from(point);
-            }
-            b'.' if !point => point = true,
-            _ => return slowly(word),
-        }
+    match leading(word) {
+        Some((value, length)) if length == word.len() => Some(value),
+        _ => slowly(word),
     }
-    if count == 0 || count > 18 || mantissa > 1 << 53 || after >= POWERS.len() {
-        return slowly(word);
+}
+
+/// The number with which `text` begins, up to white space or the end, and how many bytes it has, if it is exact by one
+/// division; `None` if it is none, or takes longer.
+///
+/// In one pass: to look for the end first, and for digits then, took a quarter more time.
+#[inline]
+pub(super) fn leading(text: &[u8]) -> Option<(f64, usize)> {
+    let is_negative = text.first() == Some(&b'-');
+    let start = usize::from(matches!(text.first(), Some(b'-' | b'+')));
+    let mut mantissa = 0_u64;
+    let mut digits = |from: usize| {
+        let mut at = from;
+        while let Some(byte) = text.get(at)
+            && byte.is_ascii_digit()
+        {
+            mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(byte - b'0'));
+            at += 1;
+        }
+        at
+    };
+    let mut end = digits(start);
+    let (mut count, mut after) = (end - start, 0);
+    if text.get(end) == Some(&b'.') {
+        let first = end + 1;
+        end = digits(first);
+        after = end - first;
+        count += after;
+    }
+    let is_over = text.get(end).is_none_or(|&byte| byte <= b' ');
+    if !is_over || count == 0 || count > 18 || mantissa > 1 << 53 || after >= POWERS.len() {
+        return None;
     }
     let value = mantissa as f64 / POWERS[after];
-    Some(if negative { -value } else { value })
+    Some((if is_negative { -value } else { value }, end))
 }
 
 #[cold]

@@ -1,6 +1,7 @@
 //! Pictures of frames, one after another, from where the first is seen.
 
 use super::once::Once;
+use super::reading::while_reading;
 use crate::choice::Auto;
 use crate::draw::{Renderer, picture_workload};
 use crate::error::Error;
@@ -33,23 +34,15 @@ impl Still {
         prepared: impl Fn(Scene) -> Scene,
     ) -> Result<(), Error> {
         let Self { view, style, structure, size: (columns, rows), is_terminal } = *self;
-        for index in range {
-            let scene = loop {
-                let read = frames.read(index).map_err(|error| Error::Input(error.to_string()))?;
-                match read {
-                    Some(scene) => break scene,
-                    None if frames.follows() => std::thread::sleep(crate::arguments::files::FOLLOW),
-                    None => return Ok(()),
-                }
-            };
-            frames.report();
+        let end = range.end;
+        while_reading(frames, range, |index, scene| {
             let scene = prepared(scene);
             structures.go_on(scene.list());
-            let workload = picture_workload(scene.spheres().len(), &style, columns, rows, 1.0);
-            let search = structures.picture(structure, &workload, &view, &scene.lighting)?;
+            let workload = picture_workload(scene.spheres().len(), &style, columns, rows, 1.0)
+                .with_moves((end - index - 1) as f64);
+            let search = structures.picture(structure, &workload, &view, &scene)?;
             let once = Once { scene: &scene, view, style, size: self.size, is_terminal };
-            once.picture(renderer, &search, None)?;
-        }
-        Ok(())
+            once.picture(renderer, &search, None)
+        })
     }
 }

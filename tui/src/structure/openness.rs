@@ -14,7 +14,6 @@
 //!
 //! All spheres have the same directions, so that what one sees its neighbour sees alike: 64 others for each cost as much, and were noise.
 
-use super::Structure;
 use super::search::{Scratch, Search, Tracing};
 use spherule_kernel::{
     Coherence, HitPacket, Level, Ray, RayPacket, Sphere, SphereList, SpherePacket, SphereTree,
@@ -106,12 +105,6 @@ impl Openness {
 }
 
 impl Around {
-    /// The structure that is there for these rays, if there is one.
-    #[must_use]
-    pub fn structure(&self) -> Option<Structure> {
-        self.tree.as_ref().map(|_| Structure::Bvh)
-    }
-
     /// Finds out how open it is around those of `spheres` of which no one knows. Returns how many rays that took.
     pub fn learn(
         &self,

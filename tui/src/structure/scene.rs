@@ -9,7 +9,7 @@ use super::{Order, Structure};
 use crate::choice::Auto;
 use crate::error::Error;
 use crate::scene::framing::subject;
-use crate::scene::{Light, Lighting, Source};
+use crate::scene::{Light, Scene, Source};
 use crate::style::Aids;
 use crate::threads::Threads;
 use crate::view::View;
@@ -28,7 +28,7 @@ pub struct PictureSearch<'a> {
     pub camera: Search<'a>,
     /// The lights of the picture.
     pub lights: Vec<Light>,
-    /// Those to the lights, one a light.
+    /// Those of the rays to them, one a light; none if the scene casts no shadows.
     pub to_lights: Vec<Search<'a>>,
     /// What aids need of the scene.
     pub setting: Setting,
@@ -149,7 +149,8 @@ impl<'a> SceneStructures<'a> {
     /// The structure for this work, if `choice` leaves it open.
     #[must_use]
     pub fn structure(&self, choice: Auto<Structure>, workload: &Workload) -> Structure {
-        choice.unwrap_or_else(|| choose(self.list.len(), workload))
+        let (spheres, threads) = (self.list.len(), self.threads.count());
+        choice.unwrap_or_else(|| choose(spheres, workload, threads, self.tree.is_some()))
     }
 
     /// `structure` for rays of a viewpoint, or of none: then all spheres stand in for a depth list.
@@ -164,7 +165,9 @@ impl<'a> SceneStructures<'a> {
         Ok(self.searches(structure, &[viewpoint], None)?.remove(0))
     }
 
-    /// The structure of `choice` for a picture from `view`, lit by `lighting`.
+    /// The structure of `choice` for a picture of `scene` from `view`.
+    ///
+    /// The scene's spheres are those of this; the lights and whether they cast shadows are the scene's.
     ///
     /// # Errors
     /// [`Error::Running`] if there is no memory for it.
@@ -173,15 +176,14 @@ impl<'a> SceneStructures<'a> {
         choice: Auto<Structure>,
         workload: &Workload,
         view: &View,
-        lighting: &Lighting,
+        scene: &Scene,
     ) -> Result<PictureSearch<'_>, Error> {
         let setting = self.setting()?;
-        // A tree that is there is as good as any other.
-        let there = setting.around.as_ref().and_then(Around::structure);
-        let structure = self.structure(choice.or(there), workload);
+        let lights = scene.lighting.lights(view);
+        let casting = if scene.shadows { &*lights } else { &[] };
+        let structure = self.structure(choice, &workload.with_shadows(casting));
         let coherence = workload.coherence();
-        let lights = lighting.lights(view);
-        let towards = lights.iter().map(|light| match light.source {
+        let towards = casting.iter().map(|light| match light.source {
             Source::Direction(direction) => Some(Viewpoint::Direction(direction)),
             Source::Position(_) => None,
         });
@@ -293,4 +295,56 @@ fn depth_list<'a>(
 
 fn no_memory(what: &str, spheres: Spheres<'_>) -> Error {
     Error::Running(format!("no memory for {what} of {} spheres", spheres.len()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::Srgb;
+    use crate::scene::Lighting;
+    use spherule_kernel::Vec3;
+
+    /// Enough spheres for a depth list, and two lights that go with the eye.
+    fn scene() -> Scene {
+        let mut scene = Scene::new();
+        for index in 0..4000_u16 {
+            let [x, y] = [index % 64, index / 64].map(f32::from);
+            scene.push(Sphere { center: Vec3::new(x, y, 0.0), radius: 0.4 }, Srgb::WHITE, None);
+        }
+        scene.lighting = Lighting::Camera;
+        scene
+    }
+
+    #[test]
+    fn nothing_is_sorted_for_lights_that_cast_no_shadows() {
+        let (threads, workload) = (Threads::default(), Workload::of_pictures(1.0, 30_000, 4000));
+        for shadows in [false, true] {
+            let mut scene = scene();
+            scene.shadows = shadows;
+            let mut structures = SceneStructures::new(scene.list(), &threads);
+            let choice = Some(Structure::DepthList);
+            let search = structures.picture(choice, &workload, &View::FRONT, &scene);
+            let search = search.expect("memory");
+            assert_eq!(
+                (search.lights.len(), search.to_lights.len()),
+                (2, 2 * usize::from(shadows))
+            );
+            assert_eq!(structures.depth_lists.len(), 1 + 2 * usize::from(shadows));
+        }
+    }
+
+    #[test]
+    fn frames_go_on_with_a_tree_that_follows_them() {
+        let (threads, scene) = (Threads::default(), scene());
+        let mut structures = SceneStructures::new(scene.list(), &threads);
+        let one = Workload::of_pictures(1.0, 30_000, 4000);
+        assert_eq!(structures.structure(None, &one), Structure::DepthList);
+        let many = one.with_moves(100.0);
+        let search = structures.picture(None, &many, &View::FRONT, &scene).expect("memory");
+        assert_eq!(search.structure, Structure::Bvh);
+
+        // The last of them too, of which nothing follows.
+        structures.go_on(scene.list());
+        assert_eq!(structures.structure(None, &one), Structure::Bvh);
+    }
 }

@@ -67,7 +67,8 @@ pub(super) fn workload(runs: &[Run], repeat: u32) -> Workload {
     } else {
         (coherent.len().max(1), true)
     };
-    Workload { rays: all / pictures, pictures: pictures as f64 * f64::from(repeat), coherent }
+    let pictures_in_all = pictures as f64 * f64::from(repeat);
+    Workload { coherent, ..Workload::of_pictures(pictures_in_all, all / pictures, 0) }
 }
 
 /// The batches in which `structure` searches the runs, in tasks of at most `longest` packets.
@@ -127,7 +128,7 @@ mod tests {
         let origin = Some(Viewpoint::Origin(Vec3::splat(0.5)));
         let found: Vec<_> = runs.iter().map(|run| (run.packets.clone(), run.shared)).collect();
         assert_eq!(found, [(0..8, origin), (8..20, None), (20..63, origin)]);
-        let Workload { rays, pictures, coherent } = workload(&runs, 3);
+        let Workload { rays, pictures, coherent, .. } = workload(&runs, 3);
         assert_eq!((rays, pictures, coherent), (504, 6.0, true));
         let parallel: Vec<_> =
             (0..9_u8).map(|index| Ray::new(Vec3::splat(index.into()), Vec3::Z)).collect();

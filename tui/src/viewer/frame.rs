@@ -165,9 +165,9 @@ impl Viewer<'_> {
         self.colors.show(&mut self.scene, self.state.shown.coloring);
         let Shown { view, style, structure, comparison, .. } = &self.state.shown;
         self.structures.set_aids(style.aids);
-        let (count, lighting) = (self.scene.spheres().len(), &self.scene.lighting);
+        let count = self.scene.spheres().len();
         let workload = picture_workload(count, style, size.0, size.1, f64::INFINITY);
-        let search = self.structures.picture(*structure, &workload, view, lighting)?;
+        let search = self.structures.picture(*structure, &workload, view, &self.scene)?;
         let (scene, spending) = ((&*self.scene, &search), self.pace.spending(moving));
         let started = Instant::now();
         let drawn = match comparison {
@@ -238,10 +238,9 @@ impl Viewer<'_> {
     pub(super) fn pick(&mut self) -> Result<Option<Pick<'_>>, Error> {
         let Shown { view, style, structure, cursor, .. } = &self.state.shown;
         let Some(cursor) = cursor else { return Ok(None) };
-        let (size, lighting) = (self.state.size(), &self.scene.lighting);
-        let count = self.scene.spheres().len();
+        let (size, count) = (self.state.size(), self.scene.spheres().len());
         let workload = picture_workload(count, style, size.0, size.1, f64::INFINITY);
-        let search = self.structures.picture(*structure, &workload, view, lighting)?;
+        let search = self.structures.picture(*structure, &workload, view, &self.scene)?;
         let ray = cell_ray(view, style, size, (cursor.column, cursor.row));
         let level = self.renderer.machine().0;
         Ok(ray.map(|ray| Pick::new(&self.scene, &search, level, ray)))

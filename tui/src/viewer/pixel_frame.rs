@@ -85,7 +85,7 @@ impl Viewer<'_> {
         };
         let grid = PixelGrid::in_cells(view, style, size, cell, across);
         let workload = grid.workload(self.scene.spheres().len());
-        let search = self.structures.picture(*structure, &workload, view, &self.scene.lighting)?;
+        let search = self.structures.picture(*structure, &workload, view, &self.scene)?;
         let image = self.renderer.draw_image(&self.scene, &search, style.accuracy, &grid);
         let samples = pixels * u64::from(across * across);
         let effort = Effort { samples, rays: samples, is_full: across == SAMPLES };

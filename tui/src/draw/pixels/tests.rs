@@ -26,7 +26,7 @@ fn rows(
     let grid = PixelGrid::new(view, style, columns, rows);
     let mut structures = SceneStructures::new(scene.list(), &threads);
     let workload = grid.workload(scene.list().len());
-    let search = structures.picture(None, &workload, view, &scene.lighting).expect("memory");
+    let search = structures.picture(None, &workload, view, &scene).expect("memory");
     let mut rows = Vec::new();
     let renderer = Renderer::new(Level::best(), &threads);
     let Ok(()) = renderer.draw_pixels(scene, &search, style.accuracy, &grid, |row| {
@@ -90,7 +90,7 @@ fn strips_tiles_and_threads_do_not_show() {
     let (grid, threads) = (PixelGrid::new(&view, &style, 90, 39), Threads::default());
     let mut structures = SceneStructures::new(scene.list(), &threads);
     let workload = grid.workload(scene.list().len());
-    let search = structures.picture(None, &workload, &view, &scene.lighting).expect("memory");
+    let search = structures.picture(None, &workload, &view, &scene).expect("memory");
     let level = Level::best();
     let tracing = Tracing { tier: Tier::Exact, level, coherence: search.coherence };
     let traced = Traced { tracing, scene: &scene, search: &search };
@@ -112,7 +112,7 @@ fn an_error_ends_it() {
     let threads = Threads::default();
     let grid = PixelGrid::new(&VIEW, &Style::PLAIN, 4, 4);
     let mut structures = SceneStructures::new(scene.list(), &threads);
-    let search = structures.picture(None, &grid.workload(0), &VIEW, &scene.lighting);
+    let search = structures.picture(None, &grid.workload(0), &VIEW, &scene);
     let (search, mut taken) = (search.expect("memory"), 0);
     let renderer = Renderer::new(Level::best(), &threads);
     let result = renderer.draw_pixels(&scene, &search, Tier::Exact, &grid, |_| {

@@ -1,7 +1,7 @@
 //! The words of a line, and numbers among them.
 
 use crate::scene::input::Line;
-use crate::scene::number::number;
+use crate::scene::number::{leading, number};
 use crate::scene::read_error::ReadError;
 use spherule_kernel::Vec3;
 
@@ -51,6 +51,16 @@ impl<'a> Words<'a> {
     /// [`ReadError`] if it is missing, no number, or not finite.
     #[inline]
     pub(super) fn coordinate(&mut self, name: &str) -> Result<f32, ReadError> {
+        let mut start = self.at;
+        while self.line.bytes.get(start).is_some_and(|&byte| byte <= b' ') {
+            start += 1;
+        }
+        if let Some((value, length)) = leading(&self.line.bytes[start..])
+            && (value as f32).is_finite()
+        {
+            self.at = start + length;
+            return Ok(value as f32);
+        }
         let (byte, word) = self.expect(name)?;
         coordinate(&self.line, byte, word, name, 1.0)
     }
