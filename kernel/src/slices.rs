@@ -21,6 +21,9 @@ use crate::{dispatch::BuildLanes, linear, spawn_ray::packets, surface};
 /// How many packets are traced at a time: enough that preparing 128 spheres of a list for them is a
 /// hundredth of the work; for firmware as many as its stack holds.
 const PACKETS: usize = if cfg!(feature = "std") { 64 } else { 4 };
+/// How many packets go first: only then is it known whether groups pay, or a stream. (With 64, rays sorted by direction
+/// and half of a camera, among a million spheres, ran at 0.6 to 0.8 of ray by ray; with 16 at 0.9 to 1.1.)
+const FIRST: usize = 16;
 /// How many packets few rays fill: what goes through a tree together.
 const FEW: usize = 4;
 
@@ -62,7 +65,8 @@ fn windows<S: Traverse + ?Sized, Q: LevelQuery, const AT_ONCE: usize>(
     let mut from = 0;
     // Chunks divide by their length, and where that is not seen to be a number, may panic.
     while from < count {
-        let to = (from + AT_ONCE * RayPacket::COUNT).min(count);
+        let packets_at_once = if from == 0 { FIRST.min(AT_ONCE) } else { AT_ONCE };
+        let to = (from + packets_at_once * RayPacket::COUNT).min(count);
         let part = rays.part(from, to);
         structure.many_in_packets::<Q>(tier, trace, part, &mut packets, &mut answered);
         #[cfg(feature = "std")]
