@@ -21,8 +21,9 @@ use crate::{dispatch::BuildLanes, linear, spawn_ray::packets, surface};
 /// How many packets are traced at a time: enough that preparing 128 spheres of a list for them is a
 /// hundredth of the work; for firmware as many as its stack holds.
 const PACKETS: usize = if cfg!(feature = "std") { 64 } else { 4 };
-/// How many packets go first: only then is it known whether groups pay, or a stream. (With 64, rays sorted by direction
-/// and half of a camera, among a million spheres, ran at 0.6 to 0.8 of ray by ray; with 16 at 0.9 to 1.1.)
+/// How many packets go first, if as many as are traced at a time are left: only then is it known whether groups pay, or a
+/// stream. (With 64, rays sorted by direction and half of a camera, among a million spheres, ran at 0.6 to 0.8 of ray by
+/// ray; with 16 at 0.9 to 1.1. Where fewer are left than a stream has, those that went first are lost to it: 0.7.)
 const FIRST: usize = 16;
 /// How many packets few rays fill: what goes through a tree together.
 const FEW: usize = 4;
@@ -62,10 +63,11 @@ fn windows<S: Traverse + ?Sized, Q: LevelQuery, const AT_ONCE: usize>(
 ) {
     let mut packets = [RayPacket::inactive(); AT_ONCE];
     let mut answered = [Q::none::<[f32; 16]>(); AT_ONCE];
+    let is_long = count >= (FIRST + AT_ONCE) * RayPacket::COUNT;
+    let mut packets_at_once = if is_long { FIRST.min(AT_ONCE) } else { AT_ONCE };
     let mut from = 0;
     // Chunks divide by their length, and where that is not seen to be a number, may panic.
     while from < count {
-        let packets_at_once = if from == 0 { FIRST.min(AT_ONCE) } else { AT_ONCE };
         let to = (from + packets_at_once * RayPacket::COUNT).min(count);
         let part = rays.part(from, to);
         structure.many_in_packets::<Q>(tier, trace, part, &mut packets, &mut answered);
@@ -74,6 +76,7 @@ fn windows<S: Traverse + ?Sized, Q: LevelQuery, const AT_ONCE: usize>(
         #[cfg(not(feature = "std"))]
         Q::write(&mut answers, &answered, from, to);
         from = to;
+        packets_at_once = AT_ONCE;
         #[cfg(feature = "alloc")]
         {
             let rest = (rays, from, count);
