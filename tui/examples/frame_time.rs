@@ -63,7 +63,7 @@ fn time(scene: &Scene, style: &Style, level: Level, structure: Auto<Structure>, 
     for _ in 0..frames.max(1) {
         view = view::orbited(&view, 0.02, 0.0);
         let start = cpu_ms();
-        let search = structures.picture(structure, &workload, &view, &scene);
+        let search = structures.picture(structure, &workload, &view, scene);
         let search = search.expect("memory for a structure");
         let drawn = black_box(renderer.draw(scene, &search, &view, style, size, Spending::ByNeed));
         let drawing = cpu_ms() - start;

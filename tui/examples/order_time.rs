@@ -56,7 +56,7 @@ fn ratio(scene: &Scene, accuracy: Tier, rounds: u32) -> (f64, f64) {
         let [image, object] = structures.each_mut().map(|structures| {
             let start = cpu_ms();
             let choice = Some(Structure::DepthList);
-            let search = structures.picture(choice, &workload, &view, &scene);
+            let search = structures.picture(choice, &workload, &view, scene);
             let search = search.expect("memory for a structure");
             let size = (columns, rows);
             let drawn = renderer.draw(scene, &search, &view, &style, size, Spending::ByNeed);

@@ -44,7 +44,7 @@ impl Subject {
         let mut structures = SceneStructures::new(scene.list(), &threads);
         let grid = PixelGrid::new(view, &Style::PLAIN, SIZE.0, SIZE.1);
         let workload = grid.workload(scene.spheres().len());
-        let search = structures.picture(None, &workload, view, &scene).map_err(said)?;
+        let search = structures.picture(None, &workload, view, scene).map_err(said)?;
         let mut colors: Vec<Rgb> = Vec::new();
         let take = |row: &[u8]| {
             colors.extend(row.as_chunks().0);
@@ -74,7 +74,7 @@ impl Subject {
             _ => Spending::AtMost(u64::MAX),
         };
         let draw = |view: &View| {
-            let search = structures.picture(None, &workload, view, &scene).map_err(said)?;
+            let search = structures.picture(None, &workload, view, scene).map_err(said)?;
             let drawn = renderer.draw(scene, &search, view, style, SIZE, spending);
             let mut bytes = Vec::new();
             encode::full(&drawn.cells, &mut bytes);

@@ -55,7 +55,7 @@ pub(super) fn write(
     for frame in 0..turn.frames {
         let angle = f32::from(frame) / f32::from(turn.frames) * std::f32::consts::TAU;
         let view = orbited(view, angle, 0.0);
-        let search = structures.picture(structure, &workload, &view, &scene)?;
+        let search = structures.picture(structure, &workload, &view, scene)?;
         // As a picture that moves: what does not change keeps its glyphs.
         let spending = Spending::AtMost(u64::MAX);
         let cells = renderer.draw(scene, &search, &view, style, size, spending).cells;

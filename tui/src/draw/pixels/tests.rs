@@ -26,7 +26,7 @@ fn rows(
     let grid = PixelGrid::new(view, style, columns, rows);
     let mut structures = SceneStructures::new(scene.list(), &threads);
     let workload = grid.workload(scene.list().len());
-    let search = structures.picture(None, &workload, view, &scene).expect("memory");
+    let search = structures.picture(None, &workload, view, scene).expect("memory");
     let mut rows = Vec::new();
     let renderer = Renderer::new(Level::best(), &threads);
     let Ok(()) = renderer.draw_pixels(scene, &search, style.accuracy, &grid, |row| {
