@@ -12,7 +12,6 @@ mod sgr;
 mod tests;
 mod tolerance;
 
-use crate::cells::masks::opposite;
 use crate::cells::{Cell, CellGrid};
 use cursor::{Cursor, push_glyph};
 use sgr::Pen;
@@ -51,7 +50,8 @@ pub fn full(grid: &CellGrid, out: &mut Vec<u8>) {
 /// What a frame may save.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Economy {
-    /// How far from what is wanted colours may be that are shown, in `OKLab`; at most 0.03.
+    /// How far off in `OKLab` a cell of one colour may stay, at most 0.03; one that takes more bytes may be farther off,
+    /// though no part of it three times as far, or by more than 0.03.
     pub tolerance: f32,
     /// After so many bytes the rest of the cells is left for the next frame, unless the screen was cleared.
     pub most_bytes: usize,
@@ -215,7 +215,16 @@ impl<'a> Update<'a> {
                 continue;
             }
             // A mark is where it should be, whatever it costs.
-            let may_stay = out.len() >= self.end || self.tolerance.lets_stay(&shown[index], cell);
+            let error = self.tolerance.error(&shown[index], cell);
+            let way = self.cursor.way_to(row, column);
+            // Nothing is shown in less than a byte.
+            let stays = out.len() >= self.end || error <= self.tolerance.price(way + 1);
+            if same_mark && stays {
+                self.is_exact = false;
+                continue;
+            }
+            let best = self.best(cell, way);
+            let may_stay = error <= best.cost;
             if same_mark && may_stay {
                 self.is_exact = false;
                 continue;
@@ -233,33 +242,30 @@ impl<'a> Update<'a> {
                 self.pen = Pen::RESET;
                 shown[index] = *cell;
             } else {
-                shown[index] = self.write(cell, out);
+                self.pen.take_up(&best.sent, out);
+                push_glyph(best.sent.glyph, out);
+                self.is_exact &= look_same(&best.seen, cell);
+                shown[index] = best.seen;
             }
             self.cursor.advance(columns);
         }
     }
 
-    /// Writes `cell`, or what looks alike; returns what the terminal shows then.
-    fn write(&mut self, cell: &Cell, out: &mut Vec<u8>) -> Cell {
-        // Without ink, and then in the pen's colour, it may be too far in two steps that are not.
-        let inkless = self.pen.nearest_form(&self.tolerance.without_ink(cell), self.tolerance);
-        let is_near = look_same(&inkless, cell) || self.tolerance.lets_stay(&inkless, cell);
-        let sent = if is_near { inkless } else { self.pen.nearest_form(cell, self.tolerance) };
-        self.pen.take_up(&sent, out);
-        push_glyph(sent.glyph, out);
-        self.note(cell, sent)
-    }
-
-    /// Takes note of what was sent for `wanted`: as that names it, if it is the same with ink and paper exchanged.
-    fn note(&mut self, wanted: &Cell, sent: Cell) -> Cell {
-        let is_exchanged = sent.glyph != wanted.glyph && opposite(sent.glyph) == Some(wanted.glyph);
-        let shown = if is_exchanged {
-            Cell { glyph: wanted.glyph, foreground: sent.background, background: sent.foreground }
-        } else {
-            sent
-        };
-        self.is_exact &= look_same(&shown, wanted);
-        shown
+    /// The form of `cell` that costs least, where the cursor needs so many bytes to be there.
+    fn best(&self, cell: &Cell, way: usize) -> Form {
+        let mut best = Form { sent: *cell, seen: *cell, cost: f32::INFINITY, bytes: usize::MAX };
+        for (sent, seen) in self.pen.forms(cell) {
+            let bytes = self.pen.bytes(&sent);
+            let price = self.tolerance.price(bytes + way);
+            if price > best.cost {
+                continue;
+            }
+            let cost = price + self.tolerance.error(&seen, cell);
+            if (cost, bytes) < (best.cost, best.bytes) {
+                best = Form { sent, seen, cost, bytes };
+            }
+        }
+        best
     }
 
     /// Crosses cells that may stay by writing them again, if the pen suits them and that is no longer
@@ -279,18 +285,42 @@ impl<'a> Update<'a> {
             || cells.len() > most
             || gap.wanted[cells.clone()].iter().map(|cell| cell.glyph.len_utf8()).sum::<usize>()
                 > most
-            || !gap.wanted[cells.clone()].iter().all(|cell| self.pen.suits(cell, self.tolerance))
+            || !self.pays_to_rewrite(&gap.wanted[cells.clone()], &shown[cells.clone()], most)
         {
             return false;
         }
         for index in cells {
             let cell = &gap.wanted[index];
             push_glyph(cell.glyph, out);
-            shown[index] = self.note(cell, self.pen.painted(cell.glyph));
+            shown[index] = self.pen.painted(cell.glyph);
+            self.is_exact &= look_same(&shown[index], cell);
         }
         self.cursor.cross_to(gap.column);
         true
     }
+
+    /// Whether it costs less to draw cells with the pen's own colours, in place of what is shown, than to jump in so many
+    /// bytes.
+    fn pays_to_rewrite(&self, wanted: &[Cell], shown: &[Cell], jump: usize) -> bool {
+        let (mut drawn, mut left) = (0.0, self.tolerance.price(jump));
+        for (wanted, shown) in wanted.iter().zip(shown) {
+            let painted = self.pen.painted(wanted.glyph);
+            drawn += self.tolerance.error(&painted, wanted);
+            drawn += self.tolerance.price(self.pen.bytes(&painted));
+            left += self.tolerance.error(shown, wanted);
+        }
+        drawn <= left
+    }
+}
+
+/// What is sent for a cell.
+struct Form {
+    sent: Cell,
+    /// The same, as the cell names it.
+    seen: Cell,
+    /// Its error, and the price of its bytes and of the way there.
+    cost: f32,
+    bytes: usize,
 }
 
 /// Cells between the cursor and the column where something is to be written.

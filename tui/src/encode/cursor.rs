@@ -46,6 +46,13 @@ impl Cursor {
         jump.length
     }
 
+    /// About how many bytes the way there takes: none where it is.
+    pub(super) fn way_to(&self, row: u16, column: u16) -> usize {
+        /// `ESC [ 9 C`.
+        const JUMP: usize = 4;
+        if self.column_in(row) == Some(column) { 0 } else { JUMP }
+    }
+
     /// Glyphs have been written up to this column, which is not past the last.
     pub(super) fn cross_to(&mut self, column: u16) {
         self.position = self.position.map(|(row, _)| (row, column));

@@ -1,64 +1,97 @@
-//! What may stay on the screen though something else is wanted.
+//! What it costs the eye to see another cell than the one that is wanted, and what a byte costs the line.
+//!
+//! # Method
+//!
+//! Of all that can be shown in place of a cell, what is there already, what the pen's own colours make, and the cell itself,
+//! that is taken for which error + price x bytes is least: then no other choice cell by cell has less error for as many
+//! bytes. The error is the square of the distance in `OKLab`, in the mean over the cell.
+//!
+//! Source: G. J. Sullivan, T. Wiegand, "Rate-distortion optimization for video compression", IEEE Signal Processing
+//! Magazine 15 (6), 1998.
 
 use super::perceived::Perceived;
 use crate::cells::{Cell, Color};
+use glam::Vec3;
 
-/// Channels that differ by more are no colours that look alike.
-const UNLIKE: u8 = 128;
+/// The bytes of a cell of one colour, for which the tolerance is meant: `ESC [ 48;2;r;g;b m` and a blank.
+const USUAL_BYTES: f32 = 18.0;
+/// No part of a cell may be off by so many times the tolerance ...
+const REACH: f32 = 3.0;
+/// ... nor by more than this, which can be seen.
+const VISIBLE: f32 = 0.03;
+/// How much of a cell is ink, unless it has none or nothing else. (Letters have less, and their paper counts for too
+/// little then, but is no farther off than `REACH`.)
+const INK: f32 = 0.5;
 
-/// How far colours may be from what is wanted, in `OKLab`; of colours that the terminal has no light for, not at all.
-/// At first it is zero.
+/// What errors cost, in squares of distances in `OKLab`; of colours that the terminal has no light for, there is none that
+/// is small. At first nothing may be off.
 #[derive(Debug, Default)]
 pub(super) struct Tolerance {
+    distance: f32,
+    /// The largest square of a distance, of any part.
     most: f32,
+    price: f32,
     perceived: Perceived,
 }
 
 impl Tolerance {
-    /// Sets it to `distance`, at most to 0.03, which can be seen.
+    /// Sets it to `distance`, at most to 0.03.
     pub(super) fn set(&mut self, distance: f32) {
-        self.most = distance.clamp(0.0, 0.03);
+        self.distance = distance.clamp(0.0, VISIBLE);
+        self.most = (REACH * self.distance).min(VISIBLE).powi(2);
+        self.price = self.distance * self.distance / USUAL_BYTES;
     }
 
-    /// Whether `a` may be shown for `b`.
-    pub(super) fn allows(&self, a: Color, b: Color) -> bool {
-        a == b || self.most > 0.0 && self.distance(a, b) <= self.most
+    /// The error that so many bytes are worth.
+    pub(super) fn price(&self, bytes: usize) -> f32 {
+        self.price * bytes as f32
     }
 
-    fn distance(&self, a: Color, b: Color) -> f32 {
+    /// The square of the distance of two inks or two papers; infinite if that is too far.
+    fn apart(&self, a: Color, b: Color) -> f32 {
+        if a == b { 0.0 } else { self.across(a, b) }
+    }
+
+    /// The same of an ink and a paper: the terminal's own are not alike.
+    fn across(&self, a: Color, b: Color) -> f32 {
         let (Color::Rgb(a), Color::Rgb(b)) = (a, b) else { return f32::INFINITY };
-        if a.iter().zip(b).any(|(a, b)| a.abs_diff(b) > UNLIKE) {
+        let [a, b]: [Vec3; 2] = [self.perceived.color(a), self.perceived.color(b)];
+        let square = a.distance_squared(b);
+        if square <= self.most { square } else { f32::INFINITY }
+    }
+
+    /// The error of `shown` where `wanted` should be; infinite if any part is too far off. Of two glyphs no one knows
+    /// how their inks lie on each other: as if by chance.
+    pub(super) fn error(&self, shown: &Cell, wanted: &Cell) -> f32 {
+        if look_same(shown, wanted) {
+            return 0.0;
+        }
+        if self.distance <= 0.0 {
             return f32::INFINITY;
         }
-        self.perceived.color(a).distance(self.perceived.color(b))
-    }
-
-    /// Whether ink of this colour is not seen on paper of that one. The terminal's own ink is not its own paper.
-    fn hides(&self, ink: Color, paper: Color) -> bool {
-        self.most > 0.0 && matches!(ink, Color::Rgb(_)) && self.allows(ink, paper)
-    }
-
-    /// Whether `shown` may stay where `wanted` should be: each part that is of one colour in both is near enough. Of
-    /// two glyphs no one knows which parts these are, so all may be.
-    pub(super) fn lets_stay(&self, shown: &Cell, wanted: &Cell) -> bool {
-        if self.most <= 0.0 || !self.allows(shown.background, wanted.background) {
-            return false;
-        }
+        let [own, other] = [shown, wanted].map(|cell| ink(cell.glyph));
+        let paper = || self.apart(shown.background, wanted.background);
+        let inks = || self.apart(shown.foreground, wanted.foreground);
+        // What has no share does not count, however far it is; and nothing more is asked where one is too far.
+        let add = |sum: f32, share: f32, square: &dyn Fn() -> f32| {
+            if share > 0.0 && sum.is_finite() { sum + share * square() } else { sum }
+        };
         if shown.glyph == wanted.glyph {
-            return wanted.glyph == ' ' || self.allows(shown.foreground, wanted.foreground);
+            return add(add(0.0, own, &inks), 1.0 - own, &paper);
         }
-        let inks = [(shown, wanted), (wanted, shown)];
-        inks.iter().all(|(of, other)| {
-            of.glyph == ' '
-                || self.hides(of.foreground, other.background)
-                    && (other.glyph == ' ' || self.allows(of.foreground, other.foreground))
-        })
+        let ink_on_paper = || self.across(shown.foreground, wanted.background);
+        let paper_on_ink = || self.across(shown.background, wanted.foreground);
+        let sum = add(0.0, (1.0 - own) * other, &paper_on_ink);
+        let sum = add(sum, own * (1.0 - other), &ink_on_paper);
+        add(add(sum, (1.0 - own) * (1.0 - other), &paper), own * other, &inks)
     }
+}
 
-    /// `cell` without its ink, if that looks alike.
-    pub(super) fn without_ink(&self, cell: &Cell) -> Cell {
-        let is_alike = cell.glyph != ' ' && self.hides(cell.foreground, cell.background);
-        if is_alike { Cell { glyph: ' ', foreground: cell.background, ..*cell } } else { *cell }
+fn ink(glyph: char) -> f32 {
+    match glyph {
+        ' ' => 0.0,
+        '\u{2588}' => 1.0,
+        _ => INK,
     }
 }
 
@@ -72,7 +105,6 @@ pub(super) fn look_same(a: &Cell, b: &Cell) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::color::{Srgb, oklab};
 
     const GREY: Color = Color::Rgb([128; 3]);
     const NEAR: Color = Color::Rgb([129, 128, 128]);
@@ -89,29 +121,14 @@ mod tests {
     }
 
     #[test]
-    fn near_colours_are_allowed_and_others_are_not() {
+    fn near_colours_have_an_error_and_others_are_too_far() {
         let tolerance = tolerance(0.01);
-        assert!(tolerance.allows(GREY, NEAR) && !tolerance.allows(GREY, FAR));
-        assert!(tolerance.allows(Color::Default, Color::Default));
-        assert!(!tolerance.allows(Color::Ansi256(244), GREY));
+        assert!(tolerance.apart(GREY, NEAR) < 1e-4 && tolerance.apart(GREY, FAR).is_infinite());
+        assert_eq!(tolerance.apart(Color::Default, Color::Default), 0.0);
+        assert!(tolerance.apart(Color::Ansi256(244), GREY).is_infinite());
+        let [grey, near] = [GREY, NEAR].map(|paper| cell(' ', paper, paper));
         let exact = Tolerance::default();
-        assert!(!exact.allows(GREY, NEAR) && exact.allows(GREY, GREY));
-    }
-
-    /// The quick answer is no other.
-    #[test]
-    fn channels_that_are_far_apart_are_colours_that_are() {
-        for levels in 0..(256 - usize::from(UNLIKE) - 1) {
-            let level = levels as u8;
-            for channel in 0..3 {
-                for rest in [0, 128, 255] {
-                    let mut pair = [[rest; 3]; 2];
-                    (pair[0][channel], pair[1][channel]) = (level, level + UNLIKE + 1);
-                    let [a, b] = pair.map(|color| oklab(Srgb(color).to_linear()));
-                    assert!(a.distance(b) > 0.03, "{pair:?}: {}", a.distance(b));
-                }
-            }
-        }
+        assert!(exact.error(&grey, &near).is_infinite() && exact.error(&grey, &grey) == 0.0);
     }
 
     /// What is written over a picture has the terminal's own colours.
@@ -119,23 +136,37 @@ mod tests {
     fn text_is_never_taken_for_blank() {
         let tolerance = tolerance(0.01);
         let text = |glyph| cell(glyph, Color::Default, Color::Default);
-        assert_eq!(tolerance.without_ink(&text('x')), text('x'));
         for (shown, wanted) in [(' ', 'x'), ('x', ' '), ('x', 'y')] {
-            assert!(!tolerance.lets_stay(&text(shown), &text(wanted)), "{shown} for {wanted}");
+            let error = tolerance.error(&text(shown), &text(wanted));
+            assert!(error.is_infinite(), "{shown} for {wanted}");
         }
     }
 
     #[test]
-    fn a_glyph_stays_for_another_where_neither_can_be_seen() {
+    fn parts_count_by_their_share_and_none_may_be_far_off() {
         let tolerance = tolerance(0.01);
-        let stays = |shown, wanted| tolerance.lets_stay(&shown, &wanted);
-        assert!(stays(cell('▀', GREY, NEAR), cell('▌', NEAR, GREY)));
-        assert!(stays(cell(' ', FAR, NEAR), cell('▌', NEAR, GREY)));
-        assert!(stays(cell('▌', NEAR, GREY), cell(' ', FAR, NEAR)));
-        assert!(!stays(cell('▀', GREY, NEAR), cell('▌', NEAR, FAR)));
-        assert!(!stays(cell('▀', FAR, NEAR), cell(' ', FAR, NEAR)));
-        assert!(!stays(cell('▀', FAR, FAR), cell('▌', NEAR, FAR)));
-        assert!(stays(cell('▀', FAR, GREY), cell('▀', FAR, NEAR)));
-        assert!(!stays(cell('▀', FAR, GREY), cell('▀', NEAR, GREY)));
+        let error = |shown, wanted| tolerance.error(&shown, &wanted);
+        let near = tolerance.across(GREY, NEAR);
+        assert!(near > 0.0 && near < 1e-4, "{near}");
+        assert_eq!(error(cell(' ', FAR, GREY), cell(' ', GREY, NEAR)), near);
+        assert_eq!(error(cell('\u{2580}', FAR, GREY), cell('\u{2580}', FAR, NEAR)), near / 2.0);
+        assert_eq!(error(cell('\u{2580}', GREY, NEAR), cell('\u{258c}', NEAR, GREY)), near / 2.0);
+        assert_eq!(error(cell('\u{2580}', GREY, NEAR), cell(' ', FAR, GREY)), near / 2.0);
+        assert_eq!(error(cell(' ', FAR, GREY), cell('\u{2588}', NEAR, FAR)), near);
+        for (shown, wanted) in [
+            (cell('\u{2580}', GREY, NEAR), cell('\u{258c}', NEAR, FAR)),
+            (cell('\u{2580}', FAR, NEAR), cell(' ', FAR, NEAR)),
+            (cell('\u{2580}', FAR, FAR), cell('\u{258c}', NEAR, FAR)),
+            (cell('\u{2580}', FAR, GREY), cell('\u{2580}', NEAR, GREY)),
+        ] {
+            assert!(error(shown, wanted).is_infinite(), "{shown:?} for {wanted:?}");
+        }
+    }
+
+    #[test]
+    fn a_cell_of_one_colour_stays_within_the_tolerance() {
+        let tolerance = tolerance(0.02);
+        let bytes = "\u{1b}[48;2;100;100;1m ".len();
+        assert!((tolerance.price(bytes).sqrt() - 0.02).abs() < 0.001);
     }
 }
