@@ -45,6 +45,8 @@ use crate::{LaneMask, Lanes, Ray, Sphere};
 ///   found is 7; 36 follows from the margins of the traversal.
 /// - Nearer than that, t is within 2^-17 r of distance.
 ///
+/// Times a power of two, a scene has the same answers, except for tangents that near: squares that decide them may underflow.
+///
 /// Outside it: answers in the same bits on every target, but no promise. Which of several hits with
 /// the same t is the closest is not known.
 #[derive(Clone, Copy, Debug)]
