@@ -11,11 +11,13 @@ mod sgr;
 #[cfg(test)]
 mod tests;
 mod tolerance;
+mod update;
 
 use crate::cells::{Cell, CellGrid};
 use cursor::{Cursor, push_glyph};
 use sgr::Pen;
-use tolerance::{Tolerance, look_same};
+use tolerance::Tolerance;
+use update::Update;
 
 /// From here on a terminal that can hold back its picture does.
 const BEGIN_SYNCHRONIZED: &[u8] = b"\x1b[?2026h";
@@ -23,9 +25,6 @@ const BEGIN_SYNCHRONIZED: &[u8] = b"\x1b[?2026h";
 const END_SYNCHRONIZED: &[u8] = b"\x1b[?2026l";
 /// The terminal's own colours, a blank screen, the cursor at the top left.
 const CLEAR: &[u8] = b"\x1b[m\x1b[2J\x1b[H";
-/// Ink and paper exchanged, which needs no colour; until the next reset.
-const INVERSE: &[u8] = b"\x1b[7m";
-const RESET: &[u8] = b"\x1b[m";
 /// Two colours of 24 bits and a glyph; reserved a cell, so that a frame allocates once.
 const LONGEST_CELL: usize = 40;
 
@@ -177,158 +176,4 @@ impl Encoder {
             out.extend_from_slice(END_SYNCHRONIZED);
         }
     }
-}
-
-/// A frame that is being written.
-struct Update<'a> {
-    cursor: Cursor,
-    pen: Pen,
-    tolerance: &'a Tolerance,
-    /// From this length of the output on, nothing more is written.
-    end: usize,
-    /// Whether nothing has been left or written that only looks alike.
-    is_exact: bool,
-}
-
-impl<'a> Update<'a> {
-    fn new(tolerance: &'a Tolerance, end: usize) -> Self {
-        Self { cursor: Cursor::LOST, pen: Pen::RESET, tolerance, end, is_exact: true }
-    }
-
-    fn row(
-        &mut self,
-        row: u16,
-        next: &CellGrid,
-        was_marked: Option<(u16, u16)>,
-        shown: &mut CellGrid,
-        out: &mut Vec<u8>,
-    ) {
-        let (wanted, columns) = (next.row(row), next.columns());
-        let first = usize::from(row) * usize::from(columns);
-        let shown = &mut shown.cells_mut()[first..first + wanted.len()];
-        let marked = next.marked().and_then(|(column, of)| (of == row).then_some(column));
-        for (column, cell) in (0..columns).zip(wanted) {
-            let index = usize::from(column);
-            let is_marked = marked == Some(column);
-            let same_mark = is_marked == (was_marked == Some((column, row)));
-            if same_mark && look_same(&shown[index], cell) {
-                continue;
-            }
-            // A mark is where it should be, whatever it costs.
-            let error = self.tolerance.error(&shown[index], cell);
-            let way = self.cursor.way_to(row, column);
-            // Nothing is shown in less than a byte.
-            let stays = out.len() >= self.end || error <= self.tolerance.price(way + 1);
-            if same_mark && stays {
-                self.is_exact = false;
-                continue;
-            }
-            let best = self.best(cell, way);
-            let may_stay = error <= best.cost;
-            if same_mark && may_stay {
-                self.is_exact = false;
-                continue;
-            }
-            let gap = Gap { row, column, wanted, marked };
-            if !self.rewrite_gap(&gap, shown, out) {
-                self.cursor.go_to(row, column, out);
-            }
-            if is_marked {
-                self.pen.put_down(out);
-                out.extend_from_slice(INVERSE);
-                self.pen.take_up(cell, out);
-                push_glyph(cell.glyph, out);
-                out.extend_from_slice(RESET);
-                self.pen = Pen::RESET;
-                shown[index] = *cell;
-            } else {
-                self.pen.take_up(&best.sent, out);
-                push_glyph(best.sent.glyph, out);
-                self.is_exact &= look_same(&best.seen, cell);
-                shown[index] = best.seen;
-            }
-            self.cursor.advance(columns);
-        }
-    }
-
-    /// The form of `cell` that costs least, where the cursor needs so many bytes to be there.
-    fn best(&self, cell: &Cell, way: usize) -> Form {
-        let mut best = Form { sent: *cell, seen: *cell, cost: f32::INFINITY, bytes: usize::MAX };
-        for (sent, seen) in self.pen.forms(cell) {
-            let bytes = self.pen.bytes(&sent);
-            let price = self.tolerance.price(bytes + way);
-            if price > best.cost {
-                continue;
-            }
-            let cost = price + self.tolerance.error(&seen, cell);
-            if (cost, bytes) < (best.cost, best.bytes) {
-                best = Form { sent, seen, cost, bytes };
-            }
-        }
-        best
-    }
-
-    /// Crosses cells that may stay by writing them again, if the pen suits them and that is no longer
-    /// than a jump. Whether the cursor is now where it should be.
-    fn rewrite_gap(&mut self, gap: &Gap<'_>, shown: &mut [Cell], out: &mut Vec<u8>) -> bool {
-        let Some(from) = self.cursor.column_in(gap.row).filter(|&from| from <= gap.column) else {
-            return false;
-        };
-        let columns = from..gap.column;
-        if columns.is_empty() {
-            return true;
-        }
-        let most = Cursor::jump_length(gap.column - from);
-        let cells = usize::from(from)..usize::from(gap.column);
-        // A glyph has at least one byte: a wide gap need not be looked at.
-        if gap.marked.is_some_and(|marked| columns.contains(&marked))
-            || cells.len() > most
-            || gap.wanted[cells.clone()].iter().map(|cell| cell.glyph.len_utf8()).sum::<usize>()
-                > most
-            || !self.pays_to_rewrite(&gap.wanted[cells.clone()], &shown[cells.clone()], most)
-        {
-            return false;
-        }
-        for index in cells {
-            let cell = &gap.wanted[index];
-            push_glyph(cell.glyph, out);
-            shown[index] = self.pen.painted(cell.glyph);
-            self.is_exact &= look_same(&shown[index], cell);
-        }
-        self.cursor.cross_to(gap.column);
-        true
-    }
-
-    /// Whether it costs less to draw cells with the pen's own colours, in place of what is shown, than to jump in so many
-    /// bytes.
-    fn pays_to_rewrite(&self, wanted: &[Cell], shown: &[Cell], jump: usize) -> bool {
-        let (mut drawn, mut left) = (0.0, self.tolerance.price(jump));
-        for (wanted, shown) in wanted.iter().zip(shown) {
-            let painted = self.pen.painted(wanted.glyph);
-            drawn += self.tolerance.error(&painted, wanted);
-            drawn += self.tolerance.price(self.pen.bytes(&painted));
-            left += self.tolerance.error(shown, wanted);
-        }
-        drawn <= left
-    }
-}
-
-/// What is sent for a cell.
-struct Form {
-    sent: Cell,
-    /// The same, as the cell names it.
-    seen: Cell,
-    /// Its error, and the price of its bytes and of the way there.
-    cost: f32,
-    bytes: usize,
-}
-
-/// Cells between the cursor and the column where something is to be written.
-struct Gap<'a> {
-    row: u16,
-    column: u16,
-    /// Of the whole row.
-    wanted: &'a [Cell],
-    /// The column in it that is marked, which no pen suits.
-    marked: Option<u16>,
 }

@@ -7,7 +7,7 @@ use crate::cells::{Cell, Color};
 
 /// Before the parameters, and without any.
 const START: &[u8] = b"\x1b[";
-const RESET_PEN: &[u8] = b"\x1b[m";
+pub(super) const RESET: &[u8] = b"\x1b[m";
 
 /// The colours that the terminal will draw the next glyph with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,7 +66,7 @@ impl Pen {
         }
         let inkless = cell.glyph == ' ';
         if cell.background == Color::Default && (inkless || cell.foreground == Color::Default) {
-            return RESET_PEN.len() + glyph;
+            return RESET.len() + glyph;
         }
         let ink = !inkless && self.foreground != cell.foreground;
         let paper = self.background != cell.background;
@@ -105,7 +105,7 @@ impl Pen {
     pub(super) fn put_down(&mut self, out: &mut Vec<u8>) {
         if *self != Self::RESET {
             *self = Self::RESET;
-            out.extend_from_slice(RESET_PEN);
+            out.extend_from_slice(RESET);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The screen model is vt100's: what it shows after our bytes is what we meant.
 
-use super::tolerance::Tolerance;
-use super::{Economy, Encoder, LONGEST_CELL, full, look_same};
+use super::tolerance::{Tolerance, look_same};
+use super::{Economy, Encoder, LONGEST_CELL, full};
 use crate::cells::masks::opposite;
 use crate::cells::{Cell, CellGrid, Color};
 use proptest::prelude::*;
@@ -347,4 +347,46 @@ fn ink_and_paper_change_places_where_that_is_shorter() {
     let line = one_line(&[cell('▀', 100, 101), cell('▀', 101, 102), cell('▄', 102, 101)]);
     let text = between(&one_line(&[Cell::BLANK; 3]), &line);
     assert!(text.contains("\x1b[38;5;100;48;5;101m▀\x1b[38;5;102m▄▄\x1b[m"), "{text:?}");
+}
+
+/// What the bytes did not suffice for stays as it was, also before a mark, which is written whatever it costs.
+#[test]
+fn cells_left_for_the_next_frame_are_not_painted_over() {
+    let line =
+        |glyph, colors: [u8; 4]| one_line(&colors.map(|color| ink(glyph, Color::Ansi256(color))));
+    let (before, mut after) = (line('a', [1, 1, 1, 1]), line('b', [2, 3, 4, 5]));
+    after.mark(3, 0);
+    let (mut encoder, mut bytes) = (Encoder::new(), Vec::new());
+    encoder.encode(&before, &mut bytes);
+    bytes.clear();
+    encoder.encode_part(&after, Economy { tolerance: 0.0, most_bytes: 1 }, &mut bytes);
+    let shown = encoder.shown().expect("something").cells();
+    assert_eq!(shown[0], after.cells()[0]);
+    assert_eq!(shown[1..3], before.cells()[1..3]);
+    assert_eq!(shown[3], after.cells()[3]);
+}
+
+/// Within a tolerance of 0.01 in `OKLab`, of which a level of grey is a third.
+#[test]
+fn bytes_are_saved_where_what_they_buy_is_not_seen() {
+    let grey = |level| Color::Rgb([level; 3]);
+    let cell = |glyph, ink, paper| Cell { glyph, foreground: grey(ink), background: grey(paper) };
+    let sent = |cells: &[Cell]| {
+        let (mut encoder, mut bytes) = (Encoder::new(), Vec::new());
+        let economy = Economy { tolerance: 0.01, ..Economy::NONE };
+        encoder.encode_part(&one_line(cells), economy, &mut bytes);
+        String::from_utf8(bytes).expect("UTF-8").replace("\x1b[m\x1b[2J\x1b[H", "")
+    };
+    // Two levels off: the colour before; four: its own.
+    let blank = |level| cell(' ', level, level);
+    assert_eq!(sent(&[blank(128), blank(130)]), "\x1b[48;2;128;128;128m  \x1b[m");
+    let apart = "\x1b[48;2;128;128;128m \x1b[48;2;132;132;132m \x1b[m";
+    assert_eq!(sent(&[blank(128), blank(132)]), apart);
+    // Ink and paper that look alike: their middle. Others: both.
+    assert_eq!(sent(&[cell('\u{2580}', 128, 132)]), "\x1b[48;2;130;130;130m \x1b[m");
+    let both = "\x1b[38;2;128;128;128;48;2;140;140;140m\u{2580}\x1b[m";
+    assert_eq!(sent(&[cell('\u{2580}', 128, 140)]), both);
+    // Half of a cell may be farther off than all of it.
+    let line = [cell('\u{2580}', 128, 200), cell('\u{2580}', 131, 200)];
+    assert_eq!(sent(&line), "\x1b[38;2;128;128;128;48;2;200;200;200m\u{2580}\u{2580}\x1b[m");
 }

@@ -169,4 +169,15 @@ mod tests {
         let bytes = "\u{1b}[48;2;100;100;1m ".len();
         assert!((tolerance.price(bytes).sqrt() - 0.02).abs() < 0.001);
     }
+
+    #[test]
+    fn parts_reach_three_times_the_tolerance_and_no_farther_than_is_seen() {
+        let grey = |level: u8| cell(' ', GREY, Color::Rgb([level; 3]));
+        let reaches = |tolerance: &Tolerance, levels: u8| {
+            tolerance.error(&grey(128 + levels), &grey(128)).is_finite()
+        };
+        // A level is 0.0035.
+        assert!(reaches(&tolerance(0.004), 3) && !reaches(&tolerance(0.004), 4));
+        assert!(reaches(&tolerance(0.02), 8) && !reaches(&tolerance(0.02), 9));
+    }
 }
