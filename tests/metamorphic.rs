@@ -47,7 +47,7 @@ fn keeps_answers(
     moved: &Scene,
     tiers: impl Fn(Tier) -> bool,
 ) -> Result<(), TestCaseError> {
-    for variant in lists().into_iter().filter(|variant| tiers(variant.tier)) {
+    for variant in lists().filter(|variant| tiers(variant.tier)) {
         let expected = all_bits(variant.closest(&scene.spheres, &scene.rays));
         let found = all_bits(variant.closest(&moved.spheres, &moved.rays));
         prop_assert_eq!(found, expected, "{:?}", variant);
