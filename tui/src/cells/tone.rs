@@ -34,7 +34,7 @@ pub(super) const HALO: usize = 2;
 ///
 /// Of the values around these they are nearest to the truth where they also keep the order of tones: 0.97 and 0.93 of
 /// correlation on flake and on marbles. With the first at 0.08 a dark background is full of dots: 2 dB more from afar
-/// on flake, 0.03 less of correlation, and it looks bad. Where whites are not compressed, FLIP falls by 0.3 to 1.3 % (with
+/// on flake, 0.03 less of correlation, and it looks bad. Where whites are not compressed, FLIP falls by up to 1.3 % (with
 /// white at 1.5 and the knee at 0.3 by 1 to 3 %, to 0.91 to 1.01 of chafa's: no curve led to 0.97 in all scenes): what is bright is all `@` then,
 /// and the balls of marbles can no longer be told from the ground.
 const TONE: [f32; 3] = [0.093, 0.44, 0.8];

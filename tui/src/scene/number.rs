@@ -16,7 +16,7 @@ pub(super) fn number(word: &[u8]) -> Option<f64> {
 /// The number with which `text` begins, up to white space or the end, and how many bytes it has, if it is exact by one
 /// division; `None` if it is none, or takes longer.
 ///
-/// In one pass: to look for the end first, and for digits then, took a quarter more time.
+/// In one pass: to look for the end first, and for digits then, took a seventh more of the time in which an XYZ is read.
 #[inline]
 pub(super) fn leading(text: &[u8]) -> Option<(f64, usize)> {
     let is_negative = text.first() == Some(&b'-');

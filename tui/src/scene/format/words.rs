@@ -21,16 +21,23 @@ impl<'a> Words<'a> {
     #[inline]
     pub(super) fn next(&mut self) -> Option<(usize, &'a [u8])> {
         let bytes = self.line.bytes;
-        let mut start = self.at;
-        while bytes.get(start).is_some_and(|&byte| byte <= b' ') {
-            start += 1;
-        }
+        let start = self.start();
         let mut end = start;
         while bytes.get(end).is_some_and(|&byte| byte > b' ') {
             end += 1;
         }
         self.at = end;
         (start < end).then(|| (start, &bytes[start..end]))
+    }
+
+    /// Where the next word begins, or the line ends.
+    #[inline]
+    fn start(&self) -> usize {
+        let mut start = self.at;
+        while self.line.bytes.get(start).is_some_and(|&byte| byte <= b' ') {
+            start += 1;
+        }
+        start
     }
 
     /// The next word, which there must be.
@@ -51,10 +58,7 @@ impl<'a> Words<'a> {
     /// [`ReadError`] if it is missing, no number, or not finite.
     #[inline]
     pub(super) fn coordinate(&mut self, name: &str) -> Result<f32, ReadError> {
-        let mut start = self.at;
-        while self.line.bytes.get(start).is_some_and(|&byte| byte <= b' ') {
-            start += 1;
-        }
+        let start = self.start();
         if let Some((value, length)) = leading(&self.line.bytes[start..])
             && (value as f32).is_finite()
         {
