@@ -46,7 +46,7 @@ fn a_turning_picture_costs_no_more_bytes() {
     for (depth, tolerance, most) in [
         (ColorDepth::Ansi256, 0.0, 10_800),
         (ColorDepth::Truecolor, 0.0, 125_000),
-        (ColorDepth::Truecolor, 0.01, 35_000),
+        (ColorDepth::Truecolor, 0.01, 31_500),
     ] {
         let bytes = bytes_a_frame(depth, tolerance);
         let is_tight = bytes <= most && bytes > most * 9 / 10;

@@ -5,6 +5,7 @@
 //! raw mode; it knows what that terminal shows, which need not be what was wanted: where that looks alike, it may stay.
 //! What is shown is remembered, so errors do not add up, and a frame without tolerance makes good for all of them.
 
+mod ahead;
 mod cursor;
 mod perceived;
 mod sgr;

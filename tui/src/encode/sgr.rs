@@ -20,6 +20,16 @@ impl Pen {
     /// After a reset.
     pub(super) const RESET: Self = Self { foreground: Color::Default, background: Color::Default };
 
+    /// Whether it draws with that ink.
+    pub(super) fn has_ink(self, color: Color) -> bool {
+        self.foreground == color
+    }
+
+    /// Whether it draws on that paper.
+    pub(super) fn has_paper(self, color: Color) -> bool {
+        self.background == color
+    }
+
     /// The cell that `glyph` makes.
     pub(super) fn painted(self, glyph: char) -> Cell {
         Cell { glyph, foreground: self.foreground, background: self.background }

@@ -377,16 +377,16 @@ fn bytes_are_saved_where_what_they_buy_is_not_seen() {
         encoder.encode_part(&one_line(cells), economy, &mut bytes);
         String::from_utf8(bytes).expect("UTF-8").replace("\x1b[m\x1b[2J\x1b[H", "")
     };
-    // Two levels off: the colour before; four: its own.
+    // Four levels off: the middle of both; eight: its own.
     let blank = |level| cell(' ', level, level);
-    assert_eq!(sent(&[blank(128), blank(130)]), "\x1b[48;2;128;128;128m  \x1b[m");
-    let apart = "\x1b[48;2;128;128;128m \x1b[48;2;132;132;132m \x1b[m";
-    assert_eq!(sent(&[blank(128), blank(132)]), apart);
+    assert_eq!(sent(&[blank(128), blank(132)]), "\x1b[48;2;130;130;130m  \x1b[m");
+    let apart = "\x1b[48;2;128;128;128m \x1b[48;2;136;136;136m \x1b[m";
+    assert_eq!(sent(&[blank(128), blank(136)]), apart);
     // Ink and paper that look alike: their middle. Others: both.
     assert_eq!(sent(&[cell('\u{2580}', 128, 132)]), "\x1b[48;2;130;130;130m \x1b[m");
     let both = "\x1b[38;2;128;128;128;48;2;140;140;140m\u{2580}\x1b[m";
     assert_eq!(sent(&[cell('\u{2580}', 128, 140)]), both);
     // Half of a cell may be farther off than all of it.
     let line = [cell('\u{2580}', 128, 200), cell('\u{2580}', 131, 200)];
-    assert_eq!(sent(&line), "\x1b[38;2;128;128;128;48;2;200;200;200m\u{2580}\u{2580}\x1b[m");
+    assert_eq!(sent(&line), "\x1b[38;2;130;130;130;48;2;200;200;200m\u{2580}\u{2580}\x1b[m");
 }

@@ -56,8 +56,22 @@ impl Tolerance {
     fn across(&self, a: Color, b: Color) -> f32 {
         let (Color::Rgb(a), Color::Rgb(b)) = (a, b) else { return f32::INFINITY };
         let [a, b]: [Vec3; 2] = [self.perceived.color(a), self.perceived.color(b)];
-        let square = a.distance_squared(b);
+        self.unless_too_far(a.distance_squared(b))
+    }
+
+    /// Infinite where the square of a distance is too large for any part of a cell.
+    pub(super) fn unless_too_far(&self, square: f32) -> f32 {
         if square <= self.most { square } else { f32::INFINITY }
+    }
+
+    /// The colour in `OKLab`.
+    pub(super) fn perceived(&self, rgb: [u8; 3]) -> Vec3 {
+        self.perceived.color(rgb)
+    }
+
+    /// Whether nothing may be off.
+    pub(super) fn is_none(&self) -> bool {
+        self.distance <= 0.0
     }
 
     /// The error of `shown` where `wanted` should be; infinite if any part is too far off. Of two glyphs no one knows
@@ -66,7 +80,7 @@ impl Tolerance {
         if look_same(shown, wanted) {
             return 0.0;
         }
-        if self.distance <= 0.0 {
+        if self.is_none() {
             return f32::INFINITY;
         }
         let [own, other] = [shown, wanted].map(|cell| ink(cell.glyph));
@@ -87,7 +101,8 @@ impl Tolerance {
     }
 }
 
-fn ink(glyph: char) -> f32 {
+/// How much of a cell is ink.
+pub(super) fn ink(glyph: char) -> f32 {
     match glyph {
         ' ' => 0.0,
         '\u{2588}' => 1.0,

@@ -1,8 +1,9 @@
 //! A frame as it is written: cell by cell, in the form that costs least.
 
+use super::ahead::{self, Layer};
 use super::cursor::{Cursor, push_glyph};
 use super::sgr::{Pen, RESET};
-use super::tolerance::{Tolerance, look_same};
+use super::tolerance::{Tolerance, ink, look_same};
 use crate::cells::{Cell, CellGrid};
 
 /// Ink and paper exchanged, which needs no colour; until the next reset.
@@ -17,11 +18,20 @@ pub(super) struct Update<'a> {
     pub(super) end: usize,
     /// Whether nothing has been left or written that only looks alike.
     pub(super) is_exact: bool,
+    /// Of the row that is being written: what it costs to leave each cell as it is.
+    errors: Vec<f32>,
 }
 
 impl<'a> Update<'a> {
     pub(super) fn new(tolerance: &'a Tolerance, end: usize) -> Self {
-        Self { cursor: Cursor::LOST, pen: Pen::RESET, tolerance, end, is_exact: true }
+        Self {
+            cursor: Cursor::LOST,
+            pen: Pen::RESET,
+            tolerance,
+            end,
+            is_exact: true,
+            errors: Vec::new(),
+        }
     }
 
     /// Appends what makes the terminal show `row` of `next`, and takes note of it in `shown`.
@@ -37,6 +47,9 @@ impl<'a> Update<'a> {
         let first = usize::from(row) * usize::from(columns);
         let shown = &mut shown.cells_mut()[first..first + wanted.len()];
         let marked = next.marked().and_then(|(column, of)| (of == row).then_some(column));
+        self.errors.clear();
+        let pairs = shown.iter().zip(wanted);
+        self.errors.extend(pairs.map(|(shown, wanted)| self.tolerance.error(shown, wanted)));
         for (column, cell) in (0..columns).zip(wanted) {
             let index = usize::from(column);
             let is_marked = marked == Some(column);
@@ -45,7 +58,7 @@ impl<'a> Update<'a> {
                 continue;
             }
             // A mark is where it should be, whatever it costs.
-            let error = self.tolerance.error(&shown[index], cell);
+            let error = self.errors[index];
             let way = self.cursor.way_to(row, column);
             // Nothing is shown in less than a byte: most cells that stay are seen to by this.
             let is_cheap = out.len() >= self.end || error <= self.tolerance.price(way + 1);
@@ -55,6 +68,7 @@ impl<'a> Update<'a> {
                 self.is_exact = false;
                 continue;
             };
+            let best = if is_marked { best } else { self.suited_ahead(best, cell, wanted, index) };
             let gap = Gap { row, column, wanted, marked };
             if !self.rewrite_gap(&gap, shown, out) {
                 self.cursor.go_to(row, column, out);
@@ -92,6 +106,32 @@ impl<'a> Update<'a> {
             }
         }
         best
+    }
+
+    /// The same with colours that suit the cells to come as well, where it brings any. (With ink and paper exchanged too: no
+    /// byte less.)
+    fn suited_ahead(&self, best: Form, cell: &Cell, wanted: &[Cell], index: usize) -> Form {
+        let Form { sent, seen, .. } = best;
+        if self.tolerance.is_none() || sent != seen {
+            return best;
+        }
+        let next = index + 1;
+        let color = |layer, own, share| {
+            let (next, errors) = (&wanted[next..], &self.errors[next..]);
+            ahead::color(self.tolerance, layer, (own, share), next, errors)
+        };
+        let (mut suited, ink) = (sent, ink(sent.glyph));
+        if ink < 1.0 && !self.pen.has_paper(sent.background) {
+            suited.background = color(Layer::Paper, sent.background, 1.0 - ink);
+        }
+        if ink > 0.0 && !self.pen.has_ink(sent.foreground) {
+            suited.foreground = color(Layer::Ink, sent.foreground, ink);
+        }
+        if self.tolerance.error(&suited, cell).is_finite() {
+            Form { sent: suited, seen: suited, ..best }
+        } else {
+            best
+        }
     }
 
     /// Crosses cells that may stay by writing them again, if the pen suits them and that is no longer
