@@ -122,27 +122,32 @@ fn no_probe_asks_nothing() {
 /// Three seconds late, what is still of use counts, and nothing is a key.
 #[test]
 fn late_answers_count_from_then_on() {
-    for (name, rules) in terminals() {
-        let answers = Manner { rules, delay: Duration::from_secs(3), is_torn: false };
-        let is_known = knows(&answers.rules, SYNCHRONIZED, ";2$");
-        let emulated = Emulated { answers, link: None };
-        let mut viewer = Viewer::start_in(emulated, &[], &[], (COLUMNS, ROWS));
-        viewer.wait_for_look(name, &once(&VIEW, COLUMNS, PICTURE_ROWS));
-        thread::sleep(Duration::from_millis(3300));
-        let sent = viewer.session.output().sent.len();
-        viewer.session.type_in("1");
-        viewer.session.wait_for("a frame", |output| {
-            last_row(output.screen()).contains(" fast ").then_some(())
-        });
-        viewer.session.type_in("3");
-        viewer.session.wait_for("a frame", |output| {
-            last_row(output.screen()).contains(" exact ").then_some(())
-        });
-        let has_brackets =
-            |output: &Output| output.sent[sent..].windows(8).any(|bytes| bytes == b"\x1b[?2026h");
-        assert_eq!(has_brackets(&viewer.session.output()), is_known, "{name}");
-        assert_is_usable(viewer, name);
+    // All of them wait at once.
+    thread::scope(|scope| {
+        for (name, rules) in terminals() {
+            scope.spawn(move || late_answers_count(name, rules));
+        }
+    });
+}
+
+fn late_answers_count(name: &str, rules: Vec<Rule>) {
+    let answers = Manner { rules, delay: Duration::from_secs(3), is_torn: false };
+    let is_known = knows(&answers.rules, SYNCHRONIZED, ";2$");
+    let emulated = Emulated { answers, link: None };
+    let mut viewer = Viewer::start_in(emulated, &[], &[], (COLUMNS, ROWS));
+    viewer.wait_for_look(name, &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    thread::sleep(Duration::from_millis(3300));
+    let sent = viewer.session.output().sent.len();
+    for (key, tier) in [("1", " fast "), ("3", " exact ")] {
+        viewer.session.type_in(key);
+        viewer
+            .session
+            .wait_for("a frame", |output| last_row(output.screen()).contains(tier).then_some(()));
     }
+    let has_brackets =
+        |output: &Output| output.sent[sent..].windows(8).any(|bytes| bytes == b"\x1b[?2026h");
+    assert_eq!(has_brackets(&viewer.session.output()), is_known, "{name}");
+    assert_is_usable(viewer, name);
 }
 
 /// Half an answer with keys in it, whole ones that follow it at once, and a stream without an end.
