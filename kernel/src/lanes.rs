@@ -14,7 +14,7 @@
 
 mod array;
 #[cfg(feature = "std")]
-mod dispatched;
+pub(crate) mod dispatched;
 mod scalar;
 mod wide;
 
@@ -222,6 +222,18 @@ pub trait DoubleLanes:
         let zero = self.like(0.0);
         Self::select(self.le(zero), zero - self, self)
     }
+}
+
+/// The numbers whose bits are set, in their order, from the first on: [`Lanes::compress`] where no instruction does it.
+#[inline(always)]
+fn compressed<const N: usize>(numbers: [f32; N], mut bits: u32) -> [f32; N] {
+    let (mut kept, mut to) = (numbers, 0);
+    while bits != 0 {
+        kept[to % N] = numbers[bits.trailing_zeros() as usize % N];
+        to += 1;
+        bits &= bits - 1;
+    }
+    kept
 }
 
 /// A call that is not inlined: [`Lanes::out_of_line`] where the instruction set is fixed.

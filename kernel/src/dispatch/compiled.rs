@@ -19,41 +19,61 @@ use crate::geometry::many::ManyRays;
 use crate::geometry::ray::{Ray, RayPacket};
 use crate::geometry::sphere::{SpherePacket, Spheres};
 use crate::geometry::surface::SurfacePacket;
+use crate::lanes::dispatched::joined::Joined;
 use crate::linear::Writes;
 use crate::query::{Answers, AnyHit, ClosestHit};
 use crate::spawn_ray::packets::{self, SurfaceHits, Towards};
 use crate::{linear, surface};
+#[cfg(not(any(
+    all(any(target_arch = "x86", target_arch = "x86_64"), target_feature = "sse2"),
+    target_arch = "aarch64",
+    all(target_arch = "wasm32", target_feature = "simd128"),
+)))]
+use fearless_simd::Fallback;
+#[cfg(target_arch = "aarch64")]
+use fearless_simd::aarch64::Neon;
+#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+use fearless_simd::wasm32::WasmSimd128;
+use fearless_simd::{Simd, f32x4};
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-use fearless_simd::Simd;
-use fearless_simd::f32x16;
+use fearless_simd::{
+    f32x8, f32x16,
+    x86::{Avx2, Avx512, Sse2},
+};
 
-/// Does `work` in a function that is compiled for `level`, with its token: of the levels of x86
+/// Does `work` in a function that is compiled for `level`, with its token and its sixteen lanes: of the levels of x86
 /// those that have a [`LevelName`](super::LevelName), since one more is a quarter more to compile.
 macro_rules! at_level {
-    ($level:expr, $simd:ident => $work:expr) => {
+    ($level:expr, $simd:ident, $lanes:ident => $work:expr) => {
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
         {
-            if let Some($simd) = $level.as_avx512() {
-                return $simd.vectorize(
-                    #[inline(always)]
-                    || $work,
-                );
-            }
-            if let Some($simd) = $level.as_avx2() {
-                return $simd.vectorize(
-                    #[inline(always)]
-                    || $work,
-                );
-            }
-            if let Some($simd) = $level.as_sse2() {
-                return $simd.vectorize(
-                    #[inline(always)]
-                    || $work,
-                );
-            }
+            at_level!(@as $level.as_avx512(), $simd, $lanes = f32x16<Avx512> => $work);
+            at_level!(@as $level.as_avx2(), $simd, $lanes = Joined<f32x8<Avx2>, 2> => $work);
+            at_level!(@as $level.as_sse2(), $simd, $lanes = Joined<f32x4<Sse2>, 4> => $work);
         }
-        #[cfg(not(all(any(target_arch = "x86", target_arch = "x86_64"), target_feature = "sse2")))]
-        fearless_simd::dispatch!($level, $simd => $work);
+        #[cfg(target_arch = "aarch64")]
+        at_level!(@as $level.as_neon(), $simd, $lanes = Joined<f32x4<Neon>, 4> => $work);
+        #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+        at_level!(@as $level.as_wasm_simd128(), $simd, $lanes = Joined<f32x4<WasmSimd128>, 4> => $work);
+        #[cfg(not(any(
+            all(any(target_arch = "x86", target_arch = "x86_64"), target_feature = "sse2"),
+            target_arch = "aarch64",
+            all(target_arch = "wasm32", target_feature = "simd128"),
+        )))]
+        if let fearless_simd::Level::Fallback(fallback) = $level {
+            at_level!(@as Some(fallback), $simd, $lanes = Joined<f32x4<Fallback>, 4> => $work);
+        }
+    };
+    (@as $token:expr, $simd:ident, $lanes:ident = $type:ty => $work:expr) => {
+        if let Some($simd) = $token {
+            // What moves no lanes names none.
+            #[allow(dead_code)]
+            type $lanes = $type;
+            return $simd.vectorize(
+                #[inline(always)]
+                || $work,
+            );
+        }
     };
 }
 
@@ -101,8 +121,8 @@ macro_rules! compiled {
                     answers: &mut [$packet],
                 ) {
                     use $traverse as traverse;
-                    at_level!(level.0, simd => {
-                        traverse::<f32x16<_>, Self>(tier, simd, $structure, $($more,)* answers)
+                    at_level!(level.0, simd, Vector => {
+                        traverse::<Vector, Self>(tier, simd, $structure, $($more,)* answers)
                     });
                 }
             )*
@@ -115,7 +135,7 @@ macro_rules! compiled {
                 from: usize,
                 to: usize,
             ) {
-                at_level!(level.0, simd => {
+                at_level!(level.0, simd, Vector => {
                     let _ = simd;
                     Self::write(many, packets, from, to);
                 });
@@ -123,8 +143,8 @@ macro_rules! compiled {
 
             #[inline(never)]
             fn one_ray(level: Level, tier: Tier, bvh: &Bvh<'_>, ray: &Ray, answer: &mut Self::One) {
-                at_level!(level.0, simd => {
-                    one_ray::trace::<f32x16<_>, Self>(simd, tier, bvh, ray, answer);
+                at_level!(level.0, simd, Vector => {
+                    one_ray::trace::<Vector, Self>(simd, tier, bvh, ray, answer);
                 });
             }
         }
@@ -149,7 +169,7 @@ pub(crate) fn pairs(
     spheres: &[SpherePacket],
     hits: &mut [HitPacket],
 ) {
-    at_level!(level.0, simd => linear::each_pair::<f32x16<_>>(tier, simd, rays, spheres, hits));
+    at_level!(level.0, simd, Vector => linear::each_pair::<Vector>(tier, simd, rays, spheres, hits));
 }
 
 /// [`object_lanes`](crate::object_lanes) for those packets that `numbers` names; adds to `writes`.
@@ -162,9 +182,9 @@ pub(crate) fn object(
     hits: &mut [HitPacket],
     writes: &mut Writes,
 ) {
-    at_level!(level.0, simd => {
+    at_level!(level.0, simd, Vector => {
         let object = (spheres, index);
-        *writes += linear::one_object::<f32x16<_>>(tier, simd, object, numbers, rays, hits);
+        *writes += linear::one_object::<Vector>(tier, simd, object, numbers, rays, hits);
     });
 }
 
@@ -177,8 +197,8 @@ pub(crate) fn surfaces(
     (rays, hits): (&[RayPacket], &[HitPacket]),
     surfaces: &mut [SurfacePacket],
 ) {
-    at_level!(level.0, simd => {
-        surface::each_packet::<f32x16<_>>(tier, simd, spheres, rays, hits, surfaces);
+    at_level!(level.0, simd, Vector => {
+        surface::each_packet::<Vector>(tier, simd, spheres, rays, hits, surfaces);
     });
 }
 
@@ -192,21 +212,21 @@ pub(crate) fn shadows(
     towards: Towards,
     shadow_rays: &mut [RayPacket],
 ) {
-    at_level!(level.0, simd => {
-        packets::each_packet::<f32x16<_>>(tier, simd, spheres, hit, towards, shadow_rays);
+    at_level!(level.0, simd, Vector => {
+        packets::each_packet::<Vector>(tier, simd, spheres, hit, towards, shadow_rays);
     });
 }
 
 /// Fills packets with rays.
 #[inline(never)]
 pub(crate) fn fill(level: Level, rays: ManyRays<'_>, packets: &mut [RayPacket]) {
-    at_level!(level.0, simd => rays.fill::<f32x16<_>>(simd, 0, packets));
+    at_level!(level.0, simd, Vector => rays.fill::<Vector>(simd, 0, packets));
 }
 
 /// Makes the rays of as many of a camera's tiles as there is room for.
 #[inline(never)]
 pub(crate) fn fill_tiles(level: Level, tiles: CameraTiles<'_>, rays: &mut [RayPacket]) {
-    at_level!(level.0, simd => {
-        tiles.fill::<f32x16<_>>(simd, tiles.corners, rays);
+    at_level!(level.0, simd, Vector => {
+        tiles.fill::<Vector>(simd, tiles.corners, rays);
     });
 }

@@ -1,4 +1,5 @@
-//! Sixteen lanes of the crate `fearless_simd`, whose instruction set is chosen at run time.
+//! Sixteen lanes of the crate `fearless_simd`, whose instruction set is chosen at run time: in one register here, in
+//! several in [`joined`].
 //!
 //! The token is the crate's own: a value of it is the proof that the CPU has the instructions, so
 //! that all this needs no `unsafe` here. What is computed with such lanes must be inlined into a
@@ -8,6 +9,7 @@
 
 mod columns;
 mod in_order;
+pub(crate) mod joined;
 
 use super::{DoubleLanes, LaneMask, Lanes};
 use core::fmt::Debug;
@@ -107,7 +109,6 @@ macro_rules! dispatched_mask {
 }
 
 dispatched_mask!(mask32x16);
-dispatched_mask!(mask64x8);
 
 impl<S: Simd> Lanes for f32x16<S> {
     const COUNT: usize = 16;
@@ -151,18 +152,6 @@ impl<S: Simd> Lanes for f32x16<S> {
 
     #[inline(always)]
     fn compress(self, mask: Self::Mask) -> Self {
-        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-        if fearless_simd::ExtractToken::token(&self).level().as_avx2().is_none() {
-            // SSE2 moves bytes one by one, by way of calls in a build without link-time optimisation.
-            let array = self.to_array();
-            let (mut compressed, mut count, mut bits) = (array, 0, mask.bits());
-            while bits != 0 {
-                compressed[count % 16] = array[bits.trailing_zeros() as usize % 16];
-                bits &= bits - 1;
-                count += 1;
-            }
-            return SimdBase::load_array(Lanes::token(self), compressed);
-        }
         SimdBase::compress(self, mask.0)
     }
 
@@ -204,6 +193,8 @@ impl<S: Simd> Lanes for f32x16<S> {
         vectorized_call(token, work)
     }
 }
+
+dispatched_mask!(mask64x8);
 
 impl<S: Simd> DoubleLanes for f64x8<S> {
     const COUNT: usize = 8;

@@ -113,15 +113,7 @@ macro_rules! wide_lanes {
 
             #[inline(always)]
             fn compress(self, mask: Self::Mask) -> Self {
-                let numbers = self.to_array();
-                let mut kept = numbers;
-                let (mut bits, mut to) = (mask.bits(), 0);
-                while bits != 0 {
-                    kept[to % $count] = numbers[bits.trailing_zeros() as usize % $count];
-                    to += 1;
-                    bits &= bits - 1;
-                }
-                $vector::new(kept)
+                $vector::new(super::compressed(self.to_array(), mask.bits()))
             }
 
             #[inline(always)]

@@ -1,6 +1,6 @@
 //! Sixteen bits in another order: a shuffle where the CPU has one, which `fearless_simd` has no portable name for.
 
-use fearless_simd::{Simd, SimdBase, SimdMask, f32x16, u8x16};
+use fearless_simd::{Simd, SimdBase, SimdMask, f32x16, mask32x8, u8x16};
 
 /// [`Lanes::bits_in_order`](crate::Lanes::bits_in_order).
 #[inline(always)]
@@ -25,28 +25,26 @@ pub(super) fn bits<S: Simd>(token: S, bits: u32, order: u64) -> u32 {
 #[inline(always)]
 pub(super) fn le<S: Simd>(token: S, a: f32x16<S>, b: f32x16<S>, order: u64) -> u32 {
     #[cfg(target_arch = "x86_64")]
-    match token.level() {
-        fearless_simd::Level::Avx512(avx512) => {
-            return le_permuted(avx512, a.to_array(), b.to_array(), order);
-        }
-        fearless_simd::Level::Avx2(_) => {
-            let (low, high) = token.split_mask32x16(a.simd_le(b));
-            let (low, high) = token.split_mask16x16(token.narrow_mask32x8(low, high));
-            let lanes = token.to_vector_mask8x16(token.narrow_mask16x8(low, high));
-            // A byte for each four bits of the order.
-            let four = 0x0f0f_0f0f_0f0f_0f0f;
-            let even = u8x16::load_array(token, pair(order & four));
-            let odd = u8x16::load_array(token, pair(order >> 4 & four));
-            let ordered = token.swizzle_dyn_within_blocks_i8x16(lanes, even.zip_low(odd));
-            return token.from_vector_mask8x16(ordered).to_bitmask() as u32;
-        }
-        _ => {}
+    if let fearless_simd::Level::Avx512(avx512) = token.level() {
+        return le_permuted(avx512, a.to_array(), b.to_array(), order);
     }
     bits(token, a.simd_le(b).to_bitmask() as u32, order)
 }
 
+/// The same of a mask in two halves.
+#[inline(always)]
+pub(super) fn of_halves<S: Simd>(token: S, [low, high]: [mask32x8<S>; 2], order: u64) -> u32 {
+    let (low, high) = token.split_mask16x16(token.narrow_mask32x8(low, high));
+    let lanes = token.to_vector_mask8x16(token.narrow_mask16x8(low, high));
+    // A byte for each four bits of the order.
+    let four = 0x0f0f_0f0f_0f0f_0f0f;
+    let even = u8x16::load_array(token, pair(order & four));
+    let odd = u8x16::load_array(token, pair(order >> 4 & four));
+    let ordered = token.swizzle_dyn_within_blocks_i8x16(lanes, even.zip_low(odd));
+    token.from_vector_mask8x16(ordered).to_bitmask() as u32
+}
+
 /// Eight bytes, twice.
-#[cfg(target_arch = "x86_64")]
 #[inline(always)]
 fn pair(bytes: u64) -> [u8; 16] {
     (u128::from(bytes) << 64 | u128::from(bytes)).to_le_bytes()

@@ -90,9 +90,13 @@ fn lanes_of_the_build() {
 #[cfg(feature = "std")]
 #[test]
 fn lanes_of_every_level() {
-    use fearless_simd::{Simd, f32x16};
+    use crate::lanes::dispatched::joined::Joined;
+    use fearless_simd::{Simd, f32x4, f32x8, f32x16};
+    // However many registers there are, on each CPU.
     fn sixteen<S: Simd>(token: S) {
         moves::<f32x16<S>>(token);
+        moves::<Joined<f32x8<S>, 2>>(token);
+        moves::<Joined<f32x4<S>, 4>>(token);
     }
     let widest = fearless_simd::Level::new();
     fearless_simd::dispatch!(widest, token => sixteen(token));
