@@ -160,3 +160,6 @@ fn two_colors(glyph: char, foreground: Color, background: Color) -> Cell {
         Cell { glyph, foreground, background }
     }
 }
+
+#[cfg(test)]
+mod tests;
