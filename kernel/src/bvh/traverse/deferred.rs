@@ -106,7 +106,8 @@ impl<'a, T: Accuracy, L: Lanes, Q: Query> DeferredTests<'a, T, L, Q> {
         }
     }
 
-    /// Tests what there is, and hands the answers on.
+    /// Tests what there is, and hands the answers on. (Out of line it is compiled once, not in seventeen places; ray by ray
+    /// is 0.97 as fast then, by AVX2.)
     #[inline(always)]
     pub(crate) fn test(&mut self) {
         if self.count == 0 {
