@@ -7,7 +7,9 @@ use spherule_kernel::{Exact, Hit, Intersect, Ray, SphereTree, Vec3};
 use std::time::Instant;
 
 /// Rays of a piece: enough that a call's beginning is nothing beside it, few enough that no thread waits long for the last.
-const PIECE: usize = 4096;
+/// (Of 262,144 diffuse rays two threads do 1.87 times as much as one; in pieces of 4,096, of which each learns anew how
+/// they are best traced, 1.47 times.)
+const PIECE: usize = 16_384;
 
 /// The closest hit of every ray, on all threads. The tree is shared: nothing in it changes.
 fn closest_hits(tree: &SphereTree, rays: &[Ray], hits: &mut [Option<Hit>]) {
@@ -56,7 +58,7 @@ fn main() {
 
     println!("{} threads", rayon::current_num_threads());
     for (kind, rays) in [("camera", camera), ("diffuse", diffuse)] {
-        for count in [1 << 12, 1 << 13, 1 << 14, 1 << 16, rays.len()] {
+        for count in [1 << 14, 1 << 15, 1 << 16, rays.len()] {
             let rays = &rays[..count];
             let (mut alone, mut together) = (vec![None; count], vec![None; count]);
             let one = seconds(|| tree.closest_hits(Exact, rays, &mut alone));

@@ -37,6 +37,29 @@ fn moves<L: Lanes>(token: L::Token) {
             assert_eq!(ordered >> place & 1, expected, "{sixteen_bits:x} {order:x} {place}");
         }
 
+        // Lanes compared and put in that order, some of them equal.
+        let mut others = L::Array::filled(0.0);
+        for (lane, number) in numbers.iter().enumerate() {
+            let equal = random.bits() & 1 == 1;
+            let other = f32::from_bits(random.bits() as u32);
+            others.set(lane, if equal { *number } else { other });
+        }
+        let compared = lanes.le_in_order(L::load(token, &others), 0, order);
+        for place in 0..16 {
+            let lane = (order >> (4 * place) & 15) as usize;
+            let expected = lane < L::COUNT && numbers[lane] <= others.get(lane);
+            assert_eq!(compared >> place & 1 == 1, expected, "{order:x} {place}");
+        }
+
+        // In double precision and back, part by part.
+        let mut back = L::Array::filled(0.0);
+        for part in 0..L::PARTS {
+            L::narrow(&mut back, part, lanes.widen(part));
+        }
+        for (number, found) in numbers.iter().zip(back.as_ref()) {
+            assert!(number.to_bits() == found.to_bits() || number.is_nan() && found.is_nan());
+        }
+
         // Parts of sixteen numbers, and lanes laid down anywhere.
         let sixteen: [f32; 16] = core::array::from_fn(|_| f32::from_bits(random.bits() as u32));
         let mut copy = [0.0; 16];
