@@ -176,6 +176,17 @@ impl Row {
         }
     }
 
+    /// How many times as fast a traversal is as the best of the others, and which that is.
+    pub(crate) fn lead(&self, traversal: Way) -> Option<(Median, Way)> {
+        let of = |timed: &Timed| match timed {
+            Timed::Ours(way) => way.traversal(),
+            Timed::Embree(_) => None,
+        };
+        let own = self.quickest(|timed| of(timed) == Some(traversal))?;
+        let next = self.quickest(|timed| of(timed).is_some_and(|other| other != traversal))?;
+        Some((self.times.ratio(&next, &own)?, of(&next)?))
+    }
+
     /// A million rays a second of the plain call.
     pub(crate) fn rate(&self) -> Option<f64> {
         Some(1e3 / self.times.median(&Timed::Ours(Way::Plain))?.middle)

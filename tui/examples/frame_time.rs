@@ -1,6 +1,7 @@
 //! Milliseconds a frame of the built-in scenes, 200 x 60 cells in truecolor, samples by need, drawn and encoded in
 //! full: half blocks by every tier, and every other charset by the exact one:
-//! `cargo run --release -p spherule --example frame_time [FRAMES [SCENE [LEVEL [STRUCTURE]]]]`.
+//! `cargo run --release -p spherule --example frame_time [FRAMES [SCENE [LEVEL [STRUCTURE [CHARS]]]]]`; with
+//! CHARS, that character set alone.
 //!
 //! CPU time by the clock of a single thread, which stands while others run; the least time is that of a quiet core.
 //! Then the time that passes if all threads draw.
@@ -26,11 +27,13 @@ fn main() {
     let named = |word: String| LevelName::ALL.into_iter().find(|name| name.as_str() == word);
     let level = words.next().and_then(named).and_then(Level::named).unwrap_or_else(Level::best);
     let structure = words.next().and_then(|name| Structure::from_str(&name, false).ok());
+    let chars = words.next().and_then(|name| Charset::from_str(&name, false).ok());
     println!("{}: medians of {frames} frames", level.name().as_str());
     let tiers = Tier::ALL.map(|tier| (tier, Charset::Half));
     let others = Charset::value_variants().iter().filter(|&&charset| charset != Charset::Half);
     let exact = others.map(|&charset| (Tier::Exact, charset));
-    for (accuracy, charset) in tiers.into_iter().chain(exact) {
+    let is_asked = |&(_, charset): &(Tier, Charset)| chars.is_none_or(|chars| chars == charset);
+    for (accuracy, charset) in tiers.into_iter().chain(exact).filter(is_asked) {
         for entry in BUILTINS {
             if only.as_ref().is_none_or(|name| name == entry.name) {
                 print!("{:8} {:9} {:8} ", entry.name, accuracy.as_str(), choice::name(&charset));

@@ -1,8 +1,10 @@
 //! Character cells: what a terminal shows, before any escape sequence.
 
+mod best_mask;
 pub mod bins;
 pub mod braille;
 pub mod change;
+pub mod columns;
 pub mod dither;
 pub mod dots;
 pub mod eye;

@@ -48,6 +48,20 @@ impl Way {
         Self::Plain,
     ];
 
+    /// Those that go through spheres in different ways.
+    pub(crate) const TRAVERSALS: [Self; 5] =
+        [Self::RayByRay, Self::Stream, Self::SortedStream, Self::Coherent, Self::DepthList];
+
+    /// Which of [`Self::TRAVERSALS`] it takes; `None` for the plain call, which chooses.
+    pub(super) const fn traversal(self) -> Option<Self> {
+        match self {
+            Self::Plain => None,
+            Self::IncoherentPackets => Some(Self::RayByRay),
+            Self::Packets => Some(Self::Coherent),
+            _ => Some(self),
+        }
+    }
+
     /// As it stands in tables.
     pub(crate) const fn as_str(self) -> &'static str {
         match self {

@@ -32,13 +32,12 @@ pub(crate) fn page(origin: &str, all: &[Row]) -> String {
          said coherent, by ray by ray | times Embree",
     );
     for row in &rows {
-        let query = if row.query == Query::AnyHit { "any" } else { "closest" };
         let ratio = |ratio: Ratio| cell(ratio(row).map(|it| format!("{:.2}", it.middle)));
         let slow = if row.is_cut_short { "~" } else { "" };
         table.row([
             row.scene.to_owned(),
             row.order.as_str().to_owned(),
-            query.to_owned(),
+            query_name(row.query).to_owned(),
             row.level.as_str().to_owned(),
             row.rays.to_string(),
             slow.to_owned() + &number(row.rate()),
@@ -57,12 +56,13 @@ pub(crate) fn page(origin: &str, all: &[Row]) -> String {
          and Embree, 3.13 or 4.4, in its quickest call with the same instructions (for the baseline, SSE4.2), its rays in blocks that are in the cache. \
          Medians of {} to {} interleaved rounds of the thread's own time, ratios round by round. ~: so slow that a part of the rays was timed, once. {}\
          Before anything is timed, every way answers as ray by ray does, bit for bit, which answers as brute force does on a sample. \
-         The orders: [orders.rs](../../tests/src/orders.rs).\n\n{}\n{}\n{}{}",
+         The orders: [orders.rs](../../tests/src/orders.rs).\n\n{}\n{}\n{}\n{}{}",
         build(),
         all.iter().map(Row::rounds).min().unwrap_or(0),
         all.iter().map(Row::rounds).max().unwrap_or(0),
         noise(all),
         summary(all),
+        leads(all),
         worst_of(all, "order", |row| row.order.as_str()),
         worst_of(all, "scene", |row| row.scene),
         format_args!("\nEvery row, the worst first:\n\n{}", table.0)
@@ -106,6 +106,38 @@ fn summary(all: &[Row]) -> String {
     }
     table.row(of("all", &|_| true));
     table.0
+}
+
+/// Where each traversal is furthest ahead of the others.
+fn leads(all: &[Row]) -> String {
+    let mut table = Table::new(3, "traversal | query | level | where | times as fast | as");
+    for way in Way::TRAVERSALS {
+        for (query, level) in Query::ALL
+            .into_iter()
+            .flat_map(|query| LevelName::ALL.into_iter().rev().map(move |level| (query, level)))
+        {
+            let rows = all.iter().filter(|row| row.query == query && row.level == level);
+            let leads = rows.filter_map(|row| Some((row, row.lead(way)?)));
+            let by_lead = |(_, (one, _)): &(&Row, (Median, Way)), (_, (other, _)): &_| {
+                let other: &Median = other;
+                one.middle.total_cmp(&other.middle)
+            };
+            let Some((row, (lead, next))) = leads.max_by(by_lead) else { continue };
+            table.row([
+                way.as_str().to_owned(),
+                query_name(query).to_owned(),
+                level.as_str().to_owned(),
+                format!("{}, {}", row.scene, row.order.as_str()),
+                format!("{lead}"),
+                next.as_str().to_owned(),
+            ]);
+        }
+    }
+    format!("Where each traversal is furthest ahead of the best of the others:\n\n{}", table.0)
+}
+
+fn query_name(query: Query) -> &'static str {
+    if query == Query::AnyHit { "any" } else { "closest" }
 }
 
 /// The worst of each name.

@@ -1,5 +1,6 @@
 //! Samples of a cell, gathered by area into a grid of equal bins.
 
+use super::columns::{Columns, Line, lines};
 use super::masks::overlap;
 use spherule_kernel::Vec3;
 
@@ -7,54 +8,51 @@ use spherule_kernel::Vec3;
 /// cuts that, each side gets its part.
 #[derive(Clone, Debug)]
 pub struct Bins {
-    /// Sample, and the part of the bin that it is; bin after bin, so that a sum stays in a register.
-    shares: Vec<(u32, f32)>,
+    /// How much of each sample lies in a bin; bin after bin.
+    shares: Vec<Line>,
     /// Where the shares of each bin end.
     ends: Vec<usize>,
+    /// Bins a sample.
+    scale: f32,
 }
 
 impl Bins {
-    /// Of `across` x `down` bins from so many samples; both row by row.
+    /// Of `across` x `down` bins from so many samples.
     #[must_use]
     pub fn new((across, down): (usize, usize), samples: (u32, u32)) -> Self {
         let (width, height) = (samples.0 as usize, samples.1 as usize);
         let (mut shares, mut ends) = (Vec::new(), Vec::new());
         for bin in 0..across * down {
-            for sample in 0..width * height {
-                let share = overlap((bin % across, across), (sample % width, width))
-                    * overlap((bin / across, down), (sample / width, height));
-                if share > 0.0 {
-                    shares.push((sample as u32, share));
-                }
-            }
+            let share = |sample| {
+                overlap((sample % width, width), (bin % across, across))
+                    * overlap((sample / width, height), (bin / across, down))
+            };
+            let of_bin: Vec<f32> = (0..width * height).map(share).collect();
+            shares.extend(lines(&of_bin, width));
             ends.push(shares.len());
         }
-        Self { shares, ends }
+        Self { shares, ends, scale: (across * down) as f32 / (width * height) as f32 }
+    }
+
+    /// How much of each sample lies in bin `bin`, between 0 and 1.
+    #[must_use]
+    #[inline]
+    pub fn shares(&self, bin: usize) -> &[Line] {
+        let start = if bin == 0 { 0 } else { self.ends[bin - 1] };
+        &self.shares[start..self.ends[bin]]
     }
 
     /// The mean of every bin; those past the grid's last are 0.
     #[must_use]
     #[inline]
-    pub fn means<const N: usize>(&self, samples: &[Vec3]) -> [Vec3; N] {
+    pub fn means<const N: usize>(&self, colors: &Columns) -> [Vec3; N] {
         let mut means = [Vec3::ZERO; N];
         let mut start = 0;
         for (mean, &end) in means.iter_mut().zip(&self.ends) {
-            for &(sample, share) in &self.shares[start..end] {
-                *mean += share * samples[sample as usize];
-            }
+            *mean = self.scale * colors.weighted_sum(self.shares[start..end].iter().copied());
             start = end;
         }
         means
-    }
-
-    /// Adds to `cover` how much of each sample lies in bin `bin`.
-    #[inline]
-    pub fn cover(&self, bin: usize, cover: &mut [f32]) {
-        let start = if bin == 0 { 0 } else { self.ends[bin - 1] };
-        let samples_a_bin = cover.len() as f32 / self.ends.len() as f32;
-        for &(sample, share) in &self.shares[start..self.ends[bin]] {
-            cover[sample as usize] += samples_a_bin * share;
-        }
     }
 }
 

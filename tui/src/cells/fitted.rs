@@ -1,6 +1,7 @@
 //! What a fit of a glyph comes to, and what fitters share.
 
-use super::layers::Looks;
+use super::columns::Columns;
+use super::layers::Layers;
 use super::masks::{Cover, Mask};
 use spherule_kernel::Vec3;
 
@@ -52,7 +53,7 @@ pub(super) fn rank<T>(best: &mut [(f32, T)], mut next: (f32, T)) {
 /// The memory of fits: contents do not matter.
 #[derive(Clone, Debug, Default)]
 pub struct FitMemory {
-    pub(super) roots: Vec<Vec3>,
-    pub(super) looks: Looks,
-    pub(super) cover: Vec<f32>,
+    pub(super) light: Columns,
+    pub(super) looks: Columns,
+    pub(super) layers: Layers,
 }

@@ -12,8 +12,8 @@ use super::bins::Bins;
 use super::change;
 use super::eye::Eye;
 use super::fitted::{FitMemory, Fitted, rank};
-use super::layers::{Layers, mixed};
-use super::letter::{BINS, LETTERS, Letter};
+use super::layers::{Medians, mixed};
+use super::letter::{ACROSS, BINS, LETTERS, Letter};
 use super::tone;
 use crate::color::roots;
 use crate::style::ColorDepth;
@@ -28,7 +28,10 @@ const TRIED: usize = 3;
 /// Fits letters to cells that have so many samples.
 #[derive(Clone, Debug)]
 pub struct LetterFitter {
-    bins: Bins,
+    /// `None` if there is a sample for each.
+    bins: Option<Bins>,
+    /// Samples side by side.
+    across: usize,
     /// Whether ink and paper have colours.
     colored: bool,
     eye: Eye,
@@ -36,7 +39,11 @@ pub struct LetterFitter {
 
 impl LetterFitter {
     pub(super) fn new(depth: ColorDepth, eye: Eye, samples: (u32, u32)) -> Self {
-        Self { bins: Bins::new((4, 8), samples), colored: depth != ColorDepth::Never, eye }
+        let grid = (ACROSS, BINS / ACROSS);
+        let across = samples.0 as usize;
+        let is_it = (across, samples.1 as usize) == grid;
+        let bins = (!is_it).then(|| Bins::new(grid, samples));
+        Self { bins, across, colored: depth != ColorDepth::Never, eye }
     }
 
     pub(super) fn fit(
@@ -45,7 +52,14 @@ impl LetterFitter {
         memory: &mut FitMemory,
         before: Option<&Fitted>,
     ) -> Fitted {
-        let light: [Vec3; BINS] = self.bins.means(light);
+        let FitMemory { light: samples, looks: columns, layers } = memory;
+        let light: [Vec3; BINS] = match &self.bins {
+            None => array::from_fn(|bin| light[bin]),
+            Some(bins) => {
+                samples.take(light, self.across);
+                bins.means(samples)
+            }
+        };
         let parts = of_parts(&light);
         if !self.colored {
             let letter = tone::alone(&parts);
@@ -54,14 +68,14 @@ impl LetterFitter {
         }
         let looks = light.map(roots);
         let mean = looks.iter().sum::<Vec3>() / BINS as f32;
-        let columns = &mut memory.looks;
-        columns.take(&looks);
+        columns.take(&looks, ACROSS);
+        let sum = columns.sum();
 
         let mut best = [(FLAT, (&LETTERS[0], Vec3::ZERO)); TRIED];
         let fit_of = |letter: &'static Letter| {
             let of_pixels = BINS as f32 * letter.mean * (1.0 - letter.mean);
             let energy = of_pixels + self.eye.lent * (letter.energy - of_pixels);
-            let pull = columns.pull(&letter.shape);
+            let pull = columns.times(&letter.ink) - letter.mean * sum;
             let step = possible_step(letter, pull / energy, mean);
             let gain = (step * (2.0 * pull - energy * step)).element_sum() / BINS as f32;
             (gain, (letter, step))
@@ -94,8 +108,8 @@ impl LetterFitter {
         for (_, (letter, step)) in tried.chain([space]) {
             let paper = mean - letter.mean * step;
             let means = [paper + step, paper];
-            columns.cover(&letter.ink);
-            let Layers { looks, missed } = columns.layers(means);
+            layers.take(BINS, letter.lines());
+            let Medians { looks, missed } = layers.medians(columns, means);
             if missed < least.0 {
                 let [ink, paper] = [0, 1]
                     .map(|layer| mixed(looks[layer], means[layer] * means[layer], self.eye.means));

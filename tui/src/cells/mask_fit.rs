@@ -1,10 +1,8 @@
 //! The mask or wedge and the two colours that come nearest to what was sampled of a cell.
 //!
 //! First by least squares, which are quick: for a mask, the best two colours are the means of what it fills and of what it leaves,
-//! and the best mask is the one that takes most of the samples' variance away. With the mean of the cell subtracted, a mask
-//! that fills `n` of `m` equal bins whose sum is `s` takes away `|s|^2 (1/n + 1/(m-n)) / m` of it. The sums of all masks of
-//! a grid are those of the masks of its lower four bins plus those of its upper four. A wedge, whose bins are partly filled, is a
-//! letter: `sum (g-G)(t-T)` squared over `sum (g-G)^2`, see [`letters`](super::letters).
+//! and the best mask is the one that [takes most of the samples' variance away](super::best_mask). A wedge, whose bins are partly
+//! filled, is a letter: `sum (g-G)(t-T)` squared over `sum (g-G)^2`, see [`letters`](super::letters).
 //!
 //! Of the best of each grid, the two that gain most are held against the samples themselves; the one that
 //! [misses least](super::layers) is taken, in its colours. In motion it counts [what changes](super::change), and the glyph of the
@@ -13,15 +11,16 @@
 //! All is compared by square roots of linear light. Of other spaces `OKLab` was as good, at ten times the cost, except that
 //! glyphs of all kinds together scored below sextants alone on flake; linear light lost 1 dB on marbles.
 
+use super::best_mask::MaskSearch;
 use super::bins::Bins;
 use super::braille;
 use super::change;
+use super::columns::Columns;
 use super::eye::Eye;
 use super::fitted::{FitMemory, Fitted, rank};
-use super::layers::{Layers, Looks, mixed};
+use super::layers::{Medians, mixed};
 use super::masks::{Family, Mask, repertoire};
 use super::wedges::{self, WEDGES, Wedge};
-use crate::color::roots;
 use crate::style::Charset;
 use spherule_kernel::Vec3;
 
@@ -31,8 +30,10 @@ const FLAT: f32 = 1e-6;
 /// Fits masks of a charset.
 #[derive(Clone, Debug)]
 pub struct MaskFitter {
+    /// Samples side by side.
+    across: usize,
     parts: Bins,
-    families: Vec<(Bins, &'static Family)>,
+    families: Vec<(Bins, &'static Family, MaskSearch)>,
     /// Whether there are wedges, too.
     wedges: bool,
     /// Whether bins are dots, which fill only some of them.
@@ -65,8 +66,11 @@ impl MaskFitter {
         let bins = |family: &Family| Bins::new((family.across, family.down), samples);
         let across = wedges::ACROSS as u32;
         Self {
+            across: samples.0 as usize,
             parts: Bins::new((2, 4), samples),
-            families: families.map(|family| (bins(family), family)).collect(),
+            families: families
+                .map(|family| (bins(family), family, MaskSearch::new(family)))
+                .collect(),
             wedges: charset == Charset::Block && samples == (across, across),
             dots: charset == Charset::Braille,
             // (Of halves both: 0.5 to 1.5 dB less from afar, and no nearer.)
@@ -81,26 +85,25 @@ impl MaskFitter {
         memory: &mut FitMemory,
         before: Option<&Fitted>,
     ) -> Fitted {
-        let FitMemory { roots: looks, looks: columns, cover } = memory;
-        looks.clear();
-        looks.extend(light.iter().map(|&light| roots(light)));
-        let parts = self.parts.means(light);
+        let FitMemory { light: columns, looks, layers } = memory;
+        columns.take(light, self.across);
+        looks.take_roots(columns);
+        let parts = self.parts.means(columns);
         let share = 1.0 / light.len() as f32;
-        let mean_look = share * looks.iter().sum::<Vec3>();
+        let mean_look = share * looks.sum();
 
         // The best mask of each grid, and the best wedge: those that take most away.
         let mut best: [(f32, Option<Candidate<'_>>); TRIED] = [(FLAT, None); TRIED];
-        for (bins, family) in &self.families {
+        for (bins, family, search) in &self.families {
             let means = bins.means(looks).map(|look| look - mean_look);
-            let (gain, mask) = best_mask(family, &means);
+            let (gain, mask) = search.best(&means);
             rank(&mut best, (gain, Some(Candidate::Mask(bins, family, mask))));
         }
-        columns.take(looks);
         if self.wedges {
-            let (gain, wedge) = best_wedge(columns);
+            let (gain, wedge) = best_wedge(looks);
             rank(&mut best, (gain, Some(Candidate::Wedge(wedge))));
         }
-        let mean = share * light.iter().sum::<Vec3>();
+        let mean = share * columns.sum();
         let mut one_color = Fitted { ink: mean, paper: mean, parts, ..Fitted::NONE };
         let mut part_looks = [Vec3::ZERO; 8];
         if before.is_some() {
@@ -129,38 +132,34 @@ impl MaskFitter {
         let tried = best.iter().take(self.tried).filter_map(|&(_, candidate)| candidate);
         let kept = best[0].1.and(before).and_then(|before| self.candidate(before.glyph));
         for candidate in tried.chain(kept) {
-            cover.clear();
             let (glyph, of_parts) = match candidate {
                 Candidate::Mask(bins, family, mask) => {
-                    cover.resize(light.len(), 0.0);
-                    for bin in (0..family.bins()).filter(|bin| mask.bits >> bin & 1 == 1) {
-                        bins.cover(bin, cover);
-                    }
+                    let filled = (0..family.bins()).filter(|bin| mask.bits >> bin & 1 == 1);
+                    layers.take(light.len(), filled.flat_map(|bin| bins.shares(bin)).copied());
                     (mask.glyph, mask.cover)
                 }
                 Candidate::Wedge(wedge) => {
-                    cover.extend_from_slice(&wedge.bins);
+                    layers.take(light.len(), wedge.lines.iter().copied());
                     (wedge.glyph, wedge.cover)
                 }
             };
-            columns.cover(cover);
-            let means = columns.means();
+            let means = layers.means(looks);
             if let Some(before) = before {
                 let excess = change::excess(&of_parts, means, &part_looks);
-                let cost = change::cost(columns.spread(means), glyph, &excess, before);
+                let cost = change::cost(layers.spread(looks, means), glyph, &excess, before);
                 if cost < least.0 {
                     let [ink, paper] = means.map(|look| look * look);
                     least = (cost, Fitted { glyph, cover: of_parts, ink, paper, parts, excess });
                 }
                 continue;
             }
-            let Layers { looks, missed } = if light.len() > FEW {
-                columns.layers(means)
+            let Medians { looks, missed } = if light.len() > FEW {
+                layers.medians(looks, means)
             } else {
-                Layers { looks: means, missed: 0.0 }
+                Medians { looks: means, missed: 0.0 }
             };
             if missed < least.0 {
-                let means = if self.eye.means > 0.0 { light_means(light, cover) } else { means };
+                let means = if self.eye.means > 0.0 { layers.means(columns) } else { means };
                 let [ink, paper] =
                     [0, 1].map(|layer| mixed(looks[layer], means[layer], self.eye.means));
                 least =
@@ -172,24 +171,13 @@ impl MaskFitter {
 
     /// The one of this glyph.
     fn candidate(&self, glyph: char) -> Option<Candidate<'_>> {
-        let mask = self.families.iter().find_map(|(bins, family)| {
+        let mask = self.families.iter().find_map(|(bins, family, _)| {
             let mask = family.masks.iter().find(|mask| mask.glyph == glyph)?;
             Some(Candidate::Mask(bins, family, mask))
         });
         let wedge = || WEDGES.iter().find(|wedge| wedge.glyph == glyph).map(Candidate::Wedge);
         mask.or_else(|| wedge().filter(|_| self.wedges))
     }
-}
-
-/// The means, in linear light, of what a glyph covers and of what it leaves.
-fn light_means(light: &[Vec3], cover: &[f32]) -> [Vec3; 2] {
-    let mut sums = [Vec3::ZERO; 2];
-    for (&light, cover) in light.iter().zip(cover) {
-        sums[0] += *cover * light;
-        sums[1] += (1.0 - cover) * light;
-    }
-    let covered: f32 = cover.iter().sum();
-    [sums[0] / covered, sums[1] / (light.len() as f32 - covered)]
 }
 
 /// The means of what a mask fills and of what it leaves.
@@ -203,43 +191,14 @@ fn layer_means(family: &Family, mask: &Mask, means: &[Vec3; 8]) -> [Vec3; 2] {
 }
 
 /// The wedge that takes most of the variance away, and how much.
-fn best_wedge(looks: &Looks) -> (f32, &'static Wedge) {
+fn best_wedge(looks: &Columns) -> (f32, &'static Wedge) {
+    let sum = looks.sum();
     let mut best = (0.0, &WEDGES[0]);
     for wedge in &*WEDGES {
-        let pull = looks.pull(&wedge.shape);
+        let pull = looks.weighted_sum(wedge.lines.iter().copied()) - wedge.mean * sum;
         let gain = pull.length_squared() / (wedge.energy * wedges::BINS as f32);
         if gain > best.0 {
             best = (gain, wedge);
-        }
-    }
-    best
-}
-
-/// The mask that takes most of the variance away, and how much; the means of the bins are around 0.
-fn best_mask<'a>(family: &'a Family, means: &[Vec3; 8]) -> (f32, &'a Mask) {
-    // Halves: one mask of two bins, whose means are each other's opposites. Its gain is the square of either.
-    if let ([mask], 2) = (&*family.masks, family.bins()) {
-        return (means[usize::from(mask.bits >> 1)].length_squared(), mask);
-    }
-    // The sums of all sets of the lower four bins and of the upper four.
-    let mut sums = [[Vec3::ZERO; 16]; 2];
-    for (sums, means) in sums.iter_mut().zip(means.chunks(4)) {
-        for set in 1..16_usize {
-            let lowest = set.trailing_zeros() as usize;
-            sums[set] = sums[set & (set - 1)] + means[lowest];
-        }
-    }
-    let bins = family.bins();
-    let weights: [f32; 8 + 1] = std::array::from_fn(|filled| {
-        let left = bins.saturating_sub(filled).max(1);
-        (1.0 / filled.max(1) as f32 + 1.0 / left as f32) / bins as f32
-    });
-    let mut best = (0.0, &family.masks[0]);
-    for mask in &family.masks {
-        let sum = sums[0][usize::from(mask.bits & 15)] + sums[1][usize::from(mask.bits >> 4)];
-        let gain = sum.length_squared() * weights[mask.bits.count_ones() as usize];
-        if gain > best.0 {
-            best = (gain, mask);
         }
     }
     best

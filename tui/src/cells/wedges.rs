@@ -6,11 +6,10 @@
 //!
 //! Source: The Unicode Standard 13.0, chart Symbols for Legacy Computing (U+1FB3C to U+1FB6F).
 
-use super::layers::in_lines;
+use super::columns::{Line, lines};
 use super::masks::Cover;
 use std::array;
 use std::sync::LazyLock;
-use wide::f32x8;
 
 /// What a wedge covers is measured in 8 x 8 bins.
 pub const ACROSS: usize = 8;
@@ -18,7 +17,7 @@ pub const ACROSS: usize = 8;
 pub const BINS: usize = ACROSS * ACROSS;
 
 /// A wedge.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Wedge {
     /// The character.
     pub glyph: char,
@@ -26,9 +25,11 @@ pub struct Wedge {
     pub cover: Cover,
     /// The share of each bin.
     pub bins: [f32; BINS],
-    /// The same, less the mean.
-    pub shape: [f32x8; BINS / 8],
-    /// The sum of squares of that.
+    /// Those that are not empty.
+    pub lines: Vec<Line>,
+    /// The mean share.
+    pub mean: f32,
+    /// The sum of squares of what shares are off from that.
     pub energy: f32,
 }
 
@@ -98,9 +99,8 @@ fn wedge(glyph: char, edges: &[(Place, Place, Place)]) -> Wedge {
         of_part.map(|bin| bins[bin]).sum::<f32>() / 8.0
     });
     let mean = bins.iter().sum::<f32>() / BINS as f32;
-    let shape = bins.map(|share| share - mean);
-    let energy = shape.iter().map(|share| share * share).sum();
-    Wedge { glyph, cover, bins, shape: in_lines(&shape), energy }
+    let energy = bins.iter().map(|share| (share - mean) * (share - mean)).sum();
+    Wedge { glyph, cover, bins, lines: lines(&bins, ACROSS).collect(), mean, energy }
 }
 
 /// The part of a convex area on the side of the line from `a` to `b` where `filled` is.

@@ -1,6 +1,7 @@
 //! Bins against what a mean over an area is.
 
 use super::*;
+use crate::cells::layers::Layers;
 use proptest::prelude::*;
 
 fn grids() -> impl Strategy<Value = ((usize, usize), (u32, u32))> {
@@ -10,40 +11,42 @@ fn grids() -> impl Strategy<Value = ((usize, usize), (u32, u32))> {
     (bins, (1..=16_u32, 1..=16_u32))
 }
 
+fn means<const N: usize>(bins: (usize, usize), samples: (u32, u32), light: &[Vec3]) -> [Vec3; N] {
+    let mut columns = Columns::default();
+    columns.take(light, samples.0 as usize);
+    Bins::new(bins, samples).means(&columns)
+}
+
 proptest! {
     #[test]
-    fn the_shares_of_a_bin_add_up_to_one(((across, down), samples) in grids()) {
-        let bins = Bins::new((across, down), samples);
-        prop_assert_eq!(bins.ends.len(), across * down);
-        let mut start = 0;
-        for &end in &bins.ends {
-            let mut sum = 0.0;
-            for &(sample, share) in &bins.shares[start..end] {
-                prop_assert!(sample < samples.0 * samples.1);
-                prop_assert!(share > 0.0 && share <= 1.0);
-                sum += share;
-            }
-            start = end;
-            prop_assert!((sum - 1.0_f32).abs() < 1e-5, "{sum}");
+    fn a_bin_is_as_large_as_any((bins, samples) in grids()) {
+        let of_samples = Bins::new(bins, samples);
+        let (count, all) = (samples.0 * samples.1, bins.0 * bins.1);
+        prop_assert_eq!(of_samples.ends.len(), all);
+        for bin in 0..all {
+            let lanes = of_samples.shares(bin).iter().flat_map(|(_, shares)| shares.to_array());
+            let area: f32 = lanes.sum();
+            prop_assert!((area * all as f32 / count as f32 - 1.0).abs() < 1e-5, "{area}");
         }
     }
 
     #[test]
-    fn every_sample_is_worth_the_same((bins, samples) in grids()) {
-        let count = samples.0 * samples.1;
-        let mut worth = vec![0.0; count as usize];
-        for &(sample, share) in &Bins::new(bins, samples).shares {
-            worth[sample as usize] += share / (bins.0 * bins.1) as f32;
-        }
-        for worth in worth {
-            prop_assert!((worth * count as f32 - 1.0).abs() < 1e-5, "{worth}");
+    fn every_sample_is_given_whole((bins, samples) in grids()) {
+        let of_samples = Bins::new(bins, samples);
+        let mut layers = Layers::default();
+        let count = (samples.0 * samples.1) as usize;
+        layers.take(count, (0..bins.0 * bins.1).flat_map(|bin| of_samples.shares(bin).iter().copied()));
+        let given = layers.ink().iter().flat_map(|share| share.to_array());
+        for (place, given) in given.enumerate() {
+            let expected = if place < count { 1.0 } else { 0.0 };
+            prop_assert!((given - expected).abs() < 1e-6, "{place}: {given}");
         }
     }
 
     #[test]
     fn a_constant_stays_constant(((across, down), samples) in grids(), value in 0.0..1.0_f32) {
         let samples_of_it = vec![Vec3::splat(value); (samples.0 * samples.1) as usize];
-        let means: [Vec3; 32] = Bins::new((across, down), samples).means(&samples_of_it);
+        let means: [Vec3; 32] = means((across, down), samples, &samples_of_it);
         for (bin, mean) in means.iter().enumerate() {
             let expected = if bin < across * down { value } else { 0.0 };
             prop_assert!((*mean - Vec3::splat(expected)).abs().max_element() < 1e-5, "{bin}: {mean}");
@@ -61,7 +64,7 @@ proptest! {
     ) {
         let samples = (across as u32 * times.0, down as u32 * times.1);
         let light: Vec<Vec3> = values.iter().map(|&value| Vec3::new(value, 1.0 - value, 0.5)).collect();
-        let means: [Vec3; 32] = Bins::new((across, down), samples).means(&light);
+        let means: [Vec3; 32] = means((across, down), samples, &light);
         for (bin, mean) in means.iter().enumerate().take(across * down) {
             let inside = light.iter().enumerate().filter(|(sample, _)| {
                 let (x, y) = (*sample as u32 % samples.0, *sample as u32 / samples.0);
@@ -77,6 +80,6 @@ proptest! {
 fn a_cut_sample_goes_to_both_sides() {
     // Three samples over two bins: the middle one is half in each.
     let light = [0.0, 0.3, 0.9].map(Vec3::splat);
-    let means: [Vec3; 2] = Bins::new((2, 1), (3, 1)).means(&light);
+    let means: [Vec3; 2] = means((2, 1), (3, 1), &light);
     assert!((means[0].x - 0.1).abs() < 1e-6 && (means[1].x - 0.7).abs() < 1e-6, "{means:?}");
 }

@@ -3,7 +3,7 @@
 use super::*;
 use crate::cells::braille::DOT;
 use crate::cells::fit::Fitter;
-use crate::color::luminance;
+use crate::color::{luminance, roots};
 use crate::samples::CellSamples;
 use crate::style::CHAIR;
 use crate::style::{ColorDepth, Style};
@@ -123,14 +123,16 @@ proptest! {
 
     #[test]
     fn the_gain_is_the_variance_taken_away((charset, grid, light) in cells()) {
+        let size = (grid.0 as usize, grid.1 as usize);
         let looks: Vec<Vec3> = light.iter().map(|&light| roots(light)).collect();
         let mean_look = looks.iter().sum::<Vec3>() / looks.len() as f32;
+        let mut columns = Columns::default();
+        columns.take(&looks, size.0);
         let exact = doubles(&looks);
         let variance = unexplained(&exact, &vec![0.5; looks.len()]);
-        let size = (grid.0 as usize, grid.1 as usize);
         for family in &repertoire(charset).families {
             let bins = Bins::new((family.across, family.down), grid);
-            let (gain, mask) = best_mask(family, &bins.means(&looks).map(|look| look - mean_look));
+            let (gain, mask) = MaskSearch::new(family).best(&bins.means(&columns).map(|look| look - mean_look));
             let taken = variance - unexplained(&exact, &filled(family, mask.bits, size));
             let error = (f64::from(gain) - taken).abs();
             prop_assert!(error <= rounding(taken), "{:?} {}: {} {}", charset, mask.glyph, gain, taken);

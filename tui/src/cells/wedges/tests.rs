@@ -68,8 +68,9 @@ fn parts_and_shapes_are_of_the_same_bins() {
     for wedge in &*WEDGES {
         let mean = wedge.bins.iter().sum::<f32>() / BINS as f32;
         assert!((wedge.cover.iter().sum::<f32>() / 8.0 - mean).abs() < 1e-5);
-        let sum: f32 = wedge.shape.iter().map(|line| line.reduce_add()).sum();
-        assert!(sum.abs() < 1e-4);
+        assert!((wedge.mean - mean).abs() < 1e-6);
+        let covered: f32 = wedge.lines.iter().map(|(_, line)| line.reduce_add()).sum();
+        assert!((covered / BINS as f32 - mean).abs() < 1e-5);
         let energy: f32 = wedge.bins.iter().map(|share| (share - mean).powi(2)).sum();
         assert!((energy - wedge.energy).abs() < 1e-4 && energy > 1.0);
     }
