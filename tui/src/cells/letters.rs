@@ -136,3 +136,36 @@ fn possible_step(letter: &Letter, step: Vec3, mean: Vec3) -> Vec3 {
     let down = ((Vec3::ONE - mean) / covered).min(mean / free);
     step.min(up).max(-down)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cells::columns::order;
+
+    #[test]
+    fn light_in_the_shape_of_a_letter_is_that_letter() {
+        let fitters = [(4, 8), (8, 16)]
+            .map(|samples| LetterFitter::new(ColorDepth::Truecolor, Eye::at(1e6), samples));
+        let mut found = 0;
+        for letter in &LETTERS[1..] {
+            let mut look = [0.0; BINS];
+            let lines = letter.ink.iter().flat_map(|line| line.to_array());
+            for (bin, ink) in order(ACROSS, BINS).zip(lines) {
+                look[bin] = 0.2 + 0.5 * ink;
+            }
+            // A sample a bin; then four.
+            let light = [1, 2].map(|times| {
+                let bin = |x: usize, y: usize| look[y / times * ACROSS + x / times];
+                let rows = (0..8 * times).flat_map(|y| (0..ACROSS * times).map(move |x| (x, y)));
+                rows.map(|(x, y)| Vec3::splat(bin(x, y) * bin(x, y))).collect::<Vec<_>>()
+            });
+            let [one, four] =
+                [0, 1].map(|grid| fitters[grid].fit(&light[grid], &mut FitMemory::default(), None));
+            assert_eq!(one.glyph, four.glyph);
+            assert!((one.ink - four.ink).abs().max_element() < 1e-4, "{}", letter.glyph);
+            found += usize::from(one.glyph == letter.glyph);
+        }
+        // (Of the others another letter, which is much like them, misses less.)
+        assert!(found >= 81, "{found} of 94");
+    }
+}

@@ -75,6 +75,9 @@ pub(super) const TOGETHER: usize = 8192;
 /// Fewer rays are no stream.
 const LEAST_RAYS: usize = 1024;
 /// A first stream takes an eighth of the rays, and at least and at most so many; and as many go by themselves before it.
+/// (Packets from everywhere among the next 8,192 rays, before every stream: on a Zen 3, where diffuse rays lose most by streams, a
+/// camera's rays and then diffuse ones, 6,000 to 16,000 among a million spheres, took 0.6 to 0.95 of the time; but calls of 16,384 rays of
+/// flake4 took 1.05, and with samples of 256 rays diffuse ones 1.16, since too few seemed to meet.)
 const FIRST: [usize; 2] = [128, 1024];
 /// What these leave of the fewest.
 const LEAST_LEFT: usize = LEAST_RAYS - FIRST[0];
