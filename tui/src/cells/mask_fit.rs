@@ -1,7 +1,7 @@
 //! The mask or wedge and the two colours that come nearest to what was sampled of a cell.
 //!
 //! First by least squares, which are quick: for a mask, the best two colours are the means of what it fills and of what it leaves,
-//! and the best mask is the one that [takes most of the samples' variance away](super::best_mask). A wedge, whose bins are partly
+//! and the best mask is the one that takes most of the samples' variance away (`best_mask.rs`). A wedge, whose bins are partly
 //! filled, is a letter: `sum (g-G)(t-T)` squared over `sum (g-G)^2`, see [`letters`](super::letters).
 //!
 //! Of the best of each grid, the two that gain most are held against the samples themselves; the one that
