@@ -97,6 +97,9 @@ static TRUTH: LazyLock<Truth> = LazyLock::new(|| {
     Truth::new(&Light::of_colors(width as usize, pixels)).expect("whole cells")
 });
 
+/// dB that rounding decides: of 256 colours halves and all blocks end within a hundredth of each other.
+const AS_GOOD: f64 = 0.02;
+
 /// What `marbles` reaches.
 fn reached(charset: Charset, depth: ColorDepth, font: Font) -> Figures {
     let style = Style { charset, depth, ..Style::PLAIN };
@@ -130,6 +133,6 @@ fn every_mode_reaches_its_floor() {
 fn more_is_no_worse() {
     for pair in CONTAINED {
         let [fewer, more] = pair.map(|(charset, depth)| reached(charset, depth, Font::Unifont).far);
-        assert!(fewer <= more, "{pair:?}: {fewer:.2}, {more:.2}");
+        assert!(fewer <= more + AS_GOOD, "{pair:?}: {fewer:.2}, {more:.2}");
     }
 }
