@@ -31,6 +31,7 @@
 #[cfg(feature = "alloc")]
 mod kept;
 mod leaves;
+mod likeness;
 mod memory;
 mod nodes;
 mod queue;
@@ -76,8 +77,8 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
     let count = rays.len().min(answers.len());
     let mut from = 0;
     while from < count {
-        let left = (count - from) * L::COUNT;
-        let (strategy, next) = sharing.next::<Q>(bvh, memory, left, waiting.is_none());
+        let left = rays.get(from..count).unwrap_or_default();
+        let (strategy, next) = sharing.next::<L::Array, Q>(bvh, memory, left, waiting.is_none());
         let to = count.min(from + next.div_ceil(L::COUNT).max(1));
         let (Some(rays), Some(answers)) = (rays.get(from..to), answers.get_mut(from..to)) else {
             break;

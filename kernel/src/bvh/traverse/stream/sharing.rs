@@ -57,10 +57,13 @@
 //! their first hit lose by it.
 
 use super::StreamMemory;
+use super::likeness::Likeness;
 use super::strategy::StreamStrategy;
 use crate::bvh::traverse::small_tree;
 use crate::bvh::traverse::wavefront::Entered;
 use crate::bvh::tree::Bvh;
+use crate::geometry::ray::RayPacket;
+use crate::lanes::LaneArray;
 use crate::query::Query;
 
 /// So many rays must meet at a box, on average: for the closest hit, and for any.
@@ -108,6 +111,8 @@ pub(crate) struct Sharing {
     believed: usize,
     as_they_come: Waiting,
     sorted: Waiting,
+    /// Of the rays that were seen last.
+    likeness: Likeness,
 }
 
 /// How many rays are passed over before the next are tried, of how many.
@@ -152,6 +157,7 @@ impl Sharing {
         believed: 0,
         as_they_come: Waiting::NONE,
         sorted: Waiting::NONE,
+        likeness: Likeness::OF_NONE,
     };
 
     /// Whether enough of so many rays would meet at a box; not where nothing is known.
@@ -189,13 +195,14 @@ impl Sharing {
     }
 
     /// The strategy for the next rays of so many, and of how many; they can be sorted if there is nothing known of any.
-    pub(super) fn next<Q: Query>(
+    pub(super) fn next<A: LaneArray, Q: Query>(
         &mut self,
         bvh: &Bvh<'_>,
         memory: &StreamMemory<'_>,
-        rays: usize,
+        packets: &[RayPacket<A>],
         is_new: bool,
     ) -> (StreamStrategy, usize) {
+        let rays = packets.len() * A::COUNT;
         let together = memory.rays.len().min(TOGETHER);
         let sortable = if is_new { rays.min(memory.order.len() / 2) } else { 0 };
         if memory.everywhere {
@@ -210,7 +217,15 @@ impl Sharing {
             return (StreamStrategy::RayByRay, rays);
         }
 
-        let batch = rays.min(together);
+        // What is known is not of rays that look otherwise.
+        let next = packets.get(..together / A::COUNT).unwrap_or(packets);
+        let mut alike = self.likeness.end(next) * A::COUNT;
+        if alike == 0 {
+            *self = Self::NOTHING;
+            alike = next.len() * A::COUNT;
+        }
+
+        let batch = alike;
         let pays = self.is_enough::<Q>(batch);
         let is_tried = self.met.is_nan() && self.as_they_come.left == 0 && rays >= LEAST_LEFT;
         if pays | is_tried {
@@ -219,12 +234,15 @@ impl Sharing {
                 self.believed = BELIEVED;
                 return (StreamStrategy::RayByRay, first);
             }
-            return (StreamStrategy::AsTheyCome, if pays { batch } else { first });
+            let count = if pays { batch } else { first };
+            let these = packets.get(..count.div_ceil(A::COUNT)).unwrap_or(packets);
+            self.likeness = Likeness::of(these);
+            return (StreamStrategy::AsTheyCome, count);
         }
         if self.met.is_nan() && self.may_sort::<Q>(bvh, sortable) {
             return (StreamStrategy::Sorted, sortable);
         }
-        let passed = rays.min(TOGETHER);
+        let passed = alike;
         self.pass_over(passed);
         (StreamStrategy::RayByRay, passed)
     }

@@ -7,7 +7,7 @@ use crate::bvh::{QueuedRay, StreamRay};
 use crate::proofs::climb::Random;
 use crate::proofs::work::{Kind, Work};
 use crate::query::{AnyHit, ClosestHit};
-use crate::{Exact, Intersect, Ray, SphereList, SphereTree, Trace, Vec3};
+use crate::{Exact, Intersect, Ray, RayPacket, SphereList, SphereTree, Trace, Vec3};
 use std::vec;
 use std::vec::Vec;
 
@@ -83,8 +83,9 @@ fn what_rays_enter_by_themselves_is_counted_now_and_then() {
     let mut queues = vec![QueuedRay::EMPTY; 64 * TOGETHER];
     let memory = StreamMemory::new(&mut rays, &mut queues).expect("enough");
     let mut strategies = Vec::new();
+    let packets = vec![RayPacket::<[f32; 16]>::inactive(); 1 << 13];
     for _ in 0..8 {
-        let (strategy, rays) = sharing.next::<AnyHit>(&tree, &memory, 1 << 20, true);
+        let (strategy, rays) = sharing.next::<_, AnyHit>(&tree, &memory, &packets, true);
         strategies.push((strategy == StreamStrategy::AsTheyCome, rays));
         let entered = 20 * rays as u32;
         if strategy == StreamStrategy::AsTheyCome {
@@ -97,6 +98,55 @@ fn what_rays_enter_by_themselves_is_counted_now_and_then() {
     // Some by themselves, as many together, then as many as fit; and after 32,768 some by themselves again.
     let [first, alone, all] = [(true, 1024), (false, 1024), (true, TOGETHER)];
     assert_eq!(strategies, [alone, first, all, all, all, all, alone, all]);
+}
+
+#[test]
+fn rays_that_look_otherwise_are_counted_anew() {
+    let (tree, _) = scene(2000, 0);
+    let (tree, mut sharing) = (tree.bvh(), Sharing::NOTHING);
+    let mut rays = vec![StreamRay::EMPTY; TOGETHER];
+    let mut queues = vec![QueuedRay::EMPTY; 64 * TOGETHER];
+    let memory = StreamMemory::new(&mut rays, &mut queues).expect("enough");
+    // A camera's rays, then some that look anywhere, then the camera's again.
+    let mut random = Random(61);
+    let packets: Vec<RayPacket> = (0..1600)
+        .map(|place| {
+            let ray = |_| {
+                Ray::new(
+                    Vec3::ZERO,
+                    Vec3::from_array([(); 3].map(|()| random.below(1 << 20) as f32 - 5e5)),
+                )
+            };
+            let anywhere: [Ray; 16] = core::array::from_fn(ray);
+            let camera = [Ray::new(Vec3::ZERO, Vec3::Z); 16];
+            RayPacket::new(if (320..1280).contains(&place) { &anywhere } else { &camera })
+        })
+        .collect();
+    let (mut from, mut strategies) = (0, Vec::new());
+    while from < packets.len() {
+        let left = &packets[from..];
+        let (strategy, count) = sharing.next::<_, ClosestHit>(&tree, &memory, left, true);
+        assert!(count > 0, "{strategies:?}");
+        let is_stream = strategy == StreamStrategy::AsTheyCome;
+        strategies.push((is_stream, from, count / 16));
+        if is_stream {
+            let met = if (320..1280).contains(&from) { 1 } else { 30 };
+            let seen = Seen { streams: 1, rays: count as u32, boxes: 1000, entered: 1000 * met };
+            sharing.take::<ClosestHit>(strategy, seen);
+        }
+        from += count.div_ceil(16);
+    }
+    // A sample of each, and what it says of those that look like it.
+    let expected = [
+        (true, 0, 64),
+        (true, 64, 256),
+        (true, 320, 64),
+        (false, 384, 512),
+        (false, 896, 384),
+        (true, 1280, 40),
+        (true, 1320, 280),
+    ];
+    assert_eq!(strategies, expected);
 }
 
 #[test]
