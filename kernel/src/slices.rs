@@ -46,7 +46,9 @@ pub(crate) fn traverse<S: Traverse + ?Sized, Q: LevelQuery>(
 ) {
     let count = rays.count().min(Q::room(&answers));
     // Memory is cleared before it is used: for few rays that takes longer than they do.
-    if count <= FEW * RayPacket::COUNT {
+    if count <= RayPacket::COUNT {
+        windows::<S, Q, 1>(structure, tier, trace, (rays, count), answers);
+    } else if count <= FEW * RayPacket::COUNT {
         windows::<S, Q, FEW>(structure, tier, trace, (rays, count), answers);
     } else {
         windows::<S, Q, PACKETS>(structure, tier, trace, (rays, count), answers);
@@ -296,5 +298,37 @@ pub fn pairs(tier: impl Accuracy, rays: &[Ray], spheres: &[Sphere], hits: &mut [
             *answer = hit.map(|hit| Hit { sphere: (from + place) as u32, ..hit });
         }
         from = to;
+    }
+}
+
+#[cfg(all(test, proofs))]
+#[cfg(feature = "std")]
+mod tests {
+    use crate::proofs::work::{Kind, Work};
+    use crate::{Exact, Intersect, Ray, SphereList, SphereTree, Vec3};
+
+    #[test]
+    fn few_rays_go_one_by_one() {
+        let list: SphereList = (0..200).map(|number| (Vec3::X * number as f32, 0.25)).collect();
+        let tree = SphereTree::new(list);
+        let rays: [Ray; 40] =
+            core::array::from_fn(|number| Ray::new(Vec3::new(number as f32, 0.1, -9.0), Vec3::Z));
+        for (count, is_packet) in [(1, false), (5, false), (8, false), (9, true), (40, true)] {
+            let rays = &rays[..count];
+            let (mut hits, mut occluded) = ([None; 40], [false; 40]);
+            let closest = Work::of(|| tree.closest_hits(Exact, rays, &mut hits));
+            let any = Work::of(|| tree.any_hits(Exact, rays, &mut occluded));
+            // What goes by itself clears no stack; what goes together enters the nodes with its packets.
+            let as_packets =
+                |work: Work| work.count(Kind::RayStacks) + work.count(Kind::GroupNode) > 0;
+            assert_eq!([closest, any].map(as_packets), [is_packet; 2], "{count}");
+            for (number, ray) in rays.iter().enumerate() {
+                assert_eq!(hits[number], tree.closest_hit(Exact, ray));
+                assert_eq!(occluded[number], tree.any_hit(Exact, ray));
+            }
+            assert!(
+                hits[..count].iter().all(Option::is_some) && hits[count..] == [None; 40][count..]
+            );
+        }
     }
 }

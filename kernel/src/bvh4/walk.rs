@@ -73,7 +73,7 @@ impl<L: Lanes, Q: Query> TierWork for Walk<'_, L, Q> {
         if !rays.live.any() {
             return;
         }
-        let mut ray = PreparedPacket::<L::Array>::none();
+        let mut ray = PreparedPacket::<L::Array>::NONE;
         ray.prepare::<L>(&rays, tree.boxes.scale.factor, tree.extent, F::SPREAD);
         let tested = F::prepare(&rays);
         let mut limits = Q::limits::<L>(token, answer);

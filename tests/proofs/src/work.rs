@@ -29,7 +29,7 @@ kinds! {
     /// A run of packets begins, whose rays go by themselves.
     RayRun "runs" 330.0,
     /// The same, where rays have stacks, which are laid out.
-    RayStacks "stacks" 2000.0,
+    RayStacks "stacks" 1000.0,
     /// One of them is prepared.
     RayPacket "prepared" 56.0,
     /// A ray by itself against the boxes of a node, and onto its stack.

@@ -31,7 +31,7 @@ pub(crate) struct PacketsInFlight<A: LaneArray> {
 impl<A: LaneArray> PacketsInFlight<A> {
     #[inline(always)]
     pub(crate) fn none() -> Self {
-        let (prepared, in_flight) = (A::each(PreparedPacket::none()), A::each(0));
+        let (prepared, in_flight) = (A::each(PreparedPacket::NONE), A::each(0));
         Self { prepared, in_flight, current: 0, waiting: 0, next: 0 }
     }
 
@@ -81,7 +81,7 @@ impl<A: LaneArray> PacketsInFlight<A> {
     #[inline(always)]
     pub(crate) fn end(&mut self, state: &mut RayState) {
         let ended = state.packet as usize;
-        state.packet = RayState::NEW.packet;
+        state.packet = RayState::OF_NONE;
         if let Some(in_flight) = self.in_flight.as_mut().get_mut(ended) {
             *in_flight = in_flight.saturating_sub(1);
         }

@@ -280,28 +280,24 @@ pub(crate) struct PreparedPacket<A: LaneArray> {
 }
 
 impl<A: LaneArray> PreparedPacket<A> {
-    /// No rays.
-    #[inline(always)]
-    pub(crate) fn none() -> Self {
-        let zeros = A::filled(0.0);
-        Self {
-            covered: 0,
-            origin: [zeros; 3],
-            direction: [zeros; 3],
-            inverse: [zeros; 3],
-            minus_inverse: [zeros; 3],
-            minus_near: [zeros; 3],
-            far: [zeros; 3],
-            start: [zeros; 2],
-            end: [zeros; 2],
-            per_t: zeros,
-            shift: zeros,
-            length: zeros,
-            absolute_error: zeros,
-            spread: zeros,
-            down: [0; 3],
-        }
-    }
+    /// No rays; all zeros, so that an array of many is cleared, and not copied.
+    pub(crate) const NONE: Self = Self {
+        covered: 0,
+        origin: [A::ZEROS; 3],
+        direction: [A::ZEROS; 3],
+        inverse: [A::ZEROS; 3],
+        minus_inverse: [A::ZEROS; 3],
+        minus_near: [A::ZEROS; 3],
+        far: [A::ZEROS; 3],
+        start: [A::ZEROS; 2],
+        end: [A::ZEROS; 2],
+        per_t: A::ZEROS,
+        shift: A::ZEROS,
+        length: A::ZEROS,
+        absolute_error: A::ZEROS,
+        spread: A::ZEROS,
+        down: [0; 3],
+    };
 
     /// Prepares the rays of a packet for a scene that is scaled by `factor`, in the place of others. (As a value it
     /// was copied: 3 % of a traversal.)

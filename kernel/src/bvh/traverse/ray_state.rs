@@ -79,14 +79,25 @@ pub(crate) struct RayState {
 }
 
 impl RayState {
+    /// What `packet` is where a ray is of none.
+    pub(crate) const OF_NONE: u32 = u32::MAX;
+
+    /// All zeros, so that an array of many is cleared, and not copied; what is in flight is [cleared](Self::clear) first.
     pub(crate) const NEW: Self = Self {
         ray: RayPlace::FIRST,
-        packet: u32::MAX,
+        packet: 0,
         octant: 0,
         best: 0.0,
         candidates: Candidates::NONE,
         stack: Stack::EMPTY,
     };
+
+    /// Is of no packet, and has nothing to look into.
+    #[inline(always)]
+    pub(crate) fn clear(&mut self) {
+        self.packet = Self::OF_NONE;
+        self.stack.clear();
+    }
 
     /// Begins with ray `ray`, of the packet in flight `packet`, which is `prepared`.
     #[inline(always)]

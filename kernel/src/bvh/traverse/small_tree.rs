@@ -59,7 +59,7 @@ pub(crate) fn traverse<T: Accuracy, L: Lanes, Q: Query>(
         |child| (child & !LEAF, bvh.leaf(child & !LEAF)),
     );
     let leaves = &leaves;
-    let (mut prepared, mut state) = (PreparedPacket::none(), RayState::NEW);
+    let (mut prepared, mut state) = (PreparedPacket::NONE, RayState::NEW);
     for packet in 0..tests.packets.len() {
         begin(tests, packet, &mut prepared);
         if tests.tier.spread() == 0.0 {

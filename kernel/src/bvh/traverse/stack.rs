@@ -36,10 +36,11 @@ pub(crate) struct Stack {
 }
 
 impl Stack {
+    /// All zeros: [cleared](Self::clear), or [begun](Self::begin) with, before it is used.
     pub(crate) const EMPTY: Self = Self {
         frames: [Frame { entries: [0.0; WIDTH], order: 0, left: 0, node: 0 }; FRAMES],
         top: 0,
-        root: NO_CHILD,
+        root: 0,
     };
 
     /// Nothing but the root.

@@ -145,7 +145,7 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
         let sorted = order.len().min(1 << 31) / L::COUNT;
         // (Not zero, which the compiler does not see.)
         let together = (self.together * L::COUNT).max(1);
-        let mut prepared = PreparedPacket::none();
+        let mut prepared = PreparedPacket::NONE;
         while self.first < count {
             let at_once = if sorted > 0 { sorted } else { self.together };
             let end = count.min(self.first + at_once.max(1));

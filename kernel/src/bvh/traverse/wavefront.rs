@@ -76,6 +76,9 @@ fn by_boxes<T: Accuracy, L: Lanes, Q: Query>(tests: &mut DeferredTests<'_, T, L,
     let bvh = tests.bvh;
     let mut states = L::Array::each(RayState::NEW);
     let states = states.as_mut();
+    for state in states.iter_mut() {
+        state.clear();
+    }
     let mut in_flight = PacketsInFlight::<L::Array>::none();
     let mut round = Round::<L::Array>::empty();
     let mut entered = Entered::default();

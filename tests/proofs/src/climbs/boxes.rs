@@ -14,7 +14,7 @@ fn used<A: TierFormula>(numbers: &Numbers) -> f64 {
     let (line, sphere) = line(numbers);
     let Some([near, far]) = A::line_roots(&line, &sphere) else { return -1.0 };
     let rays = lane(&line);
-    let mut packet = PreparedPacket::<[f32; 1]>::none();
+    let mut packet = PreparedPacket::<[f32; 1]>::NONE;
     packet.prepare(&rays, 1.0, 1e12, 0.0);
     if packet.covered == 0 {
         return -1.0;

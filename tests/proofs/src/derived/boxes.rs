@@ -20,7 +20,7 @@ pub(in crate::proofs) fn needs() -> [f64; 2] {
     let (low, graph) = record(witness, |[ox, oy, oz, dx, dy, dz, t_min, t_max, low]| {
         let (origin, direction) = ([ox, oy, oz], [dx, dy, dz]);
         let rays = RayLanes { origin, direction, t_min, t_max, live: true };
-        let mut packet = PreparedPacket::<[f32; 1]>::none();
+        let mut packet = PreparedPacket::<[f32; 1]>::NONE;
         packet.prepare::<Recorded>(&rays, 1.0, 1e12, 0.0);
         let mut node = BvhNode::EMPTY;
         (node.low[0][0], node.high[0][0]) = (low.tag(), low.tag());

@@ -92,7 +92,7 @@ impl Case {
 
     /// Whether a ray whose interval is no more than that answer enters the box.
     fn enters<F: Format>(&self, t: f64, pad: f64) -> bool {
-        let mut packet = PreparedPacket::<[f32; 1]>::none();
+        let mut packet = PreparedPacket::<[f32; 1]>::NONE;
         packet.prepare(&self.rays::<F>([t, t]), 1.0, self.extent, 0.0);
         let mut state = RayState::NEW;
         state.begin(&packet, 0, RayPlace::FIRST, 0);
