@@ -108,7 +108,7 @@ pub struct PictureArguments {
     /// How far away the eye is, in widths of a cell: 60 cm by default, if cells are 2.2 mm wide
     ///
     /// From afar an eye sees the mean of a cell, from near its pixels: glyphs and colours are chosen for both.
-    #[arg(long, value_name = "WIDTHS", default_value_t = CHAIR, value_parser = distance)]
+    #[arg(long, value_name = "WIDTHS", default_value_t = CHAIR, value_parser = distance, allow_negative_numbers = true)]
     pub distance: f32,
     /// error: what the tier gets wrong against exact, cell by cell; split:TIER,TIER: two tiers side by side; table: what
     /// every tier takes and gets wrong
@@ -127,7 +127,7 @@ pub struct PictureArguments {
     #[arg(long)]
     pub lossless: bool,
     /// Frames a second of the viewer at most, 1 to 240 [default: 60, over SSH 30]
-    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=240))]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=240), allow_negative_numbers = true)]
     pub fps: Option<u16>,
     /// What is written: cells, or pixels by a protocol of terminals
     #[arg(long, value_name = "HOW", default_value = "cells", conflicts_with_all = ["cast", "pick"])]
@@ -163,7 +163,7 @@ pub struct SceneArguments {
     #[arg(long, value_name = "COLSxROWS", value_parser = size)]
     pub size: Option<(u16, u16)>,
     /// Rays a cell, 1 to 256; auto: more where they are needed
-    #[arg(long, value_name = "N", default_value = "auto", value_parser = samples)]
+    #[arg(long, value_name = "N", default_value = "auto", value_parser = samples, allow_negative_numbers = true)]
     pub samples: Auto<u32>,
     /// The projection, whatever the scene says
     #[arg(long, value_name = "KIND")]
@@ -175,7 +175,7 @@ pub struct SceneArguments {
     #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
     pub target: Option<Vec3>,
     /// The vertical field of view in degrees; of a parallel projection, the angle from the eye that is as high at the target
-    #[arg(long, value_name = "DEGREES", value_parser = field_of_view)]
+    #[arg(long, value_name = "DEGREES", value_parser = field_of_view, allow_negative_numbers = true)]
     pub fov: Option<f32>,
     /// Then leads the eye around the target: degrees to the right, degrees up
     #[arg(long, value_name = "RIGHT,UP", value_parser = orbit, allow_hyphen_values = true)]
@@ -234,7 +234,7 @@ pub struct ComputingArguments {
     pub structure: Auto<Structure>,
     /// Threads, 1 to 1024 [default: all that the machine has]
     #[arg(long, value_name = "N")]
-    #[arg(value_parser = value_parser!(u16).range(1..=i64::from(MOST_THREADS)))]
+    #[arg(value_parser = value_parser!(u16).range(1..=i64::from(MOST_THREADS)), allow_negative_numbers = true)]
     pub threads: Option<u16>,
     /// Instructions [default: the best that the CPU has]
     #[arg(long, value_name = "LEVEL", value_parser = level())]
@@ -263,7 +263,7 @@ pub struct TraceArguments {
     #[arg(long, value_name = "I.npy")]
     pub out_id: Option<PathBuf>,
     /// Passes, 1 or more; the speed is that of their median
-    #[arg(long, value_name = "N", default_value = "1", value_parser = value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value = "1", value_parser = value_parser!(u32).range(1..), allow_negative_numbers = true)]
     pub repeat: u32,
     /// Report as a JSON object
     #[arg(long)]
