@@ -18,7 +18,7 @@ const ONE_RAY: &str = "1 rays a call";
 /// Builds and refits of fewer spheres are timed so many spheres at once: of one alone, to read the clock takes as long.
 const AT_ONCE: usize = 4096;
 /// Rays of a short call: a group of packets.
-const SHORT: usize = 64;
+pub(crate) const SHORT: usize = 64;
 
 /// How rays are handed over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,19 +28,22 @@ pub(crate) enum Call {
     Packets,
     Slices,
     Columns,
-    /// Packets of [`SHORT`] rays, and slices of as many.
+    /// Packets of [`SHORT`] rays.
     ShortPackets,
-    ShortSlices,
+    /// Slices of so many rays.
+    SlicesOf(usize),
 }
 
 impl Call {
-    pub(crate) const ALL: [Self; 6] = [
+    pub(crate) const ALL: [Self; 8] = [
         Self::OneRay,
         Self::Packets,
         Self::Slices,
         Self::Columns,
         Self::ShortPackets,
-        Self::ShortSlices,
+        Self::SlicesOf(1),
+        Self::SlicesOf(8),
+        Self::SlicesOf(SHORT),
     ];
 }
 
@@ -271,9 +274,9 @@ impl<'a> Work<'a> {
                     }
                 }
             }),
-            (Call::ShortSlices, query) => timed(|| {
-                let many = rays.chunks(SHORT).zip(hits.chunks_mut(SHORT));
-                for ((rays, hits), occluded) in many.zip(occluded.chunks_mut(SHORT)) {
+            (Call::SlicesOf(count), query) => timed(|| {
+                let many = rays.chunks(count).zip(hits.chunks_mut(count));
+                for ((rays, hits), occluded) in many.zip(occluded.chunks_mut(count)) {
                     let trace = &mut Trace::new().at(level);
                     match query {
                         Query::ClosestHit => tree.closest_hits_with(Exact, trace, rays, hits),
