@@ -270,6 +270,8 @@ impl Traverse for Bvh<'_> {
             && let (Some(packet), Some(answer)) = (packets.first_mut(), answers.first_mut())
         {
             crate::dispatch::compiled::fill(trace.level, rays, core::slice::from_mut(packet));
+            // What the rays before had is there still.
+            *answer = Q::none::<[f32; 16]>();
             for lane in 0..rays.count() {
                 let one = self.one::<Q>(tier, trace, &packet.ray(lane));
                 Q::put(answer, lane, one);
