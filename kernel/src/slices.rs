@@ -331,4 +331,21 @@ mod tests {
             );
         }
     }
+
+    #[test]
+    fn the_last_few_rays_of_a_long_call_have_answers_of_their_own() {
+        let list: SphereList = (0..200).map(|number| (Vec3::X * number as f32, 0.25)).collect();
+        let tree = SphereTree::new(list);
+        let rays: [Ray; 1027] = core::array::from_fn(|number| {
+            let x = if number < 1024 { (number % 200) as f32 } else { 1e3 };
+            Ray::new(Vec3::new(x, 0.1, -9.0), Vec3::Z)
+        });
+        let (mut hits, mut occluded) = ([None; 1027], [false; 1027]);
+        tree.closest_hits(Exact, &rays, &mut hits);
+        tree.any_hits(Exact, &rays, &mut occluded);
+        for number in 0..rays.len() {
+            assert_eq!(hits[number].is_some(), number < 1024, "{number}");
+            assert_eq!(occluded[number], number < 1024, "{number}");
+        }
+    }
 }
