@@ -205,7 +205,8 @@ impl RayState {
         for part in 0..WIDTH / L::COUNT {
             let interval = probe.root_interval::<SPREADS>(&leaf.columns, part);
             let (entries, bounds) = (interval.entry.store(), interval.bound.store());
-            let mut candidates = interval.candidates.bits() & leaf.lanes >> (part * L::COUNT);
+            let mut candidates =
+                interval.to_look_at::<Q>(leaf.lanes >> (part * L::COUNT), self.best);
             while candidates != 0 {
                 let lane = candidates.trailing_zeros() as usize;
                 candidates &= candidates - 1;

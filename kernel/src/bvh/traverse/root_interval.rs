@@ -20,6 +20,8 @@
 use crate::geometry::sphere_columns::SphereColumns;
 use crate::lanes::{LaneMask, Lanes};
 use crate::numeric::axes::axes;
+use crate::numeric::rounding::least;
+use crate::query::Query;
 
 /// Between which s spheres are hit.
 #[derive(Clone, Copy, Debug)]
@@ -30,6 +32,27 @@ pub(crate) struct RootInterval<L: Lanes> {
     pub(crate) entry: L,
     /// No root above can be answered by less than this sphere's answer; `+inf` where none is sure.
     pub(crate) bound: L,
+}
+
+/// From how many candidates on they are compared in lanes: number by number, two are as fast.
+const MANY: u32 = 3;
+
+impl<L: Lanes> RootInterval<L> {
+    /// Which of the spheres `among` to look at one by one, if some answer is not above `best`: the candidates; where there are
+    /// many, and the closest is wanted, without those that another is surely closer than. (Each is a branch that nothing
+    /// foretells: among nested spheres a quarter of a ray's time.)
+    #[inline(always)]
+    pub(crate) fn to_look_at<Q: Query>(&self, among: u32, best: f32) -> u32 {
+        let candidates = self.candidates.bits() & among;
+        if Q::ANY || candidates.count_ones() < MANY {
+            return candidates;
+        }
+        let (entry, bound) = (self.entry, self.bound);
+        let those = L::mask(entry.token(), candidates);
+        let bounds = L::select(those, -bound, entry.like(f32::NEG_INFINITY));
+        let limit = least(-bounds.filter_greatest(), best);
+        candidates & entry.le(entry.like(limit)).bits()
+    }
 }
 
 /// One ray in all lanes, as leaves see it.
@@ -188,5 +211,48 @@ impl<L: Lanes> Pass<L> {
         // around the origin stayed candidates whatever else was hit.)
         let entry = L::select(entered.lt(start[0]), leaving, entry);
         RootInterval { candidates, entry, bound: bound + raise }
+    }
+}
+
+#[cfg(all(test, proofs))]
+mod tests {
+    use super::*;
+    use crate::proofs::climb::Random;
+    use crate::query::{AnyHit, ClosestHit};
+    use wide::f32x16;
+
+    #[test]
+    fn none_is_left_out_that_may_be_the_closest() {
+        let mut random = Random(26);
+        let (mut many, mut equal) = (0, 0);
+        for _ in 0..20_000 {
+            // Few numbers, so that many are the same.
+            let entry: [f32; 16] = core::array::from_fn(|_| random.below(20) as f32);
+            let bound: [f32; 16] = core::array::from_fn(|lane| match random.below(3) {
+                0 => f32::INFINITY,
+                more => entry[lane] + (more - 1) as f32,
+            });
+            let few = random.below(1 << 16) & random.below(1 << 16);
+            let (mask, among) = (few as u32, random.below(1 << 16) as u32);
+            let best = random.below(20) as f32;
+            let interval = RootInterval::<f32x16> {
+                candidates: f32x16::mask((), mask),
+                entry: f32x16::load((), &entry),
+                bound: f32x16::load((), &bound),
+            };
+            let candidates = mask & among;
+            assert_eq!(interval.to_look_at::<AnyHit>(among, best), candidates);
+
+            let those = |lane: &usize| candidates >> lane & 1 == 1;
+            let limit = (0..16).filter(those).map(|lane| bound[lane]).fold(best, f32::min);
+            let kept = (0..16).filter(those).filter(|&lane| entry[lane] <= limit);
+            let kept = kept.fold(0, |bits, lane| bits | 1 << lane);
+            let is_many = candidates.count_ones() >= MANY;
+            let expected = if is_many { kept } else { candidates };
+            assert_eq!(interval.to_look_at::<ClosestHit>(among, best), expected);
+            many += usize::from(is_many && kept != candidates);
+            equal += usize::from((0..16).any(|lane| kept >> lane & 1 == 1 && entry[lane] == limit));
+        }
+        assert!(many > 1000 && equal > 1000, "{many} {equal}");
     }
 }

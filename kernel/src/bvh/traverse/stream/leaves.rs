@@ -7,7 +7,7 @@ use crate::bvh::leaf::{Leaf, place_of};
 use crate::bvh::node::WIDTH;
 use crate::count::count;
 use crate::geometry::hit::Hit;
-use crate::lanes::{LaneArray, LaneMask, Lanes};
+use crate::lanes::{LaneArray, Lanes};
 use crate::query::Query;
 
 impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
@@ -68,7 +68,8 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
         for part in 0..WIDTH / L::COUNT {
             let interval = probe.root_interval::<SPREADS>(&leaf.columns, part);
             let (entries, bounds) = (interval.entry.store(), interval.bound.store());
-            let mut candidates = interval.candidates.bits() & leaf.lanes >> (part * L::COUNT);
+            let mut candidates =
+                interval.to_look_at::<Q>(leaf.lanes >> (part * L::COUNT), ray.best);
             while candidates != 0 {
                 let lane = candidates.trailing_zeros() as usize;
                 candidates &= candidates - 1;
