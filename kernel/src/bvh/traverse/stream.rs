@@ -116,7 +116,7 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
                 let half = if strategy == StreamStrategy::Sorted { order.len() / 2 } else { 0 };
                 stream.all(count, order.split_at_mut(half));
                 stream.tests.test();
-                sharing.take::<Q>(strategy, stream.seen);
+                sharing.take::<Q>(bvh, strategy, stream.seen);
             },
         );
     }

@@ -41,11 +41,12 @@ fn few_that_meet_or_much_in_vain_end_it_and_all_is_tried_again() {
     let seen = |boxes, entered| Seen { streams: 1, rays: 1024, boxes, entered };
     let (tree, _) = scene(2000, 0);
     let tree = tree.bvh();
+    assert!(bytes_of(&tree) < NEAR);
     let pays = |alone: u32, of: Seen| {
         let (mut closest, mut any) = (Sharing::NOTHING, Sharing::NOTHING);
-        closest.take::<ClosestHit>(StreamStrategy::AsTheyCome, of);
+        closest.take::<ClosestHit>(&tree, StreamStrategy::AsTheyCome, of);
         any.take_alone(Entered { rays: 128, boxes: 128 * alone });
-        any.take::<AnyHit>(StreamStrategy::AsTheyCome, of);
+        any.take::<AnyHit>(&tree, StreamStrategy::AsTheyCome, of);
         let pay = [closest.may_pay::<ClosestHit>(&tree, 8192), any.may_pay::<AnyHit>(&tree, 8192)];
         any.pass_over(PASSED_OVER[0]);
         assert!(any.may_pay::<AnyHit>(&tree, 8192));
@@ -54,9 +55,26 @@ fn few_that_meet_or_much_in_vain_end_it_and_all_is_tried_again() {
     // 1,024 that are two at a box are five if they are eight times as many.
     assert_eq!(pays(8, seen(4096, 8192)), [false; 2]);
     assert_eq!(pays(8, seen(3000, 8192)), [true, false]);
-    // Of eight boxes three are a good part, and two are not.
-    assert_eq!(pays(3, seen(1024, 8192)), [true; 2]);
-    assert_eq!(pays(2, seen(1024, 8192)), [true, false]);
+    // Of eight boxes five are a good part, and four are not.
+    assert_eq!(pays(5, seen(1024, 8192)), [true; 2]);
+    assert_eq!(pays(4, seen(1024, 8192)), [true, false]);
+}
+
+#[test]
+fn in_a_tree_that_is_far_a_smaller_part_is_good() {
+    // Of some 0.6 MB and 1.2 MB.
+    for (spheres, is_near, enough) in [(30_000, true, 5), (60_000, false, 3)] {
+        let (tree, _) = scene(spheres, 0);
+        let tree = tree.bvh();
+        assert_eq!(bytes_of(&tree) <= NEAR, is_near, "{}", bytes_of(&tree));
+        for (alone, pays) in [(enough, true), (enough - 1, false)] {
+            let mut any = Sharing::NOTHING;
+            any.take_alone(Entered { rays: 128, boxes: 128 * alone });
+            let seen = Seen { streams: 1, rays: 1024, boxes: 1024, entered: 8192 };
+            any.take::<AnyHit>(&tree, StreamStrategy::AsTheyCome, seen);
+            assert_eq!(any.may_pay::<AnyHit>(&tree, 8192), pays, "{spheres} {alone}");
+        }
+    }
 }
 
 #[test]
@@ -90,7 +108,7 @@ fn what_rays_enter_by_themselves_is_counted_now_and_then() {
         let entered = 20 * rays as u32;
         if strategy == StreamStrategy::AsTheyCome {
             let seen = Seen { streams: 1, rays: rays as u32, boxes: entered / 20, entered };
-            sharing.take::<AnyHit>(strategy, seen);
+            sharing.take::<AnyHit>(&tree, strategy, seen);
         } else {
             sharing.take_alone(Entered { rays: rays as u32, boxes: entered });
         }
@@ -132,7 +150,7 @@ fn rays_that_look_otherwise_are_counted_anew() {
         if is_stream {
             let met = if (320..1280).contains(&from) { 1 } else { 30 };
             let seen = Seen { streams: 1, rays: count as u32, boxes: 1000, entered: 1000 * met };
-            sharing.take::<ClosestHit>(strategy, seen);
+            sharing.take::<ClosestHit>(&tree, strategy, seen);
         }
         from += count.div_ceil(16);
     }
