@@ -15,6 +15,7 @@ pub mod error;
 pub mod ink;
 pub mod judge;
 pub mod lecture;
+mod length;
 pub mod machine;
 pub mod manual;
 pub mod npy;

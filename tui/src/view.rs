@@ -1,6 +1,7 @@
 //! Where a scene is looked at from, in the words of a person: angles and points, not vectors of a
 //! plane. A view becomes the kernel's camera when the size of the picture is known.
 
+use crate::length::{direction, length};
 use clap::ValueEnum;
 use glam::DVec3;
 use serde::Deserialize;
@@ -49,6 +50,8 @@ pub struct View {
 const POLE: f32 = 0.017;
 /// The fields of view, in degrees, that changing the projection keeps the eye in place for.
 const NATURAL_FOV: std::ops::RangeInclusive<f32> = 10.0..=90.0;
+/// Distances of the eye and heights of the picture: beyond, rays to what is seen are no numbers.
+const USEFUL: std::ops::Range<f32> = 1e-30..1e30;
 /// The field of view, in degrees, if it does not.
 const USUAL_FOV: f32 = 40.0;
 
@@ -76,7 +79,7 @@ impl View {
     pub fn height_at_target(&self) -> f32 {
         match self.lens {
             Lens::Perspective { fov } => {
-                2.0 * self.eye.distance(self.target) * (fov / 2.0).to_radians().tan()
+                2.0 * length(self.eye - self.target) * (fov / 2.0).to_radians().tan()
             }
             Lens::Parallel { height } => height,
         }
@@ -125,7 +128,11 @@ impl View {
         let sight = self.target.as_dvec3() - self.eye.as_dvec3();
         let forward = unit(sight).unwrap_or(DVec3::NEG_Z);
         let ups = [self.up.as_dvec3(), DVec3::Y, DVec3::Z].into_iter();
-        let right = ups.filter_map(unit).find_map(|up| unit(forward.cross(up)));
+        let right = ups.filter_map(unit).find_map(|up| {
+            let across = forward.cross(up);
+            // Where up is parallel to the line of sight, it is rounding noise.
+            (across.length() > 1e-12).then_some(across).and_then(unit)
+        });
         let right = right.unwrap_or(DVec3::X);
         [forward, right, right.cross(forward)]
     }
@@ -135,9 +142,9 @@ impl View {
 /// both in radians. The distance is kept; it stops just before a pole.
 #[must_use]
 pub fn orbited(view: &View, yaw: f32, pitch: f32) -> View {
-    let distance = view.eye.distance(view.target);
-    let up = view.up.try_normalize().unwrap_or(Vec3::Y);
-    let Some(outward) = (view.eye - view.target).try_normalize() else { return *view };
+    let distance = length(view.eye - view.target);
+    let up = direction(view.up).unwrap_or(Vec3::Y);
+    let Some(outward) = direction(view.eye - view.target) else { return *view };
     // Split the way to the eye into height and heading; turn each.
     let elevation = outward.dot(up).clamp(-1.0, 1.0).asin();
     let heading = (outward - outward.dot(up) * up)
@@ -166,11 +173,11 @@ pub fn panned(view: &View, right: f64, up: f64) -> View {
 /// range of useful numbers, changes nothing.
 #[must_use]
 pub fn zoomed(view: &View, factor: f32) -> View {
-    let useful = |size: f32| factor > 0.0 && (1e-15..1e15).contains(&size);
+    let useful = |size: f32| factor > 0.0 && USEFUL.contains(&size);
     match view.lens {
         Lens::Perspective { .. } => {
             let way = (view.eye - view.target) / factor;
-            if useful(way.length()) { View { eye: view.target + way, ..*view } } else { *view }
+            if useful(length(way)) { View { eye: view.target + way, ..*view } } else { *view }
         }
         Lens::Parallel { height } => {
             let height = height / factor;
@@ -191,12 +198,12 @@ pub fn with_projection(view: &View, kind: LensKind) -> View {
         LensKind::Parallel => View { lens: Lens::Parallel { height }, ..*view },
         LensKind::Perspective => {
             let way = view.eye - view.target;
-            let fov = 2.0 * (height / 2.0 / way.length()).atan().to_degrees();
+            let fov = 2.0 * (height / 2.0 / length(way)).atan().to_degrees();
             if NATURAL_FOV.contains(&fov) {
                 return View { lens: Lens::Perspective { fov }, ..*view };
             }
             let distance = height / 2.0 / (USUAL_FOV / 2.0).to_radians().tan();
-            let outward = way.try_normalize().unwrap_or(Vec3::Z);
+            let outward = direction(way).unwrap_or(Vec3::Z);
             View {
                 eye: view.target + distance * outward,
                 lens: Lens::Perspective { fov: USUAL_FOV },
@@ -206,10 +213,10 @@ pub fn with_projection(view: &View, kind: LensKind) -> View {
     }
 }
 
-/// The vector of length one; `None` if it has no direction, or its length is rounding noise.
+/// The vector of length one; `None` if it has no direction. (The square of what single precision has is far within double's.)
 fn unit(vector: DVec3) -> Option<DVec3> {
     let length = vector.length_squared().sqrt();
-    (length > 1e-12 && length.is_finite()).then(|| vector / length)
+    (length > 0.0 && length.is_finite()).then(|| vector / length)
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! A view that shows all of a scene, for scenes that name none, or one sphere.
 
+use crate::length::{direction, length};
 use crate::view::{Lens, View};
 use spherule_kernel::{Sphere, Spheres, Vec3};
 
@@ -15,6 +16,9 @@ const SPACING: f32 = 64.0 * f32::EPSILON;
 /// How many times as large as all that stands on it a ground is, at least.
 const GROUND: f32 = 100.0;
 
+/// Scenes that are larger cannot be looked at from far enough.
+const LARGEST: f32 = 1e30;
+
 /// What is framed of a scene: a sphere around all spheres, but the ground, if there is one.
 ///
 /// Ground are spheres that are each at least 100 times as large as a sphere around all others, and no farther from that
@@ -28,7 +32,7 @@ pub fn subject(spheres: Spheres<'_>) -> Sphere {
         bounding_sphere(|| valid().filter(|sphere| 0.0 < sphere.radius && sphere.radius < least));
     let is_ground = |sphere: Sphere, others: Sphere| {
         let reach = sphere.radius + 3.0 * others.radius;
-        sphere.radius >= GROUND * others.radius && sphere.center.distance(others.center) <= reach
+        sphere.radius >= GROUND * others.radius && length(sphere.center - others.center) <= reach
     };
     let all_ground = |others| {
         valid().filter(|sphere| sphere.radius >= least).all(|sphere| is_ground(sphere, others))
@@ -49,7 +53,7 @@ fn bounding_sphere<S: Iterator<Item = Sphere>>(spheres: impl Fn() -> S) -> Optio
     }
     // Half of each first: the sum may not be a float.
     let center = low * 0.5 + high * 0.5;
-    let reach = |sphere: Sphere| (sphere.center - center).length() + sphere.radius;
+    let reach = |sphere: Sphere| length(sphere.center - center) + sphere.radius;
     Some(Sphere { center, radius: spheres().map(reach).fold(0.0, f32::max) })
 }
 
@@ -66,11 +70,11 @@ pub fn framed(spheres: Spheres<'_>, aspect: f32) -> View {
 #[must_use]
 pub fn reframed(view: &View, sphere: Sphere, aspect: f32) -> View {
     let way = view.eye - view.target;
-    let outward = way.try_normalize().unwrap_or(Vec3::Z);
+    let outward = direction(way).unwrap_or(Vec3::Z);
     let framed = around(sphere, outward, view.up, view.lens, aspect);
     // From where parallel rays start is not seen, but their numbers are as large.
     match view.lens {
-        Lens::Parallel { .. } if framed.eye.distance(framed.target) < way.length() => {
+        Lens::Parallel { .. } if length(framed.eye - framed.target) < length(way) => {
             View { eye: framed.target + way, ..framed }
         }
         _ => framed,
@@ -87,7 +91,7 @@ fn around(sphere: Sphere, outward: Vec3, up: Vec3, lens: Lens, aspect: f32) -> V
     let horizontal = (vertical.tan() * aspect).atan();
     let half_angle = vertical.min(horizontal).max(0.001);
     // A scene of points alone has no size; neither has one that overflows a usable one.
-    let radius = if radius > 0.0 && radius < 1e18 { radius } else { 1.0 };
+    let radius = if radius > 0.0 && radius < LARGEST { radius } else { 1.0 };
     // Nearer than that to a small sphere far from zero, there is no direction any more.
     let least = center.abs().max_element() * SPACING;
     let distance = (radius / half_angle.sin()).max(least);

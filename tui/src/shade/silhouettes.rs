@@ -11,6 +11,7 @@
 //!
 //! Nothing here has a length of its own: a scene of another size, or from farther away, has the same edges.
 
+use crate::length::length;
 use spherule_kernel::{Camera, Projection, Vec3};
 
 /// How much of the light an edge takes.
@@ -67,7 +68,7 @@ impl Pitch {
     /// Of the samples of a camera.
     #[must_use]
     pub fn new(camera: &Camera) -> Self {
-        let step = camera.step_y.length();
+        let step = length(camera.step_y);
         match camera.projection {
             Projection::Perspective { .. } => Self::Perspective(step),
             Projection::Parallel { .. } => Self::Parallel(step),

@@ -1,5 +1,6 @@
 //! The command line that shows what is seen now.
 
+use crate::length::length;
 use crate::view::{Lens, LensKind, View};
 
 /// `spherule` with the scene called `scene` and all that `view` needs.
@@ -9,7 +10,7 @@ pub(super) fn command_line(scene: &str, view: &View) -> String {
         Lens::Perspective { fov } => (fov, LensKind::Perspective),
         // From the eye the picture is as high at the target as by this angle.
         Lens::Parallel { height } => {
-            let distance = f64::from(view.eye.distance(view.target));
+            let distance = f64::from(length(view.eye - view.target));
             let fov = 2.0 * (f64::from(height) / 2.0 / distance).atan().to_degrees();
             (fov as f32, LensKind::Parallel)
         }

@@ -15,6 +15,7 @@ mod pick;
 mod pixels;
 mod png;
 mod run;
+mod scales;
 mod scenes;
 mod shadows;
 mod show;

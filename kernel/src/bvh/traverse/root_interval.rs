@@ -42,7 +42,7 @@ impl<L: Lanes> RootInterval<L> {
     /// many, and the closest is wanted, without those that another is surely closer than. (Each is a branch that nothing
     /// foretells: among nested spheres a quarter of a ray's time.)
     #[inline(always)]
-    pub(crate) fn to_look_at<Q: Query>(&self, among: u32, best: f32) -> u32 {
+    pub(crate) fn contenders<Q: Query>(&self, among: u32, best: f32) -> u32 {
         let candidates = self.candidates.bits() & among;
         if Q::ANY || candidates.count_ones() < MANY {
             return candidates;
@@ -241,7 +241,7 @@ mod tests {
                 bound: f32x16::load((), &bound),
             };
             let candidates = mask & among;
-            assert_eq!(interval.to_look_at::<AnyHit>(among, best), candidates);
+            assert_eq!(interval.contenders::<AnyHit>(among, best), candidates);
 
             let those = |lane: &usize| candidates >> lane & 1 == 1;
             let limit = (0..16).filter(those).map(|lane| bound[lane]).fold(best, f32::min);
@@ -249,7 +249,7 @@ mod tests {
             let kept = kept.fold(0, |bits, lane| bits | 1 << lane);
             let is_many = candidates.count_ones() >= MANY;
             let expected = if is_many { kept } else { candidates };
-            assert_eq!(interval.to_look_at::<ClosestHit>(among, best), expected);
+            assert_eq!(interval.contenders::<ClosestHit>(among, best), expected);
             many += usize::from(is_many && kept != candidates);
             equal += usize::from((0..16).any(|lane| kept >> lane & 1 == 1 && entry[lane] == limit));
         }
