@@ -26,8 +26,9 @@ use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, CommandFactory, FromArgMatches, Parser, Subcommand, value_parser};
 pub use crowd::CrowdArguments;
 use files::{FileArguments, Subject};
+use glam::DVec3;
 pub use overlay::Overlay;
-use spherule_kernel::{Level, Tier, Vec3};
+use spherule_kernel::{Level, Tier};
 use std::ffi::OsString;
 use std::path::PathBuf;
 use values::{
@@ -170,10 +171,10 @@ pub struct SceneArguments {
     pub projection: Option<LensKind>,
     /// Where the eye is, whatever the scene says
     #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
-    pub eye: Option<Vec3>,
+    pub eye: Option<DVec3>,
     /// What it looks at, whatever the scene says
     #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
-    pub target: Option<Vec3>,
+    pub target: Option<DVec3>,
     /// The vertical field of view in degrees; of a parallel projection, the angle from the eye that is as high at the target
     #[arg(long, value_name = "DEGREES", value_parser = field_of_view, allow_negative_numbers = true)]
     pub fov: Option<f32>,
@@ -216,8 +217,9 @@ impl SceneArguments {
     pub fn view(&self, scene: &Scene, aspect: f64) -> View {
         let mut view = scene.first_view(aspect as f32);
         let kind = self.projection.unwrap_or(view.lens_kind());
-        view.eye = self.eye.unwrap_or(view.eye);
-        view.target = self.target.unwrap_or(view.target);
+        let place = |point: DVec3| (point - scene.origin).as_vec3();
+        view.eye = self.eye.map_or(view.eye, place);
+        view.target = self.target.map_or(view.target, place);
         view.lens = self.fov.map_or(view.lens, |fov| Lens::Perspective { fov });
         if let Some([right, up]) = self.orbit {
             view = orbited(&view, right.to_radians(), up.to_radians());

@@ -61,7 +61,7 @@ impl Array {
         (self.rows, self.width)
     }
 
-    /// Calls `row` with the index and the numbers of every row, each rounded to single precision.
+    /// Calls `row` with the index and the numbers of every row.
     ///
     /// In C order rows are read as they come; in Fortran order a copy is made. Memory grows with the file, not with
     /// what its header claims.
@@ -71,7 +71,7 @@ impl Array {
     pub fn each(
         &self,
         reader: &mut impl Read,
-        mut row: impl FnMut(usize, &[f32]) -> Result<(), String>,
+        mut row: impl FnMut(usize, &[f64]) -> Result<(), String>,
     ) -> Result<(), String> {
         let width = self.width as usize;
         let total = self.rows.checked_mul(self.width * self.size as u64);
@@ -83,9 +83,9 @@ impl Array {
         };
         let mut numbers = Vec::new();
         if self.is_fortran {
-            let mut columns: Vec<Vec<f32>> = Vec::new();
+            let mut columns: Vec<Vec<f64>> = Vec::new();
             for _ in 0..width {
-                let mut column = Vec::new();
+                let mut column: Vec<f64> = Vec::new();
                 self.blocks(reader, self.rows, &mut numbers, fewer, |block| {
                     column.extend_from_slice(block);
                     Ok(())
@@ -124,9 +124,9 @@ impl Array {
         &self,
         reader: &mut impl Read,
         count: u64,
-        numbers: &mut Vec<f32>,
+        numbers: &mut Vec<f64>,
         fewer: impl Fn() -> String,
-        mut block: impl FnMut(&[f32]) -> Result<(), String>,
+        mut block: impl FnMut(&[f64]) -> Result<(), String>,
     ) -> Result<(), String> {
         let most = BLOCK as u64 * self.width;
         let (mut left, mut bytes) = (count, Vec::new());
@@ -141,12 +141,12 @@ impl Array {
             }
             numbers.clear();
             let four = |bytes: &[u8; 4]| match self.is_big_endian {
-                true => f32::from_be_bytes(*bytes),
-                false => f32::from_le_bytes(*bytes),
+                true => f64::from(f32::from_be_bytes(*bytes)),
+                false => f64::from(f32::from_le_bytes(*bytes)),
             };
             let eight = |bytes: &[u8; 8]| match self.is_big_endian {
-                true => f64::from_be_bytes(*bytes) as f32,
-                false => f64::from_le_bytes(*bytes) as f32,
+                true => f64::from_be_bytes(*bytes),
+                false => f64::from_le_bytes(*bytes),
             };
             match self.size {
                 4 => numbers.extend(bytes.as_chunks().0.iter().map(four)),
@@ -176,7 +176,7 @@ pub fn read_rows<const N: usize>(path: &Path) -> Result<Vec<[f32; N]>, Error> {
     }
     let mut values = Vec::new();
     let read = array.each(&mut reader, |_, row| {
-        values.extend(<[f32; N]>::try_from(row));
+        values.extend(<[f64; N]>::try_from(row).map(|row| row.map(|value| value as f32)));
         Ok(())
     });
     read.map_err(wrong)?;

@@ -7,6 +7,7 @@ use crate::structure::scene::PictureSearch;
 use crate::structure::search::{Scratch, Tracing};
 use crate::style::Style;
 use crate::view::View;
+use glam::DVec3;
 use spherule_kernel::{
     ClosestHit, Hit, HitPacket, Level, Ray, RayPacket, Sphere, Spheres, Tier, discriminant, roots,
     stages,
@@ -18,6 +19,8 @@ use std::borrow::Cow;
 pub struct Pick<'a> {
     /// Where the eye is, or for parallel rays the plane through it; and where the cell is seen from there.
     pub ray: Ray,
+    /// Where the zero of its positions is in the coordinates of the scene's file.
+    pub origin: DVec3,
     /// The closest hit by every tier, in the order of [`Tier::ALL`].
     pub hits: [Option<Hit>; Tier::ALL.len()],
     /// The sphere that is hit; `None` if no tier hits any.
@@ -106,7 +109,7 @@ impl<'a> Pick<'a> {
         });
         let hit = hits.into_iter().rev().flatten().next();
         let sphere = hit.and_then(|hit| PickedSphere::new(scene, &ray, hit.sphere));
-        Self { ray, hits, sphere }
+        Self { ray, origin: scene.origin, hits, sphere }
     }
 }
 

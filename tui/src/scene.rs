@@ -11,6 +11,7 @@ mod lighting;
 mod notes;
 mod number;
 pub mod open;
+mod origin;
 mod particles;
 pub mod radii;
 mod read_error;
@@ -23,6 +24,7 @@ pub use read_error::ReadError;
 use crate::color::Srgb;
 use crate::view::View;
 use attributes::Attributes;
+use glam::DVec3;
 use spherule_kernel::{Sphere, SphereList, Spheres};
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -35,6 +37,9 @@ pub struct Scene {
     /// By their index; none past its end.
     labels: Vec<Option<Box<str>>>,
     attributes: Attributes,
+    /// Where the zero of all positions here is in the file's coordinates: that of the file, except where its spheres are far
+    /// from that.
+    pub origin: DVec3,
     /// The colour of what no sphere covers.
     pub background: Srgb,
     /// Whether the scene itself says so: then it is not the user's to choose.

@@ -56,8 +56,8 @@ fn every_option_is_read() {
     assert_eq!(picture("--order object").scene.order, Order::Object);
     assert_eq!(picture("--order image --structure bvh").scene.order, Order::Image);
     let arguments = picture("--eye -1,2.5,3 --target 0,-1e3,0 --fov 12.5 --orbit -30,5 unit").scene;
-    assert_eq!(arguments.eye, Some(Vec3::new(-1.0, 2.5, 3.0)));
-    assert_eq!((arguments.target, arguments.fov), (Some(Vec3::new(0.0, -1e3, 0.0)), Some(12.5)));
+    assert_eq!(arguments.eye, Some(DVec3::new(-1.0, 2.5, 3.0)));
+    assert_eq!((arguments.target, arguments.fov), (Some(DVec3::new(0.0, -1e3, 0.0)), Some(12.5)));
     assert_eq!(arguments.orbit, Some([-30.0, 5.0]));
     let arguments = picture("--no-probe --lossless --fps 24 --output sixel");
     assert_eq!((arguments.no_probe, arguments.lossless, arguments.fps), (true, true, Some(24)));

@@ -6,7 +6,8 @@ use crate::color::Srgb;
 use crate::compare::Comparison;
 use crate::samples::MOST_SAMPLES;
 use clap::builder::TypedValueParser;
-use spherule_kernel::{Level, LevelName, Tier, Vec3};
+use glam::DVec3;
+use spherule_kernel::{Level, LevelName, Tier};
 use std::ops::RangeInclusive;
 
 /// The widest and the narrowest cell, width over height.
@@ -21,23 +22,25 @@ pub(super) fn cell(text: &str) -> Result<(u16, u16), &'static str> {
     cell().ok_or("COL,ROW, counted from 0, such as 40,12")
 }
 
-/// So many finite numbers.
-fn numbers<const N: usize>(text: &str) -> Option<[f32; N]> {
-    let numbers: Vec<f32> = text.split(',').map(|word| word.parse().ok()).collect::<Option<_>>()?;
+/// So many numbers that single precision can hold.
+fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
+    let numbers: Vec<f64> = text.split(',').map(|word| word.parse().ok()).collect::<Option<_>>()?;
     numbers
         .try_into()
         .ok()
-        .filter(|numbers: &[f32; N]| numbers.iter().all(|number| number.is_finite()))
+        .filter(|numbers: &[f64; N]| numbers.iter().all(|&number| (number as f32).is_finite()))
 }
 
-/// A point of the scene.
-pub(super) fn point(text: &str) -> Result<Vec3, &'static str> {
-    numbers(text).map(Vec3::from_array).ok_or("X,Y,Z, such as 0,1.5,-3")
+/// A point in the coordinates of the scene's file.
+pub(super) fn point(text: &str) -> Result<DVec3, &'static str> {
+    numbers(text).map(DVec3::from_array).ok_or("X,Y,Z, such as 0,1.5,-3")
 }
 
 /// Two angles in degrees.
 pub(super) fn orbit(text: &str) -> Result<[f32; 2], &'static str> {
-    numbers(text).ok_or("RIGHT,UP in degrees, such as 30,-10")
+    numbers(text)
+        .map(|angles| angles.map(|angle| angle as f32))
+        .ok_or("RIGHT,UP in degrees, such as 30,-10")
 }
 
 /// An angle in degrees.

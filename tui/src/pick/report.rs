@@ -1,6 +1,7 @@
 //! A pick in words: lines for people, one JSON object for scripts.
 
 use super::{Pick, PickedSphere};
+use glam::DVec3;
 use serde_json::{Value, json};
 use spherule_kernel::{Tier, Vec3};
 
@@ -38,6 +39,7 @@ impl Report<'_> {
             "scene": scene,
             "size": [columns, rows],
             "cell": [column, row],
+            "zero": pick.origin.to_array(),
             "ray": {
                 "origin": numbers(pick.ray.origin.to_array()),
                 "direction": numbers(pick.ray.direction.to_array()),
@@ -87,7 +89,11 @@ fn tiers<'a>(
 /// What the viewer shows too. `printable` makes text of a label that can stand in a line.
 #[must_use]
 pub fn lines(pick: &Pick<'_>, printable: impl Fn(&str) -> String) -> Vec<String> {
-    let ray = format!("ray {} + t {}", point(pick.ray.origin), point(pick.ray.direction));
+    let mut ray = format!("ray {} + t {}", point(pick.ray.origin), point(pick.ray.direction));
+    if pick.origin != DVec3::ZERO {
+        let DVec3 { x, y, z } = pick.origin;
+        ray += &format!(", from ({x:?}, {y:?}, {z:?}) of the file");
+    }
     let Some(picked) = &pick.sphere else {
         let [others @ .., last] = Tier::ALL.map(Tier::as_str);
         return vec![ray, format!("no sphere is hit, by {} or {last}", others.join(", "))];

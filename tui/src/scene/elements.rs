@@ -31,12 +31,16 @@ pub struct Element {
     pub color: Srgb,
 }
 
-/// The element that `text` names: a symbol in any case, or an atomic number.
+/// The element that `text` names: a symbol in any case, or an atomic number. D and T are hydrogen, as in structures that
+/// are known by neutrons.
 #[must_use]
 pub fn element(text: &str) -> Option<Element> {
     let named = |element: &&Element| element.symbol.eq_ignore_ascii_case(text);
     match text.parse() {
         Ok(number) => of_number(number),
+        Err(_) if ["D", "T"].iter().any(|isotope| isotope.eq_ignore_ascii_case(text)) => {
+            of_number(1)
+        }
         Err(_) => ELEMENTS.iter().find(named).copied(),
     }
 }
@@ -72,6 +76,7 @@ mod tests {
         assert_eq!(element("c"), element("6"));
         assert_eq!(element("cl").map(|e| e.symbol), Some("Cl"));
         assert_eq!(element("CL"), element("17"));
+        assert_eq!([element("D"), element("t")], [element("H"); 2]);
         assert_eq!(element("og"), element("118"));
     }
 

@@ -72,20 +72,22 @@ impl Format {
         context: &mut Context,
     ) -> Result<Option<Scene>, ReadError> {
         let scene = match self {
-            Self::Xyz => return xyz::frame(input, &mut context.notes),
-            Self::Pdb => return pdb::frame(input, &mut context.notes),
-            Self::Mmcif => return mmcif::frame(input, context),
-            Self::Gro => return gro::frame(input, &mut context.notes),
-            Self::LammpsDump => return lammps::dump::frame(input, &mut context.notes),
-            Self::Xtc => return xtc::frame(input, context),
-            Self::LammpsData => lammps::data::read(input, &mut context.notes),
-            Self::Csv => table::read(input, context),
-            Self::Ply => ply::read(input, &mut context.notes),
-            Self::Npy => npy_points::read(input, &mut context.notes),
-            Self::Urdf => urdf::read(input, &mut context.notes),
-            Self::Toml => of_toml(input),
-        };
-        scene.map(Some)
+            Self::Xyz => xyz::frame(input, context),
+            Self::Pdb => pdb::frame(input, context),
+            Self::Mmcif => mmcif::frame(input, context),
+            Self::Gro => gro::frame(input, context),
+            Self::LammpsDump => lammps::dump::frame(input, context),
+            Self::Xtc => xtc::frame(input, context),
+            Self::LammpsData => lammps::data::read(input, &mut context.notes).map(Some),
+            Self::Csv => table::read(input, context).map(Some),
+            Self::Ply => ply::read(input, &mut context.notes).map(Some),
+            Self::Npy => npy_points::read(input, &mut context.notes).map(Some),
+            Self::Urdf => urdf::read(input, &mut context.notes).map(Some),
+            Self::Toml => of_toml(input).map(Some),
+        }?;
+        // Frames are seen from one view, so all have the origin of the first.
+        context.origin = context.origin.or(scene.as_ref().map(|scene| scene.origin));
+        Ok(scene)
     }
 
     /// Leaves out a frame; `false` if there is none.

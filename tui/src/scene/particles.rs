@@ -6,9 +6,11 @@
 use super::attributes::{Attributes, Names, NamesBuilder, Naming, NumberColumn};
 use super::elements::{element, of_number};
 use super::notes::Notes;
+use super::origin::{FIRST, origin};
 use super::read_error::ReadError;
 use super::{Lighting, Scene};
 use crate::color::Srgb;
+use glam::DVec3;
 use spherule_kernel::{Sphere, Vec3};
 
 /// What is behind particles.
@@ -47,7 +49,11 @@ pub(super) enum Symbols {
 /// The particles of a frame. What is not empty has a value a particle.
 #[derive(Debug, Default)]
 pub(super) struct Particles {
+    /// From `origin`, once that is known.
     pub(super) centers: Vec<Vec3>,
+    pub(super) origin: Option<DVec3>,
+    /// The centres from which the origin will be known, in the file's coordinates.
+    pub(super) first: Vec<DVec3>,
     /// NaN where there is none.
     pub(super) radii: Vec<f32>,
     pub(super) colors: Vec<Srgb>,
@@ -63,6 +69,41 @@ pub(super) struct Particles {
 }
 
 impl Particles {
+    /// None, of a file whose positions are taken from `origin`, if that is known from a frame before.
+    pub(super) fn from(origin: Option<DVec3>) -> Self {
+        Self { origin, ..Self::default() }
+    }
+
+    /// Whether there is none.
+    pub(super) fn is_empty(&self) -> bool {
+        self.centers.is_empty() && self.first.is_empty()
+    }
+
+    /// Adds the centre of the next particle, in the file's coordinates.
+    #[inline]
+    pub(super) fn center(&mut self, center: DVec3) {
+        match self.origin {
+            Some(origin) => self.centers.push((center - origin).as_vec3()),
+            None => self.first_center(center),
+        }
+    }
+
+    #[cold]
+    fn first_center(&mut self, center: DVec3) {
+        self.first.push(center);
+        if self.first.len() == FIRST {
+            self.settle();
+        }
+    }
+
+    /// Where positions are taken from, from now on.
+    fn settle(&mut self) -> DVec3 {
+        let first = std::mem::take(&mut self.first);
+        let origin = *self.origin.get_or_insert_with(|| origin(&first, &self.radii));
+        self.centers.extend(first.into_iter().map(|center| (center - origin).as_vec3()));
+        origin
+    }
+
     /// Adds what tells the element of the next particle, which is in `line`.
     #[inline]
     pub(super) fn kind(&mut self, name: &[u8], line: usize) {
@@ -80,6 +121,7 @@ impl Particles {
 
     /// Brings the particles into the order of `keys`, one a particle.
     pub(super) fn sort_by(&mut self, keys: &[i64]) {
+        self.settle();
         if keys.is_sorted() {
             return;
         }
@@ -101,7 +143,8 @@ impl Particles {
     ///
     /// # Errors
     /// [`ReadError`] if there is no particle, or one of an unknown type where `notes` are strict.
-    pub(super) fn finish(self, notes: &mut Notes, source: &str) -> Result<Scene, ReadError> {
+    pub(super) fn finish(mut self, notes: &mut Notes, source: &str) -> Result<Scene, ReadError> {
+        let origin = self.settle();
         let Self {
             centers,
             radii,
@@ -112,6 +155,7 @@ impl Particles {
             names,
             residue_numbers,
             mut columns,
+            ..
         } = self;
         let count = centers.len();
         let kinds = kinds.finish();
@@ -175,6 +219,7 @@ impl Particles {
             attributes.set_names(Naming::Type, kinds);
         }
         let mut scene = Scene::of_spheres(list, colors, attributes);
+        scene.origin = origin;
         scene.background = BACKGROUND;
         scene.lighting = Lighting::Camera;
         Ok(scene)
@@ -272,4 +317,31 @@ pub(super) fn half_spacing(centers: &[Vec3]) -> f32 {
     let apart = (volume / centers.len() as f64).powf(1.0 / f64::from(dimensions));
     let half = (0.5 * apart) as f32;
     if half.is_finite() && half > 0.0 { half } else { 1.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The origin of so many particles around one point, and one at zero.
+    fn origin_of(around: usize) -> DVec3 {
+        let mut particles = Particles::default();
+        for index in 0..around {
+            particles.center(DVec3::new(1e6 + index as f64, 0.0, 0.0));
+        }
+        particles.center(DVec3::ZERO);
+        let scene = particles.finish(&mut Notes::default(), "").expect("a scene");
+        assert_eq!(
+            scene.origin.x + f64::from(scene.spheres().get(1).expect("two").center.x),
+            1e6 + 1.0
+        );
+        scene.origin
+    }
+
+    #[test]
+    fn sixteen_tell_whether_all_are_far_from_zero() {
+        assert_eq!(origin_of(FIRST - 1), DVec3::ZERO);
+        assert_eq!(origin_of(FIRST), DVec3::new(1e6, 0.0, 0.0));
+        assert_eq!(FIRST, 16);
+    }
 }

@@ -71,7 +71,7 @@ pub(super) fn frames(mut input: Input, reading: &Reading) -> Result<Frames, Read
         return Err(ReadError::whole(input.source(), "--columns: for tables; this file is none"));
     }
     let notes = Notes::new(reading.strict);
-    let context = Context { columns, topology, notes, mmcif: None };
+    let context = Context { columns, topology, notes, ..Context::default() };
     Ok(Frames::new(input, format, context, reading.follow))
 }
 

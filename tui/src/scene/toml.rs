@@ -1,9 +1,11 @@
 //! Scenes in TOML: the format is stated in the README and, by example, in the tests below.
 
+use super::origin::{FIRST, origin};
 use super::read_error::ReadError;
 use super::{Light, Lighting, Scene, Source};
 use crate::color::Srgb;
 use crate::view::{Lens, LensKind, View};
+use glam::DVec3;
 use serde::Deserialize;
 use serde::de::{Deserializer, Error, SeqAccess, Unexpected, Visitor};
 use spherule_kernel::{Sphere, Vec3};
@@ -113,15 +115,25 @@ const USUAL_FOV: f32 = 40.0;
 pub fn read(text: &str, source: &str) -> Result<Scene, ReadError> {
     let table: SceneTable = toml::from_str(text).map_err(|error| {
         let message = error.message().lines().map(str::trim).collect::<Vec<_>>().join(", ");
-        Place { text, source }.error(error.span().unwrap_or(0..0), message)
+        let place = Place { text, source, origin: DVec3::ZERO };
+        place.error(error.span().unwrap_or(0..0), message)
     })?;
-    scene(table, &Place { text, source })
+    let first = &table.sphere[..table.sphere.len().min(FIRST)];
+    let centers: Vec<_> = first.iter().map(|sphere| double(&sphere.center)).collect();
+    let radii: Vec<_> = first.iter().map(|sphere| *sphere.radius.get_ref() as f32).collect();
+    scene(table, &Place { text, source, origin: origin(&centers, &radii) })
 }
 
-/// Turns places in the text into errors.
+fn double(vector: &Vector) -> DVec3 {
+    DVec3::from_array(vector.get_ref().each_ref().map(|number| *number.get_ref()))
+}
+
+/// Turns places in the text into errors, and numbers that stand there into those of the scene.
 struct Place<'a> {
     text: &'a str,
     source: &'a str,
+    /// Where positions are taken from.
+    origin: DVec3,
 }
 
 impl Place<'_> {
@@ -150,6 +162,11 @@ impl Place<'_> {
         Ok(result)
     }
 
+    fn position(&self, vector: &Vector, name: &str) -> Result<Vec3, ReadError> {
+        self.vector(vector, name)?;
+        Ok((double(vector) - self.origin).as_vec3())
+    }
+
     fn direction(&self, vector: &Vector, name: &str) -> Result<Vec3, ReadError> {
         let direction = self.vector(vector, name)?;
         // Neither its square nor that square's inverse may leave the range of numbers.
@@ -169,12 +186,13 @@ impl Place<'_> {
 
 fn scene(table: SceneTable, place: &Place<'_>) -> Result<Scene, ReadError> {
     let mut scene = Scene::new();
+    scene.origin = place.origin;
     scene.background = place.color(table.background.as_ref(), Srgb::BLACK)?;
     scene.names_background = table.background.is_some();
     scene.shadows = table.shadows;
     scene.view = table.camera.map(|camera| view(&camera, place)).transpose()?;
     for sphere in &table.sphere {
-        let center = place.vector(&sphere.center, "center")?;
+        let center = place.position(&sphere.center, "center")?;
         let radius = place.number(&sphere.radius, "radius")?;
         if radius < 0.0 {
             let what = format!("radius is {}: negative", sphere.radius.get_ref());
@@ -205,7 +223,7 @@ fn light(table: &Spanned<LightTable>, place: &Place<'_>) -> Result<Light, ReadEr
     let LightTable { direction, position, color } = table.get_ref();
     let source = match (direction, position) {
         (Some(direction), None) => Source::Direction(place.direction(direction, "direction")?),
-        (None, Some(position)) => Source::Position(place.vector(position, "position")?),
+        (None, Some(position)) => Source::Position(place.position(position, "position")?),
         _ => {
             let what = "a light has a direction or a position, one of the two";
             return Err(place.error(table.span(), what));
@@ -216,8 +234,8 @@ fn light(table: &Spanned<LightTable>, place: &Place<'_>) -> Result<Light, ReadEr
 
 fn view(table: &Spanned<CameraTable>, place: &Place<'_>) -> Result<View, ReadError> {
     let camera = table.get_ref();
-    let eye = place.vector(&camera.eye, "eye")?;
-    let target = place.vector(&camera.target, "target")?;
+    let eye = place.position(&camera.eye, "eye")?;
+    let target = place.position(&camera.target, "target")?;
     let up = match &camera.up {
         Some(up) => place.direction(up, "up")?,
         None => Vec3::Y,

@@ -2,10 +2,19 @@
 
 use crate::length::length;
 use crate::view::{Lens, LensKind, View};
+use glam::DVec3;
+use spherule_kernel::Vec3;
 
-/// `spherule` with the scene called `scene` and all that `view` needs.
-pub(super) fn command_line(scene: &str, view: &View) -> String {
-    let vector = |vector: spherule_kernel::Vec3| format!("{},{},{}", vector.x, vector.y, vector.z);
+/// `spherule` with the scene called `scene`, whose zero is at `origin` in its file, and all that `view` needs.
+pub(super) fn command_line(scene: &str, view: &View, origin: DVec3) -> String {
+    let place = |point: Vec3| {
+        // The digits of single precision, where they are the file's own.
+        if origin == DVec3::ZERO {
+            return format!("{},{},{}", point.x, point.y, point.z);
+        }
+        let DVec3 { x, y, z } = origin + point.as_dvec3();
+        format!("{x},{y},{z}")
+    };
     let (fov, projection) = match view.lens {
         Lens::Perspective { fov } => (fov, LensKind::Perspective),
         // From the eye the picture is as high at the target as by this angle.
@@ -19,8 +28,8 @@ pub(super) fn command_line(scene: &str, view: &View) -> String {
     format!(
         "spherule {} --eye {} --target {} --fov {fov} --projection {projection}",
         quoted(scene),
-        vector(view.eye),
-        vector(view.target)
+        place(view.eye),
+        place(view.target)
     )
 }
 
@@ -37,16 +46,26 @@ fn quoted(word: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use spherule_kernel::Vec3;
 
     #[test]
     fn it_has_all_digits() {
         let view = View { eye: Vec3::new(0.1, -2.0, 1e-7), ..View::FRONT };
         assert_eq!(
-            command_line("a b's.toml", &view),
+            command_line("a b's.toml", &view, DVec3::ZERO),
             r"spherule 'a b'\''s.toml' --eye 0.1,-2,0.0000001 --target 0,0,0 --fov 40 --projection perspective"
         );
         let parallel = View { lens: Lens::Parallel { height: 10.0 }, ..View::FRONT };
-        assert!(command_line("unit", &parallel).ends_with(" --fov 90 --projection parallel"));
+        assert!(
+            command_line("unit", &parallel, DVec3::ZERO)
+                .ends_with(" --fov 90 --projection parallel")
+        );
+    }
+
+    #[test]
+    fn it_is_in_the_coordinates_of_the_file() {
+        let view = View { eye: Vec3::new(0.5, -2.0, 1e-7), ..View::FRONT };
+        let line = command_line("map", &view, DVec3::new(5e5, 5.4e6, 0.0));
+        assert!(line.starts_with("spherule map --eye 500000.5,5399998,0.0000001"), "{line}");
+        assert!(line.contains(" --target 500000,5400000,0 "), "{line}");
     }
 }

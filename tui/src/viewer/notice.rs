@@ -11,7 +11,7 @@ use std::time::Instant;
 impl Viewer<'_> {
     /// Tells the command line that shows what is seen now; it is printed at the end, too.
     pub(super) fn tell_command_line(&mut self) {
-        let line = command_line(&self.scene_name, &self.state.shown.view);
+        let line = command_line(&self.scene_name, &self.state.shown.view, self.scene.origin);
         if self.told.last() != Some(&line) {
             self.told.push(line.clone());
         }

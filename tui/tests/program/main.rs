@@ -5,6 +5,7 @@ mod bad_input;
 mod cargo;
 mod cast;
 mod crowd;
+mod far;
 mod files;
 mod judge;
 mod lecture;

@@ -47,7 +47,7 @@ fn the_unit_sphere_by_hand() {
         })
         .into();
     assert_eq!(middle["tiers"], Value::Array(tiers));
-    assert_eq!(middle.as_object().map(serde_json::Map::len), Some(7));
+    assert_eq!(middle.as_object().map(serde_json::Map::len), Some(8));
 }
 
 /// The row above touches it, D = 0 and t = 3, which exact sums alone can tell.

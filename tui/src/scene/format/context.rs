@@ -3,6 +3,7 @@
 use super::mmcif_columns::Columns;
 use crate::scene::Scene;
 use crate::scene::notes::Notes;
+use glam::DVec3;
 use std::sync::Arc;
 
 /// What a reader knows besides the input.
@@ -12,6 +13,8 @@ pub(in crate::scene) struct Context {
     pub(in crate::scene) columns: Option<String>,
     /// What the particles of a trajectory are.
     pub(in crate::scene) topology: Option<Arc<Scene>>,
+    /// Where positions are taken from, once a frame has told.
+    pub(in crate::scene) origin: Option<DVec3>,
     /// What to tell.
     pub(in crate::scene) notes: Notes,
     /// The columns of an mmCIF table, once they have been read.

@@ -3,11 +3,11 @@
 //! Lengths are in nanometres there, and in angstrom in a scene, as radii are. How wide a number is, the distance between
 //! decimal points tells (GROMACS reference manual, "gro file format").
 
-use super::words::{coordinate, count, excerpt};
+use super::Context;
+use super::words::{count, excerpt, single};
 use crate::scene::Scene;
 use crate::scene::attributes::Naming;
 use crate::scene::input::{Input, Line};
-use crate::scene::notes::Notes;
 use crate::scene::particles::{Particles, Symbols};
 use crate::scene::read_error::ReadError;
 use spherule_kernel::Vec3;
@@ -22,7 +22,7 @@ const COORDINATES: usize = 20;
 ///
 /// # Errors
 /// [`ReadError`] at the first line that is not what it should be.
-pub(super) fn frame(input: &mut Input, notes: &mut Notes) -> Result<Option<Scene>, ReadError> {
+pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<Scene>, ReadError> {
     if input.is_over_but_blanks()? && input.place() != Default::default() {
         return Ok(None);
     }
@@ -35,7 +35,8 @@ pub(super) fn frame(input: &mut Input, notes: &mut Notes) -> Result<Option<Scene
             return Err(line.error(0, format!("{} is no number of atoms", excerpt(line.trimmed()))));
         }
     };
-    let mut particles = Particles { symbols: Symbols::AtomNames, ..Particles::default() };
+    let mut particles =
+        Particles { symbols: Symbols::AtomNames, ..Particles::from(context.origin) };
     let (mut width, mut velocities) = (0, false);
     for atom in 0..atoms {
         let ends =
@@ -50,9 +51,10 @@ pub(super) fn frame(input: &mut Input, notes: &mut Notes) -> Result<Option<Scene
         };
         let at = |axis: usize, name| {
             let from = COORDINATES + axis * width;
-            coordinate(&line, from, fixed[from..from + width].trim_ascii(), name, ANGSTROM)
+            single(&line, from, fixed[from..from + width].trim_ascii(), name, ANGSTROM)
         };
-        particles.centers.push(Vec3::new(at(0, "x")?, at(1, "y")?, at(2, "z")?));
+        let center = Vec3::new(at(0, "x")?, at(1, "y")?, at(2, "z")?);
+        particles.center(center.as_dvec3());
         let (residue, name) = (fixed[5..10].trim_ascii(), fixed[10..15].trim_ascii());
         particles.kind(name, line.number);
         particles.naming(Naming::Name).push(name);
@@ -67,9 +69,9 @@ pub(super) fn frame(input: &mut Input, notes: &mut Notes) -> Result<Option<Scene
     }
     input.expect("the box")?;
     if velocities {
-        notes.note("velocities are ignored");
+        context.notes.note("velocities are ignored");
     }
-    particles.finish(notes, input.source()).map(Some)
+    particles.finish(&mut context.notes, input.source()).map(Some)
 }
 
 /// From point to point.

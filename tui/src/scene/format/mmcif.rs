@@ -12,7 +12,7 @@ use crate::scene::notes::Notes;
 use crate::scene::number::number;
 use crate::scene::particles::Particles;
 use crate::scene::read_error::ReadError;
-use spherule_kernel::Vec3;
+use glam::DVec3;
 use std::ops::Range;
 
 /// Reads the next model.
@@ -27,7 +27,7 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
     let Some(columns) = context.mmcif.clone() else {
         return Ok(None);
     };
-    let mut atoms = Atoms::new(&columns);
+    let mut atoms = Atoms::new(&columns, context.origin);
     let mut row = Row::default();
     while let Some(line) = input.line()? {
         if !row.is_begun() && ends_loop(line.trimmed()) {
@@ -58,7 +58,7 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
             columns.count
         )));
     }
-    if atoms.particles.centers.is_empty() {
+    if atoms.particles.is_empty() {
         return Ok(None);
     }
     atoms.finish(&mut context.notes, input.source()).map(Some)
@@ -184,10 +184,10 @@ struct Atoms<'a> {
 }
 
 impl<'a> Atoms<'a> {
-    fn new(columns: &'a Columns) -> Self {
+    fn new(columns: &'a Columns, origin: Option<DVec3>) -> Self {
         let column = |name: &str| NumberColumn { name: name.into(), values: Vec::new() };
         let kept = vec![column("occupancy"), column("b_factor")];
-        let particles = Particles { columns: kept, ..Particles::default() };
+        let particles = Particles { columns: kept, ..Particles::from(origin) };
         Self {
             columns,
             particles,
@@ -229,11 +229,11 @@ impl<'a> Atoms<'a> {
             let word = row.word(columns.position[axis]);
             // A standard uncertainty may follow in brackets.
             let word = word.split(|&byte| byte == b'(').next().unwrap_or_default();
-            coordinate(line, 0, word, called, 1.0)
+            coordinate(line, 0, word, called)
         };
-        let center = Vec3::new(at(0, "Cartn_x")?, at(1, "Cartn_y")?, at(2, "Cartn_z")?);
+        let center = DVec3::new(at(0, "Cartn_x")?, at(1, "Cartn_y")?, at(2, "Cartn_z")?);
         let particles = &mut self.particles;
-        particles.centers.push(center);
+        particles.center(center);
         particles.kind(row.value(columns.symbol), line.number);
         particles.naming(Naming::Name).push(name);
         particles.naming(Naming::Residue).push(row.value(columns.residue));

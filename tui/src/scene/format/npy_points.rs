@@ -6,7 +6,7 @@ use crate::scene::input::Input;
 use crate::scene::notes::Notes;
 use crate::scene::particles::Particles;
 use crate::scene::read_error::ReadError;
-use spherule_kernel::Vec3;
+use glam::DVec3;
 
 /// Reads the array. Memory grows with the file, not with what its header claims.
 ///
@@ -33,12 +33,13 @@ pub(super) fn read(input: &mut Input, notes: &mut Notes) -> Result<Scene, ReadEr
     }
     array
         .each(input, |index, row| {
-            let center = Vec3::new(row[0], row[1], row[2]);
-            if !center.is_finite() {
+            let center = DVec3::new(row[0], row[1], row[2]);
+            if !center.as_vec3().is_finite() {
                 return Err(format!("row {index} is at {center}: not finite in single precision"));
             }
-            particles.centers.push(center);
+            particles.center(center);
             if let Some(&radius) = row.get(3) {
+                let radius = radius as f32;
                 if !(radius.is_finite() && radius >= 0.0) {
                     return Err(format!("row {index} has the radius {radius}"));
                 }

@@ -4,6 +4,7 @@
 //! more than 99,999 atoms; the numbers of residues may be in hybrid-36. Format: wwPDB, "Atomic Coordinate Entry Format
 //! Description", version 3.3 (2012); hybrid-36: R. W. Grosse-Kunstleve, <https://cci.lbl.gov/hybrid_36/>.
 
+use super::Context;
 use super::words::coordinate;
 use crate::scene::Scene;
 use crate::scene::attributes::{Naming, NumberColumn};
@@ -13,7 +14,7 @@ use crate::scene::notes::Notes;
 use crate::scene::number::number;
 use crate::scene::particles::{Particles, Symbols};
 use crate::scene::read_error::ReadError;
-use spherule_kernel::Vec3;
+use glam::DVec3;
 
 /// The records that say what a picture of spheres does not show.
 const IGNORED: [&str; 6] = ["ANISOU", "CONECT", "HELIX", "SHEET", "SSBOND", "SIGATM"];
@@ -22,9 +23,9 @@ const IGNORED: [&str; 6] = ["ANISOU", "CONECT", "HELIX", "SHEET", "SSBOND", "SIG
 ///
 /// # Errors
 /// [`ReadError`] at the first atom without coordinates, and if there is no atom in the file.
-pub(super) fn frame(input: &mut Input, notes: &mut Notes) -> Result<Option<Scene>, ReadError> {
+pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<Scene>, ReadError> {
     let is_first = input.place() == Default::default();
-    let mut atoms = Atoms::new();
+    let mut atoms = Atoms::new(context.origin);
     while let Some(line) = input.line()? {
         let record = line.bytes;
         if record.starts_with(b"ATOM") || record.starts_with(b"HETATM") {
@@ -39,7 +40,7 @@ pub(super) fn frame(input: &mut Input, notes: &mut Notes) -> Result<Option<Scene
         {
             break;
         } else if let Some(name) = IGNORED.iter().find(|name| record.starts_with(name.as_bytes())) {
-            notes.ignore(name);
+            context.notes.ignore(name);
         }
     }
     // What remains may be connections and no atom: then there is no further frame.
@@ -50,7 +51,7 @@ pub(super) fn frame(input: &mut Input, notes: &mut Notes) -> Result<Option<Scene
             Ok(None)
         };
     }
-    atoms.finish(notes, input.source()).map(Some)
+    atoms.finish(&mut context.notes, input.source()).map(Some)
 }
 
 /// The atoms of a model.
@@ -64,15 +65,15 @@ struct Atoms {
 }
 
 impl Atoms {
-    fn new() -> Self {
+    fn new(origin: Option<DVec3>) -> Self {
         let column = |name: &str| NumberColumn { name: name.into(), values: Vec::new() };
         let columns = vec![column("occupancy"), column("b_factor")];
-        let particles = Particles { columns, ..Particles::default() };
+        let particles = Particles { columns, ..Particles::from(origin) };
         Self { particles, residue: [0; 6], located: Vec::new(), left_out: 0 }
     }
 
     fn is_empty(&self) -> bool {
-        self.particles.centers.is_empty()
+        self.particles.is_empty()
     }
 
     #[inline]
@@ -95,11 +96,11 @@ impl Atoms {
         }
         let at = |from: usize, axis| {
             let word = fixed[from..from + 8].trim_ascii();
-            coordinate(&line, from, word, axis, 1.0)
+            coordinate(&line, from, word, axis)
         };
-        let center = Vec3::new(at(30, "x")?, at(38, "y")?, at(46, "z")?);
+        let center = DVec3::new(at(30, "x")?, at(38, "y")?, at(46, "z")?);
         let particles = &mut self.particles;
-        particles.centers.push(center);
+        particles.center(center);
         let symbol = bytes.get(76..bytes.len().min(78)).unwrap_or_default().trim_ascii();
         if symbol.first().is_some_and(u8::is_ascii_alphabetic) {
             particles.kind(symbol, line.number);

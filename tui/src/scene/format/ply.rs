@@ -11,7 +11,7 @@ use crate::scene::notes::Notes;
 use crate::scene::number::number;
 use crate::scene::particles::Particles;
 use crate::scene::read_error::ReadError;
-use spherule_kernel::Vec3;
+use glam::DVec3;
 
 /// So many other properties are kept: they take memory.
 const MOST_KEPT: usize = 4;
@@ -149,13 +149,13 @@ fn vertices(
             Some(line) => ReadError::at(&source, line, 1, what),
             None => ReadError::whole(&source, what),
         };
-        let center = Vec3::new(values[x] as f32, values[y] as f32, values[z] as f32);
-        if !center.is_finite() {
+        let center = DVec3::new(values[x], values[y], values[z]);
+        if !center.as_vec3().is_finite() {
             return Err(place(format!(
                 "vertex {vertex} is at {center}: not finite in single precision"
             )));
         }
-        particles.centers.push(center);
+        particles.center(center);
         if let Some(radius) = radius {
             let radius = values[radius] as f32;
             if !(radius.is_finite() && radius >= 0.0) {

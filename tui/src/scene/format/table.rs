@@ -14,7 +14,7 @@ use crate::scene::input::{Input, Line};
 use crate::scene::number::number;
 use crate::scene::particles::Particles;
 use crate::scene::read_error::ReadError;
-use spherule_kernel::Vec3;
+use glam::DVec3;
 use std::ops::Range;
 
 /// So many other columns are kept: they take memory.
@@ -141,7 +141,7 @@ pub(super) fn read(input: &mut Input, context: &mut Context) -> Result<Scene, Re
         separator.split(line.bytes, columns.most, &mut fields);
         add(&line, &fields, &columns, &mut particles, &mut raw, &mut scale)?;
     }
-    if particles.centers.is_empty() {
+    if particles.is_empty() {
         return Err(ReadError::whole(input.source(), "no line with numbers"));
     }
     particles.colors = raw.iter().map(|channels| scale.color(*channels)).collect();
@@ -169,15 +169,16 @@ fn add(
     raw: &mut Vec<[f32; 3]>,
     scale: &mut ColorScale,
 ) -> Result<(), ReadError> {
-    let value = |column: usize, name: &str| {
+    let number_in = |column: usize, name: &str| {
         let Some(field) = fields.get(column) else {
             let what = format!("{name} is missing: {} columns, not {}", fields.len(), column + 1);
             return Err(line.error(line.bytes.len(), what));
         };
-        coordinate(line, field.start, &line.bytes[field.clone()], name, 1.0)
+        coordinate(line, field.start, &line.bytes[field.clone()], name)
     };
+    let value = |column, name| number_in(column, name).map(|value| value as f32);
     let [x, y, z] = columns.position;
-    particles.centers.push(Vec3::new(value(x, "x")?, value(y, "y")?, value(z, "z")?));
+    particles.center(DVec3::new(number_in(x, "x")?, number_in(y, "y")?, number_in(z, "z")?));
     if let Some(column) = columns.radius {
         let radius = value(column, "the radius")?;
         if radius < 0.0 {

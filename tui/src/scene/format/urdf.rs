@@ -101,20 +101,20 @@ pub(super) fn read(input: &mut Input, notes: &mut Notes) -> Result<Scene, ReadEr
                         format!("radius is {text:?}: no number of zero or more"),
                     ));
                 }
-                let center = (transform * origin(part)?).translation.as_vec3();
-                if !center.is_finite() {
+                let center = (transform * origin(part)?).translation;
+                if !center.as_vec3().is_finite() {
                     return Err(wrong(
                         sphere,
                         format!("at {center}: not finite in single precision"),
                     ));
                 }
-                particles.centers.push(center);
+                particles.center(center);
                 particles.radii.push(radius);
                 particles.kind(name.as_bytes(), 1);
                 particles.naming(Naming::Molecule).push(name.as_bytes());
             }
         }
-        if !particles.centers.is_empty() {
+        if !particles.is_empty() {
             if others > 0 {
                 notes.note(format!("{others} shapes that are no spheres are ignored"));
             }

@@ -3,7 +3,7 @@
 use crate::scene::input::Line;
 use crate::scene::number::{leading, number};
 use crate::scene::read_error::ReadError;
-use spherule_kernel::Vec3;
+use glam::DVec3;
 
 /// The words of a line, between white space.
 #[derive(Clone, Copy, Debug)]
@@ -57,16 +57,16 @@ impl<'a> Words<'a> {
     /// # Errors
     /// [`ReadError`] if it is missing, no number, or not finite.
     #[inline]
-    pub(super) fn coordinate(&mut self, name: &str) -> Result<f32, ReadError> {
+    pub(super) fn coordinate(&mut self, name: &str) -> Result<f64, ReadError> {
         let start = self.start();
         if let Some((value, length)) = leading(&self.line.bytes[start..])
             && (value as f32).is_finite()
         {
             self.at = start + length;
-            return Ok(value as f32);
+            return Ok(value);
         }
         let (byte, word) = self.expect(name)?;
-        coordinate(&self.line, byte, word, name, 1.0)
+        coordinate(&self.line, byte, word, name)
     }
 
     /// The next three as a point.
@@ -74,17 +74,36 @@ impl<'a> Words<'a> {
     /// # Errors
     /// As [`Self::coordinate`].
     #[inline]
-    pub(super) fn point(&mut self) -> Result<Vec3, ReadError> {
-        Ok(Vec3::new(self.coordinate("x")?, self.coordinate("y")?, self.coordinate("z")?))
+    pub(super) fn point(&mut self) -> Result<DVec3, ReadError> {
+        Ok(DVec3::new(self.coordinate("x")?, self.coordinate("y")?, self.coordinate("z")?))
     }
 }
 
-/// A finite single-precision number.
+/// A number that single precision can hold, in the double precision of the file.
 ///
 /// # Errors
 /// [`ReadError`] if `word`, which begins at `byte` of `line`, is none.
 #[inline]
 pub(super) fn coordinate(
+    line: &Line<'_>,
+    byte: usize,
+    word: &[u8],
+    name: &str,
+) -> Result<f64, ReadError> {
+    let value = number(word).unwrap_or(f64::NAN);
+    if (value as f32).is_finite() {
+        Ok(value)
+    } else {
+        single(line, byte, word, name, 1.0).map(f64::from)
+    }
+}
+
+/// A finite single-precision number, times `unit`.
+///
+/// # Errors
+/// [`ReadError`] if `word`, which begins at `byte` of `line`, is none.
+#[inline]
+pub(super) fn single(
     line: &Line<'_>,
     byte: usize,
     word: &[u8],

@@ -8,6 +8,7 @@ use crate::scene::Scene;
 use crate::scene::input::Input;
 use crate::scene::particles::Particles;
 use crate::scene::read_error::ReadError;
+use glam::DVec3;
 use molly::{Frame, XTCReader};
 use spherule_kernel::{Sphere, Vec3};
 use std::cell::Cell;
@@ -47,7 +48,7 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
     }
     let Some(topology) = &context.topology else {
         context.notes.note("positions alone: --topology FILE says what the particles are");
-        let particles = Particles { centers, ..Particles::default() };
+        let particles = Particles { centers, ..Particles::from(Some(DVec3::ZERO)) };
         return particles.finish(&mut context.notes, &source).map(Some);
     };
     let spheres = topology.spheres();
@@ -62,7 +63,8 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
         .iter()
         .zip(centers)
         .map(|(Sphere { radius, .. }, center)| Sphere { center, radius });
-    Ok(Some(topology.moved(list.collect())))
+    // The numbers of this format are single already.
+    Ok(Some(Scene { origin: DVec3::ZERO, ..topology.moved(list.collect()) }))
 }
 
 /// The bytes of a frame.

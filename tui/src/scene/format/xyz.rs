@@ -15,12 +15,12 @@
 
 mod properties;
 
-use super::words::{Words, coordinate, count, excerpt};
+use super::Context;
+use super::words::{Words, count, excerpt, single};
 use crate::color::Srgb;
 use crate::scene::Scene;
 use crate::scene::attributes::NumberColumn;
 use crate::scene::input::{Input, Line};
-use crate::scene::notes::Notes;
 use crate::scene::number::number;
 use crate::scene::particles::{Particles, Symbols};
 use crate::scene::read_error::ReadError;
@@ -31,14 +31,14 @@ use properties::{Kind, Property, properties};
 /// # Errors
 /// [`ReadError`] at the first line that is not what it should be: no number of atoms, none or
 /// fewer atoms than it says, a coordinate that is missing, no number, or not a finite `f32`.
-pub(super) fn frame(input: &mut Input, notes: &mut Notes) -> Result<Option<Scene>, ReadError> {
+pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<Scene>, ReadError> {
     if input.place() != Default::default() && input.is_over_but_blanks()? {
         return Ok(None);
     }
     let (count, first) = count_line(input)?;
     let comment = input.expect("its comment")?;
     let properties = properties(&comment)?;
-    let mut particles = Particles::default();
+    let mut particles = Particles::from(context.origin);
     let ends = |input: &Input, atoms| {
         input.ends(format!(
             "the file ends after {atoms} of the {count} atoms that line {first} says"
@@ -49,7 +49,7 @@ pub(super) fn frame(input: &mut Input, notes: &mut Notes) -> Result<Option<Scene
             particles.columns = columns(&properties);
             for property in &properties {
                 if property.is_ignored() {
-                    notes.note(format!("the column {:?} is ignored", property.name));
+                    context.notes.note(format!("the column {:?} is ignored", property.name));
                 }
             }
             for atoms in 0..count {
@@ -64,7 +64,8 @@ pub(super) fn frame(input: &mut Input, notes: &mut Notes) -> Result<Option<Scene
                 further |= plain_atom(line, &mut particles)?;
             }
             if further {
-                notes
+                context
+                    .notes
                     .note("columns behind x, y and z are ignored: no Properties say what they are");
             }
         }
@@ -73,7 +74,7 @@ pub(super) fn frame(input: &mut Input, notes: &mut Notes) -> Result<Option<Scene
         particles.symbols = Symbols::Numbers;
     }
     check_next(input, count, first)?;
-    particles.finish(notes, input.source()).map(Some)
+    particles.finish(&mut context.notes, input.source()).map(Some)
 }
 
 /// Leaves out a frame.
@@ -127,7 +128,7 @@ fn count_line(input: &mut Input) -> Result<(usize, usize), ReadError> {
 fn plain_atom(line: Line<'_>, particles: &mut Particles) -> Result<bool, ReadError> {
     let mut words = Words::of(line);
     let (_, name) = words.expect("an element")?;
-    particles.centers.push(words.point()?);
+    particles.center(words.point()?);
     particles.kind(name, line.number);
     Ok(words.next().is_some())
 }
@@ -154,11 +155,11 @@ fn atom_of_properties(
             }
             Kind::Position => {
                 let point = words.point()?;
-                particles.centers.push(point);
+                particles.center(point);
             }
             Kind::Radius => {
                 let (byte, word) = words.expect("a radius")?;
-                let radius = coordinate(&line, byte, word, "radius", 1.0)?;
+                let radius = single(&line, byte, word, "radius", 1.0)?;
                 if radius < 0.0 {
                     return Err(line.error(byte, format!("radius is {radius}: negative")));
                 }
@@ -168,7 +169,7 @@ fn atom_of_properties(
                 let mut channels = [0; 3];
                 for channel in &mut channels {
                     let (byte, word) = words.expect("a colour")?;
-                    let share = coordinate(&line, byte, word, "a colour", 1.0)?;
+                    let share = single(&line, byte, word, "a colour", 1.0)?;
                     *channel = property.channel(share);
                 }
                 particles.colors.push(Srgb(channels));

@@ -3,7 +3,7 @@
 //! What its columns are, the style says that is written behind it as a comment, `Atoms # full`; else their number tells:
 //! of five atomic, of seven full, of six charge or molecular, by whether the third is an integer. Three more are images.
 
-use super::super::words::{Words, coordinate, count};
+use super::super::words::{Words, coordinate, count, single};
 use super::dump::id;
 use crate::scene::Scene;
 use crate::scene::attributes::{Naming, NumberColumn};
@@ -12,7 +12,7 @@ use crate::scene::notes::Notes;
 use crate::scene::number::number;
 use crate::scene::particles::{Particles, Symbols};
 use crate::scene::read_error::ReadError;
-use spherule_kernel::Vec3;
+use glam::DVec3;
 
 /// Which column is what; the first is the id.
 #[derive(Clone, Copy, Debug)]
@@ -143,7 +143,7 @@ fn add(
             ids.push(id(&line, byte, word)?);
         } else if column >= style.position {
             let axis = column - style.position;
-            position[axis] = coordinate(&line, byte, word, ["x", "y", "z"][axis], 1.0)?;
+            position[axis] = coordinate(&line, byte, word, ["x", "y", "z"][axis])?;
         } else if column == style.kind {
             particles.kind(word, line.number);
         } else if Some(column) == style.molecule {
@@ -151,9 +151,9 @@ fn add(
         } else if Some(column) == style.charge {
             charges.push(number(word).map_or(f32::NAN, |value| value as f32));
         } else if Some(column) == style.diameter {
-            particles.radii.push(coordinate(&line, byte, word, "diameter", 0.5)?.abs());
+            particles.radii.push(single(&line, byte, word, "diameter", 0.5)?.abs());
         }
     }
-    particles.centers.push(Vec3::from_array(position));
+    particles.center(DVec3::from_array(position));
     Ok(())
 }

@@ -3,15 +3,15 @@
 //! Atoms are in the order of their `id`, since LAMMPS writes them in any. Positions are `x`, `xu`, or in fractions of the
 //! box `xs`, `xsu`: then they are scaled, as the documentation of `dump` has it, also where the box is sheared.
 
-use super::super::words::{Words, coordinate, count, excerpt};
+use super::super::Context;
+use super::super::words::{Words, coordinate, count, excerpt, single};
 use crate::scene::Scene;
 use crate::scene::attributes::{Naming, NumberColumn};
 use crate::scene::input::{Input, Line};
-use crate::scene::notes::Notes;
 use crate::scene::number::number;
 use crate::scene::particles::{Particles, Symbols};
 use crate::scene::read_error::ReadError;
-use spherule_kernel::Vec3;
+use glam::DVec3;
 
 /// What a column is taken for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,12 +36,12 @@ struct Cell {
 }
 
 impl Cell {
-    fn point(&self, [x, y, z]: [f64; 3]) -> Vec3 {
+    fn point(&self, [x, y, z]: [f64; 3]) -> DVec3 {
         let Self { low, length, tilt: [xy, xz, yz] } = self;
-        Vec3::new(
-            (low[0] + x * length[0] + y * xy + z * xz) as f32,
-            (low[1] + y * length[1] + z * yz) as f32,
-            (low[2] + z * length[2]) as f32,
+        DVec3::new(
+            low[0] + x * length[0] + y * xy + z * xz,
+            low[1] + y * length[1] + z * yz,
+            low[2] + z * length[2],
         )
     }
 }
@@ -52,11 +52,11 @@ impl Cell {
 /// [`ReadError`] at the first line that is not what it should be.
 pub(in super::super) fn frame(
     input: &mut Input,
-    notes: &mut Notes,
+    context: &mut Context,
 ) -> Result<Option<Scene>, ReadError> {
     let Some((atoms, first, cell)) = header(input)? else { return Ok(None) };
     let (kinds, names, scaled) = columns(&input.expect("ITEM: ATOMS")?)?;
-    let mut particles = Particles { symbols: Symbols::Numbers, ..Particles::default() };
+    let mut particles = Particles { symbols: Symbols::Numbers, ..Particles::from(context.origin) };
     let has_element = kinds.contains(&Kind::Element);
     if has_element {
         particles.symbols = Symbols::Elements;
@@ -75,10 +75,7 @@ pub(in super::super) fn frame(
             let (byte, word) = words.expect(name)?;
             match *kind {
                 Kind::Position(axis) => {
-                    position[axis] = match number(word) {
-                        Some(value) if (value as f32).is_finite() => value,
-                        _ => f64::from(coordinate(&line, byte, word, name, 1.0)?),
-                    }
+                    position[axis] = coordinate(&line, byte, word, name)?;
                 }
                 Kind::Id => ids.push(id(&line, byte, word)?),
                 Kind::Type => {
@@ -90,10 +87,10 @@ pub(in super::super) fn frame(
                 Kind::Element => particles.kind(word, line.number),
                 Kind::Molecule => particles.naming(Naming::Molecule).push(word),
                 Kind::Radius => {
-                    particles.radii.push(coordinate(&line, byte, word, name, 1.0)?.abs());
+                    particles.radii.push(single(&line, byte, word, name, 1.0)?.abs());
                 }
                 Kind::Diameter => {
-                    particles.radii.push(coordinate(&line, byte, word, name, 0.5)?.abs());
+                    particles.radii.push(single(&line, byte, word, name, 0.5)?.abs());
                 }
                 Kind::Number => {
                     let value = number(word).map_or(f32::NAN, |value| value as f32);
@@ -102,14 +99,10 @@ pub(in super::super) fn frame(
                 }
             }
         }
-        particles.centers.push(if scaled {
-            cell.point(position)
-        } else {
-            Vec3::from_array(position.map(|value| value as f32))
-        });
+        particles.center(if scaled { cell.point(position) } else { DVec3::from_array(position) });
     }
     particles.sort_by(&ids);
-    particles.finish(notes, input.source()).map(Some)
+    particles.finish(&mut context.notes, input.source()).map(Some)
 }
 
 /// Leaves out a frame.

@@ -1,0 +1,58 @@
+//! Where positions are counted from: zero, or the first sphere where all are far from zero.
+//!
+//! The kernel computes in single precision, of 24 bits. On a map in metres, 5,400 km from its zero, the last of them is half a
+//! metre: trees and houses would be on its lattice, and the light on what is smaller than it would be lost. Files state double
+//! precision. So where the first spheres are much farther from zero than they are wide, together, positions are taken
+//! from the first of them, in double precision, before they are rounded: everything in the program then has the numbers
+//! that it would have near zero.
+
+use glam::DVec3;
+
+/// So many spheres tell how wide things are: a file is read once, and what follows is not known.
+pub(super) const FIRST: usize = 16;
+
+/// So many times as far from zero as they are wide: what is nearer keeps its numbers, which are people's, and has 12 bits
+/// more than this width.
+const FAR: f64 = 4096.0;
+
+/// Where positions are to be counted from, of a scene that begins with spheres at `centers`, with `radii` as far as these
+/// are known (NaN: not). A point of single precision: few digits, for people.
+pub(super) fn origin(centers: &[DVec3], radii: &[f32]) -> DVec3 {
+    let Some(&first) = centers.first() else { return DVec3::ZERO };
+    let bounds = |least: fn(DVec3, DVec3) -> DVec3| centers.iter().copied().fold(first, least);
+    let known = radii.iter().copied().fold(0.0, f32::max);
+    let width = (bounds(DVec3::max) - bounds(DVec3::min)).max_element().max(2.0 * f64::from(known));
+    let distance = bounds(|a, b| a.abs().min(b.abs())).abs().max_element();
+    // Of spheres without a radius at one place nothing says how wide things are.
+    if width > 0.0 && distance > FAR * width { first.as_vec3().as_dvec3() } else { DVec3::ZERO }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HOUSE: DVec3 = DVec3::new(500_000.125, 5_400_000.3, 310.0);
+
+    #[test]
+    fn a_house_on_a_map_is_far_and_a_molecule_is_not() {
+        let walls = [HOUSE, HOUSE + DVec3::X, HOUSE - 7.0 * DVec3::Z];
+        assert_eq!(origin(&walls, &[]), DVec3::new(500_000.125, 5_400_000.5, 310.0));
+        let water = [DVec3::new(30.0, 80.0, -70.0), DVec3::new(31.0, 80.0, -70.0)];
+        assert_eq!(origin(&water, &[]), DVec3::ZERO);
+    }
+
+    #[test]
+    fn what_is_wide_is_not_far() {
+        assert_eq!(origin(&[HOUSE, HOUSE + DVec3::splat(1400.0)], &[]), DVec3::ZERO);
+        assert_ne!(origin(&[HOUSE, HOUSE + DVec3::splat(1300.0)], &[]), DVec3::ZERO);
+        assert_eq!(origin(&[HOUSE, DVec3::ZERO, HOUSE], &[]), DVec3::ZERO);
+        assert_eq!(origin(&[HOUSE, HOUSE], &[f32::NAN, 700.0]), DVec3::ZERO);
+        assert_ne!(origin(&[HOUSE, HOUSE], &[f32::NAN, 600.0]), DVec3::ZERO);
+    }
+
+    #[test]
+    fn where_nothing_tells_a_width_positions_stay() {
+        assert_eq!(origin(&[], &[]), DVec3::ZERO);
+        assert_eq!(origin(&[HOUSE, HOUSE], &[f32::NAN, 0.0]), DVec3::ZERO);
+    }
+}
