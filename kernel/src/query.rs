@@ -66,6 +66,9 @@ mod sealed {
         fn lanes<L: Lanes>(token: L::Token, packet: &Self::Packet<L::Array>) -> [L; 2];
         /// How many answers there is room for.
         fn room(many: &Self::Many<'_>) -> usize;
+        /// Writes what one ray is answered with at place `index`.
+        #[cfg(feature = "std")]
+        fn write_one(many: &mut Self::Many<'_>, index: usize, one: Self::One);
         /// Writes the answers of packets from place `from` on, before place `to`. Where there are levels it is compiled for
         /// each; else it is a call, so that it is compiled with this crate: in a user's dev build it took longer than
         /// the rays.
@@ -174,6 +177,12 @@ impl Answers for ClosestHit {
         many.count()
     }
 
+    #[cfg(feature = "std")]
+    #[inline(always)]
+    fn write_one(many: &mut ManyHits<'_>, index: usize, one: Option<Hit>) {
+        many.set(index, one);
+    }
+
     #[cfg_attr(feature = "std", inline(always))]
     #[cfg_attr(not(feature = "std"), inline(never))]
     fn write(many: &mut ManyHits<'_>, packets: &[HitPacket], from: usize, to: usize) {
@@ -242,6 +251,14 @@ impl Answers for AnyHit {
     #[inline(always)]
     fn room(many: &&mut [bool]) -> usize {
         many.len()
+    }
+
+    #[cfg(feature = "std")]
+    #[inline(always)]
+    fn write_one(many: &mut &mut [bool], index: usize, one: bool) {
+        if let Some(occluded) = many.get_mut(index) {
+            *occluded = one;
+        }
     }
 
     #[cfg_attr(feature = "std", inline(always))]

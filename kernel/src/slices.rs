@@ -45,6 +45,11 @@ pub(crate) fn traverse<S: Traverse + ?Sized, Q: LevelQuery>(
     answers: Q::Many<'_>,
 ) {
     let count = rays.count().min(Q::room(&answers));
+    #[cfg(feature = "std")]
+    if count <= S::ONE_BY_ONE {
+        let mut answers = answers;
+        return one_by_one::<S, Q>(structure, tier, trace, (rays, 0, count), &mut answers);
+    }
     // Memory is cleared before it is used: for few rays that takes longer than they do.
     if count <= RayPacket::COUNT {
         windows::<S, Q, 1>(structure, tier, trace, (rays, count), answers);
@@ -52,6 +57,23 @@ pub(crate) fn traverse<S: Traverse + ?Sized, Q: LevelQuery>(
         windows::<S, Q, FEW>(structure, tier, trace, (rays, count), answers);
     } else {
         windows::<S, Q, PACKETS>(structure, tier, trace, (rays, count), answers);
+    }
+}
+
+/// Answers rays `from` to `to` one by one.
+#[cfg(feature = "std")]
+#[inline(always)]
+fn one_by_one<S: Traverse + ?Sized, Q: LevelQuery>(
+    structure: &S,
+    tier: impl Accuracy,
+    trace: &mut Trace<'_>,
+    (rays, from, to): (ManyRays<'_>, usize, usize),
+    answers: &mut Q::Many<'_>,
+) {
+    for index in from..to {
+        if let Some(ray) = rays.ray(index) {
+            Q::write_one(answers, index, structure.one::<Q>(tier, trace, &ray));
+        }
     }
 }
 
@@ -72,6 +94,10 @@ fn windows<S: Traverse + ?Sized, Q: LevelQuery, const AT_ONCE: usize>(
     // Chunks divide by their length, and where that is not seen to be a number, may panic.
     while from < count {
         let to = (from + packets_at_once * RayPacket::COUNT).min(count);
+        #[cfg(feature = "std")]
+        if to - from <= S::ONE_BY_ONE {
+            return one_by_one::<S, Q>(structure, tier, trace, (rays, from, to), &mut answers);
+        }
         let part = rays.part(from, to);
         structure.many_in_packets::<Q>(tier, trace, part, &mut packets, &mut answered);
         #[cfg(feature = "std")]
@@ -343,6 +369,12 @@ mod tests {
         let (mut hits, mut occluded) = ([None; 1027], [false; 1027]);
         tree.closest_hits(Exact, &rays, &mut hits);
         tree.any_hits(Exact, &rays, &mut occluded);
+        let together = |count| {
+            let (rays, mut hits) = (&rays[..count], [None; 1027]);
+            let work = Work::of(|| tree.closest_hits(Exact, rays, &mut hits));
+            [Kind::RayStacks, Kind::GroupNode].map(|kind| work.count(kind))
+        };
+        assert_eq!(together(1027), together(1024), "the last three go one by one");
         for number in 0..rays.len() {
             assert_eq!(hits[number].is_some(), number < 1024, "{number}");
             assert_eq!(occluded[number], number < 1024, "{number}");

@@ -26,6 +26,10 @@ use crate::trace::Trace;
 
 /// The traversals of a structure.
 pub trait Traverse {
+    /// So few rays of a call go one by one, where that is faster than together.
+    #[cfg(feature = "std")]
+    const ONE_BY_ONE: usize = 0;
+
     /// In lanes of any kind, compiled where it is called.
     fn in_lanes<L: Lanes, Q: Query>(
         &self,
@@ -221,16 +225,16 @@ macro_rules! traverse {
     };
 }
 
-/// So few rays of a call go one by one: what others go through clears 64 KiB first. (On a Zen 3 a call of one ray took 3 to 43
-/// times as long as [`one`](Traverse::one), of eight 1.2 to 4; now it is 1.1 to 3.3, and 1.0 to 1.3. Of sixteen a camera's
-/// go together in 0.5 to 0.8 of it.)
-#[cfg(feature = "std")]
-const ONE_BY_ONE: usize = 8;
-
 traverse!(Spheres<'_>, |spheres, trace| linear::traverse = list(*spheres));
 traverse!(DepthList<'_>, |list, trace| list_source::traverse = depth_list(list, trace.scratch));
 
 impl Traverse for Bvh<'_> {
+    /// What others go through clears 64 KiB first. (On a Zen 3 a call of one ray took 3 to 43 times as long as
+    /// [`one`](Traverse::one), of eight 1.2 to 4; by way of a packet 1.1 to 3.3, and 1.0 to 1.3; now 1.0 to 1.5, and 0.9 to 1.1. Of
+    /// sixteen a camera's go together in 0.5 to 0.8 of it.)
+    #[cfg(feature = "std")]
+    const ONE_BY_ONE: usize = 8;
+
     #[inline(always)]
     fn in_lanes<L: Lanes, Q: Query>(
         &self,
@@ -266,18 +270,6 @@ impl Traverse for Bvh<'_> {
         packets: &mut [RayPacket],
         answers: &mut [Q::Packet<[f32; 16]>],
     ) {
-        if rays.count() <= ONE_BY_ONE
-            && let (Some(packet), Some(answer)) = (packets.first_mut(), answers.first_mut())
-        {
-            crate::dispatch::compiled::fill(trace.level, rays, core::slice::from_mut(packet));
-            // What the rays before had is there still.
-            *answer = Q::none::<[f32; 16]>();
-            for lane in 0..rays.count() {
-                let one = self.one::<Q>(tier, trace, &packet.ray(lane));
-                Q::put(answer, lane, one);
-            }
-            return;
-        }
         let source = PacketSource::Rays(rays, packets);
         Q::tree(trace.level, tier.tier(), self, ways(trace), source, answers);
     }
@@ -365,8 +357,11 @@ impl Traverse for Bvh4<'_> {
 /// An owned structure, by what it lends.
 #[cfg(feature = "alloc")]
 macro_rules! traverse_as {
-    ($owned:ty, $lend:ident) => {
+    ($owned:ty, $lend:ident -> $lent:ty) => {
         impl Traverse for $owned {
+            #[cfg(feature = "std")]
+            const ONE_BY_ONE: usize = <$lent>::ONE_BY_ONE;
+
             #[inline(always)]
             fn in_lanes<L: Lanes, Q: Query>(
                 &self,
@@ -443,6 +438,6 @@ macro_rules! traverse_as {
 }
 
 #[cfg(feature = "alloc")]
-traverse_as!(crate::geometry::sphere_list::SphereList, spheres);
+traverse_as!(crate::geometry::sphere_list::SphereList, spheres -> Spheres<'_>);
 #[cfg(feature = "alloc")]
-traverse_as!(crate::bvh::owned::SphereTree, bvh);
+traverse_as!(crate::bvh::owned::SphereTree, bvh -> Bvh<'_>);

@@ -195,6 +195,17 @@ impl HitColumns<'_> {
         (hit.sphere != HitPacket::<[f32; 16]>::NO_SPHERE).then_some(hit)
     }
 
+    /// Writes what one ray hits at place `index`.
+    #[cfg(feature = "std")]
+    #[inline(always)]
+    pub(crate) fn set(&mut self, index: usize, one: Option<Hit>) {
+        let none = Hit { t: f32::INFINITY, sphere: HitPacket::<[f32; 16]>::NO_SPHERE };
+        let hit = one.unwrap_or(none);
+        if let (Some(t), Some(sphere)) = (self.t.get_mut(index), self.sphere.get_mut(index)) {
+            (*t, *sphere) = (hit.t, hit.sphere);
+        }
+    }
+
     /// Writes the hits of packets from place `from` on, before place `to`.
     #[inline(always)]
     pub(crate) fn write(&mut self, packets: &[HitPacket], from: usize, to: usize) {

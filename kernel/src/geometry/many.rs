@@ -32,6 +32,16 @@ impl ManyRays<'_> {
         }
     }
 
+    /// Ray `index`, if there is one.
+    #[cfg(feature = "std")]
+    #[inline(always)]
+    pub(crate) fn ray(&self, index: usize) -> Option<Ray> {
+        match self {
+            Self::Slice(rays) => rays.get(index).copied(),
+            Self::Columns(rays) => rays.ray(index),
+        }
+    }
+
     /// Fills packets with the rays from packet `first` on; lanes past the last ray are inactive.
     #[inline(always)]
     pub(crate) fn fill<L: Lanes>(
@@ -75,6 +85,20 @@ impl ManyHits<'_> {
         match self {
             Self::Slice(hits) => hits.len(),
             Self::Columns(hits) => hits.len(),
+        }
+    }
+
+    /// Writes what one ray hits at place `index`.
+    #[cfg(feature = "std")]
+    #[inline(always)]
+    pub(crate) fn set(&mut self, index: usize, one: Option<Hit>) {
+        match self {
+            Self::Slice(hits) => {
+                if let Some(hit) = hits.get_mut(index) {
+                    *hit = one;
+                }
+            }
+            Self::Columns(hits) => hits.set(index, one),
         }
     }
 
