@@ -86,7 +86,7 @@ fn windows<S: Traverse + ?Sized, Q: LevelQuery, const AT_ONCE: usize>(
     (rays, count): (ManyRays<'_>, usize),
     mut answers: Q::Many<'_>,
 ) {
-    let mut packets = [RayPacket::inactive(); AT_ONCE];
+    let mut packets = [RayPacket::BLANK; AT_ONCE];
     let mut answered = [Q::none::<[f32; 16]>(); AT_ONCE];
     let is_long = count >= (FIRST + AT_ONCE) * RayPacket::COUNT;
     let mut packets_at_once = if is_long { FIRST.min(AT_ONCE) } else { AT_ONCE };

@@ -97,6 +97,15 @@ pub struct RayPacket<A: LaneArray = [f32; 16]> {
 }
 
 impl<A: LaneArray> RayPacket<A> {
+    /// Memory for a packet: zeros, which are cleared faster than inactive rays are copied.
+    pub(crate) const BLANK: Self = Self {
+        alignment: A::ALIGNMENT,
+        origin: [A::ZEROS; 3],
+        direction: [A::ZEROS; 3],
+        t_min: A::ZEROS,
+        t_max: A::ZEROS,
+    };
+
     /// A packet whose every lane is [`Ray::INACTIVE`].
     ///
     /// ```
