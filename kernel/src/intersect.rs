@@ -269,6 +269,7 @@ pub trait Intersect: Traverse {
         rays: &[RayPacket],
         hits: &mut [HitPacket],
     ) {
+        trace.learnt.begin_call::<ClosestHit>(rays.len());
         self.in_packets::<ClosestHit>(tier, trace, rays, hits);
     }
 
@@ -290,6 +291,7 @@ pub trait Intersect: Traverse {
         rays: &[RayPacket],
         occluded: &mut [u32],
     ) {
+        trace.learnt.begin_call::<AnyHit>(rays.len());
         self.in_packets::<AnyHit>(tier, trace, rays, occluded);
     }
 
@@ -330,6 +332,7 @@ pub trait Intersect: Traverse {
         rays: &mut [RayPacket],
         hits: &mut [HitPacket],
     ) {
+        trace.learnt.begin_call::<ClosestHit>(rays.len());
         self.tiles_in_packets(tier, trace, tiles, rays, hits);
     }
 
@@ -354,6 +357,7 @@ pub trait Intersect: Traverse {
         rays: &[RayPacket<L::Array>],
         hits: &mut [HitPacket<L::Array>],
     ) {
+        trace.learnt.begin_call::<ClosestHit>(rays.len());
         self.in_lanes::<L, ClosestHit>(tier, token, trace, rays, hits);
     }
 
@@ -378,6 +382,7 @@ pub trait Intersect: Traverse {
         rays: &[RayPacket<L::Array>],
         occluded: &mut [u32],
     ) {
+        trace.learnt.begin_call::<AnyHit>(rays.len());
         self.in_lanes::<L, AnyHit>(tier, token, trace, rays, occluded);
     }
 
@@ -393,6 +398,7 @@ pub trait Intersect: Traverse {
         rays: &mut [RayPacket<L::Array>],
         hits: &mut [HitPacket<L::Array>],
     ) {
+        trace.learnt.begin_call::<ClosestHit>(rays.len());
         self.tiles_in_lanes::<L>(tier, token, trace, tiles, rays, hits);
     }
 }

@@ -50,6 +50,7 @@ pub(crate) fn traverse<S: Traverse + ?Sized, Q: LevelQuery>(
         let mut answers = answers;
         return one_by_one::<S, Q>(structure, tier, trace, (rays, 0, count), &mut answers);
     }
+    trace.learnt.begin_call::<Q>(count.div_ceil(RayPacket::COUNT));
     // Memory is cleared before it is used: for few rays that takes longer than they do.
     if count <= RayPacket::COUNT {
         windows::<S, Q, 1>(structure, tier, trace, (rays, count), answers);

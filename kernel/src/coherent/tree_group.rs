@@ -92,6 +92,12 @@ impl Ended {
     pub(super) fn is_answered(self) -> bool {
         matches!(self, Self::Through | Self::AtALoss)
     }
+
+    /// Whether more was done than its rays would have done apart.
+    #[inline(always)]
+    pub(super) fn is_in_vain(self) -> bool {
+        matches!(self, Self::AtALoss | Self::GaveUp)
+    }
 }
 
 /// The boxes that are yet to be looked into, the nearest on top.

@@ -166,8 +166,8 @@ const KINDS: usize = if cfg!(feature = "alloc") { 2 } else { 1 };
 /// What is learnt of rays as they come: which of them pay together.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Learnt {
-    groups: Patience,
-    packets: Patience,
+    groups: [Patience; KINDS],
+    packets: [Patience; KINDS],
     sharing: [Sharing; KINDS],
     /// Of the last packets how many went by themselves, and how many they were.
     #[cfg(feature = "alloc")]
@@ -177,12 +177,20 @@ pub(crate) struct Learnt {
 impl Learnt {
     /// Nothing.
     pub(crate) const NOTHING: Self = Self {
-        groups: Patience::NEW,
-        packets: Patience::NEW,
+        groups: [Patience::NEW; KINDS],
+        packets: [Patience::NEW; KINDS],
         sharing: [Sharing::NOTHING; KINDS],
         #[cfg(feature = "alloc")]
         apart: [0; 2],
     };
+
+    /// Begins a call of so many packets.
+    #[inline(always)]
+    pub(crate) fn begin_call<Q: Query>(&mut self, packets: usize) {
+        let (kind, groups) = (usize::from(Q::ANY) % KINDS, packets.div_ceil(GROUP));
+        self.groups[kind].begin(groups);
+        self.packets[kind].begin(groups);
+    }
 
     /// How many of the next rays, of which there are so many, a call likes to have at once: more than few where some go by
     /// themselves, and a stream of them may pay.
@@ -225,12 +233,13 @@ impl Together<'_> {
         apart: &mut Apart,
     ) {
         let nobody = RayPacket::inactive();
+        let kind = usize::from(Q::ANY) % KINDS;
         let mut at = run.start;
         while at < run.end {
             let end = run.end.min(at + GROUP);
             let are_tiles = source.make::<L>(token, at..end);
-            let tries_group = self.learnt.groups.tries();
-            let tries_packets = self.learnt.packets.tries();
+            let tries_group = self.learnt.groups[kind].tries();
+            let tries_packets = self.learnt.packets[kind].tries();
             let mut ends = [Ended::Unfit; GROUP];
             if tries_group | tries_packets {
                 let packets = source.packets(at..end);
@@ -242,7 +251,7 @@ impl Together<'_> {
                 if !tries_group {
                     (to, alone) = (1, true);
                 }
-                let mut paid = false;
+                let (mut paid, mut in_vain) = (false, false);
                 while place < to {
                     // Those that gave up have taken what was known.
                     let from =
@@ -258,13 +267,15 @@ impl Together<'_> {
                         }
                     }
                     if !alone {
-                        self.learnt.groups.take(ended == Ended::Through, self.longest);
+                        let outcome = (ended == Ended::Through, ended.is_in_vain());
+                        self.learnt.groups[kind].take(outcome, self.longest);
                         if ended.is_answered() || !tries_packets || states.len() < 2 {
                             break;
                         }
                         (place, to, alone) = (0, 1, true);
                     } else {
                         paid |= ended == Ended::Through;
+                        in_vain |= ended.is_in_vain();
                         // Where the first is too wide, so are most.
                         if ended == Ended::GaveUp && place == 0 {
                             break;
@@ -273,7 +284,7 @@ impl Together<'_> {
                     }
                 }
                 if alone {
-                    self.learnt.packets.take(paid, self.longest);
+                    self.learnt.packets[kind].take((paid, in_vain), self.longest);
                 }
                 for place in 0..states.len() {
                     if let (Some(state), Some(answer)) =

@@ -10,6 +10,7 @@ mod derived;
 mod integers;
 mod lanes;
 pub(crate) mod limbs;
+mod one_trace;
 mod polynomial;
 mod recorded;
 mod rows;
