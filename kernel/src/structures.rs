@@ -256,7 +256,13 @@ impl Traverse for Bvh<'_> {
         answers: &mut [Q::Packet<[f32; 16]>],
     ) {
         #[cfg(feature = "std")]
-        Q::tree(trace.level, tier.tier(), self, ways(trace), PacketSource::Packets(rays), answers);
+        {
+            let (mut alone, source) = (0, PacketSource::Packets(rays));
+            let level = trace.level;
+            let ways = Ways { alone: of_few(rays.len(), &mut alone), ..ways(trace) };
+            Q::tree(level, tier.tier(), self, ways, source, answers);
+            one_by_one::<Q>(self, tier, trace, (rays, alone), answers);
+        }
         #[cfg(not(feature = "std"))]
         of_the_build::<Self, Q>(self, tier, trace, rays, answers);
     }
@@ -270,8 +276,12 @@ impl Traverse for Bvh<'_> {
         packets: &mut [RayPacket],
         answers: &mut [Q::Packet<[f32; 16]>],
     ) {
-        let source = PacketSource::Rays(rays, packets);
-        Q::tree(trace.level, tier.tier(), self, ways(trace), source, answers);
+        let (level, mut alone) = (trace.level, 0);
+        let count = rays.count().div_ceil(RayPacket::COUNT);
+        let ways = Ways { alone: of_few(count, &mut alone), ..ways(trace) };
+        let source = PacketSource::Rays(rays, &mut *packets);
+        Q::tree(level, tier.tier(), self, ways, source, answers);
+        one_by_one::<Q>(self, tier, trace, (packets, alone), answers);
     }
 
     #[cfg(feature = "alloc")]
@@ -326,6 +336,44 @@ fn ways<'t>(trace: &'t mut Trace<'_>) -> Ways<'t> {
         #[cfg(feature = "alloc")]
         kept: &mut trace.kept,
         learnt: &mut trace.learnt,
+        #[cfg(feature = "std")]
+        alone: None,
+    }
+}
+
+/// So few packets: their rays go one by one if they do not go together. (Among 300, 20,000 and 300,000 spheres, calls of 12 to 48
+/// rays that have nothing in common took 1.1 to 2.4 times as long as one by one on a Zen 3: of stacks that are laid out for
+/// many rays, few make use.)
+#[cfg(feature = "std")]
+const FEW: usize = 4;
+
+/// Where few packets that do not go together are noted; `None` if they are many.
+#[cfg(feature = "std")]
+fn of_few(packets: usize, alone: &mut u32) -> Option<&mut u32> {
+    (packets <= FEW).then_some(alone)
+}
+
+/// Answers the rays of packets that are `alone`, a bit each.
+#[cfg(feature = "std")]
+fn one_by_one<Q: LevelQuery>(
+    bvh: &Bvh<'_>,
+    tier: impl Accuracy,
+    trace: &mut Trace<'_>,
+    (rays, alone): (&[RayPacket], u32),
+    answers: &mut [Q::Packet<[f32; 16]>],
+) {
+    for (number, (packet, answer)) in rays.iter().zip(answers).take(FEW).enumerate() {
+        if alone >> number & 1 == 0 {
+            continue;
+        }
+        // What the rays before had, or a group found, is there still.
+        *answer = Q::none::<[f32; 16]>();
+        let mut live = packet.live();
+        while live != 0 {
+            let lane = live.trailing_zeros() as usize;
+            live &= live - 1;
+            Q::put(answer, lane, bvh.one::<Q>(tier, trace, &packet.ray(lane)));
+        }
     }
 }
 

@@ -38,6 +38,9 @@ pub struct Ways<'a> {
     #[cfg(feature = "alloc")]
     pub(crate) kept: &'a mut KeptMemory,
     pub(crate) learnt: &'a mut Learnt,
+    /// Of few packets: those that do not go together are left to the caller, a bit each.
+    #[cfg(feature = "std")]
+    pub(crate) alone: Option<&'a mut u32>,
 }
 
 impl Ways<'_> {
@@ -120,6 +123,15 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
             continue;
         }
         let whole = if apart.are_all { end } else { run };
+        #[cfg(feature = "std")]
+        if let Some(alone) = &mut ways.alone {
+            for number in from..end {
+                let is_alone = number < whole || apart.packets.contains(number - run);
+                **alone |= u32::from(is_alone) << (number % 32);
+            }
+            (from, run) = (end, end);
+            continue;
+        }
         // One call, since it is compiled where it is called.
         let runs = [(from, whole, None), (whole, end, Some(&apart.packets))];
         for number in 0..runs.len() {

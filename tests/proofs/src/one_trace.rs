@@ -3,7 +3,7 @@
 use super::climb::Random;
 use super::work::{Kind, Work};
 use crate::bvh::owned::SphereTree;
-use crate::{Exact, Intersect, Ray, Trace, Vec3};
+use crate::{Exact, HitPacket, Intersect, Ray, RayPacket, Trace, Vec3};
 use std::vec;
 use std::vec::Vec;
 
@@ -97,4 +97,29 @@ fn any_hits_and_closest_hits_learn_apart() {
     calls.occluded(&mut trace, &beam);
     let fresh = calls.groups(&mut Trace::new(), &camera);
     assert_eq!(calls.groups(&mut trace, &camera), fresh);
+}
+
+#[test]
+fn few_rays_that_do_not_go_together_go_one_by_one() {
+    let mut calls = Calls::new();
+    for (count, stacks) in [(9, false), (16, false), (64, false), (65, true), (80, true)] {
+        let rays = calls.bounces(count);
+        let expected: Vec<_> = rays.iter().map(|ray| calls.tree.closest_hit(Exact, ray)).collect();
+        for trace in [Trace::new(), Trace::new().coherent(), Trace::new().incoherent()] {
+            let (mut trace, mut hits) = (trace, vec![None; count]);
+            let tree = &calls.tree;
+            let work = Work::of(|| tree.closest_hits_with(Exact, &mut trace, &rays, &mut hits));
+            assert_eq!(work.count(Kind::RayStacks) > 0, stacks, "{count}, {:?}", trace.coherence);
+            assert_eq!(hits, expected, "{count}");
+
+            let packets: Vec<_> = rays.chunks(16).map(RayPacket::new).collect();
+            let mut found = vec![HitPacket::none(); packets.len()];
+            let work = Work::of(|| {
+                tree.closest_hit_packets(Exact, &mut trace, &packets, &mut found);
+            });
+            assert_eq!(work.count(Kind::RayStacks) > 0, stacks, "packets of {count}");
+            let found: Vec<_> = found.iter().flat_map(HitPacket::hits).take(count).collect();
+            assert_eq!(found, expected, "packets of {count}");
+        }
+    }
 }
