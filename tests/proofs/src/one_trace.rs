@@ -112,8 +112,13 @@ fn few_rays_that_do_not_go_together_go_one_by_one() {
             assert_eq!(work.count(Kind::RayStacks) > 0, stacks, "{count}, {:?}", trace.coherence);
             assert_eq!(hits, expected, "{count}");
 
-            let packets: Vec<_> = rays.chunks(16).map(RayPacket::new).collect();
+            let packed = |rays: &[Ray]| rays.chunks(16).map(RayPacket::new).collect::<Vec<_>>();
+            let (packets, others) = (packed(&rays), packed(&calls.beam(count)));
             let mut found = vec![HitPacket::none(); packets.len()];
+            // What others hit must not show.
+            let tree = &calls.tree;
+            tree.closest_hit_packets(Exact, &mut Trace::new(), &others, &mut found);
+            assert!(found.iter().flat_map(HitPacket::hits).any(|hit| hit.is_some()));
             let work = Work::of(|| {
                 tree.closest_hit_packets(Exact, &mut trace, &packets, &mut found);
             });
