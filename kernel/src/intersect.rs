@@ -121,9 +121,9 @@ pub trait Intersect: Traverse {
 
     /// The closest hit of every ray: `hits[i]` becomes what `rays[i]` hits, `None` if that is nothing.
     ///
-    /// Rays may come in any order: a tree finds out which of them gain by going together; up to eight go one by one, as do those of up to 64 that do not gain. With `alloc`, a call of 17,408
-    /// rays or more takes 3.5 MB, if they have nothing in common and the tree is one where streams are faster; without
-    /// that memory it does without.
+    /// Rays may come in any order: a tree finds out which of them gain by going together. Up to eight go one by one; of up to
+    /// 64 those that do not gain. With `alloc`, a call of 17,408 rays or more takes 3.5 MB, if they have nothing in common
+    /// and the tree is one where streams are faster; without that memory it does without.
     ///
     /// ```
     /// use spherule_kernel::{Intersect, Ray, Spheres, Stable, Vec3};
