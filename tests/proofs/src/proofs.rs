@@ -10,6 +10,8 @@ mod derived;
 mod integers;
 mod lanes;
 pub(crate) mod limbs;
+// Few rays go one by one where there are levels.
+#[cfg(feature = "std")]
 mod one_trace;
 mod polynomial;
 mod recorded;
