@@ -230,7 +230,7 @@ traverse!(DepthList<'_>, |list, trace| list_source::traverse = depth_list(list, 
 
 impl Traverse for Bvh<'_> {
     /// What others go through clears 64 KiB first. (On a Zen 3 a call of one ray took 3 to 43 times as long as
-    /// [`one`](Traverse::one), of eight 1.2 to 4; by way of a packet 1.1 to 3.3, and 1.0 to 1.3; now 1.0 to 1.5, and 0.9 to 1.1. Of
+    /// [`one`](Traverse::one), of eight 1.2 to 4; by way of a packet 1.1 to 3.3, and 1.0 to 1.3; now 0.7 to 1.5, and 0.7 to 1.2. Of
     /// sixteen a camera's go together in 0.5 to 0.8 of it.)
     #[cfg(feature = "std")]
     const ONE_BY_ONE: usize = 8;

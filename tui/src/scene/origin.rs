@@ -15,6 +15,9 @@ pub(super) const FIRST: usize = 16;
 /// more than this width.
 const FAR: f64 = 4096.0;
 
+/// Positions from an origin this far away, or farther, might leave single precision at the other end of its range.
+const TOO_FAR: f64 = 1e30;
+
 /// Where positions are to be counted from, of a scene that begins with spheres at `centers`, with `radii` as far as these
 /// are known (NaN: not). A point of single precision: few digits, for people.
 pub(super) fn origin(centers: &[DVec3], radii: &[f32]) -> DVec3 {
@@ -24,7 +27,8 @@ pub(super) fn origin(centers: &[DVec3], radii: &[f32]) -> DVec3 {
     let width = (bounds(DVec3::max) - bounds(DVec3::min)).max_element().max(2.0 * f64::from(known));
     let distance = bounds(|a, b| a.abs().min(b.abs())).abs().max_element();
     // Of spheres without a radius at one place nothing says how wide things are.
-    if width > 0.0 && distance > FAR * width { first.as_vec3().as_dvec3() } else { DVec3::ZERO }
+    let is_far = width > 0.0 && distance > FAR * width && distance < TOO_FAR;
+    if is_far { first.as_vec3().as_dvec3() } else { DVec3::ZERO }
 }
 
 #[cfg(test)]
@@ -48,6 +52,17 @@ mod tests {
         assert_eq!(origin(&[HOUSE, DVec3::ZERO, HOUSE], &[]), DVec3::ZERO);
         assert_eq!(origin(&[HOUSE, HOUSE], &[f32::NAN, 700.0]), DVec3::ZERO);
         assert_ne!(origin(&[HOUSE, HOUSE], &[f32::NAN, 600.0]), DVec3::ZERO);
+    }
+
+    #[test]
+    fn what_may_be_at_both_ends_of_the_range_stays() {
+        let at = |x: f64| [DVec3::new(x, 0.0, 0.0), DVec3::new(x, 1e20, 0.0)];
+        assert_eq!(origin(&at(1.1e30), &[]), DVec3::ZERO);
+        assert_eq!(origin(&at(f32::MAX.into()), &[]), DVec3::ZERO);
+        let origin = origin(&at(0.9e30), &[]);
+        assert!(
+            origin.x > 8e29 && (DVec3::splat(-f64::from(f32::MAX)) - origin).as_vec3().is_finite()
+        );
     }
 
     #[test]
