@@ -14,8 +14,16 @@ fn assert_as_list(tree: &impl Intersect, list: &SphereList, tiers: &[Tier], rays
         let mut expected = vec![None; rays.len()];
         list.closest_hits(tier, rays, &mut expected);
         for level in levels() {
+            let level = Level::named(level).expect("of this CPU");
+            for (ray, expected) in rays.iter().zip(&expected) {
+                let mut trace = Trace::new().at(level);
+                let context = format!("{tier:?}, {level:?}, one ray a call: {ray:?}");
+                let hit = tree.closest_hit_with(tier, &mut trace, ray);
+                assert_eq!(bits(hit), bits(*expected), "{context}");
+                let occluded = tree.any_hit_with(tier, &mut trace, ray);
+                assert_eq!(occluded, expected.is_some(), "{context}");
+            }
             for coherence in [Coherence::Incoherent, Coherence::Coherent, Coherence::Detect] {
-                let level = Level::named(level).expect("of this CPU");
                 let mut trace = Trace::new().at(level).with(coherence);
                 let (mut hits, mut occluded) = (vec![None; rays.len()], vec![false; rays.len()]);
                 tree.closest_hits_with(tier, &mut trace, rays, &mut hits);
@@ -78,6 +86,29 @@ fn repeated_moves_of_every_kind() {
                 assert!(growth.is_finite() && growth > 0.0, "{growth}");
                 assert!(how != 7 || growth == 1.0, "back at the start: {growth}");
                 assert_as_list(&tree, &SphereList::from(&now), &[Tier::Exact], &rays);
+            }
+        }
+    }
+}
+
+/// Alone in its tree, a sphere is tested without a bound: not where it has become none.
+#[test]
+fn one_sphere_becomes_none_and_returns() {
+    let rays = rays();
+    for sphere in
+        [[0.0, 0.0, 0.0, 0.3], [0.1, -0.2, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0]].map(Sphere::from)
+    {
+        let mut tree = SphereTree::new([sphere].as_slice());
+        for number in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1.0, 3e38] {
+            for becomes in [
+                Sphere { radius: number, ..sphere },
+                Sphere { center: Vec3::new(number, 0.0, 0.0), ..sphere },
+                Sphere { center: Vec3::new(0.0, 0.0, number), radius: number },
+                sphere,
+            ] {
+                tree.refit([becomes].as_slice()).expect("as many");
+                let list = SphereList::from([becomes]);
+                assert_as_list(&tree, &list, &[Tier::Exact], &rays);
             }
         }
     }

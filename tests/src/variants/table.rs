@@ -93,7 +93,10 @@ pub fn variants() -> impl Iterator<Item = Variant> {
         .chain(of(Structure::Tree(Coherence::Detect), plain.to_vec()))
         .chain(of(Structure::Tree(Coherence::Coherent), all(&[1, 8])))
         .chain(of(Structure::Tree(Coherence::Incoherent), all(&[1, 8])))
-        .chain(of(Structure::Refitted(Coherence::Detect), vec![Layer::Slice, Layer::Lanes(1)]))
+        .chain(of(
+            Structure::Refitted(Coherence::Detect),
+            vec![Layer::Ray, Layer::Slice, Layer::Lanes(1)],
+        ))
         .chain(of(
             Structure::Refitted(Coherence::Incoherent),
             levels().map(Layer::Packets).collect(),
