@@ -78,9 +78,10 @@ fn search<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
     if !rays.live {
         return *one = Q::one(&search.answer, 0);
     }
-    // A sphere by itself: to look at it costs as much as to test it.
+    // A sphere by itself: to look at it costs as much as to test it. (A refit may have made it none, which nothing but
+    // its bounds would say: then no box has an extent.)
     if let [_, u32::MAX, u32::MAX, u32::MAX] = bvh.indices
-        && bvh.root != NO_CHILD
+        && bvh.extent > 0.0
         && bvh.outside.is_empty()
     {
         search.places[0] = place_of(bvh.root & !LEAF, 0);
