@@ -201,6 +201,14 @@ impl SceneArguments {
         let mut subject = self.file.open(&self.name)?;
         let set = self.set_radii(&mut subject.scene);
         set.map_err(|error| Error::Input(format!("{}: {error}", self.name)))?;
+        let Subject { scene, frames, .. } = &mut subject;
+        if let Some(frames) = frames
+            && scene.spheres().iter().all(|sphere| sphere.radius == 0.0)
+        {
+            frames
+                .note("every radius is 0, so no sphere is seen; --radius sets another".to_owned());
+            frames.report();
+        }
         Ok(subject)
     }
 

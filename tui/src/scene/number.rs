@@ -1,6 +1,7 @@
 //! Numbers in text, fast: most have few digits, and are exact by one division.
 
-/// The number that `word` is, as the standard library reads it: the nearest `f64`. `None` if it is none.
+/// The number that `word` is, as the standard library reads it: the nearest `f64`. `None` if it is none. An exponent may
+/// also follow a `D`, as Fortran writes double precision.
 ///
 /// Where the digits make an integer below 2^53 and the power of ten is at most 22, both are exact in `f64`, and so one
 /// rounding makes the nearest (W. D. Clinger, "How to read floating point numbers accurately", PLDI 1990). All else
@@ -50,7 +51,12 @@ pub(super) fn leading(text: &[u8]) -> Option<(f64, usize)> {
 
 #[cold]
 fn slowly(word: &[u8]) -> Option<f64> {
-    std::str::from_utf8(word).ok()?.parse().ok()
+    let text = std::str::from_utf8(word).ok()?;
+    text.parse().ok().or_else(|| {
+        let is_power = |exponent: &str| exponent.parse::<i32>().is_ok();
+        let (mantissa, exponent) = text.split_once(['D', 'd'])?;
+        if is_power(exponent) { format!("{mantissa}e{exponent}").parse().ok() } else { None }
+    })
 }
 
 const POWERS: [f64; 23] = [
@@ -65,10 +71,19 @@ mod tests {
 
     #[test]
     fn what_is_no_number() {
-        for word in
-            ["", "-", ".", "+-1", "1-", "1.2.3", "0x1", "1e", "1_0", "--1", " 1", "\u{ff11}"]
-        {
+        for word in [
+            "", "-", ".", "+-1", "1-", "1.2.3", "0x1", "1e", "1_0", "--1", " 1", "\u{ff11}", "1D",
+            "D1", "1e1D1", "1D1D1", "1D1.5", "infD1", "nand1",
+        ] {
             assert_eq!(number(word.as_bytes()), None, "{word}");
+        }
+    }
+
+    #[test]
+    fn exponents_as_fortran_writes_them() {
+        for (word, value) in [("0.1D+01", 1.0), ("-2.5d-3", -0.0025), (".5D2", 50.0), ("1D0", 1.0)]
+        {
+            assert_eq!(number(word.as_bytes()), Some(value), "{word}");
         }
     }
 

@@ -68,6 +68,35 @@ fn what_is_unknown_or_ignored_is_said_once() {
     );
 }
 
+/// Nothing is to be seen then, and that is no error: so it is said.
+#[test]
+fn spheres_without_a_size_are_said() {
+    for (name, text) in [
+        ("sizeless.csv", "x,y,z,radius\n1,2,3,0\n4,5,6,0\n"),
+        ("sizeless.toml", "[[sphere]]\ncenter = [0, 0, 0]\nradius = 0.0\n"),
+    ] {
+        let path = file(name, text.as_bytes());
+        let said = |options| {
+            let output = with(&path, options);
+            assert!(output.status.success());
+            stderr(&output)
+        };
+        assert!(
+            said("--size 20x5")
+                .ends_with(": every radius is 0, so no sphere is seen; --radius sets another\n")
+        );
+        assert_eq!(said("--size 20x5 --radius 0.5"), "");
+    }
+}
+
+#[test]
+fn lengths_in_two_units_are_refused() {
+    let path = file("units.csv", b"x (m),y (m),z (m),radius (mm)\n1,2,3,4\n");
+    let said = refusal(&with(&path, ""));
+    assert!(said.contains("units.csv:1:1: lengths in \"(m)\" and in \"(mm)\""), "{said}");
+    assert!(with(&path, "--columns x,y,z").status.success());
+}
+
 #[test]
 fn options_that_a_file_has_no_use_for() {
     let path = file("options.xyz", b"1\n\nC 0 0 0\n");

@@ -1,7 +1,7 @@
 //! Tables: a line a particle, columns between commas, tabs, semicolons or spaces, with a header or without.
 //!
 //! A header names `x`, `y`, `z`, and perhaps `radius`, `r`, `g`, `b` or `red`, `green`, `blue`, and `element` or `type`;
-//! other columns of numbers can be chosen for colours. Without a header the first three are positions and a fourth the
+//! other columns of numbers can be chosen for colours. A unit in brackets may follow a name, as in `x (mm)`. Without a header the first three are positions and a fourth the
 //! radius. `--columns` says otherwise, by names or by numbers from 1. Lines that begin with `#` are passed over, except
 //! that the first may be the header.
 
@@ -208,9 +208,23 @@ pub(super) fn has_axes(names: &[&[u8]]) -> bool {
 }
 
 fn find(names: &[&[u8]], wanted: &[&str]) -> Option<usize> {
+    let find_by = |wanted: &str, part: fn(&[u8]) -> &[u8]| {
+        names.iter().position(|name| part(name).eq_ignore_ascii_case(wanted.as_bytes()))
+    };
     wanted.iter().find_map(|wanted| {
-        names.iter().position(|name| name.eq_ignore_ascii_case(wanted.as_bytes()))
+        find_by(wanted, |name| name).or_else(|| find_by(wanted, |name| with_unit(name).0))
     })
+}
+
+fn unit_or_none(unit: &[u8]) -> String {
+    if unit.is_empty() { "no unit".to_owned() } else { excerpt(unit) }
+}
+
+/// The name of a column, and the unit in brackets behind it: none is empty.
+fn with_unit(name: &[u8]) -> (&[u8], &[u8]) {
+    let at = name.iter().position(|byte| matches!(byte, b'(' | b'[')).unwrap_or(name.len());
+    let (name, unit) = name.split_at(at);
+    (name.trim_ascii_end(), unit.trim_ascii())
 }
 
 impl Columns {
@@ -259,6 +273,17 @@ impl Columns {
                 };
                 columns.position = [x, y, z];
                 columns.radius = named(&["radius", "rad"]);
+                let lengths = columns.position.into_iter().chain(columns.radius);
+                let mut units = lengths.map(|column| with_unit(names[column]).1);
+                let first = units.next().unwrap_or_default();
+                if let Some(other) = units.find(|unit| *unit != first) {
+                    let what = format!(
+                        "lengths in {} and in {}; nothing is converted, --columns takes them as they are",
+                        unit_or_none(first),
+                        unit_or_none(other)
+                    );
+                    return Err(line.error(0, what));
+                }
             }
             None if names.len() < 3 => {
                 return Err(line.error(0, format!("{} columns; positions are three", names.len())));
