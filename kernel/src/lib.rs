@@ -26,6 +26,7 @@ mod lanes;
 mod linear;
 mod memory;
 mod numeric;
+mod packets;
 mod query;
 mod scale;
 mod slices;
@@ -61,8 +62,10 @@ pub use lanes::{DoubleLanes, LaneArray, LaneMask, Lanes};
 pub use linear::{Writes, compare_hits, discriminant, object_lanes, pair_lanes, roots};
 pub use memory::TooSmall;
 pub use numeric::float_environment::float_environment_is_sound;
+pub use packets::{
+    object_packets, pair_packets, pairs, shadow_packets, surface_packets, tile_rays,
+};
 pub use query::{AnyHit, ClosestHit, Query};
-pub use slices::{object_packets, pair_packets, pairs, shadow_packets, surface_packets, tile_rays};
 pub use spawn_ray::packets::{SurfaceHit, SurfaceHits, Towards, shadow_lanes};
 pub use spawn_ray::{Side, side};
 #[cfg(feature = "stages")]

@@ -1,15 +1,11 @@
 //! The scene structures, by the traversals that they have.
 
+mod tree;
+
 use crate::Accuracy;
-use crate::bvh::StreamMemory;
-use crate::bvh::tree::Bvh;
 use crate::bvh4::{Bvh4, walk};
-#[cfg(feature = "alloc")]
-use crate::coherence::Coherence;
 use crate::coherent::depth_list::DepthList;
-use crate::coherent::packet_source::PacketSource;
-use crate::coherent::tree_source::Ways;
-use crate::coherent::{list_source, tree_source};
+use crate::coherent::list_source;
 #[cfg(not(feature = "std"))]
 use crate::dispatch::BuildLanes;
 #[cfg(feature = "std")]
@@ -228,155 +224,6 @@ macro_rules! traverse {
 traverse!(Spheres<'_>, |spheres, trace| linear::traverse = list(*spheres));
 traverse!(DepthList<'_>, |list, trace| list_source::traverse = depth_list(list, trace.scratch));
 
-impl Traverse for Bvh<'_> {
-    /// What others go through clears 64 KiB first. (On a Zen 3 a call of one ray took 3 to 43 times as long as
-    /// [`one`](Traverse::one), of eight 1.2 to 4; by way of a packet 1.1 to 3.3, and 1.0 to 1.3; now 0.7 to 1.5, and 0.7 to 1.2. Of
-    /// sixteen a camera's go together in 0.5 to 0.8 of it.)
-    #[cfg(feature = "std")]
-    const ONE_BY_ONE: usize = 8;
-
-    #[inline(always)]
-    fn in_lanes<L: Lanes, Q: Query>(
-        &self,
-        tier: impl Accuracy,
-        token: L::Token,
-        trace: &mut Trace<'_>,
-        rays: &[RayPacket<L::Array>],
-        answers: &mut [Q::Packet<L::Array>],
-    ) {
-        let source = PacketSource::Packets(rays);
-        tree_source::traverse::<L, Q>(tier, token, self, ways(trace), source, answers);
-    }
-
-    fn in_packets<Q: LevelQuery>(
-        &self,
-        tier: impl Accuracy,
-        trace: &mut Trace<'_>,
-        rays: &[RayPacket],
-        answers: &mut [Q::Packet<[f32; 16]>],
-    ) {
-        #[cfg(feature = "std")]
-        {
-            let (mut alone, source) = (0, PacketSource::Packets(rays));
-            let level = trace.level;
-            let ways = Ways { alone: of_few(rays.len(), &mut alone), ..ways(trace) };
-            Q::tree(level, tier.tier(), self, ways, source, answers);
-            one_by_one::<Q>(self, tier, trace, (rays, alone), answers);
-        }
-        #[cfg(not(feature = "std"))]
-        of_the_build::<Self, Q>(self, tier, trace, rays, answers);
-    }
-
-    #[cfg(feature = "std")]
-    fn many_in_packets<Q: LevelQuery>(
-        &self,
-        tier: impl Accuracy,
-        trace: &mut Trace<'_>,
-        rays: ManyRays<'_>,
-        packets: &mut [RayPacket],
-        answers: &mut [Q::Packet<[f32; 16]>],
-    ) {
-        let (level, mut alone) = (trace.level, 0);
-        let count = rays.count().div_ceil(RayPacket::COUNT);
-        let ways = Ways { alone: of_few(count, &mut alone), ..ways(trace) };
-        let source = PacketSource::Rays(rays, &mut *packets);
-        Q::tree(level, tier.tier(), self, ways, source, answers);
-        one_by_one::<Q>(self, tier, trace, (packets, alone), answers);
-    }
-
-    #[cfg(feature = "alloc")]
-    fn many_at_once<Q: LevelQuery>(&self, trace: &Trace<'_>, rays: usize) -> Option<usize> {
-        // What is said to be incoherent goes as a stream in memory that is lent.
-        let is_asked = trace.stream.is_none() && trace.coherence != Coherence::Incoherent;
-        if is_asked { trace.learnt.many_at_once::<Q>(self, rays) } else { None }
-    }
-
-    #[cfg(feature = "std")]
-    #[inline]
-    fn one<Q: LevelQuery>(&self, tier: impl Accuracy, trace: &mut Trace<'_>, ray: &Ray) -> Q::One {
-        let mut answer = Q::one(&Q::none::<[f32; 1]>(), 0);
-        Q::one_ray(trace.level, tier.tier(), self, ray, &mut answer);
-        answer
-    }
-
-    #[inline(always)]
-    fn tiles_in_lanes<L: Lanes>(
-        &self,
-        tier: impl Accuracy,
-        token: L::Token,
-        trace: &mut Trace<'_>,
-        tiles: CameraTiles<'_>,
-        rays: &mut [RayPacket<L::Array>],
-        hits: &mut [HitPacket<L::Array>],
-    ) {
-        let source = PacketSource::Tiles(tiles, rays);
-        tree_source::traverse::<L, ClosestHit>(tier, token, self, ways(trace), source, hits);
-    }
-
-    #[cfg(feature = "std")]
-    fn tiles_in_packets(
-        &self,
-        tier: impl Accuracy,
-        trace: &mut Trace<'_>,
-        tiles: CameraTiles<'_>,
-        rays: &mut [RayPacket],
-        hits: &mut [HitPacket],
-    ) {
-        let source = PacketSource::Tiles(tiles, rays);
-        <ClosestHit as Compiled>::tree(trace.level, tier.tier(), self, ways(trace), source, hits);
-    }
-}
-
-/// What a tree asks of a trace.
-#[inline(always)]
-fn ways<'t>(trace: &'t mut Trace<'_>) -> Ways<'t> {
-    Ways {
-        coherence: trace.coherence,
-        lent: trace.stream.as_mut().map(StreamMemory::again),
-        #[cfg(feature = "alloc")]
-        kept: &mut trace.kept,
-        learnt: &mut trace.learnt,
-        #[cfg(feature = "std")]
-        alone: None,
-    }
-}
-
-/// So few packets: their rays go one by one if they do not go together. (Among 300, 20,000 and 300,000 spheres, calls of 12 to 48
-/// rays that have nothing in common took 1.1 to 2.4 times as long as one by one on a Zen 3: of stacks that are laid out for
-/// many rays, few make use.)
-#[cfg(feature = "std")]
-const FEW: usize = 4;
-
-/// Where few packets that do not go together are noted; `None` if they are many.
-#[cfg(feature = "std")]
-fn of_few(packets: usize, alone: &mut u32) -> Option<&mut u32> {
-    (packets <= FEW).then_some(alone)
-}
-
-/// Answers the rays of packets that are `alone`, a bit each.
-#[cfg(feature = "std")]
-fn one_by_one<Q: LevelQuery>(
-    bvh: &Bvh<'_>,
-    tier: impl Accuracy,
-    trace: &mut Trace<'_>,
-    (rays, alone): (&[RayPacket], u32),
-    answers: &mut [Q::Packet<[f32; 16]>],
-) {
-    for (number, (packet, answer)) in rays.iter().zip(answers).take(FEW).enumerate() {
-        if alone >> number & 1 == 0 {
-            continue;
-        }
-        // What the rays before had, or a group found, is there still.
-        *answer = Q::none::<[f32; 16]>();
-        let mut live = packet.live();
-        while live != 0 {
-            let lane = live.trailing_zeros() as usize;
-            live &= live - 1;
-            Q::put(answer, lane, bvh.one::<Q>(tier, trace, &packet.ray(lane)));
-        }
-    }
-}
-
 /// In one lane, whatever the level.
 impl Traverse for Bvh4<'_> {
     #[inline(always)]
@@ -488,4 +335,4 @@ macro_rules! traverse_as {
 #[cfg(feature = "alloc")]
 traverse_as!(crate::geometry::sphere_list::SphereList, spheres -> Spheres<'_>);
 #[cfg(feature = "alloc")]
-traverse_as!(crate::bvh::owned::SphereTree, bvh -> Bvh<'_>);
+traverse_as!(crate::bvh::owned::SphereTree, bvh -> crate::bvh::tree::Bvh<'_>);
