@@ -3,37 +3,31 @@
 mod crowd;
 pub mod files;
 mod overlay;
+mod scene;
 mod values;
 
 use crate::cases::CasesArguments;
-use crate::choice::{Auto, auto_or, size};
+use crate::choice::{Auto, auto_or};
 use crate::color::Srgb;
 use crate::error::Error;
 use crate::judge::JudgeArguments;
 use crate::lecture::LectureArguments;
 use crate::palette::Theme;
 use crate::pixels::Output;
-use crate::scene::Scene;
-use crate::scene::builtin::DEFAULT;
-use crate::scene::radii::{RadiusBy, set_radii};
 use crate::structure::{Order, Structure};
 use crate::style::{CHAIR, Charset};
 use crate::terminal::color_depth::ColorChoice;
 use crate::threads::MOST_THREADS;
-use crate::view::{Lens, LensKind, View, orbited, with_projection};
 use clap::error::ErrorKind;
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, CommandFactory, FromArgMatches, Parser, Subcommand, value_parser};
 pub use crowd::CrowdArguments;
-use files::{FileArguments, Subject};
-use glam::DVec3;
 pub use overlay::Overlay;
+pub use scene::SceneArguments;
 use spherule_kernel::{Level, Tier};
 use std::ffi::OsString;
 use std::path::PathBuf;
-use values::{
-    aspect, cell, color, distance, field_of_view, level, orbit, overlay, point, samples, tier,
-};
+use values::{aspect, cell, color, distance, level, overlay, tier};
 
 /// Spheres in a terminal, by packets of rays.
 ///
@@ -152,88 +146,6 @@ pub struct PictureArguments {
     /// With --pick, write a JSON object
     #[arg(long, requires = "pick")]
     pub json: bool,
-}
-
-/// A scene, and the rays of a picture of it.
-#[derive(Args, Clone, Debug)]
-pub struct SceneArguments {
-    /// A built-in scene, a file, or - for standard input; --format lists the formats that are told by content
-    #[arg(value_name = "SCENE", default_value = DEFAULT)]
-    pub name: String,
-    /// Picture size in cells, each 1 to 4096 [default: 80x24; on a terminal all rows but the last]
-    #[arg(long, value_name = "COLSxROWS", value_parser = size)]
-    pub size: Option<(u16, u16)>,
-    /// Rays a cell, 1 to 256; auto: more where they are needed
-    #[arg(long, value_name = "N", default_value = "auto", value_parser = samples, allow_negative_numbers = true)]
-    pub samples: Auto<u32>,
-    /// The projection, whatever the scene says
-    #[arg(long, value_name = "KIND")]
-    pub projection: Option<LensKind>,
-    /// Where the eye is, whatever the scene says
-    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
-    pub eye: Option<DVec3>,
-    /// What it looks at, whatever the scene says
-    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
-    pub target: Option<DVec3>,
-    /// The vertical field of view in degrees; of a parallel projection, the angle from the eye that is as high at the target
-    #[arg(long, value_name = "DEGREES", value_parser = field_of_view, allow_negative_numbers = true)]
-    pub fov: Option<f32>,
-    /// Then leads the eye around the target: degrees to the right, degrees up
-    #[arg(long, value_name = "RIGHT,UP", value_parser = orbit, allow_hyphen_values = true)]
-    pub orbit: Option<[f32; 2]>,
-    /// Which loop is the outer one, over rays or spheres; with object there is no --structure
-    #[arg(long, value_name = "ORDER", default_value = "image")]
-    pub order: Order,
-    /// What is to know of a file.
-    #[command(flatten)]
-    pub file: FileArguments,
-    /// How large spheres are: van-der-waals, covalent, a number, or a column of numbers [default: as the scene says]
-    #[arg(long, value_name = "WHAT", allow_hyphen_values = true)]
-    pub radius: Option<RadiusBy>,
-}
-
-impl SceneArguments {
-    /// The scene, and what follows it.
-    ///
-    /// # Errors
-    /// [`Error::Input`] if there is no such scene, or it cannot be read.
-    pub fn open(&self) -> Result<Subject, Error> {
-        let mut subject = self.file.open(&self.name)?;
-        let set = self.set_radii(&mut subject.scene);
-        set.map_err(|error| Error::Input(format!("{}: {error}", self.name)))?;
-        let Subject { scene, frames, .. } = &mut subject;
-        if let Some(frames) = frames
-            && scene.spheres().iter().all(|sphere| sphere.radius == 0.0)
-        {
-            frames
-                .note("every radius is 0, so no sphere is seen; --radius sets another".to_owned());
-            frames.report();
-        }
-        Ok(subject)
-    }
-
-    /// Gives a scene the radii that are asked for.
-    ///
-    /// # Errors
-    /// If it does not have them.
-    pub fn set_radii(&self, scene: &mut Scene) -> Result<(), String> {
-        self.radius.as_ref().map_or(Ok(()), |radius| set_radii(scene, radius))
-    }
-
-    /// Where the scene is first seen from, in a picture of `aspect`, width over height.
-    #[must_use]
-    pub fn view(&self, scene: &Scene, aspect: f64) -> View {
-        let mut view = scene.first_view(aspect as f32);
-        let kind = self.projection.unwrap_or(view.lens_kind());
-        let place = |point: DVec3| (point - scene.origin).as_vec3();
-        view.eye = self.eye.map_or(view.eye, place);
-        view.target = self.target.map_or(view.target, place);
-        view.lens = self.fov.map_or(view.lens, |fov| Lens::Perspective { fov });
-        if let Some([right, up]) = self.orbit {
-            view = orbited(&view, right.to_radians(), up.to_radians());
-        }
-        with_projection(&view, kind)
-    }
 }
 
 /// How answers are computed: they do not depend on it.

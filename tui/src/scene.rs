@@ -16,6 +16,8 @@ mod particles;
 pub mod radii;
 mod read_error;
 pub mod reading;
+mod spacing;
+mod symbols;
 pub mod toml;
 
 pub use lighting::{Light, Lighting, Source};

@@ -4,7 +4,9 @@ use super::*;
 use crate::choice::name;
 use crate::compare::Comparison;
 use crate::palette::THEMES;
+use crate::view::LensKind;
 use clap::ValueEnum;
+use glam::DVec3;
 
 fn parsed(line: &str) -> Result<Request, Error> {
     parse(std::iter::once("spherule").chain(line.split_whitespace()).map(Into::into))

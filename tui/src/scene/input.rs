@@ -3,12 +3,18 @@
 //! Memory does not grow with the input: a line is borrowed from the buffer, and none may be longer than
 //! [`LONGEST_LINE`]. Places are remembered, so that a frame can be read again.
 
+mod bytes;
 mod compressed;
+mod line;
+mod place;
 
 use super::read_error::ReadError;
 use crate::error::cause;
 use crate::progress::Progress;
 use compressed::decompressed;
+pub(super) use line::Line;
+pub(super) use place::Place;
+use place::open_at;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::PathBuf;
@@ -25,13 +31,6 @@ const HEAD: usize = 64 << 10;
 
 /// How long reading may take before there is a word about it.
 const PATIENCE: Duration = Duration::from_secs(1);
-
-/// A place in an input, before a line.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Place {
-    offset: u64,
-    number: usize,
-}
 
 /// An input that is being read.
 pub(super) struct Input {
@@ -60,30 +59,6 @@ pub(super) struct Input {
 impl std::fmt::Debug for Input {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         formatter.debug_struct("Input").field("source", &self.source).finish_non_exhaustive()
-    }
-}
-
-/// A line, and where it is.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Line<'a> {
-    /// Without its end; the first without a byte order mark.
-    pub(super) bytes: &'a [u8],
-    /// From 1.
-    pub(super) number: usize,
-    source: &'a str,
-}
-
-impl<'a> Line<'a> {
-    /// Something is wrong at this byte of it.
-    pub(super) fn error(&self, byte: usize, what: impl Into<String>) -> ReadError {
-        let before = self.bytes.get(..byte).unwrap_or(self.bytes);
-        let column = String::from_utf8_lossy(before).chars().count() + 1;
-        ReadError::at(self.source, self.number, column, what)
-    }
-
-    /// Without white space at both ends.
-    pub(super) fn trimmed(&self) -> &'a [u8] {
-        self.bytes.trim_ascii()
     }
 }
 
@@ -307,73 +282,12 @@ impl Input {
     /// # Errors
     /// As [`Self::go`].
     pub(super) fn go_anew(&mut self, place: Place) -> Result<(), ReadError> {
-        let Some(path) = self.file.clone() else {
+        let Some(path) = &self.file else {
             return Err(ReadError::whole(&self.source, "a pipe cannot be read again"));
         };
-        let failed = |error: io::Error| ReadError::whole(&self.source, cause(&error));
-        let mut file = File::open(&path).map_err(failed)?;
-        let (reader, skip) = if compressed::is_plain(&file).map_err(failed)? {
-            io::Seek::seek(&mut file, io::SeekFrom::Start(place.offset)).map_err(failed)?;
-            (Box::new(file) as Box<dyn Read + Send>, 0)
-        } else {
-            (decompressed(Box::new(file)).map_err(failed)?, place.offset)
-        };
-        self.reader = reader;
-        if skip > 0 {
-            let skipped = io::copy(&mut self.reader.by_ref().take(skip), &mut io::sink());
-            skipped.map_err(|error| ReadError::whole(&self.source, cause(&error)))?;
-        }
+        let reader = open_at(path, place.offset);
+        self.reader = reader.map_err(|error| ReadError::whole(&self.source, cause(&error)))?;
         (self.start, self.end, self.before, self.number) = (0, 0, place.offset, place.number);
         Ok(())
-    }
-
-    /// All that is left, at most `longest` bytes.
-    ///
-    /// # Errors
-    /// [`ReadError`] if it cannot be read, or is longer.
-    pub(super) fn rest(&mut self, longest: usize) -> Result<Vec<u8>, ReadError> {
-        let mut bytes = Vec::new();
-        let read = Read::take(&mut *self, longest as u64 + 1).read_to_end(&mut bytes);
-        read.map_err(|error| self.failed(&error))?;
-        if bytes.len() > longest {
-            let what = format!("a scene of more than {} MiB", longest >> 20);
-            return Err(ReadError::whole(&self.source, what));
-        }
-        Ok(bytes)
-    }
-
-    /// Reads exactly so many bytes as `bytes` has room for.
-    ///
-    /// # Errors
-    /// [`ReadError`] if it cannot be read, or ends before.
-    pub(super) fn exactly(&mut self, bytes: &mut [u8]) -> Result<(), ReadError> {
-        self.read_exact(bytes).map_err(|error| match error.kind() {
-            io::ErrorKind::UnexpectedEof => {
-                ReadError::whole(&self.source, "the file ends early").of_end()
-            }
-            _ => ReadError::whole(&self.source, cause(&error)),
-        })
-    }
-}
-
-impl Read for Input {
-    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
-        if self.start == self.end {
-            self.before += self.end as u64;
-            (self.start, self.end) = (0, 0);
-            if bytes.len() >= BLOCK {
-                let read = self.reader.read(bytes)?;
-                self.before += read as u64;
-                self.tell();
-                return Ok(read);
-            }
-            if !self.fill().map_err(|error| io::Error::other(error.what))? {
-                return Ok(0);
-            }
-        }
-        let count = bytes.len().min(self.end - self.start);
-        bytes[..count].copy_from_slice(&self.buffer[self.start..self.start + count]);
-        self.start += count;
-        Ok(count)
     }
 }

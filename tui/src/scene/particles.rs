@@ -4,10 +4,12 @@
 //! is as large as particles are apart, or, beside elements, as a small atom.
 
 use super::attributes::{Attributes, Names, NamesBuilder, Naming, NumberColumn};
-use super::elements::{element, of_number};
+use super::elements::of_number;
 use super::notes::Notes;
 use super::origin::{FIRST, origin};
 use super::read_error::ReadError;
+use super::spacing::half_spacing;
+use super::symbols::{Symbols, resolved};
 use super::{Lighting, Scene};
 use crate::color::Srgb;
 use glam::DVec3;
@@ -33,18 +35,6 @@ const TYPE_COLORS: [Srgb; 7] = [
     Srgb([0xd5, 0x5e, 0x00]),
     Srgb([0x00, 0x72, 0xb2]),
 ];
-
-/// How a name tells an element.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Symbols {
-    /// It is a symbol or an atomic number, perhaps with a number behind it, as in `C12`.
-    #[default]
-    Elements,
-    /// It is the name of an atom in a molecule: `CA`, `1HB2`, `OW`.
-    AtomNames,
-    /// It tells none: types are numbered.
-    Numbers,
-}
 
 /// The particles of a frame. What is not empty has a value a particle.
 #[derive(Debug, Default)]
@@ -232,48 +222,6 @@ fn permute<T: Copy>(values: &mut Vec<T>, order: &[u32]) {
     }
 }
 
-/// The atomic number of every name; 0 where none is known.
-fn resolved(kinds: &Names, symbols: Symbols) -> Vec<u8> {
-    let number = |name: &str| {
-        let found = match symbols {
-            Symbols::Elements => element(name).or_else(|| {
-                element(name.trim_end_matches(|c: char| c.is_ascii_digit() || c == '+' || c == '-'))
-            }),
-            Symbols::AtomNames => of_atom_name(name),
-            Symbols::Numbers => None,
-        };
-        found.map_or(0, |element| element.number)
-    };
-    kinds.table().iter().map(|name| number(name)).collect()
-}
-
-/// The element that the name of an atom tells. In molecules of life a C, H, N, O, P or S begins the names of all of
-/// their atoms; ions are called as they are.
-fn of_atom_name(name: &str) -> Option<super::elements::Element> {
-    let letters = name.trim_start_matches(|c: char| c.is_ascii_digit());
-    let stem = letters.trim_end_matches(|c: char| !c.is_ascii_alphabetic());
-    let ion = [
-        "NA", "CL", "MG", "ZN", "FE", "MN", "BR", "LI", "CU", "CO", "NI", "CAL", "SOD", "CLA",
-        "POT",
-    ];
-    let alias = match stem {
-        "CAL" => "CA",
-        "SOD" => "NA",
-        "CLA" => "CL",
-        "POT" => "K",
-        _ => stem,
-    };
-    if ion.contains(&stem) {
-        return element(alias);
-    }
-    let first = letters.get(..1)?;
-    if ["C", "H", "N", "O", "P", "S", "F", "K", "I"].contains(&first) {
-        element(first)
-    } else {
-        element(stem)
-    }
-}
-
 fn note_unknown(
     kinds: &Names,
     known: &[u8],
@@ -289,34 +237,6 @@ fn note_unknown(
     let count = kinds.indices().iter().filter(|&&kind| is_unknown(kind as usize)).count();
     let names: Vec<&str> = unknown.iter().map(|&kind| &*kinds.table()[kind]).collect();
     notes.unknown(source, lines.get(unknown[0]).copied().unwrap_or(1), count, &names)
-}
-
-/// Half of how far particles are apart, if they fill what most of them are in; 1 if that has no size.
-pub(super) fn half_spacing(centers: &[Vec3]) -> f32 {
-    /// So many tell where most are.
-    const MOST: usize = 10_000;
-    let some: Vec<Vec3> =
-        centers.iter().step_by(centers.len().div_ceil(MOST).max(1)).copied().collect();
-    if some.len() < 2 {
-        return 1.0;
-    }
-    let (mut volume, mut dimensions) = (1.0_f64, 0_u8);
-    for axis in 0..3 {
-        let mut along: Vec<f32> = some.iter().map(|center| center[axis]).collect();
-        along.sort_by(f32::total_cmp);
-        let cut = along.len() / 20;
-        let range = f64::from(along[along.len() - 1 - cut]) - f64::from(along[cut]);
-        if range > 0.0 {
-            volume *= range / 0.9;
-            dimensions += 1;
-        }
-    }
-    if dimensions == 0 {
-        return 1.0;
-    }
-    let apart = (volume / centers.len() as f64).powf(1.0 / f64::from(dimensions));
-    let half = (0.5 * apart) as f32;
-    if half.is_finite() && half > 0.0 { half } else { 1.0 }
 }
 
 #[cfg(test)]

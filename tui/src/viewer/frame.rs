@@ -5,7 +5,7 @@ use super::meter::Frame;
 use super::pace::Debt;
 use super::pixel_frame::NO_TEXT;
 use super::session::{Picture, Viewer, picture_rows};
-use super::state::Shown;
+use super::shown::Shown;
 use super::table::{Means, Subject};
 use super::{help, notice, picking, status};
 use crate::cells::CellGrid;

@@ -1,7 +1,7 @@
 //! Frames in pixels, with text over them.
 
 use super::session::Viewer;
-use super::state::{Outcome, Shown};
+use super::shown::{Outcome, Shown};
 use crate::cells::{Cell, CellGrid, Color};
 use crate::choice::Auto;
 use crate::color::Srgb;

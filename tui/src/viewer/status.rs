@@ -1,7 +1,8 @@
 //! The last row: what is shown and what it costs.
 
 use super::meter::Figures;
-use super::state::{Shown, State};
+use super::shown::Shown;
+use super::state::State;
 use crate::cells::{CellGrid, Color};
 use crate::choice::name;
 use crate::structure::{Order, Structure};

@@ -3,7 +3,7 @@
 //! No one waits for that thread, whatever it is doing; it ends by itself after the pass that it is in. Of two the later
 //! begins when the earlier has ended, so that they neither disturb each other's times nor add up.
 
-use super::state::Shown;
+use super::shown::Shown;
 use crate::choice::Auto;
 use crate::error::Error;
 use crate::scene::Scene;

@@ -8,8 +8,9 @@ use super::words::{count, excerpt, single};
 use crate::scene::Scene;
 use crate::scene::attributes::Naming;
 use crate::scene::input::{Input, Line};
-use crate::scene::particles::{Particles, Symbols};
+use crate::scene::particles::Particles;
 use crate::scene::read_error::ReadError;
+use crate::scene::symbols::Symbols;
 use spherule_kernel::Vec3;
 
 /// Angstrom a nanometre.

@@ -12,8 +12,9 @@ use crate::scene::elements::element;
 use crate::scene::input::{Input, Line};
 use crate::scene::notes::Notes;
 use crate::scene::number::number;
-use crate::scene::particles::{Particles, Symbols};
+use crate::scene::particles::Particles;
 use crate::scene::read_error::ReadError;
+use crate::scene::symbols::Symbols;
 use glam::DVec3;
 
 /// The records that say what a picture of spheres does not show.

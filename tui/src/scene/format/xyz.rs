@@ -22,8 +22,9 @@ use crate::scene::Scene;
 use crate::scene::attributes::NumberColumn;
 use crate::scene::input::{Input, Line};
 use crate::scene::number::number;
-use crate::scene::particles::{Particles, Symbols};
+use crate::scene::particles::Particles;
 use crate::scene::read_error::ReadError;
+use crate::scene::symbols::Symbols;
 use properties::{Kind, Property, properties};
 
 /// Reads the next frame.

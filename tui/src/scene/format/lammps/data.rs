@@ -10,8 +10,9 @@ use crate::scene::attributes::{Naming, NumberColumn};
 use crate::scene::input::{Input, Line};
 use crate::scene::notes::Notes;
 use crate::scene::number::number;
-use crate::scene::particles::{Particles, Symbols};
+use crate::scene::particles::Particles;
 use crate::scene::read_error::ReadError;
+use crate::scene::symbols::Symbols;
 use glam::DVec3;
 
 /// Which column is what; the first is the id.

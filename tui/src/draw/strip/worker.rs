@@ -1,0 +1,158 @@
+//! What one thread does of a strip: it samples bands of rows, and fits glyphs to their cells.
+
+use crate::cells::fit::{FitMemory, Fitted};
+use crate::cells::paint::Painter;
+use crate::draw::finish::Finish;
+use crate::draw::plan::{Plan, Sampling};
+use crate::draw::tracer::{Places, Tracer};
+use crate::shade::silhouettes::{Seen, SeenGrid};
+use spherule_kernel::{Camera, Vec3};
+
+/// Of the many samples, so many are traced at a time: few enough to stay in the cache, and no more memory if all cells are in need.
+const AT_ONCE: usize = 1 << 12;
+
+/// The memory of a thread.
+#[derive(Debug, Default)]
+pub(super) struct Worker {
+    tracer: Tracer,
+    pub(super) painter: Painter,
+    /// Of the fit.
+    memory: FitMemory,
+    /// The cells of a band that need many samples.
+    needy: Vec<(u32, u32)>,
+    /// Which of those each cell of a band is, if it is one.
+    places: Vec<usize>,
+    /// The light of many samples, with edges.
+    finished: Vec<Vec3>,
+}
+
+impl Worker {
+    /// Writes the light of the few samples of the cells from row `first` on, cell by cell, and what they show, if that is
+    /// asked; returns how many samples and shadow rays that took.
+    pub(super) fn sample(
+        &mut self,
+        plan: &Plan<'_>,
+        first: usize,
+        light: &mut [Vec3],
+        seen: &mut [Seen],
+    ) -> (u64, u64) {
+        let Sampling { samples, grid, .. } = &plan.few;
+        let how = (&plan.traced, plan.finish.as_ref());
+        let rows = first..first + light.len() / (plan.columns * samples.count() as usize);
+        let part = (plan.left, plan.columns);
+        let traced = self.tracer.trace_cells(how, (*samples, grid), part, rows);
+        light.copy_from_slice(traced.pixels);
+        if !seen.is_empty() {
+            seen.copy_from_slice(traced.seen);
+        }
+        (light.len() as u64, traced.other_rays)
+    }
+
+    /// Fits glyphs to the cells from row `first` on, of which those get `many` samples whose needs are above something.
+    /// What is known: the light of the few samples, and which row they begin with.
+    pub(super) fn fit(
+        &mut self,
+        plan: &Plan<'_>,
+        many: Option<(&Sampling, f32)>,
+        (light, known): (&[Vec3], usize),
+        first: usize,
+        (fits, needs): (&mut [Fitted], &[f32]),
+        edges: Option<&SeenGrid<'_>>,
+    ) -> (u64, u64) {
+        let columns = plan.columns;
+        self.needy.clear();
+        self.places.clear();
+        let few = plan.few.samples.count() as usize;
+        // What was made of the last cell whose samples are all the same: of background there is much.
+        let mut flat: Option<(Vec3, Fitted)> = None;
+        for (cell, (fit, &need)) in fits.iter_mut().zip(needs).enumerate() {
+            if many.is_some_and(|(_, above)| need > above) {
+                self.places.push(self.needy.len());
+                let column = plan.left + cell % columns;
+                self.needy.push((column as u32, (first + cell / columns) as u32));
+                continue;
+            }
+            self.places.push(usize::MAX);
+            let start = ((first - known) * columns + cell) * few;
+            let light = &light[start..start + few];
+            let is_flat = light.iter().all(|&other| other == light[0]);
+            *fit = match flat {
+                Some((color, fit)) if is_flat && color == light[0] => fit,
+                _ => {
+                    let before = *fit;
+                    let before = (!plan.is_steady).then_some(&before);
+                    plan.few.fitter.fit(light, &mut self.memory, before)
+                }
+            };
+            if is_flat {
+                flat = Some((light[0], *fit));
+            }
+        }
+        let edges = edges.map(|grid| (grid, known));
+        many.map_or((0, 0), |(many, _)| self.fit_needy(plan, many, first, fits, edges))
+    }
+
+    /// Fits glyphs to those of the cells from row `first` on that get many samples.
+    fn fit_needy(
+        &mut self,
+        plan: &Plan<'_>,
+        many: &Sampling,
+        first: usize,
+        fits: &mut [Fitted],
+        edges: Option<(&SeenGrid<'_>, usize)>,
+    ) -> (u64, u64) {
+        let Self { tracer, memory, needy, places, finished, .. } = self;
+        let columns = plan.columns;
+        let Sampling { samples, grid, fitter } = many;
+        let (across, down, count) = (samples.across, samples.down, samples.count() as usize);
+        let (tile_width, tile_height) = Camera::tile::<[f32; 16]>();
+        let at_once = (AT_ONCE / count).max(1);
+        let mut rays = 0;
+        for (needy, begin) in needy.chunks(at_once).zip((0..).step_by(at_once)) {
+            // The packets of a cell one after the other.
+            let corners = needy.iter().flat_map(|&(column, row)| {
+                let tiles = (0..down).step_by(tile_height as usize);
+                tiles.flat_map(move |y| {
+                    let tiles = (0..across).step_by(tile_width as usize);
+                    tiles.map(move |x| (column * across + x, row * down + y))
+                })
+            });
+            let at = |(left, top): (u32, u32)| {
+                let row = ((top / down) as usize - first) * columns;
+                let cell = row + (left / across) as usize - plan.left;
+                let start = (places[cell] - begin) * count;
+                let of_column = |x| start + (x % across) as usize;
+                Places::new((left, top), of_column, |y| (y % down * across) as usize)
+            };
+            let pixels = (needy.len() * count, 1.0);
+            let how = (&plan.traced, plan.finish.as_ref());
+            let traced = tracer.trace(how, grid, corners, pixels, at);
+            rays += traced.other_rays;
+            let light = match (&plan.finish, edges) {
+                (Some(finish), Some((seen_grid, known))) => {
+                    finished.clear();
+                    finished.extend_from_slice(traced.pixels);
+                    let (few_across, few_down) = seen_grid.samples;
+                    let samples = finished.iter_mut().zip(traced.seen).enumerate();
+                    for (index, (light, seen)) in samples {
+                        let (column, row) = needy[index / count];
+                        let sample = (index % count) as u32;
+                        let x = (column as usize - plan.left) as u32 * across + sample % across;
+                        let y = (row as usize - known) as u32 * down + sample / across;
+                        let x = Finish::place(x, across, few_across as u32);
+                        let y = Finish::place(y, down, few_down as u32);
+                        finish.darken(light, seen, seen_grid, (x, y));
+                    }
+                    &**finished
+                }
+                _ => traced.pixels,
+            };
+            for (&(column, row), light) in needy.iter().zip(light.chunks(count)) {
+                let cell = (row as usize - first) * columns + column as usize - plan.left;
+                let before = fits[cell];
+                fits[cell] = fitter.fit(light, memory, (!plan.is_steady).then_some(&before));
+            }
+        }
+        ((needy.len() * count) as u64, rays)
+    }
+}

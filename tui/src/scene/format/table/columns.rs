@@ -1,0 +1,166 @@
+//! Which column is what: by a header, by `--columns`, or by their number.
+
+use crate::scene::format::words::excerpt;
+use crate::scene::input::Line;
+use crate::scene::read_error::ReadError;
+
+/// So many other columns are kept: they take memory.
+const MOST_KEPT: usize = 8;
+
+/// Which column is what.
+#[derive(Debug, Default)]
+pub(super) struct Columns {
+    pub(super) position: [usize; 3],
+    pub(super) radius: Option<usize>,
+    pub(super) color: Option<[usize; 3]>,
+    pub(super) kind: Option<usize>,
+    pub(super) kept: Vec<(usize, Box<str>)>,
+    /// How many more there are, which are ignored.
+    pub(super) further: usize,
+    /// As many fields of a line are looked at.
+    pub(super) most: usize,
+}
+
+/// Whether a header names positions.
+pub(in crate::scene::format) fn has_axes(names: &[&[u8]]) -> bool {
+    ["x", "y", "z"].iter().all(|axis| find(names, &[axis]).is_some())
+}
+
+fn find(names: &[&[u8]], wanted: &[&str]) -> Option<usize> {
+    let find_by = |wanted: &str, part: fn(&[u8]) -> &[u8]| {
+        names.iter().position(|name| part(name).eq_ignore_ascii_case(wanted.as_bytes()))
+    };
+    wanted.iter().find_map(|wanted| {
+        find_by(wanted, |name| name).or_else(|| find_by(wanted, |name| with_unit(name).0))
+    })
+}
+
+fn unit_or_none(unit: &[u8]) -> String {
+    if unit.is_empty() { "no unit".to_owned() } else { excerpt(unit) }
+}
+
+/// The name of a column, and the unit in brackets behind it: none is empty.
+fn with_unit(name: &[u8]) -> (&[u8], &[u8]) {
+    let at = name.iter().position(|byte| matches!(byte, b'(' | b'[')).unwrap_or(name.len());
+    let (name, unit) = name.split_at(at);
+    (name.trim_ascii_end(), unit.trim_ascii())
+}
+
+impl Columns {
+    /// Those of a table whose first line has these fields: names, if it is a header. `chosen` are those of `--columns`.
+    ///
+    /// # Errors
+    /// [`ReadError`] if positions are missing, or lengths have two units.
+    pub(super) fn new(
+        line: &Line<'_>,
+        names: &[&[u8]],
+        is_header: bool,
+        chosen: Option<&str>,
+    ) -> Result<Self, ReadError> {
+        let mut columns = Self::default();
+        let named = |wanted: &[&str]| if is_header { find(names, wanted) } else { None };
+        match chosen {
+            Some(chosen) => {
+                let numbers: Result<Vec<usize>, ReadError> = chosen
+                    .split(',')
+                    .map(|word| column_of(line, names, is_header, word.trim()))
+                    .collect();
+                let numbers = numbers?;
+                let (&[x, y, z] | &[x, y, z, _]) = numbers.as_slice() else {
+                    let what = "--columns: three for x, y and z, and perhaps one for the radius";
+                    return Err(line.error(0, what));
+                };
+                columns.position = [x, y, z];
+                columns.radius = numbers.get(3).copied();
+            }
+            None if is_header => {
+                let axis = |axis: &str| {
+                    named(&[
+                        axis,
+                        &format!("pos_{axis}"),
+                        &format!("p{axis}"),
+                        &format!("coord_{axis}"),
+                    ])
+                };
+                let (Some(x), Some(y), Some(z)) = (axis("x"), axis("y"), axis("z")) else {
+                    let names: Vec<String> = names
+                        .iter()
+                        .take(12)
+                        .map(|name| String::from_utf8_lossy(name).into_owned())
+                        .collect();
+                    let what = format!(
+                        "no columns x, y, z in {}; --columns names others",
+                        excerpt(names.join(",").as_bytes())
+                    );
+                    return Err(line.error(0, what));
+                };
+                columns.position = [x, y, z];
+                columns.radius = named(&["radius", "rad"]);
+                let lengths = columns.position.into_iter().chain(columns.radius);
+                let mut units = lengths.map(|column| with_unit(names[column]).1);
+                let first = units.next().unwrap_or_default();
+                if let Some(other) = units.find(|unit| *unit != first) {
+                    let what = format!(
+                        "lengths in {} and in {}; nothing is converted, --columns takes them as they are",
+                        unit_or_none(first),
+                        unit_or_none(other)
+                    );
+                    return Err(line.error(0, what));
+                }
+            }
+            None if names.len() < 3 => {
+                return Err(line.error(0, format!("{} columns; positions are three", names.len())));
+            }
+            None => {
+                columns.position = [0, 1, 2];
+                columns.radius = (names.len() == 4).then_some(3);
+            }
+        }
+        let channels = |set: [&str; 3]| {
+            let found = set.map(|name| named(&[name]));
+            found.iter().all(Option::is_some).then(|| found.map(Option::unwrap_or_default))
+        };
+        columns.color = channels(["red", "green", "blue"]).or_else(|| channels(["r", "g", "b"]));
+        columns.kind = named(&["element", "symbol", "species", "type", "kind"]);
+        let taken = |column: usize| {
+            columns.position.contains(&column)
+                || [columns.radius, columns.kind].contains(&Some(column))
+                || columns.color.is_some_and(|color| color.contains(&column))
+        };
+        let others = (0..names.len()).filter(|&column| !taken(column));
+        columns.further = others.clone().count().saturating_sub(MOST_KEPT);
+        let kept: Vec<(usize, Box<str>)> = others
+            .take(MOST_KEPT)
+            .map(|column| {
+                let name = if is_header {
+                    String::from_utf8_lossy(names[column]).into()
+                } else {
+                    format!("{}", column + 1).into()
+                };
+                (column, name)
+            })
+            .collect();
+        columns.kept = kept;
+        let color = columns.color.into_iter().flatten();
+        let all =
+            columns.position.into_iter().chain(columns.radius).chain(columns.kind).chain(color);
+        let all = all.chain(columns.kept.iter().map(|(column, _)| *column));
+        columns.most = all.max().unwrap_or(0) + 1;
+        Ok(columns)
+    }
+}
+
+fn column_of(
+    line: &Line<'_>,
+    names: &[&[u8]],
+    is_header: bool,
+    word: &str,
+) -> Result<usize, ReadError> {
+    if is_header && let Some(column) = find(names, &[word]) {
+        return Ok(column);
+    }
+    match word.parse::<usize>() {
+        Ok(column) if (1..=names.len()).contains(&column) => Ok(column - 1),
+        _ => Err(line.error(0, format!("--columns: no column {word:?} among {}", names.len()))),
+    }
+}

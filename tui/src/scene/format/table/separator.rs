@@ -1,0 +1,72 @@
+//! The fields of a line.
+
+use std::ops::Range;
+
+/// What separates columns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::scene::format) enum Separator {
+    Byte(u8),
+    Space,
+}
+
+impl Separator {
+    /// The one that is in a line.
+    pub(in crate::scene::format) fn of(line: &[u8]) -> Self {
+        let has = |byte: &u8| line.contains(byte);
+        [b'\t', b',', b';'].into_iter().find(has).map_or(Self::Space, Self::Byte)
+    }
+
+    /// The first `most` fields of a line, without quotes and white space around them.
+    pub(in crate::scene::format) fn split(
+        self,
+        line: &[u8],
+        most: usize,
+        fields: &mut Vec<Range<usize>>,
+    ) {
+        fields.clear();
+        let mut at = 0;
+        while fields.len() < most {
+            if self == Self::Space {
+                while line.get(at).is_some_and(|&byte| byte <= b' ') {
+                    at += 1;
+                }
+                if at >= line.len() {
+                    return;
+                }
+            }
+            let start = at;
+            let mut quoted = false;
+            while let Some(&byte) = line.get(at) {
+                quoted ^= byte == b'"';
+                let ends = match self {
+                    Self::Byte(separator) => byte == separator,
+                    Self::Space => byte <= b' ',
+                };
+                if ends && !quoted {
+                    break;
+                }
+                at += 1;
+            }
+            fields.push(trimmed(line, start..at));
+            if at >= line.len() {
+                return;
+            }
+            at += 1;
+        }
+    }
+}
+
+fn trimmed(line: &[u8], range: Range<usize>) -> Range<usize> {
+    let Range { mut start, mut end } = range;
+    while start < end && line[start] <= b' ' {
+        start += 1;
+    }
+    while start < end && line[end - 1] <= b' ' {
+        end -= 1;
+    }
+    if end - start >= 2 && line[start] == b'"' && line[end - 1] == b'"' {
+        start + 1..end - 1
+    } else {
+        start..end
+    }
+}

@@ -1,0 +1,58 @@
+//! An input as bytes, where it has no lines.
+
+use super::{BLOCK, Input};
+use crate::error::cause;
+use crate::scene::read_error::ReadError;
+use std::io::{self, Read};
+
+impl Input {
+    /// All that is left, at most `longest` bytes.
+    ///
+    /// # Errors
+    /// [`ReadError`] if it cannot be read, or is longer.
+    pub(in crate::scene) fn rest(&mut self, longest: usize) -> Result<Vec<u8>, ReadError> {
+        let mut bytes = Vec::new();
+        let read = Read::take(&mut *self, longest as u64 + 1).read_to_end(&mut bytes);
+        read.map_err(|error| self.failed(&error))?;
+        if bytes.len() > longest {
+            let what = format!("a scene of more than {} MiB", longest >> 20);
+            return Err(ReadError::whole(&self.source, what));
+        }
+        Ok(bytes)
+    }
+
+    /// Reads exactly so many bytes as `bytes` has room for.
+    ///
+    /// # Errors
+    /// [`ReadError`] if it cannot be read, or ends before.
+    pub(in crate::scene) fn exactly(&mut self, bytes: &mut [u8]) -> Result<(), ReadError> {
+        self.read_exact(bytes).map_err(|error| match error.kind() {
+            io::ErrorKind::UnexpectedEof => {
+                ReadError::whole(&self.source, "the file ends early").of_end()
+            }
+            _ => ReadError::whole(&self.source, cause(&error)),
+        })
+    }
+}
+
+impl Read for Input {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        if self.start == self.end {
+            self.before += self.end as u64;
+            (self.start, self.end) = (0, 0);
+            if bytes.len() >= BLOCK {
+                let read = self.reader.read(bytes)?;
+                self.before += read as u64;
+                self.tell();
+                return Ok(read);
+            }
+            if !self.fill().map_err(|error| io::Error::other(error.what))? {
+                return Ok(0);
+            }
+        }
+        let count = bytes.len().min(self.end - self.start);
+        bytes[..count].copy_from_slice(&self.buffer[self.start..self.start + count]);
+        self.start += count;
+        Ok(count)
+    }
+}

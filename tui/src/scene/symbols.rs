@@ -1,0 +1,58 @@
+//! How names of particles tell their elements.
+
+use super::attributes::Names;
+use super::elements::{Element, element};
+
+/// How a name tells an element.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Symbols {
+    /// It is a symbol or an atomic number, perhaps with a number behind it, as in `C12`.
+    #[default]
+    Elements,
+    /// It is the name of an atom in a molecule: `CA`, `1HB2`, `OW`.
+    AtomNames,
+    /// It tells none: types are numbered.
+    Numbers,
+}
+
+/// The atomic number of every name; 0 where none is known.
+pub(super) fn resolved(kinds: &Names, symbols: Symbols) -> Vec<u8> {
+    let number = |name: &str| {
+        let found = match symbols {
+            Symbols::Elements => element(name).or_else(|| {
+                element(name.trim_end_matches(|c: char| c.is_ascii_digit() || c == '+' || c == '-'))
+            }),
+            Symbols::AtomNames => of_atom_name(name),
+            Symbols::Numbers => None,
+        };
+        found.map_or(0, |element| element.number)
+    };
+    kinds.table().iter().map(|name| number(name)).collect()
+}
+
+/// The element that the name of an atom tells. In molecules of life a C, H, N, O, P or S begins the names of all of
+/// their atoms; ions are called as they are.
+fn of_atom_name(name: &str) -> Option<Element> {
+    let letters = name.trim_start_matches(|c: char| c.is_ascii_digit());
+    let stem = letters.trim_end_matches(|c: char| !c.is_ascii_alphabetic());
+    let ion = [
+        "NA", "CL", "MG", "ZN", "FE", "MN", "BR", "LI", "CU", "CO", "NI", "CAL", "SOD", "CLA",
+        "POT",
+    ];
+    let alias = match stem {
+        "CAL" => "CA",
+        "SOD" => "NA",
+        "CLA" => "CL",
+        "POT" => "K",
+        _ => stem,
+    };
+    if ion.contains(&stem) {
+        return element(alias);
+    }
+    let first = letters.get(..1)?;
+    if ["C", "H", "N", "O", "P", "S", "F", "K", "I"].contains(&first) {
+        element(first)
+    } else {
+        element(stem)
+    }
+}

@@ -1,0 +1,96 @@
+use super::*;
+
+const VIEW: View = View { lens: Lens::Perspective { fov: 90.0 }, ..View::FRONT };
+
+fn near(a: Vec3, b: Vec3) -> bool {
+    (a - b).abs().max_element() < 1e-5
+}
+
+#[test]
+fn the_corners_of_a_perspective_picture() {
+    let camera = VIEW.camera(4, 2, 2.0);
+    assert!(near(camera.get_ray(0, 0).direction, Vec3::new(-1.5, 0.5, -1.0)));
+    assert!(near(camera.get_ray(3, 1).direction, Vec3::new(1.5, -0.5, -1.0)));
+    assert_eq!(camera.get_ray(1, 1).origin, VIEW.eye);
+}
+
+#[test]
+fn the_corners_of_a_parallel_picture() {
+    let camera = View { lens: Lens::Parallel { height: 2.0 }, ..VIEW }.camera(2, 2, 1.0);
+    let ray = camera.get_ray(0, 1);
+    assert!(near(ray.origin, Vec3::new(-0.5, -0.5, 5.0)));
+    assert!(near(ray.direction, Vec3::NEG_Z));
+}
+
+#[test]
+fn degenerate_views_still_make_rays() {
+    for view in [
+        View { up: Vec3::Z, ..VIEW },
+        View { up: Vec3::ZERO, ..VIEW },
+        View { eye: Vec3::ZERO, ..VIEW },
+        View { eye: Vec3::Y, up: Vec3::Y, ..VIEW },
+    ] {
+        let ray = view.camera(3, 3, 1.0).get_ray(0, 0);
+        assert!(ray.direction.is_finite() && ray.direction.length() > 0.5, "{view:?}");
+    }
+}
+
+#[test]
+fn a_quarter_orbit_leads_the_eye_to_the_right() {
+    let view = orbited(&VIEW, std::f32::consts::FRAC_PI_2, 0.0);
+    assert!(near(view.eye, Vec3::new(5.0, 0.0, 0.0)), "{view:?}");
+}
+
+#[test]
+fn an_orbit_stops_before_the_poles_and_keeps_its_distance() {
+    let mut view = VIEW;
+    for _ in 0..100 {
+        view = orbited(&view, 0.3, 0.3);
+    }
+    assert!((view.eye.length() - 5.0).abs() < 1e-3);
+    assert!(view.eye.y < 5.0 && view.eye.y > 4.99);
+    assert!(orbited(&view, 0.0, -9.0).eye.y < -4.99);
+}
+
+#[test]
+fn a_pan_moves_eye_and_target_alike_in_the_plane_of_the_picture() {
+    let view = panned(&VIEW, 2.0, -3.0);
+    assert_eq!(view.eye, Vec3::new(2.0, -3.0, 5.0));
+    assert_eq!(view.target, Vec3::new(2.0, -3.0, 0.0));
+    let slanting = orbited(&VIEW, 0.7, 0.4);
+    let view = panned(&slanting, 2.0, -3.0);
+    assert!(near(view.eye - view.target, slanting.eye - slanting.target));
+    let way = (view.target - slanting.target).as_dvec3();
+    let along = slanting.axes().map(|axis| axis.dot(way));
+    assert!((0..3).all(|i| (along[i] - [0.0, 2.0, -3.0][i]).abs() < 1e-6), "{along:?}");
+    assert_eq!(panned(&VIEW, f64::NAN, 0.0), VIEW);
+    assert_eq!(panned(&VIEW, 1e39, 0.0), VIEW);
+}
+
+#[test]
+fn zooming_in_and_out_comes_back() {
+    for lens in [Lens::Perspective { fov: 40.0 }, Lens::Parallel { height: 3.0 }] {
+        let view = View { lens, ..VIEW };
+        let nearer = zoomed(&view, 2.0);
+        assert!((nearer.height_at_target() * 2.0 - view.height_at_target()).abs() < 1e-5);
+        assert!(near(zoomed(&nearer, 0.5).eye, view.eye));
+        for factor in [0.0, -1.0, f32::NAN, f32::INFINITY, 1e-30] {
+            let same = zoomed(&view, factor);
+            assert_eq!(same, view, "{factor}");
+        }
+    }
+}
+
+#[test]
+fn the_other_projection_keeps_the_size_at_the_target() {
+    let parallel = with_projection(&VIEW, LensKind::Parallel);
+    assert!(matches!(parallel.lens, Lens::Parallel { height } if (height - 10.0).abs() < 1e-5));
+    assert_eq!(parallel.eye, VIEW.eye);
+    let back = with_projection(&parallel, LensKind::Perspective);
+    assert!((back.height_at_target() - VIEW.height_at_target()).abs() < 1e-4);
+    assert_eq!(back.eye, VIEW.eye);
+    let low = zoomed(&parallel, 100.0);
+    let moved = with_projection(&low, LensKind::Perspective);
+    assert_eq!(moved.lens, Lens::Perspective { fov: 40.0 });
+    assert!((moved.height_at_target() - low.height_at_target()).abs() < 1e-6);
+}
