@@ -87,6 +87,8 @@ fn spheres_without_a_size_are_said() {
         );
         assert_eq!(said("--size 20x5 --radius 0.5"), "");
     }
+    let path = file("sized.csv", b"x,y,z,radius\n1,2,3,0\n4,5,6,1\n");
+    assert_eq!(stderr(&with(&path, "--size 20x5")), "");
 }
 
 #[test]
