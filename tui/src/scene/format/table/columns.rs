@@ -35,10 +35,6 @@ fn find(names: &[&[u8]], wanted: &[&str]) -> Option<usize> {
     })
 }
 
-fn unit_or_none(unit: &[u8]) -> String {
-    if unit.is_empty() { "no unit".to_owned() } else { excerpt(unit) }
-}
-
 /// The name of a column, and the unit in brackets behind it: none is empty.
 fn with_unit(name: &[u8]) -> (&[u8], &[u8]) {
     let at = name.iter().position(|byte| matches!(byte, b'(' | b'[')).unwrap_or(name.len());
@@ -97,13 +93,14 @@ impl Columns {
                 columns.position = [x, y, z];
                 columns.radius = named(&["radius", "rad"]);
                 let lengths = columns.position.into_iter().chain(columns.radius);
-                let mut units = lengths.map(|column| with_unit(names[column]).1);
+                let units = lengths.map(|column| with_unit(names[column]).1);
+                let mut units = units.filter(|unit| !unit.is_empty());
                 let first = units.next().unwrap_or_default();
                 if let Some(other) = units.find(|unit| *unit != first) {
                     let what = format!(
                         "lengths in {} and in {}; nothing is converted, --columns takes them as they are",
-                        unit_or_none(first),
-                        unit_or_none(other)
+                        excerpt(first),
+                        excerpt(other)
                     );
                     return Err(line.error(0, what));
                 }

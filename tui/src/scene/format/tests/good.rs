@@ -172,6 +172,7 @@ fn tables_by_header_and_without() {
         "1.0 2 3 0.5\n4 5 6 0.25\n",
         "z (m),x (m),y (m),Radius(m),x0 (m)\n3,1,2,0.5,9\n6,4,5,0.25,9\n",
         "x (raw),x,y,z,radius\n9,1,2,3,0.5\n9,4,5,6,0.25\n",
+        "x,y,z,radius (m)\n1,2,3,0.5\n4,5,6,0.25\n",
         "x [km]\ty [km]\tz[km]\tradius [km]\n1\t2\t3\t0.5\n4\t5\t6\t0.25\n",
         "0.1D+01 2.d0 3D0 5d-1\n4 5 6 0.25\n",
     ] {
