@@ -5,16 +5,19 @@
 //! `fit` lays planes around a group of packets, `frustum` tells which boxes and spheres are between the
 //! planes. One proof of the margins serves both: `docs/traversal-margins.md`.
 
+mod box_sample;
 pub(crate) mod depth_list;
 mod depth_sort;
 mod effort;
 mod fit;
 pub(crate) mod frustum;
+mod giving_up;
 pub(crate) mod list_source;
 mod listed;
 mod packet_group;
 pub(crate) mod packet_source;
 mod packet_state;
+mod patience;
 mod survey;
 pub(crate) mod tile_fit;
 mod tree_group;

@@ -171,7 +171,7 @@ impl ListSource<'_> {
                 reach = most(reach, state.depth);
             }
 
-            let mut effort = Effort::of(states, None);
+            let mut effort = Effort::of(states.len());
             // From the front: all that follows a block begins as deep, or deeper.
             let mut number = 0;
             while let Some((spheres, depth)) = self.listed.block(number)

@@ -27,7 +27,7 @@ pub(super) fn meet_block<L: Lanes, Q: Query>(
     depth_of: impl Fn(&PacketState<'_, L>) -> f32,
     (end, effort): (&mut f32, &mut Effort),
 ) {
-    let mut any_changed = false;
+    let (mut any_changed, mut held) = (false, 0_u64);
     for state in &mut *states {
         // (3 % of the time of u10k, 6 % of u1m's.)
         if depth > state.depth {
@@ -35,12 +35,13 @@ pub(super) fn meet_block<L: Lanes, Q: Query>(
         }
         count!(PacketLeaf);
         let places = places & state.sides.look::<L>(state.token(), spheres, spread);
-        effort.spheres(places);
-        if places != 0 && state.meet::<Q>(tier, source, (number, spheres), places) {
+        held = (held << 16) | u64::from(places);
+        if places != 0 && state.meet::<Q>(tier, source, (number, spheres), places, effort) {
             state.depth = depth_of(state);
             any_changed = true;
         }
     }
+    effort.spheres(held.count_ones());
     if any_changed {
         *end = f32::NEG_INFINITY;
         for state in &*states {

@@ -7,6 +7,7 @@
 //! one, which the tier tests when the traversal is through, for all lanes at once. Only where two
 //! spheres may both be a lane's closest does the tier test before.
 
+use super::effort::Effort;
 use super::frustum::Sides;
 use crate::Accuracy;
 use crate::accuracy::{RayLanes, is_closer, test_lanes};
@@ -50,13 +51,6 @@ pub(super) struct PacketState<'a, L: Lanes> {
     /// The closest answer of the tier so far, and the index of its sphere, as bits.
     t: L,
     sphere: L,
-    /// How many spheres rays came near, and how many times a ray did.
-    pub(super) spheres_near: u32,
-    pub(super) rays_near: u32,
-    /// How many times the tier tested, since two spheres may be a ray's closest.
-    pub(super) tests: u32,
-    /// After so many it stops, and not all spheres have been met.
-    pub(super) most_tests: u32,
 }
 
 impl<'a, L: Lanes> PacketState<'a, L> {
@@ -80,10 +74,6 @@ impl<'a, L: Lanes> PacketState<'a, L> {
             shared: None,
             t: zero.like(f32::INFINITY),
             sphere: zero.like(f32::from_bits(HitPacket::<L::Array>::NO_SPHERE)),
-            spheres_near: 0,
-            rays_near: 0,
-            tests: 0,
-            most_tests: u32::MAX,
         }
     }
 
@@ -114,14 +104,8 @@ impl<'a, L: Lanes> PacketState<'a, L> {
         self.shorten::<Q>();
     }
 
-    /// Whether it has stopped.
-    #[inline(always)]
-    pub(super) fn has_stopped(&self) -> bool {
-        self.tests >= self.most_tests
-    }
-
     /// Meets the spheres `places` of block `number` of sixteen; returns whether any ray may end sooner than
-    /// before.
+    /// before. Counts the effort.
     #[inline(always)]
     pub(super) fn meet<Q: Query>(
         &mut self,
@@ -129,14 +113,15 @@ impl<'a, L: Lanes> PacketState<'a, L> {
         source: &impl SphereSource,
         block: (u32, &SphereColumns<'_>),
         places: u32,
+        effort: &mut Effort,
     ) -> bool {
         if tier.spread() == 0.0 {
-            return self.meet_each::<Q, false>(tier, source, block, places);
+            return self.meet_each::<Q, false>(tier, source, block, places, effort);
         }
         L::out_of_line(
             self.token(),
             #[inline(always)]
-            || self.meet_each::<Q, true>(tier, source, block, places),
+            || self.meet_each::<Q, true>(tier, source, block, places, effort),
         )
     }
 
@@ -147,12 +132,13 @@ impl<'a, L: Lanes> PacketState<'a, L> {
         source: &impl SphereSource,
         block: (u32, &SphereColumns<'_>),
         mut places: u32,
+        effort: &mut Effort,
     ) -> bool {
         let mut changed = false;
-        while places != 0 && self.tests < self.most_tests {
+        while places != 0 {
             let place = places.trailing_zeros() as usize;
             places &= places - 1;
-            changed |= self.meet_one::<Q, SPREADS>(tier, source, block, place);
+            changed |= self.meet_one::<Q, SPREADS>(tier, source, block, place, effort);
         }
         changed
     }
@@ -164,6 +150,7 @@ impl<'a, L: Lanes> PacketState<'a, L> {
         source: &impl SphereSource,
         (number, spheres): (u32, &SphereColumns<'_>),
         place: usize,
+        effort: &mut Effort,
     ) -> bool {
         count!(PacketSphere);
         let (token, spread) = (self.token(), tier.spread());
@@ -172,12 +159,10 @@ impl<'a, L: Lanes> PacketState<'a, L> {
         let radius = L::splat(token, spheres.radius[place % WIDTH]);
         let pass = Pass::new(origin, direction, absolute_error, center, radius);
         let near = self.live & pass.may_hit::<SPREADS>(start[0], self.best, spread);
-        let rays_near = near.bits().count_ones();
-        if rays_near == 0 {
+        if !near.any() {
             return false;
         }
-        self.spheres_near = self.spheres_near.wrapping_add(1);
-        self.rays_near = self.rays_near.wrapping_add(rays_near);
+        effort.roots(near.bits().count_ones());
 
         count!(PacketRoots);
         let RootInterval { candidates, entry, bound } =
@@ -194,7 +179,7 @@ impl<'a, L: Lanes> PacketState<'a, L> {
         }
         let both = candidates & self.entry.le(self.best);
         if both.any() {
-            self.tests = self.tests.wrapping_add(1);
+            effort.test(both.bits().count_ones());
             L::out_of_line(
                 token,
                 #[inline(always)]

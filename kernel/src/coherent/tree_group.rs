@@ -7,14 +7,16 @@
 //! spheres of a leaf, and those inside against the narrower planes of each packet; what is left
 //! is tested against the packet's rays, a ray a lane (`packet_state.rs`). The depth beyond which nothing
 //! matters shrinks with every hit. A group that does more than its rays would have done apart gives up
-//! (`effort.rs`).
+//! (`giving_up.rs`).
 //!
 //! A group is traced so if its rays start at t >= 0, run the same way along an axis, and are
 //! narrow (`fit.rs`).
 
-use super::effort::{Effort, LEAST_RAYS, MOST_TESTS, live_rays};
+use super::box_sample::BoxSample;
+use super::effort::Effort;
 use super::fit::Fit;
 use super::frustum::Inside;
+use super::giving_up::{Allowance, LEAST_RAYS, live_rays};
 use super::packet_group::{GROUP, approach, meet_block};
 use super::packet_source::PacketSource;
 use super::packet_state::PacketState;
@@ -78,7 +80,7 @@ const ROOT: u32 = u32::MAX;
 pub(super) enum Ended {
     /// All of its rays are answered.
     Through,
-    /// The same, by twice the work that its rays would have done apart.
+    /// The same, by more work than its rays would have done apart.
     AtALoss,
     /// It did more than its rays would have done apart: what they have hit may not be the closest.
     GaveUp,
@@ -155,12 +157,13 @@ impl Boxes {
 
         for state in &mut *states {
             state.depth = if state.live.any() { frustum.end } else { f32::NEG_INFINITY };
-            (state.tests, state.most_tests) = (0, MOST_TESTS);
         }
         self.depths[0] = f32::NEG_INFINITY;
         self.places[0] = ROOT;
         self.top = 1;
-        let mut effort = Effort::of(states, small_tree::leaf_count(bvh));
+        let mut effort = Effort::of(states.len());
+        let mut allowance = Allowance::of(states, small_tree::leaf_count(bvh), Q::ANY);
+        let mut sample = BoxSample::new();
         let mut inside = Inside { places: 0, depths: [0.0; WIDTH] };
         while self.top > 0 {
             self.top -= 1;
@@ -175,15 +178,9 @@ impl Boxes {
                 let (node, slot) = (place / WIDTH as u32, place as usize % WIDTH);
                 let Some(node) = bvh.nodes.get(node as usize) else { continue };
                 child = node.child[slot];
-                if effort.samples() {
-                    let is_wasted = L::out_of_line(
-                        token,
-                        #[inline(always)]
-                        || effort.is_wasted(states, node, slot),
-                    );
-                    if is_wasted {
-                        return Ended::GaveUp;
-                    }
+                sample.take(place, states);
+                if allowance.is_wasted(token, &effort, (states, &sample), bvh) {
+                    return Ended::GaveUp;
                 }
             }
             if child & LEAF == 0 {
@@ -213,15 +210,12 @@ impl Boxes {
                 (&mut end, &mut effort),
             );
             frustum.end = end;
-            let mut has_stopped = false;
-            for state in &*states {
-                has_stopped |= state.has_stopped();
-            }
-            if has_stopped {
-                return Ended::GaveUp;
-            }
         }
-        if effort.is_at_a_loss(states) { Ended::AtALoss } else { Ended::Through }
+        if allowance.is_at_a_loss(token, &effort, (states, &sample), bvh) {
+            Ended::AtALoss
+        } else {
+            Ended::Through
+        }
     }
 
     #[inline(always)]

@@ -8,9 +8,9 @@
 //! long as can be; or, with memory for it, as a stream. After each try that does not pay the next are passed over, so
 //! that rays which have nothing in common hardly pay for being asked.
 
-use super::effort::{LONGEST, LONGEST_IF_COHERENT, Patience};
 use super::packet_group::GROUP;
 use super::packet_source::PacketSource;
+use super::patience::{LONGEST, LONGEST_IF_COHERENT, Patience};
 use super::tree_group::{Boxes, Ended, states_of};
 use crate::Accuracy;
 use crate::bvh::traverse::packet_set::{PacketSet, RUN};

@@ -81,5 +81,5 @@ pub(crate) fn enter_about<L: Lanes>(
         entry = entry.filter_max(-(-low).filter_max(-high));
         minus_leave = minus_leave.filter_max(-low.filter_max(high));
     }
-    entry.le(-minus_leave)
+    entry.lt(-minus_leave)
 }

@@ -1,0 +1,188 @@
+//! When a group gives up: what its rays would have done apart.
+//!
+//! # Method
+//!
+//! A group pays as long as its rays meet the same boxes: one test of a box serves them all. Whether they do depends on
+//! the rays and on the scene, and is not known before. So a group's work is counted as it is done, and held against what
+//! its rays would have done apart, as far as they have come:
+//!
+//! * each ray would have begun and ended by itself, and looked into the root;
+//! * each ray that came near a sphere would have come near one, and of closest hits near the others, which take less;
+//! * of the rays, a part enters each box that the group looks into. The part is sampled: some of the boxes are kept, evenly
+//!   spaced, and held against the rays of one packet each. In a small tree all rays look into all of them.
+//!
+//! A group that has done a quarter more than what is known of that, and half more than what is guessed, gives up, and its rays go
+//! on by themselves, with what they have hit.
+//!
+//! What the rays would have done apart only grows. So the sample is looked at when a group has done more than they would
+//! have done by then at least, and once more when it has done more than was found: most groups that pay are never asked.
+//! (Each eighth box was held against rays as it was met: 5 to 9 % of the time of a camera's rays.)
+//!
+//! Work is counted as by [`Effort`]; of what rays do by themselves the weights are set so that groups which pay seldom give up.
+
+use super::box_sample::BoxSample;
+use super::effort::Effort;
+use super::packet_state::PacketState;
+use crate::bvh::tree::Bvh;
+use crate::lanes::{LaneMask, Lanes};
+
+/// What a ray does by itself: its beginning and its end, a node, a leaf, the roots of the first sphere that it comes near, with a
+/// part of the way to it, those of the next, which share a leaf, and the tier.
+const RAY: u32 = 7;
+const RAY_NODE: u32 = 5;
+const RAY_LEAF: u32 = 6;
+const RAY_ROOTS: u32 = 20;
+const RAY_NEXT_ROOTS: u32 = 1;
+const RAY_TIER: u32 = 3;
+/// The same in a small tree, where rays have no boxes, and seldom look for roots before the tier does.
+const RAY_OF_SMALL_TREE: u32 = 2;
+const LEAF_OF_SMALL_TREE: u32 = 1;
+const ROOTS_OF_SMALL_TREE: u32 = 2;
+/// What it takes to lay planes around a group: not much but in a small tree.
+const FIT: u32 = 24;
+
+/// So many spheres may be held against packets in vain for each ray, before it is asked whether that is wasted.
+const SPHERES_A_RAY: u32 = 1;
+
+/// How much a group may do.
+#[derive(Clone, Copy)]
+pub(super) struct Allowance {
+    /// So much before it is asked whether its rays would have done less; and so many spheres in vain.
+    most: u32,
+    most_in_vain: u32,
+    rays: u32,
+    /// The leaves of a small tree: then rays have a way of their own through it.
+    leaves: Option<u32>,
+    /// What the roots of a sphere take a ray that has met one.
+    next_roots: u32,
+}
+
+impl Allowance {
+    /// Of a group that has done nothing, in a tree of so many leaves, if it is small; `is_any` says what is asked.
+    #[inline(always)]
+    pub(super) fn of<L: Lanes>(
+        states: &[PacketState<'_, L>],
+        leaves: Option<u32>,
+        is_any: bool,
+    ) -> Self {
+        let rays = live_rays(states);
+        let next_roots = if is_any | leaves.is_some() { 0 } else { RAY_NEXT_ROOTS };
+        let most_in_vain = SPHERES_A_RAY * rays;
+        let allowance = Self { most: 0, most_in_vain, rays, leaves, next_roots };
+        Self { most: allowance.least_apart() as u32, ..allowance }
+    }
+
+    /// What rays apart do at least: all look into the root.
+    #[inline(always)]
+    fn least_apart(&self) -> u64 {
+        let each = self
+            .leaves
+            .map_or(RAY + RAY_NODE, |leaves| RAY_OF_SMALL_TREE + LEAF_OF_SMALL_TREE * leaves);
+        u64::from(self.rays) * u64::from(each)
+    }
+
+    /// What the roots of spheres take rays apart, about: by itself a ray meets what is nearest first, and few others.
+    #[inline(always)]
+    fn roots_apart(&self, effort: &Effort) -> u64 {
+        let first = if self.leaves.is_some() { ROOTS_OF_SMALL_TREE } else { RAY_ROOTS };
+        u64::from(first * effort.near.min(self.rays))
+            + u64::from(self.next_roots) * u64::from(effort.near)
+            + u64::from(RAY_TIER) * u64::from(effort.tested)
+    }
+
+    /// Whether its rays would have done less apart, as far as they have come.
+    #[inline(always)]
+    pub(super) fn is_wasted<L: Lanes>(
+        &mut self,
+        token: L::Token,
+        effort: &Effort,
+        (states, sample): (&[PacketState<'_, L>], &BoxSample),
+        bvh: &Bvh<'_>,
+    ) -> bool {
+        if (effort.work <= self.most) & (effort.in_vain <= self.most_in_vain) {
+            return false;
+        }
+        #[cfg(all(test, proofs))]
+        if crate::proofs::work::groups_persist() {
+            return false;
+        }
+        // By value: what another function may write is in memory from then on. (In place: 3 % of a camera's rays.)
+        let (allowance, effort) = (*self, *effort);
+        let limits = L::out_of_line(
+            token,
+            #[inline(always)]
+            || allowance.limits(&effort, states, sample, bvh),
+        );
+        [self.most, self.most_in_vain] = limits.unwrap_or([self.most, self.most_in_vain]);
+        limits.is_none()
+    }
+
+    /// How much it may do, and in vain; `None` if its rays would have done less apart. It may do a quarter more than they do at
+    /// least, since those that go on by themselves begin anew, and half more than they do about, since that is not known well.
+    /// While it holds many spheres against rays in vain, a third of what they do at least is enough. (Twice in place of half
+    /// more: a beam among nested spheres 0.6 of ray by ray in place of 0.7. A quarter more: a camera's rays lose 5 %.)
+    #[inline(always)]
+    fn limits<L: Lanes>(
+        &self,
+        effort: &Effort,
+        states: &[PacketState<'_, L>],
+        sample: &BoxSample,
+        bvh: &Bvh<'_>,
+    ) -> Option<[u32; 2]> {
+        let is_in_vain = effort.in_vain > self.most_in_vain;
+        let (work, least) = (u64::from(effort.work), self.least_apart());
+        let begin_anew = if self.leaves.is_some() { 0 } else { least / 4 };
+
+        // What is known without boxes is enough for most groups, and all that there is in a small tree.
+        let mut apart = self.roots_apart(effort);
+        let mut soonest = 0;
+        if self.leaves.is_none() && (is_in_vain | (work > least + begin_anew + apart + apart / 2)) {
+            apart += sample.apart(states, bvh, [RAY_NODE, RAY_LEAF]);
+            // To ask takes as long as some boxes.
+            soonest = work + work / 2;
+        }
+
+        let guessed = apart + apart / 2;
+        let most = least + begin_anew + guessed;
+        let limit = if is_in_vain { least / 3 + guessed } else { most };
+        if work > limit {
+            return None;
+        }
+        let most_in_vain =
+            if is_in_vain { effort.in_vain.saturating_mul(2) } else { self.most_in_vain };
+        Some([most.max(soonest).min(u64::from(u32::MAX)) as u32, most_in_vain])
+    }
+
+    /// Whether all that it has done is so much that the next is better not tried. (What a small tree costs is known.)
+    #[inline(always)]
+    pub(super) fn is_at_a_loss<L: Lanes>(
+        &mut self,
+        token: L::Token,
+        effort: &Effort,
+        (states, sample): (&[PacketState<'_, L>], &BoxSample),
+        bvh: &Bvh<'_>,
+    ) -> bool {
+        if self.leaves.is_none() {
+            return self.is_wasted(token, effort, (states, sample), bvh);
+        }
+        #[cfg(all(test, proofs))]
+        if crate::proofs::work::groups_persist() {
+            return false;
+        }
+        10 * u64::from(effort.work.wrapping_add(FIT))
+            > 7 * (self.least_apart() + self.roots_apart(effort))
+    }
+}
+
+/// How many rays of a group can hit anything.
+#[inline(always)]
+pub(super) fn live_rays<L: Lanes>(states: &[PacketState<'_, L>]) -> u32 {
+    let mut rays = 0;
+    for state in states {
+        rays += state.live.bits().count_ones();
+    }
+    rays
+}
+
+/// Fewer rays go by themselves: to lay planes around a group takes as long as some of them do.
+pub(super) const LEAST_RAYS: u32 = 12;
