@@ -106,7 +106,7 @@ impl Allowance {
         if crate::proofs::work::groups_persist() {
             return false;
         }
-        // By value: what another function may write is in memory from then on. (In place: 3 % of a camera's rays.)
+        // By value: what another function may write is in memory from then on.
         let (allowance, effort) = (*self, *effort);
         let limits = L::out_of_line(
             token,
@@ -120,7 +120,7 @@ impl Allowance {
     /// How much it may do, and in vain; `None` if its rays would have done less apart. It may do a quarter more than they do at
     /// least, since those that go on by themselves begin anew, and half more than they do about, since that is not known well.
     /// While it holds many spheres against rays in vain, a third of what they do at least is enough. (Twice in place of half
-    /// more: a beam among nested spheres 0.6 of ray by ray in place of 0.7. A quarter more: a camera's rays lose 5 %.)
+    /// more: the search finds 3.2 times the work of ray by ray in a short call.)
     #[inline(always)]
     fn limits<L: Lanes>(
         &self,
