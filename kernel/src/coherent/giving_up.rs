@@ -120,7 +120,7 @@ impl Allowance {
     /// How much it may do, and in vain; `None` if its rays would have done less apart. It may do a quarter more than they do at
     /// least, since those that go on by themselves begin anew, and half more than they do about, since that is not known well.
     /// While it holds many spheres against rays in vain, a third of what they do at least is enough. (Twice in place of half
-    /// more: the search finds 3.2 times the work of ray by ray in a short call.)
+    /// more, and 27 for [`RAY_ROOTS`]: of 352 orders in four scenes 12 were below 0.7 of ray by ray, 0.56 at least.)
     #[inline(always)]
     fn limits<L: Lanes>(
         &self,
