@@ -42,7 +42,7 @@ pub(crate) mod memory;
 pub(crate) mod node;
 #[cfg(feature = "alloc")]
 pub(crate) mod owned;
-mod prefetch;
+pub(crate) mod prefetch;
 pub(crate) mod source;
 pub(crate) mod traverse;
 pub(crate) mod tree;

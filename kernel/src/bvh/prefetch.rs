@@ -5,9 +5,13 @@
 //! all lines are on their way at once, and the latency is paid once a round, not once a ray. (A
 //! million spheres, incoherent rays: 1.2 times as fast for the closest hit, 1.3 times for any. An
 //! instruction for it would do the same and need `unsafe`.)
+//!
+//! A group looks into one node after the other, nearest first. So those of a node's children that it is inside of are
+//! prefetched together, before the first of them.
 
 use super::leaf::extent_of;
-use super::node::BvhNode;
+use super::node::{BvhNode, LEAF, WIDTH};
+use super::tree::Bvh;
 
 /// Trees of more bytes are prefetched: what the second cache of a core holds where that was measured. (Where
 /// all is in it, at 10,000 spheres, prefetching took a tenth more time.)
@@ -37,6 +41,22 @@ pub(crate) fn leaf(numbers: &[f32], number: u32) -> u32 {
     for line in 0..=lanes / 4 {
         if let Some(number) = numbers.get(4 * begin + 16 * line) {
             bits ^= number.to_bits();
+        }
+    }
+    bits
+}
+
+/// The same of the children of a node, those whose bits are set.
+#[inline(always)]
+pub(crate) fn children(bvh: &Bvh<'_>, node: &BvhNode, mut slots: u32) -> u32 {
+    let mut bits = 0;
+    while slots != 0 {
+        let child = node.child[slots.trailing_zeros() as usize % WIDTH];
+        slots &= slots - 1;
+        if child & LEAF != 0 {
+            bits ^= leaf(bvh.numbers, child & !LEAF);
+        } else if let Some(child) = bvh.nodes.get(child as usize) {
+            bits ^= self::node(child);
         }
     }
     bits

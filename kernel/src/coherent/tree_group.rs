@@ -24,6 +24,7 @@ use crate::Accuracy;
 use crate::accuracy::RayLanes;
 use crate::bvh::leaf::Leaf;
 use crate::bvh::node::{DEPTH, LEAF, WIDTH};
+use crate::bvh::prefetch;
 use crate::bvh::traverse::small_tree;
 use crate::bvh::tree::Bvh;
 use crate::count::count;
@@ -31,6 +32,7 @@ use crate::geometry::ray::RayPacket;
 use crate::lanes::{LaneMask, Lanes};
 use crate::query::Query;
 use crate::scale::rays::ScaledRays;
+use core::hint::black_box;
 use core::ops::Range;
 
 /// The widest range of slopes that is traced as one.
@@ -164,6 +166,7 @@ impl Boxes {
         let mut effort = Effort::of(states.len());
         let mut allowance = Allowance::of(states, small_tree::leaf_count(bvh), Q::ANY);
         let mut sample = BoxSample::new();
+        let is_far = prefetch::pays(bvh.nodes, bvh.numbers);
         let mut inside = Inside { places: 0, depths: [0.0; WIDTH] };
         while self.top > 0 {
             self.top -= 1;
@@ -186,6 +189,9 @@ impl Boxes {
             if child & LEAF == 0 {
                 if let Some(node) = bvh.nodes.get(child as usize) {
                     frustum.enter::<L>(token, node, &mut inside);
+                    if is_far {
+                        black_box(prefetch::children(bvh, node, inside.places));
+                    }
                     self.push(&inside, child);
                     effort.node();
                 }
