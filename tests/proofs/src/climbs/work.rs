@@ -5,6 +5,7 @@
 //! work_of_orders -- --ignored --nocapture` writes what groups do of each kind, and what rays do by themselves.
 
 mod input;
+mod patience;
 
 use self::input::{Bundle, Genes, Input, OF_TREE, RayInput, Scene, SceneInput, step};
 use crate::proofs::climb::{Random, climb};

@@ -1,0 +1,85 @@
+//! What it takes to try groups and packets in vain, in work.
+
+use super::input::{Input, RayInput};
+use super::{IN_NO_ORDER, PLAIN, Said, UNIFORM, both, call, in_tiles, orders, times};
+use crate::proofs::climb::Random;
+use crate::proofs::work::Work;
+use crate::query::ClosestHit;
+use crate::{Bvh, Ray, RayPacket, Trace};
+use std::vec::Vec;
+
+/// A camera's tiles, and as many rays of a beam as wide as the scene.
+fn narrow_and_wide() -> [Vec<Ray>; 2] {
+    let [(_, lines), ..] = orders();
+    let narrow = in_tiles(&Input { scene: UNIFORM, rays: lines, any: false }.rays());
+    let beam = RayInput { count: narrow.len(), ..IN_NO_ORDER };
+    let wide = Input { scene: UNIFORM, rays: beam, any: false }.rays();
+    [narrow, wide]
+}
+
+fn packed(rays: &[Ray]) -> Vec<RayPacket> {
+    rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect()
+}
+
+/// The work of one call for packets of two sources, times that of a call for each, as is best for it: the plain one, and
+/// ray by ray.
+fn of_the_best(bvh: &Bvh<'_>, packets: &[RayPacket], are_wide: impl Fn(usize) -> bool) -> f64 {
+    let of = |wanted: bool| {
+        let chosen = packets.iter().enumerate().filter(|&(place, _)| are_wide(place) == wanted);
+        chosen.map(|(_, packet)| *packet).collect::<Vec<_>>()
+    };
+    let (together, _) = call::<ClosestHit>(bvh, packets, PLAIN);
+    let each = Work::of(|| {
+        call::<ClosestHit>(bvh, &of(false), PLAIN);
+        call::<ClosestHit>(bvh, &of(true), Trace::incoherent);
+    });
+    times(packets.len(), [together, each])
+}
+
+/// As a scanner's fan has them, of which a part looks where spheres are dense, and as two sources by turns. (Before it was
+/// learnt for each place of a group: 1.5 times.)
+#[test]
+fn packets_that_never_pay_are_passed_over_among_those_that_do() {
+    let tree = UNIFORM.tree();
+    let [narrow, wide] = narrow_and_wide().map(|rays| packed(&rays));
+    // Scattered, so that four together are too wide.
+    let narrow: Vec<_> = (0..narrow.len()).map(|i| narrow[i * 389 % narrow.len()]).collect();
+    for places in [0b0001_u32, 0b1000, 0b0101, 0b1010, 0b0111, 0b1110] {
+        let are_wide = |place: usize| places >> (place % 4) & 1 == 1;
+        let mixed = (0..narrow.len()).map(|i| if are_wide(i) { wide[i] } else { narrow[i] });
+        let found = of_the_best(&tree.bvh(), &mixed.collect::<Vec<_>>(), are_wide);
+        assert!(found < 0.95, "{found:.3} times, at {places:04b}");
+    }
+}
+
+/// A group that pays is worth more than one that does not. (As long as one in vain meant that the next was not tried: 1.4.)
+#[test]
+fn groups_are_tried_where_every_second_pays() {
+    let tree = UNIFORM.tree();
+    let [narrow, wide] = narrow_and_wide().map(|rays| packed(&rays));
+    let mut random = Random(5);
+    let mut are_wide = Vec::new();
+    are_wide.resize_with(narrow.len() / 4, || random.below(2) == 1);
+    let by_chance = |group: usize| are_wide[group % are_wide.len()];
+    let in_turn = |group: usize| group % 2 == 1;
+    let fourth = |group: usize| group % 4 == 3;
+    let rules: [&dyn Fn(usize) -> bool; 3] = [&in_turn, &fourth, &by_chance];
+    for (rule, is_wide) in rules.into_iter().enumerate() {
+        let are_wide = |place: usize| is_wide(place / 4);
+        let mixed = (0..narrow.len()).map(|i| if are_wide(i) { wide[i] } else { narrow[i] });
+        let found = of_the_best(&tree.bvh(), &mixed.collect::<Vec<_>>(), are_wide);
+        assert!(found < 1.3, "{found:.3} times, by rule {rule}");
+    }
+}
+
+/// Of a long call, in which no group pays. Those that go by themselves are streams, which take less than ray by ray.
+#[test]
+fn few_groups_of_a_beam_are_tried() {
+    let rays = RayInput { count: 1 << 15, ..IN_NO_ORDER };
+    let input = Input { scene: UNIFORM, rays, any: false };
+    let (tree, packets) = (input.scene.tree(), input.packets());
+    for (said, most) in [(PLAIN, 0.845), (Trace::coherent as Said, 0.865)] {
+        let found = times(packets.len(), both(&tree.bvh(), &packets, false, said));
+        assert!(found < most, "{found:.3} times the work of ray by ray");
+    }
+}
