@@ -1,14 +1,17 @@
-//! Which groups are tried.
+//! Which groups are tried, and which packets of them.
 
-/// Which groups are tried: after each that does not pay twice as many are passed over, up to a number. The next call may
-/// have other rays (a path tracer's camera, then bounces), so it begins with a try, where that costs little.
+use super::packet_group::GROUP;
+
+/// Which groups are tried: after each that does not pay twice as many are passed over, up to a number; after each that pays
+/// a fourth. The next call may have other rays (a path tracer's camera, then bounces), so it begins with a try, where that costs
+/// little.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Patience {
     /// So many are still passed over, of so many.
-    wait: u32,
-    gap: u32,
-    /// How many have paid since the last that did not, at most [`FORGIVEN`].
-    paid: u32,
+    wait: u8,
+    gap: u8,
+    /// Whether the last has paid: then none is passed over for one that does not.
+    has_paid: bool,
     /// Whether one has done work in vain since the last that paid. What does not fit has done none.
     is_costly: bool,
 }
@@ -17,15 +20,12 @@ pub(crate) struct Patience {
 /// with a try, took 1.35 times as long on a Zen 3.)
 const WORTH_A_TRY: usize = 8;
 
-/// After so many that paid, none is passed over for one that did not.
-const FORGIVEN: u32 = 4;
-
 /// The most that are passed over, and the most where rays are said to be coherent.
-pub(super) const LONGEST: u32 = 31;
-pub(super) const LONGEST_IF_COHERENT: u32 = 3;
+pub(super) const LONGEST: u8 = 31;
+pub(super) const LONGEST_IF_COHERENT: u8 = 15;
 
 impl Patience {
-    pub(crate) const NEW: Self = Self { wait: 0, gap: 0, paid: 0, is_costly: false };
+    pub(crate) const NEW: Self = Self { wait: 0, gap: 0, has_paid: false, is_costly: false };
 
     /// Begins a call of so many groups.
     #[inline(always)]
@@ -45,15 +45,68 @@ impl Patience {
 
     /// Takes what became of one that was tried: whether it paid, or did work in vain; at most `most` are passed over then.
     #[inline(always)]
-    pub(super) fn take(&mut self, (paid, in_vain): (bool, bool), most: u32) {
+    pub(super) fn take(&mut self, (paid, in_vain): (bool, bool), most: u8) {
         if paid {
-            (self.gap, self.paid) = (0, (self.paid + 1).min(FORGIVEN));
-        } else {
-            // One among many that pay says nothing of the next.
-            self.gap = if self.paid < FORGIVEN { (2 * self.gap + 1).min(most) } else { 0 };
-            self.paid = 0;
+            self.gap = 0;
+        } else if !self.has_paid {
+            self.gap = (2 * self.gap + 1).min(most);
         }
+        self.has_paid = paid;
         self.is_costly = !paid & (self.is_costly | in_vain);
         self.wait = self.gap;
+    }
+}
+
+/// Which packets are tried one by one. Those at the same place of their groups are often alike: the lowest rays of a scanner's
+/// fan, or every second packet of two sources. So where some pay, it is learnt for each place.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PacketPatience {
+    any: Patience,
+    at: [Patience; GROUP],
+    /// The place of the first to be tried: another after each try in vain, since that ends there.
+    first: u8,
+}
+
+/// Packets of a group: a bit for each.
+pub(super) type Places = u8;
+
+impl PacketPatience {
+    pub(crate) const NEW: Self = Self { any: Patience::NEW, at: [Patience::NEW; GROUP], first: 0 };
+
+    /// Begins a call of so many groups.
+    #[inline(always)]
+    pub(super) fn begin(&mut self, groups: usize) {
+        self.any.begin(groups);
+        for place in &mut self.at {
+            place.begin(groups);
+        }
+    }
+
+    /// Which of the next group are tried, and the first of them.
+    #[inline(always)]
+    pub(super) fn tries(&mut self) -> (Places, usize) {
+        let mut places = 0;
+        if self.any.tries() {
+            for place in 0..GROUP {
+                places |= u8::from(self.at[place].tries()) << place;
+            }
+        }
+        (places, usize::from(self.first))
+    }
+
+    /// Takes what became of those that were tried: which of them paid, and which did work in vain.
+    #[inline(always)]
+    pub(super) fn take(&mut self, [tried, paid, in_vain]: [Places; 3], most: u8) {
+        self.any.take((paid != 0, in_vain != 0), most);
+        if paid == 0 {
+            self.first = (self.first + 1) % GROUP as u8;
+            return;
+        }
+        for place in 0..GROUP {
+            let is_in = |places: Places| places >> place & 1 != 0;
+            if is_in(tried) {
+                self.at[place].take((is_in(paid), is_in(in_vain)), most);
+            }
+        }
     }
 }

@@ -10,7 +10,7 @@
 
 use super::packet_group::GROUP;
 use super::packet_source::PacketSource;
-use super::patience::{LONGEST, LONGEST_IF_COHERENT, Patience};
+use super::patience::{LONGEST, LONGEST_IF_COHERENT, PacketPatience, Patience, Places};
 use super::tree_group::{Boxes, Ended, states_of};
 use crate::Accuracy;
 use crate::bvh::traverse::packet_set::{PacketSet, RUN};
@@ -179,7 +179,7 @@ const KINDS: usize = if cfg!(feature = "alloc") { 2 } else { 1 };
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Learnt {
     groups: [Patience; KINDS],
-    packets: [Patience; KINDS],
+    packets: [PacketPatience; KINDS],
     sharing: [Sharing; KINDS],
     /// Of the last packets how many went by themselves, and how many they were.
     #[cfg(feature = "alloc")]
@@ -190,7 +190,7 @@ impl Learnt {
     /// Nothing.
     pub(crate) const NOTHING: Self = Self {
         groups: [Patience::NEW; KINDS],
-        packets: [Patience::NEW; KINDS],
+        packets: [PacketPatience::NEW; KINDS],
         sharing: [Sharing::NOTHING; KINDS],
         #[cfg(feature = "alloc")]
         apart: [0; 2],
@@ -229,7 +229,7 @@ struct Together<'a> {
     boxes: &'a mut Boxes,
     learnt: &'a mut Learnt,
     /// The most groups that are passed over.
-    longest: u32,
+    longest: u8,
 }
 
 impl Together<'_> {
@@ -251,28 +251,37 @@ impl Together<'_> {
             let end = run.end.min(at + GROUP);
             let are_tiles = source.make::<L>(token, at..end);
             let tries_group = self.learnt.groups[kind].tries();
-            let tries_packets = self.learnt.packets[kind].tries();
+            let (tried_apart, first) = self.learnt.packets[kind].tries();
             let mut ends = [Ended::Unfit; GROUP];
-            if tries_group | tries_packets {
+            if tries_group | (tried_apart != 0) {
                 let packets = source.packets(at..end);
                 let mut states = states_of::<L>(token, packets, &nobody, bvh.scale.factor);
                 let states = states.get_mut(..packets.len()).unwrap_or_default();
+                let count = states.len();
                 // Four together, then each alone: by one call, since it is compiled where it is called.
-                let (mut place, mut to) = (0, states.len());
-                let mut alone = false;
-                if !tries_group {
-                    (to, alone) = (1, true);
-                }
-                let (mut paid, mut in_vain) = (false, false);
-                while place < to {
+                let (mut alone, mut waiting) =
+                    (!tries_group, tried_apart & !(Places::MAX << count));
+                let (mut tried, mut paid, mut in_vain) = (0, 0, 0);
+                loop {
+                    let mut these = 0..count;
+                    if alone {
+                        if waiting == 0 {
+                            break;
+                        }
+                        let ahead = waiting & (Places::MAX << first);
+                        let next = if ahead != 0 { ahead } else { waiting };
+                        let place = next.trailing_zeros() as usize % GROUP;
+                        waiting &= !(1 << place);
+                        these = place..place + 1;
+                    }
                     // Those that gave up have taken what was known.
-                    let from =
-                        if ends[place % GROUP] == Ended::Unfit { at + place } else { at + to };
-                    let known = answers.get(from..at + to).unwrap_or_default();
-                    let these = states.get_mut(place..to).unwrap_or_default();
+                    let is_new = ends[these.start % GROUP] == Ended::Unfit;
+                    let known = if is_new { at + these.start..at + these.end } else { 0..0 };
+                    let known = answers.get(known).unwrap_or_default();
+                    let group = states.get_mut(these.clone()).unwrap_or_default();
                     let tiles = if are_tiles & !alone { Some((&*source, at..end)) } else { None };
-                    let ended = self.boxes.trace::<L, Q>(tier, token, these, known, bvh, tiles);
-                    for packet in place..to {
+                    let ended = self.boxes.trace::<L, Q>(tier, token, group, known, bvh, tiles);
+                    for packet in these.clone() {
                         let before = &mut ends[packet % GROUP];
                         if ended != Ended::Unfit {
                             *before = ended;
@@ -281,22 +290,23 @@ impl Together<'_> {
                     if !alone {
                         let outcome = (ended == Ended::Through, ended.is_in_vain());
                         self.learnt.groups[kind].take(outcome, self.longest);
-                        if ended.is_answered() || !tries_packets || states.len() < 2 {
+                        if ended.is_answered() || count < 2 {
                             break;
                         }
-                        (place, to, alone) = (0, 1, true);
+                        alone = true;
                     } else {
-                        paid |= ended == Ended::Through;
-                        in_vain |= ended.is_in_vain();
+                        let place: Places = 1 << these.start;
+                        tried |= place;
+                        paid |= if ended == Ended::Through { place } else { 0 };
+                        in_vain |= if ended.is_in_vain() { place } else { 0 };
                         // Where the first is too wide, so are most.
-                        if ended == Ended::GaveUp && place == 0 {
+                        if ended == Ended::GaveUp && tried == place {
                             break;
                         }
-                        (place, to) = (place + 1, (to + 1).min(states.len()));
                     }
                 }
-                if alone {
-                    self.learnt.packets[kind].take((paid, in_vain), self.longest);
+                if tried != 0 {
+                    self.learnt.packets[kind].take([tried, paid, in_vain], self.longest);
                 }
                 for place in 0..states.len() {
                     if let (Some(state), Some(answer)) =
