@@ -2,9 +2,9 @@
 
 use super::packet_group::GROUP;
 
-/// Which groups are tried: after each that does not pay twice as many are passed over, up to a number; after each that pays
-/// a fourth. The next call may have other rays (a path tracer's camera, then bounces), so it begins with a try, where that costs
-/// little.
+/// Which groups are tried: after each that does not pay twice as many are passed over, up to a number; but none after the
+/// first in vain, since where every second pays it is better to try all. The next call may have other rays (a path
+/// tracer's camera, then bounces), so it begins with a try, where that costs little.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Patience {
     /// So many are still passed over, of so many.
