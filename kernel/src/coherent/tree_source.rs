@@ -5,8 +5,8 @@
 //! Packets are tried in groups of four (`tree_group.rs`), since a group that looks the same way does the work of one
 //! ray for all of its rays. A group that does not fit, or gives up since it does not pay, is tried packet by packet. Rays
 //! of what is left go by themselves (`bvh/traverse/wavefront.rs`), with what their group has learnt, in runs that are as
-//! long as can be; or, with memory for it, as a stream. After each try that does not pay the next are passed over, so
-//! that rays which have nothing in common hardly pay for being asked.
+//! long as can be; or, with memory for it, as a stream. Where tries do not pay, few are made (`patience.rs`): rays that
+//! have nothing in common hardly pay for being asked.
 
 use super::packet_group::GROUP;
 use super::packet_source::PacketSource;
