@@ -11,7 +11,6 @@
 
 use super::leaf::extent_of;
 use super::node::{BvhNode, LEAF, WIDTH};
-use super::tree::Bvh;
 
 /// Trees of more bytes are prefetched: what the second cache of a core holds where that was measured. (Where
 /// all is in it, at 10,000 spheres, prefetching took a tenth more time.)
@@ -46,17 +45,21 @@ pub(crate) fn leaf(numbers: &[f32], number: u32) -> u32 {
     bits
 }
 
-/// The same of the children of a node, those whose bits are set.
+/// The same of the children of a node, those whose bits are set, in a tree of those nodes and leaves.
 #[inline(always)]
-pub(crate) fn children(bvh: &Bvh<'_>, node: &BvhNode, mut slots: u32) -> u32 {
+pub(crate) fn children(
+    (nodes, numbers): (&[BvhNode], &[f32]),
+    of: &BvhNode,
+    mut slots: u32,
+) -> u32 {
     let mut bits = 0;
     while slots != 0 {
-        let child = node.child[slots.trailing_zeros() as usize % WIDTH];
+        let child = of.child[slots.trailing_zeros() as usize % WIDTH];
         slots &= slots - 1;
         if child & LEAF != 0 {
-            bits ^= leaf(bvh.numbers, child & !LEAF);
-        } else if let Some(child) = bvh.nodes.get(child as usize) {
-            bits ^= self::node(child);
+            bits ^= leaf(numbers, child & !LEAF);
+        } else if let Some(child) = nodes.get(child as usize) {
+            bits ^= node(child);
         }
     }
     bits

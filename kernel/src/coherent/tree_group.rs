@@ -190,7 +190,8 @@ impl Boxes {
                 if let Some(node) = bvh.nodes.get(child as usize) {
                     frustum.enter::<L>(token, node, &mut inside);
                     if is_far {
-                        black_box(prefetch::children(bvh, node, inside.places));
+                        let memory = (bvh.nodes, bvh.numbers);
+                        black_box(prefetch::children(memory, node, inside.places));
                     }
                     self.push(&inside, child);
                     effort.node();
