@@ -27,7 +27,7 @@ pub(super) struct BoxSample {
 }
 
 impl BoxSample {
-    /// Of no boxes. Of the first, each fourth is kept. (Each second: 2 % of the time of a camera's rays.)
+    /// Of no boxes. At first each fourth is kept. (Each second: a camera's rays take 1.02 of the time.)
     #[inline(always)]
     pub(super) fn new() -> Self {
         Self {

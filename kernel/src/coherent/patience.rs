@@ -2,15 +2,15 @@
 
 use super::packet_group::GROUP;
 
-/// Which groups are tried: after each that does not pay twice as many are passed over, up to a number; but none after the
-/// first in vain, since where every second pays it is better to try all. The next call may have other rays (a path
+/// Which groups are tried: after each that does not pay twice as many are passed over, up to a number; but none if the one
+/// before it has paid, since where every second pays it is better to try all. The next call may have other rays (a path
 /// tracer's camera, then bounces), so it begins with a try, where that costs little.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Patience {
     /// So many are still passed over, of so many.
     wait: u8,
     gap: u8,
-    /// Whether the last has paid: then none is passed over for one that does not.
+    /// Whether the last has paid: then none is passed over if the next does not.
     has_paid: bool,
     /// Whether one has done work in vain since the last that paid. What does not fit has done none.
     is_costly: bool,
