@@ -20,6 +20,7 @@ use crate::geometry::sphere_columns::SphereColumns;
 use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::axes;
 use crate::numeric::rounding::U;
+use crate::query::Query;
 use wide::f32x4;
 
 /// A line that bounds x_i in terms of x_k: `slope * x_k + offset`.
@@ -173,7 +174,7 @@ pub(super) struct Frustum {
     pub(super) end: f32,
 }
 
-/// What of a node is inside: a bit a child, and the depth it begins at.
+/// What of a node is inside: a bit a child, and a depth from which on it may matter.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Inside {
     pub(super) places: u32,
@@ -184,9 +185,17 @@ impl Frustum {
     pub(super) const NONE: Self =
         Self { sides: Sides::NONE, sign: 1.0, start: f32::INFINITY, end: f32::NEG_INFINITY };
 
-    /// Which children of a node may be entered.
+    /// Which children of a node may be entered, and how soon each is looked into: by the depth it begins at. Any hit takes what
+    /// is large across that axis sooner, by its size, since that soon ends many rays. (Without, any hit of huge and tiny took 1.28
+    /// times as long in the mean of 22 orders, a scanner's rays 6 times; in the order of slots, as rays by themselves take
+    /// children, bursts of rays on the ground twice.)
     #[inline(always)]
-    pub(super) fn enter<L: Lanes>(&self, token: L::Token, node: &BvhNode, inside: &mut Inside) {
+    pub(super) fn enter<L: Lanes, Q: Query>(
+        &self,
+        token: L::Token,
+        node: &BvhNode,
+        inside: &mut Inside,
+    ) {
         count!(GroupNode);
         let k = self.sides.along % 3;
         let (low, high) = (&node.low[k], &node.high[k]);
@@ -199,6 +208,7 @@ impl Frustum {
             let finish = L::load_part(token, last, part) * sign;
             let mut met = begin.le(end) & start.le(finish);
             let axes = across(k);
+            let mut size = begin.like(0.0);
             for side in 0..2 {
                 let (i, [below, above]) = (axes[side] % 3, self.sides.lines(side));
                 // Where along k the line is farthest out.
@@ -208,12 +218,14 @@ impl Frustum {
                 let corner = if above.slope > 0.0 { high } else { low };
                 let most = L::load_part(token, corner, part)
                     .filter_mul_add(L::splat(token, above.slope), L::splat(token, above.offset));
-                met = met
-                    & least.le(L::load_part(token, &node.high[i], part))
-                    & L::load_part(token, &node.low[i], part).le(most);
+                let lowest = L::load_part(token, &node.low[i], part);
+                let highest = L::load_part(token, &node.high[i], part);
+                met = met & least.le(highest) & lowest.le(most);
+                size = size + (highest - lowest);
             }
             inside.places |= met.bits() << (part * L::COUNT);
-            begin.store().put_part(&mut inside.depths, part);
+            let key = if Q::ANY { begin - size } else { begin };
+            key.store().put_part(&mut inside.depths, part);
         }
     }
 

@@ -181,14 +181,14 @@ impl Boxes {
                 let (node, slot) = (place / WIDTH as u32, place as usize % WIDTH);
                 let Some(node) = bvh.nodes.get(node as usize) else { continue };
                 child = node.child[slot];
-                sample.take(place, states);
-                if allowance.is_wasted(token, &effort, (states, &sample), bvh) {
+                sample.take::<L, Q>(place, states);
+                if allowance.is_wasted::<L, Q>(token, &effort, (states, &sample), bvh) {
                     return Ended::GaveUp;
                 }
             }
             if child & LEAF == 0 {
                 if let Some(node) = bvh.nodes.get(child as usize) {
-                    frustum.enter::<L>(token, node, &mut inside);
+                    frustum.enter::<L, Q>(token, node, &mut inside);
                     if is_far {
                         let memory = (bvh.nodes, bvh.numbers);
                         black_box(prefetch::children(memory, node, inside.places));
@@ -218,7 +218,7 @@ impl Boxes {
             );
             frustum.end = end;
         }
-        if allowance.is_at_a_loss(token, &effort, (states, &sample), bvh) {
+        if allowance.is_at_a_loss::<L, Q>(token, &effort, (states, &sample), bvh) {
             Ended::AtALoss
         } else {
             Ended::Through

@@ -290,7 +290,9 @@ impl Together<'_> {
                     if !alone {
                         let outcome = (ended == Ended::Through, ended.is_in_vain());
                         self.learnt.groups[kind].take(outcome, self.longest);
-                        if ended.is_answered() || count < 2 {
+                        // Half of a group that gave up would do so, too.
+                        let are_few = count < 2 || (count == 2 && ended == Ended::GaveUp);
+                        if ended.is_answered() || are_few {
                             break;
                         }
                         alone = true;
@@ -300,7 +302,7 @@ impl Together<'_> {
                         paid |= if ended == Ended::Through { place } else { 0 };
                         in_vain |= if ended.is_in_vain() { place } else { 0 };
                         // Where the first is too wide, so are most.
-                        if ended == Ended::GaveUp && tried == place {
+                        if ended.is_in_vain() && tried == place {
                             break;
                         }
                     }

@@ -12,7 +12,7 @@ use crate::proofs::climb::{Random, climb};
 use crate::proofs::work::{Work, while_groups_persist};
 use crate::query::{AnyHit, ClosestHit, Query};
 use crate::structures::Traverse;
-use crate::{Bvh, Exact, Ray, RayPacket, SphereTree, Trace, Vec3};
+use crate::{Bvh, Exact, Ray, RayPacket, Sphere, SphereTree, Trace, Vec3};
 use std::collections::HashMap;
 use std::println;
 use std::vec;
@@ -100,28 +100,32 @@ fn groups_do_a_small_part_of_the_work_of_ray_by_ray() {
     assert!(found > 4.0, "1/{found:.2} of the work");
 }
 
+/// Many short climbs. (Twelve of 14,400 steps find 2.1, 2.8 and 3.9: the last two are calls of two packets, of which half the rays live.)
+const LONG: [u32; 2] = [72, 2400];
+
 /// Calls of fewer packets have one group or a few, and nothing that is learnt serves the next.
 const MANY: usize = 32;
 
-/// Twice is what is wanted. What is found above it are trees of one leaf, where a ray takes 12 units and to ask a group 23.
+/// Twice is what is wanted. What is found above it are rays of which few live and few hit, in ten groups: what is learnt of the first
+/// serves few.
 #[test]
 fn the_plain_call_does_little_more_than_twice_the_work_of_ray_by_ray() {
     let score = |packets, times| if packets < MANY { 0.25 * times } else { times };
-    let found = most(62, [12, 2400], PLAIN, score);
+    let found = most(62, LONG, PLAIN, score);
     assert!(found <= 2.2, "{found:.2} times the work");
 }
 
 /// A single group that is too wide, and in the end gives up, or packets that are tried alone.
 #[test]
 fn a_short_call_does_at_most_three_times_the_work() {
-    let found = most(62, [12, 2400], PLAIN, |_, times| times);
-    assert!(found <= 3.0, "{found:.2} times the work");
+    let found = most(62, LONG, PLAIN, |_, times| times);
+    assert!(found <= 2.7, "{found:.2} times the work");
 }
 
 #[test]
 fn rays_falsely_said_to_be_coherent_take_at_most_three_times_the_work() {
-    let found = most(63, [12, 2400], Trace::coherent, |_, times| times);
-    assert!(found <= 3.0, "{found:.2} times the work");
+    let found = most(63, LONG, Trace::coherent, |_, times| times);
+    assert!(found <= 2.9, "{found:.2} times the work");
 }
 
 /// Parallel rays from anywhere, in no order.
@@ -236,6 +240,20 @@ fn where_groups_pay() -> [SphereTree; 3] {
     let sheet = SceneInput { scene: Scene::Sheet, spheres: 10_000, radius: 2e-3, ..UNIFORM };
     let nested = (0..1000).map(|i| (Vec3::ZERO, 0.5 + 5e-4 * i as f32));
     [tiny.tree(), sheet.tree(), SphereTree::new(nested.collect::<Vec<_>>())]
+}
+
+/// What is large ends many rays at once, and is met soon if any hit will do: a large sphere among tiny ones, by rays that end there.
+#[test]
+fn any_hit_meets_what_is_large_first() {
+    let scene = SceneInput { spheres: 30_000, radius: 0.003, ..UNIFORM };
+    let mut list = scene.list();
+    list.push(Sphere { center: Vec3::ZERO, radius: 0.9 });
+    let tree = SphereTree::new(list);
+
+    let [_, _, (_, rays), ..] = orders();
+    let packets = Input { scene, rays, any: true }.packets();
+    let found = times(packets.len(), both(&tree.bvh(), &packets, true, PLAIN));
+    assert!(found < 0.4, "{found:.2} times the work");
 }
 
 /// A camera's tiles are what groups are for. (For a week they gave up: 3.7 times as long among nested spheres.)

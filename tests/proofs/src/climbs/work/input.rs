@@ -235,6 +235,10 @@ fn in_cube(random: &mut Random) -> Vec3 {
 
 impl SceneInput {
     pub(super) fn tree(&self) -> SphereTree {
+        SphereTree::new(self.list())
+    }
+
+    pub(super) fn list(&self) -> SphereList {
         let mut random = Random(self.seed + 1);
         let mut list = SphereList::new();
         let centers: Vec<_> = (0..16).map(|_| in_cube(&mut random)).collect();
@@ -260,7 +264,7 @@ impl SceneInput {
             let (center, radius) = ((center + self.shift) * self.scale, radius * self.scale);
             list.push(Sphere { center, radius });
         }
-        SphereTree::new(list)
+        list
     }
 }
 
