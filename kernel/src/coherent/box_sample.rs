@@ -29,8 +29,7 @@ pub(super) struct BoxSample {
 }
 
 impl BoxSample {
-    /// Of no boxes. At first each second is kept. (Each fourth: any hit of ground takes 0.99 of the time, and the search of the tests
-    /// finds 2.5 times the work of ray by ray in place of 2.1.)
+    /// Of no boxes. At first each second is kept. (Each fourth: any hit of ground takes 0.99 of the time.)
     #[inline(always)]
     pub(super) fn new() -> Self {
         Self { places: [0; KEPT], live: [0; KEPT], kept: 0, boxes: 0, skipped: 1 }

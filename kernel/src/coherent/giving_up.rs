@@ -29,8 +29,8 @@ use crate::lanes::{LaneMask, Lanes};
 use crate::query::Query;
 
 /// What a ray does by itself: its beginning and its end, a node, a leaf, the roots of the first sphere that it comes near, those of
-/// the next, which share a leaf, and the tier. (Where rays came near a sphere, in place of having hit one, and 20 for the first
-/// roots, a search found calls that take 4.8 times the work of ray by ray, in place of 2.1.)
+/// the next, which share a leaf, and the tier. (With rays that came near a sphere in place of those that hit one, and 20
+/// for the first roots, the search finds calls that take 5.9 times the work of ray by ray, in place of 2.2.)
 const RAY: u32 = 4;
 const RAY_NODE: u32 = 5;
 const RAY_LEAF: u32 = 6;
@@ -42,7 +42,8 @@ const RAY_OF_SMALL_TREE: u32 = 2;
 const LEAF_OF_SMALL_TREE: u32 = 1;
 const ROOTS_OF_SMALL_TREE: u32 = 2;
 /// A node or a leaf of a tree that lies far away takes a ray so many times as long: it waits for memory, which a group does for all
-/// of its rays at once. (Without: u1m, bursts of 16, 0.8 of the speed.)
+/// of its rays at once. (Without: u1m, bursts of 16, 0.8 of the speed. Four times: half a
+/// camera's rays and half diffuse ones 1.06, five other orders as fast.)
 const FAR: u64 = 2;
 /// What it takes to lay planes around a group: not much but in a small tree.
 const FIT: u32 = 24;

@@ -100,7 +100,7 @@ fn groups_do_a_small_part_of_the_work_of_ray_by_ray() {
     assert!(found > 4.0, "1/{found:.2} of the work");
 }
 
-/// Many short climbs. (Twelve of 14,400 steps find 2.1, 2.8 and 3.9: the last two are calls of two packets, of which half the rays live.)
+/// Many short climbs. (Twelve of 14,400 steps find 2.0, 2.8 and 3.9: the last two are calls of two packets, of which half the rays live.)
 const LONG: [u32; 2] = [72, 2400];
 
 /// Calls of fewer packets have one group or a few, and nothing that is learnt serves the next.
