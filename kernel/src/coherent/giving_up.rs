@@ -23,7 +23,6 @@
 use super::box_sample::BoxSample;
 use super::effort::Effort;
 use super::packet_state::PacketState;
-use crate::bvh::prefetch;
 use crate::bvh::tree::Bvh;
 use crate::lanes::{LaneMask, Lanes};
 use crate::query::Query;
@@ -41,10 +40,6 @@ const RAY_TIER: u32 = 3;
 const RAY_OF_SMALL_TREE: u32 = 2;
 const LEAF_OF_SMALL_TREE: u32 = 1;
 const ROOTS_OF_SMALL_TREE: u32 = 2;
-/// A node or a leaf of a tree that lies far away takes a ray so many times as long: it waits for memory, which a group does for all
-/// of its rays at once. (Without: u1m, bursts of 16, 0.8 of the speed. Four times: half a
-/// camera's rays and half diffuse ones 1.06, five other orders as fast.)
-const FAR: u64 = 2;
 /// What it takes to lay planes around a group: not much but in a small tree.
 const FIT: u32 = 24;
 
@@ -150,8 +145,7 @@ impl Allowance {
         // What is known without boxes is enough for most groups, and all that there is in a small tree.
         let mut apart = self.roots_apart(effort, states);
         if self.leaves.is_none() && (is_in_vain | (work > least + begin_anew + apart + apart / 2)) {
-            let boxes = sample.apart::<L, Q>(states, bvh, [RAY_NODE, RAY_LEAF]);
-            apart += if prefetch::pays(bvh.nodes, bvh.numbers) { FAR * boxes } else { boxes };
+            apart += sample.apart::<L, Q>(states, bvh, [RAY_NODE, RAY_LEAF]);
         }
 
         let limit = if is_in_vain {

@@ -15,8 +15,7 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
     #[inline(always)]
     pub(super) fn look_into(&mut self, number: u32, from: usize, to: usize) {
         let Some(leaf) = self.tests.bvh.leaf(number) else { return };
-        self.seen.boxes = self.seen.boxes.wrapping_add(1);
-        self.seen.entered = self.seen.entered.wrapping_add((to - from) as u32);
+        self.seen.count_leaf(self.queues, from, to);
         if self.tests.tier.spread() == 0.0 {
             self.meet::<false>((&leaf, number), from, to);
         } else {

@@ -84,8 +84,7 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
         let room = room.min(frame.end - frame.next);
         let (from, base) = (frame.next, frame.base);
         (frame.next, frame.room, frame.left) = (from + room, room, WIDTH as u32);
-        self.seen.boxes = self.seen.boxes.wrapping_add(1);
-        self.seen.entered = self.seen.entered.wrapping_add(room as u32);
+        self.seen.count(room);
 
         let down = axes!(i => octant >> i & 1 == 1);
         let mut ends = [0; WIDTH];

@@ -38,7 +38,7 @@ fn rays_that_meet_go_as_a_stream_in_memory_that_a_call_takes() {
 
 #[test]
 fn few_that_meet_or_much_in_vain_end_it_and_all_is_tried_again() {
-    let seen = |boxes, entered| Seen { streams: 1, rays: 1024, boxes, entered };
+    let seen = |boxes, entered| Seen { streams: 1, rays: 1024, boxes, entered, ..Seen::default() };
     let (tree, _) = scene(2000, 0);
     let tree = tree.bvh();
     assert!(bytes_of(&tree) < NEAR);
@@ -61,6 +61,28 @@ fn few_that_meet_or_much_in_vain_end_it_and_all_is_tried_again() {
 }
 
 #[test]
+fn of_bunches_that_have_nothing_in_common_a_sample_goes_as_a_stream() {
+    let (tree, _) = scene(100_000, 0);
+    let mut random = Random(67);
+    let mut point = || Vec3::from_array([(); 3].map(|()| random.below(1 << 20) as f32));
+    // Two scan lines of a picture of 32 by 32 pixels, then 64 rays from anywhere to anywhere.
+    let eye = Vec3::new(5e5, 5e5, -1.5e6);
+    let pixel = |at: u32| Vec3::new((at % 32) as f32 * 32_768.0, (at / 32) as f32 * 32_768.0, 0.0);
+    let in_turns = |at: u32| {
+        let (turn, place) = (at / 128, at % 128);
+        let from = point();
+        let anywhere = Ray::new(from, point() - from);
+        if place < 64 { Ray::new(eye, pixel(64 * turn + place) - eye) } else { anywhere }
+    };
+    let rays: Vec<Ray> = (0..2048).map(in_turns).collect();
+    let mut hits = vec![None; rays.len()];
+    let work = Work::of(|| tree.closest_hits(Exact, &rays, &mut hits));
+    // A ray enters some 12 boxes, and an eighth of the rays are the sample.
+    let in_streams = work.count(Kind::StreamNode);
+    assert!(in_streams > 0 && in_streams < 256 * 12, "{in_streams}");
+}
+
+#[test]
 fn in_a_tree_that_is_far_a_smaller_part_is_good() {
     // Of some 0.6 MB and 1.2 MB.
     for (spheres, is_near, enough) in [(30_000, true, 5), (60_000, false, 3)] {
@@ -70,7 +92,8 @@ fn in_a_tree_that_is_far_a_smaller_part_is_good() {
         for (alone, pays) in [(enough, true), (enough - 1, false)] {
             let mut any = Sharing::NOTHING;
             any.take_alone(Entered { rays: 128, boxes: 128 * alone });
-            let seen = Seen { streams: 1, rays: 1024, boxes: 1024, entered: 8192 };
+            let seen =
+                Seen { streams: 1, rays: 1024, boxes: 1024, entered: 8192, ..Seen::default() };
             any.take::<AnyHit>(&tree, StreamStrategy::AsTheyCome, seen);
             assert_eq!(any.may_pay::<AnyHit>(&tree, 8192), pays, "{spheres} {alone}");
         }
@@ -107,7 +130,8 @@ fn what_rays_enter_by_themselves_is_counted_now_and_then() {
         strategies.push((strategy == StreamStrategy::AsTheyCome, rays));
         let entered = 20 * rays as u32;
         if strategy == StreamStrategy::AsTheyCome {
-            let seen = Seen { streams: 1, rays: rays as u32, boxes: entered / 20, entered };
+            let (rays, boxes) = (rays as u32, entered / 20);
+            let seen = Seen { streams: 1, rays, boxes, entered, ..Seen::default() };
             sharing.take::<AnyHit>(&tree, strategy, seen);
         } else {
             sharing.take_alone(Entered { rays: rays as u32, boxes: entered });
@@ -149,7 +173,8 @@ fn rays_that_look_otherwise_are_counted_anew() {
         strategies.push((is_stream, from, count / 16));
         if is_stream {
             let met = if (320..1280).contains(&from) { 1 } else { 30 };
-            let seen = Seen { streams: 1, rays: count as u32, boxes: 1000, entered: 1000 * met };
+            let (rays, entered) = (count as u32, 1000 * met);
+            let seen = Seen { streams: 1, rays, boxes: 1000, entered, ..Seen::default() };
             sharing.take::<ClosestHit>(&tree, strategy, seen);
         }
         from += count.div_ceil(16);
