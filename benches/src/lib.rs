@@ -7,7 +7,7 @@
 //! | `... --features embree ... -- --write` | with Embree (Debian: `libembree3-3`); and writes `docs/benchmarks` |
 //!
 //! Speed is written for one build at a time: once more with `RUSTFLAGS="-C target-cpu=native"`. `--scene NAME` runs one
-//! large scene alone, `--order NAME` one order of rays, `--quick` takes a part of the rays, both together take less than a minute; `--test` runs everything
+//! large scene alone, `--order NAME` one order of rays, `--rays N` by calls of so many, `--quick` takes a part of the rays, both together take less than a minute; `--test` runs everything
 //! once. The variable `SPHERULE_EMBREE` says which libraries of Embree are opened: paths with colons between them.
 //!
 //! Data flows one way: [scenes](spherule_tests::scenes), [engines](engine), [the check before the clock](agreement),

@@ -52,9 +52,13 @@ struct Plan {
     every_level: bool,
 }
 
-/// Measures all scenes and orders, or one alone.
-pub(crate) fn measure(effort: Effort, (one, order): (Option<&str>, Option<Order>)) -> Vec<Row> {
-    let (size, plan) = match effort {
+/// Measures all scenes and orders, or one alone, by calls of so many rays if it is said.
+pub(crate) fn measure(
+    effort: Effort,
+    (one, order): (Option<&str>, Option<Order>),
+    rays: Option<usize>,
+) -> Vec<Row> {
+    let (size, usual) = match effort {
         Effort::Test => (
             Size::SMALL,
             Plan {
@@ -86,6 +90,7 @@ pub(crate) fn measure(effort: Effort, (one, order): (Option<&str>, Option<Order>
             },
         ),
     };
+    let plan = Plan { rays: rays.unwrap_or(usual.rays), ..usual };
     let chosen = |name: &&str| one.is_none_or(|one| one == *name);
     let mut rows = Vec::new();
     for name in LARGE.into_iter().chain([SPREAD]).filter(chosen) {

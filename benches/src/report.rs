@@ -20,6 +20,9 @@ struct Arguments {
     /// One order of rays alone, in every scene that is chosen; nothing is written.
     #[arg(long, value_parser = Order::ALL.map(Order::as_str))]
     order: Option<String>,
+    /// Rays of a call, in rays in every order; nothing is written.
+    #[arg(long)]
+    rays: Option<usize>,
     /// Writes docs/benchmarks.
     #[arg(long)]
     write: bool,
@@ -53,7 +56,7 @@ enum Part {
 /// # Panics
 /// If an answer is wrong.
 pub fn report() -> Result<(), Box<dyn error::Error>> {
-    let Arguments { part, scene, order, write, quick, test, .. } = Arguments::parse();
+    let Arguments { part, scene, order, rays, write, quick, test, .. } = Arguments::parse();
     let effort = match (test, quick) {
         (true, _) => Effort::Test,
         (_, true) => Effort::Quick,
@@ -64,7 +67,7 @@ pub fn report() -> Result<(), Box<dyn error::Error>> {
         if name.ends_with(".md") {
             println!("{text}");
         }
-        if write && !test && scene.is_none() && order.is_none() {
+        if write && !test && scene.is_none() && order.is_none() && rays.is_none() {
             fs::create_dir_all(&folder)?;
             fs::write(folder.join(name), text)?;
         }
@@ -104,7 +107,7 @@ pub fn report() -> Result<(), Box<dyn error::Error>> {
     }
     if chosen(Part::Orders) {
         let order = order.as_deref().and_then(Order::named);
-        let rows = orders::measure(effort, (scene.as_deref(), order));
+        let rows = orders::measure(effort, (scene.as_deref(), order), rays);
         put("orders.md", &page::orders::page(&origin, &rows))?;
     }
     if chosen(Part::Calls) {

@@ -29,7 +29,9 @@ use crate::query::Query;
 
 /// What a ray does by itself: its beginning and its end, a node, a leaf, the roots of the first sphere that it comes near, those of
 /// the next, which share a leaf, and the tier. (With rays that came near a sphere in place of those that hit one, and 20
-/// for the first roots, the search finds calls that take 5.9 times the work of ray by ray, in place of 2.2.)
+/// for the first roots, the search finds calls that take 5.9 times the work of ray by ray, in place of 2.2. With boxes twice
+/// as long where the tree is far, since rays wait for memory there: a picture of 128 by 128 of u1m 1.02 to 1.07 of the speed, of 64 by
+/// 64 0.6, since its groups did not give up.)
 const RAY: u32 = 4;
 const RAY_NODE: u32 = 5;
 const RAY_LEAF: u32 = 6;

@@ -83,6 +83,34 @@ fn of_bunches_that_have_nothing_in_common_a_sample_goes_as_a_stream() {
 }
 
 #[test]
+fn short_runs_are_bunches_and_scattered_rays_are_not() {
+    // As counted: a camera's rays and diffuse ones by turns, two cameras, rays to a light.
+    for ([leaves, at_leaves, together], expected) in
+        [([479, 719, 209], true), ([156, 737, 477], true), ([430, 782, 52], false)]
+    {
+        let seen = Seen { leaves, at_leaves, together, ..Seen::default() };
+        assert_eq!(seen.is_in_bunches(), expected, "{leaves}");
+    }
+}
+
+#[test]
+fn rays_that_all_enter_the_same_few_boxes_tell_nothing() {
+    let (tree, _) = scene(2000, 0);
+    let tree = tree.bvh();
+    let mut rays = vec![StreamRay::EMPTY; TOGETHER];
+    let mut queues = vec![QueuedRay::EMPTY; 64 * TOGETHER];
+    let memory = StreamMemory::new(&mut rays, &mut queues).expect("enough");
+    let packets = vec![RayPacket::<[f32; 16]>::inactive(); 512];
+    for (boxes, expected) in [(4, 1024), (40, TOGETHER)] {
+        let mut sharing = Sharing::NOTHING;
+        let seen = Seen { streams: 1, rays: 1024, boxes, entered: 1024 * 2, ..Seen::default() };
+        sharing.take::<ClosestHit>(&tree, StreamStrategy::AsTheyCome, seen);
+        let (_, next) = sharing.next::<_, ClosestHit>(&tree, &memory, &packets, true);
+        assert_eq!(next, expected, "{boxes}");
+    }
+}
+
+#[test]
 fn in_a_tree_that_is_far_a_smaller_part_is_good() {
     // Of some 0.6 MB and 1.2 MB.
     for (spheres, is_near, enough) in [(30_000, true, 5), (60_000, false, 3)] {
