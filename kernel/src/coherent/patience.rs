@@ -43,7 +43,9 @@ impl Patience {
         tries
     }
 
-    /// Takes what became of one that was tried: whether it paid, or did work in vain; at most `most` are passed over then.
+    /// Takes what became of one that was tried: whether it paid, or did work in vain; at most `most` are passed over then. (Three,
+    /// in place of one, after the first that does not pay: calls of 512 rays of a beam over 64 spheres run at 0.75 of ray by ray, in
+    /// place of 0.65, but any hits of scan lines among nested spheres at 0.72, in place of 0.92.)
     #[inline(always)]
     pub(super) fn take(&mut self, (paid, in_vain): (bool, bool), most: u8) {
         if paid {
