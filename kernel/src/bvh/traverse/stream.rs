@@ -36,6 +36,7 @@ mod memory;
 mod nodes;
 mod queue;
 mod ray;
+mod seen;
 mod sharing;
 mod sort;
 mod strategy;
@@ -48,7 +49,8 @@ pub use ray::StreamRay;
 pub(crate) use sharing::Sharing;
 
 use self::queue::{FRAMES, Frame};
-use self::sharing::{Seen, TOGETHER};
+use self::seen::Seen;
+use self::sharing::TOGETHER;
 use self::sort::by_start;
 use self::strategy::StreamStrategy;
 use super::deferred::DeferredTests;

@@ -64,7 +64,7 @@
 
 use super::StreamMemory;
 use super::likeness::Likeness;
-use super::queue::QueuedRay;
+use super::seen::Seen;
 use super::strategy::StreamStrategy;
 use crate::bvh::traverse::small_tree;
 use crate::bvh::traverse::wavefront::Entered;
@@ -85,11 +85,6 @@ const ENOUGH_SORTED: f32 = 3.0;
 /// Of rays that enter fewer boxes, in all, nothing is learnt. (A picture of ground from the top: 112 at a box, of four boxes, then
 /// 2.4: 1,024 rays ran at 0.63 to 0.66 of ray by ray. Of rays that enter fewer than three each, in place: huge and tiny, 0.8.)
 const TELLING: u32 = 8;
-/// Rays of a bunch, one after the other.
-const BUNCH: u32 = 16;
-/// Where rays are scattered, those that meet at a leaf are so many times as many as of a bunch, or more: 10 to 28 in samples of
-/// 224 rays; in bunches 1.2 to 2.3.
-const SCATTERED: f32 = 3.0;
 /// Rays that go down together, if there is memory for so many. In u10k 4,096 are 3 to 5 % slower, and 2,048 a sixth;
 /// 32,768 take longer at all levels but AVX-512.
 pub(super) const TOGETHER: usize = 8192;
@@ -153,55 +148,6 @@ impl Waiting {
         let [least, most] = PASSED_OVER;
         self.of = if paid { 0 } else { (2 * self.of).clamp(least, most) };
         self.left = self.of;
-    }
-}
-
-/// What a stream has seen.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Seen {
-    /// How often rays went down, and how many in all.
-    pub(super) streams: u32,
-    pub(super) rays: u32,
-    /// How many nodes and leaves they entered, counted once for all that did at once.
-    pub(super) boxes: u32,
-    /// The same, counted once for each ray.
-    pub(super) entered: u32,
-    /// Of leaves alone the same two, and how many of the rays came after one of their bunch, about.
-    pub(super) leaves: u32,
-    pub(super) at_leaves: u32,
-    pub(super) together: u32,
-}
-
-impl Seen {
-    /// Counts a box that so many rays enter.
-    #[inline(always)]
-    pub(super) fn count(&mut self, rays: usize) {
-        self.boxes = self.boxes.wrapping_add(1);
-        self.entered = self.entered.wrapping_add(rays as u32);
-    }
-
-    /// Counts a leaf that those rays of the queues enter, and how many of them came together: as the first two, so all. (Each
-    /// ray held against the one before: two cameras run at 0.94 to 0.97 of the speed. Of nodes, too: rays to a light seem to
-    /// come together.)
-    #[inline(always)]
-    pub(super) fn count_leaf(&mut self, queues: &[QueuedRay], from: usize, to: usize) {
-        let rays = (to - from) as u32;
-        self.count(to - from);
-        self.leaves = self.leaves.wrapping_add(1);
-        self.at_leaves = self.at_leaves.wrapping_add(rays);
-        if rays > 1
-            && let (Some(one), Some(next)) = (queues.get(from), queues.get(from + 1))
-            && one.ray / BUNCH == next.ray / BUNCH
-        {
-            self.together = self.together.wrapping_add(rays - 1);
-        }
-    }
-
-    /// Whether most of the rays that met at a leaf came together.
-    fn is_in_bunches(&self) -> bool {
-        let [leaves, rays, together] =
-            [self.leaves as f32, self.at_leaves as f32, self.together as f32];
-        (rays - leaves) * (rays - together) < SCATTERED * together * leaves
     }
 }
 
