@@ -133,6 +133,8 @@ mod tests {
         // Of few the parts are shorter; half a part.
         assert_eq!(end::<128>(far, |place| place >= 96), 96);
         assert_eq!(end::<128>(far, |place| place >= 120), 128);
+        // Of many they are not longer than 64 packets, and not shorter: half of one is not told.
+        assert_eq!(end::<512>(far, |place| place >= 480), 512);
         for turn in [1, 4, 64, 128] {
             let in_turns = |place| place / turn % 2 == 1;
             assert!(end::<512>(far, in_turns) > 256, "{turn}");
