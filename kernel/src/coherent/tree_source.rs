@@ -280,7 +280,12 @@ impl Together<'_> {
                     let known = answers.get(known).unwrap_or_default();
                     let group = states.get_mut(these.clone()).unwrap_or_default();
                     let tiles = if are_tiles & !alone { Some((&*source, at..end)) } else { None };
-                    let ended = self.boxes.trace::<L, Q>(tier, token, group, known, bvh, tiles);
+                    let boxes = &mut *self.boxes;
+                    let ended = L::out_of_line(
+                        token,
+                        #[inline(always)]
+                        || boxes.trace::<L, Q>(tier, token, group, known, bvh, tiles),
+                    );
                     for packet in these.clone() {
                         let before = &mut ends[packet % GROUP];
                         if ended != Ended::Unfit {
