@@ -4,7 +4,7 @@ use crate::bvh::StreamMemory;
 #[cfg(feature = "alloc")]
 use crate::bvh::traverse::stream::KeptMemory;
 use crate::coherence::Coherence;
-use crate::coherent::tree_source::Learnt;
+use crate::coherent::learnt::Learnt;
 use crate::dispatch::Level;
 
 /// How rays are traced: at which level, what is known of them, and with what working memory. No answer

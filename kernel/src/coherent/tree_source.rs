@@ -8,24 +8,24 @@
 //! long as can be; or, with memory for it, as a stream. Where tries do not pay, few are made (`patience.rs`): rays that
 //! have nothing in common hardly pay for being asked.
 
-use super::packet_group::GROUP;
+use super::learnt::{Learnt, kind_of};
 use super::packet_source::PacketSource;
-use super::patience::{LONGEST, LONGEST_IF_COHERENT, PacketPatience, Patience, Places};
-use super::tree_group::{Boxes, Ended, states_of};
+use super::patience::{LONGEST, LONGEST_IF_COHERENT, SHORTEST, SHORTEST_IN_SMALL_TREE};
+use super::together::{Apart, Together};
+use super::tree_group::Boxes;
 use crate::Accuracy;
 use crate::bvh::traverse::packet_set::{PacketSet, RUN};
-use crate::bvh::traverse::stream::{self, Sharing, StreamMemory};
+use crate::bvh::traverse::small_tree;
 #[cfg(feature = "alloc")]
-use crate::bvh::traverse::stream::{KeptMemory, MOST_SORTED};
+use crate::bvh::traverse::stream::KeptMemory;
+use crate::bvh::traverse::stream::{self, StreamMemory};
 use crate::bvh::traverse::wavefront;
 use crate::bvh::tree::Bvh;
 use crate::coherence::Coherence;
-use crate::geometry::ray::RayPacket;
 use crate::geometry::sphere_run::SphereRun;
 use crate::lanes::Lanes;
 use crate::linear;
 use crate::query::Query;
-use core::ops::Range;
 
 /// What a caller says of the rays, memory for streams, and what is learnt of rays.
 #[derive(Debug)]
@@ -49,7 +49,7 @@ impl Ways<'_> {
     fn memory<Q: Query>(&mut self, bvh: &Bvh<'_>, rays: usize) -> Option<StreamMemory<'_>> {
         #[cfg(feature = "alloc")]
         if self.lent.is_none() && self.coherence != Coherence::Incoherent {
-            let sharing = &self.learnt.sharing[usize::from(Q::ANY)];
+            let sharing = &self.learnt.sharing[kind_of::<Q>()];
             return self.kept.lend::<Q>(bvh, sharing, rays);
         }
         let _ = (bvh, rays);
@@ -101,7 +101,11 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
     }
 
     let is_coherent = coherence == Coherence::Coherent;
-    let longest = if is_coherent { LONGEST_IF_COHERENT } else { LONGEST };
+    let is_small = small_tree::leaf_count(bvh).is_some();
+    let gaps = [
+        if is_small { SHORTEST_IN_SMALL_TREE } else { SHORTEST },
+        if is_coherent { LONGEST_IF_COHERENT } else { LONGEST },
+    ];
     let mut boxes = Boxes::new();
     // Packets from `from` on are not answered; those before `run` go ray by ray, and nothing is known of them.
     let (mut from, mut run) = (0, 0);
@@ -115,7 +119,7 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
         if coherence != Coherence::Incoherent {
             end = count.min(run + RUN);
             let at = run..end;
-            let mut together = Together { boxes: &mut boxes, learnt: &mut *ways.learnt, longest };
+            let mut together = Together { boxes: &mut boxes, learnt: &mut *ways.learnt, gaps };
             together.answer::<L, Q>(tier, token, bvh, (&mut source, at), answers, &mut apart);
         }
         if apart.are_all && end < count {
@@ -145,7 +149,7 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
                 {
                     ways.learnt.apart[0] += waiting.map_or(to - from, PacketSet::count);
                 }
-                let kind = usize::from(Q::ANY) % KINDS;
+                let kind = kind_of::<Q>();
                 let mut sharing = ways.learnt.sharing[kind];
                 match &mut ways.memory::<Q>(bvh, L::COUNT * (to - from)) {
                     Some(memory) => {
@@ -161,183 +165,5 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
             }
         }
         (from, run) = (end, end);
-    }
-}
-
-/// Packets of a run that go ray by ray.
-struct Apart {
-    packets: PacketSet,
-    /// Whether all do, and nothing is known of any.
-    are_all: bool,
-}
-
-/// Closest hits and any hits learn apart. Together where memory is short: a trace that a firmware copies by a function is
-/// 900 bytes of flash.
-const KINDS: usize = if cfg!(feature = "alloc") { 2 } else { 1 };
-
-/// What is learnt of rays as they come: which of them pay together.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Learnt {
-    groups: [Patience; KINDS],
-    packets: [PacketPatience; KINDS],
-    sharing: [Sharing; KINDS],
-    /// Of the last packets how many went by themselves, and how many they were.
-    #[cfg(feature = "alloc")]
-    apart: [usize; 2],
-}
-
-impl Learnt {
-    /// Nothing.
-    pub(crate) const NOTHING: Self = Self {
-        groups: [Patience::NEW; KINDS],
-        packets: [PacketPatience::NEW; KINDS],
-        sharing: [Sharing::NOTHING; KINDS],
-        #[cfg(feature = "alloc")]
-        apart: [0; 2],
-    };
-
-    /// Begins a call of so many packets.
-    #[inline(always)]
-    pub(crate) fn begin_call<Q: Query>(&mut self, packets: usize) {
-        let (kind, groups) = (usize::from(Q::ANY) % KINDS, packets.div_ceil(GROUP));
-        self.groups[kind].begin(groups);
-        self.packets[kind].begin(groups);
-    }
-
-    /// How many of the next rays, of which there are so many, a call likes to have at once: more than few where some go by
-    /// themselves, and a stream of them may pay.
-    #[cfg(feature = "alloc")]
-    pub(crate) fn many_at_once<Q: Query>(&self, bvh: &Bvh<'_>, rays: usize) -> Option<usize> {
-        let [apart, all] = self.apart;
-        let sharing = &self.sharing[usize::from(Q::ANY)];
-        if SOME * apart < all || all == 0 || !sharing.may_pay::<Q>(bvh, rays) {
-            return None;
-        }
-        let sorts = sharing.may_sort::<Q>(bvh, rays);
-        // Of those some may go together as groups: twice as many as go down as a stream.
-        let together = 2 * Sharing::together(rays);
-        Some(rays.min(if sorts { MOST_SORTED } else { together }))
-    }
-}
-
-/// One in so many is some.
-#[cfg(feature = "alloc")]
-const SOME: usize = 4;
-
-/// Packets that go down together.
-struct Together<'a> {
-    boxes: &'a mut Boxes,
-    learnt: &'a mut Learnt,
-    /// The most groups that are passed over.
-    longest: u8,
-}
-
-impl Together<'_> {
-    /// Answers the groups and packets of a run that pay; the others are those `apart` then, with answers so far.
-    #[inline(always)]
-    fn answer<L: Lanes, Q: Query>(
-        &mut self,
-        tier: impl Accuracy,
-        token: L::Token,
-        bvh: &Bvh<'_>,
-        (source, run): (&mut PacketSource<'_, L::Array>, Range<usize>),
-        answers: &mut [Q::Packet<L::Array>],
-        apart: &mut Apart,
-    ) {
-        let nobody = RayPacket::inactive();
-        let kind = usize::from(Q::ANY) % KINDS;
-        let mut at = run.start;
-        while at < run.end {
-            let end = run.end.min(at + GROUP);
-            let are_tiles = source.make::<L>(token, at..end);
-            let tries_group = self.learnt.groups[kind].tries();
-            let (tried_apart, first) = self.learnt.packets[kind].tries();
-            let mut ends = [Ended::Unfit; GROUP];
-            if tries_group | (tried_apart != 0) {
-                let packets = source.packets(at..end);
-                let mut states = states_of::<L>(token, packets, &nobody, bvh.scale.factor);
-                let states = states.get_mut(..packets.len()).unwrap_or_default();
-                let count = states.len();
-                // Four together, then each alone: by one call, since it is compiled where it is called.
-                let (mut alone, mut waiting) =
-                    (!tries_group, tried_apart & !(Places::MAX << count));
-                let (mut tried, mut paid, mut in_vain) = (0, 0, 0);
-                loop {
-                    let mut these = 0..count;
-                    if alone {
-                        if waiting == 0 {
-                            break;
-                        }
-                        let ahead = waiting & (Places::MAX << first);
-                        let next = if ahead != 0 { ahead } else { waiting };
-                        let place = next.trailing_zeros() as usize % GROUP;
-                        waiting &= !(1 << place);
-                        these = place..place + 1;
-                    }
-                    // Those that gave up have taken what was known.
-                    let is_new = ends[these.start % GROUP] == Ended::Unfit;
-                    let known = if is_new { at + these.start..at + these.end } else { 0..0 };
-                    let known = answers.get(known).unwrap_or_default();
-                    let group = states.get_mut(these.clone()).unwrap_or_default();
-                    let tiles = if are_tiles & !alone { Some((&*source, at..end)) } else { None };
-                    let boxes = &mut *self.boxes;
-                    let ended = L::out_of_line(
-                        token,
-                        #[inline(always)]
-                        || boxes.trace::<L, Q>(tier, token, group, known, bvh, tiles),
-                    );
-                    for packet in these.clone() {
-                        let before = &mut ends[packet % GROUP];
-                        if ended != Ended::Unfit {
-                            *before = ended;
-                        }
-                    }
-                    if !alone {
-                        let outcome = (ended == Ended::Through, ended.is_in_vain());
-                        self.learnt.groups[kind].take(outcome, self.longest);
-                        // Half of a group that gave up would do so, too.
-                        let are_few = count < 2 || (count == 2 && ended == Ended::GaveUp);
-                        if ended.is_answered() || are_few {
-                            break;
-                        }
-                        alone = true;
-                    } else {
-                        let place: Places = 1 << these.start;
-                        tried |= place;
-                        paid |= if ended == Ended::Through { place } else { 0 };
-                        in_vain |= if ended.is_in_vain() { place } else { 0 };
-                        // Where the first is too wide, so are most.
-                        if ended.is_in_vain() && tried == place {
-                            break;
-                        }
-                    }
-                }
-                if tried != 0 {
-                    self.learnt.packets[kind].take([tried, paid, in_vain], self.longest);
-                }
-                for place in 0..states.len() {
-                    if let (Some(state), Some(answer)) =
-                        (states.get_mut(place), answers.get_mut(at + place))
-                        && ends[place % GROUP] != Ended::Unfit
-                    {
-                        *answer = state.finish::<Q>(tier, bvh);
-                    }
-                }
-            }
-            for place in at..end {
-                let ended = ends[(place - at) % GROUP];
-                apart.are_all &= ended == Ended::Unfit;
-                if !ended.is_answered() {
-                    apart.packets.insert(place - run.start);
-                }
-                if ended == Ended::Unfit
-                    && bvh.outside.is_empty()
-                    && let Some(answer) = answers.get_mut(place)
-                {
-                    *answer = Q::none::<L::Array>();
-                }
-            }
-            at = end;
-        }
     }
 }
