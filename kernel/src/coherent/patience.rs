@@ -49,6 +49,12 @@ impl Patience {
         tries
     }
 
+    /// Whether the last that was tried has paid.
+    #[inline(always)]
+    pub(super) fn has_paid(&self) -> bool {
+        self.has_paid
+    }
+
     /// Takes what became of one that was tried: whether it paid, or did work in vain; at least and
     /// at most so many are passed over then.
     #[inline(always)]
@@ -87,6 +93,12 @@ impl PacketPatience {
         for place in &mut self.at {
             place.begin(groups);
         }
+    }
+
+    /// Whether one of the last that were tried has paid.
+    #[inline(always)]
+    pub(super) fn has_paid(&self) -> bool {
+        self.any.has_paid()
     }
 
     /// Which of the next group are tried, and the first of them.

@@ -77,10 +77,16 @@ impl Together<'_> {
                     let group = states.get_mut(these.clone()).unwrap_or_default();
                     let tiles = if are_tiles & !alone { Some((&*source, at..end)) } else { None };
                     let boxes = &mut *self.boxes;
+                    // A packet by itself has less to lose.
+                    let is_trusted = if alone {
+                        self.learnt.packets[kind].has_paid()
+                    } else {
+                        self.learnt.groups[kind].has_paid()
+                    };
                     let ended = L::out_of_line(
                         token,
                         #[inline(always)]
-                        || boxes.trace::<L, Q>(tier, token, group, known, bvh, tiles),
+                        || boxes.trace::<L, Q>(tier, token, (group, is_trusted), known, bvh, tiles),
                     );
                     for packet in these.clone() {
                         let before = &mut ends[packet % GROUP];

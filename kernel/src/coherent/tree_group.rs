@@ -118,13 +118,14 @@ impl Boxes {
         Self { depths: [0.0; STACK], places: [ROOT; STACK], top: 0 }
     }
 
-    /// Traces one group, of which the answers outside of the tree are `known`, if there are any.
+    /// Traces one group, of which the answers outside of the tree are `known`, if there are any. What is not trusted gives up
+    /// sooner.
     #[inline(always)]
     pub(super) fn trace<L: Lanes, Q: Query>(
         &mut self,
         tier: impl Accuracy,
         token: L::Token,
-        states: &mut [PacketState<'_, L>],
+        (states, is_trusted): (&mut [PacketState<'_, L>], bool),
         known: &[Q::Packet<L::Array>],
         bvh: &Bvh<'_>,
         tiles: Option<(&PacketSource<'_, L::Array>, Range<usize>)>,
@@ -164,7 +165,8 @@ impl Boxes {
         self.places[0] = ROOT;
         self.top = 1;
         let mut effort = Effort::of(states.len());
-        let mut allowance = Allowance::of(states, small_tree::leaf_count(bvh), Q::ANY);
+        let mut allowance =
+            Allowance::of(states, small_tree::leaf_count(bvh), [Q::ANY, is_trusted]);
         let mut sample = BoxSample::new();
         let is_far = prefetch::pays(bvh.nodes, bvh.numbers);
         let mut inside = Inside { places: 0, depths: [0.0; WIDTH] };
