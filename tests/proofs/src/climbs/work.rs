@@ -6,6 +6,7 @@
 
 mod input;
 mod patience;
+mod weights;
 
 use self::input::{Bundle, Genes, Input, OF_TREE, RayInput, Scene, SceneInput, step};
 use crate::proofs::climb::{Random, climb};

@@ -1,0 +1,37 @@
+//! What groups are held to do, in the mean of many short calls: a weight that is another is seen here, also where the worst case does not
+//! need it.
+
+use super::input::{Input, RayInput, Scene, SceneInput};
+use super::{PLAIN, UNIFORM, both, orders, times};
+use std::vec::Vec;
+
+/// Calls of four groups, each with a trace of its own.
+const RAYS: usize = 256;
+
+/// Work by that of ray by ray, the geometric mean over scenes and orders.
+fn mean_of_short_calls(any: bool) -> f64 {
+    let dense = SceneInput { radius: 0.06, ..UNIFORM };
+    let shells = SceneInput { scene: Scene::Shells, spheres: 400, radius: 0.1, ..UNIFORM };
+    let sheet = SceneInput { scene: Scene::Sheet, radius: 0.02, ..UNIFORM };
+    let mut logarithms = Vec::new();
+    for scene in [UNIFORM, dense, shells, sheet] {
+        let tree = scene.tree();
+        for (_, rays) in orders() {
+            let input = Input { scene, rays: RayInput { count: RAYS, ..rays }, any };
+            let packets = input.packets();
+            let works = both(&tree.bvh(), &packets, any, PLAIN);
+            logarithms.push(times(packets.len(), works).ln());
+        }
+    }
+    (logarithms.iter().sum::<f64>() / logarithms.len() as f64).exp()
+}
+
+/// A lower mean is worth publishing, and a higher one is a loss. (With the roots of a ray at half, 0.9193, and at twice, 0.9250; with the
+/// tier's work at half, 0.9238, and at twice, 0.9189.)
+#[test]
+fn short_calls_take_what_is_published_in_the_mean() {
+    for (any, published) in [(false, 0.9221), (true, 0.8622)] {
+        let found = mean_of_short_calls(any);
+        assert!((found - published).abs() < 0.0012, "{found:.4} times the work, any: {any}");
+    }
+}
