@@ -1,13 +1,16 @@
 //! What a call costs: one ray a call beside Embree's, slices and columns beside packets; and spheres that move.
 
+mod refit;
+
+pub(crate) use self::refit::Refit;
 use crate::builds::{EMBREE, Trees};
 use crate::engine::kernel::levels;
 use crate::engine::{Engine, Query, Rays};
 use crate::measure::Effort;
 use crate::rounds::{Median, Sampler, Samples, timed};
 use spherule_kernel::{
-    Exact, Hit, HitColumns, HitPacket, InTurn, Intersect, Level, LevelName, Ray, RayColumns,
-    RayPacket, Sphere, SphereList, SphereTree, Trace, Vec3,
+    Exact, Hit, HitColumns, HitPacket, Intersect, Level, LevelName, Ray, RayColumns, RayPacket,
+    SphereTree, Trace,
 };
 use spherule_tests::scenes::{Kind, LARGE, Scene, Size, sample};
 use std::cell::RefCell;
@@ -15,8 +18,6 @@ use std::time::Duration;
 
 /// Embree's call of one ray, among its engines.
 const ONE_RAY: &str = "1 rays a call";
-/// Builds and refits of fewer spheres are timed so many spheres at once: of one alone, to read the clock takes as long.
-const AT_ONCE: usize = 4096;
 /// Rays of a short call: a group of packets.
 pub(crate) const SHORT: usize = 64;
 
@@ -62,16 +63,6 @@ pub(crate) struct Row {
     pub(crate) level: LevelName,
     /// Nanoseconds a ray.
     times: Samples<Timed>,
-}
-
-/// Spheres of a scene that move, against building anew.
-pub(crate) struct Refit {
-    pub(crate) scene: &'static str,
-    pub(crate) spheres: usize,
-    /// By how much boxes have grown.
-    pub(crate) growth: f32,
-    /// A refit's time by a build's.
-    pub(crate) by_build: Option<Median>,
 }
 
 /// All that was measured.
@@ -303,49 +294,5 @@ impl<'a> Work<'a> {
             }
         };
         (0..self.rays.len()).map(answer).collect()
-    }
-}
-
-impl Refit {
-    /// Every sphere moves by up to its radius along each axis, there and back.
-    fn measure(scene: &Scene, rounds: usize) -> Self {
-        let spheres = scene.spheres.spheres();
-        let moved = |(index, sphere): (usize, Sphere)| {
-            let part = |axis: usize| ((index * 31 + axis * 17) % 64) as f32 / 32.0 - 1.0;
-            let step = Vec3::new(part(0), part(1), part(2));
-            Sphere { center: sphere.center + sphere.radius * step, ..sphere }
-        };
-        let there: SphereList = spheres.iter().enumerate().map(moved).collect();
-        let lists = [there, (*scene.spheres).clone()];
-        let tree = SphereTree::build_with(&InTurn, (*scene.spheres).clone());
-        let mut tree = tree.expect("enough memory");
-        let growth = tree.refit(lists[0].clone()).expect("as many");
-        let times = (AT_ONCE / spheres.len().max(1)).clamp(1, 256);
-        let build = || {
-            let all = vec![lists[1].clone(); times];
-            timed(|| {
-                for list in all {
-                    drop(std::hint::black_box(SphereTree::build_with(&InTurn, list)));
-                }
-            })
-        };
-        let mut turn = 0;
-        let refit = || {
-            let mut next = || {
-                turn += 1;
-                lists[turn % 2].clone()
-            };
-            let all: Vec<_> = (0..times).map(|_| next()).collect();
-            timed(|| {
-                for list in all {
-                    tree.refit(list).expect("as many");
-                }
-            })
-        };
-        let samplers: Vec<(_, Sampler<'_>)> =
-            vec![(false, Box::new(build)), (true, Box::new(refit))];
-        let times = Samples::take(samplers, Duration::from_millis(300), rounds..=20 * rounds);
-        let by_build = times.ratio(&true, &false);
-        Self { scene: scene.name, spheres: spheres.len(), growth, by_build }
     }
 }

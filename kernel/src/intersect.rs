@@ -1,8 +1,8 @@
 //! The door: the same questions, by the same methods, to every scene structure.
 //!
-//! Three storeys, by what the caller keeps:
+//! Three layers, by what the caller keeps:
 //!
-//! | storey | rays are | costs beside the traversal |
+//! | layer | rays are | costs beside the traversal |
 //! |---|---|---|
 //! | slices | `&[Ray]` | some 3 ns a ray to pack and unpack, 40 KiB of stack (without `std` 7 KiB) |
 //! | packets | `&[RayPacket]`, sixteen a packet | nothing |

@@ -134,7 +134,7 @@ pub(crate) fn for_candidates<L: Lanes, R, S: SphereRun + ?Sized>(
     done: impl Fn(&R) -> L::Mask,
     test: impl Fn(&mut R, Candidates<'_, L>),
 ) {
-    // Nothing is prepared for nobody: a depth list comes here with every run of packets that do not fit, most of them
+    // Nothing is prepared where no ray is live: a depth list comes here with every run of packets that do not fit, most of them
     // empty.
     let spheres_to_meet = if rays.is_empty() { 0 } else { spheres.count() };
     let list = spheres.list();

@@ -194,7 +194,7 @@ fn next(steps: f64) -> f64 {
 
 /// 2^-20: the cosine from which on a ray goes back.
 const BACK: f64 = 8.0 * f32::EPSILON as f64;
-/// A step: an ulp of the largest coordinate, but for subnormal ones; near zero, where a point is not known so well,
+/// A step: an ulp of the largest coordinate, except for subnormal ones; near zero, where a point is not known so well,
 /// more.
 #[inline(always)]
 fn step_of<L: Lanes>(point: [L; 3], radius: L) -> L {

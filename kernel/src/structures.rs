@@ -1,5 +1,7 @@
 //! The scene structures, by the traversals that they have.
 
+#[cfg(feature = "alloc")]
+mod owned;
 mod tree;
 
 use crate::Accuracy;
@@ -248,91 +250,3 @@ impl Traverse for Bvh4<'_> {
         walk::lane_by_lane::<[f32; 16], Q>(tier, self, rays, answers);
     }
 }
-
-/// An owned structure, by what it lends.
-#[cfg(feature = "alloc")]
-macro_rules! traverse_as {
-    ($owned:ty, $lend:ident -> $lent:ty) => {
-        impl Traverse for $owned {
-            #[cfg(feature = "std")]
-            const ONE_BY_ONE: usize = <$lent>::ONE_BY_ONE;
-
-            #[inline(always)]
-            fn in_lanes<L: Lanes, Q: Query>(
-                &self,
-                tier: impl Accuracy,
-                token: L::Token,
-                trace: &mut Trace<'_>,
-                rays: &[RayPacket<L::Array>],
-                answers: &mut [Q::Packet<L::Array>],
-            ) {
-                self.$lend().in_lanes::<L, Q>(tier, token, trace, rays, answers);
-            }
-
-            fn in_packets<Q: LevelQuery>(
-                &self,
-                tier: impl Accuracy,
-                trace: &mut Trace<'_>,
-                rays: &[RayPacket],
-                answers: &mut [Q::Packet<[f32; 16]>],
-            ) {
-                self.$lend().in_packets::<Q>(tier, trace, rays, answers);
-            }
-
-            fn many_in_packets<Q: LevelQuery>(
-                &self,
-                tier: impl Accuracy,
-                trace: &mut Trace<'_>,
-                rays: ManyRays<'_>,
-                packets: &mut [RayPacket],
-                answers: &mut [Q::Packet<[f32; 16]>],
-            ) {
-                self.$lend().many_in_packets::<Q>(tier, trace, rays, packets, answers);
-            }
-
-            #[cfg(feature = "alloc")]
-            fn many_at_once<Q: LevelQuery>(&self, trace: &Trace<'_>, rays: usize) -> Option<usize> {
-                self.$lend().many_at_once::<Q>(trace, rays)
-            }
-
-            #[inline]
-            fn one<Q: LevelQuery>(
-                &self,
-                tier: impl Accuracy,
-                trace: &mut Trace<'_>,
-                ray: &Ray,
-            ) -> Q::One {
-                self.$lend().one::<Q>(tier, trace, ray)
-            }
-
-            #[inline(always)]
-            fn tiles_in_lanes<L: Lanes>(
-                &self,
-                tier: impl Accuracy,
-                token: L::Token,
-                trace: &mut Trace<'_>,
-                tiles: CameraTiles<'_>,
-                rays: &mut [RayPacket<L::Array>],
-                hits: &mut [HitPacket<L::Array>],
-            ) {
-                self.$lend().tiles_in_lanes::<L>(tier, token, trace, tiles, rays, hits);
-            }
-
-            fn tiles_in_packets(
-                &self,
-                tier: impl Accuracy,
-                trace: &mut Trace<'_>,
-                tiles: CameraTiles<'_>,
-                rays: &mut [RayPacket],
-                hits: &mut [HitPacket],
-            ) {
-                self.$lend().tiles_in_packets(tier, trace, tiles, rays, hits);
-            }
-        }
-    };
-}
-
-#[cfg(feature = "alloc")]
-traverse_as!(crate::geometry::sphere_list::SphereList, spheres -> Spheres<'_>);
-#[cfg(feature = "alloc")]
-traverse_as!(crate::bvh::owned::SphereTree, bvh -> crate::bvh::tree::Bvh<'_>);

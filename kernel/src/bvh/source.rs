@@ -14,7 +14,7 @@ pub(crate) trait SphereSource {
     fn sphere_at(&self, place: u32) -> Option<(Sphere, u32)>;
 }
 
-/// The spheres of a list that are in its tree; in the place of others is none.
+/// The spheres of a list that are in its tree; the places of others are empty.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct InsideSpheres<'a> {
     pub(crate) spheres: Spheres<'a>,

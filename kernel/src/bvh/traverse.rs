@@ -1,4 +1,4 @@
-//! One ray's way through the tree: `wavefront` -> `in_flight` -> `prepared_ray` -> `ray_state` ->
+//! One ray's way through the tree: `wavefront` -> `in_flight` -> `prepared_packet` -> `ray_state` ->
 //! `root_interval` -> `deferred`, whence the tier.
 
 pub(crate) mod boxes;
@@ -7,8 +7,10 @@ mod in_flight;
 #[cfg(feature = "std")]
 pub(crate) mod one_ray;
 pub(crate) mod packet_set;
+pub(crate) mod prepared_packet;
 pub(crate) mod prepared_ray;
 pub(crate) mod ray_state;
+pub(crate) mod ray_time;
 pub(crate) mod root_interval;
 pub(crate) mod small_tree;
 mod stack;

@@ -9,7 +9,7 @@ use crate::scale::scene::SceneScale;
 /// sphere with that index: so that each is seen to be there once, with no other memory.
 const INDEX_BITS: u32 = 16;
 
-/// The index of the sphere in the place of this word.
+/// The index of the sphere at this place of the order.
 #[inline(always)]
 pub(super) const fn index_in(word: u32) -> u32 {
     word & ((1 << INDEX_BITS) - 1)

@@ -9,7 +9,7 @@ use super::shape::{HIGHEST, Place, WIDTH};
 use super::tree::Bvh4;
 use crate::Accuracy;
 use crate::accuracy::{RayLanes, TierFormula, TierWork};
-use crate::bvh::traverse::prepared_ray::PreparedPacket;
+use crate::bvh::traverse::prepared_packet::PreparedPacket;
 use crate::geometry::ray::RayPacket;
 use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::linear::meet_sphere;

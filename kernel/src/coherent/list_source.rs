@@ -130,8 +130,8 @@ impl ListSource<'_> {
         rays: &[RayPacket<L::Array>],
         answers: &mut [Q::Packet<L::Array>],
     ) {
-        let nobody = RayPacket::inactive();
-        let mut states = [self.state_of::<L>(token, &nobody); GROUP];
+        let inactive = RayPacket::inactive();
+        let mut states = [self.state_of::<L>(token, &inactive); GROUP];
         let (mut live, mut covered) = (false, true);
         for place in 0..rays.len().min(GROUP) {
             states[place] = self.state_of(token, &rays[place]);

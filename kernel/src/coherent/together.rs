@@ -40,7 +40,7 @@ impl Together<'_> {
         answers: &mut [Q::Packet<L::Array>],
         apart: &mut Apart,
     ) {
-        let nobody = RayPacket::inactive();
+        let inactive = RayPacket::inactive();
         let kind = kind_of::<Q>();
         let mut at = run.start;
         while at < run.end {
@@ -51,7 +51,7 @@ impl Together<'_> {
             let mut ends = [Ended::Unfit; GROUP];
             if tries_group | (tried_apart != 0) {
                 let packets = source.packets(at..end);
-                let mut states = states_of::<L>(token, packets, &nobody, bvh.scale.factor);
+                let mut states = states_of::<L>(token, packets, &inactive, bvh.scale.factor);
                 let states = states.get_mut(..packets.len()).unwrap_or_default();
                 let count = states.len();
                 // Four together, then each alone: by one call, since it is compiled where it is called.

@@ -41,21 +41,21 @@ const NARROW: f32 = 0.5;
 const STACK: usize = 256;
 const _: () = assert!(STACK >= (WIDTH - 1) * DEPTH + WIDTH);
 
-/// The packets of a group; those past its end are `nobody`. (In a loop, or by a function of its own, the kernel takes
+/// The packets of a group; those past its end are `inactive`. (In a loop, or by a function of its own, the kernel takes
 /// a twentieth less to compile, and a tenth longer on u10k.)
 #[inline(always)]
 pub(super) fn states_of<'a, L: Lanes>(
     token: L::Token,
     rays: &'a [RayPacket<L::Array>],
-    nobody: &'a RayPacket<L::Array>,
+    inactive: &'a RayPacket<L::Array>,
     factor: f32,
 ) -> [PacketState<'a, L>; GROUP] {
     let [a, b, c, d] = match *rays {
         [ref a, ref b, ref c, ref d] => [a, b, c, d],
-        [ref a, ref b, ref c] => [a, b, c, nobody],
-        [ref a, ref b] => [a, b, nobody, nobody],
-        [ref a] => [a, nobody, nobody, nobody],
-        _ => [nobody; GROUP],
+        [ref a, ref b, ref c] => [a, b, c, inactive],
+        [ref a, ref b] => [a, b, inactive, inactive],
+        [ref a] => [a, inactive, inactive, inactive],
+        _ => [inactive; GROUP],
     };
     [
         state_of(token, a, factor),

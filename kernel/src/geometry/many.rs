@@ -112,7 +112,7 @@ impl ManyHits<'_> {
     }
 }
 
-/// (`get_mut`, since for size the compiler keeps the checks of an index. Three stores a hit: in vectors they would have to be shuffled by three, which `Option` lets nobody say.)
+/// (`get_mut`, since for size the compiler keeps the checks of an index. Three stores a hit: in vectors they would have to be shuffled by three, which the layout of `Option` does not allow.)
 #[inline(always)]
 fn write_slice(packets: &[HitPacket], hits: &mut [Option<Hit>]) {
     let mut at = 0;

@@ -16,7 +16,7 @@ use core::ops::AddAssign;
 pub struct Writes {
     /// All.
     pub stored: u64,
-    /// Those in the place of a hit that was known before.
+    /// Those that replace a hit that was known before.
     pub overwritten: u64,
 }
 

@@ -1,4 +1,4 @@
-//! Powers of two from the exponents of numbers: to multiply by them is exact, but for what over- or underflows.
+//! Powers of two from the exponents of numbers: to multiply by them is exact, except for what over- or underflows.
 
 use crate::Lanes;
 

@@ -77,7 +77,7 @@ fn order_slots(node: &mut BvhNode, numbers: &[f32]) {
     }
 }
 
-/// The surface of a leaf's spheres, but for a factor.
+/// The surface of a leaf's spheres, except for a factor.
 fn surface(numbers: &[f32], child: u32) -> f32 {
     let mut squares = 0.0;
     if let Some(Leaf { columns, lanes }) = Leaf::of(numbers, child & !LEAF) {

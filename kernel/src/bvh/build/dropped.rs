@@ -86,7 +86,7 @@ impl Dropped {
     }
 }
 
-/// As it waits in the place of a sphere.
+/// As it waits where a sphere was.
 const fn waiting(index: u32, same: u32) -> [f32; 4] {
     let [index, same] = Unplaced { index, same }.bits();
     [index, same, 0.0, 0.0]

@@ -48,7 +48,7 @@ pub(super) fn lay_down(
     (end, dropped)
 }
 
-/// Puts what `settle` returns in the place of every leaf, in the order of their spheres.
+/// Replaces every leaf by what `settle` returns, in the order of their spheres.
 fn lay_down_leaves(nodes: &mut [BvhNode], root: &mut u32, mut settle: impl FnMut(u32) -> u32) {
     if *root & LEAF != 0 {
         if *root != NO_CHILD {

@@ -28,7 +28,7 @@ impl<L: Lanes> Boxes<L> {
     }
 }
 
-/// One ray in all lanes, as boxes see it: as in [`PreparedPacket`](super::prepared_ray::PreparedPacket).
+/// One ray in all lanes, as boxes see it: as in [`PreparedPacket`](super::prepared_packet::PreparedPacket).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BoxProbe<L> {
     pub(super) inverse: [L; 3],
@@ -62,7 +62,7 @@ impl<L: Lanes> BoxProbe<L> {
     }
 }
 
-/// Which rays enter a box of a node before `best`, but for rounding: for counts, not for answers.
+/// Which rays enter a box of a node before `best`, except for rounding: for counts, not for answers.
 #[inline(always)]
 pub(crate) fn enter_about<L: Lanes>(
     rays: &PreparedLanes<L>,

@@ -2,7 +2,7 @@
 //! rounds of a traversal.
 
 use super::deferred::{DeferredTests, RayPlace};
-use super::prepared_ray::PreparedPacket;
+use super::prepared_packet::PreparedPacket;
 use super::ray_state::RayState;
 use crate::Accuracy;
 use crate::accuracy::{RayLanes, is_closer};
@@ -77,7 +77,7 @@ impl<A: LaneArray> PacketsInFlight<A> {
         true
     }
 
-    /// Counts a ray that has ended; its state is nobody's then.
+    /// Counts a ray that has ended; its state belongs to no ray then.
     #[inline(always)]
     pub(crate) fn end(&mut self, state: &mut RayState) {
         let ended = state.packet as usize;

@@ -17,7 +17,8 @@ mod found;
 
 use self::found::{MOST, Search};
 use super::boxes::{BoxProbe, Boxes};
-use super::prepared_ray::{PreparedLanes, RayTime, far_away};
+use super::prepared_ray::{PreparedLanes, far_away};
+use super::ray_time::RayTime;
 use super::root_interval::RayProbe;
 use super::small_tree::{self, AT_ONCE};
 use crate::Accuracy;

@@ -18,13 +18,13 @@
 //! Why nothing is lost, and what every constant covers: `docs/traversal-margins.md`. `tests/structures/far.rs`
 //! guards it.
 
-use crate::Accuracy;
+use super::ray_time::RayTime;
 use crate::accuracy::RayLanes;
-use crate::lanes::{LaneArray, LaneMask, Lanes};
+use crate::lanes::{LaneMask, Lanes};
 use crate::numeric::axes::{axes, dot};
 use crate::numeric::error_free::{VeltkampSplit, two_sum};
-use crate::numeric::rounding::{LARGEST, LEAST_COMPONENT, LONGEST, lowered, raised};
-use crate::scale::rays::{ScaledRays, largest, step_of};
+use crate::numeric::rounding::{LARGEST, LEAST_COMPONENT, LONGEST};
+use crate::scale::rays::{ScaledRays, largest};
 
 /// The rays of a packet, prepared, in registers.
 #[derive(Clone, Copy, Debug)]
@@ -54,60 +54,6 @@ pub(super) struct Slab<L: Lanes> {
     pub(super) far: L,
     /// Where n runs down along the axis.
     pub(super) down: L::Mask,
-}
-
-/// From t to s.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct RayTime<L> {
-    /// f; NaN where nothing can be said of t.
-    pub(crate) per_t: L,
-    /// tau.
-    pub(crate) shift: L,
-    /// |d|.
-    pub(crate) length: L,
-}
-
-impl<L: Lanes> RayTime<L> {
-    /// What the s of an answer may be off, for all spheres alike: 4 u T. (Kept in memory instead: a packet's
-    /// beginning loses what its hits gain.)
-    #[inline(always)]
-    fn t_error(&self) -> L {
-        self.shift * self.length * self.shift.like(4.0 * L::UNIT_ROUNDOFF)
-    }
-
-    /// Where something can be said of t.
-    #[inline(always)]
-    fn is_known(&self) -> L::Mask {
-        self.per_t.lt(self.per_t.like(f32::INFINITY))
-    }
-
-    /// What a bound that the root of one sphere sets is raised by: twice the t error, from root to answer and from
-    /// answer to root, unless the tier orders the roots themselves.
-    #[inline(always)]
-    pub(crate) fn raise(&self, tier: impl Accuracy) -> L {
-        self.shift * self.length * self.shift.like(tier.answer_error())
-    }
-
-    /// At least the s of a root that is answered by t.
-    #[inline(always)]
-    pub(crate) fn after(&self, t: L) -> L {
-        raised(
-            (t * self.per_t - self.shift) * self.length,
-            self.t_error() + step_of(self.per_t) * self.length,
-        )
-    }
-
-    /// The least and the greatest s of a root that is answered by t, the ends of an interval, given what s may be off.
-    #[inline(always)]
-    fn around(&self, [t_min, t_max]: [L; 2], error: L) -> [[L; 2]; 2] {
-        // A t that is no number is no hit.
-        let most = error.like(f32::MAX);
-        let (t_min, t_max) = (t_min.filter_max(-most), L::select(t_max.lt(most), t_max, most));
-        let [start, end] = [t_min, t_max];
-        let start = (start * self.per_t - self.shift) * self.length;
-        let end = (end * self.per_t - self.shift) * self.length;
-        [[lowered(start, error), raised(start, error)], [lowered(end, error), raised(end, error)]]
-    }
 }
 
 /// Rays are moved where the closest point is farther than this many times the distance that is left.
@@ -247,128 +193,4 @@ pub(crate) fn far_away<L: Lanes>(rays: L::Mask, absolute_error: L, extent: f32) 
 fn absolute_error<L: Lanes>(size: L, step: L) -> L {
     let least = step.filter_mul_add(step.like(4.0), step.like(LEAST_ERROR));
     size.filter_mul_add(size.like(ABSOLUTE_ERROR * L::UNIT_ROUNDOFF), least)
-}
-
-/// The rays of a packet, prepared, in memory: to be traced one by one.
-#[derive(Clone, Copy, Debug)]
-#[repr(align(64))]
-pub(crate) struct PreparedPacket<A: LaneArray> {
-    /// The rays that the bounds cover.
-    pub(crate) covered: u32,
-    /// o'.
-    pub(crate) origin: [A; 3],
-    /// n.
-    pub(crate) direction: [A; 3],
-    pub(crate) inverse: [A; 3],
-    pub(crate) minus_inverse: [A; 3],
-    /// -(o' + pad) / n and (o' - pad) / n, with the pad away from the box.
-    pub(crate) minus_near: [A; 3],
-    pub(crate) far: [A; 3],
-    /// As [`PreparedLanes::start`] and [`PreparedLanes::end`].
-    pub(crate) start: [A; 2],
-    pub(crate) end: [A; 2],
-    /// As in [`RayTime`].
-    per_t: A,
-    shift: A,
-    length: A,
-    /// As [`PreparedLanes::absolute_error`].
-    pub(crate) absolute_error: A,
-    /// What the spread of a tier adds to either end for boxes.
-    pub(crate) spread: A,
-    /// Where n runs down along each axis, a bit a ray.
-    pub(crate) down: [u32; 3],
-}
-
-impl<A: LaneArray> PreparedPacket<A> {
-    /// No rays; all zeros, so that an array of many is cleared, and not copied.
-    pub(crate) const NONE: Self = Self {
-        covered: 0,
-        origin: [A::ZEROS; 3],
-        direction: [A::ZEROS; 3],
-        inverse: [A::ZEROS; 3],
-        minus_inverse: [A::ZEROS; 3],
-        minus_near: [A::ZEROS; 3],
-        far: [A::ZEROS; 3],
-        start: [A::ZEROS; 2],
-        end: [A::ZEROS; 2],
-        per_t: A::ZEROS,
-        shift: A::ZEROS,
-        length: A::ZEROS,
-        absolute_error: A::ZEROS,
-        spread: A::ZEROS,
-        down: [0; 3],
-    };
-
-    /// Prepares the rays of a packet for a scene that is scaled by `factor`, in the place of others. (As a value it
-    /// was copied: 3 % of a traversal.)
-    #[inline(always)]
-    pub(crate) fn prepare<L: Lanes<Array = A>>(
-        &mut self,
-        rays: &RayLanes<L>,
-        factor: f32,
-        extent: f32,
-        spread: f32,
-    ) {
-        let prepared = PreparedLanes::as_they_are(&ScaledRays::new(rays, factor));
-        // Fast and Geometric are off by so much more that nothing is gained: their rays are not moved.
-        let unusual = rays.live & !prepared.covered;
-        let again = if spread > 0.0 {
-            unusual
-        } else {
-            unusual | far_away(prepared.covered, prepared.absolute_error, extent)
-        };
-        if !again.any() {
-            return self.set(prepared, extent, spread);
-        }
-        // A copy, so that others stay in registers.
-        let rays = *rays;
-        L::out_of_line(
-            prepared.absolute_error.token(),
-            #[inline(always)]
-            move || {
-                let extent_if_moved = if spread > 0.0 { None } else { Some(extent) };
-                let prepared = PreparedLanes::of_any_length(&rays, factor, extent_if_moved);
-                self.set(prepared, extent, spread);
-            },
-        );
-    }
-
-    #[inline(always)]
-    fn set<L: Lanes<Array = A>>(&mut self, rays: PreparedLanes<L>, extent: f32, spread: f32) {
-        let PreparedLanes { covered, origin, direction, time, absolute_error, start, end } = rays;
-        self.covered = covered.bits();
-        for i in 0..3 {
-            let Slab { inverse, minus_near, far, down } = rays.slab(i);
-            self.origin[i] = origin[i].store();
-            self.direction[i] = direction[i].store();
-            self.inverse[i] = inverse.store();
-            self.minus_inverse[i] = (-inverse).store();
-            self.minus_near[i] = minus_near.store();
-            self.far[i] = far.store();
-            self.down[i] = down.bits();
-        }
-        self.start = [start[0].store(), start[1].store()];
-        self.end = [end[0].store(), end[1].store()];
-        self.per_t = time.per_t.store();
-        self.shift = time.shift.store();
-        self.length = time.length.store();
-        self.absolute_error = absolute_error.store();
-        self.spread = rays.spread_of_boxes(extent, spread).store();
-    }
-
-    /// From t to s, for one ray.
-    #[inline(always)]
-    pub(crate) fn time(&self, lane: usize) -> RayTime<f32> {
-        let (per_t, shift) = (self.per_t.get(lane), self.shift.get(lane));
-        RayTime { per_t, shift, length: self.length.get(lane) }
-    }
-
-    /// Takes a t that a ray surely has as its end.
-    #[inline(always)]
-    pub(crate) fn shorten(&mut self, lane: usize, t: f32) {
-        let sooner = self.time(lane).after(t);
-        if sooner < self.end[1].get(lane) {
-            self.end[1].set(lane, sooner);
-        }
-    }
 }

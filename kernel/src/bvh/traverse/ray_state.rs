@@ -5,7 +5,7 @@
 
 use super::boxes::{BoxProbe, Boxes};
 use super::deferred::{DeferredTests, RayPlace};
-use super::prepared_ray::PreparedPacket;
+use super::prepared_packet::PreparedPacket;
 use super::root_interval::RayProbe;
 use super::stack::Stack;
 use crate::Accuracy;

@@ -66,7 +66,7 @@ pub(crate) struct RayProbe<L: Lanes> {
     pub(crate) end: [L; 2],
     /// As [`PreparedLanes::absolute_error`](super::prepared_ray::PreparedLanes::absolute_error).
     pub(crate) absolute_error: L,
-    /// As [`RayTime::raise`](super::prepared_ray::RayTime::raise).
+    /// As [`RayTime::raise`](super::ray_time::RayTime::raise).
     pub(crate) raise: L,
     /// Of the tier.
     pub(crate) spread: f32,

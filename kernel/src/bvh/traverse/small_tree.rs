@@ -7,7 +7,7 @@
 
 use super::deferred::{DeferredTests, RayPlace};
 use super::in_flight::begin;
-use super::prepared_ray::PreparedPacket;
+use super::prepared_packet::PreparedPacket;
 use super::ray_state::RayState;
 use crate::Accuracy;
 use crate::bvh::leaf::{Leaf, place_of};

@@ -56,7 +56,7 @@ use self::strategy::StreamStrategy;
 use super::deferred::DeferredTests;
 use super::in_flight::{begin, begin_packet};
 use super::packet_set::PacketSet;
-use super::prepared_ray::PreparedPacket;
+use super::prepared_packet::PreparedPacket;
 use super::wavefront;
 use crate::Accuracy;
 use crate::bvh::tree::Bvh;

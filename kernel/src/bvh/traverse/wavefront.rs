@@ -88,7 +88,7 @@ fn by_boxes<T: Accuracy, L: Lanes, Q: Query>(tests: &mut DeferredTests<'_, T, L,
         for number in 0..states.len() {
             round.go_on(bvh.nodes, number as u32, &mut states[number]);
         }
-        // In the place of a ray that has ended another begins.
+        // The next ray replaces one that has ended.
         for at in 0..round.ended.count {
             let Step { state: number, .. } = round.ended.get(at);
             let Some(state) = states.get_mut(number as usize) else { continue };

@@ -4,7 +4,7 @@
 use super::{Numbers, lane, line, numbers, or_none, square};
 use crate::accuracy::TierFormula;
 use crate::bvh::build::bounds::padded;
-use crate::bvh::traverse::prepared_ray::PreparedPacket;
+use crate::bvh::traverse::prepared_packet::PreparedPacket;
 use crate::proofs::climb::{Random, assert_published, climb_twice};
 use crate::{Exact, Stable};
 

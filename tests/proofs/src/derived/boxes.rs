@@ -4,7 +4,7 @@
 use super::{U, rules};
 use crate::accuracy::RayLanes;
 use crate::bvh::node::BvhNode;
-use crate::bvh::traverse::prepared_ray::PreparedPacket;
+use crate::bvh::traverse::prepared_packet::PreparedPacket;
 use crate::bvh::traverse::ray_state::RayState;
 use crate::proofs::polynomial::Symbol;
 use crate::proofs::recorded::{Operation, Recorded, record};

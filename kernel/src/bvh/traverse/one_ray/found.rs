@@ -6,7 +6,7 @@ use crate::bvh::leaf::place_of;
 use crate::bvh::node::{LEAF, WIDTH};
 use crate::bvh::source::SphereSource;
 use crate::bvh::traverse::in_flight::test_from_afar;
-use crate::bvh::traverse::prepared_ray::RayTime;
+use crate::bvh::traverse::ray_time::RayTime;
 use crate::bvh::traverse::root_interval::RayProbe;
 use crate::bvh::traverse::small_tree::MOST_LEAVES;
 use crate::bvh::tree::Bvh;

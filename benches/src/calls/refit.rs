@@ -1,0 +1,63 @@
+//! Spheres that move: what a refit takes, by the time of a build.
+
+use crate::rounds::{Median, Sampler, Samples, timed};
+use spherule_kernel::{InTurn, Sphere, SphereList, SphereTree, Vec3};
+use spherule_tests::scenes::Scene;
+use std::time::Duration;
+
+/// Builds and refits of fewer spheres are timed so many spheres at once: of one alone, to read the clock takes as long.
+const AT_ONCE: usize = 4096;
+
+/// Spheres of a scene that move, against building anew.
+pub(crate) struct Refit {
+    pub(crate) scene: &'static str,
+    pub(crate) spheres: usize,
+    /// By how much boxes have grown.
+    pub(crate) growth: f32,
+    /// A refit's time by a build's.
+    pub(crate) by_build: Option<Median>,
+}
+
+impl Refit {
+    /// Every sphere moves by up to its radius along each axis, there and back.
+    pub(super) fn measure(scene: &Scene, rounds: usize) -> Self {
+        let spheres = scene.spheres.spheres();
+        let moved = |(index, sphere): (usize, Sphere)| {
+            let part = |axis: usize| ((index * 31 + axis * 17) % 64) as f32 / 32.0 - 1.0;
+            let step = Vec3::new(part(0), part(1), part(2));
+            Sphere { center: sphere.center + sphere.radius * step, ..sphere }
+        };
+        let there: SphereList = spheres.iter().enumerate().map(moved).collect();
+        let lists = [there, (*scene.spheres).clone()];
+        let tree = SphereTree::build_with(&InTurn, (*scene.spheres).clone());
+        let mut tree = tree.expect("enough memory");
+        let growth = tree.refit(lists[0].clone()).expect("as many");
+        let times = (AT_ONCE / spheres.len().max(1)).clamp(1, 256);
+        let build = || {
+            let all = vec![lists[1].clone(); times];
+            timed(|| {
+                for list in all {
+                    drop(std::hint::black_box(SphereTree::build_with(&InTurn, list)));
+                }
+            })
+        };
+        let mut turn = 0;
+        let refit = || {
+            let mut next = || {
+                turn += 1;
+                lists[turn % 2].clone()
+            };
+            let all: Vec<_> = (0..times).map(|_| next()).collect();
+            timed(|| {
+                for list in all {
+                    tree.refit(list).expect("as many");
+                }
+            })
+        };
+        let samplers: Vec<(_, Sampler<'_>)> =
+            vec![(false, Box::new(build)), (true, Box::new(refit))];
+        let times = Samples::take(samplers, Duration::from_millis(300), rounds..=20 * rounds);
+        let by_build = times.ratio(&true, &false);
+        Self { scene: scene.name, spheres: spheres.len(), growth, by_build }
+    }
+}
