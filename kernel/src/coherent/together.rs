@@ -77,12 +77,13 @@ impl Together<'_> {
                     let group = states.get_mut(these.clone()).unwrap_or_default();
                     let tiles = if are_tiles & !alone { Some((&*source, at..end)) } else { None };
                     let boxes = &mut *self.boxes;
-                    // A packet by itself has less to lose.
                     let is_trusted = if alone {
                         self.learnt.packets[kind].has_paid()
                     } else {
                         self.learnt.groups[kind].has_paid()
                     };
+                    // A call of its own: compiled into this function, its loops moved with every change here (baseline: 0.72 to
+                    // 0.92 of the speed).
                     let ended = L::out_of_line(
                         token,
                         #[inline(always)]
