@@ -47,7 +47,7 @@ const FIT: u32 = 24;
 
 /// Of what rays do apart about, in eighths: a group may do so much of it while it holds many spheres against rays in vain. Of any
 /// hit less is allowed as long as the group before it has not paid: by themselves rays end in fewer boxes than those that the group
-/// looks into. (As much: any hits of 512 rays of a long lens, shuffled, among nested spheres 0.61 of ray by ray, in place of 0.81. 4: 0.92, but bursts
+/// looks into. (As much, AVX2: any hits of 512 rays of a long lens, shuffled, among nested spheres 0.61 of ray by ray, in place of 0.81. 4: 0.92, but bursts
 /// of 1,000 there 1.01, in place of 1.54; and where groups pay, too: 16,384 rays in scan lines 2.6, in place of 3.9.)
 const MOST_IN_VAIN: u64 = 9;
 const MOST_IN_VAIN_AT_FIRST: u64 = 6;

@@ -82,8 +82,8 @@ impl Together<'_> {
                     } else {
                         self.learnt.groups[kind].has_paid()
                     };
-                    // A call of its own: compiled into this function, its loops moved with every change here (baseline: 0.72 to
-                    // 0.92 of the speed).
+                    // A call of its own: compiled into this function, its loops moved with changes that do not concern them
+                    // (baseline, nested spheres by a scanner: 0.57 to 0.80 of ray by ray).
                     let ended = L::out_of_line(
                         token,
                         #[inline(always)]

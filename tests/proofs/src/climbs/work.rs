@@ -123,8 +123,9 @@ fn a_short_call_does_at_most_three_times_the_work() {
     assert!(found <= 2.7, "{found:.2} times the work");
 }
 
-/// What is found is one group of a tree of one leaf: 64 of 108 lanes, or fewer, live, and all that the group meets is near a ray. It is not asked
-/// whether it pays before the leaf ends. (Asked after each packet: 3.3 still, by other rays.)
+/// What is found is one group over 20 shells, of which half of the rays live: all spheres are near a ray of each packet, and the group is not
+/// asked whether it pays before a leaf ends. (Asked after each packet, it gives up, and packets are tried alone: 4.0; if those are not: 3.3,
+/// by one packet.)
 #[test]
 fn rays_falsely_said_to_be_coherent_take_little_more_than_three_times_the_work() {
     let found = most(63, LONG, Trace::coherent, |_, times| times);
