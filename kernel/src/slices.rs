@@ -17,8 +17,9 @@ const PACKETS: usize = if cfg!(feature = "std") { 64 } else { 4 };
 /// ray, closest hits; with 16 at 0.81 to 1.26. Where fewer are left than a stream has, those that went first are lost to it:
 /// 0.7 of the best way among nested spheres.)
 const FIRST: usize = 16;
-/// How many packets few rays fill: what goes through a tree together.
+/// How many packets few rays fill: what goes through a tree together; and some.
 const FEW: usize = 4;
+const SOME: usize = 16;
 
 /// Answers every ray, as far as there is room for answers.
 pub(crate) fn traverse<S: Traverse + ?Sized, Q: LevelQuery>(
@@ -40,6 +41,8 @@ pub(crate) fn traverse<S: Traverse + ?Sized, Q: LevelQuery>(
         windows::<S, Q, 1>(structure, tier, trace, (rays, count), answers);
     } else if count <= FEW * RayPacket::COUNT {
         windows::<S, Q, FEW>(structure, tier, trace, (rays, count), answers);
+    } else if cfg!(feature = "std") && count <= SOME * RayPacket::COUNT {
+        windows::<S, Q, SOME>(structure, tier, trace, (rays, count), answers);
     } else {
         windows::<S, Q, PACKETS>(structure, tier, trace, (rays, count), answers);
     }
@@ -111,7 +114,7 @@ mod tests {
         let tree = SphereTree::new(list);
         let rays: [Ray; 40] =
             core::array::from_fn(|number| Ray::new(Vec3::new(number as f32, 0.1, -9.0), Vec3::Z));
-        for (count, is_packet) in [(1, false), (5, false), (8, false), (9, true), (40, true)] {
+        for (count, is_packet) in [(1, false), (5, false), (12, false), (13, true), (40, true)] {
             let rays = &rays[..count];
             let (mut hits, mut occluded) = ([None; 40], [false; 40]);
             let closest = Work::of(|| tree.closest_hits(Exact, rays, &mut hits));
