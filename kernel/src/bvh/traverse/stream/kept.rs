@@ -18,8 +18,8 @@ const QUEUES: usize = 32;
 /// The most rays that are sorted together.
 pub(crate) const MOST_SORTED: usize = 1 << 16;
 
-/// Memory of streams: nothing until it is used, then at most 3 MB; where rays are sorted, 4. Beside it the packets of long calls
-/// by slices: half a megabyte, or 2.
+/// Memory of streams: nothing until it is used, then 384 bytes a ray that goes down with others, 3.2 MB at most, and 16 a ray
+/// that is sorted, 1 MB at most. Beside it the packets of long calls by slices: 32 bytes a ray, half a megabyte or 2 at most.
 #[derive(Debug, Default)]
 struct Memory {
     rays: Vec<StreamRay>,
@@ -107,6 +107,72 @@ impl Drop for KeptMemory {
             let memory = core::mem::take(&mut self.0);
             // Of two the last is kept; of a thread that is ending none.
             let _ = OF_THREAD.try_with(|of_thread| of_thread.set(memory));
+        }
+    }
+}
+
+#[cfg(all(test, proofs))]
+#[cfg(feature = "std")]
+mod tests {
+    extern crate std;
+
+    use super::*;
+    use crate::proofs::climb::Random;
+    use crate::{Exact, HitPacket, Intersect, Ray, SphereList, SphereTree, Trace, Vec3};
+    use std::vec;
+
+    impl KeptMemory {
+        /// How much there is, and how much of it to sort by.
+        fn bytes(&self) -> [usize; 2] {
+            let Memory { rays, queues, order, packets } = &self.0;
+            let order = size_of_val(&order[..]);
+            let others =
+                [size_of_val(&rays[..]), size_of_val(&queues[..]), size_of_val(&packets[..])];
+            [order + others.iter().sum::<usize>(), order]
+        }
+    }
+
+    /// What `closest_hits` and `Trace::stream` say that calls take.
+    #[test]
+    fn calls_take_the_memory_that_is_promised() {
+        let mut random = Random(59);
+        let mut point = || Vec3::from_array([(); 3].map(|()| random.below(1 << 20) as f32));
+        let mut tree = |spheres: usize| {
+            SphereTree::new((0..spheres).map(|_| (point(), 3000.0)).collect::<SphereList>())
+        };
+        let trees = [tree(20_000), tree(500_000)];
+        let middle = Vec3::splat(524_288.0);
+        let mut ray = |is_beam| {
+            let (origin, towards) = (point(), point() - middle);
+            let beam = Ray::new(Vec3 { z: -1e6, ..origin }, Vec3::new(0.1, 0.2, 1.0));
+            if is_beam { beam } else { Ray::new(origin, towards) }
+        };
+        let rays = [true, false].map(|is_beam| Vec::from_iter((0..100_000).map(|_| ray(is_beam))));
+        for (tree, count, sorts) in [
+            (0, 1008, false),
+            (0, 1009, false),
+            (0, 1500, false),
+            (0, 4000, false),
+            (0, 16_384, false),
+            (0, 100_000, false),
+            (1, 100_000, true),
+        ] {
+            let mut hits = vec![None; count];
+            let mut trace = Trace::new();
+            trees[tree].closest_hits_with(Exact, &mut trace, &rays[tree][..count], &mut hits);
+            let [taken, order] = trace.kept.bytes();
+            // The packets of hits are given back at once.
+            let answers = count.min(if sorts { MOST_SORTED } else { 1 << 14 }).div_ceil(16)
+                * size_of::<HitPacket>();
+            let most = match (count, sorts) {
+                (..1009, _) => 0,
+                (_, false) => (430 * count.max(1024)).min(4_000_000),
+                (_, true) => 7_000_000,
+            };
+            assert_eq!((taken > 0, order > 0), (count > 1008, sorts), "{count} rays");
+            assert!(taken == 0 || taken + answers <= most, "{count} rays: {taken} and {answers}");
+            // The next trace of this thread begins with none.
+            trace.kept.0 = Memory::NONE;
         }
     }
 }
