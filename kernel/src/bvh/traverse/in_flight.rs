@@ -9,7 +9,7 @@ use crate::accuracy::{RayLanes, is_closer};
 use crate::bvh::node::{BvhNode, LEAF, NO_CHILD};
 use crate::bvh::tree::Bvh;
 use crate::count::count;
-use crate::filter::may_come_near;
+use crate::filter::ball::may_come_near;
 use crate::geometry::hit::Hit;
 use crate::geometry::ray::RayPacket;
 use crate::lanes::{LaneArray, LaneMask, Lanes};

@@ -6,7 +6,10 @@
 
 use super::{cross, distance, lane, line, square, wide};
 use crate::accuracy::{TierFormula, Underflow};
-use crate::filter::{FilterBlock, FilterRays, Frame, KAPPA};
+use crate::filter::KAPPA;
+use crate::filter::block::FilterBlock;
+use crate::filter::frame::Frame;
+use crate::filter::rays::FilterRays;
 use crate::proofs::climb::{Random, assert_published, climb_twice};
 use crate::{Exact, Fast, Geometric, Ray, Sphere, Spheres, Stable, Tier, Vec3, roots};
 use std::println;

@@ -8,7 +8,10 @@
 
 use super::tiers::{fast_row, geometric_row};
 use super::{U, operands, ray};
-use crate::filter::{FilterGroup, FilterRays, Frame, KAPPA, LEAST_SIZE, excess};
+use crate::filter::block::{FilterGroup, excess};
+use crate::filter::frame::Frame;
+use crate::filter::rays::FilterRays;
+use crate::filter::{KAPPA, LEAST_SIZE};
 use crate::proofs::polynomial::Polynomial;
 use crate::proofs::recorded::{Operation, Recorded, record};
 use crate::proofs::running_error::{Input, RunningError};

@@ -6,7 +6,10 @@
 
 use super::pairs;
 use crate::accuracy::{RayLanes, TierFormula};
-use crate::filter::{FilterGroup, FilterRays, Frame, KAPPA, LEAST_SIZE, excess};
+use crate::filter::block::{FilterGroup, excess};
+use crate::filter::frame::Frame;
+use crate::filter::rays::FilterRays;
+use crate::filter::{KAPPA, LEAST_SIZE};
 use crate::numeric::rounding::U;
 use crate::proofs::toy::floats::{Format, Toy};
 use crate::{Fast, Geometric};
