@@ -1,4 +1,4 @@
-//! The door: the same questions, by the same methods, to every scene structure.
+//! The door: every scene structure answers the same questions, by the same methods.
 //!
 //! Three layers, by what the caller keeps:
 //!
@@ -8,7 +8,7 @@
 //! | packets | `&[RayPacket]`, sixteen a packet | nothing |
 //! | lanes | packets of your vectors' width, their token | compiled in your crate: its profile counts |
 //!
-//! At the first two the level is the best that the CPU has, or the one that [`Trace`] names.
+//! Slices and packets are traced at the best level that the CPU has, or at the one that [`Trace`] names.
 
 use crate::Accuracy;
 use crate::geometry::camera::tiles::CameraTiles;
@@ -28,26 +28,29 @@ use crate::trace::Trace;
 ///
 /// # Guarantee
 ///
-/// The closest hit is that of the smallest accepted root, by [`Exact`](crate::Exact) as a real number, by the other
-/// tiers as t; among equals that of the lowest index. t counts in multiples of each ray's own direction. Every
-/// structure returns bit for bit what the list returns (`Bvh`, `Bvh4` and `DepthList` say what that means for `Fast` and
-/// `Geometric`, and for `Stable` outside its domain), at every level, in every lane width, alone or beside any other
-/// ray. [`any_hit`](Intersect::any_hit) is true exactly if there is a closest hit, and cheaper, since a ray that has
-/// hit something is done.
+/// The closest hit has the smallest accepted root. [`Exact`](crate::Exact) compares roots as real numbers, the other
+/// tiers compare t; among equals the lowest index wins. t is in multiples of each ray's own direction.
+///
+/// Every structure returns bit for bit what the list returns, at every level, in every lane width, alone or beside any
+/// other ray. (`Bvh`, `Bvh4` and `DepthList` say what that means for `Fast` and `Geometric`, and for `Stable` outside its
+/// domain.) [`any_hit`](Intersect::any_hit) returns true exactly if there is a closest hit. It is cheaper, since a ray is
+/// done as soon as it has hit something.
 ///
 /// # Domain
 ///
-/// Every bit pattern: invalid rays and spheres hit nothing, and change nothing for their neighbours
-/// (`docs/contract.md`, rule 1). If the slices differ in length, rays past the end of the answers are left
-/// out, and answers past the end of the rays are left as they are.
+/// Every bit pattern. Invalid rays and spheres hit nothing, and change nothing for their neighbours
+/// (`docs/contract.md`, rule 1). If the slices differ in length, rays past the end of the answers are ignored, and
+/// answers past the end of the rays are left as they are.
 ///
 /// # Cost
 ///
-/// A list: some 8 operations a ray and sphere that miss each other, and the tier's price for the others; preparing
-/// 128 spheres costs as much as testing one packet against them, so pass many rays in one call. A tree: by the
-/// logarithm of the number of spheres, if they do not overlap much; spheres of other sizes than most, by 2^40 or
-/// more, cost as in a list, as do rays from beyond 2^56 times that size. Units do not matter, nor do the lengths of
-/// directions, for any structure.
+/// A list takes some 8 operations for a ray and a sphere that miss each other, and the tier's price for the others. It
+/// prepares 128 spheres at the price of testing one packet against them, so pass many rays in one call.
+///
+/// A tree takes time in proportion to the logarithm of the number of spheres, if they do not overlap much. Spheres that are
+/// 2^40 times as large or small as most cost as much as in a list; so do rays from beyond 2^56 times that size.
+///
+/// Neither units nor the lengths of directions matter to any structure.
 ///
 /// ```
 /// use spherule_kernel::{Exact, Hit, Intersect, Ray, SphereList, Vec3};
@@ -59,9 +62,11 @@ use crate::trace::Trace;
 /// assert_eq!(hits, [Some(Hit { t: 4.0, sphere: 0 }), None]);
 /// ```
 pub trait Intersect: Traverse {
-    /// The closest hit of one ray: a slice of one. Cost: with `std` a tree has a traversal for it; others a packet of
-    /// which one lane is used. Many rays in one call are faster. Without `std` one lane is all there is, and the least
-    /// flash and stack: the way for firmware.
+    /// Returns the closest hit of one ray; `None` if it hits nothing.
+    ///
+    /// Cost: with `std` a tree has a traversal for one ray, and other structures use one lane of a packet; many rays in one
+    /// call are faster. Without `std` all is computed in one lane, which takes the least flash and stack: the way for
+    /// firmware.
     ///
     /// ```
     /// use spherule_kernel::{Exact, Intersect, Ray, SphereList, Vec3};
@@ -74,7 +79,7 @@ pub trait Intersect: Traverse {
         self.one::<ClosestHit>(tier, &mut Trace::new(), ray)
     }
 
-    /// Whether one ray hits anything: a slice of one.
+    /// Returns whether one ray hits anything.
     ///
     /// ```
     /// use spherule_kernel::{Exact, Intersect, Ray, SphereList, Vec3};
@@ -119,11 +124,14 @@ pub trait Intersect: Traverse {
         self.one::<AnyHit>(tier, trace, ray)
     }
 
-    /// The closest hit of every ray: `hits[i]` becomes what `rays[i]` hits, `None` if that is nothing.
+    /// Finds the closest hit of every ray: `hits[i]` becomes what `rays[i]` hits, `None` if that is nothing.
     ///
-    /// Rays may come in any order: a tree finds out which of them gain by going together. Up to eight go one by one; of up to
-    /// 64 those that do not gain. With `alloc`, a call of 17,408 rays or more takes 3.5 MB, if they have nothing in common
-    /// and the tree is one where streams are faster; without that memory it does without.
+    /// Rays may come in any order: a tree finds out which of them gain by going together. A call of up to twelve rays traces
+    /// them one by one; a call of up to 64 does so with those that gain nothing.
+    ///
+    /// With feature `alloc`, a call of more than 1,008 rays in a tree of more than four leaves allocates up to 430 bytes a ray, 4 MB
+    /// at most, or 7 if it sorts the rays of a large tree: where rays have nothing in common, and may be faster as a stream. If
+    /// there is no such memory, the call goes on without.
     ///
     /// ```
     /// use spherule_kernel::{Intersect, Ray, Spheres, Stable, Vec3};
@@ -138,7 +146,7 @@ pub trait Intersect: Traverse {
         self.closest_hits_with(tier, &mut Trace::new(), rays, hits);
     }
 
-    /// Whether every ray hits anything.
+    /// Finds whether each ray hits anything: `occluded[i]` becomes true if `rays[i]` does.
     ///
     /// ```
     /// use spherule_kernel::{Exact, Intersect, Ray, SphereTree, Vec3};
@@ -194,10 +202,10 @@ pub trait Intersect: Traverse {
         slices::traverse::<Self, AnyHit>(self, tier, trace, ManyRays::Slice(rays), occluded);
     }
 
-    /// The closest hit of every ray of eight columns, in two: number `i` of each becomes what ray `i` hits, `+inf` and
-    /// [`HitPacket::NO_SPHERE`] if that is nothing. The shortest column counts; what is past it is left as it is.
+    /// Finds the closest hit of rays in eight columns, and writes it into two: number `i` of each becomes what ray `i` hits,
+    /// `+inf` and [`HitPacket::NO_SPHERE`] if that is nothing. The shortest column counts; what is past it is left as it is.
     ///
-    /// Cost: as that of slices.
+    /// Costs as much as slices.
     ///
     /// ```
     /// use spherule_kernel::{Exact, HitColumns, Intersect, RayColumns, SphereList, Trace};
@@ -223,7 +231,7 @@ pub trait Intersect: Traverse {
         slices::traverse::<Self, ClosestHit>(self, tier, trace, rays, hits);
     }
 
-    /// Whether every ray of eight columns hits anything. The shortest column counts; what is past it is left as it is.
+    /// Finds whether each ray of eight columns hits anything. The shortest column counts; what is past it is left as it is.
     ///
     /// ```
     /// use spherule_kernel::{Exact, Intersect, RayColumns, SphereList, Trace};
@@ -250,7 +258,7 @@ pub trait Intersect: Traverse {
         slices::traverse::<Self, AnyHit>(self, tier, trace, ManyRays::Columns(rays), occluded);
     }
 
-    /// The closest hit of every ray of every packet: `hits[i]` is overwritten with what `rays[i]` hits.
+    /// Finds the closest hit of every ray of every packet: `hits[i]` becomes what `rays[i]` hits.
     ///
     /// ```
     /// use spherule_kernel::{Exact, HitPacket, Intersect, Ray, RayPacket, SphereList, Trace, Vec3};
@@ -273,7 +281,7 @@ pub trait Intersect: Traverse {
         self.in_packets::<ClosestHit>(tier, trace, rays, hits);
     }
 
-    /// Whether every ray of every packet hits anything: lane `i` in bit `i` of `occluded[k]` for `rays[k]`.
+    /// Finds whether each ray of every packet hits anything: bit `i` of `occluded[k]` is that of lane `i` of `rays[k]`.
     ///
     /// ```
     /// use spherule_kernel::{Exact, Intersect, Ray, RayPacket, SphereList, Trace, Vec3};
@@ -295,15 +303,16 @@ pub trait Intersect: Traverse {
         self.in_packets::<AnyHit>(tier, trace, rays, occluded);
     }
 
-    /// The closest hit of the rays of a camera's tiles: tile `i` in packet `i`, as far as there are tiles, rays and hits.
+    /// Makes the rays of a camera's tiles, and finds their closest hits: those of tile `i` in packet `i`, as far as there are
+    /// tiles, rays and hits.
     ///
-    /// The rays are made on the way, and left in `rays`, whose contents do not matter, for shading: bit for bit
-    /// [`Camera::packet`](crate::Camera::packet)'s, except for the bits of a NaN. The answers are bit for bit those of
-    /// [`closest_hit_packets`](Intersect::closest_hit_packets). A tree does not look at rays to know what four tiles may meet:
-    /// it bounds them by their corners.
+    /// `rays` is overwritten, and holds the rays for shading: bit for bit those of
+    /// [`Camera::packet`](crate::Camera::packet), except for the bits of a NaN. The answers are bit for bit those of
+    /// [`closest_hit_packets`](Intersect::closest_hit_packets). A tree need not look at rays to know what four tiles may
+    /// meet: it bounds them by their corners.
     ///
-    /// Cost: with a tree that of packets that are there already; making them one by one and tracing them then takes up to
-    /// twice as long. Others make the rays first, in lanes.
+    /// Cost: a tree takes as long as for packets that exist already; making them one by one and tracing them then takes up to
+    /// twice as long. Other structures make the rays first, in lanes.
     ///
     /// ```
     /// use spherule_kernel::{
@@ -336,8 +345,8 @@ pub trait Intersect: Traverse {
         self.tiles_in_packets(tier, trace, tiles, rays, hits);
     }
 
-    /// [`closest_hit_packets`](Intersect::closest_hit_packets) in lanes of the caller's, with their token.
-    /// The level of `trace` is not looked at.
+    /// [`closest_hit_packets`](Intersect::closest_hit_packets) in the caller's lanes, with their token. The level of `trace`
+    /// is ignored.
     ///
     /// ```
     /// use spherule_kernel::{Exact, HitPacket, Intersect, Ray, RayPacket, SphereList, Trace, Vec3, f32x8};
@@ -361,8 +370,8 @@ pub trait Intersect: Traverse {
         self.in_lanes::<L, ClosestHit>(tier, token, trace, rays, hits);
     }
 
-    /// [`any_hit_packets`](Intersect::any_hit_packets) in lanes of the caller's, with their token. The level
-    /// of `trace` is not looked at.
+    /// [`any_hit_packets`](Intersect::any_hit_packets) in the caller's lanes, with their token. The level of `trace` is
+    /// ignored.
     ///
     /// ```
     /// use spherule_kernel::{Exact, Intersect, Ray, RayPacket, SphereList, Trace, Vec3};
@@ -386,8 +395,8 @@ pub trait Intersect: Traverse {
         self.in_lanes::<L, AnyHit>(tier, token, trace, rays, occluded);
     }
 
-    /// [`closest_hit_tiles`](Intersect::closest_hit_tiles) in lanes of the caller's, with their token; tiles are as large as
-    /// [`Camera::tile`](crate::Camera::tile) says for those lanes. The level of `trace` is not looked at.
+    /// [`closest_hit_tiles`](Intersect::closest_hit_tiles) in the caller's lanes, with their token; tiles are as large as
+    /// [`Camera::tile`](crate::Camera::tile) says for those lanes. The level of `trace` is ignored.
     #[inline(always)]
     fn closest_hit_tile_lanes<L: Lanes>(
         &self,

@@ -1,4 +1,4 @@
-//! What packets are asked besides a structure, at a level: pairs, tiles of a camera, object order, surfaces, shadow rays.
+//! What needs no structure, packet by packet at a level: pairs, tiles of a camera, object order, surfaces, shadow rays.
 
 use crate::Accuracy;
 use crate::dispatch::Level;
@@ -19,10 +19,9 @@ const PAIRS: usize = RayPacket::COUNT;
 #[cfg(not(feature = "std"))]
 const PAIRS: usize = <BuildLanes as crate::Lanes>::COUNT;
 
-/// Ray `i` against sphere `i` alone, packet by packet; the sphere index of a hit is its lane.
+/// Tests ray `i` against sphere `i` alone, packet by packet; the sphere index of a hit is its lane.
 ///
-/// As [`pair_lanes`](crate::pair_lanes), at `level`. Packets past the end of the shortest slice are left as
-/// they are.
+/// Calls [`pair_lanes`](crate::pair_lanes) at `level`. Packets past the end of the shortest slice are left as they are.
 ///
 /// ```
 /// use spherule_kernel::{Exact, HitPacket, Level, Ray, RayPacket, SpherePacket, Vec3, pair_packets};
@@ -49,9 +48,9 @@ pub fn pair_packets(
     }
 }
 
-/// Makes the rays of a camera's tiles at `level`, tile `i` in packet `i`, as far as there are tiles and packets: bit for bit
-/// [`Camera::packet`](crate::Camera::packet)'s, except for the bits of a NaN, in a seventh (SSE2) to a twelfth (AVX-512) of its
-/// time.
+/// Makes the rays of a camera's tiles at `level`, those of tile `i` in packet `i`, as far as there are tiles and packets. They
+/// are bit for bit those of [`Camera::packet`](crate::Camera::packet), except for the bits of a NaN, and take a seventh (SSE2)
+/// to a twelfth (AVX-512) of its time.
 ///
 /// ```
 /// use spherule_kernel::{Camera, CameraTiles, Level, Projection, RayPacket, Vec3, tile_rays};
@@ -77,10 +76,10 @@ pub fn tile_rays(level: Level, tiles: CameraTiles<'_>, rays: &mut [RayPacket]) {
     }
 }
 
-/// Sphere `index` of a list against the rays of those packets that `numbers` names, whose closest hits so far are
-/// `hits`: object order. Returns how many hits that stored.
+/// Tests sphere `index` of a list against the rays of the packets that `numbers` names, whose closest hits so far are `hits`:
+/// object order. Returns how many hits were stored.
 ///
-/// As [`object_lanes`](crate::object_lanes), at `level`. A number past the end of rays or hits changes nothing.
+/// Calls [`object_lanes`](crate::object_lanes) at `level`. A number past the end of rays or hits changes nothing.
 ///
 /// ```
 /// use spherule_kernel::{Exact, HitPacket, Level, Ray, RayPacket, SphereList, Vec3, object_packets};
@@ -116,10 +115,9 @@ pub fn object_packets(
     writes
 }
 
-/// [`surface`](crate::surface()) for the rays of every packet, and what they hit among `spheres`.
+/// Finds the [`surface`](crate::surface()) that each ray of every packet hits among `spheres`.
 ///
-/// As [`surface_lanes`](crate::surface_lanes), at `level`. Packets past the end of the shortest slice are left as
-/// they are.
+/// Calls [`surface_lanes`](crate::surface_lanes) at `level`. Packets past the end of the shortest slice are left as they are.
 ///
 /// ```
 /// use spherule_kernel::{
@@ -152,11 +150,11 @@ pub fn surface_packets(
     }
 }
 
-/// Rays to a light from what the rays of every packet hit, each from the side that its ray came from, if that faces
-/// the light.
+/// Makes rays to a light from what the rays of every packet hit, each on the side that its ray came from, if that faces the
+/// light.
 ///
-/// As [`shadow_lanes`](crate::shadow_lanes), at `level`. What is hit are rays, hits and surfaces; packets past the
-/// end of the shortest slice are left as they are.
+/// Calls [`shadow_lanes`](crate::shadow_lanes) at `level`. `hit` holds rays, hits and surfaces; packets past the end of the
+/// shortest slice are left as they are.
 ///
 /// ```
 /// use spherule_kernel::{
@@ -195,10 +193,10 @@ pub fn shadow_packets(
     }
 }
 
-/// Ray `i` against sphere `i` alone, at the best level that the CPU has; the sphere of a hit is `i`.
+/// Tests ray `i` against sphere `i` alone, at the best level that the CPU has; the sphere of a hit is `i`.
 ///
-/// Returns bit for bit what [`Intersect`](crate::Intersect) finds for that ray in a list of that sphere.
-/// What is past the end of the shortest slice is left as it is.
+/// A hit is bit for bit what [`Intersect`](crate::Intersect) finds for that ray in a list of that sphere. What is past the end
+/// of the shortest slice is left as it is.
 ///
 /// ```
 /// use spherule_kernel::{Exact, Ray, Sphere, Vec3, pairs};

@@ -50,7 +50,7 @@ const NEAREST: f32 = 1.0 / (1_u64 << 42) as f32;
 /// u, of double precision.
 const U: f64 = f64::EPSILON / 2.0;
 
-/// The side of `sphere` on which `point` lies, exactly; `None` if it lies on the surface, or either is not valid.
+/// Returns the side of `sphere` on which `point` lies, exactly; `None` if it lies on the surface, or either is not valid.
 ///
 /// Cost: some 20 double-precision operations; half a microsecond if they cannot tell.
 ///
@@ -82,17 +82,18 @@ pub fn side(point: Vec3, sphere: &Sphere) -> Option<Side> {
 }
 
 impl Surface {
-    /// A ray from here, to `side` of the sphere and along `direction`: it does not meet `sphere` where it starts.
+    /// Returns a ray from here along `direction` that begins on `side` of `sphere`, the one that was hit, and does not meet it
+    /// where it starts. Returns `None` if there is no such origin: inside of a sphere that is smaller than the spacing of
+    /// numbers, or past the largest of them.
     ///
-    /// Its origin is proven to be on that side by [`side`](crate::side()): an ulp or two of its largest coordinate
-    /// from the point, if r is at least 2^10 of these and `tier` is `Exact`; for the others so far that they do not
-    /// see the sphere there. Its interval begins 2^-42 r from there and has no end. If `direction` points to `side`,
-    /// an outside ray never meets the sphere again, and an inside ray meets its far side, unless the t of that is
-    /// rounded to zero; else it meets what is there.
+    /// [`side`](crate::side()) proves that the origin is on that side. It is an ulp or two of its largest coordinate from the
+    /// point, if r is at least 2^10 of these and `tier` is `Exact`; for the other tiers it is as far as they need in order not
+    /// to see the sphere there. The interval begins 2^-42 r from the origin, and has no end.
     ///
-    /// `sphere` is the one that was hit. Returns `None` if there is no such origin: inside of a sphere that is
-    /// smaller than the spacing of numbers, or past their end. Cost: some 100 double-precision operations; by the
-    /// other tiers a test of the sphere more.
+    /// If `direction` points to `side`, an outside ray never meets the sphere again, and an inside ray meets its far side,
+    /// unless the t of that is rounded to zero. Else the ray meets what is there.
+    ///
+    /// Cost: some 100 double-precision operations; by the other tiers a test of the sphere more.
     ///
     /// ```
     /// use spherule_kernel::{Exact, Intersect, Ray, Side, SphereList, Vec3, surface};
@@ -116,7 +117,7 @@ impl Surface {
         self.spawn(tier.tier(), sphere, side, |origin| Ray::new(origin, direction))
     }
 
-    /// As [`spawn_ray`](Surface::spawn_ray), along the way to `target`, which is at t = 1, where the interval ends.
+    /// Returns a ray as [`spawn_ray`](Surface::spawn_ray) does, towards `target`, which is at t = 1, where the interval ends.
     ///
     /// ```
     /// use spherule_kernel::{Exact, Ray, Side, Sphere, Vec3, surface};
@@ -138,8 +139,8 @@ impl Surface {
         self.spawn(tier.tier(), sphere, side, ray)
     }
 
-    /// The point in the frame of the scene, every coordinate rounded once from double precision. It lies on either
-    /// side of `sphere`, the one that was hit: rays start from [`spawn_ray`](Surface::spawn_ray).
+    /// Returns the point in the units of the scene, every coordinate rounded once from double precision. It may lie on either
+    /// side of `sphere`, the one that was hit, so start no rays there: call [`spawn_ray`](Surface::spawn_ray).
     ///
     /// ```
     /// use spherule_kernel::{Exact, Ray, Sphere, Vec3, surface};

@@ -1,8 +1,8 @@
-//! How far `Exact` had to go: which share of its tests the filter did not settle, and which share
-//! double precision did not either.
+//! How far `Exact` had to go: which share of its tests the filter did not settle, and which share double precision did not
+//! either.
 //!
-//! The same filter, limits and brackets as in a traversal of [`Spheres`], gone through once more and
-//! counted; so the kernel itself holds no counters.
+//! Goes once more through the filter, limits and brackets of a traversal of [`Spheres`], and counts. So the kernel itself holds
+//! no counters.
 
 use crate::accuracy::Exact;
 use crate::accuracy::{TierFormula, TierWork};

@@ -9,19 +9,19 @@ use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::{axes, dot};
 use glam::Vec3;
 
-/// The surface that `ray` hits at `t`, the answer of `tier` for `sphere`: its unit normal, and the point as seen from
-/// the centre.
+/// Returns the surface that `ray` hits at `t`, which is the answer of `tier` for `sphere`: its unit normal, and the point as
+/// seen from the centre.
 ///
-/// By [`Exact`](crate::Exact) every coordinate is correctly rounded, of the point where the line really meets the
-/// sphere, however far away. By the other tiers a normal is off by at most 2^-24 and 2^-50 (|p| + r) / r, p the
-/// centre less the origin, over the cosine of normal and ray, or the root of that term if that is less. (A point o +
-/// t d is off by 2^-24 |p|, which from afar is more than r.)
+/// [`Exact`](crate::Exact) rounds every coordinate correctly: that of the point where the line really meets the sphere,
+/// however far away. By the other tiers a normal is off by at most 2^-24 and e / cos, where e = 2^-50 (|p| + r) / r, p is the
+/// centre less the origin, and cos is the cosine of normal and ray; or by √e in place of e / cos, if that is less. (A point
+/// o + t d is off by 2^-24 |p|, which from afar is more than r.)
 ///
 /// A sphere of radius zero has the point zero, and a normal that points back along the ray. If `t` is not the tier's
-/// answer, it means the root that it is nearer to. If ray or sphere is not valid, the numbers have no meaning.
+/// answer, the surface is that at the nearer root. If ray or sphere is not valid, the numbers have no meaning.
 ///
-/// Cost: some 150 double-precision operations, by `Exact` twice as many; 2 microseconds for a coordinate that these
-/// cannot tell, which is one of 10^7, near the zeros of a ground one of 10^4, in 2.5 KiB of stack.
+/// Cost: some 150 double-precision operations, by `Exact` twice as many. A coordinate that these cannot tell takes 2
+/// microseconds and 2.5 KiB of stack: one in 10^7, near the zeros of a ground one in 10^4.
 ///
 /// ```
 /// use spherule_kernel::{Exact, Intersect, Ray, Sphere, SphereList, Vec3, surface};
@@ -78,11 +78,11 @@ impl SurfaceOf<'_> {
     }
 }
 
-/// [`surface`](crate::surface()) for the rays of a packet, and what they hit among `spheres`; zeros for those that
-/// hit nothing.
+/// Returns the surfaces that the rays of a packet hit among `spheres`; zeros where a ray hits nothing. `hits` are the answers
+/// of `tier` for `rays`.
 ///
-/// Bit for bit what it returns for one ray, in every lane width. `hits` are the answers of `tier` for `rays`. Cost:
-/// in sixteen lanes some 6 ns a ray, hit or not.
+/// Each is bit for bit what [`surface`](crate::surface()) returns for one ray, in every lane width. Cost: in sixteen lanes
+/// some 6 ns a ray, hit or not.
 ///
 /// ```
 /// use spherule_kernel::{

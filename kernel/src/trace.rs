@@ -1,4 +1,4 @@
-//! What a caller says of the rays, and of the way in which they are traced.
+//! What a caller says of the rays, and of how they are traced.
 
 use crate::bvh::StreamMemory;
 #[cfg(feature = "alloc")]
@@ -7,8 +7,7 @@ use crate::coherence::Coherence;
 use crate::coherent::learnt::Learnt;
 use crate::dispatch::Level;
 
-/// How rays are traced: at which level, what is known of them, and with what working memory. No answer
-/// depends on it.
+/// How rays are traced: at which level, with what working memory, and what is known of them. No answer depends on it.
 ///
 /// ```
 /// use spherule_kernel::{Level, LevelName, Trace};
@@ -25,14 +24,13 @@ pub struct Trace<'m> {
     pub level: Level,
     /// What the rays have in common, if it is known.
     pub coherence: Coherence,
-    /// Working memory of a [`DepthList`](crate::DepthList), as long as its `scratch` says; others need
-    /// none.
+    /// Working memory for a [`DepthList`](crate::DepthList), as long as its `scratch` says; other structures need none.
     pub scratch: &'m mut [f32],
-    /// Working memory of a tree's streams, of the caller's. Without, and with feature `alloc`, a call takes it by itself where
-    /// it gains by it: at most 3.5 MB, and 6 where the rays of a large tree are sorted; the thread keeps it for its next call (without
-    /// `std` the trace does). If there is none a call does without.
+    /// The caller's working memory for a tree's streams. If it is `None`, and with feature `alloc`, a call allocates some
+    /// where it gains by it: at most 4 MB, or 7 where the rays of a large tree are sorted. The thread keeps that memory for its next
+    /// call; without `std` the trace keeps it. If there is none, a call goes on without.
     pub stream: Option<StreamMemory<'m>>,
-    /// What calls have taken for streams.
+    /// What calls have allocated for streams.
     #[cfg(feature = "alloc")]
     pub(crate) kept: KeptMemory,
     /// What calls have learnt of their rays.
@@ -40,7 +38,7 @@ pub struct Trace<'m> {
 }
 
 impl<'m> Trace<'m> {
-    /// At the best level that the CPU has; coherence is detected; no scratch memory.
+    /// Traces at the best level that the CPU has, detects coherence, and has no scratch memory.
     ///
     /// ```
     /// use spherule_kernel::{Coherence, Level, Trace};
@@ -63,7 +61,7 @@ impl<'m> Trace<'m> {
         }
     }
 
-    /// At `level`.
+    /// Traces at `level`.
     ///
     /// ```
     /// use spherule_kernel::{Level, LevelName, Trace};
@@ -76,7 +74,7 @@ impl<'m> Trace<'m> {
         Self { level, ..self }
     }
 
-    /// For rays of that coherence.
+    /// Takes rays for as coherent as `coherence` says.
     ///
     /// ```
     /// use spherule_kernel::{Coherence, Trace};
@@ -88,7 +86,7 @@ impl<'m> Trace<'m> {
         Self { coherence, ..self }
     }
 
-    /// For coherent rays.
+    /// Takes rays for coherent.
     ///
     /// ```
     /// use spherule_kernel::{Coherence, Trace};
@@ -100,7 +98,7 @@ impl<'m> Trace<'m> {
         Self { coherence: Coherence::Coherent, ..self }
     }
 
-    /// For incoherent rays.
+    /// Takes rays for incoherent.
     ///
     /// ```
     /// use spherule_kernel::{Coherence, Trace};
@@ -112,7 +110,7 @@ impl<'m> Trace<'m> {
         Self { coherence: Coherence::Incoherent, ..self }
     }
 
-    /// With working memory.
+    /// Lends working memory.
     ///
     /// ```
     /// use spherule_kernel::{DepthList, Trace};
@@ -125,9 +123,9 @@ impl<'m> Trace<'m> {
         Self { scratch, ..self }
     }
 
-    /// With memory for streams, in place of what a tree takes by itself, and for rays that are said to be incoherent, too.
-    /// Rays that have nothing in common go so where enough of them meet, which is seen as they go; with less than 8 places in
-    /// queues a ray they never do.
+    /// Lends memory for streams, which replaces what a tree allocates by itself, and serves rays that are said to be
+    /// incoherent, too. Rays that have nothing in common are traced as a stream as long as enough of them meet. With fewer than
+    /// 8 places in queues a ray they never are.
     ///
     /// ```
     /// use spherule_kernel::{QueuedRay, StreamMemory, StreamRay, Trace};

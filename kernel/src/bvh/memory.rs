@@ -1,4 +1,4 @@
-//! Memory of the caller's in which a tree is built, and refitted.
+//! The caller's memory in which a tree is built and refitted.
 
 use super::build::join::InTurn;
 use super::build::refit::refit;
@@ -22,7 +22,7 @@ pub enum RefitError {
         /// How many are given.
         given: usize,
     },
-    /// More spheres have left what boxes hold than there are indices for in the memory of the caller's.
+    /// More spheres have left what boxes hold than the caller's memory has indices for.
     TooSmall(TooSmall),
 }
 
@@ -40,9 +40,9 @@ impl fmt::Display for RefitError {
 
 impl core::error::Error for RefitError {}
 
-/// Memory of the caller's in which a [`Bvh`] is built, and refitted where its spheres move.
+/// The caller's memory in which a [`Bvh`] is built, and refitted when its spheres move.
 ///
-/// The tree is borrowed from the memory until it is built or refitted again, and so is its list.
+/// The tree borrows the memory and its list until it is built or refitted again.
 ///
 /// ```
 /// use spherule_kernel::{Bvh, BvhMemory, Exact, Intersect, Ray, Spheres, Vec3};
@@ -73,7 +73,7 @@ pub struct BvhMemory<'m> {
 }
 
 impl<'m> BvhMemory<'m> {
-    /// Memory whose contents do not matter. [`Bvh::needed`] says how much a tree needs.
+    /// Borrows memory, whose contents do not matter. [`Bvh::needed`] says how much a tree needs.
     ///
     /// With as many indices as that and one more for each sphere, no refit is [`TooSmall`].
     ///
@@ -98,7 +98,7 @@ impl<'m> BvhMemory<'m> {
     /// Builds a tree, as [`Bvh::build`] does.
     ///
     /// # Errors
-    /// As [`Bvh::build`]: there is no tree in the memory then.
+    /// As [`Bvh::build`]; then there is no tree in the memory.
     ///
     /// ```
     /// use spherule_kernel::{Bvh, BvhMemory, Spheres};
@@ -119,21 +119,19 @@ impl<'m> BvhMemory<'m> {
         Ok(Bvh::of(built, spheres, nodes, places, indices))
     }
 
-    /// Moves the spheres of the tree that is in the memory to where they are now: sphere i of those that it was built or
-    /// refitted over to sphere i of these, centre and radius.
+    /// Replaces each sphere of the tree in the memory by the one with the same index in `spheres`, centre and radius.
     ///
-    /// What is guaranteed is what a tree that is built anew guarantees, for any spheres. Those that are not valid now are left
-    /// out; if they are valid again later, they are back. Spheres that are larger or smaller than the others by 2^40 or more,
-    /// as they were when the tree was built, are tested against every ray; so are spheres which were left out then and now are
-    /// valid, and of more than four that were the same some that are not any more. So a refit costs no guarantee, only time,
-    /// and [`Bvh::growth`] says how much.
+    /// Guarantees what a new tree guarantees, for any spheres; only time is lost, and [`Bvh::growth`] says how much. Spheres
+    /// that are not valid now are left out, and come back when they are valid again. Tested against every ray are: spheres
+    /// larger or smaller by 2^40 or more than most were when the tree was built; spheres that were left out then and are valid
+    /// now; and, of more than four that were the same, some that no longer are.
     ///
-    /// Cost: a tenth to a quarter of a build's time, the less with as many indices that no refit is [`TooSmall`]: then
-    /// nothing is counted before. Stack: some 3 KiB. No other memory.
+    /// Cost: a tenth to a quarter of a build's time; less with so many indices that no refit is [`TooSmall`], since then nothing
+    /// is counted first. Stack: some 3 KiB. No other memory.
     ///
     /// # Errors
-    /// [`RefitError`] where the number of spheres is another, where indices are too few for the spheres that no box holds, or
-    /// where there is no tree. A tree in the memory is as it was.
+    /// [`RefitError`] if the number of spheres is another, if there are too few indices for the spheres that no box holds, or
+    /// if there is no tree. A tree in the memory is as it was.
     ///
     /// ```
     /// use spherule_kernel::{Bvh, BvhMemory, Exact, Intersect, Ray, Spheres, Vec3};

@@ -13,8 +13,8 @@ use alloc::collections::TryReserveError;
 use alloc::vec::Vec;
 use core::iter::repeat_n;
 
-/// A tree over spheres that owns both: the owned form of [`Bvh`]. 56 bytes a sphere at most, of which 16
-/// are the list; while it is built as much as that, then what it needs.
+/// A tree over spheres that owns both: the owned form of [`Bvh`]. It takes 56 bytes a sphere while it is built, of which 16
+/// are the list; what is left over is given back.
 ///
 /// ```
 /// use spherule_kernel::{Exact, Intersect, Ray, SphereTree, Vec3};
@@ -53,7 +53,7 @@ impl SphereTree {
         Self::in_memory(&InTurn, spheres, (nodes, places, indices))
     }
 
-    /// Builds a tree with several pieces of work at once, on threads of the caller's: the same tree.
+    /// Builds the same tree with parts of the work at once on the caller's threads.
     ///
     /// # Errors
     /// `TryReserveError` if there is no memory.
@@ -95,12 +95,11 @@ impl SphereTree {
         Self { spheres, nodes, places, indices, built }
     }
 
-    /// Moves the spheres of the tree to where they are now: sphere i of the list that it has to sphere i of this one, centre
-    /// and radius. Returns the [growth](Bvh::growth) of its boxes since it was built: where that is 1.5 or 2, it is time to
-    /// build anew.
+    /// Replaces each sphere of the tree by the one with the same index in `spheres`, centre and radius. Returns the
+    /// [growth](Bvh::growth) of the boxes since the tree was built: at 1.5 or 2 it is time to build anew.
     ///
-    /// What is guaranteed is what a tree that is built anew guarantees: see [`BvhMemory::refit`](crate::BvhMemory::refit), also
-    /// for spheres that are not valid, and for those far larger or smaller than they were.
+    /// Guarantees what a new tree guarantees. [`BvhMemory::refit`](crate::BvhMemory::refit) says what becomes of spheres that
+    /// are not valid, and of those far larger or smaller than they were.
     ///
     /// ```
     /// use spherule_kernel::{Exact, Intersect, Ray, RefitError, SphereTree, Vec3};
@@ -118,11 +117,11 @@ impl SphereTree {
     /// # Ok::<(), RefitError>(())
     /// ```
     ///
-    /// Cost: a tenth to a quarter of a build's time, and no memory, unless many spheres have left the boxes: 8 bytes for
-    /// each of them.
+    /// Cost: a tenth to a quarter of a build's time. No memory, unless many spheres have left the boxes: then 8 bytes for each
+    /// of them.
     ///
     /// # Errors
-    /// [`RefitError::OtherCount`] where the number of spheres is another; the tree is as it was.
+    /// [`RefitError::OtherCount`] if `spheres` has another number of spheres; the tree is as it was.
     pub fn refit(&mut self, spheres: impl Into<SphereList>) -> Result<f32, RefitError> {
         let moved = spheres.into();
         let Self { spheres, nodes, places, indices, built } = self;
@@ -141,7 +140,7 @@ impl SphereTree {
         Ok(self.bvh().growth())
     }
 
-    /// The tree, borrowed: a few words.
+    /// Borrows the tree: a few words.
     ///
     /// ```
     /// use spherule_kernel::SphereTree;
@@ -155,7 +154,7 @@ impl SphereTree {
         Bvh::of(self.built, self.spheres.spheres(), &self.nodes, places, indices)
     }
 
-    /// The list that the tree was built from.
+    /// Returns the list that the tree was built from, or refitted to.
     ///
     /// ```
     /// use spherule_kernel::SphereTree;

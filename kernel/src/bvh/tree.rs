@@ -13,9 +13,9 @@ use crate::memory::TooSmall;
 use crate::scale::scene::SceneScale;
 use glam::Vec3;
 
-/// A tree over a list of spheres, in memory of the caller's.
+/// A tree over a list of spheres, in the caller's memory.
 ///
-/// It keeps the list that it was built from, and holds copies of its spheres in an order of its own.
+/// It borrows the list that it was built from, and holds copies of its spheres in an order of its own.
 ///
 /// ```
 /// use spherule_kernel::{Bvh, BvhNode, Exact, Intersect, Ray, Spheres, Vec3};
@@ -79,10 +79,10 @@ impl SphereSource for Bvh<'_> {
 }
 
 impl<'a> Bvh<'a> {
-    /// The memory that any list of `count` spheres needs: 40 bytes a sphere at most, and 700 bytes. What a tree takes
-    /// of it, [`size`](Bvh::size) says: 24 to 28.
+    /// Returns how much memory any list of `count` spheres needs: at most 40 bytes a sphere, and 700. A tree takes 24 to 28
+    /// bytes a sphere of it, as [`size`](Bvh::size) says.
     ///
-    /// More than 2^27 spheres are too many: no memory is enough then.
+    /// More than 2^27 spheres are too many: then no memory is enough.
     ///
     /// ```
     /// use spherule_kernel::{Bvh, BvhSize};
@@ -94,14 +94,13 @@ impl<'a> Bvh<'a> {
         needed(count)
     }
 
-    /// Builds a tree over `spheres` in the memory given, whose contents do not matter.
+    /// Builds a tree over `spheres` in the given memory, which is overwritten.
     ///
     /// Spheres that are not valid are left out. The same list gives the same tree on every target.
     ///
-    /// Cost: a cut looks at each of its spheres a bounded number of times, and a node makes fifteen
-    /// cuts at most of runs that its children are eight times shorter than; so time grows by the
-    /// number of spheres times its logarithm, whatever the spheres. Stack: some 40 KiB, on a
-    /// Cortex-M4F 34 (`tests/targets/sizes`); where that is too much, a [`Bvh4`](crate::Bvh4) takes 2. No other memory.
+    /// Cost: time in proportion to n log n for n spheres, wherever they lie, since a node makes at most fifteen cuts, and its
+    /// children have at most an eighth of its spheres. Stack: some 40 KiB, on a Cortex-M4F 34 (`tests/targets/sizes`); where
+    /// that is too much, a [`Bvh4`](crate::Bvh4) takes 2. No other memory.
     ///
     /// # Errors
     /// [`TooSmall`] if a slice is shorter than [`Bvh::needed`] says; longer is no error, and the
@@ -126,9 +125,9 @@ impl<'a> Bvh<'a> {
         Self::build_with(&InTurn, spheres, nodes, places, indices)
     }
 
-    /// [`Bvh::build`] with several pieces of work at once, on threads of the caller's: the same tree.
+    /// Builds the same tree as [`Bvh::build`], with parts of the work at once on the caller's threads.
     ///
-    /// Cost: with two threads some 0.7 of the time for a million spheres.
+    /// Cost: of a million spheres two threads take some 0.7 of the time of one.
     ///
     /// # Errors
     /// As [`Bvh::build`].
@@ -218,7 +217,7 @@ impl<'a> Bvh<'a> {
         Leaf::of(self.numbers, number)
     }
 
-    /// The list that the tree was built from.
+    /// Returns the list that the tree was built from.
     ///
     /// ```
     /// use spherule_kernel::SphereTree;
@@ -231,14 +230,16 @@ impl<'a> Bvh<'a> {
         self.spheres
     }
 
-    /// By how much the boxes have grown since the tree was built: how many boxes a ray is expected to enter, times how
-    /// many it was then. 1 for a tree that was not refitted; finite and above 0 for any.
+    /// Returns by how much the boxes have grown since the tree was built: how many boxes a ray is expected to enter, over how
+    /// many it was then. It is 1 for a tree that was not refitted, and finite and above 0 for any.
     ///
-    /// A ray takes about so many times as long, as far as it is boxes that it spends its time on: where it is 1.5 or 2, a
-    /// tree that is used for more than a few frames is better built anew. It is an estimate by the surface area heuristic
-    /// (MacDonald and Booth 1990), for rays through the space in which most of the spheres are; a scene that moves, grows or shrinks
-    /// as a whole has not grown. Sixteen spheres that no box holds, which every ray must meet, count as one box that every
-    /// ray enters. Up to 64 spheres have no boxes that a ray looks at.
+    /// A ray takes about as many times as long, as far as it spends its time on boxes. At 1.5 or 2, build the tree anew if it
+    /// is used for more than a few frames.
+    ///
+    /// This is an estimate by the surface area heuristic (MacDonald and Booth 1990), for rays through the space in which most of
+    /// the spheres are. It stays 1 if the scene moves, grows or shrinks as a whole. Sixteen spheres that no box holds, which
+    /// every ray must meet, count as one box that every ray enters. Trees of up to 64 spheres have no boxes that a ray looks
+    /// at.
     ///
     /// ```
     /// use spherule_kernel::SphereTree;
@@ -251,7 +252,7 @@ impl<'a> Bvh<'a> {
         self.boxes_per_ray.cost(self.outside.len()) / self.cost_when_built
     }
 
-    /// The memory that the tree takes: at most what was needed.
+    /// Returns how much memory the tree takes: at most what [`needed`](Bvh::needed) says.
     ///
     /// ```
     /// use spherule_kernel::{Bvh, SphereTree};
@@ -265,7 +266,7 @@ impl<'a> Bvh<'a> {
         BvhSize { nodes: self.nodes.len(), places: self.indices.len() + self.outside.len() }
     }
 
-    /// How many nodes lie one below the other: 0 for up to sixteen spheres, at most 10.
+    /// Returns how many nodes lie one below the other: 0 for up to sixteen spheres, at most 10.
     ///
     /// ```
     /// use spherule_kernel::SphereTree;

@@ -8,7 +8,7 @@ use crate::geometry::sphere::Spheres;
 use crate::scale::scene::SceneScale;
 use core::fmt;
 
-/// Why words are no tree over the spheres of a list.
+/// Why words are not a tree over the spheres of a list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bvh4Error {
     /// They do not begin as a tree of this version does.
@@ -41,15 +41,16 @@ impl fmt::Display for Bvh4Error {
 impl core::error::Error for Bvh4Error {}
 
 impl<'a> Bvh4<'a> {
-    /// The tree that [`words`](Bvh4::words) of a tree over `spheres` are, wherever they come from.
+    /// Loads a tree over `spheres` from its [`words`](Bvh4::words), wherever they come from.
     ///
-    /// Any words return, and what is loaded answers as the list does.
-    /// Cost: each box is computed anew from its spheres, some hundreds of operations a sphere. Stack: half a kilobyte on 32
-    /// bits. No other memory.
+    /// Any words may be given: what is loaded answers as the list does, and the rest is an error.
+    ///
+    /// Cost: some hundreds of operations a sphere, since each box is computed anew from its spheres. Stack: half a kilobyte on
+    /// 32 bits. No other memory.
     ///
     /// # Errors
-    /// [`Bvh4Error`] says what is wrong of words that are not a tree over these spheres, bit for bit. More words than the tree's
-    /// are no error.
+    /// [`Bvh4Error`] if the words are not those of a tree over these spheres, bit for bit. More words than the tree's are no
+    /// error.
     ///
     /// ```
     /// use spherule_kernel::{Bvh4, Bvh4Error, Spheres};

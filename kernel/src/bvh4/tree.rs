@@ -14,11 +14,11 @@ pub(super) const HEADER: usize = 5;
 
 /// A tree of one lane over a list of up to 65,536 spheres: what firmware has in place of a [`Bvh`](crate::Bvh).
 ///
-/// It is words, and the list. Built on a host, [`words`](Bvh4::words) are data for a program, which
-/// [loads](Bvh4::load) them. Or it is [built](Bvh4::build) where it is used. `docs/targets.md` says what either takes.
+/// It is made of words, and borrows the list. A host builds it, and its [`words`](Bvh4::words) are data of a program, which
+/// [loads](Bvh4::load) them; or it is [built](Bvh4::build) where it is used. `docs/targets.md` says what either takes.
 ///
 /// It answers through [`Intersect`](crate::Intersect), bit for bit as the list does, with the reservations of `Bvh` for
-/// `Fast` and `Geometric`. Wider packets are answered lane by lane, compiled where they are called: where there are vectors,
+/// `Fast` and `Geometric`. It answers wider packets lane by lane, compiled where they are called: where there are vectors,
 /// `Bvh` is many times as fast.
 ///
 /// ```
@@ -54,9 +54,9 @@ pub struct Bvh4<'a> {
 }
 
 impl<'a> Bvh4<'a> {
-    /// How many words any list of `count` spheres needs: 12 bytes a sphere at most, and 700 more.
+    /// Returns how many words any list of `count` spheres needs: at most 12 bytes a sphere, and 700.
     ///
-    /// More than 65,536 spheres are too many: no memory is enough then.
+    /// More than 65,536 spheres are too many: then no memory is enough.
     ///
     /// ```
     /// use spherule_kernel::Bvh4;
@@ -71,11 +71,11 @@ impl<'a> Bvh4<'a> {
         HEADER + count + Shape::new(count as u32).nodes as usize * NODE
     }
 
-    /// Builds a tree over `spheres` in the memory given, whose contents do not matter.
+    /// Builds a tree over `spheres` in the given memory, which is overwritten. The same list gives the same words on every
+    /// target.
     ///
-    /// The same list gives the same words on every target. Cost: the number of spheres times the square of its logarithm,
-    /// whatever the spheres; those that are the same are all met by a ray that meets one. Stack: some 1.5 KiB on 32
-    /// bits. No other memory.
+    /// Cost: time in proportion to n log² n for n spheres, wherever they lie. (A ray that meets a sphere meets all that are the
+    /// same.) Stack: some 1.5 KiB on 32 bits. No other memory.
     ///
     /// # Errors
     /// [`TooSmall`] if there are fewer words than [`Bvh4::needed`] says; more are no error, and the rest is left alone.
@@ -127,7 +127,7 @@ impl<'a> Bvh4<'a> {
         Self { boxes, order, nodes, valid, extent, words }
     }
 
-    /// The list that the tree is over.
+    /// Returns the list that the tree is over.
     ///
     /// ```
     /// use spherule_kernel::{Bvh4, Spheres};
@@ -142,7 +142,7 @@ impl<'a> Bvh4<'a> {
         self.boxes.spheres
     }
 
-    /// What the tree is: as many words as are needed for the spheres that bounds see, the same on every target.
+    /// Returns the words that the tree is made of, the same on every target.
     ///
     /// ```
     /// use spherule_kernel::{Bvh4, Spheres};

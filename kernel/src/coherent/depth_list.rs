@@ -24,19 +24,21 @@ use crate::scale::scene::SceneScale;
 ///
 /// # Guarantee
 ///
-/// Bit for bit what the list of spheres answers: by [`Exact`](crate::Exact) for every input, by
+/// It answers bit for bit what the list of spheres does: by [`Exact`](crate::Exact) for every input, by
 /// [`Stable`](crate::Stable) in its domain, by [`Fast`](crate::Fast) and [`Geometric`](crate::Geometric) except for
 /// hits that their forms find on lines that pass a sphere by. Lists and filters only decide what is skipped, under
-/// the bounds of the tree (`docs/traversal-margins.md`); every t is a tier's. No units are better than others: bounds
-/// see spheres and rays multiplied by powers of two. What the bounds do not cover is not skipped: spheres of other
-/// sizes than most, by 2^40 or more, are met as a list is; packets with a ray that does not fit the [`Viewpoint`] or
-/// starts at t < 0, or whose rays look in different directions, are tested against all spheres.
+/// the bounds of the tree (`docs/traversal-margins.md`); every t is a tier's. Units do not matter, since bounds see spheres
+/// and rays multiplied by powers of two.
+///
+/// What the bounds do not cover is not skipped. Spheres that are 2^40 times as large or small as most are tested as in a
+/// list. A packet is tested against all spheres if one of its rays does not fit the [`Viewpoint`] or starts at t < 0, or if its
+/// rays look in different directions.
 ///
 /// # Cost
 ///
-/// Grows with the number of spheres that lie one behind the other, and by a sixteenth of an operation in a
-/// thousand packets with their number; packets that follow each other should lie beside each other in the
-/// picture. [`Trace::scratch`](crate::Trace::scratch) is memory for the short lists: with less than
+/// Time grows with the number of spheres that lie one behind the other; beside that, a thousand packets take a sixteenth of an
+/// operation for each sphere. Packets that follow each other should lie beside each other in the picture.
+/// [`Trace::scratch`](crate::Trace::scratch) is memory for the short lists: with less than
 /// [`DepthList::scratch`] the answers are the same, and take longer. Stack: some 12 KiB.
 ///
 /// ```
@@ -65,9 +67,9 @@ pub struct DepthList<'a> {
 }
 
 impl<'a> DepthList<'a> {
-    /// How many numbers of memory any list of `count` spheres needs: 24 bytes a sphere, and 768.
+    /// Returns how many numbers of memory any list of `count` spheres needs: 24 bytes a sphere, and 768.
     ///
-    /// `usize::MAX`, which no memory has, if that many cannot be counted.
+    /// Returns `usize::MAX`, which no memory has, if that many cannot be counted.
     ///
     /// ```
     /// assert_eq!(spherule_kernel::DepthList::needed(100), 768);
@@ -77,7 +79,7 @@ impl<'a> DepthList<'a> {
         column_length(count).saturating_mul(COLUMNS)
     }
 
-    /// How many numbers of scratch memory a traversal makes use of at most: 48 bytes a sphere, and 1536.
+    /// Returns how many numbers of scratch memory a traversal uses at most: 48 bytes a sphere, and 1536.
     ///
     /// ```
     /// assert_eq!(spherule_kernel::DepthList::scratch(100), 1536);
@@ -87,11 +89,10 @@ impl<'a> DepthList<'a> {
         Self::needed(count).saturating_mul(2)
     }
 
-    /// Sorts `spheres` for rays of `viewpoint`, in the memory given, whose contents do not matter.
+    /// Sorts `spheres` for rays of `viewpoint`, in the given memory, which is overwritten.
     ///
-    /// Spheres that are not valid are left out. With a viewpoint that is no one's - NaN, infinity,
-    /// a zero direction - or one beyond 2^56 times the size of most spheres, the list can be used, and saves
-    /// nothing.
+    /// Spheres that are not valid are left out. The list can be used, and saves nothing, if the viewpoint is NaN, infinite or a
+    /// zero direction, or beyond 2^56 times the size of most spheres.
     ///
     /// Cost: a radix sort, some 20 ns a sphere. Stack: 2 KiB. No other memory.
     ///

@@ -30,11 +30,12 @@ pub type SurfaceHit<'a, A = [f32; 16]> = (&'a RayPacket<A>, &'a HitPacket<A>, &'
 pub type SurfaceHits<'a, A = [f32; 16]> =
     (&'a [RayPacket<A>], &'a [HitPacket<A>], &'a [SurfacePacket<A>]);
 
-/// Rays to a light from what the rays of a packet hit: from the side of the surface that each came from, if that
-/// faces the light; inactive in the other lanes.
+/// Returns rays to a light from what the rays of a packet hit. Each begins on the side of the surface that its ray came from;
+/// where that side does not face the light, or nothing was hit, the lane is inactive. `hits` and `surfaces` are the answers of
+/// `tier` for `rays` among `spheres`.
 ///
-/// A ray is bit for bit that of [`Surface::spawn_ray`](crate::Surface::spawn_ray) or `spawn_ray_to`, in every lane width. `hits`
-/// and `surfaces` are the answers of `tier` for `rays` among `spheres`. Cost: in sixteen lanes some 10 ns a ray.
+/// A ray is bit for bit that of [`Surface::spawn_ray`](crate::Surface::spawn_ray) or `spawn_ray_to`, in every lane width. Cost:
+/// in sixteen lanes some 10 ns a ray.
 ///
 /// ```
 /// use spherule_kernel::{
