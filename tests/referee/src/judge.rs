@@ -4,40 +4,15 @@
 
 use crate::answer::Answer;
 use crate::counts::Counts;
+use crate::failure::{Failure, Failures, NewFailure};
 use crate::families::FAMILIES;
 use crate::rules::Rules;
-use crate::simplicity::weight;
 use crate::truth::{self, Shared, Truth};
 use crate::verdict::{Kind, Verdict, margin, verdict};
 use spherule_kernel::{Hit, Ray, Sphere};
 
-/// t that is off by less is no good example of a t that is off: half of the digits are right.
-pub const PLAINLY_OFF: f64 = 4096.0;
-/// Up to so many spheres a failure has all.
-const FEW_SPHERES: usize = 16;
 /// How finely [`Score::places`] are told: by powers of two of how near to a tangent the line passes.
 pub const PLACES: usize = 26;
-
-/// An answer that is wrong under an intersector's own rules.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Failure {
-    /// How.
-    pub kind: Kind,
-    /// How much, as [`Verdict::Wrong`] says.
-    pub severity: f64,
-    /// The ray.
-    pub ray: Ray,
-    /// The spheres: all if they are few, else the true one and the one that was answered.
-    pub spheres: Vec<Sphere>,
-    /// What was answered; the sphere is an index of `spheres`.
-    pub answer: Option<Answer>,
-    /// What is true; the sphere is an index of `spheres`.
-    pub truth: Option<Hit>,
-    /// The number of the family, if it is known.
-    pub family: Option<u8>,
-    /// Which ray it was; `None` once it has been shrunk.
-    pub row: Option<u64>,
-}
 
 /// What the answers of one family come to.
 #[derive(Clone, Debug, Default)]
@@ -57,8 +32,7 @@ pub struct Judge {
     rules: Rules,
     maps_places: bool,
     scores: Vec<Score>,
-    worst: [Option<Failure>; Kind::ALL.len()],
-    simplest: [Option<Failure>; Kind::ALL.len()],
+    failures: Failures,
     rows: u64,
 }
 
@@ -67,8 +41,7 @@ impl Judge {
     #[must_use]
     pub fn new(rules: Rules, maps_places: bool) -> Self {
         let scores = vec![Score::default(); FAMILIES.len() + 1];
-        let none = || [const { None }; Kind::ALL.len()];
-        Self { rules, maps_places, scores, worst: none(), simplest: none(), rows: 0 }
+        Self { rules, maps_places, scores, failures: Failures::NONE, rows: 0 }
     }
 
     /// Judges the answers to `rays[i]` against `spheres[i]` alone, whose index is 0.
@@ -188,31 +161,16 @@ impl Judge {
                 score.places[place][1] += u64::from(is_wrong);
             }
             let Verdict::Wrong { kind, severity } = found else { continue };
-            let keeps = Keeps {
-                worst: self.worst[kind as usize].as_ref(),
-                simplest: self.simplest[kind as usize].as_ref(),
-            };
-            let [is_worst, is_simplest] = keeps.takes(kind, severity, ray, spheres);
-            if is_worst || is_simplest {
-                let (spheres, [truth, named]) =
-                    relevant(spheres, [hit.map(|hit| hit.sphere), named]);
-                let failure = Failure {
-                    kind,
-                    severity,
-                    ray: *ray,
-                    spheres,
-                    answer: answer.map(|answer| Answer { sphere: named, ..answer }),
-                    truth: hit.zip(truth).map(|(hit, sphere)| Hit { sphere, ..hit }),
-                    family,
-                    row: Some(row),
-                };
-                if is_worst {
-                    self.worst[kind as usize] = Some(failure.clone());
-                }
-                if is_simplest {
-                    self.simplest[kind as usize] = Some(failure);
-                }
-            }
+            self.failures.add(&NewFailure {
+                kind,
+                severity,
+                ray,
+                spheres,
+                answer,
+                truth: hit,
+                family,
+                row,
+            });
         }
     }
 
@@ -247,13 +205,13 @@ impl Judge {
     /// The worst failure of a kind.
     #[must_use]
     pub fn worst(&self, kind: Kind) -> Option<&Failure> {
-        self.worst[kind as usize].as_ref()
+        self.failures.worst(kind)
     }
 
     /// The failure of a kind that has the fewest digits; of t, of those that are plainly off if there are any.
     #[must_use]
     pub fn simplest(&self, kind: Kind) -> Option<&Failure> {
-        self.simplest[kind as usize].as_ref()
+        self.failures.simplest(kind)
     }
 }
 
@@ -276,43 +234,6 @@ struct Judged<'a> {
     truths: [Truth; 2],
     answer: Option<Answer>,
     covered: bool,
-}
-
-/// The failures of a kind that are known.
-struct Keeps<'a> {
-    worst: Option<&'a Failure>,
-    simplest: Option<&'a Failure>,
-}
-
-impl Keeps<'_> {
-    /// Whether another failure is worse, and whether it is simpler.
-    fn takes(&self, kind: Kind, severity: f64, ray: &Ray, spheres: &[Sphere]) -> [bool; 2] {
-        // What has no size is the least of all.
-        let size = |severity: f64| if severity.is_nan() { -1.0 } else { severity };
-        let is_worst = self.worst.is_none_or(|worst| size(severity) > size(worst.severity));
-        let faint = |severity: f64| kind == Kind::T && severity < PLAINLY_OFF;
-        let weight_of =
-            |ray: &Ray, spheres: &[Sphere]| weight(ray, &spheres[..spheres.len().min(FEW_SPHERES)]);
-        let is_simplest = self.simplest.is_none_or(|simplest| {
-            let key = (faint(severity), weight_of(ray, spheres));
-            key < (faint(simplest.severity), weight_of(&simplest.ray, &simplest.spheres))
-        });
-        [is_worst, is_simplest]
-    }
-}
-
-/// The spheres of a failure, and the places among them of those with an index.
-fn relevant(spheres: &[Sphere], indices: [Option<u32>; 2]) -> (Vec<Sphere>, [Option<u32>; 2]) {
-    if spheres.len() <= FEW_SPHERES {
-        return (spheres.to_vec(), indices);
-    }
-    let mut kept: Vec<u32> = indices.into_iter().flatten().collect();
-    kept.sort_unstable();
-    kept.dedup();
-    let place = |index: u32| kept.iter().position(|&kept| kept == index).map(|place| place as u32);
-    let places = indices.map(|index| index.and_then(place));
-    let there = |index: &u32| spheres.get(*index as usize).copied();
-    (kept.iter().filter_map(there).collect(), places)
 }
 
 fn place_of(margin: f64) -> usize {

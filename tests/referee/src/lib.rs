@@ -23,7 +23,7 @@
 //! | [`case`], [`scene`], [`random`], [`ulp`], [`aim`] | a ray and a sphere; rays and spheres; what cases are made by |
 //! | [`families`], [`measured`] | the families of cases; those in which error is measured |
 //! | [`rules`], [`truth`] | what an intersector promises, and what is true by that |
-//! | [`answer`], [`verdict`], [`counts`], [`judge`] | an answer, how it is wrong, how many are, and which is the worst |
+//! | [`answer`], [`verdict`], [`counts`], [`failure`], [`judge`] | an answer, how it is wrong, how many are, which are the worst and the simplest, and who counts them |
 //! | [`simplicity`], [`shrink`], [`snippet`] | how readable a case is, the smallest that fails, and lines to paste |
 //! | [`table`] | counts as a table, and a picture of where in a family it fails |
 //! | [`intersector`], [`watched`], [`trial`] | what is judged; a thread that may panic or hang; all families at once |
@@ -39,6 +39,7 @@ pub mod answer;
 pub mod bytes;
 pub mod case;
 pub mod counts;
+pub mod failure;
 pub mod families;
 pub mod intersector;
 pub mod judge;

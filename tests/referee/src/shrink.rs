@@ -3,7 +3,7 @@
 //! From a case that fails, simpler ones are tried, the simplest first; the first that fails is the next to begin with, until none
 //! does or the time is over. Cases are tried many at once, since a call of what is judged may be dear.
 
-use crate::judge::{Failure, PLAINLY_OFF};
+use crate::failure::{Failure, PLAINLY_OFF};
 use crate::simplicity::weight;
 use crate::verdict::Kind;
 use spherule_kernel::{Ray, Sphere, Vec3};

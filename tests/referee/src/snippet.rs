@@ -1,8 +1,8 @@
 //! A failing case as lines to paste into an issue: in C, Python and Rust, without a rounding on the way.
 
 use crate::answer::Answer;
+use crate::failure::Failure;
 use crate::families::FAMILIES;
-use crate::judge::Failure;
 use spherule_kernel::{Hit, Ray, Sphere};
 
 /// A number in the fewest decimal digits that are read back to the same `f32`.

@@ -1,8 +1,9 @@
 //! An intersector against all families: pairs, and scenes of eight spheres.
 
+use crate::failure::Failure;
 use crate::families::{FAMILIES, Family, SEED};
 use crate::intersector::Intersector;
-use crate::judge::{Failure, Judge};
+use crate::judge::Judge;
 use crate::rules::Rules;
 use crate::shrink::{Candidate, shrink};
 use crate::snippet::{rust, sentence};

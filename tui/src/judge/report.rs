@@ -3,8 +3,9 @@
 use serde_json::{Value, json};
 use spherule_kernel::Sphere;
 use spherule_referee::counts::Counts;
+use spherule_referee::failure::Failure;
 use spherule_referee::families::FAMILIES;
-use spherule_referee::judge::{Failure, Judge, Score};
+use spherule_referee::judge::{Judge, Score};
 use spherule_referee::snippet::{c, hex, python, rust, sentence};
 use spherule_referee::table::{write_chart, write_counts};
 use spherule_referee::verdict::Kind;

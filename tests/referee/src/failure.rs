@@ -1,0 +1,127 @@
+//! Answers that are wrong: of each kind the worst and the simplest are kept.
+
+use crate::answer::Answer;
+use crate::simplicity::weight;
+use crate::verdict::Kind;
+use spherule_kernel::{Hit, Ray, Sphere};
+
+/// t that is off by less is no good example of a t that is off: half of the digits are right.
+pub const PLAINLY_OFF: f64 = 4096.0;
+/// Up to so many spheres a failure has all.
+const FEW_SPHERES: usize = 16;
+
+/// An answer that is wrong under an intersector's own rules.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Failure {
+    /// How.
+    pub kind: Kind,
+    /// How much, as [`Verdict::Wrong`](crate::verdict::Verdict::Wrong) says.
+    pub severity: f64,
+    /// The ray.
+    pub ray: Ray,
+    /// The spheres: all if they are few, else the true one and the one that was answered.
+    pub spheres: Vec<Sphere>,
+    /// What was answered; the sphere is an index of `spheres`.
+    pub answer: Option<Answer>,
+    /// What is true; the sphere is an index of `spheres`.
+    pub truth: Option<Hit>,
+    /// The number of the family, if it is known.
+    pub family: Option<u8>,
+    /// Which ray it was; `None` once it has been shrunk.
+    pub row: Option<u64>,
+}
+
+/// A failure of which it is not known yet whether it is kept; its spheres are all, and theirs are the indices.
+pub(crate) struct NewFailure<'a> {
+    pub(crate) kind: Kind,
+    pub(crate) severity: f64,
+    pub(crate) ray: &'a Ray,
+    pub(crate) spheres: &'a [Sphere],
+    pub(crate) answer: Option<Answer>,
+    pub(crate) truth: Option<Hit>,
+    pub(crate) family: Option<u8>,
+    pub(crate) row: u64,
+}
+
+/// The failures that are kept, by their kinds.
+#[derive(Clone, Debug)]
+pub(crate) struct Failures {
+    worst: [Option<Failure>; Kind::ALL.len()],
+    simplest: [Option<Failure>; Kind::ALL.len()],
+}
+
+impl Failures {
+    pub(crate) const NONE: Self = Self {
+        worst: [const { None }; Kind::ALL.len()],
+        simplest: [const { None }; Kind::ALL.len()],
+    };
+
+    /// Keeps a failure if it is the worst of its kind so far, or the simplest.
+    pub(crate) fn add(&mut self, new: &NewFailure<'_>) {
+        let worst = &mut self.worst[new.kind as usize];
+        let simplest = &mut self.simplest[new.kind as usize];
+        let is_worst = worst.as_ref().is_none_or(|worst| new.is_worse(worst));
+        let is_simplest = simplest.as_ref().is_none_or(|simplest| new.is_simpler(simplest));
+        if is_worst {
+            *worst = Some(new.kept());
+        }
+        if is_simplest {
+            *simplest = Some(new.kept());
+        }
+    }
+
+    pub(crate) fn worst(&self, kind: Kind) -> Option<&Failure> {
+        self.worst[kind as usize].as_ref()
+    }
+
+    pub(crate) fn simplest(&self, kind: Kind) -> Option<&Failure> {
+        self.simplest[kind as usize].as_ref()
+    }
+}
+
+impl NewFailure<'_> {
+    fn is_worse(&self, than: &Failure) -> bool {
+        // What has no size is the least of all.
+        let size = |severity: f64| if severity.is_nan() { -1.0 } else { severity };
+        size(self.severity) > size(than.severity)
+    }
+
+    fn is_simpler(&self, than: &Failure) -> bool {
+        let faint = |severity: f64| self.kind == Kind::T && severity < PLAINLY_OFF;
+        let weight =
+            |ray: &Ray, spheres: &[Sphere]| weight(ray, &spheres[..spheres.len().min(FEW_SPHERES)]);
+        (faint(self.severity), weight(self.ray, self.spheres))
+            < (faint(than.severity), weight(&than.ray, &than.spheres))
+    }
+
+    /// With all spheres if they are few; else with those that it names.
+    fn kept(&self) -> Failure {
+        let named = self.answer.and_then(|answer| answer.sphere);
+        let (spheres, [truth, named]) =
+            relevant(self.spheres, [self.truth.map(|hit| hit.sphere), named]);
+        Failure {
+            kind: self.kind,
+            severity: self.severity,
+            ray: *self.ray,
+            spheres,
+            answer: self.answer.map(|answer| Answer { sphere: named, ..answer }),
+            truth: self.truth.zip(truth).map(|(hit, sphere)| Hit { sphere, ..hit }),
+            family: self.family,
+            row: Some(self.row),
+        }
+    }
+}
+
+/// The spheres of a failure, and the places among them of those with an index.
+fn relevant(spheres: &[Sphere], indices: [Option<u32>; 2]) -> (Vec<Sphere>, [Option<u32>; 2]) {
+    if spheres.len() <= FEW_SPHERES {
+        return (spheres.to_vec(), indices);
+    }
+    let mut kept: Vec<u32> = indices.into_iter().flatten().collect();
+    kept.sort_unstable();
+    kept.dedup();
+    let place = |index: u32| kept.iter().position(|&kept| kept == index).map(|place| place as u32);
+    let places = indices.map(|index| index.and_then(place));
+    let there = |index: &u32| spheres.get(*index as usize).copied();
+    (kept.iter().filter_map(there).collect(), places)
+}
