@@ -9,10 +9,12 @@
 //!
 //! `SPHERULE_SEED=N` draws others.
 
-use num_bigint::BigInt;
+mod discriminant;
+mod lattice;
+
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
-use spherule_kernel::{Hit, Ray, Sphere, Tier, Vec3, discriminant, roots};
+use spherule_kernel::{Hit, Ray, Sphere, Tier, roots};
 use spherule_referee::case::Case;
 use spherule_referee::families::FAMILIES;
 use spherule_referee::random::Random;
@@ -46,10 +48,6 @@ fn variable(name: &str) -> Option<u64> {
 /// Bits, since -0 is not 0 here and a NaN shall be seen.
 fn bits(t: Option<f32>) -> Option<u32> {
     t.map(f32::to_bits)
-}
-
-fn dot(v: [i64; 3], w: [i64; 3]) -> i64 {
-    v[0] * w[0] + v[1] * w[1] + v[2] * w[2]
 }
 
 /// 16 cases with their answers, as pairs and each sphere as a list of its own for all 16 rays.
@@ -116,118 +114,6 @@ fn fresh_cases_of_every_family_are_answered_as_the_oracle_does() {
         }
         println!("{family:?}: {done} cases, {hits} hits, {ties} ties, 0 mismatches");
     }
-}
-
-/// `x` in units of 2^-1074, which every `f64` is a multiple of.
-fn double_units(x: f64) -> BigInt {
-    assert!(x.is_finite(), "{x} is no multiple of anything");
-    let (exponent, fraction) = (x.to_bits() >> 52 & 0x7ff, x.to_bits() & ((1 << 52) - 1));
-    let magnitude = match exponent {
-        0 => BigInt::from(fraction),
-        _ => BigInt::from(fraction | 1 << 52) << (exponent - 1),
-    };
-    if x.is_sign_negative() { -magnitude } else { magnitude }
-}
-
-/// The control: the bound is not so large that nothing could fail.
-#[test]
-fn the_discriminant_is_within_its_bound() {
-    let (mut done, mut rounded, mut beyond_a_part) = (0_u64, 0_u64, 0_u64);
-    for family in FAMILIES {
-        for index in 0..count() {
-            let Case { ray, sphere } = family.case(first() + index);
-            let truth = oracle::discriminant(&ray, &sphere);
-            let found = discriminant(&ray, &sphere);
-            assert_eq!(found.is_some(), truth.is_some(), "{ray:?} {sphere:?}");
-            let (Some((value, bound)), Some(truth)) = (found, truth) else { continue };
-            // From units of 2^-596.
-            let truth: BigInt = truth << (1074 - 596_u32);
-            let error = (double_units(value) - truth).magnitude().clone();
-            let bound = double_units(bound).magnitude().clone();
-            assert!(error <= bound, "{value} of {ray:?} {sphere:?}: {error} > {bound}");
-            done += 1;
-            rounded += u64::from(error != 0_u32.into());
-            beyond_a_part += u64::from(error * 16_u32 > bound);
-        }
-    }
-    println!(
-        "{done} discriminants, {rounded} rounded, {beyond_a_part} by a sixteenth of the bound"
-    );
-    assert!(done > 0 && rounded * 4 > done && beyond_a_part * 100 > done);
-}
-
-/// The exact path alone, which every root takes in `roots`, against the filtered one, on small
-/// integers; hit or miss also against D in `i64`.
-#[test]
-fn expansions_and_filter_agree_on_a_lattice_rich_in_tangents() {
-    let total = count() * 10;
-    let (mut tangents, mut hits, mut done) = (0_u64, 0_u64, 0_u64);
-    let mut random = Random::new(31, first());
-    while done < total {
-        let reach = random.pick(&[2, 4, 9]);
-        let mut point = || [(); 3].map(|()| random.integer(-reach, reach));
-        let (origin, mut direction) = (point(), point());
-        let centers: [[i64; 3]; 16] = core::array::from_fn(|_| point());
-        if random.one_in(2) {
-            let kept = random.integer(0, 2) as usize;
-            direction = core::array::from_fn(|i| if i == kept { direction[i] } else { 0 });
-        }
-        // Half of the lines that can touch their sphere do: where the distance is an integer.
-        let radii: [i64; 16] = core::array::from_fn(|index| {
-            let p: [i64; 3] = core::array::from_fn(|i| centers[index][i] - origin[i]);
-            let (a, b) = (dot(direction, direction).max(1), dot(direction, p));
-            let square = (a * dot(p, p) - b * b) / a;
-            let distance = square.isqrt();
-            let touches = a * distance * distance == a * dot(p, p) - b * b;
-            if touches && random.one_in(2) { distance } else { random.integer(0, 2 * reach) }
-        });
-        if direction == [0; 3] {
-            continue;
-        }
-        let behind = random.one_in(4);
-        let single = |v: [i64; 3]| Vec3::from_array(v.map(|x| x as f32));
-        let t_min = if behind { f32::NEG_INFINITY } else { 0.0 };
-        let ray = Ray { t_min, ..Ray::new(single(origin), single(direction)) };
-        let sphere = |i: usize| Sphere { center: single(centers[i]), radius: radii[i] as f32 };
-        let cases: Vec<Case> = (0..16).map(|i| Case { ray, sphere: sphere(i) }).collect();
-        let pure: Vec<Option<f32>> = cases
-            .iter()
-            .zip(centers.iter().zip(radii))
-            .map(|(case, (center, radius))| {
-                let roots = roots(Tier::Exact, &case.ray, &case.sphere);
-                let p: [i64; 3] = core::array::from_fn(|i| center[i] - origin[i]);
-                let b = dot(direction, p);
-                let d = b * b - dot(direction, direction) * (dot(p, p) - radius * radius);
-                assert_eq!(roots.is_some(), d >= 0, "{case:?}");
-                tangents += u64::from(d == 0);
-                roots.and_then(|roots| oracle::accepted(&case.ray, roots))
-            })
-            .collect();
-        hits += pure.iter().flatten().count() as u64;
-
-        let spheres: Vec<Sphere> = cases.iter().map(|case| case.sphere).collect();
-        let mut expected: Option<Hit> = None;
-        for (index, t) in pure.iter().enumerate() {
-            if let Some(t) = *t
-                && expected.is_none_or(|hit| t < hit.t)
-            {
-                expected = Some(Hit { t, sphere: index as u32 });
-            }
-        }
-        for layer in pair_layers() {
-            let found = pairs_of(Tier::Exact, layer, &cases);
-            for (index, case) in cases.iter().enumerate() {
-                assert_eq!(bits(found[index]), bits(pure[index]), "{layer:?}: {case:?}");
-            }
-        }
-        for variant in exact_lists() {
-            let closest = variant.closest(&spheres, &[cases[0].ray])[0];
-            assert_eq!(hit_bits(closest), hit_bits(expected), "{variant:?}: {cases:?}");
-        }
-        done += 16;
-    }
-    println!("lattice: {done} cases, {tangents} tangents, {hits} hits, 0 mismatches");
-    assert!(tangents * 25 > done, "{tangents} tangents of {done}: not rich in them");
 }
 
 #[test]

@@ -1,20 +1,22 @@
 //! The ways to draw a picture, of which one is compiled.
 
+mod hard;
 #[path = "../../../../../kernel/examples/firmware/src/hardware_root.rs"]
 mod hardware_root;
+mod memory;
+mod program_name;
 
-use core::cell::UnsafeCell;
 use core::hint::black_box;
 use core::sync::atomic::{AtomicU8, Ordering::Relaxed};
 use hardware_root::HardwareRoot;
+use memory::Memory;
+use program_name::{NAME, by_tier};
 use spherule_kernel::{
     Bvh, Bvh4, BvhNode, BvhSize, Exact, Fast, Geometric, HitPacket, Intersect, Ray, RayPacket,
-    Sphere, SpherePacket, Spheres, Stable, Trace, Vec3, f32x4, pair_lanes, roots,
+    SpherePacket, Spheres, Stable, Trace, f32x4, pair_lanes, roots,
 };
 use spherule_targets::many::{self, BAKED_TREE};
 use spherule_targets::scene::{self, HEIGHT, WIDTH};
-
-const NAME: &[u8] = env!("CARGO_BIN_NAME").as_bytes();
 
 /// Whether the program's name ends so.
 const fn ends_with(end: &str) -> bool {
@@ -27,30 +29,6 @@ const fn ends_with(end: &str) -> bool {
         place += 1;
     }
     true
-}
-
-/// Does work by the tier of the program's name.
-macro_rules! by_tier {
-    ($tier:ident => $work:expr) => {
-        match NAME[5] {
-            b'f' => {
-                let $tier = Fast;
-                $work
-            }
-            b'g' => {
-                let $tier = Geometric;
-                $work
-            }
-            b's' => {
-                let $tier = Stable;
-                $work
-            }
-            _ => {
-                let $tier = Exact;
-                $work
-            }
-        }
-    };
 }
 
 const PIXELS: usize = (WIDTH * HEIGHT) as usize;
@@ -81,11 +59,11 @@ pub fn draw() {
     if OF_MANY {
         draw_many();
     } else if ends_with("-hard") {
-        hard();
+        hard::by_list();
     } else if ends_with("-hard_tree") {
-        hard_tree();
+        hard::by_tree();
     } else if ends_with("-hard_roots") {
-        hard_roots();
+        hard::both_roots();
     } else if !ends_with("-none") {
         let Some(spheres) = scene::spheres() else { return };
         if ends_with("-slice") { slices(spheres) } else { pixels(spheres) }
@@ -158,26 +136,6 @@ fn draw_all(structure: &impl Intersect) {
             }
             place += 1;
         }
-    }
-}
-
-/// What one function writes to.
-struct Memory<T>(UnsafeCell<T>);
-
-// SAFETY: there is one thread.
-#[allow(unsafe_code)]
-unsafe impl<T> Sync for Memory<T> {}
-
-impl<T> Memory<T> {
-    const fn new(value: T) -> Self {
-        Self(UnsafeCell::new(value))
-    }
-
-    /// The memory, to write to.
-    #[allow(unsafe_code, clippy::mut_from_ref)]
-    fn lend(&self) -> &mut T {
-        // SAFETY: each is lent once.
-        unsafe { &mut *self.0.get() }
     }
 }
 
@@ -256,66 +214,5 @@ fn slices(spheres: Spheres<'_>) {
         for (x, hit) in hits.iter().enumerate() {
             mark((y * WIDTH) as usize + x, hit.map(|hit| hit.sphere));
         }
-    }
-}
-
-/// A tangent, a tie, and the dearest case of the kernel's cost test: o, d, c and r.
-static HARD: [[f32; 10]; 3] = [
-    [-3.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0],
-    [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 16_777_220.0, 0.0, 0.0, 1.0],
-    [
-        4.304_508_3e17,
-        8.930_645_5e-30,
-        8_205.748,
-        594.441_3,
-        -6.914_829e26,
-        7.052_379e-36,
-        -6_261.860_4,
-        2_136.177,
-        -3.241_990_3e-26,
-        1.324_018_2e38,
-    ],
-];
-/// Beside each sphere another that is hit at the same t: from a distance of a million, f32 tells nothing less apart.
-static TIED: [[f32; 2]; 4] = [[0.0; 2], [0.0; 2], [1e6; 2], [1.0, 1.015_625]];
-
-/// What doubles cannot decide: tangents and ties.
-fn hard() {
-    for [ox, oy, oz, dx, dy, dz, x, y, z, r] in black_box(&HARD) {
-        let ray = Ray::new(Vec3::new(*ox, *oy, *oz), Vec3::new(*dx, *dy, *dz));
-        let columns = [x, y, z, r].map(core::slice::from_ref);
-        let Ok(spheres) = Spheres::new(columns[0], columns[1], columns[2], columns[3]) else {
-            return;
-        };
-        black_box(by_tier!(tier => spheres.closest_hit(tier, &ray)));
-    }
-    let [x, y, z, r] = black_box(&TIED);
-    let Ok(spheres) = Spheres::new(x, y, z, r) else { return };
-    let ray = Ray::new(Vec3::ZERO, Vec3::Z);
-    black_box(by_tier!(tier => spheres.closest_hit(tier, &ray)));
-}
-
-/// The same by trees.
-fn hard_tree() {
-    static WORDS: Memory<[u32; Bvh4::needed(1)]> = Memory::new([0; Bvh4::needed(1)]);
-    let words = WORDS.lend();
-    for [ox, oy, oz, dx, dy, dz, x, y, z, r] in black_box(&HARD) {
-        let ray = Ray::new(Vec3::new(*ox, *oy, *oz), Vec3::new(*dx, *dy, *dz));
-        let columns = [x, y, z, r].map(core::slice::from_ref);
-        let Ok(spheres) = Spheres::new(columns[0], columns[1], columns[2], columns[3]) else {
-            return;
-        };
-        if let Ok(tree) = Bvh4::build(spheres, words) {
-            black_box(by_tier!(tier => tree.closest_hit(tier, &ray)));
-        }
-    }
-}
-
-/// The same for both roots.
-fn hard_roots() {
-    for [ox, oy, oz, dx, dy, dz, x, y, z, r] in black_box(&HARD) {
-        let ray = Ray::new(Vec3::new(*ox, *oy, *oz), Vec3::new(*dx, *dy, *dz));
-        let sphere = Sphere { center: Vec3::new(*x, *y, *z), radius: *r };
-        black_box(by_tier!(tier => roots(tier, &ray, &sphere)));
     }
 }

@@ -1,0 +1,63 @@
+//! A terminal whose size changes: the picture follows.
+
+use super::look::last_row;
+use super::picture::once;
+use super::viewer::{COLUMNS, PICTURE_ROWS, ROWS, VIEW, Viewer, shows_a_frame};
+
+#[test]
+fn it_follows_the_size() {
+    let viewer = Viewer::start();
+    for (columns, rows) in [(100, 30), (30, 10), (72, 21)] {
+        viewer.session.resize(columns, rows);
+        viewer.wait_for_picture("the new size", &once(&VIEW, columns, rows - 1));
+    }
+    viewer.quit();
+}
+
+#[test]
+fn an_early_resize_is_not_lost() {
+    let viewer = Viewer::start_at_size(40, 12);
+    viewer.session.resize(COLUMNS, ROWS);
+    viewer.wait_for_picture("the new size", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.quit();
+}
+
+#[test]
+fn a_storm_of_sizes_ends_in_the_last() {
+    let viewer = Viewer::start();
+    for step in 0..200 {
+        viewer.session.resize(20 + step % 70, 3 + step % 17);
+    }
+    viewer.session.resize(COLUMNS, ROWS);
+    viewer.wait_for_picture("the last size", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.quit();
+}
+
+#[test]
+fn a_key_and_a_resize_at_once_both_count() {
+    let mut viewer = Viewer::start();
+    for round in 0..50 {
+        let (key, tier) = if round % 2 == 0 { ("1", " fast ") } else { ("2", " stable ") };
+        let (columns, rows) = (40 + round, 8 + round % 5);
+        viewer.session.resize(columns, rows);
+        viewer.session.type_in(key);
+        viewer.session.wait_for("both", |output| {
+            let line = last_row(output.screen());
+            (shows_a_frame(output) && line.contains(tier)).then_some(())
+        });
+    }
+    viewer.session.resize(COLUMNS, ROWS);
+    viewer.session.type_in("q");
+    assert!(viewer.session.wait_for_end().success());
+}
+
+#[test]
+fn a_terminal_without_a_cell_is_waited_for() {
+    let viewer = Viewer::start_at_size(0, 0);
+    viewer.session.wait_for("the start", |output| output.screen().hide_cursor().then_some(()));
+    viewer.session.resize(COLUMNS, ROWS);
+    viewer.wait_for_picture("the picture", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.session.resize(1, 1);
+    viewer.session.resize(0, 7);
+    viewer.quit();
+}

@@ -1,0 +1,29 @@
+//! The program's name, which says the tier.
+
+pub(super) const NAME: &[u8] = env!("CARGO_BIN_NAME").as_bytes();
+
+/// Does work by the tier of the program's name.
+macro_rules! by_tier {
+    ($tier:ident => $work:expr) => {
+        match NAME[5] {
+            b'f' => {
+                let $tier = Fast;
+                $work
+            }
+            b'g' => {
+                let $tier = Geometric;
+                $work
+            }
+            b's' => {
+                let $tier = Stable;
+                $work
+            }
+            _ => {
+                let $tier = Exact;
+                $work
+            }
+        }
+    };
+}
+
+pub(super) use by_tier;
