@@ -11,6 +11,8 @@ use crate::coherence::Coherence;
 use crate::coherent::packet_source::PacketSource;
 use crate::coherent::tree_source::{self, Ways};
 #[cfg(feature = "std")]
+use crate::dispatch::LevelName;
+#[cfg(feature = "std")]
 use crate::dispatch::compiled::Compiled;
 use crate::geometry::camera::tiles::CameraTiles;
 use crate::geometry::hit::HitPacket;
@@ -25,11 +27,11 @@ use crate::trace::Trace;
 
 impl Traverse for Bvh<'_> {
     /// What others go through clears 64 KiB first, and a group in vain is dear where nothing is learnt from it. (Calls over four
-    /// scenes in five orders, Zen 5, AVX-512, by the speed of one ray a call: with 8 here, calls of 9 rays ran at 0.62 to 1.27,
-    /// any hits 0.46 to 1.09, and of 12 at 0.68 to 1.61, and 0.51 to 1.37. Of 16 a camera's gain up to twice, and other rays lose
-    /// up to a third.)
+    /// scenes in five orders, Zen 5, by the speed of one ray a call, least, most and mean of closest hits; any hits have less:
+    /// baseline 16 rays 0.48, 1.51, 0.81, 33 rays 0.37, 1.64, 0.85; AVX2 16 rays 0.56, 1.72, 0.93, 33 rays 0.46, 2.36, 0.98;
+    /// AVX-512 9 rays 0.66, 1.29, 0.89, 16 rays 0.76, 2.31, 1.15.)
     #[cfg(feature = "std")]
-    const ONE_BY_ONE: usize = 12;
+    const ONE_BY_ONE: [usize; LevelName::ALL.len()] = [32, 24, 12];
 
     #[inline(always)]
     fn in_lanes<L: Lanes, Q: Query>(
