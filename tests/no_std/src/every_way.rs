@@ -3,17 +3,17 @@
 use core::hint::black_box;
 #[cfg(feature = "structures")]
 use spherule_kernel::{
-    Bvh, BvhMemory, BvhNode, DepthList, QueuedRay, StreamMemory, StreamRay, Viewpoint,
+    Bvh, BvhMemory, BvhNode, DepthList, Projection, QueuedRay, StreamMemory, StreamRay, Viewpoint,
 };
 use spherule_kernel::{
-    Bvh4, Camera, CameraTiles, Hit, HitColumns, HitPacket, Intersect, Lanes, Projection, Ray,
-    RayColumns, RayPacket, Side, Sphere, SpherePacket, Spheres, Tier, Trace, Vec3, f32x4,
-    object_lanes, pair_lanes, pairs, side, surface,
+    Bvh4, Camera, CameraTiles, Hit, HitColumns, HitPacket, Intersect, Lanes, Ray, RayColumns,
+    RayPacket, Side, Sphere, SpherePacket, Spheres, Tier, Trace, f32x4, object_lanes, pair_lanes,
+    pairs, side, surface,
 };
 #[cfg(feature = "vectors")]
 use spherule_kernel::{
-    Level, SurfacePacket, Towards, f32x8, f32x16, object_packets, pair_packets, shadow_packets,
-    surface_packets,
+    Level, SurfacePacket, Towards, Vec3, f32x8, f32x16, object_packets, pair_packets,
+    shadow_packets, surface_packets,
 };
 
 /// A digest of answers.
@@ -74,7 +74,7 @@ impl Sum {
 
     /// Normals and points in packets, and spawned rays.
     #[cfg(feature = "vectors")]
-    pub(super) fn surfaces(&mut self, tier: Tier, rays: &[Ray], spheres: Spheres<'_>) {
+    pub(super) fn surfaces(&mut self, tier: Tier, rays: &[Ray; 20], spheres: Spheres<'_>) {
         let packets = [RayPacket::new(rays)];
         let mut hits = [HitPacket::none()];
         spheres.closest_hit_packets(tier, &mut Trace::new(), &packets, &mut hits);
@@ -99,7 +99,7 @@ impl Sum {
         &mut self,
         tier: Tier,
         camera: &Camera,
-        rays: &[Ray],
+        rays: &[Ray; 20],
         spheres: Spheres<'_>,
     ) {
         // More memory than most lists of spheres need: too little is a value, too.
@@ -133,7 +133,13 @@ impl Sum {
     }
 
     /// The tree of one lane: built, and loaded from words that may be anything.
-    pub(super) fn bvh4(&mut self, tier: Tier, camera: &Camera, rays: &[Ray], spheres: Spheres<'_>) {
+    pub(super) fn bvh4(
+        &mut self,
+        tier: Tier,
+        camera: &Camera,
+        rays: &[Ray; 20],
+        spheres: Spheres<'_>,
+    ) {
         let mut words = [0; 1024];
         match Bvh4::build(spheres, &mut words) {
             Ok(tree) => self.bits(tree.words().iter().copied()),
@@ -150,7 +156,7 @@ impl Sum {
         &mut self,
         tier: Tier,
         camera: &Camera,
-        rays: &[Ray],
+        rays: &[Ray; 20],
         scratch: &mut [f32],
         structure: &impl Intersect,
     ) {
@@ -240,7 +246,7 @@ impl Sum {
         self.hits(hits.iter().flat_map(HitPacket::hits));
     }
 
-    pub(super) fn pairs(&mut self, tier: Tier, rays: &[Ray], sphere: &Sphere) {
+    pub(super) fn pairs(&mut self, tier: Tier, rays: &[Ray; 20], sphere: &Sphere) {
         let mut hits = [None; 20];
         pairs(tier, rays, &[*sphere; 20], &mut hits);
         self.hits(hits);
@@ -257,7 +263,7 @@ impl Sum {
         }
     }
 
-    pub(super) fn objects(&mut self, tier: Tier, rays: &[Ray], spheres: Spheres<'_>) {
+    pub(super) fn objects(&mut self, tier: Tier, rays: &[Ray; 20], spheres: Spheres<'_>) {
         self.object_lanes::<f32>(tier, rays, spheres);
         #[cfg(feature = "vectors")]
         {
@@ -275,7 +281,7 @@ impl Sum {
     fn object_lanes<L: Lanes<Token = ()>>(
         &mut self,
         tier: Tier,
-        rays: &[Ray],
+        rays: &[Ray; 20],
         spheres: Spheres<'_>,
     ) {
         let (rays, mut hits) = (RayPacket::new(rays), HitPacket::none());
@@ -285,7 +291,7 @@ impl Sum {
         self.hits(hits.hits());
     }
 
-    fn pair_lanes<L: Lanes<Token = ()>>(&mut self, tier: Tier, rays: &[Ray], sphere: &Sphere) {
+    fn pair_lanes<L: Lanes<Token = ()>>(&mut self, tier: Tier, rays: &[Ray; 20], sphere: &Sphere) {
         let (rays, spheres) = (RayPacket::new(rays), SpherePacket::new(&[*sphere; 16]));
         self.hits(pair_lanes::<L>(tier, (), &rays, &spheres).hits());
     }

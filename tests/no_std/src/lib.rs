@@ -14,10 +14,10 @@ mod every_way;
 use core::hint::black_box;
 use every_way::Sum;
 #[cfg(feature = "vectors")]
-use spherule_kernel::{AnyHit, ClosestHit, RayPacket, f32x4, f32x16, stages};
+use spherule_kernel::{AnyHit, ClosestHit, RayPacket, Trace, f32x4, f32x16, stages};
 use spherule_kernel::{
-    Camera, Projection, Ray, Sphere, Spheres, Tier, Trace, Vec3, discriminant,
-    float_environment_is_sound, roots,
+    Camera, Projection, Ray, Sphere, Spheres, Tier, Vec3, discriminant, float_environment_is_sound,
+    roots,
 };
 
 /// What a firmware does in its own way; without `std` there must be one.
