@@ -31,7 +31,7 @@ pub(crate) fn traverse<S: Traverse + ?Sized, Q: LevelQuery>(
 ) {
     let count = rays.count().min(Q::room(&answers));
     #[cfg(feature = "std")]
-    if count <= few::<S>(trace) {
+    if count <= S::ONE_BY_ONE {
         let mut answers = answers;
         return one_by_one::<S, Q>(structure, tier, trace, (rays, 0, count), &mut answers);
     }
@@ -46,13 +46,6 @@ pub(crate) fn traverse<S: Traverse + ?Sized, Q: LevelQuery>(
     } else {
         windows::<S, Q, PACKETS>(structure, tier, trace, (rays, count), answers);
     }
-}
-
-/// So few rays go one by one.
-#[cfg(feature = "std")]
-#[inline(always)]
-fn few<S: Traverse + ?Sized>(trace: &Trace<'_>) -> usize {
-    S::ONE_BY_ONE[trace.level.name() as usize]
 }
 
 /// Answers rays `from` to `to` one by one.
@@ -90,7 +83,7 @@ fn windows<S: Traverse + ?Sized, Q: LevelQuery, const AT_ONCE: usize>(
     while from < count {
         let to = (from + packets_at_once * RayPacket::COUNT).min(count);
         #[cfg(feature = "std")]
-        if to - from <= few::<S>(trace) {
+        if to - from <= S::ONE_BY_ONE {
             return one_by_one::<S, Q>(structure, tier, trace, (rays, from, to), &mut answers);
         }
         let part = rays.part(from, to);
@@ -113,7 +106,7 @@ fn windows<S: Traverse + ?Sized, Q: LevelQuery, const AT_ONCE: usize>(
 #[cfg(feature = "std")]
 mod tests {
     use crate::proofs::work::{Kind, Work};
-    use crate::{Exact, Intersect, Level, LevelName, Ray, SphereList, SphereTree, Trace, Vec3};
+    use crate::{Exact, Intersect, Ray, SphereList, SphereTree, Vec3};
 
     #[test]
     fn few_rays_go_one_by_one() {
@@ -121,27 +114,22 @@ mod tests {
         let tree = SphereTree::new(list);
         let rays: [Ray; 40] =
             core::array::from_fn(|number| Ray::new(Vec3::new(number as f32, 0.1, -9.0), Vec3::Z));
-        for level in LevelName::ALL.into_iter().filter_map(Level::named) {
-            let few = [32, 24, 12][level.name() as usize];
-            for (count, is_packet) in
-                [(1, false), (5, false), (few, false), (few + 1, true), (40, true)]
-            {
-                let rays = &rays[..count];
-                let (mut hits, mut occluded) = ([None; 40], [false; 40]);
-                let [mut one, mut other] = [(); 2].map(|()| Trace::new().at(level));
-                let closest = Work::of(|| tree.closest_hits_with(Exact, &mut one, rays, &mut hits));
-                let any = Work::of(|| tree.any_hits_with(Exact, &mut other, rays, &mut occluded));
-                // What goes by itself clears no stack; what goes together enters the nodes with its packets.
-                let as_packets =
-                    |work: Work| work.count(Kind::RayStacks) + work.count(Kind::GroupNode) > 0;
-                assert_eq!([closest, any].map(as_packets), [is_packet; 2], "{count}");
-                for (number, ray) in rays.iter().enumerate() {
-                    assert_eq!(hits[number], tree.closest_hit(Exact, ray));
-                    assert_eq!(occluded[number], tree.any_hit(Exact, ray));
-                }
-                assert!(hits[..count].iter().all(Option::is_some));
-                assert!(hits[count..] == [None; 40][count..]);
+        for (count, is_packet) in [(1, false), (5, false), (8, false), (9, true), (40, true)] {
+            let rays = &rays[..count];
+            let (mut hits, mut occluded) = ([None; 40], [false; 40]);
+            let closest = Work::of(|| tree.closest_hits(Exact, rays, &mut hits));
+            let any = Work::of(|| tree.any_hits(Exact, rays, &mut occluded));
+            // What goes by itself clears no stack; what goes together enters the nodes with its packets.
+            let as_packets =
+                |work: Work| work.count(Kind::RayStacks) + work.count(Kind::GroupNode) > 0;
+            assert_eq!([closest, any].map(as_packets), [is_packet; 2], "{count}");
+            for (number, ray) in rays.iter().enumerate() {
+                assert_eq!(hits[number], tree.closest_hit(Exact, ray));
+                assert_eq!(occluded[number], tree.any_hit(Exact, ray));
             }
+            assert!(
+                hits[..count].iter().all(Option::is_some) && hits[count..] == [None; 40][count..]
+            );
         }
     }
 

@@ -11,7 +11,7 @@ use crate::coherent::list_source;
 #[cfg(not(feature = "std"))]
 use crate::dispatch::BuildLanes;
 #[cfg(feature = "std")]
-use crate::dispatch::{LevelName, compiled::Compiled};
+use crate::dispatch::compiled::Compiled;
 use crate::geometry::camera::tiles::CameraTiles;
 use crate::geometry::hit::HitPacket;
 use crate::geometry::many::ManyRays;
@@ -24,9 +24,9 @@ use crate::trace::Trace;
 
 /// The traversals of a structure.
 pub trait Traverse {
-    /// So few rays of a call go one by one, where that is faster than together: level by level.
+    /// So few rays of a call go one by one, where that is faster than together.
     #[cfg(feature = "std")]
-    const ONE_BY_ONE: [usize; LevelName::ALL.len()] = [0; LevelName::ALL.len()];
+    const ONE_BY_ONE: usize = 0;
 
     /// In lanes of any kind, compiled where it is called.
     fn in_lanes<L: Lanes, Q: Query>(

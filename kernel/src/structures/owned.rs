@@ -3,8 +3,6 @@
 use super::{LevelQuery, Traverse};
 use crate::Accuracy;
 use crate::bvh::owned::SphereTree;
-#[cfg(feature = "std")]
-use crate::dispatch::LevelName;
 use crate::geometry::camera::tiles::CameraTiles;
 use crate::geometry::hit::HitPacket;
 use crate::geometry::many::ManyRays;
@@ -19,7 +17,7 @@ macro_rules! traverse_as {
     ($owned:ty, $lend:ident -> $lent:ty) => {
         impl Traverse for $owned {
             #[cfg(feature = "std")]
-            const ONE_BY_ONE: [usize; LevelName::ALL.len()] = <$lent>::ONE_BY_ONE;
+            const ONE_BY_ONE: usize = <$lent>::ONE_BY_ONE;
 
             #[inline(always)]
             fn in_lanes<L: Lanes, Q: Query>(

@@ -11,8 +11,6 @@ use crate::coherence::Coherence;
 use crate::coherent::packet_source::PacketSource;
 use crate::coherent::tree_source::{self, Ways};
 #[cfg(feature = "std")]
-use crate::dispatch::LevelName;
-#[cfg(feature = "std")]
 use crate::dispatch::compiled::Compiled;
 use crate::geometry::camera::tiles::CameraTiles;
 use crate::geometry::hit::HitPacket;
@@ -26,12 +24,12 @@ use crate::query::{ClosestHit, Query};
 use crate::trace::Trace;
 
 impl Traverse for Bvh<'_> {
-    /// What others go through clears 64 KiB first, and a group in vain is dear where nothing is learnt from it. (Calls over four
-    /// scenes in five orders, Zen 5, by the speed of one ray a call, least, most and mean of closest hits; any hits have less:
-    /// baseline 16 rays 0.48, 1.51, 0.81, 33 rays 0.37, 1.64, 0.85; AVX2 16 rays 0.56, 1.72, 0.93, 33 rays 0.46, 2.36, 0.98;
-    /// AVX-512 9 rays 0.66, 1.29, 0.89, 16 rays 0.76, 2.31, 1.15.)
+    /// What others go through clears 64 KiB first. (On a Zen 3 a call of one ray took 3 to 43 times as long as
+    /// [`one`](Traverse::one), of eight 1.2 to 4; by way of a packet 1.1 to 3.3, and 1.0 to 1.3; now 0.7 to 1.5, and 0.7 to 1.2. Of
+    /// more it depends on the rays. With 12 by AVX-512, 24 by AVX2 and 32 at the baseline, Zen 5: a beam 1.5 to 2.4 times as
+    /// fast, diffuse rays 1.1 to 1.5, but a camera's 0.3 to 0.7, and in trees of four spheres or fewer all 0.3 to 0.9.)
     #[cfg(feature = "std")]
-    const ONE_BY_ONE: [usize; LevelName::ALL.len()] = [32, 24, 12];
+    const ONE_BY_ONE: usize = 8;
 
     #[inline(always)]
     fn in_lanes<L: Lanes, Q: Query>(
