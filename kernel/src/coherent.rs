@@ -9,6 +9,8 @@ mod box_sample;
 pub(crate) mod depth_list;
 mod depth_sort;
 mod effort;
+#[cfg(feature = "std")]
+pub(crate) mod few_rays;
 mod fit;
 pub(crate) mod frustum;
 mod giving_up;
@@ -19,6 +21,7 @@ mod packet_group;
 pub(crate) mod packet_source;
 mod packet_state;
 mod patience;
+mod root_overlap;
 mod survey;
 pub(crate) mod tile_fit;
 mod together;

@@ -31,7 +31,7 @@ pub(crate) fn traverse<S: Traverse + ?Sized, Q: LevelQuery>(
 ) {
     let count = rays.count().min(Q::room(&answers));
     #[cfg(feature = "std")]
-    if count <= S::ONE_BY_ONE {
+    if structure.goes_one_by_one(trace, &rays, 0..count) {
         let mut answers = answers;
         return one_by_one::<S, Q>(structure, tier, trace, (rays, 0, count), &mut answers);
     }
@@ -83,7 +83,7 @@ fn windows<S: Traverse + ?Sized, Q: LevelQuery, const AT_ONCE: usize>(
     while from < count {
         let to = (from + packets_at_once * RayPacket::COUNT).min(count);
         #[cfg(feature = "std")]
-        if to - from <= S::ONE_BY_ONE {
+        if from > 0 && structure.goes_one_by_one(trace, &rays, from..to) {
             return one_by_one::<S, Q>(structure, tier, trace, (rays, from, to), &mut answers);
         }
         let part = rays.part(from, to);

@@ -21,12 +21,17 @@ use crate::lanes::Lanes;
 use crate::linear;
 use crate::query::{ClosestHit, Query};
 use crate::trace::Trace;
+#[cfg(feature = "std")]
+use core::ops::Range;
 
 /// The traversals of a structure.
 pub trait Traverse {
-    /// So few rays of a call go one by one, where that is faster than together.
+    /// Whether some rays of a call go one by one, since they are few, and that is faster than together.
     #[cfg(feature = "std")]
-    const ONE_BY_ONE: usize = 0;
+    #[inline(always)]
+    fn goes_one_by_one(&self, _: &Trace<'_>, _: &ManyRays<'_>, _: Range<usize>) -> bool {
+        false
+    }
 
     /// In lanes of any kind, compiled where it is called.
     fn in_lanes<L: Lanes, Q: Query>(

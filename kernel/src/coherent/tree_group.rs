@@ -20,6 +20,7 @@ use super::giving_up::{Allowance, LEAST_RAYS, live_rays};
 use super::packet_group::{GROUP, approach, meet_block};
 use super::packet_source::PacketSource;
 use super::packet_state::PacketState;
+use super::root_overlap;
 use crate::Accuracy;
 use crate::accuracy::RayLanes;
 use crate::bvh::leaf::Leaf;
@@ -36,7 +37,7 @@ use core::hint::black_box;
 use core::ops::Range;
 
 /// The widest range of slopes that is traced as one.
-const NARROW: f32 = 0.5;
+pub(super) const NARROW: f32 = 0.5;
 /// How many boxes can wait: fifteen a node on the way, and the last node's.
 const STACK: usize = 256;
 const _: () = assert!(STACK >= (WIDTH - 1) * DEPTH + WIDTH);
@@ -84,7 +85,7 @@ pub(super) enum Ended {
     Through,
     /// The same, by more work than its rays would have done apart.
     AtALoss,
-    /// It did more than its rays would have done apart: what they have hit may not be the closest.
+    /// It did more than its rays would have done apart, or would have: what they have hit may not be the closest.
     GaveUp,
     /// Its rays do not look the same way, or are too few: nothing was done.
     Unfit,
@@ -191,6 +192,18 @@ impl Boxes {
             if child & LEAF == 0 {
                 if let Some(node) = bvh.nodes.get(child as usize) {
                     frustum.enter::<L, Q>(token, node, &mut inside);
+                    if place == ROOT && !is_trusted && states.len() > 1 {
+                        // Out of line: within, this loop took up to 1.3 times as long (baseline, ten spheres).
+                        let (states, places) = (&*states, inside.places);
+                        let pays = L::out_of_line(
+                            token,
+                            #[inline(always)]
+                            || root_overlap::pays::<L, Q>(states, places, node),
+                        );
+                        if !pays {
+                            return Ended::GaveUp;
+                        }
+                    }
                     if is_far {
                         let memory = (bvh.nodes, bvh.numbers);
                         black_box(prefetch::children(memory, node, inside.places));

@@ -11,13 +11,23 @@ use crate::geometry::sphere_list::SphereList;
 use crate::lanes::Lanes;
 use crate::query::Query;
 use crate::trace::Trace;
+#[cfg(feature = "std")]
+use core::ops::Range;
 
 /// The traversals of an owned structure, by what it lends.
 macro_rules! traverse_as {
     ($owned:ty, $lend:ident -> $lent:ty) => {
         impl Traverse for $owned {
             #[cfg(feature = "std")]
-            const ONE_BY_ONE: usize = <$lent>::ONE_BY_ONE;
+            #[inline(always)]
+            fn goes_one_by_one(
+                &self,
+                trace: &Trace<'_>,
+                rays: &ManyRays<'_>,
+                range: Range<usize>,
+            ) -> bool {
+                self.$lend().goes_one_by_one(trace, rays, range)
+            }
 
             #[inline(always)]
             fn in_lanes<L: Lanes, Q: Query>(

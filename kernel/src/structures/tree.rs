@@ -8,6 +8,8 @@ use crate::bvh::StreamMemory;
 use crate::bvh::tree::Bvh;
 #[cfg(feature = "alloc")]
 use crate::coherence::Coherence;
+#[cfg(feature = "std")]
+use crate::coherent::few_rays;
 use crate::coherent::packet_source::PacketSource;
 use crate::coherent::tree_source::{self, Ways};
 #[cfg(feature = "std")]
@@ -22,14 +24,20 @@ use crate::geometry::ray::RayPacket;
 use crate::lanes::Lanes;
 use crate::query::{ClosestHit, Query};
 use crate::trace::Trace;
+#[cfg(feature = "std")]
+use core::ops::Range;
 
 impl Traverse for Bvh<'_> {
-    /// What others go through clears 64 KiB first. (On a Zen 3 a call of one ray took 3 to 43 times as long as
-    /// [`one`](Traverse::one), of eight 1.2 to 4; by way of a packet 1.1 to 3.3, and 1.0 to 1.3; now 0.7 to 1.5, and 0.7 to 1.2. Of
-    /// more it depends on the rays. With 12 by AVX-512, 24 by AVX2 and 32 at the baseline, Zen 5: a beam 1.5 to 2.4 times as
-    /// fast, diffuse rays 1.1 to 1.5, but a camera's 0.3 to 0.7, and in trees of four spheres or fewer all 0.3 to 0.9.)
     #[cfg(feature = "std")]
-    const ONE_BY_ONE: usize = 8;
+    #[inline(always)]
+    fn goes_one_by_one(&self, trace: &Trace<'_>, rays: &ManyRays<'_>, range: Range<usize>) -> bool {
+        let count = range.end.saturating_sub(range.start);
+        count <= ONE_BY_ONE
+            || (count <= tree_source::few(self) * RayPacket::COUNT
+                && !tree_source::is_listed(self)
+                && (trace.coherence == Coherence::Incoherent
+                    || few_rays::differ(self, rays, range)))
+    }
 
     #[inline(always)]
     fn in_lanes<L: Lanes, Q: Query>(
@@ -123,6 +131,13 @@ impl Traverse for Bvh<'_> {
     }
 }
 
+/// So few rays go one by one, whatever they are: what others go through clears 64 KiB first. (On a Zen 3 a call of one ray took 3
+/// to 43 times as long as [`one`](Traverse::one), of eight 1.2 to 4; by way of a packet 1.1 to 3.3, and 1.0 to 1.3; now 0.7
+/// to 1.5, and 0.7 to 1.2. With 12 by AVX-512, 24 by AVX2 and 32 at the baseline, Zen 5: a camera's rays took 1.4 to 3 times
+/// as long.)
+#[cfg(feature = "std")]
+const ONE_BY_ONE: usize = 8;
+
 /// What a tree asks of a trace.
 #[inline(always)]
 fn ways<'t>(trace: &'t mut Trace<'_>) -> Ways<'t> {
@@ -137,16 +152,10 @@ fn ways<'t>(trace: &'t mut Trace<'_>) -> Ways<'t> {
     }
 }
 
-/// So few packets: their rays go one by one if they do not go together. (Among 300, 20,000 and 300,000 spheres, calls of 12 to 48
-/// rays that have nothing in common took 1.1 to 2.4 times as long as one by one on a Zen 3: of stacks that are laid out for
-/// many rays, few make use.)
+/// Where few packets that do not go together are noted; `None` if there are too many.
 #[cfg(feature = "std")]
-const FEW: usize = 4;
-
-/// Where few packets that do not go together are noted; `None` if they are many.
-#[cfg(feature = "std")]
-fn of_few(packets: usize, alone: &mut u32) -> Option<&mut u32> {
-    (packets <= FEW).then_some(alone)
+fn of_few(packets: usize, alone: &mut u64) -> Option<&mut u64> {
+    (packets <= u64::BITS as usize).then_some(alone)
 }
 
 /// Answers the rays of packets that are `alone`, a bit each.
@@ -155,13 +164,15 @@ fn one_by_one<Q: LevelQuery>(
     bvh: &Bvh<'_>,
     tier: impl Accuracy,
     trace: &mut Trace<'_>,
-    (rays, alone): (&[RayPacket], u32),
+    (rays, mut alone): (&[RayPacket], u64),
     answers: &mut [Q::Packet<[f32; 16]>],
 ) {
-    for (number, (packet, answer)) in rays.iter().zip(answers).take(FEW).enumerate() {
-        if alone >> number & 1 == 0 {
-            continue;
-        }
+    while alone != 0 {
+        let number = alone.trailing_zeros() as usize;
+        alone &= alone - 1;
+        let (Some(packet), Some(answer)) = (rays.get(number), answers.get_mut(number)) else {
+            return;
+        };
         // What the rays before had, or a group found, is there still.
         *answer = Q::none::<[f32; 16]>();
         let mut live = packet.live();

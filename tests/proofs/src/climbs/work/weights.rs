@@ -23,16 +23,17 @@ fn mean(scenes: &[SceneInput], count: usize, any: bool) -> f64 {
     (logarithms.iter().sum::<f64>() / logarithms.len() as f64).exp()
 }
 
-/// A lower mean is worth publishing, and a higher one is a loss. (With the roots of a ray at half, 0.9193, and at twice, 0.9250; with the
-/// tier's work at half, 0.9238, and at twice, 0.9189.)
+/// A lower mean is worth publishing, and a higher one is a loss. (Closest hits with the roots of a ray at half, 0.8877, and at twice, 0.8929;
+/// with the tier's work at a third, 0.8904, and at twice, 0.8913; with what a child of the root takes a group at half, 0.9066, and at twice,
+/// 0.8897; a ray at twice, 0.9046. Groups that are not asked at the root, 0.9221.)
 #[test]
 fn short_calls_take_what_is_published_in_the_mean() {
     let dense = SceneInput { radius: 0.06, ..UNIFORM };
     let shells = SceneInput { scene: Scene::Shells, spheres: 400, radius: 0.1, ..UNIFORM };
     let sheet = SceneInput { scene: Scene::Sheet, radius: 0.02, ..UNIFORM };
-    for (any, published) in [(false, 0.9221), (true, 0.8622)] {
+    for (any, published) in [(false, 0.8908), (true, 0.8602)] {
         let found = mean(&[UNIFORM, dense, shells, sheet], RAYS, any);
-        assert!((found - published).abs() < 0.0012, "{found:.4} times the work, any: {any}");
+        assert!((found - published).abs() < 0.0002, "{found:.4} times the work, any: {any}");
     }
 }
 
@@ -43,6 +44,6 @@ fn short_calls_over_few_spheres_take_what_is_published_in_the_mean() {
     let few = SceneInput { spheres: 64, radius: 0.1, ..UNIFORM };
     for (any, published) in [(false, 1.0082), (true, 0.9325)] {
         let found = mean(&[few], 2 * RAYS, any);
-        assert!((found - published).abs() < 0.0012, "{found:.4} times the work, any: {any}");
+        assert!((found - published).abs() < 0.0002, "{found:.4} times the work, any: {any}");
     }
 }
