@@ -7,7 +7,7 @@
 //! spheres of a leaf, and those inside against the narrower planes of each packet; what is left
 //! is tested against the packet's rays, a ray a lane (`packet_state.rs`). The depth beyond which nothing
 //! matters shrinks with every hit. A group that does more than its rays would have done apart gives up
-//! (`giving_up.rs`).
+//! (`giving_up.rs`), at the root if its rays meet few of the children that it enters (`root_overlap.rs`).
 //!
 //! A group is traced so if its rays start at t >= 0, run the same way along an axis, and are
 //! narrow (`fit.rs`).
