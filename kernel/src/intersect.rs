@@ -127,7 +127,7 @@ pub trait Intersect: Traverse {
     /// Finds the closest hit of every ray: `hits[i]` becomes what `rays[i]` hits, `None` if that is nothing.
     ///
     /// Rays may come in any order: a tree finds out which of them gain by going together. A call of up to eight rays traces
-    /// them one by one; a call of up to 64 does so with those that gain nothing.
+    /// them one by one, and so does a longer call with few rays that gain nothing.
     ///
     /// With feature `alloc`, a call of more than 1,008 rays in a tree of more than four leaves allocates up to 430 bytes a ray, 4 MB
     /// at most, or 7 if it sorts the rays of a large tree: where rays have nothing in common, and may be faster as a stream. If

@@ -15,15 +15,15 @@ use crate::lanes::{LaneMask, Lanes};
 use crate::query::Query;
 
 /// What a child and what lies below it take a group: six nodes; what a ray takes by itself to begin, to end and to look into the root; and
-/// what a child takes it: a node. In the units of [`Effort`](super::effort::Effort). (Zen 5, rays that miss nearly everything, 65 to 256 parallel ones
-/// through 50,000 spheres far apart: 1.2 to 1.4 times as fast; closest hits over a large sphere, 1.1 to 1.5. For single
-/// packets, too: bursts of 16 rays among flakes 0.4 to 0.7 of the speed.)
+/// what a child takes it: a node. In the units of [`Effort`](super::effort::Effort). (Zen 5, 65 to 256 parallel rays through 50,000
+/// spheres far apart: 1.1 to 1.3 times as fast; closest hits of 128 parallel rays over a large sphere, 1.08 to 1.15. If single
+/// packets are asked too, bursts of 16 rays among flakes have 0.2 to 0.4 of the speed.)
 const GROUP_CHILD: u32 = 96;
 const RAY: u32 = 2;
 const RAY_CHILD: u32 = 5;
-/// Of any hit much more, since a group that has hit enters no other child. (As much: rays of two cameras by turns over a large sphere 0.7 of the
-/// speed, 33 of a long lens 0.2. 40: beams over it 0.82 to 0.9 at AVX2. Any hits that are not asked: parallel rays through spheres far apart 0.8.)
-const RAY_CHILD_OF_ANY: u32 = 160;
+/// For any hit much more, since a group that has hit enters no other child. (As much as for closest hits: 128 and 512 rays of a long lens over a
+/// large sphere have 0.5 to 0.6 of the speed. If nothing is asked for any hit, parallel rays through spheres far apart have 0.9.)
+const RAY_CHILD_OF_ANY: u32 = 40;
 
 /// Whether it is worth it that a group enters those children of the root.
 #[inline(always)]

@@ -193,13 +193,7 @@ impl Boxes {
                 if let Some(node) = bvh.nodes.get(child as usize) {
                     frustum.enter::<L, Q>(token, node, &mut inside);
                     if place == ROOT && !is_trusted && states.len() > 1 {
-                        // Out of line: within, this loop took up to 1.3 times as long (baseline, ten spheres).
-                        let (states, places) = (&*states, inside.places);
-                        let pays = L::out_of_line(
-                            token,
-                            #[inline(always)]
-                            || root_overlap::pays::<L, Q>(states, places, node),
-                        );
+                        let pays = root_overlap::pays::<L, Q>(states, inside.places, node);
                         if !pays {
                             return Ended::GaveUp;
                         }

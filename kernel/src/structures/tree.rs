@@ -133,7 +133,7 @@ impl Traverse for Bvh<'_> {
 
 /// So few rays go one by one, whatever they are: what others go through clears 64 KiB first. (On a Zen 3 a call of one ray took 3
 /// to 43 times as long as [`one`](Traverse::one), of eight 1.2 to 4; by way of a packet 1.1 to 3.3, and 1.0 to 1.3; now 0.7
-/// to 1.5, and 0.7 to 1.2. With 12 by AVX-512, 24 by AVX2 and 32 at the baseline, Zen 5: a camera's rays took 1.4 to 3 times
+/// to 1.5, and 0.7 to 1.2. With 12 by AVX-512, 24 by AVX2 and 32 at the baseline, Zen 5: a camera's rays took 1.4 to 3.3 times
 /// as long.)
 #[cfg(feature = "std")]
 const ONE_BY_ONE: usize = 8;
