@@ -153,14 +153,25 @@ fn late_answers_count(name: &str, rules: Vec<Rule>) {
 /// Half an answer with keys in it, whole ones that follow it at once, and a stream without an end.
 #[test]
 fn half_a_string_for_ever_is_no_key() {
-    for half in ["\x1b]11;rgb:q c", "\x1b]11;rgb:1e1e/q"] {
-        let rules = [(BACKGROUND, half)];
-        let viewer = Viewer::start_in(Emulated::with(&rules), &[], &[], (COLUMNS, ROWS));
-        viewer.wait_for_look(half, &once(&VIEW, COLUMNS, PICTURE_ROWS));
-        // Until it has been given up.
-        thread::sleep(Duration::from_millis(700));
-        assert_is_usable(viewer, half);
-    }
+    // All of them wait at once.
+    thread::scope(|scope| {
+        for half in ["\x1b]11;rgb:q c", "\x1b]11;rgb:1e1e/q"] {
+            scope.spawn(move || half_an_answer_is_no_key(half));
+        }
+        scope.spawn(a_stream_is_no_key);
+    });
+}
+
+fn half_an_answer_is_no_key(half: &'static str) {
+    let rules = [(BACKGROUND, half)];
+    let viewer = Viewer::start_in(Emulated::with(&rules), &[], &[], (COLUMNS, ROWS));
+    viewer.wait_for_look(half, &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    // Until it has been given up.
+    thread::sleep(Duration::from_millis(700));
+    assert_is_usable(viewer, half);
+}
+
+fn a_stream_is_no_key() {
     let mut viewer = Viewer::start_in(Emulated::with(&[]), &[], &[], (COLUMNS, ROWS));
     viewer.wait_for_look("the picture", &once(&VIEW, COLUMNS, PICTURE_ROWS));
     viewer.session.type_in("\x1b]11;");

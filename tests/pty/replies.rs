@@ -42,16 +42,22 @@ fn no_answer_is_a_key_wherever_it_is_split() {
 /// Half an answer, with keys in it, and nothing more.
 #[test]
 fn half_a_string_is_no_key_and_keys_act_afterwards() {
-    for begun in ["\x1b]11;rgb:q c", "\x1b_Gi=1;q c", "\x1bP1$rq c", "\x1b^q c", "\x1bXq c\x1b"] {
-        let mut viewer = Viewer::start();
-        viewer.session.wait_for_peace();
-        let sent = viewer.session.output().sent.len();
-        viewer.session.type_in(begun);
-        viewer.session.wait_for_peace();
-        thread::sleep(Duration::from_millis(600));
-        assert_eq!(viewer.session.output().sent.len(), sent, "{begun:?}");
-        viewer.quit();
-    }
+    let begun = ["\x1b]11;rgb:q c", "\x1b_Gi=1;q c", "\x1bP1$rq c", "\x1b^q c", "\x1bXq c\x1b"];
+    // All of them wait at once.
+    thread::scope(|scope| {
+        for begun in begun {
+            scope.spawn(move || {
+                let mut viewer = Viewer::start();
+                viewer.session.wait_for_peace();
+                let sent = viewer.session.output().sent.len();
+                viewer.session.type_in(begun);
+                viewer.session.wait_for_peace();
+                thread::sleep(Duration::from_millis(600));
+                assert_eq!(viewer.session.output().sent.len(), sent, "{begun:?}");
+                viewer.quit();
+            });
+        }
+    });
 }
 
 #[test]

@@ -194,11 +194,20 @@ impl Session {
 
     /// Waits until the output is as it should be, and gives what `found` has found in it.
     pub(crate) fn wait_for<T>(&self, what: &str, found: impl Fn(&Output) -> Option<T>) -> T {
+        let mut result = None;
+        self.wait_until(what, &mut |output| {
+            result = found(output);
+            result.is_some()
+        });
+        result.expect("it has been waited for")
+    }
+
+    fn wait_until(&self, what: &str, is_so: &mut dyn FnMut(&Output) -> bool) {
         let deadline = Instant::now() + PATIENCE;
         let mut output = self.output();
         loop {
-            if let Some(found) = found(&output) {
-                return found;
+            if is_so(&output) {
+                return;
             }
             let left = deadline.saturating_duration_since(Instant::now());
             if left.is_zero() {
