@@ -1,4 +1,4 @@
-//! Spheres in a terminal.
+//! Spheres in a terminal: the program's parts, for its own tests and benches. What is promised is the command line, not these.
 #![forbid(unsafe_code)]
 
 pub mod arguments;
