@@ -106,7 +106,8 @@ fn a_link_that_stalls_queues_nothing() {
     link.is_stalled.store(true, SeqCst);
     thread::sleep(Duration::from_secs(1));
     let before = session.output().sent.len();
-    thread::sleep(Duration::from_secs(3));
+    // With the seconds before and after, more than half of `LOST`.
+    thread::sleep(Duration::from_secs(8));
     session.type_in("1");
     thread::sleep(Duration::from_secs(1));
     link.is_stalled.store(false, SeqCst);

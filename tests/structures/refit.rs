@@ -91,7 +91,7 @@ fn repeated_moves_of_every_kind() {
                 let growth = tree.refit(now.as_slice()).expect("as many");
                 assert!(growth.is_finite() && growth > 0.0, "{growth}");
                 assert!(how != 7 || growth == 1.0, "back at the start: {growth}");
-                // Where all hits are of huge spheres, which one is first takes a microsecond for each pair.
+                // Where all hits are of huge spheres, which one is first takes some microseconds for each pair.
                 let rays = some(&rays, &mut random, if how == 3 || how == 4 { 16 } else { 3 });
                 assert_as_list(&tree, &SphereList::from(&now), &[Tier::Exact], &rays);
             }
