@@ -13,6 +13,7 @@
 //! Data flows one way: [scenes](spherule_tests::scenes), [engines](engine), [the check before the clock](agreement),
 //! [times](measure), [pages](page). Nothing is timed before its answers are checked.
 
+#![cfg(feature = "measured")]
 // Not forbidden, for one interface: a foreign one behind the feature `embree`.
 #![deny(unsafe_code)]
 #![allow(rustdoc::private_intra_doc_links)]

@@ -32,6 +32,7 @@ pub mod orders;
 pub mod scenes;
 #[cfg(feature = "tally")]
 pub mod tally;
+#[cfg(feature = "variants")]
 pub mod variants;
 #[cfg(feature = "tally")]
 pub mod vectors;
