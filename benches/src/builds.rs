@@ -2,9 +2,9 @@
 
 #[cfg(feature = "embree")]
 use crate::engine::embree::{self, Embree, libraries};
-use crate::engine::{Engine, bvh, obvhs, parry};
+use crate::engine::{Engine, peers};
 use crate::rounds::{Sampler, Samples, timed};
-use spherule_kernel::{BvhNode, InTurn, Level, SphereTree, Spheres};
+use spherule_kernel::{BvhNode, InTurn, Level, SphereTree};
 use spherule_tests::scenes::Scene;
 use std::rc::Rc;
 use std::time::Duration;
@@ -14,15 +14,9 @@ pub(crate) const EMBREE: &str = "Embree";
 /// The kernel's name among builds.
 pub(crate) const OURS: &str = "ours";
 
-/// What builds the tree of another crate.
-type Build = fn(Spheres<'_>) -> Engine;
-
-const OTHERS: [(&str, Build); 3] =
-    [("obvhs, cwbvh", obvhs::build), ("bvh", bvh::build), ("parry3d, Bvh", parry::build)];
-
 pub(crate) struct Trees {
     pub(crate) ours: Rc<SphereTree>,
-    /// Embree's, with the feature of that name, and those of other crates.
+    /// Embree's and those of other crates, with the features `embree` and `peers`.
     pub(crate) others: Vec<Engine>,
 }
 
@@ -30,7 +24,8 @@ impl Trees {
     /// All, Embree's at every level; or without the other crates.
     pub(crate) fn build(scene: &Scene, crates: bool, levels: &[Level]) -> Self {
         let spheres = scene.spheres.spheres();
-        let others = OTHERS.iter().filter(|_| crates).map(|(_, build)| build(spheres)).collect();
+        let others =
+            peers::TREES.iter().filter(|_| crates).map(|(_, build)| build(spheres)).collect();
         #[cfg(feature = "embree")]
         let others = {
             let devices = libraries().iter().flat_map(|library| {
@@ -70,7 +65,7 @@ impl Builds {
             let build = move || Embree::build(library, best, spheres).build_nanoseconds;
             (&library.name[..], Box::new(build))
         }));
-        for &(name, build) in OTHERS.iter().filter(|_| crates) {
+        for &(name, build) in peers::TREES.iter().filter(|_| crates) {
             let sample = move || {
                 let mut built = None;
                 timed(|| built = Some(build(spheres)))

@@ -1,8 +1,7 @@
 //! The closest hit by brute force: rays x spheres x tier or crate x lanes.
 
-use crate::engine::Query;
 use crate::engine::kernel::Kernel;
-use crate::engine::ultraviolet::ultraviolet;
+use crate::engine::{Query, peers};
 use crate::measure::checked;
 use criterion::{Criterion, Throughput};
 use spherule_tests::scenes::{Kind, small};
@@ -27,9 +26,10 @@ pub fn closest_hit() {
         [("1", 1), ("8", 8), ("64", 64), ("1024", 1024)].map(|(name, n)| small::cube(name, n))
     {
         let kernel = Kernel::new(&scene, &scene.tree());
-        let other = ultraviolet(scene.spheres.spheres().iter());
+        let others = peers::LOOPS.iter().map(|make| make(scene.spheres.spheres()));
+        let others: Vec<_> = others.collect();
         let tiers = kernel.brute_force();
-        let engines: Vec<_> = tiers.iter().chain([&other]).collect();
+        let engines: Vec<_> = tiers.iter().chain(&others).collect();
         for kind in Kind::ALL {
             let mut group = criterion.benchmark_group(format!("{}/{}", kind.as_str(), scene.name));
             group.throughput(Throughput::Elements((1024 * scene.spheres.len()) as u64));

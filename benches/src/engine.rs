@@ -2,16 +2,12 @@
 //! or a loop that stands here as a mark.
 
 mod blocks;
-pub(crate) mod bvh;
 #[cfg(feature = "embree")]
 pub(crate) mod embree;
 pub(crate) mod kernel;
 pub(crate) mod marks;
-pub(crate) mod obvhs;
-pub(crate) mod one_by_one;
-pub(crate) mod parry;
+pub(crate) mod peers;
 pub(crate) mod probes;
-pub(crate) mod ultraviolet;
 
 use crate::rounds::timed;
 use spherule_kernel::{Hit, Ray, RayPacket};
@@ -88,6 +84,7 @@ pub(crate) enum Promise {
     Near(f64, u64),
     /// Another program's: those of `Exact`, except for a part of the rays, and for an error of t by
     /// [`OTHERS_ULP`], or by [`OTHERS_PART`] of how far away and how large the sphere is.
+    #[cfg_attr(not(feature = "peers"), expect(dead_code))]
     Other(f64),
 }
 
@@ -103,6 +100,7 @@ impl Promise {
     /// the rays start as near to the ground as 0.1.
     pub(crate) const GEOMETRIC_ON_GROUND: Self = Self::Near(8.0 / 1024.0, 1 << 17);
     /// Grazed spheres, and, from 10^4 scene sizes away, which sphere is in front, with fused operations.
+    #[cfg(feature = "peers")]
     pub(crate) const OTHERS: Self = Self::Other(2e-2);
     /// The same, without.
     #[cfg(feature = "embree")]

@@ -2,9 +2,10 @@
 //!
 //! | command | does |
 //! |---|---|
-//! | `cargo bench --bench closest_hit` | criterion: the small scenes by brute force, every tier and lane width, and another crate |
+//! | `cargo bench --bench closest_hit` | criterion: the small scenes by brute force, every tier and lane width |
 //! | `cargo bench --bench report` | prints tables: `-- tiers` speed against error, `-- structures` the large scenes, `-- cameras` the rays that a camera makes there, `-- surfaces` what is seen there, `-- orders` rays in every order, `-- calls` what a call costs, `-- scales` other units; or all |
-//! | `... --features embree ... -- --write` | with Embree (Debian: `libembree3-3`); and writes `docs/benchmarks` |
+//! | `cargo bench -p spherule-benches --features peers ...` | with other crates |
+//! | `... --features embree ... -- --write` | with other crates and Embree (Debian: `libembree3-3`); and writes `docs/benchmarks` |
 //!
 //! Speed is written for one build at a time: once more with `RUSTFLAGS="-C target-cpu=native"`. `--scene NAME` runs one
 //! large scene alone, `--order NAME` one order of rays, `--rays N` by calls of so many, `--quick` takes a part of the rays, both together take less than a minute; `--test` runs everything

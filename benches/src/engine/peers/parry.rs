@@ -1,7 +1,7 @@
 //! The binary tree of `parry3d`, called as its own composite shapes call it.
 
-use super::Engine;
 use super::one_by_one::{PreparedRay, corners, engine};
+use crate::engine::Engine;
 use parry3d::bounding_volume::Aabb;
 use parry3d::math::Vector;
 use parry3d::partitioning::{Bvh, BvhBuildStrategy, BvhNode, TraversalAction};

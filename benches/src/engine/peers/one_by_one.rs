@@ -1,6 +1,6 @@
 //! The trees of other crates, ray by ray. All test spheres by the same function: what differs is the tree.
 
-use super::{Engine, Label, Promise, Query, Rays, Run, SOME_RAYS};
+use crate::engine::{Engine, Label, Promise, Query, Rays, Run, SOME_RAYS};
 use spherule_kernel::{Hit, Ray, Sphere, Vec3};
 use std::rc::Rc;
 

@@ -1,8 +1,8 @@
 //! The ray-sphere example of `ultraviolet`'s README in a loop: 8 lanes, roots only if a lane may improve. It wants unit
 //! directions, which are made before the clock starts.
 
-use super::{Engine, Label, Promise, Query, Rays, Run};
-use spherule_kernel::{Hit, Ray, Sphere, Vec3};
+use crate::engine::{Engine, Label, Promise, Query, Rays, Run};
+use spherule_kernel::{Hit, Ray, Sphere, Spheres, Vec3};
 use std::rc::Rc;
 use ultraviolet::{Vec3x8, f32x8};
 use ultraviolet_wide::{CmpGt, CmpLt};
@@ -11,12 +11,12 @@ use ultraviolet_wide::{CmpGt, CmpLt};
 type Prepared = (Vec3x8, f32x8);
 
 /// The loop over these spheres.
-pub(crate) fn ultraviolet(spheres: impl Iterator<Item = Sphere>) -> Engine {
+pub(crate) fn ultraviolet(spheres: Spheres<'_>) -> Engine {
     let prepared = |sphere: Sphere| {
         let center = ultraviolet::Vec3::from(sphere.center.to_array());
         (Vec3x8::splat(center), f32x8::splat(sphere.radius * sphere.radius))
     };
-    let spheres: Rc<[Prepared]> = spheres.map(prepared).collect();
+    let spheres: Rc<[Prepared]> = spheres.iter().map(prepared).collect();
     let ready = move |rays: &Rays| -> Box<dyn Run> {
         let packets = rays.list.chunks_exact(8).map(RayX8::new).collect();
         let hits = vec![Hit { t: f32::MAX, sphere: 0 }; rays.list.len()];

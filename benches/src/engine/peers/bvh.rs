@@ -3,8 +3,8 @@
 //! It does not take the best hit so far; boxes come in the order in which they are entered, and the search ends at the
 //! first that is entered behind a hit. For any hit they come as they come, which is faster.
 
-use super::Engine;
 use super::one_by_one::{PreparedRay, corners, engine};
+use crate::engine::Engine;
 use bvh::aabb::{Aabb, Bounded};
 use bvh::bounding_hierarchy::BHShape;
 use bvh::bvh::Bvh;

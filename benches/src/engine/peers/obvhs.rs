@@ -1,7 +1,7 @@
 //! The compressed wide tree of `obvhs`: eight children a node, their boxes in bytes.
 
-use super::Engine;
 use super::one_by_one::{PreparedRay, corners, engine};
+use crate::engine::Engine;
 use obvhs::aabb::Aabb;
 use obvhs::cwbvh::builder::build_cwbvh;
 use obvhs::ray::{Ray as TreeRay, RayHit};
