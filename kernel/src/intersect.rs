@@ -4,7 +4,7 @@
 //!
 //! | layer | rays are | costs beside the traversal |
 //! |---|---|---|
-//! | slices | `&[Ray]` | some 3 ns a ray to pack and unpack, 40 KiB of stack (without `std` 7 KiB) |
+//! | slices | `&[Ray]` | some 3 ns a ray to pack and unpack, 40 KiB of stack (without `std` 8 KiB) |
 //! | packets | `&[RayPacket]`, sixteen a packet | nothing |
 //! | lanes | packets of your vectors' width, their token | compiled in your crate: its profile counts |
 //!

@@ -29,7 +29,7 @@ pub use pairs::pair_lanes;
 /// Answers every ray by testing it against all spheres.
 ///
 /// Preparing 128 spheres costs as much as testing one packet against them: pass many packets in one
-/// call. Stack: some 5 KiB; a ray by itself in one lane has no filter, and takes a tenth.
+/// call. Stack: some 5 KiB; a ray by itself in one lane has no filter, and takes an eighth.
 #[inline(always)]
 pub(crate) fn traverse<L: Lanes, Q: Query>(
     tier: impl Accuracy,

@@ -83,11 +83,12 @@ pub fn side(point: Vec3, sphere: &Sphere) -> Option<Side> {
 
 impl Surface {
     /// Returns a ray from here along `direction` that begins on `side` of `sphere`, the one that was hit, and does not meet it
-    /// where it starts. Returns `None` if there is no such origin: inside of a sphere that is smaller than the spacing of
-    /// numbers, or past the largest of them.
+    /// where it starts. Returns `None` if none of 64 origins along the normal will do: always inside a sphere with r = 0, seldom
+    /// where a sphere is as small as the spacing of numbers, and past the largest of them.
     ///
     /// [`side`](crate::side()) proves that the origin is on that side. It is an ulp or two of its largest coordinate from the
-    /// point, if r is at least 2^10 of these and `tier` is `Exact`; for the other tiers it is as far as they need in order not
+    /// point, if r is at least 2^10 of these and `tier` is `Exact` (near the coordinates' zero, where an ulp is below 2^-45 r, as
+    /// far as double precision knows the point); for the other tiers it is as far as they need in order not
     /// to see the sphere there. The interval begins 2^-42 r from the origin, and has no end.
     ///
     /// If `direction` points to `side`, an outside ray never meets the sphere again, and an inside ray meets its far side,

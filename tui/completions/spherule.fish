@@ -34,7 +34,7 @@ complete -c spherule -n "__fish_spherule_needs_command" -l fov -d 'The vertical 
 complete -c spherule -n "__fish_spherule_needs_command" -l orbit -d 'Then leads the eye around the target: degrees to the right, degrees up' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l order -d 'Which loop is the outer one, over rays or spheres; with object there is no --structure' -r -f -a "image\t'For each ray the spheres, by a structure'
 object\t'For each sphere the rays that may meet it'"
-complete -c spherule -n "__fish_spherule_needs_command" -l format -d 'Format of the scene [default: by content; .gz and .bz2 are unpacked]' -r -f -a "toml\t'Spheres, lights and a camera, as in the README'
+complete -c spherule -n "__fish_spherule_needs_command" -l format -d 'Format of the scene [default: by content; .gz and .bz2 are unpacked]' -r -f -a "toml\t'Spheres, lights and a camera: Spherule\'s own'
 xyz\t'XYZ and extended XYZ'
 pdb\t'Protein Data Bank'
 mmcif\t'Macromolecular Crystallographic Information File'
@@ -148,7 +148,7 @@ complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l fov -d 'T
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l orbit -d 'Then leads the eye around the target: degrees to the right, degrees up' -r
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l order -d 'Which loop is the outer one, over rays or spheres; with object there is no --structure' -r -f -a "image\t'For each ray the spheres, by a structure'
 object\t'For each sphere the rays that may meet it'"
-complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l format -d 'Format of the scene [default: by content; .gz and .bz2 are unpacked]' -r -f -a "toml\t'Spheres, lights and a camera, as in the README'
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l format -d 'Format of the scene [default: by content; .gz and .bz2 are unpacked]' -r -f -a "toml\t'Spheres, lights and a camera: Spherule\'s own'
 xyz\t'XYZ and extended XYZ'
 pdb\t'Protein Data Bank'
 mmcif\t'Macromolecular Crystallographic Information File'

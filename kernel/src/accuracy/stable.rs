@@ -17,7 +17,7 @@
 //!    Akenine-Moeller, Ray Tracing Gems, ch. 7).
 //! 4. Where |D| is small beside its terms - a graze - the lane moves on by g / a, with q in two
 //!    terms, and sums q.q - r^2 in two-term arithmetic: errors of some 2^-45 in place of 2^-22.
-//! 5. Where a root is small beside t_m - the ray starts near the surface - it is taken from the
+//! 5. Where a root is small beside half the chord - the ray starts near the surface - it is taken from the
 //!    product of the roots, (p.p - r^2) / a, with that difference in two-term arithmetic.
 //!
 //! Steps 4 and 5 are work for a few lanes: a packet does them only where one of its lanes asks

@@ -45,8 +45,8 @@ impl<'a> Bvh4<'a> {
     ///
     /// Any words may be given: what is loaded answers as the list does, and the rest is an error.
     ///
-    /// Cost: some hundreds of operations a sphere, since each box is computed anew from its spheres. Stack: half a kilobyte on
-    /// 32 bits. No other memory.
+    /// Cost: some hundreds of operations a sphere, since each box is computed anew from its spheres. Stack: at most 1.4 KiB
+    /// on 32 bits. No other memory.
     ///
     /// # Errors
     /// [`Bvh4Error`] if the words are not those of a tree over these spheres, bit for bit. More words than the tree's are no

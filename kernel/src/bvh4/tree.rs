@@ -75,7 +75,7 @@ impl<'a> Bvh4<'a> {
     /// target.
     ///
     /// Cost: time in proportion to n log² n for n spheres, wherever they lie. (A ray that meets a sphere meets all that are the
-    /// same.) Stack: some 1.5 KiB on 32 bits. No other memory.
+    /// same.) Stack: some 1.9 KiB on 32 bits. No other memory.
     ///
     /// # Errors
     /// [`TooSmall`] if there are fewer words than [`Bvh4::needed`] says; more are no error, and the rest is left alone.

@@ -26,7 +26,8 @@ const WORTH_A_TRY: usize = 8;
 /// 0.92, since their first group does not pay; the mean of eight scenes 1.004.)
 pub(super) const SHORTEST: u8 = 1;
 pub(super) const SHORTEST_IN_SMALL_TREE: u8 = 3;
-/// The most that are passed over, and the most where rays are said to be coherent.
+/// The most that are passed over, and the most where rays are said to be coherent: with 3, rays of which that is false run at 0.42
+/// to 0.65 of ray by ray among nested spheres.
 pub(super) const LONGEST: u8 = 31;
 pub(super) const LONGEST_IF_COHERENT: u8 = 15;
 

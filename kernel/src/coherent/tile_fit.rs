@@ -124,7 +124,8 @@ pub(super) fn enclose<L: Lanes>(
     Some((fit, Frustum { sides, sign, start: start - margin(0.0, error), end: f32::MAX }))
 }
 
-/// The points of the corner pixels of tiles, a lane a tile: directions in perspective, origins in parallel projection.
+/// The points of the corner pixels of tiles, a lane a tile: directions in perspective, origins in parallel projection. (As a record
+/// a tile: u64 at 0.77 of the speed, AVX-512.)
 pub(crate) struct Points {
     pub(crate) at_corners: [[f32x4; 3]; 4],
     /// How far a point may be off.

@@ -26,7 +26,7 @@ use context::LONGEST_TEXT;
 /// The formats that scenes are read from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Format {
-    /// Spheres, lights and a camera, as in the README
+    /// Spheres, lights and a camera: Spherule's own
     Toml,
     /// XYZ and extended XYZ
     Xyz,

@@ -1,4 +1,4 @@
-//! Scenes in TOML: the format is stated in the README and, by example, in the tests below.
+//! Scenes in TOML: the format is stated in `docs/program.md` and, by example, in the tests below.
 
 use super::origin::{FIRST, origin};
 use super::read_error::ReadError;

@@ -1,10 +1,12 @@
 //! Spheres sorted into slices along each axis, as the surface area heuristic compares them.
+//!
+//! Compiled for AVX2 a build takes 1.25 times as long, with lanes as arrays 1.2 times; two spheres at a time are as fast.
 
 use super::bounds::{Bounds, Corners, halves};
 use super::join::Join;
 use wide::{f32x4, i32x4};
 
-/// How many slices a run is sorted into, an axis.
+/// How many slices a run is sorted into, an axis. (With 32 the surface is 0.3 % less, and a build takes a fifth longer.)
 pub(super) const BINS: usize = 16;
 
 /// What lies in the slices.

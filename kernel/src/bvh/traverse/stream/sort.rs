@@ -1,7 +1,8 @@
 //! In what order rays go down the tree: those together that start near each other.
 //!
 //! Where the tree is in the core's cache, sorting costs more than it gains. Where it is not, rays of one place read one
-//! part of it. Places are cells of a grid over where the rays start, in the order of a Z curve (Morton 1966).
+//! part of it. Places are cells of a grid over where the rays start, in the order of a Z curve (Morton 1966). (By
+//! octant before place u1m runs at 0.65; bits of both by turns gain 1.03, not worth a longer key.)
 
 use crate::geometry::ray::RayPacket;
 use crate::lanes::LaneArray;
