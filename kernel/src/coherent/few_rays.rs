@@ -2,232 +2,141 @@
 //!
 //! # Method
 //!
-//! To pack rays, and to lay planes around them, takes as long as some of them do by themselves. So of few rays four are looked
-//! at first. They go one by one if their slopes differ by more than planes may be apart (`fit.rs`); or if they begin so far apart
-//! that planes around all would hold more leaves than there are rays, as if leaves were spread evenly. This decides the way
-//! alone: answers are the same. (For 64 of a camera's rays this takes some 30 ns, 3 to 6 % where they are fastest. To look first for
-//! one origin and small angles saves a third of that.)
+//! To pack rays, and to lay planes around them, takes as long as some of them do by themselves; and what planes around them hold
+//! is traversed by all. So of few rays four are looked at first. They go one by one if their directions differ by more than planes
+//! may be apart (`fit.rs`); or if the planes would hold more leaves than pays, as if the leaves of each child of the root were
+//! spread evenly over its box. This decides the way alone: answers are the same.
+//!
+//! (As if leaves were spread over the box of the root, a ground hid everything: nine parallel rays through 2,000 spheres on one took
+//! twice the time that they take one by one. Rays that begin in one point were packed however far apart they go: nine pixels of a
+//! shuffled picture took 1.5 times.)
 
 use super::fit::heading;
 use super::frustum::across;
-use super::tree_group::NARROW;
-use crate::bvh::node::{BvhNode, WIDTH};
+use crate::bvh::node::WIDTH;
+use crate::bvh::traverse::small_tree;
 use crate::bvh::tree::Bvh;
 use crate::geometry::many::ManyRays;
-use crate::geometry::ray::RayPacket;
-use crate::numeric::rounding::{least, most};
+use crate::geometry::ray::{Ray, RayPacket};
+use crate::lanes::{LaneArray, LaneMask, Lanes};
+use crate::numeric::axes::axes;
+use crate::numeric::rounding::least;
 use core::ops::Range;
 
-/// The rays of a packet that are held against its first.
-const ASKED: [usize; 3] = [5, 10, 15];
-/// Four of many that are spread evenly lie within three fifths of their range: so much larger is the area of all.
-const AREA_OF_ALL: f32 = 25.0 / 9.0;
+/// Some rays of a packet, evenly spaced.
+pub(crate) type Asked = [Ray; 4];
+const APART: usize = 5;
+/// 1 + 1/4: what |d|^2 |e|^2 is at most of (d.e)^2 where the tangent of the angle is at most a half.
+const NARROW: f32 = 1.25;
+/// The same of a tangent of 1/32: from one point, such rays are taken for a camera's that are beside each other.
+const BESIDE: f32 = 1.0 + 1.0 / 1024.0;
+/// Four of many that are spread evenly reach over three fifths of what all do: so much lies beyond, on either side.
+const BEYOND_ASKED: f32 = 1.0 / 3.0;
+/// How many leaves the planes may hold for a ray, and for all. (Five scenes, parallel rays and cones of nine widths, AVX-512: as
+/// packets rays are slower from 3 to 4 leaves on where there are nine, from 4 to 7 where there are sixteen, from 6 to 12 where there
+/// are 64.)
+const LEAVES_OF_RAY: f32 = 1.0 / 3.0;
+const LEAVES_OF_ALL: f32 = 7.0;
+/// The same of a small tree, in which a ray takes little by itself.
+const LEAVES_OF_RAY_IN_SMALL_TREE: f32 = 1.0 / 40.0;
 
-/// Whether rays have little in common, as far as those tell that fill the first packet, and those that fill the last.
+/// Whether rays have little in common, as far as those tell that fill the first packet, and those that fill the last;
+/// `leaves_held` is [`leaves_held`].
 #[inline(always)]
-pub(crate) fn differ(bvh: &Bvh<'_>, rays: &ManyRays<'_>, range: Range<usize>) -> bool {
+pub(crate) fn differ(
+    bvh: &Bvh<'_>,
+    rays: &ManyRays<'_>,
+    range: Range<usize>,
+    leaves_held: impl Fn(&Asked) -> f32,
+) -> bool {
     let Range { start, end } = range;
     let count = end.saturating_sub(start);
-    if count <= RayPacket::COUNT {
-        return packet_differs(bvh, rays, start..end, count);
-    }
+    let most = if small_tree::leaves(bvh).is_some() {
+        LEAVES_OF_RAY_IN_SMALL_TREE * count as f32
+    } else {
+        least(LEAVES_OF_RAY * count as f32, LEAVES_OF_ALL)
+    };
     // Where a row of a picture ends, the first may be wide, and the others are not.
-    packet_differs(bvh, rays, start..start + RayPacket::COUNT, count)
-        && packet_differs(bvh, rays, end - RayPacket::COUNT..end, count)
+    packet_differs(rays, start..end.min(start + RayPacket::COUNT), most, &leaves_held)
+        && (count <= RayPacket::COUNT
+            || packet_differs(rays, end - RayPacket::COUNT..end, most, &leaves_held))
 }
 
-/// Whether rays of a packet have little in common, of so many in all.
+/// Whether rays of a packet have little in common, if planes may hold so many leaves.
 #[inline(always)]
-fn packet_differs(bvh: &Bvh<'_>, rays: &ManyRays<'_>, packet: Range<usize>, count: usize) -> bool {
-    let Some(first) = rays.ray(packet.start) else { return false };
-    let (o, d) = (first.origin.to_array(), first.direction.to_array());
-    let (along, sign) = heading(d);
-    let (k, axes) = (along % 3, across(along));
-
-    // Offsets across that axis, times d_k, from the first ray.
-    let mut offsets = [[0.0; 2]; 2];
-    for number in ASKED {
-        let Some(ray) = rays.ray((packet.start + number).min(packet.end - 1)) else { continue };
-        let (p, e) = (ray.origin.to_array(), ray.direction.to_array());
-        if e[k] * sign <= 0.0 {
+fn packet_differs(
+    rays: &ManyRays<'_>,
+    packet: Range<usize>,
+    most: f32,
+    leaves_held: &impl Fn(&Asked) -> f32,
+) -> bool {
+    let ray =
+        |number: usize| rays.ray((packet.start + APART * number).min(packet.end.saturating_sub(1)));
+    let [Some(first), Some(second), Some(third), Some(fourth)] = [ray(0), ray(1), ray(2), ray(3)]
+    else {
+        return false;
+    };
+    let asked = [first, second, third, fourth];
+    let square = first.direction.length_squared();
+    let mut are_beside = true;
+    for ray in &asked[1..] {
+        let (along, other) = (first.direction.dot(ray.direction), ray.direction.length_squared());
+        if !(along > 0.0 && square * other <= NARROW * along * along) {
             return true;
         }
-        for side in 0..2 {
-            let i = axes[side] % 3;
-            // Without a division: |e_i / e_k - d_i / d_k| > NARROW.
-            if (e[i] * d[k] - d[i] * e[k]).abs() > NARROW * (e[k] * d[k]) {
-                return true;
-            }
-            let offset = (p[i] - o[i]) * d[k] - (p[k] - o[k]) * d[i];
-            offsets[side] = [least(offsets[side][0], offset), most(offsets[side][1], offset)];
-        }
+        are_beside &= ray.origin == first.origin && square * other <= BESIDE * along * along;
     }
-    let [width, height] = [offsets[0][1] - offsets[0][0], offsets[1][1] - offsets[1][0]];
-    // Of a camera, and of a row of parallel rays, there is no area.
-    if width * height <= 0.0 {
-        return false;
-    }
-    let Some(root) = bvh.nodes.get(bvh.root as usize) else { return false };
-    let per_offset = bvh.scale.factor / d[k];
-    let area = AREA_OF_ALL * width * height * per_offset * per_offset;
-    let of_tree = area_across(root, axes);
-    let leaves = (bvh.indices.len() / WIDTH) as f32;
-    least(area, of_tree) * leaves > of_tree * count as f32
+    !are_beside && leaves_held(&asked) > most
 }
 
-/// The area of the box around a node's children across an axis.
+/// Returns how many leaves lie between planes around rays of which those are some: of each child of the root the part of its
+/// box across the axis that the rays run along, as if each had as many leaves.
 #[inline(always)]
-fn area_across(node: &BvhNode, axes: [usize; 2]) -> f32 {
-    let mut area = 1.0;
-    for axis in axes {
-        let (mut low, mut high) = (f32::INFINITY, f32::NEG_INFINITY);
-        for slot in 0..WIDTH {
-            low = least(low, node.low[axis % 3][slot]);
-            high = most(high, node.high[axis % 3][slot]);
+pub(crate) fn leaves_held<L: Lanes>(token: L::Token, bvh: &Bvh<'_>, asked: &Asked) -> f32 {
+    let Some(root) = bvh.nodes.get(bvh.root as usize) else { return 0.0 };
+    let (along, sign) = heading(asked[0].direction.to_array());
+    let (k, across) = (along % 3, across(along));
+    let number = |value| L::splat(token, value);
+    let (factor, zero) = (bvh.scale.factor, number(0.0));
+    let (mut held, mut children) = (0.0, 0);
+    for part in 0..WIDTH / L::COUNT {
+        let low = axes!(i => L::load_part(token, &root.low[i], part));
+        let high = axes!(i => L::load_part(token, &root.high[i], part));
+
+        // A child is looked at half way through its box, or where the rays begin if that is farther; not one that lies behind.
+        let start = number(factor * asked[0].origin.to_array()[k]);
+        let middle = number(0.5) * (low[k] + high[k]);
+        let depth = L::select(zero.lt(number(sign) * (middle - start)), middle, start);
+        let end = if sign > 0.0 { high[k] } else { low[k] };
+        let is_there = low[k].le(high[k]);
+        let mut share =
+            L::select(is_there & zero.le(number(sign) * (end - start)), number(1.0), zero);
+
+        // (One division for both sides, slopes worked out before, four sums in place of one: not faster.)
+        for axis in across {
+            let i = axis % 3;
+            let (mut left, mut right) = (number(f32::INFINITY), number(f32::NEG_INFINITY));
+            for ray in asked {
+                let (o, d) = (ray.origin.to_array(), ray.direction.to_array());
+                let slope = d[i] / d[k];
+                let at = depth * number(slope) + number(factor * (o[i] - slope * o[k]));
+                left = L::select(at.lt(left), at, left);
+                right = L::select(right.lt(at), at, right);
+            }
+            let beyond = number(BEYOND_ASKED) * (right - left);
+            let (left, right) = (left - beyond, right + beyond);
+            let within = L::select(right.lt(high[i]), right, high[i])
+                - L::select(low[i].lt(left), left, low[i]);
+            share = L::select(zero.lt(within), share * within / (high[i] - low[i]), zero);
         }
-        area *= high - low;
+        let share = share.store();
+        for lane in 0..L::COUNT {
+            held += share.get(lane);
+        }
+        children += is_there.bits().count_ones();
     }
-    area
+    held / children as f32 * (bvh.indices.len() / WIDTH) as f32
 }
 
 #[cfg(all(test, proofs))]
-mod tests {
-    extern crate std;
-
-    use super::{ManyRays, WIDTH};
-    use crate::proofs::climb::Random;
-    use crate::proofs::work::{Kind, Work};
-    use crate::{Exact, Intersect, Ray, SphereList, SphereTree, Trace, Vec3};
-    use std::vec::Vec;
-
-    /// Whether rays are packed: what goes by itself clears no stack, begins no run, and is in no group.
-    fn are_packed(tree: &SphereTree, mut trace: Trace<'_>, rays: &[Ray]) -> bool {
-        let mut hits = std::vec![None; rays.len()];
-        let work = Work::of(|| tree.closest_hits_with(Exact, &mut trace, rays, &mut hits));
-        for (ray, hit) in rays.iter().zip(&hits) {
-            assert_eq!(*hit, tree.closest_hit(Exact, ray));
-        }
-        [Kind::RayRun, Kind::RayStacks, Kind::GroupPacket].iter().any(|&kind| work.count(kind) > 0)
-    }
-
-    /// A tree of so many spheres between -8 and 8.
-    fn tree(spheres: usize) -> SphereTree {
-        let mut random = Random(61);
-        let mut sphere = || (point(&mut random, 8.0), 0.25);
-        SphereTree::new((0..spheres).map(|_| sphere()).collect::<SphereList>())
-    }
-
-    fn point(random: &mut Random, extent: f32) -> Vec3 {
-        let mut coordinate = || random.below(1 << 20) as f32 / (1 << 19) as f32 - 1.0;
-        Vec3::new(coordinate(), coordinate(), coordinate()) * extent
-    }
-
-    /// Diffuse rays; parallel ones that fill the tree; and a row of a camera's.
-    fn rays(count: usize) -> [Vec<Ray>; 3] {
-        let mut random = Random(67);
-        let mut points = || [point(&mut random, 8.0), point(&mut random, 1.0)];
-        let diffuse = (0..count).map(|_| points()).map(|[o, d]| Ray::new(o, d)).collect();
-        let beam = (0..count).map(|_| points()[0]);
-        let beam = beam.map(|o| Ray::new(Vec3 { z: -9.0, ..o }, Vec3::Z)).collect();
-        let eye = Vec3::new(0.1, 0.2, -20.0);
-        let row = (0..count).map(|x| Ray::new(eye, Vec3::new(0.004 * x as f32, 0.05, 1.0)));
-        [diffuse, beam, row.collect()]
-    }
-
-    #[test]
-    fn few_rays_that_differ_go_one_by_one() {
-        let (large, small, listed) = (tree(4000), tree(40), tree(4));
-        for (tree, count, packed) in [
-            (&large, 9, [false, false, true]),
-            (&large, 16, [false, false, true]),
-            (&large, 17, [false, false, true]),
-            (&large, 64, [false, false, true]),
-            (&large, 65, [true; 3]),
-            // A small tree has no boxes that a beam might fill.
-            (&small, 32, [false, true, true]),
-            (&small, 33, [true; 3]),
-            (&listed, 8, [false; 3]),
-        ] {
-            let are = rays(count).map(|rays| are_packed(tree, Trace::new(), &rays));
-            assert_eq!(are, packed, "{count} rays");
-        }
-    }
-
-    #[test]
-    fn a_tree_that_is_met_as_a_list_is_met_by_packets() {
-        let tree = tree(4);
-        let [diffuse, ..] = rays(16);
-        let groups = |rays: &[Ray]| {
-            let work = Work::of(|| tree.closest_hits(Exact, rays, &mut [None; 16]));
-            work.count(Kind::ListGroup)
-        };
-        assert_eq!([groups(&diffuse[..8]), groups(&diffuse)], [0, 1]);
-    }
-
-    #[test]
-    fn rays_differ_where_planes_around_them_hold_more_leaves_than_there_are_rays() {
-        let tree = tree(4000);
-        let bvh = tree.bvh();
-        let leaves = (bvh.indices.len() / WIDTH) as f32;
-        for (count, threshold) in [(16, 16.0), (64, 64.0)] {
-            // Four rays of each packet are asked: corners of a square that three fifths of a side reach.
-            let side = (16.5f32 * 16.5 * threshold / leaves).sqrt();
-            let differ = |side: f32| {
-                let corner = |number: usize| {
-                    let (x, y) = (number / 5 % 2, number / 10 % 2);
-                    0.6 * side * Vec3::new(x as f32, y as f32, 0.0)
-                };
-                let ray = |number| Ray::new(corner(number % 16) - 9.0 * Vec3::Z, Vec3::Z);
-                let rays: Vec<Ray> = (0..count).map(ray).collect();
-                super::differ(&bvh, &ManyRays::Slice(&rays), 0..count)
-            };
-            assert_eq!([0.85, 1.15].map(|part| differ(part * side)), [false, true], "{count} rays");
-        }
-    }
-
-    #[test]
-    fn few_rays_that_are_said_to_be_incoherent_go_one_by_one() {
-        let tree = tree(4000);
-        for (count, packed) in [(9, false), (64, false), (65, true)] {
-            let are = rays(count).map(|rays| are_packed(&tree, Trace::new().incoherent(), &rays));
-            assert_eq!(are, [packed; 3], "{count} rays");
-        }
-    }
-
-    #[test]
-    fn a_narrow_beam_and_the_end_of_a_row_are_packed() {
-        let tree = tree(4000);
-        let [_, mut beam, row] = rays(48);
-        for ray in &mut beam {
-            ray.origin *= Vec3::new(0.1, 0.1, 1.0);
-        }
-        assert!(are_packed(&tree, Trace::new(), &beam));
-        // The first packet has the last pixels of a row and the first of the next.
-        let mut rows = row.clone();
-        for ray in &mut rows[..8] {
-            ray.direction = Vec3::new(1.0, 0.1, 1.0);
-        }
-        assert!(are_packed(&tree, Trace::new(), &rows));
-        assert!(!are_packed(&tree, Trace::new(), &rows[..16]));
-    }
-
-    #[test]
-    fn a_few_packets_that_are_left_of_a_call_go_one_by_one() {
-        let tree = tree(4000);
-        let [diffuse, _, mut rays] = rays(128);
-        // A packet of one ray is left, then four packets, and five.
-        let ran = |rays: &[Ray]| {
-            let mut hits = [None; 256];
-            let work = Work::of(|| tree.closest_hits(Exact, rays, &mut hits));
-            for (ray, hit) in rays.iter().zip(&hits) {
-                assert_eq!(*hit, tree.closest_hit(Exact, ray));
-            }
-            work.count(Kind::RayRun) > 0
-        };
-        assert!(!ran(&rays[..65]));
-        rays.extend_from_slice(&diffuse[..64]);
-        assert!(!ran(&rays), "four packets are left");
-        rays.extend_from_slice(&diffuse[64..80]);
-        assert!(ran(&rays), "five packets are left");
-    }
-}
+mod tests;

@@ -10,6 +10,7 @@ use crate::accuracy::Tier;
 use crate::bvh::traverse::one_ray;
 use crate::bvh::tree::Bvh;
 use crate::coherent::depth_list::DepthList;
+use crate::coherent::few_rays::{self, Asked};
 use crate::coherent::packet_source::PacketSource;
 use crate::coherent::tree_source::Ways;
 use crate::coherent::{list_source, tree_source};
@@ -103,7 +104,7 @@ macro_rules! compiled {
             );
 
             /// Of a tree, one ray.
-            fn one_ray(level: Level, tier: Tier, bvh: &Bvh<'_>, ray: &Ray, answer: &mut Self::One);
+            fn one_ray(level: Level, tier: Tier, bvh: &Bvh<'_>, ray: &Ray) -> Self::One;
         }
 
         compiled!(@query ClosestHit, HitPacket, $($name($structure: $type $(, $more: $kind)*) = $traverse;)*);
@@ -142,10 +143,12 @@ macro_rules! compiled {
             }
 
             #[inline(never)]
-            fn one_ray(level: Level, tier: Tier, bvh: &Bvh<'_>, ray: &Ray, answer: &mut Self::One) {
+            fn one_ray(level: Level, tier: Tier, bvh: &Bvh<'_>, ray: &Ray) -> Self::One {
                 at_level!(level.0, simd, Vector => {
-                    one_ray::trace::<Vector, Self>(simd, tier, bvh, ray, answer);
+                    one_ray::trace::<Vector, Self>(simd, tier, bvh, ray)
                 });
+                // There is no other level.
+                <Self as Answers>::one::<[f32; 1]>(&<Self as Answers>::none::<[f32; 1]>(), 0)
             }
         }
     };
@@ -215,6 +218,14 @@ pub(crate) fn shadows(
     at_level!(level.0, simd, Vector => {
         packets::each_packet::<Vector>(tier, simd, spheres, hit, towards, shadow_rays);
     });
+}
+
+/// [`leaves_held`](few_rays::leaves_held) of a tree.
+#[inline(never)]
+pub(crate) fn leaves_held(level: Level, bvh: &Bvh<'_>, asked: &Asked) -> f32 {
+    at_level!(level.0, simd, Vector => few_rays::leaves_held::<Vector>(simd, bvh, asked));
+    // There is no other level.
+    0.0
 }
 
 /// Fills packets with rays.

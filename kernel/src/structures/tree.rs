@@ -9,11 +9,11 @@ use crate::bvh::tree::Bvh;
 #[cfg(feature = "alloc")]
 use crate::coherence::Coherence;
 #[cfg(feature = "std")]
-use crate::coherent::few_rays;
+use crate::coherent::few_rays::{self, Asked};
 use crate::coherent::packet_source::PacketSource;
 use crate::coherent::tree_source::{self, Ways};
 #[cfg(feature = "std")]
-use crate::dispatch::compiled::Compiled;
+use crate::dispatch::compiled::{Compiled, leaves_held};
 use crate::geometry::camera::tiles::CameraTiles;
 use crate::geometry::hit::HitPacket;
 #[cfg(feature = "std")]
@@ -32,11 +32,12 @@ impl Traverse for Bvh<'_> {
     #[inline(always)]
     fn goes_one_by_one(&self, trace: &Trace<'_>, rays: &ManyRays<'_>, range: Range<usize>) -> bool {
         let count = range.end.saturating_sub(range.start);
+        let leaves_held = |asked: &Asked| leaves_held(trace.level, self, asked);
         count <= ONE_BY_ONE
             || (count <= tree_source::few(self) * RayPacket::COUNT
                 && !tree_source::is_listed(self)
                 && (trace.coherence == Coherence::Incoherent
-                    || few_rays::differ(self, rays, range)))
+                    || few_rays::differ(self, rays, range, leaves_held)))
     }
 
     #[inline(always)]
@@ -98,9 +99,7 @@ impl Traverse for Bvh<'_> {
     #[cfg(feature = "std")]
     #[inline]
     fn one<Q: LevelQuery>(&self, tier: impl Accuracy, trace: &mut Trace<'_>, ray: &Ray) -> Q::One {
-        let mut answer = Q::one(&Q::none::<[f32; 1]>(), 0);
-        Q::one_ray(trace.level, tier.tier(), self, ray, &mut answer);
-        answer
+        Q::one_ray(trace.level, tier.tier(), self, ray)
     }
 
     #[inline(always)]

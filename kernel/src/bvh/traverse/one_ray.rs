@@ -43,16 +43,15 @@ pub(crate) fn trace<L: Lanes, Q: Query>(
     tier: impl Accuracy,
     bvh: &Bvh<'_>,
     ray: &Ray,
-    answer: &mut Q::One,
-) {
+) -> Q::One {
     if tier.spread() == 0.0 {
-        search::<_, L, Q, false>(token, tier, bvh, ray, answer);
+        search::<_, L, Q, false>(token, tier, bvh, ray)
     } else {
         L::out_of_line(
             token,
             #[inline(always)]
-            || search::<_, L, Q, true>(token, tier, bvh, ray, answer),
-        );
+            || search::<_, L, Q, true>(token, tier, bvh, ray),
+        )
     }
 }
 
@@ -62,8 +61,7 @@ fn search<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
     tier: T,
     bvh: &Bvh<'_>,
     ray: &Ray,
-    one: &mut Q::One,
-) {
+) -> Q::One {
     let mut search = Search::<T, Q> {
         tier,
         bvh,
@@ -77,7 +75,7 @@ fn search<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
     let spread = if SPREADS { tier.spread() } else { 0.0 };
     let rays = RayLanes::<f32>::load((), &RayPacket::new(core::slice::from_ref(ray)));
     if !rays.live {
-        return *one = Q::one(&search.answer, 0);
+        return Q::one(&search.answer, 0);
     }
     // A sphere by itself: to look at it costs as much as to test it. (A refit may have made it none, which nothing but
     // its bounds would say: then no box has an extent.)
@@ -88,7 +86,7 @@ fn search<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
         search.places[0] = place_of(bvh.root & !LEAF, 0);
         search.count = 1;
         search.test::<L>(token);
-        return *one = Q::one(&search.answer, 0);
+        return Q::one(&search.answer, 0);
     }
     let scaled = ScaledRays::new(&rays, bvh.scale.factor);
     let mut prepared = PreparedLanes::from_there::<true>(&scaled);
@@ -116,11 +114,11 @@ fn search<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
         let PreparedLanes { covered, time, end, .. } = prepared;
         match search.unusual(&rays, covered, time, end[1]) {
             Some(end) => prepared.end[1] = end,
-            None => return *one = Q::one(&search.answer, 0),
+            None => return Q::one(&search.answer, 0),
         }
     }
     if bvh.root == NO_CHILD {
-        return *one = Q::one(&search.answer, 0);
+        return Q::one(&search.answer, 0);
     }
     let time = prepared.time;
     search.best = prepared.end[1];
@@ -139,10 +137,10 @@ fn search<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
         if !Q::ANY && may_hit.count_ones() <= AT_ONCE {
             search.keep(leaves, may_hit);
         } else if search.meet::<L, SPREADS>(token, &mut spheres, time, leaves, may_hit) {
-            return *one = Q::one(&search.answer, 0);
+            return Q::one(&search.answer, 0);
         }
         search.test::<L>(token);
-        return *one = Q::one(&search.answer, 0);
+        return Q::one(&search.answer, 0);
     }
     let around = if SPREADS { prepared.spread_of_boxes(bvh.extent, spread) } else { 0.0 };
     let slabs = axes!(i => prepared.slab_of(i, along.0[i], along.1));
@@ -172,7 +170,7 @@ fn search<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
         } else {
             let before = search.best;
             if search.look::<L, SPREADS>(token, &mut spheres, time, child & !LEAF) {
-                return *one = Q::one(&search.answer, 0);
+                return Q::one(&search.answer, 0);
             }
             if search.best < before {
                 boxes.minus_end = L::splat(token, -(search.best + around));
@@ -197,7 +195,7 @@ fn search<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
         left = without::<Q>(left);
     }
     search.test::<L>(token);
-    *one = Q::one(&search.answer, 0);
+    Q::one(&search.answer, 0)
 }
 
 /// The slot of the nearest of the children that are left.
