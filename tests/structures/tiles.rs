@@ -148,3 +148,23 @@ fn points_beyond_all_numbers() {
         assert_same_tiles(EXACT, &whole(camera, 11, 8), &[sphere, other]);
     }
 }
+
+/// A slope is the quotient of two components, and the inverse of a subnormal one may be infinite.
+#[test]
+fn directions_without_an_inverse() {
+    let sphere = |x| Sphere { center: Vec3::new(x, 0.0, 0.0), radius: 0.0 };
+    for step in
+        [f32::from_bits(1), f32::from_bits(483), f32::MIN_POSITIVE / 16.0, f32::MIN_POSITIVE]
+    {
+        for x in [1.8e-34, 1.0] {
+            let eye = Vec3::new(x, 0.0, 0.0);
+            let mut spheres = vec![sphere(0.0); 40];
+            spheres.extend([sphere(x), sphere(2.0 * x)]);
+            for step_y in [Vec3::X * step, Vec3::new(step, step, -step)] {
+                let projection = Projection::Perspective { eye };
+                let camera = Camera { projection, corner: Vec3::ZERO, step_x: Vec3::ZERO, step_y };
+                assert_same_tiles(EXACT, &whole(camera, 21, 8), &spheres);
+            }
+        }
+    }
+}
