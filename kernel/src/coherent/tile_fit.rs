@@ -163,6 +163,8 @@ impl Points {
         let per_depth = f32x4::splat(-ERRORS) / minus_nearest;
         for side in 0..2 {
             let off = self.off(side, steepest) * per_depth;
+            // Neither it nor a slope is a number if a depth has no inverse.
+            fits = fits & off.lt(f32x4::splat(f32::INFINITY));
             let [minus_low, high] = slopes[side];
             if if_wide {
                 fits = fits & off.le((minus_low + high) * f32x4::splat(WIDE));
