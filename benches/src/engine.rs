@@ -84,7 +84,7 @@ pub(crate) enum Promise {
     Near(f64, u64),
     /// Another program's: those of `Exact`, except for a part of the rays, and for an error of t by
     /// [`OTHERS_ULP`], or by [`OTHERS_PART`] of how far away and how large the sphere is.
-    #[cfg_attr(not(feature = "peers"), expect(dead_code))]
+    #[cfg_attr(not(feature = "peers"), expect(dead_code, reason = "only peers are held to it"))]
     Other(f64),
 }
 

@@ -32,12 +32,12 @@ const NARROW: f32 = 1.25;
 const BESIDE: f32 = 1.0 + 1.0 / 1024.0;
 /// Four of many that are spread evenly reach over three fifths of what all do: so much lies beyond, on either side.
 const BEYOND_ASKED: f32 = 1.0 / 3.0;
-/// How many leaves the planes may hold for a ray, and for all. (Five scenes, parallel rays and cones of nine widths, AVX-512: as
-/// packets rays are slower from 3 to 4 leaves on where there are nine, from 4 to 7 where there are sixteen, from 6 to 12 where there
-/// are 64.)
+/// How many leaves the planes may hold for a ray, and for all. (Four scenes, parallel rays and cones of nine widths, AVX-512: as
+/// packets rays begin to be slower at 1 to 9 leaves where there are nine, at 2 to 8 where there are sixteen, at 5 to 12 where there
+/// are 64. To go one by one in vain costs more than to be packed in vain: up to three times, and twice.)
 const LEAVES_OF_RAY: f32 = 1.0 / 3.0;
 const LEAVES_OF_ALL: f32 = 7.0;
-/// The same of a small tree, in which a ray takes little by itself.
+/// The same of a small tree, in which a ray takes little by itself: 0.1 leaves where there are nine, 0.3 where there are sixteen.
 const LEAVES_OF_RAY_IN_SMALL_TREE: f32 = 1.0 / 40.0;
 
 /// Whether rays have little in common, as far as those tell that fill the first packet, and those that fill the last;

@@ -94,17 +94,43 @@ fn square_differs(tree: &SphereTree, count: usize, side: f32, point: Option<f32>
 
 #[test]
 fn rays_differ_where_planes_around_them_hold_more_leaves_than_pays() {
-    let tree = tree(4000);
-    let leaves = (tree.bvh().indices.len() / WIDTH) as f32;
-    for (count, most) in [(12, 4.0), (16, 16.0 / 3.0), (64, 7.0)] {
-        // As if they were spread evenly over a cube of 16.5: four of many reach over three fifths of what all do.
+    let (large, small) = (tree(4000), tree(40));
+    // Where it turns, as a part of the side that a square would have if leaves were spread evenly over a cube of 16.5.
+    for (tree, count, most, point, turns) in [
+        (&large, 12, 4.0, None, [0.77, 0.9]),
+        (&large, 16, 16.0 / 3.0, None, [0.78, 0.92]),
+        (&large, 64, 7.0, None, [0.8, 0.93]),
+        (&large, 16, 16.0 / 3.0, Some(-60.0), [0.87, 1.02]),
+        (&large, 64, 7.0, Some(-60.0), [0.8, 0.94]),
+        (&small, 16, 16.0 / 40.0, None, [0.95, 1.1]),
+        (&small, 16, 16.0 / 40.0, Some(-60.0), [0.95, 1.1]),
+    ] {
+        let leaves = (tree.bvh().indices.len() / WIDTH) as f32;
+        // Four of many reach over three fifths of what all do.
         let side = 0.6 * (16.5f32 * 16.5 * most / leaves).sqrt();
-        // From one point rays are as wide as that half way through a child, which half of the children have behind z = 0.
-        for (point, [less, more]) in [(None, [0.82, 1.08]), (Some(-60.0), [0.7, 1.6])] {
-            let differs = |part| square_differs(&tree, count, part * side, point);
-            assert_eq!([less, more].map(differs), [false, true], "{count} rays, {point:?}");
-        }
+        let differ = turns.map(|part| square_differs(tree, count, part * side, point));
+        assert_eq!(differ, [false, true], "{count} rays, {point:?}");
     }
+}
+
+#[test]
+fn directions_differ_by_the_tangent_of_their_angle() {
+    let tree = tree(4000);
+    // Away from the tree, where planes hold nothing, and towards it from afar, where they hold all of it.
+    let differ = |from: f32, tangent: f32| {
+        let ray = |number: usize| {
+            let (x, y) = (number / 5 % 2, number / 10 % 2);
+            Ray::new(
+                Vec3::Z * from,
+                Vec3::new(x as f32, y as f32, 0.0) * (tangent / 2f32.sqrt()) + Vec3::Z,
+            )
+        };
+        let rays: Vec<Ray> = (0..16).map(ray).collect();
+        let held = |asked: &_| super::leaves_held::<wide::f32x16>((), &tree.bvh(), asked);
+        super::differ(&tree.bvh(), &ManyRays::Slice(&rays), 0..16, held)
+    };
+    assert_eq!([0.48, 0.52].map(|tangent| differ(9.0, tangent)), [false, true], "a half");
+    assert_eq!([30.0, 34.0].map(|part| differ(-500.0, 1.0 / part)), [true, false], "1/32");
 }
 
 #[test]
