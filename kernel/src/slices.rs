@@ -59,7 +59,13 @@ fn one_by_one<S: Traverse + ?Sized, Q: LevelQuery>(
     answers: &mut Q::Many<'_>,
 ) {
     for index in from..to {
-        if let Some(ray) = rays.ray(index) {
+        // Where it lies: copied, it would be read wider than it was written, and so wait for all before it. (Closest hits of 9 and 64 rays
+        // that have nothing in common: copied 0.84 to 0.9 of the speed by AVX-512 and AVX2, 0.95 at the baseline.)
+        if let ManyRays::Slice(rays) = rays {
+            if let Some(ray) = rays.get(index) {
+                Q::write_one(answers, index, structure.one::<Q>(tier, trace, ray));
+            }
+        } else if let Some(ray) = rays.ray(index) {
             Q::write_one(answers, index, structure.one::<Q>(tier, trace, &ray));
         }
     }
