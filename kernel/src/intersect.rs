@@ -76,7 +76,7 @@ pub trait Intersect: Traverse {
     /// assert_eq!(hit.map(|hit| hit.t), Some(4.0));
     /// ```
     fn closest_hit(&self, tier: impl Accuracy, ray: &Ray) -> Option<Hit> {
-        self.one::<ClosestHit>(tier, &mut Trace::new(), ray)
+        self.one_plainly::<ClosestHit>(tier, ray)
     }
 
     /// Returns whether one ray hits anything.
@@ -90,7 +90,7 @@ pub trait Intersect: Traverse {
     /// assert!(!spheres.any_hit(Exact, &Ray { t_max: 3.9, ..ray }));
     /// ```
     fn any_hit(&self, tier: impl Accuracy, ray: &Ray) -> bool {
-        self.one::<AnyHit>(tier, &mut Trace::new(), ray)
+        self.one_plainly::<AnyHit>(tier, ray)
     }
 
     /// [`closest_hit`](Intersect::closest_hit), traced as `trace` says.

@@ -76,6 +76,11 @@ macro_rules! traverse_as {
                 self.$lend().one::<Q>(tier, trace, ray)
             }
 
+            #[inline]
+            fn one_plainly<Q: LevelQuery>(&self, tier: impl Accuracy, ray: &Ray) -> Q::One {
+                self.$lend().one_plainly::<Q>(tier, ray)
+            }
+
             #[inline(always)]
             fn tiles_in_lanes<L: Lanes>(
                 &self,

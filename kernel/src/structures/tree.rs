@@ -13,6 +13,8 @@ use crate::coherent::few_rays::{self, Asked};
 use crate::coherent::packet_source::PacketSource;
 use crate::coherent::tree_source::{self, Ways};
 #[cfg(feature = "std")]
+use crate::dispatch::Level;
+#[cfg(feature = "std")]
 use crate::dispatch::compiled::{Compiled, leaves_held};
 use crate::geometry::camera::tiles::CameraTiles;
 use crate::geometry::hit::HitPacket;
@@ -100,6 +102,12 @@ impl Traverse for Bvh<'_> {
     #[inline]
     fn one<Q: LevelQuery>(&self, tier: impl Accuracy, trace: &mut Trace<'_>, ray: &Ray) -> Q::One {
         Q::one_ray(trace.level, tier.tier(), self, ray)
+    }
+
+    #[cfg(feature = "std")]
+    #[inline]
+    fn one_plainly<Q: LevelQuery>(&self, tier: impl Accuracy, ray: &Ray) -> Q::One {
+        Q::one_ray(Level::best(), tier.tier(), self, ray)
     }
 
     #[inline(always)]

@@ -96,7 +96,7 @@ fn search<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
     if !prepared.covered | far {
         // Number by number: as a whole both ways would go through memory.
         let PreparedLanes { covered, origin, direction, time, absolute_error, start, end } =
-            again(&rays, bvh, !SPREADS);
+            again(ray, bvh, !SPREADS);
         let RayTime { per_t, shift, length } = time;
         prepared = PreparedLanes {
             covered,
@@ -112,7 +112,7 @@ fn search<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
     if !prepared.covered | !bvh.outside.is_empty() {
         // Of a copy, so that what others have stays in registers.
         let PreparedLanes { covered, time, end, .. } = prepared;
-        match search.unusual(&rays, covered, time, end[1]) {
+        match search.unusual(covered, time, end[1]) {
             Some(end) => prepared.end[1] = end,
             None => return Q::one(&search.answer, 0),
         }
@@ -239,12 +239,13 @@ fn enter<L: Lanes, Q: Query>(
     met
 }
 
-/// Rays of any length, and from afar.
+/// Rays of any length, and from afar. (Prepared anew, since what a call is lent must be in memory: 1 to 4 % of a ray.)
 #[cold]
 #[inline(never)]
-fn again(rays: &RayLanes<f32>, bvh: &Bvh<'_>, moves: bool) -> PreparedLanes<f32> {
+fn again(ray: &Ray, bvh: &Bvh<'_>, moves: bool) -> PreparedLanes<f32> {
+    let rays = RayLanes::<f32>::load((), &RayPacket::new(core::slice::from_ref(ray)));
     let extent = if moves { Some(bvh.extent) } else { None };
-    PreparedLanes::of_any_length(rays, bvh.scale.factor, extent)
+    PreparedLanes::of_any_length(&rays, bvh.scale.factor, extent)
 }
 
 /// A node on the way, and which of its children are left.

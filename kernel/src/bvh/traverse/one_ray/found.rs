@@ -36,13 +36,7 @@ impl<T: Accuracy, Q: Query> Search<'_, T, Q> {
     /// Rays that no bound covers, and spheres that no bound sees. Where the ray ends then, if it is not done.
     #[cold]
     #[inline(never)]
-    pub(super) fn unusual(
-        &mut self,
-        rays: &RayLanes<f32>,
-        covered: bool,
-        time: RayTime<f32>,
-        end: f32,
-    ) -> Option<f32> {
+    pub(super) fn unusual(&mut self, covered: bool, time: RayTime<f32>, end: f32) -> Option<f32> {
         let Self { tier, bvh, ray, answer, .. } = self;
         let packet = RayPacket::new(core::slice::from_ref(*ray));
         if !bvh.outside.is_empty() {
@@ -54,7 +48,8 @@ impl<T: Accuracy, Q: Query> Search<'_, T, Q> {
             return None;
         }
         if !covered {
-            test_from_afar::<f32, Q>(*tier, (), bvh, (&packet, rays), answer);
+            let rays = RayLanes::<f32>::load((), &packet);
+            test_from_afar::<f32, Q>(*tier, (), bvh, (&packet, &rays), answer);
             return None;
         }
         Some(least(time.after(limit), end))
