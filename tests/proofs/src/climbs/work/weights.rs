@@ -23,15 +23,14 @@ fn mean(scenes: &[SceneInput], count: usize, any: bool) -> f64 {
     (logarithms.iter().sum::<f64>() / logarithms.len() as f64).exp()
 }
 
-/// A lower mean is worth publishing, and a higher one is a loss. (Closest hits with the roots of a ray at half, 0.8877, and at twice, 0.8929;
-/// with the tier's work at a third, 0.8904, and at twice, 0.8913; with what a child of the root takes a group at half, 0.9066, and at twice,
-/// 0.8897; a ray at twice, 0.9046. Groups that are not asked at the root, 0.9221.)
+/// A lower mean is worth publishing, and a higher one is a loss. (Closest hits with the roots of a ray at half, 0.8625, and at twice, 0.8583;
+/// a ray at twice, 0.8577; groups that may do no more than those of any hit, 0.8856.)
 #[test]
 fn short_calls_take_what_is_published_in_the_mean() {
     let dense = SceneInput { radius: 0.06, ..UNIFORM };
     let shells = SceneInput { scene: Scene::Shells, spheres: 400, radius: 0.1, ..UNIFORM };
     let sheet = SceneInput { scene: Scene::Sheet, radius: 0.02, ..UNIFORM };
-    for (any, published) in [(false, 0.8908), (true, 0.8580)] {
+    for (any, published) in [(false, 0.8573), (true, 0.8580)] {
         let found = mean(&[UNIFORM, dense, shells, sheet], RAYS, any);
         assert!((found - published).abs() < 0.0002, "{found:.4} times the work, any: {any}");
     }
@@ -42,7 +41,7 @@ fn short_calls_take_what_is_published_in_the_mean() {
 #[test]
 fn short_calls_over_few_spheres_take_what_is_published_in_the_mean() {
     let few = SceneInput { spheres: 64, radius: 0.1, ..UNIFORM };
-    for (any, published) in [(false, 1.0082), (true, 0.9325)] {
+    for (any, published) in [(false, 1.0069), (true, 0.9325)] {
         let found = mean(&[few], 2 * RAYS, any);
         assert!((found - published).abs() < 0.0002, "{found:.4} times the work, any: {any}");
     }
