@@ -46,3 +46,15 @@ fn short_calls_over_few_spheres_take_what_is_published_in_the_mean() {
         assert!((found - published).abs() < 0.0002, "{found:.4} times the work, any: {any}");
     }
 }
+
+/// The same of calls of 32 groups, of which most follow one that has paid.
+#[test]
+fn long_calls_take_what_is_published_in_the_mean() {
+    let dense = SceneInput { radius: 0.06, ..UNIFORM };
+    let shells = SceneInput { scene: Scene::Shells, spheres: 400, radius: 0.1, ..UNIFORM };
+    let sheet = SceneInput { scene: Scene::Sheet, radius: 0.02, ..UNIFORM };
+    for (any, published) in [(false, 0.7187), (true, 0.7336)] {
+        let found = mean(&[UNIFORM, dense, shells, sheet], 8 * RAYS, any);
+        assert!((found - published).abs() < 0.0002, "{found:.4} times the work, any: {any}");
+    }
+}
