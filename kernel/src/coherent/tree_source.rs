@@ -38,9 +38,17 @@ pub struct Ways<'a> {
     #[cfg(feature = "alloc")]
     pub(crate) kept: &'a mut KeptMemory,
     pub(crate) learnt: &'a mut Learnt,
-    /// Of up to 64 packets: those that do not go together, if they are few, are left to the caller, a bit each.
     #[cfg(feature = "std")]
-    pub(crate) alone: Option<&'a mut u64>,
+    pub(crate) alone: Option<Alone<'a>>,
+}
+
+/// Of up to 64 packets those that do not go together, if they are so few: left to the caller, a bit each.
+#[derive(Debug)]
+#[cfg(feature = "std")]
+#[expect(unreachable_pub, reason = "a field of a public type has it")]
+pub struct Alone<'a> {
+    pub(crate) packets: &'a mut u64,
+    pub(crate) most: usize,
 }
 
 impl Ways<'_> {
@@ -62,22 +70,6 @@ impl Ways<'_> {
 const LISTED: usize = 4;
 /// So many packets at a time, which are still in the nearest cache when they are answered.
 const LISTED_PACKETS: usize = 16;
-
-/// So few packets that do not go together: their rays go one by one. (Among 300, 20,000 and 300,000 spheres, calls of 12 to 48
-/// rays that have nothing in common took 1.1 to 2.4 times as long as one by one on a Zen 3: of stacks that are laid out for
-/// many rays, few make use. In a small tree there is less to lay out: with 4, 64 diffuse rays among ten spheres took 1.3 to 2.5 times as
-/// long on a Zen 5, and 128 parallel ones, of which some go together, 1.3 to 1.5.)
-#[cfg(feature = "std")]
-const FEW: usize = 4;
-#[cfg(feature = "std")]
-const FEW_IN_SMALL_TREE: usize = 2;
-
-/// How many packets are few in a tree.
-#[cfg(feature = "std")]
-#[inline(always)]
-pub(crate) fn few(bvh: &Bvh<'_>) -> usize {
-    if small_tree::leaves(bvh).is_some() { FEW_IN_SMALL_TREE } else { FEW }
-}
 
 /// Whether a tree is met as a list.
 #[inline(always)]
@@ -150,15 +142,27 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
         }
         let whole = if apart.are_all { end } else { run };
         #[cfg(feature = "std")]
-        let waiting = if apart.are_all { 0 } else { apart.packets.count() };
+        let left = whole - from + if apart.are_all { 0 } else { apart.packets.count() };
         #[cfg(feature = "std")]
         if let Some(alone) = &mut ways.alone
-            && whole - from + waiting <= few(bvh)
+            && left <= alone.most
         {
             for number in from..end {
                 let is_alone = number < whole || apart.packets.contains(number - run);
-                **alone |= u64::from(is_alone) << (number % 64);
+                *alone.packets |= u64::from(is_alone) << (number % 64);
             }
+            // What was there before is no answer.
+            if coherence == Coherence::Incoherent
+                && bvh.outside.is_empty()
+                && let Some(answers) = answers.get_mut(from..end)
+            {
+                answers.fill(Q::none::<L::Array>());
+            }
+            #[cfg(feature = "alloc")]
+            {
+                ways.learnt.apart[0] += left;
+            }
+            ways.learnt.sharing[kind_of::<Q>()].pass_over(L::COUNT * left);
             (from, run) = (end, end);
             continue;
         }

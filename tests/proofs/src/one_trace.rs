@@ -102,7 +102,7 @@ fn any_hits_and_closest_hits_learn_apart() {
 #[test]
 fn few_rays_that_do_not_go_together_go_one_by_one() {
     let mut calls = Calls::new();
-    for (count, stacks) in [(9, false), (16, false), (64, false), (65, true), (80, true)] {
+    for (count, stacks) in [(9, false), (16, false), (64, false), (65, false), (272, true)] {
         let rays = calls.bounces(count);
         let expected: Vec<_> = rays.iter().map(|ray| calls.tree.closest_hit(Exact, ray)).collect();
         for trace in [Trace::new(), Trace::new().coherent(), Trace::new().incoherent()] {
@@ -125,6 +125,13 @@ fn few_rays_that_do_not_go_together_go_one_by_one() {
             assert_eq!(work.count(Kind::RayStacks) > 0, stacks, "packets of {count}");
             let found: Vec<_> = found.iter().flat_map(HitPacket::hits).take(count).collect();
             assert_eq!(found, expected, "packets of {count}");
+
+            let mut occluded = vec![u32::MAX; packets.len()];
+            tree.any_hit_packets(Exact, &mut trace, &packets, &mut occluded);
+            for (number, hit) in expected.iter().enumerate() {
+                let is_hit = occluded[number / 16] >> (number % 16) & 1 == 1;
+                assert_eq!(is_hit, hit.is_some(), "packets of {count}");
+            }
         }
     }
 }

@@ -26,6 +26,7 @@ use crate::accuracy::RayLanes;
 use crate::bvh::leaf::place_of;
 use crate::bvh::node::{BvhNode, DEPTH, LEAF, NO_CHILD, WIDTH, octant_of};
 use crate::bvh::tree::Bvh;
+use crate::count::count;
 use crate::geometry::ray::{Ray, RayPacket};
 use crate::lanes::{LaneMask, Lanes};
 use crate::numeric::axes::axes;
@@ -226,6 +227,7 @@ fn enter<L: Lanes, Q: Query>(
     down: [bool; 3],
     octant: usize,
 ) -> u32 {
+    count!(RayNode);
     let mut met = 0;
     for part in 0..WIDTH / L::COUNT {
         let (entry, leave) = probe.interval(&Boxes::load(token, node, down, part));

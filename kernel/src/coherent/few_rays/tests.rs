@@ -178,15 +178,6 @@ fn pixels_beside_each_other_are_packed_and_shuffled_ones_are_not() {
 }
 
 #[test]
-fn few_rays_that_are_said_to_be_incoherent_go_one_by_one() {
-    let tree = tree(4000);
-    for (count, packed) in [(9, false), (64, false), (65, true)] {
-        let are = rays(count).map(|rays| are_packed(&tree, Trace::new().incoherent(), &rays));
-        assert_eq!(are, [packed; 3], "{count} rays");
-    }
-}
-
-#[test]
 fn a_narrow_beam_and_the_end_of_a_row_are_packed() {
     let tree = tree(4000);
     let [_, mut beam, row] = rays(48);
@@ -201,24 +192,4 @@ fn a_narrow_beam_and_the_end_of_a_row_are_packed() {
     }
     assert!(are_packed(&tree, Trace::new(), &rows));
     assert!(!are_packed(&tree, Trace::new(), &rows[..16]));
-}
-
-#[test]
-fn a_few_packets_that_are_left_of_a_call_go_one_by_one() {
-    let tree = tree(4000);
-    let [diffuse, _, mut rays] = rays(128);
-    // A packet of one ray is left, then four packets, and five.
-    let ran = |rays: &[Ray]| {
-        let mut hits = [None; 256];
-        let work = Work::of(|| tree.closest_hits(Exact, rays, &mut hits));
-        for (ray, hit) in rays.iter().zip(&hits) {
-            assert_eq!(*hit, tree.closest_hit(Exact, ray));
-        }
-        work.count(Kind::RayRun) > 0
-    };
-    assert!(!ran(&rays[..65]));
-    rays.extend_from_slice(&diffuse[..64]);
-    assert!(!ran(&rays), "four packets are left");
-    rays.extend_from_slice(&diffuse[64..80]);
-    assert!(ran(&rays), "five packets are left");
 }

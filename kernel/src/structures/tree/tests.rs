@@ -1,0 +1,87 @@
+//! Rays that are left of groups, and go one by one: how many, and what of their answers is kept.
+
+extern crate std;
+
+use crate::proofs::climb::Random;
+use crate::proofs::work::{Kind, Work};
+use crate::{Exact, Intersect, Level, LevelName, Ray, SphereList, SphereTree, Trace, Vec3};
+use core::array::from_fn;
+use std::vec::Vec;
+
+fn point(random: &mut Random) -> Vec3 {
+    let mut coordinate = || random.below(1 << 20) as f32 / (1 << 19) as f32 - 1.0;
+    Vec3::new(coordinate(), coordinate(), coordinate())
+}
+
+/// Rays of which each runs another way.
+fn diffuse(count: usize) -> Vec<Ray> {
+    let mut random = Random(67);
+    (0..count).map(|_| Ray::new(point(&mut random), point(&mut random))).collect()
+}
+
+/// So many spheres beside each other.
+fn apart(spheres: usize) -> SphereTree {
+    let mut random = Random(61);
+    SphereTree::new((0..spheres).map(|_| (point(&mut random), 0.03)).collect::<SphereList>())
+}
+
+/// Spheres around each other.
+fn nested() -> SphereTree {
+    let mut random = Random(83);
+    let sphere = |number| (0.2 * point(&mut random), 0.02 + 0.0045 * number as f32);
+    SphereTree::new((0..200).map(sphere).collect::<SphereList>())
+}
+
+/// Parallel rays that fill it, of which a group hits much before it gives up.
+fn beam() -> [Ray; 65] {
+    let mut random = Random(89);
+    let mut origin = || 0.9 * point(&mut random) + Vec3::new(-0.2, 0.6, 2.0);
+    from_fn(|_| Ray::new(origin(), Vec3::new(0.1, -0.3, -1.0)))
+}
+
+/// Whether some rays went as others do that are many.
+fn ran(tree: &SphereTree, mut trace: Trace<'_>, rays: &[Ray]) -> bool {
+    let mut hits = std::vec![None; rays.len()];
+    let work = Work::of(|| tree.closest_hits_with(Exact, &mut trace, rays, &mut hits));
+    for (ray, hit) in rays.iter().zip(&hits) {
+        assert_eq!(*hit, tree.closest_hit(Exact, ray));
+    }
+    work.count(Kind::RayRun) > 0
+}
+
+#[test]
+fn as_many_packets_go_one_by_one_as_are_few_at_the_level() {
+    let (tree, small, diffuse) = (apart(4000), apart(40), diffuse(272));
+    let eye = Vec3::new(0.1, 0.2, -20.0);
+    let row: Vec<Ray> =
+        (0..64).map(|x| Ray::new(eye, Vec3::new(1e-3 * x as f32, 0.0, 1.0))).collect();
+    for (name, few) in [(LevelName::Avx512, 8), (LevelName::Avx2, 8), (LevelName::Baseline, 16)] {
+        let Some(level) = Level::named(name) else { continue };
+        for (tree, few) in [(&tree, few), (&small, 2)] {
+            for (packets, are_many) in [(few, false), (few + 1, true)] {
+                let rays = &diffuse[..16 * packets];
+                assert_eq!(ran(tree, Trace::new().at(level), rays), are_many, "{name:?}");
+                let incoherent = Trace::new().at(level).incoherent();
+                assert_eq!(ran(tree, incoherent, rays), are_many, "{name:?}, incoherent");
+                // So many are left of more.
+                let mut rays = rays.to_vec();
+                rays.splice(..0, row.iter().copied());
+                assert_eq!(ran(tree, Trace::new().at(level), &rays), are_many, "{name:?}, left");
+            }
+        }
+    }
+}
+
+#[test]
+fn any_hit_that_a_group_has_found_is_not_looked_for_again() {
+    let (tree, rays) = (nested(), beam());
+    let (mut alone, mut found) = ([false; 65], [false; 65]);
+    let works = [
+        Work::of(|| alone = from_fn(|number| tree.any_hit(Exact, &rays[number]))),
+        Work::of(|| tree.any_hits(Exact, &rays, &mut found)),
+    ];
+    assert_eq!(found, alone);
+    assert_eq!(works[1].count(Kind::RayRun), 0);
+    let [nodes, left] = works.map(|work| work.count(Kind::RayNode));
+    assert!(0 < left && 2 * left < nodes, "{left} nodes, {nodes} without");
+}
