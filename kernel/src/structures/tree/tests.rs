@@ -51,22 +51,25 @@ fn ran(tree: &SphereTree, mut trace: Trace<'_>, rays: &[Ray]) -> bool {
 
 #[test]
 fn as_many_packets_go_one_by_one_as_are_few_at_the_level() {
-    let (tree, small, diffuse) = (apart(4000), apart(40), diffuse(272));
+    let diffuse = diffuse(1024);
     let eye = Vec3::new(0.1, 0.2, -20.0);
     let row: Vec<Ray> =
         (0..64).map(|x| Ray::new(eye, Vec3::new(1e-3 * x as f32, 0.0, 1.0))).collect();
-    for (name, few) in [(LevelName::Avx512, 8), (LevelName::Avx2, 8), (LevelName::Baseline, 16)] {
-        let Some(level) = Level::named(name) else { continue };
-        for (tree, few) in [(&tree, few), (&small, 2)] {
+    for (spheres, few) in [(40, [2; 3]), (4000, [64, 8, 8]), (80_000, [16, 8, 8])] {
+        let tree = apart(spheres);
+        for (name, few) in LevelName::ALL.into_iter().zip(few) {
+            let Some(level) = Level::named(name) else { continue };
             for (packets, are_many) in [(few, false), (few + 1, true)] {
-                let rays = &diffuse[..16 * packets];
-                assert_eq!(ran(tree, Trace::new().at(level), rays), are_many, "{name:?}");
+                // A call has no more that are noted.
+                let Some(rays) = diffuse.get(..16 * packets) else { continue };
+                let what = std::format!("{packets} of {spheres} spheres, {name:?}");
+                assert_eq!(ran(&tree, Trace::new().at(level), rays), are_many, "{what}");
                 let incoherent = Trace::new().at(level).incoherent();
-                assert_eq!(ran(tree, incoherent, rays), are_many, "{name:?}, incoherent");
+                assert_eq!(ran(&tree, incoherent, rays), are_many, "{what}, incoherent");
                 // So many are left of more.
                 let mut rays = rays.to_vec();
                 rays.splice(..0, row.iter().copied());
-                assert_eq!(ran(tree, Trace::new().at(level), &rays), are_many, "{name:?}, left");
+                assert_eq!(ran(&tree, Trace::new().at(level), &rays), are_many, "{what}, left");
             }
         }
     }
