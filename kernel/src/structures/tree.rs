@@ -72,7 +72,8 @@ impl Traverse for Bvh<'_> {
         {
             let (mut alone, source) = (0, PacketSource::Packets(rays));
             let level = trace.level;
-            let ways = Ways { alone: of_few(self, level, rays.len(), &mut alone), ..ways(trace) };
+            let ways =
+                Ways { alone: of_few::<Q>(self, level, rays.len(), &mut alone), ..ways(trace) };
             Q::tree(level, tier.tier(), self, ways, source, answers);
             one_by_one::<Q>(self, tier, trace, (&[], rays, alone), answers);
         }
@@ -91,7 +92,7 @@ impl Traverse for Bvh<'_> {
     ) {
         let (level, mut alone) = (trace.level, 0);
         let count = rays.count().div_ceil(RayPacket::COUNT);
-        let ways = Ways { alone: of_few(self, level, count, &mut alone), ..ways(trace) };
+        let ways = Ways { alone: of_few::<Q>(self, level, count, &mut alone), ..ways(trace) };
         let source = PacketSource::Rays(rays, &mut *packets);
         Q::tree(level, tier.tier(), self, ways, source, answers);
         let slice = if let ManyRays::Slice(rays) = rays { rays } else { &[] };
@@ -168,12 +169,12 @@ fn ways<'t>(trace: &'t mut Trace<'_>) -> Ways<'t> {
 
 /// Where few packets that do not go together are noted; `None` if there are too many to note.
 ///
-/// In registers of four lanes rays in flight gain nothing, except that a tree that is far from the core is prefetched. (Six scenes, seven
-/// orders. With four at all levels, 65 to 256 rays have 0.92 to 0.97 of the speed, any hits of a shuffled picture among nested spheres
-/// 0.6. With sixteen, AVX-512 0.97. With sixteen, 300 to 8,192 rays at the baseline 0.93 for any hit, 0.98 for the closest; with 64 where
-/// the tree is far, 0.8 of diffuse rays.)
+/// In registers of four lanes rays in flight gain little, and those of any hit nothing, except that a tree that is far from the core is
+/// prefetched. (Six scenes, seven orders. With four at all levels, 65 to 256 rays have 0.92 to 0.97 of the speed, any hits of a shuffled
+/// picture among nested spheres 0.6. With sixteen, AVX-512 0.97, and 300 to 8,192 any hits at the baseline 0.93. With 64 there, closest
+/// hits of 4,096 diffuse rays among 10,000 spheres 0.95, and any hits in a tree that is far 0.9.)
 #[cfg(feature = "std")]
-fn of_few<'a>(
+fn of_few<'a, Q: Query>(
     bvh: &Bvh<'_>,
     level: Level,
     packets: usize,
@@ -183,10 +184,10 @@ fn of_few<'a>(
         FEW_IN_SMALL_TREE
     } else if level.name() != LevelName::Baseline {
         8
-    } else if prefetch::pays(bvh.nodes, bvh.numbers) {
-        16
-    } else {
+    } else if Q::ANY && !prefetch::pays(bvh.nodes, bvh.numbers) {
         64
+    } else {
+        16
     };
     (packets <= u64::BITS as usize).then_some(Alone { packets: alone, most })
 }

@@ -3,7 +3,7 @@
 use super::climb::Random;
 use super::work::{Kind, Work};
 use crate::bvh::owned::SphereTree;
-use crate::{Exact, HitPacket, Intersect, Level, LevelName, Ray, RayPacket, Trace, Vec3};
+use crate::{Exact, HitPacket, Intersect, Ray, RayPacket, Trace, Vec3};
 use std::vec;
 use std::vec::Vec;
 
@@ -102,8 +102,7 @@ fn any_hits_and_closest_hits_learn_apart() {
 #[test]
 fn few_rays_that_do_not_go_together_go_one_by_one() {
     let mut calls = Calls::new();
-    let is_wide = Level::best().name() != LevelName::Baseline;
-    for (count, stacks) in [(9, false), (16, false), (64, false), (65, false), (272, is_wide)] {
+    for (count, stacks) in [(9, false), (16, false), (64, false), (65, false), (272, true)] {
         let rays = calls.bounces(count);
         let expected: Vec<_> = rays.iter().map(|ray| calls.tree.closest_hit(Exact, ray)).collect();
         for trace in [Trace::new(), Trace::new().coherent(), Trace::new().incoherent()] {

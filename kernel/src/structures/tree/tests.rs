@@ -39,12 +39,19 @@ fn beam() -> [Ray; 65] {
     from_fn(|_| Ray::new(origin(), Vec3::new(0.1, -0.3, -1.0)))
 }
 
-/// Whether some rays went as others do that are many.
-fn ran(tree: &SphereTree, mut trace: Trace<'_>, rays: &[Ray]) -> bool {
+/// Whether some rays, of closest or any hits, went as others do that are many.
+fn ran(tree: &SphereTree, mut trace: Trace<'_>, rays: &[Ray], is_any: bool) -> bool {
     let mut hits = std::vec![None; rays.len()];
-    let work = Work::of(|| tree.closest_hits_with(Exact, &mut trace, rays, &mut hits));
-    for (ray, hit) in rays.iter().zip(&hits) {
-        assert_eq!(*hit, tree.closest_hit(Exact, ray));
+    let mut occluded = std::vec![false; rays.len()];
+    let work = Work::of(|| match is_any {
+        false => tree.closest_hits_with(Exact, &mut trace, rays, &mut hits),
+        true => tree.any_hits_with(Exact, &mut trace, rays, &mut occluded),
+    });
+    for (number, ray) in rays.iter().enumerate() {
+        match is_any {
+            false => assert_eq!(hits[number], tree.closest_hit(Exact, ray)),
+            true => assert_eq!(occluded[number], tree.any_hit(Exact, ray)),
+        }
     }
     work.count(Kind::RayRun) > 0
 }
@@ -54,22 +61,30 @@ fn as_many_packets_go_one_by_one_as_are_few_at_the_level() {
     let diffuse = diffuse(1024);
     let eye = Vec3::new(0.1, 0.2, -20.0);
     let row: Vec<Ray> =
-        (0..64).map(|x| Ray::new(eye, Vec3::new(1e-3 * x as f32, 0.0, 1.0))).collect();
-    for (spheres, few) in [(40, [2; 3]), (4000, [64, 8, 8]), (80_000, [16, 8, 8])] {
+        (0..64).map(|x| Ray::new(eye, Vec3::new(1e-5 * x as f32, 0.0, 1.0))).collect();
+    for (spheres, is_any, few) in [
+        (40, false, [2; 3]),
+        (40, true, [2; 3]),
+        (4000, false, [16, 8, 8]),
+        (4000, true, [64, 8, 8]),
+        (80_000, false, [16, 8, 8]),
+        (80_000, true, [16, 8, 8]),
+    ] {
         let tree = apart(spheres);
         for (name, few) in LevelName::ALL.into_iter().zip(few) {
             let Some(level) = Level::named(name) else { continue };
             for (packets, are_many) in [(few, false), (few + 1, true)] {
                 // A call has no more that are noted.
                 let Some(rays) = diffuse.get(..16 * packets) else { continue };
-                let what = std::format!("{packets} of {spheres} spheres, {name:?}");
-                assert_eq!(ran(&tree, Trace::new().at(level), rays), are_many, "{what}");
-                let incoherent = Trace::new().at(level).incoherent();
-                assert_eq!(ran(&tree, incoherent, rays), are_many, "{what}, incoherent");
+                let what = std::format!("{packets} of {spheres} spheres, {name:?}, any: {is_any}");
+                let trace = || Trace::new().at(level);
+                assert_eq!(ran(&tree, trace(), rays, is_any), are_many, "{what}");
+                let incoherent = ran(&tree, trace().incoherent(), rays, is_any);
+                assert_eq!(incoherent, are_many, "{what}, incoherent");
                 // So many are left of more.
                 let mut rays = rays.to_vec();
                 rays.splice(..0, row.iter().copied());
-                assert_eq!(ran(&tree, Trace::new().at(level), &rays), are_many, "{what}, left");
+                assert_eq!(ran(&tree, trace(), &rays, is_any), are_many, "{what}, left");
             }
         }
     }
