@@ -162,7 +162,6 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
             {
                 ways.learnt.apart[0] += left;
             }
-            ways.learnt.sharing[kind_of::<Q>()].pass_over(L::COUNT * left);
             (from, run) = (end, end);
             continue;
         }

@@ -170,9 +170,9 @@ fn ways<'t>(trace: &'t mut Trace<'_>) -> Ways<'t> {
 /// Where few packets that do not go together are noted; `None` if there are too many to note.
 ///
 /// In registers of four lanes rays in flight gain little, and those of any hit nothing, except that a tree that is far from the core is
-/// prefetched. (Six scenes, seven orders. With four at all levels, 65 to 256 rays have 0.92 to 0.97 of the speed, any hits of a shuffled
+/// prefetched. (Six scenes, seven orders. With four at all levels, 65 to 256 rays have 0.90 to 0.98 of the speed, any hits of a shuffled
 /// picture among nested spheres 0.6. With sixteen, AVX-512 0.97, and 300 to 8,192 any hits at the baseline 0.93. With 64 there, closest
-/// hits of 4,096 diffuse rays among 10,000 spheres 0.95, and any hits in a tree that is far 0.9.)
+/// hits of 4,096 diffuse rays among 10,000 spheres 0.94, and any hits in a tree that is far 0.9.)
 #[cfg(feature = "std")]
 fn of_few<'a, Q: Query>(
     bvh: &Bvh<'_>,
@@ -194,7 +194,7 @@ fn of_few<'a, Q: Query>(
 
 /// Answers the rays of packets that are `alone`, a bit each, where they lie if that is in a slice.
 ///
-/// Any hit that a group has found is one. (Looked for anew, those of 65 scan lines among 200,000 spheres: 0.7 of the speed. Closest hits
+/// Any hit that a group has found is one. (Looked for anew, 65 rays of scan lines among 200,000 spheres: 0.7 of the speed. Closest hits
 /// that are bounded by those that it has found: as fast.)
 #[cfg(feature = "std")]
 fn one_by_one<Q: LevelQuery>(
@@ -214,12 +214,10 @@ fn one_by_one<Q: LevelQuery>(
         *answer = Q::none::<[f32; 16]>();
         // All are copied before the first is read: a ray that is read as soon as it is written waits for memory. (One by one, of a slice:
         // 0.93 to 0.97 of the speed.)
-        let mut copies = [Ray::INACTIVE; RayPacket::COUNT];
+        let copies: [Ray; RayPacket::COUNT];
         let mut rays = slice.get(number * RayPacket::COUNT..).unwrap_or_default();
         if rays.is_empty() {
-            for (lane, copy) in copies.iter_mut().enumerate() {
-                *copy = packet.ray(lane);
-            }
+            copies = core::array::from_fn(|lane| packet.ray(lane));
             rays = &copies;
         }
         for (lane, ray) in rays.iter().take(RayPacket::COUNT).enumerate() {

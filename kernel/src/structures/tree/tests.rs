@@ -103,3 +103,17 @@ fn any_hit_that_a_group_has_found_is_not_looked_for_again() {
     let [nodes, left] = works.map(|work| work.count(Kind::RayNode));
     assert!(0 < left && 2 * left < nodes, "{left} nodes, {nodes} without");
 }
+
+#[test]
+fn what_goes_one_by_one_at_first_is_a_stream_later() {
+    // At the baseline all of a call's first rays go one by one.
+    let Some(level) = Level::named(LevelName::Baseline) else { return };
+    let (tree, rays) = (apart(1000), diffuse(1 << 14));
+    let mut occluded = std::vec![false; rays.len()];
+    let mut trace = Trace::new().at(level);
+    let work = Work::of(|| tree.any_hits_with(Exact, &mut trace, &rays, &mut occluded));
+    assert!(work.count(Kind::StreamNode) > 0);
+    for (ray, is_hit) in rays.iter().zip(&occluded) {
+        assert_eq!(*is_hit, tree.any_hit(Exact, ray));
+    }
+}
