@@ -58,7 +58,7 @@ const OF_CLOSEST_ALONE: Eighths = [16, 14];
 /// place of 0.81. 4: 0.92, but bursts of 1,000 there 1.01, in place of 1.54; and where groups pay, too: 16,384 rays in scan lines
 /// 2.6, in place of 3.9. 16 and 12: as fast.)
 const OF_ANY: Eighths = [12, 9];
-const OF_ANY_AT_FIRST: Eighths = [12, 6];
+const OF_ANY_AT_FIRST: Eighths = [OF_ANY[0], 6];
 
 /// So many spheres may be held against packets in vain for each ray, before it is asked whether that is wasted.
 const SPHERES_A_RAY: u32 = 1;

@@ -8,6 +8,14 @@ use std::vec::Vec;
 /// Calls of four groups, each with a trace of its own.
 const RAYS: usize = 256;
 
+/// Apart, overlapping, around each other, and in a sheet.
+const SCENES: [SceneInput; 4] = [
+    UNIFORM,
+    SceneInput { radius: 0.06, ..UNIFORM },
+    SceneInput { scene: Scene::Shells, spheres: 400, radius: 0.1, ..UNIFORM },
+    SceneInput { scene: Scene::Sheet, radius: 0.02, ..UNIFORM },
+];
+
 /// Work by that of ray by ray, the geometric mean over scenes and orders.
 fn mean(scenes: &[SceneInput], count: usize, any: bool) -> f64 {
     let mut logarithms = Vec::new();
@@ -27,11 +35,8 @@ fn mean(scenes: &[SceneInput], count: usize, any: bool) -> f64 {
 /// a ray at twice, 0.8577; groups that may do no more than those of any hit, 0.8856.)
 #[test]
 fn short_calls_take_what_is_published_in_the_mean() {
-    let dense = SceneInput { radius: 0.06, ..UNIFORM };
-    let shells = SceneInput { scene: Scene::Shells, spheres: 400, radius: 0.1, ..UNIFORM };
-    let sheet = SceneInput { scene: Scene::Sheet, radius: 0.02, ..UNIFORM };
     for (any, published) in [(false, 0.8573), (true, 0.8580)] {
-        let found = mean(&[UNIFORM, dense, shells, sheet], RAYS, any);
+        let found = mean(&SCENES, RAYS, any);
         assert!((found - published).abs() < 0.0002, "{found:.4} times the work, any: {any}");
     }
 }
@@ -50,11 +55,8 @@ fn short_calls_over_few_spheres_take_what_is_published_in_the_mean() {
 /// The same of calls of 32 groups, of which most follow one that has paid.
 #[test]
 fn long_calls_take_what_is_published_in_the_mean() {
-    let dense = SceneInput { radius: 0.06, ..UNIFORM };
-    let shells = SceneInput { scene: Scene::Shells, spheres: 400, radius: 0.1, ..UNIFORM };
-    let sheet = SceneInput { scene: Scene::Sheet, radius: 0.02, ..UNIFORM };
     for (any, published) in [(false, 0.7187), (true, 0.7336)] {
-        let found = mean(&[UNIFORM, dense, shells, sheet], 8 * RAYS, any);
+        let found = mean(&SCENES, 8 * RAYS, any);
         assert!((found - published).abs() < 0.0002, "{found:.4} times the work, any: {any}");
     }
 }
