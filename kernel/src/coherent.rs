@@ -21,6 +21,8 @@ mod packet_group;
 pub(crate) mod packet_source;
 mod packet_state;
 mod patience;
+#[cfg(feature = "alloc")]
+pub(crate) mod ray_order;
 mod root_overlap;
 mod survey;
 pub(crate) mod tile_fit;

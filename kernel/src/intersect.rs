@@ -127,11 +127,12 @@ pub trait Intersect: Traverse {
     /// Finds the closest hit of every ray: `hits[i]` becomes what `rays[i]` hits, `None` if that is nothing.
     ///
     /// Rays may come in any order: a tree finds out which of them gain by going together. A call of up to eight rays traces
-    /// them one by one, and so does a longer call with few rays that gain nothing.
+    /// them one by one, and so does a longer call with few rays that gain nothing. Of many rays that are shuffled it sorts those of a
+    /// camera or of a beam, and in a large tree others, too.
     ///
-    /// With feature `alloc`, a call of more than 1,008 rays in a tree of more than four leaves allocates up to 430 bytes a ray, 4 MB
-    /// at most, or 7 if it sorts the rays of a large tree: where rays have nothing in common, and may be faster as a stream. If
-    /// there is no such memory, the call goes on without.
+    /// With feature `alloc`, a call of more than 1,008 rays in a tree of more than four leaves allocates up to 430 bytes a ray, 4.5 MB
+    /// at most, to sort rays that have nothing in common with those next to them, or to trace them as a stream. If there is no such
+    /// memory, the call goes on without.
     ///
     /// ```
     /// use spherule_kernel::{Intersect, Ray, Spheres, Stable, Vec3};

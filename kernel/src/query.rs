@@ -67,7 +67,7 @@ mod sealed {
         /// How many answers there is room for.
         fn room(many: &Self::Many<'_>) -> usize;
         /// Writes what one ray is answered with at place `index`.
-        #[cfg(feature = "std")]
+        #[cfg(feature = "alloc")]
         fn write_one(many: &mut Self::Many<'_>, index: usize, one: Self::One);
         /// Writes the answers of packets from place `from` on, before place `to`. Where there are levels it is compiled for
         /// each; else it is a call, so that it is compiled with this crate: in a user's dev build it took longer than
@@ -177,7 +177,7 @@ impl Answers for ClosestHit {
         many.count()
     }
 
-    #[cfg(feature = "std")]
+    #[cfg(feature = "alloc")]
     #[inline(always)]
     fn write_one(many: &mut ManyHits<'_>, index: usize, one: Option<Hit>) {
         many.set(index, one);
@@ -253,7 +253,7 @@ impl Answers for AnyHit {
         many.len()
     }
 
-    #[cfg(feature = "std")]
+    #[cfg(feature = "alloc")]
     #[inline(always)]
     fn write_one(many: &mut &mut [bool], index: usize, one: bool) {
         if let Some(occluded) = many.get_mut(index) {

@@ -1,9 +1,13 @@
 //! Slices and columns of rays: packed, traced and unpacked, some packets at a time, on the stack.
 
 #[cfg(feature = "alloc")]
+mod in_order;
+#[cfg(feature = "alloc")]
 mod many_at_once;
 
 use crate::Accuracy;
+#[cfg(feature = "alloc")]
+use crate::coherent::ray_order::MOST;
 use crate::geometry::many::ManyRays;
 use crate::geometry::ray::RayPacket;
 use crate::structures::{LevelQuery, Traverse};
@@ -85,6 +89,9 @@ fn windows<S: Traverse + ?Sized, Q: LevelQuery, const AT_ONCE: usize>(
     let is_long = count >= (FIRST + AT_ONCE) * RayPacket::COUNT;
     let mut packets_at_once = if is_long { FIRST.min(AT_ONCE) } else { AT_ONCE };
     let mut from = 0;
+    // What order the rays have is not looked at before.
+    #[cfg(feature = "alloc")]
+    let mut next_look = 0;
     // Chunks divide by their length, and where that is not seen to be a number, may panic.
     while from < count {
         let to = (from + packets_at_once * RayPacket::COUNT).min(count);
@@ -102,6 +109,14 @@ fn windows<S: Traverse + ?Sized, Q: LevelQuery, const AT_ONCE: usize>(
         packets_at_once = AT_ONCE;
         #[cfg(feature = "alloc")]
         {
+            if from >= next_look
+                && let Some(gain) = structure.gain_by_order::<Q>(trace)
+                && gain.is_for(count - from)
+            {
+                let (rest, all) = ((gain, rays, from, count), (&mut answered[..], &mut answers));
+                from = in_order::answer::<S, Q>(structure, tier, trace, rest, &mut packets, all);
+                next_look = from + MOST;
+            }
             let rest = (rays, from, count);
             from = many_at_once::answer::<S, Q>(structure, tier, trace, rest, &mut answers);
         }

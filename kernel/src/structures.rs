@@ -8,6 +8,8 @@ use crate::Accuracy;
 use crate::bvh4::{Bvh4, walk};
 use crate::coherent::depth_list::DepthList;
 use crate::coherent::list_source;
+#[cfg(feature = "alloc")]
+use crate::coherent::ray_order::GainByOrder;
 #[cfg(not(feature = "std"))]
 use crate::dispatch::BuildLanes;
 #[cfg(feature = "std")]
@@ -68,6 +70,12 @@ pub trait Traverse {
         #[cfg(not(feature = "std"))]
         crate::dispatch::fill(rays, packets);
         self.in_packets::<Q>(tier, trace, packets, answers);
+    }
+
+    /// What the next rays would gain by another order, from what the trace has learnt; `None` if nothing.
+    #[cfg(feature = "alloc")]
+    fn gain_by_order<Q: LevelQuery>(&self, _: &Trace<'_>) -> Option<GainByOrder> {
+        None
     }
 
     /// How many of the next rays are better answered at once than a few by a few, from what the trace has learnt; `None`

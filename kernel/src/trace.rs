@@ -27,8 +27,8 @@ pub struct Trace<'m> {
     /// Working memory for a [`DepthList`](crate::DepthList), as long as its `scratch` says; other structures need none.
     pub scratch: &'m mut [f32],
     /// The caller's working memory for a tree's streams. If it is `None`, and with feature `alloc`, a call allocates some
-    /// where it gains by it: at most 4 MB, or 7 where the rays of a large tree are sorted. The thread keeps that memory for its next
-    /// call; without `std` the trace keeps it. If there is none, a call goes on without.
+    /// where it gains by it, to sort rays, too: at most 4.5 MB. The thread keeps that memory for its next call; without `std` the trace
+    /// keeps it. If there is none, a call goes on without.
     pub stream: Option<StreamMemory<'m>>,
     /// What calls have allocated for streams.
     #[cfg(feature = "alloc")]

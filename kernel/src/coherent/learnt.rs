@@ -3,10 +3,16 @@
 use super::packet_group::GROUP;
 use super::patience::{PacketPatience, Patience};
 #[cfg(feature = "alloc")]
-use crate::bvh::traverse::stream::MOST_SORTED;
+use super::ray_order::GainByOrder;
+#[cfg(feature = "alloc")]
+use crate::bvh::traverse::small_tree;
 use crate::bvh::traverse::stream::Sharing;
 #[cfg(feature = "alloc")]
+use crate::bvh::traverse::stream::is_far;
+#[cfg(feature = "alloc")]
 use crate::bvh::tree::Bvh;
+#[cfg(feature = "alloc")]
+use crate::coherence::Coherence;
 use crate::query::Query;
 
 /// Closest hits and any hits learn apart. Together where memory is short: a trace that a firmware copies by a function is
@@ -52,15 +58,33 @@ impl Learnt {
     /// themselves, and a stream of them may pay.
     #[cfg(feature = "alloc")]
     pub(crate) fn many_at_once<Q: Query>(&self, bvh: &Bvh<'_>, rays: usize) -> Option<usize> {
-        let [apart, all] = self.apart;
-        let sharing = &self.sharing[kind_of::<Q>()];
-        if SOME * apart < all || all == 0 || !sharing.may_pay::<Q>(bvh, rays) {
+        if !self.are_some_apart() || !self.sharing[kind_of::<Q>()].may_pay::<Q>(bvh, rays) {
             return None;
         }
-        let sorts = sharing.may_sort::<Q>(bvh, rays);
         // Of those some may go together as groups: twice as many as go down as a stream.
-        let together = 2 * Sharing::together(rays);
-        Some(rays.min(if sorts { MOST_SORTED } else { together }))
+        Some(rays.min(2 * Sharing::together(rays)))
+    }
+
+    /// What the next rays would gain by another order; `None` if nothing.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn gain_by_order<Q: Query>(
+        &self,
+        bvh: &Bvh<'_>,
+        coherence: Coherence,
+    ) -> Option<GainByOrder> {
+        if !self.are_some_apart() || small_tree::leaf_count(bvh).is_some() {
+            return None;
+        }
+        let (in_groups, is_far) = (coherence != Coherence::Incoherent, is_far(bvh));
+        let by_start = !Q::ANY && is_far;
+        Some(GainByOrder { in_groups, to_a_light: is_far, by_start, radius: bvh.radius() })
+    }
+
+    /// Whether some of the last packets went by themselves.
+    #[cfg(feature = "alloc")]
+    fn are_some_apart(&self) -> bool {
+        let [apart, all] = self.apart;
+        SOME * apart >= all && all > 0
     }
 }
 

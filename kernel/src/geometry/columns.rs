@@ -196,7 +196,7 @@ impl HitColumns<'_> {
     }
 
     /// Writes what one ray hits at place `index`.
-    #[cfg(feature = "std")]
+    #[cfg(feature = "alloc")]
     #[inline(always)]
     pub(crate) fn set(&mut self, index: usize, one: Option<Hit>) {
         let none = Hit { t: f32::INFINITY, sphere: HitPacket::<[f32; 16]>::NO_SPHERE };

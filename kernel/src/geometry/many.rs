@@ -33,7 +33,7 @@ impl ManyRays<'_> {
     }
 
     /// Ray `index`, if there is one.
-    #[cfg(feature = "std")]
+    #[cfg(feature = "alloc")]
     #[inline(always)]
     pub(crate) fn ray(&self, index: usize) -> Option<Ray> {
         match self {
@@ -89,7 +89,7 @@ impl ManyHits<'_> {
     }
 
     /// Writes what one ray hits at place `index`.
-    #[cfg(feature = "std")]
+    #[cfg(feature = "alloc")]
     #[inline(always)]
     pub(crate) fn set(&mut self, index: usize, one: Option<Hit>) {
         match self {

@@ -10,7 +10,7 @@ use crate::trace::Trace;
 use alloc::vec::Vec;
 
 /// Answers rays from `from` on, and returns up to which: as long as the structure likes to have many at once, and there is
-/// memory. Takes 40 bytes a ray: two thirds of a megabyte, or two and a half where rays are sorted.
+/// memory. Takes 40 bytes a ray, two thirds of a megabyte at most.
 #[inline(never)]
 pub(super) fn answer<S: Traverse + ?Sized, Q: LevelQuery>(
     structure: &S,

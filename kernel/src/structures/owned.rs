@@ -3,6 +3,7 @@
 use super::{LevelQuery, Traverse};
 use crate::Accuracy;
 use crate::bvh::owned::SphereTree;
+use crate::coherent::ray_order::GainByOrder;
 use crate::geometry::camera::tiles::CameraTiles;
 use crate::geometry::hit::HitPacket;
 use crate::geometry::many::ManyRays;
@@ -60,6 +61,10 @@ macro_rules! traverse_as {
                 answers: &mut [Q::Packet<[f32; 16]>],
             ) {
                 self.$lend().many_in_packets::<Q>(tier, trace, rays, packets, answers);
+            }
+
+            fn gain_by_order<Q: LevelQuery>(&self, trace: &Trace<'_>) -> Option<GainByOrder> {
+                self.$lend().gain_by_order::<Q>(trace)
             }
 
             fn many_at_once<Q: LevelQuery>(&self, trace: &Trace<'_>, rays: usize) -> Option<usize> {

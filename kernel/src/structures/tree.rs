@@ -15,6 +15,8 @@ use crate::coherence::Coherence;
 #[cfg(feature = "std")]
 use crate::coherent::few_rays::{self, Asked, FEW_IN_SMALL_TREE};
 use crate::coherent::packet_source::PacketSource;
+#[cfg(feature = "alloc")]
+use crate::coherent::ray_order::GainByOrder;
 #[cfg(feature = "std")]
 use crate::coherent::tree_source::Alone;
 use crate::coherent::tree_source::{self, Ways};
@@ -97,6 +99,15 @@ impl Traverse for Bvh<'_> {
         Q::tree(level, tier.tier(), self, ways, source, answers);
         let slice = if let ManyRays::Slice(rays) = rays { rays } else { &[] };
         one_by_one::<Q>(self, tier, trace, (slice, packets, alone), answers);
+    }
+
+    #[cfg(feature = "alloc")]
+    fn gain_by_order<Q: LevelQuery>(&self, trace: &Trace<'_>) -> Option<GainByOrder> {
+        // (With memory lent, too, 65,536 rays would go down together.)
+        if trace.stream.is_some() {
+            return None;
+        }
+        trace.learnt.gain_by_order::<Q>(self, trace.coherence)
     }
 
     #[cfg(feature = "alloc")]

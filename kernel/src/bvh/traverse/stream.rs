@@ -42,11 +42,13 @@ mod sort;
 mod strategy;
 
 #[cfg(feature = "alloc")]
-pub(crate) use kept::{KeptMemory, MOST_SORTED};
+pub(crate) use kept::KeptMemory;
 pub use memory::StreamMemory;
 pub use queue::QueuedRay;
 pub use ray::StreamRay;
 pub(crate) use sharing::Sharing;
+#[cfg(feature = "alloc")]
+pub(crate) use sharing::is_far;
 
 use self::queue::{FRAMES, Frame};
 use self::seen::Seen;

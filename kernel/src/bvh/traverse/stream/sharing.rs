@@ -195,7 +195,7 @@ impl Sharing {
     pub(crate) fn may_sort<Q: Query>(&self, bvh: &Bvh<'_>, rays: usize) -> bool {
         let are_many = rays >= LEAST_SORTED.max(bvh.spheres.len() / SPHERES_A_SORTED_RAY);
         // (What is outside would have to be known ray by ray.)
-        let is_for = !Q::ANY && bytes_of(bvh) > FAR && bvh.outside.is_empty();
+        let is_for = !Q::ANY && is_far(bvh) && bvh.outside.is_empty();
         is_for && are_many && self.sorted.left == 0
     }
 
@@ -293,6 +293,11 @@ impl Sharing {
             self.met = f32::NAN;
         }
     }
+}
+
+/// Whether a tree is so far from the core that rays gain by sharing what they read.
+pub(crate) fn is_far(bvh: &Bvh<'_>) -> bool {
+    bytes_of(bvh) > FAR
 }
 
 /// How much of memory the boxes and spheres of a tree are.

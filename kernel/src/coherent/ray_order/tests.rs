@@ -1,0 +1,215 @@
+//! What rays have in common, that sorting keeps all of them, and that it brings together those that are near each other.
+
+extern crate std;
+
+use super::*;
+use crate::proofs::climb::Random;
+use crate::proofs::work::Work;
+use crate::{Exact, Hit, Intersect, RayColumns, SphereList, SphereTree, Trace};
+use std::vec;
+use std::vec::Vec;
+
+const GAIN: GainByOrder =
+    GainByOrder { in_groups: true, to_a_light: true, by_start: true, radius: 2.0 };
+
+fn point(random: &mut Random) -> Vec3 {
+    let mut coordinate = || random.below(1 << 20) as f32 / (1 << 19) as f32 - 1.0;
+    Vec3::new(coordinate(), coordinate(), coordinate())
+}
+
+fn rays(count: usize, mut ray: impl FnMut(&mut Random) -> Ray) -> Vec<Ray> {
+    let mut random = Random(71);
+    (0..count).map(|_| ray(&mut random)).collect()
+}
+
+const EYE: Vec3 = Vec3::new(0.2, -0.1, -3.0);
+
+/// Pixels of a camera in the order of a file: lines of 256.
+fn scan_lines() -> Vec<Ray> {
+    let pixel = |number: usize| {
+        let [x, y] = [number % 256, number / 256].map(|pixel| pixel as f32 / 256.0 - 0.5);
+        Ray::new(EYE, Vec3::new(x, y, 1.5))
+    };
+    (0..1 << 16).map(pixel).collect()
+}
+
+fn shuffled(mut rays: Vec<Ray>) -> Vec<Ray> {
+    let mut random = Random(73);
+    for end in (1..rays.len()).rev() {
+        rays.swap(end, random.below(end as u64 + 1) as usize);
+    }
+    rays
+}
+
+fn beam(count: usize) -> Vec<Ray> {
+    let along = Vec3::new(0.1, 0.3, -1.0);
+    rays(count, |random| Ray::new(point(random) - 4.0 * along, along))
+}
+
+fn to_a_light(count: usize) -> Vec<Ray> {
+    rays(count, |random| {
+        let from = point(random);
+        Ray { t_max: 1.0, ..Ray::new(from, Vec3::new(0.3, 5.0, 1.0) - from) }
+    })
+}
+
+fn diffuse(count: usize) -> Vec<Ray> {
+    rays(count, |random| Ray::new(point(random), point(random)))
+}
+
+fn key_of(rays: &[Ray], gain: GainByOrder) -> Option<Key> {
+    RayOrder::of(&ManyRays::Slice(rays), gain).map(|order| order.key)
+}
+
+#[test]
+fn rays_are_sorted_by_what_they_have_in_common() {
+    let near = GainByOrder { to_a_light: false, by_start: false, ..GAIN };
+    let incoherent = GainByOrder { in_groups: false, ..GAIN };
+    let (camera, many) = (shuffled(scan_lines()), FEWEST_IN_GROUPS);
+    let cases = [
+        (&camera[..], [Some(Key::Direction), Some(Key::Direction), Some(Key::Start)]),
+        (&to_a_light(many), [Some(Key::Direction), None, Some(Key::Start)]),
+        (&beam(many), [Some(Key::Crossing), Some(Key::Crossing), Some(Key::Start)]),
+        (&diffuse(many), [Some(Key::Start), None, Some(Key::Start)]),
+        // Too few for groups.
+        (&beam(many - 1), [Some(Key::Start), None, Some(Key::Start)]),
+        (&[], [None; 3]),
+    ];
+    for (number, (rays, expected)) in cases.iter().enumerate() {
+        let keys = [GAIN, near, incoherent].map(|gain| key_of(rays, gain));
+        // By start nothing is near those of one start.
+        let expected = if number == 0 { [expected[0], expected[1], None] } else { *expected };
+        assert_eq!(keys, expected, "case {number}");
+    }
+}
+
+#[test]
+fn rays_in_order_are_left_as_they_are() {
+    let lines = scan_lines();
+    assert_eq!(key_of(&lines, GAIN), None);
+    assert_eq!(key_of(&lines.iter().rev().copied().collect::<Vec<_>>(), GAIN), None);
+    // Two cameras by turns are both in order; so is what has been sorted.
+    let turns = |number: usize| Ray { origin: EYE * (number % 2) as f32, ..lines[number / 2 * 2] };
+    assert_eq!(key_of(&(0..1 << 16).map(turns).collect::<Vec<_>>(), GAIN), None);
+    for rays in [shuffled(lines), beam(1 << 16), diffuse(1 << 16)] {
+        let order = RayOrder::of(&ManyRays::Slice(&rays), GAIN).expect("in no order");
+        let (mut numbers, mut others) = (vec![0; rays.len()], vec![0; rays.len()]);
+        order.sort(&ManyRays::Slice(&rays), &mut numbers, &mut others);
+        let sorted: Vec<_> = numbers.iter().map(|&place| rays[number_of(place)]).collect();
+        assert_eq!(key_of(&sorted, GAIN), None, "{order:?}");
+    }
+}
+
+#[test]
+fn neither_units_nor_places_matter() {
+    for (rays, expected) in [
+        (shuffled(scan_lines()), Key::Direction),
+        (beam(1 << 15), Key::Crossing),
+        (to_a_light(1 << 15), Key::Direction),
+        (diffuse(1 << 15), Key::Start),
+    ] {
+        let order = RayOrder::of(&ManyRays::Slice(&rays), GAIN).expect("in no order");
+        for [place, length] in
+            [[2_f32.powi(90), 1.0], [2_f32.powi(-90), 1.0], [1.0, 2_f32.powi(50)]]
+        {
+            let scaled = |ray: &Ray| Ray {
+                origin: ray.origin * place,
+                direction: ray.direction * (place * length),
+                t_max: ray.t_max / length,
+                ..*ray
+            };
+            let those: Vec<_> = rays.iter().map(scaled).collect();
+            let gain = GainByOrder { radius: GAIN.radius * place, ..GAIN };
+            let other = RayOrder::of(&ManyRays::Slice(&those), gain).expect("in no order");
+            let keys = |order: RayOrder, rays: &[Ray]| {
+                rays.iter().map(|ray| order.key(ray)).collect::<Vec<_>>()
+            };
+            assert!(keys(order, &rays) == keys(other, &those), "{expected:?}, {place}, {length}");
+        }
+        let moved =
+            |ray: &Ray| Ray { origin: ray.origin + Vec3::new(300.0, -2000.0, 77.0), ..*ray };
+        let gain = GainByOrder { radius: 4096.0, ..GAIN };
+        assert_eq!(key_of(&rays.iter().map(moved).collect::<Vec<_>>(), gain), Some(expected));
+    }
+}
+
+/// One ray in sixteen is broken.
+fn broken(mut rays: Vec<Ray>) -> Vec<Ray> {
+    let odd = [f32::NAN, f32::INFINITY, f32::MAX, 0.0, -f32::MAX, 1e-45];
+    for (number, ray) in rays.iter_mut().enumerate().filter(|(number, _)| number % 16 == 5) {
+        let value = odd[number / 16 % odd.len()];
+        match number / 96 % 4 {
+            0 => ray.origin.x = value,
+            1 => ray.direction = Vec3::splat(value),
+            2 => ray.t_max = value,
+            _ => (ray.origin, ray.direction) = (Vec3::splat(value), Vec3::splat(value)),
+        }
+    }
+    rays
+}
+
+#[test]
+fn every_ray_keeps_its_place_among_the_answers() {
+    let mut random = Random(79);
+    let spheres: SphereList = (0..3000).map(|_| (point(&mut random), 0.02)).collect();
+    let tree = SphereTree::new(spheres);
+    let (mut met, mut kept) = (0, 0);
+    // The second is sorted in two parts.
+    for rays in [broken(shuffled(scan_lines())), broken(beam(70_000)), broken(diffuse(30_000))] {
+        let bits = |hit: Option<Hit>| hit.map(|hit| (hit.t.to_bits(), hit.sphere));
+        let one = rays.iter().map(|ray| bits(tree.closest_hit(Exact, ray))).collect::<Vec<_>>();
+        let columns = |part: fn(&Ray) -> f32| rays.iter().map(part).collect::<Vec<_>>();
+        let origin: [_; 3] =
+            [columns(|ray| ray.origin.x), columns(|ray| ray.origin.y), columns(|ray| ray.origin.z)];
+        let direction: [_; 3] = [
+            columns(|ray| ray.direction.x),
+            columns(|ray| ray.direction.y),
+            columns(|ray| ray.direction.z),
+        ];
+        let t = [columns(|ray| ray.t_min), columns(|ray| ray.t_max)];
+        let columns = RayColumns {
+            origin: [&origin[0], &origin[1], &origin[2]],
+            direction: [&direction[0], &direction[1], &direction[2]],
+            t_min: &t[0],
+            t_max: &t[1],
+        };
+        let mut trace = Trace::new();
+        let (mut hits, mut occluded) = (vec![None; rays.len()], vec![false; rays.len()]);
+        tree.closest_hits_with(Exact, &mut trace, &rays, &mut hits);
+        tree.any_hits_with(Exact, &mut trace, &rays, &mut occluded);
+        kept += usize::from(!trace.kept.take_numbers().is_empty());
+        assert!(hits.iter().zip(&one).all(|(hit, one)| bits(*hit) == *one));
+        assert!(occluded.iter().zip(&one).all(|(hit, one)| *hit == one.is_some()));
+        let mut of_columns = (vec![0.0; rays.len()], vec![0; rays.len()]);
+        let into = crate::HitColumns { t: &mut of_columns.0, sphere: &mut of_columns.1 };
+        tree.closest_hit_columns(Exact, &mut Trace::new(), columns, into);
+        let hits = of_columns.0.iter().zip(&of_columns.1);
+        assert!(hits.zip(&one).all(|((t, sphere), one)| match one {
+            Some(one) => (t.to_bits(), *sphere) == *one,
+            None => *t == f32::INFINITY,
+        }));
+        met += one.iter().flatten().count();
+    }
+    assert!(met > 10_000 && kept == 2, "{met} hits, {kept} of two were sorted");
+}
+
+/// Shuffled rays of a camera and of a beam go together as if they were not; the work of ray by ray is the measure.
+#[test]
+fn shuffled_rays_take_half_the_work_of_ray_by_ray() {
+    let mut random = Random(97);
+    let spheres: SphereList = (0..10_000).map(|_| (point(&mut random), 0.02)).collect();
+    let tree = SphereTree::new(spheres);
+    for (rays, most) in [(shuffled(scan_lines()), 0.4), (beam(1 << 16), 0.5)] {
+        let (mut hits, mut occluded) = (vec![None; rays.len()], vec![false; rays.len()]);
+        let mut works = |mut trace: Trace<'_>| {
+            [
+                Work::of(|| tree.closest_hits_with(Exact, &mut trace, &rays, &mut hits)).units(),
+                Work::of(|| tree.any_hits_with(Exact, &mut trace, &rays, &mut occluded)).units(),
+            ]
+        };
+        let [plain, apart] = [works(Trace::new()), works(Trace::new().incoherent())];
+        for (plain, apart) in plain.iter().zip(apart) {
+            assert!(plain / apart < most, "{} times the work", plain / apart);
+        }
+    }
+}
