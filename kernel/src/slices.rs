@@ -4,6 +4,7 @@
 mod in_order;
 #[cfg(feature = "alloc")]
 mod many_at_once;
+mod window;
 
 use crate::Accuracy;
 #[cfg(feature = "alloc")]
@@ -12,10 +13,8 @@ use crate::geometry::many::ManyRays;
 use crate::geometry::ray::RayPacket;
 use crate::structures::{LevelQuery, Traverse};
 use crate::trace::Trace;
+use window::PACKETS;
 
-/// How many packets are traced at a time: enough that preparing 128 spheres of a list for them is a
-/// hundredth of the work; for firmware as many as its stack holds.
-const PACKETS: usize = if cfg!(feature = "std") { 64 } else { 4 };
 /// How many packets go first, if as many as are traced at a time are left: only then is it known whether groups pay, or a
 /// stream. (With 64, rays sorted by direction and half of a camera, among a million spheres, ran at 0.65 to 0.98 of ray by
 /// ray, closest hits; with 16 at 0.81 to 1.26. Where fewer are left than a stream has, those that went first are lost to it:

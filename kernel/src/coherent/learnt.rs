@@ -77,7 +77,13 @@ impl Learnt {
         }
         let (in_groups, is_far) = (coherence != Coherence::Incoherent, is_far(bvh));
         let by_start = !Q::ANY && is_far;
-        Some(GainByOrder { in_groups, to_a_light: is_far, by_start, radius: bvh.radius() })
+        Some(GainByOrder { in_groups, is_far, by_start, radius: bvh.radius() })
+    }
+
+    /// Of the last packets how many went by themselves, and how many they were.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn apart(&self) -> [usize; 2] {
+        self.apart
     }
 
     /// Whether some of the last packets went by themselves.

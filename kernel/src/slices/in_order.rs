@@ -1,14 +1,20 @@
 //! Rays of a long call that gain by another order: sorted, and answered in it, some packets at a time.
 
-use super::PACKETS;
+use super::window::PACKETS;
 use crate::Accuracy;
-use crate::coherent::ray_order::{GainByOrder, MOST, RayOrder, number_of};
+use crate::coherent::ray_order::{
+    GROUPS_TRIED, GainByOrder, MOST, RAYS_OF_A_GROUP, RayKeys, gather_some, number_of, sort,
+};
+use crate::dispatch::Level;
 use crate::geometry::many::ManyRays;
 use crate::geometry::ray::{Ray, RayPacket};
 use crate::memory::lengthen;
 use crate::structures::{LevelQuery, Traverse};
 use crate::trace::Trace;
 use glam::Vec3;
+
+/// Of the packets of the groups that are tried so many may go by themselves: an eighth.
+const MOST_APART: usize = GROUPS_TRIED * RAYS_OF_A_GROUP / RayPacket::COUNT / 8;
 
 /// Answers rays from `from` on, and returns up to which: as long as they gain by an order, and there is memory for it. Takes 8
 /// bytes a ray, half a megabyte at most. (Streams in that order: 0.8 to 1.0 of the speed.)
@@ -29,12 +35,25 @@ pub(super) fn answer<S: Traverse + ?Sized, Q: LevelQuery>(
         let left = count - from;
         let to = from + left.div_ceil(left.div_ceil(MOST).max(1));
         let part = rays.part(from, to);
-        let Some(order) = RayOrder::of(&part, gain) else { break };
+        let Some(keys) = RayKeys::of(&part, gain) else { break };
         if lengthen(&mut memory, 0, 2 * part.count()).is_none() {
             break;
         }
         let (numbers, others) = memory.split_at_mut(part.count());
-        order.sort(&part, numbers, others);
+        keys.write_keys(&part, numbers);
+        if keys.needs_a_trial::<Q>(gain)
+            && !groups_pay::<S, Q>(
+                structure,
+                tier,
+                trace.level,
+                (&part, numbers),
+                packets,
+                answered,
+            )
+        {
+            break;
+        }
+        sort(numbers, others);
 
         let mut at = 0;
         while let Some(rest) = numbers.get(at..)
@@ -60,4 +79,31 @@ pub(super) fn answer<S: Traverse + ?Sized, Q: LevelQuery>(
     }
     trace.kept.put_numbers(memory);
     from
+}
+
+/// Whether most of a few groups go through together, of rays that would come one after the other.
+#[inline(never)]
+fn groups_pay<S: Traverse + ?Sized, Q: LevelQuery>(
+    structure: &S,
+    tier: impl Accuracy,
+    level: Level,
+    (rays, numbers): (&ManyRays<'_>, &[u32]),
+    packets: &mut [RayPacket],
+    answered: &mut [Q::Packet<[f32; 16]>],
+) -> bool {
+    let mut groups = [[Ray::new(Vec3::ZERO, Vec3::ZERO); RAYS_OF_A_GROUP]; GROUPS_TRIED];
+    gather_some(rays, numbers, &mut groups);
+    let mut apart = 0;
+    for group in &groups {
+        // Each is a call of its own: after one in vain others would be passed over.
+        let mut trial = Trace::new().at(level);
+        structure.many_in_packets::<Q>(tier, &mut trial, ManyRays::Slice(group), packets, answered);
+        let [of_group, _] = trial.learnt.apart();
+        apart += of_group;
+        // A group in vain takes several times as long as its rays by themselves: no more than two.
+        if apart > MOST_APART {
+            return false;
+        }
+    }
+    true
 }

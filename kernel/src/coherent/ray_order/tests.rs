@@ -4,13 +4,13 @@ extern crate std;
 
 use super::*;
 use crate::proofs::climb::Random;
-use crate::proofs::work::Work;
+use crate::proofs::work::{Kind, Work};
 use crate::{Exact, Hit, Intersect, RayColumns, SphereList, SphereTree, Trace};
 use std::vec;
 use std::vec::Vec;
 
 const GAIN: GainByOrder =
-    GainByOrder { in_groups: true, to_a_light: true, by_start: true, radius: 2.0 };
+    GainByOrder { in_groups: true, is_far: true, by_start: true, radius: 2.0 };
 
 fn point(random: &mut Random) -> Vec3 {
     let mut coordinate = || random.below(1 << 20) as f32 / (1 << 19) as f32 - 1.0;
@@ -58,12 +58,12 @@ fn diffuse(count: usize) -> Vec<Ray> {
 }
 
 fn key_of(rays: &[Ray], gain: GainByOrder) -> Option<Key> {
-    RayOrder::of(&ManyRays::Slice(rays), gain).map(|order| order.key)
+    RayKeys::of(&ManyRays::Slice(rays), gain).map(|order| order.key)
 }
 
 #[test]
 fn rays_are_sorted_by_what_they_have_in_common() {
-    let near = GainByOrder { to_a_light: false, by_start: false, ..GAIN };
+    let near = GainByOrder { is_far: false, by_start: false, ..GAIN };
     let incoherent = GainByOrder { in_groups: false, ..GAIN };
     let (camera, many) = (shuffled(scan_lines()), FEWEST_IN_GROUPS);
     let cases = [
@@ -92,9 +92,10 @@ fn rays_in_order_are_left_as_they_are() {
     let turns = |number: usize| Ray { origin: EYE * (number % 2) as f32, ..lines[number / 2 * 2] };
     assert_eq!(key_of(&(0..1 << 16).map(turns).collect::<Vec<_>>(), GAIN), None);
     for rays in [shuffled(lines), beam(1 << 16), diffuse(1 << 16)] {
-        let order = RayOrder::of(&ManyRays::Slice(&rays), GAIN).expect("in no order");
+        let order = RayKeys::of(&ManyRays::Slice(&rays), GAIN).expect("in no order");
         let (mut numbers, mut others) = (vec![0; rays.len()], vec![0; rays.len()]);
-        order.sort(&ManyRays::Slice(&rays), &mut numbers, &mut others);
+        order.write_keys(&ManyRays::Slice(&rays), &mut numbers);
+        sort(&mut numbers, &mut others);
         let sorted: Vec<_> = numbers.iter().map(|&place| rays[number_of(place)]).collect();
         assert_eq!(key_of(&sorted, GAIN), None, "{order:?}");
     }
@@ -108,7 +109,7 @@ fn neither_units_nor_places_matter() {
         (to_a_light(1 << 15), Key::Direction),
         (diffuse(1 << 15), Key::Start),
     ] {
-        let order = RayOrder::of(&ManyRays::Slice(&rays), GAIN).expect("in no order");
+        let order = RayKeys::of(&ManyRays::Slice(&rays), GAIN).expect("in no order");
         for [place, length] in
             [[2_f32.powi(90), 1.0], [2_f32.powi(-90), 1.0], [1.0, 2_f32.powi(50)]]
         {
@@ -120,8 +121,8 @@ fn neither_units_nor_places_matter() {
             };
             let those: Vec<_> = rays.iter().map(scaled).collect();
             let gain = GainByOrder { radius: GAIN.radius * place, ..GAIN };
-            let other = RayOrder::of(&ManyRays::Slice(&those), gain).expect("in no order");
-            let keys = |order: RayOrder, rays: &[Ray]| {
+            let other = RayKeys::of(&ManyRays::Slice(&those), gain).expect("in no order");
+            let keys = |order: RayKeys, rays: &[Ray]| {
                 rays.iter().map(|ray| order.key(ray)).collect::<Vec<_>>()
             };
             assert!(keys(order, &rays) == keys(other, &those), "{expected:?}, {place}, {length}");
@@ -151,7 +152,7 @@ fn broken(mut rays: Vec<Ray>) -> Vec<Ray> {
 #[test]
 fn every_ray_keeps_its_place_among_the_answers() {
     let mut random = Random(79);
-    let spheres: SphereList = (0..3000).map(|_| (point(&mut random), 0.02)).collect();
+    let spheres: SphereList = (0..1000).map(|_| (point(&mut random), 0.02)).collect();
     let tree = SphereTree::new(spheres);
     let (mut met, mut kept) = (0, 0);
     // The second is sorted in two parts.
@@ -210,6 +211,52 @@ fn shuffled_rays_take_half_the_work_of_ray_by_ray() {
         let [plain, apart] = [works(Trace::new()), works(Trace::new().incoherent())];
         for (plain, apart) in plain.iter().zip(apart) {
             assert!(plain / apart < most, "{} times the work", plain / apart);
+        }
+    }
+}
+
+/// Few rays over many small spheres in clusters make no groups: closest hits are left as they come, any hits are sorted.
+#[test]
+fn where_groups_do_not_pay_closest_hits_are_left_in_their_order() {
+    let mut random = Random(101);
+    let mut tree = |clusters: usize, spheres: usize, radius: f32| {
+        let middles: Vec<_> = (0..clusters).map(|_| point(&mut random)).collect();
+        let sphere =
+            |number: usize| (middles[number % clusters] + 0.08 * point(&mut random), radius);
+        SphereTree::new((0..spheres).map(sphere).collect::<SphereList>())
+    };
+    let pixel = |random: &mut Random| {
+        let at = point(random);
+        Ray::new(EYE, Vec3::new(at.x / 2.0, at.y / 2.0, 1.5))
+    };
+    let rays = rays(FEWEST_IN_GROUPS + 300, pixel);
+    for (tree, expected) in
+        [(tree(60, 60_000, 0.002), [false, true]), (tree(1000, 1000, 0.05), [true; 2])]
+    {
+        let (mut hits, mut occluded) = (vec![None; rays.len()], vec![false; rays.len()]);
+        let closest = Work::of(|| tree.closest_hits(Exact, &rays, &mut hits));
+        let any = Work::of(|| tree.any_hits(Exact, &rays, &mut occluded));
+        let are_tried = [closest, any].map(|work| work.count(Kind::GroupFit) > 300);
+        assert_eq!(are_tried, expected, "{} | {}", closest.per_ray(1), any.per_ray(1));
+    }
+}
+
+#[test]
+fn groups_that_are_tried_are_of_rays_that_would_come_together() {
+    let rays = shuffled(scan_lines());
+    let order = RayKeys::of(&ManyRays::Slice(&rays), GAIN).expect("in no order");
+    let mut places = vec![0; rays.len()];
+    order.write_keys(&ManyRays::Slice(&rays), &mut places);
+    let mut groups = [[Ray::new(Vec3::ZERO, Vec3::ZERO); RAYS_OF_A_GROUP]; GROUPS_TRIED];
+    gather_some(&ManyRays::Slice(&rays), &places, &mut groups);
+    for group in groups {
+        let filled = group.into_iter().filter(Ray::is_live).collect::<Vec<_>>();
+        assert!(filled.len() > RAYS_OF_A_GROUP / 4, "{} rays", filled.len());
+        // A cell of sixteen pixels by sixteen at most.
+        for axis in 0..2 {
+            let at = filled.iter().map(|ray| ray.direction[axis]);
+            let [low, high] = [at.clone().fold(1.0, f32::min), at.fold(-1.0, f32::max)];
+            assert!(high - low < 16.0 / 256.0, "{}", 256.0 * (high - low));
         }
     }
 }
