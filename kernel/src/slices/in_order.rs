@@ -39,7 +39,7 @@ pub(super) fn answer<S: Traverse + ?Sized, Q: LevelQuery>(
         if lengthen(&mut memory, 0, 2 * part.count()).is_none() {
             break;
         }
-        let (numbers, others) = memory.split_at_mut(part.count());
+        let Some((numbers, others)) = memory.split_at_mut_checked(part.count()) else { break };
         keys.write_keys(&part, numbers);
         if keys.needs_a_trial::<Q>(gain)
             && !groups_pay::<S, Q>(
