@@ -1,8 +1,9 @@
 //! Orders of rays are made for the scene that they are for, whatever its scale and place.
 
-use spherule_kernel::{Exact, Intersect, Ray, Sphere, SphereList, SphereTree, Trace, Vec3};
+use spherule_kernel::{Exact, Intersect, Level, Ray, Sphere, SphereList, SphereTree, Trace, Vec3};
 use spherule_tests::orders::{Extent, Order};
 use spherule_tests::scenes::{LARGE, Scene, Size, viewpoint};
+use spherule_tests::variants::levels;
 
 fn scenes() -> impl Iterator<Item = Scene> {
     let large = LARGE.into_iter().filter_map(|name| Scene::large(name, Size::SMALL));
@@ -125,4 +126,22 @@ fn orders_are_what_they_are_called() {
     assert!(neighbours(Order::SortedByDirection, direction) > 3600);
     assert!(neighbours(Order::Diffuse, direction) < 400);
     assert!(neighbours(Order::NearlyParallel, direction) == 4095);
+}
+
+/// Calls so long that shuffled rays are sorted, at every level in turn.
+#[test]
+fn long_calls_in_any_order_answer_as_one_ray_a_call_does() {
+    let scene = Scene::uniform(1000, 16);
+    let (spheres, tree) = (scene.spheres.spheres(), scene.tree());
+    let levels = levels().filter_map(Level::named).collect::<Vec<_>>();
+    for (order, &level) in Order::ALL.into_iter().zip(levels.iter().cycle()) {
+        let rays = order.rays(spheres, 25_000, 1);
+        let (mut hits, mut occluded) = (vec![None; rays.len()], vec![false; rays.len()]);
+        tree.closest_hits_with(Exact, &mut Trace::new().at(level), &rays, &mut hits);
+        tree.any_hits_with(Exact, &mut Trace::new().at(level), &rays, &mut occluded);
+        for (number, ray) in rays.iter().enumerate() {
+            assert_eq!(hits[number], tree.closest_hit(Exact, ray), "{order:?}, {number}");
+            assert_eq!(occluded[number], hits[number].is_some(), "{order:?}, {number}");
+        }
+    }
 }
