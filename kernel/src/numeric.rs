@@ -1,5 +1,5 @@
 //! Arithmetic: vectors of three, sums and products without error, the power of a point, rounding outward, powers of
-//! two, sorts of whole numbers, and whether the machine rounds as the proofs assume.
+//! two, sorts of whole numbers, places on a Z curve, and whether the machine rounds as the proofs assume.
 
 pub(crate) mod axes;
 pub(crate) mod error_free;
@@ -9,3 +9,4 @@ pub(crate) mod power_of_point;
 pub(crate) mod power_of_two;
 pub(crate) mod radix_sort;
 pub(crate) mod rounding;
+pub(crate) mod z_curve;

@@ -2,6 +2,7 @@
 
 use crate::geometry::many::ManyRays;
 use crate::geometry::ray::Ray;
+use crate::numeric::z_curve::{one_in_three, one_in_two};
 use glam::Vec3;
 
 /// Bits of a key.
@@ -169,18 +170,4 @@ impl RayKeys {
             }
         }
     }
-}
-
-/// The bits of a number below 2^8, two zeros behind each.
-const fn one_in_three(number: u32) -> u32 {
-    let number = (number | number << 8) & 0x0000_f00f;
-    let number = (number | number << 4) & 0x000c_30c3;
-    (number | number << 2) & 0x0024_9249
-}
-
-/// The bits of a number below 2^8, a zero behind each.
-const fn one_in_two(number: u32) -> u32 {
-    let number = (number | number << 4) & 0x0f0f;
-    let number = (number | number << 2) & 0x3333;
-    (number | number << 1) & 0x5555
 }

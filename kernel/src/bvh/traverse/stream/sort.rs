@@ -8,6 +8,7 @@ use crate::geometry::ray::RayPacket;
 use crate::lanes::LaneArray;
 use crate::numeric::axes::axes;
 use crate::numeric::radix_sort::radix_sort;
+use crate::numeric::z_curve::one_in_three;
 
 /// Bits of a cell's number along each axis.
 const BITS: u32 = 8;
@@ -43,7 +44,8 @@ pub(super) fn by_start<A: LaneArray>(
                 let along = (packet.origin[i].get(lane) - low[i]) * per_length[i];
                 (along as u32).min((1 << BITS) - 1)
             });
-            let cell = spread(cell[0]) | spread(cell[1]) << 1 | spread(cell[2]) << 2;
+            let cell =
+                one_in_three(cell[0]) | one_in_three(cell[1]) << 1 | one_in_three(cell[2]) << 2;
             if let Some(place) = others.get_mut(count) {
                 *place = u64::from(cell) << 32 | (number * A::COUNT + lane) as u64;
                 count += (live >> lane & 1) as usize;
@@ -54,11 +56,4 @@ pub(super) fn by_start<A: LaneArray>(
         radix_sort(others, order, 3, |ray| (ray >> 32) as u32);
     }
     count
-}
-
-/// The bits of a number below 2^8, two zeros behind each.
-const fn spread(number: u32) -> u32 {
-    let number = (number | number << 8) & 0x0000_f00f;
-    let number = (number | number << 4) & 0x000c_30c3;
-    (number | number << 2) & 0x0024_9249
 }
