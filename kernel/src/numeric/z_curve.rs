@@ -16,6 +16,7 @@ pub(crate) const fn one_in_two(number: u32) -> u32 {
 }
 
 #[cfg(all(test, proofs))]
+#[cfg(feature = "alloc")]
 mod tests {
     use super::{one_in_three, one_in_two};
 
