@@ -73,7 +73,8 @@ impl RayKeys {
     /// Those by which rays gain if they are sorted; `None` if they are in that order, or if there is none.
     #[inline(never)]
     pub(crate) fn of(rays: &ManyRays<'_>, gain: GainByOrder) -> Option<Self> {
-        let step = (rays.count() / LOOKED_AT).max(1);
+        // Odd: of two cameras by turns both are seen.
+        let step = (rays.count() / LOOKED_AT).saturating_sub(1) | 1;
         let mut looked_at = [Ray::new(Vec3::ZERO, Vec3::ZERO); LOOKED_AT];
         let mut count = 0;
         for number in 0..LOOKED_AT {

@@ -91,6 +91,12 @@ fn rays_in_order_are_left_as_they_are() {
     // Two cameras by turns are both in order; so is what has been sorted.
     let turns = |number: usize| Ray { origin: EYE * (number % 2) as f32, ..lines[number / 2 * 2] };
     assert_eq!(key_of(&(0..1 << 16).map(turns).collect::<Vec<_>>(), GAIN), None);
+    // Shuffled, they are of no viewpoint.
+    let mut two = shuffled(lines.clone());
+    for ray in two.iter_mut().step_by(2) {
+        ray.origin = -EYE;
+    }
+    assert_eq!(key_of(&two, GainByOrder { by_start: false, ..GAIN }), None);
     for rays in [shuffled(lines), beam(1 << 16), diffuse(1 << 16)] {
         let order = RayKeys::of(&ManyRays::Slice(&rays), GAIN).expect("in no order");
         let (mut numbers, mut others) = (vec![0; rays.len()], vec![0; rays.len()]);
