@@ -84,6 +84,19 @@ fn rays_are_sorted_by_what_they_have_in_common() {
 }
 
 #[test]
+fn rays_are_parallel_within_a_sixteenth_of_their_mean() {
+    for (aside, expected) in [(0.063, Some(Key::Crossing)), (0.069, None)] {
+        let mut is_left = false;
+        let rays = rays(FEWEST_IN_GROUPS, |random| {
+            is_left = !is_left;
+            let aside = if is_left { aside } else { -aside };
+            Ray::new(point(random), Vec3::new(aside, 0.0, 1.0))
+        });
+        assert_eq!(key_of(&rays, GainByOrder { by_start: false, ..GAIN }), expected, "{aside}");
+    }
+}
+
+#[test]
 fn rays_in_order_are_left_as_they_are() {
     let lines = scan_lines();
     assert_eq!(key_of(&lines, GAIN), None);
