@@ -14,7 +14,7 @@ use crate::Accuracy;
 use crate::geometry::camera::tiles::CameraTiles;
 use crate::geometry::columns::{HitColumns, RayColumns};
 use crate::geometry::hit::{Hit, HitPacket};
-use crate::geometry::many::{ManyHits, ManyRays};
+use crate::geometry::many::{ManyHits, ManyOccluded, ManyRays};
 use crate::geometry::ray::{Ray, RayPacket};
 use crate::lanes::Lanes;
 use crate::query::{AnyHit, ClosestHit};
@@ -200,7 +200,8 @@ pub trait Intersect: Traverse {
         rays: &[Ray],
         occluded: &mut [bool],
     ) {
-        slices::traverse::<Self, AnyHit>(self, tier, trace, ManyRays::Slice(rays), occluded);
+        let (rays, occluded) = (ManyRays::Slice(rays), ManyOccluded::Slice(occluded));
+        slices::traverse::<Self, AnyHit>(self, tier, trace, rays, occluded);
     }
 
     /// Finds the closest hit of rays in eight columns, and writes it into two: number `i` of each becomes what ray `i` hits,
@@ -256,7 +257,8 @@ pub trait Intersect: Traverse {
         rays: RayColumns<'_>,
         occluded: &mut [bool],
     ) {
-        slices::traverse::<Self, AnyHit>(self, tier, trace, ManyRays::Columns(rays), occluded);
+        let (rays, occluded) = (ManyRays::Columns(rays), ManyOccluded::Slice(occluded));
+        slices::traverse::<Self, AnyHit>(self, tier, trace, rays, occluded);
     }
 
     /// Finds the closest hit of every ray of every packet: `hits[i]` becomes what `rays[i]` hits.
@@ -278,8 +280,7 @@ pub trait Intersect: Traverse {
         rays: &[RayPacket],
         hits: &mut [HitPacket],
     ) {
-        trace.learnt.begin_call::<ClosestHit>(rays.len());
-        self.in_packets::<ClosestHit>(tier, trace, rays, hits);
+        slices::traverse_packets::<Self, ClosestHit>(self, tier, trace, rays, hits);
     }
 
     /// Finds whether each ray of every packet hits anything: bit `i` of `occluded[k]` is that of lane `i` of `rays[k]`.
@@ -300,8 +301,7 @@ pub trait Intersect: Traverse {
         rays: &[RayPacket],
         occluded: &mut [u32],
     ) {
-        trace.learnt.begin_call::<AnyHit>(rays.len());
-        self.in_packets::<AnyHit>(tier, trace, rays, occluded);
+        slices::traverse_packets::<Self, AnyHit>(self, tier, trace, rays, occluded);
     }
 
     /// Makes the rays of a camera's tiles, and finds their closest hits: those of tile `i` in packet `i`, as far as there are

@@ -4,7 +4,7 @@
 //! what it changes in each traversal.
 
 use crate::geometry::hit::{Hit, HitPacket};
-use crate::geometry::many::{ManyHits, write_occluded};
+use crate::geometry::many::{ManyHits, ManyOccluded};
 use crate::lanes::{LaneArray, LaneMask, Lanes};
 use core::fmt::Debug;
 
@@ -66,8 +66,18 @@ mod sealed {
         fn lanes<L: Lanes>(token: L::Token, packet: &Self::Packet<L::Array>) -> [L; 2];
         /// How many answers there is room for.
         fn room(many: &Self::Many<'_>) -> usize;
-        /// Writes what one ray is answered with at place `index`.
+        /// Room for as many as packets have lanes.
         #[cfg(feature = "alloc")]
+        fn of_packets(packets: &mut [Self::Packet<[f32; 16]>]) -> Self::Many<'_>;
+        /// Writes the answers of packets, lane after lane, at the places `indices`.
+        #[cfg(feature = "alloc")]
+        fn scatter(
+            many: &mut Self::Many<'_>,
+            packets: &[Self::Packet<[f32; 16]>],
+            indices: impl Iterator<Item = usize>,
+        );
+        /// Writes what one ray is answered with at place `index`.
+        #[cfg(feature = "std")]
         fn write_one(many: &mut Self::Many<'_>, index: usize, one: Self::One);
         /// Writes the answers of packets from place `from` on, before place `to`. Where there are levels it is compiled for
         /// each; else it is a call, so that it is compiled with this crate: in a user's dev build it took longer than
@@ -179,6 +189,21 @@ impl Answers for ClosestHit {
 
     #[cfg(feature = "alloc")]
     #[inline(always)]
+    fn of_packets(packets: &mut [HitPacket]) -> ManyHits<'_> {
+        ManyHits::Packets(packets)
+    }
+
+    #[cfg(feature = "alloc")]
+    fn scatter(
+        many: &mut ManyHits<'_>,
+        packets: &[HitPacket],
+        indices: impl Iterator<Item = usize>,
+    ) {
+        many.scatter(packets, indices);
+    }
+
+    #[cfg(feature = "std")]
+    #[inline(always)]
     fn write_one(many: &mut ManyHits<'_>, index: usize, one: Option<Hit>) {
         many.set(index, one);
     }
@@ -194,7 +219,7 @@ impl Answers for AnyHit {
     const ANY: bool = true;
     type Packet<A: LaneArray> = u32;
     type One = bool;
-    type Many<'a> = &'a mut [bool];
+    type Many<'a> = ManyOccluded<'a>;
 
     #[inline(always)]
     fn none<A: LaneArray>() -> u32 {
@@ -249,21 +274,30 @@ impl Answers for AnyHit {
     }
 
     #[inline(always)]
-    fn room(many: &&mut [bool]) -> usize {
-        many.len()
+    fn room(many: &ManyOccluded<'_>) -> usize {
+        many.count()
     }
 
     #[cfg(feature = "alloc")]
     #[inline(always)]
-    fn write_one(many: &mut &mut [bool], index: usize, one: bool) {
-        if let Some(occluded) = many.get_mut(index) {
-            *occluded = one;
-        }
+    fn of_packets(packets: &mut [u32]) -> ManyOccluded<'_> {
+        ManyOccluded::Packets(packets)
+    }
+
+    #[cfg(feature = "alloc")]
+    fn scatter(many: &mut ManyOccluded<'_>, packets: &[u32], indices: impl Iterator<Item = usize>) {
+        many.scatter(packets, indices);
+    }
+
+    #[cfg(feature = "std")]
+    #[inline(always)]
+    fn write_one(many: &mut ManyOccluded<'_>, index: usize, one: bool) {
+        many.set(index, one);
     }
 
     #[cfg_attr(feature = "std", inline(always))]
     #[cfg_attr(not(feature = "std"), inline(never))]
-    fn write(many: &mut &mut [bool], packets: &[u32], from: usize, to: usize) {
-        write_occluded(packets, many.get_mut(from..to).unwrap_or_default());
+    fn write(many: &mut ManyOccluded<'_>, packets: &[u32], from: usize, to: usize) {
+        many.write(packets, from, to);
     }
 }

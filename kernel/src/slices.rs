@@ -1,7 +1,9 @@
-//! Slices and columns of rays: packed, traced and unpacked, some packets at a time, on the stack.
+//! Many rays of a call: slices and columns are packed, traced and unpacked, some packets at a time, on the stack.
 
 #[cfg(feature = "alloc")]
 mod in_order;
+#[cfg(feature = "alloc")]
+mod in_place;
 #[cfg(feature = "alloc")]
 mod many_at_once;
 mod window;
@@ -49,6 +51,21 @@ pub(crate) fn traverse<S: Traverse + ?Sized, Q: LevelQuery>(
     } else {
         windows::<S, Q, PACKETS>(structure, tier, trace, (rays, count), answers);
     }
+}
+
+/// Answers every packet, as far as there is room for answers.
+pub(crate) fn traverse_packets<S: Traverse + ?Sized, Q: LevelQuery>(
+    structure: &S,
+    tier: impl Accuracy,
+    trace: &mut Trace<'_>,
+    rays: &[RayPacket],
+    answers: &mut [Q::Packet<[f32; 16]>],
+) {
+    trace.learnt.begin_call::<Q>(rays.len());
+    #[cfg(feature = "alloc")]
+    in_place::traverse::<S, Q>(structure, tier, trace, rays, answers);
+    #[cfg(not(feature = "alloc"))]
+    structure.in_packets::<Q>(tier, trace, rays, answers);
 }
 
 /// Answers rays `from` to `to` one by one.

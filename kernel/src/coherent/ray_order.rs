@@ -32,7 +32,7 @@ use keys::{BITS, Key};
 pub(crate) use keys::{MOST, RayKeys};
 
 /// The fewest rays that gain by groups, and by starting near each other.
-const FEWEST_IN_GROUPS: usize = 24_000;
+pub(crate) const FEWEST_IN_GROUPS: usize = 24_000;
 const FEWEST: usize = 2048;
 /// So many rays are looked at, and so many after each.
 const LOOKED_AT: usize = 256;

@@ -12,6 +12,7 @@ use crate::bvh::tree::Bvh;
 use crate::coherent::depth_list::DepthList;
 use crate::coherent::few_rays::{self, Asked};
 use crate::coherent::packet_source::PacketSource;
+use crate::coherent::ray_order::RayKeys;
 use crate::coherent::tree_source::Ways;
 use crate::coherent::{list_source, tree_source};
 use crate::geometry::camera::tiles::CameraTiles;
@@ -232,6 +233,12 @@ pub(crate) fn leaves_held(level: Level, bvh: &Bvh<'_>, asked: &Asked) -> f32 {
 #[inline(never)]
 pub(crate) fn fill(level: Level, rays: ManyRays<'_>, packets: &mut [RayPacket]) {
     at_level!(level.0, simd, Vector => rays.fill::<Vector>(simd, 0, packets));
+}
+
+/// Writes the keys of rays above their numbers.
+#[inline(never)]
+pub(crate) fn write_keys(level: Level, keys: &RayKeys, rays: &ManyRays<'_>, places: &mut [u32]) {
+    at_level!(level.0, simd, Vector => keys.write_keys::<Vector>(simd, rays, places));
 }
 
 /// Makes the rays of as many of a camera's tiles as there is room for.

@@ -95,6 +95,18 @@ impl<'a> RayColumns<'a> {
         })
     }
 
+    /// The lanes of a packet.
+    #[cfg(feature = "alloc")]
+    #[inline(always)]
+    pub(crate) fn of(packet: &'a RayPacket) -> Self {
+        Self {
+            origin: packet.origin.each_ref().map(<[f32; 16]>::as_slice),
+            direction: packet.direction.each_ref().map(<[f32; 16]>::as_slice),
+            t_min: &packet.t_min,
+            t_max: &packet.t_max,
+        }
+    }
+
     /// Rays `from` to `to`; those past the end are left out.
     pub(crate) fn part(&self, from: usize, to: usize) -> Self {
         let part = |column: &'a [f32]| column.get(from..to.min(column.len())).unwrap_or_default();

@@ -31,16 +31,20 @@ pub(super) fn answer<S: Traverse + ?Sized, Q: LevelQuery>(
     let gathered = gathered.as_flattened_mut();
     let mut memory = trace.kept.take_numbers();
     while gain.is_for(count - from) {
-        // In parts of equal length: of few rays left over none would gain.
+        // In parts of equal length, since of few rays left over none would gain; and of whole packets.
         let left = count - from;
-        let to = from + left.div_ceil(left.div_ceil(MOST).max(1));
+        let part = left.div_ceil(left.div_ceil(MOST).max(1)).next_multiple_of(RayPacket::COUNT);
+        let to = (from + part).min(count);
         let part = rays.part(from, to);
         let Some(keys) = RayKeys::of(&part, gain) else { break };
         if lengthen(&mut memory, 0, 2 * part.count()).is_none() {
             break;
         }
         let Some((numbers, others)) = memory.split_at_mut_checked(part.count()) else { break };
-        keys.write_keys(&part, numbers);
+        #[cfg(feature = "std")]
+        crate::dispatch::compiled::write_keys(trace.level, &keys, &part, numbers);
+        #[cfg(not(feature = "std"))]
+        keys.write_keys::<wide::f32x16>((), &part, numbers);
         if keys.needs_a_trial::<Q>(gain)
             && !groups_pay::<S, Q>(
                 structure,
@@ -61,19 +65,10 @@ pub(super) fn answer<S: Traverse + ?Sized, Q: LevelQuery>(
         {
             let numbers = rest.get(..gathered.len()).unwrap_or(rest);
             at += numbers.len();
-            for (place, &number) in gathered.iter_mut().zip(numbers) {
-                if let Some(ray) = part.ray(number_of(number)) {
-                    *place = ray;
-                }
-            }
+            part.gather(numbers.iter().map(|place| number_of(*place)), gathered);
             let these = ManyRays::Slice(gathered.get(..numbers.len()).unwrap_or_default());
             structure.many_in_packets::<Q>(tier, trace, these, packets, answered);
-            for (place, &number) in numbers.iter().enumerate() {
-                if let Some(packet) = answered.get(place / RayPacket::COUNT) {
-                    let one = Q::one(packet, place % RayPacket::COUNT);
-                    Q::write_one(answers, from + number_of(number), one);
-                }
-            }
+            Q::scatter(answers, answered, numbers.iter().map(|place| from + number_of(*place)));
         }
         from = to;
     }

@@ -1,7 +1,8 @@
 //! The keys by which rays are sorted: cells of a grid over where rays start, where they run to, or where they cross a plane.
 
 use crate::geometry::many::ManyRays;
-use crate::geometry::ray::Ray;
+use crate::geometry::ray::{Ray, RayPacket};
+use crate::lanes::Lanes;
 use crate::numeric::z_curve::{one_in_three, one_in_two};
 use glam::Vec3;
 
@@ -13,8 +14,6 @@ pub(crate) const MOST: usize = 1 << BITS;
 const LAST_CELL: f32 = 255.0;
 /// To it a number below 2^8 adds its nearest whole number, as bits.
 const ROUNDING: f32 = (1 << 23) as f32;
-/// Rays whose keys are made at once.
-const BLOCK: usize = 16;
 /// Rays are nearly parallel if their directions, the sum of whose sizes is one, are so near their mean.
 const PARALLEL: f32 = 1.0 / 16.0;
 
@@ -136,34 +135,36 @@ impl RayKeys {
     }
 
     /// Writes the keys of at most [`MOST`] rays into `places`, above their numbers.
-    #[inline(never)]
-    pub(crate) fn write_keys(&self, rays: &ManyRays<'_>, places: &mut [u32]) {
+    #[inline(always)]
+    pub(crate) fn write_keys<L: Lanes<Array = [f32; 16]>>(
+        &self,
+        token: L::Token,
+        rays: &ManyRays<'_>,
+        places: &mut [u32],
+    ) {
         match self.key {
-            Key::Start => self.write(Key::Start, rays, places),
-            Key::Direction => self.write(Key::Direction, rays, places),
-            Key::Crossing => self.write(Key::Crossing, rays, places),
+            Key::Start => self.write::<L>(token, Key::Start, rays, places),
+            Key::Direction => self.write::<L>(token, Key::Direction, rays, places),
+            Key::Crossing => self.write::<L>(token, Key::Crossing, rays, places),
         }
     }
 
-    /// Some rays at a time, in columns: so the compiler makes vectors of them. (Ray after ray took 20 ns each.)
+    /// A packet at a time: so the compiler makes vectors of its lanes. (Ray after ray took 20 ns each.)
     #[inline(always)]
-    fn write(&self, key: Key, rays: &ManyRays<'_>, places: &mut [u32]) {
-        let mut columns = [[0.0; BLOCK]; 6];
-        for (block, places) in places.chunks_mut(BLOCK).enumerate() {
-            let first = block * BLOCK;
-            for lane in 0..BLOCK {
-                if let Some(ray) = rays.ray(first + lane) {
-                    for axis in 0..3 {
-                        columns[axis][lane] = ray.origin[axis];
-                        columns[3 + axis][lane] = ray.direction[axis];
-                    }
-                }
-            }
-            let mut keys = [0; BLOCK];
-            for lane in 0..BLOCK {
-                let at = |column: usize| columns[column][lane];
-                let ray = Ray::new(Vec3::new(at(0), at(1), at(2)), Vec3::new(at(3), at(4), at(5)));
-                keys[lane] = (self.key_of(key, &ray) << BITS) | ((first + lane) % MOST) as u32;
+    fn write<L: Lanes<Array = [f32; 16]>>(
+        &self,
+        token: L::Token,
+        key: Key,
+        rays: &ManyRays<'_>,
+        places: &mut [u32],
+    ) {
+        let mut packet = [RayPacket::BLANK];
+        for (number, places) in places.chunks_mut(RayPacket::COUNT).enumerate() {
+            rays.fill::<L>(token, number, &mut packet);
+            let mut keys = [0; RayPacket::COUNT];
+            for lane in 0..RayPacket::COUNT {
+                let number = (number * RayPacket::COUNT + lane) % MOST;
+                keys[lane] = (self.key_of(key, &packet[0].ray(lane)) << BITS) | number as u32;
             }
             for (place, key) in places.iter_mut().zip(keys) {
                 *place = key;

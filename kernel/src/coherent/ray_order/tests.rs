@@ -5,7 +5,9 @@ extern crate std;
 use super::*;
 use crate::proofs::climb::Random;
 use crate::proofs::work::{Kind, Work};
-use crate::{Exact, Hit, Intersect, RayColumns, SphereList, SphereTree, Trace};
+use crate::{
+    Exact, Hit, HitPacket, Intersect, RayColumns, RayPacket, SphereList, SphereTree, Trace,
+};
 use std::vec;
 use std::vec::Vec;
 
@@ -113,7 +115,7 @@ fn rays_in_order_are_left_as_they_are() {
     for rays in [shuffled(lines), beam(1 << 16), diffuse(1 << 16)] {
         let order = RayKeys::of(&ManyRays::Slice(&rays), GAIN).expect("in no order");
         let (mut numbers, mut others) = (vec![0; rays.len()], vec![0; rays.len()]);
-        order.write_keys(&ManyRays::Slice(&rays), &mut numbers);
+        order.write_keys::<wide::f32x16>((), &ManyRays::Slice(&rays), &mut numbers);
         sort(&mut numbers, &mut others);
         let sorted: Vec<_> = numbers.iter().map(|&place| rays[number_of(place)]).collect();
         assert_eq!(key_of(&sorted, GAIN), None, "{order:?}");
@@ -208,12 +210,28 @@ fn every_ray_keeps_its_place_among_the_answers() {
             Some(one) => (t.to_bits(), *sphere) == *one,
             None => *t == f32::INFINITY,
         }));
+        // What was there before is no answer.
+        let packets = rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect::<Vec<_>>();
+        let mut trace = Trace::new();
+        let mut before = HitPacket::none();
+        (before.t, before.sphere) = ([1e-9; 16], [7; 16]);
+        let (mut hits, mut bits_of) = (vec![before; packets.len()], vec![!0; packets.len()]);
+        tree.closest_hit_packets(Exact, &mut trace, &packets, &mut hits);
+        tree.any_hit_packets(Exact, &mut trace, &packets, &mut bits_of);
+        kept += usize::from(!trace.kept.take_numbers().is_empty());
+        for lane in 0..16 * packets.len() {
+            let (hit, one) = (hits[lane / 16].hit(lane % 16), one.get(lane).copied().flatten());
+            assert!(
+                bits(hit) == one
+                    && bits_of[lane / 16] >> (lane % 16) & 1 == u32::from(one.is_some())
+            );
+        }
         met += one.iter().flatten().count();
     }
-    assert!(met > 10_000 && kept == 2, "{met} hits, {kept} of two were sorted");
+    assert!(met > 10_000 && kept == 4, "{met} hits, {kept} of two were sorted, twice");
 }
 
-/// Shuffled rays of a camera and of a beam go together as if they were not; the work of ray by ray is the measure.
+/// Shuffled rays of a camera and of a beam go together as if they were not, in packets, too; the work of ray by ray is the measure.
 #[test]
 fn shuffled_rays_take_half_the_work_of_ray_by_ray() {
     let mut random = Random(97);
@@ -221,10 +239,15 @@ fn shuffled_rays_take_half_the_work_of_ray_by_ray() {
     let tree = SphereTree::new(spheres);
     for (rays, most) in [(shuffled(scan_lines()), 0.4), (beam(1 << 16), 0.5)] {
         let (mut hits, mut occluded) = (vec![None; rays.len()], vec![false; rays.len()]);
+        let packets = rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect::<Vec<_>>();
+        let mut of_packets = (vec![HitPacket::none(); packets.len()], vec![0; packets.len()]);
         let mut works = |mut trace: Trace<'_>| {
+            let (hits_of, bits) = &mut of_packets;
             [
                 Work::of(|| tree.closest_hits_with(Exact, &mut trace, &rays, &mut hits)).units(),
                 Work::of(|| tree.any_hits_with(Exact, &mut trace, &rays, &mut occluded)).units(),
+                Work::of(|| tree.closest_hit_packets(Exact, &mut trace, &packets, hits_of)).units(),
+                Work::of(|| tree.any_hit_packets(Exact, &mut trace, &packets, bits)).units(),
             ]
         };
         let [plain, apart] = [works(Trace::new()), works(Trace::new().incoherent())];
@@ -265,7 +288,7 @@ fn groups_that_are_tried_are_of_rays_that_would_come_together() {
     let rays = shuffled(scan_lines());
     let order = RayKeys::of(&ManyRays::Slice(&rays), GAIN).expect("in no order");
     let mut places = vec![0; rays.len()];
-    order.write_keys(&ManyRays::Slice(&rays), &mut places);
+    order.write_keys::<wide::f32x16>((), &ManyRays::Slice(&rays), &mut places);
     let mut groups = [[Ray::new(Vec3::ZERO, Vec3::ZERO); RAYS_OF_A_GROUP]; GROUPS_TRIED];
     gather_some(&ManyRays::Slice(&rays), &places, &mut groups);
     for group in groups {
