@@ -222,9 +222,29 @@ impl Allowance {
                 // Boxes are held against rays where it is in doubt. (Wherever it is more than is known without: a camera's tiles
                 // among 3,000 spheres 0.9 of the speed, by AVX2.)
                 let roots = allowance.roots_apart(&effort, states);
-                let in_boxes = || sample.apart::<L, Q>(states, bvh, [RAY_NODE, RAY_LEAF]);
                 work > least + begin_anew + roots + roots / 2
-                    && 4 * work > 5 * (least + roots + in_boxes())
+                    && 4 * work > 5 * allowance.apart::<L, Q>(token, &effort, (states, sample), bvh)
+            },
+        )
+    }
+
+    /// What its rays would have done apart, about, as far as they have come.
+    #[inline(always)]
+    pub(super) fn apart<L: Lanes, Q: Query>(
+        &self,
+        token: L::Token,
+        effort: &Effort,
+        (states, sample): (&[PacketState<'_, L>], &BoxSample),
+        bvh: &Bvh<'_>,
+    ) -> u64 {
+        // By value: what another function may write is in memory from then on.
+        let (allowance, effort) = (*self, *effort);
+        L::out_of_line(
+            token,
+            #[inline(always)]
+            || {
+                let in_boxes = sample.apart::<L, Q>(states, bvh, [RAY_NODE, RAY_LEAF]);
+                allowance.least_apart() + allowance.roots_apart(&effort, states) + in_boxes
             },
         )
     }

@@ -34,6 +34,9 @@ pub(crate) struct Learnt {
     /// Of the last packets how many went by themselves, and how many they were.
     #[cfg(feature = "alloc")]
     pub(super) apart: [usize; 2],
+    /// Of groups on trial: what they did, and what their rays would have done apart. `None` if they are not on trial.
+    #[cfg(feature = "alloc")]
+    pub(super) efforts: Option<[u64; 2]>,
 }
 
 impl Learnt {
@@ -44,7 +47,12 @@ impl Learnt {
         sharing: [Sharing::NOTHING; KINDS],
         #[cfg(feature = "alloc")]
         apart: [0; 2],
+        #[cfg(feature = "alloc")]
+        efforts: None,
     };
+    /// Nothing, of groups on trial.
+    #[cfg(feature = "alloc")]
+    pub(crate) const ON_TRIAL: Self = Self { efforts: Some([0; 2]), ..Self::NOTHING };
 
     /// Begins a call of so many packets.
     #[inline(always)]
@@ -84,6 +92,12 @@ impl Learnt {
     #[cfg(feature = "alloc")]
     pub(crate) fn apart(&self) -> [usize; 2] {
         self.apart
+    }
+
+    /// What the groups of the last call did, and what their rays would have done apart; zeros if they were not on trial.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn efforts(&self) -> [u64; 2] {
+        self.efforts.unwrap_or_default()
     }
 
     /// Whether some of the last packets went by themselves.

@@ -111,12 +111,14 @@ pub(super) struct Boxes {
     /// The number of a node, and the slot of one of its children.
     places: [u32; STACK],
     top: usize,
+    /// Of groups on trial: what they did, and what their rays would have done apart. `None` if they are not on trial.
+    pub(super) efforts: Option<[u64; 2]>,
 }
 
 impl Boxes {
     #[inline(always)]
-    pub(super) fn new() -> Self {
-        Self { depths: [0.0; STACK], places: [ROOT; STACK], top: 0 }
+    pub(super) fn new(efforts: Option<[u64; 2]>) -> Self {
+        Self { depths: [0.0; STACK], places: [ROOT; STACK], top: 0, efforts }
     }
 
     /// Traces one group, of which the answers outside of the tree are `known`, if there are any. What is not trusted gives up
@@ -171,6 +173,7 @@ impl Boxes {
         let mut sample = BoxSample::new();
         let is_far = prefetch::pays(bvh.nodes, bvh.numbers);
         let mut inside = Inside { places: 0, depths: [0.0; WIDTH] };
+        let mut gave_up = false;
         while self.top > 0 {
             self.top -= 1;
             let at = self.top & (STACK - 1);
@@ -186,7 +189,8 @@ impl Boxes {
                 child = node.child[slot];
                 sample.take::<L, Q>(place, states);
                 if allowance.is_wasted::<L, Q>(token, &effort, (states, &sample), bvh) {
-                    return Ended::GaveUp;
+                    gave_up = true;
+                    break;
                 }
             }
             if child & LEAF == 0 {
@@ -227,7 +231,13 @@ impl Boxes {
             );
             frustum.end = end;
         }
-        if allowance.is_at_a_loss::<L, Q>(token, &effort, (states, &sample), bvh) {
+        if let Some([did, apart]) = &mut self.efforts {
+            *did += u64::from(effort.work);
+            *apart += allowance.apart::<L, Q>(token, &effort, (states, &sample), bvh);
+        }
+        if gave_up {
+            Ended::GaveUp
+        } else if allowance.is_at_a_loss::<L, Q>(token, &effort, (states, &sample), bvh) {
             Ended::AtALoss
         } else {
             Ended::Through

@@ -120,7 +120,10 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
         if is_small { SHORTEST_IN_SMALL_TREE } else { SHORTEST },
         if is_coherent { LONGEST_IF_COHERENT } else { LONGEST },
     ];
-    let mut boxes = Boxes::new();
+    #[cfg(feature = "alloc")]
+    let mut boxes = Boxes::new(ways.learnt.efforts);
+    #[cfg(not(feature = "alloc"))]
+    let mut boxes = Boxes::new(None);
     // Packets from `from` on are not answered; those before `run` go ray by ray, and nothing is known of them.
     let (mut from, mut run) = (0, 0);
     #[cfg(feature = "alloc")]
@@ -135,6 +138,10 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
             let at = run..end;
             let mut together = Together { boxes: &mut boxes, learnt: &mut *ways.learnt, gaps };
             together.answer::<L, Q>(tier, token, bvh, (&mut source, at), answers, &mut apart);
+            #[cfg(feature = "alloc")]
+            {
+                ways.learnt.efforts = boxes.efforts;
+            }
         }
         if apart.are_all && end < count {
             run = end;

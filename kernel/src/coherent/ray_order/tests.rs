@@ -283,6 +283,29 @@ fn where_groups_do_not_pay_closest_hits_are_left_in_their_order() {
     }
 }
 
+/// A beam through a thin sheet of many small spheres: packets go through together, by more work than their rays would do apart. In
+/// a cube they do less, but not by much.
+#[test]
+fn where_groups_do_more_than_rays_apart_closest_hits_are_left_in_their_order() {
+    let mut random = Random(103);
+    let sphere = |number: usize| {
+        let [x, y] = [number % 200, number / 200].map(|place| place as f32 / 100.0 - 1.0);
+        (Vec3::new(x, y, 0.05 * point(&mut random).z), 0.006)
+    };
+    let sheet = SphereTree::new((0..40_000).map(sphere).collect::<SphereList>());
+    let along = Vec3::new(1.0, 0.7, -1.0);
+    let through = rays(45_000, |random| Ray::new(1.3 * point(random) - 3.0 * along, along));
+    let mut random = Random(97);
+    let cube =
+        SphereTree::new((0..60_000).map(|_| (point(&mut random), 0.008)).collect::<SphereList>());
+    for (tree, rays, is_sorted) in [(sheet, through, false), (cube, beam(30_000), true)] {
+        let mut hits = vec![None; rays.len()];
+        let work = Work::of(|| tree.closest_hits(Exact, &rays, &mut hits));
+        // Sorted, they are a group for 64 rays at least.
+        assert_eq!(work.count(Kind::GroupFit) > 400, is_sorted, "{}", work.count(Kind::GroupFit));
+    }
+}
+
 #[test]
 fn groups_that_are_tried_are_of_rays_that_would_come_together() {
     let rays = shuffled(scan_lines());
