@@ -84,8 +84,8 @@ impl Learnt {
             return None;
         }
         let (in_groups, is_far) = (coherence != Coherence::Incoherent, is_far(bvh));
-        let by_start = !Q::ANY && is_far;
-        Some(GainByOrder { in_groups, is_far, by_start, radius: bvh.radius() })
+        let (by_start, radius) = (is_far, bvh.radius());
+        Some(GainByOrder { in_groups, is_far, by_start, is_any: Q::ANY, radius })
     }
 
     /// Of the last packets how many went by themselves, and how many they were.

@@ -235,7 +235,14 @@ impl ManyOccluded<'_> {
     /// Writes whether rays hit anything, those of packets at the places `indices`.
     #[cfg(feature = "alloc")]
     pub(crate) fn scatter(&mut self, packets: &[u32], indices: impl Iterator<Item = usize>) {
-        each_lane(packets, indices, |bits, lane, index| self.set(index, bits >> lane & 1 == 1));
+        match self {
+            Self::Slice(_) => each_lane(packets, indices, |bits, lane, index| {
+                self.set(index, bits >> lane & 1 == 1);
+            }),
+            Self::Packets(_) => each_lane(packets, indices, |bits, lane, index| {
+                self.set(index, bits >> lane & 1 == 1);
+            }),
+        }
     }
 
     /// Writes whether one ray hits anything at place `index`.

@@ -12,7 +12,7 @@ use std::vec;
 use std::vec::Vec;
 
 const GAIN: GainByOrder =
-    GainByOrder { in_groups: true, is_far: true, by_start: true, radius: 2.0 };
+    GainByOrder { in_groups: true, is_far: true, by_start: true, is_any: false, radius: 2.0 };
 
 fn point(random: &mut Random) -> Vec3 {
     let mut coordinate = || random.below(1 << 20) as f32 / (1 << 19) as f32 - 1.0;
@@ -67,20 +67,21 @@ fn key_of(rays: &[Ray], gain: GainByOrder) -> Option<Key> {
 fn rays_are_sorted_by_what_they_have_in_common() {
     let near = GainByOrder { is_far: false, by_start: false, ..GAIN };
     let incoherent = GainByOrder { in_groups: false, ..GAIN };
+    let any = GainByOrder { is_any: true, ..incoherent };
     let (camera, many) = (shuffled(scan_lines()), FEWEST_IN_GROUPS);
     let cases = [
-        (&camera[..], [Some(Key::Direction), Some(Key::Direction), Some(Key::Start)]),
-        (&to_a_light(many), [Some(Key::Direction), None, Some(Key::Start)]),
-        (&beam(many), [Some(Key::Crossing), Some(Key::Crossing), Some(Key::Start)]),
-        (&diffuse(many), [Some(Key::Start), None, Some(Key::Start)]),
+        (&camera[..], [Some(Key::Direction), Some(Key::Direction), Some(Key::Start), None]),
+        (&to_a_light(many), [Some(Key::Direction), None, Some(Key::Start), Some(Key::Start)]),
+        (&beam(many), [Some(Key::Crossing), Some(Key::Crossing), Some(Key::Start), None]),
+        (&diffuse(many), [Some(Key::Start), None, Some(Key::Start), None]),
         // Too few for groups.
-        (&beam(many - 1), [Some(Key::Start), None, Some(Key::Start)]),
-        (&[], [None; 3]),
+        (&beam(many - 1), [Some(Key::Start), None, Some(Key::Start), None]),
+        (&[], [None; 4]),
     ];
     for (number, (rays, expected)) in cases.iter().enumerate() {
-        let keys = [GAIN, near, incoherent].map(|gain| key_of(rays, gain));
+        let keys = [GAIN, near, incoherent, any].map(|gain| key_of(rays, gain));
         // By start nothing is near those of one start.
-        let expected = if number == 0 { [expected[0], expected[1], None] } else { *expected };
+        let expected = if number == 0 { [expected[0], expected[1], None, None] } else { *expected };
         assert_eq!(keys, expected, "case {number}");
     }
 }
