@@ -119,7 +119,7 @@ impl OfScene {
             ("tree, primary", ours(primary, &[Way::Packets])),
             ("depth list, primary", ours(primary, &[Way::DepthList])),
             ("Embree, primary", embree(primary)),
-            ("tree, diffuse", ours(diffuse, &[Way::RayByRay, Way::Stream, Way::SortedStream])),
+            ("tree, diffuse", ours(diffuse, &[Way::RayByRay, Way::Stream])),
             ("Embree, diffuse", embree(diffuse)),
             ("brute force, primary", ours(primary, &[Way::BruteForce])),
         ]

@@ -262,6 +262,7 @@ pub trait Intersect: Traverse {
     }
 
     /// Finds the closest hit of every ray of every packet: `hits[i]` becomes what `rays[i]` hits.
+    /// Shuffled rays of a long call are sorted, as [`closest_hits`](Intersect::closest_hits) does.
     ///
     /// ```
     /// use spherule_kernel::{Exact, HitPacket, Intersect, Ray, RayPacket, SphereList, Trace, Vec3};

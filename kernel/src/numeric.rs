@@ -9,4 +9,5 @@ pub(crate) mod power_of_point;
 pub(crate) mod power_of_two;
 pub(crate) mod radix_sort;
 pub(crate) mod rounding;
+#[cfg(feature = "alloc")]
 pub(crate) mod z_curve;

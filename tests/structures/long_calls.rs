@@ -1,4 +1,4 @@
-//! Long calls, of which a tree finds out how the rays go best: groups, streams, sorted or not, and rays by themselves, each
+//! Long calls, of which a tree finds out how the rays go best: groups, streams, sorted rays, and rays by themselves, each
 //! taken up and given up on the way. The answers are those of ray by ray, which are those of brute force.
 
 use super::scenes::{diffuse, uniform};
@@ -128,7 +128,7 @@ fn very_few_spheres() {
     }
 }
 
-/// Sorted streams: a tree of more than 8 MB, and rays of which too few meet as they come.
+/// A tree of more than 8 MB, and rays that are sorted by where they start.
 #[test]
 fn many_rays_in_a_large_tree() {
     let scene = Scene::large("u1m", Size(32, 400_000)).expect("listed");

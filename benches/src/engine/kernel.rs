@@ -25,8 +25,6 @@ pub(crate) enum Way {
     RayByRay,
     /// Queues of rays, so many at a time as there is memory for.
     Stream,
-    /// All rays, sorted by where they start.
-    SortedStream,
     Packets,
     /// Made anew for every pass over the rays.
     DepthList,
@@ -38,7 +36,6 @@ impl Way {
             Self::BruteForce => "brute force",
             Self::RayByRay => "tree, ray by ray",
             Self::Stream => "tree, streams",
-            Self::SortedStream => "tree, sorted streams",
             Self::Packets => "tree, packets",
             Self::DepthList => "depth list",
         }
@@ -48,8 +45,6 @@ impl Way {
     const fn block(self) -> usize {
         match self {
             Self::Stream => STREAM,
-            // To sort few gains nothing. They are read from memory, with the clock running.
-            Self::SortedStream => usize::MAX,
             _ => BLOCK,
         }
     }
@@ -101,11 +96,11 @@ impl<'a> Kernel<'a> {
     /// Every way: in `tiers` at the first level, in `Stable` at the others.
     pub(crate) fn ways(&self, kind: Kind, levels: &[Level], tiers: &[Tier]) -> Vec<Engine> {
         // Diffuse rays have no viewpoint.
-        use Way::{BruteForce, DepthList, Packets, RayByRay, SortedStream, Stream};
+        use Way::{BruteForce, DepthList, Packets, RayByRay, Stream};
         // Diffuse rays have no viewpoint; a camera's gain nothing as a stream.
         let ways: &[Way] = match kind {
             Kind::Primary => &[BruteForce, RayByRay, Packets, DepthList],
-            Kind::Diffuse => &[BruteForce, RayByRay, Packets, Stream, SortedStream],
+            Kind::Diffuse => &[BruteForce, RayByRay, Packets, Stream],
         };
         let mut all = Vec::new();
         for (index, &level) in levels.iter().enumerate() {
@@ -175,22 +170,18 @@ impl<'a> Kernel<'a> {
         Box::new(move |rays| {
             let (tree, viewpoint) = (Rc::clone(&tree), viewpoint(&rays.list));
             let (mut depth_list, mut scratch) = (Vec::new(), Vec::new());
-            let (mut stream, mut queues, mut order) = (Vec::new(), Vec::new(), Vec::new());
-            let rays_in_all = rays.list.len();
+            let (mut stream, mut queues) = (Vec::new(), Vec::new());
             let search = move |query, blocks: &mut Blocks<'_>| {
                 let (spheres, trace) = (tree.list().spheres(), Trace::new().at(level));
                 let asked = (query, tier);
                 match way {
                     Way::RayByRay => answer(&*tree, trace.incoherent(), asked, blocks),
                     Way::Packets => answer(&*tree, trace.coherent(), asked, blocks),
-                    Way::Stream | Way::SortedStream => {
+                    Way::Stream => {
                         stream.resize(STREAM, StreamRay::EMPTY);
                         queues.resize(STREAM * QUEUES, QueuedRay::EMPTY);
-                        let sorted = if way == Way::SortedStream { rays_in_all } else { 0 };
-                        order.resize(2 * sorted, 0);
                         let memory = StreamMemory::new(&mut stream, &mut queues);
-                        let memory = memory.expect("enough memory");
-                        let memory = memory.sorting(&mut order).everywhere();
+                        let memory = memory.expect("enough memory").everywhere();
                         answer(&*tree, trace.incoherent().with_stream(memory), asked, blocks);
                     }
                     Way::DepthList => {

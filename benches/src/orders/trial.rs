@@ -96,7 +96,7 @@ fn times(
             time = time.min(work.run(way, level, query) / count);
         }
         // Streams of few rays are slow, of more they are not.
-        if time > SLOW * best && !matches!(way, Way::Stream | Way::SortedStream) {
+        if time > SLOW * best && way != Way::Stream {
             slow.push((way, time));
         } else {
             timed.push((way, time));

@@ -30,18 +30,16 @@ pub(crate) enum Way {
     Packets,
     IncoherentPackets,
     Stream,
-    SortedStream,
     /// Made anew every time.
     DepthList,
 }
 
 impl Way {
     /// All; ray by ray first.
-    pub(super) const ALL: [Self; 8] = [
+    pub(super) const ALL: [Self; 7] = [
         Self::RayByRay,
         Self::IncoherentPackets,
         Self::Stream,
-        Self::SortedStream,
         Self::Packets,
         Self::DepthList,
         Self::Coherent,
@@ -49,8 +47,8 @@ impl Way {
     ];
 
     /// Those that go through spheres in different ways.
-    pub(crate) const TRAVERSALS: [Self; 5] =
-        [Self::RayByRay, Self::Stream, Self::SortedStream, Self::Coherent, Self::DepthList];
+    pub(crate) const TRAVERSALS: [Self; 4] =
+        [Self::RayByRay, Self::Stream, Self::Coherent, Self::DepthList];
 
     /// Which of [`Self::TRAVERSALS`] it takes; `None` for the plain call, which chooses.
     pub(super) const fn traversal(self) -> Option<Self> {
@@ -71,7 +69,6 @@ impl Way {
             Self::Packets => "packets",
             Self::IncoherentPackets => "incoherent packets",
             Self::Stream => "streams",
-            Self::SortedStream => "sorted streams",
             Self::DepthList => "depth list",
         }
     }
@@ -79,7 +76,6 @@ impl Way {
     /// Whether it is a way for these rays.
     pub(super) fn is_for(self, work: &Work<'_>) -> bool {
         match self {
-            Self::SortedStream => work.rays.len() > STREAM,
             Self::DepthList => {
                 work.viewpoint.is_some() && work.tree.list().spheres().len() < DEPTH_LIST
             }
@@ -100,7 +96,6 @@ pub(super) struct Work<'a> {
     packets_occluded: Vec<u32>,
     stream: Vec<StreamRay>,
     queues: Vec<QueuedRay>,
-    order: Vec<u64>,
     depth_list: Vec<f32>,
     scratch: Vec<f32>,
 }
@@ -126,7 +121,6 @@ impl<'a> Work<'a> {
             packets_occluded: Vec::new(),
             stream: vec![StreamRay::EMPTY; STREAM],
             queues: vec![QueuedRay::EMPTY; STREAM * QUEUES],
-            order: Vec::new(),
             depth_list: Vec::new(),
             scratch: Vec::new(),
         }
@@ -140,7 +134,6 @@ impl<'a> Work<'a> {
         self.occluded.resize(rays.len(), false);
         self.packet_hits.resize(self.packets.len(), HitPacket::none());
         self.packets_occluded.resize(self.packets.len(), 0);
-        self.order.resize(if rays.len() > STREAM { 2 * rays.len() } else { 0 }, 0);
         self.rays = rays;
         if Way::DepthList.is_for(self) {
             let spheres = self.tree.list().spheres().len();
@@ -159,15 +152,13 @@ impl<'a> Work<'a> {
             Way::Coherent => self.slices(trace.coherent(), query),
             Way::Packets => self.in_packets(tree, trace, query),
             Way::IncoherentPackets => self.in_packets(tree, trace.incoherent(), query),
-            Way::Stream | Way::SortedStream => {
+            Way::Stream => {
                 let mut stream = std::mem::take(&mut self.stream);
                 let mut queues = std::mem::take(&mut self.queues);
-                let mut order = std::mem::take(&mut self.order);
-                let sorted = if way == Way::SortedStream { &mut order[..] } else { &mut [] };
                 let memory = StreamMemory::new(&mut stream, &mut queues).expect("enough memory");
-                let trace = trace.incoherent().with_stream(memory.sorting(sorted).everywhere());
+                let trace = trace.incoherent().with_stream(memory.everywhere());
                 let time = self.in_packets(tree, trace, query);
-                (self.stream, self.queues, self.order) = (stream, queues, order);
+                (self.stream, self.queues) = (stream, queues);
                 time
             }
             Way::DepthList => {

@@ -52,7 +52,7 @@ pub(crate) fn page(origin: &str, all: &[Row]) -> String {
         "# Rays in every order, {} build\n\n{origin}\n\n*Plain*: `closest_hits` or `any_hits` of a tree, `exact`, one call for all \
          rays, of which nothing is said; a million a second, on one thread. Against it: the best of ray by ray (slices said to be \
          incoherent), slices said to be coherent, packets, incoherent packets, streams (8,192 rays together, 64 places in queues for each), \
-         sorted streams where there are more rays, and, where rays have a viewpoint and spheres are fewer than 20,000, a depth list made for them; \
+         and, where rays have a viewpoint and spheres are fewer than 20,000, a depth list made for them; \
          and Embree, 3.13 or 4.4, in its quickest call with the same instructions (for the baseline, SSE4.2), its rays in blocks that are in the cache. \
          Medians of {} to {} interleaved rounds of the thread's own time, ratios round by round. ~: so slow that a part of the rays was timed, once. {}\
          Before anything is timed, every way answers as ray by ray does, bit for bit, which answers as brute force does on a sample. \

@@ -3,12 +3,10 @@
 use super::packet_group::GROUP;
 use super::patience::{PacketPatience, Patience};
 #[cfg(feature = "alloc")]
-use super::ray_order::GainByOrder;
+use super::ray_order::{GainByOrder, is_far};
 #[cfg(feature = "alloc")]
 use crate::bvh::traverse::small_tree;
 use crate::bvh::traverse::stream::Sharing;
-#[cfg(feature = "alloc")]
-use crate::bvh::traverse::stream::is_far;
 #[cfg(feature = "alloc")]
 use crate::bvh::tree::Bvh;
 #[cfg(feature = "alloc")]

@@ -8,7 +8,6 @@ pub(crate) const fn one_in_three(number: u32) -> u32 {
 }
 
 /// The bits of a number below 2^8, a zero behind each.
-#[cfg(feature = "alloc")]
 pub(crate) const fn one_in_two(number: u32) -> u32 {
     let number = (number | number << 4) & 0x0f0f;
     let number = (number | number << 2) & 0x3333;
@@ -16,7 +15,6 @@ pub(crate) const fn one_in_two(number: u32) -> u32 {
 }
 
 #[cfg(all(test, proofs))]
-#[cfg(feature = "alloc")]
 mod tests {
     use super::{one_in_three, one_in_two};
 

@@ -106,7 +106,6 @@ impl Sum {
         let (mut words, mut scratch) = ([0.0; 1024], [0.0; 1000]);
         let (mut nodes, mut places, mut indices) = ([BvhNode::EMPTY; 4], [[0.0; 4]; 120], [0; 120]);
         let (mut stream_rays, mut queues) = ([StreamRay::EMPTY; 16], [QueuedRay::EMPTY; 280]);
-        let mut order = [0; 80];
         let viewpoint = match camera.projection {
             Projection::Perspective { eye } => Viewpoint::Origin(eye),
             Projection::Parallel { direction } => Viewpoint::Direction(direction),
@@ -120,8 +119,7 @@ impl Sum {
                 self.structure(tier, camera, rays, &mut [], &tree);
                 match StreamMemory::new(&mut stream_rays, &mut queues) {
                     Ok(memory) => {
-                        let memory = memory.sorting(&mut order).everywhere();
-                        let mut trace = Trace::new().incoherent().with_stream(memory);
+                        let mut trace = Trace::new().incoherent().with_stream(memory.everywhere());
                         self.lanes::<f32>(tier, camera, &mut trace, &tree);
                     }
                     Err(error) => self.word(error.needed as u32),

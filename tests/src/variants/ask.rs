@@ -28,15 +28,15 @@ impl Variant {
             Structure::Refitted(coherence) => {
                 self.ask_of(refitted, Trace::new().with(coherence), rays)
             }
-            Structure::Stream(count, sorted) => {
+            Structure::Stream(count) => {
                 // The least that queues need for few, and for more what they like to have.
                 let needed = StreamMemory::queues_needed(count);
                 let queues = if count < 100 { needed } else { needed + 32 * count };
-                let (mut queues, mut order) = (vec![QueuedRay::EMPTY; queues], vec![0; 2 * sorted]);
+                let mut queues = vec![QueuedRay::EMPTY; queues];
                 let mut memory = vec![StreamRay::EMPTY; count];
                 let memory = StreamMemory::new(&mut memory, &mut queues).expect("enough");
-                let memory = memory.sorting(&mut order).everywhere();
-                self.ask_of(tree, Trace::new().incoherent().with_stream(memory), rays)
+                let trace = Trace::new().incoherent().with_stream(memory.everywhere());
+                self.ask_of(tree, trace, rays)
             }
             Structure::Bvh4 => {
                 self.ask_of(&bvh4.expect("no more spheres than it holds"), Trace::new(), rays)

@@ -13,8 +13,8 @@ pub enum Structure {
     Tree(Coherence),
     /// A tree that was built over other spheres, of which some were none, larger or the same, and refitted.
     Refitted(Coherence),
-    /// A tree whose rays go as a stream, with memory for so many at a time, and to sort so many.
-    Stream(usize, usize),
+    /// A tree whose rays go as a stream, with memory for so many at a time.
+    Stream(usize),
     /// The tree of one lane, of as many spheres as it holds.
     Bvh4,
 }
@@ -101,9 +101,8 @@ pub fn variants() -> impl Iterator<Item = Variant> {
             Structure::Refitted(Coherence::Incoherent),
             levels().map(Layer::Packets).collect(),
         ))
-        .chain(of(Structure::Stream(1024, 0), all(&[1, 8])))
-        .chain(of(Structure::Stream(16, 0), vec![Layer::Packets(Level::best().name())]))
-        .chain(of(Structure::Stream(32, 100), all(&[8])))
+        .chain(of(Structure::Stream(1024), all(&[1, 8])))
+        .chain(of(Structure::Stream(16), vec![Layer::Packets(Level::best().name())]))
         .chain(of(
             Structure::Bvh4,
             [plain.to_vec(), vec![Layer::Lanes(1), Layer::Lanes(8)]].concat(),

@@ -117,7 +117,7 @@ pub(crate) fn begin<T: Accuracy, L: Lanes, Q: Query>(
 /// Prepares the rays of a packet of which the answers so far are given, and whether any of them may be known; answers
 /// for those that do not go into the tree.
 #[inline(always)]
-pub(crate) fn begin_packet<L: Lanes, Q: Query>(
+fn begin_packet<L: Lanes, Q: Query>(
     tier: impl Accuracy,
     token: L::Token,
     bvh: &Bvh<'_>,

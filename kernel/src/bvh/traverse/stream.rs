@@ -38,7 +38,6 @@ mod queue;
 mod ray;
 mod seen;
 mod sharing;
-mod sort;
 mod strategy;
 
 #[cfg(feature = "alloc")]
@@ -48,15 +47,14 @@ pub use queue::QueuedRay;
 pub use ray::StreamRay;
 pub(crate) use sharing::Sharing;
 #[cfg(feature = "alloc")]
-pub(crate) use sharing::is_far;
+pub(crate) use sharing::bytes_of;
 
 use self::queue::{FRAMES, Frame};
 use self::seen::Seen;
 use self::sharing::TOGETHER;
-use self::sort::by_start;
 use self::strategy::StreamStrategy;
 use super::deferred::DeferredTests;
-use super::in_flight::{begin, begin_packet};
+use super::in_flight::begin;
 use super::packet_set::PacketSet;
 use super::prepared_packet::PreparedPacket;
 use super::wavefront;
@@ -82,7 +80,7 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
     let mut from = 0;
     while from < count {
         let left = rays.get(from..count).unwrap_or_default();
-        let (strategy, next) = sharing.next::<L::Array, Q>(bvh, memory, left, waiting.is_none());
+        let (strategy, next) = sharing.next::<L::Array, Q>(bvh, memory, left);
         let to = count.min(from + next.div_ceil(L::COUNT).max(1));
         let (Some(rays), Some(answers)) = (rays.get(from..to), answers.get_mut(from..to)) else {
             break;
@@ -106,7 +104,7 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
                 let count = rays.len();
                 let waiting = waiting.as_ref();
                 let tests = DeferredTests::<_, L, Q>::new(tier, token, bvh, rays, answers, waiting);
-                let StreamMemory { rays, queues, order, .. } = &mut *memory;
+                let StreamMemory { rays, queues, .. } = &mut *memory;
                 let together = rays.len().min(TOGETHER) / L::COUNT;
                 let mut stream = Stream {
                     tests,
@@ -117,10 +115,9 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
                     frames: [Frame::EMPTY; FRAMES],
                     seen: Seen::default(),
                 };
-                let half = if strategy == StreamStrategy::Sorted { order.len() / 2 } else { 0 };
-                stream.all(count, order.split_at_mut(half));
+                stream.all(count);
                 stream.tests.test();
-                sharing.take::<Q>(bvh, strategy, stream.seen);
+                sharing.take::<Q>(bvh, stream.seen);
             },
         );
     }
@@ -141,87 +138,30 @@ struct Stream<'a, 'm, T, L: Lanes, Q: Query> {
 }
 
 impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
-    /// Answers as many rays at a time as there are places in `order`, in the order of where they start; packet after
-    /// packet if there is none.
+    /// Answers all, as many packets at a time as go down together.
     #[inline(always)]
-    fn all(&mut self, count: usize, (order, others): (&mut [u64], &mut [u64])) {
-        // As many as a number of 32 bits can tell apart.
-        let sorted = order.len().min(1 << 31) / L::COUNT;
-        // (Not zero, which the compiler does not see.)
-        let together = (self.together * L::COUNT).max(1);
+    fn all(&mut self, count: usize) {
         let mut prepared = PreparedPacket::NONE;
         while self.first < count {
-            let at_once = if sorted > 0 { sorted } else { self.together };
-            let end = count.min(self.first + at_once.max(1));
-            let packets = self.tests.packets.get(self.first..end).unwrap_or_default();
-            let mut rays = packets.len() * L::COUNT;
-            if sorted > 0 {
-                if let Some(answers) = self.tests.answers.get_mut(self.first..end) {
-                    answers.fill(Q::none::<L::Array>());
+            let packets = self.together.max(1).min(count - self.first);
+            for packet in 0..packets {
+                begin(&mut self.tests, self.first + packet, &mut prepared);
+                for lane in 0..L::COUNT {
+                    self.begin(&prepared, (packet, lane));
                 }
-                rays = by_start(packets, self.tests.bvh.radius(), others, order);
             }
-            // They go down at one place: the rest of the way is compiled once.
-            for from in (0..rays).step_by(together) {
-                let to = rays.min(from + together);
-                for place in 0..(to - from).div_ceil(L::COUNT) {
-                    let from = from + place * L::COUNT;
-                    if sorted > 0 {
-                        let numbers = order.get(from..to.min(from + L::COUNT)).unwrap_or_default();
-                        self.begin_gathered((packets, numbers), place, &mut prepared);
-                    } else {
-                        begin(&mut self.tests, self.first + place, &mut prepared);
-                        for lane in 0..L::COUNT {
-                            self.begin(&prepared, (place, lane), (from + lane) as u32);
-                        }
-                    }
-                }
-                self.through(to - from);
-            }
-            self.first = end;
-        }
-    }
-
-    /// Prepares rays of several packets, by their numbers, as the `place`th packet that goes down now; answers for those
-    /// that do not go into the tree.
-    #[inline(always)]
-    fn begin_gathered(
-        &mut self,
-        (packets, numbers): (&[RayPacket<L::Array>], &[u64]),
-        place: usize,
-        prepared: &mut PreparedPacket<L::Array>,
-    ) {
-        let (tier, token, bvh) = (self.tests.tier, self.tests.token, self.tests.bvh);
-        let (mut gathered, mut answer) = (RayPacket::inactive(), Q::none::<L::Array>());
-        for (lane, &number) in numbers.iter().enumerate() {
-            let number = number as u32 as usize;
-            if let Some(packet) = packets.get(number / L::COUNT) {
-                gathered.set(lane, &packet.ray(number % L::COUNT));
-            }
-        }
-        begin_packet::<L, Q>(tier, token, bvh, (&gathered, &mut answer, false), prepared);
-        for (lane, &number) in numbers.iter().enumerate() {
-            self.begin(prepared, (place, lane), number as u32);
-            let number = number as u32 as usize;
-            if prepared.covered >> lane & 1 == 0
-                && let Some(answers) = self.tests.answers.get_mut(self.first + number / L::COUNT)
-            {
-                Q::put(answers, number % L::COUNT, Q::one(&answer, lane));
-            }
+            self.through(packets * L::COUNT);
+            self.first += packets;
         }
     }
 
     /// Takes lane `lane` of a prepared packet, the `packet`th that goes down now.
     #[inline(always)]
-    fn begin(
-        &mut self,
-        prepared: &PreparedPacket<L::Array>,
-        (packet, lane): (usize, usize),
-        number: u32,
-    ) {
-        let Some(ray) = self.rays.get_mut(packet * L::COUNT + lane) else { return };
+    fn begin(&mut self, prepared: &PreparedPacket<L::Array>, (packet, lane): (usize, usize)) {
+        let number = packet * L::COUNT + lane;
+        let Some(ray) = self.rays.get_mut(number) else { return };
         if prepared.covered >> lane & 1 == 1 {
-            ray.begin(prepared, lane, number);
+            ray.begin(prepared, lane, number as u32);
         } else {
             ray.leave_out();
         }

@@ -15,29 +15,20 @@ use std::cell::Cell;
 
 /// Places in queues for a ray: with 64 as fast; among 100,000 spheres with 16 at 0.9 of the speed, with 4 at 0.8.
 const QUEUES: usize = 32;
-/// The most rays that are sorted together.
-const MOST_SORTED: usize = 1 << 16;
 
-/// Memory of streams: nothing until it is used, then 384 bytes a ray that goes down with others, 3.2 MB at most, and 16 a ray
-/// that is sorted, 1 MB at most. Beside it that of long calls by slices: 32 bytes a ray in packets, and 8 a ray that is sorted, half a
-/// megabyte each at most.
+/// Memory of streams: nothing until it is used, then 384 bytes a ray that goes down with others, 3.2 MB at most. Beside it that of
+/// long calls: 32 bytes a ray in packets, by slices, and 8 a ray that is sorted, half a megabyte each at most.
 #[derive(Debug, Default)]
 struct Memory {
     rays: Vec<StreamRay>,
     queues: Vec<QueuedRay>,
-    order: Vec<u64>,
     packets: Vec<RayPacket>,
     numbers: Vec<u32>,
 }
 
 impl Memory {
-    const NONE: Self = Self {
-        rays: Vec::new(),
-        queues: Vec::new(),
-        order: Vec::new(),
-        packets: Vec::new(),
-        numbers: Vec::new(),
-    };
+    const NONE: Self =
+        Self { rays: Vec::new(), queues: Vec::new(), packets: Vec::new(), numbers: Vec::new() };
 
     #[cfg(feature = "std")]
     fn is_nothing(&self) -> bool {
@@ -99,21 +90,18 @@ impl KeptMemory {
         if !sharing.may_pay::<Q>(bvh, rays) {
             return None;
         }
-        let sorted = if sharing.may_sort::<Q>(bvh, rays) { rays.min(MOST_SORTED) } else { 0 };
-        self.take(Sharing::together(rays), sorted)
+        self.take(Sharing::together(rays))
     }
 
-    /// Memory for streams of so many rays, and to sort so many.
+    /// Memory for streams of so many rays.
     #[inline(never)]
-    fn take(&mut self, rays: usize, sorted: usize) -> Option<StreamMemory<'_>> {
+    fn take(&mut self, rays: usize) -> Option<StreamMemory<'_>> {
         self.find();
-        let Memory { rays: places, queues, order: sorting, .. } = &mut self.0;
+        let Memory { rays: places, queues, .. } = &mut self.0;
         lengthen(places, StreamRay::EMPTY, rays)?;
         let needed = StreamMemory::queues_needed(places.len()).max(QUEUES * places.len());
         lengthen(queues, QueuedRay::EMPTY, needed)?;
-        lengthen(sorting, 0, 2 * sorted)?;
-        let memory = StreamMemory::new(places, queues).ok()?;
-        Some(memory.sorting(sorting.get_mut(..2 * sorted).unwrap_or_default()))
+        StreamMemory::new(places, queues).ok()
     }
 }
 
@@ -141,10 +129,10 @@ mod tests {
     impl KeptMemory {
         /// How much there is, and how much of it to sort by.
         fn bytes(&self) -> [usize; 2] {
-            let Memory { rays, queues, order, packets, numbers } = &self.0;
+            let Memory { rays, queues, packets, numbers } = &self.0;
             let numbers = size_of_val(&numbers[..]);
-            let others = size_of_val(&order[..]) + size_of_val(&packets[..]);
-            [size_of_val(&rays[..]) + size_of_val(&queues[..]) + others + numbers, numbers]
+            let in_streams = size_of_val(&rays[..]) + size_of_val(&queues[..]);
+            [in_streams + size_of_val(&packets[..]) + numbers, numbers]
         }
     }
 

@@ -10,8 +10,6 @@ use crate::memory::TooSmall;
 pub struct StreamMemory<'m> {
     pub(super) rays: &'m mut [StreamRay],
     pub(super) queues: &'m mut [QueuedRay],
-    /// Two halves; empty where rays go as they come.
-    pub(super) order: &'m mut [u64],
     /// Whether rays go as a stream even where ray by ray is faster.
     pub(super) everywhere: bool,
 }
@@ -49,29 +47,10 @@ impl<'m> StreamMemory<'m> {
     pub fn new(rays: &'m mut [StreamRay], queues: &'m mut [QueuedRay]) -> Result<Self, TooSmall> {
         TooSmall::check(WIDTH, rays.len())?;
         TooSmall::check(Self::queues_needed(rays.len()), queues.len())?;
-        Ok(Self { rays, queues, order: &mut [], everywhere: false })
+        Ok(Self { rays, queues, everywhere: false })
     }
 
-    /// Sorts rays by where they start, half as many at a time as `order` has places, where that may be faster: for the
-    /// closest hit in trees of megabytes, if there is a ray for sixteen spheres.
-    ///
-    /// ```
-    /// use spherule_kernel::{QueuedRay, StreamMemory, StreamRay, Trace};
-    ///
-    /// let mut rays = vec![StreamRay::EMPTY; 1024];
-    /// let mut queues = vec![QueuedRay::EMPTY; 32 * 1024];
-    /// let mut order = vec![0; 2 * 1024];
-    /// let memory = StreamMemory::new(&mut rays, &mut queues)?.sorting(&mut order);
-    /// assert!(Trace::new().with_stream(memory).stream.is_some());
-    /// # Ok::<(), spherule_kernel::TooSmall>(())
-    /// ```
-    #[must_use]
-    pub fn sorting(self, order: &'m mut [u64]) -> Self {
-        Self { order, ..self }
-    }
-
-    /// As a stream even where ray by ray is faster, and sorted if there are more than go down together: for measurements
-    /// and tests.
+    /// As a stream even where ray by ray is faster: for measurements and tests.
     ///
     /// ```
     /// use spherule_kernel::{
@@ -95,11 +74,6 @@ impl<'m> StreamMemory<'m> {
 
     /// The same memory, for a while.
     pub(crate) fn again(&mut self) -> StreamMemory<'_> {
-        StreamMemory {
-            rays: self.rays,
-            queues: self.queues,
-            order: self.order,
-            everywhere: self.everywhere,
-        }
+        StreamMemory { rays: self.rays, queues: self.queues, everywhere: self.everywhere }
     }
 }

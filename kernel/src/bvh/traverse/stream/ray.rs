@@ -39,7 +39,7 @@ pub struct StreamRay {
     spread: f32,
     /// Some answer, or the end of the interval, is not above.
     pub(super) best: f32,
-    /// Which of all rays, or of those that are sorted together; [`NO_RAY`](Self::NO_RAY) if it is not in the stream.
+    /// Which of the rays that go down together; [`NO_RAY`](Self::NO_RAY) if it is not in the stream.
     number: u32,
 }
 

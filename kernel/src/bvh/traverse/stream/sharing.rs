@@ -58,9 +58,7 @@
 //!
 //! Small trees have a traversal of their own (`small_tree.rs`), which is faster.
 //!
-//! Where too few meet, sorting may bring them together, if the tree is far from the core, and rays are many: a million
-//! spheres, 65,536 rays, closest hit: to a light 1.43, a beam 1.17, diffuse 0.91 (262,144: 1.08). Rays that are done at
-//! their first hit lose by it.
+//! Rays that would gain by being sorted are sorted before they come here (`coherent/ray_order.rs`).
 
 use super::StreamMemory;
 use super::likeness::Likeness;
@@ -80,8 +78,6 @@ const ENOUGH: [f32; 2] = [6.0, 10.0];
 const SPARED: [f32; 2] = [0.35, 0.6];
 /// Trees of so many bytes are near.
 const NEAR: usize = 1 << 20;
-/// Of rays that are sorted, which share what they read, too.
-const ENOUGH_SORTED: f32 = 3.0;
 /// Of rays that enter fewer boxes, in all, nothing is learnt. (A picture of ground from the top: 112 at a box, of four boxes, then
 /// 2.4: 1,024 rays ran at 0.63 to 0.66 of ray by ray. Of rays that enter fewer than three each, in place: two cameras over
 /// flake4, 1,024 rays, 0.94 in place of 1.07.)
@@ -105,14 +101,6 @@ const PASSED_OVER: [usize; 2] = [1 << 14, 1 << 18];
 /// Queues with less room for a ray are cut short too often. (With one place a ray a stream took 2.5 times as long as ray by
 /// ray, with 4 it runs at 0.87 of its speed.)
 const LEAST_QUEUES: usize = 8;
-/// Trees of more bytes are far from the core: rays that are sorted share what they read. (Of 2 MB, diffuse rays lose a fifth;
-/// of 4 and 5 MB a twentieth, and rays to a light gain as much over those that are not sorted.)
-const FAR: usize = 1 << 23;
-/// Of trees that are far, sorted rays meet if they are so many, and one for so many spheres: of fewer those of which too few meet
-/// lose a fifth.
-const LEAST_SORTED: usize = 4 * TOGETHER;
-/// The same.
-const SPHERES_A_SORTED_RAY: usize = 16;
 
 /// What is learnt of rays as they come.
 #[derive(Clone, Copy, Debug)]
@@ -125,8 +113,7 @@ pub(crate) struct Sharing {
     /// How many boxes a ray enters by itself, not a number where it is not known, and how many more rays that is believed of.
     alone: f32,
     believed: usize,
-    as_they_come: Waiting,
-    sorted: Waiting,
+    waiting: Waiting,
     /// Of the rays that were seen last.
     likeness: Likeness,
 }
@@ -160,8 +147,7 @@ impl Sharing {
         in_bunches: false,
         alone: f32::NAN,
         believed: 0,
-        as_they_come: Waiting::NONE,
-        sorted: Waiting::NONE,
+        waiting: Waiting::NONE,
         likeness: Likeness::OF_NONE,
     };
 
@@ -182,41 +168,24 @@ impl Sharing {
     #[cfg(feature = "alloc")]
     pub(crate) fn may_pay<Q: Query>(&self, bvh: &Bvh<'_>, rays: usize) -> bool {
         let pays = if self.met.is_nan() {
-            self.as_they_come.left == 0
+            self.waiting.left == 0
         } else {
             self.is_enough::<Q>(rays.min(TOGETHER))
         };
-        rays >= LEAST_RAYS
-            && small_tree::leaves(bvh).is_none()
-            && (pays || self.may_sort::<Q>(bvh, rays))
+        rays >= LEAST_RAYS && small_tree::leaves(bvh).is_none() && pays
     }
 
-    /// Whether it may pay to sort so many rays.
-    pub(crate) fn may_sort<Q: Query>(&self, bvh: &Bvh<'_>, rays: usize) -> bool {
-        let are_many = rays >= LEAST_SORTED.max(bvh.spheres.len() / SPHERES_A_SORTED_RAY);
-        // (What is outside would have to be known ray by ray.)
-        let is_for = !Q::ANY && is_far(bvh) && bvh.outside.is_empty();
-        is_for && are_many && self.sorted.left == 0
-    }
-
-    /// The strategy for the next rays of so many, and of how many; they can be sorted if there is nothing known of any.
+    /// The strategy for the next rays of so many, and of how many.
     pub(super) fn next<A: LaneArray, Q: Query>(
         &mut self,
         bvh: &Bvh<'_>,
         memory: &StreamMemory<'_>,
         packets: &[RayPacket<A>],
-        is_new: bool,
     ) -> (StreamStrategy, usize) {
         let rays = packets.len() * A::COUNT;
         let together = memory.rays.len().min(TOGETHER);
-        let sortable = if is_new { rays.min(memory.order.len() / 2) } else { 0 };
         if memory.everywhere {
-            let is_sorted = bvh.outside.is_empty() && sortable > together;
-            return if is_sorted {
-                (StreamStrategy::Sorted, rays)
-            } else {
-                (StreamStrategy::AsTheyCome, rays)
-            };
+            return (StreamStrategy::Stream, rays);
         }
         if small_tree::leaves(bvh).is_some() || memory.queues.len() < LEAST_QUEUES * together {
             return (StreamStrategy::RayByRay, rays);
@@ -232,7 +201,7 @@ impl Sharing {
 
         let batch = alike;
         let pays = self.is_enough::<Q>(batch);
-        let is_tried = self.met.is_nan() && self.as_they_come.left == 0 && rays >= LEAST_LEFT;
+        let is_tried = self.met.is_nan() && self.waiting.left == 0 && rays >= LEAST_LEFT;
         if pays | is_tried {
             let first = (rays / 8).clamp(FIRST[0], FIRST[1]).min(batch);
             if Q::ANY && self.believed == 0 {
@@ -242,20 +211,15 @@ impl Sharing {
             let count = if pays { batch } else { first };
             let these = packets.get(..count.div_ceil(A::COUNT)).unwrap_or(packets);
             self.likeness = Likeness::of(these);
-            return (StreamStrategy::AsTheyCome, count);
+            return (StreamStrategy::Stream, count);
         }
-        if self.met.is_nan() && self.may_sort::<Q>(bvh, sortable) {
-            return (StreamStrategy::Sorted, sortable);
-        }
-        let passed = alike;
-        self.pass_over(passed);
-        (StreamStrategy::RayByRay, passed)
+        self.pass_over(alike);
+        (StreamStrategy::RayByRay, alike)
     }
 
     /// So many rays went by themselves.
     pub(crate) fn pass_over(&mut self, rays: usize) {
-        self.as_they_come.pass_over(rays);
-        self.sorted.pass_over(rays);
+        self.waiting.pass_over(rays);
     }
 
     /// Takes what rays by themselves have entered.
@@ -266,16 +230,12 @@ impl Sharing {
     }
 
     /// Takes what a stream has seen.
-    pub(super) fn take<Q: Query>(&mut self, bvh: &Bvh<'_>, strategy: StreamStrategy, seen: Seen) {
+    pub(super) fn take<Q: Query>(&mut self, bvh: &Bvh<'_>, seen: Seen) {
         // Rays that all enter the same few boxes, or none, tell nothing.
         if seen.boxes < TELLING {
             return;
         }
         let met = seen.entered as f32 / seen.boxes as f32;
-        if strategy == StreamStrategy::Sorted {
-            self.sorted.take(met >= ENOUGH_SORTED);
-            return;
-        }
         let rays = seen.rays as f32;
         (self.met, self.of) = (met, rays / seen.streams as f32);
         self.in_bunches = seen.is_in_bunches();
@@ -288,20 +248,15 @@ impl Sharing {
             paid &= !is_in_vain;
             self.believed = self.believed.saturating_sub(seen.rays as usize);
         }
-        self.as_they_come.take(paid);
+        self.waiting.take(paid);
         if !paid {
             self.met = f32::NAN;
         }
     }
 }
 
-/// Whether a tree is so far from the core that rays gain by sharing what they read.
-pub(crate) fn is_far(bvh: &Bvh<'_>) -> bool {
-    bytes_of(bvh) > FAR
-}
-
 /// How much of memory the boxes and spheres of a tree are.
-fn bytes_of(bvh: &Bvh<'_>) -> usize {
+pub(crate) fn bytes_of(bvh: &Bvh<'_>) -> usize {
     size_of_val(bvh.nodes) + size_of_val(bvh.numbers)
 }
 

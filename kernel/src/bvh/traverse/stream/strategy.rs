@@ -4,6 +4,5 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum StreamStrategy {
     RayByRay,
-    AsTheyCome,
-    Sorted,
+    Stream,
 }

@@ -44,9 +44,9 @@ fn few_that_meet_or_much_in_vain_end_it_and_all_is_tried_again() {
     assert!(bytes_of(&tree) < NEAR);
     let pays = |alone: u32, of: Seen| {
         let (mut closest, mut any) = (Sharing::NOTHING, Sharing::NOTHING);
-        closest.take::<ClosestHit>(&tree, StreamStrategy::AsTheyCome, of);
+        closest.take::<ClosestHit>(&tree, of);
         any.take_alone(Entered { rays: 128, boxes: 128 * alone });
-        any.take::<AnyHit>(&tree, StreamStrategy::AsTheyCome, of);
+        any.take::<AnyHit>(&tree, of);
         let pay = [closest.may_pay::<ClosestHit>(&tree, 8192), any.may_pay::<AnyHit>(&tree, 8192)];
         any.pass_over(PASSED_OVER[0]);
         assert!(any.may_pay::<AnyHit>(&tree, 8192));
@@ -104,8 +104,8 @@ fn rays_that_all_enter_the_same_few_boxes_tell_nothing() {
     for (boxes, expected) in [(4, 1024), (40, TOGETHER)] {
         let mut sharing = Sharing::NOTHING;
         let seen = Seen { streams: 1, rays: 1024, boxes, entered: 1024 * 2, ..Seen::default() };
-        sharing.take::<ClosestHit>(&tree, StreamStrategy::AsTheyCome, seen);
-        let (_, next) = sharing.next::<_, ClosestHit>(&tree, &memory, &packets, true);
+        sharing.take::<ClosestHit>(&tree, seen);
+        let (_, next) = sharing.next::<_, ClosestHit>(&tree, &memory, &packets);
         assert_eq!(next, expected, "{boxes}");
     }
 }
@@ -122,7 +122,7 @@ fn in_a_tree_that_is_far_a_smaller_part_is_good() {
             any.take_alone(Entered { rays: 128, boxes: 128 * alone });
             let seen =
                 Seen { streams: 1, rays: 1024, boxes: 1024, entered: 8192, ..Seen::default() };
-            any.take::<AnyHit>(&tree, StreamStrategy::AsTheyCome, seen);
+            any.take::<AnyHit>(&tree, seen);
             assert_eq!(any.may_pay::<AnyHit>(&tree, 8192), pays, "{spheres} {alone}");
         }
     }
@@ -154,13 +154,13 @@ fn what_rays_enter_by_themselves_is_counted_now_and_then() {
     let mut strategies = Vec::new();
     let packets = vec![RayPacket::<[f32; 16]>::inactive(); 1 << 13];
     for _ in 0..8 {
-        let (strategy, rays) = sharing.next::<_, AnyHit>(&tree, &memory, &packets, true);
-        strategies.push((strategy == StreamStrategy::AsTheyCome, rays));
+        let (strategy, rays) = sharing.next::<_, AnyHit>(&tree, &memory, &packets);
+        strategies.push((strategy == StreamStrategy::Stream, rays));
         let entered = 20 * rays as u32;
-        if strategy == StreamStrategy::AsTheyCome {
+        if strategy == StreamStrategy::Stream {
             let (rays, boxes) = (rays as u32, entered / 20);
             let seen = Seen { streams: 1, rays, boxes, entered, ..Seen::default() };
-            sharing.take::<AnyHit>(&tree, strategy, seen);
+            sharing.take::<AnyHit>(&tree, seen);
         } else {
             sharing.take_alone(Entered { rays: rays as u32, boxes: entered });
         }
@@ -195,15 +195,15 @@ fn rays_that_look_otherwise_are_counted_anew() {
     let (mut from, mut strategies) = (0, Vec::new());
     while from < packets.len() {
         let left = &packets[from..];
-        let (strategy, count) = sharing.next::<_, ClosestHit>(&tree, &memory, left, true);
+        let (strategy, count) = sharing.next::<_, ClosestHit>(&tree, &memory, left);
         assert!(count > 0, "{strategies:?}");
-        let is_stream = strategy == StreamStrategy::AsTheyCome;
+        let is_stream = strategy == StreamStrategy::Stream;
         strategies.push((is_stream, from, count / 16));
         if is_stream {
             let met = if (320..1280).contains(&from) { 1 } else { 30 };
             let (rays, entered) = (count as u32, 1000 * met);
             let seen = Seen { streams: 1, rays, boxes: 1000, entered, ..Seen::default() };
-            sharing.take::<ClosestHit>(&tree, strategy, seen);
+            sharing.take::<ClosestHit>(&tree, seen);
         }
         from += count.div_ceil(16);
     }
