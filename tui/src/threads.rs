@@ -27,15 +27,12 @@ pub fn packets_a_task(packets: usize) -> usize {
     (packets / TASKS).next_multiple_of(PACKETS.0).clamp(PACKETS.0, PACKETS.1)
 }
 
-/// The same of rays that have nothing in common, and go through a tree of so many spheres: as many as share their way
-/// in a stream, or gain by sorting, but no more than a sixteenth of them.
+/// The same of rays that go through a tree: as many as it sorts if they are shuffled, but no more than an eighth of them.
 #[must_use]
-pub fn packets_a_stream(packets: usize, spheres: usize) -> usize {
-    /// So many the kernel takes down together.
-    const TOGETHER: usize = 512;
-    /// For so many spheres a packet it sorts.
-    const SPHERES: usize = 128;
-    let wanted = TOGETHER.max(spheres / SPHERES).min(packets / 16);
+pub fn packets_a_tree_task(packets: usize) -> usize {
+    /// 32,768 rays; of fewer than 24,000 the kernel sorts none.
+    const SORTED: usize = 2048;
+    let wanted = SORTED.min(packets / 8);
     packets_a_task(packets).max(wanted.next_multiple_of(PACKETS.0))
 }
 
@@ -116,16 +113,10 @@ mod tests {
     }
 
     #[test]
-    fn a_stream_has_what_it_shares() {
-        let lengths = [
-            (100, 64),
-            (4096, 10_000),
-            (16_384, 10_000),
-            (16_384, 1_000_000),
-            (131_072, 1_000_000),
-        ];
-        let expected = [16, 256, 512, 1024, 7824];
-        assert_eq!(lengths.map(|(packets, spheres)| packets_a_stream(packets, spheres)), expected);
+    fn a_tree_has_as_many_as_it_sorts() {
+        let lengths = [0, 128, 4096, 16_384, 1 << 20, 1 << 24];
+        let expected = [16, 16, 512, 2048, 2048, 2048];
+        assert_eq!(lengths.map(packets_a_tree_task), expected);
     }
 
     #[test]

@@ -13,7 +13,7 @@ use crate::npy;
 use crate::structure::Structure;
 use crate::structure::scene::SceneStructures;
 use crate::structure::search::Tracing;
-use crate::threads::{Threads, packets_a_stream, packets_a_task};
+use crate::threads::{Threads, packets_a_task, packets_a_tree_task};
 use batches::{batches, runs, workload};
 use passes::{Passes, Query};
 use report::Report;
@@ -55,7 +55,7 @@ pub fn trace(arguments: &TraceArguments) -> Result<(), Error> {
     let structure = structures.structure(structure, &workload);
     let packets = rays.len().div_ceil(RayPacket::COUNT);
     let longest = match structure {
-        Structure::Bvh if !workload.coherent => packets_a_stream(packets, list.len()),
+        Structure::Bvh => packets_a_tree_task(packets),
         _ => packets_a_task(packets),
     };
     let batches = batches(&runs, structure, longest);
