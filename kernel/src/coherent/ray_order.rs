@@ -138,13 +138,14 @@ pub(crate) fn sort(places: &mut [u32], others: &mut [u32]) {
     radix_sort(places, others, BITS / 8, |place| place >> BITS);
 }
 
-/// Writes rays of some cells into `groups`, as they would come one after the other if all were sorted.
+/// Writes rays of some cells into `groups`, as they would come one after the other if all were sorted; returns how many are in
+/// each.
 #[inline(never)]
 pub(crate) fn gather_some(
     rays: &ManyRays<'_>,
     places: &[u32],
     groups: &mut [[Ray; RAYS_OF_A_GROUP]; GROUPS_TRIED],
-) {
+) -> [usize; GROUPS_TRIED] {
     /// At most so many cells, since rays are at most 2^16.
     const CELLS: usize = MOST >> CROWD;
     const NONE: u8 = GROUPS_TRIED as u8;
@@ -168,6 +169,7 @@ pub(crate) fn gather_some(
             *count += 1;
         }
     }
+    counts
 }
 
 /// The number of a ray.

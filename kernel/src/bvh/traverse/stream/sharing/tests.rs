@@ -94,19 +94,21 @@ fn short_runs_are_bunches_and_scattered_rays_are_not() {
 }
 
 #[test]
-fn rays_that_all_enter_the_same_few_boxes_tell_nothing() {
+fn few_rays_and_those_that_all_enter_the_same_few_boxes_tell_nothing() {
     let (tree, _) = scene(2000, 0);
     let tree = tree.bvh();
     let mut rays = vec![StreamRay::EMPTY; TOGETHER];
     let mut queues = vec![QueuedRay::EMPTY; 64 * TOGETHER];
     let memory = StreamMemory::new(&mut rays, &mut queues).expect("enough");
     let packets = vec![RayPacket::<[f32; 16]>::inactive(); 512];
-    for (boxes, expected) in [(4, 1024), (40, TOGETHER)] {
+    for (rays, boxes, expected) in
+        [(1024, 4, 1024), (1024, 40, TOGETHER), (63, 40, 1024), (64, 40, TOGETHER)]
+    {
         let mut sharing = Sharing::NOTHING;
-        let seen = Seen { streams: 1, rays: 1024, boxes, entered: 1024 * 2, ..Seen::default() };
+        let seen = Seen { streams: 1, rays, boxes, entered: 1024 * 2, ..Seen::default() };
         sharing.take::<ClosestHit>(&tree, seen);
         let (_, next) = sharing.next::<_, ClosestHit>(&tree, &memory, &packets);
-        assert_eq!(next, expected, "{boxes}");
+        assert_eq!(next, expected, "{rays} {boxes}");
     }
 }
 
