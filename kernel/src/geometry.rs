@@ -4,6 +4,7 @@ pub(crate) mod camera;
 pub(crate) mod columns;
 pub(crate) mod hit;
 pub(crate) mod many;
+pub(crate) mod many_answers;
 pub(crate) mod ray;
 pub(crate) mod sphere;
 pub(crate) mod sphere_columns;

@@ -4,7 +4,7 @@
 //! what it changes in each traversal.
 
 use crate::geometry::hit::{Hit, HitPacket};
-use crate::geometry::many::{ManyHits, ManyOccluded};
+use crate::geometry::many_answers::{ManyHits, ManyOccluded};
 use crate::lanes::{LaneArray, LaneMask, Lanes};
 use core::fmt::Debug;
 
