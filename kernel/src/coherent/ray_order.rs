@@ -121,7 +121,9 @@ impl RayKeys {
         (4 * in_order < 3 * LOOKED_AT).then_some(keys)
     }
 
-    /// Whether groups are to be tried before all are sorted: of closest hits, in a tree that is near.
+    /// Whether groups are to be tried before all are sorted: of closest hits, in a tree that is near. (In one that is far, too, few pass:
+    /// among a million spheres rays all around from a point 1.0 of the speed unsorted, in place of 0.92, but a beam 1.0, in place of 1.35, and
+    /// rays to a light 0.7 to 1.0, in place of 1.1 to 1.3.)
     pub(crate) fn needs_a_trial<Q: Query>(&self, gain: GainByOrder) -> bool {
         !Q::ANY && !gain.is_far && self.key != Key::Start
     }
