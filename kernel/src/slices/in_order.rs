@@ -121,3 +121,7 @@ fn groups_pay<S: Traverse + ?Sized, Q: LevelQuery>(
 fn is_within([of, parts]: [u64; 2], [did, by_rays]: [u64; 2]) -> bool {
     parts * did <= of * by_rays
 }
+
+#[cfg(all(test, proofs))]
+#[cfg(feature = "std")]
+mod tests;

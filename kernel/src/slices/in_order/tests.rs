@@ -1,0 +1,94 @@
+//! When closest hits in a tree that is near are sorted: what a trial of some groups says.
+
+extern crate std;
+
+use crate::coherent::ray_order::FEWEST_IN_GROUPS;
+use crate::coherent::ray_order::tests::{EYE, beam, point, rays};
+use crate::proofs::climb::Random;
+use crate::proofs::work::{Kind, Work};
+use crate::{Exact, Intersect, Ray, SphereList, SphereTree, Vec3};
+use std::vec;
+use std::vec::Vec;
+
+/// Few rays over many small spheres in clusters make no groups: closest hits are left as they come, any hits are sorted.
+#[test]
+fn where_groups_do_not_pay_closest_hits_are_left_in_their_order() {
+    let mut random = Random(101);
+    let mut tree = |clusters: usize, spheres: usize, radius: f32| {
+        let middles: Vec<_> = (0..clusters).map(|_| point(&mut random)).collect();
+        let sphere =
+            |number: usize| (middles[number % clusters] + 0.08 * point(&mut random), radius);
+        SphereTree::new((0..spheres).map(sphere).collect::<SphereList>())
+    };
+    let pixel = |random: &mut Random| {
+        let at = point(random);
+        Ray::new(EYE, Vec3::new(at.x / 2.0, at.y / 2.0, 1.5))
+    };
+    let rays = rays(FEWEST_IN_GROUPS + 300, pixel);
+    for (tree, expected) in
+        [(tree(60, 60_000, 0.002), [false, true]), (tree(1000, 1000, 0.05), [true; 2])]
+    {
+        let (mut hits, mut occluded) = (vec![None; rays.len()], vec![false; rays.len()]);
+        let closest = Work::of(|| tree.closest_hits(Exact, &rays, &mut hits));
+        let any = Work::of(|| tree.any_hits(Exact, &rays, &mut occluded));
+        let are_tried = [closest, any].map(|work| work.count(Kind::GroupFit) > 300);
+        assert_eq!(are_tried, expected, "{} | {}", closest.per_ray(1), any.per_ray(1));
+    }
+}
+
+/// A beam through a thin sheet of many small spheres: packets go through together, by more work than their rays would do apart. In
+/// a cube they do less, but not by much.
+#[test]
+fn where_groups_do_more_than_rays_apart_closest_hits_are_left_in_their_order() {
+    let mut random = Random(103);
+    let sphere = |number: usize| {
+        let [x, y] = [number % 200, number / 200].map(|place| place as f32 / 100.0 - 1.0);
+        (Vec3::new(x, y, 0.05 * point(&mut random).z), 0.006)
+    };
+    let sheet = SphereTree::new((0..40_000).map(sphere).collect::<SphereList>());
+    let along = Vec3::new(1.0, 0.7, -1.0);
+    let through = rays(45_000, |random| Ray::new(1.3 * point(random) - 3.0 * along, along));
+    let mut random = Random(97);
+    let cube =
+        SphereTree::new((0..60_000).map(|_| (point(&mut random), 0.008)).collect::<SphereList>());
+    for (tree, rays, is_sorted) in [(sheet, through, false), (cube, beam(30_000), true)] {
+        let mut hits = vec![None; rays.len()];
+        let work = Work::of(|| tree.closest_hits(Exact, &rays, &mut hits));
+        // Sorted, they are a group for 64 rays at least.
+        assert_eq!(work.count(Kind::GroupFit) > 400, is_sorted, "{}", work.count(Kind::GroupFit));
+    }
+}
+
+/// Of some groups that are tried more than an eighth goes apart, by chance; the others do so little that it does not matter.
+#[test]
+fn one_more_group_in_vain_among_nested_spheres_does_not_leave_a_beam_unsorted() {
+    let mut random = Random(107);
+    let nested = |number: usize| (0.1 * point(&mut random), 0.05 + number as f32 / 2500.0);
+    let tree = SphereTree::new((0..2000).map(nested).collect::<SphereList>());
+    let along = Vec3::new(1.0, 0.7, -1.0);
+    let rays = rays(70_000, |random| Ray::new(1.3 * point(random) - 3.0 * along, along));
+    for count in (26_000..70_000).step_by(2000) {
+        let mut hits = vec![None; count];
+        let work = Work::of(|| tree.closest_hits(Exact, &rays[..count], &mut hits));
+        assert!(work.count(Kind::GroupFit) > count as u64 / 200, "{count} rays");
+    }
+}
+
+/// A long lens over clusters: groups do less than their rays apart, but not so much less that more than an eighth may go apart.
+#[test]
+fn groups_that_do_little_less_may_not_go_apart_as_often() {
+    let mut random = Random(101);
+    let middles: [Vec3; 60] = core::array::from_fn(|_| point(&mut random));
+    let sphere = |number: usize| (middles[number % 60] + 0.05 * point(&mut random), 0.002);
+    let tree = SphereTree::new((0..60_000).map(sphere).collect::<SphereList>());
+    let eye = 20.0 * EYE;
+    for count in [45_000, 50_000, 55_000] {
+        let lens = rays(count, |random| {
+            let pixel = 1.2 * point(random).with_z(0.0);
+            Ray::new(eye, pixel - eye)
+        });
+        let mut hits = vec![None; count];
+        let work = Work::of(|| tree.closest_hits(Exact, &lens, &mut hits));
+        assert!(work.count(Kind::GroupFit) < count as u64 / 150, "{count} rays");
+    }
+}
