@@ -1,6 +1,6 @@
 //! The power of two by which a structure sees lengths.
 //!
-//! A sphere's size is the largest magnitude among its centre and radius. Of all ranges of 80 powers of two the one that
+//! A sphere's size is the largest magnitude among its centre and radius. Of all ranges of 81 exponents the one that
 //! holds the sizes of most spheres is chosen; its largest is brought to some 1, or above, if the least would be below
 //! 2^-40. Spheres outside of it, and those that the power would round, are seen by no bound.
 
@@ -14,9 +14,9 @@ const MOST: f32 = 1.0 / f32::MIN_POSITIVE;
 pub(crate) const SMALLEST: f32 = 1.0 / (1_u64 << 40) as f32;
 /// 2^41: nor is any larger.
 pub(crate) const LARGEST: f32 = (1_u64 << 41) as f32;
-/// How many powers of two are in a range.
+/// By how much the largest exponent of a range exceeds the least.
 pub(crate) const RANGE: usize = 80;
-/// How many of them are below 1 where a range is full.
+/// How many of its exponents are those of sizes below 1 where it is full.
 const BELOW: usize = 40;
 /// How many exponents there are.
 const EXPONENTS: usize = 256;
