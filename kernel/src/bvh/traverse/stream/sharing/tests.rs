@@ -61,6 +61,49 @@ fn few_that_meet_or_much_in_vain_end_it_and_all_is_tried_again() {
 }
 
 #[test]
+fn where_rays_enter_many_boxes_fewer_at_each_are_enough() {
+    let (tree, _) = scene(2000, 0);
+    let tree = tree.bvh();
+    // 4 at a box, of rays that enter so many.
+    for (of_each, expected) in [(19, [false; 2]), (20, [true, false])] {
+        let entered = 8192 * of_each;
+        let seen = Seen { streams: 1, rays: 8192, boxes: entered / 4, entered, ..Seen::default() };
+        let (mut closest, mut any) = (Sharing::NOTHING, Sharing::NOTHING);
+        closest.take::<ClosestHit>(&tree, seen);
+        any.take_alone(Entered { rays: 1, boxes: of_each });
+        any.take::<AnyHit>(&tree, seen);
+        let pays = [closest.may_pay::<ClosestHit>(&tree, 8192), any.is_enough::<AnyHit>(8192)];
+        assert_eq!(pays, expected, "{of_each}");
+    }
+}
+
+#[test]
+fn what_other_rays_entered_by_themselves_condemns_no_stream() {
+    let (tree, _) = scene(2000, 0);
+    let tree = tree.bvh();
+    let stream = |of_each: u32| {
+        let entered = 1024 * of_each;
+        Seen { streams: 1, rays: 1024, boxes: entered / 20, entered, ..Seen::default() }
+    };
+    // Rays that enter two boxes; then a stream of rays that enter as many, and of others.
+    for (of_each, counted_anew) in [(2, false), (4, true), (1, true)] {
+        let mut sharing = Sharing::NOTHING;
+        sharing.take_alone(Entered { rays: 1024, boxes: 2048 });
+        sharing.believed = BELIEVED;
+        sharing.take::<AnyHit>(&tree, stream(2));
+        assert!(sharing.believed > 0 && sharing.may_pay::<AnyHit>(&tree, 8192));
+        sharing.take::<AnyHit>(&tree, stream(of_each));
+        assert_eq!(sharing.believed == 0, counted_anew, "{of_each}");
+        assert!(sharing.may_pay::<AnyHit>(&tree, 8192), "{of_each}");
+    }
+    // Of those that came right before it does.
+    let mut sharing = Sharing::NOTHING;
+    sharing.take_alone(Entered { rays: 1024, boxes: 2048 });
+    sharing.take::<AnyHit>(&tree, stream(4));
+    assert!(!sharing.may_pay::<AnyHit>(&tree, 8192));
+}
+
+#[test]
 fn of_bunches_that_have_nothing_in_common_a_sample_goes_as_a_stream() {
     let (tree, _) = scene(100_000, 0);
     let mut random = Random(67);
