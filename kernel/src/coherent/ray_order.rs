@@ -34,7 +34,9 @@ use keys::{BITS, Key};
 
 pub(crate) use keys::{MOST, RayKeys};
 
-/// The fewest rays that gain by groups, and by starting near each other.
+/// The fewest rays that gain by groups, and by starting near each other. (Any hits of 16,384: 1.2 to 2.1 for shuffled cameras and beams among
+/// nested spheres and 10,000, but 0.5 to 0.9 in chains, 0.7 to 0.9 along an axis and nearly parallel, 0.9 among a million. With a trial
+/// these lose a fifth, and the mean of six scenes is 0.95. Closest hits 0.94; of 8,192 rays 0.88, any 0.95.)
 pub(crate) const FEWEST_IN_GROUPS: usize = 24_000;
 const FEWEST: usize = 2048;
 /// Trees of more bytes are far from the core. (Of 2 MB, diffuse rays that are sorted by where they start lose a fifth; of 4 and 5 MB
