@@ -71,12 +71,18 @@ use crate::geometry::ray::RayPacket;
 use crate::lanes::LaneArray;
 use crate::query::Query;
 
-/// So many rays must meet at a box, on average: for the closest hit, and for any.
-const ENOUGH: [f32; 2] = [6.0, 10.0];
+/// So many rays must meet at a box, on average: for the closest hit, and for any, times the share of these boxes that a ray enters by
+/// itself. (10, whatever it enters: rays sorted by direction among 120,000 spheres that overlap, 13 and 0.48, 0.87 to 0.92 of the speed;
+/// diffuse ones in chains, 8.8 and 1, 0.78 to 0.88.)
+const ENOUGH: [f32; 2] = [6.0, 7.0];
+/// For any hit in a tree that is near. (7: diffuse rays among radii that spread over 10^6, 9 and 0.79, 0.88.)
+const ENOUGH_NEAR: f32 = 8.5;
+/// Such a share of them it is held to enter where that is not known.
+const USUAL_SHARE: f32 = 0.7;
 /// The same of rays that enter [`MANY`] boxes each, or more: what a stream takes for a ray, however few those are, matters less. (Huge and
 /// tiny spheres, 4,096 rays, by ray by ray: of 40 to 53 boxes and 3.2 to 5.1 at each 1.06 to 1.59, closest; of 21 to 24
 /// and 4.6 to 4.9 1.15 to 1.27, any. A million, 15 boxes, 5.5 to 6.2: 0.99 to 1.05, and 0.85 to 0.92.)
-const ENOUGH_OF_MANY: [f32; 2] = [3.5, 4.5];
+const ENOUGH_OF_MANY: [f32; 2] = [3.5, 4.0];
 const MANY: f32 = 20.0;
 /// Of the boxes that a ray enters in a stream it must enter such a share by itself, in a tree that is far from the core, and in
 /// one that is near it.
@@ -127,6 +133,8 @@ pub(crate) struct Sharing {
     /// How many boxes a ray enters by itself, not a number where it is not known, and how many more rays that is believed of.
     alone: f32,
     believed: usize,
+    /// Which part that is of those that it enters in a stream.
+    share: f32,
     /// Whether those rays came right before the next.
     is_alone_next: bool,
     waiting: Waiting,
@@ -164,17 +172,23 @@ impl Sharing {
         in_bunches: false,
         alone: f32::NAN,
         believed: 0,
+        share: USUAL_SHARE,
         is_alone_next: false,
         waiting: Waiting::NONE,
         likeness: Likeness::OF_NONE,
     };
 
     /// Whether enough of so many rays would meet at a box; not where nothing is known.
-    fn is_enough<Q: Query>(&self, rays: usize) -> bool {
+    fn is_enough<Q: Query>(&self, bvh: &Bvh<'_>, rays: usize) -> bool {
         let root = libm::cbrtf(rays as f32 / self.of);
         let times = if self.in_bunches { root } else { root * root };
-        let enough = if self.is_many { ENOUGH_OF_MANY } else { ENOUGH };
-        1.0 + (self.met - 1.0) * times >= enough[usize::from(Q::ANY)]
+        let together = 1.0 + (self.met - 1.0) * times;
+        let [closest, any] = if self.is_many { ENOUGH_OF_MANY } else { ENOUGH };
+        if !Q::ANY {
+            return together >= closest;
+        }
+        let any = if is_near(bvh) && !self.is_many { ENOUGH_NEAR } else { any };
+        together * self.share >= any
     }
 
     /// How many of so many rays go down together.
@@ -189,7 +203,7 @@ impl Sharing {
         let pays = if self.met.is_nan() {
             self.waiting.left == 0
         } else {
-            self.is_enough::<Q>(rays.min(TOGETHER))
+            self.is_enough::<Q>(bvh, rays.min(TOGETHER))
         };
         rays >= LEAST_RAYS && small_tree::leaves(bvh).is_none() && pays
     }
@@ -219,7 +233,7 @@ impl Sharing {
         }
 
         let batch = alike;
-        let pays = self.is_enough::<Q>(batch);
+        let pays = self.is_enough::<Q>(bvh, batch);
         let is_tried = self.met.is_nan() && self.waiting.left == 0 && rays >= LEAST_LEFT;
         if pays | is_tried {
             let first = (rays / 8).clamp(FIRST[0], FIRST[1]).min(batch);
@@ -260,14 +274,17 @@ impl Sharing {
         (self.met, self.of) = (met, rays / seen.streams as f32);
         self.is_many = seen.entered as f32 >= MANY * rays;
         self.in_bunches = seen.is_in_bunches();
+        // (Where nothing is known of rays by themselves, it is not a number.)
+        let share = self.alone * rays / seen.entered as f32;
+        let is_alone_next = core::mem::take(&mut self.is_alone_next);
+        if is_alone_next {
+            self.share = share.min(1.0);
+        }
         // As many as can go down together meet more of each other.
-        let mut paid = self.is_enough::<Q>(TOGETHER);
+        let mut paid = self.is_enough::<Q>(bvh, TOGETHER);
         if Q::ANY {
-            // (Where nothing is known of rays by themselves, it is not a number.)
-            let share = self.alone * rays / seen.entered as f32;
-            let is_in_vain = share < SPARED[usize::from(bytes_of(bvh) <= NEAR)];
+            let is_in_vain = share < SPARED[usize::from(is_near(bvh))];
             self.believed = self.believed.saturating_sub(seen.rays as usize);
-            let is_alone_next = core::mem::take(&mut self.is_alone_next);
             if !is_alone_next && (is_in_vain || share > MOST_ALONE) {
                 self.believed = 0;
                 if is_in_vain {
@@ -282,6 +299,11 @@ impl Sharing {
             self.met = f32::NAN;
         }
     }
+}
+
+/// Whether a tree is near the core.
+fn is_near(bvh: &Bvh<'_>) -> bool {
+    bytes_of(bvh) <= NEAR
 }
 
 /// How much of memory the boxes and spheres of a tree are.

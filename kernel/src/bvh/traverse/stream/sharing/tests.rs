@@ -52,9 +52,11 @@ fn few_that_meet_or_much_in_vain_end_it_and_all_is_tried_again() {
         assert!(any.may_pay::<AnyHit>(&tree, 8192));
         pay
     };
-    // 1,024 that are two at a box are five if they are eight times as many.
+    // 1,024 that are two at a box are five if they are eight times as many; of 2.9 they are 8.7.
     assert_eq!(pays(8, seen(4096, 8192)), [false; 2]);
-    assert_eq!(pays(8, seen(3000, 8192)), [true, false]);
+    assert_eq!(pays(8, seen(2800, 8192)), [true; 2]);
+    assert_eq!(pays(7, seen(2800, 8192)), [true, false]);
+    assert_eq!(pays(8, seen(2900, 8192)), [true, false]);
     // Of eight boxes five are a good part, and four are not.
     assert_eq!(pays(5, seen(1024, 8192)), [true; 2]);
     assert_eq!(pays(4, seen(1024, 8192)), [true, false]);
@@ -64,15 +66,18 @@ fn few_that_meet_or_much_in_vain_end_it_and_all_is_tried_again() {
 fn where_rays_enter_many_boxes_fewer_at_each_are_enough() {
     let (tree, _) = scene(2000, 0);
     let tree = tree.bvh();
-    // 4 at a box, of rays that enter so many.
-    for (of_each, expected) in [(19, [false; 2]), (20, [true, false])] {
+    // 4 at a box, of rays that enter so many, and of any hit by themselves.
+    for (of_each, alone, expected) in
+        [(19, 19, [false; 2]), (20, 20, [true; 2]), (20, 19, [true, false])]
+    {
         let entered = 8192 * of_each;
         let seen = Seen { streams: 1, rays: 8192, boxes: entered / 4, entered, ..Seen::default() };
         let (mut closest, mut any) = (Sharing::NOTHING, Sharing::NOTHING);
         closest.take::<ClosestHit>(&tree, seen);
-        any.take_alone(Entered { rays: 1, boxes: of_each });
+        any.take_alone(Entered { rays: 1, boxes: alone });
         any.take::<AnyHit>(&tree, seen);
-        let pays = [closest.may_pay::<ClosestHit>(&tree, 8192), any.is_enough::<AnyHit>(8192)];
+        let pays =
+            [closest.may_pay::<ClosestHit>(&tree, 8192), any.is_enough::<AnyHit>(&tree, 8192)];
         assert_eq!(pays, expected, "{of_each}");
     }
 }
@@ -169,6 +174,16 @@ fn in_a_tree_that_is_far_a_smaller_part_is_good() {
                 Seen { streams: 1, rays: 1024, boxes: 1024, entered: 8192, ..Seen::default() };
             any.take::<AnyHit>(&tree, seen);
             assert_eq!(any.may_pay::<AnyHit>(&tree, 8192), pays, "{spheres} {alone}");
+        }
+        // So is less company.
+        for (at_a_box, pays) in [(6.9, [false; 2]), (7.1, [true, false]), (8.7, [true; 2])] {
+            let mut any = Sharing::NOTHING;
+            any.take_alone(Entered { rays: 1, boxes: 8 });
+            let boxes = (65_536.0 / at_a_box) as u32;
+            let seen = Seen { streams: 1, rays: 8192, boxes, entered: 65_536, ..Seen::default() };
+            any.take::<AnyHit>(&tree, seen);
+            let pays = pays[usize::from(is_near)];
+            assert_eq!(any.may_pay::<AnyHit>(&tree, 8192), pays, "{spheres} {at_a_box}");
         }
     }
 }
