@@ -75,8 +75,9 @@ use crate::query::Query;
 /// itself. (10, whatever it enters: rays sorted by direction among 120,000 spheres that overlap, 13 and 0.48, 0.87 to 0.92 of the speed;
 /// diffuse ones in chains, 8.8 and 1, 0.78 to 0.88.)
 const ENOUGH: [f32; 2] = [6.0, 7.0];
-/// For any hit in a tree that is near. (7: diffuse rays among radii that spread over 10^6, 9 and 0.79, 0.88.)
-const ENOUGH_NEAR: f32 = 8.5;
+/// For any hit in a tree that is near. (7: diffuse rays among radii that spread over 10^6, 9 and 0.79, 0.88; 8.5: short ones in a city,
+/// which enter few boxes, 0.86.)
+const ENOUGH_NEAR: f32 = 10.0;
 /// Such a share of them it is held to enter where that is not known.
 const USUAL_SHARE: f32 = 0.7;
 /// The same of rays that enter [`MANY`] boxes each, or more: what a stream takes for a ray, however few those are, matters less. (Huge and
