@@ -78,13 +78,13 @@ const ENOUGH: [f32; 2] = [6.0, 7.0];
 /// For any hit in a tree that is near. (7: diffuse rays among radii that spread over 10^6, 9 and 0.79, 0.88; 8.5: short ones in a city,
 /// which enter few boxes, 0.86.)
 const ENOUGH_NEAR: f32 = 10.0;
-/// Such a share of them it is held to enter where that is not known.
-const USUAL_SHARE: f32 = 0.7;
 /// The same of rays that enter [`MANY`] boxes each, or more: what a stream takes for a ray, however few those are, matters less. (Huge and
 /// tiny spheres, 4,096 rays, by ray by ray: of 40 to 53 boxes and 3.2 to 5.1 at each 1.06 to 1.59, closest; of 21 to 24
 /// and 4.6 to 4.9 1.15 to 1.27, any. A million, 15 boxes, 5.5 to 6.2: 0.99 to 1.05, and 0.85 to 0.92.)
 const ENOUGH_OF_MANY: [f32; 2] = [3.5, 4.0];
 const MANY: f32 = 20.0;
+/// A ray is held to enter such a share of a stream's boxes by itself where that is not known.
+const USUAL_SHARE: f32 = 0.7;
 /// Of the boxes that a ray enters in a stream it must enter such a share by itself, in a tree that is far from the core, and in
 /// one that is near it.
 const SPARED: [f32; 2] = [0.35, 0.6];
