@@ -57,6 +57,8 @@ fn few_that_meet_or_much_in_vain_end_it_and_all_is_tried_again() {
     assert_eq!(pays(8, seen(2400, 8192)), [true; 2]);
     assert_eq!(pays(7, seen(2400, 8192)), [true, false]);
     assert_eq!(pays(8, seen(2600, 8192)), [true, false]);
+    // Whatever it enters by itself above that.
+    assert_eq!(pays(16, seen(2600, 8192)), [true, false]);
     // Of eight boxes five are a good part, and four are not.
     assert_eq!(pays(5, seen(1024, 8192)), [true; 2]);
     assert_eq!(pays(4, seen(1024, 8192)), [true, false]);
