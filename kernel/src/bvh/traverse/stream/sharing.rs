@@ -72,19 +72,17 @@ use crate::lanes::LaneArray;
 use crate::query::Query;
 
 /// So many rays must meet at a box, on average: for the closest hit, and for any, times the share of these boxes that a ray enters by
-/// itself. (10, whatever it enters: rays sorted by direction among 120,000 spheres that overlap, 13 and 0.48, 0.87 to 0.92 of the speed;
-/// diffuse ones in chains, 8.8 and 1, 0.78 to 0.88.)
+/// itself. (10, whatever it enters: rays sorted by direction among 120,000 spheres that overlap, 13 and 0.48, 0.88 to 0.96 of the speed;
+/// diffuse ones in chains, 8.8 and 1, 0.8 to 0.95.)
 const ENOUGH: [f32; 2] = [6.0, 7.0];
 /// For any hit in a tree that is near. (7: diffuse rays among radii that spread over 10^6, 9 and 0.79, 0.88; 8.5: short ones in a city,
 /// which enter few boxes, 0.86.)
 const ENOUGH_NEAR: f32 = 10.0;
 /// The same of rays that enter [`MANY`] boxes each, or more: what a stream takes for a ray, however few those are, matters less. (Huge and
-/// tiny spheres, 4,096 rays, by ray by ray: of 40 to 53 boxes and 3.2 to 5.1 at each 1.06 to 1.59, closest; of 21 to 24
-/// and 4.6 to 4.9 1.15 to 1.27, any. A million, 15 boxes, 5.5 to 6.2: 0.99 to 1.05, and 0.85 to 0.92.)
+/// tiny spheres, 3,600 shuffled rays of 44 boxes, 4 to 5 at each: a stream of all is 1.8 to 1.9 times ray by ray, and a call ran at 0.64 to
+/// 0.78 of that; now 0.76 to 0.98.)
 const ENOUGH_OF_MANY: [f32; 2] = [3.5, 4.0];
 const MANY: f32 = 20.0;
-/// A ray is held to enter such a share of a stream's boxes by itself where that is not known.
-const USUAL_SHARE: f32 = 0.7;
 /// Of the boxes that a ray enters in a stream it must enter such a share by itself, in a tree that is far from the core, and in
 /// one that is near it.
 const SPARED: [f32; 2] = [0.35, 0.6];
@@ -134,7 +132,7 @@ pub(crate) struct Sharing {
     /// How many boxes a ray enters by itself, not a number where it is not known, and how many more rays that is believed of.
     alone: f32,
     believed: usize,
-    /// Which part that is of those that it enters in a stream.
+    /// Which part that is of those that it enters in a stream; all where it is not known.
     share: f32,
     /// Whether those rays came right before the next.
     is_alone_next: bool,
@@ -173,7 +171,7 @@ impl Sharing {
         in_bunches: false,
         alone: f32::NAN,
         believed: 0,
-        share: USUAL_SHARE,
+        share: 1.0,
         is_alone_next: false,
         waiting: Waiting::NONE,
         likeness: Likeness::OF_NONE,

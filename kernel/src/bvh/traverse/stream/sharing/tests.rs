@@ -68,19 +68,23 @@ fn few_that_meet_or_much_in_vain_end_it_and_all_is_tried_again() {
 fn where_rays_enter_many_boxes_fewer_at_each_are_enough() {
     let (tree, _) = scene(2000, 0);
     let tree = tree.bvh();
-    // 4 at a box, of rays that enter so many, and of any hit by themselves.
-    for (of_each, alone, expected) in
-        [(19, 19, [false; 2]), (20, 20, [true; 2]), (20, 19, [true, false])]
-    {
+    // So many at a box, of rays that enter so many, and of any hit by themselves.
+    for (at_a_box, of_each, alone, expected) in [
+        (3, 20, 20, [false; 2]),
+        (4, 19, 19, [false; 2]),
+        (4, 20, 20, [true; 2]),
+        (4, 20, 19, [true, false]),
+    ] {
         let entered = 8192 * of_each;
-        let seen = Seen { streams: 1, rays: 8192, boxes: entered / 4, entered, ..Seen::default() };
+        let seen =
+            Seen { streams: 1, rays: 8192, boxes: entered / at_a_box, entered, ..Seen::default() };
         let (mut closest, mut any) = (Sharing::NOTHING, Sharing::NOTHING);
         closest.take::<ClosestHit>(&tree, seen);
         any.take_alone(Entered { rays: 1, boxes: alone });
         any.take::<AnyHit>(&tree, seen);
         let pays =
             [closest.may_pay::<ClosestHit>(&tree, 8192), any.is_enough::<AnyHit>(&tree, 8192)];
-        assert_eq!(pays, expected, "{of_each}");
+        assert_eq!(pays, expected, "{at_a_box} {of_each} {alone}");
     }
 }
 
