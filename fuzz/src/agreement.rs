@@ -131,7 +131,7 @@ mod tests {
 
     #[test]
     fn the_corpus_passes() {
-        let corpus = concat!(env!("CARGO_MANIFEST_DIR"), "/corpus/packet_against_oracle");
+        let corpus = concat!(env!("CARGO_MANIFEST_DIR"), "/../fuzz/corpus/packet_against_oracle");
         let mut files = 0;
         for entry in std::fs::read_dir(corpus).expect("the corpus is there") {
             let path = entry.expect("an entry").path();
