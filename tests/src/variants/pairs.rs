@@ -7,11 +7,13 @@ use spherule_kernel::{
     pair_lanes, pair_packets, pairs,
 };
 use spherule_referee::case::Case;
+use std::vec::IntoIter;
 
 /// The layers at which pairs are intersected.
-pub fn pair_layers() -> impl Iterator<Item = Layer> {
+pub fn pair_layers() -> IntoIter<Layer> {
     let lanes = [1, 4, 8, 16].map(Layer::Lanes).into_iter();
-    lanes.chain([Layer::Slice]).chain(levels().map(Layer::Packets))
+    let layers = lanes.chain([Layer::Slice]).chain(levels().map(Layer::Packets));
+    layers.collect::<Vec<_>>().into_iter()
 }
 
 /// The t of each case on its own.

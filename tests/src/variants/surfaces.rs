@@ -7,11 +7,13 @@ use spherule_kernel::{
     SurfacePacket, Tier, Towards, Trace, Vec3, f32x4, f32x8, f32x16, shadow_lanes, shadow_packets,
     surface, surface_lanes, surface_packets,
 };
+use std::vec::IntoIter;
 
 /// The layers at which surfaces are computed.
-pub fn surface_layers() -> impl Iterator<Item = Layer> {
+pub fn surface_layers() -> IntoIter<Layer> {
     let lanes = [1, 4, 8, 16].map(Layer::Lanes).into_iter();
-    lanes.chain([Layer::Ray]).chain(levels().map(Layer::Packets))
+    let layers = lanes.chain([Layer::Ray]).chain(levels().map(Layer::Packets));
+    layers.collect::<Vec<_>>().into_iter()
 }
 
 /// Rays in packets, what they hit, and the surfaces there.

@@ -1,6 +1,9 @@
 //! The rows: tier, structure and layer.
+//!
+//! Iterators here are of vectors: a chain of adapters would be compiled anew in each of the tests that walk it.
 
 use spherule_kernel::{Coherence, Level, LevelName, Tier};
+use std::vec::IntoIter;
 
 /// What holds the spheres.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,56 +66,50 @@ pub struct Variant {
 }
 
 /// The levels that this CPU has.
-pub fn levels() -> impl Iterator<Item = LevelName> {
-    LevelName::ALL.into_iter().filter(|&name| Level::named(name).is_some())
+pub fn levels() -> IntoIter<LevelName> {
+    let has = |&name: &LevelName| Level::named(name).is_some();
+    LevelName::ALL.into_iter().filter(has).collect::<Vec<_>>().into_iter()
 }
 
 /// The whole table: of a list every lane width; of the larger structures, whose source is the same in every width,
 /// two.
-pub fn variants() -> impl Iterator<Item = Variant> {
-    let of = |structure, layers: Vec<Layer>| {
-        let variant = move |tier| {
-            let layers = layers.clone().into_iter();
-            layers.map(move |layer| Variant { tier, structure, layer })
-        };
-        Tier::ALL.into_iter().flat_map(variant)
+pub fn variants() -> IntoIter<Variant> {
+    let plain = vec![Layer::Ray, Layer::Slice, Layer::Columns];
+    let packets: Vec<Layer> = levels().map(Layer::Packets).collect();
+    let best = vec![Layer::Packets(Level::best().name())];
+    let all = |lanes: &[usize]| -> Vec<Layer> {
+        let leveled = [&[Layer::SliceAt(LevelName::Baseline)], packets.as_slice()].concat();
+        leveled.into_iter().chain(lanes.iter().copied().map(Layer::Lanes)).collect()
     };
-    let plain = [Layer::Ray, Layer::Slice, Layer::Columns];
-    let leveled = || {
-        let packets = levels().map(Layer::Packets);
-        [Layer::SliceAt(LevelName::Baseline)].into_iter().chain(packets)
-    };
-    let all = |lanes: &[usize]| {
-        let lanes = lanes.iter().copied().map(Layer::Lanes);
-        leveled().chain(lanes).collect::<Vec<_>>()
-    };
-    of(Structure::List, [plain.to_vec(), all(&[1, 4, 8, 16])].concat())
-        .chain(of(Structure::DepthList(0), plain.to_vec()))
-        .chain(of(Structure::DepthList(7), all(&[1, 8])))
-        .chain(of(Structure::DepthList(1), vec![Layer::Packets(Level::best().name())]))
-        .chain(of(Structure::Tree(Coherence::Detect), plain.to_vec()))
-        .chain(of(Structure::Tree(Coherence::Coherent), all(&[1, 8])))
-        .chain(of(Structure::Tree(Coherence::Incoherent), all(&[1, 8])))
-        .chain(of(
-            Structure::Refitted(Coherence::Detect),
-            vec![Layer::Ray, Layer::Slice, Layer::Lanes(1)],
-        ))
-        .chain(of(
-            Structure::Refitted(Coherence::Incoherent),
-            levels().map(Layer::Packets).collect(),
-        ))
-        .chain(of(Structure::Stream(1024), all(&[1, 8])))
-        .chain(of(Structure::Stream(16), vec![Layer::Packets(Level::best().name())]))
-        .chain(of(
-            Structure::Bvh4,
-            [plain.to_vec(), vec![Layer::Lanes(1), Layer::Lanes(8)]].concat(),
-        ))
+    let rows = [
+        (Structure::List, [plain.clone(), all(&[1, 4, 8, 16])].concat()),
+        (Structure::DepthList(0), plain.clone()),
+        (Structure::DepthList(7), all(&[1, 8])),
+        (Structure::DepthList(1), best.clone()),
+        (Structure::Tree(Coherence::Detect), plain.clone()),
+        (Structure::Tree(Coherence::Coherent), all(&[1, 8])),
+        (Structure::Tree(Coherence::Incoherent), all(&[1, 8])),
+        (Structure::Refitted(Coherence::Detect), vec![Layer::Ray, Layer::Slice, Layer::Lanes(1)]),
+        (Structure::Refitted(Coherence::Incoherent), packets.clone()),
+        (Structure::Stream(1024), all(&[1, 8])),
+        (Structure::Stream(16), best),
+        (Structure::Bvh4, [plain, vec![Layer::Lanes(1), Layer::Lanes(8)]].concat()),
+    ];
+
+    let mut table = Vec::new();
+    for (structure, layers) in rows {
+        for tier in Tier::ALL {
+            table.extend(layers.iter().map(|&layer| Variant { tier, structure, layer }));
+        }
+    }
+    table.into_iter()
 }
 
 /// The variants of lists that have loops of their own: rays and slices of them go through packets.
-pub fn lists() -> impl Iterator<Item = Variant> {
+pub fn lists() -> IntoIter<Variant> {
     let packed = |layer| matches!(layer, Layer::Packets(_) | Layer::Lanes(_));
-    variants().filter(move |v| v.structure == Structure::List && packed(v.layer))
+    let of_lists = |v: &Variant| v.structure == Structure::List && packed(v.layer);
+    variants().filter(of_lists).collect::<Vec<_>>().into_iter()
 }
 
 /// The readable form of a tier: a list, one lane.
