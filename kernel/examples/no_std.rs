@@ -12,7 +12,7 @@ static X: [f32; 4] = [0.0, 2.0, -2.0, 0.0];
 static Y: [f32; 4] = [0.0, 0.0, 0.0, 2.0];
 static Z: [f32; 4] = [5.0, 6.0, 7.0, 8.0];
 static RADIUS: [f32; 4] = [1.0, 1.0, 1.0, 1.0];
-/// What any list of so many spheres needs is known at build time.
+/// The memory that a tree over so many spheres needs is known at build time.
 const NEEDED: spherule_kernel::BvhSize = Bvh::needed(X.len());
 
 /// The closest hit along z, as firmware may compute it: no heap, no panic.

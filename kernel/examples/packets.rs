@@ -1,4 +1,4 @@
-//! Rays that are kept as packets, sixteen to a packet, are traced without a copy; a camera's are made on the way.
+//! Rays that are kept as packets, sixteen to a packet, are traced without a copy; a camera's rays are made on the way.
 
 use spherule_kernel::{
     Camera, CameraTiles, Exact, HitPacket, Intersect, Projection, RayPacket, SphereTree, Trace,
@@ -21,15 +21,15 @@ fn main() {
         step_y: Vec3::new(0.0, -1.0 / SIDE as f32, 0.0),
     };
 
-    // A packet is a tile of the picture: its rays look the same way. The tree makes them, and knows without a look at them
-    // what four may meet.
+    // A packet is a tile of the picture: its rays look the same way. The tree makes them, and knows what four tiles may
+    // meet without a look at their rays.
     let corners: Vec<_> = Camera::tile_corners::<[f32; 16]>(SIDE, SIDE).collect();
     let tiles = CameraTiles { camera, size: (SIDE, SIDE), corners: &corners };
     let mut rays = vec![RayPacket::inactive(); corners.len()];
     let mut hits = vec![HitPacket::none(); corners.len()];
     tree.closest_hit_tiles(Exact, &mut Trace::new().coherent(), tiles, &mut rays, &mut hits);
 
-    // They are left for what comes next: here, the same once more, as packets.
+    // The rays are left for what comes next: here they are traced once more, as packets.
     let mut again = vec![HitPacket::none(); rays.len()];
     tree.closest_hit_packets(Exact, &mut Trace::new().coherent(), &rays, &mut again);
     assert_eq!(hits, again);

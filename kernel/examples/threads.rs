@@ -6,9 +6,10 @@ use rayon::prelude::*;
 use spherule_kernel::{Exact, Hit, Intersect, Ray, SphereTree, Vec3};
 use std::time::Instant;
 
-/// Rays of a piece: enough that a call's beginning is nothing beside it, few enough that no thread waits long for the last.
-/// (Of 262,144 diffuse rays two threads do 1.87 times as much as one; in pieces of 4,096, of which each learns anew how
-/// they are best traced, 1.47 times. Of fewer than 24,000 a tree sorts none, so a shuffled camera runs at half of its speed.)
+/// Rays of a piece: enough that the beginning of a call costs nothing beside them, few enough that no thread waits long for
+/// the last piece. (Two threads trace 262,144 diffuse rays 1.87 times as fast as one; in pieces of 4,096, each of which
+/// learns anew how its rays are best traced, 1.47 times as fast. A tree does not sort fewer than 24,000 rays, so in smaller
+/// pieces a shuffled camera runs at half of its speed.)
 const PIECE: usize = 32_768;
 
 /// The closest hit of every ray, on all threads. The tree is shared: nothing in it changes.
@@ -45,7 +46,7 @@ fn main() {
             .map(|_| (point(&mut state), 0.02 + 0.01 * number(&mut state)))
             .collect::<Vec<_>>(),
     );
-    // A camera's, line by line and shuffled, and others that have nothing in common.
+    // A camera's rays, line by line and shuffled, and rays that have nothing in common.
     let side = 1 << 9;
     let pixel = |i: i32| (i % side - side / 2, side / 2 - i / side);
     let camera: Vec<Ray> = (0..side * side)

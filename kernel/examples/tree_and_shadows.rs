@@ -1,4 +1,4 @@
-//! A tree, the closest hits of a camera's rays, and shadow rays from there to a light.
+//! A tree, the closest hits of a camera's rays, and shadow rays from these hits to a light.
 
 use spherule_kernel::{
     Camera, Exact, Intersect, Projection, Ray, Side, SphereList, SphereTree, Trace, Vec3, surface,
@@ -28,7 +28,8 @@ fn main() {
     let mut hits = vec![None; rays.len()];
     tree.closest_hits_with(Exact, &mut Trace::new().coherent(), &rays, &mut hits);
 
-    // From the surface itself: no distance to choose, and nothing shadows itself.
+    // Shadow rays start on the surface itself: there is no distance to choose, and nothing shadows
+    // itself.
     let shadow_rays: Vec<Ray> = rays
         .iter()
         .zip(&hits)

@@ -1,4 +1,4 @@
-//! How far an answer may be trusted, as a type or as a value: the tiers.
+//! The tiers: how far to trust an answer, as a type or as a value.
 //!
 //! | tier | promise |
 //! |---|---|
@@ -7,9 +7,9 @@
 //! | [`Stable`] | the best form that plain single precision allows |
 //! | [`Exact`] | decided as in real arithmetic, t correctly rounded, for every input |
 //!
-//! A tier says where a line meets a sphere; validity, interval, order and ties are the same code
-//! for all of them. Name a tier at build time by its type, `Exact`, or at run time by [`Tier`]: the
-//! answers are the same bits.
+//! A tier says where a line meets a sphere; the code for validity, interval, order and ties is the
+//! same for all tiers. Name a tier at build time by its type, `Exact`, or at run time by [`Tier`]:
+//! the answers are the same bits.
 
 pub(crate) mod constants;
 pub(crate) mod exact;

@@ -2,12 +2,12 @@
 //!
 //! # Method
 //!
-//! Sphere i is in the box c -+ r, rounded outward. A node holds the boxes of up to sixteen
-//! children, coordinate by coordinate, so that one ray is tested against all of them at once; a leaf
-//! holds up to sixteen spheres in the same way, as many as it has: leaves lie one behind the other. The
-//! [build](Bvh::build) goes from the root down by the surface area heuristic (Wald 2007: sixteen bins an axis), and a
-//! budget of nodes and places bounds the memory (`bvh/build/budget.rs`). Of spheres that are the same one is in the
-//! tree, with the lowest index.
+//! Sphere i is in the box c -+ r, rounded outward. A node holds the boxes of up to sixteen children, coordinate by
+//! coordinate, so that one ray is tested against all of them at once. A leaf holds up to sixteen spheres in the same
+//! way, and takes no more room than they need: leaves lie one behind the other. The [build](Bvh::build) goes from the
+//! root down by the surface area heuristic (Wald 2007: sixteen bins an axis), and a budget of nodes and places bounds
+//! the memory (`bvh/build/budget.rs`). Of spheres that are the same, only the one with the lowest index is in the
+//! tree.
 //!
 //! Incoherent rays are traced ray by ray (`bvh/traverse/wavefront.rs`), or, with memory for it, in queues that go
 //! down together (`bvh/traverse/stream.rs`); packets that look the same way go down as groups
@@ -15,24 +15,25 @@
 //!
 //! # What is guaranteed
 //!
-//! Bit for bit what the list of spheres answers: by [`Exact`](crate::Exact) for every input, by
-//! [`Stable`](crate::Stable) in its domain, by [`Fast`](crate::Fast) and [`Geometric`](crate::Geometric)
-//! except for hits that their forms find on lines that pass a sphere's box by. Boxes and filters only decide what is
-//! skipped, under bounds that `docs/traversal-margins.md` proves; every t is a tier's.
+//! A tree answers bit for bit what the list of spheres answers: by [`Exact`](crate::Exact) for every input, by
+//! [`Stable`](crate::Stable) in its domain, by [`Fast`](crate::Fast) and [`Geometric`](crate::Geometric) except for
+//! hits that their forms find on lines that pass a sphere's box by. Boxes and filters only decide what is skipped,
+//! under bounds that `docs/traversal-margins.md` proves; every t is a tier's.
 //!
 //! # Units
 //!
-//! Boxes and leaves hold the spheres times a power of two, that of most spheres' sizes, and rays are scaled in the
-//! same way (`scale`): a scene times 2^k has the same tree, and takes the same time, as has a ray of any length.
-//! Tiers get both as they were given. What the bounds do not cover is not skipped: spheres of other sizes than most,
-//! by 2^40 or more, are kept apart, and met as a list is; rays that start beyond 2^56 times the scene's size are
-//! tested against all spheres, if they come near any.
+//! Boxes and leaves hold the spheres times a power of two, which follows from the sizes of most spheres, and rays are
+//! scaled in the same way (`scale`). So a scene times 2^k has the same tree and takes the same time, and a ray of any
+//! length takes the same time. Tiers get spheres and rays as they were given. What the bounds do not cover is not
+//! skipped: spheres larger or smaller than most by 2^40 or more are kept apart, and tested as a list is; rays that
+//! start beyond 2^56 times the scene's size are tested against all spheres, if they come near any.
 //!
 //! # Depth
 //!
 //! A node over n spheres gives none of its children more than n/8 of them, rounded up, or 256, where the heuristic
-//! chooses (`bvh/build/children.rs`), and in equal parts the largest 16^k below n. A node over at most 256 has only
-//! leaves for children. Of 2^27 spheres, which are the most, that is ten nodes one below the other.
+//! chooses (`bvh/build/children.rs`). Where the node is cut in equal parts, no child has more than the largest 16^k
+//! below n. A node over at most 256 spheres has only leaves for children. So 2^27 spheres, which are the most, make
+//! ten nodes one below the other.
 
 pub(crate) mod boxes_per_ray;
 pub(crate) mod build;

@@ -1,7 +1,7 @@
 //! Packets that look the same way, traced together: down a tree (`tree_source`), or through spheres in the
 //! order of their depth (`list_source`).
 //!
-//! Both go the same way: `packet_state` holds what a packet knows, `packet_group` what four do together,
+//! Both share their parts: `packet_state` holds what a packet knows, `packet_group` what four do together,
 //! `fit` lays planes around a group of packets, `frustum` tells which boxes and spheres are between the
 //! planes. One proof of the margins serves both: `docs/traversal-margins.md`.
 

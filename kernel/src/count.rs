@@ -1,4 +1,4 @@
-//! Work that tests count: a line where it is done, of which a build keeps nothing.
+//! Work that tests count: a line stands where it is done, and a build keeps nothing of it.
 
 /// Counts work of a [kind](crate::proofs::work::Kind), once or so many times.
 macro_rules! count {

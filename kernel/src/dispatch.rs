@@ -1,6 +1,6 @@
 //! The widest code that the CPU has, chosen at run time.
 //!
-//! A plain build is compiled for the oldest CPU of its target; with feature `std` every traversal is
+//! A plain build is compiled for the oldest CPU of its target. With feature `std` every traversal is
 //! compiled once more for each level, and a [`Level`] is the proof that the CPU has it. Without `std` the
 //! CPU cannot be asked, and there is one level, the build's own. The bits of an answer are the same at every
 //! level.
@@ -54,7 +54,8 @@ impl LevelName {
 }
 
 impl Level {
-    /// The best that the CPU has; without `std` the build's own. Cost: the first call asks the CPU.
+    /// Returns the best level that the CPU has; without `std` the build's own. Cost: the first call asks the
+    /// CPU.
     ///
     /// ```
     /// use spherule_kernel::{Level, LevelName};
@@ -85,7 +86,7 @@ impl Level {
         Self(())
     }
 
-    /// The level of that name; `None` if the CPU does not have it.
+    /// Returns the level of that name; `None` if the CPU does not have it.
     ///
     /// ```
     /// use spherule_kernel::{Level, LevelName};
@@ -107,7 +108,7 @@ impl Level {
         }
     }
 
-    /// Its name.
+    /// Returns the level's name.
     ///
     /// ```
     /// use spherule_kernel::{Level, LevelName};

@@ -1,7 +1,7 @@
 //! One line and its spheres, decided as in real arithmetic.
 //!
-//! What double precision cannot prove, a few tangents, rounding ties and roots that nearly coincide, comes here:
-//! slow, scalar, and right for every finite `f32`.
+//! Cases that double precision cannot prove come here: a few tangents, rounding ties and roots that nearly coincide.
+//! The code is slow, scalar, and right for every finite `f32`.
 
 pub(crate) mod long_accumulator;
 pub(crate) mod order;

@@ -13,15 +13,15 @@
 //!
 //! so that seven multiply-adds give D/a + |o|^2, and a miss is ruled out where the largest of
 //! four such numbers lies below |o|^2. The subtractions c - o, and the multiplication by a, have
-//! left the loop. What this form cancels is covered by widening: w is raised by
-//! kappa (|c|^2 + r^2), once a sphere, and |o|^2 lowered by kappa |o|^2, once a ray, so that the bound
-//! costs the loop no operation, and a huge or far sphere widens no bound but its own.
+//! left the loop. Widening covers what this form cancels: w is raised by kappa (|c|^2 + r^2), once a sphere, and |o|^2
+//! is lowered by kappa |o|^2, once a ray. So the bound costs the loop no operation, and a huge or far sphere widens no
+//! bound but its own.
 //!
 //! The bound, kappa = 114 u, and the sizes for which it holds, are proven in `docs/numerics.md`;
-//! `tests/proofs` climbs towards it. Sizes are those in the units of a block of spheres; and where a tier's own
-//! squares underflow, what it finds is left to it. A sphere outside of those sizes passes always (w = +inf), as does a
-//! ray (threshold -inf); an invalid sphere never does, and an inactive ray only beside a sphere out of
-//! range. Within those rules no NaN can arise, so the maximum of four means what it says.
+//! `tests/proofs` climbs towards it. Sizes are those in the units of a block of spheres. Where a tier's own squares
+//! underflow, the filter leaves the decision to the tier. A sphere outside of those sizes passes always (w = +inf), as
+//! does a ray (threshold -inf). An invalid sphere never passes, and an inactive ray only beside a sphere out of range.
+//! Within those rules no NaN can arise, so the maximum of four means what it says.
 
 pub(crate) mod ball;
 pub(crate) mod block;

@@ -1,6 +1,6 @@
 //! The door: every scene structure answers the same questions, by the same methods.
 //!
-//! Three layers, by what the caller keeps:
+//! There are three layers, by what the caller keeps:
 //!
 //! | layer | rays are | costs beside the traversal |
 //! |---|---|---|
@@ -24,8 +24,8 @@ use crate::structures::Traverse;
 use crate::trace::Trace;
 
 /// Spheres that rays are intersected with: [`Spheres`](crate::Spheres) tests every ray against every sphere; a
-/// [`Bvh`](crate::Bvh) is for many spheres; a [`DepthList`](crate::DepthList) for rays of a common origin or
-/// direction, without a tree; a [`Bvh4`](crate::Bvh4) for firmware. `SphereList` and `SphereTree` own what `Spheres` and `Bvh` borrow.
+/// [`Bvh`](crate::Bvh) is for many spheres; a [`DepthList`](crate::DepthList) is for rays of a common origin or direction, without a
+/// tree; a [`Bvh4`](crate::Bvh4) is for firmware. `SphereList` and `SphereTree` own what `Spheres` and `Bvh` borrow.
 ///
 /// # Guarantee
 ///
@@ -39,17 +39,18 @@ use crate::trace::Trace;
 ///
 /// # Domain
 ///
-/// Every bit pattern. Invalid rays and spheres hit nothing, and change nothing for their neighbours
-/// (`docs/contract.md`, rule 1). If the slices differ in length, rays past the end of the answers are ignored, and
-/// answers past the end of the rays are left as they are.
+/// Every bit pattern is allowed. Invalid rays and spheres hit nothing, and change nothing for their neighbours (`docs/contract.md`,
+/// rule 1). If the slices differ in length, rays past the end of the answers are ignored, and answers past the end of the rays are
+/// left as they are.
 ///
 /// # Cost
 ///
-/// A list takes some 8 operations for a ray and a sphere that miss each other, and the tier's price for the others. It
-/// prepares 128 spheres at the price of testing one packet against them, so pass many rays in one call.
+/// A list takes some 8 operations for a ray and a sphere that miss each other, and the tier's price for other pairs. To prepare 128
+/// spheres costs as much as to test one packet against them, so pass many rays in one call.
 ///
-/// A tree takes time in proportion to the logarithm of the number of spheres, if they do not overlap much. Spheres that are
-/// 2^40 times as large or small as most cost as much as in a list; so do rays from beyond 2^56 times that size.
+/// A tree takes time in proportion to the logarithm of the number of spheres, if they do not overlap much. Spheres that are 2^40 times
+/// as large or as small as most cost as much as in a list. So do rays that start farther away than 2^56 times the size of most
+/// spheres.
 ///
 /// Neither units nor the lengths of directions matter to any structure.
 ///
@@ -65,9 +66,8 @@ use crate::trace::Trace;
 pub trait Intersect: Traverse {
     /// Returns the closest hit of one ray; `None` if it hits nothing.
     ///
-    /// Cost: with `std` a tree has a traversal for one ray, and other structures use one lane of a packet; many rays in one
-    /// call are faster. Without `std` all is computed in one lane, which takes the least flash and stack: the way for
-    /// firmware.
+    /// Cost: with `std` a tree has a traversal for one ray, and other structures use one lane of a packet. Many rays in one call are
+    /// faster. Without `std` everything is computed in one lane, which takes the least flash and stack, as firmware needs.
     ///
     /// ```
     /// use spherule_kernel::{Exact, Intersect, Ray, SphereList, Vec3};
@@ -125,15 +125,15 @@ pub trait Intersect: Traverse {
         self.one::<AnyHit>(tier, trace, ray)
     }
 
-    /// Finds the closest hit of every ray: `hits[i]` becomes what `rays[i]` hits, `None` if that is nothing.
+    /// Finds the closest hit of every ray: `hits[i]` becomes that of `rays[i]`, or `None` if the ray hits nothing.
     ///
-    /// Rays may come in any order: a tree finds out which of them gain by going together. A call of up to eight rays traces
-    /// them one by one, and so does a longer call with few rays that gain nothing. Of many rays that are shuffled it sorts those of a
-    /// camera or of a beam, and in a large tree others, too.
+    /// Rays may come in any order: a tree finds out which of them are faster together. It traces a call of up to eight rays one by
+    /// one, and also a longer call of few rays that gain nothing together. If many rays come shuffled, it sorts those of a camera or
+    /// of a beam, and in a large tree other rays, too.
     ///
-    /// With feature `alloc`, a call of more than 1,008 rays in a tree of more than four leaves allocates up to 430 bytes a ray, 4.5 MB
-    /// at most, to sort rays that have nothing in common with those next to them, or to trace them as a stream. If there is no such
-    /// memory, the call goes on without.
+    /// With feature `alloc`, a call of more than 1,008 rays in a tree of more than four leaves may allocate up to 430 bytes a ray, at
+    /// most 4.5 MB. It does so to sort rays that have nothing in common with those next to them, or to trace them as a stream. If the
+    /// allocation fails, the call goes on without the memory.
     ///
     /// ```
     /// use spherule_kernel::{Intersect, Ray, Spheres, Stable, Vec3};
@@ -148,7 +148,7 @@ pub trait Intersect: Traverse {
         self.closest_hits_with(tier, &mut Trace::new(), rays, hits);
     }
 
-    /// Finds whether each ray hits anything: `occluded[i]` becomes true if `rays[i]` does.
+    /// Finds whether each ray hits anything: `occluded[i]` becomes true if `rays[i]` does, else false.
     ///
     /// ```
     /// use spherule_kernel::{Exact, Intersect, Ray, SphereTree, Vec3};
@@ -205,10 +205,11 @@ pub trait Intersect: Traverse {
         slices::traverse::<Self, AnyHit>(self, tier, trace, rays, occluded);
     }
 
-    /// Finds the closest hit of rays in eight columns, and writes it into two: number `i` of each becomes what ray `i` hits,
-    /// `+inf` and [`HitPacket::NO_SPHERE`] if that is nothing. The shortest column counts; what is past it is left as it is.
+    /// Finds the closest hit of every ray in eight columns, and writes it into two columns: number `i` of each becomes the hit of ray
+    /// `i`, or `+inf` and [`HitPacket::NO_SPHERE`] if the ray hits nothing. The shortest column decides how many rays are traced; hits
+    /// past its end are left as they are.
     ///
-    /// Costs as much as slices.
+    /// Cost: that of slices.
     ///
     /// ```
     /// use spherule_kernel::{Exact, HitColumns, Intersect, RayColumns, SphereList, Trace};
@@ -234,7 +235,8 @@ pub trait Intersect: Traverse {
         slices::traverse::<Self, ClosestHit>(self, tier, trace, rays, hits);
     }
 
-    /// Finds whether each ray of eight columns hits anything. The shortest column counts; what is past it is left as it is.
+    /// Finds whether each ray of eight columns hits anything. The shortest column decides how many rays are traced; answers past its
+    /// end are left as they are.
     ///
     /// ```
     /// use spherule_kernel::{Exact, Intersect, RayColumns, SphereList, Trace};
@@ -262,8 +264,8 @@ pub trait Intersect: Traverse {
         slices::traverse::<Self, AnyHit>(self, tier, trace, rays, occluded);
     }
 
-    /// Finds the closest hit of every ray of every packet: `hits[i]` becomes what `rays[i]` hits.
-    /// Shuffled rays of a long call are sorted, as [`closest_hits`](Intersect::closest_hits) does.
+    /// Finds the closest hit of every ray of every packet: `hits[i]` becomes those of `rays[i]`. A long call sorts shuffled rays, as
+    /// [`closest_hits`](Intersect::closest_hits) does.
     ///
     /// ```
     /// use spherule_kernel::{Exact, HitPacket, Intersect, Ray, RayPacket, SphereList, Trace, Vec3};
@@ -285,7 +287,7 @@ pub trait Intersect: Traverse {
         slices::traverse_packets::<Self, ClosestHit>(self, tier, trace, rays, hits);
     }
 
-    /// Finds whether each ray of every packet hits anything: bit `i` of `occluded[k]` is that of lane `i` of `rays[k]`.
+    /// Finds whether each ray of every packet hits anything: bit `i` of `occluded[k]` is set if lane `i` of `rays[k]` does.
     ///
     /// ```
     /// use spherule_kernel::{Exact, Intersect, Ray, RayPacket, SphereList, Trace, Vec3};
@@ -306,16 +308,16 @@ pub trait Intersect: Traverse {
         slices::traverse_packets::<Self, AnyHit>(self, tier, trace, rays, occluded);
     }
 
-    /// Makes the rays of a camera's tiles, and finds their closest hits: those of tile `i` in packet `i`, as far as there are
-    /// tiles, rays and hits.
+    /// Makes the rays of a camera's tiles, and finds their closest hits. Rays and hits of tile `i` go to packet `i`, as far as there
+    /// are tiles, rays and hits.
     ///
-    /// `rays` is overwritten, and holds the rays for shading: bit for bit those of
+    /// `rays` is overwritten, and then holds the rays for shading. They are bit for bit those of
     /// [`Camera::packet`](crate::Camera::packet), except for the bits of a NaN. The answers are bit for bit those of
-    /// [`closest_hit_packets`](Intersect::closest_hit_packets). A tree need not look at rays to know what four tiles may
-    /// meet: it bounds them by their corners.
+    /// [`closest_hit_packets`](Intersect::closest_hit_packets). To know what four tiles may meet, a tree need not look at their rays:
+    /// it bounds them by the tiles' corners.
     ///
-    /// Cost: a tree takes as long as for packets that exist already; making them one by one and tracing them then takes up to
-    /// twice as long. Other structures make the rays first, in lanes.
+    /// Cost: a tree takes as long as for packets that exist already. To make packets one by one and then trace them takes up to twice
+    /// as long. Other structures make the rays first, in lanes.
     ///
     /// ```
     /// use spherule_kernel::{
@@ -398,8 +400,8 @@ pub trait Intersect: Traverse {
         self.in_lanes::<L, AnyHit>(tier, token, trace, rays, occluded);
     }
 
-    /// [`closest_hit_tiles`](Intersect::closest_hit_tiles) in the caller's lanes, with their token; tiles are as large as
-    /// [`Camera::tile`](crate::Camera::tile) says for those lanes. The level of `trace` is ignored.
+    /// [`closest_hit_tiles`](Intersect::closest_hit_tiles) in the caller's lanes, with their token. Tiles are as large as
+    /// [`Camera::tile`](crate::Camera::tile) says for these lanes. The level of `trace` is ignored.
     #[inline(always)]
     fn closest_hit_tile_lanes<L: Lanes>(
         &self,

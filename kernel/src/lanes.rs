@@ -7,10 +7,10 @@
 //! [`Lanes::filter_max`], carry the word *filter* in their name; they may decide which work is
 //! skipped, under a bound that covers them, and never what is answered.
 //!
-//! The trait is open: other vector types can implement it. Types whose instruction set is chosen
-//! at run time need proof that the CPU has it: that is the [`Lanes::Token`], asked for by
-//! everything that makes lanes from numbers. For types fixed at build time it is `()`.
-//! Vectors never cross such a boundary: packets in memory hold plain arrays.
+//! The trait is open: other vector types can implement it. Types whose instruction set is chosen at
+//! run time need proof that the CPU has it: the [`Lanes::Token`], which everything takes that makes
+//! lanes from numbers. For types fixed at build time the token is `()`. Vectors never cross a
+//! run-time dispatch: packets in memory hold plain arrays.
 
 mod array;
 #[cfg(feature = "std")]
@@ -72,7 +72,7 @@ pub trait Lanes:
     fn splat(token: Self::Token, value: f32) -> Self;
     /// Lane `i` from element `i`.
     fn load(token: Self::Token, array: &Self::Array) -> Self;
-    /// Lane `i` from number `part * COUNT + i` of sixteen; a part past the last is the first again.
+    /// Lane `i` from number `part * COUNT + i` of sixteen; a part past the last wraps to the first.
     #[inline(always)]
     fn load_part(token: Self::Token, numbers: &[f32; 16], part: usize) -> Self {
         Self::load(token, &Self::Array::part(numbers, part))
@@ -97,9 +97,9 @@ pub trait Lanes:
     }
     /// The correctly rounded square root; NaN below zero.
     fn sqrt(self) -> Self;
-    /// `self * factor + addend` with one rounding or two, as the target likes: for filters.
+    /// `self * factor + addend` with one rounding or two, depending on the target: for filters.
     fn filter_mul_add(self, factor: Self, addend: Self) -> Self;
-    /// The larger; any of the two where one is NaN or both are zero: for filters.
+    /// The larger; either of the two where one is NaN or both are zero: for filters.
     fn filter_max(self, other: Self) -> Self;
     /// `self < other`.
     fn lt(self, other: Self) -> Self::Mask;
@@ -116,8 +116,8 @@ pub trait Lanes:
     }
     /// `yes` where `mask` is true, else `no`.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
-    /// The lanes in which `mask` is true, in their order, from the first lane on; what the lanes
-    /// behind them hold is not said.
+    /// The lanes in which `mask` is true, in their order, from the first lane on; the lanes after
+    /// them are unspecified.
     fn compress(self, mask: Self::Mask) -> Self;
     /// Bit `i` from bit `order >> 4 i & 15` of sixteen.
     #[inline(always)]
@@ -128,7 +128,7 @@ pub trait Lanes:
         }
         ordered
     }
-    /// The bits of `self <= other`, the first lane at bit `first`, [in that order](Lanes::bits_in_order).
+    /// The bits of `self <= other`, the first lane at bit `first`, [in the order `order`](Lanes::bits_in_order).
     #[inline(always)]
     fn le_in_order(self, other: Self, first: usize, order: u64) -> u32 {
         Self::bits_in_order(self.token(), self.le(other).bits() << first, order)
@@ -136,7 +136,7 @@ pub trait Lanes:
     /// The largest lane; any lane where one is NaN: for filters.
     #[inline(always)]
     fn filter_greatest(self) -> f32 {
-        // Halves onto each other, in lanes: number by number it is two thirds of a packet group's time.
+        // Combines halves in lanes: number by number, this took two thirds of a packet group's time.
         let (mut greatest, mut half) = (self, Self::COUNT / 2);
         while half > 0 {
             let (lanes, mut moved) = (greatest.store(), greatest.store());
@@ -150,17 +150,17 @@ pub trait Lanes:
     }
     /// Lanes `part * DoubleLanes::COUNT ..` in double precision, exactly.
     ///
-    /// `part` counts from zero to [`Lanes::PARTS`]; past it, any part.
+    /// `part` counts from zero to [`Lanes::PARTS`]; past it, the result is any part.
     fn widen(self, part: usize) -> Self::Double;
     /// Rounds `doubles` to single precision into those elements of `array` that
     /// [`widen`](Lanes::widen) would read lanes from.
     fn narrow(array: &mut Self::Array, part: usize, doubles: Self::Double);
 
-    /// Calls `work` in a function of its own, compiled for the instruction set of the lanes: for what
-    /// is rare beside a hot loop, whose registers it would take.
+    /// Calls `work` in a function of its own, compiled for the instruction set of the lanes: for rare work beside a hot
+    /// loop, whose registers it would take if inlined.
     fn out_of_line<R>(token: Self::Token, work: impl FnOnce() -> R) -> R;
 
-    /// How many partners it takes to hold all lanes.
+    /// How many double-precision partners hold all lanes.
     const PARTS: usize = Self::COUNT / Self::Double::COUNT;
 
     /// `value` in every lane, with the token of these lanes.

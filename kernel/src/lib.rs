@@ -2,8 +2,8 @@
 #![no_std]
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
-// Loops over lanes count: an iterator or closure of the standard library is a call in a build of many codegen
-// units without link-time optimisation (`lanes/array.rs`).
+// Loops over lanes count an index: an iterator or closure of the standard library is a call in a build of many
+// codegen units without link-time optimisation (`lanes/array.rs`).
 #![allow(clippy::needless_range_loop, clippy::manual_map)]
 
 #[cfg(feature = "alloc")]

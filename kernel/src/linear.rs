@@ -29,7 +29,7 @@ pub use pairs::pair_lanes;
 /// Answers every ray by testing it against all spheres.
 ///
 /// Preparing 128 spheres costs as much as testing one packet against them: pass many packets in one
-/// call. Stack: some 5 KiB; a ray by itself in one lane has no filter, and takes an eighth.
+/// call. Stack: some 5 KiB; a ray by itself in one lane has no filter, and takes an eighth of that.
 #[inline(always)]
 pub(crate) fn traverse<L: Lanes, Q: Query>(
     tier: impl Accuracy,
@@ -52,8 +52,8 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
     );
 }
 
-/// Answers every ray by some spheres of a list alone, as [`traverse`] does by all. (Compiled once for all kinds of
-/// runs, and the test of a group for runs and whole lists: else the kernel takes half as long again to compile.)
+/// Answers every ray by some spheres of a list alone, as [`traverse`] does by all. (It is compiled once for all kinds of runs,
+/// and the test of a group once for runs and whole lists. Else the kernel takes half as long again to compile.)
 #[inline(always)]
 pub(crate) fn traverse_some<L: Lanes, Q: Query>(
     tier: impl Accuracy,
@@ -74,7 +74,7 @@ pub(crate) fn traverse_some<L: Lanes, Q: Query>(
     );
 }
 
-/// Takes what is closer than the answers so far.
+/// Takes hits that are closer than the answers so far.
 #[inline(always)]
 fn meet<L: Lanes, Q: Query, S: SphereRun + ?Sized>(
     tier: impl Accuracy,
@@ -109,9 +109,9 @@ pub(crate) struct Candidates<'a, L: Lanes> {
     pub(crate) rays: &'a RayLanes<L>,
     pub(crate) filter: &'a FilterRays<L>,
     pub(crate) group: &'a FilterGroup,
-    /// The list that they are of: its copy would be half of a test by `Fast`.
+    /// The list that the spheres are of: a copy would take half of a test's time by `Fast`.
     pub(crate) spheres: &'a Spheres<'a>,
-    /// Their indices; that of no sphere where there is none.
+    /// The indices of the spheres; an index of no sphere where there is none.
     pub(crate) indices: [u32; GROUP],
 }
 
@@ -136,8 +136,8 @@ pub(crate) fn for_candidates<L: Lanes, R, S: SphereRun + ?Sized>(
     done: impl Fn(&R) -> L::Mask,
     test: impl Fn(&mut R, Candidates<'_, L>),
 ) {
-    // Nothing is prepared where no ray is live: a depth list comes here with every run of packets that do not fit, most of them
-    // empty.
+    // Nothing is prepared where there are no rays: a depth list comes here with every run of packets that do not fit, and most
+    // runs are empty.
     let spheres_to_meet = if rays.is_empty() { 0 } else { spheres.count() };
     let list = spheres.list();
     for first in (0..spheres_to_meet).step_by(BLOCK_SPHERES) {
@@ -182,7 +182,7 @@ pub(crate) fn for_candidates<L: Lanes, R, S: SphereRun + ?Sized>(
     }
 }
 
-/// Tests the spheres of a group that the filter does not rule out one by one.
+/// Tests one by one the spheres of a group that the filter does not rule out.
 pub(crate) struct GroupTest<'a, 'b, L: Lanes, Q: Query> {
     pub(crate) token: L::Token,
     pub(crate) candidates: Candidates<'b, L>,

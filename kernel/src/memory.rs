@@ -1,4 +1,5 @@
-//! Memory: of the caller's, which may turn out too small; of the heap's, where there may be none.
+//! Memory: the caller's, which may turn out too small, and the heap's, of which there may be none
+//! left.
 
 #[cfg(feature = "alloc")]
 use alloc::vec::Vec;
@@ -14,7 +15,7 @@ pub struct TooSmall {
 }
 
 impl TooSmall {
-    /// An error if `given` is less than what is `needed`.
+    /// Returns an error if `given` is less than `needed`.
     pub(crate) const fn check(needed: usize, given: usize) -> Result<(), Self> {
         if given < needed { Err(Self { needed, given }) } else { Ok(()) }
     }
@@ -29,7 +30,7 @@ impl fmt::Display for TooSmall {
 
 impl core::error::Error for TooSmall {}
 
-/// Makes memory of the heap's at least so long; `None` if there is none.
+/// Makes heap memory at least so long; `None` if the allocation fails.
 #[cfg(feature = "alloc")]
 pub(crate) fn lengthen<T: Clone>(memory: &mut Vec<T>, filler: T, length: usize) -> Option<()> {
     let missing = length.saturating_sub(memory.len());

@@ -1,4 +1,5 @@
-//! What needs no structure, packet by packet at a level: pairs, tiles of a camera, object order, surfaces, shadow rays.
+//! Functions that need no structure, packet by packet at a level: pairs, tiles of a camera, object order, surfaces, shadow
+//! rays.
 
 use crate::Accuracy;
 use crate::dispatch::Level;
@@ -48,9 +49,9 @@ pub fn pair_packets(
     }
 }
 
-/// Makes the rays of a camera's tiles at `level`, those of tile `i` in packet `i`, as far as there are tiles and packets. They
-/// are bit for bit those of [`Camera::packet`](crate::Camera::packet), except for the bits of a NaN, and take a seventh (SSE2)
-/// to a twelfth (AVX-512) of its time.
+/// Makes the rays of a camera's tiles at `level`. Those of tile `i` go to packet `i`, as far as there are tiles and packets.
+/// They are bit for bit those of [`Camera::packet`](crate::Camera::packet), except for the bits of a NaN. Cost: a seventh
+/// (SSE2) to a twelfth (AVX-512) of the time of `Camera::packet`.
 ///
 /// ```
 /// use spherule_kernel::{Camera, CameraTiles, Level, Projection, RayPacket, Vec3, tile_rays};
@@ -76,8 +77,8 @@ pub fn tile_rays(level: Level, tiles: CameraTiles<'_>, rays: &mut [RayPacket]) {
     }
 }
 
-/// Tests sphere `index` of a list against the rays of the packets that `numbers` names, whose closest hits so far are `hits`:
-/// object order. Returns how many hits were stored.
+/// Tests sphere `index` of a list against the rays of the packets that `numbers` names: object order. `hits` are the closest
+/// hits so far, and take those that are closer. Returns how many hits were stored.
 ///
 /// Calls [`object_lanes`](crate::object_lanes) at `level`. A number past the end of rays or hits changes nothing.
 ///
@@ -150,10 +151,10 @@ pub fn surface_packets(
     }
 }
 
-/// Makes rays to a light from what the rays of every packet hit, each on the side that its ray came from, if that faces the
-/// light.
+/// Makes rays to a light from the hits of every packet. Each begins on the side of the surface that its ray came from; where
+/// that side does not face the light, or nothing was hit, the lane is inactive.
 ///
-/// Calls [`shadow_lanes`](crate::shadow_lanes) at `level`. `hit` holds rays, hits and surfaces; packets past the end of the
+/// Calls [`shadow_lanes`](crate::shadow_lanes) at `level`. `hit` holds rays, hits and surfaces. Packets past the end of the
 /// shortest slice are left as they are.
 ///
 /// ```
@@ -195,8 +196,8 @@ pub fn shadow_packets(
 
 /// Tests ray `i` against sphere `i` alone, at the best level that the CPU has; the sphere of a hit is `i`.
 ///
-/// A hit is bit for bit what [`Intersect`](crate::Intersect) finds for that ray in a list of that sphere. What is past the end
-/// of the shortest slice is left as it is.
+/// A hit is bit for bit what [`Intersect`](crate::Intersect) finds for that ray in a list of that sphere. Hits past the end of
+/// the shortest slice are left as they are.
 ///
 /// ```
 /// use spherule_kernel::{Exact, Ray, Sphere, Vec3, pairs};

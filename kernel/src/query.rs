@@ -1,7 +1,7 @@
 //! What is computed for a ray: its closest hit, or whether there is any.
 //!
-//! Every traversal is generic over its query, so a new one is an implementation of [`Answers`] here and
-//! what it changes in each traversal.
+//! Every traversal is generic over its query. So a new query is an implementation of [`Answers`] here, and what it changes
+//! in each traversal.
 
 use crate::geometry::hit::{Hit, HitPacket};
 use crate::geometry::many_answers::{ManyHits, ManyOccluded};
@@ -15,7 +15,7 @@ pub trait Query: Answers {}
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ClosestHit;
 
-/// Whether every ray hits anything.
+/// Whether each ray hits anything.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AnyHit;
 
@@ -40,7 +40,7 @@ mod sealed {
         fn none<A: LaneArray>() -> Self::Packet<A>;
         /// The answer of one lane.
         fn one<A: LaneArray>(packet: &Self::Packet<A>, lane: usize) -> Self::One;
-        /// Puts what one ray is answered with in a lane that has no hit yet.
+        /// Puts the answer of one ray into a lane that has no hit yet.
         fn put<A: LaneArray>(packet: &mut Self::Packet<A>, lane: usize, one: Self::One);
         /// The lanes that are done.
         fn done<L: Lanes>(token: L::Token, packet: &Self::Packet<L::Array>) -> L::Mask;
@@ -49,8 +49,8 @@ mod sealed {
         /// Takes the t of one sphere in every lane, `+inf` if there is no hit, where it is below the limit; returns the
         /// new limits.
         fn accept<L: Lanes>(packet: &mut Self::Packet<L::Array>, index: u32, t: L, limits: L) -> L;
-        /// Takes a hit if it is closer than the one known; of two with the same t `is_closer` says which, by the index
-        /// of the known one.
+        /// Takes a hit if it is closer than the one known; if both have the same t, `is_closer` says whether it is, by the
+        /// index of the known one.
         fn take<A: LaneArray>(
             packet: &mut Self::Packet<A>,
             lane: usize,
@@ -60,13 +60,13 @@ mod sealed {
 
         /// The t above which nothing matters any more in a lane: `-inf` if it is done.
         fn limit<A: LaneArray>(packet: &Self::Packet<A>, lane: usize) -> f32;
-        /// The answers of t, `+inf` if there is no hit, and indices, as bits.
+        /// Makes answers of t, `+inf` if there is no hit, and of indices, as bits.
         fn from_lanes<L: Lanes>(t: L, sphere: L) -> Self::Packet<L::Array>;
         /// t and the index, as bits, in every lane: what [`from_lanes`](Answers::from_lanes) makes answers of.
         fn lanes<L: Lanes>(token: L::Token, packet: &Self::Packet<L::Array>) -> [L; 2];
         /// How many answers there is room for.
         fn room(many: &Self::Many<'_>) -> usize;
-        /// Room for as many as packets have lanes.
+        /// Returns room for as many answers as the packets have lanes.
         #[cfg(feature = "alloc")]
         fn of_packets(packets: &mut [Self::Packet<[f32; 16]>]) -> Self::Many<'_>;
         /// Writes the answers of packets, lane after lane, at the places `indices`.
@@ -76,12 +76,12 @@ mod sealed {
             packets: &[Self::Packet<[f32; 16]>],
             indices: impl Iterator<Item = usize>,
         );
-        /// Writes what one ray is answered with at place `index`.
+        /// Writes the answer of one ray at place `index`.
         #[cfg(feature = "std")]
         fn write_one(many: &mut Self::Many<'_>, index: usize, one: Self::One);
-        /// Writes the answers of packets from place `from` on, before place `to`. Where there are levels it is compiled for
-        /// each; else it is a call, so that it is compiled with this crate: in a user's dev build it took longer than
-        /// the rays.
+        /// Writes the answers of packets from place `from` on, before place `to`. With `std` it is compiled for each level.
+        /// Else it is a call, so that it is compiled with this crate: in a user's dev build it took longer than tracing the
+        /// rays.
         fn write(
             many: &mut Self::Many<'_>,
             packets: &[Self::Packet<[f32; 16]>],

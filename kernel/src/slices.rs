@@ -17,12 +17,12 @@ use crate::structures::{LevelQuery, Traverse};
 use crate::trace::Trace;
 use window::PACKETS;
 
-/// How many packets go first, if as many as are traced at a time are left: only then is it known whether groups pay, or a
-/// stream. (With 64, rays sorted by direction and half of a camera, among a million spheres, ran at 0.65 to 0.98 of ray by
-/// ray, closest hits; with 16 at 0.81 to 1.26. Where fewer are left than a stream has, those that went first are lost to it:
-/// 0.7 of the best way among nested spheres.)
+/// How many packets go first, if as many as are traced at a time are left after them: they tell whether groups pay, or a stream. (With 64,
+/// closest hits of rays sorted by direction and half of a camera, among a million spheres, ran at 0.65 to 0.98 of the speed of ray by ray;
+/// with 16 at 0.81 to 1.26. Where fewer rays are left than a stream has, it lacks those that went first: 0.7 of the speed of the best way
+/// among nested spheres.)
 const FIRST: usize = 16;
-/// How many packets few rays fill: what goes through a tree together; and some.
+/// How many packets few rays fill: as many as go through a tree together; and how many some rays fill.
 const FEW: usize = 4;
 const SOME: usize = 16;
 
@@ -41,7 +41,7 @@ pub(crate) fn traverse<S: Traverse + ?Sized, Q: LevelQuery>(
         return one_by_one::<S, Q>(structure, tier, trace, (rays, 0, count), &mut answers);
     }
     trace.learnt.begin_call::<Q>(count.div_ceil(RayPacket::COUNT));
-    // Memory is cleared before it is used: for few rays that takes longer than they do.
+    // Memory is cleared before it is used. For few rays, to clear all of it takes longer than to trace them.
     if count <= RayPacket::COUNT {
         windows::<S, Q, 1>(structure, tier, trace, (rays, count), answers);
     } else if count <= FEW * RayPacket::COUNT {
@@ -79,8 +79,9 @@ fn one_by_one<S: Traverse + ?Sized, Q: LevelQuery>(
     answers: &mut Q::Many<'_>,
 ) {
     for index in from..to {
-        // Where it lies: copied, it would be read wider than it was written, and so wait for all before it. (Closest hits of 9 and 64 rays
-        // that have nothing in common: copied 0.84 to 0.9 of the speed by AVX-512 and AVX2, 0.95 at the baseline.)
+        // A ray is read where it lies. A copy would be read wider than it was written, and so wait for all stores before it. (Copied,
+        // closest hits of 9 and 64 rays that have nothing in common ran at 0.84 to 0.9 of the speed by AVX-512 and AVX2, at 0.95 at the
+        // baseline.)
         if let ManyRays::Slice(rays) = rays {
             if let Some(ray) = rays.get(index) {
                 Q::write_one(answers, index, structure.one::<Q>(tier, trace, ray));
@@ -91,7 +92,7 @@ fn one_by_one<S: Traverse + ?Sized, Q: LevelQuery>(
     }
 }
 
-/// Answers rays, so many packets at a time. (The same trace for all: a call is one.)
+/// Answers rays, `AT_ONCE` packets at a time. (All share one trace, since they are one call.)
 #[inline(never)]
 fn windows<S: Traverse + ?Sized, Q: LevelQuery, const AT_ONCE: usize>(
     structure: &S,
@@ -105,10 +106,10 @@ fn windows<S: Traverse + ?Sized, Q: LevelQuery, const AT_ONCE: usize>(
     let is_long = count >= (FIRST + AT_ONCE) * RayPacket::COUNT;
     let mut packets_at_once = if is_long { FIRST.min(AT_ONCE) } else { AT_ONCE };
     let mut from = 0;
-    // What order the rays have is not looked at before.
+    // The order of the rays is not looked at before this one.
     #[cfg(feature = "alloc")]
     let mut next_look = 0;
-    // Chunks divide by their length, and where that is not seen to be a number, may panic.
+    // (No `chunks`: they divide by their length, and may panic where the compiler does not know it.)
     while from < count {
         let to = (from + packets_at_once * RayPacket::COUNT).min(count);
         #[cfg(feature = "std")]
@@ -156,7 +157,7 @@ mod tests {
             let (mut hits, mut occluded) = ([None; 40], [false; 40]);
             let closest = Work::of(|| tree.closest_hits(Exact, rays, &mut hits));
             let any = Work::of(|| tree.any_hits(Exact, rays, &mut occluded));
-            // What goes by itself clears no stack; what goes together enters the nodes with its packets.
+            // A ray that goes by itself clears no stack; rays that go together enter nodes as packets.
             let as_packets =
                 |work: Work| work.count(Kind::RayStacks) + work.count(Kind::GroupNode) > 0;
             assert_eq!([closest, any].map(as_packets), [is_packet; 2], "{count}");

@@ -2,17 +2,18 @@
 //!
 //! # Method
 //!
-//! A point of a surface, rounded to `f32`, lies on either side of it, and a ray from there may meet the sphere that it
-//! leaves. So the point is computed in double precision and rounded, and the sign of |x - c|^2 - r^2 tells exactly on
-//! which side it lies. On the wrong side it is moved along the normal: half a step, a step, two steps, where a step is
-//! an ulp of its largest coordinate. A step is enough if r is more than some 14 of them: rounding moves a point by 0.87
-//! steps at most, and the sphere curves away by 1.87^2 / 2r.
+//! A point of a surface, rounded to `f32`, lies on one side of it or the other, and a ray from there may meet the sphere that it
+//! leaves. So the point is computed in double precision and rounded, and the sign of |x - c|^2 - r^2 tells exactly on which side
+//! it lies. If that is the wrong side, the point is moved along the normal: by half a step, a step, two steps, where a step is an
+//! ulp of its largest coordinate. A step is enough if r is more than some 14 steps: rounding moves a point by 0.87 steps at most,
+//! and the sphere curves away by 1.87^2 / 2r.
 //!
 //! From outside, a ray that goes away from the centre meets the sphere nowhere: where |x - c|^2 > r^2 and
-//! d.(x - c) >= 0, both roots are below zero. From inside one root is below zero, and one above. The interval begins a
-//! little above zero, 2^-42 r from the origin, which rounding has moved by more: so double precision tells that the
-//! sphere is left. (From the least number above zero it does not: a picture of marbles took three times as long.) Tiers
-//! that know less are asked whether they see the sphere; if they do, the ray begins a step farther away, two, four.
+//! d.(x - c) >= 0, both roots are below zero. From inside one root is below zero, and one above. The interval begins a little
+//! above zero, 2^-42 r from the origin. Rounding has moved the origin by more, so double precision can tell that the ray leaves
+//! the sphere. (If the interval begins at the least number above zero, it cannot: a picture of marbles took three times as long.)
+//! Tiers that know less are asked whether they see the sphere. If they do, the ray begins a step farther away, then two, then
+//! four.
 
 pub(crate) mod packets;
 
@@ -82,19 +83,19 @@ pub fn side(point: Vec3, sphere: &Sphere) -> Option<Side> {
 }
 
 impl Surface {
-    /// Returns a ray from here along `direction` that begins on `side` of `sphere`, the one that was hit, and does not meet it
+    /// Returns a ray from here along `direction`. It begins on `side` of `sphere`, the sphere that was hit, and does not meet it
     /// where it starts. Returns `None` if none of 64 origins along the normal will do: always inside a sphere with r = 0, seldom
-    /// where a sphere is as small as the spacing of numbers, and past the largest of them.
+    /// where a sphere is as small as the spacing of numbers, and where the origin would be past the largest number.
     ///
-    /// [`side`](crate::side()) proves that the origin is on that side. It is an ulp or two of its largest coordinate from the
-    /// point, if r is at least 2^10 of these and `tier` is `Exact` (near the coordinates' zero, where an ulp is below 2^-45 r, as
-    /// far as double precision knows the point); for the other tiers it is as far as they need in order not
-    /// to see the sphere there. The interval begins 2^-42 r from the origin, and has no end.
+    /// [`side`](crate::side()) proves that the origin is on that side. If `tier` is `Exact` and r is at least 2^10 ulps of the
+    /// origin's largest coordinate, the origin is one or two of these ulps from the point. (Near the coordinates' zero, where an
+    /// ulp is below 2^-45 r, it is as near as double precision knows the point.) For the other tiers it is as far away as they
+    /// need in order not to see the sphere there. The interval begins 2^-42 r from the origin, and has no end.
     ///
     /// If `direction` points to `side`, an outside ray never meets the sphere again, and an inside ray meets its far side,
-    /// unless the t of that is rounded to zero. Else the ray meets what is there.
+    /// unless the t of that hit is rounded to zero. Else the ray meets whatever is there.
     ///
-    /// Cost: some 100 double-precision operations; by the other tiers a test of the sphere more.
+    /// Cost: some 100 double-precision operations; the other tiers add a test of the sphere.
     ///
     /// ```
     /// use spherule_kernel::{Exact, Intersect, Ray, Side, SphereList, Vec3, surface};
@@ -118,7 +119,8 @@ impl Surface {
         self.spawn(tier.tier(), sphere, side, |origin| Ray::new(origin, direction))
     }
 
-    /// Returns a ray as [`spawn_ray`](Surface::spawn_ray) does, towards `target`, which is at t = 1, where the interval ends.
+    /// Returns a ray as [`spawn_ray`](Surface::spawn_ray) does, but towards `target`. The target is at t = 1, where the interval
+    /// ends.
     ///
     /// ```
     /// use spherule_kernel::{Exact, Ray, Side, Sphere, Vec3, surface};
@@ -194,10 +196,9 @@ fn next(steps: f64) -> f64 {
     if steps > 0.0 { 2.0 * steps } else { 0.5 }
 }
 
-/// 2^-20: the cosine from which on a ray goes back.
+/// 2^-20: a ray goes back if the cosine of direction and normal is below minus this.
 const BACK: f64 = 8.0 * f32::EPSILON as f64;
-/// A step: an ulp of the largest coordinate, except for subnormal ones; near zero, where a point is not known so well,
-/// more.
+/// A step: an ulp of the largest coordinate, except for subnormal ones; more near zero, where a point is not known so well.
 #[inline(always)]
 fn step_of<L: Lanes>(point: [L; 3], radius: L) -> L {
     let largest = point[0].abs().filter_max(point[1].abs()).filter_max(point[2].abs());
@@ -213,12 +214,13 @@ const LEAST_STEP: f32 = 1.0 / (1_u64 << 47) as f32;
 /// Half a step, doubled 62 times: past the size of any sphere.
 const MOST_STEPS: u32 = 64;
 
-/// Whether `tier` sees `sphere` where a ray starts that begins on a side of it, `to`.
+/// Whether `tier` sees `sphere` where a ray starts that begins on its side `to`.
 fn sees_start(tier: Tier, ray: &Ray, sphere: &Sphere, to: Side, outward: [f64; 3]) -> bool {
     let d = ray.direction.to_array().map(f64::from);
     let is_seen = |t: f32| ray.t_min <= t && t < f32::INFINITY;
     match to {
-        // What goes back meets the sphere, as it should. (Less than this, it passes over it from a step above.)
+        // A ray that goes back meets the sphere, as it should. (If it goes back by less, it passes over the sphere from a step
+        // above.)
         Side::Outside if dot(d, outward) < -BACK * libm::sqrt(dot(d, d)) => false,
         Side::Outside => {
             (tier != Tier::Exact || !goes_away(ray, sphere))
@@ -235,7 +237,7 @@ fn goes_away(ray: &Ray, sphere: &Sphere) -> bool {
     let d = ray.direction.to_array().map(f64::from);
     let q = from_center(ray.origin, sphere);
     let (slope, size) = (dot(d, q), dot(d.map(f64::abs), q.map(f64::abs)));
-    // A coordinate of q is u off, a product and two sums by 3u.
+    // A coordinate of q is off by u, a product and two sums by 3u.
     if slope.abs() > 8.0 * U * size {
         slope > 0.0
     } else {

@@ -1,7 +1,7 @@
-//! How far `Exact` had to go: which share of its tests the filter did not settle, and which share double precision did not
-//! either.
+//! How far `Exact` has to go: which share of its tests the filter does not settle, and which share double precision does not
+//! settle either.
 //!
-//! Goes once more through the filter, limits and brackets of a traversal of [`Spheres`], and counts. So the kernel itself holds
+//! The count goes once more through the filter, limits and brackets of a traversal of [`Spheres`]. So the kernel itself holds
 //! no counters.
 
 use crate::accuracy::Exact;
@@ -19,11 +19,11 @@ use wide::f32x16;
 /// How many tests of a ray against a sphere reached which stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Stages {
-    /// All: every ray that may hit anything against every sphere.
+    /// All tests: every ray that may hit anything against every sphere.
     pub tests: u64,
-    /// Those that needed double precision, or more.
+    /// Tests that needed double precision, or more.
     pub double: u64,
-    /// Those that needed exact sums.
+    /// Tests that needed exact sums.
     pub expansions: u64,
 }
 
@@ -35,8 +35,7 @@ impl AddAssign for Stages {
     }
 }
 
-/// Counts the stages of `Exact` for these rays and spheres. For reports: it takes several times as
-/// long as the answer.
+/// Counts the stages of `Exact` for these rays and spheres. This is for reports: it takes several times as long as the answers.
 ///
 /// The counts differ a little between instruction sets: a filter with fused operations is sharper.
 ///
@@ -73,8 +72,7 @@ pub fn stages<Q: Query>(_query: Q, rays: &[RayPacket], spheres: Spheres<'_>) -> 
     sum
 }
 
-/// Counts a group of candidates, before it is tested. Within the group, limits move as they
-/// do when it is.
+/// Counts a group of candidates before it is tested. Within the group, limits move as they do in the test.
 fn count<L: Lanes, Q: Query>(
     token: L::Token,
     candidates: Candidates<'_, L>,
@@ -105,7 +103,7 @@ mod tests {
     use super::*;
     use crate::{AnyHit, ClosestHit, Ray, Vec3};
 
-    /// Rays along z, so far from the axis: through the unit sphere, touching it, and past it.
+    /// Counts rays along z, so far from the axis: through the unit sphere, touching it, and past it.
     fn counted(distances: &[f32], spheres: Spheres<'_>, query: impl Query) -> Stages {
         let mut packet = RayPacket::inactive();
         for (lane, &x) in distances.iter().enumerate() {

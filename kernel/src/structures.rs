@@ -28,14 +28,14 @@ use core::ops::Range;
 
 /// The traversals of a structure.
 pub trait Traverse {
-    /// Whether some rays of a call go one by one, since they are few, and that is faster than together.
+    /// Whether some rays of a call go one by one, since they are few, and are faster so than together.
     #[cfg(feature = "std")]
     #[inline(always)]
     fn goes_one_by_one(&self, _: &Trace<'_>, _: &ManyRays<'_>, _: Range<usize>) -> bool {
         false
     }
 
-    /// In lanes of any kind, compiled where it is called.
+    /// Answers packets in lanes of any kind; compiled where it is called.
     fn in_lanes<L: Lanes, Q: Query>(
         &self,
         tier: impl Accuracy,
@@ -45,7 +45,7 @@ pub trait Traverse {
         answers: &mut [Q::Packet<L::Array>],
     );
 
-    /// In sixteen lanes at a level, compiled with this crate.
+    /// Answers packets in sixteen lanes at a level; compiled with this crate.
     fn in_packets<Q: LevelQuery>(
         &self,
         tier: impl Accuracy,
@@ -54,7 +54,7 @@ pub trait Traverse {
         answers: &mut [Q::Packet<[f32; 16]>],
     );
 
-    /// In sixteen lanes at a level, of rays that fill `packets`, whose contents do not matter, on the way.
+    /// Answers rays in sixteen lanes at a level. On the way they fill `packets`, whose contents do not matter.
     fn many_in_packets<Q: LevelQuery>(
         &self,
         tier: impl Accuracy,
@@ -78,14 +78,14 @@ pub trait Traverse {
         None
     }
 
-    /// How many of the next rays are better answered at once than a few by a few, from what the trace has learnt; `None`
-    /// where that does not matter.
+    /// How many of the next rays are better answered all at once than some at a time, from what the trace has learnt; `None` where it
+    /// makes no difference.
     #[cfg(feature = "alloc")]
     fn many_at_once<Q: LevelQuery>(&self, _: &Trace<'_>, _: usize) -> Option<usize> {
         None
     }
 
-    /// One ray, at a level; without `std` in one lane, since firmware seldom has more, and little room.
+    /// Answers one ray at a level; without `std` in one lane, since firmware seldom has more lanes, and has little memory.
     fn one<Q: LevelQuery>(&self, tier: impl Accuracy, trace: &mut Trace<'_>, ray: &Ray) -> Q::One {
         let rays = core::slice::from_ref(ray);
         #[cfg(feature = "std")]
@@ -102,13 +102,14 @@ pub trait Traverse {
         }
     }
 
-    /// One ray of which nothing is said. A tree makes no [`Trace`] for it: to make and to drop one takes a twentieth of a ray's time.
+    /// Answers one ray of which the caller says nothing. A tree makes no [`Trace`] for it, since to make and to drop a trace takes a
+    /// twentieth of a ray's time.
     #[inline]
     fn one_plainly<Q: LevelQuery>(&self, tier: impl Accuracy, ray: &Ray) -> Q::One {
         self.one::<Q>(tier, &mut Trace::new(), ray)
     }
 
-    /// What tiles of a camera hit, whose rays are made in `rays`, in lanes of any kind.
+    /// Makes the rays of a camera's tiles in `rays`, and finds what they hit, in lanes of any kind.
     #[inline(always)]
     fn tiles_in_lanes<L: Lanes>(
         &self,
@@ -199,14 +200,14 @@ pub trait LevelQuery: Query + Compiled {}
 #[cfg(feature = "std")]
 impl<Q: Query + Compiled> LevelQuery for Q {}
 
-/// A query: there is one level.
+/// A query; without `std` there is one level.
 #[cfg(not(feature = "std"))]
 pub trait LevelQuery: Query {}
 #[cfg(not(feature = "std"))]
 impl<Q: Query> LevelQuery for Q {}
 
-/// The traversals of a structure: by a function that is generic over lanes, and by the same compiled for
-/// every level.
+/// Implements the traversals of a structure: by a function that is generic over lanes, and by the same function compiled for every
+/// level.
 macro_rules! traverse {
     ($structure:ty, |$this:ident, $trace:ident| $traverse:path = $compiled:ident($($argument:expr),*)) => {
         impl Traverse for $structure {
@@ -245,7 +246,7 @@ macro_rules! traverse {
 traverse!(Spheres<'_>, |spheres, trace| linear::traverse = list(*spheres));
 traverse!(DepthList<'_>, |list, trace| list_source::traverse = depth_list(list, trace.scratch));
 
-/// In one lane, whatever the level.
+/// It answers in one lane, whatever the level.
 impl Traverse for Bvh4<'_> {
     #[inline(always)]
     fn in_lanes<L: Lanes, Q: Query>(

@@ -9,19 +9,19 @@ use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::{axes, dot};
 use glam::Vec3;
 
-/// Returns the surface that `ray` hits at `t`, which is the answer of `tier` for `sphere`: its unit normal, and the point as
-/// seen from the centre.
+/// Returns the surface that `ray` hits at `t`: its unit normal, and the point as seen from the centre. `t` is the answer of
+/// `tier` for `sphere`.
 ///
-/// [`Exact`](crate::Exact) rounds every coordinate correctly: that of the point where the line really meets the sphere,
-/// however far away. By the other tiers a normal is off by at most 2^-24 and e / cos, where e = 2^-50 (|p| + r) / r, p is the
-/// centre less the origin, and cos is the cosine of normal and ray; or by √e in place of e / cos, if that is less. (A point
-/// o + t d is off by 2^-24 |p|, which from afar is more than r.)
+/// [`Exact`](crate::Exact) rounds every coordinate correctly, as at the point where the line really meets the sphere, however
+/// far away. By the other tiers a normal is off by at most 2^-24 plus e / cos, where e = 2^-50 (|p| + r) / r, p is the centre
+/// less the origin, and cos is the cosine of normal and ray. √e replaces e / cos where it is less. (A point o + t d is off by
+/// 2^-24 |p|, which from afar is more than r.)
 ///
 /// A sphere of radius zero has the point zero, and a normal that points back along the ray. If `t` is not the tier's
 /// answer, the surface is that at the nearer root. If ray or sphere is not valid, the numbers have no meaning.
 ///
 /// Cost: some 150 double-precision operations, by `Exact` twice as many. A coordinate that these cannot tell takes 2
-/// microseconds and 2.5 KiB of stack: one in 10^7, near the zeros of a ground one in 10^4.
+/// microseconds and 2.5 KiB of stack. One in 10^7 is such; near the zeros of a ground, one in 10^4.
 ///
 /// ```
 /// use spherule_kernel::{Exact, Intersect, Ray, Sphere, SphereList, Vec3, surface};
@@ -40,7 +40,7 @@ pub fn surface(tier: impl Accuracy, ray: &Ray, t: f32, sphere: &Sphere) -> Surfa
     tier.with_formula(SurfaceOf { ray, t, sphere })
 }
 
-/// A point has no surface: it looks back.
+/// A sphere of radius zero has no surface: its normal points back along the ray.
 fn of_a_point(ray: &Ray) -> Surface {
     let d = ray.direction.to_array().map(f64::from);
     let length = libm::sqrt(dot(d, d));
@@ -65,7 +65,8 @@ impl TierWork for SurfaceOf<'_> {
 }
 
 impl SurfaceOf<'_> {
-    /// As lanes know it. (A function of its own: its stack is not that of exact sums.)
+    /// The surface as lanes find it; `None` if they do not know it. (A function of its own, so that it is not on the stack
+    /// with exact sums.)
     #[inline(never)]
     fn known<F: TierFormula>(&self) -> Option<Surface> {
         let &Self { ray, t, sphere } = self;
@@ -138,7 +139,7 @@ pub(crate) fn each_packet<L: Lanes>(
 /// The arguments of [`surface_lanes`].
 struct Surfaces<'a, L: Lanes> {
     token: L::Token,
-    /// By reference: its copy was a sixth of a packet's time.
+    /// By reference: a copy took a sixth of a packet's time.
     spheres: &'a Spheres<'a>,
     rays: &'a RayPacket<L::Array>,
     hits: &'a HitPacket<L::Array>,
@@ -225,7 +226,7 @@ impl<L: Lanes> HitSpheres<L> {
     }
 }
 
-/// The lanes whose bit is set.
+/// Finds the surfaces of the lanes whose bit is set.
 #[cold]
 #[inline(never)]
 fn one_by_one<F: TierFormula, A: LaneArray>(

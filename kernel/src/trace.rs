@@ -26,9 +26,9 @@ pub struct Trace<'m> {
     pub coherence: Coherence,
     /// Working memory for a [`DepthList`](crate::DepthList), as long as its `scratch` says; other structures need none.
     pub scratch: &'m mut [f32],
-    /// The caller's working memory for a tree's streams. If it is `None`, and with feature `alloc`, a call allocates some
-    /// where it gains by it, to sort rays, too: at most 4.5 MB. The thread keeps that memory for its next call; without `std` the trace
-    /// keeps it. If there is none, a call goes on without.
+    /// The caller's working memory for a tree's streams. If it is `None`, a call with feature `alloc` allocates memory where it gains
+    /// by a stream, or by sorting rays: at most 4.5 MB. The thread keeps this memory for its next call; without `std` the trace keeps
+    /// it. If the allocation fails, the call goes on without the memory.
     pub stream: Option<StreamMemory<'m>>,
     /// What calls have allocated for streams.
     #[cfg(feature = "alloc")]
@@ -74,7 +74,7 @@ impl<'m> Trace<'m> {
         Self { level, ..self }
     }
 
-    /// Takes rays for as coherent as `coherence` says.
+    /// Takes rays to be as `coherence` says.
     ///
     /// ```
     /// use spherule_kernel::{Coherence, Trace};
@@ -86,7 +86,7 @@ impl<'m> Trace<'m> {
         Self { coherence, ..self }
     }
 
-    /// Takes rays for coherent.
+    /// Takes rays to be coherent.
     ///
     /// ```
     /// use spherule_kernel::{Coherence, Trace};
@@ -98,7 +98,7 @@ impl<'m> Trace<'m> {
         Self { coherence: Coherence::Coherent, ..self }
     }
 
-    /// Takes rays for incoherent.
+    /// Takes rays to be incoherent.
     ///
     /// ```
     /// use spherule_kernel::{Coherence, Trace};
@@ -110,7 +110,7 @@ impl<'m> Trace<'m> {
         Self { coherence: Coherence::Incoherent, ..self }
     }
 
-    /// Lends working memory.
+    /// Lends working memory for a depth list.
     ///
     /// ```
     /// use spherule_kernel::{DepthList, Trace};
@@ -123,9 +123,9 @@ impl<'m> Trace<'m> {
         Self { scratch, ..self }
     }
 
-    /// Lends memory for streams, which replaces what a tree allocates by itself, and serves rays that are said to be
-    /// incoherent, too. Rays that have nothing in common are traced as a stream as long as enough of them meet. With fewer than
-    /// 8 places in queues a ray they never are.
+    /// Lends memory for streams. It replaces the memory that a tree allocates by itself, and is used for rays that are said to be
+    /// incoherent, too. Rays that have nothing in common are traced as a stream as long as enough of them meet at the same boxes; with
+    /// fewer than 8 places in queues a ray, they never are.
     ///
     /// ```
     /// use spherule_kernel::{QueuedRay, StreamMemory, StreamRay, Trace};

@@ -1,6 +1,6 @@
-//! What the errors of double precision are at most, in the estimates of `Exact` and of surfaces.
+//! The largest errors of double precision, in the estimates of `Exact` and of surfaces.
 
-/// What the terms of the two bounds are multiplied by.
+/// The factors of the terms in the bounds of D and of t.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Constants {
     /// Of A + L, in the bound of D.
@@ -18,10 +18,10 @@ pub(crate) struct Constants {
 }
 
 impl Constants {
-    /// Those of the proof, of double precision.
+    /// The proof's factors for double precision.
     pub(crate) const PROVEN: Self = Self::of(f64::EPSILON / 2.0);
 
-    /// Those of the proof, in a precision with that u.
+    /// The proof's factors for a precision with that u.
     pub(crate) const fn of(u: f64) -> Self {
         Self {
             sums: 5.0 * u,

@@ -2,14 +2,14 @@
 //!
 //! # Method
 //!
-//! What passes the miss filter is computed in double-precision lanes, by the cross product:
-//! D = a r^2 - |d x p|^2, t = (b -+ sqrt D) / a, each with a bound on its error. Where D is
-//! larger than its bound, its sign is known; where t less and t plus its bound round to the same
-//! `f32`, that is the correctly rounded t. The other lanes - exact tangents, ties, some rays that
-//! start on the surface - go one by one through [`Quadratic`], which is always right. So is, then,
-//! every lane: the bound decides what is spent, never what is answered.
+//! Spheres that pass the miss filter are computed in double-precision lanes, by the cross product:
+//! D = a r^2 - |d x p|^2, t = (b -+ sqrt D) / a, each with a bound on its error. Where D is larger
+//! than its bound, its sign is known. Where t minus its bound and t plus its bound round to the
+//! same `f32`, that number is the correctly rounded t. The other lanes - exact tangents, ties, some
+//! rays that start on the surface - go one by one through [`Quadratic`], which is always right. So
+//! every lane is right: the bound decides the cost, never the answer.
 //!
-//! The bound is proven in `docs/numerics.md`; `tests/proofs` climbs towards it.
+//! `docs/numerics.md` proves the bound; `tests/proofs` searches for the largest errors under it.
 
 pub(crate) mod estimate;
 mod from_start;
@@ -32,19 +32,17 @@ use glam::Vec3;
 
 /// Hits decided as in real arithmetic, t correctly rounded, for every `f32` input.
 ///
-/// Whether the line meets the sphere is decided as in real arithmetic, a tangent being a hit; so is
-/// which of many spheres is the closest, also where their t are equal. t is the correctly rounded
-/// root, subnormals kept; the interval is tested on that t. So the answer is the same on every
-/// target, in every lane width and whatever the order of traversal.
+/// The tier decides as in real arithmetic whether a line meets a sphere (a tangent is a hit), and which of many spheres
+/// is the closest, even where their t are equal. t is the correctly rounded root, subnormals kept; the interval is
+/// tested on that t. So the answer is the same on every target, in every lane width and in every order of traversal.
 ///
-/// Asks for the default floating-point environment: round to nearest even, subnormals neither
-/// flushed nor taken for zero; [`float_environment_is_sound`](crate::float_environment_is_sound)
-/// tells. Exactness is per ray and sphere as given in `f32`: a hit *point* computed from t is
-/// rounded, and lies inside the sphere half of the time.
+/// Requires the default floating-point environment: round to nearest even, subnormals neither flushed nor taken for
+/// zero; [`float_environment_is_sound`](crate::float_environment_is_sound) tests for it. Exactness is per ray and
+/// sphere as given in `f32`: a hit *point* computed from t is rounded, and lies inside the sphere half of the time.
 ///
-/// Cost: as [`Fast`](super::Fast) for what the filter rules out; some 100 double-precision
-/// operations a candidate, and as many for two hits at one t. What these cannot decide costs some
-/// 2 microseconds a lane, 25 two hits, in 1 KiB of stack (a ray and all, on 32 bits, 1.6 KiB: `docs/targets.md`).
+/// Cost: as [`Fast`](super::Fast) for spheres that the filter rules out. A candidate takes some 100 double-precision
+/// operations, and two hits at one t take as many. Where these cannot decide, a lane takes some 2 microseconds and two
+/// hits take 25, in 1 KiB of stack (on 32 bits, a whole call for a ray takes 1.6 KiB: `docs/targets.md`).
 #[derive(Clone, Copy, Debug)]
 pub struct Exact;
 
@@ -89,7 +87,8 @@ impl TierFormula for Exact {
             return t;
         }
 
-        // Out of the lanes, as arrays: this is scalar code, and rare.
+        // Undecided lanes leave the registers as arrays: the code for them is scalar, and runs
+        // rarely.
         let mut settled = t.store();
         Unsettled::<L> {
             origin: axes!(i => rays.origin[i].store()),
@@ -143,8 +142,8 @@ impl Exact {
         (discriminant, error)
     }
 
-    /// Of the lanes `active`, those that [`TierFormula::first_root`] takes to double precision, and of
-    /// these, those that it takes to exact sums.
+    /// The lanes of `active` that [`TierFormula::first_root`] takes to double precision, and those of them that it
+    /// takes to exact sums.
     #[cfg(feature = "stages")]
     #[inline(always)]
     pub(crate) fn reached<L: Lanes>(
@@ -250,7 +249,7 @@ impl<L: Lanes> Brackets<L> {
         (t, near.known & (near.hit | far.known | limit.lt(near.t)))
     }
 
-    /// What lies past the limit need not be known any better.
+    /// A bracket past the limit counts as known: its root need not be known any better.
     #[inline(always)]
     fn judge(&self, [low, high]: [L::Array; 2], rays: &RayLanes<L>, limit: L) -> Judged<L> {
         let (low, high) = (L::load(self.token, &low), L::load(self.token, &high));

@@ -1,8 +1,8 @@
 //! The lecture's algebraic form, in single precision.
 //!
-//! With p = c - o: a = d.d, b = d.p, D = b^2 - a (p.p - r^2), t = (b -+ sqrt D) / a.
-//! p.p - r^2 cancels where the sphere is far for its size, and b - sqrt D where the ray starts
-//! near the surface: that is what the tier trades for speed, and what the report counts.
+//! With p = c - o: a = d.d, b = d.p, D = b^2 - a (p.p - r^2), t = (b -+ sqrt D) / a. p.p - r^2
+//! cancels where the sphere is far for its size, and b - sqrt D where the ray starts near the
+//! surface: the tier trades this loss for speed, and the report counts it.
 
 use super::formula::{Tier, TierFormula, Underflow};
 use super::roots::{RayLanes, Roots, line_roots_of};
@@ -11,13 +11,13 @@ use crate::{Lanes, Ray, Sphere};
 
 /// The lecture's algebraic form, the textbook quadratic, in `f32`: wrong where `f32` is wrong.
 ///
-/// Away from those places (distance/radius up to some 10, not grazing) t is within some hundred
-/// ulp. At distance/radius 1e4 nearly half of all decisions are wrong. The measured errors stand
-/// in the budget table of the tests.
+/// For distance/radius up to some 10, and not grazing, t is within some hundred ulp. At
+/// distance/radius 1e4 nearly half of all decisions are wrong. The measured errors stand in the
+/// budget table of the tests.
 #[derive(Clone, Copy, Debug)]
 pub struct Fast;
 
-/// The rays, a = d.d, and 1/a: one division a packet in place of two a sphere.
+/// The rays, a = d.d, and 1/a: one division a packet instead of two a sphere.
 #[derive(Clone, Copy, Debug)]
 pub struct FastRays<L> {
     origin: [L; 3],

@@ -32,7 +32,7 @@ pub enum Tier {
 }
 
 impl Tier {
-    /// Every tier: the two forms of the lecture, then what is more accurate.
+    /// Every tier: the two forms of the lecture, then the more accurate tiers.
     pub const ALL: [Self; 4] = [Self::Fast, Self::Geometric, Self::Stable, Self::Exact];
 
     /// The name on the command line and in reports.
@@ -64,18 +64,18 @@ impl Debug for Tier {
 pub trait TierFormula: Copy + Debug {
     /// The tier as a value of its own type.
     const THIS: Self;
-    /// The same as a value of all tiers' type.
+    /// The tier as a value of the type of all tiers.
     const TIER: Tier;
 
-    /// How far off the tier may be beside the few ulp of s that are allowed to all: as if r^2
-    /// were changed by up to (`SPREAD` (|p| + r))^2. Zero except for [`Fast`](super::Fast) and
+    /// The error of the tier beyond the few ulp of s that every tier may have: as if r^2 were
+    /// changed by up to (`SPREAD` (|p| + r))^2. Zero except for [`Fast`](super::Fast) and
     /// [`Geometric`](super::Geometric).
     const SPREAD: f32 = 0.0;
 
-    /// Whether the roots themselves are in order, where t are equal: rule 5.
+    /// Whether the tier orders the roots themselves where their t are equal: rule 5.
     const ORDERS_ROOTS: bool = false;
 
-    /// Below which sizes the tier may see hits that it owes to underflow.
+    /// The sizes below which underflow may make the tier see hits.
     const UNDERFLOW: Underflow = Underflow::NONE;
 
     /// What the tier computes once a packet.
@@ -86,8 +86,8 @@ pub trait TierFormula: Copy + Debug {
 
     /// The t of rules 2 to 4 for one sphere a lane, `+inf` if there is none.
     ///
-    /// Read only in the lanes `active`, where ray and sphere are valid; may be `+inf` where t is
-    /// larger than `limit`. Every bit pattern must return.
+    /// The result is read only in the lanes `active`, where ray and sphere are valid; it may be
+    /// `+inf` where t is larger than `limit`. The function must return for every bit pattern.
     fn first_root<L: Lanes>(
         rays: &RayLanes<L>,
         prepared: &Self::Prepared<L>,
@@ -97,7 +97,7 @@ pub trait TierFormula: Copy + Debug {
         limit: L,
     ) -> L;
 
-    /// [`first_root`](TierFormula::first_root) of a valid ray and a valid sphere, whatever it is.
+    /// [`first_root`](TierFormula::first_root) of a valid ray and a valid sphere, without a limit.
     #[cfg(feature = "std")]
     #[inline(always)]
     fn first_root_of(ray: &Ray, sphere: &Sphere) -> f32 {
@@ -109,7 +109,7 @@ pub trait TierFormula: Copy + Debug {
     /// Both roots of the line of a valid ray and a valid sphere, the smaller first, never -0.
     fn line_roots(ray: &Ray, sphere: &Sphere) -> Option<[f32; 2]>;
 
-    /// How two spheres compare that `ray` hits at the same `t`: `Equal` if the tier knows no more than t.
+    /// Compares two spheres that `ray` hits at the same `t`: returns `Equal` if the tier knows no more than t.
     fn compare_at(_ray: &Ray, _t: f32, _spheres: [&Sphere; 2]) -> Ordering {
         Ordering::Equal
     }
@@ -134,23 +134,24 @@ pub trait TierFormula: Copy + Debug {
     }
 }
 
-/// Below which sizes a tier may see hits where there are none, since its squares underflow: a filter leaves such to it.
+/// The sizes below which a tier may see hits where there are none, since its squares underflow: a filter lets such
+/// spheres pass to the tier.
 #[derive(Clone, Copy, Debug)]
 pub struct Underflow {
-    /// Of the largest component of a direction.
+    /// For the largest component of a direction.
     pub length: f32,
-    /// Of the root of |p|^2 + r^2.
+    /// For the root of |p|^2 + r^2.
     pub size: f32,
 }
 
 impl Underflow {
-    /// The tier sees none.
+    /// The tier sees no such hits.
     pub const NONE: Self = Self { length: 0.0, size: 0.0 };
 }
 
-/// Work that is compiled once a tier.
+/// Work that is compiled once for each tier.
 pub trait TierWork {
-    /// What comes of it.
+    /// The result of the work.
     type Output;
     /// Does the work by the formula of one tier.
     fn run<F: TierFormula>(self) -> Self::Output;

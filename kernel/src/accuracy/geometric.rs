@@ -1,10 +1,10 @@
 //! The lecture's geometric form, in single precision.
 //!
-//! With p = c - o and the unit direction v = d / |d|: the line is closest to the centre at s = v.p, its distance
-//! there is l, l^2 = p.p - s^2, and half a chord, h = sqrt(r^2 - l^2), lies on either side: t = (s -+ h) / |d|. p.p -
-//! s^2 cancels where the sphere is far for its size, and s - h where the ray starts near the surface, as p.p - r^2
-//! and b - sqrt D do in [`Fast`](super::Fast). The unit direction is rounded besides, and |v| = 1 is taken for
-//! granted. [`Stable`](super::Stable) is what becomes of this form when each of these is cured.
+//! With p = c - o and the unit direction v = d / |d|: the line is closest to the centre at s = v.p, its distance there
+//! is l, l^2 = p.p - s^2, and half a chord, h = sqrt(r^2 - l^2), lies on either side: t = (s -+ h) / |d|. p.p - s^2
+//! cancels where the sphere is far for its size, and s - h where the ray starts near the surface, as p.p - r^2 and
+//! b - sqrt D do in [`Fast`](super::Fast). The unit direction is rounded besides, and |v| = 1 is taken for granted.
+//! [`Stable`](super::Stable) is this form with each of these errors cured.
 
 use super::formula::{Tier, TierFormula, Underflow};
 use super::roots::{RayLanes, Roots, line_roots_of};
@@ -13,11 +13,11 @@ use crate::{Lanes, Ray, Sphere};
 
 /// The lecture's geometric form in `f32`, unimproved: wrong where `f32` is wrong.
 ///
-/// In real arithmetic it is what [`Fast`](crate::Fast) is. Where both are right they agree: from 2 to 10 radii away,
-/// and not grazing, t is within 256 ulp of that of `Fast`; the most that a search found is 109. Where `f32` ends each
-/// fails in its own way. The measured errors stand in the budget table of the tests.
+/// In real arithmetic this form equals [`Fast`](crate::Fast). Where both are right they agree: from 2 to 10 radii away,
+/// and not grazing, t is within 256 ulp of the t of `Fast`; the most that a search found is 109. Where the precision of
+/// `f32` ends, each fails in its own way. The measured errors stand in the budget table of the tests.
 ///
-/// A direction whose square overflows meets nothing.
+/// A ray hits nothing if the square of its direction overflows.
 #[derive(Clone, Copy, Debug)]
 pub struct Geometric;
 
@@ -34,8 +34,8 @@ impl TierFormula for Geometric {
     const TIER: Tier = Tier::Geometric;
     /// r^2 - l^2 is off by 25 u |p|^2 + 2 u r^2 (`docs/numerics.md`); this is 2^-9, whose square is 64 u.
     const SPREAD: f32 = 1.0 / 512.0;
-    /// 2^-50, of which the square is far above what underflows in d.d, below 2^-147; and 2^-60, as large as the
-    /// filter asks: what underflows in r^2 - l^2 is below 2^-146.
+    /// The length is 2^-50: its square is far above what underflows in d.d, below 2^-147. The size is 2^-60, as large
+    /// as the filter asks: what underflows in r^2 - l^2 is below 2^-146.
     const UNDERFLOW: Underflow =
         Underflow { length: 1.0 / (1_u64 << 50) as f32, size: 1.0 / (1_u64 << 60) as f32 };
     type Prepared<L: Lanes> = GeometricRays<L>;
@@ -44,7 +44,7 @@ impl TierFormula for Geometric {
     fn prepare<L: Lanes>(rays: &RayLanes<L>) -> GeometricRays<L> {
         let d = rays.direction;
         let length = dot(d, d).sqrt();
-        // 1 / inf is no length: v would be zero, and every t.
+        // 1 / inf is no length: v would be zero, and so would every t.
         let finite = length.lt(length.like(f32::INFINITY));
         let per_length = L::select(finite, length.like(1.0) / length, length.like(f32::NAN));
         GeometricRays { origin: rays.origin, unit: axes!(i => d[i] * per_length), per_length }

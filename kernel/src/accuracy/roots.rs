@@ -78,7 +78,7 @@ impl<L: Lanes> Roots<L> {
     }
 }
 
-/// Both roots of one line, by the lanes of a tier that computes both roots always.
+/// Both roots of one line, by the lanes of a tier that always computes both roots.
 #[inline(always)]
 pub(super) fn line_roots_of(
     roots: impl Fn(&RayLanes<f32>) -> Roots<f32>,

@@ -1,11 +1,11 @@
-//! Closest point first, then what single precision can be made to give.
+//! The closest point first, then the most that single precision can give.
 //!
 //! # Method
 //!
-//! The lecture's geometric form goes to the point of the line nearest to the centre, and from
-//! there half a chord back and forth. Its enemies are two: rounding p = c - o, which at distance
-//! 1e6 r moves the sphere by a twentieth of its radius, and the subtraction r^2 - l^2 near a
-//! tangent. Both are cured without a wider type:
+//! The lecture's geometric form goes to the point of the line nearest to the centre, and from there
+//! half a chord back and forth. Two errors spoil it: rounding p = c - o, which at distance 1e6 r
+//! moves the sphere by a twentieth of its radius, and the subtraction r^2 - l^2 near a tangent.
+//! Both are cured without a wider type:
 //!
 //! 1. p is kept as the exact sum of two numbers.
 //! 2. t_m = d.p / a need not be the closest point: *any* point of the line is a sound place to
@@ -20,11 +20,10 @@
 //! 5. Where a root is small beside half the chord - the ray starts near the surface - it is taken from the
 //!    product of the roots, (p.p - r^2) / a, with that difference in two-term arithmetic.
 //!
-//! Steps 4 and 5 are work for a few lanes: a packet does them only where one of its lanes asks
-//! for it, and keeps them only in that lane, so that the answer does not depend on neighbours.
+//! Few lanes need steps 4 and 5: a packet does them only where one of its lanes needs them, and keeps the results only
+//! in that lane, so that the answer does not depend on neighbours.
 //!
-//! The direction is scaled by a power of two to a length near one, which is exact, and t scaled
-//! back.
+//! The direction is scaled by a power of two to a length near one, which is exact, and t is scaled back.
 
 use super::formula::{Tier, TierFormula, Underflow};
 use super::range_limits::{RangeLimits, longest};
@@ -36,19 +35,19 @@ use crate::{LaneMask, Lanes, Ray, Sphere};
 
 /// The best form that plain `f32` allows: few-ulp answers without wider arithmetic.
 ///
-/// Domain: r and |p| (p the centre less the origin) zero or within [2^-40, 2^40], |p| from 2^-32 on
-/// if r is zero; any direction whose largest component is a normal number. Inside it, for |p|/r up to 1e6:
+/// Domain: r and |p| (p is the centre minus the origin) are zero or within [2^-40, 2^40], |p| from 2^-32 on if r is
+/// zero; the largest component of the direction is a normal number. Inside the domain, for |p|/r up to 1e6:
 ///
 /// - Decisions are right except for tangents closer than 2^-41 (|p| + r). The most that a search
 ///   found is 2^-49.
 /// - t is within 8 ulp if the ray starts a radius or more from the surface. The most that a search
 ///   found is 7; 36 follows from the margins of the traversal.
-/// - Nearer than that, t is within 2^-17 r of distance.
+/// - If it starts nearer, t is within 2^-17 r of distance.
 ///
-/// Times a power of two, a scene has the same answers, except for tangents that near: squares that decide them may underflow.
+/// A scene multiplied by a power of two has the same answers, except for tangents that close: the squares that decide them may underflow.
 ///
-/// Outside it: answers in the same bits on every target, but no promise. Which of several hits with
-/// the same t is the closest is not known.
+/// Outside the domain, answers are the same bits on every target, but nothing is promised. The tier does not know which of several hits
+/// with the same t is the closest.
 #[derive(Clone, Copy, Debug)]
 pub struct Stable;
 
@@ -68,7 +67,8 @@ pub struct StableRays<L> {
 impl TierFormula for Stable {
     const THIS: Self = Self;
     const TIER: Tier = Tier::Stable;
-    /// A normal number, and 2^-60: what underflows in D / a is below 2^-144.
+    /// The length is the least normal number, the size 2^-60: what underflows in D / a is below
+    /// 2^-144.
     const UNDERFLOW: Underflow =
         Underflow { length: f32::MIN_POSITIVE, size: 1.0 / (1_u64 << 60) as f32 };
     type Prepared<L: Lanes> = StableRays<L>;
@@ -144,7 +144,8 @@ fn roots<L: Lanes>(rays: &StableRays<L>, center: [L; 3], radius: L) -> Roots<L> 
     // A root that cancelled is taken from the product of the two.
     let forward = a.like(0.0).le(middle);
     let small = L::select(forward, near, far);
-    // Strictly: for a tangent at the origin both are zero, and so is the product's divisor.
+    // Strictly less: for a tangent at the origin both sides are zero, and so is the product's
+    // divisor.
     let cancelled = small.abs().lt(a.like(CANCELLED) * half_chord);
     if cancelled.any() {
         let large = L::select(forward, far, near);
@@ -155,14 +156,15 @@ fn roots<L: Lanes>(rays: &StableRays<L>, center: [L; 3], radius: L) -> Roots<L> 
     Roots { meets: a.like(0.0).le(discriminant), near: near * scale, far: far * scale }
 }
 
-/// A discriminant this small beside its terms is computed again: 1.6 % of the radius from the edge.
-/// (1/16: 5 % slower on camera rays, no ulp gained. 1/64: an ulp lost, nothing gained.)
+/// A discriminant this small beside its terms is computed again: the line passes within 1.6 % of
+/// the radius of the edge. (1/16 was 5 % slower on camera rays, and gained no ulp. 1/64 lost an
+/// ulp, and gained nothing.)
 const GRAZING: f32 = 1.0 / 32.0;
 /// A root this small beside half the chord is computed again.
 const CANCELLED: f32 = 1.0 / 8.0;
 
-/// Moves from p - steps on by `offset` d, to the closest point except some 2^-45 of |p|, and
-/// solves there: the new offset from the middle, and the discriminant.
+/// Moves on from p - steps by `offset` d, to the closest point except some 2^-45 of |p|, and solves
+/// there. Returns the new offset from the middle, and the discriminant.
 #[inline(always)]
 fn about_closest_point<L: Lanes>(
     rays: &StableRays<L>,

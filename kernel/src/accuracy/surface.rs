@@ -1,4 +1,4 @@
-//! The surface at a hit, from the sphere's centre and never through t, which from afar is rounded to more than the
+//! The surface at a hit, from the sphere's centre and never through t: from afar, t is rounded by more than the
 //! sphere's size.
 //!
 //! # Method
@@ -11,8 +11,8 @@
 //! ```
 //!
 //! In double precision d x p loses some 2^-51 |d| |p|: a normal is off by some 2^-50 |p| / r, 2^-27 from 10^7 radii
-//! away. Without that loss, where it matters: the products of single precision are exact, and so is the sum of two of
-//! them in two terms. By `Exact` both have bounds (`docs/numerics.md`).
+//! away. Where that loss matters, d x p is computed without it: the products of single precision are exact, and so is
+//! the sum of two of them in two terms. `Exact` has bounds for both forms (`docs/numerics.md`).
 
 use super::constants::Constants;
 use super::roots::RayLanes;
@@ -29,14 +29,14 @@ pub struct SurfaceLanes<L> {
     pub(crate) rest: [L; 3],
 }
 
-/// 2^29 + 1: leaves the bits of single precision.
+/// 2^29 + 1: a split by it leaves the bits of single precision.
 const SPLITTER: f64 = 536_870_913.0;
 /// 16 ulp of t, at least.
 const NEAR: f64 = 16.0 / 8_388_608.0;
 /// u, of double precision.
 const U: f64 = f64::EPSILON / 2.0;
 
-/// Of the bound of D, where d x p is in two terms.
+/// The factors in the bound of D, where d x p is in two terms.
 const TWO_TERMS: Constants = Constants {
     sums: 10.0 * U,
     cross: 8.0 * U * U,
@@ -60,12 +60,12 @@ pub(super) struct Line<D> {
     /// |d|_1, and G = |d|_1 |p|_1.
     length: D,
     pub(super) size: D,
-    /// What d x (d x p) may be off, in units of |d|_1.
+    /// A bound on the error of d x (d x p), in units of |d|_1.
     loss: D,
 }
 
 impl<D: DoubleLanes> Line<D> {
-    /// With d x p rounded to 3u of its products, or, if `IN_TWO_TERMS`, to 2u of itself.
+    /// Computes d x p within 3u of its products, or, if `IN_TWO_TERMS`, within 2u of itself.
     #[inline(always)]
     pub(super) fn new<const IN_TWO_TERMS: bool>(
         o: [D; 3],
@@ -128,9 +128,9 @@ impl<D: DoubleLanes> Line<D> {
         )
     }
 
-    /// The point of the near root in the lanes `is_near`, else of the far one, as seen from the centre; what every
-    /// coordinate may be off, if D is above its bound; and 1/r. Where the line misses, the point of it that is
-    /// closest to the centre.
+    /// Returns the point of the near root in the lanes `is_near`, else of the far one, as seen from the centre; a bound
+    /// on the error of every coordinate, if D is above its bound; and 1/r. Where the line misses, it is the line's
+    /// point closest to the centre.
     #[inline(always)]
     pub(super) fn point(&self, is_near: D::Mask) -> ([D; 3], D, D) {
         let (d, zero) = (self.direction, self.a.like(0.0));
@@ -151,7 +151,7 @@ impl<D: DoubleLanes> Line<D> {
         (point, error, per_radius)
     }
 
-    /// Where `t` is near the near root, as near as a tier gets, or nearer to it than to the far one.
+    /// The lanes in which `t` is as near the near root as a tier gets, or nearer to it than to the far one.
     #[inline(always)]
     fn answers_near(&self, t: D) -> D::Mask {
         let zero = t.like(0.0);
@@ -161,8 +161,8 @@ impl<D: DoubleLanes> Line<D> {
         past_middle.le(zero) | from_near.le((t * self.a).abs() * t.like(NEAR))
     }
 
-    /// The unit normal, and the point at the radius over it: `point` may be off the sphere, where a tier saw
-    /// what the line misses.
+    /// The unit normal, and the point at the radius along it: `point` may be off the sphere, where a tier saw a hit but
+    /// the line misses.
     #[inline(always)]
     fn projected(&self, point: [D; 3]) -> [[D; 3]; 2] {
         let zero = self.radius.like(0.0);
@@ -198,7 +198,7 @@ pub(super) fn line<const IN_TWO_TERMS: bool>(ray: &Ray, sphere: &Sphere) -> Line
     Line::new::<IN_TWO_TERMS>(o, d, c, f64::from(sphere.radius))
 }
 
-/// What a number is off if it is rounded to single precision (Veltkamp).
+/// What rounding to single precision takes from a number (Veltkamp).
 #[inline(always)]
 pub(super) fn rest<D: DoubleLanes>(value: D) -> D {
     let scaled = value * value.like(SPLITTER);

@@ -1,8 +1,8 @@
 //! The choice of a tier: by type at build time, or by value at run time.
 //!
-//! Traversals are compiled once, not once a tier: what a tier changes in them is one number, its
-//! [`spread`](TierFormula::SPREAD). The tests of spheres are compiled for each tier, as a [`TierWork`],
-//! and the tier chooses among them: at build time if it is a type, by one branch if it is a [`Tier`].
+//! Traversals are compiled once, not once a tier: a tier changes only one number in them, its
+//! [`spread`](TierFormula::SPREAD). The tests of spheres are compiled for each tier, as a [`TierWork`], and the tier
+//! chooses among them: at build time if it is a type, by one branch if it is a [`Tier`].
 
 use super::formula::{Tier, TierFormula, TierWork, Underflow};
 use super::roots::RayLanes;
@@ -19,7 +19,7 @@ mod sealed {
     pub trait Chosen: Copy {
         /// [`TierFormula::SPREAD`](super::TierFormula::SPREAD).
         fn spread(self) -> f32;
-        /// How far two answers may be in another order than their roots, in units of T: zero if roots are ordered.
+        /// How far two answers may contradict the order of their roots, in units of T: zero if roots are ordered.
         fn answer_error(self) -> f32;
         /// [`TierFormula::UNDERFLOW`](super::TierFormula::UNDERFLOW).
         fn underflow(self) -> super::Underflow;
@@ -129,8 +129,8 @@ impl Accuracy for Tier {
     }
 }
 
-/// Rule 5 for two spheres of a list that `ray` hits at the same `t`: whether `new` is the closer one, as real numbers
-/// if the tier tells them apart, else by its index.
+/// Whether `new` is the closer of two spheres of a list that `ray` hits at the same `t` (rule 5): by real numbers if
+/// the tier tells them apart, else by index.
 #[cold]
 #[inline(never)]
 pub(crate) fn is_closer(
@@ -140,7 +140,7 @@ pub(crate) fn is_closer(
     t: f32,
     [new, old]: [u32; 2],
 ) -> bool {
-    // A sphere that is met once more, by a ray that went on by itself.
+    // A ray that went on by itself may meet the same sphere once more.
     if new == old {
         return false;
     }
@@ -151,7 +151,7 @@ pub(crate) fn is_closer(
     compared.then(new.cmp(&old)).is_lt()
 }
 
-/// A sphere of a list, called where code is dear.
+/// A sphere of a list; a call on 32-bit targets, where code is dear.
 #[cfg_attr(target_pointer_width = "32", inline(never))]
 fn sphere(spheres: &Spheres<'_>, index: u32) -> Option<Sphere> {
     spheres.get(index as usize)
@@ -159,8 +159,8 @@ fn sphere(spheres: &Spheres<'_>, index: u32) -> Option<Sphere> {
 
 /// Tests one sphere a lane: t if there is a hit in a lane that is `active`, else `+inf`.
 ///
-/// The one place where scene structures do so, and a function of its own for each tier: a tier is long,
-/// and would be compiled into every traversal several times.
+/// Scene structures test spheres only here, in one function for each tier: a tier is long, and would be compiled into
+/// every traversal several times.
 #[inline(always)]
 pub(crate) fn test_lanes<L: Lanes>(
     tier: impl Accuracy,

@@ -1,10 +1,10 @@
 //! How many boxes of a tree a ray is expected to enter: a number for how good its boxes are.
 //!
-//! A line that meets a convex body meets a box in it by the ratio of their surfaces (MacDonald and Booth 1990). The body
-//! here is no box of the tree, since one sphere far away, or a ground, would make it large, and all chances small. It is
-//! the box that spheres would fill if they lay uniformly as far from their middle as half of them do: four times the
-//! median distance from the median along each axis, and the median diameter. Of up to 32 spheres, the same of a list
-//! wherever they are, which takes a microsecond. No box is entered more than once.
+//! A line that meets a convex body meets a box in it with a chance that is the ratio of their surfaces (MacDonald and Booth
+//! 1990). The body here is no box of the tree, since one sphere far away, or a ground, would make it large, and all chances
+//! small. It is the box that spheres would fill if they lay uniformly as far from their middle as half of them do: four
+//! times the median distance from the median along each axis, and the median diameter. The medians are those of up to 32
+//! spheres, the same ones of a list wherever they lie, which takes a microsecond. No box is entered more than once.
 
 use super::node::{BvhNode, LEAF, NO_CHILD, SMALL_TREE, WIDTH};
 use crate::geometry::sphere::Spheres;
@@ -15,7 +15,7 @@ use core::ops::Add;
 /// How many spheres are looked at, at most and at least.
 const SAMPLE: usize = 32;
 const LEAST: usize = 8;
-/// One in so many is.
+/// One sphere in so many is looked at.
 const ONE_IN: usize = 64;
 /// 2^32 over the golden ratio: its multiples fill 0 to 2^32 evenly, however many they are.
 const GOLDEN: u32 = 0x9E37_79B9;
@@ -36,8 +36,8 @@ impl BoxesPerRay {
         Self { leaves: if is_leaf { 1.0 } else { self.leaves }, ..self }
     }
 
-    /// What a ray is expected to cost: the root, boxes, and sixteen spheres that no box has as a leaf that every ray
-    /// enters. At least 1.
+    /// What a ray is expected to cost: the root, the boxes, and a leaf that every ray enters for every sixteen spheres that
+    /// no box holds. At least 1.
     pub(crate) fn cost(self, outside: usize) -> f32 {
         1.0 + self.nodes + self.leaves + outside as f32 / WIDTH as f32
     }
@@ -51,8 +51,9 @@ impl Add for BoxesPerRay {
     }
 }
 
-/// 1 over half the surface of the body that rays meet, in the units of the tree: a box's half times it is the chance
-/// to enter it. `+inf` where every box is entered: nothing can be said, or the spheres are so few that no box is looked at.
+/// 1 over half the surface of the body that rays meet, in the units of the tree: half a box's surface times this is the
+/// chance to enter the box. `+inf` where every box counts as entered, since nothing can be said, or since the spheres are
+/// so few that no ray looks at a box.
 pub(crate) fn inverse_of_body(spheres: &Spheres<'_>, scale: &SceneScale) -> f32 {
     let count = spheres.len();
     if count <= SMALL_TREE {
@@ -100,7 +101,7 @@ fn median(column: &[f32; SAMPLE], held: usize) -> f32 {
     0.0
 }
 
-/// Of a node's boxes, with what [`inverse_of_body`] says.
+/// How many of a node's boxes a ray is expected to enter, given what [`inverse_of_body`] says.
 #[inline(always)]
 pub(crate) fn boxes_of(BvhNode { low, high, child, .. }: &BvhNode, inverse: f32) -> BoxesPerRay {
     let (mut nodes, mut all) = (0.0, 0.0);

@@ -1,5 +1,5 @@
-//! From a list of spheres to a tree: `top_down` -> `children` -> `sah_split` -> `sah_bins` and
-//! `partition`, then `lay_down`, and at last the `child_order` of every node. Spheres that have moved: `refit`.
+//! From a list of spheres to a tree: `top_down` -> `children` -> `sah_split` -> `sah_bins` and `partition`,
+//! then `lay_down`, and at last the `child_order` of every node. `refit` is for spheres that have moved.
 
 pub(crate) mod bounds;
 pub(crate) mod budget;

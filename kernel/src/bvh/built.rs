@@ -10,7 +10,7 @@ pub(crate) struct Built {
     pub(crate) nodes: usize,
     /// How many numbers there are before the leaves.
     pub(crate) shift: usize,
-    /// Of the leaves.
+    /// How many places the leaves have.
     pub(crate) places: usize,
     /// Valid spheres of no leaf, whose indices are behind those of the leaves.
     pub(crate) outside: usize,
@@ -20,7 +20,7 @@ pub(crate) struct Built {
     pub(crate) root: u32,
     /// How bounds see lengths.
     pub(crate) scale: SceneScale,
-    /// No coordinate of a box is larger, as bounds see it.
+    /// No coordinate of a box is larger than this, as bounds see it.
     pub(crate) extent: f32,
     /// How many boxes a ray is expected to enter.
     pub(crate) boxes_per_ray: BoxesPerRay,
@@ -29,8 +29,8 @@ pub(crate) struct Built {
 }
 
 impl Built {
-    /// The numbers of places from the first leaf on, and how many of them are leaves and what is loaded behind the last;
-    /// after those is the table of `unplaced.rs`.
+    /// How many numbers, from the first leaf on, are leaves and what is loaded behind the last; the table of
+    /// `unplaced.rs` comes after them.
     pub(crate) const fn leaves(&self) -> usize {
         4 * (self.places + BEHIND)
     }

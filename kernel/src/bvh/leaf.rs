@@ -1,14 +1,14 @@
-//! Leaves: up to sixteen spheres, coordinate by coordinate, in memory of the caller's.
+//! Leaves: up to sixteen spheres, coordinate by coordinate, in the caller's memory.
 //!
-//! Leaves lie one behind the other, and take no more room than their spheres do, rounded up to fours: first the x of
-//! all, then y, z and the radii. So a leaf of n lanes is 16 n bytes long, and where it begins and how many lanes it
-//! has is all that must be known of it. Sixteen numbers are loaded from where a column begins; behind the last lane
-//! they are of another column or leaf, and a mask takes them out.
+//! Leaves lie one behind the other, and take no more room than their spheres do, rounded up to fours. A leaf has
+//! first the x of all its spheres, then y, z and the radii. So a leaf of n lanes is 16 n bytes long, and where it
+//! begins and how many lanes it has is all that must be known of it. Sixteen numbers are loaded from where a column
+//! begins; behind the last lane they are of another column or leaf, and a mask takes them out.
 
 use super::node::{LEAF, WIDTH};
 use crate::geometry::sphere_columns::SphereColumns;
 
-/// Leaves begin at multiples of this many places, and are as long.
+/// Leaves begin at multiples of this many places, and their lengths are multiples of it.
 pub(crate) const STEP: usize = 4;
 /// Places behind the last leaf, so that sixteen numbers can be loaded anywhere.
 pub(crate) const BEHIND: usize = STEP;
@@ -19,7 +19,7 @@ const BEGIN_BITS: u32 = 26;
 /// How many places leaves can have.
 pub(crate) const MOST_PLACES: usize = STEP << BEGIN_BITS;
 
-/// What a child is that is a leaf: where it begins, a multiple of four, and how many spheres it has.
+/// The `child` of a node for a leaf that begins at `begin`, a multiple of four, and has `count` spheres.
 pub(crate) const fn leaf_at(begin: usize, count: usize) -> u32 {
     let steps = count.div_ceil(STEP) as u32;
     LEAF | steps.wrapping_sub(1) << BEGIN_BITS | (begin / STEP) as u32

@@ -22,7 +22,7 @@ pub enum RefitError {
         /// How many are given.
         given: usize,
     },
-    /// More spheres have left what boxes hold than the caller's memory has indices for.
+    /// There are more spheres that no box holds than the caller's memory has indices for.
     TooSmall(TooSmall),
 }
 
@@ -122,16 +122,16 @@ impl<'m> BvhMemory<'m> {
     /// Replaces each sphere of the tree in the memory by the one with the same index in `spheres`, centre and radius.
     ///
     /// Guarantees what a new tree guarantees, for any spheres; only time is lost, and [`Bvh::growth`] says how much. Spheres
-    /// that are not valid now are left out, and come back when they are valid again. Tested against every ray are: spheres
-    /// larger or smaller by 2^40 or more than most were when the tree was built; spheres that were left out then and are valid
-    /// now; and, of more than four that were the same, some that no longer are.
+    /// that are not valid now are left out, and come back when they are valid again. Some spheres are tested against every ray:
+    /// those larger or smaller by 2^40 or more than most were when the tree was built; those that were left out then and are
+    /// valid now; and, where more than four were the same then, some that no longer are.
     ///
     /// Cost: a tenth to a quarter of a build's time; less with so many indices that no refit is [`TooSmall`], since then nothing
     /// is counted first. Stack: some 3 KiB. No other memory.
     ///
     /// # Errors
-    /// [`RefitError`] if the number of spheres is another, if there are too few indices for the spheres that no box holds, or
-    /// if there is no tree. A tree in the memory is as it was.
+    /// [`RefitError`] if the number of spheres is another, if there are too few indices for the spheres that no box holds, or if
+    /// there is no tree. Then a tree in the memory is as it was.
     ///
     /// ```
     /// use spherule_kernel::{Bvh, BvhMemory, Exact, Intersect, Ray, Spheres, Vec3};

@@ -4,7 +4,7 @@ pub(crate) use crate::lanes::WIDTH;
 
 /// How many nodes lie one below the other at most.
 pub(crate) const DEPTH: usize = 10;
-/// A child that is not there. No leaf has that number: a leaf's has three zeros.
+/// A child that is not there. No leaf has that number, since a leaf's number has three zero bits.
 pub(crate) const NO_CHILD: u32 = u32::MAX;
 /// Set where a child is a leaf; the other bits are its place among nodes, or what [`leaf_at`](super::leaf::leaf_at)
 /// says.
@@ -41,5 +41,6 @@ pub(crate) fn octant_of(down: [bool; 3]) -> u32 {
     u32::from(down[0]) | u32::from(down[1]) << 1 | u32::from(down[2]) << 2
 }
 
-/// Of so few spheres all leaves are full: a small tree, traversed without boxes (`traverse/small_tree.rs`).
+/// A tree of at most so many spheres has full leaves: a small tree, traversed without boxes
+/// (`traverse/small_tree.rs`).
 pub(crate) const SMALL_TREE: usize = 64;

@@ -53,7 +53,7 @@ impl SphereTree {
         Self::in_memory(&InTurn, spheres, (nodes, places, indices))
     }
 
-    /// Builds the same tree with parts of the work at once on the caller's threads.
+    /// Builds the same tree as [`new`](Self::new), with parts of the work running at once on the caller's threads.
     ///
     /// # Errors
     /// `TryReserveError` if there is no memory.
@@ -78,7 +78,7 @@ impl SphereTree {
         Ok(Self::in_memory(join, spheres, (nodes, places, indices)))
     }
 
-    /// The memory is as large as needed; what is left is given back.
+    /// Builds in memory that is as large as needed; what is left is given back.
     fn in_memory(
         join: &impl Join,
         spheres: SphereList,
@@ -121,7 +121,7 @@ impl SphereTree {
     /// of them.
     ///
     /// # Errors
-    /// [`RefitError::OtherCount`] if `spheres` has another number of spheres; the tree is as it was.
+    /// [`RefitError::OtherCount`] if `spheres` has another number of spheres; then the tree is as it was.
     pub fn refit(&mut self, spheres: impl Into<SphereList>) -> Result<f32, RefitError> {
         let moved = spheres.into();
         let Self { spheres, nodes, places, indices, built } = self;

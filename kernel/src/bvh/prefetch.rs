@@ -1,22 +1,22 @@
-//! Prefetching: trees that no cache near the core holds.
+//! Prefetching, for trees that no cache near the core holds.
 //!
-//! Rays in flight look into nodes and leaves all over the tree, one after the other, and each
-//! has several lines of memory. Before they do, one number of every line is read, for all rays: then
-//! all lines are on their way at once, and the latency is paid once a round, not once a ray. (A
-//! million spheres, incoherent rays: 1.2 times as fast for the closest hit, 1.3 times for any. An
-//! instruction for it would do the same and need `unsafe`.)
+//! Rays in flight look into nodes and leaves all over the tree, one after the other, and each node or leaf has
+//! several lines of memory. Before they do, one number of every line is read, for all rays: then all lines are on
+//! their way at once, and the latency is paid once a round, not once a ray. (Among a million spheres, incoherent rays
+//! are 1.2 times as fast for the closest hit, and 1.3 times for any. A prefetch instruction would do the same and
+//! need `unsafe`.)
 //!
 //! A group looks into one node after the other, nearest first. So those of a node's children that it is inside of are
-//! prefetched together, before the first of them.
+//! prefetched together, before it looks into the first of them.
 
 use super::leaf::extent_of;
 use super::node::{BvhNode, LEAF, WIDTH};
 
-/// Trees of more bytes are prefetched: what the second cache of a core holds where that was measured. (Where
-/// all is in it, at 10,000 spheres, prefetching took a tenth more time.)
+/// Trees of more bytes are prefetched: so many the second-level cache of a core holds where that was measured. (With
+/// 10,000 spheres, all of which it holds, prefetching took a tenth more time.)
 const NEAR: usize = 1 << 20;
 
-/// Whether it pays, for a tree of those nodes and leaves.
+/// Whether prefetching pays, for a tree of those nodes and leaves.
 #[inline(always)]
 pub(crate) fn pays(nodes: &[BvhNode], numbers: &[f32]) -> bool {
     size_of_val(nodes) + size_of_val(numbers) > NEAR

@@ -73,7 +73,7 @@ impl SphereRun for OutsideSpheres<'_> {
 pub(crate) struct SphereLanes<L: Lanes> {
     pub(crate) center: [L; 3],
     pub(crate) radius: L,
-    /// As bits.
+    /// The index, as bits.
     pub(crate) index: L,
 }
 

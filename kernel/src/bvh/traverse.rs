@@ -1,5 +1,5 @@
-//! One ray's way through the tree: `wavefront` -> `in_flight` -> `prepared_packet` -> `ray_state` ->
-//! `root_interval` -> `deferred`, whence the tier.
+//! One ray's way through the tree: `wavefront` -> `in_flight` -> `prepared_packet` -> `ray_state`
+//! -> `root_interval` -> `deferred`, which calls the tier.
 
 pub(crate) mod boxes;
 pub(crate) mod deferred;

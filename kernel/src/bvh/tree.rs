@@ -44,7 +44,7 @@ pub struct Bvh<'a> {
     pub(crate) root: u32,
     /// How bounds see lengths.
     pub(crate) scale: SceneScale,
-    /// No coordinate of a box is larger, as bounds see it.
+    /// No coordinate of a box is larger than this, as bounds see it.
     pub(crate) extent: f32,
     /// How many boxes a ray is expected to enter.
     pub(crate) boxes_per_ray: BoxesPerRay,
@@ -79,8 +79,8 @@ impl SphereSource for Bvh<'_> {
 }
 
 impl<'a> Bvh<'a> {
-    /// Returns how much memory any list of `count` spheres needs: at most 40 bytes a sphere, and 700. A tree takes 24 to 28
-    /// bytes a sphere of it, as [`size`](Bvh::size) says.
+    /// Returns how much memory any list of `count` spheres needs: at most 40 bytes a sphere, and 700 more. A built tree takes 24
+    /// to 28 bytes a sphere of it, as [`size`](Bvh::size) says.
     ///
     /// More than 2^27 spheres are too many: then no memory is enough.
     ///
@@ -99,12 +99,11 @@ impl<'a> Bvh<'a> {
     /// Spheres that are not valid are left out. The same list gives the same tree on every target.
     ///
     /// Cost: time in proportion to n log n for n spheres, wherever they lie, since a node makes at most fifteen cuts, and its
-    /// children have at most an eighth of its spheres. Stack: some 40 KiB, on a Cortex-M4F 34 (`tests/targets/sizes`); where
-    /// that is too much, a [`Bvh4`](crate::Bvh4) takes 2. No other memory.
+    /// children have at most an eighth of its spheres. Stack: some 40 KiB, or 34 KiB on a Cortex-M4F (`tests/targets/sizes`);
+    /// where that is too much, a [`Bvh4`](crate::Bvh4) takes 2 KiB. No other memory.
     ///
     /// # Errors
-    /// [`TooSmall`] if a slice is shorter than [`Bvh::needed`] says; longer is no error, and the
-    /// rest is left alone.
+    /// [`TooSmall`] if a slice is shorter than [`Bvh::needed`] says. A longer slice is no error, and its rest is left alone.
     ///
     /// ```
     /// use spherule_kernel::{Bvh, Spheres};
@@ -125,9 +124,9 @@ impl<'a> Bvh<'a> {
         Self::build_with(&InTurn, spheres, nodes, places, indices)
     }
 
-    /// Builds the same tree as [`Bvh::build`], with parts of the work at once on the caller's threads.
+    /// Builds the same tree as [`Bvh::build`], with parts of the work running at once on the caller's threads.
     ///
-    /// Cost: of a million spheres two threads take some 0.7 of the time of one.
+    /// Cost: for a million spheres, two threads take some 0.7 of the time of one.
     ///
     /// # Errors
     /// As [`Bvh::build`].
@@ -154,7 +153,7 @@ impl<'a> Bvh<'a> {
         Ok(Self::of(built, spheres, nodes, places, indices))
     }
 
-    /// An error where memory is less than so many spheres need.
+    /// Returns an error if the memory is less than so many spheres need.
     pub(super) fn check(
         count: usize,
         nodes: &[BvhNode],
@@ -193,7 +192,7 @@ impl<'a> Bvh<'a> {
         }
     }
 
-    /// No sphere of the tree is farther from the coordinates' origin: twice the extent is more than its diagonal.
+    /// No sphere of the tree is farther from the coordinates' origin than this: twice the extent is more than its diagonal.
     #[inline(always)]
     pub(crate) fn radius(&self) -> f32 {
         2.0 * self.extent / self.scale.factor
@@ -231,10 +230,10 @@ impl<'a> Bvh<'a> {
     }
 
     /// Returns by how much the boxes have grown since the tree was built: how many boxes a ray is expected to enter, over how
-    /// many it was then. It is 1 for a tree that was not refitted, and finite and above 0 for any.
+    /// many it was expected to enter then. It is 1 for a tree that was not refitted, and finite and above 0 for any.
     ///
-    /// A ray takes about as many times as long, as far as it spends its time on boxes. At 1.5 or 2, build the tree anew if it
-    /// is used for more than a few frames.
+    /// A ray takes about this many times as long as then, as far as it spends its time on boxes. At 1.5 or 2, build the tree
+    /// anew if it is used for more than a few frames.
     ///
     /// This is an estimate by the surface area heuristic (MacDonald and Booth 1990), for rays through the space in which most of
     /// the spheres are. It stays 1 if the scene moves, grows or shrinks as a whole. Sixteen spheres that no box holds, which

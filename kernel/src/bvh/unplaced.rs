@@ -1,8 +1,8 @@
-//! Spheres of a list that have no lane in a leaf of its tree, so that a refit finds them.
+//! Spheres of a list that have no lane in a leaf of its tree, written down so that a refit finds them.
 //!
-//! Spheres that are not valid, spheres that no bound sees, and copies of a sphere in the tree for which no lane was free.
-//! Two numbers each, as bits, behind the leaves: its index, and the index of the sphere that it is a copy of, its own if
-//! of none. As bits both are small numbers, since indices are below 2^27: nothing changes them on their way.
+//! They are not valid, or no bound sees them, or they are copies of a sphere in the tree for which no lane was free. Each
+//! takes two numbers, as bits, behind the leaves: its index, and the index of the sphere that it is a copy of, or its own
+//! if it is no copy. Numbers with these bits are small, since indices are below 2^27: nothing changes them on their way.
 
 use crate::geometry::sphere::Spheres;
 use crate::scale::scene::SceneScale;
@@ -11,7 +11,7 @@ use crate::scale::scene::SceneScale;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Unplaced {
     pub(crate) index: u32,
-    /// What it was the same as when the tree was built: a lower index, or its own.
+    /// The index of the sphere that it was the same as when the tree was built: a lower one, or its own.
     pub(crate) same: u32,
 }
 
@@ -25,14 +25,14 @@ impl Unplaced {
         Self { index: index.to_bits(), same: same.to_bits() }
     }
 
-    /// Whether rays must meet it by itself, as it is in this list: it is valid, and no longer a copy.
+    /// Whether rays must be tested against it by itself, as it is in this list: it is valid, and no copy now.
     pub(crate) fn is_met(self, spheres: &Spheres<'_>) -> bool {
         let Some(sphere) = spheres.get(self.index as usize) else { return false };
         let is_copy = self.same != self.index && spheres.get(self.same as usize) == Some(sphere);
         sphere.is_valid() && !is_copy
     }
 
-    /// Whether it is met and not seen by bounds, as spheres in leaves may be, too.
+    /// Whether it is valid and no bound sees it, as may be so of spheres in leaves, too.
     pub(crate) fn is_beyond(self, spheres: &Spheres<'_>, scale: &SceneScale) -> bool {
         spheres
             .get(self.index as usize)

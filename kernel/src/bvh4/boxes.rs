@@ -40,7 +40,7 @@ impl Boxes<'_> {
         rows
     }
 
-    /// No coordinate of a box is larger.
+    /// The extent: no coordinate of a box is larger.
     pub(super) fn extent(&self, order: &[u32]) -> f32 {
         if self.shape.count == 0 {
             return 0.0;

@@ -1,4 +1,4 @@
-//! What is checked of a tree that is data.
+//! The checks of a tree that is data.
 
 use super::boxes::{Boxes, NODE};
 use super::order::{Kind, index_in, place_in};
@@ -11,15 +11,16 @@ use core::fmt;
 /// Why words are not a tree over the spheres of a list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bvh4Error {
-    /// They do not begin as a tree of this version does.
+    /// The words do not begin as a tree of this version does.
     Mark,
-    /// The tree is of another number of spheres than the list has.
+    /// The tree is over another number of spheres than the list has.
     Count,
-    /// They are fewer than the tree is long.
+    /// There are fewer words than the tree has.
     Length,
-    /// Lengths are not scaled by a power of two.
+    /// The scale of lengths is not a power of two.
     Scale,
-    /// Not every sphere is there once, among those that the bounds see or those that they do not.
+    /// Not every sphere is there exactly once, among its kind: those that the bounds see, those that they do not, and
+    /// invalid ones.
     Order,
     /// A box is not that of its spheres.
     Box,
@@ -43,7 +44,7 @@ impl core::error::Error for Bvh4Error {}
 impl<'a> Bvh4<'a> {
     /// Loads a tree over `spheres` from its [`words`](Bvh4::words), wherever they come from.
     ///
-    /// Any words may be given: what is loaded answers as the list does, and the rest is an error.
+    /// Any words may be given: a tree that is loaded answers as the list does, and all other words are an error.
     ///
     /// Cost: some hundreds of operations a sphere, since each box is computed anew from its spheres. Stack: at most 1.4 KiB
     /// on 32 bits. No other memory.
@@ -92,7 +93,7 @@ impl<'a> Bvh4<'a> {
     }
 }
 
-/// Every sphere is in one place, which is among its kind.
+/// Checks that every sphere is in one place, which is among its kind.
 fn check_order(
     spheres: &Spheres<'_>,
     scale: &SceneScale,
@@ -101,7 +102,7 @@ fn check_order(
 ) -> Result<(), Bvh4Error> {
     for (index, &word) in order.iter().enumerate() {
         let place = place_in(word);
-        // As many places as spheres: where each sphere has one that is its own, each place has a sphere.
+        // There are as many places as spheres: if each sphere has a place of its own, each place has a sphere.
         let there = order.get(place as usize).is_some_and(|&word| index_in(word) == index as u32);
         let expected = if place < inside {
             Kind::Inside
@@ -118,7 +119,7 @@ fn check_order(
     Ok(())
 }
 
-/// Every box is as the build makes it.
+/// Checks that every box is as the build makes it.
 fn check_boxes(boxes: &Boxes<'_>, order: &[u32], nodes: &[u32]) -> Result<(), Bvh4Error> {
     for height in 1..=boxes.shape.height {
         for number in 0..boxes.shape.of_height(height) {

@@ -5,8 +5,8 @@ use crate::geometry::sphere::{Sphere, Spheres};
 use crate::numeric::rounding::{least, most};
 use crate::scale::scene::SceneScale;
 
-/// Of an order's word the lower bits are the index of the sphere in that place, and the upper ones the place of the
-/// sphere with that index: so that each is seen to be there once, with no other memory.
+/// The lower bits of the word at place p are the index of the sphere at p; its upper bits are the place of the
+/// sphere with index p. So each sphere is seen to be there once, with no other memory.
 const INDEX_BITS: u32 = 16;
 
 /// The index of the sphere at this place of the order.
@@ -21,7 +21,8 @@ pub(super) const fn place_in(word: u32) -> u32 {
     word >> INDEX_BITS
 }
 
-/// How the bounds see a sphere: all of them, then those that they do not see, then what is no sphere.
+/// How the bounds see a sphere: first the spheres that they see, then those that they do not see, then those that
+/// are invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     Inside,
@@ -106,8 +107,8 @@ fn longest_axis(spheres: &Spheres<'_>, part: &[u32]) -> usize {
     axis
 }
 
-/// Sorts a part by an axis, of equals by index: a heap, which takes no memory, and on no spheres more time than on
-/// others.
+/// Sorts a part by an axis, and equals by index. It uses a heap, which takes no memory, and no more time for some
+/// spheres than for others.
 fn sort(spheres: &Spheres<'_>, axis: usize, part: &mut [u32]) {
     let heap = Heap { spheres, axis };
     for root in (0..part.len() / 2).rev() {

@@ -1,16 +1,16 @@
-//! Where the nodes and leaves of a tree lie, which the number of its spheres says.
+//! Where the nodes and leaves of a tree lie: the number of its spheres alone says where.
 //!
-//! A leaf has height 0, a node is one higher than its children. Number j of height h is over the spheres from j s to
-//! (j + 1) s, s = 4 4^h, as far as there are any; its children are 4 j to 4 j + 3. The root comes first, then height by
-//! height what is below.
+//! A leaf has height 0, a node is one higher than its children. Node or leaf j of height h is over the spheres from j s to
+//! (j + 1) s, with s = 4 4^h, as far as there are any; its children are 4 j to 4 j + 3. The root comes first, then the nodes
+//! below it, height by height.
 
-/// How many spheres a leaf holds: two to this power. (Of 1, 2, 4 and 8 spheres a ray of the picture of
-/// `tests/targets/sizes` takes 5.6, 5.5, 5.0 and 5.4 thousand instructions by `Stable`, and a tree over n 36, 20, 12 and 8 n
-/// bytes.)
+/// How many spheres a leaf holds: two to this power. (With leaves of 1, 2, 4 and 8 spheres, a ray of the picture of
+/// `tests/targets/sizes` takes 5.6, 5.5, 5.0 and 5.4 thousand instructions by `Stable`, and a tree over n spheres takes 36,
+/// 20, 12 and 8 n bytes.)
 const LEAF_BITS: u32 = 2;
-/// How many spheres a tree can hold: a word is the index of one, and the place of another.
+/// How many spheres a tree can hold: a word is the index of one sphere, and the place of another.
 pub(super) const MOST: usize = 1 << 16;
-/// The height of a root over as many.
+/// The height of a root over [`MOST`] spheres.
 pub(super) const HIGHEST: usize = 7;
 /// Children of a node.
 pub(super) const WIDTH: usize = 4;
@@ -74,16 +74,16 @@ impl Shape {
         [begin, if end < self.count { end } else { self.count }]
     }
 
-    /// Where among the nodes a node is.
+    /// The number of a node among all nodes.
     #[inline(always)]
     pub(super) const fn node(&self, place: Place) -> usize {
-        // The remainder tells the compiler that it is there.
+        // The remainder tells the compiler that the index is in bounds.
         (self.firsts[place.height as usize % (HIGHEST + 1)] + place.number) as usize
     }
 }
 
 impl Place {
-    /// Child `slot`; there is none where its number is that of none of its height.
+    /// Child `slot`; it exists only if its number is below how many there are of its height.
     #[inline(always)]
     pub(super) const fn child(self, slot: usize) -> Self {
         let number = self.number * WIDTH as u32 + slot as u32;
@@ -91,13 +91,13 @@ impl Place {
     }
 }
 
-/// Of how many spheres what has that height is full, as a power of two.
+/// How many spheres fill a node or leaf of that height, as a power of two.
 #[inline(always)]
 const fn size_bits(height: u32) -> u32 {
     LEAF_BITS + 2 * height
 }
 
-/// The sizes of the parts from the whole to a leaf, as powers of two: each is cut in two of the next.
+/// The sizes of the parts that are cut, from the whole down, as powers of two: each is cut in two of the next size.
 pub(super) fn part_bits(shape: &Shape) -> impl Iterator<Item = u32> + use<> {
     (LEAF_BITS + 1..=size_bits(shape.height)).rev()
 }

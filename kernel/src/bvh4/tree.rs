@@ -7,19 +7,20 @@ use crate::geometry::sphere::Spheres;
 use crate::memory::TooSmall;
 use crate::scale::scene::SceneScale;
 
-/// What a tree begins with: another version has another.
+/// The word that a tree begins with: another version has another.
 pub(super) const MARK: u32 = 0x3448_5642;
 /// Words before the order: the mark, how many spheres, how many of them bounds see, how many are valid, the scale.
 pub(super) const HEADER: usize = 5;
 
-/// A tree of one lane over a list of up to 65,536 spheres: what firmware has in place of a [`Bvh`](crate::Bvh).
+/// A tree of one lane over a list of up to 65,536 spheres: firmware uses it instead of a [`Bvh`](crate::Bvh).
 ///
-/// It is made of words, and borrows the list. A host builds it, and its [`words`](Bvh4::words) are data of a program, which
-/// [loads](Bvh4::load) them; or it is [built](Bvh4::build) where it is used. `docs/targets.md` says what either takes.
+/// It is made of words, and borrows the list. Either a host builds it, and its [`words`](Bvh4::words) are data of a program,
+/// which [loads](Bvh4::load) them; or it is [built](Bvh4::build) where it is used. `docs/targets.md` says what each of the two
+/// takes.
 ///
 /// It answers through [`Intersect`](crate::Intersect), bit for bit as the list does, with the reservations of `Bvh` for
-/// `Fast` and `Geometric`. It answers wider packets lane by lane, compiled where they are called: where there are vectors,
-/// `Bvh` is many times as fast.
+/// `Fast` and `Geometric`. It answers wider packets lane by lane, in code that is compiled where it is called. Where there are
+/// vectors, `Bvh` is many times as fast.
 ///
 /// ```
 /// use spherule_kernel::{Bvh4, Exact, Intersect, Ray, Spheres, Vec3};
@@ -46,7 +47,7 @@ pub struct Bvh4<'a> {
     pub(super) boxes: Boxes<'a>,
     pub(super) order: &'a [u32],
     pub(super) nodes: &'a [[u32; WIDTH]],
-    /// How many places have valid spheres: of the last of them bounds see nothing.
+    /// How many places have valid spheres; bounds do not see the last of these.
     pub(super) valid: u32,
     /// No coordinate of a box is larger, as bounds see it.
     pub(super) extent: f32,
@@ -56,7 +57,7 @@ pub struct Bvh4<'a> {
 impl<'a> Bvh4<'a> {
     /// Returns how many words any list of `count` spheres needs: at most 12 bytes a sphere, and 700.
     ///
-    /// More than 65,536 spheres are too many: then no memory is enough.
+    /// More than 65,536 spheres are too many: this returns `usize::MAX`, since no memory is enough.
     ///
     /// ```
     /// use spherule_kernel::Bvh4;
@@ -74,11 +75,12 @@ impl<'a> Bvh4<'a> {
     /// Builds a tree over `spheres` in the given memory, which is overwritten. The same list gives the same words on every
     /// target.
     ///
-    /// Cost: time in proportion to n log² n for n spheres, wherever they lie. (A ray that meets a sphere meets all that are the
-    /// same.) Stack: some 1.9 KiB on 32 bits. No other memory.
+    /// Cost: time in proportion to n log² n for n spheres, wherever they lie. (A ray that meets a sphere also meets all spheres
+    /// that are equal to it.) Stack: some 1.9 KiB on 32 bits. No other memory.
     ///
     /// # Errors
-    /// [`TooSmall`] if there are fewer words than [`Bvh4::needed`] says; more are no error, and the rest is left alone.
+    /// [`TooSmall`] if there are fewer words than [`Bvh4::needed`] says; more words are no error, and the rest is left as it
+    /// is.
     ///
     /// ```
     /// use spherule_kernel::{Bvh4, Exact, Intersect, Ray, Spheres, Vec3};

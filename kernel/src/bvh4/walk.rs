@@ -1,7 +1,7 @@
 //! One ray's way through the tree.
 //!
-//! A ray takes a box from its stack: a node's children that it enters go onto the stack, the nearest on top; the tier is
-//! asked about each sphere of a leaf, and what is entered past the closest hit is left.
+//! A ray takes a box from its stack. Those of a node's children that it enters go onto the stack, the nearest on top;
+//! the tier tests each sphere of a leaf. A box that the ray enters past the closest hit is skipped.
 
 use super::boxes::ROWS;
 use super::order::index_in;
@@ -79,7 +79,7 @@ impl<L: Lanes, Q: Query> TierWork for Walk<'_, L, Q> {
         let mut limits = Q::limits::<L>(token, answer);
         let (mut stack, mut slabs) = (Stack::EMPTY, Slabs::new(&ray));
 
-        // First what no box has: where the bounds do not cover the ray that is all.
+        // First come the spheres that no box has: all of them where the bounds do not cover the ray.
         let inside = tree.boxes.shape.count;
         let mut run = [0, tree.valid];
         if ray.covered != 0 {
@@ -154,10 +154,10 @@ struct Slabs {
     minus_near: [f32; 3],
     far: [f32; 3],
     down: [bool; 3],
-    /// Boxes that are left before do not matter, nor those that are entered behind the end.
+    /// Boxes that the ray leaves before `start` do not matter, nor those that it enters behind `end`.
     start: f32,
     end: f32,
-    /// What the spread of a tier moves either by.
+    /// By how much the spread of a tier moves `start` and `end`.
     spread: f32,
 }
 
@@ -192,8 +192,8 @@ impl Slabs {
     }
 }
 
-/// Three children wait at every height while the ray is in a fourth; then four do. (A power of two, so that each place
-/// is seen to be there.)
+/// At every height three children wait while the ray is in the fourth; at the lowest all four do. (A power of two, so
+/// that the compiler sees that each place is there.)
 const PLACES: usize = (3 * HIGHEST + 1).next_power_of_two();
 
 /// The boxes that a ray has yet to look into, and where it enters them.

@@ -1,8 +1,8 @@
-//! Boxes that a group has looked into: what its rays would have done there apart.
+//! Boxes that a group has looked into: what its rays would have done in them apart.
 //!
-//! Some are kept, and held against rays when it is asked, which is seldom. What a ray has hit since then mostly lies
-//! beyond; what had ended by then is kept, too. (Counted in half of the boxes instead, any hits of a beam among nested
-//! spheres ran at a tenth of ray by ray.)
+//! Some boxes are kept, and tested against rays when a group's work is checked, which is seldom. The spheres that a ray has hit
+//! since then mostly lie beyond the boxes; which rays had ended by then is kept, too. (When rays were counted in half of the boxes
+//! instead, any hits of a beam among nested spheres ran at a tenth of the speed of ray by ray.)
 
 use super::packet_group::GROUP;
 use super::packet_state::PacketState;
@@ -12,9 +12,9 @@ use crate::bvh::tree::Bvh;
 use crate::lanes::{LaneMask, Lanes};
 use crate::query::Query;
 
-/// How many boxes are kept at most, and how many packets are held against boxes when it is asked.
+/// How many boxes are kept at most, and about how often a check tests a packet against a box.
 const KEPT: usize = 16;
-/// Bits of a packet among those of all.
+/// How many bits of `BoxSample::live` a packet has.
 const LANES: usize = u64::BITS as usize / GROUP;
 
 /// Boxes that a group has looked into: some of them, evenly spaced.
@@ -24,13 +24,13 @@ pub(super) struct BoxSample {
     /// Of any hit: the rays that had not ended then, a bit each.
     live: [u64; KEPT],
     kept: usize,
-    /// How many there were, and of how many, less one, the last is kept.
+    /// How many boxes there were; and of how many, less one, the last is kept.
     boxes: u32,
     skipped: u32,
 }
 
 impl BoxSample {
-    /// Of no boxes. At first each second is kept. (Each fourth: any hit of ground takes 0.99 of the time.)
+    /// Of no boxes. At first each second is kept. (With each fourth, any hit of ground takes 0.99 of the time.)
     #[inline(always)]
     pub(super) fn new() -> Self {
         Self { places: [0; KEPT], live: [0; KEPT], kept: 0, boxes: 0, skipped: 1 }
@@ -59,7 +59,7 @@ impl BoxSample {
         }
     }
 
-    /// What rays apart would have done in all boxes, if one looks into a node or a leaf by so much work.
+    /// About what rays would have done apart in all boxes, if a ray takes so much work for a node, and for a leaf.
     #[inline(always)]
     pub(super) fn apart<L: Lanes, Q: Query>(
         &self,
@@ -77,7 +77,7 @@ impl BoxSample {
             let each = if node.child[slot] & IS_LEAF != 0 { of_leaf } else { of_node };
             for _ in 0..at_once {
                 let Some(state) = states.get(packet) else { continue };
-                // What was hit since then mostly lies beyond.
+                // Spheres that were hit since then mostly lie beyond the box.
                 let end = L::select(state.live, state.best, state.rays.end[1]);
                 let enter = enter_about(&state.rays, end, node, slot).bits();
                 let live = if Q::ANY {
@@ -94,7 +94,7 @@ impl BoxSample {
     }
 }
 
-/// The rays that have not ended, those of a packet beside those of the one before.
+/// The rays that have not ended, a bit each, packet after packet.
 #[inline(always)]
 fn live_bits<L: Lanes>(states: &[PacketState<'_, L>]) -> u64 {
     let mut bits = 0;

@@ -1,15 +1,15 @@
 //! Spheres in the order of their depth, for runs of rays that share an origin or a direction: object
-//! order married to image order, without a tree, in memory that the caller provides.
+//! order joined with image order, without a tree, in memory that the caller provides.
 //!
 //! # Method
 //!
 //! [`DepthList`] sorts the spheres by the least depth that a ray may hit them at: the
 //! distance from the common origin, or how far they lie along the common direction. It is made once a
-//! frame, and any number of threads may read it. Packets come as they are - the rays of a camera, a block
-//! of the picture a packet - in groups of a thousand, of some ten, of four. What the rays of a group cannot
-//! leave is a frustum (`fit.rs`); the spheres inside of the larger group's are copied into a short list,
-//! still in the order of their depth, of which the smaller groups take theirs (`listed.rs`).
-//! The smallest groups go through the last list from the front, as they go through the leaves of a tree, and
+//! frame, and any number of threads may read it. Packets come in the caller's order - the rays of a camera, a block
+//! of the picture a packet - and are taken in runs of a thousand, of some tens, and in groups of four. A frustum (`fit.rs`) bounds
+//! the rays of each. The spheres inside the frustum of the largest run are copied into a short list,
+//! still in the order of their depth, from which the smaller runs copy theirs (`listed.rs`).
+//! The groups go through the last list from the front, as they go through the leaves of a tree, and
 //! stop where the next sphere begins deeper than all that their rays have hit (`list_source.rs`).
 
 use super::depth_sort;
@@ -36,10 +36,10 @@ use crate::scale::scene::SceneScale;
 ///
 /// # Cost
 ///
-/// Time grows with the number of spheres that lie one behind the other; beside that, a thousand packets take a sixteenth of an
+/// Time grows with the number of spheres that lie one behind the other. Besides, a thousand packets take a sixteenth of an
 /// operation for each sphere. Packets that follow each other should lie beside each other in the picture.
 /// [`Trace::scratch`](crate::Trace::scratch) is memory for the short lists: with less than
-/// [`DepthList::scratch`] the answers are the same, and take longer. Stack: some 12 KiB.
+/// [`DepthList::scratch`] the answers are the same, but take longer. Stack: some 12 KiB.
 ///
 /// ```
 /// use spherule_kernel::{DepthList, Exact, Intersect, Ray, Spheres, Vec3, Viewpoint};
@@ -57,19 +57,19 @@ pub struct DepthList<'a> {
     pub(super) spheres: Spheres<'a>,
     /// How bounds see lengths.
     pub(super) scale: SceneScale,
-    /// `None` if the bounds do not cover it.
+    /// `None` if the bounds do not cover the viewpoint.
     pub(super) view: Option<View>,
     pub(super) listed: Listed<'a>,
-    /// How many places behind those of the list are those of spheres that no bound sees.
+    /// How many spheres no bound sees: their places follow those of the list.
     pub(super) outside: usize,
-    /// For no sphere of the list is |x_i| + r larger, in the frame of the view.
+    /// No sphere of the list has a larger |x_i| + r, in the frame of the view.
     pub(super) extent: f32,
 }
 
 impl<'a> DepthList<'a> {
     /// Returns how many numbers of memory any list of `count` spheres needs: 24 bytes a sphere, and 768.
     ///
-    /// Returns `usize::MAX`, which no memory has, if that many cannot be counted.
+    /// Returns `usize::MAX`, which no memory has, if that number overflows.
     ///
     /// ```
     /// assert_eq!(spherule_kernel::DepthList::needed(100), 768);
@@ -91,13 +91,13 @@ impl<'a> DepthList<'a> {
 
     /// Sorts `spheres` for rays of `viewpoint`, in the given memory, which is overwritten.
     ///
-    /// Spheres that are not valid are left out. The list can be used, and saves nothing, if the viewpoint is NaN, infinite or a
-    /// zero direction, or beyond 2^56 times the size of most spheres.
+    /// Spheres that are not valid are left out. If the viewpoint is NaN, infinite or a zero direction, or beyond 2^56 times the size
+    /// of most spheres, the list can be used, but saves nothing.
     ///
     /// Cost: a radix sort, some 20 ns a sphere. Stack: 2 KiB. No other memory.
     ///
     /// # Errors
-    /// [`TooSmall`] if `memory` is shorter than [`DepthList::needed`] says; longer is no error.
+    /// [`TooSmall`] if `memory` is shorter than [`DepthList::needed`] says; longer memory is no error.
     ///
     /// ```
     /// use spherule_kernel::{DepthList, Spheres, Vec3, Viewpoint};
@@ -125,7 +125,7 @@ impl<'a> DepthList<'a> {
         Ok(Self { spheres, scale, view, listed, outside: sorted.outside, extent: sorted.extent })
     }
 
-    /// The spheres that no bound sees.
+    /// Returns the spheres that no bound sees.
     #[inline(always)]
     pub(super) fn outside(&self) -> OutsidePlaces<'a> {
         let behind = self.listed.indices().get(self.listed.count..).unwrap_or_default();

@@ -1,8 +1,8 @@
 //! Sorting spheres by depth.
 //!
-//! Indices are sorted by a radix sort, from one column of the memory to another, with
-//! the keys where the depths will be, in the order of the spheres; then the columns are filled. All
-//! columns hold `f32`, of keys and indices the bits.
+//! A radix sort moves indices from one column of the memory to another. The keys lie where the depths will be, in
+//! the order of the spheres. Then the columns are filled. All columns hold `f32`; of keys and indices they hold
+//! the bits.
 
 use super::listed::{column_length, columns};
 use super::view::View;
@@ -22,7 +22,7 @@ pub(super) struct Sorted {
     /// How many spheres are listed, and how many follow that the bounds do not cover.
     pub(super) listed: usize,
     pub(super) outside: usize,
-    /// For no listed sphere is |x_i| + r larger.
+    /// No listed sphere has a larger |x_i| + r.
     pub(super) extent: f32,
 }
 
@@ -45,7 +45,7 @@ pub(super) fn sort(
     }
     let keys = keys.get(..count).unwrap_or_default();
     if let (Some(spare), Some(indices)) = (spare.get_mut(..count), indices.get_mut(..count)) {
-        // After four rounds all are where they came from.
+        // After four rounds all indices are in their own column again.
         radix_sort(indices, spare, 4, |index: &f32| {
             keys.get(index.to_bits() as usize).map_or(0, |key| key.to_bits())
         });
@@ -73,7 +73,7 @@ pub(super) fn sort(
     Sorted { listed, outside, extent }
 }
 
-/// An integer in the order of the depths.
+/// Returns an integer in the order of the depths.
 fn key_of(scale: SceneScale, view: &View, sphere: &Sphere) -> u32 {
     if !sphere.is_valid() {
         return NOTHING;

@@ -1,8 +1,8 @@
 //! What a group has done, as counts.
 //!
 //! Work is counted in steps of some 5 ns on a Zen 3 (AVX2). The weights start from a fit to the times of 243 scenes and
-//! orders of rays, groups and rays by themselves, which was a sixth off in the mean; a sphere is between what it takes there and
-//! on a Zen 5, where the other kinds take half the time, and it as long.
+//! orders of rays, of groups and of rays by themselves; the fit was a sixth off in the mean. The weight of a sphere is between what it
+//! takes there and on a Zen 5, where a sphere takes as long, and the other kinds half the time.
 
 /// What a group does: a node, a leaf, a leaf against a packet's planes, a sphere against a packet's rays, and the roots of
 /// one that any of them comes near; and the tier, for rays of which two spheres may be the closest.
@@ -12,7 +12,7 @@ const PACKET: u32 = 5;
 const SPHERE: u32 = 3;
 const ROOTS: u32 = 16;
 const TIER: u32 = 45;
-/// So many spheres may be held against packets for each that a ray comes near: of groups that pay two to six, of those that are
+/// How many spheres may be tested against packets for each that a ray comes near: groups that pay test two to six, groups that are
 /// too wide fifty and more.
 const SPHERES_A_ROOT: u32 = 5;
 
@@ -21,7 +21,7 @@ const SPHERES_A_ROOT: u32 = 5;
 pub(super) struct Effort {
     /// All of it.
     pub(super) work: u32,
-    /// Spheres that were held against packets, beyond those that may be for each that a ray came near.
+    /// Spheres that were tested against packets, beyond `SPHERES_A_ROOT` for each that a ray came near.
     pub(super) in_vain: u32,
     /// How many times a ray came near a sphere, and how many times the tier tested a ray.
     pub(super) near: u32,
@@ -31,7 +31,7 @@ pub(super) struct Effort {
 }
 
 impl Effort {
-    /// Of a group of so many packets that has done nothing.
+    /// For a group of so many packets that has done nothing.
     #[inline(always)]
     pub(super) fn of(packets: usize) -> Self {
         let leaf = LEAF + PACKET * packets as u32;
@@ -50,7 +50,7 @@ impl Effort {
         self.work = self.work.wrapping_add(self.leaf);
     }
 
-    /// Counts spheres that were held against the rays of packets.
+    /// Counts spheres that were tested against the rays of packets.
     #[inline(always)]
     pub(super) fn spheres(&mut self, spheres: u32) {
         self.work = self.work.wrapping_add(SPHERE * spheres);

@@ -1,15 +1,15 @@
-//! Few rays that have little in common: told by some of them, before they are packed.
+//! Few rays that have little in common: recognised by some of them, before they are packed.
 //!
 //! # Method
 //!
-//! To pack rays, and to lay planes around them, takes as long as some of them do by themselves; and what planes around them hold
-//! is traversed by all. So of few rays four are looked at first. They go one by one if their directions differ by more than planes
-//! may be apart (`fit.rs`); or if the planes would hold more leaves than pays, as if the leaves of each child of the root were
-//! spread evenly over its box. This decides the way alone: answers are the same.
+//! Packing rays, and laying planes around them, takes as long as some of them take by themselves; and all rays traverse what the
+//! planes hold. So if rays are few, the kernel looks at four of them first. All go one by one if the directions of these four differ
+//! by more than planes may be apart (`fit.rs`), or if planes around them would hold more leaves than pays. The number of leaves
+//! is estimated as if those of each child of the root were spread evenly over its box. The answers are the same either way.
 //!
-//! (As if leaves were spread over the box of the root, a ground hid everything: nine parallel rays through 2,000 spheres on one took
-//! twice the time that they take one by one. Rays that begin in one point were packed however far apart they go: nine pixels of a
-//! shuffled picture took 1.5 times.)
+//! (When the leaves were taken to be spread over the box of the root, a ground hid everything: nine parallel rays through 2,000 spheres
+//! on a ground took twice the time that they take one by one. When rays from one point were packed however far apart they go, nine
+//! pixels of a shuffled picture took 1.5 times the time.)
 
 use super::fit::heading;
 use super::frustum::across;
@@ -26,24 +26,25 @@ use core::ops::Range;
 /// Some rays of a packet, evenly spaced.
 pub(crate) type Asked = [Ray; 4];
 const APART: usize = 5;
-/// 1 + 1/4: what |d|^2 |e|^2 is at most of (d.e)^2 where the tangent of the angle is at most a half.
+/// 1 + 1/4: |d|^2 |e|^2 is at most so many times (d.e)^2 where the tangent of the angle between d and e is at most a half.
 const NARROW: f32 = 1.25;
-/// The same of a tangent of 1/32: from one point, such rays are taken for a camera's that are beside each other.
+/// The same for a tangent of 1/32: such rays from one point are taken for neighbours in a camera's picture.
 const BESIDE: f32 = 1.0 + 1.0 / 1024.0;
-/// Four of many that are spread evenly reach over three fifths of what all do: so much lies beyond, on either side.
+/// Four of many rays that are spread evenly span three fifths of what all span: so much of their span lies beyond, on either side.
 const BEYOND_ASKED: f32 = 1.0 / 3.0;
-/// How many leaves the planes may hold for a ray, and for all. (Four scenes, parallel rays and cones of nine widths, AVX-512: as
-/// packets rays begin to be slower at 1 to 9 leaves where there are nine, at 2 to 8 where there are sixteen, at 5 to 12 where there
-/// are 64. To go one by one in vain costs more than to be packed in vain: up to three times, and twice.)
+/// How many leaves the planes may hold for each ray, and for all together. (Four scenes, parallel rays and cones of nine widths,
+/// AVX-512: nine rays begin to be slower as packets at 1 to 9 leaves, sixteen rays at 2 to 8, 64 rays at 5 to 12. Going one by one in
+/// vain costs more than being packed in vain: up to three times the time, against twice.)
 const LEAVES_OF_RAY: f32 = 1.0 / 3.0;
 const LEAVES_OF_ALL: f32 = 7.0;
-/// The same of a small tree, in which a ray takes little by itself: 0.1 leaves where there are nine, 0.3 where there are sixteen.
+/// The same in a small tree, where a ray takes little by itself: nine rays begin to be slower at 0.1 leaves, sixteen at 0.3.
 const LEAVES_OF_RAY_IN_SMALL_TREE: f32 = 1.0 / 40.0;
 
-/// So few packets of rays are looked at. (Among 300, 20,000 and 300,000 spheres, calls of 12 to 48 rays that have nothing in common
-/// took 1.1 to 2.4 times as long as one by one on a Zen 3: of stacks that are laid out for many rays, few make use. In a small tree there
-/// is less to lay out: with 4, 64 diffuse rays among ten spheres took 1.3 to 2.5 times as long on a Zen 5, and 128 parallel ones, of which
-/// some go together, 1.3 to 1.5. With 8, rays that go together have 0.93 of the speed, diffuse rays through a city 0.76 to 0.88.)
+/// Calls of at most so many packets are looked at. (Packed, calls of 12 to 48 rays that have nothing in common, among 300, 20,000 and
+/// 300,000 spheres, took 1.1 to 2.4 times as long as one by one on a Zen 3: few rays make little use of stacks that are laid out for
+/// many. In a small tree there is less to lay out: with 4, 64 diffuse rays among ten spheres took 1.3 to 2.5 times as long on a Zen 5,
+/// and 128 parallel rays, some of which go together, 1.3 to 1.5 times. With 8, rays that go together ran at 0.93 of the speed,
+/// diffuse rays through a city at 0.76 to 0.88.)
 const FEW: usize = 4;
 pub(crate) const FEW_IN_SMALL_TREE: usize = 2;
 
@@ -53,7 +54,7 @@ pub(crate) fn few(bvh: &Bvh<'_>) -> usize {
     if small_tree::leaves(bvh).is_some() { FEW_IN_SMALL_TREE } else { FEW }
 }
 
-/// Whether rays have little in common, as far as those tell that fill the first packet, and those that fill the last;
+/// Returns whether rays have little in common, judged by the rays of the first packet and by those of the last;
 /// `leaves_held` is [`leaves_held`].
 #[inline(always)]
 pub(crate) fn differ(
@@ -69,13 +70,13 @@ pub(crate) fn differ(
     } else {
         least(LEAVES_OF_RAY * count as f32, LEAVES_OF_ALL)
     };
-    // Where a row of a picture ends, the first may be wide, and the others are not.
+    // The first packet may be wide only because a row of a picture ends in it.
     packet_differs(rays, start..end.min(start + RayPacket::COUNT), most, &leaves_held)
         && (count <= RayPacket::COUNT
             || packet_differs(rays, end - RayPacket::COUNT..end, most, &leaves_held))
 }
 
-/// Whether rays of a packet have little in common, if planes may hold so many leaves.
+/// Returns whether rays of a packet have little in common, if planes may hold `most` leaves.
 #[inline(always)]
 fn packet_differs(
     rays: &ManyRays<'_>,
@@ -102,8 +103,8 @@ fn packet_differs(
     !are_beside && leaves_held(&asked) > most
 }
 
-/// Returns how many leaves lie between planes around rays of which those are some: of each child of the root the part of its
-/// box across the axis that the rays run along, as if each had as many leaves.
+/// Returns about how many leaves lie between planes around the rays that `asked` are some of. Each child of the root counts by the
+/// part of its box between the planes, across the axis that the rays run along, as if all children had as many leaves.
 #[inline(always)]
 pub(crate) fn leaves_held<L: Lanes>(token: L::Token, bvh: &Bvh<'_>, asked: &Asked) -> f32 {
     let Some(root) = bvh.nodes.get(bvh.root as usize) else { return 0.0 };
@@ -116,7 +117,7 @@ pub(crate) fn leaves_held<L: Lanes>(token: L::Token, bvh: &Bvh<'_>, asked: &Aske
         let low = axes!(i => L::load_part(token, &root.low[i], part));
         let high = axes!(i => L::load_part(token, &root.high[i], part));
 
-        // A child is looked at half way through its box, or where the rays begin if that is farther; not one that lies behind.
+        // A child is looked at half way through its box, or where the rays begin if that is farther; a child behind them holds none.
         let start = number(factor * asked[0].origin.to_array()[k]);
         let middle = number(0.5) * (low[k] + high[k]);
         let depth = L::select(zero.lt(number(sign) * (middle - start)), middle, start);
@@ -125,7 +126,7 @@ pub(crate) fn leaves_held<L: Lanes>(token: L::Token, bvh: &Bvh<'_>, asked: &Aske
         let mut share =
             L::select(is_there & zero.le(number(sign) * (end - start)), number(1.0), zero);
 
-        // (One division for both sides, slopes worked out before, four sums in place of one: not faster.)
+        // (One division for both sides, slopes computed before, or four sums instead of one are not faster.)
         for axis in across {
             let i = axis % 3;
             let (mut left, mut right) = (number(f32::INFINITY), number(f32::NEG_INFINITY));

@@ -10,7 +10,7 @@ use crate::numeric::rounding::{U, least, most};
 /// The least |n_k|.
 pub(super) const ALONG: f32 = 1.0 / 16.0;
 
-/// The largest of an expression in the live lanes of some packets; `-inf` if none is live.
+/// The largest value of an expression in the live lanes of some packets; `-inf` if none is live.
 macro_rules! greatest_of {
     ($states:expr, $state:ident => $value:expr) => {{
         let mut lanes = None;
@@ -41,11 +41,11 @@ pub(super) struct Fit {
     pub(super) absolute_error: f32,
     /// What the spread of a tier adds to depths.
     pub(super) spread: f32,
-    /// Where all rays start, if they do so in one point.
+    /// The point in which all rays start, if there is one.
     origin: Option<[f32; 3]>,
 }
 
-/// The axis that a direction runs along, and which way: 1 or -1.
+/// Returns the axis that a direction runs along, and which way: 1 or -1.
 #[inline(always)]
 pub(super) fn heading([x, y, z]: [f32; 3]) -> (usize, f32) {
     let (along, travel) = if x.abs() >= y.abs() && x.abs() >= z.abs() {
@@ -59,13 +59,13 @@ pub(super) fn heading([x, y, z]: [f32; 3]) -> (usize, f32) {
 }
 
 impl Fit {
-    /// Along an axis, for rays whose origins are not known here.
+    /// For rays along an axis, whose origins are not known here.
     #[inline(always)]
     pub(super) fn along(along: usize, sign: f32, absolute_error: f32, spread: f32) -> Self {
         Self { along, sign, absolute_error, spread, origin: None }
     }
 
-    /// `None` if not all rays run the same way, and far enough, along an axis; `extent` is that of the scene,
+    /// Returns `None` if not all rays run the same way, and far enough, along an axis; `extent` is that of the scene,
     /// `spread` that of the tier.
     #[inline(always)]
     pub(super) fn of<L: Lanes>(
@@ -107,7 +107,7 @@ impl Fit {
         Some(Self { along, sign, absolute_error: error, spread, origin })
     }
 
-    /// Slopes per depth, moved outward, as slopes per x_k.
+    /// Moves slopes per depth outward, and returns them as slopes per x_k.
     #[inline(always)]
     pub(super) fn turned(&self, slopes: [[f32; 2]; 2]) -> [[f32; 2]; 2] {
         let turn = turn(steepest(slopes));
@@ -148,8 +148,8 @@ impl Fit {
         self.sides(slopes, offsets)
     }
 
-    /// What the rays cannot leave, and the same for each packet; `None` if their slopes differ by more than
-    /// `narrow`.
+    /// Returns what the rays cannot leave, and sets the planes around each packet. Returns `None` if the slopes of the rays
+    /// differ by more than `narrow`.
     #[inline(always)]
     pub(super) fn enclose<L: Lanes>(
         &self,

@@ -39,26 +39,26 @@ pub(crate) const TURN: [f32; 2] = [16.0 * U, U / 64.0];
 /// How much larger a radius counts: 64u.
 pub(crate) const LARGER: f32 = 1.0 + 64.0 * U;
 
-/// How far a plane of that slope, at least zero, is moved; the error is the rays' largest.
+/// Returns how far a plane of that slope, which is at least zero, is moved; the error is the largest of the rays.
 #[inline(always)]
 pub(crate) fn margin<L: Lanes>(slope: L, absolute_error: L) -> L {
     slope.like(MARGIN) * absolute_error * (slope.like(1.0) + slope)
 }
 
-/// How far that slope is moved.
+/// Returns how far that slope is moved.
 #[inline(always)]
 pub(crate) fn turn<L: Lanes>(slope: L) -> L {
     slope.like(TURN[0]) * slope + slope.like(TURN[1])
 }
 
-/// At least the length of the normal of a plane of that slope, and not much more where that is below one; larger by what
-/// radii count.
+/// Returns at least the length of the normal of a plane of that slope, times [`LARGER`], and not much more where the slope is
+/// below one.
 #[inline(always)]
 pub(crate) fn length<L: Lanes>(slope: L) -> L {
     slope * slope * slope.like(0.5 * LARGER) + slope.like(LARGER)
 }
 
-/// The four planes: two lines for each of the axes across, below and above the rays; first those of the first axis.
+/// The four planes: for the first of the two axes across, then for the second, a line below and one above the rays.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sides {
     /// The axis that all rays run along.
@@ -78,7 +78,7 @@ impl Sides {
     pub(super) const NONE: Self =
         Self { along: 0, slope: [0.0; 4], offset: [0.0; 4], length: [0.0; 4] };
 
-    /// For slopes that end there, and offsets that end there, least and greatest for each axis, both moved outward.
+    /// For the least and greatest slope, and the least and greatest offset, of each axis, all moved outward.
     #[inline(always)]
     pub(super) fn new(along: usize, slopes: [[f32; 2]; 2], offsets: [[f32; 2]; 2]) -> Self {
         let [[a, b], [c, d]] = slopes;
@@ -111,7 +111,7 @@ impl Sides {
         Self { along: along % 3, slope, offset, length }
     }
 
-    /// Below and above the rays, along the first or second of the axes [`across`].
+    /// The lines below and above the rays, along the first or second of the axes [`across`].
     #[inline(always)]
     fn lines(&self, side: usize) -> [Line; 2] {
         let (below, above) = (2 * side % 4, (2 * side + 1) % 4);
@@ -129,7 +129,7 @@ impl Sides {
         ]
     }
 
-    /// Which of sixteen spheres may be between the planes; each counts as larger by `spread` times its
+    /// Returns which of sixteen spheres may be between the planes; each counts as larger by `spread` times its
     /// distance.
     #[inline(always)]
     pub(crate) fn look<L: Lanes>(
@@ -174,7 +174,7 @@ pub(super) struct Frustum {
     pub(super) end: f32,
 }
 
-/// What of a node is inside: a bit a child, and a depth from which on it may matter.
+/// Which children of a node are inside, a bit each, and from which depth on each may matter.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Inside {
     pub(super) places: u32,
@@ -185,10 +185,10 @@ impl Frustum {
     pub(super) const NONE: Self =
         Self { sides: Sides::NONE, sign: 1.0, start: f32::INFINITY, end: f32::NEG_INFINITY };
 
-    /// Which children of a node may be entered, and how soon each is looked into: by the depth it begins at. Any hit takes what
-    /// is large across that axis sooner, by its size, since that soon ends many rays. (Without, any hit of huge and tiny took 1.28
-    /// times as long in the mean of 22 orders, a scanner's rays 6 times; in the order of slots, as rays by themselves take
-    /// children, bursts of rays on the ground twice.)
+    /// Finds which children of a node may be entered, and the depths at which they begin: nearer children are looked into sooner. For
+    /// any hit a child is looked into sooner by its size across the rays' axis, since a large child soon ends many rays. (Without this,
+    /// any hit of huge and tiny took 1.28 times as long in the mean of 22 orders, a scanner's rays 6 times as long. In the order of
+    /// slots, in which rays by themselves take children, bursts of rays on the ground took twice as long.)
     #[inline(always)]
     pub(super) fn enter<L: Lanes, Q: Query>(
         &self,
@@ -229,7 +229,7 @@ impl Frustum {
         }
     }
 
-    /// Which of sixteen spheres may be hit; each counts as larger by `spread` times its distance.
+    /// Returns which of sixteen spheres may be hit; each counts as larger by `spread` times its distance.
     #[inline(always)]
     pub(super) fn look<L: Lanes>(
         &self,
@@ -252,7 +252,7 @@ impl Frustum {
     }
 }
 
-/// The radii of part `part` of sixteen spheres, each larger by `spread` times the distance.
+/// Returns the radii of part `part` of sixteen spheres, each larger by `spread` times its distance.
 #[inline(always)]
 fn spread_radius<L: Lanes>(
     token: L::Token,

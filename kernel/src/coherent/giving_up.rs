@@ -3,23 +3,23 @@
 //! # Method
 //!
 //! A group pays as long as its rays meet the same boxes: one test of a box serves them all. Whether they do depends on
-//! the rays and on the scene, and is not known before. So a group's work is counted as it is done, and held against what
-//! its rays would have done apart, as far as they have come:
+//! the rays and on the scene, and is not known before. So a group's work is counted as it is done, and compared with what
+//! its rays would have done apart so far:
 //!
 //! * each ray would have begun and ended by itself, and looked into the root;
-//! * each ray that has hit a sphere would have come near one, and of closest hits near others, which take less;
-//! * of the rays, a part enters each box that the group looks into. The part is sampled: some of the boxes are kept, evenly
-//!   spaced, and held against the rays of some packets. In a small tree all rays look into all of them.
+//! * each ray that has hit a sphere would have come near one, and for closest hits near others, which take less;
+//! * a part of the rays would have entered each box that the group looks into. The part is sampled: some of the boxes are kept,
+//!   evenly spaced, and tested against the rays of some packets. In a small tree all rays look into all leaves.
 //!
-//! A group that has done a quarter more than what is known of that, and so much more than what is guessed ([`OF_CLOSEST`], [`OF_ANY`]),
-//! gives up, and its rays go on by themselves, with what they have hit. One that has answered all of its rays, but by more work than they
-//! would have done apart, counts as one that has not paid.
+//! A group gives up if it has done more than the known part of that work, a quarter of it, and the multiple of the guessed part that
+//! [`OF_CLOSEST`] or [`OF_ANY`] allows. Its rays then go on by themselves, with what they have hit. A group that has answered all of its
+//! rays, but by more work than they would have done apart, counts as one that has not paid.
 //!
-//! What the rays would have done apart only grows. So the sample is looked at when a group has done more than they would
-//! have done by then at least, and once more when it has done more than was found: most groups that pay are never asked.
-//! (Each eighth box was held against rays as it was met: 5 to 9 % of the time of a camera's rays.)
+//! The work that the rays would have done apart only grows. So the sample is looked at when a group has done more than the
+//! least that they would have done by then, and again when it has done more than was found: most groups that pay are never checked.
+//! (Testing each eighth box against rays as it was met took 5 to 9 % of the time of a camera's rays.)
 //!
-//! Work is counted as by [`Effort`]; of what rays do by themselves the weights are set so that groups which pay seldom give up.
+//! [`Effort`] counts the work; the weights of what rays do by themselves are set so that groups which pay seldom give up.
 
 use super::box_sample::BoxSample;
 use super::effort::Effort;
@@ -28,11 +28,11 @@ use crate::bvh::tree::Bvh;
 use crate::lanes::{LaneMask, Lanes};
 use crate::query::Query;
 
-/// What a ray does by itself: its beginning and its end, a node, a leaf, the roots of the first sphere that it comes near, those of
-/// the next, which share a leaf, and the tier. (With rays that came near a sphere in place of those that hit one, and 20
-/// for the first roots, the search finds calls that take 5.9 times the work of ray by ray, in place of 2.2. With boxes twice
-/// as long where the tree is far, since rays wait for memory there: a picture of 128 by 128 of u1m 1.02 to 1.07 of the speed, of 64 by
-/// 64 0.6, since its groups did not give up.)
+/// What a ray does by itself: its beginning and its end, a node, a leaf, the roots of the first sphere that it comes near, the roots
+/// of the next, which share a leaf, and the tier. (With rays that came near a sphere counted instead of rays that hit one, and 20
+/// for the first roots, the search finds calls that take 5.9 times the work of ray by ray, instead of 2.2. With boxes that take twice
+/// as long where the tree is far, since rays wait for memory there, a picture of 128 by 128 of u1m ran at 1.02 to 1.07 of the speed,
+/// one of 64 by 64 at 0.6, since its groups did not give up.)
 const RAY: u32 = 4;
 const RAY_NODE: u32 = 5;
 const RAY_LEAF: u32 = 6;
@@ -43,43 +43,43 @@ const RAY_TIER: u32 = 3;
 const RAY_OF_SMALL_TREE: u32 = 2;
 const LEAF_OF_SMALL_TREE: u32 = 1;
 const ROOTS_OF_SMALL_TREE: u32 = 2;
-/// What it takes to lay planes around a group: not much but in a small tree.
+/// What laying planes around a group takes: little, except in a small tree.
 const FIT: u32 = 24;
 
-/// Of what rays do apart about, in eighths: a group may do so much, and so much while it holds many spheres against rays in vain.
+/// The guessed part of what rays do apart, in eighths: how much of it a group may do, and how much while it tests many spheres in vain.
 type Eighths = [u64; 2];
-/// Of closest hits: of a group, and of a packet that is tried alone. (What a group that gives up has done is lost, and what is left
-/// of it is often less than its rays do from the root. All 12 and 9: closest hits of six scenes, nine orders, AVX-512, 0.95 of the
-/// speed; 28 and 30: as fast, and the search finds 3.4 times the work where rays are falsely said to be coherent.)
+/// For closest hits: of a group, and of a packet that is tried alone. (A group that gives up loses its work, and the work left to it
+/// is often less than its rays do from the root. With 12 and 9 for all, closest hits of six scenes and nine orders ran at 0.95 of the
+/// speed, AVX-512. With 28 and 30 they ran as fast, but the search finds 3.4 times the work where rays are falsely said to be coherent.)
 const OF_CLOSEST: Eighths = [20, 22];
 const OF_CLOSEST_ALONE: Eighths = [16, 14];
-/// Of any hit: by themselves rays end in fewer boxes than those that a group looks into. In vain less is allowed as long as the group
-/// before it has not paid. (9 then, AVX2: any hits of 512 rays of a long lens, shuffled, among nested spheres 0.61 of ray by ray, in
-/// place of 0.81. 4: 0.92, but bursts of 1,000 there 1.01, in place of 1.54; and where groups pay, too: 16,384 rays in scan lines
-/// 2.6, in place of 3.9. 16 and 12: as fast.)
+/// For any hit: rays by themselves end after fewer boxes than a group looks into. Less is allowed in vain as long as the group before
+/// has not paid. (With 9 then, any hits of 512 shuffled rays of a long lens among nested spheres ran at 0.61 of the speed of ray by
+/// ray, instead of 0.81, AVX2. With 4 they ran at 0.92, but bursts of 1,000 there at 1.01, instead of 1.54; and 16,384 rays in scan
+/// lines, where groups pay, at 2.6, instead of 3.9. 16 and 12 are as fast.)
 const OF_ANY: Eighths = [12, 9];
 const OF_ANY_AT_FIRST: Eighths = [OF_ANY[0], 6];
 
-/// So many spheres may be held against packets in vain for each ray, before it is asked whether that is wasted.
+/// How many spheres a group may test in vain for each ray, before it checks whether that is wasted.
 const SPHERES_A_RAY: u32 = 1;
 
 /// How much a group may do.
 #[derive(Clone, Copy)]
 pub(super) struct Allowance {
-    /// So much before it is asked whether its rays would have done less; and so many spheres in vain.
+    /// How much work it may do, and how many spheres it may test in vain, before it checks whether its rays would have done less.
     most: u32,
     most_in_vain: u32,
     /// Whether the group before it has paid.
     is_trusted: bool,
     rays: u32,
-    /// The leaves of a small tree: then rays have a way of their own through it.
+    /// How many leaves a small tree has: there rays by themselves enter no boxes.
     leaves: Option<u32>,
-    /// What the roots of a sphere take a ray that has met one.
+    /// What the roots of each next sphere take a ray that has met one.
     next_roots: u32,
 }
 
 impl Allowance {
-    /// Of a group that has done nothing, in a tree of so many leaves, if it is small; `is_any` says what is asked, `is_trusted`
+    /// For a group that has done nothing; `leaves` is how many a small tree has, `is_any` whether any hit is asked, `is_trusted`
     /// whether the group before it has paid.
     #[inline(always)]
     pub(super) fn of<L: Lanes>(
@@ -94,7 +94,7 @@ impl Allowance {
         Self { most: allowance.least_apart() as u32, ..allowance }
     }
 
-    /// What rays apart do at least: all look into the root.
+    /// The least that rays do apart: all look into the root.
     #[inline(always)]
     fn least_apart(&self) -> u64 {
         let each = self
@@ -103,8 +103,8 @@ impl Allowance {
         u64::from(self.rays) * u64::from(each)
     }
 
-    /// What the roots of spheres take rays apart, about: by itself a ray meets what is nearest first, and few others; one that hits
-    /// nothing may come near none of those that the group meets.
+    /// About what the roots of spheres take rays apart. A ray by itself meets the nearest sphere first, and few others; a ray that
+    /// hits nothing may come near none of the spheres that the group meets.
     #[inline(always)]
     fn roots_apart<L: Lanes>(&self, effort: &Effort, states: &[PacketState<'_, L>]) -> u64 {
         let roots = match self.leaves {
@@ -118,7 +118,7 @@ impl Allowance {
         roots + u64::from(RAY_TIER) * u64::from(effort.tested)
     }
 
-    /// Whether its rays would have done less apart, as far as they have come.
+    /// Returns whether the group's rays would have done less apart so far.
     #[inline(always)]
     pub(super) fn is_wasted<L: Lanes, Q: Query>(
         &mut self,
@@ -134,7 +134,7 @@ impl Allowance {
         if crate::proofs::work::groups_persist() {
             return false;
         }
-        // By value: what another function may write is in memory from then on.
+        // Copied, since the compiler keeps in memory what another function may write.
         let (allowance, effort) = (*self, *effort);
         let limits = L::out_of_line(
             token,
@@ -145,9 +145,10 @@ impl Allowance {
         limits.is_none()
     }
 
-    /// How much it may do, and in vain; `None` if its rays would have done less apart. It may do a quarter more than they do at
-    /// least, since those that go on by themselves begin anew, and of what they do about more than all, since that is not known
-    /// well. While it holds many spheres against rays in vain, a third of what they do at least is enough, and less of about.
+    /// Returns how much the group may do, and how many spheres it may test in vain; `None` if its rays would have done less apart.
+    /// It may do a quarter more than the least that they do, since rays that go on by themselves begin anew, and more than all of
+    /// the guessed part, which is not known well. While it tests many spheres in vain, it may do a third of the least, and the
+    /// second of [`Eighths`].
     #[inline(always)]
     fn limits<L: Lanes, Q: Query>(
         &self,
@@ -167,7 +168,7 @@ impl Allowance {
         let (work, least) = (u64::from(effort.work), self.least_apart());
         let begin_anew = if self.leaves.is_some() { 0 } else { least / 4 };
 
-        // What is known without boxes is enough for most groups, and all that there is in a small tree.
+        // What is known without boxes is enough for most groups; in a small tree there is nothing else.
         let mut apart = self.roots_apart(effort, states);
         if self.leaves.is_none() && (is_in_vain | (work > least + begin_anew + apart * about / 8)) {
             apart += sample.apart::<L, Q>(states, bvh, [RAY_NODE, RAY_LEAF]);
@@ -181,14 +182,14 @@ impl Allowance {
         if work > limit {
             return None;
         }
-        // To ask takes as long as some boxes.
+        // A check takes as long as some boxes.
         let most = limit.max(work + work / 8).min(u64::from(u32::MAX)) as u32;
         Some([most, if is_in_vain { u32::MAX } else { most_in_vain }])
     }
 
-    /// Whether all that it has done is so much that the next is better not tried: of any hit more than it may do, of closest hits a
-    /// quarter more than its rays would have done apart. (Of closest hits, too, more than it may do: a scanner's among 200,000 spheres
-    /// 0.7 of the speed. Of any hit, too, a quarter: 0.99. What a small tree costs is known.)
+    /// Returns whether the group has done so much that the next is better not tried: for any hit more than it may do, for closest hits
+    /// a quarter more than its rays would have done apart. (With more than it may do for closest hits, too, a scanner's rays among
+    /// 200,000 spheres ran at 0.7 of the speed; with a quarter for any hit, too, at 0.99. What a small tree costs is known.)
     #[inline(always)]
     pub(super) fn is_at_a_loss<L: Lanes, Q: Query>(
         &mut self,
@@ -213,14 +214,14 @@ impl Allowance {
         if work <= least + begin_anew {
             return false;
         }
-        // By value: what another function may write is in memory from then on.
+        // Copied, since the compiler keeps in memory what another function may write.
         let (allowance, effort) = (*self, *effort);
         L::out_of_line(
             token,
             #[inline(always)]
             || {
-                // Boxes are held against rays where it is in doubt. (Wherever it is more than is known without: a camera's tiles
-                // among 3,000 spheres 0.9 of the speed, by AVX2.)
+                // Boxes are tested against rays only in doubt. (With tests wherever the work is more than is known without boxes, a
+                // camera's tiles among 3,000 spheres ran at 0.9 of the speed, AVX2.)
                 let roots = allowance.roots_apart(&effort, states);
                 work > least + begin_anew + roots + roots / 2
                     && 4 * work > 5 * allowance.apart::<L, Q>(token, &effort, (states, sample), bvh)
@@ -228,7 +229,7 @@ impl Allowance {
         )
     }
 
-    /// What its rays would have done apart, about, as far as they have come.
+    /// About what the group's rays would have done apart so far.
     #[inline(always)]
     pub(super) fn apart<L: Lanes, Q: Query>(
         &self,
@@ -237,7 +238,7 @@ impl Allowance {
         (states, sample): (&[PacketState<'_, L>], &BoxSample),
         bvh: &Bvh<'_>,
     ) -> u64 {
-        // By value: what another function may write is in memory from then on.
+        // Copied, since the compiler keeps in memory what another function may write.
         let (allowance, effort) = (*self, *effort);
         L::out_of_line(
             token,
@@ -270,5 +271,5 @@ fn rays_that_hit<L: Lanes>(states: &[PacketState<'_, L>]) -> u32 {
     rays
 }
 
-/// Fewer rays go by themselves: to lay planes around a group takes as long as some of them do.
+/// Fewer rays go by themselves, since laying planes around a group takes as long as some of them do.
 pub(super) const LEAST_RAYS: u32 = 12;

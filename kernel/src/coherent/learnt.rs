@@ -13,11 +13,11 @@ use crate::bvh::tree::Bvh;
 use crate::coherence::Coherence;
 use crate::query::Query;
 
-/// Closest hits and any hits learn apart. Together where memory is short: a trace that a firmware copies by a function is
+/// Closest hits and any hits learn separately, except where memory is short: there a trace that a firmware copies by a function is
 /// 900 bytes of flash.
 pub(super) const KINDS: usize = if cfg!(feature = "alloc") { 2 } else { 1 };
 
-/// Which kind of query it is: a place in what is learnt.
+/// Returns the kind of query: a place in what is learnt.
 #[inline(always)]
 pub(super) fn kind_of<Q: Query>() -> usize {
     usize::from(Q::ANY) % KINDS
@@ -29,7 +29,7 @@ pub(crate) struct Learnt {
     pub(super) groups: [Patience; KINDS],
     pub(super) packets: [PacketPatience; KINDS],
     pub(super) sharing: [Sharing; KINDS],
-    /// Of the last packets how many went by themselves, and how many they were.
+    /// How many of the last packets went by themselves, and how many packets there were.
     #[cfg(feature = "alloc")]
     pub(super) apart: [usize; 2],
     /// Of groups on trial: what they did, and what their rays would have done apart. `None` if they are not on trial.
@@ -48,7 +48,7 @@ impl Learnt {
         #[cfg(feature = "alloc")]
         efforts: None,
     };
-    /// Nothing, of groups on trial.
+    /// Nothing, for groups on trial.
     #[cfg(feature = "alloc")]
     pub(crate) const ON_TRIAL: Self = Self { efforts: Some([0; 2]), ..Self::NOTHING };
 
@@ -60,18 +60,18 @@ impl Learnt {
         self.packets[kind].begin(groups);
     }
 
-    /// How many of the next rays, of which there are so many, a call likes to have at once: more than few where some go by
-    /// themselves, and a stream of them may pay.
+    /// Returns how many of the next `rays` a call should take at once, if some of them go by themselves and a stream of those may
+    /// pay; `None` if not.
     #[cfg(feature = "alloc")]
     pub(crate) fn many_at_once<Q: Query>(&self, bvh: &Bvh<'_>, rays: usize) -> Option<usize> {
         if !self.are_some_apart() || !self.sharing[kind_of::<Q>()].may_pay::<Q>(bvh, rays) {
             return None;
         }
-        // Of those some may go together as groups: twice as many as go down as a stream.
+        // Some of them may go together as groups, so these are twice as many as a stream takes.
         Some(rays.min(2 * Sharing::together(rays)))
     }
 
-    /// What the next rays would gain by another order; `None` if nothing.
+    /// Returns what the next rays would gain by another order; `None` if nothing.
     #[cfg(feature = "alloc")]
     pub(crate) fn gain_by_order<Q: Query>(
         &self,
@@ -86,7 +86,7 @@ impl Learnt {
         Some(GainByOrder { in_groups, is_far, by_start, is_any: Q::ANY, radius })
     }
 
-    /// Of the last packets how many went by themselves, and how many they were.
+    /// How many of the last packets went by themselves, and how many packets there were.
     #[cfg(feature = "alloc")]
     pub(crate) fn apart(&self) -> [usize; 2] {
         self.apart
@@ -98,7 +98,7 @@ impl Learnt {
         self.efforts.unwrap_or_default()
     }
 
-    /// Whether some of the last packets went by themselves.
+    /// Returns whether some of the last packets went by themselves.
     #[cfg(feature = "alloc")]
     fn are_some_apart(&self) -> bool {
         let [apart, all] = self.apart;
@@ -106,6 +106,6 @@ impl Learnt {
     }
 }
 
-/// One in so many is some.
+/// One packet in so many counts as some.
 #[cfg(feature = "alloc")]
 const SOME: usize = 4;

@@ -1,7 +1,7 @@
 //! Packets of a common origin or direction, traced through spheres in the order of their depth.
 //!
-//! A thousand packets share a list of what is inside their frustum, some ten a shorter one; four go through
-//! it together, block by block, as packets go through the leaves of a tree (`tree_source.rs`).
+//! A thousand packets share a list of the spheres inside their frustum, some tens share a shorter one. Four packets go
+//! through it together, block by block, as packets go through the leaves of a tree (`tree_source.rs`).
 
 use super::depth_list::DepthList;
 use super::effort::Effort;
@@ -23,7 +23,7 @@ use crate::query::Query;
 
 /// How many packets share the larger list.
 const LARGE: usize = 1024;
-/// How many share the shorter one.
+/// How many packets share the shorter list.
 const MIDDLE: usize = 64;
 /// A list of so many spheres is short enough: looking at its blocks costs less than a survey.
 const SHORT: usize = 64;
@@ -55,14 +55,14 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
             from += 1;
         }
         if survey.packets > 0 || from == count {
-            // Packets that do not fit, against all spheres, in one run.
+            // Packets that do not fit are tested against all spheres, in one run.
             if let (Some(rays), Some(answers)) =
                 (rays.get(unfit..from), answers.get_mut(unfit..from))
             {
                 linear::traverse::<L, Q>(tier, token, list.spheres, rays, answers);
             }
         }
-        // What no bound sees is met first: packets begin with what they have hit of it.
+        // Spheres that no bound sees are tested first: packets begin with these hits.
         if list.outside > 0
             && let (Some(rays), Some(answers)) = (rays.get(from..end), answers.get_mut(from..end))
         {
@@ -78,7 +78,7 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
             let mut shorter_list = listed;
             if middle.len() > GROUP && listed.count > SHORT {
                 let survey = Survey::new::<L>(token, view, middle, size);
-                // The first ray of these may show another way, which not all of them run.
+                // The first of these rays may show another way, in which not all of them run.
                 if survey.packets == middle.len() {
                     shorter_list = listed.inside::<L>(token, &survey, shorter).unwrap_or(listed);
                 }
@@ -172,14 +172,14 @@ impl ListSource<'_> {
             }
 
             let mut effort = Effort::of(states.len());
-            // From the front: all that follows a block begins as deep, or deeper.
+            // From the front: all spheres after a block begin as deep, or deeper.
             let mut number = 0;
             while let Some((spheres, depth)) = self.listed.block(number)
                 && depth <= reach
             {
                 let block = (number as u32, &spheres, depth);
                 number += 1;
-                // What lies before the rays is left out of short lists already.
+                // Short lists leave out already what lies before the rays.
                 let places = frustum.sides.look::<L>(token, &spheres, tier.spread());
                 if places == 0 {
                     continue;
@@ -203,7 +203,7 @@ impl ListSource<'_> {
         }
     }
 
-    /// How deep the rays of a packet still go.
+    /// Returns how deep the rays of a packet still go.
     #[inline(always)]
     fn depth_of<L: Lanes>(&self, state: &PacketState<'_, L>, slack: f32) -> f32 {
         let states = [state];

@@ -9,7 +9,7 @@ pub(super) const COLUMNS: usize = 6;
 /// What the columns hold where there is no sphere.
 const NONE: [f32; COLUMNS] = [0.0, 0.0, 0.0, f32::NAN, f32::INFINITY, 0.0];
 
-/// Numbers of a column of `count` spheres: a block more, so that lanes can be laid down anywhere in it
+/// Returns how many numbers a column of `count` spheres has: a block more, so that lanes can be stored anywhere in it
 /// and the end can be marked.
 pub(super) const fn column_length(count: usize) -> usize {
     (count / WIDTH).saturating_add(2).saturating_mul(WIDTH)
@@ -32,7 +32,7 @@ pub(super) fn columns(memory: &mut [f32], length: usize) -> [&mut [f32]; COLUMNS
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Listed<'a> {
     columns: [&'a [[f32; WIDTH]]; COLUMNS],
-    /// How many there are; behind them are radii that are NaN, and infinite depths.
+    /// How many spheres there are; behind them are radii that are NaN, and infinite depths.
     pub(super) count: usize,
 }
 
@@ -74,8 +74,8 @@ impl<'a> Listed<'a> {
         self.columns[5].as_flattened()
     }
 
-    /// What of the list the rays of a survey may hit, in the same order; `None` if it has no room in
-    /// `memory`.
+    /// Returns the spheres of the list that rays of a survey may hit, in the same order; `None` if they have no
+    /// room in `memory`.
     #[inline(always)]
     pub(super) fn inside<'b, L: Lanes>(
         &self,
@@ -88,7 +88,7 @@ impl<'a> Listed<'a> {
         let columns = columns(memory, length);
         let (mut count, mut number) = (0, 0);
         while let Some((spheres, depth)) = self.block(number) {
-            // All that follows begins deeper.
+            // All spheres that follow begin deeper.
             if depth > *reach {
                 break;
             }

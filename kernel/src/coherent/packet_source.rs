@@ -14,17 +14,17 @@ use core::ops::Range;
 #[derive(Debug)]
 #[cfg_attr(not(feature = "std"), expect(unreachable_pub, reason = "a trait of levels names it"))]
 pub enum PacketSource<'a, A: LaneArray> {
-    /// They are there.
+    /// Packets that are in memory.
     Packets(&'a [RayPacket<A>]),
-    /// They are filled with rays, a group at a time, in memory that is not looked at before.
+    /// Packets that are filled with rays, a group at a time, in memory whose contents do not matter.
     #[cfg_attr(not(feature = "std"), expect(dead_code, reason = "levels alone make them there"))]
     Rays(ManyRays<'a>, &'a mut [RayPacket<A>]),
-    /// They are made, a group at a time, in memory that is not looked at before.
+    /// Packets that are made, a group at a time, in memory whose contents do not matter.
     Tiles(CameraTiles<'a>, &'a mut [RayPacket<A>]),
 }
 
 impl<A: LaneArray> PacketSource<'_, A> {
-    /// How many there are.
+    /// Returns how many packets there are.
     #[inline(always)]
     pub(super) fn count(&self) -> usize {
         match self {
@@ -58,7 +58,7 @@ impl<A: LaneArray> PacketSource<'_, A> {
         }
     }
 
-    /// Packets that were made.
+    /// Returns packets that were made.
     #[inline(always)]
     pub(super) fn packets(&self, at: Range<usize>) -> &[RayPacket<A>] {
         match self {
@@ -68,7 +68,7 @@ impl<A: LaneArray> PacketSource<'_, A> {
         .unwrap_or_default()
     }
 
-    /// The planes around a group of whole tiles; `None` if that is not known by corners.
+    /// Returns the planes around a group of whole tiles; `None` if their corners do not tell.
     #[inline(always)]
     pub(super) fn enclose<L: Lanes<Array = A>>(
         &self,
@@ -78,7 +78,7 @@ impl<A: LaneArray> PacketSource<'_, A> {
     ) -> Option<(Fit, Frustum)> {
         let Self::Tiles(tiles, _) = self else { return None };
         let (corners, token) = (tiles.corners.get(at)?, states.first()?.token());
-        // Not in the way of packets that are there.
+        // Out of the way of packets that are in memory.
         L::out_of_line(
             token,
             #[inline(always)]

@@ -2,10 +2,10 @@
 //!
 //! # Method
 //!
-//! A sphere is tested in single precision first: an s that no answer of a lane is below, its *entry*,
-//! and one that the answer is surely not above (`root_interval.rs`). A lane keeps one sphere, its *pending*
+//! A sphere is tested in single precision first. The test gives each lane an s that no answer is below, the *entry*,
+//! and an s that the answer is surely not above (`root_interval.rs`). A lane keeps one sphere, its *pending*
 //! one, which the tier tests when the traversal is through, for all lanes at once. Only where two
-//! spheres may both be a lane's closest does the tier test before.
+//! spheres may both be a lane's closest does the tier test earlier.
 
 use super::effort::Effort;
 use super::frustum::Sides;
@@ -28,25 +28,25 @@ use crate::scale::rays::ScaledRays;
 pub(super) struct PacketState<'a, L: Lanes> {
     /// The rays themselves: read again where the tier tests.
     packet: &'a RayPacket<L::Array>,
-    /// The same, prepared; the end of the interval from above is `best`.
+    /// The rays, prepared; the end of their interval from above is `best`.
     pub(super) rays: PreparedLanes<L>,
     /// Whether the bounds cover all of its rays, and all are [`forward`](PreparedLanes::forward).
     pub(super) covered: bool,
-    /// Whether its rays may begin elsewhere than they say.
+    /// Whether rays of the packet may begin at another point than their origin.
     pub(super) moved: bool,
     /// The planes around these rays alone.
     pub(super) sides: Sides,
-    /// The greatest depth, as a tree or a list counts it, that one of them still goes to.
+    /// The greatest depth, as a tree or a list counts it, that a ray still goes to.
     pub(super) depth: f32,
     /// Rays that may yet hit something closer.
     pub(super) live: L::Mask,
-    /// No root beyond counts any more: an s.
+    /// The s beyond which no root counts any more.
     pub(super) best: L,
-    /// Of the pending sphere: no root is below; NaN if there is none.
+    /// An s below which the pending sphere has no root; NaN if no sphere is pending.
     entry: L,
-    /// Its place in the structure, as bits.
+    /// The pending sphere's place in the structure, as bits.
     place: L,
-    /// That place, if all pending spheres are one.
+    /// That place, if all lanes have the same pending sphere.
     shared: Option<u32>,
     /// The closest answer of the tier so far, and the index of its sphere, as bits.
     t: L,
@@ -54,7 +54,7 @@ pub(super) struct PacketState<'a, L: Lanes> {
 }
 
 impl<'a, L: Lanes> PacketState<'a, L> {
-    /// Of a packet, whose rays as the structure sees them are `scaled`.
+    /// For a packet; `scaled` are its rays as the structure sees them.
     #[inline(always)]
     pub(super) fn new(packet: &'a RayPacket<L::Array>, scaled: &ScaledRays<L>) -> Self {
         count!(GroupPacket);
@@ -104,7 +104,7 @@ impl<'a, L: Lanes> PacketState<'a, L> {
         self.shorten::<Q>();
     }
 
-    /// Meets the spheres `places` of block `number` of sixteen; returns whether any ray may end sooner than
+    /// Tests the spheres `places` of a block of sixteen; returns whether any ray may end sooner than
     /// before. Counts the effort.
     #[inline(always)]
     pub(super) fn meet<Q: Query>(
@@ -195,7 +195,7 @@ impl<'a, L: Lanes> PacketState<'a, L> {
         true
     }
 
-    /// Tests the pending spheres of the lanes `active`, which have none then.
+    /// Tests the pending spheres of the lanes `active`, which have none afterwards.
     #[inline(always)]
     fn settle<Q: Query>(
         &mut self,

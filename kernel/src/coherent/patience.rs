@@ -2,32 +2,33 @@
 
 use super::packet_group::GROUP;
 
-/// Which groups are tried: after each that does not pay twice as many are passed over, up to a number; but none if the one
-/// before it has paid, since where every second pays it is better to try all. The next call may have other rays (a path
-/// tracer's camera, then bounces), so it begins with a try, where that costs little.
+/// Which groups are tried: after each group that does not pay, twice as many are passed over, up to a limit; but none if the
+/// group before it has paid, since where every second group pays it is better to try all. The next call may have other rays (a
+/// path tracer's camera, then bounces), so it begins with a try, where that costs little.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Patience {
-    /// So many are still passed over, of so many.
+    /// How many groups are still passed over, and of how many.
     wait: u8,
     gap: u8,
-    /// Whether the last has paid: then none is passed over if the next does not.
+    /// Whether the last group has paid: then none is passed over if the next does not pay.
     has_paid: bool,
-    /// Whether one has done work in vain since the last that paid. What does not fit has done none.
+    /// Whether a group has done work in vain since the last that paid. A group that does not fit has done none.
     is_costly: bool,
 }
 
-/// Of so many groups one is tried, whatever was before. (Rays to a light among 20,000 spheres, in calls of one group that each began
-/// with a try, took 1.35 times as long on a Zen 3.)
+/// A call of so many groups begins with a try, whatever was before. (Rays to a light among 20,000 spheres, in calls of one group that
+/// each began with a try, took 1.35 times as long on a Zen 3.)
 const WORTH_A_TRY: usize = 8;
 
-/// How many are passed over after the first that does not pay. In a small tree what a group takes is as much as its rays take apart,
-/// so that to learn it must cost less: calls of 512 rays of a beam over 64 spheres run at 0.75 of ray by ray (AVX-512), in place of 0.65, those of
-/// a scanner at 1.30, in place of 1.36. (In all trees: any hits of 512 scan lines among nested spheres 0.73, in place of
-/// 0.92, since their first group does not pay; the mean of eight scenes 1.004.)
+/// How many groups are passed over after the first that does not pay. In a small tree a group takes as much as its rays take apart,
+/// so learning must cost less: with the longer gap there, calls of 512 rays of a beam over 64 spheres run at 0.75 of the speed of ray
+/// by ray, instead of 0.65, and calls of a scanner's rays at 1.30, instead of 1.36 (AVX-512). (With it in all trees, any hits of 512
+/// scan lines among nested spheres ran at 0.73, instead of 0.92, since their first group does not pay; the mean of eight scenes
+/// was 1.004.)
 pub(super) const SHORTEST: u8 = 1;
 pub(super) const SHORTEST_IN_SMALL_TREE: u8 = 3;
-/// The most that are passed over, and the most where rays are said to be coherent: with 3, rays of which that is false run at 0.42
-/// to 0.65 of ray by ray among nested spheres.
+/// The most groups that are passed over, and the most where rays are said to be coherent: with 3, rays that are falsely said to be
+/// coherent run at 0.42 to 0.65 of the speed of ray by ray among nested spheres.
 pub(super) const LONGEST: u8 = 31;
 pub(super) const LONGEST_IF_COHERENT: u8 = 15;
 
@@ -42,7 +43,7 @@ impl Patience {
         }
     }
 
-    /// Whether the next is tried.
+    /// Returns whether the next group is tried.
     #[inline(always)]
     pub(super) fn tries(&mut self) -> bool {
         let tries = self.wait == 0;
@@ -50,14 +51,14 @@ impl Patience {
         tries
     }
 
-    /// Whether the last that was tried has paid.
+    /// Whether the last group that was tried has paid.
     #[inline(always)]
     pub(super) fn has_paid(&self) -> bool {
         self.has_paid
     }
 
-    /// Takes what became of one that was tried: whether it paid, or did work in vain; at least and
-    /// at most so many are passed over then.
+    /// Takes the outcome of a try: whether it paid, and whether it did work in vain; at least `least` and
+    /// at most `most` groups are passed over then.
     #[inline(always)]
     pub(super) fn take(&mut self, (paid, in_vain): (bool, bool), [least, most]: [u8; 2]) {
         if paid {
@@ -71,13 +72,13 @@ impl Patience {
     }
 }
 
-/// Which packets are tried one by one. Those at the same place of their groups are often alike: the lowest rays of a scanner's
-/// fan, or every second packet of two sources. So where some pay, it is learnt for each place.
+/// Which packets are tried one by one. Packets at the same place of their groups are often alike: the lowest rays of a scanner's
+/// fan, or every second packet of two sources. So where some packets pay, each place learns by itself.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PacketPatience {
     any: Patience,
     at: [Patience; GROUP],
-    /// The place of the first to be tried: another after each try in vain, since that ends there.
+    /// The place of the packet that is tried first: another after each try in vain, since the try ends there.
     first: u8,
 }
 
@@ -96,13 +97,13 @@ impl PacketPatience {
         }
     }
 
-    /// Whether one of the last that were tried has paid.
+    /// Whether one of the last packets that were tried has paid.
     #[inline(always)]
     pub(super) fn has_paid(&self) -> bool {
         self.any.has_paid()
     }
 
-    /// Which of the next group are tried, and the first of them.
+    /// Returns which packets of the next group are tried, and the place of the first.
     #[inline(always)]
     pub(super) fn tries(&mut self) -> (Places, usize) {
         let mut places = 0;
@@ -114,7 +115,7 @@ impl PacketPatience {
         (places, usize::from(self.first))
     }
 
-    /// Takes what became of those that were tried: which of them paid, and which did work in vain.
+    /// Takes the outcome of a try: which packets were tried, which paid, and which did work in vain.
     #[inline(always)]
     pub(super) fn take(&mut self, [tried, paid, in_vain]: [Places; 3], gaps: [u8; 2]) {
         self.any.take((paid != 0, in_vain != 0), gaps);

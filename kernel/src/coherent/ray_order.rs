@@ -3,23 +3,26 @@
 //! # Method
 //!
 //! Groups pay where rays that are near each other are in one packet. Shuffled rays have neighbours as near as sorted ones,
-//! only not in their packets. So some rays, from all of them, are looked at, and tell what all have in common:
+//! only not in their packets. So a sample of the rays is looked at, and shows what all have in common:
 //!
-//! - Rays that start in one point (a camera) are sorted by direction; in a tree that is far from the core those that end in
-//!   one (a light), too. (In one that is near they gain 1.02 to 1.2, but in chains and a shell they run at 0.8.)
+//! - Rays that start in one point (a camera) are sorted by direction. In a tree that is far from the core rays that end in
+//!   one point (a light) are, too. (In a near tree these run 1.02 to 1.2 times as fast sorted, but at 0.8 of the speed in chains and a
+//!   shell.)
 //! - Rays that are nearly parallel (a beam, a sun) are sorted by where they cross a plane.
-//! - Others make no groups. But in a tree that is far they gain by being sorted by where they start, since rays of one place read
-//!   one part of the tree: those whose closest hit is asked, and of any hit those that end somewhere (at several lights, or near
-//!   by). (Any hits of rays without an end: 0.74 to 0.9.)
+//! - Others make no groups. But in a far tree they gain by being sorted by where they start, since rays of one place read
+//!   one part of the tree. This holds for closest hits, and for any hits of rays that end somewhere (at several lights, or near
+//!   by). (Any hits of rays without an end ran at 0.74 to 0.9 of the speed.)
 //!
-//! A key is a cell of a grid, on a Z curve (Morton 1966). Rays of which most have a neighbour of their own cell are in order
-//! already. For closest hits in a tree that is near eight groups are tried first, of rays that would come together: unless most of
-//! them go through, at little cost, streams are faster (60,000 spheres in clusters, a shuffled camera: 0.7). Any hits gain all the same.
+//! A key is a cell of a grid, on a Z curve (Morton 1966). Rays are in order already if most have a neighbour in their own cell.
+//! For closest hits in a near tree eight groups are tried first, each of rays that sorting would bring together. Unless most of the
+//! groups go through, at little cost, streams are faster (60,000 spheres in clusters, a shuffled camera: sorted, 0.7 of the speed). Any
+//! hits gain in any case.
 //!
-//! To make keys takes 5 ns a ray, to sort them 10, and to take rays and to write answers in that order 20. Times the speed
-//! of the same call without, 65,536 rays, AVX-512, closest and any: a shuffled camera 1.9 and 1.9 among 10,000 spheres, 3.1 and
+//! Making keys takes 5 ns a ray, sorting them 10, and taking rays and writing answers in that order 20. The speed in multiples of
+//! that of the same call unsorted, 65,536 rays, AVX-512, closest and any: a shuffled camera 1.9 and 1.9 among 10,000 spheres, 3.1 and
 //! 2.1 among nested ones, 1.1 and 1.2 among a million; a beam 1.9 and 2.0, 3.5 and 2.6, 1.2 and 1.4; diffuse rays among a million 1.4
-//! and 1. Lost: closest hits of rays all around from a point among a million 0.89 to 0.95; where a trial is in vain 0.93 to 0.97.
+//! and 1. Slower are closest hits of rays all around from a point among a million, 0.89 to 0.95, and calls whose trial is in vain, 0.93
+//! to 0.97.
 
 mod keys;
 
@@ -34,24 +37,25 @@ use keys::{BITS, Key};
 
 pub(crate) use keys::{MOST, RayKeys};
 
-/// The fewest rays that gain by groups, and by starting near each other. (Any hits of 16,384: 1.2 to 2.1 for shuffled cameras and beams among
-/// nested spheres and 10,000, but 0.5 to 0.9 in chains, 0.7 to 0.9 along an axis and nearly parallel, 0.9 among a million. With a trial
-/// these lose a fifth, and the mean of six scenes is 0.95. Closest hits 0.94; of 8,192 rays 0.88, any 0.95.)
+/// The fewest rays that gain by groups, and by starting near each other. (Sorted, any hits of 16,384 rays ran at 1.2 to 2.1 of the
+/// speed for shuffled cameras and beams among nested spheres and 10,000, but at 0.5 to 0.9 in chains, 0.7 to 0.9 along an axis and
+/// nearly parallel, 0.9 among a million. With a trial these lose a fifth, and the mean of six scenes is 0.95. Closest hits ran at 0.94;
+/// closest hits of 8,192 rays at 0.88, any hits at 0.95.)
 pub(crate) const FEWEST_IN_GROUPS: usize = 24_000;
 const FEWEST: usize = 2048;
-/// Trees of more bytes are far from the core. (Of 2 MB, diffuse rays that are sorted by where they start lose a fifth; of 4 and 5 MB
-/// a twentieth, and rays to a light gain as much.)
+/// Trees of more bytes are far from the core. (In a tree of 2 MB, diffuse rays that are sorted by where they start lose a fifth; in
+/// trees of 4 and 5 MB they lose a twentieth, and rays to a light gain as much.)
 const FAR: usize = 1 << 23;
-/// So many rays are looked at, and so many after each.
+/// How many rays are looked at, and how many after each.
 const LOOKED_AT: usize = 256;
 const AFTER: usize = 4;
-/// One of the first is as most are, where there are some others among them.
+/// Of so many first rays one is like most, even if some others are among them.
 const FIRST: usize = 4;
-/// Rays are in order if most have a neighbour in their cell, of 2^8 rays.
+/// Rays are in order if most have a neighbour in their cell, where a cell is of 2^8 rays.
 const TOGETHER: u32 = 8;
-/// Points are one if they are within such a share of the scene's size: of a light's, which rays end in, each has an error of rounding.
+/// Points count as one if they are within such a share of the scene's size: rays to one light end with rounding errors of their own.
 const ONE_POINT: f32 = 1.0 / (1 << 20) as f32;
-/// Groups that are tried, rays of each, and rays of the cell that they are from: 2^6.
+/// How many groups are tried, how many rays each has, and how many the cell that they are from: 2^6.
 pub(crate) const GROUPS_TRIED: usize = 8;
 pub(crate) const RAYS_OF_A_GROUP: usize = 64;
 const CROWD: u32 = 6;
@@ -63,7 +67,7 @@ pub struct GainByOrder {
     pub(crate) in_groups: bool,
     /// Whether the tree is far from the core.
     pub(crate) is_far: bool,
-    /// Whether others gain by starting near each other.
+    /// Whether other rays gain by starting near each other.
     pub(crate) by_start: bool,
     /// Whether any hit is asked.
     pub(crate) is_any: bool,
@@ -72,7 +76,7 @@ pub struct GainByOrder {
 }
 
 impl GainByOrder {
-    /// Whether so many rays may gain.
+    /// Returns whether so many rays may gain.
     #[inline(always)]
     pub(crate) fn is_for(&self, rays: usize) -> bool {
         (self.in_groups && rays >= FEWEST_IN_GROUPS) || (self.by_start && rays >= FEWEST)
@@ -80,10 +84,10 @@ impl GainByOrder {
 }
 
 impl RayKeys {
-    /// Those by which rays gain if they are sorted; `None` if they are in that order, or if there is none.
+    /// Returns the keys that rays gain by being sorted by; `None` if they are in that order already, or if no keys pay.
     #[inline(never)]
     pub(crate) fn of(rays: &ManyRays<'_>, gain: GainByOrder) -> Option<Self> {
-        // Odd: of two cameras by turns both are seen.
+        // Odd, so that rays of both are seen if two cameras take turns.
         let step = (rays.count() / LOOKED_AT).saturating_sub(1) | 1;
         let mut looked_at = [Ray::new(Vec3::ZERO, Vec3::ZERO); LOOKED_AT];
         let mut count = 0;
@@ -101,7 +105,7 @@ impl RayKeys {
         let within = gain.radius * ONE_POINT;
         let in_groups = gain.in_groups && rays.count() >= FEWEST_IN_GROUPS;
         let start = |ray: &Ray| ray.origin;
-        // (Not a number if it has none.)
+        // (Not finite if a ray has no end.)
         let end = |ray: &Ray| ray.origin + ray.direction * ray.t_max;
         let is_light = in_groups && gain.is_far && are_one_point(some, end, within);
         if is_light || (in_groups && are_one_point(some, start, within)) {
@@ -123,15 +127,15 @@ impl RayKeys {
         (4 * in_order < 3 * LOOKED_AT).then_some(keys)
     }
 
-    /// Whether groups are to be tried before all are sorted: of closest hits, in a tree that is near. (In one that is far, too, few pass:
-    /// among a million spheres rays all around from a point 1.0 of the speed unsorted, in place of 0.92, but a beam 1.0, in place of 1.35, and
-    /// rays to a light 0.7 to 1.0, in place of 1.1 to 1.3.)
+    /// Returns whether groups are to be tried before all rays are sorted: for closest hits in a near tree. (If they are tried in a far
+    /// tree, too, few pass: among a million spheres rays all around from a point run at 1.0 of the speed unsorted, instead of 0.92, but a
+    /// beam at 1.0, instead of 1.35, and rays to a light at 0.7 to 1.0, instead of 1.1 to 1.3.)
     pub(crate) fn needs_a_trial<Q: Query>(&self, gain: GainByOrder) -> bool {
         !Q::ANY && !gain.is_far && self.key != Key::Start
     }
 }
 
-/// Whether a tree is so far from the core that rays gain by sharing what they read.
+/// Returns whether a tree is so far from the core that rays gain by sharing what they read.
 pub(super) fn is_far(bvh: &Bvh<'_>) -> bool {
     bytes_of(bvh) > FAR
 }
@@ -142,15 +146,15 @@ pub(crate) fn sort(places: &mut [u32], others: &mut [u32]) {
     radix_sort(places, others, BITS / 8, |place| place >> BITS);
 }
 
-/// Writes rays of some cells into `groups`, as they would come one after the other if all were sorted; returns how many are in
-/// each.
+/// Writes rays of some cells into `groups`: rays that would come one after the other if all were sorted. Returns how many are in
+/// each group.
 #[inline(never)]
 pub(crate) fn gather_some(
     rays: &ManyRays<'_>,
     places: &[u32],
     groups: &mut [[Ray; RAYS_OF_A_GROUP]; GROUPS_TRIED],
 ) -> [usize; GROUPS_TRIED] {
-    /// At most so many cells, since rays are at most 2^16.
+    /// The most cells, since there are at most 2^16 rays.
     const CELLS: usize = MOST >> CROWD;
     const NONE: u8 = GROUPS_TRIED as u8;
     let least = (places.len() | 1).ilog2() + 1;
@@ -182,7 +186,7 @@ pub(crate) const fn number_of(place: u32) -> usize {
     place as usize % MOST
 }
 
-/// Whether a point of most of those rays is the same, as it is for one of the first.
+/// Returns whether most of the rays have the same `point` as one of the first has.
 fn are_one_point(rays: &[Ray], point: impl Fn(&Ray) -> Vec3, within: f32) -> bool {
     rays.iter().take(FIRST).any(|one| {
         let one = point(one);
@@ -190,7 +194,7 @@ fn are_one_point(rays: &[Ray], point: impl Fn(&Ray) -> Vec3, within: f32) -> boo
     })
 }
 
-/// Whether something holds for seven of eight.
+/// Returns whether something holds for seven of eight rays.
 fn are_most(rays: &[Ray], holds: impl Fn(&Ray) -> bool) -> bool {
     8 * rays.iter().filter(|ray| holds(ray)).count() >= 7 * rays.len() && !rays.is_empty()
 }

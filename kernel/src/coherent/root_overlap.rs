@@ -1,11 +1,11 @@
-//! Whether the rays of a group meet the same children of the root: told before the group goes further down.
+//! Whether the rays of a group meet the same children of the root: estimated before the group goes further down.
 //!
 //! # Method
 //!
-//! The group's frustum says which children it enters, and the rays of one packet how many of those a ray enters. What a child
-//! takes a group, with what lies below, is held against what its rays take by themselves. (`giving_up.rs` asks the same of all that a
-//! group has done, but only when that is as much as all rays take to look into the root: of rays that meet little, that is
-//! more than they take in all.)
+//! The group's frustum says which children the group enters, and the rays of one packet say how many of those a ray enters. The work
+//! of the group for these children, with what lies below, is compared with the work of its rays by themselves. (`giving_up.rs` compares
+//! all that a group has done, but only once that is as much as all rays take to look into the root. Rays that meet little take less
+//! than that in all.)
 
 use super::giving_up::live_rays;
 use super::packet_state::PacketState;
@@ -14,18 +14,19 @@ use crate::bvh::traverse::boxes::enter_about;
 use crate::lanes::{LaneMask, Lanes};
 use crate::query::Query;
 
-/// What a child and what lies below it take a group: six nodes; what a ray takes by itself to begin, to end and to look into the root; and
-/// what a child takes it: a node. In the units of [`Effort`](super::effort::Effort). (Zen 5, 65 to 256 parallel rays through 50,000
-/// spheres far apart: 1.1 to 1.3 times as fast; closest hits of 128 parallel rays over a large sphere, 1.08 to 1.15. If single
-/// packets are asked too, bursts of 16 rays among flakes have 0.2 to 0.4 of the speed.)
+/// What a child, with what lies below it, takes a group: six nodes; what beginning, ending and looking into the root take a ray by
+/// itself; and what a child takes it: a node. In the units of [`Effort`](super::effort::Effort). (Zen 5: 65 to 256 parallel rays through
+/// 50,000 spheres far apart run 1.1 to 1.3 times as fast, closest hits of 128 parallel rays over a large sphere 1.08 to 1.15 times. If
+/// packets that are tried alone are checked, too, bursts of 16 rays among flakes run at 0.2 to 0.4 of the speed.)
 const GROUP_CHILD: u32 = 96;
 const RAY: u32 = 2;
 const RAY_CHILD: u32 = 5;
-/// For any hit much more, since a group that has hit enters no other child. (As much as for closest hits: 128 and 512 rays of a long lens over a
-/// large sphere have 0.5 to 0.6 of the speed. If nothing is asked for any hit, parallel rays through spheres far apart have 0.9.)
+/// The same for any hit: much more, since a group that has hit enters no other child. (With as much as for closest hits, 128 and 512
+/// rays of a long lens over a large sphere run at 0.5 to 0.6 of the speed. Without a check for any hit, parallel rays through spheres
+/// far apart run at 0.9.)
 const RAY_CHILD_OF_ANY: u32 = 40;
 
-/// Whether it is worth it that a group enters those children of the root.
+/// Returns whether it pays that a group enters the children `places` of the root.
 #[inline(always)]
 pub(super) fn pays<L: Lanes, Q: Query>(
     states: &[PacketState<'_, L>],
@@ -82,7 +83,7 @@ mod tests {
             [Kind::GroupFit, Kind::GroupNode].map(|kind| work.count(kind))
         };
 
-        // Groups enter the root, and nothing else; packets that are tried alone are not asked.
+        // Groups enter the root, and nothing else; packets that are tried alone are not checked.
         let [tried, entered] = nodes(&beam(310.0, Vec3::ZERO));
         assert!(tried > 0 && entered <= tried + tried / 2, "{tried} groups, {entered} nodes");
         // Rays that are side by side go on.

@@ -11,16 +11,16 @@ use crate::numeric::axes::axes;
 
 /// A survey of packets that follow each other.
 pub(super) struct Survey {
-    /// How many, from the first on, have a viewpoint in common and run the same way.
+    /// How many packets, from the first on, have a viewpoint in common and run the same way.
     pub(super) packets: usize,
-    /// What their rays cannot leave, and the greatest depth of the list that one goes to.
+    /// What their rays cannot leave, and the greatest depth of the list that a ray goes to.
     pub(super) frustum: Frustum,
     pub(super) reach: f32,
     /// Of the tier.
     pub(super) spread: f32,
 }
 
-/// How deep the rays of a packet go, raised by the margin: their s beyond that at which they start.
+/// Returns how deep the rays of a packet go, raised by the margin: the depth at which they start, and their s.
 #[inline(always)]
 pub(super) fn reaches<L: Lanes>(view: &View, best: L, origin: [L; 3], absolute_error: L) -> L {
     best + view.start_depth(origin) + absolute_error * absolute_error.like(16.0)
@@ -30,8 +30,8 @@ impl Survey {
     /// Of no packet.
     const NONE: Self = Self { packets: 0, frustum: Frustum::NONE, reach: 0.0, spread: 0.0 };
 
-    /// Of packets against spheres that are scaled by that factor and have that extent, by a tier of that spread; of
-    /// no packet, if the first does not fit.
+    /// For packets against spheres that are scaled by a factor and have an extent, by a tier that has a spread: these are `size`.
+    /// Returns a survey of no packet if the first does not fit.
     #[inline(always)]
     pub(super) fn new<L: Lanes>(
         token: L::Token,
@@ -52,7 +52,7 @@ impl Survey {
         }
     }
 
-    /// `None` if a direction has no usual length, unless `ANY_LENGTH` will do.
+    /// Returns `None` if a direction has no usual length, unless `ANY_LENGTH` is set.
     #[inline(always)]
     fn of<L: Lanes, const ANY_LENGTH: bool>(
         token: L::Token,
@@ -75,7 +75,7 @@ impl Survey {
         }
         let (along, sign) = heading(first);
         let (k, [i, j]) = (along % 3, across(along));
-        // Rays of a common direction have its slopes, and bound offsets; others bound slopes.
+        // Rays of a common direction have its slopes, and bound only offsets; others bound slopes.
         let common = [[first[i % 3] * (sign / first[k]); 2], [first[j % 3] * (sign / first[k]); 2]];
         let turned = Fit::along(along, sign, 0.0, spread).turned(common);
         let parallel = matches!(view, View::Parallel { .. });
@@ -138,7 +138,7 @@ impl Survey {
     }
 }
 
-/// Rays in the frame, of usual lengths unless `ANY_LENGTH` will do.
+/// Returns the rays in the frame, which have usual lengths unless `ANY_LENGTH` is set.
 #[inline(always)]
 fn prepared<L: Lanes, const ANY_LENGTH: bool>(
     view: &View,

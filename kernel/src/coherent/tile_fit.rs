@@ -3,11 +3,11 @@
 //! # Method
 //!
 //! The points of a camera's pixels are an affine function of their indices. So are the origins of a parallel projection,
-//! and what planes of one slope lie at; and in perspective a slope is the quotient of two such functions. Neither is
+//! and the offsets of planes of one slope. In perspective a slope is the quotient of two such functions. Neither an offset nor a slope is
 //! larger within a tile than at one of its four corner pixels, as long as the divisor keeps its sign.
-//! Rounding moves each point by up to `CameraTiles::point_error`: slopes, or offsets, are moved outward by what
-//! that can be, at a corner and at the pixel that it bounds. Four tiles are done at once, a lane each; no
-//! ray is looked at but the first. Proof: `docs/traversal-margins.md`.
+//! Rounding moves each point by up to `CameraTiles::point_error`. Slopes, or offsets, are moved outward by what
+//! that can amount to, at a corner and at the pixel that it bounds. Four tiles are done at once, a lane each; only the
+//! first ray is looked at. Proof: `docs/traversal-margins.md`.
 
 use super::fit::{ALONG, Fit, greatest_of, heading, spread_of};
 use super::frustum::{Frustum, Sides, across, margin, turn};
@@ -19,22 +19,22 @@ use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::{axes, dot};
 use wide::f32x4;
 
-/// How often the error of a point counts: at a corner and at a pixel, and a quarter for what is of second order.
+/// How often the error of a point counts: at a corner and at a pixel, and a quarter of both for what is of second order.
 pub(crate) const ERRORS: f32 = 2.5;
-/// The most of the least depth that a point may be off.
+/// The error of a point is at most such a part of the least depth.
 pub(crate) const SMALL: f32 = 1.0 / 64.0;
 /// 2^100: with a larger error a point may not be finite.
 const MOST_ERROR: f32 = (1_u128 << 100) as f32;
 /// 14^2: where |n_k| is at least 1/14 at the corners, it is at least 1/16 in between.
 const STRAIGHT: f32 = 196.0;
-/// Slopes that are moved by more of their range would make planes too wide: there rays are looked at.
+/// Slopes that are moved by a larger part of their range would make planes too wide: then rays are looked at.
 const WIDE: f32 = 1.0 / 16.0;
 
 /// Least and greatest of each axis across, a lane a tile; the least with the sign changed, so that each is a maximum.
 type Ranges = [[f32x4; 2]; 2];
 
-/// What the rays of whole tiles cannot leave, and the same for each packet; `None` if corners do not tell: rays are
-/// not covered, or were moved; they run too far aslant, or rounding moves them by too much.
+/// Returns what the rays of whole tiles cannot leave, and sets the planes around each packet. Returns `None` if corners do not tell:
+/// rays are not covered, or were moved, or run too far aslant, or rounding moves them by too much.
 #[inline(always)]
 pub(super) fn enclose<L: Lanes>(
     tiles: &CameraTiles<'_>,
@@ -76,7 +76,7 @@ pub(super) fn enclose<L: Lanes>(
     };
     let fit = Fit::along(along, sign, error, spread_of(spread, extent, error));
 
-    // Each packet's planes. Slopes are moved for rays once more, and become slopes per x_k; as `Fit::sides` does it.
+    // Each packet's planes. Slopes are moved once more, for rays, and become slopes per x_k, as in `Fit::sides`.
     let (signs, steepest) = (f32x4::splat(sign), steepest(&slopes));
     let turn = turn(steepest);
     let margins = margin(steepest, f32x4::splat(error));
@@ -96,7 +96,7 @@ pub(super) fn enclose<L: Lanes>(
         }
     }
 
-    // The same for all together.
+    // The planes around all packets together.
     let mut all = [[0.0; 2]; 2];
     for side in 0..2 {
         all[side] = [-slopes[side][0].filter_greatest(), slopes[side][1].filter_greatest()];
@@ -124,8 +124,8 @@ pub(super) fn enclose<L: Lanes>(
     Some((fit, Frustum { sides, sign, start: start - margin(0.0, error), end: f32::MAX }))
 }
 
-/// The points of the corner pixels of tiles, a lane a tile: directions in perspective, origins in parallel projection. (As a record
-/// a tile: u64 at 0.77 of the speed, AVX-512.)
+/// The points of the corner pixels of tiles, a lane a tile: directions in perspective, origins in parallel projection. (With a record
+/// for each tile u64 runs at 0.77 of the speed, AVX-512.)
 pub(crate) struct Points {
     pub(crate) at_corners: [[f32x4; 3]; 4],
     /// How far a point may be off.
@@ -135,8 +135,8 @@ pub(crate) struct Points {
 }
 
 impl Points {
-    /// Of directions: the slopes per depth; `None` if one runs too far aslant for its rays, or is off too much. A
-    /// range is looked at only `if_wide`: that of one pixel is zero.
+    /// For points that are directions: returns the slopes per depth; `None` if one runs too far aslant for its rays, or is off by too
+    /// much. Their range is checked only `if_wide`, since the range of one pixel is zero.
     #[inline(always)]
     pub(crate) fn slopes(&self, if_wide: bool) -> Option<Ranges> {
         let (k, sign) = (self.heading.0 % 3, f32x4::splat(self.heading.1));
@@ -163,7 +163,7 @@ impl Points {
         let per_depth = f32x4::splat(-ERRORS) / minus_nearest;
         for side in 0..2 {
             let off = self.off(side, steepest) * per_depth;
-            // Neither it nor a slope is a number if a depth has no inverse.
+            // Neither `off` nor a slope is a number if a depth has no inverse.
             fits = fits & off.lt(f32x4::splat(f32::INFINITY));
             let [minus_low, high] = slopes[side];
             if if_wide {
@@ -174,7 +174,7 @@ impl Points {
         if fits.bits() == 15 { Some(slopes) } else { None }
     }
 
-    /// Of origins: where planes of those slopes lie, moved outward by the margins, too.
+    /// For points that are origins: returns the offsets of planes of those slopes, moved outward by the margins, too.
     #[inline(always)]
     pub(crate) fn offsets(
         &self,
@@ -201,7 +201,7 @@ impl Points {
         offsets
     }
 
-    /// Of origins: the least depth.
+    /// For points that are origins: returns the least depth.
     #[inline(always)]
     fn start(&self, factor: f32) -> f32 {
         let (along, sign) = self.heading;
@@ -213,14 +213,14 @@ impl Points {
         -minus_start.filter_greatest() - ERRORS * factor * self.error[along % 3]
     }
 
-    /// At least each of the errors; NaN if one is.
+    /// Returns at least the largest of the errors; NaN if one is NaN.
     #[inline(always)]
     fn error_together(&self) -> f32 {
         let [x, y, z] = self.error;
         x + y + z
     }
 
-    /// e_i + |w| e_k, for the errors of a point and that slope.
+    /// Returns e_i + |w| e_k, for the errors e of a point and a slope w.
     #[inline(always)]
     fn off(&self, side: usize, slope: f32x4) -> f32x4 {
         let k = self.heading.0 % 3;
@@ -228,7 +228,7 @@ impl Points {
     }
 }
 
-/// The slopes of a common unit direction; `None` if it runs too far aslant.
+/// Returns the slopes of a common unit direction; `None` if it runs too far aslant.
 #[inline(always)]
 fn shared_slopes(direction: [f32; 3], (along, sign): (usize, f32)) -> Option<Ranges> {
     let depth = direction[along % 3] * sign;
@@ -243,7 +243,7 @@ fn shared_slopes(direction: [f32; 3], (along, sign): (usize, f32)) -> Option<Ran
     Some(slopes)
 }
 
-/// Where planes of those slopes lie that a common origin is between.
+/// Returns the offsets of planes of those slopes around a common origin.
 #[inline(always)]
 fn offsets_from(origin: [f32; 3], along: usize, slopes: &Ranges, margins: f32x4) -> Ranges {
     let mut offsets = *slopes;

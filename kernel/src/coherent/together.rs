@@ -16,7 +16,7 @@ use core::ops::Range;
 /// Packets of a run that go ray by ray.
 pub(super) struct Apart {
     pub(super) packets: PacketSet,
-    /// Whether all do, and nothing is known of any.
+    /// Whether all packets do, and nothing is known of any.
     pub(super) are_all: bool,
 }
 
@@ -24,12 +24,12 @@ pub(super) struct Apart {
 pub(super) struct Together<'a> {
     pub(super) boxes: &'a mut Boxes,
     pub(super) learnt: &'a mut Learnt,
-    /// How many groups are passed over after one in vain, at first and at most.
+    /// How many groups are passed over after a try in vain, at first and at most.
     pub(super) gaps: [u8; 2],
 }
 
 impl Together<'_> {
-    /// Answers the groups and packets of a run that pay; the others are those `apart` then, with answers so far.
+    /// Answers the groups and packets of a run that pay; puts the other packets into `apart`, with the answers so far.
     #[inline(always)]
     pub(super) fn answer<L: Lanes, Q: Query>(
         &mut self,
@@ -54,7 +54,7 @@ impl Together<'_> {
                 let mut states = states_of::<L>(token, packets, &inactive, bvh.scale.factor);
                 let states = states.get_mut(..packets.len()).unwrap_or_default();
                 let count = states.len();
-                // Four together, then each alone: by one call, since it is compiled where it is called.
+                // Four together, then each alone: by one call, since each call is compiled anew.
                 let (mut alone, mut waiting) =
                     (!tries_group, tried_apart & !(Places::MAX << count));
                 let (mut tried, mut paid, mut in_vain) = (0, 0, 0);
@@ -70,7 +70,7 @@ impl Together<'_> {
                         waiting &= !(1 << place);
                         these = place..place + 1;
                     }
-                    // Those that gave up have taken what was known.
+                    // Packets whose group gave up have taken what was known.
                     let is_new = ends[these.start % GROUP] == Ended::Unfit;
                     let known = if is_new { at + these.start..at + these.end } else { 0..0 };
                     let known = answers.get(known).unwrap_or_default();
@@ -82,8 +82,8 @@ impl Together<'_> {
                     } else {
                         self.learnt.groups[kind].has_paid()
                     };
-                    // A call of its own: compiled into this function, its loops moved with changes that do not concern them
-                    // (baseline, nested spheres by a scanner: 0.57 to 0.80 of ray by ray).
+                    // Out of line: when it was compiled into this function, changes that do not concern its loops moved them
+                    // (baseline, a scanner's rays among nested spheres: 0.57 to 0.80 of the speed of ray by ray).
                     let ended = L::out_of_line(
                         token,
                         #[inline(always)]
@@ -98,7 +98,7 @@ impl Together<'_> {
                     if !alone {
                         let outcome = (ended == Ended::Through, ended.is_in_vain());
                         self.learnt.groups[kind].take(outcome, self.gaps);
-                        // Half of a group that gave up would do so, too.
+                        // Each half of a group of two that gave up would give up, too.
                         let are_few = count < 2 || (count == 2 && ended == Ended::GaveUp);
                         if ended.is_answered() || are_few {
                             break;
@@ -109,7 +109,7 @@ impl Together<'_> {
                         tried |= place;
                         paid |= if ended == Ended::Through { place } else { 0 };
                         in_vain |= if ended.is_in_vain() { place } else { 0 };
-                        // Where the first is too wide, so are most.
+                        // If the first packet is too wide, most are.
                         if ended.is_in_vain() && tried == place {
                             break;
                         }

@@ -2,12 +2,12 @@
 //!
 //! # Method
 //!
-//! Up to four packets - 64 rays of 16 lanes - go down the tree as one group: a node's children are
-//! tested against the group's [frustum](super::frustum), not against rays, nearest first; so are the
-//! spheres of a leaf, and those inside against the narrower planes of each packet; what is left
-//! is tested against the packet's rays, a ray a lane (`packet_state.rs`). The depth beyond which nothing
+//! Up to four packets - 64 rays of 16 lanes - go down the tree as one group. A node's children are
+//! tested against the group's [frustum](super::frustum), not against rays, and entered nearest first. So are the
+//! spheres of a leaf tested; those inside are tested against the narrower planes of each packet, and those still
+//! left against the packet's rays, a ray a lane (`packet_state.rs`). The depth beyond which nothing
 //! matters shrinks with every hit. A group that does more than its rays would have done apart gives up
-//! (`giving_up.rs`), at the root if its rays meet few of the children that it enters (`root_overlap.rs`).
+//! (`giving_up.rs`), at the root already if its rays meet few of the children that it enters (`root_overlap.rs`).
 //!
 //! A group is traced so if its rays start at t >= 0, run the same way along an axis, and are
 //! narrow (`fit.rs`).
@@ -42,7 +42,7 @@ pub(super) const NARROW: f32 = 0.5;
 const STACK: usize = 256;
 const _: () = assert!(STACK >= (WIDTH - 1) * DEPTH + WIDTH);
 
-/// The packets of a group; those past its end are `inactive`. (In a loop, or by a function of its own, the kernel takes
+/// Returns the packets of a group; those past its end are `inactive`. (With a loop, or a function of its own, the kernel takes
 /// a twentieth less to compile, and a tenth longer on u10k.)
 #[inline(always)]
 pub(super) fn states_of<'a, L: Lanes>(
@@ -75,7 +75,7 @@ fn state_of<L: Lanes>(
     PacketState::new(packet, &ScaledRays::new(&RayLanes::load(token, packet), factor))
 }
 
-/// What is no place of a child: the root is there, as long as it waits.
+/// The place of the root, as long as it waits: no child has this place.
 const ROOT: u32 = u32::MAX;
 
 /// How a group ended.
@@ -83,22 +83,22 @@ const ROOT: u32 = u32::MAX;
 pub(super) enum Ended {
     /// All of its rays are answered.
     Through,
-    /// The same, by more work than its rays would have done apart.
+    /// All of its rays are answered, but by more work than they would have done apart.
     AtALoss,
-    /// It did more than its rays would have done apart, or would have: what they have hit may not be the closest.
+    /// It did, or would have done, more than its rays apart: the hits so far may not be the closest.
     GaveUp,
     /// Its rays do not look the same way, or are too few: nothing was done.
     Unfit,
 }
 
 impl Ended {
-    /// Whether all rays are answered.
+    /// Returns whether all rays are answered.
     #[inline(always)]
     pub(super) fn is_answered(self) -> bool {
         matches!(self, Self::Through | Self::AtALoss)
     }
 
-    /// Whether more was done than its rays would have done apart.
+    /// Returns whether the group did more than its rays would have done apart.
     #[inline(always)]
     pub(super) fn is_in_vain(self) -> bool {
         matches!(self, Self::AtALoss | Self::GaveUp)
@@ -121,8 +121,8 @@ impl Boxes {
         Self { depths: [0.0; STACK], places: [ROOT; STACK], top: 0, efforts }
     }
 
-    /// Traces one group, of which the answers outside of the tree are `known`, if there are any. What is not trusted gives up
-    /// sooner.
+    /// Traces one group. Its answers from spheres outside of the tree are `known`, if there are any. A group that is not trusted
+    /// gives up sooner.
     #[inline(always)]
     pub(super) fn trace<L: Lanes, Q: Query>(
         &mut self,
@@ -178,7 +178,7 @@ impl Boxes {
             self.top -= 1;
             let at = self.top & (STACK - 1);
             let (depth, place) = (self.depths[at], self.places[at]);
-            // At the end, too, nothing matters: it is raised by more than an answer is off. So `>=` would be as right.
+            // At the end itself nothing matters either, since the end is raised by more than an answer is off: `>=` would be as right.
             if depth > frustum.end {
                 continue;
             }
@@ -252,7 +252,7 @@ impl Boxes {
             let place = places.trailing_zeros() as usize % WIDTH;
             places &= places - 1;
             let depth = inside.depths[place];
-            // Sink below what is nearer.
+            // The box sinks below nearer ones.
             let mut at = self.top;
             while at > base && self.depths[(at - 1) & (STACK - 1)] < depth {
                 self.depths[at & (STACK - 1)] = self.depths[(at - 1) & (STACK - 1)];

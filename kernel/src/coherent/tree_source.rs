@@ -3,10 +3,10 @@
 //! # Method
 //!
 //! Packets are tried in groups of four (`tree_group.rs`), since a group that looks the same way does the work of one
-//! ray for all of its rays. A group that does not fit, or gives up since it does not pay, is tried packet by packet. Rays
-//! of what is left go by themselves (`bvh/traverse/wavefront.rs`), with what their group has learnt, in runs that are as
+//! ray for all of its rays. A group that does not fit, or gives up since it does not pay, is tried packet by packet. The rays
+//! that are left go by themselves (`bvh/traverse/wavefront.rs`), with what their group has learnt, in runs that are as
 //! long as can be; or, with memory for it, as a stream. Where tries do not pay, few are made (`patience.rs`): rays that
-//! have nothing in common hardly pay for being asked.
+//! have nothing in common hardly pay for a try.
 
 use super::learnt::{Learnt, kind_of};
 use super::packet_source::PacketSource;
@@ -32,9 +32,9 @@ use crate::query::Query;
 #[cfg_attr(not(feature = "std"), expect(unreachable_pub, reason = "a trait of levels names it"))]
 pub struct Ways<'a> {
     pub(crate) coherence: Coherence,
-    /// Of the caller's.
+    /// Memory of the caller's.
     pub(crate) lent: Option<StreamMemory<'a>>,
-    /// Taken if none is lent.
+    /// Memory that is taken if none is lent.
     #[cfg(feature = "alloc")]
     pub(crate) kept: &'a mut KeptMemory,
     pub(crate) learnt: &'a mut Learnt,
@@ -42,7 +42,7 @@ pub struct Ways<'a> {
     pub(crate) alone: Option<Alone<'a>>,
 }
 
-/// Of up to 64 packets those that do not go together, if they are so few: left to the caller, a bit each.
+/// Of up to 64 packets those that do not go together, a bit each: left to the caller, if there are at most `most`.
 #[derive(Debug)]
 #[cfg(feature = "std")]
 #[expect(unreachable_pub, reason = "a field of a public type has it")]
@@ -52,7 +52,7 @@ pub struct Alone<'a> {
 }
 
 impl Ways<'_> {
-    /// Memory for streams of so many rays that go by themselves; what is said to be incoherent gets what is lent alone.
+    /// Returns memory for streams of so many rays that go by themselves; rays that are said to be incoherent get only lent memory.
     #[inline(always)]
     fn memory<Q: Query>(&mut self, bvh: &Bvh<'_>, rays: usize) -> Option<StreamMemory<'_>> {
         #[cfg(feature = "alloc")]
@@ -65,19 +65,19 @@ impl Ways<'_> {
     }
 }
 
-/// So few spheres are met as a list is. (AVX-512 and AVX2, rays that have nothing in common: one takes 0.35 of the time as a
-/// list, two 0.7, four 0.8 to 1.0, eight 1.2.)
+/// A tree of at most so many spheres is traced as a list. (Rays that have nothing in common, AVX-512 and AVX2: as a list, one sphere
+/// takes 0.35 of the time, two take 0.7, four 0.8 to 1.0, eight 1.2.)
 const LISTED: usize = 4;
-/// So many packets at a time, which are still in the nearest cache when they are answered.
+/// How many packets are made at a time: they are still in the nearest cache when they are answered.
 const LISTED_PACKETS: usize = 16;
 
-/// Whether a tree is met as a list.
+/// Returns whether a tree is traced as a list.
 #[inline(always)]
 pub(crate) fn is_listed(bvh: &Bvh<'_>) -> bool {
     bvh.spheres.len() <= LISTED
 }
 
-/// Answers every ray: incoherent ones ray by ray; of others the groups and packets that pay together.
+/// Answers every ray: incoherent rays one by one, others in the groups and packets that pay.
 #[inline(always)]
 pub(crate) fn traverse<L: Lanes, Q: Query>(
     tier: impl Accuracy,
@@ -89,8 +89,8 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
 ) {
     let count = source.count().min(answers.len());
     let (coherence, is_listed) = (ways.coherence, is_listed(bvh));
-    // What no bound sees is met first, by all packets: all begin with what they have hit of it.
-    // (Tiles are made once more below then: such spheres are rare, and whether tiles are whole is told as they are made.)
+    // Spheres that no bound sees are tested first, for all packets: all begin with these hits.
+    // (Tiles are then made once more below: such spheres are rare, and whether tiles are whole is known only as they are made.)
     let is_met_first = is_listed | !bvh.outside.is_empty();
     if coherence == Coherence::Incoherent && !is_listed {
         source.make::<L>(token, 0..count);
@@ -158,7 +158,7 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
                 let is_alone = number < whole || apart.packets.contains(number - run);
                 *alone.packets |= u64::from(is_alone) << (number % 64);
             }
-            // What was there before is no answer.
+            // What `answers` held before is no answer.
             if coherence == Coherence::Incoherent
                 && bvh.outside.is_empty()
                 && let Some(answers) = answers.get_mut(from..end)
@@ -172,7 +172,7 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
             (from, run) = (end, end);
             continue;
         }
-        // One call, since it is compiled where it is called.
+        // One call, since each call is compiled anew.
         let runs = [(from, whole, None), (whole, end, Some(&apart.packets))];
         for number in 0..runs.len() {
             let (from, to, waiting) = runs[number];

@@ -15,7 +15,7 @@ use crate::numeric::rounding::{LARGEST, LEAST_COMPONENT, U};
 use crate::scale::rays::ScaledRays;
 use glam::Vec3;
 
-/// By how much depths are lowered, of |x| + r.
+/// By which part of |x| + r depths are lowered.
 pub(crate) const DEPTH_MARGIN: f32 = 64.0 * U;
 
 /// What the rays of a run have in common.
@@ -30,14 +30,14 @@ pub enum Viewpoint {
 /// A viewpoint that the bounds cover.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum View {
-    /// All rays start here; the same as bounds see it.
+    /// All rays start at `eye`; `scaled` is the eye as bounds see it.
     Perspective { eye: [f32; 3], scaled: [f32; 3] },
-    /// All rays have this direction; the same of unit length.
+    /// All rays have this `direction`; `unit` is the same of unit length.
     Parallel { direction: [f32; 3], unit: [f32; 3] },
 }
 
 impl View {
-    /// For spheres that are scaled by `factor`; `None` if the bounds do not cover the viewpoint.
+    /// For spheres that are scaled by `factor`; returns `None` if the bounds do not cover the viewpoint.
     pub(super) fn new(viewpoint: Viewpoint, factor: f32) -> Option<Self> {
         match viewpoint {
             Viewpoint::Origin(eye) => {
@@ -56,7 +56,7 @@ impl View {
         }
     }
 
-    /// The centre of a scaled sphere in the frame, and a depth that no ray hits it before.
+    /// Returns the centre of a scaled sphere in the frame, and a depth before which no ray hits it.
     ///
     /// The distance is 4u off, |x| - r one more, x.n 5u; an answer lies at |s| >= |p| - r, |s| >= r - |p|
     /// and s >= p.n - r, except for 32 u (|p| + r) (`docs/traversal-margins.md`).
@@ -76,7 +76,7 @@ impl View {
         }
     }
 
-    /// Which rays have in common what all have.
+    /// Returns which rays have the origin, or the direction, that is common.
     #[inline(always)]
     pub(super) fn shares<L: Lanes>(&self, rays: &RayLanes<L>) -> L::Mask {
         let (has, common) = match self {
@@ -90,7 +90,7 @@ impl View {
         x & y & z
     }
 
-    /// The rays in the frame.
+    /// Returns the rays in the frame.
     #[inline(always)]
     pub(super) fn in_frame<L: Lanes>(&self, rays: &RayLanes<L>) -> RayLanes<L> {
         match self {
@@ -99,7 +99,7 @@ impl View {
         }
     }
 
-    /// The same, of usual lengths, scaled by `factor`.
+    /// Returns the rays in the frame, of usual lengths, scaled by `factor`.
     #[inline(always)]
     pub(super) fn scaled_in_frame<L: Lanes>(
         &self,
@@ -112,7 +112,7 @@ impl View {
         }
     }
 
-    /// How deep rays start that start there in the frame.
+    /// Returns the depth at which rays of that origin in the frame start.
     #[inline(always)]
     pub(super) fn start_depth<L: Lanes>(&self, origin: [L; 3]) -> L {
         match self {

@@ -1,9 +1,8 @@
 //! Every traversal at every level, compiled once, here.
 //!
-//! What is generic is compiled where it is used, in every program and every test that does; the
-//! functions of an `impl` for one type are compiled with this crate, and the generic methods of
-//! [`Intersect`](crate::Intersect) only call them. So a crate of a user's has them at full speed
-//! whatever its profile says, and tiers are values here.
+//! Generic code is compiled where it is used, in every program and every test that uses it. The functions of an
+//! `impl` for one type are compiled with this crate, and the generic methods of [`Intersect`](crate::Intersect) only
+//! call them. So a user's crate has them at full speed whatever its profile says, and tiers are values here.
 
 use super::Level;
 use crate::accuracy::Tier;
@@ -43,8 +42,9 @@ use fearless_simd::{
     x86::{Avx2, Avx512, Sse2},
 };
 
-/// Does `work` in a function that is compiled for `level`, with its token and its sixteen lanes: of the levels of x86
-/// those that have a [`LevelName`](super::LevelName), since one more is a quarter more to compile.
+/// Does `work` in a function that is compiled for `level`, with its token and its sixteen lanes. Of the levels of x86
+/// only those that have a [`LevelName`](super::LevelName) are compiled, since one more takes a quarter more to
+/// compile.
 macro_rules! at_level {
     ($level:expr, $simd:ident, $lanes:ident => $work:expr) => {
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
@@ -68,7 +68,7 @@ macro_rules! at_level {
     };
     (@as $token:expr, $simd:ident, $lanes:ident = $type:ty => $work:expr) => {
         if let Some($simd) = $token {
-            // What moves no lanes names none.
+            // Work that moves no lanes does not name their type.
             #[allow(dead_code)]
             type $lanes = $type;
             return $simd.vectorize(
@@ -104,7 +104,7 @@ macro_rules! compiled {
                 to: usize,
             );
 
-            /// Of a tree, one ray.
+            /// Answers one ray by a tree.
             fn one_ray(level: Level, tier: Tier, bvh: &Bvh<'_>, ray: &Ray) -> Self::One;
         }
 

@@ -1,14 +1,14 @@
 //! Sums of products of `f32` that are never rounded: a fixed-point number as wide as all of them, a long
 //! accumulator (Kulisch and Miranker 1986, The Arithmetic of the Digital Computer: A New Approach).
 //!
-//! A finite `f32` is an integer below 2^24 times 2^e, with e from -149 to 104. So a product of six, and four
-//! times that, is a multiple of 2^-894 and below 2^770; times the square of a midpoint, of which `surface.rs` has one
-//! where lengths cancel, a multiple of 2^-1194. Accumulators count in units of 2^-896 or of 2^-1216, and hold
-//! 2^50 such products before they reach 2^831, where the sign is. Nothing is rounded, nothing overflows, and no
+//! A finite `f32` is an integer below 2^24 times 2^e, with e from -149 to 104. So a product of six, or four times that,
+//! is a multiple of 2^-894 and below 2^770. Times the square of a midpoint, which `surface.rs` has once where lengths
+//! cancel, it is a multiple of 2^-1194. Accumulators count in units of 2^-896 or of 2^-1216, and hold 2^50 such
+//! products before they reach 2^831, the place of the sign. Nothing is rounded, nothing overflows, and no
 //! floating-point environment matters.
 //!
-//! A limb is as wide as the machine's registers. On targets of 32 bits, what is made of products is called and not
-//! inlined: a third of the flash of `Exact`.
+//! A limb is as wide as the machine's registers. On targets of 32 bits, the functions that work on products are called,
+//! not inlined: that is a third of the flash of `Exact`.
 
 use core::cmp::Ordering;
 
@@ -30,9 +30,9 @@ type Limb = u32;
 #[cfg(target_pointer_width = "32")]
 type Twofold = u64;
 
-/// How many limbs have 64 bits.
+/// How many limbs make 64 bits.
 const NARROW: usize = 64 / Limb::BITS as usize;
-/// And 128.
+/// How many limbs make 128 bits.
 const WIDE: usize = 2 * NARROW;
 
 /// A product of numbers, exactly: `mantissa * 2^exponent`, or that negated.
@@ -40,7 +40,7 @@ const WIDE: usize = 2 * NARROW;
 pub(crate) struct Product {
     negative: bool,
     exponent: i32,
-    /// The lowest first.
+    /// The lowest limb first.
     mantissa: [Limb; WIDE],
 }
 
@@ -65,17 +65,17 @@ impl Product {
         }
     }
 
-    /// The number half-way between neighbours, the lower one first, of 25 bits; an infinity stands for the number that
-    /// would come next, 2^128, as it does in rounding.
+    /// The number half-way between neighbours, the lower one first; it has 25 bits. An infinity stands for the number
+    /// that would come next, 2^128, as it does in rounding.
     pub(crate) fn between(low: f32, high: f32) -> Self {
-        // Half a step from the one nearer to zero, of which either may be meant.
+        // Half a step beyond the neighbour nearer to zero, which may be either.
         let negative = low.to_bits() > (-0.0_f32).to_bits();
         let Self { exponent, mantissa: [mantissa, ..], .. } =
             Self::of(if negative { high } else { low });
         Self { negative, exponent: exponent - 1, mantissa: narrow(mantissa << 1 | 1) }
     }
 
-    /// A double that is finite and no subnormal: as few bits of mantissa as it has.
+    /// A double that is finite and not subnormal, with as few bits of mantissa as it has.
     #[cfg(all(test, proofs))]
     pub(crate) fn of_double(x: f64) -> Self {
         let bits = x.to_bits();
@@ -92,7 +92,7 @@ impl Product {
         }
     }
 
-    /// Both together; each mantissa has 64 bits at most.
+    /// The product of both; each mantissa has 64 bits at most.
     #[cfg_attr(target_pointer_width = "32", inline(never))]
     pub(crate) fn times(&self, other: &Self) -> Self {
         let mut mantissa = [0; WIDE];
@@ -118,7 +118,7 @@ impl Product {
         }
     }
 
-    /// Changes the sign. (In place, as [`Product::scale`]: a copy is 30 bytes of flash.)
+    /// Changes the sign. (In place, as [`Product::scale`]: a copy takes 30 bytes of flash.)
     pub(crate) fn negate(&mut self) {
         self.negative = !self.negative;
     }
@@ -170,7 +170,7 @@ fn multiply(sum: &mut [Limb], a: &[Limb; WIDE], b: &[Limb]) {
 /// A sum of products, exactly.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LongAccumulator<const LIMBS: usize> {
-    /// Two's complement, the lowest first.
+    /// Two's complement, the lowest limb first.
     pub(crate) limbs: [Limb; LIMBS],
 }
 
@@ -215,7 +215,8 @@ impl<const LIMBS: usize> LongAccumulator<LIMBS> {
         }
     }
 
-    /// Adds the square of a sum whose terms have 64 bits at most, times `factor`, of as many.
+    /// Adds the square of a sum whose terms have 64 bits at most, times `factor`, which has no more
+    /// bits either.
     #[cfg_attr(target_pointer_width = "32", inline(never))]
     pub(crate) fn add_square(&mut self, terms: &[Product], factor: &Product) {
         let mut rest = terms;
@@ -231,7 +232,7 @@ impl<const LIMBS: usize> LongAccumulator<LIMBS> {
         }
     }
 
-    /// Adds some limbs times 2^exponent, or takes them away.
+    /// Adds some limbs times 2^exponent, or subtracts them.
     #[cfg_attr(target_pointer_width = "32", inline(never))]
     fn add_shifted(&mut self, limbs: &[Limb], exponent: i32, negative: bool) {
         let place = (exponent - Self::LOWEST).max(0).unsigned_abs();
@@ -272,11 +273,11 @@ impl<const LIMBS: usize> LongAccumulator<LIMBS> {
         self.limbs.last().is_some_and(|limb| limb >> (Limb::BITS - 1) == 1)
     }
 
-    /// The sum within 2 u of itself, u = 2^-53; for sums of products of four, which no double over- or
-    /// underflows.
+    /// The sum within 2 u of itself, u = 2^-53. Only for sums of products of four, which neither over- nor underflow as
+    /// doubles.
     #[cfg_attr(target_pointer_width = "32", inline(never))]
     pub(crate) fn estimate(&self) -> f64 {
-        // The magnitude, of a negative sum less a unit, which is nothing beside a product of four.
+        // The magnitude. Of a negative sum it is a unit less, which is nothing beside a product of four.
         let flip = if self.is_negative() { Limb::MAX } else { 0 };
         let Some(top) = self.limbs.iter().rposition(|&limb| limb != flip) else { return 0.0 };
         let at =
@@ -287,7 +288,8 @@ impl<const LIMBS: usize> LongAccumulator<LIMBS> {
             let limb = at(below) << zeros | at(below + 1) >> 1 >> (Limb::BITS - 1 - zeros);
             bits = bits << Limb::BITS | Twofold::from(limb);
         }
-        // 53 bits: what is cut off is below 2 u. The first is no part of a double, and makes its exponent one more.
+        // 53 bits: those cut off are below 2 u. A double does not store the first bit, which makes its exponent one
+        // more.
         let exponent = Self::LOWEST + (Limb::BITS * (top as u32 + 1) - 1 - zeros) as i32;
         let sign = (Twofold::from(flip & 1) as u64) << 63;
         f64::from_bits(sign + (((exponent + 1022) as u64) << 52) + (bits as u64 >> 11))

@@ -9,15 +9,15 @@
 //! S = B + x,  B = b_1 - b_2,  x = e_1 sqrt D_1 - e_2 sqrt D_2
 //! ```
 //!
-//! with e = -1 for a near root and 1 for a far one. The sign of x is known from those of e, or of D_1 - D_2. Where B
-//! has the other sign, that of |B| - |x| decides, which is that of
+//! with e = -1 for a near root and 1 for a far one. The signs of e, or of D_1 - D_2, tell the sign of x. Where B has
+//! the other sign, the sign of |B| - |x| decides, which is the sign of
 //!
 //! ```text
 //! B^2 - x^2 = M + 2 e_1 e_2 sqrt(D_1 D_2),  M = B^2 - D_1 - D_2 = a (k_1 + k_2) - 2 b_1 b_2.
 //! ```
 //!
-//! Where M has another sign than e_1 e_2, that of M^2 - 4 D_1 D_2 decides, which is a times the resultant of the two
-//! quadratics,
+//! Where M has another sign than e_1 e_2, the sign of M^2 - 4 D_1 D_2 decides. That term is a times the resultant of
+//! the two quadratics,
 //!
 //! ```text
 //! R = a (k_1 - k_2)^2 + 4 (b_1 - b_2) (b_1 k_2 - b_2 k_1):
@@ -51,7 +51,7 @@ pub(crate) fn compare_roots(
         return difference;
     }
     if difference == Ordering::Equal {
-        // x may be zero yet: where both lines are tangents, and then M is.
+        // x may still be zero: where the line is a tangent of both spheres. Then M is zero too.
         let tangents = !same_roots && spheres.middle() == Ordering::Equal;
         return if tangents { Ordering::Equal } else { roots };
     }
@@ -74,8 +74,8 @@ pub(crate) fn compare_roots(
     }
 }
 
-/// Two quadratics of one line. (What their coefficients are sums of is made anew where it is needed: kept, it is most of
-/// the stack.)
+/// Two quadratics of one line. (The terms of their coefficients are made anew where they are needed: kept, they are
+/// most of the stack.)
 struct TwoSpheres<'a>([&'a QuadraticTerms; 2]);
 
 impl TwoSpheres<'_> {
@@ -159,7 +159,7 @@ impl TwoSpheres<'_> {
         sum.sign()
     }
 
-    /// R. The products of four are whole, the other two factors come last.
+    /// The sign of R. Products of four factors are made first, the other two factors come last.
     #[inline(never)]
     fn resultant(&self) -> Ordering {
         let mut sum = SumOfSixes::zero();
@@ -179,7 +179,8 @@ impl TwoSpheres<'_> {
         sum.sign()
     }
 
-    /// Adds a times what a term of k_1 - k_2 adds to its square, beside the terms before.
+    /// Adds a times the part of (k_1 - k_2)^2 from its term `number`: this term times itself, and
+    /// twice times each term after it.
     #[cfg_attr(target_pointer_width = "32", inline(never))]
     fn add_power_products(&self, sum: &mut SumOfSixes, number: usize) {
         let mut term = self.power_difference(number);

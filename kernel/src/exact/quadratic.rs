@@ -6,10 +6,10 @@
 //! sphere where a t^2 - 2 b t + k = 0: at t = (b -+ sqrt D) / a with
 //! D = b^2 - a k = a r^2 - |d x p|^2 (Lagrange). The second form has fewer terms.
 //!
-//! The sign of D, exactly, decides whether there are roots. A root is then estimated to
-//! 16 u (u = 2^-53), which leaves one `f32` it can round to, or two neighbours. Which of two is
-//! told by the side of their midpoint m that the root lies on, for which no root need be taken:
-//! with v = m d - p, f = |v|^2 - r^2 and g = d.v, half the slope of f along the line,
+//! The sign of D, exactly, decides whether there are roots. A root is then estimated to 16 u
+//! (u = 2^-53), which leaves one `f32` it can round to, or two neighbours. Of two, the side of
+//! their midpoint m on which the root lies tells which, without a square root: with v = m d - p,
+//! f = |v|^2 - r^2 and g = d.v, half the slope of f along the line,
 //!
 //! ```text
 //! m < t1  iff f > 0 and g < 0        m > t2  iff f > 0 and g > 0
@@ -52,7 +52,7 @@ const C: usize = 6;
 const MINUS_O: usize = 9;
 const RADIUS: usize = 12;
 
-/// By what it is told on which side of a root a number lies.
+/// The sign that tells on which side of a root a number lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum SideBy {
     /// f.
@@ -84,7 +84,8 @@ impl Coefficient {
 }
 
 impl QuadraticTerms {
-    /// Domain: a valid ray and a valid sphere. Anything else returns too, with no meaning.
+    /// Domain: a valid ray and a valid sphere. For anything else it returns too, but the result has
+    /// no meaning.
     pub(crate) const fn new(
         origin: [f32; 3],
         direction: [f32; 3],
@@ -147,7 +148,7 @@ impl QuadraticTerms {
         }
     }
 
-    /// Of that the part of axis k: a component of d x p comes from the two axes after its own.
+    /// Adds the part of axis k in -D: a component of d x p comes from the two axes after its own.
     #[cfg_attr(target_pointer_width = "32", inline(never))]
     fn add_minus_component<const LIMBS: usize>(
         &self,
@@ -165,7 +166,7 @@ impl QuadraticTerms {
         sum.add_product(&self.minus_square().times(&self.pair(k, k)), factor);
     }
 
-    /// Term `number` of those that a coefficient is the sum of.
+    /// Term `number` of a coefficient, which is a sum.
     #[cfg_attr(target_pointer_width = "32", inline(never))]
     pub(super) fn term(&self, of: Coefficient, number: usize) -> Product {
         let mut term = match (of, number) {
@@ -220,7 +221,7 @@ impl QuadraticTerms {
         sum.sign()
     }
 
-    /// Of that the part of one axis: p - m d squared, or times -d.
+    /// Adds the part of one axis in f or g: p - m d squared, or times -d.
     #[cfg_attr(target_pointer_width = "32", inline(never))]
     fn add_beside(&self, sum: &mut SumOfSixes, axis: usize, m: &Product, of: SideBy) {
         let minus_d = self.number(MINUS_D + axis);
@@ -239,7 +240,7 @@ impl QuadraticTerms {
 impl<'a> Quadratic<'a> {
     /// `None` if the line misses the sphere; a tangent does not miss it.
     ///
-    /// Domain: a valid ray and a valid sphere. Anything else returns too, with no meaning.
+    /// Domain: a valid ray and a valid sphere. For anything else it returns too, but the result has no meaning.
     pub(crate) fn new(terms: &'a QuadraticTerms) -> Option<Self> {
         // q = b + sign(b) sqrt D is the larger of both, and does not cancel: 2 u of b, 2 u of the root, 1 u of the sum.
         // a is within 2 u, k within 2 u; so q / a within 8 u, k / q within 8 u.
@@ -278,7 +279,7 @@ impl<'a> Quadratic<'a> {
         rounded + 0.0
     }
 
-    /// How a root compares with `m`, a number of at most 25 bits: those and 24, squared, are no more than 128.
+    /// How a root compares with `m`, a number of at most 25 bits: those and 24 more, squared, are no more than 128.
     fn compare_with(&self, m: &Product, root: Root) -> Ordering {
         let outward = if root == Root::Near { Ordering::Less } else { Ordering::Greater };
         match (self.terms.sign_at(m, SideBy::Power), self.terms.sign_at(m, SideBy::Slope)) {

@@ -9,15 +9,15 @@
 //! t d - p = (alpha -+ d sqrt D) / a,  alpha = d x (d x p)
 //! ```
 //!
-//! as seen from the centre, and the normal that by r. So how a coordinate compares with a number m is the sign of A
-//! -+ d_i sqrt D, A = alpha_i - m a (times r for a normal): that of both parts, if they agree, else that of the
-//! larger one, by the sign of A^2 - d_i^2 D. All of these are sums of products.
+//! as seen from the centre, and the normal is that divided by r. So a coordinate compares with a number m by the sign
+//! of A -+ d_i sqrt D, A = alpha_i - m a (times r for a normal). That is the sign of both parts, if they agree, else
+//! the sign of the larger part, which the sign of A^2 - d_i^2 D tells. All of these are sums of products.
 
 use super::long_accumulator::{Product, SumOfEights, SumOfSixes};
 use super::quadratic::{QuadraticTerms, Root};
 use core::cmp::Ordering;
 
-/// What a coordinate is of.
+/// What the coordinate belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Surveyed {
     /// The unit normal that points out of the sphere.
@@ -37,11 +37,11 @@ pub(crate) struct SurfaceCoordinate<'a> {
 }
 
 impl SurfaceCoordinate<'_> {
-    /// The coordinate, correctly rounded, which is from `low` to `high`.
+    /// The correctly rounded coordinate, which is from `low` to `high`.
     pub(crate) fn rounded(&self, low: f32, high: f32) -> f32 {
-        // What is rounded to the lowest may lie below it.
+        // A coordinate that rounds to the lowest number may lie below it.
         let (mut low, mut high) = (place(low) - 1, place(high));
-        // The last number that it is not below.
+        // Finds the last number that the coordinate is not below.
         while low < high {
             let middle = high - (high - low) / 2;
             if self.compare_with(&Product::of(number(middle))) == Ordering::Less {
@@ -78,7 +78,7 @@ impl SurfaceCoordinate<'_> {
         }
     }
 
-    /// What A is the sum of. (Made anew for each number: kept, it is most of the stack.)
+    /// The terms of A. (Made anew for each number: kept, they are most of the stack.)
     fn whole(&self, m: &Product) -> [Product; 11] {
         let (terms, i, j, k) = (self.terms, self.axis, self.axis + 1, self.axis + 2);
         let (di, dj, dk) = (terms.d(i), terms.d(j), terms.d(k));

@@ -55,7 +55,7 @@ pub(crate) struct FilterBlock {
     groups: [FilterGroup; BLOCK],
     count: usize,
     pub(crate) frame: Frame,
-    /// Whether it is seen in the units of rays that start far away.
+    /// Whether the block is seen in the units of rays that start far away.
     from_afar: bool,
 }
 
@@ -69,8 +69,8 @@ impl FilterBlock {
         Self::in_frame(spheres, first, Frame::of(spheres, first, underflow, 0.0), KAPPA)
     }
 
-    /// Whether rays, those that live, may see the block better than it is now: they start out of its range, or others
-    /// did.
+    /// Whether the live rays may see the block better in another frame: they start out of its range, or others before
+    /// them did.
     #[inline(always)]
     pub(crate) fn is_elsewhere<L: Lanes>(&self, rays: &RayLanes<L>) -> bool {
         let far = largest(rays.origin);

@@ -1,4 +1,4 @@
-//! The space in which a block's spheres are of some 1, and near the zero.
+//! The space in which a block's spheres have sizes of some 1, and are near zero.
 
 use super::{BLOCK_SPHERES, LEAST_SIZE};
 use crate::accuracy::{RayLanes, Underflow};
@@ -25,9 +25,10 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
-    /// Around a point among the spheres of a block, that one sphere far away cannot move far: coordinate by
-    /// coordinate the median of three of them; scaled so that the median of their sizes is some 1, or, if rays that
-    /// start at `far` would be out of range then, so that `far` is. Any finite point, and any scale, would be right.
+    /// The frame lies around a point among the spheres of a block: coordinate by coordinate the median of three of them,
+    /// which one sphere far away cannot move far. It is scaled so that the median of their sizes is some 1; or, if rays
+    /// that start at `far` would be out of range then, so that `far` is some 1. Any finite point, and any scale, would be
+    /// right.
     pub(crate) fn of(
         spheres: &(impl SphereRun + ?Sized),
         first: usize,
@@ -36,7 +37,7 @@ impl Frame {
     ) -> Self {
         let count = (spheres.count() - first).min(BLOCK_SPHERES);
         let offsets = [0, count / 2, count.saturating_sub(1)];
-        // Where an index into an array is a closure's, a check that it is in bounds may stay, and with it a panic.
+        // In a closure the check that an index into an array is in bounds may stay, and with it a panic.
         let samples = axes!(i => match spheres.sphere(first + offsets[i]) {
             Some(sphere) => sphere,
             None => Sphere::from([0.0; 4]),
@@ -64,7 +65,7 @@ fn median([a, b, c]: [f32; 3]) -> f32 {
     a.max(b).min(a.min(b).max(c))
 }
 
-/// The largest coordinate of the origins of those that live.
+/// The largest coordinate of the origins of live rays.
 #[inline(always)]
 pub(super) fn farthest<L: Lanes>(rays: &RayLanes<L>) -> f32 {
     let far = largest(rays.origin);

@@ -10,7 +10,7 @@ use crate::numeric::power_of_two::inverse_powers_of_two;
 use crate::numeric::rounding::{LARGEST, LONGEST};
 use crate::scale::rays::largest;
 
-/// 2^-60: a squared direction below, or above 2^100, is not used: the direction is scaled before.
+/// 2^-60: a direction whose square is below this, or above 2^100, is scaled first.
 const SHORTEST: f32 = 1.0 / (1_u64 << 60) as f32;
 
 /// The rays of a packet as the filter reads them, for one block.

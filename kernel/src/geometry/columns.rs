@@ -1,4 +1,4 @@
-//! Rays and hits of a caller's in columns: a slice for each of their numbers.
+//! A caller's rays and hits in columns: a slice for each of their numbers.
 
 use super::hit::{Hit, HitPacket};
 use super::ray::{Ray, RayPacket};
@@ -6,7 +6,7 @@ use crate::lanes::{LaneArray, Lanes};
 use crate::numeric::axes::axes;
 use glam::Vec3;
 
-/// Rays in eight columns, the form in which arrays, tables and simulations have them: ray `i` is made of number `i` of each.
+/// Rays in eight columns, the form in which arrays, tables and simulations have them: ray `i` consists of number `i` of each.
 ///
 /// There are as many rays as the shortest column has numbers. No padding or alignment is needed.
 ///
@@ -57,7 +57,7 @@ impl<'a> RayColumns<'a> {
         shortest
     }
 
-    /// Whether there is none.
+    /// Whether there are no rays.
     ///
     /// ```
     /// use spherule_kernel::RayColumns;
@@ -152,9 +152,10 @@ impl<'a> RayColumns<'a> {
     }
 }
 
-/// Where the hits of rays go, in two columns: what ray `i` hits becomes number `i` of each.
+/// Where the hits of rays go, in two columns: the hit of ray `i` becomes number `i` of each.
 ///
-/// As many hits are written as there are rays and numbers in the shorter column; what is past them is left as it is.
+/// A query writes as many hits as there are rays, but no more than the shorter column has numbers; it leaves later
+/// numbers as they are.
 #[derive(Debug)]
 pub struct HitColumns<'a> {
     /// Where, in multiples of the ray's direction; `+inf` if the ray hits nothing.
@@ -178,7 +179,7 @@ impl HitColumns<'_> {
         self.t.len().min(self.sphere.len())
     }
 
-    /// Whether there is none.
+    /// Whether there is room for none.
     ///
     /// ```
     /// use spherule_kernel::{HitColumns, HitPacket};

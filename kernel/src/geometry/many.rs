@@ -1,15 +1,15 @@
-//! Many rays of a caller's: a slice of them, columns, or packets.
+//! A caller's many rays: a slice of them, columns, or packets.
 
 use super::columns::RayColumns;
 use super::ray::{Ray, RayPacket};
 use crate::lanes::Lanes;
 
-/// Rays of a caller's, from which packets are filled.
+/// A caller's rays, from which packets are filled.
 #[derive(Clone, Copy, Debug)]
 pub enum ManyRays<'a> {
-    /// One behind the other: transposed.
+    /// One after the other: transposed into packets.
     Slice(&'a [Ray]),
-    /// As packets have them.
+    /// In columns, as packets have them.
     Columns(RayColumns<'a>),
     /// In packets, of which parts are whole ones.
     #[cfg(feature = "alloc")]
@@ -20,7 +20,7 @@ pub enum ManyRays<'a> {
 const INACTIVE: RayPacket = RayPacket::inactive();
 
 impl ManyRays<'_> {
-    /// How many there are.
+    /// How many rays there are.
     #[inline(always)]
     pub(crate) fn count(&self) -> usize {
         match self {
@@ -58,10 +58,10 @@ impl ManyRays<'_> {
         }
     }
 
-    /// Copies the rays of those numbers.
+    /// Copies the rays with these numbers.
     #[cfg(feature = "alloc")]
     pub(crate) fn gather(&self, numbers: impl Iterator<Item = usize>, rays: &mut [Ray]) {
-        // What they are is asked once.
+        // Matched once for all.
         match self {
             Self::Slice(_) => self.gather_each(numbers, rays),
             Self::Columns(_) => self.gather_each(numbers, rays),

@@ -8,9 +8,9 @@ use super::ray::RayPacket;
 /// Where the closest hits of rays go.
 #[derive(Debug)]
 pub enum ManyHits<'a> {
-    /// One behind the other.
+    /// One after the other in memory.
     Slice(&'a mut [Option<Hit>]),
-    /// As packets have them.
+    /// In columns, as packets have them.
     Columns(HitColumns<'a>),
     /// In packets.
     #[cfg(feature = "alloc")]
@@ -29,10 +29,10 @@ impl ManyHits<'_> {
         }
     }
 
-    /// Writes what rays hit, those of packets at the places `indices`.
+    /// Writes the hits of packets, lane by lane, to the places `indices`.
     #[cfg(feature = "alloc")]
     pub(crate) fn scatter(&mut self, packets: &[HitPacket], indices: impl Iterator<Item = usize>) {
-        // Where they go is asked once.
+        // Matched once, not for each ray.
         match self {
             Self::Slice(_) => each_lane(packets, indices, |packet, lane, index| {
                 self.set(index, packet.hit(lane));
@@ -78,7 +78,8 @@ impl ManyHits<'_> {
     }
 }
 
-/// (`get_mut`, since for size the compiler keeps the checks of an index. Three stores a hit: in vectors they would have to be shuffled by three, which the layout of `Option` does not allow.)
+/// (`get_mut`, since a compiler that optimises for size keeps the checks of an index. A hit takes three stores: vectors would have to be
+/// shuffled by three, which the layout of `Option` does not allow.)
 #[inline(always)]
 fn write_slice(packets: &[HitPacket], hits: &mut [Option<Hit>]) {
     let mut at = 0;
@@ -101,12 +102,12 @@ fn write_slice(packets: &[HitPacket], hits: &mut [Option<Hit>]) {
     }
 }
 
-/// Whether rays hit anything: where that goes.
+/// Where the answers of any-hit queries go.
 #[derive(Debug)]
 pub enum ManyOccluded<'a> {
-    /// One behind the other.
+    /// One after the other in memory.
     Slice(&'a mut [bool]),
-    /// A lane's bit of packets.
+    /// In packets, a bit a lane.
     #[cfg(feature = "alloc")]
     Packets(&'a mut [u32]),
 }
@@ -122,7 +123,7 @@ impl ManyOccluded<'_> {
         }
     }
 
-    /// Writes whether rays hit anything, those of packets at the places `indices`.
+    /// Writes whether the rays of packets hit anything, lane by lane, to the places `indices`.
     #[cfg(feature = "alloc")]
     pub(crate) fn scatter(&mut self, packets: &[u32], indices: impl Iterator<Item = usize>) {
         match self {
@@ -183,7 +184,7 @@ fn each_lane<P>(
     }
 }
 
-/// Copies the answers of packets to those of the rays from `from` on, before `to`, which are whole packets.
+/// Copies the answers of packets into `answers`, from ray `from` on, before ray `to`: whole packets.
 #[cfg(feature = "alloc")]
 fn copy_packets<P: Copy>(packets: &[P], answers: &mut [P], from: usize, to: usize) {
     let to = to.div_ceil(RayPacket::COUNT).min(answers.len());
@@ -193,7 +194,7 @@ fn copy_packets<P: Copy>(packets: &[P], answers: &mut [P], from: usize, to: usiz
     }
 }
 
-/// Writes a lane's bit of packets as a truth value each.
+/// Writes each lane's bit of packets as a truth value.
 #[inline(always)]
 fn write_occluded(packets: &[u32], occluded: &mut [bool]) {
     let mut at = 0;
@@ -201,7 +202,8 @@ fn write_occluded(packets: &[u32], occluded: &mut [bool]) {
         let rest = occluded.get_mut(at..).unwrap_or_default();
         at += 16;
         if let Some(sixteen) = rest.first_chunk_mut::<16>() {
-            // Not shifted: that has a vector instruction from AVX2 on.
+            // A mask instead of a shift by lane, for which vectors have an instruction only from
+            // AVX2 on.
             for lane in 0..16 {
                 if let Some(occluded) = sixteen.get_mut(lane) {
                     *occluded = bits & 1 << lane != 0;
@@ -223,7 +225,7 @@ mod tests {
     use super::{ManyHits, ManyOccluded};
     use crate::{Hit, HitPacket};
 
-    /// What was there before is no answer.
+    /// Values from before the call do not stay.
     #[test]
     fn answers_are_written_over_those_before() {
         let mut before = HitPacket::none();

@@ -5,10 +5,10 @@ use glam::Vec3;
 
 /// The half-line (or, by its interval, any part of the line) `origin + t * direction`.
 ///
-/// `direction` need not have unit length; `t` is counted in multiples of it. Only `t` in the
-/// closed interval `[t_min, t_max]` counts; an empty one (`t_min > t_max`, or NaN at either end)
-/// accepts nothing, and is how a lane of a packet is switched off. A ray with NaN or infinity in
-/// `origin` or `direction`, or with `direction` zero, hits nothing.
+/// `direction` need not have unit length; `t` is counted in multiples of it. Only `t` in the closed
+/// interval `[t_min, t_max]` counts. An empty interval (`t_min > t_max`, or NaN at either end)
+/// accepts nothing, and switches off a lane of a packet. A ray with NaN or infinity in `origin` or
+/// `direction`, or with `direction` zero, hits nothing.
 // In this order, so that a ray's numbers are loaded as one row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
@@ -62,7 +62,7 @@ impl Ray {
             && self.t_min <= self.t_max
     }
 
-    /// Its numbers, in the order in which they lie.
+    /// The ray's numbers, in the order in which they lie in memory.
     #[inline(always)]
     fn row(&self) -> [f32; 8] {
         let Self { origin: o, direction: d, t_min, t_max } = *self;
@@ -145,7 +145,8 @@ impl<A: LaneArray> RayPacket<A> {
         packet
     }
 
-    /// Becomes what [`new`](Self::new) makes of `rays`, in lanes: a whole packet of rays is transposed in registers.
+    /// Fills the packet as [`new`](Self::new) does from `rays`, in lanes: a whole packet of rays is transposed in
+    /// registers.
     #[inline(always)]
     pub(crate) fn fill<L: Lanes<Array = A>>(&mut self, token: L::Token, rays: &[Ray]) {
         let Some(rays) = rays.get(..A::COUNT) else {
@@ -261,8 +262,8 @@ impl RayPacket {
     /// How many rays a packet holds: sixteen.
     pub const COUNT: usize = 16;
 
-    /// As many packets as `rays` fill, in `packets`; returns those that were filled. The last is
-    /// filled up with inactive lanes. Rays that find no room are left out.
+    /// Packs `rays` into `packets`, and returns the packets that were filled. The last is filled up
+    /// with inactive lanes. Rays that find no room are left out.
     ///
     /// ```
     /// use spherule_kernel::{Ray, RayPacket, Vec3};

@@ -17,7 +17,7 @@ pub struct Sphere {
 }
 
 impl Sphere {
-    /// The centre as an array: an index into it is checked where it is compiled, one into a [`Vec3`] where it is run.
+    /// The centre as an array: an index into it is checked at compile time, an index into a [`Vec3`] at run time.
     #[inline(always)]
     pub(crate) fn center(&self) -> [f32; 3] {
         [self.center.x, self.center.y, self.center.z]
@@ -140,7 +140,7 @@ impl<'a> Spheres<'a> {
         self.x.len()
     }
 
-    /// Whether there is none.
+    /// Whether there are no spheres.
     ///
     /// ```
     /// use spherule_kernel::Spheres;

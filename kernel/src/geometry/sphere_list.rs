@@ -69,7 +69,7 @@ impl SphereList {
         self.x.len()
     }
 
-    /// Whether there is none.
+    /// Whether there are no spheres.
     ///
     /// ```
     /// use spherule_kernel::SphereList;

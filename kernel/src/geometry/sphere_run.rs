@@ -4,11 +4,11 @@ use super::sphere::{Sphere, Spheres};
 
 /// Spheres of a list that are tested one after the other, by rising index: all, or some of them.
 pub(crate) trait SphereRun {
-    /// The list that they are of.
+    /// The list that the spheres are of.
     fn list(&self) -> Spheres<'_>;
-    /// How many.
+    /// How many spheres.
     fn count(&self) -> usize;
-    /// The index of number `number`; that of no sphere where there is none.
+    /// The index of sphere `number`; the index that stands for no sphere if there is none.
     fn index(&self, number: usize) -> u32;
 
     /// Sphere `number`; `None` where there is none.

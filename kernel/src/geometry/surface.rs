@@ -10,7 +10,7 @@ pub struct Surface {
     pub normal: Vec3,
     /// The point as seen from the sphere's centre, in the units of the scene.
     pub point: Vec3,
-    /// What the point is off, in double precision.
+    /// What rounding takes from `point`, as double precision knows it.
     pub(crate) rest: Vec3,
 }
 
@@ -21,7 +21,7 @@ pub struct SurfacePacket<A: LaneArray = [f32; 16]> {
     alignment: A::Alignment,
     pub(crate) normal: [A; 3],
     pub(crate) point: [A; 3],
-    /// What the point is off, in double precision.
+    /// What rounding takes from `point`, as double precision knows it.
     pub(crate) rest: [A; 3],
 }
 

@@ -1,19 +1,19 @@
 //! The arrays that packets in memory are made of.
 //!
-//! What traversals do with them stands here, as loops that are inlined always. An iterator, closure or
-//! `Default` of the standard library would be a call where a build has many codegen units and no
-//! link-time optimisation: 13 times slower, measured.
+//! The operations of traversals on these arrays stand here, as loops that are always inlined. An iterator, closure or
+//! `Default` of the standard library would be a call where a build has many codegen units and no link-time
+//! optimisation: 13 times slower, measured.
 
 use core::fmt::Debug;
 
-/// Numbers that a node, a leaf or a block of a depth list holds of one kind.
+/// How many numbers of one kind a node, a leaf or a block of a depth list holds.
 pub(crate) const WIDTH: usize = 16;
 
 mod sealed {
     pub trait Sealed {}
 }
 
-/// A packet of several lanes begins where a line of the cache does; it takes no room.
+/// Aligns a packet of several lanes to a line of the cache; takes no room.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(align(64))]
 pub struct CacheLine;
@@ -31,7 +31,7 @@ pub trait LaneArray:
     type Ids: Copy + Debug + PartialEq + AsRef<[u32]> + AsMut<[u32]>;
     /// `[T; N]`: anything else, one a lane.
     type Each<T>: AsRef<[T]> + AsMut<[T]>;
-    /// What aligns a packet, and takes no room: one lane needs no more than its numbers do.
+    /// Aligns a packet, and takes no room: one lane needs no more alignment than its numbers do.
     #[doc(hidden)]
     type Alignment: Copy + Debug + PartialEq;
 
@@ -57,7 +57,7 @@ pub trait LaneArray:
     fn get(&self, lane: usize) -> f32;
     /// Puts a number in `lane`, modulo N.
     fn set(&mut self, lane: usize, value: f32);
-    /// Numbers `part * N ..` of sixteen; a part past the last is the first again.
+    /// Numbers `part * N ..` of sixteen; a part past the last wraps to the first.
     fn part(numbers: &[f32; 16], part: usize) -> Self;
     /// Puts the lanes where [`part`](LaneArray::part) takes them from.
     fn put_part(&self, numbers: &mut [f32; 16], part: usize);
@@ -71,7 +71,7 @@ macro_rules! lane_array {
     ($count:literal, $alignment:tt) => {
         impl sealed::Sealed for [f32; $count] {}
 
-        // Of one lane.
+        // For one lane, the modulus is one.
         #[allow(clippy::modulo_one)]
         impl LaneArray for [f32; $count] {
             const COUNT: usize = $count;

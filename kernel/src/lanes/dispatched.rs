@@ -1,11 +1,10 @@
 //! Sixteen lanes of the crate `fearless_simd`, whose instruction set is chosen at run time: in one register here, in
 //! several in [`joined`].
 //!
-//! The token is the crate's own: a value of it is the proof that the CPU has the instructions, so
-//! that all this needs no `unsafe` here. What is computed with such lanes must be inlined into a
-//! function that was compiled for the instruction set (`vectorize`); a function or closure that is
-//! not stays right, and is many times slower. Hence `#[inline(always)]` on all of it, and
-//! [`Lanes::out_of_line`] where a call is wanted.
+//! The token is the crate's own: a value of it is the proof that the CPU has the instructions, so that all this needs
+//! no `unsafe` here. Code that computes with such lanes must be inlined into a function that was compiled for the
+//! instruction set (`vectorize`); a function or closure that is not inlined stays right, but is many times slower.
+//! Hence `#[inline(always)]` on all of it, and [`Lanes::out_of_line`] where a call is wanted.
 
 mod columns;
 mod in_order;

@@ -6,7 +6,7 @@ use crate::geometry::sphere::Sphere;
 use crate::{Accuracy, Exact};
 use core::cmp::Ordering;
 
-/// Entry and exit of the whole line, whatever the ray's interval: the smaller root first.
+/// Returns where the whole line enters and leaves the sphere, whatever the ray's interval: the smaller root first.
 ///
 /// Returns `None` if the line misses the sphere, or if either is invalid. A root that is too large for a number is an
 /// infinity of its sign. t counts in multiples of the ray's direction.
@@ -23,13 +23,13 @@ pub fn roots(tier: impl Accuracy, ray: &Ray, sphere: &Sphere) -> Option<[f32; 2]
     tier.with_formula(LineRoots { line: &line, sphere })
 }
 
-/// The discriminant of the whole line and a sphere, in double precision as [`Exact`] computes it, and the most that it is
-/// off: what says by how much the line meets the sphere, or misses it.
+/// Returns the discriminant of the whole line and a sphere, in double precision as [`Exact`] computes it, and the most
+/// that it is off. Together they say by how much the line meets the sphere, or misses it.
 ///
 /// In real numbers it is D = a r^2 - |d x p|^2, with d the direction, a = d.d, and p from the ray's origin to the centre.
 /// D differs from the first number by no more than the second, for every valid ray and sphere; the proof stands in
 /// `docs/numerics.md`. So where the first is larger than the second in magnitude, it has the sign of D: positive where the
-/// line meets the sphere, negative where it misses. Else exact sums decide, and [`roots`] has their answer.
+/// line meets the sphere, negative where it misses. Else exact sums decide, and [`roots`] returns their answer.
 ///
 /// Returns `None` if ray or sphere is invalid. Neither number is ever NaN or infinite.
 ///
@@ -72,13 +72,13 @@ impl TierWork for LineRoots<'_> {
     }
 }
 
-/// Which of two hits of one ray comes first, for callers who keep their own closest hit: each is the t of a `tier`'s
-/// answer, and its sphere.
+/// Returns which of two hits of one ray comes first, for callers who keep their own closest hit. Each hit is the t of
+/// `tier`'s answer, and its sphere.
 ///
-/// By [`Exact`](crate::Exact) the roots are compared as real numbers, which may differ where t are equal; `Equal` means
-/// that they are the same number, and the lower index is the closer hit. The other tiers compare t. If t is not the
-/// tier's answer for its sphere, the result has no meaning. Cost: nothing if t differ; else some 50 ns, and some
-/// microseconds where double precision cannot tell.
+/// [`Exact`](crate::Exact) compares the roots as real numbers, which may differ where t are equal. `Equal` means that they
+/// are the same number; then the lower index is the closer hit. The other tiers compare t. If t is not the tier's answer
+/// for its sphere, the result has no meaning. Cost: nothing if the two t differ; else some 50 ns, and some microseconds
+/// where double precision cannot tell.
 ///
 /// ```
 /// use spherule_kernel::{Exact, Ray, Sphere, Vec3, compare_hits, roots};

@@ -14,9 +14,9 @@ use core::ops::AddAssign;
 /// How many hits were stored, by [`object_lanes`] and [`object_packets`](crate::object_packets).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Writes {
-    /// All.
+    /// All hits that were stored.
     pub stored: u64,
-    /// Those that replace a hit that was known before.
+    /// Those that replaced a hit that was known before.
     pub overwritten: u64,
 }
 
@@ -27,14 +27,14 @@ impl AddAssign for Writes {
     }
 }
 
-/// Sphere `index` of a list against the rays of one packet, whose closest hits so far are `hits`: it is taken where it
-/// is the closer one, by rule 5 of the contract. Returns how many hits that stored.
+/// Tests sphere `index` of a list against the rays of one packet, whose closest hits so far are `hits`. The sphere is
+/// taken where it is the closer one, by rule 5 of the contract. Returns how many hits were stored.
 ///
-/// Beginning with [`HitPacket::none`], the spheres in any order leave bit for bit what
-/// [`Intersect::closest_hit_lanes`](crate::Intersect::closest_hit_lanes) finds in a list of them. So a renderer may
-/// go from object to object, and ask of each only those rays that may meet it. An index that no sphere has, or that of
-/// a sphere that is not valid, changes nothing. Cost: no filter; the tier's price for every packet, less where all
-/// rays have hit something before the sphere.
+/// If `hits` begins as [`HitPacket::none`], then all spheres of the list, in any order, leave in it bit for bit what
+/// [`Intersect::closest_hit_lanes`](crate::Intersect::closest_hit_lanes) finds. So a renderer may go from object to
+/// object, and test each only against the rays that may meet it. An index that no sphere has, or that of an invalid
+/// sphere, changes nothing. Cost: no filter; the tier's price for every packet, less where all rays have hit something
+/// in front of the sphere.
 ///
 /// ```
 /// use spherule_kernel::{Exact, HitPacket, Ray, RayPacket, SphereList, Vec3, Writes, f32x8, object_lanes};
@@ -141,7 +141,7 @@ fn test<F: TierFormula, L: Lanes>(
     let t = L::select(rays.live, t, infinity);
     let closer = t.lt(limits);
     let mut overwrites = (closer & limits.lt(infinity)).bits();
-    // Spheres may come in any order, so the lowest index is looked for by every tier.
+    // Spheres may come in any order, so every tier looks for the lowest index.
     let tied = (t.le(limits) & limits.le(t) & t.lt(infinity)).bits();
     if tied != 0 {
         let before = *hits;

@@ -9,8 +9,8 @@ use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::axes;
 use crate::query::Query;
 
-/// Takes a valid sphere where it is closer; returns the new limits. Of equals the first comes first: where spheres do
-/// not come in the order of their indices they are compared.
+/// Takes a valid sphere where it is closer; returns the new limits. Of equals the first stays, except where spheres
+/// do not come in the order of their indices: there they are compared.
 #[inline(always)]
 pub(crate) fn meet_sphere<F: TierFormula, L: Lanes, Q: Query, const IN_ORDER: bool>(
     (packet, rays, prepared): (&RayPacket<L::Array>, &RayLanes<L>, &F::Prepared<L>),
@@ -36,7 +36,7 @@ pub(crate) fn meet_sphere<F: TierFormula, L: Lanes, Q: Query, const IN_ORDER: bo
     Q::accept::<L>(answer, index, t, limits)
 }
 
-/// Takes sphere `index` in those of the lanes `tied`, where it is hit at the t that is known, in which it is closer.
+/// In the lanes `tied` sphere `index` is hit at the t that is known. Takes it in those of them in which it is closer.
 #[cold]
 #[inline(never)]
 pub(super) fn take_closer<F: TierFormula, L: Lanes, Q: Query>(
@@ -47,7 +47,7 @@ pub(super) fn take_closer<F: TierFormula, L: Lanes, Q: Query>(
     t: &L::Array,
     answer: &mut Q::Packet<L::Array>,
 ) {
-    // Of one lane there is no loop.
+    // One lane needs no loop.
     let mut tied = if L::COUNT == 1 { 1 } else { tied };
     while tied != 0 {
         let lane = tied.trailing_zeros() as usize;

@@ -8,7 +8,7 @@ use crate::geometry::sphere::SpherePacket;
 use crate::lanes::{LaneMask, Lanes};
 use crate::numeric::axes::axes;
 
-/// Ray `i` against sphere `i` alone; the sphere index of a hit is its lane.
+/// Tests ray `i` against sphere `i` alone; the sphere index of a hit is its lane.
 ///
 /// Returns bit for bit what [`Intersect::closest_hit_lanes`](crate::Intersect::closest_hit_lanes)
 /// finds for that ray in a list of that sphere. Cost: no filter; the tier's price for every packet.

@@ -1,7 +1,7 @@
 //! Rays one by one, in one lane, with no filter prepared.
 //!
-//! What a block of prepared spheres costs is paid for by many packets that share it. A ray alone would pay for 128
-//! spheres, in 2 KiB of stack; it asks the tier about each.
+//! Many packets share the cost of a block of prepared spheres. A ray alone would pay for 128 spheres, in 2 KiB of
+//! stack; so the tier tests it against each.
 
 use super::one_sphere::meet_sphere;
 use crate::accuracy::{RayLanes, TierFormula, TierWork};
@@ -15,7 +15,7 @@ pub(super) const fn is_for<L: Lanes>(packets: usize) -> bool {
     L::COUNT == 1 && (packets == 1 || !cfg!(feature = "std"))
 }
 
-/// Takes what is closer than the answers so far.
+/// Takes hits that are closer than the answers so far.
 pub(super) struct RayByRay<'a, L: Lanes, Q: Query, S: SphereRun + ?Sized> {
     pub(super) token: L::Token,
     pub(super) spheres: &'a S,

@@ -1,8 +1,8 @@
 //! Vectors of three lanes, as arrays by axis.
 //!
-//! No closures: one that is not inlined runs without the instruction set that its surroundings were
-//! dispatched to (measured: up to 40 times slower, and right), and nothing but a nested function or
-//! a macro is sure to be inlined.
+//! Closures are not used: a closure that is not inlined runs without the instruction set that its
+//! surroundings were dispatched to (measured: right, but up to 40 times slower), and only a nested
+//! function or a macro is sure to be inlined.
 
 use core::ops::{Add, Mul};
 

@@ -3,12 +3,12 @@
 use core::hint::black_box;
 
 /// Whether arithmetic rounds to nearest even and keeps subnormals, in `f32` and `f64`, on the
-/// thread that asks.
+/// calling thread.
 ///
-/// Rust assumes so and every target starts so, but a library called from another language may
-/// have set flush-to-zero, denormals-are-zero or another rounding mode; AArch32 NEON always
-/// flushes. Where this is false, [`Exact`](crate::Exact) promises nothing. Costs some
-/// nanoseconds: ask once, at the start.
+/// Rust assumes so and every target starts so, but a library called from another language may have
+/// set flush-to-zero, denormals-are-zero or another rounding mode; AArch32 NEON always flushes.
+/// Where this returns `false`, [`Exact`](crate::Exact) promises nothing. Costs some nanoseconds:
+/// call it once, at the start.
 ///
 /// ```
 /// use spherule_kernel::float_environment_is_sound;
@@ -46,8 +46,7 @@ pub fn float_environment_is_sound() -> bool {
 
 #[cfg(all(test, proofs))]
 mod tests {
-    // The answers that are false need another environment, which only unsafe code can set: see
-    // tests/machine.
+    // `false` needs another environment, which only unsafe code can set: see tests/machine.
     #[test]
     fn the_machine_that_runs_this_is_sound() {
         assert!(super::float_environment_is_sound());

@@ -1,7 +1,7 @@
-//! Sorting whole numbers where they are, without a reachable panic.
+//! Sorts whole numbers in place, without a reachable panic.
 //!
 //! The standard library's sorts panic where an order contradicts itself, and not every compiler sees that the order of
-//! numbers does not. Source: Williams, Algorithm 232: Heapsort (1964).
+//! numbers never does. Source: Williams, Algorithm 232: Heapsort (1964).
 
 /// Sorts `numbers`. Cost: n log n steps, whatever their order.
 pub(crate) fn heap_sort(numbers: &mut [u32]) {

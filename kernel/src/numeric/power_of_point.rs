@@ -6,7 +6,7 @@ use crate::lanes::DoubleLanes;
 /// u, of double precision.
 const U: f64 = f64::EPSILON / 2.0;
 
-/// |x - c|^2 - r^2 of numbers of single precision, and what it may be off besides u of itself.
+/// |x - c|^2 - r^2 of numbers of single precision, and a bound on its error besides u of itself.
 ///
 /// All ten products are exact, and their sum is compensated: off by u of itself and 81 u^2 of their magnitudes
 /// (Ogita, Rump, Oishi 2005, Accurate Sum and Dot Product, Sum2). Plain double precision does not tell the points of

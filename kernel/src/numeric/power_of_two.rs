@@ -1,4 +1,4 @@
-//! Powers of two from the exponents of numbers: to multiply by them is exact, except for what over- or underflows.
+//! Powers of two from the exponents of numbers: multiplying by them is exact, unless it over- or underflows.
 
 use crate::Lanes;
 
@@ -9,7 +9,7 @@ pub(crate) fn inverse_power_of_two(number: f32) -> f32 {
     f32::from_bits((254 - exponent.min(253)) << 23)
 }
 
-/// The same in every lane.
+/// [`inverse_power_of_two`] in every lane.
 #[inline(always)]
 pub(crate) fn inverse_powers_of_two<L: Lanes>(numbers: L) -> L {
     let mut powers = numbers.store();

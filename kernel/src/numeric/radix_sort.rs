@@ -1,10 +1,11 @@
-//! Sorting by whole numbers, in memory of the caller's.
+//! Sorts by whole numbers, in the caller's memory.
 
 /// Bits of a key that a round looks at.
 const DIGIT: u32 = 8;
 
 /// Sorts `elements` by the lowest `8 * rounds` bits of their keys; equal ones stay in their order. The result is in
-/// `elements` after an even number of rounds, in `others` after an odd one; the shorter says how many are sorted.
+/// `elements` after an even number of rounds, in `others` after an odd one; the shorter slice sets how many elements
+/// are sorted.
 #[inline(always)]
 pub(crate) fn radix_sort<T: Copy>(
     elements: &mut [T],
@@ -52,7 +53,7 @@ mod tests {
     use std::vec;
     use std::vec::Vec;
 
-    /// As the standard library's stable sort does, by as many bits as there are rounds for.
+    /// Equals the standard library's stable sort by as many bits as the rounds cover.
     #[test]
     fn elements_are_in_the_order_of_their_keys() {
         let mut random = Random(52);
@@ -70,7 +71,7 @@ mod tests {
         }
     }
 
-    /// What is longer stays as it is behind the end of the other.
+    /// The longer slice stays as it is past the end of the shorter.
     #[test]
     fn the_shorter_says_how_many_are_sorted() {
         for (count, spare) in [(5, 9), (9, 5), (0, 3), (3, 0)] {

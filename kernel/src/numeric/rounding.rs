@@ -4,20 +4,21 @@ use crate::Lanes;
 
 /// u = 2^-24, the unit roundoff of `f32`.
 pub(crate) const U: f32 = f32::EPSILON / 2.0;
-/// 2^56: rays that start beyond, in the units in which bounds see a scene, are tested without bounds.
+/// 2^56, in the units in which bounds see a scene: rays that start beyond it are tested without bounds.
 pub(crate) const LARGEST: f32 = 72_057_594_037_927_936.0;
-/// 2^100: a squared direction above, or below the inverse, is not used: the direction is scaled before.
+/// 2^100: a squared direction above this, or below its inverse, is not used; the direction is scaled before.
 pub(crate) const LONGEST: f32 = LARGEST * 17_592_186_044_416.0;
 /// 2^-60.
 pub(crate) const LEAST_COMPONENT: f32 = 1.0 / (1_073_741_824.0 * 1_073_741_824.0);
 
-/// At most s, as [`raised`].
+/// At most the true s, as [`raised`].
 #[inline(always)]
 pub(crate) fn lowered<L: Lanes>(s: L, error: L) -> L {
     -raised(-s, error)
 }
 
-/// At least s, where `s` was computed from a t with an error of up to 8 u of itself, and `error`.
+/// At least the true s: `s` was computed from a t with an error of up to 8 u of itself, and of
+/// `error` besides.
 #[inline(always)]
 pub(crate) fn raised<L: Lanes>(s: L, error: L) -> L {
     let (more, less) =

@@ -1,4 +1,4 @@
-//! Places on a Z curve (Morton 1966): the bits of a cell's numbers along the axes, by turns.
+//! Places on a Z curve (Morton 1966): the bits of a cell's numbers along the axes, interleaved.
 
 /// The bits of a number below 2^8, two zeros behind each.
 pub(crate) const fn one_in_three(number: u32) -> u32 {

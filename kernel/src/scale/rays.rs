@@ -1,5 +1,5 @@
-//! Rays as a structure sees them: their origins scaled as its spheres are, their directions brought to some unit
-//! length where their squares would over- or underflow.
+//! Rays as a structure sees them: their origins are scaled as its spheres are, and their directions are brought to
+//! some unit length where their squares would over- or underflow.
 
 use crate::accuracy::RayLanes;
 use crate::lanes::Lanes;
@@ -11,30 +11,31 @@ use crate::numeric::power_of_two::inverse_powers_of_two;
 pub(crate) struct ScaledRays<L: Lanes> {
     pub(crate) rays: RayLanes<L>,
     /// How many multiples of the scaled direction, in the units of the structure, a t of 1 is: a power of two. NaN
-    /// where none can be said: there all t of the scene are too large for numbers, or all are nearly zero.
+    /// where no such power can be said: there all t of the scene are too large for numbers, or all are nearly
+    /// zero.
     pub(crate) per_t: L,
-    /// At least how far apart the least numbers that t can be are, in multiples of the scaled direction.
+    /// At least the distance between the least numbers that t can be, in multiples of the scaled direction.
     pub(crate) step: L,
-    /// Where `per_t` is NaN: no t that is a number is farther from the origin, in the units of the structure.
+    /// Where `per_t` is NaN: no point at a finite t is farther from the origin, in the units of the structure.
     pub(crate) reach: L,
 }
 
 /// 2^40.
 const LEAST_PER_T: f32 = (1_u64 << 40) as f32;
-/// 2^-89 and 2^-60: together the least number.
+/// 2^-89 and 2^-60: their product is the least number.
 const LEAST: [f32; 2] = [1.0 / (1_u128 << 89) as f32, 1.0 / (1_u64 << 60) as f32];
 /// 2^-20: f of 2^-150 at most, times a t below 2^128, times a direction of length 2 sqrt 3 at most.
 pub(crate) const NEAR: f32 = 1.0 / (1_u64 << 20) as f32;
 
 impl<L: Lanes> ScaledRays<L> {
-    /// Of rays whose directions have any usual length.
+    /// Scales rays whose directions have a usual length.
     #[inline(always)]
     pub(crate) fn new(rays: &RayLanes<L>, factor: f32) -> Self {
         let origin = axes!(i => rays.origin[i] * rays.t_min.like(factor));
         Self::at(origin, rays, factor)
     }
 
-    /// The same, as if they began in the coordinates' origin.
+    /// Scales such rays as if they began in the coordinates' origin.
     #[inline(always)]
     pub(crate) fn from_zero(rays: &RayLanes<L>, factor: f32) -> Self {
         Self::at([rays.t_min.like(0.0); 3], rays, factor)
@@ -47,7 +48,7 @@ impl<L: Lanes> ScaledRays<L> {
         Self { rays: RayLanes { origin, ..*rays }, per_t, step, reach }
     }
 
-    /// Of rays whose directions have any length.
+    /// Scales rays whose directions have any length.
     #[inline(always)]
     pub(crate) fn of_any_length(rays: &RayLanes<L>, factor: f32) -> Self {
         let scale = inverse_powers_of_two(largest(rays.direction));
@@ -65,8 +66,8 @@ impl<L: Lanes> ScaledRays<L> {
     }
 }
 
-/// At least how far apart the least numbers that t can be are, in multiples of a direction. (What is added spares
-/// subnormal numbers, which cost some CPUs a hundred cycles: a sixth of a depth list's time.)
+/// At least the distance between the least numbers that t can be, in multiples of a direction. (The number added
+/// avoids subnormal numbers, which cost some CPUs a hundred cycles: a sixth of a depth list's time.)
 #[inline(always)]
 pub(crate) fn step_of<L: Lanes>(per_t: L) -> L {
     (per_t + per_t.like(LEAST_PER_T)) * per_t.like(LEAST[0]) * per_t.like(LEAST[1])

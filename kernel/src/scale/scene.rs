@@ -1,8 +1,8 @@
 //! The power of two by which a structure sees lengths.
 //!
-//! A sphere's size is the largest magnitude among its centre and radius. Of all ranges of 81 exponents the one that
-//! holds the sizes of most spheres is chosen; its largest is brought to some 1, or above, if the least would be below
-//! 2^-40. Spheres outside of it, and those that the power would round, are seen by no bound.
+//! A sphere's size is the largest magnitude among its centre's coordinates and its radius. Of all ranges of 81 exponents,
+//! the one that holds the sizes of most spheres is chosen. The power brings the largest of these sizes to some 1, or above
+//! if the least would be below 2^-40. No bound sees spheres outside of the range, or spheres that the power would round.
 
 use crate::geometry::sphere::{Sphere, Spheres};
 use crate::numeric::power_of_two::inverse_power_of_two;
@@ -10,13 +10,13 @@ use wide::f32x4;
 
 /// 2^126: a larger power has no normal inverse.
 const MOST: f32 = 1.0 / f32::MIN_POSITIVE;
-/// 2^-40: no sphere that is scaled is smaller, except for one of size zero.
+/// 2^-40: no scaled sphere is smaller, except one of size zero.
 pub(crate) const SMALLEST: f32 = 1.0 / (1_u64 << 40) as f32;
-/// 2^41: nor is any larger.
+/// 2^41: no scaled sphere is larger.
 pub(crate) const LARGEST: f32 = (1_u64 << 41) as f32;
 /// By how much the largest exponent of a range exceeds the least.
 pub(crate) const RANGE: usize = 80;
-/// How many of its exponents are those of sizes below 1 where it is full.
+/// How many exponents of a full range are those of sizes below 1.
 const BELOW: usize = 40;
 /// How many exponents there are.
 const EXPONENTS: usize = 256;
@@ -26,12 +26,12 @@ const EXPONENTS: usize = 256;
 pub(crate) struct SceneScale {
     /// At least 2^-126 and at most 2^126.
     pub(crate) factor: f32,
-    /// 1 over it.
+    /// 1 over `factor`.
     inverse: f32,
 }
 
 impl SceneScale {
-    /// Of the spheres of a list.
+    /// Chooses the power for the spheres of a list.
     pub(crate) fn of(spheres: &Spheres<'_>) -> Self {
         let mut counts = [0_u32; EXPONENTS];
         for sphere in spheres.iter() {
@@ -41,7 +41,7 @@ impl SceneScale {
             }
         }
 
-        // The fullest range; of equals the one with the smallest spheres, since larger ones outside cost less.
+        // The fullest range is chosen; of equals the one with the smallest spheres, since larger spheres outside cost less.
         let (mut first, mut most, mut held) = (0, 0, 0_u32);
         for (last, count) in counts.iter().enumerate() {
             held = held.wrapping_add(*count);
@@ -63,14 +63,14 @@ impl SceneScale {
         Self { factor, inverse: 1.0 / factor }
     }
 
-    /// That of a structure which was built elsewhere; `None` if it is no such power of two.
+    /// The scale of a structure that was built elsewhere; `None` if `factor` is no such power of two.
     pub(crate) fn from_factor(factor: f32) -> Option<Self> {
         let inverse = 1.0 / factor;
         let is_power = factor.to_bits() << 9 == 0 && (1.0 / MOST..=MOST).contains(&factor);
         is_power.then_some(Self { factor, inverse })
     }
 
-    /// The sphere as bounds see it, exactly; `None` if they do not.
+    /// The sphere as bounds see it, exactly; `None` if they do not see it.
     #[inline(always)]
     pub(crate) fn scaled(&self, sphere: &Sphere) -> Option<Sphere> {
         let scaled = times(sphere, self.factor);
@@ -80,7 +80,7 @@ impl SceneScale {
     }
 
     /// Scales four spheres, coordinate by coordinate, as [`scaled`](Self::scaled) does; where that is `None`, the centre is
-    /// zero and the radius NaN. Returns a bit for each that is inside, too.
+    /// zero and the radius NaN. Also returns a bit for each sphere that is inside.
     #[inline(always)]
     pub(crate) fn scale_four(&self, own: [f32x4; 4]) -> ([f32x4; 4], u32) {
         let (factor, inverse) = (f32x4::splat(self.factor), f32x4::splat(self.inverse));
@@ -92,7 +92,7 @@ impl SceneScale {
         for axis in 0..4 {
             let number = own[axis] * factor;
             scaled[axis] = number;
-            // What is not finite does not fit.
+            // A number that is not finite does not fit.
             inside &= number.abs().simd_le(f32x4::splat(LARGEST));
             inside &= (number * inverse).simd_eq(own[axis]);
             is_point &= own[axis].simd_eq(zero);
@@ -139,7 +139,7 @@ mod tests {
     use crate::proofs::climb::Random;
     use glam::Vec3;
 
-    /// The largest size of a range that begins with the least one is seen, and no larger one.
+    /// Bounds see the largest size of the range that begins with the least size, and no larger one.
     #[test]
     fn bounds_see_eighty_powers_of_two() {
         let scale = SceneScale::from_factor(1.0).expect("a power");
@@ -153,7 +153,7 @@ mod tests {
         assert!(both.iter().all(|sphere| scale.scaled(&sphere).is_some()), "{scale:?}");
     }
 
-    /// Four at once as one by one, of any bits.
+    /// Four spheres at once are scaled as one by one, whatever their bits.
     #[test]
     fn columns_are_scaled_as_spheres_are() {
         let mut random = Random(31);

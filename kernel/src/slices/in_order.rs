@@ -1,4 +1,4 @@
-//! Rays of a long call that gain by another order: sorted, and answered in it, some packets at a time.
+//! Rays of a long call that gain by another order: they are sorted, and answered in that order, some packets at a time.
 
 use super::window::PACKETS;
 use crate::Accuracy;
@@ -14,19 +14,21 @@ use crate::structures::{LevelQuery, Traverse};
 use crate::trace::Trace;
 use glam::Vec3;
 
-/// Of the packets of groups that are tried so many may go by themselves: an eighth; and a quarter where the groups do little.
+/// How many packets of the groups on trial may go by themselves: an eighth, and a quarter where the groups do little.
 const MOST_APART: usize = GROUPS_TRIED * RAYS_OF_A_GROUP / RayPacket::COUNT / 8;
 const MOST_APART_OF_LITTLE: usize = 2 * MOST_APART;
-/// Together they may do so much of what their rays would have done apart: five quarters. (Not asked: a beam through a sheet of
-/// 40,000 spheres, or along a tube of 50,000, 45,000 rays, AVX2 and the baseline, 0.71 to 0.83 of the speed, in place of 0.95.)
+/// The groups may do at most so much of what their rays would have done apart: five quarters. (Without this rule a beam of 45,000 rays
+/// through a sheet of 40,000 spheres, or along a tube of 50,000, ran at 0.71 to 0.83 of the speed by AVX2 and at the baseline, instead
+/// of 0.95.)
 const MOST_EFFORT: [u64; 2] = [5, 4];
-/// Little is nine tenths, with what it takes to sort a ray. (Not asked: one more group in vain, and 50,000 rays of a beam among nested
-/// spheres ran at 0.42 of the speed of 49,000.)
+/// Groups do little if that, with the effort of sorting their rays, is at most nine tenths of what these would have done apart.
+/// (Without this rule one more group in vain left a beam unsorted: 50,000 rays among nested spheres ran at 0.42 of the speed of
+/// 49,000.)
 const LITTLE_EFFORT: [u64; 2] = [9, 10];
 const EFFORT_OF_SORTING: u64 = 8;
 
-/// Answers rays from `from` on, and returns up to which: as long as they gain by an order, and there is memory for it. Takes 8
-/// bytes a ray, half a megabyte at most. (Streams in that order: 0.8 to 1.0 of the speed.)
+/// Answers rays from `from` on, as long as they gain by an order, and there is memory to sort them. Returns the number of the first
+/// that is not answered. Takes 8 bytes a ray, half a megabyte at most. (Streams in that order ran at 0.8 to 1.0 of the speed.)
 #[inline(never)]
 pub(super) fn answer<S: Traverse + ?Sized, Q: LevelQuery>(
     structure: &S,
@@ -40,7 +42,7 @@ pub(super) fn answer<S: Traverse + ?Sized, Q: LevelQuery>(
     let gathered = gathered.as_flattened_mut();
     let mut memory = trace.kept.take_numbers();
     while gain.is_for(count - from) {
-        // In parts of equal length, since of few rays left over none would gain; and of whole packets.
+        // Parts have equal length, since a few rays left over would gain nothing; and they are whole packets.
         let left = count - from;
         let part = left.div_ceil(left.div_ceil(MOST).max(1)).next_multiple_of(RayPacket::COUNT);
         let to = (from + part).min(count);
@@ -85,7 +87,7 @@ pub(super) fn answer<S: Traverse + ?Sized, Q: LevelQuery>(
     from
 }
 
-/// Whether most of a few groups go through together, of rays that would come one after the other.
+/// Whether most of a few groups go through together. Each is of rays that would come one after the other.
 #[inline(never)]
 fn groups_pay<S: Traverse + ?Sized, Q: LevelQuery>(
     structure: &S,
@@ -100,7 +102,7 @@ fn groups_pay<S: Traverse + ?Sized, Q: LevelQuery>(
     let (mut apart, mut efforts, mut sorting) = (0, [0; 2], 0);
     for (group, count) in groups.iter().zip(counts) {
         let rays = group.get(..count).unwrap_or(group);
-        // Each is a call of its own: after one in vain others would be passed over.
+        // Each group is a call of its own, since after one in vain others would be passed over.
         let mut trial = Trace { learnt: Learnt::ON_TRIAL, ..Trace::new().at(level) };
         structure.many_in_packets::<Q>(tier, &mut trial, ManyRays::Slice(rays), packets, answered);
         let [of_group, _] = trial.learnt.apart();
@@ -108,7 +110,7 @@ fn groups_pay<S: Traverse + ?Sized, Q: LevelQuery>(
         let [did, by_rays] = trial.learnt.efforts();
         efforts = [efforts[0] + did, efforts[1] + by_rays];
         sorting += EFFORT_OF_SORTING * count as u64;
-        // A group in vain takes several times as long as its rays by themselves: no more than two or three.
+        // A group in vain takes several times as long as its rays by themselves: no more than two or three are tried.
         if apart > MOST_APART_OF_LITTLE {
             return false;
         }
@@ -117,7 +119,7 @@ fn groups_pay<S: Traverse + ?Sized, Q: LevelQuery>(
         || (apart <= MOST_APART && is_within(MOST_EFFORT, efforts))
 }
 
-/// Whether what groups did is at most such a share of what their rays would have done apart.
+/// Whether what groups did is at most `of` / `parts` of what their rays would have done apart.
 fn is_within([of, parts]: [u64; 2], [did, by_rays]: [u64; 2]) -> bool {
     parts * did <= of * by_rays
 }

@@ -1,4 +1,4 @@
-//! Packets of a caller's: traced where they lie, except those whose rays gain by another order.
+//! A caller's packets: they are traced where they lie, except those whose rays gain by another order.
 
 use super::in_order;
 use super::window::PACKETS;
@@ -9,7 +9,7 @@ use crate::geometry::ray::RayPacket;
 use crate::structures::{LevelQuery, Traverse};
 use crate::trace::Trace;
 
-/// Packets that go first, of which it is seen how the others go; and at most so many before that is looked at again.
+/// How many packets go first, to see how the others should go; and at most how many go before the next look.
 const FIRST: usize = 16;
 const AT_ONCE: usize = MOST / RayPacket::COUNT;
 
@@ -40,7 +40,8 @@ pub(super) fn traverse<S: Traverse + ?Sized, Q: LevelQuery>(
     }
 }
 
-/// Answers packets whose rays gain by another order; returns how many. Memory for what is sorted is not cleared for others.
+/// Answers packets whose rays gain by another order; returns how many. (A function of its own, so that other packets do not
+/// pay for clearing its memory.)
 #[inline(never)]
 fn sorted<S: Traverse + ?Sized, Q: LevelQuery>(
     structure: &S,

@@ -1,5 +1,5 @@
-//! Rays of a long call that have nothing in common: many at once, so that a tree can lead them as a stream, in memory that
-//! the call takes.
+//! Rays of a long call that have nothing in common: many are answered at once, so that a tree can trace them as a stream,
+//! in memory that the call allocates.
 
 use crate::Accuracy;
 use crate::geometry::many::ManyRays;
@@ -9,8 +9,8 @@ use crate::structures::{LevelQuery, Traverse};
 use crate::trace::Trace;
 use alloc::vec::Vec;
 
-/// Answers rays from `from` on, and returns up to which: as long as the structure likes to have many at once, and there is
-/// memory. Takes 40 bytes a ray, two thirds of a megabyte at most.
+/// Answers rays from `from` on, as long as the structure gains by many at once, and there is memory. Returns the number
+/// of the first that is not answered. Takes 40 bytes a ray, two thirds of a megabyte at most.
 #[inline(never)]
 pub(super) fn answer<S: Traverse + ?Sized, Q: LevelQuery>(
     structure: &S,

@@ -17,22 +17,22 @@ use glam::Vec3;
 /// Where shadow rays go.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Towards {
-    /// That way, without an end.
+    /// In this direction, without an end.
     Direction(Vec3),
-    /// To that point, which is at t = 1, where they end.
+    /// To this point, which is at t = 1, where the rays end.
     Point(Vec3),
 }
 
 /// The rays of a packet, what they hit, and the surfaces there.
 pub type SurfaceHit<'a, A = [f32; 16]> = (&'a RayPacket<A>, &'a HitPacket<A>, &'a SurfacePacket<A>);
 
-/// The same of many packets.
+/// The rays of many packets, what they hit, and the surfaces there.
 pub type SurfaceHits<'a, A = [f32; 16]> =
     (&'a [RayPacket<A>], &'a [HitPacket<A>], &'a [SurfacePacket<A>]);
 
-/// Returns rays to a light from what the rays of a packet hit. Each begins on the side of the surface that its ray came from;
-/// where that side does not face the light, or nothing was hit, the lane is inactive. `hits` and `surfaces` are the answers of
-/// `tier` for `rays` among `spheres`.
+/// Returns rays to a light from the hits of a packet. Each begins on the side of the surface that its ray came from; where that
+/// side does not face the light, or nothing was hit, the lane is inactive. `hits` and `surfaces` are the answers of `tier` for
+/// `rays` among `spheres`.
 ///
 /// A ray is bit for bit that of [`Surface::spawn_ray`](crate::Surface::spawn_ray) or `spawn_ray_to`, in every lane width. Cost:
 /// in sixteen lanes some 10 ns a ray.
@@ -128,7 +128,7 @@ pub(crate) fn each_packet<L: Lanes>(
     }
 }
 
-/// The lanes whose bit is set.
+/// Makes the rays of the lanes whose bit is set.
 #[cold]
 #[inline(never)]
 fn one_by_one<A: LaneArray>(
@@ -169,7 +169,7 @@ struct Spawn<L: Lanes> {
     center: [L; 3],
     radius: L,
     normal: [L; 3],
-    /// Where rays came from inside.
+    /// The lanes whose rays came from inside.
     inside: L::Mask,
 }
 
@@ -230,7 +230,7 @@ impl<L: Lanes> Spawn<L> {
         axes!(i => L::load(token, &origin[i]))
     }
 
-    /// So many steps from the surface.
+    /// Tries the origins that are so many steps from the surface.
     #[inline(always)]
     fn try_from(
         &self,
@@ -245,7 +245,7 @@ impl<L: Lanes> Spawn<L> {
         let origin = self.origin(surfaces, step, steps);
         let direction = direction_from(origin, towards);
 
-        // On which side it surely is, and whether it surely goes away from the centre.
+        // On which side the origin surely is, and whether the ray surely goes away from the centre.
         let [mut inner, mut outer, mut away] = [0_u32; 3];
         for part in 0..L::PARTS {
             let first = part * L::Double::COUNT;
@@ -267,7 +267,7 @@ impl<L: Lanes> Spawn<L> {
             return Tried { origin, direction, spawned, unknown: unsure | (on_side & !spawned) };
         }
 
-        // The tier says whether it sees the sphere; from inside of which root, one by one.
+        // The tier says whether it sees the sphere. From inside it matters at which root: such rays go one by one.
         let infinity = step.like(f32::INFINITY);
         let outside = active & on_side & !self.inside;
         let rays = RayLanes {

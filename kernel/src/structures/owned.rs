@@ -1,4 +1,4 @@
-//! Structures that own their memory: every traversal is that of what they lend.
+//! Structures that own their memory: every traversal is that of the structure that they lend.
 
 use super::{LevelQuery, Traverse};
 use crate::Accuracy;

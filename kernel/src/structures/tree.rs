@@ -112,7 +112,7 @@ impl Traverse for Bvh<'_> {
 
     #[cfg(feature = "alloc")]
     fn many_at_once<Q: LevelQuery>(&self, trace: &Trace<'_>, rays: usize) -> Option<usize> {
-        // What is said to be incoherent goes as a stream in memory that is lent.
+        // Rays that are said to be incoherent go as a stream in lent memory alone.
         let is_asked = trace.stream.is_none() && trace.coherence != Coherence::Incoherent;
         if is_asked { trace.learnt.many_at_once::<Q>(self, rays) } else { None }
     }
@@ -157,10 +157,10 @@ impl Traverse for Bvh<'_> {
     }
 }
 
-/// So few rays go one by one, whatever they are: what others go through clears 64 KiB first. (On a Zen 3 a call of one ray took 3
-/// to 43 times as long as [`one`](Traverse::one), of eight 1.2 to 4; by way of a packet 1.1 to 3.3, and 1.0 to 1.3; now 0.7
-/// to 1.5, and 0.7 to 1.2. With 12 by AVX-512, 24 by AVX2 and 32 at the baseline, Zen 5: a camera's rays took 1.4 to 3.3 times
-/// as long.)
+/// Up to so many rays go one by one, whatever they are: the code for more rays clears 64 KiB first. (Through that code, on a Zen 3, a
+/// call of one ray took 3 to 43 times as long as [`one`](Traverse::one), and a call of eight 1.2 to 4 times; by way of a packet 1.1 to
+/// 3.3, and 1.0 to 1.3; now 0.7 to 1.5, and 0.7 to 1.2. With a limit of 12 by AVX-512, 24 by AVX2 and 32 at the baseline, a camera's rays
+/// took 1.4 to 3.3 times as long on a Zen 5.)
 #[cfg(feature = "std")]
 const ONE_BY_ONE: usize = 8;
 
@@ -178,12 +178,13 @@ fn ways<'t>(trace: &'t mut Trace<'_>) -> Ways<'t> {
     }
 }
 
-/// Where few packets that do not go together are noted; `None` if there are too many to note.
+/// Returns where packets that do not go together are noted if they are few; `None` if the call has too many packets to note.
 ///
-/// In registers of four lanes rays in flight gain little, and those of any hit nothing, except that a tree that is far from the core is
-/// prefetched. (Six scenes, seven orders. With four at all levels, 65 to 256 rays have 0.90 to 0.98 of the speed, any hits of a shuffled
-/// picture among nested spheres 0.6. With sixteen, AVX-512 0.97, and 300 to 8,192 any hits at the baseline 0.93. With 64 there, closest
-/// hits of 4,096 diffuse rays among 10,000 spheres 0.94, and any hits in a tree that is far 0.9.)
+/// In registers of four lanes a wavefront gains little, and for any hits nothing, except that it prefetches a tree that is far from the
+/// core. (Six scenes, seven orders. With four packets at all levels, 65 to 256 rays ran at 0.90 to 0.98 of the speed, and any hits of a
+/// shuffled picture among nested spheres at 0.6. With sixteen, AVX-512 ran at 0.97, and 300 to 8,192 any hits at the baseline at 0.93.
+/// With 64 at the baseline, closest hits of 4,096 diffuse rays among 10,000 spheres ran at 0.94, and any hits in a tree that is far at
+/// 0.9.)
 #[cfg(feature = "std")]
 fn of_few<'a, Q: Query>(
     bvh: &Bvh<'_>,
@@ -203,10 +204,10 @@ fn of_few<'a, Q: Query>(
     (packets <= u64::BITS as usize).then_some(Alone { packets: alone, most })
 }
 
-/// Answers the rays of packets that are `alone`, a bit each, where they lie if that is in a slice.
+/// Answers the rays of the packets in `alone`, a bit a packet. Rays of a slice are read where they lie.
 ///
-/// Any hit that a group has found is one. (Looked for anew, 65 rays of scan lines among 200,000 spheres: 0.7 of the speed. Closest hits
-/// that are bounded by those that it has found: as fast.)
+/// An any hit that a group has found is kept. (When it was looked for anew, 65 rays of scan lines among 200,000 spheres ran at 0.7 of the
+/// speed. Closest hits that were bounded by the hits that a group had found ran as fast as without.)
 #[cfg(feature = "std")]
 fn one_by_one<Q: LevelQuery>(
     bvh: &Bvh<'_>,
@@ -223,8 +224,8 @@ fn one_by_one<Q: LevelQuery>(
         };
         let known = *answer;
         *answer = Q::none::<[f32; 16]>();
-        // All are copied before the first is read: a ray that is read as soon as it is written waits for memory. (One by one, of a slice:
-        // 0.93 to 0.97 of the speed.)
+        // All are copied before the first is read: a ray that is read as soon as it is written waits for memory. (Copied one by one from
+        // a slice, rays ran at 0.93 to 0.97 of the speed.)
         let copies: [Ray; RayPacket::COUNT];
         let mut rays = slice.get(number * RayPacket::COUNT..).unwrap_or_default();
         if rays.is_empty() {

@@ -1,7 +1,7 @@
 //! The lecture's picture in characters, from a Cortex-M4F: a camera goes once around two spheres.
 //!
-//! No heap, no formatting, no panic. `run` builds it, and draws in qemu; what is drawn comes by semihosting, through a
-//! debugger where there is a board.
+//! No heap, no formatting, no panic. `run` builds it, and draws in qemu. The picture comes by semihosting; from a
+//! board it comes through a debugger.
 
 #![no_std]
 #![no_main]
@@ -20,7 +20,7 @@ const WIDTH: u32 = 64;
 const HEIGHT: u32 = 24;
 /// How many pictures make a turn.
 const PICTURES: u32 = 8;
-/// From what faces away from the light to what faces it.
+/// The characters of surfaces, from those that face away from the light to those that face it.
 const SHADES: &[u8; 10] = b".:-=+*#%@@";
 
 // x, y, z and radius, in flash.
@@ -82,7 +82,7 @@ fn shade(spheres: Spheres<'_>, ray: &Ray) -> u8 {
     shade_of(ray, hit.t, &sphere)
 }
 
-/// How far a surface faces a light at the upper left, behind the camera's first place.
+/// The character for how far a surface faces a light at the upper left, behind the camera's first place.
 fn shade_of(ray: &Ray, t: f32, sphere: &Sphere) -> u8 {
     let light = Vec3::new(-0.57, 0.57, 0.57);
     let towards = surface(Exact, ray, t, sphere).normal.dot(light).max(0.0);

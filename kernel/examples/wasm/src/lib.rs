@@ -29,7 +29,7 @@ pub extern "C" fn rays() -> *const [AtomicU32; 6] {
     RAYS.as_ptr()
 }
 
-/// Where it reads hits: t, infinite if there is none, and the index of the sphere.
+/// Where the host reads hits: t, infinite if there is none, and the index of the sphere.
 #[unsafe(no_mangle)]
 pub extern "C" fn hits() -> *const [AtomicU32; 2] {
     HITS.as_ptr()

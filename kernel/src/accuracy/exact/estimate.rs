@@ -1,5 +1,4 @@
-//! D and both roots in double precision, each with the bound that the table of
-//! [`exact`](super) proves.
+//! D and both roots in double precision, each with the bound that `docs/numerics.md` proves.
 
 use crate::DoubleLanes;
 use crate::accuracy::constants::Constants;
@@ -11,9 +10,9 @@ pub(crate) struct Estimate<D> {
     pub(crate) discriminant: D,
     /// E.
     pub(crate) error: D,
-    /// t and T of the smaller root; no number where D is not above E.
+    /// t and T of the smaller root; meaningless where D is not above E.
     pub(crate) near: (D, D),
-    /// Of the larger root.
+    /// t and T of the larger root, likewise.
     pub(crate) far: (D, D),
 }
 
@@ -28,13 +27,13 @@ pub(super) struct Sums<D> {
     pub(super) square: D,
     /// The sum of the magnitudes of d.
     pub(super) d: D,
-    /// Of p.
+    /// The sum of the magnitudes of p.
     pub(super) p: D,
-    /// Of d x p.
+    /// The sum of the magnitudes of d x p.
     pub(super) x: D,
 }
 
-/// D as computed and its bound, and what the roots are made of.
+/// D as computed, its bound, and the parts of the roots.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Solved<D> {
     pub(super) discriminant: D,
@@ -44,7 +43,7 @@ pub(super) struct Solved<D> {
     pub(super) root: D,
     /// 1 / a.
     per_a: D,
-    /// What is the same in the bounds of both roots.
+    /// The part that the bounds of both roots share.
     shared: D,
 }
 
@@ -84,7 +83,7 @@ impl<D: DoubleLanes> Solved<D> {
         Self { discriminant, error, root, per_a, shared }
     }
 
-    /// t, and its bound T, of `b_root`, b - sqrt D or b + sqrt D.
+    /// t and its bound T, from `b_root`: b - sqrt D or b + sqrt D.
     #[inline(always)]
     pub(super) fn t(&self, b_root: D, constants: &Constants) -> (D, D) {
         let t = b_root * self.per_a;

@@ -1,6 +1,7 @@
 //! One ray and one sphere: the method of [`exact`](super), without lanes.
 //!
-//! Not generic and called, not inlined: where doubles are calls of a library, one estimate is as long as all the rest.
+//! Except `decided_inline`, these functions are not generic, and are called instead of inlined: where operations on
+//! doubles are library calls, one estimate is as long as all the rest.
 
 use super::estimate::{Solved, Sums};
 use crate::accuracy::constants::Constants;
@@ -13,9 +14,9 @@ use crate::{Ray, Sphere};
 pub(super) struct Bracketed {
     /// D.
     pub(super) discriminant: f64,
-    /// And its bound.
+    /// The bound of D.
     pub(super) error: f64,
-    /// Between which numbers each root lies; none where D is not above its bound.
+    /// The two numbers between which each root lies; meaningless where D is not above its bound.
     pub(super) roots: [[f64; 2]; 2],
 }
 
@@ -40,7 +41,7 @@ impl Bracketed {
         is_known.then_some(self.discriminant.is_sign_positive())
     }
 
-    /// Between which numbers of single precision the near root is, and the far one.
+    /// The two numbers of single precision between which the near root lies.
     pub(super) fn near(&self) -> [f32; 2] {
         let [[low, high], _] = &self.roots;
         [*low as f32, *high as f32]
@@ -70,8 +71,8 @@ fn sums(ray: &Ray, sphere: &Sphere) -> Sums<f64> {
     sums
 }
 
-/// The t of rules 2 to 4, `+inf` if there is none, of a valid ray and a valid sphere; `+inf` where it is larger than
-/// `limit`. `None` where doubles cannot decide.
+/// Returns the t of rules 2 to 4 of a valid ray and a valid sphere; `+inf` if there is none, or where it is larger than
+/// `limit`; `None` where doubles cannot decide.
 #[inline(never)]
 pub(super) fn decided(ray: &Ray, sphere: &Sphere, limit: f32) -> Option<f32> {
     let estimate = estimate(ray, sphere);
@@ -90,7 +91,7 @@ pub(super) fn decided(ray: &Ray, sphere: &Sphere, limit: f32) -> Option<f32> {
     Some(f32::INFINITY)
 }
 
-/// The same without a limit, where doubles are numbers of the processor's: the far root is solved if it is asked for.
+/// [`decided`] without a limit, for processors that have doubles: the far root is solved only if it is needed.
 #[cfg(feature = "std")]
 #[inline(always)]
 pub(super) fn decided_inline(ray: &Ray, sphere: &Sphere) -> Option<f32> {
@@ -167,7 +168,8 @@ mod tests {
     use crate::proofs::climb::Random;
     use crate::{Ray, Sphere};
 
-    /// Bit for bit: what is proven of the estimate in lanes holds of one ray.
+    /// The estimates are equal bit for bit, so what is proven of the one in lanes holds for one
+    /// ray.
     #[test]
     fn an_estimate_is_that_of_lanes() {
         let mut random = Random(61);

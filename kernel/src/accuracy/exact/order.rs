@@ -1,7 +1,7 @@
 //! Which of two spheres a ray hits first, where both answers are rounded to the same t.
 //!
-//! Rounding keeps the order of what it does not make equal, so roots need comparing only then. Double precision with
-//! its bound decides nearly always; else [`compare_roots`] does, exactly.
+//! Rounding keeps the order of roots that it does not make equal, so only roots with equal t need comparing. Double
+//! precision with its bound decides nearly always; else [`compare_roots`] decides, exactly.
 
 use super::one_ray;
 use crate::count::count;
@@ -9,14 +9,14 @@ use crate::exact::{Quadratic, Root, compare_roots};
 use crate::{Ray, Sphere};
 use core::cmp::Ordering;
 
-/// A root that is answered by t, and between which doubles it lies.
+/// A root that rounds to the answer t, and the doubles between which it lies.
 pub(super) struct Answered {
     pub(super) root: Root,
     ends: [f64; 2],
 }
 
 impl Answered {
-    /// By rule 4 the near root, if it is rounded to t, which the interval accepts.
+    /// By rule 4 the near root, if it rounds to t, which the interval accepts; else the far one.
     pub(super) fn new(ray: &Ray, t: f32, sphere: &Sphere) -> Self {
         let estimate = one_ray::estimate(ray, sphere);
         let [first, last] = estimate.near();
@@ -31,7 +31,7 @@ impl Answered {
     }
 }
 
-/// How the roots compare that are answered by `t`, on one ray and two spheres.
+/// Compares the roots that round to `t`, of one ray and two spheres.
 #[cold]
 #[inline(never)]
 pub(super) fn compare(ray: &Ray, t: f32, spheres: [&Sphere; 2]) -> Ordering {
@@ -41,7 +41,7 @@ pub(super) fn compare(ray: &Ray, t: f32, spheres: [&Sphere; 2]) -> Ordering {
     }
     let first = Answered::new(ray, t, one);
     let second = Answered::new(ray, t, other);
-    // In the order of bits: no end is -0.
+    // `total_cmp` orders by bits, which is right: no end is -0.
     if first.ends[1].total_cmp(&second.ends[0]).is_lt() {
         return Ordering::Less;
     }

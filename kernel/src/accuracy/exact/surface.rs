@@ -1,7 +1,7 @@
 //! The surface at a hit, correctly rounded.
 //!
-//! In double precision with its bound, as seen from the centre; then as seen from the start of the ray; then exactly, a
-//! coordinate at a time.
+//! In double precision with its bound, as seen from the centre; where that does not decide, as seen from the start of
+//! the ray; then exactly, a coordinate at a time.
 
 use super::from_start;
 use super::order::Answered;
@@ -17,14 +17,15 @@ use glam::Vec3;
 /// u, of double precision.
 const U: f64 = f64::EPSILON / 2.0;
 
-/// The surface of a sphere of positive radius where `ray` hits it at `t`, exactly where double precision does not do.
+/// The surface of a sphere of positive radius where `ray` hits it at `t`; by exact sums where double precision does not
+/// decide.
 pub(super) fn at(ray: &Ray, t: f32, sphere: &Sphere) -> Surface {
     let root = Answered::new(ray, t, sphere).root;
     let line = line::<true>(ray, sphere);
     let (value, error, per_radius) = line.point(root == Root::Near);
     let of_point = if line.error < line.discriminant { error } else { f64::INFINITY };
     let seen = from_start::point(ray, sphere, &line, root == Root::Near);
-    // Whichever is known better.
+    // Takes the value with the smaller bound.
     let estimated = |axis: usize| match seen {
         Some((value, error)) if error[axis % 3] < of_point => (value[axis % 3], error[axis % 3]),
         _ => (value[axis % 3], of_point),
@@ -58,13 +59,13 @@ pub(super) fn at(ray: &Ray, t: f32, sphere: &Sphere) -> Surface {
     Surface { normal: all(Surveyed::Normal), point, rest: Vec3::from_array(rest) }
 }
 
-/// What a coordinate of the normal may be off, by that of the point and 1/r.
+/// The error of a coordinate of the normal, from the error of the point's coordinate and 1/r.
 #[inline(always)]
 fn normal_error<D: DoubleLanes>(of_point: D, per_radius: D) -> D {
     of_point * per_radius * per_radius.like(1.0 + 8.0 * U) + per_radius.like(8.0 * U)
 }
 
-/// The same in lanes, and those of the lanes `active` in which double precision knows it.
+/// The surface in lanes, and the lanes of `active` in which double precision decides it.
 #[inline(always)]
 pub(super) fn in_lanes<L: Lanes>(
     rays: &RayLanes<L>,
@@ -145,13 +146,13 @@ fn estimated<L: Lanes, const IN_TWO_TERMS: bool>(
     (surfaces, known)
 }
 
-/// Where `t` answers the near root, and where it is known which root it answers: by its side of b / a, where the line
-/// is closest to the centre. What is rounded to t is within 2^-24 |t| of it, or 2^-149.
+/// In which lanes `t` answers the near root, and in which it is known which root it answers: by the side of b / a,
+/// where the line is closest to the centre. A root that rounds to t is within 2^-24 |t| of it, or 2^-149.
 #[inline(always)]
 fn root_of<D: DoubleLanes>(line: &Line<D>, t: D) -> (D::Mask, D::Mask) {
     let at_t = t * line.a;
     let off = line.slope - at_t;
-    // b is 5u G off, and the least number of single precision is allowed for too.
+    // b is 5u G off; the margin allows for the least number of single precision too.
     let margin = t.like(f64::from(f32::EPSILON)) * at_t.abs()
         + t.like(8.0 * U) * line.size
         + t.like(f64::from(f32::from_bits(1))) * line.a;

@@ -20,14 +20,14 @@ impl Corners {
     pub(super) const EMPTY: Self =
         Self { low: f32x4::new([f32::INFINITY; 4]), high: f32x4::new([f32::NEG_INFINITY; 4]) };
 
-    /// Of a sphere: centre and radius.
+    /// The box of a sphere, which is given as centre and radius.
     #[inline(always)]
     pub(super) fn of(sphere: [f32; 4]) -> Self {
         let (center, radius) = (f32x4::new(sphere), f32x4::splat(sphere[3]));
         Self { low: center - radius, high: center + radius }
     }
 
-    /// Of the box of spheres, as it was computed, the corners rounded outward.
+    /// The corners of a box of spheres as it was computed, rounded outward.
     pub(super) fn outward(&self) -> [[f32; 3]; 2] {
         let [x, y, z, _] = self.low.to_array();
         let [far_x, far_y, far_z, _] = self.high.to_array();
@@ -60,11 +60,11 @@ pub(super) struct Bounds {
     pub(super) centers: Corners,
 }
 
-/// By how much of its largest coordinate a node's box is larger.
+/// A node's box is padded by this share of its largest coordinate.
 pub(crate) const PAD: f32 = 40.0 * U;
 
-/// The corners of a box that is rounded outward, as nodes have them: farther out by what of the margins is in
-/// proportion to the box itself (`docs/traversal-margins.md`).
+/// The corners of a box that is rounded outward, as nodes have them: farther out by that part of the margins
+/// that is in proportion to the box itself (`docs/traversal-margins.md`).
 pub(crate) fn padded(low: [f32; 3], high: [f32; 3]) -> [[f32; 3]; 2] {
     let mut largest = 0.0_f32;
     for axis in 0..3 {
@@ -76,13 +76,13 @@ pub(crate) fn padded(low: [f32; 3], high: [f32; 3]) -> [[f32; 3]; 2] {
 }
 
 impl Bounds {
-    /// Of spheres, by halves where they are many.
+    /// The bounds of spheres, by halves where they are many.
     pub(super) fn of(join: &impl Join, spheres: &[[f32; 4]]) -> Self {
         let [spheres, centers] = corners_of(join, spheres);
         Self::new(&spheres, &centers)
     }
 
-    /// Of the box of spheres, as it was computed, and that of their centres.
+    /// Bounds from the box of spheres, as it was computed, and that of their centres.
     pub(super) fn new(spheres: &Corners, centers: &Corners) -> Self {
         let [low, high] = spheres.outward();
         Self { low, high, centers: *centers }
@@ -93,7 +93,7 @@ impl Bounds {
         padded(self.low, self.high)
     }
 
-    /// Half the surface of the box: what the chance to meet it is proportional to.
+    /// Half the surface of the box: the chance to meet the box is proportional to it.
     pub(super) fn half_area(&self) -> f32 {
         let [x, y, z] = axes!(i => self.high[i] - self.low[i]);
         x * y + y * z + z * x
@@ -133,7 +133,7 @@ fn corners_of(join: &impl Join, spheres: &[[f32; 4]]) -> [Corners; 2] {
     both
 }
 
-/// Two halves of what is worth a thread.
+/// The two halves of spheres, if they are worth a thread.
 pub(super) fn halves(spheres: &[[f32; 4]]) -> Option<[&[[f32; 4]]; 2]> {
     (spheres.len() > WORTH_A_THREAD).then(|| spheres.split_at(spheres.len() / 2).into())
 }

@@ -1,9 +1,9 @@
 //! How much memory a tree may take, and what is left of it.
 //!
-//! A tree that is cut in equal parts, sixteen a node and sixteen spheres a leaf, takes little and a known number of
-//! nodes: what a run *needs*. Cuts where the heuristic likes them take more. What is there beyond the need of all
-//! runs that wait is there for the first that asks: a cut that cannot be afforded is not made, and the node is cut in
-//! equal parts. So the memory is known before, whatever the spheres are.
+//! A tree that is cut in equal parts, sixteen a node and sixteen spheres a leaf, takes a small and known number of
+//! nodes: what a run *needs*. Cuts where the heuristic chooses take more. The memory beyond the need of all runs that
+//! wait is there for the first that asks. A cut that cannot be afforded is not made; the node is cut in equal parts
+//! then. So the memory is known before, whatever the spheres are.
 
 use crate::bvh::leaf::{BEFORE, BEHIND, MOST_PLACES, STEP};
 use crate::bvh::node::WIDTH;
@@ -23,12 +23,12 @@ pub(crate) const fn places_needed(count: usize) -> usize {
     count.next_multiple_of(STEP)
 }
 
-/// How many nodes are there to be spent.
+/// How many nodes there are beyond the need, to be spent on cuts.
 pub(crate) const fn spare_nodes(count: usize) -> usize {
     count / 41
 }
 
-/// How many places are there to be spent on leaves that are not full.
+/// How many places there are beyond the need, to be spent on leaves that are not full.
 pub(crate) const fn spare_places(count: usize) -> usize {
     count / 4
 }
@@ -62,9 +62,9 @@ impl Budget {
 /// How much memory a tree takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BvhSize {
-    /// Nodes, of 512 bytes.
+    /// How many nodes, of 512 bytes each.
     pub nodes: usize,
-    /// Places of spheres, of 16 bytes, and as many indices, of 4.
+    /// How many places of spheres, of 16 bytes each, and as many indices, of 4 bytes each.
     pub places: usize,
 }
 

@@ -7,11 +7,12 @@
 //! children that it meets are put onto its stack in the order of its octant, and the nearest is on
 //! top.
 //!
-//! A ray that any hit ends takes children as they stand, the last slot first. A leaf may end it, a node cannot: so leaves
-//! come after nodes, the larger node after the smaller, and the leaf whose spheres fill most of its box last. (Any hit
-//! of diffuse rays at AVX-512, times that of slots in the order of the spheres: huge and tiny 1.98, ground 1.65, inside
-//! 1.21, u1m 1.15, parallel 1.05, flake4 1.04, u10k 1.03, shell 1.01, chains 0.99. Leaves by their boxes alone, in another
-//! run with 1.99, 1.64, 1.20, 1.13, 1.05, 1.08, 1.03, 1.01: 1.97, 1.60, 1.22, 1.08, 1.03, 1.08, 1.02, 0.99. In the order of the octant, or by the size of boxes: 0.97 to 1.03.)
+//! For any hit, a ray takes children by their slots, the last first. A leaf may end the ray, a node cannot: so leaves come after nodes, the
+//! larger node after the smaller, and the leaf whose spheres fill most of its box last. (Speed of any hit of diffuse rays with AVX-512,
+//! over that with slots in the order of the spheres: huge and tiny 1.98, ground 1.65, inside 1.21, u1m 1.15, parallel 1.05, flake4 1.04,
+//! u10k 1.03, shell 1.01, chains 0.99. Ordering leaves by their boxes alone, in another run in which this order gave 1.99, 1.64, 1.20,
+//! 1.13, 1.05, 1.08, 1.03, 1.01, gave 1.97, 1.60, 1.22, 1.08, 1.03, 1.08, 1.02, 0.99. The order of the octant, or that by the size of
+//! boxes, gave 0.97 to 1.03.)
 
 use super::join::Join;
 use crate::bvh::boxes_per_ray::{BoxesPerRay, boxes_of};
@@ -51,7 +52,7 @@ pub(super) fn order_children<const SLOTS: bool>(
     boxes
 }
 
-/// Nodes, then leaves, then what is not there.
+/// Orders slots: nodes, then leaves, then children that are not there.
 fn order_slots(node: &mut BvhNode, numbers: &[f32]) {
     let mut keys = [LAST; WIDTH];
     for (slot, key) in keys.iter_mut().enumerate() {
@@ -62,7 +63,7 @@ fn order_slots(node: &mut BvhNode, numbers: &[f32]) {
         let [x, y, z] = axes!(i => node.high[i][slot] - node.low[i][slot]);
         let area = x * y + y * z + z * x;
         let fills = if child & LEAF == 0 { area } else { surface(numbers, child) / area };
-        // A number that is not negative is in the order of its bits; the last makes room for what is a leaf.
+        // Numbers that are not negative are in the order of their bits; the last bit makes room for one that marks a leaf.
         *key = ((fills.to_bits() >> 1) | (child & LEAF) >> 1) as i32;
     }
     let as_they_are = *node;
@@ -106,7 +107,7 @@ fn order_octants(node: &mut BvhNode) {
             let there = node.low[0][slot] <= node.high[0][slot];
             *key = if there { rising } else { LAST };
         }
-        // The opposite octant meets them the other way round.
+        // Rays of the opposite octant meet the children the other way round.
         let (mut order, mut opposite) = (0, 0);
         for (slot, rank) in ranks(&keys).into_iter().enumerate() {
             order |= (slot as u64) << (4 * rank % u64::BITS);

@@ -3,17 +3,18 @@
 //! A node begins with one run and cuts one part after another in two, always the one that costs most (surface times
 //! spheres), until there are sixteen or none is longer than what makes a node of leaves. In slots that are still free
 //! then, parts are opened: they are cut on, and become leaves of this node, so that a ray has one node less to look
-//! into; first the part that saves most a slot, if all of its leaves find room. A leaf is cut where its parts have
-//! less surface together. (Cut until all sixteen slots are taken, nodes had 3.3 children on 10,000 uniform spheres.)
+//! into. The part that saves most a slot is opened first, if all of its leaves find room. A leaf is cut where its
+//! parts have less surface together. (When parts were cut until all sixteen slots were taken, nodes had 3.3 children
+//! on 10,000 uniform spheres.)
 //!
 //! # Depth
 //!
-//! Of a node's n spheres let q = n/8, rounded up, but at least 256, and let a part of s spheres
-//! *want* s/q, rounded up, less one, cuts: seven at most at the beginning, zero once no part is longer
-//! than q. A cut never adds to the sum of what is wanted, since the parts' s/q, rounded up, exceed
-//! their sum's by one at most, and one is paid. So as long as more cuts are left than wanted the
-//! heuristic chooses; from then on a part longer than q is cut behind q spheres, which takes one off
-//! each time. After fifteen cuts no child is longer than q; nor is one where cuts stop before.
+//! For a node of n spheres, let q = n/8, rounded up, but at least 256. Let a part of s spheres *want* s/q, rounded
+//! up, less one, cuts: seven at most at the beginning, zero once no part is longer than q. A cut never adds to the
+//! sum of what is wanted: the s/q of its two parts, each rounded up, exceed that of the whole by one at most, and one
+//! more is taken off, since each part wants one less. So the heuristic chooses as long as more cuts are left than
+//! wanted. From then on a part longer than q is cut behind q spheres, which takes one off each time. After fifteen
+//! cuts no child is longer than q; nor is one where cuts stop before.
 
 use super::bounds::{Bounds, Corners};
 use super::budget::Budget;
@@ -21,10 +22,10 @@ use super::join::Join;
 use super::run::Run;
 use crate::bvh::node::WIDTH;
 
-/// No part that is longer stays whole where the heuristic chooses: what sixteen leaves hold if they are two thirds
-/// full. (128 to 256: the surface of nodes and leaves 0.85 to 0.90 in place of 0.86.)
+/// No part that is longer stays whole where the heuristic chooses: what sixteen leaves hold if they are seven eighths
+/// full. (With 128 to 256, the surface of nodes and leaves is 0.85 to 0.90 instead of 0.86.)
 const OF_LEAVES: usize = 224;
-/// A part is opened if there were room for its leaves with one sphere more for so many.
+/// A part is opened if there would be room for its leaves even with one sphere more for every so many.
 const SLACK: usize = 8;
 
 /// A part that will be a child.
@@ -33,13 +34,13 @@ pub(super) struct Part {
     pub(super) first: usize,
     pub(super) count: usize,
     pub(super) bounds: Bounds,
-    /// What a ray pays here, except a constant.
+    /// What a ray pays for this part, except a constant.
     cost: f32,
     /// How many cuts it wants, so that none of its parts is too long.
     wanted: usize,
     /// Whether its leaves become children of the node itself.
     opened: bool,
-    /// A leaf that is best left as it is.
+    /// Whether it is a leaf that is best left as it is.
     whole: bool,
 }
 
@@ -97,7 +98,7 @@ pub(super) fn children(
     made
 }
 
-/// `None` where that costs more than is there.
+/// Cuts where the heuristic chooses; `None` if that costs more than is there.
 fn by_heuristic(
     join: &impl Join,
     all: &mut Run<'_>,
@@ -109,7 +110,7 @@ fn by_heuristic(
     } else {
         WIDTH
     };
-    // At least one: nothing divides by zero.
+    // `longest` is at least one, so that nothing divides by zero.
     let part = |opened, bounds, first, count: usize| {
         let part = Part { opened, ..Part::within(bounds, first, count) };
         let wanted = if part.is_leaf() { 0 } else { count.div_ceil(longest.max(1)) - 1 };
@@ -123,7 +124,7 @@ fn by_heuristic(
         let Some(next) = made.get_mut(next) else { break };
         let Part { first, count, bounds, opened, .. } = *next;
         let mut run = all.part(first, count);
-        // What is opened must find room as leaves.
+        // An opened part must find room as leaves.
         let most = if opened { leaves(count) + free } else { usize::MAX };
         let best = if behind.is_some() { None } else { run.best_cut(join, &bounds, most) };
         let (at, [one, other]) = match best {
@@ -192,20 +193,20 @@ pub(super) fn in_equal_parts(
 struct Next {
     /// Which of the parts.
     part: usize,
-    /// Behind how many spheres, wherever the heuristic would.
+    /// Behind how many spheres it is cut, wherever the heuristic would cut it.
     behind: Option<usize>,
     /// How many slots its leaves may take beyond what they need.
     free: usize,
 }
 
-/// What is cut next of a node's parts, none of which is to be longer than `longest`; `None` if they are best left as
-/// they are.
+/// Which of a node's parts is cut next, so that none is longer than `longest` in the end; `None` if they are best
+/// left as they are.
 fn next_to_cut(parts: &mut [Part], longest: usize) -> Option<Next> {
     if parts.iter().map(|part| part.wanted).sum::<usize>() >= WIDTH - parts.len() {
         let part = costliest(parts, |part| part.wanted > 0)?;
         return Some(Next { part, behind: Some(longest), free: 0 });
     }
-    // What is opened will take a slot a leaf.
+    // An opened part will take a slot a leaf.
     let taken = |part: &Part| if part.opened { leaves(part.count) } else { 1 };
     let free = WIDTH.saturating_sub(parts.iter().map(taken).sum());
     let next = |part| Next { part, behind: None, free };
@@ -217,7 +218,7 @@ fn next_to_cut(parts: &mut [Part], longest: usize) -> Option<Next> {
         return Some(next(part));
     }
     let parts_are_one = parts.len() == 1;
-    // What a slot saves, if there are slots for leaves that are not full.
+    // The part that saves most a slot, if there are slots for leaves that are not full.
     let fits = |part: &Part| {
         !part.is_leaf()
             && (leaves(part.count + part.count / SLACK) <= free + 1
@@ -231,12 +232,12 @@ fn next_to_cut(parts: &mut [Part], longest: usize) -> Option<Next> {
         return next_to_cut(parts, longest);
     }
     costliest(parts, |part| part.wanted > 0)
-        // Leaves, in what slots there are.
+        // Then leaves are cut, as long as there are slots.
         .or_else(|| costliest(parts, |part| part.count <= WIDTH && part.count > 1 && !part.whole))
         .map(next)
 }
 
-/// The part that costs most of those that are wanted.
+/// The costliest of the parts that are wanted.
 fn costliest(parts: &[Part], wanted: impl Fn(&Part) -> bool) -> Option<usize> {
     most(parts, wanted, |part| part.cost)
 }

@@ -1,8 +1,8 @@
 //! Copies of spheres for which no lane is free, while leaves are laid down.
 //!
-//! They wait where the spheres lay that were read last, right in front of what is read next, each with its own
-//! index and that of the sphere it is the same as, and move along: at the end they are the last of the memory. So leaves in
-//! front of them have the room that copies do not take.
+//! They wait where the spheres lay that were read last, right in front of what is read next, each with its own index and
+//! that of the sphere it is the same as. As reading goes on, they move along: at the end they are the last of the memory.
+//! So leaves in front of them have the room that copies do not take.
 
 use crate::bvh::unplaced::Unplaced;
 
@@ -21,7 +21,7 @@ impl Dropped {
         Self { count: 0, read: first, last: 0 }
     }
 
-    /// Reading goes on at `begin`: what was left out are copies of the first of the leaf that was read last.
+    /// Reading goes on at `begin`: the spheres left out before it are copies of the first of the leaf that was read last.
     #[inline(always)]
     pub(super) fn leave_out(&mut self, places: &mut [[f32; 4]], indices: &[u32], begin: usize) {
         if begin > self.read {
@@ -38,8 +38,7 @@ impl Dropped {
         (self.count, self.read) = (self.count + begin - self.read, begin);
     }
 
-    /// A leaf was read up to `end`, of which `first` has the lowest index; `copies` are its own, with what they are the
-    /// same as.
+    /// A leaf was read up to `end`, whose lowest index is `first`; `copies` are its copies, with what they are the same as.
     #[inline(always)]
     pub(super) fn read_leaf(
         &mut self,
@@ -53,7 +52,7 @@ impl Dropped {
         (self.count, self.read, self.last) = (self.count + copies.len(), end, first);
     }
 
-    /// Moves as many as must move: the first of those that wait, into what was read.
+    /// Moves as many as must move, the first of those that wait, to where the leaf was read.
     #[cold]
     fn move_behind(&self, places: &mut [[f32; 4]], end: usize, copies: &[Unplaced]) {
         let to = end.saturating_sub(copies.len());
@@ -71,7 +70,7 @@ impl Dropped {
         }
     }
 
-    /// Writes those that are left at the end, behind `all` spheres, to a table before them, from its front.
+    /// Writes those that wait at the end, the last of `all` places, to a table before them, from its front.
     pub(super) fn collect(&self, numbers: &mut [f32], all: usize, table: usize) {
         let from = 4 * all.saturating_sub(self.count);
         for number in 0..self.count {

@@ -2,7 +2,7 @@
 
 /// Runs two pieces of work, at the same time or in turn: `rayon::join`, say.
 pub trait Join: Sync {
-    /// What the two return.
+    /// Runs both, and returns what they return.
     fn join<A: Send, B: Send>(
         &self,
         one: impl FnOnce() -> A + Send,

@@ -1,17 +1,18 @@
 //! Leaves, from the order in which the build has left their spheres to the places where they are found.
 //!
 //! The spheres stand at the end of their memory, in the order of the leaves, and leaves are laid down from the front,
-//! in the same order. A leaf takes at most what its spheres and what was spent on it take, so nothing is written
-//! where a sphere has yet to be read (`budget.rs`). Of spheres that are the same the lowest index stays: it answers
-//! for all. The others lie in lanes that are free, with a NaN for a radius, so that they have a place if they part
-//! (`refit.rs`); those beyond are dropped.
+//! in the same order. A leaf takes at most the places of its spheres and those that were spent on it, so nothing is
+//! written where a sphere has yet to be read (`budget.rs`). Of spheres that are the same, the one with the lowest
+//! index stays: it answers for all. The others lie in free lanes, with NaN for a radius, so that they have a place if
+//! they part (`refit.rs`); those for which no lane is free are dropped.
 
 use super::dropped::Dropped;
 use crate::bvh::leaf::{STEP, leaf_at};
 use crate::bvh::node::{BvhNode, DEPTH, LEAF, NO_CHILD, WIDTH};
 use crate::bvh::unplaced::Unplaced;
 
-/// Bits of a leaf that is not laid down that say where its spheres begin; the four above are their number, less one.
+/// How many bits say where the spheres of a leaf that is not laid down begin; the four above are their number, less
+/// one.
 const BEGIN_BITS: u32 = 27;
 
 /// A leaf that is not laid down: of up to sixteen spheres.
@@ -85,8 +86,8 @@ struct Leaf {
     columns: [[f32; WIDTH]; 4],
     indices: [u32; WIDTH],
     count: usize,
-    /// With the copies of spheres, which come behind: for those beyond the lanes that it takes, x is the index of what
-    /// they are the same as, as bits.
+    /// The count with the copies of spheres, which come behind. For copies beyond the lanes that the leaf takes, x is
+    /// the index of what they are the same as, as bits.
     all: usize,
 }
 
@@ -102,7 +103,7 @@ impl Leaf {
         }
     };
 
-    /// In the order of their indices, each once.
+    /// Reads the spheres of a leaf, in the order of their indices, each once.
     fn read(places: &[[f32; 4]], indices: &[u32], begin: usize, count: usize) -> Self {
         let mut as_they_are = Self::EMPTY;
         // Spheres that are the same have the same sum, whatever the signs of zeros are; others seldom do.
@@ -117,7 +118,7 @@ impl Leaf {
             as_they_are.indices[lane % WIDTH] = *index;
             as_they_are.count = lane + 1;
         }
-        // How many indices are lower is where a sphere goes. No branch depends on a comparison.
+        // A sphere goes to the lane whose number is how many indices are lower. No branch depends on a comparison.
         let (mut ranks, mut alike) = ([0; WIDTH], [0; WIDTH]);
         for other in 0..as_they_are.count.min(WIDTH) {
             let (sum, index) = (sums[other], as_they_are.indices[other]);
@@ -157,7 +158,7 @@ impl Leaf {
         (copies, number)
     }
 
-    /// Of spheres that are the same the first; the others behind.
+    /// Keeps the first of spheres that are the same; the others come behind.
     #[cold]
     fn keep_first(&mut self) {
         let row = |Self { columns: [x, y, z, radius], .. }: &Self, lane: usize| {

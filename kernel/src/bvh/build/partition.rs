@@ -50,9 +50,9 @@ impl Run<'_> {
 
     /// Moves the spheres for which `wanted` holds to the front of `from..to`; returns where they end.
     ///
-    /// Every sphere changes places with the first that is not wanted, so that no branch depends on it. (From both
-    /// ends, where only what stands wrong is moved: 3 times as long on 10,000 uniform spheres, and as long on rows that
-    /// are in order.)
+    /// Every sphere changes places with the first that is not wanted, so that no branch depends on it. (Going from both
+    /// ends, and moving only spheres that stand wrong, took 3 times as long on 10,000 uniform spheres, and as long on
+    /// rows that are in order.)
     #[inline(always)]
     fn gather(
         &mut self,
@@ -79,15 +79,16 @@ impl Run<'_> {
         from + before
     }
 
-    /// Moves the spheres before a cut to the front; returns the bounds of both parts, whose boxes the slices told.
+    /// Moves the spheres before a cut to the front; returns the bounds of both parts, with the boxes that the cut
+    /// knows.
     pub(super) fn cut(&mut self, bounds: &Bounds, cut: &Cut) -> [Bounds; 2] {
-        // Of three, as a mask that the compiler sees.
+        // The remainder tells the compiler that the axis is one of three.
         let axis = cut.axis % 3;
         let (from, scale, bin) = (bounds.centers.low.to_array()[axis], cut.scale, cut.bin as f32);
         let (mut low, mut high) = ([[f32::INFINITY; 4]; 2], [[f32::NEG_INFINITY; 4]; 2]);
         let before = self.gather(0, self.spheres.len(), |own| {
             let is_before = slices_before(own[axis], from, scale) < bin;
-            // NaN in the part that a sphere is not of: in arrays, since vectors treat it as the target does.
+            // A sphere is NaN for the part that it is not in. In arrays, since vectors treat NaN as the target does.
             let behind = u32::from(is_before).wrapping_sub(1);
             let masks = [behind, !behind];
             for part in 0..2 {

@@ -1,9 +1,9 @@
 //! The boxes of a tree whose spheres have moved.
 //!
 //! Every lane takes the sphere of its index from where it is now, and boxes are made anew from the leaves up, as the
-//! build makes them; which sphere is in which leaf stays. A lane whose sphere is not seen by bounds any more has a NaN
-//! for a radius, and so has one whose sphere is the same as that of a lower index in its leaf. What has no lane
-//! (`unplaced.rs`) is met by itself, if it is a sphere at all, and no copy of one in the tree.
+//! build makes them; every sphere stays in its leaf. A lane whose sphere is not seen by bounds any more has NaN for a
+//! radius, and so has one whose sphere is the same as that of a lower index in its leaf. A sphere that has no lane
+//! (`unplaced.rs`) is tested by itself, if it is valid, and no copy of one in the tree.
 
 mod leaves;
 
@@ -22,8 +22,8 @@ use crate::numeric::radix_sort::radix_sort;
 use crate::scale::scene::SceneScale;
 use wide::f32x4;
 
-/// Moves the spheres of a tree to where as many are now; nothing changes if indices have no room for those that no box
-/// holds then.
+/// Moves the spheres of a tree to where they are now in `spheres`, which has as many; nothing changes if `indices` has
+/// no room for those that no box holds then.
 pub(crate) fn refit(
     built: &mut Built,
     spheres: &Spheres<'_>,
@@ -42,8 +42,8 @@ pub(crate) fn refit(
     TooSmall::check(needed, indices.len())
 }
 
-/// The same, whatever the room: returns how many indices are needed. Where those are more, the tree is none until it is
-/// refitted again.
+/// The same, whatever the room: returns how many indices are needed. If these are more than there are, the tree is not
+/// valid until it is refitted again.
 pub(crate) fn refit_anyway(
     built: &mut Built,
     spheres: &Spheres<'_>,
@@ -67,7 +67,7 @@ pub(crate) fn refit_anyway(
         }
     }
     built.outside = leaves.count;
-    // Of equal t by `Stable` and others the first is the answer.
+    // Where `Stable` and other tiers find equal t, the first sphere is the answer.
     if let Some((outside, spare)) = outside.split_at_mut_checked(built.outside) {
         sort(outside, spare, spheres.len());
     }
@@ -79,8 +79,9 @@ pub(crate) fn refit_anyway(
     built.places + built.outside
 }
 
-/// Sorts indices below `below`, by digits where there is as much memory to spare. (Where 10,000 spheres part that were a
-/// thousand, the whole refit takes half the time then.) Not inlined: its counts need no room while the tree is walked.
+/// Sorts indices below `below`, by digits where there is as much memory to spare. (Then the whole refit takes half the
+/// time where a thousand spheres part into 10,000.) Not inlined, so that its counts need no room while the tree is
+/// walked.
 #[inline(never)]
 fn sort(indices: &mut [u32], spare: &mut [u32], below: usize) {
     // (Not `is_sorted`, whose chunks may panic, as compilers see it.)
@@ -92,7 +93,7 @@ fn sort(indices: &mut [u32], spare: &mut [u32], below: usize) {
         heap_sort(indices);
         return;
     };
-    // After an even number of rounds they are where they were.
+    // After an even number of rounds the indices are where they were.
     let bits = usize::BITS - below.leading_zeros();
     radix_sort(indices, spare, bits.div_ceil(8).next_multiple_of(2), |index| *index);
 }

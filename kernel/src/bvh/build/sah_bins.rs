@@ -1,6 +1,7 @@
 //! Spheres sorted into slices along each axis, as the surface area heuristic compares them.
 //!
-//! Compiled for AVX2 a build takes 1.25 times as long, with lanes as arrays 1.2 times; two spheres at a time are as fast.
+//! Compiled for AVX2, a build takes 1.25 times as long, and with lanes as arrays 1.2 times; two spheres at a time are as
+//! fast.
 
 use super::bounds::{Bounds, Corners, halves};
 use super::join::Join;
@@ -17,8 +18,7 @@ pub(super) struct Bins {
     pub(super) counts: [[i32; 4]; BINS],
 }
 
-/// An axis a lane, the scale by which (centre - least) becomes the number of a slice: zero if an
-/// axis tells nothing.
+/// The scale by which (centre - least) becomes the number of a slice, an axis a lane: zero if an axis tells nothing.
 pub(super) fn scales(bounds: &Bounds) -> [f32; 4] {
     // A hair below sixteen, so that the last centre is in the last slice.
     let slices = f32x4::splat(BINS as f32 * (1.0 - 4.0 * f32::EPSILON));

@@ -4,9 +4,8 @@
 //! run (`children.rs`); parts that are no leaf become nodes in their turn, and a stack of those that wait replaces
 //! recursion. At last the leaves are laid down (`lay_down.rs`), and the children of every node ordered (`child_order.rs`).
 //!
-//! The root's children do so apart from each other, perhaps at the same time: each in as many
-//! nodes as it may take (`budget.rs`). Then the nodes move together.
-//! So the tree does not depend on what runs at the same time.
+//! The root's children become subtrees apart from each other, perhaps at the same time, each in as many nodes as it may
+//! take (`budget.rs`). Then the nodes are moved together. So the tree does not depend on what runs at the same time.
 
 use super::budget::{Budget, needed, nodes_needed};
 use super::child_order::order_children;
@@ -56,7 +55,7 @@ pub(crate) fn build(
     } else if inside > 0 {
         let budget = Budget {
             nodes: nodes.len().saturating_sub(nodes_needed(inside)),
-            // Those that are not inside take room behind the leaves.
+            // Spheres that are not inside take room behind the leaves.
             places: (first + inside).saturating_sub(spheres.len() + BEFORE + BEHIND + STEP),
         };
         used = build_tree(join, nodes, &mut run, root, budget);
@@ -84,7 +83,7 @@ pub(crate) fn build(
         cost_when_built: 1.0,
     };
     dropped.collect(places.as_flattened_mut(), all, shift + built.leaves());
-    // What is behind the last leaf is loaded with it, and never used: zeros, so that trees of a list are equal.
+    // The numbers behind the last leaf are loaded with it, and never used: zeros, so that trees of a list are equal.
     let behind = shift + 4 * used_places;
     if let Some(behind) = places.as_flattened_mut().get_mut(behind..behind + 4 * BEHIND) {
         behind.fill(0.0);
@@ -154,8 +153,8 @@ fn fill(
     first
 }
 
-/// A leaf before it is laid down: where its spheres are, and how many. Of more than sixteen that are all the same, the
-/// first one is among them.
+/// A leaf before it is laid down: where its spheres are, and how many. Of more than sixteen, which are all the same, it
+/// has sixteen, among them the one with the lowest index.
 fn settle(run: &mut Run<'_>, part: &Part, first: usize) -> u32 {
     let mut count = part.count;
     if count > WIDTH {
@@ -259,7 +258,7 @@ fn build_subtrees(join: &impl Join, subtrees: &mut [Subtree<'_>]) {
 fn build_nodes(join: &impl Join, subtree: &mut Subtree<'_>) -> usize {
     let Subtree { run, first, nodes, budget, .. } = subtree;
     let root = Part::new(join, run.spheres, 0, run.spheres.len());
-    // Each level leaves at most fifteen waiting for the one that goes on.
+    // Each node on the way leaves at most fifteen children waiting while one goes on.
     let mut waiting = [Waiting { part: root, node: 0 }; (WIDTH - 1) * DEPTH + WIDTH];
     let (mut top, mut used) = (1, 1);
     while top > 0 {

@@ -1,4 +1,4 @@
-//! From candidates to answers: what all rays of a traversal share, and tests that wait for company.
+//! From candidates to answers: what all rays of a traversal share, and tests that wait for others.
 //!
 //! Candidates of any rays wait until there is one for every lane; then the tier tests all of
 //! them at once.
@@ -32,7 +32,7 @@ pub(crate) struct DeferredTests<'a, T, L: Lanes, Q: Query> {
     pub(crate) bvh: &'a Bvh<'a>,
     pub(crate) packets: &'a [RayPacket<L::Array>],
     pub(crate) answers: &'a mut [Q::Packet<L::Array>],
-    /// The packets to answer, of which something may be known; all, and nothing is known, if it is `None`.
+    /// The packets to answer, of which something may be known. If it is `None`, all are to answer, and nothing is known.
     pub(crate) waiting: Option<&'a PacketSet>,
     rays: RayPacket<L::Array>,
     center: [L::Array; 3],
@@ -77,8 +77,7 @@ impl<'a, T: Accuracy, L: Lanes, Q: Query> DeferredTests<'a, T, L, Q> {
         }
     }
 
-    /// Adds a ray and the sphere at `place` in the leaves; tests, if that makes as many as there
-    /// are lanes.
+    /// Adds a ray and the sphere at `place` in the leaves; tests all, if there are then as many as lanes.
     #[inline(always)]
     pub(crate) fn add(&mut self, ray: RayPlace, place: u32) {
         let (Some(packet), Some((sphere, index))) =
@@ -107,7 +106,7 @@ impl<'a, T: Accuracy, L: Lanes, Q: Query> DeferredTests<'a, T, L, Q> {
     }
 
     /// Tests what there is, and hands the answers on. (Out of line it is compiled once, not in seventeen places; ray by ray
-    /// is 0.97 as fast then, by AVX2.)
+    /// then runs at 0.97 of the speed, with AVX2.)
     #[inline(always)]
     pub(crate) fn test(&mut self) {
         if self.count == 0 {

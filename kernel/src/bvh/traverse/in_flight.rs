@@ -1,5 +1,4 @@
-//! The packets whose rays are in flight, how the next ray begins, and what every ray does next: the
-//! rounds of a traversal.
+//! The packets whose rays are in flight, how the next ray begins, and what every ray does next, in rounds.
 
 use super::deferred::{DeferredTests, RayPlace};
 use super::prepared_packet::PreparedPacket;
@@ -21,7 +20,7 @@ pub(crate) struct PacketsInFlight<A: LaneArray> {
     prepared: A::Each<PreparedPacket<A>>,
     /// How many rays of each have not ended.
     in_flight: A::Each<u32>,
-    /// The one that rays begin from, and which rays of it have yet to.
+    /// The packet that rays begin from, and which rays of it have yet to begin.
     current: u32,
     waiting: u32,
     /// The packet that comes next.
@@ -51,7 +50,7 @@ impl<A: LaneArray> PacketsInFlight<A> {
             if self.next >= tests.packets.len() {
                 return false;
             }
-            // One is free: this ray's place is, and as many others there are as rays in flight.
+            // One place is free: there are as many places as rays can be in flight, and this one is not.
             let places = self.in_flight.as_ref();
             for number in 0..places.len() {
                 if places[number] == 0 {
@@ -88,7 +87,7 @@ impl<A: LaneArray> PacketsInFlight<A> {
     }
 }
 
-/// Prepares the rays of packet `place`, and answers for those that do not go into the tree.
+/// Prepares the rays of packet `place`, and answers those that do not go into the tree.
 #[inline(always)]
 pub(crate) fn begin<T: Accuracy, L: Lanes, Q: Query>(
     tests: &mut DeferredTests<'_, T, L, Q>,
@@ -103,19 +102,19 @@ pub(crate) fn begin<T: Accuracy, L: Lanes, Q: Query>(
                 return;
             }
             Some(_) => true,
-            // What is outside has been met.
+            // The spheres outside have been tested.
             None => !bvh.outside.is_empty(),
         };
         if !is_known {
             *answer = Q::none::<L::Array>();
         }
-        // At one place, since what is inlined here is long. (Out of line it is a fortieth slower by SSE2.)
+        // Called at one place only, since it is inlined and long. (Out of line, it is a fortieth slower with SSE2.)
         begin_packet::<L, Q>(tier, token, bvh, (packet, answer, is_known), prepared);
     }
 }
 
-/// Prepares the rays of a packet of which the answers so far are given, and whether any of them may be known; answers
-/// for those that do not go into the tree.
+/// Prepares the rays of a packet, given its answers so far, and whether any of them may be known; answers the rays
+/// that do not go into the tree.
 #[inline(always)]
 fn begin_packet<L: Lanes, Q: Query>(
     tier: impl Accuracy,
@@ -148,8 +147,8 @@ fn begin_packet<L: Lanes, Q: Query>(
     }
 }
 
-/// Tests rays of a packet, those that live, that the bounds do not cover: they begin so far away that a tree is a
-/// ball to them. Those that come near it are tested against all of its spheres.
+/// Tests the live rays of a packet, none of which the bounds cover: they begin so far away that a tree is a ball to
+/// them. Rays that come near the ball are tested against all spheres of the tree.
 #[inline(always)]
 pub(super) fn test_from_afar<L: Lanes, Q: Query>(
     tier: impl Accuracy,

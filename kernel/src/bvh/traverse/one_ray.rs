@@ -2,16 +2,15 @@
 //!
 //! # Method
 //!
-//! The ray is prepared in one lane, and looks into a node's sixteen boxes or a leaf's sixteen spheres at once. What
-//! is left of a node are bits, the nearest first; where the ray enters its boxes is not kept: when a hit is closer than
-//! what was known, the boxes of the nodes on the way are tested once more. So nothing large is
-//! made for a ray: 256 bytes, not the 2 KiB of a stack that other traversals make once for many rays. At the end the tier
-//! tests what may be the closest, one sphere after the other, in one lane. In a small tree a ray looks into all
-//! of them, without boxes.
+//! The ray is prepared in one lane, and looks into a node's sixteen boxes or a leaf's sixteen spheres at once. Bits say which
+//! children of a node are left, the nearest first. The s at which the ray enters their boxes are not kept: when a hit is
+//! closer than what was known, the boxes of the nodes on the way are tested once more. So nothing large is made for a ray: 256
+//! bytes, not the 2 KiB of a stack that other traversals make once for many rays. At the end the tier tests the spheres that
+//! may be the closest, one after the other, in one lane. In a small tree a ray looks into all spheres, without boxes.
 //!
-//! What limits it is how long one step waits for the last, and branches that cannot be foreseen. So numbers of the ray stay in
-//! registers from its preparation to its walk: a word that is read wider than it was written waits for memory, 5 to 8 % of
-//! a ray. (To look at four leaves at once, so as to have one branch for all, took 1.1 to 1.2 times as long.)
+//! The time goes to steps that wait for the one before, and to branches that cannot be predicted. So numbers of the ray stay
+//! in registers from its preparation to its walk: a word that is read wider than it was written waits for memory, which took 5
+//! to 8 % of a ray's time. (To look at four leaves at once, with one branch for all, took 1.1 to 1.2 times as long.)
 
 mod found;
 
@@ -33,7 +32,7 @@ use crate::numeric::axes::axes;
 use crate::query::Query;
 use crate::scale::rays::ScaledRays;
 
-/// How many frames there are: more than nodes lie one below the other.
+/// How many frames there are: more than nodes can lie one below the other.
 const FRAMES: usize = 16;
 const _: () = assert!(FRAMES > DEPTH);
 
@@ -78,7 +77,7 @@ fn search<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
     if !rays.live {
         return Q::one(&search.answer, 0);
     }
-    // A sphere by itself: to look at it costs as much as to test it. (A refit may have made it none, which nothing but
+    // A tree of one sphere: to look at the sphere costs as much as to test it. (A refit may have made it no sphere, which only
     // its bounds would say: then no box has an extent.)
     if let [_, u32::MAX, u32::MAX, u32::MAX] = bvh.indices
         && bvh.extent > 0.0
@@ -92,10 +91,10 @@ fn search<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
     let scaled = ScaledRays::new(&rays, bvh.scale.factor);
     let mut prepared = PreparedLanes::from_there::<true>(&scaled);
     let mut along = (scaled.rays.direction, prepared.time.length);
-    // Fast and Geometric are off by so much more that nothing is gained: their rays are not moved.
+    // `Fast` and `Geometric` are off by so much more that moving rays gains nothing: their rays are not moved.
     let far = !SPREADS && far_away(prepared.covered, prepared.absolute_error, bvh.extent);
     if !prepared.covered | far {
-        // Number by number: as a whole both ways would go through memory.
+        // Copied number by number: copied as a whole, the numbers would go through memory on both paths.
         let PreparedLanes { covered, origin, direction, time, absolute_error, start, end } =
             again(ray, bvh, !SPREADS);
         let RayTime { per_t, shift, length } = time;
@@ -111,7 +110,7 @@ fn search<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
         along = (prepared.direction, 1.0);
     }
     if !prepared.covered | !bvh.outside.is_empty() {
-        // Of a copy, so that what others have stays in registers.
+        // From a copy, so that the numbers of other paths stay in registers.
         let PreparedLanes { covered, time, end, .. } = prepared;
         match search.unusual(covered, time, end[1]) {
             Some(end) => prepared.end[1] = end,
@@ -218,7 +217,7 @@ fn without<Q: Query>(left: u32) -> u32 {
     }
 }
 
-/// Which children of a node the ray enters, a bit each: the nearest first; by their slots where any hit will do.
+/// Which children of a node the ray enters, a bit each: the nearest first, or by their slots for any hit.
 #[inline(always)]
 fn enter<L: Lanes, Q: Query>(
     token: L::Token,
@@ -241,7 +240,8 @@ fn enter<L: Lanes, Q: Query>(
     met
 }
 
-/// Rays of any length, and from afar. (Prepared anew, since what a call is lent must be in memory: 1 to 4 % of a ray.)
+/// Prepares rays of any length, and from afar. (From the ray as given, since what a call borrows must be in memory: that took
+/// 1 to 4 % of a ray's time.)
 #[cold]
 #[inline(never)]
 fn again(ray: &Ray, bvh: &Bvh<'_>, moves: bool) -> PreparedLanes<f32> {

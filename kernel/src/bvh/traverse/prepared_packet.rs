@@ -1,4 +1,4 @@
-//! The rays of a packet, prepared (`prepared_ray.rs`), in memory: where they go one by one.
+//! The rays of a packet, prepared (`prepared_ray.rs`), in memory, for where they go one by one.
 
 use super::prepared_ray::{PreparedLanes, Slab, far_away};
 use super::ray_time::RayTime;
@@ -56,8 +56,8 @@ impl<A: LaneArray> PreparedPacket<A> {
         down: [0; 3],
     };
 
-    /// Prepares the rays of a packet for a scene that is scaled by `factor`, and replaces those that were here. (As a value it
-    /// was copied: 3 % of a traversal.)
+    /// Prepares the rays of a packet for a scene that is scaled by `factor`, and replaces those that were here. (Returned as a
+    /// value, they were copied: 3 % of a traversal.)
     #[inline(always)]
     pub(crate) fn prepare<L: Lanes<Array = A>>(
         &mut self,
@@ -67,7 +67,7 @@ impl<A: LaneArray> PreparedPacket<A> {
         spread: f32,
     ) {
         let prepared = PreparedLanes::as_they_are(&ScaledRays::new(rays, factor));
-        // Fast and Geometric are off by so much more that nothing is gained: their rays are not moved.
+        // `Fast` and `Geometric` are off by so much more that moving rays gains nothing: their rays are not moved.
         let unusual = rays.live & !prepared.covered;
         let again = if spread > 0.0 {
             unusual
@@ -120,7 +120,7 @@ impl<A: LaneArray> PreparedPacket<A> {
         RayTime { per_t, shift, length: self.length.get(lane) }
     }
 
-    /// Takes a t that a ray surely has as its end.
+    /// Ends a ray at `t`, if that is before its end so far.
     #[inline(always)]
     pub(crate) fn shorten(&mut self, lane: usize, t: f32) {
         let sooner = self.time(lane).after(t);

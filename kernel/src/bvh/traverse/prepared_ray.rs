@@ -2,11 +2,11 @@
 //!
 //! # Method
 //!
-//! The ray is scaled by powers of two (`scale/rays.rs`): f of its t are one multiple of its scaled direction.
-//! The direction is brought to unit length, n = d / |d|, and t becomes s = |d| (f t - tau). A ray that starts
-//! far from the scene is taken from o' = o + tau d, two scene sizes before the point where it is closest
-//! to the coordinates' origin, since what a filter computes from an origin is off by some u of the
-//! distance to it. Other rays have tau = 0 and o' = o. The tiers test the ray as it was given: no answer changes.
+//! The ray is scaled by powers of two (`scale/rays.rs`): a t of 1 is f multiples of its scaled direction. The
+//! direction is brought to unit length, n = d / |d|, and t becomes s = |d| (f t - tau). A ray that starts far
+//! from the scene is taken from o' = o + tau d, two scene sizes before the point where it is closest to the
+//! coordinates' origin, since what a filter computes is off by some u of the distance to the ray's origin. Other
+//! rays have tau = 0 and o' = o. The tiers test the ray as it was given: no answer changes.
 //!
 //! A slab low <= o'_i + s n_i <= high is entered at (low - o'_i) / n_i; with 1 / n_i and o'_i / n_i known
 //! that is one multiply-add. The pad, which makes it safe, is part of o'_i / n_i and costs nothing: near =
@@ -15,7 +15,7 @@
 //! near, or the start of the interval, is at most the least far, or the best s so far: closed, so that
 //! equal t are never culled.
 //!
-//! Why nothing is lost, and what every constant covers: `docs/traversal-margins.md`. `tests/structures/far.rs`
+//! `docs/traversal-margins.md` says why no hit is lost, and what every constant covers; `tests/structures/far.rs`
 //! guards it.
 
 use super::ray_time::RayTime;
@@ -36,8 +36,8 @@ pub(crate) struct PreparedLanes<L: Lanes> {
     /// n.
     pub(crate) direction: [L; 3],
     pub(crate) time: RayTime<L>,
-    /// 8 u (F + 2^-11 T), 2^-58 and four steps of t, F the largest coordinate of o', T = |tau d|: four times what
-    /// o', and a tier by T, may be off.
+    /// The sum of 8 u (F + 2^-11 T), 2^-58 and four steps of t, where F is the largest coordinate of o', and T =
+    /// |tau d|. It is four times what o' may be off, and a tier because of T.
     pub(crate) absolute_error: L,
     /// The interval as s: start and end, each from below and from above.
     pub(crate) start: [L; 2],
@@ -60,19 +60,20 @@ pub(super) struct Slab<L: Lanes> {
 const WORTH_IT: f32 = 8.0;
 /// The absolute error of F + 2^-11 T, in u.
 pub(crate) const ABSOLUTE_ERROR: f32 = 8.0;
-/// How often the absolute error is the ray's pad of a slab.
+/// The ray's pad of a slab is so many times the absolute error.
 pub(crate) const PADS: f32 = 2.0;
 /// 2^-58.
 const LEAST_ERROR: f32 = 1.0 / (1_u64 << 58) as f32;
 
 impl<L: Lanes> PreparedLanes<L> {
-    /// From where the rays begin.
+    /// Prepares the rays from where they begin.
     #[inline(always)]
     pub(crate) fn as_they_are(scaled: &ScaledRays<L>) -> Self {
         Self::from_there::<false>(scaled)
     }
 
-    /// From where the rays begin; if all are `COVERED`, else anything of those that are not.
+    /// Prepares the rays from where they begin. With `COVERED`, a ray that the bounds do not cover gets any
+    /// numbers.
     #[inline(always)]
     pub(super) fn from_there<const COVERED: bool>(
         ScaledRays { rays, per_t, step, .. }: &ScaledRays<L>,
@@ -101,7 +102,8 @@ impl<L: Lanes> PreparedLanes<L> {
         }
     }
 
-    /// Of any length; from nearer, where the rays begin far away from a scene of that `extent`, if it is given.
+    /// Prepares rays of any length; from nearer, where they begin far away from a scene of that `extent`, if it
+    /// is given.
     #[inline(always)]
     pub(crate) fn of_any_length(rays: &RayLanes<L>, factor: f32, extent: Option<f32>) -> Self {
         let scaled = ScaledRays::of_any_length(rays, factor);
@@ -117,7 +119,7 @@ impl<L: Lanes> PreparedLanes<L> {
         prepared
     }
 
-    /// From nearer, where the rays begin far away from a scene of that extent.
+    /// Prepares the rays from nearer, where they begin far away from a scene of that extent.
     #[inline(always)]
     fn nearer(self, ScaledRays { rays, step, .. }: &ScaledRays<L>, extent: f32) -> Self {
         let far = largest(rays.origin);
@@ -147,7 +149,7 @@ impl<L: Lanes> PreparedLanes<L> {
         self.slab_of(axis, direction, direction.like(1.0))
     }
 
-    /// The same, by a direction of any length. (The unit direction is one division later.)
+    /// The same, by a direction of any length. (The unit direction is known one division later.)
     #[inline(always)]
     pub(super) fn slab_of(&self, axis: usize, direction: L, length: L) -> Slab<L> {
         let origin = self.origin[axis % 3];
@@ -171,7 +173,7 @@ impl<L: Lanes> PreparedLanes<L> {
         size * size.like(4.0 * spread)
     }
 
-    /// The rays that start at t >= 0, if anything can be said of t, which it can of usual lengths.
+    /// The rays that start at t >= 0, if anything can be said of t, as it can for usual lengths.
     #[inline(always)]
     pub(crate) fn forward(&self, t_min: L) -> L::Mask {
         let zero = t_min.like(0.0);
@@ -179,8 +181,8 @@ impl<L: Lanes> PreparedLanes<L> {
     }
 }
 
-/// Which of `rays`, that begin where they are, may be worth moving: no point of a line that is closest to
-/// the coordinates' origin is farther from where it begins than sqrt 3 F.
+/// Which of `rays`, prepared from where they begin, may be worth moving: the point of a ray's line that is
+/// closest to the coordinates' origin is at most sqrt 3 F from where the ray begins.
 #[inline(always)]
 pub(crate) fn far_away<L: Lanes>(rays: L::Mask, absolute_error: L, extent: f32) -> L::Mask {
     rays & absolute_error

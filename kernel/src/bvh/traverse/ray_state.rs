@@ -1,7 +1,7 @@
 //! One ray in flight: what it knows, and what it does with nodes and leaves.
 //!
-//! Spheres that are not in the order of their s cost time, no memory: a full list of candidates
-//! is tested.
+//! Spheres that come in another order than that of their s cost time, no memory: when the list of candidates is full, the
+//! tier tests it.
 
 use super::boxes::{BoxProbe, Boxes};
 use super::deferred::{DeferredTests, RayPlace};
@@ -25,7 +25,7 @@ const MOST: usize = 8;
 #[derive(Clone, Copy, Debug)]
 struct Candidates {
     places: [u32; MOST],
-    /// No answer of that candidate is below.
+    /// An s that no answer of that candidate is below.
     entries: [f32; MOST],
     count: usize,
 }
@@ -33,7 +33,7 @@ struct Candidates {
 impl Candidates {
     const NONE: Self = Self { places: [0; MOST], entries: [0.0; MOST], count: 0 };
 
-    /// Whether another has no room, after those were dropped whose entry is past `best`.
+    /// Drops candidates whose entry is past `best`, if there is no room for another; returns whether there is still none.
     #[inline(always)]
     fn is_full(&mut self, best: f32) -> bool {
         if self.count < MOST {
@@ -42,7 +42,7 @@ impl Candidates {
         let mut kept = 0;
         for at in 0..MOST {
             if self.entries[at] <= best {
-                // The remainder tells the compiler that it is there.
+                // The remainder tells the compiler that the place is there.
                 self.entries[kept % MOST] = self.entries[at];
                 self.places[kept % MOST] = self.places[at];
                 kept += 1;
@@ -72,17 +72,18 @@ pub(crate) struct RayState {
     pub(crate) packet: u32,
     /// The octant of its direction.
     octant: u32,
-    /// Some answer, or the end of the interval, is not above.
+    /// An s that some answer, or the end of the interval, is not above.
     best: f32,
     candidates: Candidates,
     pub(crate) stack: Stack,
 }
 
 impl RayState {
-    /// What `packet` is where a ray is of none.
+    /// The `packet` of a ray that is of none.
     pub(crate) const OF_NONE: u32 = u32::MAX;
 
-    /// All zeros, so that an array of many is cleared, and not copied; what is in flight is [cleared](Self::clear) first.
+    /// All zeros, so that an array of many is cleared, and not copied. A state is [cleared](Self::clear) before it is in
+    /// flight.
     pub(crate) const NEW: Self = Self {
         ray: RayPlace::FIRST,
         packet: 0,
@@ -92,7 +93,7 @@ impl RayState {
         stack: Stack::EMPTY,
     };
 
-    /// Is of no packet, and has nothing to look into.
+    /// Makes the ray one of no packet, with nothing to look into.
     #[inline(always)]
     pub(crate) fn clear(&mut self) {
         self.packet = Self::OF_NONE;
@@ -116,7 +117,7 @@ impl RayState {
         self.stack.begin(root);
     }
 
-    /// How far boxes matter.
+    /// The s up to which boxes matter.
     #[inline(always)]
     fn end_of_boxes<A: LaneArray>(&self, prepared: &PreparedPacket<A>) -> f32 {
         self.best + prepared.spread.get(self.ray.lane)

@@ -18,8 +18,8 @@ pub(crate) struct RayTime<L> {
 }
 
 impl<L: Lanes> RayTime<L> {
-    /// What the s of an answer may be off, for all spheres alike: 4 u T. (Kept in memory instead: a packet's
-    /// beginning loses what its hits gain.)
+    /// What the s of an answer may be off, for all spheres alike: 4 u T. (When it is kept in memory instead, a packet's beginning
+    /// loses what its hits gain.)
     #[inline(always)]
     pub(super) fn t_error(&self) -> L {
         self.shift * self.length * self.shift.like(4.0 * L::UNIT_ROUNDOFF)
@@ -38,7 +38,7 @@ impl<L: Lanes> RayTime<L> {
         self.shift * self.length * self.shift.like(tier.answer_error())
     }
 
-    /// At least the s of a root that is answered by t.
+    /// An s that is at least that of a root that is answered by t.
     #[inline(always)]
     pub(crate) fn after(&self, t: L) -> L {
         raised(
@@ -47,10 +47,10 @@ impl<L: Lanes> RayTime<L> {
         )
     }
 
-    /// The least and the greatest s of a root that is answered by t, the ends of an interval, given what s may be off.
+    /// The least and the greatest s of a root that is answered by t, for both ends of an interval, given what s may be off.
     #[inline(always)]
     pub(super) fn around(&self, [t_min, t_max]: [L; 2], error: L) -> [[L; 2]; 2] {
-        // A t that is no number is no hit.
+        // A t that is NaN or infinite is no hit.
         let most = error.like(f32::MAX);
         let (t_min, t_max) = (t_min.filter_max(-most), L::select(t_max.lt(most), t_max, most));
         let [start, end] = [t_min, t_max];

@@ -3,16 +3,15 @@
 //!
 //! # Method
 //!
-//! Closest point first: with f = c - o', m = f.n is the s of the point closest to the centre, l = |f -
-//! m n| its distance, h = sqrt(r^2 - l^2) half the chord, m - h and m + h the roots. All in
-//! single precision, each with a margin; what comes out is, for every sphere that may be hit, an s
-//! that no answer is below, and one that an answer is surely not above - if the sphere is surely
-//! hit. So the closest of many spheres is known, except for a few, before a tier tests it, and the
-//! tier can test sixteen rays at once.
+//! The closest point comes first: with f = c - o', m = f.n is the s of the point closest to the centre, l = |f - m n| its
+//! distance, h = sqrt(r^2 - l^2) half the chord, m - h and m + h the roots. All are in single precision, each with a margin.
+//! For every sphere that may be hit, they give an s that no answer is below and, if the sphere is surely hit, an s that its
+//! answer is surely not above. So the closest of many spheres is known, except for a few, before a tier tests it, and the tier
+//! can test sixteen rays at once.
 //!
-//! Let S = |m| + r and delta = 48 u S + the absolute error of the ray. A hit has l <= r + delta, and l^2 within
-//! r^2 + W, W = (delta / 4) (2 r + 5 delta / 4); l^2 <= r^2 - W is surely a hit. The proof:
-//! `docs/traversal-margins.md`, which `tests/structures/far.rs` guards.
+//! Let S = |m| + r and delta = 48 u S + the absolute error of the ray. A hit has l <= r + delta, and l^2 within r^2 + W, W =
+//! (delta / 4) (2 r + 5 delta / 4); l^2 <= r^2 - W is surely a hit. The proof is in `docs/traversal-margins.md`, which
+//! `tests/structures/far.rs` guards.
 //!
 //! A far root that is surely in the interval is a bound too where the near one is not: the answer is one
 //! of them.
@@ -28,19 +27,19 @@ use crate::query::Query;
 pub(crate) struct RootInterval<L: Lanes> {
     /// Which spheres may be hit in the ray's interval.
     pub(crate) candidates: L::Mask,
-    /// No root of the sphere that is in the interval is below.
+    /// An s that no root of the sphere in the interval is below.
     pub(crate) entry: L,
-    /// No root above can be answered by less than this sphere's answer; `+inf` where none is sure.
+    /// An s above which no root can be answered by less than this sphere's answer; `+inf` where no hit is sure.
     pub(crate) bound: L,
 }
 
-/// From how many candidates on they are compared in lanes: number by number, two are as fast.
+/// So many candidates, or more, are compared in lanes: two are as fast number by number.
 const MANY: u32 = 3;
 
 impl<L: Lanes> RootInterval<L> {
-    /// Which of the spheres `among` to look at one by one, if some answer is not above `best`: the candidates; where there are
-    /// many, and the closest is wanted, without those that another is surely closer than. (Each is a branch that nothing
-    /// foretells: among nested spheres a quarter of a ray's time.)
+    /// Which of the spheres `among` to look at one by one, if some answer is not above `best`: the candidates. For the closest
+    /// hit, where there are many, a candidate is left out if another is surely closer. (Each candidate is a branch that cannot
+    /// be predicted: among nested spheres these took a quarter of a ray's time.)
     #[inline(always)]
     pub(crate) fn contenders<Q: Query>(&self, among: u32, best: f32) -> u32 {
         let candidates = self.candidates.bits() & among;
@@ -68,7 +67,7 @@ pub(crate) struct RayProbe<L: Lanes> {
     pub(crate) absolute_error: L,
     /// As [`RayTime::raise`](super::ray_time::RayTime::raise).
     pub(crate) raise: L,
-    /// Of the tier.
+    /// The spread of the tier.
     pub(crate) spread: f32,
 }
 
@@ -106,8 +105,8 @@ impl<L: Lanes> RayProbe<L> {
 
 /// How closely a ray passes a sphere, in every lane.
 ///
-/// Tiers with a spread are tested out of line, as `SPREADS`: a branch in the middle, on a number that is not
-/// known at build time, cost the others 7 % on u10k.
+/// Tiers with a spread are tested out of line, as `SPREADS`: a branch in the middle, on a number that is not known at build
+/// time, cost the other tiers 7 % on u10k.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pass<L> {
     pub(crate) radius: L,
@@ -121,7 +120,7 @@ pub(crate) struct Pass<L> {
 
 /// delta of S, in u.
 pub(crate) const DELTA: f32 = 48.0;
-/// W of delta r, and of delta^2.
+/// The factors of delta r and of delta^2 in W.
 pub(crate) const SLACK: [f32; 2] = [0.5, 0.3125];
 
 impl<L: Lanes> Pass<L> {
@@ -144,7 +143,7 @@ impl<L: Lanes> Pass<L> {
         Self { radius, middle, ll, size, delta }
     }
 
-    /// Which may be hit between the s `start` and `end`, as far as can be told without a root.
+    /// Which spheres may be hit between the s `start` and `end`, as far as can be told without a root.
     #[inline(always)]
     pub(crate) fn may_hit<const SPREADS: bool>(&self, start: L, end: L, spread: f32) -> L::Mask {
         let reach = self.radius + self.delta;
@@ -163,8 +162,8 @@ impl<L: Lanes> Pass<L> {
         delta * delta.filter_mul_add(radius.like(SLACK[1]), half)
     }
 
-    /// Which are surely hit near by between the s `start` and `end`, as far as can be told without a root: no near root
-    /// is below m - r - delta, or above m + delta.
+    /// Which spheres surely have their near root between the s `start` and `end`, as far as can be told without a root: no
+    /// near root is below m - r - delta, or above m + delta.
     #[cfg(feature = "std")]
     #[inline(always)]
     pub(super) fn is_hit(&self, start: L, end: L) -> L::Mask {
@@ -175,8 +174,7 @@ impl<L: Lanes> Pass<L> {
             & (middle + delta).le(end)
     }
 
-    /// Between which s the spheres are hit; the interval starts and ends somewhere in
-    /// `start` and `end`.
+    /// Between which s the spheres are hit; the interval starts somewhere in `start`, and ends somewhere in `end`.
     #[inline(always)]
     pub(crate) fn root_interval<const SPREADS: bool>(
         &self,

@@ -1,9 +1,8 @@
-//! Small trees: of so few leaves that a ray looks into all of them.
+//! Small trees have so few leaves that a ray looks into all of them.
 //!
-//! Boxes would spare a ray some leaves, and cost it more. All leaves are tested one behind the other, which
-//! depends on nothing; what is left of them is seldom more than a sphere or two, and goes
-//! among the deferred tests. Where it is more, the root intervals tell first which may be the closest,
-//! as in a tree.
+//! Boxes would spare a ray some leaves, and cost it more. All leaves are tested one behind the other, and no leaf
+//! waits for the one before. Seldom more than a sphere or two may be hit; those go among the deferred tests. Where
+//! there are more, the root intervals tell first which may be the closest, as in a larger tree.
 
 use super::deferred::{DeferredTests, RayPlace};
 use super::in_flight::begin;
@@ -16,9 +15,9 @@ use crate::bvh::tree::Bvh;
 use crate::lanes::Lanes;
 use crate::query::Query;
 
-/// How many leaves a small tree has at most: as many as have their spheres in the bits of a number.
+/// How many leaves a small tree has at most: as many as a number has bits for, one for each sphere.
 pub(super) const MOST_LEAVES: usize = u64::BITS as usize / WIDTH;
-/// So many spheres are deferred at once.
+/// At most so many spheres are deferred at once, without their root intervals.
 pub(super) const AT_ONCE: u32 = 2;
 
 /// The leaves of a small tree, all in one node; `None` of a larger one.
@@ -52,7 +51,7 @@ pub(crate) fn traverse<T: Accuracy, L: Lanes, Q: Query>(
     tests: &mut DeferredTests<'_, T, L, Q>,
     leaves: [u32; MOST_LEAVES],
 ) {
-    // Found once: to look for them costs as much as to test them.
+    // The leaves are found once: to look for them costs as much as to test them.
     let bvh = tests.bvh;
     let leaves = leaves.map(
         #[inline(always)]
@@ -74,7 +73,8 @@ pub(crate) fn traverse<T: Accuracy, L: Lanes, Q: Query>(
     }
 }
 
-/// Answers the rays of a packet. `state` is what the last one left: a new one of 2 KB costs 3 to 5 % on one sphere.
+/// Answers the rays of a packet. `state` is as the last ray left it: a new one, of 2 KB, costs 3 to 5 % on one
+/// sphere.
 #[inline(always)]
 fn all_leaves<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
     tests: &mut DeferredTests<'_, T, L, Q>,

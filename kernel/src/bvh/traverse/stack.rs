@@ -1,11 +1,11 @@
 //! The boxes that a ray has yet to look into.
 //!
-//! What a ray meets in a node is one frame: the node, where the ray enters each of its sixteen boxes, and which are
-//! left, in the order in which it takes them. Nothing is moved, as it would be if a frame held only the boxes that
-//! are met: a CPU without AVX-512 cannot do that for sixteen lanes. Frames lie one on the other as the nodes do in
-//! the tree, ten at most (`docs/traversal-margins.md`), whatever a ray's numbers are; sixteen are there, so that a
-//! mask can stand for a bounds check, and never acts. (All boxes one behind the other: as fast, with a proof of its
-//! length that says more than that there are ten.)
+//! A frame holds a node, the s at which the ray enters each of its sixteen boxes, and which boxes are left, in the
+//! order in which the ray takes them. A frame that held only the boxes that the ray meets would move them together,
+//! which a CPU without AVX-512 cannot do for sixteen lanes. Frames lie one on the other as the nodes do in the tree,
+//! ten at most (`docs/traversal-margins.md`), whatever a ray's numbers are. There is room for sixteen, so that a
+//! mask can stand for a bounds check; the mask never changes a number. (A stack of all boxes, one behind the other,
+//! is as fast, but a proof of its length must say more than that there are ten frames.)
 
 use crate::bvh::node::{BvhNode, DEPTH, NO_CHILD, WIDTH};
 use crate::lanes::{LaneMask, Lanes};
@@ -21,7 +21,7 @@ struct Frame {
     entries: [f32; WIDTH],
     /// The order in which the boxes are taken, the last first: four bits each.
     order: u64,
-    /// Which are left, in that order.
+    /// Which boxes are left, in that order.
     left: u32,
     node: u32,
 }
@@ -72,8 +72,8 @@ impl Stack {
         }
     }
 
-    /// Lays the boxes of a node that are `met`, a bit a slot, onto the stack as a frame, in the order given; as they
-    /// are where there is none.
+    /// Lays the boxes of a node that are `met`, a bit a slot, onto the stack as a frame, in the order given, or in
+    /// that of their slots if it is `None`.
     #[inline(always)]
     pub(crate) fn push<L: Lanes>(
         &mut self,
@@ -90,7 +90,7 @@ impl Stack {
         self.top = self.top % FRAMES + usize::from(left != 0);
     }
 
-    /// Drops what is entered past `limit`.
+    /// Drops boxes that the ray enters past `limit`.
     #[inline(always)]
     pub(crate) fn cull<L: Lanes>(&mut self, token: L::Token, limit: f32) {
         let limit = L::splat(token, limit);
@@ -110,5 +110,5 @@ impl Stack {
     }
 }
 
-/// The order that leaves all where it is.
+/// The order of the slots.
 const AS_THEY_ARE: u64 = 0xfedc_ba98_7654_3210;

@@ -14,19 +14,19 @@
 //!     all lanes for one ray     each of the rays         +---+---+---+
 //! ```
 //!
-//! A node's boxes and the order of its children are looked up once for all of these rays, and no ray has a stack, as on
-//! its own way ([`wavefront`](super::wavefront)): a ray that enters a box is written behind that box's queue.
+//! A node's boxes and the order of its children are looked up once for all of these rays. No ray has a stack, as it has
+//! ray by ray ([`wavefront`](super::wavefront)): a ray that enters a box is appended to that box's queue.
 //!
-//! What a ray compares is what it compares on its own way, in the same arithmetic: the margins are those of
-//! `docs/traversal-margins.md`. A ray keeps one sphere that may be its closest; where a second may be, the first
-//! goes among the deferred tests of the tier.
+//! A ray makes the same comparisons as ray by ray, in the same arithmetic: the margins are those of
+//! `docs/traversal-margins.md`. A ray keeps one sphere that may be its closest; where a second may be, the first goes
+//! among the deferred tests of the tier.
 //!
 //! # Memory
 //!
-//! A ray in the stream takes 128 bytes and some places in queues, of 8 bytes. A node's children could each be entered
-//! by every ray that waits at it. So at most half of the memory that is free is handed to sixteen queues that are as
-//! long as the first of the node's rays are many; those go down before the others are looked at. Sixteen places a
-//! level are enough, for one ray after the other.
+//! A ray in the stream takes 128 bytes and some places in queues, of 8 bytes each. Every ray that waits at a node could
+//! enter every child of it. So at most half of the free memory becomes sixteen queues of equal length, and as many of
+//! the node's rays as one of these queues holds go down before the others are looked at. Sixteen places for each node
+//! on the way are enough, for one ray after the other.
 
 #[cfg(feature = "alloc")]
 mod kept;
@@ -65,8 +65,8 @@ use crate::geometry::ray::RayPacket;
 use crate::lanes::Lanes;
 use crate::query::Query;
 
-/// Answers every ray: as a stream those of which so many meet that it pays, the others by themselves. The memory is as
-/// large as [`StreamMemory::new`] checks.
+/// Answers every ray: as a stream where so many rays meet that it pays, else ray by ray. The memory is as large as
+/// [`StreamMemory::new`] checks.
 #[inline(always)]
 pub(crate) fn traverse<L: Lanes, Q: Query>(
     tier: impl Accuracy,
@@ -138,7 +138,7 @@ struct Stream<'a, 'm, T, L: Lanes, Q: Query> {
 }
 
 impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
-    /// Answers all, as many packets at a time as go down together.
+    /// Answers all packets, as many at a time as go down together.
     #[inline(always)]
     fn all(&mut self, count: usize) {
         let mut prepared = PreparedPacket::NONE;

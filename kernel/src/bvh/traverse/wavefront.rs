@@ -9,15 +9,15 @@
 //! boxes entered later are dropped from the stack. When a ray is through, its list - one sphere,
 //! seldom more - goes among the deferred tests of the tier.
 //!
-//! As many rays as there are lanes are in flight, and go in rounds: all take a box; those that took
-//! a node look into it; those that took a leaf test it; those that have ended make place for others, of
-//! the same packet or the next. So few branches depend on one ray, which the processor cannot guess,
-//! and the chains of some hundred cycles that a step is overlap. (One ray after the other: 0.8 to
-//! 0.9 of the rate. Packet by packet: of 16 rays some 5 were in flight on 7,381 spheres. Half as many
-//! in flight: 0.97. The root entered as a ray begins: 1.01.)
+//! As many rays as there are lanes are in flight, and go in rounds: all take a box; those that took a node look into it;
+//! those that took a leaf test it; those that have ended make place for others, of the same packet or the next. So there
+//! are few branches that depend on one ray, which the processor cannot guess, and the steps of the rays, each a chain of
+//! some hundred cycles, overlap. (One ray after the other ran at 0.8 to 0.9 of the speed. Packet by packet, some 5 of 16
+//! rays were in flight on 7,381 spheres. Half as many rays in flight ran at 0.97 of the speed; entering the root as a ray
+//! begins, at 1.01.)
 //!
-//! What a packet's rays need is worked out once, in lanes, and read where it lies. Trees of up to four
-//! leaves are traversed without boxes (`small_tree.rs`).
+//! What a packet's rays need is computed once, in lanes, and read where it lies. Trees of up to four leaves are traversed
+//! without boxes (`small_tree.rs`).
 
 use super::deferred::DeferredTests;
 use super::in_flight::{PacketsInFlight, Round, Step};
@@ -63,7 +63,8 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
     )
 }
 
-/// How many boxes some rays have entered, nodes and leaves that they looked into; none where there are no boxes to count.
+/// How many boxes some rays have entered: nodes and leaves that they looked into. Zero in a small tree, which is traversed
+/// without boxes.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Entered {
     pub(crate) rays: u32,
@@ -126,8 +127,8 @@ fn by_boxes<T: Accuracy, L: Lanes, Q: Query>(tests: &mut DeferredTests<'_, T, L,
             state.enter::<L, Q>(tests.token, prepared, (step.child, node));
         }
 
-        // Tiers with a spread go out of line: a branch within, on a number that is known only at run time, cost
-        // the others 7 % on u10k.
+        // Tiers with a spread go out of line: a branch within, on a number that is known only at run time, cost the other
+        // tiers 7 % on u10k.
         if tests.tier.spread() == 0.0 {
             look_into_leaves::<T, L, Q, false>(tests, states, &in_flight, &mut round);
         } else {
@@ -150,7 +151,7 @@ fn look_into_leaves<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
     round: &mut Round<L::Array>,
 ) {
     let bvh = tests.bvh;
-    // Those whose leaf may hold a hit move to the front.
+    // Rays whose leaf may hold a hit move to the front.
     let in_leaves = round.leaves.count;
     round.leaves.count = 0;
     for at in 0..in_leaves {

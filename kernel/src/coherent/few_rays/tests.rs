@@ -8,7 +8,7 @@ use crate::proofs::work::{Kind, Work};
 use crate::{Exact, Intersect, Ray, SphereList, SphereTree, Trace, Vec3};
 use std::vec::Vec;
 
-/// Whether rays are packed: what goes by itself clears no stack, begins no run, and is in no group.
+/// Returns whether rays are packed: a ray that goes by itself clears no stack, begins no run, and is in no group.
 fn are_packed(tree: &SphereTree, mut trace: Trace<'_>, rays: &[Ray]) -> bool {
     let mut hits = std::vec![None; rays.len()];
     let work = Work::of(|| tree.closest_hits_with(Exact, &mut trace, rays, &mut hits));
@@ -30,7 +30,7 @@ fn point(random: &mut Random, extent: f32) -> Vec3 {
     Vec3::new(coordinate(), coordinate(), coordinate()) * extent
 }
 
-/// Diffuse rays; parallel ones that fill the tree; and a row of a camera's.
+/// Diffuse rays, parallel rays that fill the tree, and a row of a camera's rays.
 fn rays(count: usize) -> [Vec<Ray>; 3] {
     let mut random = Random(67);
     let mut points = || [point(&mut random, 8.0), point(&mut random, 1.0)];
@@ -71,8 +71,8 @@ fn a_tree_that_is_met_as_a_list_is_met_by_packets() {
     assert_eq!([groups(&diffuse[..8]), groups(&diffuse)], [0, 1]);
 }
 
-/// Whether rays along z differ whose first four reach as far as a square of this side at z = 0, from where they begin: all
-/// at one point of that depth, or each above its own.
+/// Returns whether `few_rays` says that rays along z differ whose first four span a square of this side at z = 0. All begin at one
+/// point of depth `point`, or each above its own corner.
 fn square_differs(tree: &SphereTree, count: usize, side: f32, point: Option<f32>) -> bool {
     let bvh = tree.bvh();
     let corner = |number: usize| {
@@ -95,7 +95,7 @@ fn square_differs(tree: &SphereTree, count: usize, side: f32, point: Option<f32>
 #[test]
 fn rays_differ_where_planes_around_them_hold_more_leaves_than_pays() {
     let (large, small) = (tree(4000), tree(40));
-    // Where it turns, as a part of the side that a square would have if leaves were spread evenly over a cube of 16.5.
+    // Where the answer turns, as a part of the side that a square would have if leaves were spread evenly over a cube of 16.5.
     for (tree, count, most, point, turns) in [
         (&large, 12, 4.0, None, [0.77, 0.9]),
         (&large, 16, 16.0 / 3.0, None, [0.78, 0.92]),
@@ -106,7 +106,7 @@ fn rays_differ_where_planes_around_them_hold_more_leaves_than_pays() {
         (&small, 16, 16.0 / 40.0, Some(-60.0), [0.95, 1.1]),
     ] {
         let leaves = (tree.bvh().indices.len() / WIDTH) as f32;
-        // Four of many reach over three fifths of what all do.
+        // Four of many rays span three fifths of what all span.
         let side = 0.6 * (16.5f32 * 16.5 * most / leaves).sqrt();
         let differ = turns.map(|part| square_differs(tree, count, part * side, point));
         assert_eq!(differ, [false, true], "{count} rays, {point:?}");

@@ -12,9 +12,9 @@ pub(super) const BITS: u32 = 16;
 pub(crate) const MOST: usize = 1 << BITS;
 /// The last of 256 cells along an axis.
 const LAST_CELL: f32 = 255.0;
-/// To it a number below 2^8 adds its nearest whole number, as bits.
+/// Added to a number below 2^8, it leaves the nearest whole number in the low bits.
 const ROUNDING: f32 = (1 << 23) as f32;
-/// Rays are nearly parallel if their directions, the sum of whose sizes is one, are so near their mean.
+/// Rays are nearly parallel if their directions, whose components have sizes that sum up to one, are so near their mean.
 const PARALLEL: f32 = 1.0 / 16.0;
 
 /// How the keys of some rays are made.
@@ -23,7 +23,7 @@ pub(crate) struct RayKeys {
     pub(super) key: Key,
     /// Unit vectors at right angles; the last is the mean direction.
     axes: [Vec3; 3],
-    /// The plane goes through it.
+    /// The plane goes through this point.
     middle: Vec3,
     /// Where the grid begins, and its cells per length.
     low: [f32; 3],
@@ -39,7 +39,7 @@ pub(super) enum Key {
 }
 
 impl RayKeys {
-    /// By start, with axes along the mean direction of those rays.
+    /// Keys by start, with axes along the mean direction of those rays.
     pub(super) fn along_mean(rays: &[Ray], most: f32) -> Self {
         let (mut direction, mut middle) = (Vec3::ZERO, Vec3::ZERO);
         for ray in rays {
@@ -75,7 +75,7 @@ impl RayKeys {
         (self.low, self.per_length) = (low, lengths.map(|length| (LAST_CELL + 1.0) / length));
     }
 
-    /// A direction along the axes, the sum of whose sizes is one: a place on an octahedron.
+    /// Returns a direction along the axes, whose sizes sum up to one: a place on an octahedron.
     #[inline(always)]
     fn direction(&self, ray: &Ray) -> [f32; 3] {
         let [across, up, axis] = self.axes;
@@ -89,7 +89,7 @@ impl RayKeys {
         along > 0.0 && across.abs() + up.abs() <= PARALLEL
     }
 
-    /// Where a ray is in the grid's space.
+    /// Returns where a ray is in the grid's space.
     #[inline(always)]
     fn place(&self, key: Key, ray: &Ray) -> [f32; 3] {
         match key {
@@ -104,17 +104,17 @@ impl RayKeys {
         }
     }
 
-    /// A number of 16 bits; those of rays that are near each other are, mostly.
+    /// Returns a key of 16 bits; keys of rays that are near each other are mostly near each other.
     #[inline(always)]
     fn key_of(&self, key: Key, ray: &Ray) -> u32 {
         let place = self.place(key, ray);
         let mut cell = [0; 3];
         for axis in 0..3 {
             let along = (place[axis] - self.low[axis]) * self.per_length[axis];
-            // What is not a number is in the first.
+            // NaN is in the first cell.
             let along = if along > 0.0 { along } else { 0.0 };
             let along = if along < LAST_CELL { along } else { LAST_CELL };
-            // Rounded: there is no instruction of vectors for what a cast does.
+            // Rounded, since no instruction of vectors does what a cast does.
             cell[axis] = (along + ROUNDING).to_bits() & LAST_CELL as u32;
         }
         let flat = one_in_two(cell[0]) | one_in_two(cell[1]) << 1;
@@ -149,7 +149,7 @@ impl RayKeys {
         }
     }
 
-    /// A packet at a time: so the compiler makes vectors of its lanes. (Ray after ray took 20 ns each.)
+    /// A packet at a time, so that the compiler makes vectors of its lanes. (Ray after ray took 20 ns each.)
     #[inline(always)]
     fn write<L: Lanes<Array = [f32; 16]>>(
         &self,

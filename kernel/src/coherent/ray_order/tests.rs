@@ -26,7 +26,7 @@ pub(crate) fn rays(count: usize, mut ray: impl FnMut(&mut Random) -> Ray) -> Vec
 
 pub(crate) const EYE: Vec3 = Vec3::new(0.2, -0.1, -3.0);
 
-/// Pixels of a camera in the order of a file: lines of 256.
+/// Rays of a camera's pixels in the order of a file: lines of 256.
 fn scan_lines() -> Vec<Ray> {
     let pixel = |number: usize| {
         let [x, y] = [number % 256, number / 256].map(|pixel| pixel as f32 / 256.0 - 0.5);
@@ -80,7 +80,7 @@ fn rays_are_sorted_by_what_they_have_in_common() {
     ];
     for (number, (rays, expected)) in cases.iter().enumerate() {
         let keys = [GAIN, near, incoherent, any].map(|gain| key_of(rays, gain));
-        // By start nothing is near those of one start.
+        // Sorting by start brings nothing to rays of one start.
         let expected = if number == 0 { [expected[0], expected[1], None, None] } else { *expected };
         assert_eq!(keys, expected, "case {number}");
     }
@@ -107,7 +107,7 @@ fn rays_in_order_are_left_as_they_are() {
     // Two cameras by turns are both in order; so is what has been sorted.
     let turns = |number: usize| Ray { origin: EYE * (number % 2) as f32, ..lines[number / 2 * 2] };
     assert_eq!(key_of(&(0..1 << 16).map(turns).collect::<Vec<_>>(), GAIN), None);
-    // Shuffled, they are of no viewpoint.
+    // Two cameras' shuffled rays have no common viewpoint.
     let mut two = shuffled(lines.clone());
     for ray in two.iter_mut().step_by(2) {
         ray.origin = -EYE;
@@ -211,7 +211,7 @@ fn every_ray_keeps_its_place_among_the_answers() {
             Some(one) => (t.to_bits(), *sphere) == *one,
             None => *t == f32::INFINITY,
         }));
-        // What was there before is no answer.
+        // What the memory held before is no answer.
         let packets = rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect::<Vec<_>>();
         let mut trace = Trace::new();
         let mut before = HitPacket::none();
@@ -232,7 +232,8 @@ fn every_ray_keeps_its_place_among_the_answers() {
     assert!(met > 10_000 && kept == 4, "{met} hits, {kept} of two were sorted, twice");
 }
 
-/// Shuffled rays of a camera and of a beam go together as if they were not, in packets, too; the work of ray by ray is the measure.
+/// Shuffled rays of a camera and of a beam go together as if they were not shuffled, in packets, too. The work is measured by that of
+/// ray by ray.
 #[test]
 fn shuffled_rays_take_half_the_work_of_ray_by_ray() {
     let mut random = Random(97);

@@ -1,5 +1,5 @@
 //! The order in which the tiles of a picture are traced: neighbours in the order are neighbours in the picture, so that
-//! packets which go through a structure together look into less of it.
+//! packets which go through a structure together visit less of it.
 
 use super::Camera;
 use crate::lanes::LaneArray;
@@ -8,8 +8,9 @@ use crate::lanes::LaneArray;
 const SQUARE: u32 = 4;
 
 impl Camera {
-    /// The first pixels of the tiles that cover a picture of `width` x `height` pixels, each once: if there is room, four from a
-    /// multiple of four on are a square, and so are sixteen (Morton order in squares, the squares from left to right).
+    /// The first pixels of the tiles that cover a picture of `width` x `height` pixels, each once. If there is room, four tiles from a
+    /// multiple of four on form a square, and so do sixteen from a multiple of sixteen on (Morton order in squares, the squares from left
+    /// to right).
     ///
     /// ```
     /// use spherule_kernel::Camera;
@@ -35,7 +36,8 @@ fn tile_order(columns: u32, rows: u32) -> impl Iterator<Item = (u32, u32)> + Clo
         .flat_map(|(column, row)| {
             (0..SQUARE * SQUARE).map(move |place| {
                 let (right, down) = (every_other_bit(place), every_other_bit(place / 2));
-                // One lane has tiles enough for a number too large: those are no tiles.
+                // With one lane, a picture may have so many tiles that a number is too large: those
+                // are no tiles.
                 let column =
                     column.checked_mul(SQUARE).and_then(|column| column.checked_add(right));
                 (column, row.checked_mul(SQUARE).and_then(|row| row.checked_add(down)))

@@ -9,8 +9,8 @@ use wide::f32x4;
 
 /// The tiles of a camera's picture that are to be traced, a packet each.
 ///
-/// A tree knows without a look at any ray that each tile lies between its four corner pixels. Four tiles that follow each
-/// other should lie beside each other in the picture, as a square if they can: they go through a tree together.
+/// A tree knows, without reading any ray, that each tile lies between its four corner pixels. Four consecutive tiles go
+/// through a tree together, so they should be neighbours in the picture, in a square if possible.
 #[derive(Clone, Copy, Debug)]
 pub struct CameraTiles<'a> {
     /// Where the rays start, and go.
@@ -21,10 +21,10 @@ pub struct CameraTiles<'a> {
     pub corners: &'a [(u32, u32)],
 }
 
-/// Indices below are numbers exactly: 2^24.
+/// 2^24: `f32` holds indices below it exactly.
 const EXACT: u32 = 1 << 24;
 
-/// How far a point may be off, of what it is summed of.
+/// The largest error of a point, relative to the terms that it is summed of.
 pub(crate) const POINT_ERROR: f32 = 4.0 * U;
 
 impl CameraTiles<'_> {
@@ -88,7 +88,7 @@ impl CameraTiles<'_> {
         true
     }
 
-    /// Whether all pixels of a tile are in the picture, and have indices that are numbers.
+    /// Whether all pixels of a tile are in the picture, and `f32` holds their indices exactly.
     #[inline(always)]
     fn is_whole<A: LaneArray>(&self, (left, top): (u32, u32)) -> bool {
         let (tile_width, tile_height) = Camera::tile::<A>();
@@ -96,13 +96,13 @@ impl CameraTiles<'_> {
         left < width && top < height && width - left >= tile_width && height - top >= tile_height
     }
 
-    /// The points of the image plane of the corner pixels of up to four whole tiles, a lane each: the same bits as the rays'.
+    /// The points on the image plane of the corner pixels of up to four whole tiles, a tile a lane: the same bits as the rays have.
     #[inline(always)]
     pub(crate) fn corner_points<A: LaneArray>(&self, tiles: &[(u32, u32)]) -> [[f32x4; 3]; 4] {
         let (tile_width, tile_height) = Camera::tile::<A>();
         let (mut left, mut top) = ([0.0; 4], [0.0; 4]);
         for lane in 0..4 {
-            // Past the last it is the last once more.
+            // Lanes past the last tile repeat it.
             if let Some(&(x, y)) = tiles.get(lane.min(tiles.len().saturating_sub(1))) {
                 (left[lane], top[lane]) = (x as f32, y as f32);
             }
@@ -122,7 +122,7 @@ impl CameraTiles<'_> {
         [[a[0], b[0], c[0]], [a[1], b[1], c[1]], [a[2], b[2], c[2]], [a[3], b[3], c[3]]]
     }
 
-    /// At most how far the points of pixels are from where they would be without rounding, coordinate by coordinate.
+    /// The largest distance of pixels' points from where they would be without rounding, coordinate by coordinate.
     #[inline(always)]
     pub(crate) fn point_error(&self) -> [f32; 3] {
         let Camera { corner, step_x, step_y, .. } = &self.camera;

@@ -1,6 +1,6 @@
 //! Sixteen rows of eight numbers, transposed in registers: by shuffles that stay within blocks of 128 bits, which
-//! `fearless_simd` has no name for in wider vectors. (By its names, or a loop over each column, at the rate of SSE2 or a
-//! third of it.)
+//! `fearless_simd` has no name for in wider vectors. (By the shuffles that it names, or by a loop over each column,
+//! this ran at the rate of SSE2 or a third of it.)
 
 #[cfg(target_arch = "x86_64")]
 use core::arch::x86_64::*;
@@ -8,7 +8,7 @@ use fearless_simd::{Simd, SimdBase, f32x4};
 #[cfg(target_arch = "x86_64")]
 use fearless_simd::{SimdInto, f32x8};
 
-/// Eight rows. (512 bits at a time need as many loads, and more shuffles for each.)
+/// Eight rows. (Vectors of 512 bits need as many loads, and more shuffles for each.)
 #[cfg(target_arch = "x86_64")]
 macro_rules! eight_rows {
     ($name:ident, $level:ident) => {
@@ -78,7 +78,7 @@ fn four_halves<S: Simd>(token: S, [a, b, c, d]: [[f32; 4]; 4]) -> [[f32; 4]; 4] 
     ]
 }
 
-/// Puts columns of `N` rows where they stand in all of them.
+/// Puts a column of `N` rows at its place among all rows.
 #[inline(always)]
 fn put<const N: usize>(all: &mut [f32; 16], first: usize, column: &[f32; N]) {
     // Not `copy_from_slice`, which is a call in a build without link-time optimisation.

@@ -1,10 +1,10 @@
 //! Sixteen lanes in several registers, for instruction sets whose registers are shorter.
 //!
-//! `fearless_simd` has vectors of sixteen lanes for every instruction set, and takes them apart for every operation until
-//! each part is a register: with SSE2 that is 327 instructions for an addition, most of them copies in memory that the
-//! compiler has to find needless one by one. Here registers stay apart, and the kernel compiles in 0.72 of the time.
-//! Only what goes to memory and back is put together: part by part, by `as_chunks_mut`, it is copied once more on the
-//! way (AVX2, camera rays, 0.92 of the rate).
+//! `fearless_simd` has vectors of sixteen lanes for every instruction set, and takes them apart for every operation
+//! until each part is a register. With SSE2 that is 327 instructions for an addition, most of them copies in memory
+//! that the compiler has to find needless one by one. Here registers stay apart, and the kernel compiles in 0.72 of the
+//! time. Only vectors that go to memory and back are put together: part by part, by `as_chunks_mut`, they are copied
+//! once more on the way (AVX2, camera rays: 0.92 of the rate).
 
 use super::{columns, in_order};
 use crate::lanes::{DoubleLanes, LaneMask, Lanes};
@@ -203,8 +203,8 @@ joined! {
         in_order::of_halves(Lanes::token(self), self.le(other).0, order)
     }
 
-    // Both parts, of which one is taken: to widen that alone is 0.91 to 1.04 of the rate of coherent rays. (Doubles of one
-    // register, in eight parts, are 0.79 to 1.00 with SSE2: fewer roots and divisions are under way at once.)
+    // Widens both parts and takes one: widening that part alone ran at 0.91 to 1.04 of the rate of coherent rays. (Doubles of one register,
+    // in eight parts, ran at 0.79 to 1.00 with SSE2: fewer roots and divisions are under way at once.)
     #[inline(always)]
     fn widen(self, part: usize) -> Self::Double {
         let token = Lanes::token(self);
@@ -246,7 +246,8 @@ joined! {
 
     #[inline(always)]
     fn compress(self, mask: Self::Mask) -> Self {
-        // SSE2 moves bytes one by one, by way of calls in a build without link-time optimisation.
+        // SSE2 would move bytes one by one, through calls in a build without link-time
+        // optimisation.
         Self::load(Lanes::token(self), &crate::lanes::compressed(self.store(), mask.bits()))
     }
 

@@ -36,8 +36,8 @@ fn where_groups_do_not_pay_closest_hits_are_left_in_their_order() {
     }
 }
 
-/// A beam through a thin sheet of many small spheres: packets go through together, by more work than their rays would do apart. In
-/// a cube they do less, but not by much.
+/// A beam through a thin sheet of many small spheres: packets go through together, but do more work than their rays would do
+/// apart. In a cube they do less, but not by much.
 #[test]
 fn where_groups_do_more_than_rays_apart_closest_hits_are_left_in_their_order() {
     let mut random = Random(103);
@@ -54,12 +54,12 @@ fn where_groups_do_more_than_rays_apart_closest_hits_are_left_in_their_order() {
     for (tree, rays, is_sorted) in [(sheet, through, false), (cube, beam(30_000), true)] {
         let mut hits = vec![None; rays.len()];
         let work = Work::of(|| tree.closest_hits(Exact, &rays, &mut hits));
-        // Sorted, they are a group for 64 rays at least.
+        // If rays are sorted, there is at least a group for every 64 of them.
         assert_eq!(work.count(Kind::GroupFit) > 400, is_sorted, "{}", work.count(Kind::GroupFit));
     }
 }
 
-/// Of some groups that are tried more than an eighth goes apart, by chance; the others do so little that it does not matter.
+/// By chance, more than an eighth of the groups on trial goes apart; the others do so little that it does not matter.
 #[test]
 fn one_more_group_in_vain_among_nested_spheres_does_not_leave_a_beam_unsorted() {
     let mut random = Random(107);

@@ -1,4 +1,5 @@
-//! Rays that are left of groups, and go one by one: how many, and what of their answers is kept.
+//! Rays that groups leave over, and that go one by one: how many they are, and which of their
+//! answers are kept.
 
 extern crate std;
 
@@ -13,7 +14,7 @@ fn point(random: &mut Random) -> Vec3 {
     Vec3::new(coordinate(), coordinate(), coordinate())
 }
 
-/// Rays of which each runs another way.
+/// Rays that each go another way.
 fn diffuse(count: usize) -> Vec<Ray> {
     let mut random = Random(67);
     (0..count).map(|_| Ray::new(point(&mut random), point(&mut random))).collect()
@@ -32,14 +33,14 @@ fn nested() -> SphereTree {
     SphereTree::new((0..200).map(sphere).collect::<SphereList>())
 }
 
-/// Parallel rays that fill it, of which a group hits much before it gives up.
+/// Parallel rays that fill the nested spheres: a group of them hits much before it gives up.
 fn beam() -> [Ray; 65] {
     let mut random = Random(89);
     let mut origin = || 0.9 * point(&mut random) + Vec3::new(-0.2, 0.6, 2.0);
     from_fn(|_| Ray::new(origin(), Vec3::new(0.1, -0.3, -1.0)))
 }
 
-/// Whether some rays, of closest or any hits, went as others do that are many.
+/// Whether some rays, of closest or any hits, were traced as many rays are: not one by one.
 fn ran(tree: &SphereTree, mut trace: Trace<'_>, rays: &[Ray], is_any: bool) -> bool {
     let mut hits = std::vec![None; rays.len()];
     let mut occluded = std::vec![false; rays.len()];
@@ -74,14 +75,14 @@ fn as_many_packets_go_one_by_one_as_are_few_at_the_level() {
         for (name, few) in LevelName::ALL.into_iter().zip(few) {
             let Some(level) = Level::named(name) else { continue };
             for (packets, are_many) in [(few, false), (few + 1, true)] {
-                // A call has no more that are noted.
+                // No more packets of a call are noted.
                 let Some(rays) = diffuse.get(..16 * packets) else { continue };
                 let what = std::format!("{packets} of {spheres} spheres, {name:?}, any: {is_any}");
                 let trace = || Trace::new().at(level);
                 assert_eq!(ran(&tree, trace(), rays, is_any), are_many, "{what}");
                 let incoherent = ran(&tree, trace().incoherent(), rays, is_any);
                 assert_eq!(incoherent, are_many, "{what}, incoherent");
-                // So many are left of more.
+                // So many packets are left over from more.
                 let mut rays = rays.to_vec();
                 rays.splice(..0, row.iter().copied());
                 assert_eq!(ran(&tree, trace(), &rays, is_any), are_many, "{what}, left");

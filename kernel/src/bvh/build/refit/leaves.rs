@@ -11,7 +11,7 @@ use crate::scale::scene::SceneScale;
 use core::hint::black_box;
 use wide::f32x4;
 
-/// Lists of more spheres are read ahead: what the second cache of a core holds.
+/// Lists of more spheres are read ahead: so many the second-level cache of a core holds.
 const NEAR: usize = 65_536;
 
 /// The leaves of a tree, and where their spheres are now.
@@ -134,7 +134,7 @@ impl Leaves<'_> {
         corners
     }
 
-    /// Leaves out what is valid and not seen by bounds.
+    /// Leaves out spheres that are valid and not seen by bounds.
     #[cold]
     fn leave_out_of_leaf(&mut self, begin: usize, lanes: usize) {
         for lane in 0..lanes {
@@ -146,10 +146,10 @@ impl Leaves<'_> {
         }
     }
 
-    /// Reads a node, its leaves and their spheres, one after the other: all are on their way from memory at once then, as
-    /// in `bvh/prefetch.rs`. Also what is only written: a line must be there first, and few writes wait for lines
-    /// at once. (A million spheres: 0.68 of the time that it takes with the spheres alone read, 0.96 with those and the
-    /// node.)
+    /// Reads a node, its leaves and their spheres, one after the other: then all are on their way from memory at once, as
+    /// in `bvh/prefetch.rs`. Memory that is only written is read, too: its line must be there first, and few writes can
+    /// wait for lines at once. (With a million spheres, a refit takes 0.68 of the time that it takes when the spheres
+    /// alone are read, and 0.96 when those and the node are.)
     fn read_ahead(&self, node: &BvhNode) {
         let mut bits = prefetch::node(node);
         for child in node.child {
@@ -168,7 +168,7 @@ impl Leaves<'_> {
         black_box(bits);
     }
 
-    /// Of spheres that are the same the one with the lowest index.
+    /// Keeps the one with the lowest index of spheres that are the same.
     #[cold]
     fn keep_lowest(&self, (begin, lanes): (usize, usize), columns: &mut [[f32; WIDTH]; 4]) {
         let own = *columns;
@@ -191,7 +191,7 @@ impl Leaves<'_> {
     }
 }
 
-/// The box of four along each axis.
+/// The box of four boxes, which are given along each axis.
 #[inline(always)]
 fn across(low: [f32x4; 3], high: [f32x4; 3]) -> Corners {
     let (mut lows, mut highs) = ([0.0; 4], [0.0; 4]);
@@ -211,7 +211,7 @@ fn put_step(column: &mut [f32; WIDTH], step: usize, numbers: &[f32; STEP]) {
     }
 }
 
-/// Writes the box of a child; of one that has no sphere, one that no ray enters.
+/// Writes the box of a child; if the child has no sphere, a box that no ray enters.
 #[inline(always)]
 fn put_box(node: &mut BvhNode, slot: usize, corners: &Corners) {
     let [low, high] = if corners.is_empty() {

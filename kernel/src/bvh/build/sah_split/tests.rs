@@ -26,7 +26,7 @@ fn half_area(spheres: &[[f32; 4]]) -> f32 {
     side(0) * side(1) + side(1) * side(2) + side(2) * side(0)
 }
 
-/// Axis, slice, spheres before and cost of the cheapest cut; the first of equals.
+/// Axis, slice, spheres before and cost of the cheapest cut; of equal ones the first.
 fn by_hand(spheres: &[[f32; 4]], most: usize) -> Option<(usize, usize, usize, f32)> {
     let mut best = None;
     let mut least_cost = f32::INFINITY;

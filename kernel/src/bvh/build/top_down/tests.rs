@@ -14,7 +14,7 @@ use glam::Vec3;
 use std::vec;
 use std::vec::Vec;
 
-/// `count` spheres of many sizes, in clusters: what cuts like to go between.
+/// `count` spheres of many sizes, in clusters, between which cuts go.
 fn clusters(random: &mut Random, count: usize) -> Vec<Sphere> {
     let mut place = |size: f32| {
         Vec3::from_array(
@@ -97,7 +97,7 @@ fn what_is_needed_is_enough_and_more_is_used() {
     }
 }
 
-/// Of each that is there more than once the lowest index stays, wherever the others are.
+/// Of each sphere that is there more than once, the lowest index stays, wherever the others are.
 #[test]
 fn the_same_sphere_is_kept_once() {
     let mut random = Random(13);

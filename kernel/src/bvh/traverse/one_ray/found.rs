@@ -33,7 +33,8 @@ pub(super) struct Search<'a, T, Q: Query> {
 }
 
 impl<T: Accuracy, Q: Query> Search<'_, T, Q> {
-    /// Rays that no bound covers, and spheres that no bound sees. Where the ray ends then, if it is not done.
+    /// Tests the ray if no bound covers it, and the spheres that no bound sees. Returns where the ray ends then; `None`
+    /// if it is done.
     #[cold]
     #[inline(never)]
     pub(super) fn unusual(&mut self, covered: bool, time: RayTime<f32>, end: f32) -> Option<f32> {
@@ -55,7 +56,7 @@ impl<T: Accuracy, Q: Query> Search<'_, T, Q> {
         Some(least(time.after(limit), end))
     }
 
-    /// Which spheres of leaves may be hit, sixteen bits a leaf; none of what is behind the last.
+    /// Which spheres of leaves may be hit, sixteen bits a leaf; none behind the last leaf.
     #[inline(always)]
     pub(super) fn may_hit<L: Lanes, const SPREADS: bool>(
         &self,
@@ -73,7 +74,7 @@ impl<T: Accuracy, Q: Query> Search<'_, T, Q> {
         may_hit
     }
 
-    /// Keeps what may be hit of a small tree.
+    /// Keeps the spheres of a small tree that may be hit.
     #[inline(always)]
     pub(super) fn keep(&mut self, leaves: [u32; MOST_LEAVES], mut may_hit: u64) {
         while may_hit != 0 {
@@ -86,7 +87,7 @@ impl<T: Accuracy, Q: Query> Search<'_, T, Q> {
         }
     }
 
-    /// Looks at those leaves of which something may be hit; whether the ray is done.
+    /// Looks at the leaves with a sphere that may be hit; returns whether the ray is done.
     #[inline(always)]
     pub(super) fn meet<L: Lanes, const SPREADS: bool>(
         &mut self,
@@ -106,7 +107,7 @@ impl<T: Accuracy, Q: Query> Search<'_, T, Q> {
         false
     }
 
-    /// Looks at the spheres of a leaf; whether the ray is done.
+    /// Looks at the spheres of a leaf; returns whether the ray is done.
     #[inline(always)]
     pub(super) fn look<L: Lanes, const SPREADS: bool>(
         &mut self,
@@ -128,12 +129,13 @@ impl<T: Accuracy, Q: Query> Search<'_, T, Q> {
                 self.hit();
                 return true;
             }
-            // (Roots one by one, in one lane, take as long; so does a tier that tests at once what is alone in its leaf.)
+            // (Roots one by one, in one lane, take as long; so does a tier that tests a sphere at once if it is alone in
+            // its leaf.)
             let RayProbe { start, end, raise, spread, .. } = *probe;
             let interval = pass.root_interval::<SPREADS>(start, end, raise, spread);
             let candidates = interval.candidates.bits();
             let (entries, bounds) = (interval.entry.store(), interval.bound.store());
-            // Which sphere it is does not wait for its roots.
+            // The loop goes by `bits`, so that it does not wait for the roots.
             let mut rest = bits;
             while rest != 0 {
                 let lane = rest.trailing_zeros() as usize;
@@ -158,7 +160,7 @@ impl<T: Accuracy, Q: Query> Search<'_, T, Q> {
         false
     }
 
-    /// There is a hit, whichever.
+    /// Answers that there is a hit.
     #[inline(always)]
     fn hit(&mut self) {
         Q::take::<[f32; 1]>(&mut self.answer, 0, Hit { t: 0.0, sphere: 0 }, |_| false);

@@ -5,7 +5,7 @@ use crate::{
 };
 use alloc::vec::Vec;
 
-/// Every ray by itself at every level, against the list in one lane; returns how many hit.
+/// Compares every ray by itself at every level with the list in one lane; returns how many hit.
 fn check(tier: impl Accuracy, spheres: &[Sphere], rays: &[Ray]) -> usize {
     let tree = SphereTree::new(spheres);
     let list = tree.list().spheres();
@@ -88,7 +88,7 @@ fn one_ray_hits_what_the_list_says() {
         let spheres = spheres(&mut random, count, size, radius);
         let rays = rays(&mut random, 960, size);
         hits += check(Exact, &spheres, &rays);
-        // In its domain alone it promises the same.
+        // `Stable` promises the same only in its domain.
         if size == 1.0 {
             let usual: Vec<Ray> = rays.iter().skip(18).step_by(24).copied().collect();
             hits += check(Stable, &spheres, &usual);

@@ -1,7 +1,7 @@
 //! The memory of streams that calls take by themselves, and keep.
 //!
-//! Memory that is new is as slow as a tenth of the way, or a third where rays are few, since the system hands it out page by
-//! page. So with `std` a thread keeps what its calls have taken, for the next; without, a trace does.
+//! New memory takes a tenth of a traversal's time, or a third where rays are few, since the system hands it out page by page. So
+//! with `std` a thread keeps the memory of its calls for the next ones; without `std` a trace does.
 
 use super::sharing::Sharing;
 use super::{QueuedRay, StreamMemory, StreamRay};
@@ -13,11 +13,12 @@ use alloc::vec::Vec;
 #[cfg(feature = "std")]
 use std::cell::Cell;
 
-/// Places in queues for a ray: with 64 as fast; among 100,000 spheres with 16 at 0.9 of the speed, with 4 at 0.8.
+/// Places in queues for a ray. With 64 streams are as fast; among 100,000 spheres they run at 0.9 of the speed with 16, and at 0.8
+/// with 4.
 const QUEUES: usize = 32;
 
-/// Memory of streams: nothing until it is used, then 384 bytes a ray that goes down with others, 3.2 MB at most. Beside it that of
-/// long calls: 32 bytes a ray in packets, by slices, and 8 a ray that is sorted, half a megabyte each at most.
+/// Memory of streams: nothing until it is used, then 384 bytes a ray that goes down with others, 3.2 MB at most. Also that of long
+/// calls: 32 bytes a ray that is in a packet, of calls by slices, and 8 a ray that is sorted, half a megabyte each at most.
 #[derive(Debug, Default)]
 struct Memory {
     rays: Vec<StreamRay>,
@@ -38,7 +39,7 @@ impl Memory {
 
 #[cfg(feature = "std")]
 std::thread_local! {
-    /// What no call of this thread uses at the moment.
+    /// The memory that no call of this thread uses at the moment.
     static OF_THREAD: Cell<Memory> = const { Cell::new(Memory::NONE) };
 }
 
@@ -47,10 +48,10 @@ std::thread_local! {
 pub(crate) struct KeptMemory(Memory);
 
 impl KeptMemory {
-    /// Nothing.
+    /// No memory.
     pub(crate) const NONE: Self = Self(Memory::NONE);
 
-    /// Takes what the thread has kept, if there is nothing yet.
+    /// Takes the memory that the thread has kept, if there is none yet.
     fn find(&mut self) {
         #[cfg(feature = "std")]
         if self.0.is_nothing() {
@@ -79,7 +80,7 @@ impl KeptMemory {
         self.0.numbers = numbers;
     }
 
-    /// Memory for so many rays that go by themselves otherwise; `None` if it would not be used, or there is none.
+    /// Memory for so many rays that would otherwise go by themselves; `None` if it would not be used, or if there is none.
     #[inline(always)]
     pub(crate) fn lend<Q: Query>(
         &mut self,
@@ -110,7 +111,7 @@ impl Drop for KeptMemory {
     fn drop(&mut self) {
         if !self.0.is_nothing() {
             let memory = core::mem::take(&mut self.0);
-            // Of two the last is kept; of a thread that is ending none.
+            // The thread keeps the last memory that it is given; a thread that is ending keeps none.
             let _ = OF_THREAD.try_with(|of_thread| of_thread.set(memory));
         }
     }
@@ -127,7 +128,7 @@ mod tests {
     use std::vec;
 
     impl KeptMemory {
-        /// How much there is, and how much of it to sort by.
+        /// How many bytes there are, and how many of them are to sort by.
         fn bytes(&self) -> [usize; 2] {
             let Memory { rays, queues, packets, numbers } = &self.0;
             let numbers = size_of_val(&numbers[..]);
@@ -136,7 +137,7 @@ mod tests {
         }
     }
 
-    /// What `closest_hits` and `Trace::stream` say that calls take.
+    /// Calls take the memory that `closest_hits` and `Trace::stream` promise.
     #[test]
     fn calls_take_the_memory_that_is_promised() {
         let mut random = Random(59);

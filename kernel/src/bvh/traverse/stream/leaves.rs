@@ -1,4 +1,5 @@
-//! What the rays of a queue do with a leaf. Its spheres are loaded for each ray: once for all is as fast (0.97 to 1.02).
+//! What the rays of a queue do with a leaf. Its spheres are loaded for each ray: loading them once for all is as fast (0.97
+//! to 1.02).
 
 use super::Stream;
 use super::queue::QueuedRay;
@@ -27,7 +28,7 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
         }
     }
 
-    /// First which rays may hit any of the spheres, then where.
+    /// Finds first which rays may hit any of the spheres, then where.
     #[inline(always)]
     fn meet<const SPREADS: bool>(
         &mut self,
@@ -86,8 +87,8 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
                     continue;
                 }
                 ray.shorten(bound);
-                // The one before may be the closest, too. Of those before that one, the tier may have answered: along a row
-                // of spheres that a ray touches, each would be decided by exact sums.
+                // The sphere kept so far may be the closest, too. The tier's answers for earlier spheres may rule it out:
+                // along a row of spheres that a ray touches, each would else be decided by exact sums.
                 if ray.entry <= ray.best {
                     ray.take_answer(tests.limit(whose));
                     if ray.entry <= ray.best {

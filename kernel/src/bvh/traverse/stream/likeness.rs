@@ -1,44 +1,46 @@
 //! Which of the next rays look like those that were seen.
 //!
-//! What was counted of rays says little of others: a camera's rays may be followed by their bounces. So the next rays are
-//! held, part by part, against those that were counted: in how many packets the first and the last ray look elsewhere, and in
-//! how many they start elsewhere. Where both shares stay about as they were, so does the number of rays that meet.
+//! A count of some rays says little of others: a camera's rays may be followed by their bounces. So the next rays are compared,
+//! part by part, with those that were counted: in how many packets the first and the last ray look in different directions, and in
+//! how many they start in different places. Where both shares stay about as they were, so does the number of rays that meet.
 //!
-//! Parts that come in turns are a mixture. So rays are counted anew only where all that follow, taken together, look
-//! otherwise, too.
+//! Parts that come in turns are a mixture. So rays are counted anew only where a part looks otherwise, and all rays from there on,
+//! taken together, do, too.
 //!
 //! On a Zen 3 a camera's rays and then diffuse ones among a million spheres, 2,000 to 16,000 in all, took 1.2 to 1.9 times as long
-//! as ray by ray when the first eighth decided for all; now it is 1.04 to 1.4, most of it for the sample of diffuse rays.
+//! as ray by ray when the first eighth decided for all. Now they take 1.04 to 1.4 times as long, mostly because of the sample of
+//! diffuse rays.
 
 use crate::geometry::ray::RayPacket;
 use crate::lanes::LaneArray;
 use glam::Vec3;
 
-/// Parts of so many rays: an eighth of what is left, at least and at most. (With parts of 1,024, of 2,048 rays of which a camera's
-/// are half, 224 diffuse ones went as a stream with those: 0.6 to 0.7 of the speed of ray by ray.)
+/// A part is an eighth of the rays that are left, but at least and at most so many. (With parts of 1,024, and 2,048 rays of which
+/// half are a camera's, 224 diffuse ones went as a stream with the camera's, at 0.6 to 0.7 of the speed of ray by ray.)
 const PART: [usize; 2] = [256, 1024];
 /// Packets of a part that are looked at.
 const LOOKED_AT: usize = 16;
-/// Two rays look elsewhere if the cosine of the angle between them is less: 30 degrees.
+/// Two rays look in different directions if the square of the cosine of their angle is less: 30 degrees.
 const COSINE_SQUARED: f32 = 0.75;
-/// They start elsewhere if they are farther apart than such a part of the way that any is from the first.
+/// Two rays start in different places if they start farther apart than this share of the greatest distance of any start from the
+/// first.
 const NEAR: f32 = 0.125;
-/// Shares that differ by more are not alike. (Diffuse rays look elsewhere in nine of ten packets; by 0.5 turns of 1,000 rays
-/// would be cut into streams of so few.)
+/// Shares that differ by more are not alike. (Diffuse rays look in different directions in nine of ten packets; with 0.5, turns of
+/// 1,000 rays would be cut into streams of so few.)
 const UNLIKE: f32 = 0.7;
 
-/// In which share of packets the first and the last ray look elsewhere, and start elsewhere; not numbers where
-/// nothing was seen.
+/// In which share of packets the first and the last ray look in different directions, and in which they start in different places;
+/// NaN where nothing was seen.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Likeness {
     elsewhere: [f32; 2],
 }
 
 impl Likeness {
-    /// Of no rays: all look like these.
+    /// The likeness of no rays: all rays look like these.
     pub(super) const OF_NONE: Self = Self { elsewhere: [f32::NAN; 2] };
 
-    /// Of these rays.
+    /// The likeness of these rays.
     #[inline(never)]
     pub(super) fn of<A: LaneArray>(packets: &[RayPacket<A>]) -> Self {
         let step = (packets.len() / LOOKED_AT).max(1);
@@ -106,7 +108,7 @@ mod tests {
         })
     }
 
-    /// Packets before those that look otherwise than rays of one start and one direction.
+    /// How many packets come before those that look otherwise than rays of one start and one direction.
     fn end<const N: usize>(of: (f32, f32), differ: impl Fn(usize) -> bool) -> usize {
         let seen = Likeness::of(&packets::<64>((0.0, 0.0), |_| false));
         seen.end(&packets::<N>(of, differ))
@@ -130,16 +132,16 @@ mod tests {
         let far = (2.0, 0.5);
         assert_eq!(end::<512>(far, |place| place >= 256), 256);
         assert_eq!(end::<512>(far, |place| place >= 448), 448);
-        // Of few the parts are shorter; half a part.
+        // Few packets have shorter parts; half a part is not told.
         assert_eq!(end::<128>(far, |place| place >= 96), 96);
         assert_eq!(end::<128>(far, |place| place >= 120), 128);
-        // Of many they are not longer than 64 packets, and not shorter: half of one is not told.
+        // Many packets have parts of 64 packets: half of one is not told.
         assert_eq!(end::<512>(far, |place| place >= 480), 512);
         for turn in [1, 4, 64, 128] {
             let in_turns = |place| place / turn % 2 == 1;
             assert!(end::<512>(far, in_turns) > 256, "{turn}");
         }
-        // All that are looked at in a part are every fourth.
+        // In a part, every fourth packet is looked at.
         assert_eq!(end::<512>(far, |place| place % 8 == 0), 512);
         assert_eq!(end::<512>(far, |place| place % 12 == 0), 512);
     }

@@ -1,11 +1,11 @@
-//! The memory of a stream, of the caller's.
+//! The memory of a stream, which the caller provides.
 
 use super::queue::{FRAMES, QueuedRay};
 use super::ray::StreamRay;
 use crate::bvh::node::WIDTH;
 use crate::memory::TooSmall;
 
-/// Memory for a stream of rays, checked.
+/// Memory for a stream of rays, checked to be large enough.
 #[derive(Debug)]
 pub struct StreamMemory<'m> {
     pub(super) rays: &'m mut [StreamRay],
@@ -15,9 +15,10 @@ pub struct StreamMemory<'m> {
 }
 
 impl<'m> StreamMemory<'m> {
-    /// How many places in queues a stream of so many rays needs at least: one a ray, and 256.
+    /// Returns how many places in queues a stream of so many rays needs at least: one a ray, and 256.
     ///
-    /// With less than 8 a ray memory is not used, except [everywhere](Self::everywhere); with 32 few queues are cut short.
+    /// With fewer than 8 places a ray, the memory is not used, except [everywhere](Self::everywhere); with 32, few queues
+    /// are cut short.
     ///
     /// ```
     /// use spherule_kernel::StreamMemory;
@@ -29,7 +30,7 @@ impl<'m> StreamMemory<'m> {
         rays.saturating_add(WIDTH * FRAMES)
     }
 
-    /// Memory for as many rays as `rays` has places.
+    /// Returns memory for as many rays as `rays` has places.
     ///
     /// # Errors
     /// [`TooSmall`] if there is no place for a packet of sixteen rays, or if the queues are shorter than
@@ -50,7 +51,7 @@ impl<'m> StreamMemory<'m> {
         Ok(Self { rays, queues, everywhere: false })
     }
 
-    /// As a stream even where ray by ray is faster: for measurements and tests.
+    /// Lets rays go as a stream even where ray by ray is faster: for measurements and tests.
     ///
     /// ```
     /// use spherule_kernel::{
@@ -72,7 +73,7 @@ impl<'m> StreamMemory<'m> {
         Self { everywhere: true, ..self }
     }
 
-    /// The same memory, for a while.
+    /// Borrows the same memory for a while.
     pub(crate) fn again(&mut self) -> StreamMemory<'_> {
         StreamMemory { rays: self.rays, queues: self.queues, everywhere: self.everywhere }
     }

@@ -1,4 +1,4 @@
-//! The way of the rays of an octant through the nodes.
+//! How the rays of an octant go through the nodes.
 
 use super::Stream;
 use super::queue::{FRAMES, Frame, QueuedRay, still_waiting};
@@ -10,9 +10,9 @@ use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::axes;
 use crate::query::Query;
 
-/// So many rays look into a node before they are queued at its children. (Four: 5 to 9 % slower.)
+/// So many rays look into a node before they are queued at its children. (With four it is 5 to 9 % slower.)
 const AT_ONCE: usize = 16;
-/// Rays whose children a number has a bit for.
+/// For so many rays, one number has a bit for each child.
 const A_WORD: usize = u64::BITS as usize / WIDTH;
 
 impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
@@ -26,14 +26,15 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
             }
             return;
         }
-        // Behind the queues of all octants.
+        // The queues of children begin behind the queues of all octants.
         let all = self.rays.len();
         self.frames[0] = Frame { node: root, next: from, end: to, base: all, ..Frame::EMPTY };
         let mut depth = 0;
         loop {
             let frame = &mut self.frames[depth % FRAMES];
             let Some(node) = self.tests.bvh.nodes.get(frame.node as usize) else { break };
-            // The nearest child that rays wait at; where any hit will do, the next as they stand: full leaves are the last.
+            // The nearest child that rays wait at; for any hit, the last slot that they wait at, since full leaves come
+            // last.
             let order = node.order[octant as usize % 8];
             let mut slot = 0;
             let mut waiting = 0;
@@ -77,7 +78,7 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
     fn enter(&mut self, depth: usize, octant: u32) {
         let frame = &mut self.frames[depth % FRAMES];
         let Some(node) = self.tests.bvh.nodes.get(frame.node as usize) else { return };
-        // What the levels below need at least stays free.
+        // The memory that deeper nodes need at least stays free.
         let free = self.queues.len().saturating_sub(frame.base);
         let below = WIDTH * (FRAMES - depth % FRAMES);
         let room = (free.saturating_sub(below) / (2 * WIDTH)).max(1);
@@ -95,7 +96,7 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
         let mut whose = [0_u32; AT_ONCE];
         let (mut at, end) = (from, from + room);
         while at < end {
-            // Those that have found something before they would enter are left out.
+            // Rays that have found something before they would enter are left out.
             let mut count = 0;
             while at < end && count < AT_ONCE {
                 let queued = self.queues.get(at);
@@ -105,7 +106,7 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
                 whose[count] = queued.ray;
                 count += usize::from(queued.entry <= ray.end_of_boxes);
             }
-            // (So the compiler knows, too.)
+            // (So the compiler knows the bound, too.)
             let count = count.min(AT_ONCE);
             count!(StreamNode, count);
             // Boxes stay in registers while rays pass.
@@ -120,7 +121,7 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
                     entry.store().put_part(&mut entries[place], part);
                 }
             }
-            // One loop for the children of four rays has one end that cannot be guessed, where a loop a ray would
+            // One loop for the children of four rays has one end that the processor cannot guess; a loop for each ray would
             // have four.
             for word in 0..AT_ONCE / A_WORD {
                 let mut left = met[word];

@@ -6,7 +6,7 @@ use crate::bvh::node::{DEPTH, NO_CHILD, WIDTH};
 /// Memory for a ray that waits at a box. 8 bytes.
 #[derive(Clone, Copy, Debug)]
 pub struct QueuedRay {
-    /// Which of the stream.
+    /// Which ray of the stream.
     pub(super) ray: u32,
     /// The s at which it enters the box.
     pub(super) entry: f32,
@@ -33,7 +33,7 @@ pub(super) struct Frame {
     pub(super) room: usize,
     /// How many rays wait at each child.
     pub(super) counts: [u32; WIDTH],
-    /// The children from here on, in the order of the octant, are done: four bits each.
+    /// The children from this place on, in the order of the octant, are done.
     pub(super) left: u32,
 }
 
@@ -42,7 +42,8 @@ impl Frame {
         Self { node: NO_CHILD, next: 0, end: 0, base: 0, room: 0, counts: [0; WIDTH], left: 0 };
 }
 
-/// Drops those of the queue `from..to` whose rays have found something before they enter; returns where it ends.
+/// Drops rays of the queue `from..to` that have found something before they would enter; returns where the queue
+/// ends then.
 #[inline(always)]
 pub(super) fn still_waiting(
     queues: &mut [QueuedRay],

@@ -12,7 +12,7 @@ use crate::count::count;
 use crate::lanes::{LaneArray, Lanes};
 use crate::numeric::axes::axes;
 
-/// Memory for a ray of a stream. 128 bytes: a line that nodes read, and one that leaves read besides.
+/// Memory for a ray of a stream. 128 bytes: a cache line that nodes read, and one that leaves read besides.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub struct StreamRay {
@@ -21,11 +21,11 @@ pub struct StreamRay {
     minus_inverse: [f32; 3],
     minus_near: [f32; 3],
     far: [f32; 3],
-    /// From where to where boxes matter.
+    /// The s from which, and up to which, boxes matter.
     start_of_boxes: f32,
     pub(super) end_of_boxes: f32,
-    /// The sphere that may be the closest, by its place in the leaves, and the s that no answer of it is below; NaN
-    /// if there is none.
+    /// The sphere that may be the closest, by its place in the leaves, and an s that none of its answers is below,
+    /// or NaN if there is no such sphere.
     pub(super) place: u32,
     pub(super) entry: f32,
 
@@ -37,9 +37,9 @@ pub struct StreamRay {
     absolute_error: f32,
     time: RayTime<f32>,
     spread: f32,
-    /// Some answer, or the end of the interval, is not above.
+    /// An s that some answer, or the end of the interval, is not above.
     pub(super) best: f32,
-    /// Which of the rays that go down together; [`NO_RAY`](Self::NO_RAY) if it is not in the stream.
+    /// Its number among the rays that go down together; [`NO_RAY`](Self::NO_RAY) if it is not in the stream.
     number: u32,
 }
 
@@ -96,7 +96,7 @@ impl StreamRay {
         self.number = number;
     }
 
-    /// No ray.
+    /// Makes it no ray of the stream.
     #[inline(always)]
     pub(super) fn leave_out(&mut self) {
         (self.number, self.entry) = (Self::NO_RAY, f32::NAN);
@@ -160,7 +160,7 @@ impl StreamRay {
         spheres & leaf.lanes
     }
 
-    /// Takes a t that the tier has answered, `-inf` if no more is asked; `+inf` is none.
+    /// Takes a t that the tier has answered: `-inf` if the ray is done, `+inf` if there is no hit.
     #[inline(always)]
     pub(super) fn take_answer(&mut self, t: f32) {
         if t < f32::INFINITY {

@@ -1,11 +1,11 @@
-//! What a stream has seen of its rays: how many met at a box, and whether those came one after the other.
+//! What a stream has seen of its rays: how many met at a box, and whether rays that met had come one after the other.
 
 use super::queue::QueuedRay;
 
-/// Rays of a bunch, one after the other.
+/// How many rays, one after the other, are a bunch.
 const BUNCH: u32 = 16;
-/// Where rays are scattered, those that meet at a leaf are so many times as many as of a bunch, or more: 10 to 28 in samples of
-/// 224 rays; in bunches 1.2 to 2.3.
+/// Where rays are scattered, at least so many times as many rays meet at a leaf as rays of one bunch do: 10 to 28 times in
+/// samples of 224 rays; in bunches 1.2 to 2.3 times.
 const SCATTERED: f32 = 3.0;
 
 /// What a stream has seen.
@@ -14,11 +14,11 @@ pub(super) struct Seen {
     /// How often rays went down, and how many in all.
     pub(super) streams: u32,
     pub(super) rays: u32,
-    /// How many nodes and leaves they entered, counted once for all that did at once.
+    /// How many nodes and leaves the rays entered, counted once for all rays that enter at once.
     pub(super) boxes: u32,
     /// The same, counted once for each ray.
     pub(super) entered: u32,
-    /// Of leaves alone the same two, and how many of the rays came after one of their bunch, about.
+    /// The same two counts of leaves alone, and about how many of the rays at leaves came after another of their bunch.
     pub(super) leaves: u32,
     pub(super) at_leaves: u32,
     pub(super) together: u32,
@@ -32,9 +32,9 @@ impl Seen {
         self.entered = self.entered.wrapping_add(rays as u32);
     }
 
-    /// Counts a leaf that those rays of the queues enter, and how many of them came together: as the first two, so all. (Each
-    /// ray held against the one before: two cameras run at 0.94 to 0.97 of the speed. Of nodes, too: rays to a light seem to
-    /// come together.)
+    /// Counts a leaf that the rays `from..to` of the queues enter, and how many of them came together: the first two decide for
+    /// all. (With each ray compared with the one before, two cameras run at 0.94 to 0.97 of the speed. With nodes counted, too,
+    /// rays to a light seem to come together.)
     #[inline(always)]
     pub(super) fn count_leaf(&mut self, queues: &[QueuedRay], from: usize, to: usize) {
         let rays = (to - from) as u32;

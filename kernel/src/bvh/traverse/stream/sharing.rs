@@ -1,20 +1,19 @@
-//! Which rays go as a stream, and which ray by ray: what is seen of how many meet at a box.
+//! Decides which rays go as a stream, and which ray by ray, from how many rays were seen to meet at a box.
 //!
 //! # Method
 //!
-//! A stream looks a node or a leaf up once for all rays that wait at it, so it pays where these are many. How many depends on
-//! the rays, the scene, and how many rays go down together; the tree's size, the level and the number of rays tell
-//! less. So a few rays go as a stream first, and the mean is counted, over all boxes that any of them enters. With n
-//! rays it is some 1 + c n^(2/3) where few meet, and more where many do. Where most that meet at a leaf come one after the other,
-//! as in short runs of a camera's rays, it is some 1 + c n^(1/3): one run has little in common with the next. (By n^(2/3) 2,048 rays in
-//! cloud, 64 of a camera and 64 diffuse ones by turns, were held to be 6.1 at a box: 2.8 were, and they ran at 0.56 of the
-//! speed of ray by ray.) What that says of as many rays as there are decides; every stream that follows is counted, too.
-//! After one that does not pay, rays go ray by ray for some time.
+//! A stream looks a node or a leaf up once for all rays that wait at it, so it pays where many rays wait. How many wait depends on the
+//! rays, the scene, and how many rays go down together; the tree's size, the level and the number of rays tell less. So a few rays go as a
+//! stream first, and the mean number at a box is counted, over all boxes that any of them enters. With n rays the mean is some 1 + c
+//! n^(2/3) where few meet, and more where many do. It is some 1 + c n^(1/3) where most rays that meet at a leaf come one after the other,
+//! as in short runs of a camera's rays: one run has little in common with the next. (By n^(2/3), 2,048 rays in cloud, 64 of a camera and 64
+//! diffuse ones by turns, were predicted to be 6.1 at a box. 2.8 were, and the rays ran at 0.56 of the speed of ray by ray.) The mean so
+//! predicted for all rays that would go down together decides. Every later stream is counted, too. After a stream that does not pay, rays
+//! go ray by ray for some time.
 //!
-//! Times a ray, ray by ray over stream, AVX-512 on a Sapphire Rapids, least of 3 to 7; AVX2 and the baseline are within
-//! 0.1 of it:
+//! Time per ray, ray by ray over stream, with AVX-512 on a Sapphire Rapids, least of 3 to 7 (AVX2 and the baseline are within 0.1 of it):
 //!
-//! | spheres, rays of them together | at a box | closest | any |
+//! | spheres, rays, how many go down together | rays at a box | closest | any |
 //! |---|--:|--:|--:|
 //! | 1,000,000, diffuse, 8,192 | 1.9 | 0.59 | 0.43 |
 //! | 64,000, diffuse, 2,048 | 2.2 | 0.70 | 0.56 |
@@ -36,12 +35,11 @@
 //! | the same, from all around | | 1.18 | 0.30 |
 //! | 10,000 that overlap, diffuse, 4,096 | | 1.20 | 0.69 |
 //!
-//! Of any hit the last rows say that company is not all: by itself a ray looks into the first leaf that it comes to, and
-//! may be done, where a stream takes it to all boxes of a node first. So some rays go by themselves before a stream does, and the
-//! boxes that they enter are counted, too. As a share of those that they enter in a stream (4,096 rays, any hit, AVX-512 and
-//! AVX2):
+//! For any hit, the last rows show that the number of rays at a box is not all: by itself, a ray looks into the first leaf that it comes
+//! to, and may be done; a stream takes it to all boxes of a node first. So some rays go by themselves before a stream does, and the boxes
+//! that they enter are counted, too. As a share of the boxes that they enter in a stream (4,096 rays, any hit, AVX-512 and AVX2):
 //!
-//! | spheres, rays | at a box | boxes by itself over in a stream | times |
+//! | spheres, rays | rays at a box | boxes by itself over those in a stream | times |
 //! |---|--:|--:|--:|
 //! | nested, from all around | 505 | 0.12 | 0.59, 0.67 |
 //! | nested, after three bounces | 230 | 0.21 | 0.70, 0.75 |
@@ -53,8 +51,8 @@
 //! | nested, a shuffled camera | 202 | 0.80 | 1.34, 1.31 |
 //! | 10,000, diffuse | 7.1 | 0.84 | 0.95, 0.97 |
 //!
-//! On a Zen 3 (AVX2, 8,192 rays) a stream needs a larger share where the tree lies in the core's own cache: 3,000 spheres that
-//! overlap, share 0.54, run at 0.80 to 0.88 of ray by ray; from between them, 0.35, at 0.78.
+//! On a Zen 3 (AVX2, 8,192 rays) a stream needs a larger share where the tree lies in the core's own cache: streams among 3,000 spheres
+//! that overlap, share 0.54, run at 0.80 to 0.88 of the speed of ray by ray; with rays from between the spheres, share 0.35, at 0.78.
 //!
 //! Small trees have a traversal of their own (`small_tree.rs`), which is faster.
 //!
@@ -71,77 +69,80 @@ use crate::geometry::ray::RayPacket;
 use crate::lanes::LaneArray;
 use crate::query::Query;
 
-/// So many rays must meet at a box, on average: for the closest hit, and for any, times the share of these boxes that a ray enters by
-/// itself. (10, whatever it enters: rays sorted by direction among 120,000 spheres that overlap, 13 and 0.48, 0.88 to 0.96 of the speed;
-/// diffuse ones in chains, 8.8 and 1, 0.8 to 0.95.)
+/// How many rays must meet at a box, on average, for a stream to pay: for the closest hit; and for any hit, where the mean is multiplied by
+/// the share of its boxes that a ray enters by itself. (With 10 for any hit, whatever the share: rays sorted by direction among 120,000
+/// spheres that overlap, mean 13 and share 0.48, ran at 0.88 to 0.96 of the speed; diffuse ones in chains, mean 8.8 and share 1, at 0.8 to
+/// 0.95.)
 const ENOUGH: [f32; 2] = [6.0, 7.0];
-/// For any hit in a tree that is near. (7: diffuse rays among radii that spread over 10^6, 9 and 0.79, 0.88; 8.5: short ones in a city,
-/// which enter few boxes, 0.86.)
+/// The same for any hit in a tree that is near. (With 7, diffuse rays among radii that spread over 10^6, mean 9 and share 0.79, ran at 0.88
+/// of the speed; with 8.5, short rays in a city, which enter few boxes, at 0.86.)
 const ENOUGH_NEAR: f32 = 10.0;
-/// The same of rays that enter [`MANY`] boxes each, or more: what a stream takes for a ray, however few those are, matters less. (Huge and
-/// tiny spheres, 3,600 shuffled rays of 44 boxes, 4 to 5 at each: a stream of all is 1.8 to 1.9 times ray by ray, and a call ran at 0.64 to
-/// 0.78 of that; now 0.76 to 0.98.)
+/// As [`ENOUGH`], for rays that enter [`MANY`] boxes each, or more: what a stream takes for a ray, however few its boxes, matters less
+/// there. (Huge and tiny spheres, 3,600 shuffled rays that enter 44 boxes each, 4 to 5 rays at a box: a stream of all is 1.8 to 1.9 times
+/// as fast as ray by ray. A call ran at 0.64 to 0.78 of the speed of that stream; now it runs at 0.76 to 0.98.)
 const ENOUGH_OF_MANY: [f32; 2] = [3.5, 4.0];
 const MANY: f32 = 20.0;
-/// Of the boxes that a ray enters in a stream it must enter such a share by itself, in a tree that is far from the core, and in
-/// one that is near it.
+/// The share of its boxes in a stream that a ray must at least enter by itself, or the stream is in vain: in a tree that is far from the
+/// core, and in one that is near it.
 const SPARED: [f32; 2] = [0.35, 0.6];
-/// Trees of so many bytes are near.
+/// Trees of at most so many bytes are near.
 const NEAR: usize = 1 << 20;
-/// Of rays that enter fewer boxes, in all, nothing is learnt. (A picture of ground from the top: 112 at a box, of four boxes, then
-/// 2.4: 1,024 rays ran at 0.63 to 0.66 of ray by ray. Of rays that enter fewer than three each, in place: two cameras over
-/// flake4, 1,024 rays, 0.94 in place of 1.07.)
+/// Nothing is learnt of rays that enter fewer boxes, in all. (A picture of ground from the top: 112 rays met at a box, over four boxes, and
+/// 2.4 later; 1,024 rays ran at 0.63 to 0.66 of the speed of ray by ray. With three boxes a ray as the limit instead, two
+/// cameras over flake4, 1,024 rays, ran at 0.94 instead of 1.07.)
 const TELLING: u32 = 8;
-/// Nor of fewer rays: those that groups have answered are none. (Of 19 it seemed that too few would meet, and as all that followed looked
-/// alike, none was asked again: any hits of 33,000 rays from a point all around, sorted, among 200,000 spheres, 0.77 of the speed of 34,000.)
+/// Nor is anything learnt of fewer rays; rays that groups have answered do not count. (A sample of 19 rays suggested that too few rays
+/// would meet. All later rays looked alike, so none was sampled again: any hits of 33,000 rays from a point all around, sorted, among
+/// 200,000 spheres, ran at 0.77 of the speed of 34,000.)
 const TELLING_RAYS: u32 = 64;
-/// Rays that go down together, if there is memory for so many. In u10k 4,096 are 3 to 5 % slower, and 2,048 a sixth;
-/// 32,768 take longer at all levels but AVX-512.
+/// How many rays go down together, if there is memory for so many. In u10k, 4,096 are 3 to 5 % slower, and 2,048 a sixth; 32,768 take
+/// longer at all levels except AVX-512.
 pub(super) const TOGETHER: usize = 8192;
-/// Fewer rays are no stream.
+/// Fewer rays do not go as a stream.
 const LEAST_RAYS: usize = 1024;
-/// A first stream takes an eighth of the rays, and at least and at most so many; and as many go by themselves before it.
-/// (Packets from everywhere among the next 8,192 rays, before every stream: on a Zen 3, where diffuse rays lose most by streams, a
-/// camera's rays and then diffuse ones, 6,000 to 16,000 among a million spheres, took 0.6 to 0.95 of the time; but calls of 16,384 rays of
-/// flake4 took 1.05, and with samples of 256 rays diffuse ones 1.16, since too few seemed to meet.)
+/// A first stream takes an eighth of the rays, but at least and at most so many; for any hit, as many go by themselves before it. (Tried:
+/// before every stream, a sample of packets from everywhere among the next 8,192 rays. On a Zen 3, where diffuse rays lose most by streams,
+/// a camera's rays and then diffuse ones, 6,000 to 16,000 among a million spheres, took 0.6 to 0.95 of the time. But calls of 16,384 rays
+/// of flake4 took 1.05; with samples of 256 rays, diffuse ones took 1.16, since too few seemed to meet.)
 const FIRST: [usize; 2] = [128, 1024];
-/// What these leave of the fewest.
+/// What is left of [`LEAST_RAYS`] after the fewest that go by themselves first.
 const LEAST_LEFT: usize = LEAST_RAYS - FIRST[0];
-/// Rays that have entered more by themselves than so many times what others do in a stream are not like these.
+/// Rays that have entered more boxes by themselves than so many times as many as others enter in a stream are not like these others.
 const MOST_ALONE: f32 = 1.25;
-/// After so many rays it is counted anew what they enter by themselves; at once, if what others did does not fit a stream. (The upper
-/// rows of a picture enter a box or two. By that, streams of the rows below seemed to be in vain: any hits of two cameras over chains ran at
-/// 0.61 to 0.70 of the speed of a stream of all.)
+/// After so many rays, the boxes that rays enter by themselves are counted anew; at once, if the last count does not fit a stream. (Rays of
+/// the upper rows of a picture enter a box or two. By that, streams of the rows below seemed to be in vain: any hits of two cameras over
+/// chains ran at 0.61 to 0.70 of the speed of a stream of all.)
 const BELIEVED: usize = 1 << 15;
-/// After a stream that does not pay so many rays go by themselves; after the next twice as many, up to so many.
+/// After a stream that does not pay, the first number of rays go by themselves; after the next such stream twice as many, up to the second
+/// number.
 const PASSED_OVER: [usize; 2] = [1 << 14, 1 << 18];
-/// Queues with less room for a ray are cut short too often. (With one place a ray a stream took 2.5 times as long as ray by
-/// ray, with 4 it runs at 0.87 of its speed.)
+/// Queues with fewer places for a ray are cut short too often. (With one place a ray, a stream took 2.5 times as long as ray by ray; with
+/// 4, it runs at 0.87 of the speed of ray by ray.)
 const LEAST_QUEUES: usize = 8;
 
 /// What is learnt of rays as they come.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sharing {
-    /// What was seen last: how many rays met at a box, not a number where nothing is known, of how many that went together.
+    /// How many rays met at a box in the last stream, NaN where nothing is known; and how many went together.
     met: f32,
     of: f32,
     /// Whether a ray entered many boxes.
     is_many: bool,
-    /// Whether most of those that met came together.
+    /// Whether most of the rays that met came one after the other.
     in_bunches: bool,
-    /// How many boxes a ray enters by itself, not a number where it is not known, and how many more rays that is believed of.
+    /// How many boxes a ray enters by itself, NaN where that is not known, and of how many more rays that is believed.
     alone: f32,
     believed: usize,
-    /// Which part that is of those that it enters in a stream; all where it is not known.
+    /// `alone` as a share of the boxes that a ray enters in a stream; all of them where that is not known.
     share: f32,
-    /// Whether those rays came right before the next.
+    /// Whether the rays that `alone` was counted of came right before the next.
     is_alone_next: bool,
     waiting: Waiting,
-    /// Of the rays that were seen last.
+    /// The likeness of the rays that were seen last.
     likeness: Likeness,
 }
 
-/// How many rays are passed over before the next are tried, of how many.
+/// How many rays are still passed over before a stream is tried again, and how many were to be.
 #[derive(Clone, Copy, Debug)]
 struct Waiting {
     left: usize,
@@ -163,7 +164,7 @@ impl Waiting {
 }
 
 impl Sharing {
-    /// Nothing.
+    /// Nothing is known.
     pub(crate) const NOTHING: Self = Self {
         met: f32::NAN,
         of: 1.0,
@@ -177,7 +178,7 @@ impl Sharing {
         likeness: Likeness::OF_NONE,
     };
 
-    /// Whether enough of so many rays would meet at a box; not where nothing is known.
+    /// Whether enough of so many rays would meet at a box; `false` where nothing is known.
     fn is_enough<Q: Query>(&self, bvh: &Bvh<'_>, rays: usize) -> bool {
         let root = libm::cbrtf(rays as f32 / self.of);
         let times = if self.in_bunches { root } else { root * root };
@@ -196,7 +197,7 @@ impl Sharing {
         rays.clamp(LEAST_RAYS, TOGETHER)
     }
 
-    /// Whether a stream of so many rays may pay, or it is not known.
+    /// Whether a stream of so many rays would pay, or may be tried because nothing is known.
     #[cfg(feature = "alloc")]
     pub(crate) fn may_pay<Q: Query>(&self, bvh: &Bvh<'_>, rays: usize) -> bool {
         let pays = if self.met.is_nan() {
@@ -207,7 +208,7 @@ impl Sharing {
         rays >= LEAST_RAYS && small_tree::leaves(bvh).is_none() && pays
     }
 
-    /// The strategy for the next rays of so many, and of how many.
+    /// The strategy for the next rays, and how many rays it is for.
     pub(super) fn next<A: LaneArray, Q: Query>(
         &mut self,
         bvh: &Bvh<'_>,
@@ -223,7 +224,7 @@ impl Sharing {
             return (StreamStrategy::RayByRay, rays);
         }
 
-        // What is known is not of rays that look otherwise.
+        // Nothing is known of the next rays if they look otherwise.
         let next = packets.get(..together / A::COUNT).unwrap_or(packets);
         let mut alike = self.likeness.end(next) * A::COUNT;
         if alike == 0 {
@@ -249,12 +250,12 @@ impl Sharing {
         (StreamStrategy::RayByRay, alike)
     }
 
-    /// So many rays went by themselves.
+    /// Counts rays that went by themselves.
     pub(crate) fn pass_over(&mut self, rays: usize) {
         self.waiting.pass_over(rays);
     }
 
-    /// Takes what rays by themselves have entered.
+    /// Takes the count of boxes that rays by themselves have entered.
     pub(super) fn take_alone(&mut self, entered: Entered) {
         if entered.rays > 0 {
             self.alone = entered.boxes as f32 / entered.rays as f32;
@@ -273,13 +274,13 @@ impl Sharing {
         (self.met, self.of) = (met, rays / seen.streams as f32);
         self.is_many = seen.entered as f32 >= MANY * rays;
         self.in_bunches = seen.is_in_bunches();
-        // (Where nothing is known of rays by themselves, it is not a number.)
+        // (NaN where nothing is known of rays by themselves.)
         let share = self.alone * rays / seen.entered as f32;
         let is_alone_next = core::mem::take(&mut self.is_alone_next);
         if is_alone_next {
             self.share = share.min(1.0);
         }
-        // As many as can go down together meet more of each other.
+        // Judged for as many rays as can go down together: more of those meet.
         let mut paid = self.is_enough::<Q>(bvh, TOGETHER);
         if Q::ANY {
             let is_in_vain = share < SPARED[usize::from(is_near(bvh))];
@@ -305,7 +306,7 @@ fn is_near(bvh: &Bvh<'_>) -> bool {
     bytes_of(bvh) <= NEAR
 }
 
-/// How much of memory the boxes and spheres of a tree are.
+/// How many bytes the boxes and spheres of a tree take.
 pub(crate) fn bytes_of(bvh: &Bvh<'_>) -> usize {
     size_of_val(bvh.nodes) + size_of_val(bvh.numbers)
 }

@@ -52,14 +52,14 @@ fn few_that_meet_or_much_in_vain_end_it_and_all_is_tried_again() {
         assert!(any.may_pay::<AnyHit>(&tree, 8192));
         pay
     };
-    // 1,024 that are two at a box are five if they are eight times as many; of 3.4 they are 10.6.
+    // If 1,024 rays are two at a box, eight times as many are five; if 3.4, they are 10.6.
     assert_eq!(pays(8, seen(4096, 8192)), [false; 2]);
     assert_eq!(pays(8, seen(2400, 8192)), [true; 2]);
     assert_eq!(pays(7, seen(2400, 8192)), [true, false]);
     assert_eq!(pays(8, seen(2600, 8192)), [true, false]);
-    // Whatever it enters by itself above that.
+    // More boxes by itself change nothing.
     assert_eq!(pays(16, seen(2600, 8192)), [true, false]);
-    // Of eight boxes five are a good part, and four are not.
+    // Five of eight boxes are a large enough share, and four are not.
     assert_eq!(pays(5, seen(1024, 8192)), [true; 2]);
     assert_eq!(pays(4, seen(1024, 8192)), [true, false]);
 }
@@ -68,7 +68,7 @@ fn few_that_meet_or_much_in_vain_end_it_and_all_is_tried_again() {
 fn where_rays_enter_many_boxes_fewer_at_each_are_enough() {
     let (tree, _) = scene(2000, 0);
     let tree = tree.bvh();
-    // So many at a box, of rays that enter so many, and of any hit by themselves.
+    // Rays at a box; boxes that each enters in a stream, and by itself for any hit.
     for (at_a_box, of_each, alone, expected) in [
         (3, 20, 20, [false; 2]),
         (4, 19, 19, [false; 2]),
@@ -96,7 +96,7 @@ fn what_other_rays_entered_by_themselves_condemns_no_stream() {
         let entered = 1024 * of_each;
         Seen { streams: 1, rays: 1024, boxes: entered / 20, entered, ..Seen::default() }
     };
-    // Rays that enter two boxes; then a stream of rays that enter as many, and of others.
+    // Rays that enter two boxes; then streams of rays that enter as many, and of others.
     for (of_each, counted_anew) in [(2, false), (4, true), (1, true)] {
         let mut sharing = Sharing::NOTHING;
         sharing.take_alone(Entered { rays: 1024, boxes: 2048 });
@@ -107,7 +107,7 @@ fn what_other_rays_entered_by_themselves_condemns_no_stream() {
         assert_eq!(sharing.believed == 0, counted_anew, "{of_each}");
         assert!(sharing.may_pay::<AnyHit>(&tree, 8192), "{of_each}");
     }
-    // Of those that came right before it does.
+    // A count of rays that came right before the stream does condemn it.
     let mut sharing = Sharing::NOTHING;
     sharing.take_alone(Entered { rays: 1024, boxes: 2048 });
     sharing.take::<AnyHit>(&tree, stream(4));
@@ -168,7 +168,7 @@ fn few_rays_and_those_that_all_enter_the_same_few_boxes_tell_nothing() {
 
 #[test]
 fn in_a_tree_that_is_far_a_smaller_part_is_good() {
-    // Of some 0.6 MB and 1.2 MB.
+    // Trees of some 0.6 MB and 1.2 MB.
     for (spheres, is_near, enough) in [(30_000, true, 5), (60_000, false, 3)] {
         let (tree, _) = scene(spheres, 0);
         let tree = tree.bvh();
@@ -181,7 +181,7 @@ fn in_a_tree_that_is_far_a_smaller_part_is_good() {
             any.take::<AnyHit>(&tree, seen);
             assert_eq!(any.may_pay::<AnyHit>(&tree, 8192), pays, "{spheres} {alone}");
         }
-        // So is less company.
+        // Fewer rays at a box are enough there, too.
         for (at_a_box, pays) in [(6.9, [false; 2]), (7.1, [true, false]), (10.2, [true; 2])] {
             let mut any = Sharing::NOTHING;
             any.take_alone(Entered { rays: 1, boxes: 8 });
@@ -273,7 +273,7 @@ fn rays_that_look_otherwise_are_counted_anew() {
         }
         from += count.div_ceil(16);
     }
-    // A sample of each, and what it says of those that look like it.
+    // A sample of each kind, and the strategy that it gives to rays that look like it.
     let expected = [
         (true, 0, 64),
         (true, 64, 256),
