@@ -1,4 +1,4 @@
-//! Climbing towards the worst, for tests that ask how large something can become.
+//! Hill climbing towards the worst case, for tests that ask how large something can become.
 
 use std::println;
 
@@ -42,9 +42,10 @@ impl Random {
     }
 }
 
-/// The largest `score` found from `starts` beginnings, `steps` small changes each, and where.
+/// Returns the largest `score` found from `starts` beginnings, with `steps` small changes each, and the numbers that
+/// reach it.
 ///
-/// A change is of the last few bits of a number or two, or of some more, or of all of the fraction; or of the exponent,
+/// A change alters the last few bits of a number or two, or some more bits, or all of the fraction; or the exponent,
 /// within `exponents`, unless sizes are to stay. Zero stays zero: a subnormal would be outside of most domains.
 pub(crate) fn climb<const N: usize>(
     seed: u64,
@@ -98,8 +99,8 @@ pub(crate) fn climb_twice<const N: usize>(
     if kept.0 > changed.0 { kept } else { changed }
 }
 
-/// Fails if what a search has found is not what is published, in `docs/proofs.md` or at the test: a tenth more or
-/// less. More is a better search, and worth publishing; a longer one may find it.
+/// Fails if a search finds a tenth less or more than is published, in `docs/proofs.md` or at the test. More means a
+/// better search, and is worth publishing; a longer search may find more.
 pub(crate) fn assert_published(what: &str, found: f64, published: f64) {
     println!("{what}: {found:.3} found, {published} published");
     let part = found / published;
@@ -109,7 +110,7 @@ pub(crate) fn assert_published(what: &str, found: f64, published: f64) {
     );
 }
 
-/// How many times as many beginnings there are as usual: `SPHERULE_CLIMB`.
+/// The factor by which the usual number of beginnings is multiplied: `SPHERULE_CLIMB`.
 fn times() -> u32 {
     std::env::var("SPHERULE_CLIMB").ok().and_then(|times| times.parse().ok()).unwrap_or(1)
 }

@@ -1,4 +1,4 @@
-//! How much of bounds is used, as far as searches find it.
+//! Searches for how much of each bound is used.
 
 mod beside_fast;
 mod boxes;
@@ -39,7 +39,7 @@ fn lane(ray: &Ray) -> RayLanes<f32> {
     RayLanes::load((), &RayPacket::<[f32; 1]>::new(&[*ray]))
 }
 
-/// d, p and r in double precision, which is as good as the truth beside an error in single.
+/// d, p and r in double precision, which counts as the truth beside an error in single precision.
 fn wide(ray: &Ray, sphere: &Sphere) -> (Vector, Vector, f64) {
     let wide = |v: Vec3| v.to_array().map(f64::from);
     let (o, c) = (wide(ray.origin), wide(sphere.center));

@@ -1,5 +1,5 @@
-//! No pixel of a tile is outside of what its corners say: slopes and offsets of all pixels, in doubles, against those of
-//! the corners, moved by the errors of points alone. Cameras are made so that points are mostly rounding.
+//! No pixel of a tile is outside of what its corners say: slopes and offsets of all pixels, in doubles, are compared
+//! with those of the corners, moved by the errors of points alone. Cameras are made so that points are mostly rounding.
 
 use crate::coherent::tile_fit::Points;
 use crate::geometry::camera::tiles::CameraTiles;
@@ -7,7 +7,7 @@ use crate::proofs::climb::Random;
 use crate::{Camera, Projection, Vec3, f32x4};
 use std::println;
 
-/// Looks along z, more or less; rounding is as large as steps are, or much smaller.
+/// A camera that looks along z, more or less; rounding is as large as steps are, or much smaller.
 fn camera(random: &mut Random) -> (Camera, (u32, u32)) {
     let corner = (random.below(1 << 22) as u32, random.below(1 << 22) as u32);
     let mut vector =
@@ -21,7 +21,7 @@ fn camera(random: &mut Random) -> (Camera, (u32, u32)) {
     (Camera { projection, corner: corner_point, step_x, step_y }, corner)
 }
 
-/// How much of what planes are moved by is needed: by slopes, and by offsets of a slope.
+/// The part that is needed of what planes are moved by: by slopes, and by offsets of a slope.
 fn needed(random: &mut Random) -> [Option<f64>; 2] {
     let (camera, corner) = camera(random);
     let size = (corner.0 + 4, corner.1 + 4);

@@ -7,7 +7,7 @@ use crate::proofs::limbs::touched;
 use core::hint::black_box;
 use std::{println, time::Instant};
 
-/// For both roots of a lane, and for an order: stated in `docs/numerics.md`.
+/// The limbs for both roots of a lane, and for an order: stated in `docs/numerics.md`.
 const STATED: [u32; 2] = [550, 10_000];
 
 /// Ray and two spheres: o, d, c and r, c and r.

@@ -1,4 +1,4 @@
-//! What bounds need, as it follows from the source: its formulas record themselves, and their roundings are summed.
+//! What bounds need, derived from the source: its formulas record themselves, and their roundings are summed.
 
 pub(super) mod boxes;
 pub(super) mod estimate;
@@ -37,7 +37,8 @@ fn name_differences(rules: &mut RunningError, graph: &[Operation], names: &[&'st
     }
 }
 
-/// What a node is made of: a sum, difference or product; what has one operand has it twice.
+/// The operands of a node: of a sum, difference or product; an operation with one operand has it
+/// twice.
 fn operands(graph: &[Operation], node: usize) -> [usize; 2] {
     match graph[node] {
         Operation::Sum(a, b) | Operation::Difference(a, b) => [a, b],

@@ -1,2 +1,2 @@
-//! Nothing: `cargo test` compiles the kernel with its proofs, as the test `proofs`.
+//! An empty library: `cargo test` compiles the kernel with its proofs, as the test `proofs`.
 #![no_std]

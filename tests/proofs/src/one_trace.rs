@@ -1,4 +1,4 @@
-//! A path tracer's calls by one trace: what it has learnt of bounces does not keep its camera's rays apart.
+//! A path tracer's calls by one trace: what the trace has learnt of bounces does not keep the camera's rays apart.
 
 use super::climb::Random;
 use super::work::{Kind, Work};
@@ -31,7 +31,7 @@ impl Calls {
         Self { tree: SphereTree::new(spheres), random }
     }
 
-    /// So many rays of a long lens, which go together.
+    /// `count` rays of a long lens, which go together.
     fn camera(&self, count: usize) -> Vec<Ray> {
         let direction = |i: usize| Vec3::new((i % 8) as f32, (i / 8) as f32, 4000.0);
         (0..count).map(|i| Ray::new(Vec3::new(0.1, 0.2, -3.0), direction(i))).collect()
@@ -49,7 +49,7 @@ impl Calls {
         (0..count).map(|_| Ray::new(point(random) - 2.0 * Vec3::Z, Vec3::Z)).collect()
     }
 
-    /// How many nodes groups look into, closest hits.
+    /// How many nodes groups look into, for closest hits.
     fn groups(&self, trace: &mut Trace<'_>, rays: &[Ray]) -> u64 {
         let mut hits = vec![None; rays.len()];
         let work = Work::of(|| self.tree.closest_hits_with(Exact, trace, rays, &mut hits));
@@ -115,7 +115,7 @@ fn few_rays_that_do_not_go_together_go_one_by_one() {
             let packed = |rays: &[Ray]| rays.chunks(16).map(RayPacket::new).collect::<Vec<_>>();
             let (packets, others) = (packed(&rays), packed(&calls.beam(count)));
             let mut found = vec![HitPacket::none(); packets.len()];
-            // What others hit must not show.
+            // Hits of other rays must not stay.
             let tree = &calls.tree;
             tree.closest_hit_packets(Exact, &mut Trace::new(), &others, &mut found);
             assert!(found.iter().flat_map(HitPacket::hits).any(|hit| hit.is_some()));

@@ -1,7 +1,7 @@
-//! Polynomials in magnitudes: no coefficient is negative, exponents may be.
+//! Polynomials in magnitudes: no coefficient is negative, but exponents may be.
 //!
 //! One with smaller coefficients, monomial by monomial, is smaller wherever the symbols stand for magnitudes.
-//! Coefficients are computed in `f64`, which loses less than 2^-40 of them: who compares leaves more than that.
+//! Coefficients are computed in `f64`, which loses less than 2^-40 of them: comparisons leave more room than that.
 
 use core::ops::{Add, Mul};
 use std::collections::BTreeMap;
@@ -75,7 +75,7 @@ impl Polynomial {
         self.0.iter().map(|(monomial, coefficient)| (monomial, *coefficient))
     }
 
-    /// What it is where symbols stand for these numbers.
+    /// Its value where symbols stand for these numbers.
     pub(crate) fn value(&self, of: impl Fn(Symbol) -> f64) -> f64 {
         let power = |(symbol, power): &(Symbol, i32)| of(*symbol).powi(*power);
         let term = |(monomial, coefficient): (&Monomial, &f64)| {
@@ -97,7 +97,7 @@ impl Polynomial {
         self.0.iter().map(part).fold(0.0, f64::max)
     }
 
-    /// What it is with `bound` in place of a symbol that is not above it.
+    /// The polynomial with `bound` instead of a symbol that is at most `bound`.
     pub(crate) fn with(&self, symbol: Symbol, bound: &Self) -> Self {
         let mut sum = Self::zero();
         for (monomial, coefficient) in &self.0 {
@@ -113,8 +113,8 @@ impl Polynomial {
         sum
     }
 
-    /// What it is at most in terms of lengths of vectors, by Cauchy: the sum of k_i |v_i| |w_i| over the axes is at
-    /// most the largest k_i times |v| |w|. None if a monomial has components, but not two of one axis.
+    /// A bound on it in lengths of vectors, by Cauchy: the sum of k_i |v_i| |w_i| over the axes is at most the largest
+    /// k_i times |v| |w|. None if a monomial has components, but not two of one axis.
     pub(crate) fn contracted(&self, vectors: &[([Symbol; 3], Symbol)]) -> Option<Self> {
         // What is left of a monomial, with lengths, and its coefficients axis by axis.
         let mut largest: BTreeMap<Monomial, [f64; 3]> = BTreeMap::new();

@@ -1,7 +1,7 @@
 //! Lanes that record the expression as it runs: the kernel's own formula as a graph of + - * / and roots.
 //!
-//! A lane is a node of the graph and carries a number besides, by which comparisons are answered: what is recorded is
-//! the way of a witness. A multiply-add is recorded as a product and a sum, which covers the fused one.
+//! A lane is a node of the graph and carries a number besides, which answers comparisons: the record follows the way of
+//! a witness. A multiply-add is recorded as a product and a sum, which covers the fused one.
 
 use crate::{DoubleLanes, Lanes};
 use core::cell::RefCell;
@@ -9,7 +9,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 use std::thread_local;
 use std::vec::Vec;
 
-/// What a node is made by; operands are nodes that were recorded before.
+/// The operation that makes a node; operands are nodes that were recorded before.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Operation {
     /// The input of that number.
@@ -35,7 +35,7 @@ thread_local! {
     static NODES: RefCell<Vec<Node>> = const { RefCell::new(Vec::new()) };
 }
 
-/// Records what `work` does to inputs with those witnesses: what it returns, and the graph.
+/// Records what `work` does to inputs with those witnesses; returns its result, and the graph.
 pub(crate) fn record<R, const N: usize>(
     inputs: [f64; N],
     work: impl FnOnce([Recorded; N]) -> R,
@@ -66,7 +66,7 @@ impl Recorded {
         NODES.with_borrow(|nodes| nodes[self.0].witness)
     }
 
-    /// What a product with 1 is, which is not rounded: structures scale by powers of two, here by none.
+    /// The result of a product with 1, which is not rounded: structures scale by powers of two, here by none.
     fn same_as_product(self, other: Self, operation: Operation) -> Option<Self> {
         let is_one = |node: Self| {
             NODES.with_borrow(|nodes| nodes[node.0].operation == Operation::Constant(1.0))

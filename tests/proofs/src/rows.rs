@@ -1,7 +1,7 @@
-//! Every constant of a bound: where it stands, what its proof needs, and what is refused in its place.
+//! Every constant of a bound: where it stands, what its proof needs, and which other values are refused.
 //!
-//! A row reads the constant from the source. So a change of one, be it of the last bit, fails here, and so does a formula that
-//! needs more. The table of `docs/proofs.md` is this one.
+//! A row reads the constant from the source. So a change of a constant, even of its last bit, fails here, and so does a formula that needs
+//! more. The table of `docs/proofs.md` is this one.
 
 use super::derived::tiers::{fast_row, geometric_row};
 use super::derived::{U, boxes, estimate, filter, frustum, leaves, range_limits};
@@ -28,10 +28,10 @@ use std::{format, println};
 /// A constant and its proof.
 struct Row {
     bound: &'static str,
-    /// A file of the kernel's source, and how the line begins that has the constant.
+    /// A file of the kernel's source, and the beginning of the line that has the constant.
     source: [&'static str; 2],
     constant: f64,
-    /// In what it is counted.
+    /// The unit that it is counted in.
     unit: (&'static str, f64),
     /// In that unit, the constant and the least that the proof holds with.
     published: [f64; 2],

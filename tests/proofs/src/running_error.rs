@@ -1,11 +1,11 @@
-//! How far off a recorded expression may be: the sum of all roundings, of every order, for all inputs at once.
+//! The largest error of a recorded expression: the sum of all roundings, of every order, for all inputs at once.
 //!
 //! Every node has three polynomials in magnitudes: its computed value is between `low` and `high`, and within `error`
 //! of what real arithmetic makes of the true inputs. So bounds are homogeneous, as those of the proofs are, and hold
 //! for inputs of any size, as long as nothing over- or underflows.
 //!
-//! A difference that may cancel is *named*: where it is a factor later, its magnitude becomes a symbol of its own,
-//! and so does a root, a sum that is divided by, and what the caller names. The rounding of a named sum is u of that
+//! A difference that may cancel is *named*: where it is a factor later, its magnitude becomes a symbol of its own. So
+//! do a root, a sum that is divided by, and the nodes that the caller names. The rounding of a named sum is u of that
 //! symbol, but of a difference of two products it is u of both: either is true, and the proofs choose so.
 //!
 //! A product of symbols to powers, some roundings away from it, has a relative error: what cancels there, as in
@@ -36,11 +36,11 @@ struct Form {
 pub(crate) struct Bound {
     pub(crate) high: Polynomial,
     pub(crate) low: Polynomial,
-    /// None where it is not known.
+    /// `None` if it is not known.
     error: Option<Polynomial>,
     /// Not below zero, as computed.
     positive: bool,
-    /// So few significant bits that products may be exact.
+    /// Significant bits, where they are so few that products may be exact.
     bits: Option<u32>,
     form: Option<Form>,
 }
@@ -79,7 +79,7 @@ pub(crate) struct RunningError {
     symbols: Vec<String>,
     /// By symbol: its error, relative to its computed value.
     off: BTreeMap<Symbol, f64>,
-    /// By symbol: at most.
+    /// By symbol: its upper bound.
     pub(crate) upper: BTreeMap<Symbol, Polynomial>,
     names: BTreeMap<usize, &'static str>,
     vectors: Vec<([Symbol; 3], Symbol)>,
@@ -131,7 +131,7 @@ impl RunningError {
         self.names.insert(node, name);
     }
 
-    /// The same, and its rounding is u of that symbol.
+    /// Names a node, and counts its rounding as u of that symbol.
     pub(crate) fn name_and_charge(&mut self, node: usize, name: &'static str) {
         self.name(node, name);
         self.charged.insert(node);
@@ -144,7 +144,7 @@ impl RunningError {
         length
     }
 
-    /// At most, in lengths, a polynomial of sums over axes.
+    /// A bound, in lengths, on a polynomial of sums over axes.
     pub(crate) fn in_lengths(&self, polynomial: &Polynomial) -> Polynomial {
         polynomial.contracted(&self.vectors).expect("sums over axes")
     }

@@ -21,30 +21,29 @@ macro_rules! kinds {
         impl Kind {
             const ALL: &[Self] = &[$(Self::$kind),*];
             const NAMES: &[&str] = &[$($name),*];
-            /// Nanoseconds on an EPYC of 2025 (Zen 5) with AVX-512, as fitted to 4,500 calls on inputs of the search: half
-            /// of them take what they add up to by 0.85 to 1.09, nine of ten by 0.7 to 1.26. Those of streams and lists are
-            /// estimates.
+            /// Nanoseconds on an EPYC of 2025 (Zen 5) with AVX-512, fitted to 4,500 calls on inputs of the search: half of the calls take
+            /// 0.85 to 1.09 times the sum of their weights, nine of ten 0.7 to 1.26 times. The weights of streams and lists are estimates.
             const WEIGHTS: &[f64] = &[$($weight),*];
         }
     };
 }
 
 kinds! {
-    /// A run of packets begins, whose rays go by themselves.
+    /// A run of packets whose rays go by themselves begins.
     RayRun "runs" 330.0,
-    /// The same, where rays have stacks, which are laid out.
+    /// Such a run begins where rays have stacks, which are laid out.
     RayStacks "stacks" 1000.0,
-    /// One of them is prepared.
+    /// A packet of such a run is prepared.
     RayPacket "prepared" 56.0,
     /// A ray by itself against the boxes of a node, and onto its stack.
     RayNode "ray node" 25.0,
     /// A ray by itself against a leaf.
     RayLeaf "ray leaf" 12.0,
-    /// The same, once more: between which s.
+    /// The same, once more: between which s the roots are.
     RayRoots "ray roots" 43.0,
     /// A ray of a stream against the boxes of a node.
     StreamNode "stream node" 15.0,
-    /// The same, written behind the queue of a child.
+    /// The same ray, written behind the queue of a child.
     StreamQueued "queued" 2.0,
     /// A ray of a stream against a leaf.
     StreamLeaf "stream leaf" 10.0,
@@ -62,7 +61,7 @@ kinds! {
     PacketLeaf "packet leaf" 16.0,
     /// A sphere against the rays of a packet.
     PacketSphere "packet sphere" 11.0,
-    /// The same, once more: between which s.
+    /// The same, once more: between which s the roots are.
     PacketRoots "packet roots" 27.0,
     /// A filter of four spheres of a list against the rays of a packet.
     ListGroup "list group" 6.0,
@@ -111,7 +110,7 @@ impl Work {
         self.0.iter().zip(Kind::WEIGHTS).map(|(&count, weight)| count as f64 * weight).sum()
     }
 
-    /// What of it a call of so many rays does for one: kinds that it does not do are left out.
+    /// The work for one ray of a call of `rays` rays: kinds that it does not do are left out.
     pub(crate) fn per_ray(&self, rays: usize) -> PerRay<'_> {
         PerRay(self, rays)
     }

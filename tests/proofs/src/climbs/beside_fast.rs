@@ -81,7 +81,7 @@ fn a_sphere_that_one_form_misses_and_one_that_the_other_does() {
     assert_eq!(meet([39_938.0, 12_291.0, 0.0], [26.0, 8.0, 0.0]), [true, false, true]);
 }
 
-/// |d| is infinite, and v would be zero and so every t; or it is zero.
+/// |d| is infinite, so v and every t would be zero; or |d| is zero.
 #[test]
 fn a_direction_whose_square_is_out_of_range_meets_nothing() {
     let around = Sphere { center: Vec3::ZERO, radius: 1.0 };

@@ -1,5 +1,4 @@
-//! How much of the pads of boxes is used, as far as a search finds it: by the answer of a ray, in the slab of a box
-//! around one sphere.
+//! Searches for how much of the pads of boxes a ray's answer uses, in the slab of a box around one sphere.
 
 use super::{Numbers, lane, line, numbers, or_none, square};
 use crate::accuracy::TierFormula;
@@ -8,8 +7,8 @@ use crate::bvh::traverse::prepared_packet::PreparedPacket;
 use crate::proofs::climb::{Random, assert_published, climb_twice};
 use crate::{Exact, Stable};
 
-/// Of what both pads widen a slab by, at either end: how far an answer's s is outside of the slab that is computed
-/// without.
+/// The part that an answer uses of what both pads widen a slab by, at either end: how far its s is outside of the slab
+/// that is computed without pads.
 fn used<A: TierFormula>(numbers: &Numbers) -> f64 {
     let (line, sphere) = line(numbers);
     let Some([near, far]) = A::line_roots(&line, &sphere) else { return -1.0 };

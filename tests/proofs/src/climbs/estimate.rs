@@ -1,12 +1,12 @@
-//! The largest error for its bound that a search finds, and what each constant is worth.
+//! The largest error relative to its bound that a search finds, and what each constant is worth.
 //!
-//! The truth is an exact sum: the error of D is the exact D less the computed one. That of t is
-//! told by f(t) = |t d - p|^2 - r^2 at the computed t, exact as well: t + e is the root where
-//! a e^2 + 2 g e + f = 0, g = d.(t d - p), of which e = -f / (g -+ sqrt D) is the small solution.
+//! The truth is an exact sum: the error of D is the exact D minus the computed one. The error of t follows from
+//! f(t) = |t d - p|^2 - r^2 at the computed t, exact as well: t + e is the root where a e^2 + 2 g e + f = 0,
+//! g = d.(t d - p), of which e = -f / (g -+ sqrt D) is the small solution.
 //!
-//! Found: an error of D of 0.67 E, of t of 0.35 T; with all constants divided by four both fail. (Where sizes were
-//! kept, 0.62 and 0.33.) One by one, those that stay right are so for a reason: the proof counts every rounding at
-//! its largest, as if they could be so together, and the terms overlap.
+//! The search finds an error of D of 0.67 E, and of t of 0.35 T; with all constants divided by four both bounds fail.
+//! (Searches that kept sizes found 0.62 and 0.33.) Divided one by one, some constants stay right for a reason: the
+//! proof counts every rounding at its largest, as if all could be so together, and the terms overlap.
 //!
 //! | constant | a quarter of it | because |
 //! |---|---|---|

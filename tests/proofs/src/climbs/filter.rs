@@ -1,8 +1,8 @@
 //! The least kappa that still lets every hit pass, as far as a search finds it.
 //!
 //! For a hit of a tier, kappa must be at least (|o|^2 - raised) / (|o|^2 + |c|^2 + r^2), with
-//! `raised` computed without kappa: the search climbs towards hits for which that is large. What
-//! is lost by the filter is then asked of the filter itself.
+//! `raised` computed without kappa: the search climbs towards hits for which that is large. Whether
+//! the filter loses a hit is then tested with the filter itself.
 
 use super::{cross, distance, lane, line, square, wide};
 use crate::accuracy::{TierFormula, Underflow};
@@ -26,7 +26,8 @@ fn case(numbers: &Numbers) -> (Ray, Sphere, Vec3) {
     (line, sphere, Vec3::new(kx, ky, kz))
 }
 
-/// The filter with `kappa`, before the ray and a group whose second sphere is the case's.
+/// Calls `ask` with the filter of `kappa`, for the ray and a group whose second sphere is the
+/// case's.
 fn with_filter<R>(
     numbers: &Numbers,
     underflow: Underflow,
@@ -76,7 +77,7 @@ fn start(random: &mut Random) -> Numbers {
     let c = [0, 1, 2].map(|i| o[i] + scale * d[i] + random.about(0));
     let distance = distance(o, d, c);
     let radius = match random.below(4) {
-        // The textbook sees a hit where there is none, once in two far from the sphere.
+        // Far from the sphere, the textbook form sees a hit where there is none, once in two.
         0 => 0.0,
         1 => random.wide(-20, -6),
         _ => distance as f32,
@@ -110,7 +111,7 @@ fn beyond_row<A: TierFormula>(numbers: &Numbers, [of_p, of_r]: [f64; 2]) -> f64 
     beyond * 16_777_216.0 / (of_p * square(p) + of_r * r * r)
 }
 
-/// A quarter of the row fails: 0.35 of it is found, of that of `Geometric` 0.28.
+/// A quarter of the row fails: the search finds 0.35 of it, and 0.28 of the row of `Geometric`.
 #[test]
 fn no_tier_sees_a_hit_beyond_its_row() {
     let most = |score: fn(&Numbers) -> f64| climb_twice(4, [1500, 400], [-28, 28], start, score).0;
@@ -120,10 +121,10 @@ fn no_tier_sees_a_hit_beyond_its_row() {
     assert_published("the row of Geometric", geometric, 0.283);
 }
 
-/// The slack of kappa: 0.14 is the most that is found. The table of [`filter`](crate::filter) adds some
-/// forty roundings, each at its largest and all in the worst direction, and |p|^2 at
-/// 2 (C^2 + O^2), which holds only for c = -o, where d.c and e add up and do not cancel. A quarter
-/// has let all hits pass that were found; an eighth does not.
+/// The slack of kappa: the search finds at most 0.14 of it. The table of [`filter`](crate::filter) adds some forty
+/// roundings, each at its largest and all in the worst direction, and |p|^2 at 2 (C^2 + O^2), which holds only for
+/// c = -o, where d.c and e add up and do not cancel. A quarter of kappa lets all hits pass that were found; an eighth
+/// does not.
 #[test]
 fn kappa_covers_the_hits_of_every_tier() {
     let fast = worst::<Fast>(0.142);
@@ -134,7 +135,7 @@ fn kappa_covers_the_hits_of_every_tier() {
     assert!(!passed, "the search finds nothing hard: {}", fast.0);
 }
 
-/// Near the threshold, all sizes: what a tier calls a hit passes.
+/// Near the threshold, in all sizes: every hit of a tier passes.
 #[test]
 fn nothing_near_the_threshold_is_dropped() {
     let mut random = Random(6);

@@ -1,5 +1,5 @@
-//! How much of a leaf's margins is used, as far as a search finds it. Doubles are the truth: beside a margin of some
-//! 2^-20 their error is nothing.
+//! Searches for how much of a leaf's margins is used. Doubles count as the truth: beside a margin of some 2^-20 their
+//! error is nothing.
 
 use super::{Numbers, cross, distance, dot, lane, line, numbers, or_none, square, wide};
 use crate::accuracy::TierFormula;
@@ -65,14 +65,16 @@ impl Case {
     }
 }
 
-/// Of W by a hit that is computed to pass by its sphere, and by a miss that is computed to meet it.
+/// The part of W that is used: by a hit that is computed to pass by its sphere, or, unless `hits`,
+/// by a miss that is computed to meet it.
 fn of_slack(numbers: &Numbers, hits: bool) -> f64 {
     let Some(case) = Case::new(numbers).filter(|case| case.meets() == hits) else { return -1.0 };
     let used = if hits { -case.left() } else { case.left() };
     or_none(used / case.slack)
 }
 
-/// Of what lies between a root as computed without margins and the end of its interval, by the s of a tier's answer.
+/// The part that the s of a tier's answer uses of the distance between a root as computed without margins and the end
+/// of its interval.
 fn of_ends<A: TierFormula>(numbers: &Numbers) -> f64 {
     let Some(case) = Case::new(numbers).filter(Case::meets) else { return -1.0 };
     let Some([near, far]) = A::line_roots(&case.line, &case.sphere) else { return -1.0 };

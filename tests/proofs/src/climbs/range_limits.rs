@@ -1,4 +1,4 @@
-//! How much of the margin a root at the limit uses, as far as a search finds it.
+//! Searches for how much of the margin a root at the limit uses.
 //!
 //! A sphere may be told to lie beyond only where both roots do. So with the nearer root as the
 //! limit - correctly rounded, or as `Stable` computes it - b - sqrt D must exceed
@@ -72,10 +72,9 @@ fn the_raise_covers_the_error_of_the_discriminant() {
     assert_published("the raise", worst, 0.114);
 }
 
-/// The margin's slack: 0.18 of it is the most that is found, so a quarter holds and an eighth
-/// fails. b's error of 4v |d| |p| and the few of r |d| and limit a are
-/// counted at their
-/// largest and together, then doubled, against a sum in which |p|_1 stands for |p|.
+/// The margin's slack: the search finds at most 0.18 of it, so a quarter holds and an eighth fails.
+/// The error of b, 4v |d| |p|, and the few v of r |d| and limit a are counted at their largest and
+/// together, then doubled, against a sum in which |p|_1 stands for |p|.
 #[test]
 fn the_margin_covers_roots_at_the_limit() {
     for (name, worst, published) in [
@@ -127,8 +126,8 @@ fn no_root_up_to_the_limit_is_dropped() {
     assert!(met > 50_000, "{met}");
 }
 
-/// In one lane, lines that pass by a sphere nearly as far as it is large: one that a tier sees is not told to miss, and
-/// most of those that pass it by more than the raise are.
+/// In one lane, lines that pass a sphere's centre at about its radius: a line that a tier sees hit is not told to miss,
+/// and most lines that pass the sphere by more than the raise are told to miss.
 #[test]
 fn no_graze_is_told_to_miss() {
     let mut random = Random(10);

@@ -16,7 +16,7 @@ const FARTHEST: f64 = 1e6;
 /// Exponents of a climb, within the domain.
 const SIZES: [i32; 2] = [-36, 36];
 
-/// |p| and the ulp-close truth, if the case is in the domain.
+/// |p|, the ray and the sphere, if the case is in the domain.
 fn in_domain(numbers: &Numbers) -> Option<(f64, Ray, Sphere)> {
     let (ray, sphere) = line(numbers);
     let p = sphere.center.to_array().map(f64::from);
@@ -53,7 +53,7 @@ fn ulps(numbers: &Numbers) -> f64 {
     worst
 }
 
-/// How far from a tangent, as a part of |p| + r, a line is that is decided wrong; zero if it is decided right.
+/// How far a line that is decided wrong is from a tangent, as a part of |p| + r; zero if the line is decided right.
 fn graze(numbers: &Numbers) -> f64 {
     let Some((away, ray, sphere)) = in_domain(numbers) else { return 0.0 };
     let meets = Quadratic::new(&terms(&ray, &sphere)).is_some();

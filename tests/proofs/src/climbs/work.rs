@@ -1,4 +1,4 @@
-//! How much more work the plain call does than ray by ray, as far as a search finds it, without a clock.
+//! Searches for how much more work the plain call does than ray by ray, without a clock.
 //!
 //! The search climbs over scenes, and over rays of any order, count, spread and interval (`work/input.rs`). Work is
 //! what `work.rs` counts and weighs. `SPHERULE_CLIMB` makes it longer; `cargo test -p spherule-proofs
@@ -20,7 +20,7 @@ use std::vec;
 use std::vec::Vec;
 use wide::f32x16;
 
-/// How rays are said to be.
+/// What a trace is told of its rays.
 type Said = fn(Trace<'static>) -> Trace<'static>;
 const PLAIN: Said = |trace| trace;
 
@@ -39,7 +39,7 @@ fn call<Q: Query>(
     (work, answers)
 }
 
-/// The work of a call as is said, and ray by ray.
+/// The work of a call whose trace is told `said`, and ray by ray.
 fn both(bvh: &Bvh<'_>, rays: &[RayPacket], any: bool, said: Said) -> [Work; 2] {
     if any {
         let (work, answers) = call::<AnyHit>(bvh, rays, said);
@@ -54,7 +54,8 @@ fn both(bvh: &Bvh<'_>, rays: &[RayPacket], any: bool, said: Said) -> [Work; 2] {
     }
 }
 
-/// What a packet takes beside its way, however that is: as a call by slices takes for sixteen rays and their answers.
+/// The work of a packet besides its traversal, however that goes: that of a call by slices for sixteen rays and their
+/// answers.
 const A_PACKET: f64 = 80.0;
 
 /// How many times the work of ray by ray.
@@ -63,7 +64,8 @@ fn times(packets: usize, [work, apart]: [Work; 2]) -> f64 {
     (work.units() + beside) / (apart.units() + beside)
 }
 
-/// The highest `score` that a search finds, of the work of calls as is said and ray by ray. Prints the input.
+/// The highest `score` that a search finds, of the work of calls whose trace is told `said` and ray by ray. Prints the
+/// input.
 fn most(seed: u64, effort: [u32; 2], said: Said, score: impl Fn(usize, f64) -> f64) -> f64 {
     // Built anew only where the climb has changed it.
     let mut built: Option<([u16; OF_TREE], SphereTree)> = None;
@@ -104,11 +106,11 @@ fn groups_do_a_small_part_of_the_work_of_ray_by_ray() {
 /// Many short climbs. (Twelve of 14,400 steps find 2.0, 2.8 and 3.9: the last two are calls of two packets, of which half the rays live.)
 const LONG: [u32; 2] = [72, 2400];
 
-/// Calls of fewer packets have one group or a few, and nothing that is learnt serves the next.
+/// Calls of fewer packets have one group or a few, so nothing that one group teaches serves the next.
 const MANY: usize = 32;
 
-/// Twice is what is wanted. What is found above it are rays of which few live and few hit, in ten groups: what is learnt of the first
-/// serves few.
+/// The aim is twice the work. Above it, the search finds rays of which few live and few hit, in ten groups: what the first group teaches
+/// serves few others.
 #[test]
 fn the_plain_call_does_little_more_than_twice_the_work_of_ray_by_ray() {
     let score = |packets, times| if packets < MANY { 0.25 * times } else { times };
@@ -116,16 +118,17 @@ fn the_plain_call_does_little_more_than_twice_the_work_of_ray_by_ray() {
     assert!(found <= 2.3, "{found:.2} times the work");
 }
 
-/// A single group that is too wide, and in the end gives up, or packets that are tried alone.
+/// The search finds a single group that is too wide, and in the end gives up, or packets that are
+/// tried alone.
 #[test]
 fn a_short_call_does_at_most_three_times_the_work() {
     let found = most(62, LONG, PLAIN, |_, times| times);
     assert!(found <= 2.7, "{found:.2} times the work");
 }
 
-/// What is found is one group over 20 shells, of which half of the rays live: all spheres are near a ray of each packet, and the group is not
-/// asked whether it pays before a leaf ends. (Asked after each packet, it gives up, and packets are tried alone: 4.0; if those are not: 3.3,
-/// by one packet.)
+/// The search finds one group over 20 shells, half of whose rays live: all spheres are near a ray of each packet, and the group is not
+/// asked whether it pays before a leaf ends. (Asked after each packet, the group gives up, and packets are tried alone: 4.0 times the work.
+/// If packets are not tried either: 3.3 times, by one packet.)
 #[test]
 fn rays_falsely_said_to_be_coherent_take_little_more_than_three_times_the_work() {
     let found = most(63, LONG, Trace::coherent, |_, times| times);
@@ -175,8 +178,7 @@ fn a_beam_as_wide_as_the_scene_is_seen() {
     assert!(found > 10.0, "{found:.2} times the work");
 }
 
-/// Rays of a grid, parallel to the axes of a lattice, of which some are tangents of many spheres: line by line, and so many
-/// lines in turn.
+/// Rays of a grid, parallel to the axes of a lattice, some of them tangents of many spheres: line by line, and `in_turn` lines in turn.
 fn grid_on_a_lattice(in_turn: usize) -> (SphereTree, Vec<Ray>) {
     let scene = SceneInput { scene: Scene::Lattice, spheres: 4096, ..UNIFORM };
     let at = |number: usize| (number % 64, number / 64);
@@ -246,7 +248,7 @@ fn where_groups_pay() -> [SphereTree; 3] {
     [tiny.tree(), sheet.tree(), SphereTree::new(nested.collect::<Vec<_>>())]
 }
 
-/// What is large ends many rays at once, and is met soon if any hit will do: a large sphere among tiny ones, by rays that end there.
+/// Large spheres end many rays at once, and any-hit queries meet them soon: a large sphere among tiny ones, with rays that end there.
 #[test]
 fn any_hit_meets_what_is_large_first() {
     let scene = SceneInput { spheres: 30_000, radius: 0.003, ..UNIFORM };

@@ -10,7 +10,7 @@ use crate::proofs::polynomial::Symbol;
 use crate::proofs::recorded::{Operation, Recorded, record};
 use crate::query::ClosestHit;
 
-/// By how much the answer may be outside of the box, of C; and of F, with o': from the text, in u.
+/// How far the answer may be outside of the box, in u: of C; and, with o', of F. From the text.
 const OUTSIDE: [f64; 2] = [31.0, 8.0];
 
 /// In u: the least pad of C, and of F.

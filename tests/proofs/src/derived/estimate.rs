@@ -1,7 +1,7 @@
-//! The bounds E and T as they follow from the source: the formula records itself, rule by rule its roundings are
-//! summed, and no constant may be smaller than what comes out.
+//! The bounds E and T, derived from the source: the formula records itself, its roundings are summed rule by rule, and
+//! no constant may be smaller than the sum needs.
 //!
-//! E is proven first. Then the error of D counts as that part of E, and T is.
+//! E is proven first. Then the error of D counts as the part of E that it needs, and T is proven.
 
 use super::{NAMES, WITNESS, name_differences};
 use crate::accuracy::constants::Constants;
@@ -53,7 +53,7 @@ fn parts(constants: &Constants, radius: impl FnOnce(Recorded) -> Recorded) -> [f
     let (mut part_of_t, mut error_part) = (0.0_f64, 0.0_f64);
     for (value, bound) in [estimate.near, estimate.far] {
         let (value, bound) = (rules.bound(value.0), rules.bound(bound.0));
-        // t less the bound, and t and the bound, are rounded.
+        // t minus the bound, and t plus the bound, are rounded.
         let need = value.error() + &(&value.high + &bound.high).scaled(U);
         part_of_t = part_of_t.max(need.over(&bound.low));
         for (monomial, need) in need.terms() {

@@ -1,8 +1,7 @@
-//! The least kappa that lets every hit pass, as it follows from the source of the filter, of `Fast`
-//! and of `Geometric`.
+//! The least kappa that lets every hit pass, derived from the source of the filter, of `Fast` and of `Geometric`.
 //!
-//! With F = D/a + |o|^2 in real arithmetic, what is computed is at least F, and what the widening adds, less the
-//! error; the threshold is at most |o|^2, less what it is lowered by, and its error. A hit of either tier has D/a
+//! With F = D/a + |o|^2 in real arithmetic, the computed value is at least F plus what the widening adds, minus the
+//! error; the threshold is at most |o|^2 minus what it is lowered by, plus its error. A hit of either tier has D/a
 //! above its row. So a hit passes if both widenings exceed both errors and the row, term by term in |c|^2, |o|^2 and
 //! r^2.
 
@@ -35,7 +34,7 @@ pub(in crate::proofs) fn holds(kappa: f64) -> bool {
     derive(kappa as f32, |c, _| c).holds()
 }
 
-/// With an operation more on one coordinate of a centre.
+/// Derives with one more operation on one coordinate of a centre.
 fn derive(kappa: f32, more: impl FnOnce(Recorded, Recorded) -> Recorded) -> Derived {
     let names = ["ox", "oy", "oz", "dx", "dy", "dz", "cx", "cy", "cz", "r", "kx", "ky", "kz"];
     let witness = [0.5, 0.1, 0.2, 1.0, 0.5, 0.25, 3.0, 2.0, 1.0, 1.5, 0.1, 0.1, 0.1];
@@ -70,7 +69,7 @@ fn derive(kappa: f32, more: impl FnOnce(Recorded, Recorded) -> Recorded) -> Deri
     let [bb, _] = operands(&graph, raised.0);
     let [b, _] = operands(&graph, bb);
     rules.name(b, "b");
-    // What kappa adds and takes away is no error.
+    // The terms that kappa adds and takes away are no errors.
     let constant = Operation::Constant(f64::from(kappa));
     let widenings: Vec<usize> = (0..graph.len())
         .filter(|node| matches!(graph[*node], Operation::Product(a, _) if graph[a] == constant))

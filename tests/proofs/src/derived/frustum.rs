@@ -20,11 +20,11 @@ use crate::{Camera, Lanes, Projection, RayPacket, Vec3};
 const FROM_THE_TEXT: [f64; 3] = [33.0 / 4096.0, 1.0, 28.0];
 /// The same: the centre is rounded in the frame of a depth list, of Z |w|, and of r and the normal's length.
 const IN_A_FRAME: [f64; 2] = [2.0, 2.0];
-/// |w| and 1 + |w| are no more than so many of 1 + w^2 / 2, which normals count as long.
+/// |w| and 1 are at most so many times 1 + w^2 / 2, which is counted as the length of a normal.
 const PER_LENGTH: [f64; 2] = [core::f64::consts::FRAC_1_SQRT_2, 1.0];
 
-/// In u: what slopes must be turned by, of |w| and besides; what planes must be moved by, in absolute errors; what radii must
-/// be larger by.
+/// In u: how much slopes must be turned by, of |w| and besides; how much planes must be moved by, in absolute errors; how much larger radii
+/// must be.
 pub(in crate::proofs) struct Needs {
     pub(in crate::proofs) turn: [f64; 2],
     pub(in crate::proofs) margin: f64,
@@ -103,7 +103,7 @@ pub(in crate::proofs) fn needs() -> Needs {
     }
 }
 
-/// In u: how far off the point of a pixel is, of what it is summed of.
+/// In u: the error of a pixel's point, relative to the terms that it is summed of.
 pub(in crate::proofs) fn point_error() -> f64 {
     // Of indices that are as large as the picture.
     let (column, row) = (3, 5);

@@ -1,10 +1,11 @@
-//! The margins of a leaf as they follow from the source.
+//! The margins of a leaf, derived from the source.
 //!
 //! The roundings of the middle, of q and of l^2 are summed from the recorded formula. The geometry is put in by hand,
-//! as the proof does: the error of the middle is at right angles to l, and l^2 + h^2 = r^2. How far off o' and the
-//! tiers are is taken from the text.
+//! as the proof does: the error of the middle is at right angles to l, and l^2 + h^2 = r^2. The errors of o' and of the
+//! tiers are taken from the text.
 //!
-//! What is left are polynomials in M = |m|, r and the absolute error: those of the source must be larger, term by term.
+//! The results are polynomials in M = |m|, r and the absolute error: the polynomials of the source must be larger, term
+//! by term.
 
 use super::{U, operands};
 use crate::accuracy::RayLanes;
@@ -180,7 +181,7 @@ fn length_off() -> f64 {
     per_length.error().over(&per_length.low)
 }
 
-/// What is counted of |p| is counted of |f|, |q| and |m n|, as computed: no more than this times |p|.
+/// Errors counted of |p| are counted of |f|, |q| and |m n|, as computed: these are no more than this times |p|.
 const SECOND: f64 = 1.0 + 64.0 * U;
 
 /// Whether the proof holds with `to` in place of a constant.
@@ -195,9 +196,9 @@ pub(in crate::proofs) fn roundings() -> [f64; 4] {
     [length, middle, q, square]
 }
 
-/// Of each statement the part of the margin that is needed by the term that needs most: a hit passes the test of W;
-/// that of r + delta; what passes the test of -W is a hit; half the chord is in its interval; and the roots are in
-/// theirs.
+/// For each statement, the part of the margin that is needed by the term that needs most. The statements: a hit passes
+/// the test of W; a hit passes the test of r + delta; what passes the test of -W is a hit; half the chord is in its
+/// interval; the roots are in their intervals.
 fn parts(leaf: &Leaf) -> [f64; 5] {
     let roundings = leaf.roundings();
     let [middle, q, square, length] =
@@ -209,7 +210,7 @@ fn parts(leaf: &Leaf) -> [f64; 5] {
     let [delta, slack, reach] =
         [leaf.delta, leaf.slack, leaf.reach].map(|node| &rules.bound(node).low);
 
-    // l, with o' and the tier off; |p| <= |m| |v| + l.
+    // l, with the errors of o' and of the tier; |p| <= |m| |v| + l.
     let far = &r + &error.scaled(0.25);
     let p = (&m + &far).scaled(1.0 + 2.0 * middle + 2.0 * length);
     // l^2 as computed, less r^2: (l + q |p|)^2 + (middle |p|)^2, and the roundings of the squares and of r^2.

@@ -1,7 +1,7 @@
-//! The raise of D and the margin of a limit as they follow from the source.
+//! The raise of D and the margin of a limit, derived from the source.
 //!
-//! Put in by hand: no component of d is longer than d; r |d| and |d.p| are no more than the size; and what `Stable`
-//! is off.
+//! Put in by hand: no component of d is longer than d; r |d| and |d.p| are no more than the size; and the error of
+//! `Stable`.
 
 use super::{U, name_differences, operands, ray};
 use crate::accuracy::range_limits::{RAISE, RangeLimits};
@@ -45,7 +45,7 @@ pub(in crate::proofs) fn needs() -> [f64; 3] {
     let [raised, sized] = [raise, size].map(|node| rules.bound(node).low.clone());
     let high = rules.bound(size).high.clone();
 
-    // In lengths: of x what it is made of; of d its length, of which a is the square.
+    // Counted in lengths: x by what it is made of; d by its length, whose square is a.
     let [length, end] = ["|d|", "end"].map(|name| rules.symbol(name));
     let d = Polynomial::of(1.0 + 8.0 * U, Monomial::of(&[(length, 1)]));
     let mut bounds: Vec<_> = ["xx", "xy", "xz"]
@@ -64,7 +64,8 @@ pub(in crate::proofs) fn needs() -> [f64; 3] {
     let raise = &in_lengths(&error_of_d) + &(&reach + &raised).scaled(2.0 * U);
     let raise = raise.over(&in_lengths(&raised)) * f64::from(RAISE);
 
-    // b; the root, and its difference with b: each is the size at most, except for the raise; and what `Stable` is off.
+    // b; the root, and its difference with b: each is the size at most, except for the raise; and the error of
+    // `Stable`.
     let stable = 4.0 * U;
     let need = &in_lengths(&error_of_b) + &high.scaled(3.0 * U * (1.0 + 1.0 / 256.0) + stable);
     let of_size = need.over(&in_lengths(&sized));

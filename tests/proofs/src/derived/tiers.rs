@@ -1,4 +1,4 @@
-//! The rows of `Fast` and `Geometric` in `docs/numerics.md`: how far off what is under the root of a tier is.
+//! The rows of `Fast` and `Geometric` in `docs/numerics.md`: the error of what is under a tier's root.
 
 use super::{NAMES, U, WITNESS, name_differences, operands, ray, rules};
 use crate::accuracy::{TierFormula, fast, geometric};
@@ -13,7 +13,7 @@ fn squares(lengths: [Symbol; 2], others: &[(Symbol, i32)]) -> [Polynomial; 2] {
     })
 }
 
-/// The most that D is off, over u |d|^2, of |p|^2 and of r^2.
+/// The largest error of D, over u |d|^2: its parts of |p|^2 and of r^2.
 pub(in crate::proofs) fn fast_row() -> [f64; 2] {
     let (_, graph) = record(WITNESS, |[ox, oy, oz, dx, dy, dz, cx, cy, cz, r]| {
         fast::roots(&Fast::prepare(&ray([ox, oy, oz], [dx, dy, dz])), [cx, cy, cz], r)
@@ -47,7 +47,7 @@ pub(in crate::proofs) fn fast_row() -> [f64; 2] {
     [p, r].map(|length| error.coefficient(&[(d, 2), (length, 2)]) / U)
 }
 
-/// The most that r^2 - l^2 is off, over u, of |p|^2 and of r^2.
+/// The largest error of r^2 - l^2, over u: its parts of |p|^2 and of r^2.
 pub(in crate::proofs) fn geometric_row() -> [f64; 2] {
     let (rays, graph) = record(WITNESS, |[ox, oy, oz, dx, dy, dz, cx, cy, cz, r]| {
         let prepared = Geometric::prepare(&ray([ox, oy, oz], [dx, dy, dz]));

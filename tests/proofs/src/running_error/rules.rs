@@ -163,7 +163,8 @@ impl RunningError {
         bound
     }
 
-    /// With a constant it is the other one: where that is smaller, the proofs say so by themselves.
+    /// The larger of a constant and a node counts as the node: where the node is smaller, the
+    /// proofs say so by themselves.
     pub(super) fn larger(&self, a: usize, b: usize, graph: &[Operation]) -> Bound {
         for (constant, other) in [(a, b), (b, a)] {
             if matches!(graph[constant], Operation::Constant(_)) {

@@ -25,7 +25,7 @@ pub(super) fn factors(graph: &[Operation]) -> BTreeSet<usize> {
     operands.flatten().map(|node| magnitude(graph, node)).collect()
 }
 
-/// Nodes that are divided by, or factors of what is.
+/// Nodes that are divisors, or factors of divisors.
 pub(super) fn divisors(graph: &[Operation]) -> BTreeSet<usize> {
     let mut open: Vec<usize> = graph
         .iter()

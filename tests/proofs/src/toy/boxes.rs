@@ -1,5 +1,5 @@
-//! Boxes and leaves over toy floats: what a ray is answered with is never left out, for all rays and spheres of small
-//! sets, in a plane.
+//! Boxes and leaves over toy floats never leave out the answer of a ray, for all rays and spheres of small sets, in a
+//! plane.
 //!
 //! Margins are up to 48 u, so that floats of five bits would leave nothing to be tested: numbers are integers
 //! of few bits, and the floats have ten. The answer is the root, rounded as `Exact` does.
@@ -33,7 +33,7 @@ formats! {
 
 /// The pad of a box.
 const PAD_IN_U: f64 = (PAD / U) as f64;
-/// No ray is moved before a scene of that extent; and of the scenes here.
+/// Before a scene of extent `ENDLESS` no ray is moved; `EXTENT` is that of the scenes here.
 const ENDLESS: f32 = 1_048_576.0;
 const EXTENT: f32 = 2048.0;
 
@@ -103,8 +103,8 @@ impl Case {
         state.stack.pop(&[node]) != NO_CHILD
     }
 
-    /// What a leaf gets wrong of an answer t, one bit each: the ray with no more than that answer sees no
-    /// candidate; its entry is later; a bound is sooner, or without an answer.
+    /// What a leaf gets wrong of an answer t, one bit each: the ray with no more than that answer sees no candidate;
+    /// its entry is later; a bound is sooner, or there is a bound without an answer.
     fn leaf<F: Format>(&self, interval: [f64; 2], roots: Option<[f64; 2]>) -> u32 {
         let rays = self.rays::<F>(interval);
         let prepared = PreparedLanes::of_any_length(&rays, 1.0, Some(self.extent));

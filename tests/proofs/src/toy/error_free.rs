@@ -34,7 +34,8 @@ fn has_bits(x: f64, bits: u32) -> bool {
     x.to_bits() << 12 << (bits - 1) == 0
 }
 
-/// Of all pairs, those whose sum is exact; overflows; and is not exact, for no reason that the sum itself gives.
+/// Counts pairs whose sum is exact, whose sum overflows, and whose sum is not exact, for no reason that the sum itself
+/// gives.
 fn sums<F: Format>() -> [u64; 3] {
     let greatest = F::round(power_of_two(GREATEST + 1) * (1.0 - F::U));
     let mut counts = [0; 3];
@@ -59,8 +60,8 @@ fn sums<F: Format>() -> [u64; 3] {
     counts
 }
 
-/// Products and squares in the domain; how many of them are not exact; those below it; and the largest error of
-/// these, in the least number.
+/// Counts products and squares in the domain, those of them that are not exact, and those below the domain; returns the
+/// largest error of the latter too, in the least number.
 fn products<F: Format>() -> ([u64; 3], f64) {
     let tiny = power_of_two(LEAST + 1 - F::BITS as i32);
     let half = F::BITS.div_ceil(2) as i32;
@@ -99,8 +100,8 @@ fn products<F: Format>() -> ([u64; 3], f64) {
     (counts, error)
 }
 
-/// A sum overflows within where one of the numbers is the greatest of all, or its opposite, though it is in range
-/// itself.
+/// A sum overflows in a step between if one of the numbers is the greatest of all, or its opposite, though the sum
+/// itself is in range.
 #[test]
 fn sums_of_all_short_floats() {
     for (bits, [exact, over, within]) in

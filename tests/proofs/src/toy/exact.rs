@@ -149,7 +149,7 @@ fn what_is_decided_is_right() {
     assert!(wrong > 0, "no case is hard");
 }
 
-/// Of pairs of roots of one ray and two spheres: in the order that the brackets tell, not told, told wrong.
+/// Counts pairs of roots of one ray and two spheres: in the order that the brackets tell, not told, told wrong.
 fn ordered<F: Format>(constants: &Constants) -> [u64; 3] {
     let mut counts = [0; 3];
     let both = signed(&short_integers(3, 8));

@@ -1,8 +1,8 @@
-//! The filter over toy floats: what `Fast`, `Geometric` or real arithmetic calls a hit passes, for all rays and
-//! spheres of a set, in a plane.
+//! The filter over toy floats: every hit of `Fast`, `Geometric` or real arithmetic passes, for all rays and spheres of
+//! a set, in a plane.
 //!
-//! kappa is 114 u, so that the floats have eleven bits: of fewer it would let everything pass. Spheres are prepared
-//! for `f32` alone; here their centres are shifted by a lane, as rays are.
+//! kappa is 114 u, so the floats have eleven bits: with fewer, the filter would let everything pass. Spheres are
+//! prepared for `f32` alone; here their centres are shifted by a lane, as rays are.
 
 use super::pairs;
 use crate::accuracy::{RayLanes, TierFormula};
@@ -89,7 +89,8 @@ fn all(mut work: impl FnMut(&Case)) {
     }
 }
 
-/// With kappa in u: hits, hits of the tier that are none, misses that are ruled out, and hits that are.
+/// With kappa in u, counts hits, hits of the tier that are none, misses that are ruled out, and hits that are ruled
+/// out.
 fn counts<A: TierFormula, F: Format>(kappa: f64) -> [u64; 4] {
     let mut counts = [0; 4];
     all(|case| {

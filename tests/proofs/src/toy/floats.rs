@@ -6,8 +6,8 @@
 //! to a tie. A fused multiply-add is computed by one rounding where `f64` holds the sum, which it does for a dozen
 //! bits.
 //!
-//! What a number of the kernel's source follows from u does so here, by `Lanes::UNIT_ROUNDOFF`. Other numbers (2^40,
-//! and what is added for underflow) are the same as in `f32`.
+//! Numbers of the kernel's source that follow from u do so here, by `Lanes::UNIT_ROUNDOFF`. Other numbers (2^40, and
+//! what is added for underflow) are the same as in `f32`.
 
 use crate::{DoubleLanes, Lanes};
 use core::fmt::Debug;

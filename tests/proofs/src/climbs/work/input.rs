@@ -4,7 +4,7 @@ use crate::proofs::climb::Random;
 use crate::{Ray, RayPacket, Sphere, SphereList, SphereTree, Vec3};
 use std::vec::Vec;
 
-/// What an input is made of, each number from 1 up to 2: a change of its fraction is what a climb does.
+/// The numbers that make an input, each from 1 up to 2: a climb changes their fractions.
 pub(super) type Genes = [f32; OF_TREE + OF_RAYS + 1];
 
 /// The genes of the tree are the first, the one of the query is the last.
@@ -66,7 +66,7 @@ pub(super) struct Bundle {
     pub(super) from_spread: f32,
     pub(super) to: Vec3,
     pub(super) to_spread: f32,
-    /// One for a beam whose ends are its beginnings, moved.
+    /// 1 for a beam whose ends are its beginnings, moved.
     pub(super) parallel: f32,
 }
 
@@ -74,21 +74,21 @@ pub(super) struct Bundle {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RayInput {
     pub(super) bundles: [Bundle; 2],
-    /// So many of the one bundle, then as many of the other; zero if there is but one.
+    /// So many rays of the one bundle, then as many of the other; zero if there is only one bundle.
     pub(super) alternate: usize,
-    /// So many in turn are near each other,
+    /// How many rays in turn are near each other.
     pub(super) run: usize,
-    /// at that distance, where the bundle's is one.
+    /// How far rays of a run are apart, where the bundle's size is one.
     pub(super) within_run: f32,
-    /// Whether runs follow each other line by line, in place of at random.
+    /// Whether runs follow each other line by line, instead of at random.
     pub(super) lines: bool,
-    /// How many of them change places.
+    /// The part of the rays that change places.
     pub(super) shuffled: f32,
-    /// How many of them are not rays.
+    /// The part of the rays that are not live.
     pub(super) dead: f32,
     pub(super) t_min: f32,
     pub(super) t_max: f32,
-    /// Of directions, 2^k.
+    /// The length of directions, 2^k.
     pub(super) length: f32,
     pub(super) count: usize,
     pub(super) seed: u64,
@@ -99,14 +99,14 @@ pub(super) struct RayInput {
 pub(super) struct Input {
     pub(super) scene: SceneInput,
     pub(super) rays: RayInput,
-    /// Whether any hit is asked for, or the closest.
+    /// Whether the query asks for any hit, or for the closest.
     pub(super) any: bool,
 }
 
 /// How many values a gene has.
 const STEPS: u16 = 1 << 9;
 
-/// Which of them: smaller changes change nothing.
+/// The value that a gene has: smaller changes of it change nothing.
 pub(super) fn step(gene: f32) -> u16 {
     (((gene - 1.0) * f32::from(STEPS)) as u16).min(STEPS - 1)
 }

@@ -1,4 +1,4 @@
-//! What it takes to try groups and packets in vain, in work.
+//! The work of trying groups and packets in vain.
 
 use super::input::{Input, RayInput, SceneInput};
 use super::{IN_NO_ORDER, PLAIN, Said, UNIFORM, both, call, in_tiles, orders, times};
@@ -21,8 +21,8 @@ fn packed(rays: &[Ray]) -> Vec<RayPacket> {
     rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect()
 }
 
-/// The work of one call for packets of two sources, times that of a call for each, as is best for it: the plain one, and
-/// ray by ray.
+/// The work of one call for packets of two sources, over that of one call for each source in the way that is best for
+/// it: the plain one, and ray by ray.
 fn of_the_best(bvh: &Bvh<'_>, packets: &[RayPacket], are_wide: impl Fn(usize) -> bool) -> f64 {
     let of = |wanted: bool| {
         let chosen = packets.iter().enumerate().filter(|&(place, _)| are_wide(place) == wanted);
@@ -36,8 +36,8 @@ fn of_the_best(bvh: &Bvh<'_>, packets: &[RayPacket], are_wide: impl Fn(usize) ->
     times(packets.len(), [together, each])
 }
 
-/// As a scanner's fan has them, of which a part looks where spheres are dense, and as two sources by turns. (Before it was
-/// learnt for each place of a group: 1.5 times.)
+/// Packets as of a scanner's fan, part of which looks where spheres are dense, and as of two sources by turns. (Before the trace learnt for
+/// each place of a group: 1.5 times.)
 #[test]
 fn packets_that_never_pay_are_passed_over_among_those_that_do() {
     let tree = UNIFORM.tree();
@@ -52,7 +52,7 @@ fn packets_that_never_pay_are_passed_over_among_those_that_do() {
     }
 }
 
-/// A group that pays is worth more than one that does not. (As long as one in vain meant that the next was not tried: 1.4.)
+/// A group that pays is worth more than one that does not. (While one group in vain kept the next from being tried: 1.4 times.)
 #[test]
 fn groups_are_tried_where_every_second_pays() {
     let tree = UNIFORM.tree();
@@ -72,7 +72,8 @@ fn groups_are_tried_where_every_second_pays() {
     }
 }
 
-/// Of a long call, in which no group pays. Those that go by themselves are streams, which take less than ray by ray.
+/// A long call, in which no group pays. Packets that go by themselves are streams, which take less work than ray by
+/// ray.
 #[test]
 fn few_groups_of_a_beam_are_tried() {
     let rays = RayInput { count: 1 << 15, ..IN_NO_ORDER };
@@ -84,8 +85,8 @@ fn few_groups_of_a_beam_are_tried() {
     }
 }
 
-/// Of a short call over few spheres, where a group in vain takes as much as its rays do. (1.20 times, as long as one group was
-/// passed over after the first, in place of three.)
+/// A short call over few spheres, where a group in vain takes as much work as its rays do. (While one group was passed over after the
+/// first, instead of three: 1.20 times.)
 #[test]
 fn a_short_call_over_few_spheres_tries_two_groups_of_eight() {
     let few = SceneInput { spheres: 64, ..UNIFORM };
@@ -98,7 +99,7 @@ fn a_short_call_over_few_spheres_tries_two_groups_of_eight() {
     }
 }
 
-/// Of any hits among nested spheres, by a long lens in no order: the first group is not trusted. (1.29 times, where it was.)
+/// Any hits among nested spheres, by a long lens in no order: the first group is not trusted. (Where it was trusted: 1.29 times.)
 #[test]
 fn of_any_hits_among_nested_spheres_a_first_group_gives_up_soon() {
     // In no order of sizes.

@@ -1,4 +1,4 @@
-//! What groups are held to do, in the mean of many short calls: a weight that is another is seen here, also where the worst case does not
+//! The work that groups are held to, in the mean of many short calls: a changed weight is seen here, even where the worst case does not
 //! need it.
 
 use super::input::{Input, RayInput, Scene, SceneInput};
@@ -16,7 +16,7 @@ const SCENES: [SceneInput; 4] = [
     SceneInput { scene: Scene::Sheet, radius: 0.02, ..UNIFORM },
 ];
 
-/// Work by that of ray by ray, the geometric mean over scenes and orders.
+/// Work over that of ray by ray: the geometric mean over scenes and orders.
 fn mean(scenes: &[SceneInput], count: usize, any: bool) -> f64 {
     let mut logarithms = Vec::new();
     for &scene in scenes {
@@ -31,8 +31,8 @@ fn mean(scenes: &[SceneInput], count: usize, any: bool) -> f64 {
     (logarithms.iter().sum::<f64>() / logarithms.len() as f64).exp()
 }
 
-/// A lower mean is worth publishing, and a higher one is a loss. (Closest hits with the roots of a ray at half, 0.8625, and at twice, 0.8583;
-/// a ray at twice, 0.8577; groups that may do no more than those of any hit, 0.8856.)
+/// A lower mean is worth publishing, and a higher one is a loss. (Closest hits with half the weight of a ray's roots: 0.8625; with twice
+/// that weight: 0.8583; with twice the weight of a ray: 0.8577; with groups that may do no more than those of any hit: 0.8856.)
 #[test]
 fn short_calls_take_what_is_published_in_the_mean() {
     for (any, published) in [(false, 0.8573), (true, 0.8580)] {
@@ -41,8 +41,8 @@ fn short_calls_take_what_is_published_in_the_mean() {
     }
 }
 
-/// The same over few spheres, where to try a group in vain takes as much as its rays do. (With one group passed over after the first in vain, in
-/// place of three, 1.0612; with six 1.0036, and a scanner, which pays, loses.)
+/// The same over few spheres, where trying a group in vain takes as much work as its rays do. (With one group passed over after the first
+/// in vain, instead of three: 1.0612. With six: 1.0036, but a scanner, whose groups pay, loses.)
 #[test]
 fn short_calls_over_few_spheres_take_what_is_published_in_the_mean() {
     let few = SceneInput { spheres: 64, radius: 0.1, ..UNIFORM };
@@ -52,7 +52,7 @@ fn short_calls_over_few_spheres_take_what_is_published_in_the_mean() {
     }
 }
 
-/// The same of calls of 32 groups, of which most follow one that has paid.
+/// The same for calls of 32 groups, most of which follow a group that has paid.
 #[test]
 fn long_calls_take_what_is_published_in_the_mean() {
     for (any, published) in [(false, 0.7187), (true, 0.7336)] {
