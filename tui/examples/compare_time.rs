@@ -1,5 +1,7 @@
-//! Milliseconds an error map takes beside a frame of `Exact` of as many samples, and a frame split between `Fast` and
-//! `Exact` beside the mean of both whole ones; 200 x 60 cells in truecolor, on all threads, in turns: `cargo run --release -p spherule --example compare_time [FRAMES]`.
+//! Milliseconds of an error map, compared with a frame of `Exact` of as many samples; and of a frame split between
+//! `Fast` and `Exact`, compared with the mean of both whole frames. 200 x 60 cells in truecolor, on all threads, in
+//! turns:
+//! `cargo run --release -p spherule --example compare_time [FRAMES]`.
 
 use spherule::compare::error_map::ErrorMapper;
 use spherule::compare::legend::MapPainter;

@@ -1,10 +1,10 @@
-//! Where one structure overtakes another: the table on which the constants of
-//! `tui/src/structure/choose.rs` rest, and what their choice costs over the best one.
+//! Where one structure overtakes another. The constants of `tui/src/structure/choose.rs` rest on this table, which also
+//! says what their choice costs compared with the best one.
 //! `cargo run --release -p spherule --example crossover [LEVEL]`.
 //!
-//! One thread; clouds of spheres that fill a seventh of a cube; closest hits by `Exact`, for a camera's
-//! rays in the order of a picture, and for rays from anywhere to anywhere. The structures are timed in
-//! turns, medians of several rounds of the thread's own clock.
+//! One thread traces clouds of spheres that fill a seventh of a cube. It finds closest hits by `Exact`, for a camera's
+//! rays in the order of a picture, and for rays from anywhere to anywhere. The structures are timed in turns; each
+//! figure is the median of several rounds by the thread's own clock.
 
 use clap::ValueEnum;
 use rustix::time::{ClockId, clock_gettime};
@@ -69,7 +69,7 @@ fn main() {
     }
 }
 
-/// Nanoseconds that this thread has had a CPU: others share the machine.
+/// CPU time of this thread in nanoseconds: others share the machine.
 fn cpu_ns() -> f64 {
     let time = clock_gettime(ClockId::ThreadCPUTime);
     time.tv_sec as f64 * 1e9 + time.tv_nsec as f64
@@ -83,7 +83,7 @@ fn rays_in_cube() -> Vec<RayPacket> {
     rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect()
 }
 
-/// A square picture of as many rays, from outside the cube.
+/// A square picture of `RAYS` rays, from outside the cube.
 fn camera() -> (Camera, u32) {
     let side = (RAYS as f32).sqrt() as u32;
     let step = 2.0 * 0.364 / side as f32;
@@ -108,7 +108,7 @@ fn measure(coherent: bool, count: usize, level: Level) {
     let mut rays = rays_in_cube();
     let (camera, side) = camera();
     let corners: Vec<_> = Camera::tile_corners::<[f32; 16]>(side, side).collect();
-    // Brute force takes a part, from the middle, where most spheres are.
+    // Brute force traces a part of the rays, from the middle, where most spheres are.
     let part = (MOST_TESTS / count / RayPacket::COUNT).clamp(16, rays.len());
     let middle = (rays.len() - part) / 2;
     let (few, all) = (middle..middle + part, 0..rays.len());
@@ -152,7 +152,7 @@ fn measure(coherent: bool, count: usize, level: Level) {
     times.print(coherent, count);
 }
 
-/// Nanoseconds, a round each: a ray, or a sphere of the sort and of the build.
+/// Nanoseconds of each round: per ray, or per sphere for the sort and the build.
 #[derive(Default)]
 struct Times {
     brute: Vec<f64>,

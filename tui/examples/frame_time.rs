@@ -1,10 +1,10 @@
-//! Milliseconds a frame of the built-in scenes, 200 x 60 cells in truecolor, samples by need, drawn and encoded in
-//! full: half blocks by every tier, and every other charset by the exact one:
-//! `cargo run --release -p spherule --example frame_time [FRAMES [SCENE [LEVEL [STRUCTURE [CHARS]]]]]`; with
-//! CHARS, that character set alone.
+//! Milliseconds per frame of the built-in scenes: 200 x 60 cells in truecolor, samples by need, drawn and encoded in
+//! full. Half blocks are drawn by every tier, and every other charset by the exact one:
+//! `cargo run --release -p spherule --example frame_time [FRAMES [SCENE [LEVEL [STRUCTURE [CHARS]]]]]`. With CHARS,
+//! only that character set is drawn.
 //!
-//! CPU time by the clock of a single thread, which stands while others run; the least time is that of a quiet core.
-//! Then the time that passes if all threads draw.
+//! The first figure is CPU time by the clock of a single thread, which stands while others run; the least time is that
+//! of a quiet core. The second is the time that passes if all threads draw.
 
 use clap::ValueEnum;
 use rustix::time::{ClockId, clock_gettime};
@@ -45,7 +45,7 @@ fn main() {
     }
 }
 
-/// Milliseconds that this thread has had a CPU.
+/// CPU time of this thread in milliseconds.
 fn cpu_ms() -> f64 {
     let time = clock_gettime(ClockId::ThreadCPUTime);
     time.tv_sec as f64 * 1e3 + time.tv_nsec as f64 / 1e6

@@ -1,18 +1,20 @@
-//! Whether it can be told from their colours that two neighbouring pixels lie on different chains or depths.
+//! Whether the colours of two neighbouring pixels tell that they lie on different chains or at different depths.
 //!
 //! ```sh
 //! cargo run --release -p spherule --example legibility -- 6WG6.cif 7CFN.cif                   # as they are shown
 //! cargo run --release -p spherule --example legibility -- 6WG6.cif --- --occlusion=off        # with options
 //! ```
 //!
-//! Files with chains. Two proteins packages of Python's index have them: `pip download --no-deps --no-binary biopython
-//! biopython` brings 6WG6, 7CFN, 2XHE and 2BEG in `Tests/PDB`, `pip download --no-deps MDAnalysisTests` 1A28 and 19HC.
+//! The files must have chains. Two packages of Python's index contain such proteins: `pip download --no-deps
+//! --no-binary biopython biopython` brings 6WG6, 7CFN, 2XHE and 2BEG in `Tests/PDB`, `pip download --no-deps
+//! MDAnalysisTests` brings 1A28 and 19HC.
 //!
-//! The picture is the one of `--once --charset half --color truecolor`, 120x40 cells unless `--size` says so. A pixel is half a cell. The
-//! truth is the ray through its middle, by the kernel alone. Two neighbours, side by side or one above the other, that both show a
-//! sphere are *apart* if the spheres are of different chains, or their depths differ by more than both spheres are thick. The
-//! score of a pair is the distance of its colours in `OKLab`; the figure is the area under the curve of hits against
-//! false alarms (AUC): how often two that are apart differ more than two that are not. By chance it is 0.5.
+//! The picture is the one of `--once --charset half --color truecolor`, 120x40 cells unless `--size` says otherwise. A
+//! pixel is half a cell. The truth is what the kernel alone finds on the ray through its middle. Two neighbours, side
+//! by side or one above the other, that both show a sphere are *apart* if the spheres are of different chains, or their
+//! depths differ by more than both spheres are thick. The score of a pair is the distance of its colours in `OKLab`;
+//! the figure is the area under the curve of hits against false alarms (AUC): how often the colours of a pair that is
+//! apart differ more than those of a pair that is not. By chance it is 0.5.
 
 use spherule::arguments::{Arguments, Request, parse};
 use spherule::cells::{CellGrid, Color};
@@ -159,7 +161,7 @@ fn truth(
     all.take(rays.len()).map(|hit| hit.and_then(|hit| shown(hit.sphere as usize, hit.t))).collect()
 }
 
-/// How often one of `apart` is more than one of `together`; half of it where they are equal.
+/// How often a value of `apart` is greater than one of `together`; equal values count half.
 fn area(together: &mut [f32], apart: &[f32]) -> f64 {
     together.sort_unstable_by(f32::total_cmp);
     let below = |distance: f32| {

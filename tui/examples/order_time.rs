@@ -1,8 +1,8 @@
 //! How long object order takes beside image order by a depth list, for built-in scenes in 200 x 60 cells, samples by
 //! need, one thread: `cargo run --release -p spherule --example order_time [ROUNDS [SCENE]]`.
 //!
-//! Medians of the ratios of frames drawn in turns: of whole pictures, and of the same scenes without lights, of which
-//! nearly all is the search for spheres.
+//! It prints medians of the ratios of frames drawn in turns: of whole pictures, and of the same scenes without lights,
+//! where the search for spheres takes nearly all of the time.
 
 use rustix::time::{ClockId, clock_gettime};
 use spherule::draw::{Renderer, Spending, picture_workload};
@@ -33,13 +33,13 @@ fn main() {
     }
 }
 
-/// Milliseconds that this thread has had a CPU.
+/// CPU time of this thread in milliseconds.
 fn cpu_ms() -> f64 {
     let time = clock_gettime(ClockId::ThreadCPUTime);
     time.tv_sec as f64 * 1e3 + time.tv_nsec as f64 / 1e6
 }
 
-/// The milliseconds of a picture in object order, and how many times those of a depth list that is.
+/// The milliseconds of a picture in object order, and their ratio to those of a picture with a depth list.
 fn ratio(scene: &Scene, accuracy: Tier, rounds: u32) -> (f64, f64) {
     let (columns, rows) = (200, 60);
     let (charset, depth) = (Charset::Half, ColorDepth::Truecolor);

@@ -1,5 +1,6 @@
-//! Frames a second in pixels, of the built-in scenes in motion: drawn and encoded by each protocol,
-//! `cargo run --release -p spherule --example pixel_rate [FRAMES [WIDTHxHEIGHT]]`. 960x640 pixels unless said, in cells of 8x16.
+//! Frames per second in pixels of the built-in scenes in motion, drawn and encoded by each protocol:
+//! `cargo run --release -p spherule --example pixel_rate [FRAMES [WIDTHxHEIGHT]]`.
+//! Pictures have 960x640 pixels unless said otherwise, in cells of 8x16.
 
 use spherule::draw::pixels::PixelGrid;
 use spherule::draw::{Renderer, picture_workload};

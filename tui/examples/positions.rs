@@ -1,4 +1,4 @@
-//! What the program reads of a file, for those who compare it with other readers, and how fast.
+//! What the program reads of a file, and how fast, for comparison with other readers.
 //!
 //! `positions FILE [FRAME [TOPOLOGY]]` writes x, y, z of every sphere to standard output, as little-endian `float32`.
 //! `positions --time FILE` reads all frames and prints bytes, frames, spheres and seconds; the file is read once before.

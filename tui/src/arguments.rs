@@ -238,7 +238,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, E
     }
 }
 
-/// Object order searches no structure: whoever names one expects something else.
+/// Refuses `--structure` beside `--order object`, which searches no structure.
 fn check_order(matches: &ArgMatches) -> Result<(), clap::Error> {
     let matches = matches.subcommand_matches("tradeoff").unwrap_or(matches);
     let is_object = matches!(matches.try_get_one("order"), Ok(Some(Order::Object)));

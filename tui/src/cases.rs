@@ -1,7 +1,7 @@
 //! `spherule cases`: cases of the families in which ray-sphere intersection goes wrong, to files or as lines.
 //!
-//! Case i is of the family i modulo their number, so that every beginning of the cases has all families. Rows are written as
-//! they are made: memory does not grow with their number.
+//! Case i is of the family i modulo their number, so that the first cases, however few, are spread over the families.
+//! Rows are written as they are made: memory does not grow with their number.
 
 use crate::error::{Error, write_stdout};
 use crate::whole_file::WholeFile;
@@ -50,10 +50,10 @@ fn family(name: &str) -> Result<Family, String> {
     Family::named(name).ok_or_else(|| format!("one of {}", names()))
 }
 
-/// Writes the cases that `arguments` say; without files and `--json`, a line for every family.
+/// Writes the cases that `arguments` ask for; without files and `--json`, a line for every family.
 ///
 /// # Errors
-/// [`Error::Running`] if an output cannot be written: then there are none of the files.
+/// [`Error::Running`] if an output cannot be written; then none of the files exists.
 pub fn cases(arguments: &CasesArguments) -> Result<(), Error> {
     let all = || FAMILIES.to_vec();
     let families = if arguments.family.is_empty() { all() } else { arguments.family.clone() };
@@ -74,7 +74,7 @@ pub fn cases(arguments: &CasesArguments) -> Result<(), Error> {
         rays.write(|| bytes_of_row(&row[..8]))?;
         numbers.write(|| vec![family.number])?;
     }
-    // All are whole before one has its name.
+    // All files are whole before any of them gets its name.
     [spheres, rays, numbers].into_iter().try_for_each(Output::finish)
 }
 
@@ -86,7 +86,7 @@ fn case(arguments: &CasesArguments, families: &[Family], index: u64) -> (Family,
     (family, if arguments.unit { with_unit_direction(case) } else { case })
 }
 
-/// The direction as near to unit length as it gets; what has no length stays.
+/// The case with a direction as near to unit length as it gets; a direction without length stays.
 fn with_unit_direction(case: Case) -> Case {
     let direction = case.ray.direction.to_array().map(f64::from);
     let length = direction.iter().map(|x| x * x).sum::<f64>().sqrt();

@@ -1,7 +1,6 @@
 //! Recordings of a terminal that can be played: asciinema's format, version 2.
 //!
-//! The first line says how large the terminal is; each of the others is an event: seconds from the start, what kind, and
-//! what was written.
+//! The first line says how large the terminal is. Each of the others is an event: seconds from the start, its kind, and what was written.
 //!
 //! Source: asciinema's documentation, "asciicast v2".
 
@@ -14,7 +13,7 @@ use std::io::{self, Write};
 #[derive(Debug, Default)]
 pub struct Cast {
     encoder: Encoder,
-    /// Columns and rows; none before the first frame.
+    /// Columns and rows; `None` before the first frame.
     size: Option<(u16, u16)>,
     bytes: Vec<u8>,
 }
@@ -37,7 +36,7 @@ impl Cast {
             None => {
                 let (width, height) = size;
                 writeln!(out, "{}", json!({"version": 2, "width": width, "height": height}))?;
-                // No cursor, and nothing wraps.
+                // Hides the cursor; lines do not wrap.
                 self.bytes.extend_from_slice(b"\x1b[?25l\x1b[?7l");
             }
             Some(before) if before != size => {
@@ -46,11 +45,11 @@ impl Cast {
             Some(_) => {}
         }
         self.encoder.encode_part(cells, economy, &mut self.bytes);
-        // Control characters are none but our own: all is text.
+        // All control characters are our own, so all bytes are text.
         event(seconds, 'o', &String::from_utf8_lossy(&self.bytes), out)
     }
 
-    /// Appends the end: a cursor, and lines that wrap.
+    /// Appends the end: the cursor is shown again, and lines wrap.
     ///
     /// # Errors
     /// If it cannot be written.

@@ -87,12 +87,12 @@ impl CellGrid {
         self.cells.get(start..start + usize::from(self.columns)).unwrap_or(&[])
     }
 
-    /// Marks one cell, the only one: a terminal shows it with ink and paper exchanged, whatever its colours.
+    /// Marks one cell, and no other: a terminal shows it with ink and paper exchanged, whatever its colours.
     pub fn mark(&mut self, column: u16, row: u16) {
         self.marked = Some((column, row));
     }
 
-    /// Marks a cell in place of the one that is, or none.
+    /// Moves the mark to a cell, or removes it.
     pub fn set_mark(&mut self, marked: Option<(u16, u16)>) {
         self.marked = marked;
     }

@@ -8,7 +8,7 @@ const LARGEST_SIDE: u16 = 4096;
 
 /// A value that the program chooses itself if it is `None`: `auto` on the command line.
 ///
-/// Not spelled `Option` in arguments, which clap takes for an option that may be missing.
+/// Arguments do not spell it `Option`, which clap takes for an option that may be missing.
 pub type Auto<T> = Option<T>;
 
 /// Reads `auto`, or the name of a value.
@@ -22,8 +22,8 @@ where
         .map(|text| T::from_str(&text, false).ok())
 }
 
-/// Reads the name of a value that is no [`ValueEnum`], because another crate defines it; some have another name
-/// beside the one that lists of them have.
+/// Reads the name of a value whose type is no [`ValueEnum`], because another crate defines it. Some values have a
+/// second name besides the one in lists.
 pub fn one_of<T>(
     all: &'static [T],
     name: fn(T) -> &'static str,
@@ -59,7 +59,7 @@ pub fn next<T: ValueEnum + Copy + PartialEq>(this: Auto<T>) -> Auto<T> {
 /// Reads columns and rows of a picture: `COLSxROWS`.
 ///
 /// # Errors
-/// What would be right.
+/// Says what would be right.
 pub fn size(text: &str) -> Result<(u16, u16), String> {
     let (columns, rows) = text.split_once(['x', 'X']).ok_or("COLSxROWS, such as 80x24")?;
     let side = |text: &str| {

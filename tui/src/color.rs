@@ -24,8 +24,8 @@ impl Srgb {
 
     /// The nearest encoding of linear light; below 0 and NaN count as 0, above 1 as 1.
     ///
-    /// By a table of 2^14 steps: the inverse of [`Srgb::to_linear`], and elsewhere within one
-    /// level of the exact encoding.
+    /// It takes a table of 2^14 steps. The result is the inverse of [`Srgb::to_linear`], and elsewhere within one level
+    /// of the exact encoding.
     #[must_use]
     #[inline]
     pub fn from_linear(light: Vec3) -> Self {
@@ -85,7 +85,7 @@ pub fn oklab(light: Vec3) -> Vec3 {
     )
 }
 
-/// The square root of each channel of linear light, about as displays encode it: equal steps look alike more than in
+/// The square root of each channel of linear light, about as displays encode it. Equal steps look alike more than in
 /// linear light, and it costs a tenth of [`oklab`]. Below 0 and NaN count as 0.
 #[must_use]
 #[inline]
@@ -93,11 +93,11 @@ pub fn roots(light: Vec3) -> Vec3 {
     light.max(Vec3::ZERO).map(f32::sqrt)
 }
 
-/// The cube root within 4 ulp, up to 1e38; 0 for what is not above 1e-30, where there is no light to speak of, and for
-/// NaN. Above 1e38 sums overflow, and it is NaN.
+/// The cube root within 4 ulp, up to 1e38. Returns 0 for NaN, and for numbers not above 1e-30, where there is no light
+/// to speak of. Above 1e38 sums overflow, and it returns NaN.
 ///
-/// A third of the exponent by integers, then two steps of Halley's: a picture needs some hundred thousand of them, and
-/// the standard library's costs five times as much.
+/// It takes a third of the exponent by integers, then two steps of Halley's. A picture needs some hundred thousand cube
+/// roots, and the standard library's costs five times as much.
 #[inline]
 fn cube_root(x: f32) -> f32 {
     if x.is_nan() || x <= 1e-30 {

@@ -1,7 +1,7 @@
-//! Which colours spheres have: their own, or by what the scene's file says of them.
+//! How spheres are coloured: in their own colours, or by what the scene's file says of them.
 //!
-//! Names get colours that everybody can tell apart, in the order in which they first occur; numbers a scale that gets lighter
-//! from the least to the largest. Colours of elements are the ones that chemists know.
+//! Names get colours that everybody can tell apart, in the order in which they first occur. Numbers get a scale that becomes lighter from
+//! the least to the largest. Colours of elements are the ones that chemists know.
 
 pub mod categories;
 pub mod legend;
@@ -62,7 +62,7 @@ impl ColorBy {
         [Self::Scene].into_iter().chain(element).chain(names).chain(columns).collect()
     }
 
-    /// What a scene is coloured by unless somebody says so: of several chains those, else its own colours.
+    /// What a scene is coloured by unless somebody says otherwise: its chains, if there are several, else its own colours.
     #[must_use]
     pub fn usual(attributes: &Attributes) -> Self {
         let has_chains =
@@ -71,7 +71,7 @@ impl ColorBy {
         if has_chains && !colors { Self::Names(Naming::Chain) } else { Self::Scene }
     }
 
-    /// The choice after this one, around in a circle.
+    /// The choice after this one; the first comes after the last.
     #[must_use]
     pub fn next(&self, attributes: &Attributes) -> Self {
         let choices = Self::choices(attributes);
@@ -83,7 +83,7 @@ impl ColorBy {
 impl FromStr for ColorBy {
     type Err = String;
 
-    /// Reads `scene`, `element`, the name of a kind of names, or any other as that of a column.
+    /// Reads `scene`, `element` or the name of a kind of names; any other text is the name of a column.
     fn from_str(text: &str) -> Result<Self, String> {
         let naming = NAMINGS.iter().find(|(name, _)| *name == text);
         match text {
@@ -102,16 +102,16 @@ impl FromStr for ColorBy {
 /// Colours, one a sphere, and what they mean.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coloring {
-    /// None: the scene's own.
+    /// `None` if they are the scene's own.
     pub colors: Option<Vec<Srgb>>,
-    /// What they mean; none of colours that have no meaning that is known.
+    /// What the colours mean; `None` if that is not known.
     pub legend: Option<Legend>,
 }
 
-/// Finds the colours of `scene` by something; numbers from one end of `range` to the other, or of the numbers that there are.
+/// Finds the colours of `scene` by something. Numbers are coloured from one end of `range` to the other, or of the numbers that there are.
 ///
 /// # Errors
-/// What `scene` has instead, if it does not have that.
+/// If `scene` does not have that: says what it has instead.
 pub fn coloring(scene: &Scene, by: &ColorBy, range: Option<Range>) -> Result<Coloring, String> {
     let attributes = scene.attributes();
     let missing = || {
@@ -142,7 +142,7 @@ pub fn coloring(scene: &Scene, by: &ColorBy, range: Option<Range>) -> Result<Col
         ColorBy::Names(naming) => {
             let names = attributes.names(*naming).ok_or_else(missing)?;
             let mut places = 0..;
-            // What has no name takes no colour away.
+            // A sphere without a name takes no colour away from others.
             let table: Vec<_> = names
                 .table()
                 .iter()

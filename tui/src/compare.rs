@@ -18,10 +18,10 @@ pub enum Comparison {
 }
 
 impl Comparison {
-    /// That of a name: `error`, or `split:` and two tiers.
+    /// The comparison of this name: `error`, or `split:` and two tiers.
     #[must_use]
     pub fn named(text: &str) -> Option<Self> {
-        // As `--accuracy` reads them.
+        // Names are read as `--accuracy` reads them.
         let tier = |name: &str| {
             let name = if name == "algebraic" { "fast" } else { name };
             Tier::ALL.into_iter().find(|tier| tier.as_str() == name)

@@ -72,9 +72,9 @@ pub fn sample_grid(view: &View, style: &Style, columns: u16, rows: u16) -> (Came
     (grid.camera, grid.width, grid.height)
 }
 
-/// The camera rays of so many such pictures, against so many spheres.
+/// The work of the camera rays of so many such pictures, against so many spheres.
 ///
-/// Without shadow rays: how many there are, only the picture shows.
+/// Shadow rays are left out: only the picture shows how many there are.
 #[must_use]
 pub fn picture_workload(
     spheres: usize,
@@ -88,12 +88,12 @@ pub fn picture_workload(
     Workload::of_pictures(pictures, cells * samples.count() as usize, spheres)
 }
 
-/// Cells that are drawn at a time, in whole rows, so that the largest picture fits into memory; of smaller ones, all.
+/// Cells that are drawn at a time, in whole rows, so that the largest picture fits into memory. Smaller pictures are drawn at once.
 const STRIP: usize = 1 << 17;
 
-/// How many columns beside a cell have a part in it: of samples one, of fits two, and one more that letters look at.
+/// How many columns beside a cell influence it: one of samples, two of fits, and one more that letters look at.
 const BESIDE: u16 = 4;
-/// Columns of a part begin at a multiple of this: of packets, and of what dither repeats.
+/// The first column of a part is a multiple of this, as packets and the pattern of dither need it.
 const ALIGNED: u16 = 8;
 
 /// Draws, and keeps its memory from frame to frame.
@@ -113,15 +113,15 @@ impl<'a> Renderer<'a> {
         Self { level, threads, strip: Strip::default(), most_cells: STRIP }
     }
 
-    /// By which instructions it draws, and on which threads.
+    /// The instructions that it draws by, and its threads.
     #[must_use]
     pub fn machine(&self) -> (Level, &'a Threads) {
         (self.level, self.threads)
     }
 
-    /// Draws `scene` as `view` sees it into so many columns and rows of cells, for no more than `spending`; `search`
-    /// finds the spheres of that scene from that view. Of pictures that may spend so much and no more, one of the same size
-    /// after the other, glyphs stay as they were where that is about as good.
+    /// Draws `scene` as `view` sees it into so many columns and rows of cells, for no more than `spending`. `search` finds the spheres of
+    /// that scene from that view. If pictures of one size follow each other with [`Spending::AtMost`], glyphs stay as they were where that
+    /// is about as good.
     #[must_use]
     pub fn draw(
         &mut self,
@@ -139,9 +139,9 @@ impl<'a> Renderer<'a> {
         Drawn { cells, effort }
     }
 
-    /// Draws some `columns` of that picture, cell for cell the same: as far as they take part in each other's glyphs and
-    /// colours, those beside them are drawn too. Letters without colour, which are chosen beside each other, may differ
-    /// where the part ends; so may what a movement has no time for.
+    /// Draws the columns `part` of the picture of [`Renderer::draw`], cell for cell the same. Columns beside them that influence their
+    /// glyphs and colours are drawn too. Letters without colour, which are chosen beside each other, may differ where the part ends; so may
+    /// what a movement has no time for.
     #[must_use]
     pub fn draw_columns(
         &mut self,
@@ -167,7 +167,7 @@ impl<'a> Renderer<'a> {
         Drawn { cells, effort }
     }
 
-    /// Draws what is planned, so many rows at a time.
+    /// Draws what is planned, strip by strip.
     fn in_strips(&mut self, plan: &Plan<'_>, cells: &mut CellGrid) -> Effort {
         let (columns, height) = (cells.columns(), usize::from(self.strip_rows(cells.columns())));
         let strips = cells.cells_mut().chunks_mut((height * usize::from(columns)).max(1));
@@ -176,10 +176,10 @@ impl<'a> Renderer<'a> {
         })
     }
 
-    /// Draws the same by need, and hands strip after strip of whole rows on to `take`, from the top.
+    /// Draws the picture of [`Renderer::draw`] by need, and hands strip after strip of whole rows on to `take`, from the top.
     ///
     /// # Errors
-    /// The first of `take`.
+    /// The first error of `take`.
     pub fn draw_strips<E>(
         &mut self,
         scene: &Scene,

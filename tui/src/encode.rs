@@ -1,9 +1,9 @@
 //! Cells to bytes, by a writer of our own: the caller has already decided about colour, and a
 //! library that reads the environment again would decide otherwise.
 //!
-//! [`full`] writes lines for a pipe or a file. [`Encoder`] writes what changed, for a terminal in
-//! raw mode; it knows what that terminal shows, which need not be what was wanted: where that looks alike, it may stay.
-//! What is shown is remembered, so errors do not add up, and a frame without tolerance makes good for all of them.
+//! [`full`] writes lines for a pipe or a file. [`Encoder`] writes what changed, for a terminal in raw mode. It knows what that terminal
+//! shows, which need not be what was wanted: what looks alike may stay. It remembers what is shown, so errors do not add up, and a frame
+//! without tolerance makes good for all of them.
 
 mod ahead;
 mod cursor;
@@ -20,13 +20,13 @@ use sgr::Pen;
 use tolerance::Tolerance;
 use update::Update;
 
-/// From here on a terminal that can hold back its picture does.
+/// From here on a terminal holds back its picture, if it can.
 const BEGIN_SYNCHRONIZED: &[u8] = b"\x1b[?2026h";
 /// Shows what was held back.
 const END_SYNCHRONIZED: &[u8] = b"\x1b[?2026l";
 /// The terminal's own colours, a blank screen, the cursor at the top left.
 const CLEAR: &[u8] = b"\x1b[m\x1b[2J\x1b[H";
-/// Two colours of 24 bits and a glyph; reserved a cell, so that a frame allocates once.
+/// The bytes of two colours of 24 bits and a glyph: so many are reserved a cell, so that a frame allocates once.
 const LONGEST_CELL: usize = 40;
 
 /// Appends the whole grid: a line a row, closed by a reset if it has colour, and by a newline.
@@ -50,8 +50,8 @@ pub fn full(grid: &CellGrid, out: &mut Vec<u8>) {
 /// What a frame may save.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Economy {
-    /// How far off in `OKLab` a cell of one colour may stay, at most 0.03; one that takes more bytes may be farther off,
-    /// though no part of it three times as far, or by more than 0.03.
+    /// How far off in `OKLab` a cell of one colour may stay, at most 0.03. A cell that takes more bytes may be farther off, but no part of
+    /// it three times as far, or by more than 0.03.
     pub tolerance: f32,
     /// After so many bytes the rest of the cells is left for the next frame, unless the screen was cleared.
     pub most_bytes: usize,
@@ -79,7 +79,7 @@ impl Encoder {
         Self::default()
     }
 
-    /// Tells whether the terminal holds its picture back between the brackets of mode 2026: then frames have them.
+    /// Sets whether the terminal holds its picture back between the brackets of mode 2026; if so, frames have them.
     pub fn set_synchronized(&mut self, synchronized: bool) {
         self.synchronized = synchronized;
     }
@@ -96,7 +96,7 @@ impl Encoder {
         self.is_exact
     }
 
-    /// After a resize, a suspension, or anything else that may have written to the screen.
+    /// Forgets what the terminal shows: after a resize, a suspension, or anything else that may have written to the screen.
     pub fn forget(&mut self) {
         self.shown = None;
     }
@@ -109,10 +109,9 @@ impl Encoder {
         self.bracket(start, out);
     }
 
-    /// Appends what makes the terminal show `next`, or what is as near as `economy` says: a part of a frame, without
-    /// brackets.
+    /// Appends what makes the terminal show `next`, or something as near as `economy` says: a part of a frame, without brackets.
     ///
-    /// Without anything shown, or if that has another size, the screen is cleared first.
+    /// If it is not known what is shown, or that has another size, the screen is cleared first.
     pub fn encode_part(&mut self, next: &CellGrid, economy: Economy, out: &mut Vec<u8>) {
         let size = (next.columns(), next.rows());
         let same_size = |grid: &CellGrid| (grid.columns(), grid.rows()) == size;
@@ -135,8 +134,8 @@ impl Encoder {
         self.shown = Some(shown);
     }
 
-    /// Appends what makes the terminal show `row` of `next` just as it is, and no other; nothing if nothing is known of
-    /// the rest, or there is no such row.
+    /// Appends what makes the terminal show `row` of `next` just as it is, and no other row. Appends nothing if it is not known what the
+    /// rest shows, or if there is no such row.
     pub fn encode_row(&mut self, next: &CellGrid, row: u16, out: &mut Vec<u8>) {
         let Some(shown) = &mut self.shown else { return };
         if row < next.rows().min(shown.rows()) && next.columns() == shown.columns() {
@@ -147,7 +146,7 @@ impl Encoder {
         }
     }
 
-    /// Appends what clears the screen, and takes note of it; nothing if a screen of this size is known.
+    /// Appends what clears the screen, and takes note of it, unless a screen of this size is known. Returns whether it did.
     pub fn clear(&mut self, columns: u16, rows: u16, out: &mut Vec<u8>) -> bool {
         let is_known = self
             .shown
@@ -160,7 +159,7 @@ impl Encoder {
         !is_known
     }
 
-    /// Something else was drawn over the first `rows`: what is not blank in `next` must be written again.
+    /// Takes note that something else was drawn over the first `rows`: what is not blank in `next` must be written again.
     pub fn covered(&mut self, rows: u16, next: &CellGrid) {
         let count = usize::from(rows) * usize::from(next.columns());
         let Some(shown) = &mut self.shown else { return };

@@ -1,9 +1,9 @@
 //! How much ink printable ASCII has, and where: measured, since a picture in letters needs each
 //! letter's shape.
 //!
-//! A cell of 8x16 pixels is cut into 4x8 equal parts. Of each part the covered share is kept, in
-//! fifteenths: a hexadecimal digit a part, a group of four a row, from the top left. No outline and
-//! no bitmap is kept. `tests/art/ink.rs` measures both tables again, and writes them.
+//! A cell of 8x16 pixels is cut into 4x8 equal parts. The covered share of each part is kept, in fifteenths: a
+//! hexadecimal digit a part, a group of four a row, from the top left. No outline and no bitmap is kept.
+//! `tests/art/ink.rs` measures both tables again, and writes them.
 
 /// GNU Unifont, whose bitmaps are 8x16 pixels; its ASCII is the same from 14.0.01 to 15.1.05 at least.
 pub const UNIFONT: [u128; 95] = [

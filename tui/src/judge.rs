@@ -1,7 +1,7 @@
 //! `spherule judge`: another program's answers, from files, against exact truth.
 //!
-//! Files are read side by side, some rows at a time, so that memory does not grow with the number of rays; with `--pairs`
-//! not with that of spheres either. Nothing is printed before all rows are judged.
+//! Files are read side by side, some rows at a time, so that memory does not grow with the number of rays; with
+//! `--pairs` it does not grow with the number of spheres either. Nothing is printed before all rows are judged.
 
 mod arrays;
 mod asked_again;
@@ -60,10 +60,10 @@ pub struct JudgeArguments {
     pub chart: bool,
 }
 
-/// Judges what `arguments` say, and prints the counts, the worst failures and the simplest.
+/// Judges the answers that `arguments` name, and prints the counts, the worst failures and the simplest.
 ///
 /// # Errors
-/// [`Error::Input`] if a file is not what it should be, or what it holds is no answer.
+/// [`Error::Input`] if a file is not what it should be, or holds something that is no answer.
 pub fn judge(arguments: &JudgeArguments) -> Result<(), Error> {
     let mut spheres = Array::open(&arguments.spheres, &[DTYPE_F4], Some(4))?;
     let mut rays = Array::open(&arguments.rays, &[DTYPE_F4], Some(8))?;
@@ -130,7 +130,7 @@ pub fn judge(arguments: &JudgeArguments) -> Result<(), Error> {
     write_stdout(text.as_bytes())
 }
 
-/// The numbers of families, all of which are known.
+/// Reads the numbers of families; an unknown family is an error.
 fn read_families(families: &mut Array, from: u64, count: usize) -> Result<Vec<u8>, Error> {
     let numbers = families.read(count)?.to_vec();
     match numbers.iter().position(|&number| usize::from(number) >= FAMILIES.len()) {
@@ -143,7 +143,7 @@ fn read_families(families: &mut Array, from: u64, count: usize) -> Result<Vec<u8
     }
 }
 
-/// What the file says, and the precision that the answers have.
+/// The rules of the file, with the precision that the answers have.
 fn rules(path: Option<&Path>, answers: &Answers) -> Result<Rules, Error> {
     let mut rules = Rules::CONTRACT;
     if let Some(path) = path {
@@ -163,7 +163,7 @@ fn rules(path: Option<&Path>, answers: &Answers) -> Result<Rules, Error> {
     Ok(rules)
 }
 
-/// Where in the file, and what, up to the first end of a line.
+/// The place of the error in the file, and the first line of its message.
 fn in_a_line(path: &Path, text: &str, error: &toml::de::Error) -> Error {
     let place = error.span().map_or(0, |span| span.start.min(text.len()));
     let line = text[..place].matches('\n').count() + 1;

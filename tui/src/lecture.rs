@@ -45,7 +45,7 @@ pub struct LectureArguments {
     pub color: ColorChoice,
 }
 
-/// Walks through the lecture on a terminal that can; else, with `--once` or into a pipe, prints the station that is
+/// Walks through the lecture on a terminal that can show it. With `--once`, or into a pipe, prints the station that is
 /// asked for, or all of them.
 ///
 /// # Errors
@@ -60,7 +60,7 @@ pub fn lecture(arguments: &LectureArguments) -> Result<(), Error> {
     if is_terminal && !arguments.once && !surroundings.is_dumb() {
         return walk::walk(arguments.station.unwrap_or(0), style);
     }
-    // A terminal may not know its size, or lie.
+    // A terminal may not know its size, or report a wrong one.
     let is_usable = |&(columns, rows): &(u16, u16)| {
         [columns, rows].iter().all(|side| (1..=4096).contains(side))
     };

@@ -1,22 +1,22 @@
-//! Lengths and directions of vectors as short or as long as single precision has. Their squares leave it, so glam's lengths end
-//! at 2^64, and lose digits from 2^-63 on: scenes in metres of atoms' nuclei, or of galaxies, are beyond that.
+//! Lengths and directions of vectors as short or as long as single precision has. The squares of such vectors leave its range, so glam's
+//! lengths end at 2^64, and lose digits from 2^-63 on. Scenes in metres of atoms' nuclei, or of galaxies, are beyond that.
 
 use spherule_kernel::Vec3;
 
-/// As `Vec3::length`, and the same bits where no square leaves the range of numbers. `+inf` where the length does.
+/// As `Vec3::length`, with the same bits where no square leaves the range of numbers. Returns `+inf` where the length leaves it.
 pub(crate) fn length(vector: Vec3) -> f32 {
     let (scaled, power) = scaled(vector);
     scaled.length() * power
 }
 
-/// As `Vec3::try_normalize`, and the same bits where no square leaves the range of numbers. `None` if a component is not
-/// finite, or all are zero.
+/// As `Vec3::try_normalize`, with the same bits where no square leaves the range of numbers. Returns `None` if a component is not finite,
+/// or all are zero.
 pub(crate) fn direction(vector: Vec3) -> Option<Vec3> {
     scaled(vector).0.try_normalize()
 }
 
-/// A vector whose largest component is from 1 to 2, and the power of two that it is a multiple of, exactly; less than 1 where
-/// the vector's is less than a normal number, and the vector itself where it is not finite.
+/// Returns `vector` divided by a power of two, and that power. The largest component is then from 1 to 2, or less than 1 if it was less
+/// than a normal number. The division is exact, except of components that are less than 2^-126 of the largest. A vector that is not finite is returned as it is.
 fn scaled(vector: Vec3) -> (Vec3, f32) {
     let largest = vector.abs().max_element();
     if !largest.is_finite() {

@@ -1,4 +1,5 @@
-//! Spheres in a terminal: the program's parts, for its own tests and benches. What is promised is the command line, not these.
+//! Spheres in a terminal: the program's parts, for its own tests and benches. Only the command line is promised, not
+//! these.
 #![forbid(unsafe_code)]
 
 pub mod arguments;

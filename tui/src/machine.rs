@@ -14,7 +14,7 @@ pub fn cpu() -> String {
     model_name(&text).unwrap_or("unknown").to_owned()
 }
 
-/// Refuses `exact` where floats are not what it needs.
+/// Refuses `exact` where floats do not behave as it needs.
 ///
 /// # Errors
 /// [`Error::Running`] if this process rounds in another way, or takes subnormals for zero.
@@ -31,7 +31,7 @@ fn check(tier: Tier, is_sound: bool) -> Result<(), Error> {
     Err(Error::Running(format!("{why}; --accuracy stable needs neither")))
 }
 
-/// From the text of `/proc/cpuinfo`.
+/// The name of the CPU in the text of `/proc/cpuinfo`.
 fn model_name(text: &str) -> Option<&str> {
     let line = text.lines().find(|line| line.starts_with("model name"))?;
     let (_, name) = line.split_once(':')?;

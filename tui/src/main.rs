@@ -27,7 +27,7 @@ fn run() -> Result<(), Error> {
                 trace::trace(arguments)
             }
             Some(Command::Tradeoff(arguments)) => {
-                // What is wrong is what differs from exact.
+                // An answer is wrong if it differs from that of `exact`.
                 machine::check_floats(Tier::Exact)?;
                 tradeoff::tradeoff(arguments)
             }

@@ -31,7 +31,7 @@ fn write(folder: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// The command line without what is hidden, which completions would offer.
+/// The command line without its hidden parts, which completions would offer.
 fn visible() -> Command {
     let all = Arguments::command();
     Command::new("spherule")
@@ -61,7 +61,7 @@ mod tests {
         found
     }
 
-    /// What is packed is what the command line says: `cargo run -p spherule -- generate tui` writes it anew.
+    /// The packed files say what the command line says: `cargo run -p spherule -- generate tui` writes them anew.
     #[test]
     fn the_packed_pages_are_those_of_the_command_line() {
         let folder = tempfile::tempdir().expect("a folder");

@@ -10,7 +10,7 @@ use std::path::Path;
 /// The longest header: one that states a type, an order and a shape takes some hundred bytes, and
 /// the parser must not recurse without end.
 const LONGEST_HEADER: usize = 1024;
-/// The most digits in a header: of so many the product of the shape cannot overflow.
+/// The most digits in a header: with no more, the product of the shape cannot overflow.
 const MOST_DIGITS: usize = 19;
 
 /// An array of rows, whose header has been read.
@@ -27,14 +27,14 @@ pub struct Array {
 /// Rows that are read at once.
 const BLOCK: usize = 1 << 14;
 
-/// More columns than that no one means.
+/// The most columns: no one means more.
 const MOST_COLUMNS: u64 = 64;
 
 impl Array {
     /// Reads the header of an array of two dimensions: `f4` or `f8`, of either byte order, in C or Fortran order.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// Says what is wrong with it.
     pub fn of(reader: &mut impl Read) -> Result<Self, String> {
         let header = read_header(reader)?;
         let dtype = header.dtype().descr();
@@ -67,7 +67,7 @@ impl Array {
     /// what its header claims.
     ///
     /// # Errors
-    /// What `row` says, or that there are fewer bytes than the header claims, or more.
+    /// The error of `row`, or that there are fewer bytes than the header claims, or more.
     pub fn each(
         &self,
         reader: &mut impl Read,

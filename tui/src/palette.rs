@@ -102,8 +102,8 @@ impl FromStr for Theme {
     }
 }
 
-/// The colour of the xterm palette of 256 at `index`, from 16 on: a cube of 6 x 6 x 6, and 24 greys. Below is the
-/// theme: xterm's own.
+/// The colour of the xterm palette of 256 at `index`. From 16 on it is a cube of 6 x 6 x 6, and 24 greys; below 16 it
+/// is the theme: xterm's own.
 #[must_use]
 pub fn xterm_256(index: u8) -> Srgb {
     let level = |step: u8| if step == 0 { 0 } else { 55 + 40 * step };
@@ -137,14 +137,14 @@ pub fn entries(depth: ColorDepth, theme: &Theme) -> Vec<Entry> {
         ColorDepth::Ansi16 => {
             (0..).zip(theme.0).map(|(index, srgb)| entry(Color::Ansi16(index), srgb)).collect()
         }
-        // The first 16 are the theme's: where there are 240 others, none is worth the doubt.
+        // The first 16 are the theme's: with 240 others, none of them is worth the doubt.
         ColorDepth::Ansi256 => {
             (16..=255).map(|index| entry(Color::Ansi256(index), xterm_256(index))).collect()
         }
     }
 }
 
-/// The colour of a terminal of this depth that looks most like `srgb`; its own where there are none.
+/// The colour of a terminal of this depth that looks most like `srgb`; the terminal's own colour if there are none.
 #[must_use]
 pub fn shown(srgb: Srgb, depth: ColorDepth, theme: &Theme) -> Color {
     match depth {

@@ -1,4 +1,4 @@
-//! What one ray of a picture meets, and how every tier came to say so: pure data, of scene, view and cell.
+//! What one ray of a picture meets, and how every tier found that: pure data, of scene, view and cell.
 
 pub mod report;
 
@@ -17,9 +17,10 @@ use std::borrow::Cow;
 /// The ray through the middle of a cell, and its hits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pick<'a> {
-    /// Where the eye is, or for parallel rays the plane through it; and where the cell is seen from there.
+    /// Its origin is the eye or, for parallel rays, in the plane through the eye; it goes through the middle of the
+    /// cell.
     pub ray: Ray,
-    /// Where the zero of its positions is in the coordinates of the scene's file.
+    /// The place, in the coordinates of the scene's file, of the zero of all positions here.
     pub origin: DVec3,
     /// The closest hit by every tier, in the order of [`Tier::ALL`].
     pub hits: [Option<Hit>; Tier::ALL.len()],
@@ -27,7 +28,7 @@ pub struct Pick<'a> {
     pub sphere: Option<PickedSphere<'a>>,
 }
 
-/// The sphere that `Exact` hits; if it hits none, that of the last tier that hits one.
+/// The sphere that `Exact` hits. If `Exact` hits none, it is the sphere of the last tier that hits one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PickedSphere<'a> {
     /// Its place in the scene.
@@ -36,11 +37,12 @@ pub struct PickedSphere<'a> {
     pub label: Option<Cow<'a, str>>,
     /// The sphere.
     pub sphere: Sphere,
-    /// Entry and exit of the line by every tier, in the order of [`Tier::ALL`]; `None` by those that see none.
+    /// The roots of the line, entry and exit, by every tier, in the order of [`Tier::ALL`]; `None` for tiers that find
+    /// none.
     pub roots: [Option<[f32; 2]>; Tier::ALL.len()],
-    /// The discriminant in double precision, and the most that it is off.
+    /// The discriminant in double precision, and a bound of its error.
     pub discriminant: (f64, f64),
-    /// What decided whether, and at which t, `Exact` hits it.
+    /// The stage that decided whether, and at which t, `Exact` hits it.
     pub decided_by: Stage,
 }
 
@@ -66,7 +68,7 @@ impl Stage {
         }
     }
 
-    /// That of one ray and one sphere.
+    /// The stage that decides one ray and one sphere.
     fn of(ray: &Ray, sphere: &Sphere) -> Self {
         let [x, y, z] = sphere.center.to_array().map(|coordinate| [coordinate]);
         let radius = [sphere.radius];
@@ -80,8 +82,8 @@ impl Stage {
     }
 }
 
-/// The ray through the middle of a cell, column and row from 0, of a picture of `columns` x `rows`; `None` if that has
-/// no such cell.
+/// The ray through the middle of a cell, column and row from 0, of a picture of `columns` x `rows`. Returns `None` if
+/// the picture has no such cell.
 #[must_use]
 pub fn cell_ray(
     view: &View,
@@ -96,7 +98,7 @@ pub fn cell_ray(
 }
 
 impl<'a> Pick<'a> {
-    /// What `ray`, one of a picture, meets in `scene`, found as by the rays of that picture.
+    /// Traces `ray`, one of a picture, in `scene`, in the way of the rays of that picture.
     #[must_use]
     pub fn new(scene: &'a Scene, search: &PictureSearch<'_>, level: Level, ray: Ray) -> Self {
         let packet = [RayPacket::new(&[ray])];
@@ -148,7 +150,7 @@ mod tests {
         scene
     }
 
-    /// Four rows of one unit each, and columns as wide as half of that.
+    /// Rows are one unit high, four of them, and columns half as wide.
     #[test]
     fn the_ray_goes_through_the_middle_of_the_cell() {
         let ray = |cell| cell_ray(&VIEW, &Style::PLAIN, (8, 4), cell);

@@ -20,7 +20,7 @@ pub struct Image {
 }
 
 impl Picture {
-    /// So many black pixels; the memory is kept.
+    /// Makes it so many black pixels; the memory is kept.
     pub fn reset(&mut self, pixels: usize) {
         self.pixels.clear();
         self.pixels.resize(pixels, Vec3::ZERO);

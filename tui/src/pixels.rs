@@ -48,8 +48,8 @@ pub enum Protocol {
 }
 
 impl Output {
-    /// The protocol for a terminal of which so much is known; none for cells. What is asked for by name is believed,
-    /// unless the terminal has answered all questions and not that one.
+    /// Returns the protocol for a terminal of which so much is known; `None` for cells. A protocol that is asked for by
+    /// name is believed, unless the terminal has answered all questions and not that one.
     #[must_use]
     pub fn protocol(self, abilities: &Abilities) -> Auto<Protocol> {
         let through_tmux = env::var_os("TMUX").is_some_and(|name| !name.is_empty());
@@ -69,7 +69,7 @@ impl Output {
     }
 }
 
-/// There is no question for it.
+/// No question tells whether a terminal has iTerm2's protocol.
 fn is_known_for_iterm2() -> bool {
     env::var_os("TERM_PROGRAM").is_some_and(|name| name == "iTerm.app" || name == "WezTerm")
 }
@@ -81,7 +81,7 @@ impl Protocol {
         self == Self::Kitty { through_tmux: false }
     }
 
-    /// Appends what shows `image` from the top left on, in so many columns and rows. The cursor may be anywhere then.
+    /// Appends what shows `image` from the top left on, in so many columns and rows. The cursor may then be anywhere.
     pub fn write(self, image: &Image, cells: (u16, u16), number: u32, out: &mut Vec<u8>) {
         match self {
             Self::Kitty { through_tmux } => kitty::write(image, cells, number, through_tmux, out),
@@ -96,7 +96,7 @@ impl Protocol {
         }
     }
 
-    /// Appends what shows `image` where the cursor is, and leaves it in the line below.
+    /// Appends what shows `image` where the cursor is, and moves the cursor to the line below.
     pub fn write_in_line(self, image: &Image, cells: (u16, u16), out: &mut Vec<u8>) {
         match self {
             Self::Kitty { through_tmux } => kitty::write_in_line(image, cells, through_tmux, out),
@@ -106,13 +106,13 @@ impl Protocol {
         out.push(b'\n');
     }
 
-    /// What ends an image that is half sent, and removes those that are there.
+    /// Returns what ends an image that is half sent, and removes the images that are there.
     #[must_use]
     pub fn removal(self) -> Vec<u8> {
         let mut out = b"\x1b\\".to_vec();
         match self {
             Self::Kitty { through_tmux } => kitty::remove(through_tmux, &mut out),
-            // They are where text is.
+            // These images are where text is.
             Self::Sixel | Self::Iterm2 => out.extend_from_slice(b"\x1b[2J"),
         }
         out

@@ -13,7 +13,7 @@ const CHUNK: usize = 1 << 16;
 /// its rows, from the top: red, green and blue of every pixel, sRGB-encoded.
 ///
 /// # Errors
-/// [`Error`] if the file cannot be written; then there is none of this name, or it is as it was.
+/// [`Error`] if the file cannot be written. Then there is no file of this name, or it is as it was.
 pub fn write(
     name: &Path,
     (width, height): (u32, u32),
@@ -34,7 +34,7 @@ pub fn write(
 /// A PNG in memory, made fast rather than small; rows from the top: red, green and blue of every pixel.
 ///
 /// # Errors
-/// If there are more pixels than that, or fewer.
+/// If the number of pixels is not `width` x `height`.
 pub fn bytes(width: u32, height: u32, rgb: &[u8]) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     let mut encoder = Encoder::new(&mut bytes, width, height);
@@ -64,7 +64,7 @@ fn encode(
     Ok(writer.finish()?)
 }
 
-/// Remembers why the file could not be written: of an error the encoder hands on the text alone.
+/// Remembers why the file could not be written, since the encoder hands on only the text of an error.
 struct Output {
     file: WholeFile,
     error: Option<io::Error>,

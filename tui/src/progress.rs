@@ -3,10 +3,10 @@
 use std::io::{self, IsTerminal, Write};
 use std::time::{Duration, Instant};
 
-/// How long a picture may take before there is a word about it.
+/// How long a picture may take before its progress is shown.
 pub const PATIENCE: Duration = Duration::from_secs(1);
 
-/// A line on standard error that is written over, and gone in the end; on a terminal alone.
+/// A line on standard error, on a terminal only, that is written over, and gone in the end.
 #[derive(Debug)]
 pub struct Progress {
     on_terminal: bool,
@@ -23,12 +23,12 @@ impl Progress {
         Self { on_terminal, from: Instant::now() + wait, shown: None }
     }
 
-    /// Shows what is being done, of which no one knows how much is.
+    /// Shows what is being done, without a share: no one knows how much of it is done.
     pub fn say(&mut self, doing: &str) {
         self.write(format!("{doing} ..."));
     }
 
-    /// Shows what is being done and how much of it is, from 0 to 1.
+    /// Shows what is being done, and the share of it that is done, from 0 to 1.
     pub fn show(&mut self, doing: &str, share: f64) {
         self.write(format!("{doing}: {:3.0} %", 100.0 * share));
     }
@@ -38,7 +38,7 @@ impl Progress {
             return;
         }
         if self.shown.as_ref() != Some(&text) {
-            // If it cannot be shown, what is done still comes.
+            // If progress cannot be shown, the work still goes on.
             let _ = write!(io::stderr(), "\r{text}\x1b[K");
             self.shown = Some(text);
         }

@@ -18,12 +18,11 @@ impl CellSamples {
     /// What every cell gets if samples go where they are needed.
     pub const FEW: Self = Self { across: 2, down: 2 };
 
-    /// What every cell gets: [`CellSamples::FEW`], unless `style` names a number. Then it is a grid of that number
-    /// whose spacing is as square as can be.
+    /// What every cell gets: [`CellSamples::FEW`], unless `style` names a number. Then it is a grid of that number whose spacing is as
+    /// square as can be.
     ///
-    /// If no grid of that number comes near a square (a prime number of samples; an odd number in
-    /// blocks, whose halves get as many each), it is the next larger that does. 0 counts as 1,
-    /// more than [`MOST_SAMPLES`] as that.
+    /// If no grid of that number comes near a square (a prime number of samples; an odd number in blocks, whose halves get as many each),
+    /// the next larger number that does is taken. 0 counts as 1, and more than [`MOST_SAMPLES`] as [`MOST_SAMPLES`].
     #[must_use]
     pub fn new(style: &Style) -> Self {
         let Some(samples) = style.samples else { return Self::FEW };
@@ -41,7 +40,7 @@ impl CellSamples {
         let mut best = (1, wanted.next_multiple_of(halves));
         for across in 2..=wanted {
             let down = wanted.div_ceil(across).next_multiple_of(halves);
-            // Of two grids as good, the wider: edges that are nearly upright are the harder.
+            // Of two grids that are as good, the wider is taken: edges that are nearly upright are the harder.
             if cost(across, down) <= cost(best.0, best.1) {
                 best = (across, down);
             }
@@ -51,27 +50,27 @@ impl CellSamples {
 
     /// What a cell gets that needs more than [`CellSamples::FEW`]; `None` if every cell gets the same.
     ///
-    /// Whole packets, and as many as the glyphs are fine.
+    /// These are whole packets, and as fine as the glyphs.
     #[must_use]
     pub fn many(style: &Style) -> Option<Self> {
         let (across, down) = match style.charset {
             Charset::Sextant => (4, 12),
-            // Twelve rows, as its sextants want, gain 0.2 to 0.3 dB, and take a third more of a frame.
+            // Twelve rows, as sextants want them, gain 0.2 to 0.3 dB, and take a third more of a frame.
             Charset::Block => (8, 8),
             _ => (4, 8),
         };
         style.samples.is_none().then_some(Self { across, down })
     }
 
-    /// More for the same cells in motion, if there is time: means of few are noise, which flickers. (The error of changes, halves: 0.1 to
-    /// 0.2 of chafa's.) All blocks need their own grid.
+    /// A finer grid for the same cells in motion, if there is time: the mean of few samples is noise, which flickers. (The error of
+    /// changes, halves: 0.1 to 0.2 of chafa's.) All blocks need their own grid, and get `None`.
     #[must_use]
     pub fn finer(self, charset: Charset) -> Option<Self> {
         let down = if charset == Charset::Sextant { 12 } else { 16 };
         (charset != Charset::Block).then_some(Self { across: 8, down })
     }
 
-    /// Fewer for the same cells, from the most: whole packets too.
+    /// Coarser grids for the same cells, the finest first. They are whole packets, too.
     pub fn coarser(self) -> impl Iterator<Item = Self> {
         let grids = [(4, 12), (4, 8), (4, 4)].map(|(across, down)| Self { across, down });
         grids.into_iter().filter(move |grid| grid.count() < self.count())

@@ -36,15 +36,15 @@ use std::sync::Arc;
 pub struct Scene {
     list: Arc<SphereList>,
     colors: Vec<Srgb>,
-    /// By their index; none past its end.
+    /// Labels by the index of the sphere; spheres past the end have none.
     labels: Vec<Option<Box<str>>>,
     attributes: Attributes,
-    /// Where the zero of all positions here is in the file's coordinates: that of the file, except where its spheres are far
-    /// from that.
+    /// The place, in the file's coordinates, of the zero of all positions here. It is the zero of the file, except
+    /// where the file's spheres are far from that.
     pub origin: DVec3,
     /// The colour of what no sphere covers.
     pub background: Srgb,
-    /// Whether the scene itself says so: then it is not the user's to choose.
+    /// Whether the scene itself names the background: then it is not the user's to choose.
     pub names_background: bool,
     /// Whether spheres cast shadows.
     pub shadows: bool,
@@ -61,19 +61,19 @@ impl Scene {
         Self::default()
     }
 
-    /// The spheres of a file, in colours as many, and what it says of them.
+    /// A scene of the spheres of a file, as many colours, and the attributes that the file states.
     #[must_use]
     pub fn of_spheres(list: SphereList, colors: Vec<Srgb>, attributes: Attributes) -> Self {
         Self { list: Arc::new(list), colors, attributes, ..Self::default() }
     }
 
-    /// The same particles, as many spheres elsewhere.
+    /// The same particles, with as many spheres elsewhere.
     #[must_use]
     pub fn moved(&self, list: SphereList) -> Self {
         Self { list: Arc::new(list), ..self.clone() }
     }
 
-    /// Adds a sphere after the others. Without attributes: they are a file's.
+    /// Adds a sphere after the others, without attributes: only files state those.
     pub fn push(&mut self, sphere: Sphere, color: Srgb, label: Option<&str>) {
         Arc::make_mut(&mut self.list).push(sphere);
         self.colors.push(color);

@@ -1,9 +1,9 @@
 //! From hits to light, by no more than the scene requires.
 //!
-//! No light, no shading: the plain colour of the sphere. With lights, Lambert's law in linear light, a little that
-//! comes from everywhere, and how all that is exposed. With shadows, a ray from the surface to the light decides whether it counts. Normals
-//! owe nothing to t, and shadow rays start where the kernel proves that they do not meet the sphere that they leave:
-//! there is no distance to choose, nothing shadows itself, and no shadow is lost.
+//! Without lights there is no shading: a sphere has its plain colour. With lights there is Lambert's law in linear light, a little light
+//! from everywhere, and an exposure of all that. With shadows, a ray from the surface to the light decides whether the light counts.
+//! Normals do not depend on t, and shadow rays start where the kernel proves that they do not meet the sphere that they leave: there is no
+//! distance to choose, nothing shadows itself, and no shadow is lost.
 
 pub mod depth_cue;
 mod exposure;
@@ -44,7 +44,7 @@ pub struct ShadowRays {
 }
 
 impl Surfaces {
-    /// Of rays and what they hit.
+    /// Computes the surfaces where rays hit.
     pub fn compute(
         &mut self,
         tracing: Tracing,
@@ -60,7 +60,7 @@ impl Surfaces {
 
 /// The cosines between normals and rays, whichever way these point; no number where there is no ray.
 ///
-/// Lane after lane, so that the compiler takes several at a time: one by one they were a tenth of a frame.
+/// They are computed lane after lane, so that the compiler takes several at a time: one by one they took a tenth of a frame.
 fn cosines(surfaces: &SurfacePacket, rays: &RayPacket) -> [f32; RayPacket::COUNT] {
     let [[nx, ny, nz], [dx, dy, dz]] = [surfaces.normals(), rays.directions()].map(|vectors| {
         vectors.map(|lanes| lanes.first_chunk().unwrap_or(&[0.0; RayPacket::COUNT]))
@@ -75,7 +75,7 @@ fn cosines(surfaces: &SurfacePacket, rays: &RayPacket) -> [f32; RayPacket::COUNT
 }
 
 impl ShadowRays {
-    /// From every point that faces `light`, as inactive rays from the others.
+    /// Makes a ray from every point that faces `light`, and inactive rays from the others.
     pub fn cast(
         &mut self,
         tracing: Tracing,
@@ -105,18 +105,18 @@ impl ShadowRays {
 /// Lights the hits of a part of the picture, light by light. Its memory is reused from part to part.
 #[derive(Clone, Debug, Default)]
 pub struct Shader {
-    /// Of packet after packet, and how many each has.
+    /// The samples of packet after packet, and how many each packet has.
     samples: Vec<Sample>,
     counts: Vec<usize>,
     surfaces: Surfaces,
     shadow_rays: ShadowRays,
-    /// Whether it is seen how open the scene is.
+    /// Whether the picture shows how open the scene is.
     is_open: bool,
     openness: OpennessMemory,
 }
 
 impl Shader {
-    /// Says whether it is to be seen how open the scene is around its spheres, from now on.
+    /// Sets whether the picture shows, from now on, how open the scene is around its spheres.
     pub fn show_openness(&mut self, shown: bool) {
         self.is_open = shown;
     }
@@ -146,8 +146,8 @@ impl Shader {
         }
     }
 
-    /// Lights what was added since the last call: hits of these packets; `search` is that of the picture.
-    /// Returns how many rays that took: to lights, and to see how open it is.
+    /// Lights what was added since the last call: hits of these packets; `search` is that of the picture. Returns how many rays that took,
+    /// to lights and for openness.
     pub fn light(
         &mut self,
         tracing: Tracing,

@@ -42,13 +42,14 @@ use still::Still;
 /// The widest cell and the narrowest that a terminal is believed to have.
 const LIKELY_ASPECTS: RangeInclusive<f32> = 0.2..=2.0;
 
-/// Shows a scene: in the viewer if standard output is a terminal that can, except with `--once`, `--png` and `--pick`.
+/// Shows a scene: in the viewer if standard output is a terminal that can show it, except with `--once`, `--png` and
+/// `--pick`.
 ///
 /// # Errors
 /// [`Error`] if there is no such scene, or it cannot be shown.
 pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     if arguments.show.is_some() {
-        // What is wrong is what differs from exact.
+        // Answers are wrong where they differ from exact.
         check_floats(Tier::Exact)?;
     }
     let Subject { mut scene, frame, frames } = arguments.scene.open()?;
@@ -68,7 +69,7 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     let mut structures =
         SceneStructures::new(scene.list(), &threads).in_order(arguments.scene.order);
     if in_viewer && scene.spheres().len() >= MANY {
-        // Before the terminal is taken: then Ctrl-C ends it at once.
+        // The tree is built before the terminal is taken: then Ctrl-C ends the program at once.
         let mut progress = Progress::after(Duration::ZERO);
         progress.say("building a tree");
         let (style, (columns, rows)) = (Style::PLAIN, PIPE_SIZE);
@@ -86,14 +87,14 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     surroundings.told = abilities.truecolor;
     let background = arguments.background.or(abilities.background);
     paint_background(&mut scene, background);
-    // The viewer goes from its own colours to others.
+    // The viewer starts from the scene's own colours and changes them itself.
     if let Some(colors) = colored.colors.filter(|_| !in_viewer) {
         scene.set_colors(colors);
     }
-    // The viewer's table is measured by a thread that no one waits for: it shares the scene.
+    // The viewer's table is measured by a thread that no one waits for, so the scene is shared.
     let scene = Arc::new(scene);
     let depth = match arguments.color {
-        // Who plays it has colours.
+        // Whoever plays the recording has colours.
         ColorChoice::Auto if cast.is_some() && !surroundings.no_color => ColorDepth::Truecolor,
         choice => surroundings.depth(choice),
     };
@@ -162,7 +163,7 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         let asked = arguments.scene.clone();
         let prepare = move |scene: &mut Scene| {
             paint_background(scene, background);
-            // What a frame does not have, it goes without.
+            // A frame without these radii goes without them.
             let _ = asked.set_radii(scene);
         };
         let film = frames.map(|frames| Film::new(frames, frame, prepare));
@@ -195,7 +196,7 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
             once.picture(&mut renderer, &search, colored.legend.filter(|_| crowd.legend))?;
             let prepared = |mut scene: Scene| {
                 paint_background(&mut scene, background);
-                // What a frame does not have, it goes without.
+                // A frame without these radii goes without them.
                 let _ = arguments.scene.set_radii(&mut scene);
                 let colored = coloring(&scene, &color_by, crowd.range).ok();
                 if let Some(colors) = colored.and_then(|colored| colored.colors) {
@@ -220,12 +221,12 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     }
 }
 
-/// So many spheres take a while to build a tree over.
+/// From so many spheres on, building a tree takes a while.
 const MANY: usize = 1_000_000;
 
 /// Says that there are frames that are not shown.
 fn say_more(frames: &mut Frames, frame: usize) -> Result<(), Error> {
-    // What comes behind the picture does not make it wrong.
+    // A wrong frame behind the picture does not make it wrong.
     if !frames.follows() && frames.has(frame + 1).unwrap_or(false) {
         frames.note(format!("frame {frame} is shown; there are more: --frame N, --frames A..B"));
         frames.report();
@@ -247,7 +248,7 @@ fn ray_of_pick(
     (columns, rows): (u16, u16),
     cell: (u16, u16),
 ) -> Result<((u16, u16), Ray), Error> {
-    // Every tier is asked.
+    // A pick asks every tier.
     check_floats(Tier::Exact)?;
     let outside = || {
         let (column, row) = cell;
@@ -277,7 +278,7 @@ fn write_png(
     })
 }
 
-/// A terminal may not know its size, or lie.
+/// A terminal may not know its size, or report a wrong one.
 fn is_usable((columns, rows): (u16, u16)) -> bool {
     (1..=4096).contains(&columns) && (1..=4096).contains(&rows)
 }

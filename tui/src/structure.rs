@@ -1,6 +1,6 @@
-//! How the spheres that a ray may meet are found: among all of them, or by a structure that is built
-//! over them first. That changes the time, and no answer except false hits of `Fast` and `Geometric`,
-//! which a tree and a depth list may lose. Or the spheres find the rays: object order.
+//! Finds the spheres that a ray may meet: all of them are searched, or a structure that is built over them first. The
+//! choice changes the time, and no answer except false hits of `Fast` and `Geometric`, which a tree and a depth list
+//! may lose. In object order the spheres find the rays instead.
 
 pub mod choose;
 pub mod object_order;
@@ -35,7 +35,7 @@ pub enum Structure {
 }
 
 impl Structure {
-    /// The name in reports: scripts compare it, so the depth list has the name that it had first.
+    /// The name in reports. Scripts compare it, so the depth list keeps the name that it had first.
     #[must_use]
     pub const fn in_reports(self) -> &'static str {
         match self {

@@ -36,9 +36,9 @@ pub struct Style {
     pub charset: Charset,
     /// How many colours there are.
     pub depth: ColorDepth,
-    /// What the 16 are, if there are so many.
+    /// What the 16 colours are, if there are so many.
     pub theme: Theme,
-    /// Rays a cell, at least one; by need if `None`.
+    /// Rays a cell, at least one; `None` if as many as the cell needs.
     pub samples: Auto<u32>,
     /// Width of a cell over its height.
     pub cell_aspect: f32,
@@ -48,10 +48,10 @@ pub struct Style {
     pub aids: Aids,
 }
 
-/// What tells spheres of a crowd apart, beside their colours. None costs anything where it is not asked for.
+/// What tells spheres of a crowd apart, beside their colours. An aid that is not asked for costs nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Aids {
-    /// Little light where others are in the way.
+    /// Spheres get little light where others are in the way.
     pub occlusion: bool,
     /// Dark edges where something lies far behind what is beside it, or is part of something else.
     pub edges: bool,
@@ -65,7 +65,7 @@ impl Aids {
     /// All.
     pub const ALL: Self = Self { occlusion: true, edges: true, depth_cue: true };
 
-    /// All of a scene with chains, which is a heap of atoms without; none of another.
+    /// All aids for a scene with chains, which is a heap of atoms without them; none for other scenes.
     #[must_use]
     pub fn usual(scene: &Scene) -> Self {
         let chains = scene.attributes().names(Naming::Chain);
@@ -75,7 +75,7 @@ impl Aids {
     }
 }
 
-/// How far away the eye is if nothing is said, in widths of a cell: 60 cm over 2.2 mm.
+/// The usual distance of the eye, in widths of a cell: 60 cm over 2.2 mm.
 pub const CHAIR: f32 = 273.0;
 
 /// The size of a picture in a pipe.

@@ -1,4 +1,4 @@
-//! What answers come to when they are held against the truth: wrong decisions, and the error of t in ulp.
+//! Answers compared with the truth: counts of wrong decisions, and the error of t in ulp.
 
 use spherule_kernel::Hit;
 
@@ -9,7 +9,7 @@ pub enum Class {
     Miss,
     /// The same sphere at the same t, bit for bit.
     Right,
-    /// The same sphere, and t off by two to this power in ulp, or up to twice as much.
+    /// The same sphere, and t is off by at least two to this power in ulp, but less than twice as much.
     Off(u8),
     /// The same sphere, and t nearer to the other root of the line.
     OtherRoot,
@@ -22,8 +22,8 @@ pub enum Class {
 }
 
 impl Class {
-    /// That of the t of an answer against the true one, and how far it is off in ulp if both hit; `elsewhere` if they hit
-    /// different spheres. Which root it is takes a [verdict](crate::compare::verdict::Verdict) to tell.
+    /// Returns the class of the t of an answer against the true t, and how far it is off in ulp if both hit. `elsewhere` says that they hit
+    /// different spheres. Only a [verdict](crate::compare::verdict::Verdict) can tell which root it is.
     #[must_use]
     pub fn of(answer: Option<f32>, truth: Option<f32>, elsewhere: bool) -> (Self, u64) {
         match (answer, truth) {
@@ -47,7 +47,7 @@ pub struct Tally {
     ulp: Vec<u64>,
 }
 
-/// What a [`Tally`] comes to, in rays.
+/// The result of a [`Tally`], in rays.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Summary {
     /// All rays.
@@ -91,8 +91,7 @@ impl Tally {
         tally
     }
 
-    /// Adds one ray: the t of the answer, the t of the truth, and, if both are hits, whether they are of different
-    /// places.
+    /// Adds one ray: the t of the answer, the t of the truth and, if both hit, whether they hit different places.
     pub fn record(&mut self, answer: Option<f32>, truth: Option<f32>, elsewhere: bool) {
         let counts = &mut self.counts;
         counts.rays += 1;
@@ -103,7 +102,7 @@ impl Tally {
             (Class::LostHit, _) => counts.wrong_misses += 1,
             (Class::OtherSphere, _) => counts.wrong_places += 1,
             (Class::Right | Class::Off(_) | Class::OtherRoot, ulp) => {
-                // Zeros of either sign are one place, and have other bits.
+                // Zeros of either sign are one place, but have different bits.
                 let same = answer.map(f32::to_bits) == truth.map(f32::to_bits);
                 counts.rounded += u64::from(same);
                 self.ulp.push(ulp);
@@ -116,7 +115,7 @@ impl Tally {
     pub fn summary(&self) -> Summary {
         let mut errors = self.ulp.clone();
         errors.sort_unstable();
-        // The least error that so many thousandths of all do not exceed.
+        // The least error that so many thousandths of all errors do not exceed.
         let quantile = |thousandths: usize| {
             errors[(errors.len() * thousandths).div_ceil(1000).saturating_sub(1)]
         };

@@ -28,9 +28,9 @@ use std::sync::Once;
 use std::time::{Duration, Instant};
 pub use wish::{Wish, wish};
 
-/// Events taken before something is drawn all the same: whoever pastes a file sees something.
+/// The most events that are taken before something is drawn all the same: whoever pastes a file sees something.
 pub const LONGEST_BACKLOG: usize = 4096;
-/// As `--size` has it: a terminal that claims more is not believed.
+/// The largest size, as for `--size`: a terminal that claims more is not believed.
 const LARGEST_SIZE: u16 = 4096;
 
 /// The terminal in raw mode, on its alternate screen. Dropping it gives it back.
@@ -44,14 +44,14 @@ pub struct Terminal {
     open_questions: u32,
 }
 
-/// How long answers are waited for when the terminal is given back. Who is asked is known to answer.
+/// How long answers are waited for when the terminal is given back. A terminal that is asked is known to answer.
 const LAST_WORDS: Duration = Duration::from_millis(500);
 /// Asks how far the terminal has come (DSR 5): it answers when it has taken everything before.
 const ASK_STATUS: &[u8] = b"\x1b[5n";
 
 impl Terminal {
-    /// Takes the terminal, and asks it what it can do, if it may be asked, about colours if there is any: at most a fifth of a second is waited for the
-    /// answers.
+    /// Takes the terminal. If `may_ask`, asks it what it can do, about colours too if `has_color`, and waits for the
+    /// answers for at most a fifth of a second.
     ///
     /// # Errors
     /// If there is no terminal to read keys from, or it does not do what it is told.
@@ -105,8 +105,8 @@ impl Terminal {
         &self.abilities
     }
 
-    /// The next thing that the terminal has to say, if it does within `wait`; without, whenever
-    /// it does. A resize tells that the size must be read, not what it is. An answer is taken note of already.
+    /// The next thing that the terminal has to say, if it comes within `wait`; without `wait`, whenever it comes. A
+    /// resize tells that the size must be read, not what it is. An answer has already been noted.
     ///
     /// # Errors
     /// If the terminal cannot be read.
@@ -149,7 +149,7 @@ impl Terminal {
         screen::show(bytes).map_err(or_hung_up)
     }
 
-    /// From now on `bytes` are sent before the terminal is given back, whenever that is: what removes images.
+    /// Sets the `bytes` that are sent before the terminal is given back, whenever that is: they remove images.
     pub fn remove_when_leaving(&self, bytes: Vec<u8>) {
         screen::set_removal(bytes);
     }
@@ -196,7 +196,7 @@ impl Drop for Terminal {
     }
 }
 
-/// A terminal that is gone in the middle of a frame is gone as one that is found so when it is read.
+/// A terminal that goes away in the middle of a frame is treated as one that is found gone when it is read.
 fn or_hung_up(error: io::Error) -> io::Error {
     let is_gone = error.raw_os_error() == Some(rustix::io::Errno::IO.raw_os_error());
     if is_gone { input::hung_up() } else { error }
@@ -213,7 +213,7 @@ pub fn pixels_of_cell(told: Option<(u16, u16)>) -> Option<(u32, u32)> {
     of_system().or(told).map(|(width, height)| (u32::from(width), u32::from(height)))
 }
 
-/// The terminal is not there.
+/// The error that the terminal is not there.
 #[must_use]
 pub fn lost(error: &io::Error) -> Error {
     Error::Running(format!("terminal: {}", cause(error)))

@@ -12,22 +12,23 @@ use std::thread::available_parallelism;
 /// The most threads that there can be.
 pub const MOST_THREADS: u16 = 1024;
 
-/// The fewest packets a task and the most: enough that brute force prepares its spheres for many
-/// at a time, few enough that they stay in the cache.
+/// The fewest and the most packets of a task: enough that brute force prepares its spheres for many at a time, few
+/// enough that they stay in the cache.
 const PACKETS: (usize, usize) = (16, 1024);
-/// Tasks, if there are packets for them: so many that threads end at about the same time.
+/// The number of tasks, if there are packets for them: so many that threads end at about the same time.
 const TASKS: usize = 128;
 
-/// How many of so many packets a task should have.
+/// Returns how many of `packets` packets a task should have.
 ///
-/// Independent of the number of threads, so that the packets that go through a structure together
-/// are always the same ones.
+/// The result does not depend on the number of threads, so that the packets that go through a structure together are
+/// always the same ones.
 #[must_use]
 pub fn packets_a_task(packets: usize) -> usize {
     (packets / TASKS).next_multiple_of(PACKETS.0).clamp(PACKETS.0, PACKETS.1)
 }
 
-/// The same of rays that go through a tree: as many as it sorts if they are shuffled, but no more than an eighth of them.
+/// As [`packets_a_task`], for rays that go through a tree. A task then has at least as many rays as the tree sorts if
+/// they are shuffled, or an eighth of all if that is less.
 #[must_use]
 pub fn packets_a_tree_task(packets: usize) -> usize {
     /// 32,768 rays; of fewer than 24,000 the kernel sorts none.
@@ -36,14 +37,14 @@ pub fn packets_a_tree_task(packets: usize) -> usize {
     packets_a_task(packets).max(wanted.next_multiple_of(PACKETS.0))
 }
 
-/// A number of threads. One is the caller's own: then there is no pool.
+/// A number of threads. A single thread is the caller's own: then there is no pool.
 #[derive(Debug, Default)]
 pub struct Threads {
     pool: Option<ThreadPool>,
 }
 
 impl Threads {
-    /// So many threads; as many as the machine has if that is `None`.
+    /// Makes `count` threads, or as many as the machine has if that is `None`.
     ///
     /// # Errors
     /// [`Error::Running`] if the system does not give them.
@@ -76,13 +77,14 @@ impl Threads {
         work: impl Fn(&mut M, T) + Sync,
     ) {
         memories.resize_with(self.count(), M::default);
-        // Not `for_each_init`, which makes a memory a piece of work: memories outlive a picture.
+        // Not `for_each_init`, which makes a memory for each piece of work: these memories outlive a picture.
         let memories: Vec<_> = memories.iter_mut().map(Mutex::new).collect();
         let work = |task| {
             // Never waits: no two threads have the same index, and one does a task at a time.
             let own = &memories[current_thread_index().unwrap_or(0)];
             work(&mut own.lock().unwrap_or_else(PoisonError::into_inner), task);
         };
+        // (A scope whose jobs call one trait object compiles rayon's code once, but saves only a hundredth of the program's code.)
         match &self.pool {
             Some(pool) => pool.install(|| tasks.par_bridge().for_each(work)),
             None => tasks.for_each(work),

@@ -20,7 +20,7 @@ use report::Report;
 use spherule_kernel::{Coherence, Hit, Level, Ray, RayPacket, SphereList, Vec3};
 use std::sync::Arc;
 
-/// Traces what `arguments` say, writes the hits, and prints a line about it.
+/// Traces the rays that `arguments` name, writes the hits, and prints a line about it.
 ///
 /// # Errors
 /// [`Error::Input`] if a file is not what it should be, [`Error::Running`] if an output cannot be
@@ -59,7 +59,8 @@ pub fn trace(arguments: &TraceArguments) -> Result<(), Error> {
         _ => packets_a_task(packets),
     };
     let batches = batches(&runs, structure, longest);
-    // The kernel finds out as the runs do, and takes no time for it that can be measured.
+    // The kernel finds out whether rays are coherent, as the runs do, in no time that can be
+    // measured.
     let tracing = Tracing { tier: arguments.accuracy, level, coherence: Coherence::Detect };
     let repeat = arguments.repeat;
     let passes = Passes { tracing, threads: &threads, batches: &batches, query, repeat };
@@ -96,7 +97,7 @@ pub fn trace(arguments: &TraceArguments) -> Result<(), Error> {
     write_stdout(text.as_bytes())
 }
 
-/// Whether there are as many spheres and rays as can be.
+/// Checks that there are not too many spheres and rays, and as many of each for pairs.
 fn check_counts(arguments: &TraceArguments, spheres: usize, rays: usize) -> Result<(), Error> {
     if arguments.pairs && spheres != rays {
         let what = format!("{rays} rays, {spheres} spheres; --pairs needs as many of each");

@@ -32,14 +32,14 @@ use std::time::Duration;
 pub use watch::Step;
 use watch::Watch;
 
-/// Of which rays it is asked: those of a picture, and who traces them.
+/// What is measured: the rays of a picture, and what traces them.
 #[derive(Clone, Copy, Debug)]
 pub struct Question<'a> {
-    /// What they meet.
+    /// The scene that the rays meet.
     pub scene: &'a Scene,
-    /// From where.
+    /// The view that they come from.
     pub view: View,
-    /// How many there are in a cell.
+    /// The style, which says how many rays a cell has.
     pub style: Style,
     /// Columns and rows of cells.
     pub size: (u16, u16),
@@ -81,9 +81,9 @@ pub fn tradeoff(arguments: &TradeoffArguments) -> Result<(), Error> {
 }
 
 impl Question<'_> {
-    /// What every tier takes and gets wrong, found by one of the `structures` of the scene, which are built in time that
-    /// is not counted. The `watcher` hears between passes what is being done and how much of all is, from 0 to 1; if it
-    /// says `false`, that is the end, and there is no report.
+    /// Measures what every tier takes and gets wrong, with one of the `structures` of the scene, whose building is not
+    /// timed. Between passes, calls `watcher` with what is being done and the share of all that is done, from 0 to 1.
+    /// If `watcher` returns `false`, the measurement ends without a report.
     ///
     /// # Errors
     /// [`Error::Running`] if there is no memory for a structure.
@@ -97,7 +97,7 @@ impl Question<'_> {
             return Ok(None);
         }
         let &Self { scene, view, style, size: (columns, rows), structure, .. } = self;
-        // As if there were pictures without end.
+        // The structure is chosen as if there were pictures without end.
         let workload =
             picture_workload(scene.spheres().len(), &style, columns, rows, f64::INFINITY);
         // Rays to lights are measured whether the scene casts shadows or not.

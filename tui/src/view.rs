@@ -46,13 +46,13 @@ pub struct View {
     pub lens: Lens,
 }
 
-/// The least angle between line of sight and up that an orbit leaves, in radians: 1 degree.
+/// The least angle between the line of sight and up that an orbit leaves, in radians: 1 degree.
 const POLE: f32 = 0.017;
-/// The fields of view, in degrees, that changing the projection keeps the eye in place for.
+/// The fields of view, in degrees, for which changing the projection leaves the eye in place.
 const NATURAL_FOV: std::ops::RangeInclusive<f32> = 10.0..=90.0;
-/// Distances of the eye and heights of the picture: beyond, rays to what is seen are no numbers.
+/// The useful distances of the eye and heights of the picture: beyond them, rays to what is seen are no numbers.
 const USEFUL: std::ops::Range<f32> = 1e-30..1e30;
-/// The field of view, in degrees, if it does not.
+/// The field of view, in degrees, if changing the projection moves the eye.
 const USUAL_FOV: f32 = 40.0;
 
 impl View {
@@ -88,9 +88,8 @@ impl View {
     /// The kernel's camera for a picture of `width` x `height` samples that is `aspect` times as
     /// wide as it is high.
     ///
-    /// Computed in double precision and rounded once. Directions have a length of about one at
-    /// the middle of the picture. A view without a direction (the eye on the target) looks along
-    /// -z; if up is parallel to the line of sight, another is taken.
+    /// It is computed in double precision and rounded once. Directions have a length of about one at the middle of the picture. A view
+    /// without a direction (the eye on the target) looks along -z; if up is parallel to the line of sight, another up is taken.
     #[must_use]
     pub fn camera(&self, width: u32, height: u32, aspect: f64) -> Camera {
         let [forward, right, up] = self.axes();
@@ -130,7 +129,7 @@ impl View {
         let ups = [self.up.as_dvec3(), DVec3::Y, DVec3::Z].into_iter();
         let right = ups.filter_map(unit).find_map(|up| {
             let across = forward.cross(up);
-            // Where up is parallel to the line of sight, it is rounding noise.
+            // If up is parallel to the line of sight, `across` is rounding noise.
             (across.length() > 1e-12).then_some(across).and_then(unit)
         });
         let right = right.unwrap_or(DVec3::X);
@@ -138,8 +137,8 @@ impl View {
     }
 }
 
-/// The eye led around the target: `yaw` to the right around the upward axis, `pitch` upwards,
-/// both in radians. The distance is kept; it stops just before a pole.
+/// Moves the eye around the target: `yaw` to the right around the upward axis, `pitch` upwards, both in radians. The distance is kept; the
+/// eye stops just before a pole.
 #[must_use]
 pub fn orbited(view: &View, yaw: f32, pitch: f32) -> View {
     let distance = length(view.eye - view.target);
@@ -158,8 +157,8 @@ pub fn orbited(view: &View, yaw: f32, pitch: f32) -> View {
     View { eye: view.target + distance * outward, ..*view }
 }
 
-/// Eye and target moved alike, to the right and upwards in the plane of the picture, in the units of the scene. What
-/// would leave the range of numbers changes nothing.
+/// Moves eye and target alike, to the right and upwards in the plane of the picture, in the units of the scene. A move that would leave the
+/// range of numbers changes nothing.
 #[must_use]
 pub fn panned(view: &View, right: f64, up: f64) -> View {
     let [_, rightwards, upwards] = view.axes();
@@ -168,9 +167,8 @@ pub fn panned(view: &View, right: f64, up: f64) -> View {
     if eye.is_finite() && target.is_finite() { View { eye, target, ..*view } } else { *view }
 }
 
-/// What is at the target appears `factor` times as large: by going nearer in perspective, by a
-/// lower picture in parallel. A factor that is not finite and above 0, or that would leave the
-/// range of useful numbers, changes nothing.
+/// Makes what is at the target appear `factor` times as large: by going nearer in perspective, by a lower picture in parallel. A factor
+/// that is not finite and above 0, or that would leave the range of useful numbers, changes nothing.
 #[must_use]
 pub fn zoomed(view: &View, factor: f32) -> View {
     let useful = |size: f32| factor > 0.0 && USEFUL.contains(&size);
@@ -188,8 +186,8 @@ pub fn zoomed(view: &View, factor: f32) -> View {
 
 /// The same picture at the target, through the other lens.
 ///
-/// Back and forth gives the same view, except that from a parallel picture so high or low that
-/// its angle would be unnatural the eye moves instead.
+/// Back and forth gives the same view. The exception is a parallel picture so high or low that its angle would be unnatural: then the eye
+/// moves.
 #[must_use]
 pub fn with_projection(view: &View, kind: LensKind) -> View {
     let height = view.height_at_target();
@@ -213,7 +211,7 @@ pub fn with_projection(view: &View, kind: LensKind) -> View {
     }
 }
 
-/// The vector of length one; `None` if it has no direction. (The square of what single precision has is far within double's.)
+/// The vector made one long; `None` if it has no direction. (Squares of single precision are far within the range of double.)
 fn unit(vector: DVec3) -> Option<DVec3> {
     let length = vector.length_squared().sqrt();
     (length > 0.0 && length.is_finite()).then(|| vector / length)

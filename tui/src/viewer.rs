@@ -1,8 +1,8 @@
 //! The viewer: input to state, state to picture, picture to terminal, until somebody quits.
 //!
-//! All input that is there is taken before a frame is drawn, so a slow link gets fewer frames,
-//! not late ones. A frame of a movement gets no more samples than there is time for; when it is over, a full one
-//! follows. Then nothing is drawn and nothing is sent, but how far a measurement is.
+//! All input that is there is taken before a frame is drawn, so a slow link gets fewer frames, not late ones. A frame
+//! of a movement gets no more samples than there is time for; when the movement is over, a full frame follows. After
+//! that nothing is drawn and nothing is sent, except how far a measurement is.
 
 mod colors;
 mod command_line;
@@ -57,8 +57,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 use table::Table;
 
-/// Frames a second while something moves, at most; over SSH every frame is waited for by the
-/// keys behind it.
+/// The most frames a second while something moves; over SSH, a key waits for every frame sent before it.
 const LOCAL_RATE: u16 = 60;
 const REMOTE_RATE: u16 = 30;
 /// Set, the key `!` panics. There is no other way to test that the terminal survives a panic of
@@ -68,15 +67,15 @@ const PANIC_SWITCH: &str = "SPHERULE_TEST_PANIC";
 /// The terminal, and what the user says of it.
 #[derive(Debug)]
 pub struct Wire {
-    /// That of the viewer.
+    /// The terminal of the viewer.
     pub terminal: Terminal,
     /// What decides how many colours there are: what the terminal says late counts, too.
     pub surroundings: Surroundings,
     /// What `--color` says.
     pub color: ColorChoice,
-    /// Frames a second at most; as many as suit a link if it is not said.
+    /// The most frames a second; `None`: as many as suit the link.
     pub rate: Auto<u16>,
-    /// Whether every frame is sent as it is, and none that looks alike.
+    /// Whether every frame is sent as it is, and not one that looks alike.
     pub lossless: bool,
     /// What `--output` says.
     pub output: Output,
@@ -84,8 +83,8 @@ pub struct Wire {
     pub scene_name: String,
 }
 
-/// Shows `scene`, which has its own colours, on the terminal, coloured by something and from `start` on, drawn by `renderer` with the chosen one of its
-/// `structures`, until the user quits.
+/// Shows `scene`, which has its own colours, on the terminal until the user quits: from `start` on, coloured by
+/// `color_by`, and drawn by `renderer` with the chosen one of its `structures`.
 ///
 /// # Errors
 /// [`Error::Running`] if there is no terminal to read keys from, or it goes away, or there is no
@@ -165,7 +164,7 @@ impl Viewer<'_> {
         let picture = self.pace.wait(stale || shown.spinning, since_last);
         let table = self.table.wait(shown, self.state.size(), since_last);
         let due = picture.into_iter().chain(table).min()?;
-        // An answer is input, and comes sooner.
+        // An answer is input, so it ends this wait sooner.
         Some(self.flow.wait(Instant::now()).map_or(due, |flow| flow.max(due)))
     }
 
@@ -255,7 +254,7 @@ impl Viewer<'_> {
         self.structures.go_on(scene.list());
         self.scene = scene;
         self.colors.begin_anew();
-        // It is of another scene.
+        // The last picture is of another scene.
         self.picture = None;
         true
     }
@@ -273,7 +272,7 @@ impl Viewer<'_> {
         failure.map_or(Ok(()), Err)
     }
 
-    /// Does as the terminal can.
+    /// Adapts to what the terminal can do.
     fn heed_abilities(&mut self) -> Outcome {
         let abilities = self.terminal.abilities();
         self.encoder.set_synchronized(abilities.synchronized);

@@ -31,8 +31,8 @@ pub enum WholeFile {
 }
 
 impl WholeFile {
-    /// What is to be called `name`; `-` is standard output. If there is a file of that name, it stays until the new one
-    /// is whole.
+    /// Creates a file that will be called `name`; `-` is standard output. If there is a file of that name, it stays
+    /// until the new one is whole.
     ///
     /// # Errors
     /// If it cannot be made.
@@ -115,7 +115,7 @@ impl Watch {
 }
 
 /// Whether whoever started the process wants a signal to do nothing, as `nohup` does with SIGHUP: a handler would undo
-/// that. Linux tells; of others it is supposed.
+/// that. Linux tells; on other systems it is assumed.
 fn is_ignored(signal: i32) -> bool {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));

@@ -89,7 +89,7 @@ impl FileArguments {
     /// How many frames a turn around the scene has.
     ///
     /// # Errors
-    /// Why it cannot have so many.
+    /// Says how many frames it may have.
     pub fn turn(&self) -> Result<u16, String> {
         let frames =
             self.frames.as_ref().map_or(120, |frames| frames.end.saturating_sub(frames.start));
@@ -101,7 +101,7 @@ impl FileArguments {
 /// The most frames of a turn.
 const MOST_OF_TURN: u16 = 3600;
 
-/// Between two looks at a file that grows.
+/// The time between two looks at a file that grows.
 pub const FOLLOW: std::time::Duration = std::time::Duration::from_millis(200);
 
 /// `A..B`, `A..`, or `N` for `0..N`.

@@ -12,7 +12,7 @@ pub enum Overlay {
 }
 
 impl Overlay {
-    /// That of tiers, if it is one.
+    /// The comparison of tiers, if it is one.
     #[must_use]
     pub fn comparison(self) -> Option<Comparison> {
         match self {

@@ -51,7 +51,7 @@ pub struct SceneArguments {
 }
 
 impl SceneArguments {
-    /// The scene, and what follows it.
+    /// Opens the scene, and the file that it is from.
     ///
     /// # Errors
     /// [`Error::Input`] if there is no such scene, or it cannot be read.

@@ -22,7 +22,7 @@ pub(super) fn cell(text: &str) -> Result<(u16, u16), &'static str> {
     cell().ok_or("COL,ROW, counted from 0, such as 40,12")
 }
 
-/// So many numbers that single precision can hold.
+/// `N` numbers that single precision can hold, separated by commas.
 fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
     let numbers: Vec<f64> = text.split(',').map(|word| word.parse().ok()).collect::<Option<_>>()?;
     numbers
@@ -80,17 +80,17 @@ pub(super) fn distance(text: &str) -> Result<f32, &'static str> {
     widths.ok_or("widths of a cell, 0 or more, such as 273")
 }
 
-/// As in scenes, and without the `#`, with which a shell begins a comment.
+/// A colour as in scenes, or without the `#`, which begins a comment in a shell.
 pub(super) fn color(text: &str) -> Result<Srgb, String> {
     text.parse().or_else(|error| format!("#{text}").parse().map_err(|_: String| error))
 }
 
-/// `algebraic` is what the lecture calls the form that `fast` is.
+/// A tier. `algebraic` is the lecture's name for the form that `fast` computes.
 pub(super) fn tier() -> impl TypedValueParser<Value = Tier> {
     one_of(&Tier::ALL, Tier::as_str, |tier| (tier == Tier::Fast).then_some("algebraic"))
 }
 
-/// One that this CPU has.
+/// A level that this CPU has.
 pub(super) fn level() -> impl TypedValueParser<Value = Level> {
     one_of(&LevelName::ALL, LevelName::as_str, |_| None).try_map(|name| {
         Level::named(name).ok_or_else(|| format!("this CPU has no {}", name.as_str()))

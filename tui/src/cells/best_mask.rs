@@ -1,9 +1,9 @@
 //! The mask of a grid that takes most of the samples' variance away.
 //!
-//! With the mean of the cell subtracted, a mask that fills `n` of `m` equal bins whose sum is `s` takes away
-//! `|s|^2 (1/n + 1/(m-n)) / m`. A mask and what it leaves take the same, so only masks that leave the last bin are looked at. The sums
-//! of all sets of bins are those of the sets of the first three, eight side by side, plus those of the sets of the
-//! others. A grid that has few masks has bars: bins in a row, whose sum is the difference of two sums from the first bin on.
+//! With the mean of the cell subtracted, a mask that fills `n` of `m` equal bins whose sum is `s` takes away `|s|^2 (1/n + 1/(m-n)) / m`. A
+//! mask and its complement take away the same, so only masks that leave the last bin are tried. The sums of all sets of bins are those of
+//! the sets of the first three, eight side by side, plus those of the sets of the other bins. A grid that has few masks has bars: the sum
+//! of bins in a row is the difference of two sums from the first bin on.
 
 use super::masks::{Family, Mask};
 use spherule_kernel::Vec3;
@@ -18,12 +18,11 @@ const LANES: usize = 8;
 #[derive(Clone, Debug)]
 pub(super) struct MaskSearch {
     masks: &'static [Mask],
-    /// What the square of a sum counts, for every set without the last bin, in the order of their bits; none if not all have
-    /// a mask.
+    /// The weight of the squared sum of every set without the last bin, in the order of their bits; empty if not all sets have a mask.
     weights: Vec<f32x8>,
-    /// The mask of each such set, or of what it leaves.
+    /// The mask of each such set, or of its complement.
     of_sets: Vec<u8>,
-    /// What the square of a sum counts for each bar, and the bins that it fills.
+    /// The weight of the squared sum of each bar, and the bins that it fills.
     bars: Vec<(f32, Range<usize>)>,
 }
 
@@ -56,7 +55,7 @@ impl MaskSearch {
         }
     }
 
-    /// The mask that takes most of the variance away, and how much; the means of the bins are around 0.
+    /// Returns the mask that takes most of the variance away, and how much. The mean of `means` must be 0.
     #[inline]
     pub(super) fn best(&self, means: &[Vec3; 8]) -> (f32, &'static Mask) {
         if !self.bars.is_empty() {
@@ -77,7 +76,7 @@ impl MaskSearch {
             best = is_better.select(gain, best);
             at = is_better.select(f32x8::splat((place * LANES) as f32), at);
         }
-        // Of lanes that gain as much, the first.
+        // Of lanes that gain the most, the first is taken.
         let (gains, firsts) = (best.to_array(), at.to_array());
         let mut lane = 0;
         for other in 1..LANES {
@@ -104,7 +103,7 @@ impl MaskSearch {
     }
 }
 
-/// What the square of the sum of a set of bins counts.
+/// The weight of the squared sum of a set of bins.
 fn weight(bins: usize, set: usize) -> f32 {
     let filled = set.count_ones() as f32;
     (1.0 / filled + 1.0 / (bins as f32 - filled)) / bins as f32

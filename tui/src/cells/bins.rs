@@ -4,8 +4,8 @@ use super::columns::{Columns, Line, lines};
 use super::masks::overlap;
 use spherule_kernel::Vec3;
 
-/// How a grid of samples is spread over a grid of bins; a sample stands for the area around it, and where a bin's edge
-/// cuts that, each side gets its part.
+/// How a grid of samples is spread over a grid of bins. A sample stands for the area around it; where a bin's edge cuts
+/// that area, each side gets its part.
 #[derive(Clone, Debug)]
 pub struct Bins {
     /// How much of each sample lies in a bin; bin after bin.
@@ -17,7 +17,7 @@ pub struct Bins {
 }
 
 impl Bins {
-    /// Of `across` x `down` bins from so many samples.
+    /// Spreads so many samples over `across` x `down` bins.
     #[must_use]
     pub fn new((across, down): (usize, usize), samples: (u32, u32)) -> Self {
         let (width, height) = (samples.0 as usize, samples.1 as usize);

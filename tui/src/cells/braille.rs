@@ -1,4 +1,4 @@
-//! Dots of Braille in two colours: where a cell is the lighter, as bright as the eye is far away.
+//! Dots of Braille in two colours, where a cell is the lighter; they are brighter for an eye far away.
 
 use super::fitted::Fitted;
 use super::masks::repertoire;
@@ -9,7 +9,7 @@ use spherule_kernel::Vec3;
 /// The part of its bin that a dot of Braille fills, in most fonts.
 pub(super) const DOT: f32 = 0.25;
 
-/// Dots where a cell is the lighter, brighter than what they stand on, since they leave most of it.
+/// Dots where a cell is the lighter. They are brighter than the light there, since they cover little.
 pub(super) fn dots(
     bits: u8,
     [ink, paper]: [Vec3; 2],
@@ -21,7 +21,7 @@ pub(super) fn dots(
     let (bits, ink) = if darker { (!bits, paper) } else { (bits, ink) };
     let glyphs = &repertoire(Charset::Braille).mosaic.2;
     let cover = std::array::from_fn(|bin| if bits >> bin & 1 == 1 { DOT } else { 0.0 });
-    // As letters are: the covered share is `g`, its mean `G`.
+    // As for letters, the covered share is `g`, and its mean `G`.
     let filled = bits.count_ones() as f32 / 8.0;
     let share = DOT * filled;
     let of_bins = DOT * DOT * filled * (1.0 - filled);

@@ -1,37 +1,37 @@
-//! What a picture that moves is chosen by: how it looks, and how it changes.
+//! The glyphs of a picture that moves are chosen by how it looks, and by how it changes.
 //!
-//! An eye follows what changes. So of a cell counts, beside what its glyph misses, what changes from a frame to the next and
-//! does not in truth: the glyph and its colours are off by some excess in each of 2 x 4 parts, were off by another in the frame
-//! before, and an error that stays is none of change. Both are squares of distances of square roots of light. A glyph's colours are
-//! means of these: an edge that passes through changes a mean little by little, and a median at once.
+//! An eye follows what changes. So a cell's cost counts what its glyph misses, and also changes from frame to frame that do not happen in
+//! truth. The glyph and its colours are off by some excess in each of 2 x 4 parts, and were off by another in the frame before; an error
+//! that stays is no change. Both costs are squares of distances of square roots of light. A glyph's colours are means of these roots: an
+//! edge that passes through changes a mean little by little, and a median at once.
 //!
-//! By the error of changes, an orbit of 0.4 degrees a frame, all blocks of caffeine: 0.67 of chafa's if no glyph ever changes, 0.68 so,
-//! 0.91 if changes do not count, 0.72 by one colour a cell, 1.09 in means of linear light and with what cells lack handed on.
+//! On an orbit of 0.4 degrees a frame, with all blocks of caffeine, the error of changes is 0.68 of chafa's. It is 0.67 if no glyph ever
+//! changes, 0.91 if changes do not count, 0.72 with one colour a cell, and 1.09 with means of linear light and with what cells lack handed
+//! on.
 
 use super::fitted::Fitted;
 use super::masks::Cover;
 use crate::color::roots;
 use spherule_kernel::Vec3;
 
-/// What an error of change counts beside one of the picture. (2: as much as 0.)
+/// The weight of an error of change beside one of the picture. (2: as much as 0.)
 const CHANGE: f32 = 8.0;
 
-/// The glyph of the frame before stays if it costs so much of what it would have to be better than.
+/// The cost of the glyph of the frame before is multiplied by this, so that it stays if it is about as good.
 const KEPT: f32 = 0.5;
 
-/// What a glyph in colours of these looks is off in each part of a cell.
+/// How far off a glyph is in each part of a cell, if its colours have these looks.
 #[must_use]
 pub fn excess(cover: &Cover, [ink, paper]: [Vec3; 2], parts: &[Vec3; 8]) -> [Vec3; 8] {
     std::array::from_fn(|part| paper + cover[part] * (ink - paper) - parts[part])
 }
 
-/// Makes of a cell that was drawn at rest what was before a movement.
+/// Sets the excess of a cell that was drawn at rest: a movement begins with it.
 pub fn at_rest(fit: &mut Fitted) {
     fit.excess = excess(&fit.cover, [fit.ink, fit.paper].map(roots), &fit.parts.map(roots));
 }
 
-/// What a glyph costs that misses so much, the mean squared distance to the samples, and is off by `excess`, after the frame
-/// `before`.
+/// The cost of a glyph after the frame `before`: `missed` is its mean squared distance to the samples, and `excess` how far off it is.
 #[must_use]
 pub fn cost(missed: f32, glyph: char, excess: &[Vec3; 8], before: &Fitted) -> f32 {
     let pairs = excess.iter().zip(&before.excess);

@@ -14,7 +14,7 @@ pub const LANES: usize = 8;
 /// A number of each sample, 0 behind the last.
 pub type Column = [f32x8; MOST / LANES];
 
-/// Nothing.
+/// An empty column.
 pub const EMPTY: Column = [f32x8::ZERO; MOST / LANES];
 
 /// A line that is not empty: its place in a column, and its numbers.
@@ -107,13 +107,13 @@ impl Columns {
         self.count
     }
 
-    /// The lines that are samples, a channel after the other.
+    /// The lines that hold samples, channel by channel.
     #[must_use]
     pub fn channels(&self) -> [&[f32x8]; 3] {
         self.channels.each_ref().map(|channel| &channel[..lines_of(self.count)])
     }
 
-    /// The sum of all.
+    /// The sum of all colours.
     #[must_use]
     pub fn sum(&self) -> Vec3 {
         let sum = |channel: &[f32x8]| channel.iter().fold(f32x8::ZERO, |sum, &line| sum + line);
@@ -122,7 +122,7 @@ impl Columns {
         Vec3::new(r, g, b)
     }
 
-    /// The sum of all, each times its number in a column.
+    /// The sum of all colours, each times its number in a column.
     #[must_use]
     #[inline]
     pub fn times(&self, column: &[f32x8]) -> Vec3 {
@@ -135,7 +135,7 @@ impl Columns {
         Vec3::new(r, g, b)
     }
 
-    /// The sum of all, each times its number in these lines.
+    /// The sum of all colours, each times its number in these lines.
     #[must_use]
     #[inline]
     pub fn weighted_sum(&self, lines: impl Iterator<Item = Line>) -> Vec3 {
@@ -151,7 +151,7 @@ impl Columns {
     }
 }
 
-/// The sum of the numbers of each line. (One line after the other, number by number: a third of the time of a letter.)
+/// The sum of the numbers of each line. (Adding one line after the other, number by number, took a third of the time of a letter.)
 #[must_use]
 #[inline]
 pub fn sums(lines: [f32x8; 4]) -> [f32; 4] {

@@ -1,10 +1,10 @@
-//! 256 colours: what none of them is, four of them are together.
+//! 256 colours: four of them together show a colour that none of them is.
 //!
-//! A colour is mixed of four entries of the palette, chosen one after the other so that the mean so far looks most
-//! like it; an entry that looks far from it costs something, since from the chair it is seen as a dot: mostly the four are two
-//! neighbours in the palette. Sorted by lightness, each of four neighbours in a square shows one. Which one depends on the
-//! place alone: a picture at rest stays as it is, and what moves takes no pattern along. What moves in the viewer gets the nearest
-//! entries: there each mix would be sent again for every shade that passes, which doubles the bytes of a frame.
+//! A colour is mixed of four entries of the palette, chosen one after the other so that the mean so far looks most like it. An entry that
+//! looks far from the colour costs something, since from the chair it is seen as a dot: mostly the four are two neighbours in the palette.
+//! They are sorted by lightness, and each of four neighbours in a square shows one. Which one depends on the place alone: a picture at rest
+//! stays as it is, and what moves takes no pattern along. What moves in the viewer gets the nearest entries: there each mix would be sent
+//! again for every shade that passes, which doubles the bytes of a frame.
 //!
 //! Source: J. Yliluoma, "Arbitrary-palette positional dithering algorithm", 2011, the second; by distance in `OKLab`
 //! of means in linear light.
@@ -19,14 +19,14 @@ use std::collections::HashMap;
 const MIX: usize = 4;
 /// How many of the entries are looked at: those that look nearest.
 const NEAREST: usize = 16;
-/// What the squared distance of an entry itself counts beside that of the mean. (0.05: 2 dB more from afar, and noise on flat ground:
-/// by FLIP 1.05 of chafa's on marbles in place of 0.92, SSIM 0.2 less. 1: 0.003, and 0.3 dB less from afar.)
+/// The weight of an entry's own squared distance beside that of the mean. (0.05 gains 2 dB from afar, and gives noise on flat ground: on
+/// marbles FLIP is 1.05 of chafa's instead of 0.92, and SSIM 0.2 less. 1: 0.003, and 0.3 dB less from afar.)
 const DOT: f32 = 0.6;
 /// Which of a mix each place of a square shows, so that two of a row or column differ as little as can be.
 const ORDER: [[usize; 2]; 2] = [[0, 2], [3, 1]];
 
-/// In motion the entry of the frame before stays if its squared distance is no more than this of the nearest one's. (The error of
-/// changes, flake: 1.13 of chafa's by 2, 1.19 by 1.)
+/// In motion the entry of the frame before stays if its squared distance is at most this many times that of the nearest entry. (On flake
+/// the error of changes is 1.13 of chafa's with 2, and 1.19 with 1.)
 const KEPT: f32 = 2.0;
 
 /// Mixes that are remembered: some frames' worth.
@@ -37,18 +37,18 @@ const MOST_KEPT: usize = 1 << 16;
 pub struct Dither {
     entries: Vec<Entry>,
     mixes: HashMap<Srgb, [Color; MIX]>,
-    /// By the upper 6 bits of a channel.
+    /// The nearest entries, by the upper 6 bits of each channel.
     nearest: HashMap<Srgb, Color>,
 }
 
 impl Dither {
-    /// Of these entries.
+    /// Mixes these entries.
     #[must_use]
     pub fn new(entries: Vec<Entry>) -> Self {
         Self { entries, mixes: HashMap::new(), nearest: HashMap::new() }
     }
 
-    /// What the place `(x, y)` shows of a colour, which is rounded to 8 bits a channel.
+    /// The colour that the place `(x, y)` shows for `light`, which is rounded to 8 bits a channel.
     #[must_use]
     pub fn color(&mut self, light: Vec3, (x, y): (usize, usize)) -> Color {
         self.mix_of(light)[ORDER[y % 2][x % 2]]
@@ -67,7 +67,8 @@ impl Dither {
         })
     }
 
-    /// The same, but the entry that was there `before` if it looks about as near: an entry is left late, and then for good.
+    /// Returns the nearest entry, or the one that was there `before` if that looks about as near. So an entry is left late, and then for
+    /// good.
     #[must_use]
     pub fn as_before(&mut self, light: Vec3, before: Option<Color>) -> Color {
         let nearest = self.nearest(light);

@@ -1,6 +1,6 @@
 //! Blocks and dots without colour: each bin of a cell is on or off.
 //!
-//! By ordered dither: as many bins are on as there is light, and which ones depends on the place alone.
+//! This is ordered dither: as many bins are on as there is light, and which ones depends on the place alone.
 //!
 //! Source: B. E. Bayer, "An optimum method for two-level rendition of continuous-tone pictures", 1973.
 
@@ -23,7 +23,7 @@ pub struct Dots {
 }
 
 impl Dots {
-    /// Of `charset`.
+    /// The bins of `charset`.
     #[must_use]
     pub fn new(charset: Charset) -> Self {
         let (across, down, glyphs) = &repertoire(charset).mosaic;

@@ -1,12 +1,12 @@
 //! How far away the eye is, and what it sees of a cell from there.
 //!
-//! From the chair, 60 cm from cells 2.2 mm wide, a cell is a fifth of a degree wide, and an eye that resolves a sixtieth of a
-//! degree tells a twelfth of a cell: single pixels. From across the room it sees a cell as little more than a point: means. In
-//! between both count. So three choices depend on the distance: whether a colour is what most pixels have or their mean, how much of the
-//! space around them letters and dots light up, and how much of what a cell lacks its neighbours make up for.
+//! From the chair, 60 cm from cells 2.2 mm wide, a cell is a fifth of a degree wide, and an eye that resolves a sixtieth of a degree tells
+//! a twelfth of a cell: it sees single pixels. From across the room it sees a cell as little more than a point: it sees means. In between
+//! both count. So three choices depend on the distance: whether a colour is what most pixels have or their mean, how much of the space
+//! around them letters and dots light up, and how much of what a cell lacks its neighbours make up for.
 //!
-//! Halves of marbles, by FLIP at 38 pixels a degree over chafa's, and by dB from across the room: all handed on 0.897 and 42.8, 0.85
-//! of it 0.892 and 42.6, 0.7 of it 0.886 and 42.3; all, and means in place of medians, 0.94 and 43.3.
+//! For halves of marbles, FLIP at 38 pixels a degree over chafa's, and dB from across the room, are 0.897 and 42.8 with all handed on,
+//! 0.892 and 42.6 with 0.85 of it, 0.886 and 42.3 with 0.7 of it; 0.94 and 43.3 with all, and means instead of medians.
 
 use crate::style::CHAIR;
 
@@ -26,10 +26,10 @@ pub struct Eye {
 }
 
 impl Eye {
-    /// What follows a picture that moves: [what changes](super::change) counts, and what is handed on would change the neighbours, too.
+    /// The eye that follows a picture that moves: [changes](super::change) count, and handing on would change the neighbours, too.
     pub const MOVING: Self = Self { means: 1.0, lent: 0.0, handed: 0.0 };
 
-    /// From so many widths of a cell; less than 0 counts as 0.
+    /// The eye at so many widths of a cell; less than 0 counts as 0.
     #[must_use]
     pub fn at(widths: f32) -> Self {
         // 0 in the chair, 1 across the room, -1 as near again.

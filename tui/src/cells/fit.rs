@@ -18,7 +18,7 @@ pub enum Fitter {
 }
 
 impl Fitter {
-    /// Of what `style` asks for, for an eye.
+    /// A fitter for what `style` asks for, and for an eye.
     #[must_use]
     pub fn new(style: &Style, eye: Eye, samples: CellSamples) -> Self {
         let grid = (samples.across, samples.down);
@@ -28,8 +28,8 @@ impl Fitter {
         }
     }
 
-    /// The fit to `light`, the cell's samples row by row; `memory` is used and left as it happens to be. In motion, what the
-    /// cell was `before` says how it [changes](super::change); [`Fitted::NONE`] if nothing was.
+    /// Returns the fit to `light`, the cell's samples row by row. The contents of `memory` do not matter. In motion, `before` is what
+    /// the cell was, and says how it [changes](super::change); [`Fitted::NONE`] if there was nothing.
     #[must_use]
     pub fn fit(&self, light: &[Vec3], memory: &mut FitMemory, before: Option<&Fitted>) -> Fitted {
         match self {

@@ -1,4 +1,4 @@
-//! What a fit of a glyph comes to, and what fitters share.
+//! The result of fitting a glyph, and what fitters share.
 
 use super::columns::Columns;
 use super::layers::Layers;
@@ -24,7 +24,7 @@ pub struct Fitted {
 }
 
 impl Fitted {
-    /// Black.
+    /// A black space.
     pub const NONE: Self = Self {
         glyph: ' ',
         cover: Mask::SPACE.cover,

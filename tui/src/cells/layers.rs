@@ -1,18 +1,19 @@
-//! The colours of the two layers of a glyph, ink and paper: those that look nearest to what was sampled of each.
+//! The colours of the two layers of a glyph, ink and paper: those that look nearest to the samples of each.
 //!
-//! From the chair an eye sees single pixels of a cell. What it misses grows slower than the distance of colours: a part
-//! that is wrong is worse than one that is a little off, but not by the square. So the colour of a layer is a median, not a
-//! mean: at an edge it is the colour of what there is more of, and stays clean. What that takes from the mean, the
-//! neighbours make up for as seen from afar ([`residual`](super::residual)).
+//! From the chair an eye sees single pixels of a cell. What it misses grows slower than the distance of colours: a part that is wrong is
+//! worse than one that is a little off, but not by the square. So the colour of a layer is a median, not a mean: at an edge it is the
+//! colour of the larger side, and stays clean. As seen from afar, the neighbours make up for its difference from the mean
+//! ([`residual`](super::residual)).
 //!
-//! The median is the point that the sum of distances to all samples is least of; each sample belongs to both layers, by how much of
-//! it the glyph covers. Found by weighted means, each weight one over the distance from the last: three steps bring it within
-//! what 8 bits tell apart. Distances are of square roots of linear light.
+//! The median is the point whose sum of distances to all samples is least. Each sample belongs to both layers, by how much of it the glyph
+//! covers. Weighted means find the median, each weight being one over the distance from the last mean: three steps bring it within what 8
+//! bits tell apart. Distances are between square roots of linear light.
 //!
 //! Most lines of samples belong to one layer alone; the other's sums leave them out.
 //!
-//! Source: E. Weiszfeld, "Sur le point pour lequel la somme des distances de n points donnés est minimum", 1937. Against means,
-//! by FLIP at 38 pixels a degree: 0.90 to 0.96 of chafa's in place of 0.94 to 0.99 (halves), and SSIM nearer to it or ahead.
+//! Source: E. Weiszfeld, "Sur le point pour lequel la somme des distances de n points donnés est minimum", 1937. With medians instead of
+//! means, halves have a FLIP at 38 pixels a degree of 0.90 to 0.96 of chafa's instead of 0.94 to 0.99, and an SSIM nearer to chafa's or
+//! ahead.
 
 use super::columns::{Column, Columns, EMPTY, LANES, Line, sums};
 use spherule_kernel::Vec3;
@@ -27,7 +28,7 @@ const STEPS: usize = 3;
 #[derive(Clone, Debug)]
 pub struct Layers {
     shares: [Column; 2],
-    /// The lines of which some is there, a bit each.
+    /// The lines that have any of the layer, a bit each.
     lines: [u32; 2],
     count: usize,
 }
@@ -38,8 +39,8 @@ impl Default for Layers {
     }
 }
 
-/// What ink and paper look like, and what is missed of the cell: the mean distance of its samples to colours that miss no
-/// less.
+/// The looks of ink and paper, and what they miss of the cell: the mean distance of its samples to the colours before the last step, which
+/// miss no less.
 #[derive(Clone, Copy, Debug)]
 pub struct Medians {
     /// Ink, paper.
@@ -58,7 +59,7 @@ fn set_bits(mut bits: u32) -> impl Iterator<Item = usize> {
 }
 
 impl Layers {
-    /// Takes what a glyph covers of each of so many samples: the sum of all these lines, between 0 and 1.
+    /// Takes how much a glyph covers of each of `count` samples: the sum of all these lines, between 0 and 1.
     #[inline]
     pub fn take(&mut self, count: usize, ink: impl Iterator<Item = Line>) {
         self.count = count;
@@ -88,7 +89,7 @@ impl Layers {
         &self.shares[0][..self.count.div_ceil(LANES)]
     }
 
-    /// The means of what is covered and of what is left, of both some.
+    /// The means of what is covered and of what is left; there must be some of both.
     #[must_use]
     pub fn means(&self, colors: &Columns) -> [Vec3; 2] {
         let [reds, greens, blues] = colors.channels();
@@ -147,7 +148,7 @@ impl Layers {
                     missed += distances.reduce_add();
                 }
                 let [r, g, b, all] = sums([r, g, b, weights]);
-                // What is not there keeps its mean.
+                // A layer that has no samples keeps its mean.
                 if all > 0.0 {
                     *median = Vec3::new(r, g, b) / all;
                 }
@@ -157,7 +158,7 @@ impl Layers {
     }
 }
 
-/// The light of a look, of which a share is a mean of light.
+/// Mixes the light of a look with a `share` of `mean`, which is light already.
 #[must_use]
 pub fn mixed(look: Vec3, mean: Vec3, share: f32) -> Vec3 {
     let look = look.clamp(Vec3::ZERO, Vec3::ONE);

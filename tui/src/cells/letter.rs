@@ -16,13 +16,13 @@ pub(super) const BINS: usize = 32;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Letter {
     pub(super) glyph: char,
-    /// Of 2 x 4 parts.
+    /// The covered share of each of 2 x 4 parts.
     pub(super) cover: Cover,
     /// The share of the cell that is covered.
     pub(super) mean: f32,
     /// The share of each bin.
     pub(super) ink: [f32x8; BINS / LANES],
-    /// The sum of squares of what shares are off from the mean.
+    /// The sum of squared differences of the shares from the mean.
     pub(super) energy: f32,
 }
 

@@ -1,12 +1,12 @@
 //! Letters: the one whose ink is where the light is.
 //!
-//! With colour, letters are first compared by least squares. A letter covers the share `g` of each of 4 x 8 bins; there a cell
-//! looks like `t`; their means are `G` and `T`. Seen as bins, the step from paper to ink that fits best is
-//! `sum (g-G)(t-T) / sum (g-G)^2`. Seen as pixels, which are either ink or paper, it is the difference of the means of both,
-//! `sum (g-G)(t-T) / n G(1-G)`: less, since a thin letter in a loud colour stands out from what it is to stand for. The
-//! [eye](super::eye) is somewhere between; steps are cut to what a display has. Of the letters that gain most, and the
-//! space, the one is taken that [misses least](super::layers). (Of letters by bins alone FLIP was 0.98 to 1.10 of chafa's, and SSIM
-//! 0.03 to 0.07 below.) In motion it counts [what changes](super::change), too. Without colour the letter must have the tone as well as the shape: see [`tone`].
+//! With colour, letters are first compared by least squares. A letter covers the share `g` of each of 4 x 8 bins, in which the cell looks
+//! like `t`; their means are `G` and `T`. Seen as bins, the step from paper to ink that fits best is `sum (g-G)(t-T) / sum (g-G)^2`. Seen
+//! as pixels, which are either ink or paper, it is the difference of the means of both, `sum (g-G)(t-T) / n G(1-G)`. This step is less,
+//! since a thin letter in a loud colour stands out from what it is to stand for. The [eye](super::eye) is somewhere between the two; steps
+//! are cut to what a display has. Of the letters that gain most, and the space, the one that [misses least](super::layers) is taken. (With
+//! bins alone, the FLIP of letters was 0.98 to 1.10 of chafa's, and their SSIM 0.03 to 0.07 below.) In motion, [changes](super::change)
+//! count, too. Without colour the letter must have the tone as well as the shape: see [`tone`].
 
 use super::bins::Bins;
 use super::change;
@@ -22,13 +22,13 @@ use std::array;
 
 /// A step that takes away less variance than this is not worth a letter.
 const FLAT: f32 = 2e-7;
-/// How many letters are held against the light one by one, besides the space.
+/// How many letters are compared with the samples one by one, besides the space.
 const TRIED: usize = 3;
 
 /// Fits letters to cells that have so many samples.
 #[derive(Clone, Debug)]
 pub struct LetterFitter {
-    /// `None` if there is a sample for each.
+    /// `None` if there is one sample a bin.
     bins: Option<Bins>,
     /// Samples side by side.
     across: usize,
@@ -165,7 +165,7 @@ mod tests {
             assert!((one.ink - four.ink).abs().max_element() < 1e-4, "{}", letter.glyph);
             found += usize::from(one.glyph == letter.glyph);
         }
-        // (Of the others another letter, which is much like them, misses less.)
+        // (For the others, a letter that is much like them misses less.)
         assert!(found >= 81, "{found} of 94");
     }
 }

@@ -1,12 +1,11 @@
-//! The mask or wedge and the two colours that come nearest to what was sampled of a cell.
+//! The mask or wedge and the two colours that come nearest to the samples of a cell.
 //!
-//! First by least squares, which are quick: for a mask, the best two colours are the means of what it fills and of what it leaves,
-//! and the best mask is the one that takes most of the samples' variance away (`best_mask.rs`). A wedge, whose bins are partly
-//! filled, is a letter: `sum (g-G)(t-T)` squared over `sum (g-G)^2`, see [`letters`](super::letters).
+//! Glyphs are first compared by least squares, which are quick. For a mask, the best two colours are the means of what it fills and of what
+//! it leaves, and the best mask takes most of the samples' variance away (`best_mask.rs`). A wedge, whose bins are partly filled, is
+//! treated as a letter: it takes away `sum (g-G)(t-T)` squared over `sum (g-G)^2`, see [`letters`](super::letters).
 //!
-//! Of the best of each grid, the two that gain most are held against the samples themselves; the one that
-//! [misses least](super::layers) is taken, in its colours. In motion it counts [what changes](super::change), and the glyph of the
-//! frame before is held against them, too.
+//! Of the best of each grid, the two that gain most are compared with the samples themselves. The one that [misses least](super::layers) is
+//! taken, in its colours. In motion, [changes](super::change) count, and the glyph of the frame before is compared, too.
 //!
 //! All is compared by square roots of linear light. Of other spaces `OKLab` was as good, at ten times the cost, except that
 //! glyphs of all kinds together scored below sextants alone on flake; linear light lost 1 dB on marbles.
@@ -36,17 +35,17 @@ pub struct MaskFitter {
     families: Vec<(Bins, &'static Family, MaskSearch)>,
     /// Whether there are wedges, too.
     wedges: bool,
-    /// Whether bins are dots, which fill only some of them.
+    /// Whether bins are dots, which fill only a part of them.
     dots: bool,
-    /// How many glyphs are held against the samples one by one.
+    /// How many glyphs are compared with the samples one by one.
     tried: usize,
     eye: Eye,
 }
 
-/// How many glyphs are held against the samples one by one: those that take the most variance away. (One: FLIP is 0.01 more of
+/// How many glyphs are compared with the samples one by one: those that take the most variance away. (With one, FLIP is 0.01 more of
 /// chafa's; three are as good as two.)
 const TRIED: usize = 2;
-/// So few samples have no medians but their means.
+/// For so few samples the means stand for the medians.
 const FEW: usize = 4;
 
 /// A glyph that may be the best: of a grid, or a wedge.
@@ -57,7 +56,7 @@ enum Candidate<'a> {
 }
 
 impl MaskFitter {
-    /// Glyphs that are finer than the samples are left out: nothing speaks for them.
+    /// Leaves out glyphs that are finer than the samples: nothing speaks for them.
     pub(super) fn new(charset: Charset, eye: Eye, samples: (u32, u32)) -> Self {
         let fine = |family: &&Family| {
             family.across <= samples.0 as usize && family.down <= samples.1 as usize
@@ -73,7 +72,7 @@ impl MaskFitter {
                 .collect(),
             wedges: charset == Charset::Block && samples == (across, across),
             dots: charset == Charset::Braille,
-            // (Of halves both: 0.5 to 1.5 dB less from afar, and no nearer.)
+            // (Trying both halves loses 0.5 to 1.5 dB from afar, and comes no nearer.)
             tried: if charset == Charset::Half { 1 } else { TRIED },
             eye,
         }
@@ -169,7 +168,7 @@ impl MaskFitter {
         least.1
     }
 
-    /// The one of this glyph.
+    /// The candidate that has this glyph.
     fn candidate(&self, glyph: char) -> Option<Candidate<'_>> {
         let mask = self.families.iter().find_map(|(bins, family, _)| {
             let mask = family.masks.iter().find(|mask| mask.glyph == glyph)?;

@@ -37,7 +37,7 @@ const OCTANTS: [&str; 16] = [
     "▄𜷛𜷜𜷝𜷞▙𜷟𜷠𜷡𜷢▟𜷣▆𜷤𜷥█",
 ];
 
-/// Halves and quadrants, each before what it leaves: these are in as many fonts, and as long.
+/// Halves and quadrants, each before its complement, which is in as many fonts, and as long.
 const OPPOSITES: &str = "▀▄▌▐▘▟▝▙▖▜▗▛▚▞";
 
 /// The glyph that fills what `glyph` leaves, if it is as common.
@@ -74,7 +74,7 @@ const BRAILLE: [&str; 16] = [
 /// Eighths from the left, 1 to 7, and from the bottom.
 const LEFT_EIGHTHS: &str = "▏▎▍▌▋▊▉";
 const LOWER_EIGHTHS: &str = "▁▂▃▄▅▆▇";
-/// Eighths 2 to 7, from the left and from the top, alone.
+/// Single eighths, 2 to 7, from the left and from the top.
 const UPRIGHT_LINES: &str = "🭰🭱🭲🭳🭴🭵";
 const LEVEL_LINES: &str = "🭶🭷🭸🭹🭺🭻";
 
@@ -97,14 +97,14 @@ impl Mask {
     pub const SPACE: Self = Self { glyph: ' ', bits: 0, cover: [0.0; 8] };
 }
 
-/// The masks of one grid of bins: of two that fill what the other leaves, one.
+/// The masks of one grid of bins. Of two that are each other's complement, it has one.
 #[derive(Clone, Debug)]
 pub struct Family {
     /// Bins side by side.
     pub across: usize,
     /// Bins one above the other.
     pub down: usize,
-    /// The masks, neither nothing nor all.
+    /// The masks that fill some bins, but not all.
     pub masks: Vec<Mask>,
 }
 
@@ -120,8 +120,8 @@ impl Family {
         Self { across, down, masks: glyphs.map(mask).collect() }
     }
 
-    /// All masks of a table. Of two that are each other's complement the one with the lower code: it is in more fonts,
-    /// and shorter.
+    /// All masks of a table. Of two that are each other's complement it has the one with the lower code, which is in
+    /// more fonts, and shorter.
     fn of_table(across: usize, down: usize, table: &[char]) -> Self {
         let all = table.len() - 1;
         let masks = (1..all).filter(|&bits| table[bits] < table[all - bits]);
@@ -143,7 +143,7 @@ fn cover(across: usize, down: usize, bits: u8) -> Cover {
     })
 }
 
-/// How much of the part `index` of `count` equal ones lies in the other; both as (index, count).
+/// How much of `part` lies in `other`. Each is (index, count): one of `count` equal parts.
 pub(super) fn overlap(part: (usize, usize), other: (usize, usize)) -> f32 {
     // In units of 1 / (count * count): whole numbers.
     let start = (part.0 * other.1).max(other.0 * part.1);
@@ -164,8 +164,8 @@ fn table(rows: &[&str]) -> Vec<char> {
     rows.iter().flat_map(|row| row.chars()).collect()
 }
 
-/// Bars from the left, by quarters, and from the bottom, by eighths: in all fonts that have sextants. Quarters, since
-/// cells that get sextants have four columns of samples.
+/// Bars from the left, by quarters, and from the bottom, by eighths. They are in all fonts that have sextants. The
+/// former are quarters, since cells that get sextants have four columns of samples.
 fn bars() -> [Family; 2] {
     let quarters = LEFT_EIGHTHS.chars().skip(1).step_by(2);
     let upright = quarters.zip(1..).map(|(glyph, count)| (!(0xff << count), glyph));
@@ -184,7 +184,7 @@ fn eighths() -> [Family; 2] {
     [Family::new(8, 1, upright), Family::new(1, 8, level)]
 }
 
-/// What `charset` has; of ASCII, which is no geometry, nothing.
+/// What `charset` has; nothing for ASCII, which is no geometry.
 #[must_use]
 pub fn repertoire(charset: Charset) -> &'static Repertoire {
     static ALL: LazyLock<[Repertoire; 6]> = LazyLock::new(|| {

@@ -13,17 +13,18 @@ use crate::palette::{Theme, entries};
 use crate::style::{Charset, ColorDepth, Style};
 use spherule_kernel::Vec3;
 
-/// In motion a cell that shows one entry of a palette stays so up to this squared distance of ink and paper in `OKLab`; two stay two
-/// while their entries differ. (The error of changes of 256, of chafa's: flake 1.02, 1.07 if all below it are one, 1.02 if none.)
+/// In motion a cell that shows one entry of a palette goes on to show one, up to this squared distance of ink and paper in `OKLab`. A cell
+/// that shows two entries goes on to show two while they differ. (With 256 colours the error of changes on flake is 1.02 of chafa's; 1.07
+/// if all cells below the distance show one, 1.02 if none does.)
 const ALIKE: f32 = 0.05 * 0.05;
 
 /// What light becomes.
 #[derive(Debug, Default)]
 enum Colors {
-    /// Nothing: letters and their tones are what there is, ...
+    /// No colours, but letters and their tones.
     #[default]
     Letters,
-    /// ... or parts of cells that are on or off.
+    /// No colours, but parts of cells that are on or off.
     Dots(Dots),
     /// 16 of a theme.
     Shades(Shades),
@@ -36,7 +37,7 @@ enum Colors {
 /// Paints, and keeps its memory.
 #[derive(Debug, Default)]
 pub struct Painter {
-    /// What the colours are of.
+    /// What `colors` was made for.
     made_for: Option<(ColorDepth, Theme, Charset)>,
     colors: Colors,
     residual: Residual,
@@ -45,9 +46,9 @@ pub struct Painter {
 }
 
 impl Painter {
-    /// Fills `cells`, whole rows of so many `columns` from row `first` on, by `fits` that begin with row `known`.
-    /// In a picture that is not `steady`, colours are not mixed, and there are the cells of the frame `before`, from some row on; how
-    /// much is handed on, the eye says.
+    /// Fills `cells`, whole rows of so many `columns` from row `first` on, by `fits` that begin with row `known`. In a picture that is not
+    /// `steady`, colours are not mixed, and `before` has the cells of the frame before, from some row on. The eye says how much is handed
+    /// on.
     pub fn paint(
         &mut self,
         (style, eye, steady): (&Style, Eye, bool),
@@ -90,7 +91,7 @@ impl Painter {
                 }
             }
             Colors::Dither(dither) if !steady => {
-                // What neighbours lack is left out: it would cross the border between two entries here and there, a tenth of
+                // What neighbours lack is not added: here and there it would cross the border between two entries, which costs a tenth of
                 // the bytes.
                 let start = before.map_or(0, |(_, row)| (first - row) * columns);
                 for (index, (cell, fit)) in cells.enumerate() {

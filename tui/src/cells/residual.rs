@@ -1,12 +1,12 @@
-//! What two colours a cell cannot show, its neighbours make up for: one step of back-projection.
+//! Neighbours make up for what a cell cannot show with two colours: one step of back-projection.
 //!
-//! From across the room an eye sees the picture blurred by some half of a cell's width. The difference between what
-//! was sampled and what the glyphs show is blurred so, in linear light, and what comes to lie on a glyph's ink and
-//! on its paper is added to the two: as much of it as the [eye](super::eye) is far away.
+//! From across the room an eye sees the picture blurred by some half of a cell's width. The difference between the samples and what the
+//! glyphs show is blurred alike, in linear light. The part of it that comes to lie on a glyph's ink, or on its paper, is added to that
+//! colour: the farther away the [eye](super::eye) is, the more.
 //!
 //! From the chair a correction is seen as a mark of its own. So a colour stays within what was sampled under it: what is even
-//! stays even, whatever lies beside it, and nothing is handed across a silhouette. (Up to 0.75 and 1.3 of it, as once, drew a ring
-//! of darker cells around every ball, and FLIP was 0.02 to 0.1 more of chafa's, for 0.3 to 1.1 dB from afar: halves.)
+//! stays even, whatever lies beside it, and nothing is handed across a silhouette. (Up to 0.75 and 1.3 of it, as once, drew a ring of darker
+//! cells around every ball: with halves, FLIP was 0.02 to 0.1 more of chafa's, for 0.3 to 1.1 dB from afar.)
 //!
 //! Source: M. Irani and S. Peleg, "Improving resolution by image registration", 1991, for the step.
 
@@ -37,25 +37,25 @@ pub struct Residual {
     blurred: Vec<f32>,
 }
 
-/// Of a part so much is covered at least where it is sampled under a glyph: letters cover less than half of any.
+/// A part counts as a layer's own if the layer covers more than this of it: letters cover less than half of any part.
 const SOME: f32 = 0.1;
 
-/// A part that looks farther from a colour than this, as a distance of square roots of light, is beyond a silhouette: where
-/// glyphs are fine, nothing is handed across it. (Sextants, 0.2: FLIP is 0.006 less of chafa's, and flake 0.6 dB less from afar.)
+/// A part that looks farther from a colour than this, as a distance of square roots of light, is beyond a silhouette: where glyphs are
+/// fine, nothing is handed across it. (With 0.2, FLIP of sextants is 0.006 less of chafa's, and flake has 0.6 dB less from afar.)
 const SILHOUETTE: f32 = 0.3;
 
 /// How much is handed on, and across what.
 #[derive(Clone, Copy, Debug)]
 pub struct Handing {
-    /// The part of what is lacking.
+    /// The share of what is lacking that is handed on.
     pub share: f32,
     /// The square of the distance beyond which a part says nothing of a colour.
     across: f32,
 }
 
 impl Handing {
-    /// So much in these characters. Halves, quarters and letters are so coarse that from afar they need what is beyond
-    /// silhouettes, too: with 0.2 for them halves of marbles are 1.2 dB behind chafa's.
+    /// Hands on so much in these characters. Halves, quarters and letters are so coarse that from afar they need what is beyond
+    /// silhouettes, too: with a limit of 0.2, halves of marbles are 1.2 dB behind chafa's.
     #[must_use]
     pub fn new(share: f32, charset: Charset) -> Self {
         let is_fine = matches!(charset, Charset::Sextant | Charset::Octant | Charset::Block);
@@ -63,8 +63,8 @@ impl Handing {
     }
 }
 
-/// How dark and how bright a correction may make ink (0) or paper (1): as its own parts are, and no more. What is even stays
-/// even, or a neighbour's edge is seen as a mark of its own.
+/// How dark and how bright a correction may make ink (0) or paper (1): as its own parts are, and no more. So an even area stays even;
+/// otherwise a neighbour's edge would be seen in it as a mark of its own.
 fn limits(fit: &Fitted, layer: usize, color: Vec3, across: f32) -> [Vec3; 2] {
     let (mut low, mut high) = (color, color);
     let look = roots(color);
@@ -80,8 +80,8 @@ fn limits(fit: &Fitted, layer: usize, color: Vec3, across: f32) -> [Vec3; 2] {
 }
 
 impl Residual {
-    /// Writes to `corrected` the colours of ink and paper of the cells of `rows`, to which what their neighbours in
-    /// `fits`, a picture of so many `columns`, cannot show is added, so far as `handing` says. Past the edges the picture goes on as it ends.
+    /// Writes to `corrected` the colours of ink and paper of the cells of `rows`. What their neighbours in `fits`, a picture of so many
+    /// `columns`, cannot show is added to them, as far as `handing` says. Past the edges the picture goes on as it ends.
     pub fn correct(
         &mut self,
         fits: &[Fitted],
@@ -132,7 +132,7 @@ impl Residual {
             corrected.extend(fits.iter().zip(&sums).zip(&covers).map(|((fit, sums), covers)| {
                 [0, 1].map(|layer| {
                     let color = if layer == 0 { fit.ink } else { fit.paper };
-                    // What is not there has no colour.
+                    // A layer that covers nothing has no colour.
                     let cover = covers[layer];
                     if cover <= 0.0 || sums[layer] == Vec3::ZERO {
                         return color;

@@ -1,8 +1,8 @@
 //! 16 colours: a cell shows two of them, side by side or as one shade.
 //!
-//! Either the glyph that was fitted, with the colours nearest to its own, or a shade, of which the eye sees the mean of
-//! ink and paper: the one that is nearer to what was sampled. Both are judged by how ink, paper and, above all, their
-//! mean look. A shade of two colours far apart costs something, since it is seen as dots.
+//! A cell gets the glyph that was fitted, with the colours nearest to its own, or a shade, of which the eye sees the
+//! mean of ink and paper. The one that is nearer to the samples is taken. Both are judged by how ink, paper and, above
+//! all, their mean look. A shade of two colours far apart costs something, since it is seen as dots.
 
 use super::fitted::Fitted;
 use super::letter::LETTERS;
@@ -14,12 +14,12 @@ use spherule_kernel::Vec3;
 
 /// Glyphs that look even, and how much of the cell they cover.
 const BLOCKS: [(char, f32); 3] = [('░', 0.25), ('▒', 0.5), ('▓', 0.75)];
-/// The same of letters, whose ink is measured.
+/// Letters that look even; their ink is measured.
 const LETTER_SHADES: &str = ".:=+*oxa%#@M";
 
-/// What the look of the whole counts beside that of ink and paper.
+/// The weight of the look of the whole beside that of ink and paper.
 const WHOLE: f32 = 1.0;
-/// What the squared distance of two colours counts where they are dots of a shade.
+/// The weight of the squared distance of two colours where they are dots of a shade.
 const DOTS: f32 = 0.02;
 /// Entries that are tried for ink and for paper.
 const NEAREST: usize = 3;
@@ -42,7 +42,7 @@ pub struct Shades {
 }
 
 impl Shades {
-    /// Of these entries, by glyphs that go with `charset`.
+    /// Takes colours from `entries`, and shades from glyphs that go with `charset`.
     #[must_use]
     pub fn new(entries: Vec<Entry>, charset: Charset) -> Self {
         let glyphs: Vec<_> = match charset {
@@ -69,7 +69,7 @@ impl Shades {
                     let look = oklab(paper.light + share * (ink.light - paper.light));
                     let apart = (ink.look - paper.look).length_squared();
                     let cost = DOTS * share * (1.0 - share) * apart;
-                    // Of two that look the same the one whose ink is the lighter, as most are.
+                    // Of two that look the same, the one whose ink is lighter is taken, as most are.
                     if apart > 0.0 && (charset == Charset::Ascii || ink.look.x >= paper.look.x) {
                         shades.push(Shade {
                             glyph,

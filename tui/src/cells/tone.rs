@@ -26,21 +26,22 @@ const REACH: usize = TAPS.len() / 2;
 /// The parts that are seen in a cell: its own 2 x 4 and those around it.
 const WIDE: usize = 2 + 2 * REACH;
 const HIGH: usize = 4 + 2 * REACH;
-/// How many rows of cells around a cell have a part in its letter.
+/// How many rows of cells around a cell influence its letter.
 pub(super) const HALO: usize = 2;
 
-/// The lightness that a cell should have, given the picture's: letters reach 0.6. Below the first it is paper; then the
-/// tone is kept up to the second, and from there on it is compressed so far that white comes out as the third.
+/// The lightness that a cell should have, given the picture's: letters reach 0.6. A cell darker than the first number is paper. The tone is
+/// kept up to the second, and above it compressed so far that white comes out as the third.
 ///
-/// Of the values around these they are nearest to the truth where they also keep the order of tones: 0.97 and 0.93 of
-/// correlation on flake and on marbles. With the first at 0.08 a dark background is full of dots: 2 dB more from afar
-/// on flake, 0.03 less of correlation, and it looks bad. Where whites are not compressed, FLIP falls by up to 1.3 % (with
-/// white at 1.5 and the knee at 0.3 by 1 to 3 %, to 0.91 to 1.01 of chafa's: no curve led to 0.97 in all scenes): what is bright is all `@` then,
-/// and the balls of marbles can no longer be told from the ground.
+/// Of the values around these that keep the order of tones, these are nearest to the truth: the correlation is 0.97 on flake and 0.93 on
+/// marbles. With the first at 0.08 a dark background is full of dots: on flake it gains 2 dB from afar, loses 0.03 of correlation, and
+/// looks bad. Where whites are not compressed, FLIP falls by up to 1.3 % (with white at 1.5 and the knee at 0.3 by 1 to 3 %, to 0.91 to
+/// 1.01 of chafa's: no curve led to 0.97 in all scenes). But then all that is bright is `@`, and the balls of marbles can no longer be told
+/// from the ground.
 const TONE: [f32; 3] = [0.093, 0.44, 0.8];
 
-/// In motion, the letter of the frame before stays if it is so much off of what it would have to be better than: letters of one tone
-/// have nothing else in common, and all of their ink changes. (The error of changes, caffeine: 1.6 of chafa's by 1, 0.86 by 0.5.)
+/// In motion, the squared error of the letter of the frame before is multiplied by this, so that it stays if it is about as good: letters
+/// of one tone have nothing else in common, and all of their ink changes. (On caffeine the error of changes is 1.6 of chafa's with 1, and
+/// 0.86 with 0.5.)
 const KEPT: f32 = 0.25;
 
 fn tone(lightness: f32) -> f32 {
@@ -91,7 +92,8 @@ fn seen(around: &[f32; WIDE * HIGH]) -> Cover {
     seen
 }
 
-/// The letter that looks most like what is wanted, beside what is seen of others; one that was there before, and is about as good, stays.
+/// Returns the letter that looks most like what is wanted, beside what is seen of others. A letter that was there before stays if it is
+/// about as good.
 fn nearest(wanted: &Cover, others: &Cover, before: Option<char>) -> usize {
     let mut best = (f32::INFINITY, 0);
     for (index, own) in OWN.iter().enumerate() {
@@ -138,8 +140,8 @@ pub struct Tones {
 }
 
 impl Tones {
-    /// The letters of `rows` of a picture of so many `columns`; `fits` has those of cells alone. In motion, there are the cells of the
-    /// frame `before`, from some row on.
+    /// Returns the letters of `rows` of a picture of so many `columns`. `fits` has the letters that cells get alone. In motion, `before`
+    /// has the cells of the frame before, and the row with which they begin.
     pub fn choose(
         &mut self,
         fits: &[Fitted],

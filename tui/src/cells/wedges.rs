@@ -1,8 +1,8 @@
 //! Wedges: glyphs whose edge runs from one border of the cell to another.
 //!
-//! The border has points at its corners, at thirds of its height and at half of its width; a wedge is what lies on one
-//! side of the line between two of them. Four more are quarters, whose tip is the middle of the cell. Of two that fill what
-//! the other leaves, one is here.
+//! The border has points at its corners, at thirds of its height and at half of its width; a wedge is what lies on one side of the line
+//! between two of them. Four more are quarters, whose tip is the middle of the cell. Of two wedges that are each other's complement, one is
+//! here.
 //!
 //! Source: The Unicode Standard 13.0, chart Symbols for Legacy Computing (U+1FB3C to U+1FB6F).
 
@@ -23,13 +23,13 @@ pub struct Wedge {
     pub glyph: char,
     /// What it covers of 2 x 4 parts.
     pub cover: Cover,
-    /// The share of each bin.
+    /// The covered share of each bin.
     pub bins: [f32; BINS],
-    /// Those that are not empty.
+    /// The lines of shares that are not empty.
     pub lines: Vec<Line>,
     /// The mean share.
     pub mean: f32,
-    /// The sum of squares of what shares are off from that.
+    /// The sum of squared differences of the shares from the mean.
     pub energy: f32,
 }
 
@@ -74,7 +74,7 @@ const QUARTERS: [(Place, Place); 4] = [
 ];
 const MIDDLE: Place = [1.0, 3.0];
 
-/// All of them.
+/// All wedges.
 pub static WEDGES: LazyLock<Vec<Wedge>> = LazyLock::new(|| {
     let edges = ('\u{1fb3c}'..).zip(EDGES).map(|(glyph, edge)| (glyph, vec![edge]));
     let quarters = ('\u{1fb6c}'..).zip(QUARTERS).map(|(glyph, (from, to))| {
@@ -124,7 +124,7 @@ fn cut(area: &[Place], (a, b, filled): (Place, Place, Place)) -> Vec<Place> {
     inside
 }
 
-/// By the trapezoids under its edges.
+/// The area of a polygon, by the trapezoids under its edges.
 fn area(corners: &[Place]) -> f32 {
     let edges = corners.iter().zip(corners.iter().cycle().skip(1));
     let twice: f32 = edges.map(|(a, b)| a[0] * b[1] - b[0] * a[1]).sum();

@@ -2,12 +2,12 @@
 
 use crate::color::Srgb;
 
-/// What has no name, no number, no element that is known.
+/// The colour of spheres without a name, a number or a known element.
 pub const NEUTRAL: Srgb = Srgb([0x9a, 0x9a, 0x9a]);
 
-/// Twelve colours, each as far as can be from all before it, to the eye that tells it from them the least: of all colours that are
-/// light enough for a shade (`OKLab` 0.5 to 0.9, and some chroma), by their distance in `OKLab` to those who see three cones, and
-/// two of any kind. The first four are 0.18 apart or more, eight 0.09, all 0.075.
+/// Twelve colours, each as far as can be from all before it, to the eye that tells it from them the least. They are chosen from all colours
+/// that are light enough for a shade (`OKLab` 0.5 to 0.9, and some chroma), by their distance in `OKLab` to people with three kinds of
+/// cones, and with two of any kind. The first four are 0.18 apart or more, eight 0.09, all 0.075.
 const COLORS: [Srgb; 12] = [
     Srgb([0x3c, 0x84, 0xe4]),
     Srgb([0xf0, 0xe4, 0x18]),
@@ -23,7 +23,7 @@ const COLORS: [Srgb; 12] = [
     Srgb([0xc0, 0x00, 0x3c]),
 ];
 
-/// The colour of name `place`, from 0: the first twelve are told apart, then they come again, half as light and half way to white in
+/// The colour of name `place`, from 0. The first twelve can be told apart. Then they come again, half as light and half way to white in
 /// turns.
 #[must_use]
 pub fn category(place: usize) -> Srgb {
@@ -51,7 +51,7 @@ pub(crate) mod vision {
     }
 
     impl Sight {
-        /// The light that looks to all as `light` does to those.
+        /// The light that looks to everybody as `light` does to people with this sight.
         pub(crate) fn seen(self, light: Vec3) -> Vec3 {
             Vec3::from_array(self.rows.map(|row| row.dot(light))).clamp(Vec3::ZERO, Vec3::ONE)
         }

@@ -22,13 +22,13 @@ pub struct Legend {
 /// The meanings.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Entries {
-    /// Of each colour a name.
+    /// A name for each colour.
     Names(Vec<(Srgb, String)>),
     /// Numbers.
     Numbers {
         /// From the darkest colour to the lightest.
         range: Range,
-        /// Whether some spheres have none.
+        /// Whether some spheres have no number.
         has_none: bool,
     },
 }
@@ -37,14 +37,14 @@ pub enum Entries {
 type Part = (String, Option<Srgb>);
 
 impl Legend {
-    /// Of what spheres are coloured by, and its values.
+    /// A legend with the name of what spheres are coloured by, and its values.
     #[must_use]
     pub fn new(title: &str, entries: Entries) -> Self {
         Self { title: printable(title), entries }
     }
 
-    /// Writes it over the top right of the first `rows` rows: as many names as there is room for in half of them, and how
-    /// many more there are. In ASCII, since a label may be two columns wide. Where there is no colour, nothing is written.
+    /// Writes the legend over the top right of the first `rows` rows: as many names as there is room for in half of them, and how many more
+    /// there are. The text is in ASCII, since a label may be two columns wide. Where there is no colour, nothing is written.
     pub fn write(&self, cells: &mut CellGrid, rows: u16, style: &Style) {
         if shown(Srgb::WHITE, style.depth, &style.theme) == Color::Default {
             return;
@@ -108,14 +108,14 @@ fn named(color: Srgb, name: &str) -> Vec<Part> {
     ]
 }
 
-/// In ASCII, and cut if it is long.
+/// Makes it ASCII, and cuts it if it is long.
 fn printable(text: &str) -> String {
     let text = text.escape_default().to_string();
     if text.len() <= LONGEST {
         return text;
     }
     let mut cut = &text[..LONGEST - 3];
-    // An escape is whole or not there.
+    // An escape is kept whole, or left out.
     if let Some(start) = cut
         .rfind('\\')
         .filter(|&start| text[start..].starts_with("\\u{") && !cut[start..].contains('}'))
@@ -125,7 +125,7 @@ fn printable(text: &str) -> String {
     format!("{cut}...")
 }
 
-/// With four digits, or as many as there are before the point.
+/// Writes a number in four digits, or in as many as there are before the point.
 fn number(value: f32) -> String {
     let size = value.abs();
     if size != 0.0 && !(1e-3..1e6).contains(&size) {

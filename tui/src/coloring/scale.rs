@@ -1,8 +1,8 @@
 //! Colours of numbers: viridis, from dark violet through green to yellow.
 //!
-//! Lightness grows evenly, so numbers can be told without seeing hues; to those with tritanopia the lightest few hundredths look alike. The colours are those of S. van der Walt and
-//! N. Smith for matplotlib, in the polynomial that M. Zucker fitted to them; the darkest eighth, which is lost on
-//! a dark ground and in a shade, is left out.
+//! Lightness grows evenly, so numbers can be told without seeing hues; to those with tritanopia the lightest few hundredths look alike. The
+//! colours are those of S. van der Walt and N. Smith for matplotlib, in the polynomial that M. Zucker fitted to them. The darkest eighth is
+//! left out, since it is lost on a dark ground and in a shade.
 
 use crate::color::Srgb;
 use std::str::FromStr;
@@ -10,14 +10,14 @@ use std::str::FromStr;
 /// The numbers between which colours lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
-    /// What has the darkest colour, and all below.
+    /// This number and all below have the darkest colour.
     pub low: f32,
-    /// What has the lightest colour, and all above.
+    /// This number and all above have the lightest colour.
     pub high: f32,
 }
 
 impl Range {
-    /// From the least to the largest of `values`; what is not finite does not count. From 0 to 1 if there is none.
+    /// From the least to the largest of the finite `values`; from 0 to 1 if there are none.
     #[must_use]
     pub fn of(values: &[f32]) -> Self {
         let finite = values.iter().copied().filter(|value| value.is_finite());
@@ -31,7 +31,7 @@ impl Range {
     /// Where a number lies, 0 to 1; 0.5 if all numbers are the same; `None` for NaN.
     #[must_use]
     pub fn place(self, value: f32) -> Option<f32> {
-        // In double precision the difference of two floats has no end.
+        // In double precision the difference of two floats does not overflow.
         let [low, high, value] = [self.low, self.high, value].map(f64::from);
         if value.is_nan() {
             None
@@ -52,7 +52,7 @@ impl Range {
 impl FromStr for Range {
     type Err = &'static str;
 
-    /// Reads `LOW:HIGH`, two finite numbers; the first may be the larger, then colours are the other way around.
+    /// Reads `LOW:HIGH`, two finite numbers. If the first is the larger, colours are the other way around.
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let number =
             |text: &str| text.trim().parse::<f32>().ok().filter(|number| number.is_finite());
@@ -63,13 +63,13 @@ impl FromStr for Range {
     }
 }
 
-/// The darkest that is used.
+/// The place of the darkest colour that is used.
 const DARKEST: f32 = 0.125;
 
 /// The colour at a place from 0 to 1.
 #[must_use]
 pub fn color_of(place: f32) -> Srgb {
-    /// Red, green and blue a power, from the highest.
+    /// The coefficients of red, green and blue, one row a power, from the highest.
     const VIRIDIS: [[f32; 3]; 7] = [
         [-5.435_456, 4.645_852_6, 26.312_435],
         [4.776_385, -13.745_145, -65.353_03],
@@ -98,7 +98,7 @@ mod tests {
             let looks: Vec<_> = colors.iter().map(|&color| oklab(sight.seen(color))).collect();
             let steps: Vec<_> = looks.windows(2).map(|pair| pair[1].x - pair[0].x).collect();
             let mean = steps.iter().sum::<f32>() / steps.len() as f32;
-            // Evenly to those who see all colours; to the others at least upwards, or with a step of hue.
+            // Even steps to those who see all colours; to the others at least upwards, or with a step of hue.
             for (step, pair) in steps.iter().zip(looks.windows(2)) {
                 assert!(*step > 0.0, "{}: {step}", sight.name);
                 // The lightest leave what a display has of what they see.

@@ -1,7 +1,7 @@
-//! What a tier gets wrong in every cell of a picture: camera, packets, hits by the tier and by `Exact` with the same
-//! search, a verdict a ray, the worst of each cell.
+//! What a tier gets wrong in every cell of a picture. The camera's packets are traced by the tier and by `Exact` with the same search;
+//! every ray gets a verdict, and every cell the worst of its rays.
 //!
-//! Not a picture's way: nothing is shaded, and nothing here costs a picture anything.
+//! This is not the way of a picture: nothing is shaded, and nothing here costs a picture anything.
 
 use super::verdict::{Class, Counts, Verdict};
 use crate::draw::{Effort, sample_grid};
@@ -15,10 +15,9 @@ use crate::view::View;
 use spherule_kernel::{Camera, CameraTiles, HitPacket, Level, RayPacket, Tier};
 use std::ops::Range;
 
-/// How many rows of cells are traced at a time: as many as of a picture, so that packets go through a structure
-/// together as they do there.
+/// How many rows of cells are traced at a time: as many as for a picture, so that packets go through a structure together as they do there.
 const BAND: usize = 4;
-/// Cells between two words about how far it is.
+/// Cells between two reports of progress.
 const STRIP: usize = 1 << 17;
 
 /// What is wrong with a picture, cell by cell.
@@ -28,10 +27,10 @@ pub struct ErrorMap {
     pub tier: Tier,
     /// How many samples a cell has, across and down.
     pub samples: (u32, u32),
-    /// Of all rays.
+    /// The counts of all rays.
     pub counts: Counts,
     columns: u16,
-    /// The worst of each cell.
+    /// The worst class of each cell.
     classes: Vec<Class>,
 }
 
@@ -64,8 +63,8 @@ struct Sampled<'a> {
 }
 
 impl ErrorMapper {
-    /// Holds the tier of `style` against `Exact` on the few samples of a picture of `scene` from `view`; `progress` gets
-    /// the share done. Neither `level` nor `threads` change anything but how long it takes.
+    /// Compares the tier of `style` with `Exact` on the few samples of a picture of `scene` from `view`. `progress` gets the share done.
+    /// `level` and `threads` change nothing but how long it takes.
     #[must_use]
     pub fn map(
         &mut self,
@@ -79,7 +78,7 @@ impl ErrorMapper {
         self.map_columns(scene, view, style, size, &(0..size.0), machine, progress)
     }
 
-    /// The same of some columns alone.
+    /// The same, for some columns alone.
     #[must_use]
     #[expect(clippy::too_many_arguments, reason = "a picture, its part, and who computes it")]
     pub fn map_columns(
@@ -126,7 +125,7 @@ impl ErrorMapper {
 }
 
 impl Worker {
-    /// Writes the worst of every cell from row `first` on.
+    /// Writes the worst class of every cell from row `first` on.
     fn judge(&mut self, sampled: &Sampled<'_>, first: u32, classes: &mut [Class]) -> Counts {
         let &Sampled { scene, search, tracing, ref camera, columns, samples } = sampled;
         let Self { tiles, rays, answers, truths, scratch } = self;
@@ -179,7 +178,7 @@ impl ErrorMap {
         (self.columns, rows as u16)
     }
 
-    /// What it took: never less than all.
+    /// The effort that it took: never less than all.
     #[must_use]
     pub fn effort(&self) -> Effort {
         let (across, down) = self.samples;
@@ -187,7 +186,7 @@ impl ErrorMap {
         Effort { samples, rays: 2 * samples, is_full: true }
     }
 
-    /// The worst of every cell of `row`; none past the last.
+    /// The worst class of every cell of `row`; none past the last.
     #[must_use]
     pub fn row(&self, row: u16) -> &[Class] {
         let start = usize::from(row) * usize::from(self.columns);

@@ -9,7 +9,7 @@ use crate::style::Style;
 use spherule_kernel::Tier;
 use std::ops::Range;
 
-/// A map of fewer rows has no legend. Others have one of two rows or, if it needs them, of up to half of all.
+/// A map of fewer rows has no legend. Other maps have a legend of two rows or, if it needs them, of up to half of all.
 const FEWEST_ROWS: u16 = 4;
 
 /// A word of the legend, behind the mark that it explains.
@@ -18,7 +18,7 @@ struct Word {
     text: String,
 }
 
-/// Maps as a style has them.
+/// Draws maps as a style has them.
 #[derive(Debug)]
 pub struct MapPainter {
     marks: Marks,
@@ -31,7 +31,7 @@ impl MapPainter {
         Self { marks: Marks::new(style) }
     }
 
-    /// Some `rows` of `map`.
+    /// The cells of some `rows` of `map`.
     #[must_use]
     pub fn cells(&self, map: &ErrorMap, rows: Range<u16>) -> CellGrid {
         let (columns, all) = map.size();
@@ -52,7 +52,7 @@ impl MapPainter {
         cells
     }
 
-    /// What is wrong, in words as long as there is room for in a row; and from the next row on how far t is off.
+    /// What is wrong, in words as long as there is room for in a row; from the next row on, how far off t is.
     fn legend(&self, map: &ErrorMap) -> Vec<Vec<Word>> {
         let columns = usize::from(map.size().0);
         let long = decisions(map, ["another sphere", "false hit", "lost hit", "other root"]);
@@ -105,7 +105,7 @@ impl MapPainter {
 }
 
 impl Word {
-    /// With its mark, and a gap beside it.
+    /// The width with its mark, and a gap beside it.
     fn width(&self) -> usize {
         self.text.len() + 2 + if self.mark.is_some() { 2 } else { 0 }
     }
@@ -121,7 +121,7 @@ fn wrapped(words: Vec<Word>, columns: usize) -> Vec<Vec<Word>> {
                 row.push(word);
             }
             None => {
-                // A blank before it, and none behind the last.
+                // There is a blank before it, and none behind the last.
                 room = (columns + 1).saturating_sub(word.width());
                 rows.push(vec![word]);
             }
@@ -130,7 +130,7 @@ fn wrapped(words: Vec<Word>, columns: usize) -> Vec<Vec<Word>> {
     rows
 }
 
-/// The tier, its wrong decisions as far as there are any by these `names`, and the worst ray.
+/// The tier, its wrong decisions by these `names`, if there are any, and the worst ray.
 fn decisions(map: &ErrorMap, names: [&str; 4]) -> Vec<Word> {
     let counts = &map.counts;
     let all = [

@@ -9,8 +9,8 @@ use crate::style::{Charset, ColorDepth, Style};
 /// The least ulp of every grey but the first, which is no error at all.
 pub(super) const BANDS: [u64; 6] = [1, 2, 4, 16, 256, 65_536];
 
-/// Wrong decisions have colours that colour-blind people tell apart, among themselves and from grey: vermillion, sky
-/// blue, yellow and blue of M. Okabe and K. Ito, "Color Universal Design", 2008. What is rounded is grey, the lighter
+/// Wrong decisions have colours that colour-blind people tell apart, from each other and from grey: vermillion, sky
+/// blue, yellow and blue of M. Okabe and K. Ito, "Color Universal Design", 2008. Rounding errors are grey, the lighter
 /// the worse.
 const OTHER_SPHERE: u32 = 0xf0_e442;
 const FALSE_HIT: u32 = 0xd5_5e00;
@@ -58,7 +58,7 @@ fn color(class: Class) -> Srgb {
 pub(super) struct Marks {
     /// Whether cells have letters: without colour, in ASCII, and where there are not enough colours for all.
     pub(super) has_letters: bool,
-    /// Miss, right, off by a power of two from 0 to 31, and the wrong decisions.
+    /// The cells of miss, right, off by a power of two from 0 to 31, and the wrong decisions.
     cells: [Cell; 38],
 }
 

@@ -1,4 +1,4 @@
-//! Two tiers side by side: the columns left of a seam by one, those right of it by the other, and below what each
+//! Two tiers side by side: the columns left of a seam by one tier, those right of it by the other. Below is what each
 //! takes and gets wrong.
 
 use super::error_map::ErrorMapper;
@@ -18,7 +18,7 @@ const FIGURES: u16 = 2;
 const FEWEST_ROWS: u16 = 4;
 /// The most tests of a ray against a sphere whose stages are counted.
 const MOST_TESTS: usize = 1 << 22;
-/// How many times there are to take the median of.
+/// How many of the last times the median is taken of.
 const TIMES: usize = 9;
 
 /// A picture cut in two.
@@ -30,28 +30,28 @@ pub struct Split {
     pub seam: u16,
 }
 
-/// A drawn picture, and nanoseconds a ray of each half; none of a half without rays.
+/// A drawn picture, and the nanoseconds a ray of each half; `None` for a half without rays.
 #[derive(Clone, Debug)]
 pub struct SplitPicture {
     /// Without figures.
     pub drawn: Drawn,
-    /// Shadow rays are rays.
+    /// Shadow rays count as rays.
     pub ns_a_ray: [Option<f64>; 2],
 }
 
-/// What the tier of a half gets wrong, and how far it had to go.
+/// What the tier of a half gets wrong, and which stages its tests reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct HalfFigures {
     /// Camera rays, a few a cell.
     pub rays: u64,
-    /// Those with another answer than that of `Exact`, beside rounding.
+    /// Rays with another answer than that of `Exact`, beside rounding.
     pub wrong: u64,
-    /// Of every test that there is, as if by brute force; of some rays if those are too many.
+    /// The stages of every test that there is, as if by brute force; of some rays only, if there are too many tests.
     pub stages: Stages,
 }
 
 impl Split {
-    /// The columns of both halves of so many.
+    /// The columns of each half, of so many columns.
     #[must_use]
     pub fn halves(&self, columns: u16) -> [Range<u16>; 2] {
         let seam = self.seam.min(columns);
@@ -94,7 +94,7 @@ impl Split {
         SplitPicture { drawn: Drawn { cells, effort }, ns_a_ray }
     }
 
-    /// Holds both halves against `Exact`. For pictures at rest: it takes as long as a picture.
+    /// Compares both halves with `Exact`. This is for pictures at rest: it takes as long as a picture.
     #[must_use]
     pub fn figures(
         &self,
@@ -113,7 +113,7 @@ impl Split {
                 mapper.map_columns((scene, search), view, &style, size, &half, machine, |_| {});
             let stages = match accuracy {
                 Tier::Exact => stages_of(scene, view, &style, size, &half),
-                // The other tiers know single precision alone.
+                // The other tiers have only single precision.
                 _ => Stages::default(),
             };
             HalfFigures { rays: map.effort().samples, wrong: map.counts.wrong_decisions(), stages }
@@ -121,7 +121,7 @@ impl Split {
         [of_half(left, self.tiers[0]), of_half(right, self.tiers[1])]
     }
 
-    /// Writes what each half takes and gets wrong under it, over the last rows, as far as it is known.
+    /// Writes below each half, over the last rows, what it takes and gets wrong, as far as that is known.
     pub fn write(
         &self,
         cells: &mut CellGrid,
@@ -154,7 +154,7 @@ fn text(figures: &HalfFigures) -> String {
     format!("{wrong} f64 {:.1}% sums {:.3}%", share(stages.double), share(stages.expansions))
 }
 
-/// Of the camera rays through some columns.
+/// The stages of the camera rays through some columns.
 fn stages_of(
     scene: &Scene,
     view: &View,
@@ -183,7 +183,7 @@ pub struct Times {
 }
 
 impl Times {
-    /// Takes note of a picture of these `tiers`, and tells the medians of the last, which can be read.
+    /// Takes note of a picture of these `tiers`, and returns the medians of the last times, which can be read.
     pub fn medians(&mut self, tiers: [Tier; 2], ns_a_ray: [Option<f64>; 2]) -> [Option<f64>; 2] {
         if self.of != Some(tiers) {
             *self = Self { of: Some(tiers), ..Self::default() };

@@ -1,4 +1,4 @@
-//! What one answer gets wrong against the truth, and what many come to.
+//! What one answer gets wrong against the truth, and counts of many such verdicts.
 
 pub use crate::tally::Class;
 use spherule_kernel::{Exact, Hit, Ray, Sphere, Spheres, roots};
@@ -16,7 +16,7 @@ impl Verdict {
     /// Both miss.
     pub const MISS: Self = Self { class: Class::Miss, ulp: 0 };
 
-    /// Holds the answer for `ray` against the truth.
+    /// Compares the answer for `ray` with the truth.
     #[must_use]
     pub fn of(ray: &Ray, spheres: Spheres<'_>, answer: Option<Hit>, truth: Option<Hit>) -> Self {
         let elsewhere = answer.zip(truth).is_some_and(|(a, b)| a.sphere != b.sphere);
@@ -45,14 +45,14 @@ fn is_at_the_other_root(ray: &Ray, spheres: Spheres<'_>, answer: Hit, truth: Hit
     roots.is_some_and(|roots| roots.iter().any(|&root| away(root) < away(truth.t)))
 }
 
-/// Whether double precision is sure that both are on one side of the middle between the roots, as most are: then none
-/// is at the other root.
+/// Whether double precision is sure that both are on one side of the middle between the roots, as most are: then the
+/// answer is not at the other root.
 fn are_before_or_behind(ray: &Ray, sphere: &Sphere, t: [f32; 2]) -> bool {
     let (direction, center) = (ray.direction.as_dvec3(), sphere.center.as_dvec3());
     let way = center - ray.origin.as_dvec3();
     let (middle, squared) = (way.dot(direction), direction.length_squared());
     let sides = t.map(|t| f64::from(t) * squared - middle);
-    // Thousands of times what these few operations may be off.
+    // This is thousands of times the error of these few operations.
     let least = 1e-12 * (way.abs().dot(direction.abs()) + middle.abs());
     sides.iter().all(|&side| side > least) || sides.iter().all(|&side| side < -least)
 }
@@ -62,7 +62,7 @@ fn are_before_or_behind(ray: &Ray, sphere: &Sphere, t: [f32; 2]) -> bool {
 pub struct Worst {
     /// What is wrong with it.
     pub verdict: Verdict,
-    /// The sphere that it is said to hit or, if it is said to miss, that it hits.
+    /// The sphere that the answer hits or, if the answer is a miss, that the ray hits.
     pub sphere: u32,
     /// Its sample, counted in columns and rows over the whole picture.
     pub sample: (u32, u32),
@@ -75,17 +75,17 @@ pub struct Counts {
     pub misses: u64,
     /// Same sphere, same t.
     pub right: u64,
-    /// By the power of two of their ulp.
+    /// Same sphere, t off: counted by the power of two of their ulp.
     pub off: [u64; 32],
     /// Same sphere, other root.
     pub other_root: u64,
-    /// Misses that are hits.
+    /// Answers that miss where the truth hits.
     pub lost_hits: u64,
-    /// Hits that are misses.
+    /// Answers that hit where the truth misses.
     pub false_hits: u64,
     /// Hits of another sphere.
     pub other_spheres: u64,
-    /// The worst of those that are not right; of several the first from the top left. None if all are right.
+    /// The worst of the rays that are not right; of equals, the first from the top left. `None` if all are right.
     pub worst: Option<Worst>,
 }
 
@@ -123,7 +123,7 @@ impl Counts {
         }
     }
 
-    /// Those of both, in whatever order.
+    /// The counts of both, in whatever order.
     #[must_use]
     pub fn and(mut self, other: &Self) -> Self {
         self.misses += other.misses;
@@ -141,7 +141,7 @@ impl Counts {
         self
     }
 
-    /// Rays of which more than the last digits are wrong.
+    /// The number of rays of which more than the last digits are wrong.
     #[must_use]
     pub fn wrong_decisions(&self) -> u64 {
         self.other_root + self.lost_hits + self.false_hits + self.other_spheres
@@ -195,7 +195,7 @@ mod tests {
             let ulp = u64::from(ulp.unsigned_abs());
             assert_eq!(found, Verdict { class: Class::Off(log), ulp }, "{ulp}");
         }
-        // Across zero, and with no end: no root is nearer than the truth.
+        // Across zero, and at infinity: no root is nearer than the truth.
         let tiny = f32::from_bits(1);
         let ray = Ray::new(Vec3::ZERO, Vec3::Z);
         let nowhere = Spheres::new(&[], &[], &[], &[]).expect("none of each");

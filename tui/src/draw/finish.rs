@@ -25,7 +25,7 @@ pub(super) struct Finish<'a> {
 }
 
 impl<'a> Finish<'a> {
-    /// Of a picture with so few samples in every cell; `None` if they are left as they are.
+    /// The finish of a picture with so few samples in every cell; `None` if they are left as they are.
     pub(super) fn new(
         traced: &Traced<'a>,
         view: &View,
@@ -50,7 +50,7 @@ impl<'a> Finish<'a> {
         })
     }
 
-    /// What a hit shows: t counts in the direction's part along the line of sight, which is one for every ray of a camera.
+    /// What a hit shows. Its depth is t, since the part of every camera ray's direction along the line of sight is one.
     #[inline]
     pub(super) fn seen(&self, hit: Hit) -> Seen {
         let index = hit.sphere as usize;

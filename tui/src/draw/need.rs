@@ -2,8 +2,8 @@
 
 use spherule_kernel::Vec3;
 
-/// Above this distance from a plane, in `OKLab`, a cell's samples are too few. (0.03: 5 % more samples, and nothing
-/// gained.)
+/// Above this distance from a plane, in `OKLab`, a cell's samples are too few. (0.03 takes 5 % more samples, and gains
+/// nothing.)
 pub(super) const ENOUGH: f32 = 0.035;
 
 /// The samples of a picture that has 2 x 2 a cell, as they look (in `OKLab`), cell by cell.
@@ -24,10 +24,10 @@ impl Looks<'_> {
         }
     }
 
-    /// How far the samples in and around a cell are from a plane: the most, in `OKLab`.
+    /// The greatest distance of the samples in and around a cell from a plane, in `OKLab`.
     ///
-    /// Four samples in the cell, and the twelve around it: an edge that runs between two of them is seen, and smooth
-    /// shading, which two colours show well, is not. Past the edges of the picture the last samples count again.
+    /// There are four samples in the cell, and twelve around it. So an edge that runs between two of them is seen, and
+    /// smooth shading, which two colours show well, is not. Past the edges of the picture the last samples count again.
     fn need(&self, column: usize, row: usize) -> f32 {
         let (width, height) = (2 * self.columns, 2 * self.rows);
         let xs: [usize; 4] =

@@ -42,14 +42,14 @@ pub struct PixelGrid {
 }
 
 impl PixelGrid {
-    /// Of a picture of `columns` x `rows` cells: 8 pixels across a cell, and as many down as make them square, so far
-    /// as whole numbers do.
+    /// The pixels of a picture of `columns` x `rows` cells: 8 across a cell, and as many down as make them square, as far as whole numbers
+    /// do.
     #[must_use]
     pub fn new(view: &View, style: &Style, columns: u16, rows: u16) -> Self {
         Self::in_cells(view, style, (columns, rows), Self::usual_cell(style), SAMPLES)
     }
 
-    /// Of cells of so many pixels, with so many samples across a pixel, and as many down.
+    /// The same for cells of so many pixels, with so many samples across a pixel, and as many down.
     #[must_use]
     pub fn in_cells(
         view: &View,
@@ -71,7 +71,7 @@ impl PixelGrid {
         }
     }
 
-    /// The pixels of a cell across, and down, of which nothing is known but its shape.
+    /// The pixels across and down a cell of which nothing is known but its shape.
     #[must_use]
     pub fn usual_cell(style: &Style) -> (u32, u32) {
         (ACROSS_A_CELL, (ACROSS_A_CELL as f32 / style.cell_aspect).round().max(1.0) as u32)
@@ -83,7 +83,7 @@ impl PixelGrid {
         (self.samples.width / self.across, self.samples.height / self.across)
     }
 
-    /// The camera's rays, against so many spheres.
+    /// The work of the camera's rays, against so many spheres.
     #[must_use]
     pub fn workload(&self, spheres: usize) -> Workload {
         let rays = self.samples.width as usize * self.samples.height as usize;
@@ -116,7 +116,7 @@ impl Renderer<'_> {
     /// pixel. `search` finds the spheres of that scene from the grid's view.
     ///
     /// # Errors
-    /// The first of `take`.
+    /// The first error of `take`.
     pub fn draw_pixels<E>(
         &self,
         scene: &Scene,
@@ -201,8 +201,7 @@ struct Worker {
     finished: Vec<Vec3>,
 }
 
-/// As `trace_tile`, with samples that are finished one by one; and the grid by which edges get dark, with the row of cells
-/// that it begins with.
+/// As `trace_tile`, but finishes samples one by one. Takes the grid by which edges get dark, and the row of cells that it begins with.
 fn finish_tile(
     Worker { tracer, finished }: &mut Worker,
     (traced, finish, edges): (&Traced<'_>, &Finish<'_>, Option<&(SeenGrid<'_>, usize)>),

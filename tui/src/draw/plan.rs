@@ -27,10 +27,10 @@ pub(super) struct Plan<'a> {
     pub(super) left: usize,
     pub(super) columns: usize,
     pub(super) rows: usize,
-    /// Of every cell.
+    /// The samples of every cell.
     pub(super) few: Sampling,
-    /// Of those where the few are not enough: from the finest to the coarsest that may be made do with; none if the
-    /// few are all.
+    /// The samples of cells where the few are not enough, from the finest grid to the coarsest that will do; empty if
+    /// there are only the few.
     pub(super) many: Vec<Sampling>,
     pub(super) spending: Spending,
     /// Whether it is drawn as well as can be, and not as one of many that pass.
@@ -78,7 +78,7 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// The same picture, of which some columns are drawn as if it ended with them.
+    /// The same picture, but only these columns are drawn, as if it ended with them.
     pub(super) fn only(mut self, columns: Range<u16>) -> Self {
         (self.left, self.columns) = (columns.start.into(), columns.len());
         for sampling in self.many.iter_mut().chain([&mut self.few]) {

@@ -8,9 +8,9 @@ use std::ops::Range;
 pub enum Spending {
     /// As many as it needs.
     ByNeed,
-    /// No more than these. The few that every cell gets are taken whatever they sum up to, and nothing is saved on
-    /// samples whose number the style names. Colours are [what an eye follows](crate::cells::eye), and of 256 the
-    /// nearest, [unmixed](crate::cells::dither).
+    /// At most this many. The few samples of every cell are taken whatever they sum up to, and nothing is saved on
+    /// samples whose number the style names. Colours are those for [an eye that follows a movement](crate::cells::eye),
+    /// and of 256 colours the nearest, [unmixed](crate::cells::dither).
     AtMost(u64),
 }
 
@@ -21,15 +21,15 @@ pub struct Effort {
     pub samples: u64,
     /// How many rays, shadow rays among them.
     pub rays: u64,
-    /// Whether every cell got what it needs, mixed colours among it.
+    /// Whether every cell got what it needs, including mixed colours.
     pub is_full: bool,
 }
 
 impl Effort {
-    /// Of a picture without a cell.
+    /// The effort of a picture without a cell.
     pub const NONE: Self = Self { samples: 0, rays: 0, is_full: true };
 
-    /// Of both.
+    /// The effort of both.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
         Self {
@@ -45,7 +45,7 @@ impl Effort {
 pub(super) struct Grant {
     /// Which of the grids of samples, counted from the finest.
     pub(super) grid: usize,
-    /// Those whose need is greater.
+    /// Cells whose need is greater than this get that grid.
     pub(super) above: f32,
 }
 
@@ -55,7 +55,7 @@ impl Grant {
 }
 
 impl Spending {
-    /// What of it is for `some` columns of so many.
+    /// The part of it for `some` of `all` columns.
     #[must_use]
     pub fn part(self, some: usize, all: usize) -> Self {
         match self {
@@ -64,7 +64,7 @@ impl Spending {
         }
     }
 
-    /// What is left of it for some `rows` of a picture that has so many in `all`, after so many samples of these.
+    /// What is left for `rows`, of `all` rows of a picture, after they have taken so many samples.
     pub(super) fn left(self, rows: &Range<usize>, all: usize, samples: u64) -> Self {
         match self {
             Self::ByNeed => Self::ByNeed,
@@ -77,11 +77,11 @@ impl Spending {
         }
     }
 
-    /// Shares it out among cells with these `needs`, of which each gets as many samples as one of the `grids` has.
+    /// Shares it out among cells with these `needs`. Each gets as many samples as one of the `grids` has.
     ///
-    /// The finest for all who are in need, or the finest that suffices for all of them. If there is none, the
-    /// coarsest for those who need it most: of equals either all or none get it, so the order does not matter.
-    /// `sorted` is memory.
+    /// With `ByNeed`, all who are in need get the finest grid; else they get the finest that suffices for all of them. If
+    /// none does, those who need it most get the coarsest: of equals either all or none get it, so the order does not
+    /// matter. `sorted` is memory.
     pub(super) fn grant(self, needs: &[f32], grids: &[u32], sorted: &mut Vec<f32>) -> Grant {
         let Self::AtMost(most) = self else { return Grant::FULL };
         let needy = || needs.iter().copied().filter(|&need| need > ENOUGH);
@@ -93,7 +93,7 @@ impl Spending {
         let Some((&coarsest, finer)) = grids.split_last() else { return Grant::FULL };
         sorted.clear();
         sorted.extend(needy());
-        // Fewer than there are, or that grid would have sufficed.
+        // Fewer than there are in need, or that grid would have sufficed.
         let served = (most / u64::from(coarsest)) as usize;
         let (_, &mut above, _) = sorted.select_nth_unstable_by(served, |a, b| b.total_cmp(a));
         Grant { grid: finer.len(), above }

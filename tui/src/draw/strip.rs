@@ -1,8 +1,8 @@
-//! Some rows of a picture, from rays to cells, in four passes over bands of rows; each needs what the one before made
-//! of the rows around its own.
+//! Some rows of a picture, from rays to cells, in four passes over bands of rows. Each pass needs what the one before
+//! made of the rows around its own.
 //!
 //! 1. *Sample*: a few rays in every cell.
-//! 2. *Judge*: how far the few disagree. Then it is known what all cells need, and decided what they get.
+//! 2. *Judge*: how far the few disagree. Then the needs of all cells are known, and it is decided what they get.
 //! 3. *Fit*: many rays where they are granted, and the glyph and colours of each cell.
 //! 4. *Paint*: what a cell cannot show goes to its neighbours, and light becomes the colours that the terminal has.
 //!
@@ -31,35 +31,35 @@ use worker::Worker;
 /// to the end, and a multiple of a packet's height whatever the samples.
 const BAND: usize = 4;
 
-/// How many rows of fits around a row have a part in its cells.
+/// How many rows of fits around a row influence its cells.
 const HALO: usize = 2;
 
 /// The memory of a strip.
 #[derive(Debug, Default)]
 pub(super) struct Strip {
-    /// Of the few samples, cell by cell.
+    /// The light of the few samples, cell by cell.
     light: Vec<Vec3>,
-    /// What they show, if edges are to be seen.
+    /// What the few samples show, if edges are to be seen.
     seen: Vec<Seen>,
-    /// The same in `OKLab`.
+    /// The light in `OKLab`.
     looks: Vec<Vec3>,
-    /// How far those of a cell disagree.
+    /// How far the few samples of a cell disagree.
     needs: Vec<f32>,
-    /// Of those in need.
+    /// The needs of cells in need.
     sorted: Vec<f32>,
-    /// Of the frame before until they are made anew.
+    /// The fits of the frame before, until they are made anew.
     fits: Vec<Fitted>,
-    /// The cells that were made of them.
+    /// The cells that were made of the fits.
     shown: Vec<Cell>,
-    /// Which rows and columns they are of, in which characters and colours.
+    /// The rows and columns that the fits are of, and their characters and colours.
     fits_of: Option<(Range<usize>, usize, usize, Charset, ColorDepth)>,
-    /// Whether they were drawn at rest.
+    /// Whether the fits were drawn at rest.
     at_rest: bool,
     /// One a thread.
     workers: Vec<Worker>,
 }
 
-/// Rows of cells, from the first on, counted over the whole picture.
+/// The rows and so many around them, of `all` rows of the picture.
 fn rows_around(rows: &Range<usize>, halo: usize, all: usize) -> Range<usize> {
     rows.start.saturating_sub(halo)..(rows.end + halo).min(all)
 }
@@ -75,7 +75,7 @@ fn write_looks(light: &[Vec3], looks: &mut [Vec3]) {
     }
 }
 
-/// Chunks of what is there; empty ones without end if nothing is.
+/// Chunks of `all`; endless empty ones if it is empty.
 fn chunks_or_nothing<T>(all: &mut [T], size: usize) -> impl Iterator<Item = &mut [T]> {
     let nothing = all.is_empty();
     all.chunks_mut(size.max(1))
@@ -149,7 +149,7 @@ impl Strip {
         let grant = left.grant(needs, &grids, sorted);
         let many = plan.many.get(grant.grid).map(|sampling| (sampling, grant.above));
 
-        // Of another place, or of cells of another kind, what was there says nothing.
+        // Fits of another place, or of cells of another kind, say nothing.
         let place =
             Some((fitted.clone(), plan.left, plan.columns, plan.style.charset, plan.style.depth));
         if plan.is_steady || *fits_of != place {

@@ -57,7 +57,7 @@ fn a_budget_that_suffices_is_not_seen() {
     }
 }
 
-/// Glyphs that are not those of the picture before, in pictures of marbles from a little farther to the right each.
+/// Counts glyphs that differ from the picture before, in pictures of marbles, each from a little farther to the right.
 fn changes_of_glyphs(style: &Style, keeps: bool) -> usize {
     marbles(style, 1, STRIP, |renderer, scene, search, view| {
         let mut changes = 0;
@@ -109,7 +109,7 @@ fn a_movement_begins_with_what_was_there_at_rest() {
     }
 }
 
-/// Of a picture at rest no error of change is known: without `change::at_rest` 10 and 15 of these glyphs change, with it 3 and 2.
+/// For a picture at rest no error of change is known: without `change::at_rest` 10 and 15 of these glyphs change, with it 3 and 2.
 #[test]
 fn when_a_movement_begins_glyphs_stay() {
     for charset in [Charset::Block, Charset::Sextant] {
@@ -183,7 +183,7 @@ fn strips_do_not_show() {
     {
         let style = Style { depth, ..STYLE };
         let expected = drawn(&style, 1, STRIP, Spending::ByNeed).cells;
-        // Of a row, of rows that bands do not divide, of less than a row, and one that ends with the picture.
+        // Strips of a row, of rows that bands do not divide, of less than a row, and one that ends with the picture.
         for (most_cells, height) in [(60, 1), (7 * 60 + 59, 7), (59, 1), (5 * 60, 5), (3 * 60, 3)] {
             assert!(drawn(&style, 1, most_cells, Spending::ByNeed).cells == expected, "{height}");
             let mut cells: Vec<Cell> = Vec::new();

@@ -14,8 +14,8 @@ use std::ops::Range;
 /// Columns and rows of samples in a packet.
 const TILE: (u32, u32) = Camera::tile::<[f32; 16]>();
 
-/// Which pixels the samples of a packet belong to: each to the sum of what its column and its row have here. So there
-/// are eight numbers to be found in place of sixteen, each by division.
+/// Which pixels the samples of a packet belong to: each to the sum of the numbers of its column and of its row. So
+/// eight numbers are found instead of sixteen, each by division.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Places {
     columns: [usize; TILE.0 as usize],
@@ -23,7 +23,7 @@ pub(super) struct Places {
 }
 
 impl Places {
-    /// Of the packet with this top left sample.
+    /// The places of the packet with this top left sample.
     #[inline]
     pub(super) fn new(
         (left, top): (u32, u32),
@@ -53,7 +53,7 @@ pub(super) struct Tracer {
 /// What was traced.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Light<'a> {
-    /// Of every pixel.
+    /// The light of every pixel.
     pub(super) pixels: &'a [Vec3],
     /// What each of them shows, if pixels are samples that are to be finished.
     pub(super) seen: &'a [Seen],
@@ -62,7 +62,7 @@ pub(super) struct Light<'a> {
 }
 
 impl Tracer {
-    /// Traces all samples of some columns and rows of cells, as if the picture ended with these rows: cell by cell.
+    /// Traces all samples of some columns and rows of cells, cell by cell, as if the picture ended with these rows.
     pub(super) fn trace_cells(
         &mut self,
         how: (&Traced<'_>, Option<&Finish<'_>>),
@@ -89,9 +89,9 @@ impl Tracer {
     }
 
     /// Traces the packets of `grid` whose top left samples are `corners`, and returns the light of so many `pixels`. If
-    /// it is to be finished, they are samples, and have faded already.
+    /// the light is to be finished, pixels are samples, and have faded already.
     ///
-    /// Every sample adds its `share` to the pixel that `places` names. In the order of the packets, so that sums are
+    /// Every sample adds its `share` to the pixel that `places` names, in the order of the packets, so that sums are
     /// the same whoever computes them.
     pub(super) fn trace(
         &mut self,

@@ -2,20 +2,20 @@
 //!
 //! # Method
 //!
-//! A colour that was sent stays in the pen, and cells to the right may be drawn with it for a byte. Along a gradient
-//! the colour of the first cell suits them worst: all the others lie on one side of it. The mean of so many cells has
-//! a quarter of that error. So the means of the first two, three and more are tried, and what comes is foreseen for each:
-//! a cell stays as it is shown, is drawn with the colour that is held, or brings its own, which is held from
-//! then on. The mean that costs least is sent.
+//! A colour that was sent stays in the pen, and each cell to the right may be drawn with it for a byte. Along a gradient the colour of the
+//! first cell suits them worst: all the others lie on one side of it. The mean of the cells has a quarter of that error. So the means of the
+//! first two, three and more are tried, and for each the cells to come are foreseen: a cell stays as it is shown, is drawn with the colour
+//! that is held, or brings its own, which is held from then on. The mean that costs least is sent.
 
 use super::tolerance::{Tolerance, ink};
 use crate::cells::{Cell, Color};
 use glam::Vec3;
 
-/// How many cells are foreseen. (4: as many bytes, 0.1 dB less; 8: 0.3 % fewer, and 5 % more time.)
+/// How many cells are foreseen. (With 4 there are as many bytes, and 0.1 dB less; with 8 there are 0.3 % fewer, and it takes 5 % more
+/// time.)
 const CELLS: usize = 6;
-/// The bytes that a colour of its own is taken for. It has some 18, but is no mean of what follows in turn: with 18, 22,
-/// 28 and 36 bytes a frame has 38.8, 38.2, 37.6 and 37.1 kB, at 47.8, 47.7, 47.4 and 47.3 dB (of 8 cells).
+/// The bytes that a cell's own colour counts as. It has some 18, but is no mean of what follows in turn: with 18, 22, 28 and 36 bytes a
+/// frame has 38.8, 38.2, 37.6 and 37.1 kB, at 47.8, 47.7, 47.4 and 47.3 dB (with 8 cells foreseen).
 const OWN_BYTES: usize = 28;
 
 /// One of the two colours of a cell.
@@ -37,7 +37,8 @@ struct Wanted {
     kept: f32,
 }
 
-/// A colour for a cell, whose share of it has `own`, and for those that follow, each with the error of leaving it as it is.
+/// Returns a colour for a cell, of which `share` has the colour `own`, and for the cells that follow; leaving these as they are has the
+/// `errors`.
 pub(super) fn color(
     tolerance: &Tolerance,
     layer: Layer,
@@ -64,7 +65,7 @@ pub(super) fn color(
     cheapest(tolerance, &wanted[..count]).map_or(own, Color::Rgb)
 }
 
-/// The mean of the first few of `wanted` that costs least.
+/// Returns the mean of the first few of `wanted` that costs least.
 fn cheapest(tolerance: &Tolerance, wanted: &[Wanted]) -> Option<[u8; 3]> {
     let (mut perceived, mut light) = (Vec3::ZERO, [0.0; 3]);
     let mut best = (f32::INFINITY, None);
@@ -79,7 +80,7 @@ fn cheapest(tolerance: &Tolerance, wanted: &[Wanted]) -> Option<[u8; 3]> {
     best.1
 }
 
-/// What it costs to show `wanted` if that colour is sent for the first of them; `most` or more if it costs no less.
+/// The cost of showing `wanted` if the colour `sent` is sent for the first of them; `most` or more if it is not less than that.
 fn cost(tolerance: &Tolerance, sent: Vec3, wanted: &[Wanted], most: f32) -> f32 {
     let error = |held: Vec3, wanted: &Wanted| {
         wanted.share * tolerance.unless_too_far(held.distance_squared(wanted.perceived))

@@ -14,8 +14,8 @@ pub(super) fn push_glyph(glyph: char, out: &mut Vec<u8>) {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cursor {
     position: Option<(u16, u16)>,
-    /// A glyph was written into the last column: terminals disagree on which column the cursor is
-    /// in, so only ways that do not depend on it are taken.
+    /// A glyph was written into the last column. Terminals disagree on which column the cursor is
+    /// in then, so only ways that do not depend on it are taken.
     wrap_pending: bool,
 }
 
@@ -33,20 +33,20 @@ impl Cursor {
         }
     }
 
-    /// The column that it is in for sure, if it is in this row.
+    /// The column of the cursor, if that is known for sure and in this row.
     pub(super) fn column_in(&self, row: u16) -> Option<u16> {
         let (here, column) = self.position.filter(|_| !self.wrap_pending)?;
         (here == row).then_some(column)
     }
 
-    /// How many bytes the jump takes over so many columns to the right.
+    /// How many bytes a jump over so many columns to the right takes.
     pub(super) fn jump_length(columns: u16) -> usize {
         let mut jump = Way::new();
         jump.right(columns);
         jump.length
     }
 
-    /// About how many bytes the way there takes: none where it is.
+    /// About how many bytes the way there takes: none if the cursor is there.
     pub(super) fn way_to(&self, row: u16, column: u16) -> usize {
         /// `ESC [ 9 C`.
         const JUMP: usize = 4;

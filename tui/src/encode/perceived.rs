@@ -1,13 +1,13 @@
-//! Colours in `OKLab`, remembered: an update compares the same ones again and again, with the pen, with the cell before and
-//! with the cell that was shown, and three cube roots cost more than all else that it does.
+//! Colours in `OKLab`, remembered. An update compares the same colours again and again, with the pen, with the cell before and with the
+//! cell that was shown, and three cube roots cost more than all else that it does.
 
 use crate::color::{Srgb, oklab};
 use glam::Vec3;
 use std::cell::Cell;
 
-/// Places for colours, a power of two. A frame of 200x60 shows some thousands. (1 << 12: an update takes 5 % longer.)
+/// Places for colours, a power of two. A frame of 200x60 shows some thousands. (With 1 << 12 an update takes 5 % longer.)
 const PLACES: usize = 1 << 13;
-/// Of an empty place, which is no colour's key.
+/// The key of an empty place, which no colour has.
 const EMPTY: u32 = 1 << 24;
 
 /// What was computed last for the colours that share a place; an empty place for each at first.

@@ -35,12 +35,12 @@ impl Pen {
         Cell { glyph, foreground: self.foreground, background: self.background }
     }
 
-    /// What can be sent for `cell`, and what is seen then, with the glyph that `cell` has where it is the same: itself,
-    /// or with ink and paper exchanged, each with the pen's own colours in place of its own; and blanks of one colour. Mostly from the shorter
-    /// to the longer.
+    /// The cells that can be sent for `cell`, each with what is then seen, in the glyph of `cell` where that looks the same. They are the
+    /// cell itself and the cell with ink and paper exchanged, each also with the pen's own colours; and blanks of one colour. Mostly the
+    /// shorter come before the longer.
     pub(super) fn forms(self, cell: &Cell) -> impl Iterator<Item = (Cell, Cell)> {
         let Cell { glyph, foreground, background } = *cell;
-        // The terminal's own ink is not its own paper, and of the 16 some have only eight for paper.
+        // The terminal's own ink is not its own paper, and of the 16 colours some terminals have only eight for paper.
         let is_free = |color| matches!(color, Color::Ansi256(_) | Color::Rgb(_));
         let other = opposite(glyph).filter(|_| is_free(foreground) && is_free(background));
         let colored = move |ink, paper| Cell { glyph, foreground: ink, background: paper };
@@ -85,7 +85,7 @@ impl Pen {
         START.len() + ink + paper + glyph
     }
 
-    /// Appends the shortest change that suits `cell`; whether there was one.
+    /// Appends the shortest change of the pen that suits `cell`; returns whether there was one.
     pub(super) fn take_up(&mut self, cell: &Cell, out: &mut Vec<u8>) -> bool {
         if look_same(&self.painted(cell.glyph), cell) {
             return false;
@@ -166,7 +166,7 @@ fn color_length(color: Color, layer: &Layer) -> usize {
     }
 }
 
-/// Half of each, of colours that have light; else the second.
+/// The mean of two `Rgb` colours; else the second.
 fn middle(a: Color, b: Color) -> Color {
     let (Color::Rgb(a), Color::Rgb(b)) = (a, b) else { return b };
     Color::Rgb(std::array::from_fn(|channel| a[channel].midpoint(b[channel])))

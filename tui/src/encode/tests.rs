@@ -50,7 +50,7 @@ fn assert_shows(terminal: &vt100::Parser, grid: &CellGrid) {
     }
 }
 
-/// The same picture with the other glyph of two that fill what the other leaves.
+/// The same picture, drawn by the complement of the glyph.
 fn exchanged(cell: &Cell) -> Cell {
     let named = [cell.foreground, cell.background].map(|color| color != Color::Default);
     let Some(glyph) = opposite(cell.glyph).filter(|_| named == [true, true]) else { return *cell };

@@ -2,9 +2,9 @@
 //!
 //! # Method
 //!
-//! Of all that can be shown in place of a cell, what is there already, what the pen's own colours make, and the cell itself,
-//! that is taken for which error + price x bytes is least: then no other choice cell by cell has less error for as many
-//! bytes. The error is the square of the distance in `OKLab`, in the mean over the cell.
+//! A cell can show what is there already, what the pen's own colours make, or the cell itself. The one whose error + price x bytes is least
+//! is taken: then no other choice cell by cell has less error for as many bytes. The error is the squared distance in `OKLab`, in the mean
+//! over the cell.
 //!
 //! Source: G. J. Sullivan, T. Wiegand, "Rate-distortion optimization for video compression", IEEE Signal Processing
 //! Magazine 15 (6), 1998.
@@ -23,8 +23,7 @@ const VISIBLE: f32 = 0.03;
 /// little then, but is no farther off than `REACH`.)
 const INK: f32 = 0.5;
 
-/// What errors cost, in squares of distances in `OKLab`; of colours that the terminal has no light for, there is none that
-/// is small. At first nothing may be off.
+/// What errors cost, in squared distances in `OKLab`. Colours that are not `Rgb` are equal or too far apart. At first nothing may be off.
 #[derive(Debug, Default)]
 pub(super) struct Tolerance {
     distance: f32,
@@ -35,7 +34,7 @@ pub(super) struct Tolerance {
 }
 
 impl Tolerance {
-    /// Sets it to `distance`, at most to 0.03.
+    /// Sets the tolerance to `distance`, at most to 0.03.
     pub(super) fn set(&mut self, distance: f32) {
         self.distance = distance.clamp(0.0, VISIBLE);
         self.most = (REACH * self.distance).min(VISIBLE).powi(2);
@@ -52,14 +51,14 @@ impl Tolerance {
         if a == b { 0.0 } else { self.across(a, b) }
     }
 
-    /// The same of an ink and a paper: the terminal's own are not alike.
+    /// The same for an ink and a paper: the terminal's own ink and paper are not alike.
     fn across(&self, a: Color, b: Color) -> f32 {
         let (Color::Rgb(a), Color::Rgb(b)) = (a, b) else { return f32::INFINITY };
         let [a, b]: [Vec3; 2] = [self.perceived.color(a), self.perceived.color(b)];
         self.unless_too_far(a.distance_squared(b))
     }
 
-    /// Infinite where the square of a distance is too large for any part of a cell.
+    /// Returns `square`, or infinity where that is too large for any part of a cell.
     pub(super) fn unless_too_far(&self, square: f32) -> f32 {
         if square <= self.most { square } else { f32::INFINITY }
     }
@@ -74,8 +73,8 @@ impl Tolerance {
         self.distance <= 0.0
     }
 
-    /// The error of `shown` where `wanted` should be; infinite if any part is too far off. Of two glyphs no one knows
-    /// how their inks lie on each other: as if by chance.
+    /// The error of `shown` where `wanted` should be; infinite if any part is too far off. How the inks of two different glyphs lie on each
+    /// other is not known, and taken to be by chance.
     pub(super) fn error(&self, shown: &Cell, wanted: &Cell) -> f32 {
         if look_same(shown, wanted) {
             return 0.0;
@@ -86,7 +85,7 @@ impl Tolerance {
         let [own, other] = [shown, wanted].map(|cell| ink(cell.glyph));
         let paper = || self.apart(shown.background, wanted.background);
         let inks = || self.apart(shown.foreground, wanted.foreground);
-        // What has no share does not count, however far it is; and nothing more is asked where one is too far.
+        // A part without a share does not count, however far off it is. Once one part is too far off, no other is computed.
         let add = |sum: f32, share: f32, square: &dyn Fn() -> f32| {
             if share > 0.0 && sum.is_finite() { sum + share * square() } else { sum }
         };

@@ -6,7 +6,7 @@ use super::sgr::{Pen, RESET};
 use super::tolerance::{Tolerance, ink, look_same};
 use crate::cells::{Cell, CellGrid};
 
-/// Ink and paper exchanged, which needs no colour; until the next reset.
+/// Exchanges ink and paper, which needs no colour, until the next reset.
 const INVERSE: &[u8] = b"\x1b[7m";
 
 /// A frame that is being written.
@@ -18,7 +18,7 @@ pub(super) struct Update<'a> {
     pub(super) end: usize,
     /// Whether nothing has been left or written that only looks alike.
     pub(super) is_exact: bool,
-    /// Of the row that is being written: what it costs to leave each cell as it is.
+    /// The errors of leaving each cell of the row that is being written as it is.
     errors: Vec<f32>,
 }
 
@@ -60,7 +60,7 @@ impl<'a> Update<'a> {
             // A mark is where it should be, whatever it costs.
             let error = self.errors[index];
             let way = self.cursor.way_to(row, column);
-            // Nothing is shown in less than a byte: most cells that stay are seen to by this.
+            // Every change takes a byte at least: this decides most cells that stay.
             let is_cheap = out.len() >= self.end || error <= self.tolerance.price(way + 1);
             let best = if same_mark && is_cheap { None } else { Some(self.best(cell, way)) };
             let best = best.filter(|best| !same_mark || error > best.cost);
@@ -91,7 +91,7 @@ impl<'a> Update<'a> {
         }
     }
 
-    /// The form of `cell` that costs least, where the cursor needs so many bytes to be there.
+    /// The form of `cell` that costs least, if it takes so many bytes to move the cursor there.
     fn best(&self, cell: &Cell, way: usize) -> Form {
         let mut best = Form { sent: *cell, seen: *cell, cost: f32::INFINITY, bytes: usize::MAX };
         for (sent, seen) in self.pen.forms(cell) {
@@ -108,8 +108,7 @@ impl<'a> Update<'a> {
         best
     }
 
-    /// The same with colours that suit the cells to come as well, where it brings any. (With ink and paper exchanged too: no
-    /// byte less.)
+    /// `best` with colours that suit the cells to come as well, if it sends any. (With ink and paper exchanged too, no byte was saved.)
     fn suited_ahead(&self, best: Form, cell: &Cell, wanted: &[Cell], index: usize) -> Form {
         let Form { sent, seen, .. } = best;
         if self.tolerance.is_none() || sent != seen {
@@ -134,8 +133,8 @@ impl<'a> Update<'a> {
         }
     }
 
-    /// Crosses cells that may stay by writing them again, if the pen suits them and that is no longer
-    /// than a jump. Whether the cursor is now where it should be.
+    /// Crosses cells that may stay by writing them again, if the pen suits them and that is no longer than a jump. Returns whether the
+    /// cursor is now where it should be.
     fn rewrite_gap(&mut self, gap: &Gap<'_>, shown: &mut [Cell], out: &mut Vec<u8>) -> bool {
         let Some(from) = self.cursor.column_in(gap.row).filter(|&from| from <= gap.column) else {
             return false;
@@ -165,8 +164,7 @@ impl<'a> Update<'a> {
         true
     }
 
-    /// Whether it costs less to draw cells with the pen's own colours, in place of what is shown, than to jump in so many
-    /// bytes.
+    /// Whether drawing cells with the pen's own colours, instead of what is shown, costs less than a jump of so many bytes.
     fn pays_to_rewrite(&self, wanted: &[Cell], shown: &[Cell], jump: usize) -> bool {
         let (mut drawn, mut left) = (0.0, self.tolerance.price(jump));
         for (wanted, shown) in wanted.iter().zip(shown) {
@@ -175,7 +173,7 @@ impl<'a> Update<'a> {
             drawn += self.tolerance.price(self.pen.bytes(&painted));
             left += self.tolerance.error(shown, wanted);
         }
-        // What is left since bytes did not suffice is infinitely far off, and no reason to be wrong otherwise.
+        // Cells that are left since bytes did not suffice are infinitely far off; that is no reason for other errors.
         drawn.is_finite() && drawn <= left
     }
 }
@@ -183,7 +181,7 @@ impl<'a> Update<'a> {
 /// What is sent for a cell.
 struct Form {
     sent: Cell,
-    /// The same, as the cell names it.
+    /// The same, as the wanted cell names it.
     seen: Cell,
     /// Its error, and the price of its bytes and of the way there.
     cost: f32,
@@ -194,7 +192,7 @@ struct Form {
 struct Gap<'a> {
     row: u16,
     column: u16,
-    /// Of the whole row.
+    /// The wanted cells of the whole row.
     wanted: &'a [Cell],
     /// The column in it that is marked, which no pen suits.
     marked: Option<u16>,

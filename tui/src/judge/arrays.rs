@@ -32,7 +32,7 @@ impl Array {
     /// Opens an array of one of these types, of one dimension or of rows of `columns` numbers.
     ///
     /// # Errors
-    /// [`Error::Input`] if it is another, or longer or shorter than it says.
+    /// [`Error::Input`] if it is another, or longer or shorter than its header says.
     pub(super) fn open(path: &Path, dtypes: &[Dtype], columns: Option<u64>) -> Result<Self, Error> {
         let name = path.display().to_string();
         let wrong = |what: String| Error::Input(format!("{name}: {what}"));
@@ -105,7 +105,7 @@ impl Array {
         Ok(rows.iter().map(|row| row.map(f32::from_le_bytes)).collect())
     }
 
-    /// Whether all has been read; of a pipe only now it is known.
+    /// Checks that all has been read; a pipe tells that only now.
     pub(super) fn check_end(&mut self) -> Result<(), Error> {
         match self.reader.read(&mut [0]) {
             Ok(0) => Ok(()),
@@ -115,7 +115,7 @@ impl Array {
     }
 }
 
-/// Whether there is a row for every ray.
+/// Checks that there is a row for every ray.
 pub(super) fn paired_rows(array: &Array, rays: &Array) -> Result<(), Error> {
     if array.rows == rays.rows {
         return Ok(());
@@ -123,7 +123,7 @@ pub(super) fn paired_rows(array: &Array, rays: &Array) -> Result<(), Error> {
     Err(array.wrong(&format!("{} rows, and {} rays", array.rows, rays.rows)))
 }
 
-/// Where rays hit, and what.
+/// The answers: t, and perhaps the sphere, for every ray.
 pub(super) struct Answers {
     t: Array,
     id: Option<Array>,
@@ -151,10 +151,11 @@ impl Answers {
         self.t.dtype == DTYPE_F8
     }
 
-    /// The next answers, those of row `from` and on; to pairs, or of so many spheres.
+    /// The next answers, from row `from` on; to pairs if `spheres` is `None`, else of so many
+    /// spheres.
     ///
     /// # Errors
-    /// [`Error::Input`] with the first row that is none.
+    /// [`Error::Input`] with the first row that is no answer.
     pub(super) fn read(
         &mut self,
         from: u64,

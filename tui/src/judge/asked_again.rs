@@ -20,7 +20,7 @@ use std::time::{Duration, Instant};
 const SHRINKING: Duration = Duration::from_secs(5);
 /// How long the command may take.
 const PATIENCE: Duration = Duration::from_secs(10);
-/// Cases of one call: more than there are simpler ones, since a call may be dear.
+/// The most cases of one call: more than a case has simpler ones, since a call may be dear.
 const AT_ONCE: usize = 4096;
 
 /// The failure, or a smaller one of its kind.
@@ -41,7 +41,7 @@ pub(super) fn smaller(command: &str, failure: &Failure, rules: Rules) -> Result<
     wrong.map_or(Ok(found), Err)
 }
 
-/// How each case fails, if it does; those of several spheres are not asked.
+/// How each case fails, if it does; cases of several spheres are left out.
 fn failures(
     command: &str,
     candidates: &[Candidate],

@@ -104,7 +104,7 @@ fn counts_value(counts: &Counts) -> Value {
     value
 }
 
-/// Numbers in decimals, null where they are none, and as hexadecimal floats.
+/// A failure with its numbers in decimals, `null` for those that are none, and as hexadecimal floats.
 fn failure_value(failure: &Failure) -> Value {
     let (numbers, spheres) = (ray_numbers(failure), &failure.spheres);
     let row = |Sphere { center, radius }: &Sphere| [center.x, center.y, center.z, *radius];

@@ -8,7 +8,7 @@ use crate::style::{ColorDepth, Style};
 pub(super) enum Role {
     /// Text.
     Plain,
-    /// What is there without counting.
+    /// What is shown and does not count.
     Faint,
     /// A ray.
     Ray,
@@ -27,8 +27,8 @@ pub(super) enum Role {
 }
 
 impl Role {
-    /// One of the 16 colours that every terminal with colour has. Those of the user's theme, so that they are seen on
-    /// light and dark.
+    /// One of the 16 colours that every terminal with colour has. They are those of the user's theme, so that they are
+    /// seen on light and dark.
     fn color(self) -> Color {
         match self {
             Self::Plain => Color::Default,
@@ -57,7 +57,7 @@ pub(super) struct Canvas {
 }
 
 impl Canvas {
-    /// Blank; `style` says how many colours there are.
+    /// A blank canvas; `style` says how many colours there are.
     pub(super) fn new(columns: u16, rows: u16, style: Style) -> Self {
         Self { cells: CellGrid::new(columns, rows), style }
     }
@@ -70,7 +70,7 @@ impl Canvas {
         self.cells.rows().into()
     }
 
-    /// How pictures of the program's own are drawn here.
+    /// How the program's own pictures are drawn here.
     pub(super) fn style(&self) -> &Style {
         &self.style
     }

@@ -22,7 +22,7 @@ pub(super) struct Chart {
 }
 
 impl Chart {
-    /// Shows all of `x` and `y` in `width` x `height` cells from `(left, top)` on, round things round.
+    /// Shows all of `x` and `y` in `width` x `height` cells from `(left, top)` on; circles look round.
     pub(super) fn new(
         (left, top): (i32, i32),
         (width, height): (i32, i32),
@@ -50,7 +50,7 @@ impl Chart {
         }
     }
 
-    /// Of all that is left of so many columns of text.
+    /// A chart in all cells to the left of `text` columns of text.
     pub(super) fn beside(canvas: &Canvas, text: i32, x: [f32; 2], y: [f32; 2]) -> Self {
         Self::new((0, 0), (canvas.columns() - text, canvas.rows()), x, y)
     }
@@ -69,7 +69,7 @@ impl Chart {
         self.curve(canvas, role, length(a, b), |share| mix(a, b, share));
     }
 
-    /// A line of dots with gaps, for what is no ray.
+    /// A line of dots with gaps, for what is no part of a ray.
     pub(super) fn dots(&self, canvas: &mut Canvas, ends: [Vec3; 2], role: Role) {
         let [a, b] = ends.map(|end| self.place(end));
         let count = (length(a, b) / 2.0).round().clamp(1.0, 1e3) as u16;
@@ -84,12 +84,12 @@ impl Chart {
         self.line(canvas, [origin, origin + self.beyond(origin, direction)], role);
     }
 
-    /// What lies behind `origin`.
+    /// Draws what lies behind `origin`, as dots.
     pub(super) fn behind(&self, canvas: &mut Canvas, origin: Vec3, direction: Vec3) {
         self.dots(canvas, [origin, origin - self.beyond(origin, direction)], Role::Faint);
     }
 
-    /// So far along `direction` that the chart ends before.
+    /// A vector along `direction` that reaches beyond the chart.
     fn beyond(&self, origin: Vec3, direction: Vec3) -> Vec3 {
         let middle = Vec3::new(self.middle[0], self.middle[1], 0.0);
         let reach = (self.width + self.height) as f32 / self.unit + origin.distance(middle);
@@ -99,7 +99,7 @@ impl Chart {
     /// The circle in which the plane cuts a sphere whose centre lies in it.
     pub(super) fn circle(&self, canvas: &mut Canvas, sphere: &Sphere, role: Role) {
         let at = |share: f32| {
-            // From a place where the circle is slanting, so that its ends meet in one cell.
+            // The circle starts at a slanting place, so that its ends meet in one cell.
             let (sin, cos) = ((share + 0.125) * TAU).sin_cos();
             self.place(sphere.center + sphere.radius * Vec3::new(cos, sin, 0.0))
         };
@@ -107,8 +107,8 @@ impl Chart {
         self.curve(canvas, role, around, at);
     }
 
-    /// What `at` goes through from 0 to 1, some `length` cells: where it is flat one glyph a column, else one a row, of
-    /// the place nearest to the middle.
+    /// Draws what `at` goes through from 0 to 1, some `length` cells long. Where the curve is flat it gets one glyph a
+    /// column, else one a row: the glyph of the place nearest to the middle.
     fn curve(&self, canvas: &mut Canvas, role: Role, length: f32, at: impl Fn(f32) -> [f32; 2]) {
         let count = (STEPS_A_CELL * length).round().clamp(1.0, 1e5);
         let mut best: Option<Best> = None;
@@ -146,7 +146,7 @@ struct Best {
     of: [i32; 2],
     /// 0 in a column, 1 in a row.
     along: usize,
-    /// How far from the middle.
+    /// How far this place is from the middle.
     least: f32,
     kept: char,
 }
@@ -156,7 +156,7 @@ fn is_flat(glyph: char) -> bool {
     matches!(glyph, '\'' | '-' | '.')
 }
 
-/// The character that goes as a line does: in cells, at this share of the cell's height from its top.
+/// The character for a line of this direction, in cells, at this share of the cell's height from its top.
 fn stroke([right, down]: [f32; 2], height: f32) -> char {
     if down.abs() < 0.55 * right.abs() {
         return match height {

@@ -9,7 +9,7 @@ use spherule_kernel::{
     SphereList, Tier, Vec3, stages,
 };
 
-/// How many they are.
+/// How many spheres there are.
 pub(super) const COUNT: usize = 5;
 /// Centre and radius: A, B and so on, from far to near. Some hide others.
 const SPHERES: [[f32; 4]; COUNT] = [
@@ -39,7 +39,7 @@ pub(super) struct Few {
 }
 
 impl Few {
-    /// In their order, or the reverse.
+    /// The spheres in their order, or in reverse.
     pub(super) fn new((width, height): (u32, u32), reversed: bool) -> Self {
         let mut names: Vec<_> = (0..SPHERES.len()).collect();
         if reversed {
@@ -79,7 +79,7 @@ impl Few {
         hit.map(|hit| self.name(hit.sphere as usize))
     }
 
-    /// Image order: the first pixels, each with its closest hit; and how many tests that is, as the kernel counts.
+    /// Image order: the closest hits of the first pixels, and how many tests they took, as the kernel counts.
     pub(super) fn image_order(&self, pixels: usize) -> (Vec<Option<Hit>>, u64) {
         let rays: Vec<_> = (0..pixels).map(|pixel| self.ray(pixel)).collect();
         let mut hits = vec![None; pixels];
@@ -88,7 +88,7 @@ impl Few {
         (hits, stages(ClosestHit, &packets, self.list.spheres()).tests)
     }
 
-    /// Object order: the first spheres of the list, and what they took.
+    /// Object order: the hits after the first spheres of the list, and what these spheres took.
     pub(super) fn object_order(&self, spheres: usize) -> (Vec<Option<Hit>>, Counts) {
         let list: SphereList = self.list.spheres().iter().take(spheres).collect();
         let (across, down) = Camera::tile::<[f32; 16]>();

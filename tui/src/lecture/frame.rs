@@ -6,7 +6,7 @@ use super::stations::STATIONS;
 use crate::cells::CellGrid;
 use crate::style::Style;
 
-/// What every station has room in.
+/// The least size, in which every station has room.
 pub(super) const LEAST: (u16, u16) = (80, 24);
 /// Rows above what the station draws, and below it.
 const ABOVE: u16 = 4;
@@ -31,7 +31,8 @@ const HELP: [&str; 14] = [
     "                                                            ",
 ];
 
-/// The page of station `index`, in so many columns and rows. What is smaller than [`LEAST`] is the top left of that.
+/// The page of station `index`, in so many columns and rows; if these are less than [`LEAST`], the top left of a larger
+/// page.
 pub(super) fn page(
     index: usize,
     numbers: Numbers,
@@ -76,7 +77,7 @@ fn write_help(page: &mut Canvas) {
     page.write_lines(left, top, HELP);
 }
 
-/// What fits of a page, and in the last row what size it needs.
+/// What fits of a page; the last row says what size it needs.
 fn cut(page: Canvas, columns: u16, rows: u16) -> CellGrid {
     let style = *page.style();
     let mut small = Canvas::new(columns, rows, style);

@@ -36,14 +36,14 @@ impl Pixel {
 pub(super) struct Pixels {
     left: i32,
     top: i32,
-    /// Rows a pixel; as many columns twice.
+    /// The rows of a pixel; it has twice as many columns.
     side: i32,
     width: i32,
     height: i32,
 }
 
 impl Pixels {
-    /// So many pixels, as large as the room lets them be, from `(left, top)` on.
+    /// `width` x `height` pixels, as large as the room lets them be, from `(left, top)` on.
     pub(super) fn new(
         (left, top): (i32, i32),
         (columns, rows): (i32, i32),
@@ -54,7 +54,7 @@ impl Pixels {
         Self { left, top, side, width, height }
     }
 
-    /// So many, left of so many columns of text.
+    /// Pixels of this `size`, to the left of `text` columns of text.
     pub(super) fn beside(canvas: &Canvas, text: i32, size: (u32, u32)) -> Self {
         Self::new((0, 0), (canvas.columns() - text, canvas.rows()), size)
     }

@@ -5,7 +5,7 @@ use super::chart::Chart;
 use super::station::{Knob, Numbers, at_degrees};
 use spherule_kernel::{Ray, Sphere, Vec3};
 
-/// How far the origin is moved, in halves, and degrees that the ray is turned by.
+/// The knobs: how far the origin is moved, in halves, and by how many degrees the ray is turned.
 pub(super) const KNOBS: [Knob; 2] =
     [Knob::within(0, [1, 0], [-2, 16]), Knob::around(12, [0, 4], 360)];
 
@@ -14,7 +14,7 @@ const SPHERE: Sphere = Sphere { center: Vec3::new(1.5, 0.5, 0.0), radius: 2.0 };
 
 /// A ray at the sphere, and the chart in which both are drawn.
 pub(super) struct Shot {
-    /// With t in [0, +inf], and a direction that does not have unit length, as it need not.
+    /// The ray, with t in [0, +inf]. Its direction does not have unit length, nor need it.
     pub(super) ray: Ray,
     pub(super) sphere: Sphere,
     pub(super) chart: Chart,

@@ -25,12 +25,12 @@ pub(super) struct Knob {
 }
 
 impl Knob {
-    /// Within `ends`.
+    /// A number within `ends`.
     pub(super) const fn within(first: i32, steps: [i32; 2], ends: [i32; 2]) -> Self {
         Self { first, steps, ends, around: false }
     }
 
-    /// One of 0 to `count` - 1, around in a circle.
+    /// A number from 0 to `count` - 1, around in a circle.
     pub(super) const fn around(first: i32, steps: [i32; 2], count: i32) -> Self {
         Self { first, steps, ends: [0, count - 1], around: true }
     }

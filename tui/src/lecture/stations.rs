@@ -38,7 +38,7 @@ pub static STATIONS: [Station; 14] = [
 /// The index of a station by its number, counted from 1, or its name.
 ///
 /// # Errors
-/// Which there are, if there is no such station.
+/// Lists the stations, if there is no such one.
 pub fn station(text: &str) -> Result<usize, String> {
     let by_number = text.parse().ok().and_then(|number: usize| number.checked_sub(1));
     let by_name = || STATIONS.iter().position(|station| station.name == text);

@@ -105,7 +105,7 @@ fn many(name: &str, held: &[(Turn, usize)]) -> Vec<String> {
     texts
 }
 
-/// Around from every origin: from outside, inside and behind.
+/// Arrows that turn the ray all around, from every origin: outside, inside and behind.
 const AROUND: [(Turn, usize); 8] = [
     (Turn::Up, 90),
     (Turn::Right, 5),
@@ -179,7 +179,7 @@ fn the_geometric_form_shows_the_kernels_numbers() {
     assert!(seen.iter().all(|&count| count > 20), "{seen:?}");
 }
 
-/// Past both roots with either end.
+/// Arrows that lead either end past both roots.
 const ENDS: [(Turn, usize); 5] =
     [(Turn::Right, 25), (Turn::Down, 40), (Turn::Left, 40), (Turn::Up, 12), (Turn::Right, 20)];
 

@@ -27,10 +27,10 @@ enum Input {
     Resize,
 }
 
-/// Where the walk is. No terminal: keys come in.
+/// Where the walk is. It has no terminal: keys come in.
 struct Walk {
     index: usize,
-    /// Kept when one goes on, so that coming back finds the numbers that were left.
+    /// The numbers of every station, so that coming back finds those that were left.
     numbers: [Numbers; STATIONS.len()],
     help: bool,
 }
@@ -40,7 +40,7 @@ impl Walk {
         Self { index, numbers: STATIONS.each_ref().map(Station::first), help: false }
     }
 
-    /// Does what a key asks for; `false` if that is to quit.
+    /// Does what a key asks for; returns `false` if that is to quit.
     fn apply(&mut self, input: Input) -> bool {
         let (station, numbers) = (&STATIONS[self.index], &mut self.numbers[self.index]);
         match input {
@@ -87,7 +87,8 @@ fn show(terminal: &Terminal, walk: &Walk, encoder: &mut Encoder, style: Style) -
     terminal.show(&bytes)
 }
 
-/// Waits for input and takes all there is, before a page is drawn; `false` if the user quits.
+/// Waits for input and takes all there is, before a page is drawn; returns `false` if the user
+/// quits.
 fn take_input(terminal: &mut Terminal, walk: &mut Walk, encoder: &mut Encoder) -> io::Result<bool> {
     let mut wait = None;
     for _ in 0..LONGEST_BACKLOG {

@@ -23,7 +23,7 @@ impl Report<'_> {
     #[must_use]
     pub fn text(&self) -> String {
         let Self { scene, size: (columns, rows), cell: (column, row), pick } = self;
-        // A scene is a file's name, a label anything; neither is a line.
+        // A scene is the name of a file, and a label is any text; neither need be one line.
         let scene = scene.escape_debug();
         let head = format!("{scene}, cell {column},{row} of {columns}x{rows}");
         let lines = lines(pick, |label| label.escape_debug().to_string());
@@ -67,8 +67,8 @@ impl Report<'_> {
     }
 }
 
-/// In the fewest digits that are read back to the same `f32`, as people get it; null if it is not finite. A [`Value`] has
-/// an `f64`, whose own digits go on where those of the `f32` end.
+/// Writes `x` in the fewest digits that are read back to the same `f32`, as people get it; null if it is not finite. A [`Value`] has an
+/// `f64`, whose own digits go on where those of the `f32` end.
 fn number(x: f32) -> Value {
     Value::from(format!("{x:?}").parse::<f64>().unwrap_or(f64::NAN))
 }
@@ -86,7 +86,7 @@ fn tiers<'a>(
     tiers.map(|((tier, hit), roots)| (tier, hit, roots))
 }
 
-/// What the viewer shows too. `printable` makes text of a label that can stand in a line.
+/// The lines that the viewer shows, too. `printable` turns a label into text that can stand in a line.
 #[must_use]
 pub fn lines(pick: &Pick<'_>, printable: impl Fn(&str) -> String) -> Vec<String> {
     let mut ray = format!("ray {} + t {}", point(pick.ray.origin), point(pick.ray.direction));
@@ -122,7 +122,7 @@ fn bits(t: f32) -> String {
     format!("0x{:08x}", t.to_bits())
 }
 
-/// A head, and a row a tier: columns as wide as they must be.
+/// A head, and one row a tier; columns are as wide as they must be.
 fn table(pick: &Pick<'_>) -> Vec<String> {
     let mut rows = vec![["tier", "sphere", "t", "bits of t", "roots", ""].map(str::to_owned)];
     let none = || "-".to_owned();

@@ -23,7 +23,7 @@ const MARKS: &[(u32, u32)] = &[
     (0x1_d185, 0x1_d189), (0x1_d1aa, 0x1_d1ad), (0x1_d242, 0x1_d244),
 ];
 
-/// The mark of a number; none from 297 on.
+/// The mark of a number; `None` from 297 on.
 pub(super) fn mark(number: u16) -> Option<char> {
     let mut left = u32::from(number);
     for &(first, last) in MARKS {

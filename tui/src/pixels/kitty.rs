@@ -1,8 +1,8 @@
 //! Images by kitty's protocol: deflated pixels in pieces, behind the text.
 //!
-//! Every frame is an image of its own, one number after the other of two; the one before is removed when the next is
-//! there, so nothing flickers. Under tmux, which knows no images, they are wrapped for the terminal behind it, and
-//! shown where placeholders are, which are text to tmux.
+//! Every frame is an image of its own, with one of two numbers in turn. The image before is removed when the next is
+//! there, so nothing flickers. tmux knows no images: under it, they are wrapped for the terminal behind it, and shown
+//! by placeholders, which are text to tmux.
 //!
 //! Source: kitty's "Terminal graphics protocol".
 
@@ -15,11 +15,11 @@ use flate2::write::ZlibEncoder;
 use std::fmt::Write as _;
 use std::io::Write as _;
 
-/// The numbers of our images: those of others are left alone. In 24 bits, as colours of placeholders have them.
+/// The numbers of our images; the images of others are left alone. They have 24 bits, as colours of placeholders have.
 pub const NUMBERS: [u32; 2] = [0x53_5048, 0x53_5049];
 /// Bytes of a piece, encoded: no more is allowed.
 const PIECE: usize = 4096;
-/// Behind text, and behind the background of text that has one.
+/// Images are behind text, and behind the background of text that has one.
 const LAYER: i32 = i32::MIN / 2 - 1;
 /// Shows the part of an image that its marks and its colour name.
 const PLACEHOLDER: char = '\u{10EEEE}';
@@ -41,7 +41,7 @@ pub(super) fn write(
     }
     let (own, other) = if number.is_multiple_of(2) { (even, odd) } else { (odd, even) };
     out.extend_from_slice(b"\x1b[H");
-    // The first is answered: who is silent, or complains, has no such images.
+    // The first image is answered: a terminal that is silent, or complains, has no such images.
     let quiet = if number == 0 { 0 } else { 2 };
     send(image, own, &format!("{},C=1,z={LAYER},q={quiet}", size(cells)), false, out);
     if number > 0 {
@@ -102,7 +102,7 @@ fn command_with_pixels(image: &Image, keys: &str, through_tmux: bool, out: &mut 
 
 fn command(keys: &str, payload: &str, through_tmux: bool, out: &mut Vec<u8>) {
     let separator = if payload.is_empty() { "" } else { ";" };
-    // tmux hands on what is in its string, where an escape is written twice.
+    // tmux hands on the contents of its string, in which every escape is written twice.
     let (begin, end) = if through_tmux {
         ("\x1bPtmux;\x1b\x1b_G", "\x1b\x1b\\\x1b\\")
     } else {
@@ -121,14 +121,14 @@ fn placeholders((columns, rows): (u16, u16), number: u32, out: &mut Vec<u8>) {
     }
 }
 
-/// Appends a row of them; nothing past the last row that can be named.
+/// Appends a row of placeholders; nothing past the last row that can be named.
 fn placeholder_row(columns: u16, row: u16, number: u32, out: &mut Vec<u8>) {
     let (Some(mark_of_row), Some(mark_of_column)) = (mark(row), mark(0)) else { return };
     let [_, red, green, blue] = number.to_be_bytes();
     let mut text = format!("\x1b[38;2;{red};{green};{blue}m");
     for column in 0..columns {
         text.push(PLACEHOLDER);
-        // The next ones go on where the first one is.
+        // The next placeholders go on from the first.
         if column == 0 {
             text.extend([mark_of_row, mark_of_column]);
         }

@@ -1,4 +1,4 @@
-//! A palette for a picture: its colours in `OKLab` in boxes, the one with the largest error cut in two, until there are
+//! A palette for a picture. Its colours in `OKLab` are put into boxes, and the box with the largest error is cut in two until there are
 //! enough.
 //!
 //! Source: Paul Heckbert, "Color image quantization for frame buffer display", 1982; the cut at the mean, across the axis of
@@ -9,7 +9,7 @@ use spherule_kernel::Vec3;
 
 /// Colours of a palette.
 pub(super) const MOST: usize = 256;
-/// Levels of a channel that are told apart before.
+/// Levels of a channel that are told apart before the cuts.
 const LEVELS: usize = 32;
 
 /// Which colour each pixel gets.
@@ -28,13 +28,13 @@ struct Bin {
     look: Vec3,
 }
 
-/// Some of the bins: those of a range.
+/// A range of the bins.
 struct Cluster {
     start: usize,
     end: usize,
     /// The sum of squared distances to the mean.
     error: f32,
-    /// Across which it is cut, and where.
+    /// The axis across which it is cut, and the place.
     axis: usize,
     at: f32,
 }
@@ -46,7 +46,7 @@ fn bin([red, green, blue]: [u8; 3]) -> usize {
 }
 
 impl Palette {
-    /// Of the pixels of a picture, three channels each.
+    /// The palette of a picture's pixels, three channels each.
     pub(super) fn new(rgb: &[u8]) -> Self {
         let mut sums = vec![(0_u32, [0_u32; 3]); LEVELS * LEVELS * LEVELS];
         for pixel in rgb.as_chunks::<3>().0 {
@@ -71,7 +71,7 @@ impl Palette {
             let Cluster { start, end, axis, at, .. } = boxes[worst];
             let middle = start + cut(&mut bins[start..end], |bin| bin.look[axis] < at);
             if middle == start || middle == end {
-                // All in one place, except for rounding.
+                // All bins are in one place, except for rounding.
                 boxes[worst].error = 0.0;
                 continue;
             }
@@ -112,7 +112,7 @@ impl Cluster {
     }
 }
 
-/// Puts those that are `first` before the others, and returns how many there are.
+/// Puts the bins that are `first` before the others, and returns how many there are.
 fn cut(bins: &mut [Bin], first: impl Fn(&Bin) -> bool) -> usize {
     let mut count = 0;
     for index in 0..bins.len() {

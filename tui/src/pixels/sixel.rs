@@ -13,7 +13,8 @@ const BAND: usize = 6;
 pub(super) fn write(image: &Image, out: &mut Vec<u8>) {
     let (width, height) = (image.width as usize, image.height as usize);
     let palette = Palette::new(&image.rgb);
-    // Pixels that no colour names stay as they are: there are none. Pixels are square, and so many.
+    // No pixel is without a colour; such pixels would stay as they are. Pixels are square, and so
+    // many.
     let _ = write!(out, "\x1bP0;1;0q\"1;1;{width};{height}");
     for (entry, color) in palette.colors.iter().enumerate() {
         let [red, green, blue] = color.0.map(percent);

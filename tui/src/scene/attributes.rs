@@ -54,7 +54,7 @@ pub struct Attributes {
     pub own: Own,
 }
 
-/// What a file says itself of what is otherwise chosen by attributes.
+/// What a file itself states, which is otherwise chosen by attributes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Own {
     /// Colours.
@@ -64,7 +64,7 @@ pub struct Own {
 }
 
 impl Attributes {
-    /// Whether there is none.
+    /// Whether there are no attributes.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.elements.is_none()

@@ -54,7 +54,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// Whether a file of it may have more than a frame.
+    /// Whether a file of this format may have more than one frame.
     pub(super) fn has_frames(self) -> bool {
         matches!(
             self,
@@ -65,7 +65,7 @@ impl Format {
     /// Reads the next frame; `None` after the last.
     ///
     /// # Errors
-    /// [`ReadError`] if it is none.
+    /// [`ReadError`] if it is no valid frame.
     pub(super) fn frame(
         self,
         input: &mut Input,
@@ -93,7 +93,7 @@ impl Format {
     /// Leaves out a frame; `false` if there is none.
     ///
     /// # Errors
-    /// [`ReadError`] if it is none.
+    /// [`ReadError`] if it is no valid frame.
     pub(super) fn skip(self, input: &mut Input, context: &mut Context) -> Result<bool, ReadError> {
         match self {
             Self::Xyz => xyz::skip(input),

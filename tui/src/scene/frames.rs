@@ -1,6 +1,6 @@
 //! The frames of a file: read one by one, in any order where the file can be read again.
 //!
-//! Where each frame begins is remembered as it is passed: 16 bytes a frame. Nothing is read before it is asked for.
+//! The start of each frame is remembered as it is passed: 16 bytes a frame. Nothing is read before it is asked for.
 
 use super::Scene;
 use super::format::{Context, Format};
@@ -15,7 +15,7 @@ pub struct Frames {
     context: Context,
     /// Where frames begin, as far as that is known: one more than have been passed.
     places: Vec<Place>,
-    /// The frame before which the input is.
+    /// The frame at whose start the input is.
     at: usize,
     /// How many there are, once that is known.
     count: Option<usize>,
@@ -34,7 +34,7 @@ impl Frames {
         self.input.source()
     }
 
-    /// How many frames there are, once the end has been seen. A file that is followed has none.
+    /// How many frames there are, once the end has been seen; `None` for a file that is followed.
     #[must_use]
     pub fn count(&self) -> Option<usize> {
         self.count.filter(|_| !self.follows)
@@ -52,15 +52,14 @@ impl Frames {
         self.input.can_be_read_again()
     }
 
-    /// Writes what there is to say besides the picture to standard error, each once; from then on it does not tell how far
-    /// reading is.
+    /// Writes the notes about the file to standard error, each once. From then on, progress of reading is not shown.
     pub fn report(&mut self) {
         self.input.be_quiet();
         let source = self.input.source().to_owned();
         self.context.notes.report(&source);
     }
 
-    /// What there is to say besides the picture, each once.
+    /// The notes about the file, each once.
     pub fn notes(&mut self) -> Vec<String> {
         self.context.notes.take().into_iter().map(Into::into).collect()
     }
@@ -70,12 +69,13 @@ impl Frames {
         self.context.notes.note(text);
     }
 
-    /// Reads frame `index`, from 0; `None` if there is none, or, of a file that is followed, not yet.
+    /// Reads frame `index`, from 0; `None` if there is none, or, in a file that is followed, not yet.
     ///
-    /// Frames in between are passed over. A frame before the one that is next needs a file that can be read again.
+    /// Frames in between are passed over. To read a frame before the next one, the file must be one that can be read
+    /// again.
     ///
     /// # Errors
-    /// [`ReadError`] if a frame is none.
+    /// [`ReadError`] if a frame is not valid.
     pub fn read(&mut self, index: usize) -> Result<Option<Scene>, ReadError> {
         let nearest = index.min(self.places.len() - 1);
         if self.at != nearest && (index < self.at || nearest > self.at) {
@@ -104,7 +104,7 @@ impl Frames {
     /// Whether there is a frame `index`, without reading more of it than need be.
     ///
     /// # Errors
-    /// [`ReadError`] if one before it is none.
+    /// [`ReadError`] if a frame before it is not valid.
     pub fn has(&mut self, index: usize) -> Result<bool, ReadError> {
         if !self.format.has_frames() {
             return Ok(index == 0);
@@ -118,14 +118,14 @@ impl Frames {
         Ok(self.read(index)?.is_some())
     }
 
-    /// Tries to read what may not be there yet: then the input is where it was.
+    /// Tries to read what may not be there yet; if it is not, the input goes back to where it was.
     fn attempt<T>(
         &mut self,
         read: impl FnOnce(&mut Input, &mut Context) -> Result<T, ReadError>,
     ) -> Result<Option<T>, ReadError> {
         let before = self.input.place();
         let result = read(&mut self.input, &mut self.context);
-        // What has no end of line yet may go on.
+        // A line without an end may still go on.
         let is_partial = match &result {
             Ok(_) => !self.input.is_terminated(),
             Err(error) => error.ends_early || !self.input.is_terminated(),

@@ -1,4 +1,4 @@
-//! A view that shows all of a scene, for scenes that name none, or one sphere.
+//! A view that shows all of a scene, for scenes that name no view, or a view of one sphere.
 
 use crate::length::{direction, length};
 use crate::view::{Lens, View};
@@ -10,19 +10,20 @@ const FOV: f32 = 40.0;
 /// Where the eye is, seen from the middle of the scene.
 const TOWARDS_EYE: Vec3 = Vec3::new(0.25, 0.35, 1.0);
 
-/// Many times how far apart numbers are, over the largest coordinate.
+/// The least distance of the eye, over the largest coordinate: many times the spacing of floats there.
 const SPACING: f32 = 64.0 * f32::EPSILON;
 
-/// How many times as large as all that stands on it a ground is, at least.
+/// A ground is at least so many times as large as all that stands on it.
 const GROUND: f32 = 100.0;
 
-/// Scenes that are larger cannot be looked at from far enough.
+/// The radius of the largest scene that can be looked at from far enough.
 const LARGEST: f32 = 1e30;
 
-/// What is framed of a scene: a sphere around all spheres, but the ground, if there is one.
+/// What is framed of a scene: a sphere around all spheres, except the ground, if there is one.
 ///
-/// Ground are spheres that are each at least 100 times as large as a sphere around all others, and no farther from that
-/// than it is wide: the ground that these stand on, walls around them, a sky. They have no end that could be seen.
+/// The ground consists of spheres that are each at least 100 times as large as a sphere around all others, and no
+/// farther from that sphere than it is wide: the ground that the others stand on, walls around them, a sky. They have
+/// no end that could be seen.
 #[must_use]
 pub fn subject(spheres: Spheres<'_>) -> Sphere {
     let valid = || spheres.iter().filter(Sphere::is_valid);
@@ -41,8 +42,8 @@ pub fn subject(spheres: Spheres<'_>) -> Sphere {
     others.filter(|&others| all_ground(others)).unwrap_or_else(all)
 }
 
-/// A sphere around some: around the middle of their box, so not the least one, but at most sqrt 3 times as large. `None`
-/// around nothing, and where numbers end.
+/// A sphere around `spheres`. Its centre is the middle of their box, so it is not the least one, but at most sqrt 3
+/// times as large. `None` if there are no spheres, or the box is not finite.
 fn bounding_sphere<S: Iterator<Item = Sphere>>(spheres: impl Fn() -> S) -> Option<Sphere> {
     let (low, high) =
         spheres().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), sphere| {
@@ -51,7 +52,7 @@ fn bounding_sphere<S: Iterator<Item = Sphere>>(spheres: impl Fn() -> S) -> Optio
     if !(low.is_finite() && high.is_finite()) {
         return None;
     }
-    // Half of each first: the sum may not be a float.
+    // Each is halved first: the sum may not be a float.
     let center = low * 0.5 + high * 0.5;
     let reach = |sphere: Sphere| length(sphere.center - center) + sphere.radius;
     Some(Sphere { center, radius: spheres().map(reach).fold(0.0, f32::max) })
@@ -65,14 +66,14 @@ pub fn framed(spheres: Spheres<'_>, aspect: f32) -> View {
     around(subject(spheres), TOWARDS_EYE.normalize(), Vec3::Y, lens, aspect)
 }
 
-/// As [`framed`], but of `sphere`, and from where and through what `view` looks: its direction, its field of view, its
-/// kind of projection. Parallel rays start no nearer than they do.
+/// As [`framed`], but of `sphere`, and with the direction, the field of view and the kind of projection of `view`.
+/// Parallel rays start no nearer than those of `view`.
 #[must_use]
 pub fn reframed(view: &View, sphere: Sphere, aspect: f32) -> View {
     let way = view.eye - view.target;
     let outward = direction(way).unwrap_or(Vec3::Z);
     let framed = around(sphere, outward, view.up, view.lens, aspect);
-    // From where parallel rays start is not seen, but their numbers are as large.
+    // A picture does not show where parallel rays start. But the farther away they start, the more their origins are rounded, as in `view`.
     match view.lens {
         Lens::Parallel { .. } if length(framed.eye - framed.target) < length(way) => {
             View { eye: framed.target + way, ..framed }
@@ -92,7 +93,7 @@ fn around(sphere: Sphere, outward: Vec3, up: Vec3, lens: Lens, aspect: f32) -> V
     let half_angle = vertical.min(horizontal).max(0.001);
     // A scene of points alone has no size; neither has one that overflows a usable one.
     let radius = if radius > 0.0 && radius < LARGEST { radius } else { 1.0 };
-    // Nearer than that to a small sphere far from zero, there is no direction any more.
+    // If the eye is nearer than this to a small sphere far from zero, there is no direction any more.
     let least = center.abs().max_element() * SPACING;
     let distance = (radius / half_angle.sin()).max(least);
     let lens = match lens {

@@ -29,7 +29,7 @@ const BLOCK: usize = 256 << 10;
 /// How much of an input is looked at to tell what it is.
 const HEAD: usize = 64 << 10;
 
-/// How long reading may take before there is a word about it.
+/// How long reading may take before its progress is shown.
 const PATIENCE: Duration = Duration::from_secs(1);
 
 /// An input that is being read.
@@ -46,13 +46,13 @@ pub(super) struct Input {
     before: u64,
     /// Lines taken.
     number: usize,
-    /// Where the last one began.
+    /// Where the last line began.
     last: Place,
     /// Whether the last line had an end.
     terminated: bool,
-    /// Tells how far it is, until it is told not to.
+    /// Shows the progress of reading, until `be_quiet` is called.
     progress: Option<Progress>,
-    /// Of a file that is not compressed.
+    /// The size of a file that is not compressed.
     size: Option<u64>,
 }
 
@@ -79,7 +79,7 @@ impl Input {
         Ok(input)
     }
 
-    /// Anything else: it is read once.
+    /// Any other input: it is read once.
     ///
     /// # Errors
     /// [`ReadError`] if it cannot be read.
@@ -108,7 +108,7 @@ impl Input {
         self.buffer.len()
     }
 
-    /// Tells no longer how far it is.
+    /// Stops showing the progress of reading.
     pub(super) fn be_quiet(&mut self) {
         self.progress = None;
     }
@@ -118,12 +118,12 @@ impl Input {
         &self.source
     }
 
-    /// Where it can be opened again: not a pipe.
+    /// Whether it can be opened again, as a pipe cannot.
     pub(super) fn can_be_read_again(&self) -> bool {
         self.file.is_some()
     }
 
-    /// The beginning of what has not been taken, enough to tell what it is.
+    /// The beginning of what has not been taken, enough to tell its format.
     ///
     /// # Errors
     /// [`ReadError`] if it cannot be read.
@@ -155,7 +155,7 @@ impl Input {
         }
     }
 
-    /// Tells how far it is.
+    /// Shows the progress of reading.
     fn tell(&mut self) {
         let Some(progress) = &mut self.progress else { return };
         let read = self.before + self.end as u64;
@@ -220,7 +220,7 @@ impl Input {
         self.line()?.ok_or(ends)
     }
 
-    /// It ends too early.
+    /// The error that the input ends too early.
     pub(super) fn ends(&self, what: impl Into<String>) -> ReadError {
         ReadError::at(&self.source, self.number + 1, 1, what).of_end()
     }
@@ -233,7 +233,7 @@ impl Input {
         Ok(self.start == self.end && !self.fill()?)
     }
 
-    /// Leaves out blank lines; whether nothing is left.
+    /// Skips blank lines; returns whether nothing is left.
     ///
     /// # Errors
     /// [`ReadError`] if it cannot be read.
@@ -263,7 +263,7 @@ impl Input {
         Place { offset: self.before + self.start as u64, number: self.number }
     }
 
-    /// Goes to a place where it has been: the file is opened again.
+    /// Goes to a place where it has been; opens the file again if that is no longer in the buffer.
     ///
     /// # Errors
     /// [`ReadError`] if it cannot be, as a pipe cannot.
@@ -277,7 +277,7 @@ impl Input {
         self.go_anew(place)
     }
 
-    /// The same, without what has been read before: it may have grown.
+    /// As [`Self::go`], but without what has been read before: the file may have grown.
     ///
     /// # Errors
     /// As [`Self::go`].

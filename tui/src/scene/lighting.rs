@@ -17,7 +17,7 @@ pub enum Source {
     Position(Vec3),
 }
 
-/// A light. Its brightness does not fall with distance: a scene states none but its colour.
+/// A light. Its brightness does not fall with distance: a scene states no brightness except its colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Light {
     /// Where it stands.
@@ -38,9 +38,9 @@ pub enum Lighting {
     Camera,
 }
 
-/// The lights that go with the eye: towards them along the line of sight, to the right and upwards; and their colours.
-/// The key light is above the left shoulder, far enough to the side that spheres look round; the fill light, cooler
-/// and a tenth as bright, shows the side that the key leaves dark.
+/// The lights that go with the eye: the direction towards each, by its parts along the line of sight, to the right and
+/// upwards; and its colour. The key light is above the left shoulder, far enough to the side that spheres look round;
+/// the fill light, cooler and a tenth as bright, shows the side that the key leaves dark.
 const CAMERA_LIGHTS: [(DVec3, Srgb); 2] = [
     (DVec3::new(-0.8, -0.8, 0.9), Srgb::WHITE),
     (DVec3::new(-0.6, 0.9, -0.3), Srgb([0x50, 0x5a, 0x6e])),

@@ -49,11 +49,11 @@ impl Notes {
         }
     }
 
-    /// Notes how many particles are of types that no one knows: the `names`, the first of them in `line`. Of a file the
-    /// first frame tells.
+    /// Notes how many particles are of unknown types: the `names`, the first of them in `line`. Only the first such
+    /// frame of a file is noted.
     ///
     /// # Errors
-    /// [`ReadError`] where that is not allowed.
+    /// [`ReadError`] where unknown types are not allowed.
     pub(super) fn unknown(
         &mut self,
         source: &str,

@@ -19,8 +19,8 @@ pub enum Opened {
     File(Frames),
 }
 
-/// Opens what is called `name`: a built-in scene, a file, or for `-` standard input. What a file is, its content tells,
-/// unless `reading` does.
+/// Opens what is called `name`: a built-in scene, a file, or for `-` standard input. The content of a file tells its
+/// format, unless `reading` names one.
 ///
 /// # Errors
 /// [`ReadError`] if there is no such scene, or it cannot be read.
@@ -47,7 +47,7 @@ pub fn open(name: &str, reading: &Reading) -> Result<Opened, ReadError> {
     frames(input_of(file, name)?, reading).map(Opened::File)
 }
 
-/// The scene called `name`: of a file its first frame.
+/// The scene called `name`; of a file, its first frame.
 ///
 /// # Errors
 /// As [`open`].

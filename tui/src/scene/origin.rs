@@ -1,32 +1,33 @@
 //! Where positions are counted from: zero, or the first sphere where all are far from zero.
 //!
-//! The kernel computes in single precision, of 24 bits. On a map in metres, 5,400 km from its zero, the last of them is half a
-//! metre: trees and houses would be on its lattice, and the light on what is smaller than it would be lost. Files state double
-//! precision. So where the first spheres are much farther from zero than they are wide, together, positions are taken
-//! from the first of them, in double precision, before they are rounded: everything in the program then has the numbers
-//! that it would have near zero.
+//! The kernel computes in single precision, of 24 bits. On a map in metres, 5,400 km from its zero, the last bit is
+//! half a metre: trees and houses would be on a lattice of such steps, and the light on smaller things would be lost.
+//! Files state double precision. So where the first spheres together are much farther from zero than they are wide,
+//! positions are counted from the first sphere, in double precision, before they are rounded. Everything in the program
+//! then has the numbers that it would have near zero.
 
 use glam::DVec3;
 
-/// So many spheres tell how wide things are: a file is read once, and what follows is not known.
+/// How many spheres tell how wide things are: a file is read once, and the spheres that follow are not known.
 pub(super) const FIRST: usize = 16;
 
-/// So many times as far from zero as they are wide: what is nearer keeps its numbers, which are people's, and has 12 bits
-/// more than this width.
+/// Spheres are far if they are more than so many times as far from zero as they are wide. Nearer ones keep their
+/// numbers, which people know, and have 12 bits more than this width.
 const FAR: f64 = 4096.0;
 
-/// Positions from an origin this far away, or farther, might leave single precision at the other end of its range.
+/// Positions counted from an origin this far away, or farther, might leave single precision at the other end of its
+/// range.
 const TOO_FAR: f64 = 1e30;
 
-/// Where positions are to be counted from, of a scene that begins with spheres at `centers`, with `radii` as far as these
-/// are known (NaN: not). A point of single precision: few digits, for people.
+/// The origin of positions, for a scene that begins with spheres at `centers`, with `radii` as far as these are known
+/// (NaN: not known). It is a point of single precision: few digits, for people.
 pub(super) fn origin(centers: &[DVec3], radii: &[f32]) -> DVec3 {
     let Some(&first) = centers.first() else { return DVec3::ZERO };
     let bounds = |least: fn(DVec3, DVec3) -> DVec3| centers.iter().copied().fold(first, least);
     let known = radii.iter().copied().fold(0.0, f32::max);
     let width = (bounds(DVec3::max) - bounds(DVec3::min)).max_element().max(2.0 * f64::from(known));
     let distance = bounds(|a, b| a.abs().min(b.abs())).abs().max_element();
-    // Of spheres without a radius at one place nothing says how wide things are.
+    // Spheres without a radius at one place do not tell how wide things are.
     let is_far = width > 0.0 && distance > FAR * width && distance < TOO_FAR;
     if is_far { first.as_vec3().as_dvec3() } else { DVec3::ZERO }
 }

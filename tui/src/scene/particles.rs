@@ -1,7 +1,7 @@
 //! The particles of a frame, as a file states them, and the scene that they become.
 //!
-//! Which element a particle is is asked once a name, not once a particle. What has no element and no radius of its own
-//! is as large as particles are apart, or, beside elements, as a small atom.
+//! The element of particles is looked up once per name, not once per particle. A particle with neither an element nor a
+//! radius of its own is as large as particles are apart, or, beside elements, as a small atom.
 
 use super::attributes::{Attributes, Names, NamesBuilder, Naming, NumberColumn};
 use super::elements::of_number;
@@ -18,7 +18,7 @@ use spherule_kernel::{Sphere, Vec3};
 /// What is behind particles.
 const BACKGROUND: Srgb = Srgb([0x10, 0x12, 0x1a]);
 
-/// The colour of what nothing is known of.
+/// The colour of particles of which nothing is known.
 pub(super) const NEUTRAL: Srgb = Srgb([0xa8, 0xa8, 0xa8]);
 
 /// In angstrom; the radius of an unknown particle beside atoms.
@@ -39,10 +39,10 @@ const TYPE_COLORS: [Srgb; 7] = [
 /// The particles of a frame. What is not empty has a value a particle.
 #[derive(Debug, Default)]
 pub(super) struct Particles {
-    /// From `origin`, once that is known.
+    /// Counted from `origin`, once that is known.
     pub(super) centers: Vec<Vec3>,
     pub(super) origin: Option<DVec3>,
-    /// The centres from which the origin will be known, in the file's coordinates.
+    /// The first centres, which tell the origin, in the file's coordinates.
     pub(super) first: Vec<DVec3>,
     /// NaN where there is none.
     pub(super) radii: Vec<f32>,
@@ -59,12 +59,12 @@ pub(super) struct Particles {
 }
 
 impl Particles {
-    /// None, of a file whose positions are taken from `origin`, if that is known from a frame before.
+    /// No particles yet, of a file whose positions are counted from `origin`, if a frame before has fixed it.
     pub(super) fn from(origin: Option<DVec3>) -> Self {
         Self { origin, ..Self::default() }
     }
 
-    /// Whether there is none.
+    /// Whether there are no particles.
     pub(super) fn is_empty(&self) -> bool {
         self.centers.is_empty() && self.first.is_empty()
     }
@@ -86,7 +86,7 @@ impl Particles {
         }
     }
 
-    /// Where positions are taken from, from now on.
+    /// Fixes the origin of positions from now on, and returns it.
     fn settle(&mut self) -> DVec3 {
         let first = std::mem::take(&mut self.first);
         let origin = *self.origin.get_or_insert_with(|| origin(&first, &self.radii));
@@ -166,7 +166,7 @@ impl Particles {
 
         if colors.is_empty() {
             colors.reserve_exact(count);
-            // Every element once, not once an atom.
+            // The colour is looked up once per kind, not once per atom.
             let by_kind: Vec<Srgb> = match (&kinds, &known) {
                 (Some(kinds), Some(known)) => (0..kinds.table().len())
                     .map(|kind| match of_number(known[kind].into()) {

@@ -35,11 +35,11 @@ impl FromStr for RadiusBy {
     }
 }
 
-/// Gives the spheres of `scene` these radii. What has no element that is known keeps its own; what has no number, a negative
-/// or an infinite one, gets 0 and is not seen.
+/// Gives the spheres of `scene` these radii. A sphere without a known element keeps its own. One whose number is
+/// missing, negative or infinite gets 0 and is not seen.
 ///
 /// # Errors
-/// What is missing, if the scene does not have that.
+/// Says what is missing, if the scene does not have the elements or the column.
 pub fn set_radii(scene: &mut Scene, by: &RadiusBy) -> Result<(), String> {
     let attributes = scene.attributes();
     let of_elements = |radius: fn(Element) -> f32| {

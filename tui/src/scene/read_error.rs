@@ -13,7 +13,7 @@ pub struct ReadError {
     pub column: Option<usize>,
     /// What is wrong with it.
     pub what: String,
-    /// Whether it ends too early, so that it may be well when more of it has been written.
+    /// Whether the input ends too early, so that it may be valid when more of it has been written.
     pub ends_early: bool,
 }
 

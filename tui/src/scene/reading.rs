@@ -33,7 +33,7 @@ pub struct Reading {
 /// Reads the first frame of `reader`.
 ///
 /// # Errors
-/// [`ReadError`] if it is none.
+/// [`ReadError`] if it is no valid frame.
 pub fn read(
     reader: Box<dyn Read + Send>,
     source: &str,
@@ -75,7 +75,7 @@ pub(super) fn frames(mut input: Input, reading: &Reading) -> Result<Frames, Read
     Ok(Frames::new(input, format, context, reading.follow))
 }
 
-/// What the content tells, or else the name.
+/// The format that the content tells, or else the name.
 fn format_of(input: &mut Input) -> Result<Format, ReadError> {
     let source = input.source().to_owned();
     let head = input.head()?;
@@ -90,7 +90,7 @@ fn format_of(input: &mut Input) -> Result<Format, ReadError> {
     })
 }
 
-/// That the format is not known, and which are.
+/// The message that the format is not known, and which formats are.
 fn unknown() -> String {
     let names: Vec<_> = Format::value_variants().iter().map(choice::name).collect();
     format!("{UNKNOWN}; --format names one of {}", names.join(", "))

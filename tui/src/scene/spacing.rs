@@ -2,9 +2,9 @@
 
 use spherule_kernel::Vec3;
 
-/// Half of how far particles are apart, if they fill what most of them are in; 1 if that has no size.
+/// Half of the distance between particles, if they fill the box that most of them are in; 1 if the box has no size.
 pub(super) fn half_spacing(centers: &[Vec3]) -> f32 {
-    /// So many tell where most are.
+    /// How many particles tell where most are.
     const MOST: usize = 10_000;
     let some: Vec<Vec3> =
         centers.iter().step_by(centers.len().div_ceil(MOST).max(1)).copied().collect();

@@ -30,8 +30,8 @@ pub(super) fn resolved(kinds: &Names, symbols: Symbols) -> Vec<u8> {
     kinds.table().iter().map(|name| number(name)).collect()
 }
 
-/// The element that the name of an atom tells. In molecules of life a C, H, N, O, P or S begins the names of all of
-/// their atoms; ions are called as they are.
+/// The element that the name of an atom tells. In molecules of life, the names of all atoms of C, H, N, O, P and S
+/// begin with that letter; ions have names of their own.
 fn of_atom_name(name: &str) -> Option<Element> {
     let letters = name.trim_start_matches(|c: char| c.is_ascii_digit());
     let stem = letters.trim_end_matches(|c: char| !c.is_ascii_alphabetic());

@@ -71,7 +71,7 @@ impl Default for LightEntry {
     }
 }
 
-/// By hand: of an untagged enum serde says no more than that nothing matched.
+/// Written by hand: for an untagged enum serde says no more than that nothing matched.
 impl<'de> Deserialize<'de> for LightEntry {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(LightVisitor)

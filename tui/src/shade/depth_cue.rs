@@ -1,5 +1,5 @@
-//! What is far away fades into the background, evenly as it is seen: lightness is about the cube root of light, so that
-//! the third power of what is left of it is left of the light.
+//! What is far away fades into the background, evenly as it is seen. Lightness is about the cube root of light: if a share of the lightness
+//! is left, the third power of that share is left of the light.
 
 use crate::view::View;
 use spherule_kernel::{Sphere, Vec3};
@@ -16,8 +16,8 @@ pub struct DepthCue {
 }
 
 impl DepthCue {
-    /// Of a picture of `subject` as `view` sees it: from where the sphere begins, or the eye if that is inside, to where it
-    /// ends. Nothing fades if it is behind the eye, has no size, or no number says where it is.
+    /// The depth cue of `subject` as `view` sees it. It goes from where the sphere begins, or from the eye if that is inside, to where the
+    /// sphere ends. Nothing fades if the sphere is behind the eye, has no size, or no number says where it is.
     #[must_use]
     pub fn new(view: &View, subject: Sphere) -> Self {
         let [forward, ..] = view.axes();

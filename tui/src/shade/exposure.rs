@@ -18,8 +18,8 @@ pub(super) struct Exposure {
 /// What is left of the light where nothing is open: a hole is to be seen, not missed.
 const DARKEST: f32 = 0.5;
 
-/// How far openness differs from side to side of a sphere, of what it does: more is noise where spheres are as small as
-/// pixels (AUC of the protein 7CFN 0.845, with half of it 0.854; docs/program.md says of what).
+/// How much of the difference in openness between the sides of a sphere counts: more is noise where spheres are as
+/// small as pixels (AUC of the protein 7CFN 0.845, with half of it 0.854; docs/program.md says of what).
 pub(super) const STEEPNESS: f32 = 0.4;
 
 impl Exposure {
@@ -28,13 +28,13 @@ impl Exposure {
     /// Bright enough for dark elements, and the camera's lights together stay below full light: a white atom keeps its
     /// shape.
     const SOFT: Self = Self { lights: 1.0, ambient: 0.04, gain: 1.35, knee: 0.4 };
-    /// Where it is seen how open the scene is, most light comes from everywhere, and what is left of the camera's
-    /// lights makes spheres round: of atoms as small as pixels more of it is noise.
+    /// If the picture shows how open the scene is, most light comes from everywhere, and what is left of the camera's
+    /// lights makes spheres round. More of the camera's lights is noise on atoms as small as pixels.
     const OPEN: Self = Self { lights: 0.05, ambient: 1.0, ..Self::SOFT };
     /// Without lights all is seen in its own colour, as far as it is open.
     const PLAIN: Self = Self { ambient: 1.0, ..Self::AS_IT_IS };
 
-    /// That of a scene lit like this.
+    /// The exposure of a scene lit like this.
     pub(super) fn of(lighting: &Lighting) -> Self {
         match lighting {
             Lighting::Plain | Lighting::World(_) => Self::AS_IT_IS,
@@ -42,7 +42,7 @@ impl Exposure {
         }
     }
 
-    /// The same where it is seen how open the scene is.
+    /// The same, if the picture shows how open the scene is.
     pub(super) fn of_open(lighting: &Lighting) -> Self {
         match lighting {
             Lighting::Plain => Self::PLAIN,
@@ -51,7 +51,7 @@ impl Exposure {
         }
     }
 
-    /// The light that a surface receives which is so open, 0 to 1, of all the light there is.
+    /// The share of all light that a surface of this openness, 0 to 1, receives.
     pub(super) fn left(openness: f32) -> f32 {
         DARKEST + (1.0 - DARKEST) * openness
     }

@@ -2,12 +2,12 @@
 //!
 //! # Method
 //!
-//! A few samples in every cell tell how far away everything is. A sample is darkened by those around it that are nearer
-//! to the eye by more than a surface of touching spheres goes back from one sample to the next: three radii of the
-//! smaller sphere (so that neither is as thick), and twice the way from sample to sample, where spheres are smaller than that.
-//! From there on it gets darker until twice as far. What belongs to another part, a chain or a molecule, is told apart at
-//! every distance. The nearer a sample is to the edge the darker it gets: the shade lies on what is behind, nearly
-//! a cell wide, and the edge itself stays sharp. What no sphere covers has no shade.
+//! A few samples in every cell tell how far away everything is. A sample is darkened by samples around it that are nearer to the eye by
+//! more than a limit. The limit is how far a surface of touching spheres goes back from one sample to the next: three radii of the smaller
+//! sphere (so that neither is as thick), or twice the way from sample to sample, where spheres are smaller than that. From the limit on it
+//! gets darker, until twice as far. What belongs to another part, a chain or a molecule, is told apart at every distance. The nearer a
+//! sample is to the edge, the darker it gets: the shade lies on what is behind, nearly a cell wide, and the edge itself stays sharp. What
+//! no sphere covers has no shade.
 //!
 //! Nothing here has a length of its own: a scene of another size, or from farther away, has the same edges.
 
@@ -43,7 +43,7 @@ impl Seen {
 /// What the few samples of some rows of cells show, cell by cell.
 #[derive(Clone, Copy, Debug)]
 pub struct SeenGrid<'a> {
-    /// So many of each cell, row by row.
+    /// The samples of each cell, row by row.
     pub seen: &'a [Seen],
     /// Columns of cells.
     pub columns: usize,
@@ -51,21 +51,21 @@ pub struct SeenGrid<'a> {
     pub samples: (usize, usize),
     /// Width of a cell over its height.
     pub cell_aspect: f32,
-    /// From a sample to the one below: at a depth of one in perspective, everywhere in parallel projection.
+    /// The distance from a sample to the one below: at a depth of one in perspective, everywhere in parallel projection.
     pub pitch: Pitch,
 }
 
 /// How far apart samples are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Pitch {
-    /// Over the depth.
+    /// The distance over the depth.
     Perspective(f32),
-    /// At every depth.
+    /// The distance at every depth.
     Parallel(f32),
 }
 
 impl Pitch {
-    /// Of the samples of a camera.
+    /// The pitch of a camera's samples.
     #[must_use]
     pub fn new(camera: &Camera) -> Self {
         let step = length(camera.step_y);
@@ -84,7 +84,7 @@ impl Pitch {
 }
 
 impl SeenGrid<'_> {
-    /// How dark it is at a place, counted in samples of this grid from the middle of the first, where `seen` is seen: 0 to 1.
+    /// How dark it is, 0 to 1, at a place where `seen` is seen. The place is counted in samples of this grid from the middle of the first.
     #[must_use]
     pub fn darkness(&self, (x, y): (f32, f32), seen: &Seen) -> f32 {
         if !seen.depth.is_finite() {
@@ -127,7 +127,7 @@ impl SeenGrid<'_> {
     }
 }
 
-/// What is seen of `light`, of which `veil` is not the surface's, at an edge so dark.
+/// The light that is seen at an edge so dark; the part `veil` of `light` is not the surface's, and stays.
 #[must_use]
 #[inline]
 pub fn darkened(light: Vec3, veil: Vec3, darkness: f32) -> Vec3 {

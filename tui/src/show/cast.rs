@@ -17,7 +17,7 @@ use crate::whole_file::WholeFile;
 use std::io::BufWriter;
 use std::path::Path;
 
-/// Frames, and how many a second; and whether each is as it is.
+/// How many frames there are, how many a second, and whether each is shown as it is.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Turn {
     pub(super) frames: u16,
@@ -28,11 +28,11 @@ pub(super) struct Turn {
 /// Colours of a frame may be off by so much in `OKLab`: no one sees it.
 const TOLERANCE: f32 = 0.01;
 
-/// Writes once around the scene to the file `name`, or to standard output if that is `-`.
+/// Writes one turn around the scene to the file `name`, or to standard output if that is `-`.
 ///
 /// # Errors
-/// [`Error`] if the file cannot be written: then there is none of this name, or it is as it was; or if there is no memory
-/// for a structure.
+/// [`Error`] if the file cannot be written, or there is no memory for a structure. Then there is no file of this name,
+/// or it is as it was.
 pub(super) fn write(
     name: &Path,
     turn: Turn,

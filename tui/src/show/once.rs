@@ -31,13 +31,13 @@ pub(super) struct Once<'a> {
 }
 
 impl Once<'_> {
-    /// On the terminal that a picture is written to, the picture shows how far it is.
+    /// Progress of drawing; `None` on a terminal, where the picture itself shows it.
     fn progress(&self) -> Option<Progress> {
         (!self.is_terminal).then(|| Progress::after(PATIENCE))
     }
 
-    /// Writes the scene as the tier of the style sees it, and over it what colours mean, if that is asked: then it is not
-    /// written in strips.
+    /// Writes the scene as the tier of the style sees it. With a `legend`, what colours mean is written over the
+    /// picture, which then is not written in strips.
     pub(super) fn picture(
         &self,
         renderer: &mut Renderer<'_>,
@@ -62,7 +62,7 @@ impl Once<'_> {
         })
     }
 
-    /// Draws the same.
+    /// Draws the scene as the tier of the style sees it.
     pub(super) fn drawn(
         &self,
         renderer: &mut Renderer<'_>,
@@ -98,7 +98,7 @@ impl Once<'_> {
         Ok(())
     }
 
-    /// Writes it by two tiers, side by side.
+    /// Writes the picture by two tiers, side by side.
     pub(super) fn split(
         &self,
         tiers: [Tier; 2],
@@ -113,7 +113,7 @@ impl Once<'_> {
         let mapper = &mut ErrorMapper::default();
         let figures = split.figures(renderer, mapper, scene, view, style, *size);
         let mut cells = drawn.cells;
-        // What is measured is never twice the same: a file or a pipe gets what is.
+        // Measured times are never the same twice, so a file or a pipe gets none.
         let ns_a_ray = if *is_terminal { ns_a_ray } else { [None; 2] };
         split.write(&mut cells, size.1, ns_a_ray, Some(figures));
         write(&cells)
@@ -126,7 +126,7 @@ impl Once<'_> {
         question: &Question<'_>,
         structures: &mut SceneStructures<'_>,
     ) -> Result<(), Error> {
-        // What is measured are rays of the camera and to lights.
+        // Only rays of the camera and rays to lights are measured.
         structures.set_aids(Aids::NONE);
         let mut progress = Progress::after(PATIENCE);
         let report = question.measure(structures, &mut |step, share| {

@@ -9,12 +9,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::thread;
 
-/// Calls `draw` with the frames of `range` in order, as far as there are any; a file that is followed is waited for.
+/// Calls `draw` with the frames of `range` in order, as far as there are any; waits for those of a file that is
+/// followed.
 ///
 /// A thread reads one frame ahead.
 ///
 /// # Errors
-/// The first of `draw`; [`Error::Input`] if a frame can't be read: those before it have been drawn.
+/// The first error of `draw`; [`Error::Input`] if a frame cannot be read, after those before it have been drawn.
 pub(super) fn while_reading(
     frames: &mut Frames,
     range: Range<usize>,
@@ -33,7 +34,7 @@ pub(super) fn while_reading(
             }),
             Err(error) => Err(Error::Running(format!("a thread: {error}"))),
         };
-        // Then the reader ends, whatever it waits for: the scope waits for it.
+        // The scope waits for the reader, so the reader must end now, whatever it waits for.
         is_over.store(true, Ordering::Relaxed);
         drop(read);
         result

@@ -2,10 +2,10 @@
 //!
 //! # Method
 //!
-//! A model of the costs, in units of one test of brute force, a coherent ray against a sphere: 0.12 ns by the AVX-512
-//! level of a Zen 5, 0.2 by AVX2, 0.67 by the baseline, where `tui/examples/crossover.rs` timed clouds of 1 to 2^20
-//! spheres that fill a seventh of a cube, one thread, `Exact`. The model's cheapest structure is chosen: at each
-//! of the levels it takes at most 1.1 times as long as the best. Nanoseconds a ray, of 65,536, by AVX-512:
+//! A model estimates the costs, in units of one test of brute force of a coherent ray against a sphere: 0.12 ns at the
+//! AVX-512 level of a Zen 5, 0.2 at AVX2, 0.67 at the baseline. `tui/examples/crossover.rs` timed clouds of 1 to 2^20
+//! spheres that fill a seventh of a cube, one thread, `Exact`. The model's cheapest structure is chosen; at each of the
+//! levels it takes at most 1.1 times as long as the best. Nanoseconds a ray, of 65,536 rays, at AVX-512:
 //!
 //! | rays | spheres | brute | depth list | bvh |
 //! |---|--:|--:|--:|--:|
@@ -21,50 +21,51 @@
 //! | | 128 | 110 | | 45 |
 //! | | 1,048,576 | | | 780 |
 //!
-//! To sort a sphere by depth took 31 ns of 1,024 to 16,384, 56 ns of 131,072 and 119 ns of 1,048,576; to build it
-//! into a tree 135 to 210 ns. A list is sorted for the eye and for each light at infinity that casts shadows, one after
-//! another; a tree serves all, and all threads build it. So a tree is for many pictures, many rays or many
-//! spheres; a scene that is drawn once takes less time by depth lists, unless there are so many spheres to a ray
-//! that what is between the rays costs more than what they share.
-//! What the model does not know: from very far away a depth list is four times slower than this, since its margins grow
-//! with the distance; among spheres that overlap tenfold it is four times faster than a tree.
+//! Sorting by depth took 31 ns a sphere for 1,024 to 16,384 spheres, 56 ns for 131,072 and 119 ns for 1,048,576;
+//! building a tree took 135 to 210 ns a sphere. A list is sorted for the eye and for each light at infinity that casts
+//! shadows, one after another. A tree serves all of them, and all threads build it. So a tree is for many pictures,
+//! many rays or many spheres. A scene that is drawn once takes less time by depth lists, unless there are so many
+//! spheres to a ray that the spheres between the rays cost more than the rays share.
+//! The model does not know two cases. From very far away a depth list is four times slower than this, since its margins
+//! grow with the distance. Among spheres that overlap tenfold it is four times faster than a tree.
 
 use super::Structure;
 use crate::scene::{Light, Source};
 use spherule_kernel::Coherence;
 
-/// The rays to be traced, before the spheres change.
+/// The rays that are traced before the spheres change.
 #[derive(Clone, Copy, Debug)]
 pub struct Workload {
-    /// Rays a picture from its eye, and as many at most to each light.
+    /// Rays from the eye a picture; at most as many go to each light.
     pub rays: usize,
-    /// Pictures: infinitely many in the viewer.
+    /// How many pictures are drawn: infinitely many in the viewer.
     pub pictures: f64,
-    /// How often the same spheres move on, and are drawn so often again: a tree is built once, and then refitted.
+    /// How often the spheres move on; after each move as many pictures are drawn again. A tree is built once, and then
+    /// refitted.
     pub moves: f64,
     /// Whether rays that follow each other lie close together.
     pub coherent: bool,
     /// Lights at infinity that cast shadows: a depth list each.
     pub distant_lights: usize,
-    /// Those at a place of the scene: a depth list is of no use to their rays, and brute force takes its place.
+    /// Lights at a place of the scene. A depth list is of no use to their rays, so brute force replaces it.
     pub near_lights: usize,
 }
 
 impl Workload {
-    /// `pictures` of so many camera rays each, against so many spheres.
+    /// So many `pictures` of `rays` camera rays each, against so many `spheres`.
     #[must_use]
     pub fn of_pictures(pictures: f64, rays: usize, spheres: usize) -> Self {
         let coherent = spheres / SPARSE <= rays;
         Self { rays, pictures, moves: 0.0, coherent, distant_lights: 0, near_lights: 0 }
     }
 
-    /// The same for each of the frames of a trajectory, of which so many follow.
+    /// The same work for each frame of a trajectory, in which so many frames follow the first.
     #[must_use]
     pub fn with_moves(self, moves: f64) -> Self {
         Self { moves, ..self }
     }
 
-    /// The same with rays to these lights.
+    /// The same work, with rays to these lights.
     #[must_use]
     pub fn with_shadows(self, lights: &[Light]) -> Self {
         let is_near = |light: &&Light| matches!(light.source, Source::Position(_));
@@ -72,16 +73,15 @@ impl Workload {
         Self { distant_lights: lights.len() - near_lights, near_lights, ..self }
     }
 
-    /// As the kernel is told.
+    /// The coherence that the kernel is told.
     #[must_use]
     pub fn coherence(&self) -> Coherence {
         if self.coherent { Coherence::Coherent } else { Coherence::Detect }
     }
 }
 
-/// More spheres than this to a ray, and the rays of a picture lie so far apart that what is between
-/// them costs more than what they share: a million spheres in 160 x 48 rays took packets about twice
-/// as long as single rays.
+/// With more spheres than this to a ray, the rays of a picture lie so far apart that the spheres between them cost more
+/// than the rays share: with a million spheres in 160 x 48 rays, packets took about twice as long as single rays.
 const SPARSE: usize = 64;
 /// The cost of refitting a sphere that has moved in a tree: one thread does it.
 const REFIT: f64 = 300.0;
@@ -91,12 +91,12 @@ const BUILDERS: usize = 8;
 /// What it costs to begin with a tree or a list, however few spheres there are: memory.
 const BEGIN: f64 = 14_000.0;
 
-/// The cost of building one of so many spheres into a tree, the less in caches the more.
+/// The cost a sphere of building a tree over so many: it grows as fewer of them are in caches.
 fn build(spheres: f64) -> f64 {
     900.0 + 0.45 * spheres.sqrt()
 }
 
-/// The cost of sorting one of so many spheres by depth.
+/// The cost a sphere of sorting so many by depth.
 fn sort(spheres: f64) -> f64 {
     220.0 + 0.5 * spheres.sqrt()
 }
@@ -106,12 +106,12 @@ fn brute(spheres: f64, coherent: bool) -> f64 {
     spheres + if coherent { 25.0 } else { 60.0 * spheres.sqrt() }
 }
 
-/// The cost of a coherent ray in a depth list: that in a tree, and the way to the spheres.
+/// The cost of a coherent ray in a depth list: its cost in a tree, and that of reaching the spheres.
 fn depth_list(spheres: f64) -> f64 {
     20.0 + tree(spheres, true) + 0.0045 * spheres
 }
 
-/// The cost of a ray in a tree; of up to 64 spheres an incoherent ray tests all.
+/// The cost of a ray in a tree. Up to 64 spheres, an incoherent ray tests all.
 fn tree(spheres: f64, coherent: bool) -> f64 {
     if coherent {
         50.0_f64.max(20.0 + 5.5 * spheres.powf(0.38))
@@ -122,21 +122,21 @@ fn tree(spheres: f64, coherent: bool) -> f64 {
     }
 }
 
-/// The structure that costs the least for `workload` against so many spheres, with so many threads, if a tree
-/// over them is there already or not.
+/// Returns the structure that costs the least for `workload` against so many spheres, with so many threads. `has_tree`
+/// says whether a tree over them is built already.
 #[must_use]
 pub fn choose(spheres: usize, workload: &Workload, threads: usize, has_tree: bool) -> Structure {
     let Workload { rays, pictures, moves, coherent, distant_lights, near_lights } = *workload;
     let (rays, spheres) = (rays as f64, spheres as f64);
     let (distant, near) = (1.0 + distant_lights as f64, near_lights as f64);
 
-    // All threads trace, so what one of them does alone counts as often.
+    // All threads trace, so work that one thread does alone counts once for each.
     let alone = threads as f64;
     let building = if has_tree {
         0.0
     } else {
         let built = spheres * build(spheres) * alone / threads.min(BUILDERS) as f64;
-        // Of moves without end the first build is none.
+        // Over endless moves the first build costs nothing.
         let refits = spheres * REFIT * alone;
         BEGIN + refits + (built - refits) / (1.0 + moves)
     };

@@ -15,12 +15,12 @@
 //!   +---+---+---+---+---+---+               +---+###########+---+---+
 //! ```
 //!
-//! What is nearer is decided by the contract's rule 5, and bounds drop no hit (`screen.rs`); so both orders have the
+//! The contract's rule 5 decides which hit is nearer, and bounds drop no hit (`screen.rs`). So both orders have the
 //! same picture, except for false hits of `Fast` and `Geometric` beside a sphere's bounds.
 //!
-//! Bounds are found once a picture. A picture is traced strip by strip, so the loop over spheres runs once a strip;
-//! the bounds of the strip as a whole, and of its blocks of packets, rule out most spheres at once. Neither these nor
-//! the strips change a count: which packets a sphere is tested against depends on their rays alone.
+//! Bounds are found once a picture. A picture is traced strip by strip, so the loop over spheres runs once a strip. The
+//! bounds of the strip as a whole, and of its blocks of packets, rule out most spheres at once. Neither blocks nor
+//! strips change a count: which packets a sphere is tested against depends on their rays alone.
 //!
 //! Shadow rays have no screen in common: they go through a structure.
 
@@ -40,7 +40,7 @@ pub struct ObjectOrder<'a> {
     areas: &'a [Area],
 }
 
-/// What an order of loops takes.
+/// The work that an order of loops takes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     /// Tests of a ray against a sphere.
@@ -59,11 +59,11 @@ impl AddAssign for Counts {
 /// The packets of a strip on the screen: the memory of one thread.
 #[derive(Clone, Debug, Default)]
 pub struct Raster {
-    /// The places of every packet, and how many rays it has.
+    /// The area of every packet, and how many live rays it has.
     packets: Vec<(Area, u32)>,
-    /// Of every [`BLOCK`] of them.
+    /// The area of every [`BLOCK`] packets.
     blocks: Vec<Area>,
-    /// The numbers of those that a sphere is tested against.
+    /// The numbers of the packets that a sphere is tested against.
     inside: Vec<u32>,
 }
 
@@ -82,7 +82,7 @@ impl<'a> ObjectOrder<'a> {
         self.spheres
     }
 
-    /// The closest hit of every ray, and what it took.
+    /// Writes the closest hit of every ray to `hits`, and returns the work that took.
     pub fn closest_hits(
         &self,
         Tracing { tier, level, .. }: Tracing,
@@ -111,7 +111,7 @@ impl<'a> ObjectOrder<'a> {
 }
 
 impl Raster {
-    /// Places the packets of a strip; returns where they are altogether.
+    /// Places the packets of a strip; returns the area of all of them.
     fn place(&mut self, screen: &Screen, rays: &[RayPacket]) -> Area {
         self.packets.clear();
         self.packets.extend(rays.iter().map(|packet| screen.of_packet(packet)));

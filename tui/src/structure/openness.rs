@@ -2,17 +2,17 @@
 //!
 //! # Method
 //!
-//! From a sphere, 64 rays are spawned in 64 directions d, each from where d is the normal, and V(d) is 1 if the ray meets
-//! nothing between two diameters of the sphere and a reach. What is nearer is left out: in a molecule every atom is in
-//! the way of its neighbours on all sides, and that makes noise of what should tell a groove from a ridge (of two neighbouring
-//! pixels of four proteins it could be told, in a model of the picture, with an AUC of 0.71 to 0.77 in place of 0.82 to 0.87 whether they lie on
-//! different chains or depths). Of light that comes from everywhere, a surface whose normal is n receives the mean of V(d)
-//! over its hemisphere, weighted by the cosine. In harmonics that is mean V + 2 mean(V(d) d) . n, and what is left out
-//! begins with the second degree, of which a cosine lets a quarter through. So four numbers tell how open a sphere is on every side, and they are
-//! the same whatever it is seen from: they are found once, when a picture first shows the sphere, and kept as long as
-//! no sphere moves. Where nothing is in the way the sum is 1, as directions come in opposite pairs.
+//! From a sphere, 64 rays are spawned in 64 directions d. Each starts where d is the normal, and V(d) is 1 if the ray meets nothing between
+//! two diameters of the sphere and a reach. Nearer spheres are left out: in a molecule every atom is in the way of its neighbours on all
+//! sides, which adds noise to what should tell a groove from a ridge. (A model of the picture told whether two neighbouring pixels of four
+//! proteins lie on different chains or depths: with nearer spheres the AUC was 0.71 to 0.77, without them 0.82 to 0.87.) Of light that
+//! comes from everywhere, a surface whose normal is n receives the mean of V(d) over its hemisphere, weighted by the cosine. In harmonics
+//! that is mean V + 2 mean(V(d) d) . n; the terms left out begin with the second degree, of which a cosine lets a quarter through. So four
+//! numbers tell how open a sphere is on every side. They are the same from every viewpoint: they are found once, when a picture first shows
+//! the sphere, and kept as long as no sphere moves. Where nothing is in the way the sum is 1, since directions come in opposite pairs.
 //!
-//! All spheres have the same directions, so that what one sees its neighbour sees alike: 64 others for each cost as much, and were noise.
+//! All spheres have the same directions, so that neighbours see alike. With 64 other directions for each sphere the cost was the same, and
+//! the result noise.
 
 use super::search::{Scratch, Search, Tracing};
 use spherule_kernel::{
@@ -25,19 +25,19 @@ use std::sync::{Arc, LazyLock};
 /// Directions, of which every one has its opposite.
 const RAYS: usize = 64;
 
-/// Spheres whose rays are traced at a time: those of a direction together, since they run the same way.
+/// Spheres whose rays are traced at a time. Those of one direction are traced together, since they run the same way.
 const AT_ONCE: usize = 16 * RayPacket::COUNT;
 
 /// Where rays begin to count, over the radius of the sphere that they are spawned on.
 const NEAR: f32 = 4.0;
 
-/// Which tier says what rays meet, whichever draws the picture: four numbers are known once, and those of the others are the
-/// same except for a ray in a million.
+/// The tier of these rays, whichever tier draws the picture: the four numbers are found only once, and with other tiers they are the same
+/// except for a ray in a million.
 const TIER: Tier = Tier::Stable;
 
 /// Directions that lie evenly on the sphere: a Fibonacci lattice of one half, and the opposite ones.
 ///
-/// By sums and products alone, so that they are the same everywhere.
+/// They are computed by sums and products alone, so that they are the same everywhere.
 static DIRECTIONS: LazyLock<[Vec3; RAYS]> = LazyLock::new(|| {
     /// The cosine and the sine of the golden angle.
     const TURN: [f64; 2] = [-0.737_368_878_078_319_8, 0.675_490_294_261_523_9];
@@ -53,26 +53,26 @@ static DIRECTIONS: LazyLock<[Vec3; RAYS]> = LazyLock::new(|| {
     directions
 });
 
-/// How open it is around the spheres of a scene, as far as it is known.
+/// How open a scene is around its spheres, as far as it is known.
 #[derive(Debug, Default)]
 pub struct Openness {
-    /// One a sphere, packed.
+    /// One packed value a sphere.
     known: Vec<AtomicU32>,
     reach: f32,
 }
 
-/// What rays spawned on spheres, to all sides, meet, and what is known of it.
+/// What is needed to compute openness by rays spawned on spheres, and what is known of it.
 #[derive(Clone, Debug)]
 pub struct Around {
     /// What is known.
     pub openness: Arc<Openness>,
     /// The spheres.
     pub list: Arc<SphereList>,
-    /// How rays find them; without, all are searched.
+    /// How rays find them; if `None`, all are searched.
     pub tree: Option<Arc<SphereTree>>,
 }
 
-/// The memory of a thread that finds out.
+/// The memory of a thread that computes openness.
 #[derive(Clone, Debug, Default)]
 pub struct OpennessMemory {
     wanted: Vec<u32>,
@@ -81,14 +81,14 @@ pub struct OpennessMemory {
 }
 
 impl Openness {
-    /// Of so many spheres, none known; what is farther than `reach` is in no one's way.
+    /// Knows nothing yet of so many spheres. Spheres farther away than `reach` are in no one's way.
     #[must_use]
     pub fn new(spheres: usize, reach: f32) -> Self {
         Self { known: (0..spheres).map(|_| AtomicU32::new(UNKNOWN)).collect(), reach }
     }
 
-    /// How much of the light from everywhere a surface of this sphere receives whose unit normal is `normal`: 0 to 1; 1 if
-    /// no one has found out, or there is no such sphere. Of a shorter normal it is nearer to the mean of all sides.
+    /// Returns how much of the light from everywhere the surface of this sphere receives where its unit normal is `normal`: 0 to 1. Returns
+    /// 1 if that is not known, or there is no such sphere. A shorter normal brings it nearer to the mean of all sides.
     #[must_use]
     #[inline]
     pub fn towards(&self, sphere: u32, normal: Vec3) -> f32 {
@@ -105,7 +105,7 @@ impl Openness {
 }
 
 impl Around {
-    /// Finds out how open it is around those of `spheres` of which no one knows. Returns how many rays that took.
+    /// Computes the openness of those of `spheres` for which it is not known. Returns how many rays that took.
     pub fn learn(
         &self,
         level: Level,
@@ -150,7 +150,7 @@ impl Around {
                 }
             }
             for (&sphere, &(count, sum)) in wanted.iter().zip(&seen) {
-                // Whoever else has found out has written the same.
+                // Another thread that computed it wrote the same.
                 known[sphere as usize].store(packed(count, sum), Ordering::Relaxed);
             }
         }
@@ -180,12 +180,12 @@ impl Sixteen {
         Self { columns, packet: SpherePacket::new(&all), count: wanted.len() }
     }
 
-    /// Rays spawned on each sphere in `direction`, from where that is the normal; inactive where there is no such place in
-    /// single precision.
+    /// Rays spawned on each sphere in `direction`, from the place where that is the normal; inactive where there is no such place in single
+    /// precision.
     fn spawn_rays(&self, level: Level, direction: Vec3, reach: f32) -> RayPacket {
         let [x, y, z, radius] = &self.columns;
         let Ok(spheres) = Spheres::new(x, y, z, radius) else { return RayPacket::inactive() };
-        // From outside to the middle: where that ray hits, the other leaves.
+        // One ray goes from outside to the centre; where it hits, the spawned ray leaves.
         let mut inwards = RayPacket::inactive();
         for (lane, sphere) in spheres.iter().take(self.count).enumerate() {
             let origin = sphere.center + 2.0 * sphere.radius * direction;
@@ -208,9 +208,9 @@ impl Sixteen {
     }
 }
 
-/// What is not known.
+/// The packed value of a sphere of which nothing is known.
 const UNKNOWN: u32 = 0;
-/// The most that a coordinate of the sum of open directions can be is half of all of them, of half a sphere.
+/// The greatest coordinate of a sum of open directions: half of all are open, a half sphere, and their mean is half.
 const MOST: f32 = RAYS as f32 / 4.0;
 
 /// How many directions are open and their sum, a byte a number.
@@ -220,7 +220,7 @@ fn packed(count: u8, sum: Vec3) -> u32 {
     u32::from_le_bytes([x, y, z, count + 1])
 }
 
-/// The openness for no normal at all, and what it gains along the normal.
+/// The mean openness of all sides, and what it gains along the normal.
 fn unpacked(packed: u32) -> (f32, Vec3) {
     let [x, y, z, count] = packed.to_le_bytes();
     let slope = Vec3::from_array([x, y, z].map(|sum| f32::from(sum as i8))) * (2.0 * MOST / 127.0);

@@ -20,15 +20,15 @@ use std::time::{Duration, Instant};
 /// How the rays of a picture find spheres.
 #[derive(Clone, Debug)]
 pub struct PictureSearch<'a> {
-    /// What is searched; in object order, by the rays to the lights alone.
+    /// The structure that is searched; in object order only the rays to the lights search it.
     pub structure: Structure,
     /// Whether its rays lie close together.
     pub coherence: Coherence,
-    /// Those of the camera.
+    /// The search of the camera's rays.
     pub camera: Search<'a>,
     /// The lights of the picture.
     pub lights: Vec<Light>,
-    /// Those of the rays to them, one a light; none if the scene casts no shadows.
+    /// The searches of the rays to the lights, one a light; none if the scene casts no shadows.
     pub to_lights: Vec<Search<'a>>,
     /// What aids need of the scene.
     pub setting: Setting,
@@ -37,19 +37,19 @@ pub struct PictureSearch<'a> {
 /// A scene as a whole, as far as the aids of a picture need it.
 #[derive(Clone, Debug, Default)]
 pub struct Setting {
-    /// A sphere around what there is to see, if depth is to be seen.
+    /// A sphere around what there is to see, if the depth cue needs it.
     pub subject: Option<Sphere>,
-    /// How open it is around the spheres, if that is to be seen.
+    /// How open it is around the spheres, if occlusion is shown.
     pub around: Option<Around>,
 }
 
-/// Of so many spheres or fewer all are asked, whether they are in the way.
+/// With so many spheres or fewer, occlusion rays search all of them, without a tree.
 const FEW: usize = 64;
-/// What is farther away than that, over the radius of all there is to see, is in no one's way: a sky around it.
+/// Spheres farther away than this, over the radius of all there is to see, are in no one's way: a sky around it.
 const REACH: f32 = 2.0;
 
 impl PictureSearch<'_> {
-    /// That of the camera's rays.
+    /// The order of the camera's rays.
     #[must_use]
     pub fn order(&self) -> Order {
         match self.camera {
@@ -59,7 +59,7 @@ impl PictureSearch<'_> {
     }
 }
 
-/// A tree whose boxes have grown by so much is built anew.
+/// A tree whose boxes have grown by this factor is built anew.
 const WORN: f32 = 1.5;
 
 /// The spheres of a scene, and what has been built over them.
@@ -97,7 +97,7 @@ impl<'a> SceneStructures<'a> {
         }
     }
 
-    /// The same, for pictures whose camera rays and spheres meet in this order.
+    /// The same structures, for pictures whose camera rays and spheres meet in this order.
     #[must_use]
     pub fn in_order(self, order: Order) -> Self {
         Self { order, ..self }
@@ -114,7 +114,7 @@ impl<'a> SceneStructures<'a> {
         self.order
     }
 
-    /// The same, with a tree that others have built over the same spheres.
+    /// The same structures, with a tree that others have built over the same spheres.
     #[must_use]
     pub fn with_tree(self, tree: Option<Arc<SphereTree>>) -> Self {
         Self { tree, ..self }
@@ -126,15 +126,15 @@ impl<'a> SceneStructures<'a> {
         self.tree.clone()
     }
 
-    /// Goes on with other spheres. If there are as many as before, a tree follows them, until it is `WORN`; else it is
-    /// built when it is used.
+    /// Replaces the spheres. If there are as many as before, a tree is refitted to them, until it is `WORN`; else it is
+    /// built again when it is used.
     ///
-    /// Of a million spheres that move a little, a refit takes a fraction of what a build takes.
+    /// For a million spheres that move a little, a refit takes a fraction of the time of a build.
     pub fn go_on(&mut self, list: &Arc<SphereList>) {
         self.list = Arc::clone(list);
         (self.subject, self.openness) = (None, None);
         let Some(tree) = self.tree.take() else { return };
-        // One that others look at is left to them.
+        // A tree that others still use is left to them.
         let Ok(mut tree) = Arc::try_unwrap(tree) else { return };
         if tree.list().len() != list.len() {
             return;
@@ -146,14 +146,14 @@ impl<'a> SceneStructures<'a> {
         self.build += start.elapsed();
     }
 
-    /// The structure for this work, if `choice` leaves it open.
+    /// Returns `choice` or, if that is open, the cheapest structure for this work.
     #[must_use]
     pub fn structure(&self, choice: Auto<Structure>, workload: &Workload) -> Structure {
         let (spheres, threads) = (self.list.len(), self.threads.count());
         choice.unwrap_or_else(|| choose(spheres, workload, threads, self.tree.is_some()))
     }
 
-    /// `structure` for rays of a viewpoint, or of none: then all spheres stand in for a depth list.
+    /// Returns `structure` for the rays of a viewpoint, or for rays of none: then brute force replaces a depth list.
     ///
     /// # Errors
     /// [`Error::Running`] if there is no memory for it.
@@ -165,9 +165,9 @@ impl<'a> SceneStructures<'a> {
         Ok(self.searches(structure, &[viewpoint], None)?.remove(0))
     }
 
-    /// The structure of `choice` for a picture of `scene` from `view`.
+    /// Returns the searches of a picture of `scene` from `view`, by the structure of `choice`.
     ///
-    /// The scene's spheres are those of this; the lights and whether they cast shadows are the scene's.
+    /// `scene` must have the spheres of `self`; the lights and whether they cast shadows are taken from it.
     ///
     /// # Errors
     /// [`Error::Running`] if there is no memory for it.
@@ -208,7 +208,7 @@ impl<'a> SceneStructures<'a> {
         Ok(Setting { subject: depth_cue.then_some(subject), around })
     }
 
-    /// What is known of how open it is in a scene that is so large.
+    /// The openness, as far as it is known, of a scene of this radius.
     fn around(&mut self, radius: f32) -> Result<Around, Error> {
         let tree = if self.list.len() > FEW {
             Some(Arc::clone(built(&mut self.tree, &self.list, self.threads, &mut self.build)?))
@@ -221,7 +221,7 @@ impl<'a> SceneStructures<'a> {
         Ok(Around { openness: Arc::clone(openness), list: Arc::clone(&self.list), tree })
     }
 
-    /// One search a viewpoint; before them, the spheres in object order if there is a screen.
+    /// Returns one search a viewpoint. If there is a screen, the spheres in object order come before them.
     fn searches(
         &mut self,
         structure: Structure,
@@ -260,7 +260,7 @@ impl<'a> SceneStructures<'a> {
     }
 }
 
-/// The tree, built if there is none, in time that is added up.
+/// Returns the tree. If there is none it is built, and `time` grows by what that takes.
 fn built<'a>(
     tree: &'a mut Option<Arc<SphereTree>>,
     list: &SphereList,

@@ -1,8 +1,8 @@
 //! Where on the screen a sphere can be seen: the bounds of object order.
 //!
-//! The screen is what the camera's rays pass through, before it is cut into samples. In perspective a ray of direction
-//! d has the place (d.right, d.up) / d.forward, a slope to each side; in parallel projection one of origin o has the
-//! place ((o - eye).right, (o - eye).up). Bounds are found for each axis by itself:
+//! The camera's rays pass through the screen, before it is cut into samples. In perspective a ray of direction d has the place (d.right,
+//! d.up) / d.forward, a slope to each side. In parallel projection a ray of origin o has the place ((o - eye).right, (o - eye).up). Bounds
+//! are found for each axis by itself:
 //!
 //! ```text
 //!   perspective, from above:                 parallel:
@@ -20,37 +20,37 @@
 //!
 //! # Why no hit is dropped
 //!
-//! A slope s divides space by a plane through the eye. Rays of greater slopes, from the eye forwards, stay on its one
-//! side; a sphere whose centre lies on the other, at least a radius from the plane, meets none of them. That is what is
-//! *checked* of every bound, as it is rounded to `f32`; how the bound was found does not matter. One that fails is none.
+//! A slope s divides space by a plane through the eye. Rays of greater slopes, from the eye forwards, stay on one side of the plane. A
+//! sphere whose centre lies on the other side, at least a radius from the plane, meets none of them. This is *checked* for every bound, as
+//! it is rounded to `f32`; how the bound was found does not matter. If the check fails, there is no bound.
 //!
-//! The sphere is seen with a radius of R = r + 2^-19 (|p| + r) + 2^-100, p from the eye to its centre. That covers
+//! The sphere is taken to have a radius of R = r + 2^-19 (|p| + r) + 2^-100, where p goes from the eye to its centre. That covers
 //!
 //! - the check in double precision, which is off by less than 2^-47 (|p| + r): p is rounded once, each dot product with
 //!   an axis thrice, and so are the products of the check, all of them at most some |p| times the plane's normal;
-//! - the hits of the tiers: `Exact` sees the sphere as it is, and `Stable` none on a line more than R from the centre,
-//!   since its D/a is off by at most 2^-40 (|p|^2 + r^2) (`docs/numerics.md`), and R^2 is above r^2 + 2^-38 (|p| + r)^2;
-//! - roots just before the eye that are rounded to T = -0 = 0, which counts: less than 2^-150 of a direction of 2^49.
+//! - the hits of the tiers: `Exact` sees the sphere as it is, and `Stable` sees no hit on a line more than R from the centre, since its D/a
+//!   is off by at most 2^-40 (|p|^2 + r^2) (`docs/numerics.md`), and R^2 is above r^2 + 2^-38 (|p| + r)^2;
+//! - roots just before the eye that are rounded to T = -0 = 0, which counts: t is below 2^-150, and a direction at most 2^49 long.
 //!
-//! `Fast` and `Geometric` see hits farther from a sphere than that: those are lost, as in a tree.
+//! `Fast` and `Geometric` see hits farther than R from a sphere: those hits are lost, as in a tree.
 //!
-//! A sphere that the eye is in, or from which it is less than 2^-12 R away, may be anywhere on the screen: nearer,
-//! `Stable` may take a root for one on the other side of the eye. One that is behind the eye is nowhere.
+//! A sphere may be anywhere on the screen if the eye is in it, or less than 2^-12 R away from it: so near, `Stable` may take a root for one
+//! on the other side of the eye. A sphere that is behind the eye is nowhere.
 //!
-//! The places of rays are computed from the rays themselves, and rounded outwards: by 2^-36 (1 + |place|), more than
-//! 2^-42, which is what two dot products and a division make of slopes up to 256; in parallel projection by 2^-18 of
-//! |o - eye|, which what a tier is off grows with, too. So it does not matter how a camera rounds. Rays that are not
-//! the camera's (another origin or direction, t_min < 0), or outside of these ranges, may meet any sphere.
+//! The places of rays are computed from the rays themselves, so it does not matter how a camera rounds. They are rounded outwards. In
+//! perspective the margin is 2^-36 (1 + |place|); two dot products and a division are off by less for slopes up to 256, by 2^-42. In
+//! parallel projection the margin is 2^-18 of |o - eye|, since the error of a tier grows with |o - eye|, too. Rays that are not the
+//! camera's (another origin or direction, t_min < 0), or outside of these ranges, may meet any sphere.
 
 use crate::view::View;
 use glam::{DVec2, DVec3};
 use spherule_kernel::{Ray, RayPacket, Sphere, Viewpoint};
 
-/// What R is above r, of |p| + r.
+/// What R is above r, in units of |p| + r.
 const SPREAD: f64 = 1.0 / (1 << 19) as f64;
-/// 2^-100: what it is above r at least.
+/// What R is above r at least: 2^-100.
 const LEAST: f64 = 1.0 / (1_u128 << 100) as f64;
-/// From how near a sphere may be anywhere, in units of its radius.
+/// A sphere nearer to the eye than this, in units of its radius, may be anywhere.
 const NEAR: f64 = 1.0 / (1 << 12) as f64;
 /// What slopes are rounded by.
 const SLOPE_ERROR: f64 = 1.0 / (1_u64 << 36) as f64;
@@ -69,7 +69,7 @@ pub struct Area {
 }
 
 impl Area {
-    /// Everything, and what is not on the screen. It even overlaps [`Area::NOWHERE`], whose rays may be there.
+    /// All of the screen, and beyond. It overlaps even [`Area::NOWHERE`]: a ray without a place may meet a sphere that is nowhere.
     pub const ANYWHERE: Self = Self { low: [f32::NEG_INFINITY; 2], high: [f32::INFINITY; 2] };
     /// Nothing on the screen.
     pub const NOWHERE: Self = Self { low: [f32::INFINITY; 2], high: [f32::NEG_INFINITY; 2] };
@@ -91,7 +91,7 @@ impl Area {
         Self { low, high: [0, 1].map(|axis| self.high[axis].max(other.high[axis])) }
     }
 
-    /// Those between, rounded outwards.
+    /// The places between `low` and `high`, rounded outwards.
     fn between(low: DVec2, high: DVec2) -> Self {
         Self { low: low.to_array().map(below), high: high.to_array().map(above) }
     }
@@ -118,13 +118,13 @@ pub struct Screen {
 }
 
 impl Screen {
-    /// That of [`View::camera`], however many samples there are.
+    /// The screen of [`View::camera`], however many samples there are.
     #[must_use]
     pub fn new(view: &View) -> Self {
         let [mut forward, mut right, mut up] = view.axes();
         let viewpoint = view.viewpoint();
         if let Viewpoint::Direction(direction) = viewpoint {
-            // As it was rounded: far away, no other axis would do.
+            // The axis as it was rounded: far away, no other would do.
             forward = direction.as_dvec3().normalize();
             right = (right - right.dot(forward) * forward).normalize();
             up = right.cross(forward);
@@ -150,7 +150,7 @@ impl Screen {
             };
         }
         let depth = p.dot(self.forward);
-        // Of a distance that is no number nothing is known.
+        // A distance that is NaN says nothing.
         if distance.is_nan() || distance <= radius * (1.0 + NEAR) {
             return Area::ANYWHERE;
         }
@@ -184,7 +184,7 @@ impl Screen {
         (if anywhere { Area::ANYWHERE } else { Area::between(low, high) }, live)
     }
 
-    /// The place of a ray, and what it is off at most; `None` if it has none.
+    /// The place of a ray, and its greatest error; `None` if the ray has no place.
     #[inline]
     fn of_ray(&self, ray: &Ray) -> Option<(DVec2, DVec2)> {
         let on_axes = |v: DVec3| DVec2::new(v.dot(self.right), v.dot(self.up));
@@ -207,10 +207,10 @@ impl Screen {
     }
 }
 
-/// A slope above all that meet a circle around (`across`, `depth`) that the origin is not in; infinite if there is none,
-/// or none is found.
+/// Returns a slope above the slopes of all rays that meet a circle around (`across`, `depth`), which does not contain the origin. Returns
+/// infinity if there is no such slope, or none is found.
 fn slope_above(across: f64, depth: f64, radius: f64) -> f32 {
-    // The way to the centre, turned by the angle under which the circle, a little larger, is seen.
+    // The direction of the centre, turned until it touches the circle, which is made a little larger.
     let wide = radius * (1.0 + SPREAD);
     let along = (across * across + depth * depth - wide * wide).sqrt();
     let (side, ahead) = (across * along + depth * wide, depth * along - across * wide);

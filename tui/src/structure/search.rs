@@ -27,7 +27,7 @@ pub struct Scratch {
 }
 
 impl Scratch {
-    /// As long as `search` has a use for; shorter if there is no memory, which takes longer.
+    /// Lends as much memory as `search` can use. If there is less, tracing takes longer.
     fn of(
         &mut self,
         search: &Search<'_>,
@@ -45,7 +45,7 @@ impl Scratch {
 }
 
 impl Search<'_> {
-    /// The closest hit of every ray.
+    /// Writes the closest hit of every ray to `hits`.
     pub fn closest_hits(
         &self,
         tracing: Tracing,
@@ -66,7 +66,8 @@ impl Search<'_> {
         }
     }
 
-    /// The closest hit of every ray of a camera's tiles, whose rays are made in `rays`, one packet a tile.
+    /// Writes to `hits` the closest hit of every ray of a camera's tiles. The rays are made in `rays`, one packet a
+    /// tile.
     pub fn tile_hits(
         &self,
         tracing: Tracing,
@@ -89,8 +90,8 @@ impl Search<'_> {
         }
     }
 
-    /// Whether every ray meets anything: lane i in bit i. Rays that are not a camera's, so by object order all
-    /// spheres are searched.
+    /// Writes whether each ray meets anything: lane i in bit i. The rays are not a camera's, so object order searches
+    /// all spheres for them.
     pub fn any_hits(
         &self,
         tracing: Tracing,

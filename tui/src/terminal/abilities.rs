@@ -1,7 +1,7 @@
 //! What a terminal can do, by its own word, and the questions for it.
 //!
-//! Questions are asked once, together, and the last is one that every terminal answers: what has not been answered
-//! before it never will be. An answer that comes late counts from then on.
+//! Questions are asked once, together. The last is one that every terminal answers: what has not been answered before
+//! it never will be. An answer that comes late counts from then on.
 
 use super::reply::{RARE_COLOR, Reply};
 use crate::color::Srgb;
@@ -49,9 +49,10 @@ impl Abilities {
     }
 }
 
-/// The questions, for a terminal called `term`; without colour, not that for colours, which sets one.
+/// The questions for a terminal called `term`; without colour, the one about colours is left out, since it sets a
+/// colour.
 ///
-/// The console of Linux gets those alone that it answers: old ones show the letters of strings that they do not know.
+/// The console of Linux gets only those that it answers: old ones show the letters of strings that they do not know.
 pub(super) fn questions(term: &str, has_color: bool) -> Vec<u8> {
     const LAST: &str = "\x1b[5n\x1b[c";
     if term == "linux" {

@@ -42,7 +42,7 @@ pub struct Surroundings {
 }
 
 impl Surroundings {
-    /// Those of this process.
+    /// The surroundings of this process.
     #[must_use]
     pub fn of_process(is_terminal: bool) -> Self {
         let text = |name| env::var_os(name).unwrap_or_default().to_string_lossy().into_owned();

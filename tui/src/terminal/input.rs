@@ -1,8 +1,8 @@
-//! Bytes from the terminal to what the user does and what the terminal answers.
+//! From the bytes of the terminal to what the user does and what the terminal answers.
 //!
-//! Not crossterm's reader: it waits for edges, and of two that come together, a key and a resize,
-//! it takes one and never hears of the other again; it reads the end of its input for ever; and of answers it hands on
-//! none, but takes them for keys where it does not know them.
+//! This is not crossterm's reader. That one waits for edges, and of a key and a resize that come together it takes one
+//! and never hears of the other again. It reads the end of its input for ever. It hands on no answers, but takes those
+//! that it does not know for keys.
 
 mod parse;
 
@@ -22,13 +22,13 @@ use std::os::fd::AsFd;
 use std::os::unix::net::UnixStream;
 use std::time::{Duration, Instant};
 
-/// An escape without a rest for so long is the key, unless an answer is awaited.
+/// An escape that nothing follows for so long is the key, unless an answer is awaited.
 const KEY_GAP: Duration = Duration::from_millis(50);
-/// So long the rest of an answer may take. Then what has come of it is dropped: keys act again.
+/// How long the rest of an answer may take. After that, the part that has come is dropped: keys act again.
 const ANSWER_GAP: Duration = Duration::from_millis(500);
 /// How long a question is open, whatever the terminal does.
 const ANSWER_TIME: Duration = Duration::from_secs(5);
-/// What is kept of a string: more than any that is understood, so that a part of a long one is no answer.
+/// How much of a string is kept: more than any that is understood, so that a part of a long one is no answer.
 const LONGEST_STRING: usize = 1024;
 
 /// The terminal's input and the news of its size.
@@ -47,7 +47,7 @@ pub(super) struct Input {
 }
 
 impl Input {
-    /// Listens, from now on also to SIGWINCH: ask for the size afterwards.
+    /// Listens to the terminal, and from now on also to SIGWINCH: ask for the size afterwards.
     pub(super) fn open() -> io::Result<Self> {
         let stdin = io::stdin();
         Self::reading(if stdin.is_terminal() {
@@ -76,7 +76,7 @@ impl Input {
         self.awaits_answers = are_open.then(|| Instant::now() + ANSWER_TIME);
     }
 
-    /// The next thing that comes; none after `wait`, or never none without it.
+    /// The next thing that comes; `None` if nothing comes within `wait`. Without `wait`, it waits for ever.
     pub(super) fn next(&mut self, wait: Option<Duration>) -> io::Result<Option<Incoming>> {
         let deadline = wait.map(|wait| Instant::now() + wait);
         loop {
@@ -105,7 +105,7 @@ impl Input {
         }
     }
 
-    /// When the beginning of a sequence is all that there will be.
+    /// When the beginning of a sequence is given up, since no more of it will come.
     fn given_up_at(&self) -> Option<Instant> {
         let is_awaited = self.awaits_answers.is_some_and(|until| self.last_byte < until);
         let gap = if may_be_a_key(&self.unfinished) && !is_awaited { KEY_GAP } else { ANSWER_GAP };
@@ -163,7 +163,7 @@ impl Input {
     }
 }
 
-/// Ends the process as SIGHUP does: only the controlling terminal sends one when it goes.
+/// Ends the process as SIGHUP does, since only the controlling terminal sends that when it goes.
 pub(super) fn hung_up() -> io::Error {
     die_by(SIGHUP);
     io::ErrorKind::UnexpectedEof.into()

@@ -7,11 +7,11 @@ use std::env;
 pub fn is_without_unicode() -> bool {
     let names = ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().filter_map(env::var_os);
     let name = names.map(|name| name.to_string_lossy().into_owned()).find(|name| !name.is_empty());
-    // Who names none may be on a terminal of any kind: of most it would be wrong.
+    // Without a named locale the terminal may be of any kind; most have Unicode.
     name.is_some_and(|name| names_no_unicode(&name))
 }
 
-/// `C` and `POSIX` are ASCII; others say it behind a dot, or nothing.
+/// `C` and `POSIX` are ASCII; others tell the encoding behind a dot, or not at all.
 fn names_no_unicode(locale: &str) -> bool {
     let (name, codeset) = locale.split_once('.').unwrap_or((locale, ""));
     let codeset = codeset.split('@').next().unwrap_or_default();

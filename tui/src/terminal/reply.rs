@@ -4,7 +4,7 @@
 
 use crate::color::Srgb;
 
-/// No answer that is understood is longer.
+/// The longest answer that is understood.
 const LONGEST: usize = 256;
 /// A background of no palette: a terminal that tells it back has 24 bits.
 pub(super) const RARE_COLOR: [u8; 3] = [1, 2, 3];
@@ -27,7 +27,7 @@ pub enum Reply {
     Truecolor(bool),
     /// What it says of an image by kitty's protocol: its number, and whether all is well.
     Image(u32, bool),
-    /// It has come so far in what was sent to it (DSR 5).
+    /// It has taken what was sent to it so far (DSR 5).
     Status,
 }
 
@@ -73,7 +73,8 @@ pub(super) fn of_string(kind: u8, content: &[u8]) -> Option<Reply> {
     }
 }
 
-/// `rgb:R/G/B` or `rgba:R/G/B/A`, each of one to four hexadecimal digits: parts of the largest number of so many.
+/// `rgb:R/G/B` or `rgba:R/G/B/A`, each of one to four hexadecimal digits: fractions of the largest number with as many
+/// digits.
 fn background(text: &str) -> Option<Srgb> {
     let channels = text.strip_prefix("rgb:").or_else(|| text.strip_prefix("rgba:"))?;
     let mut channels = channels.split('/').map(|digits| {
@@ -92,8 +93,8 @@ fn background(text: &str) -> Option<Srgb> {
     Some(Srgb([next()?, next()?, next()?]))
 }
 
-/// Whether the pen's background is the colour that was asked for, or an entry of a palette in its place; none if it
-/// tells of no background. There are colons or semicolons between the numbers, and a colour space or none.
+/// Whether the pen's background is the colour that was asked for, instead of an entry of a palette; `None` if no
+/// background is told. There are colons or semicolons between the numbers, and a colour space or none.
 fn depth(pen: &str) -> Option<bool> {
     let pen = pen.replace(':', ";");
     let [red, green, blue] = RARE_COLOR;

@@ -82,7 +82,7 @@ pub(super) fn resume() {
         if !RUNNING.load(SeqCst) {
             return;
         }
-        // Stopped by SIGSTOP from outside, nothing was given back; who knows what the modes are.
+        // After SIGSTOP from outside, nothing was given back, and what the modes are is not known.
         if SHOWN.load(SeqCst) {
             let _ = write(&leaving());
             let _ = terminal::disable_raw_mode();

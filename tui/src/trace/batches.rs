@@ -1,4 +1,4 @@
-//! Packets cut into what is searched together, and that into the tasks of threads.
+//! Packets cut into batches that are searched together, and batches cut into the tasks of threads.
 
 use crate::structure::Structure;
 use crate::structure::choose::Workload;
@@ -7,8 +7,8 @@ use std::ops::Range;
 
 /// How many packets are judged together: as many as go through a tree together.
 const GROUP: usize = 4;
-/// The fewest packets that the spheres are sorted for: 256 rays. A sphere takes about as long to be
-/// sorted as to be tested against a hundred.
+/// The fewest packets that the spheres are sorted for: 256 rays. Sorting a sphere takes about as long as testing it
+/// against a hundred rays.
 const FEWEST_SORTED: usize = 16;
 
 /// Packets side by side whose rays share an origin or a direction, or nothing.
@@ -30,7 +30,7 @@ pub(super) struct Batch {
 
 /// The runs of packets that are filled with `rays` from first to last.
 ///
-/// Rays share what all rays of [`GROUP`] packets share.
+/// All rays of [`GROUP`] packets are judged together: they share something, or nothing.
 pub(super) fn runs(rays: &[Ray]) -> Vec<Run> {
     let mut runs = Vec::<Run>::new();
     for (index, rays) in rays.chunks(GROUP * RayPacket::COUNT).enumerate() {
@@ -56,7 +56,7 @@ fn shared(rays: &[Ray]) -> Option<Viewpoint> {
     }
 }
 
-/// The work of the runs, traced so often: a run that shares something is a picture.
+/// The work of tracing the runs `repeat` times; a run that shares something is a picture.
 pub(super) fn workload(runs: &[Run], repeat: u32) -> Workload {
     let (coherent, other): (Vec<&Run>, Vec<&Run>) =
         runs.iter().partition(|run| run.shared.is_some());
@@ -73,8 +73,8 @@ pub(super) fn workload(runs: &[Run], repeat: u32) -> Workload {
 
 /// The batches in which `structure` searches the runs, in tasks of at most `longest` packets.
 ///
-/// A depth list is for runs that share something and are not too short: a batch each. The others are
-/// searched by brute force.
+/// A depth list searches each run that shares something and is not too short, as a batch of its own. Brute force
+/// searches the others.
 pub(super) fn batches(runs: &[Run], structure: Structure, longest: usize) -> Vec<Batch> {
     let sorted = |run: &&Run| {
         let long = run.packets.len() >= FEWEST_SORTED;

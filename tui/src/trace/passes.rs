@@ -20,7 +20,7 @@ pub(super) enum Query {
     Pairs,
 }
 
-/// What is done, as often as it is repeated.
+/// The work of every pass, and how often it is repeated.
 pub(super) struct Passes<'a> {
     pub(super) tracing: Tracing,
     pub(super) threads: &'a Threads,
@@ -30,8 +30,8 @@ pub(super) struct Passes<'a> {
 }
 
 impl Passes<'_> {
-    /// Traces, and returns the hit of every ray (of any hit, sphere 0 without a t) and the time of
-    /// every pass. Packets are made once; only the kernel's calls are timed, and no building.
+    /// Traces, and returns the hit of every ray and the time of every pass; an any hit has sphere 0 and no t. Packets
+    /// are made once; only the kernel's calls are timed, and no building.
     ///
     /// # Errors
     /// [`Error::Running`] if there is no memory for a structure.

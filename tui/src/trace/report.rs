@@ -37,7 +37,7 @@ impl Report {
         ]
     }
 
-    /// Of the median pass; 0 if it took no time that can be measured.
+    /// The speed of the median pass; 0 if it took no time that can be measured.
     fn mega_rays_a_second(&self) -> f64 {
         let mut seconds: Vec<f64> = self.passes.iter().map(Duration::as_secs_f64).collect();
         seconds.sort_by(f64::total_cmp);

@@ -14,11 +14,11 @@ use std::iter;
 pub enum Standing {
     /// The picture still moves.
     Waiting,
-    /// What is being done, and the share of all that is.
+    /// What is being done, and the share of all that is done.
     Underway(Step, f64),
     /// It is done.
     Done(Report),
-    /// Why there is none.
+    /// Why there is no report.
     Failed(String),
 }
 
@@ -26,7 +26,7 @@ pub enum Standing {
 const TITLES: [&str; 3] = ["ns a ray", "wrong in a million", "largest ulp of t"];
 /// The lengths of bars: those of time grow evenly up to the slowest, the others as logarithms do.
 const FOOT: &str = "bars of wrong and ulp: logarithms, full at 10^6 and 2^24";
-/// The other tiers' own start farther from the surface, so that they are less wrong.
+/// The other tiers' own shadow rays start farther from the surface, so that they are less wrong.
 const WHOSE_SHADOWS: &str = ", from where exact starts them";
 /// The longest name of a tier.
 const NAME: usize = 9;
@@ -37,15 +37,15 @@ const NUMBERS: [usize; 3] = [6, 7, 9];
 /// How long the bar is that tells how far a measurement is.
 const WAY: usize = 30;
 
-/// One of the 16 colours that every terminal with colour has, of the bars of each column: those of the user's theme, so
-/// that they are seen on light and dark. Titles say the same.
+/// The colour of the bars of each column: one of the 16 that every terminal with colour has. They are those of the
+/// user's theme, so that they are seen on light and dark. Titles say the same.
 const COLORS: [Color; 3] = [Color::Ansi16(6), Color::Ansi16(9), Color::Ansi16(3)];
 
 /// A line: texts and their colours.
 type Line = Vec<(String, Color)>;
 
-/// Writes how a measurement stands into the lower left of the first `rows` rows; where there is no room for all of it,
-/// what there is room for, and how much it needs.
+/// Writes how a measurement stands into the lower left of the first `rows` rows. Where there is no room for all of it,
+/// writes what there is room for, and how much it needs.
 pub fn write(cells: &mut CellGrid, rows: u16, style: &Style, standing: &Standing) {
     let columns = cells.columns();
     let (lines, width) = match standing {
@@ -68,7 +68,7 @@ pub fn write(cells: &mut CellGrid, rows: u16, style: &Style, standing: &Standing
         }
     }
     if !fits && rows > 0 {
-        // Of two sides only the one that is too short has to grow.
+        // Only a side that is too short has to grow.
         let (wide, high) = (width.max(columns.into()), height.max(rows));
         let needs = format!(" table needs {wide}x{high}, has {columns}x{rows} ");
         cells.write(0, rows - 1, &needs, Color::Default, Color::Default);
@@ -90,12 +90,12 @@ fn underway(style: &Style, step: Step, share: f64) -> (Vec<Line>, usize) {
     short(format!(" {}", step.doing()), texts.to_vec())
 }
 
-/// As many colours as there are.
+/// The colour, or the terminal's own if there are no colours.
 fn color_of(style: &Style, color: Color) -> Color {
     if style.depth == ColorDepth::Never { Color::Default } else { color }
 }
 
-/// A bar over a share of so many columns: blank where there is nothing, and never blank where there is something.
+/// A bar over a share of `columns`: blank where the share is 0, and never blank where it is more.
 fn bar(style: &Style, share: f64, columns: usize) -> String {
     let parts: &[char] = match style.charset {
         Charset::Ascii => &['#'],
@@ -115,7 +115,7 @@ fn bar(style: &Style, share: f64, columns: usize) -> String {
 struct Chart<'a> {
     report: &'a Report,
     style: &'a Style,
-    /// Of all tiers and kinds of rays.
+    /// The slowest of all tiers and kinds of rays.
     slowest: f64,
     /// How wide the numbers are.
     numbers: [usize; 3],
@@ -124,7 +124,7 @@ struct Chart<'a> {
 }
 
 impl<'a> Chart<'a> {
-    /// As wide as there is room in so many columns.
+    /// A chart as wide as there is room in so many columns.
     fn new(report: &'a Report, style: &'a Style, columns: usize) -> Self {
         let mut numbers = NUMBERS;
         for tier in &report.tiers {
@@ -189,7 +189,7 @@ fn texts(tier: &TierReport) -> [String; 3] {
     [format!("{:.1}", tier.ns_per_ray()), grouped(tier.wrong_in_a_million()), ulp]
 }
 
-/// How much of their bars they fill.
+/// How much of their bars the numbers fill.
 fn shares(tier: &TierReport, slowest: f64) -> [f64; 3] {
     let ulp = tier.errors.ulp.map_or(0, |ulp| ulp.max);
     [

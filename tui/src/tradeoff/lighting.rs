@@ -11,8 +11,8 @@ use spherule_kernel::{HitPacket, RayPacket, Spheres, Tier, Vec3};
 /// The least difference of a coordinate that makes a normal wrong: a step of a colour of eight bits.
 const SHOWS: f32 = 1.0 / 256.0;
 
-/// What is wrong with how every tier lights the points that it hits, if there is a light; `None` if the watch ends
-/// it.
+/// What is wrong with how every tier lights the points that it hits; `Some(None)` if there is no light, `None` if the
+/// watch ends it.
 pub(super) fn errors(
     [for_camera, for_shadow]: [&Machine<'_>; 2],
     camera: &Rays,
@@ -43,8 +43,8 @@ struct Lighting {
 }
 
 impl Lighting {
-    /// Of every `step`-th packet of the `camera` rays, which have these `hits` by `tier`; `machine` finds what is
-    /// between points and lights.
+    /// The lighting of every `step`-th packet of the `camera` rays, whose hits by `tier` are `hits`; `machine` finds
+    /// what is between points and lights.
     fn new(
         tier: Tier,
         (camera, hits): (&Rays, &[HitPacket]),
@@ -78,7 +78,7 @@ impl Lighting {
         }
     }
 
-    /// Against what is true.
+    /// The errors, compared with `truth`.
     fn errors(&self, truth: &Self) -> LightingErrors {
         let both = |i: usize| self.normals[i].zip(truth.normals[i]);
         let points: Vec<usize> = (0..self.normals.len()).filter(|&i| both(i).is_some()).collect();

@@ -13,7 +13,7 @@ use spherule_kernel::{
 };
 use std::hint::black_box;
 
-/// Between two words about how far it is, this part of the tests is counted.
+/// The tests are counted in so many parts, and the watch is told before each.
 const PARTS_OF_STAGES: usize = 8;
 
 /// By which instructions, threads and searches rays are traced.
@@ -39,7 +39,7 @@ impl Machine<'_> {
             Kind::Shadow => Step::Shadow,
         };
         let passes = Tier::ALL.map(|tier| self.pass(tier, rays));
-        // The clock's share; what is left is for the errors.
+        // Timing takes this share; the rest is for the errors.
         let seconds = speed::medians(passes, |share| watch.go_on(step, 0.9 * share))?;
         let hits = Tier::ALL.into_iter().map(|tier| {
             watch.go_on(step, 0.9)?;
@@ -54,7 +54,7 @@ impl Machine<'_> {
         });
         let errors = errors.collect::<Option<Vec<_>>>()?;
         let exact = stages_of(rays, spheres, || watch.go_on(step, 1.0))?;
-        // The other tiers know single precision alone.
+        // The other tiers compute in single precision alone.
         let single = Stages { double: 0, expansions: 0, ..exact };
         let tiers = Tier::ALL.into_iter().zip(seconds).zip(errors);
         let tiers = tiers.map(|((tier, seconds), errors)| TierReport {
@@ -135,7 +135,7 @@ impl Machine<'_> {
     }
 }
 
-/// How far `Exact` goes: of every test there is, as if by brute force; of some rays, if those are too many.
+/// How far `Exact` goes: in every test, as if by brute force; in the tests of some rays, if there are too many.
 fn stages_of(
     rays: &Rays,
     spheres: Spheres<'_>,

@@ -11,10 +11,10 @@ use crate::view::View;
 use spherule_kernel::{HitPacket, Spheres, Writes};
 use std::sync::{Mutex, PoisonError};
 
-/// Tasks of the threads between two words about how far it is.
+/// Tasks of the threads between two calls of the watch.
 const TASKS_A_PART: usize = 16;
 
-/// Counts of the same rays.
+/// Counts of both orders for the same rays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Orders {
     pub(super) image: Counts,

@@ -6,9 +6,9 @@ use crate::structure::Structure;
 use crate::structure::search::Tracing;
 use spherule_kernel::{Camera, HitPacket, Ray, RayPacket, Spheres};
 
-/// The most rays, so that their memory is a cache's, not a machine's.
+/// The most rays, so that they fit into a cache.
 const MOST_RAYS: usize = 1 << 17;
-/// The most tests of a ray against a sphere a pass of brute force: some 0.1 s at the least level.
+/// The most tests of a ray against a sphere in a pass of brute force: some 0.1 s at the least level.
 const MOST_TESTS: usize = 1 << 27;
 /// The side in packets of the part of a picture that is measured or left out.
 const BLOCK: u32 = 4;
@@ -41,7 +41,7 @@ pub(super) struct Rays {
     pub(super) count: usize,
 }
 
-/// The most rays against so many spheres.
+/// The most rays that are traced against so many spheres.
 pub(super) fn most_rays(spheres: usize, structure: Structure) -> usize {
     match structure {
         Structure::Brute => (MOST_TESTS / spheres.max(1)).clamp(RayPacket::COUNT, MOST_RAYS),
@@ -60,8 +60,8 @@ impl Rays {
         Self { kind, count: packets.iter().map(live).sum(), packets, parts: lengths }
     }
 
-    /// The rays of a picture of `width` x `height` samples, in the order in which it is drawn; of
-    /// more than `most`, those of every n-th block of packets.
+    /// The rays of a picture of `width` x `height` samples, in the order in which it is drawn; if there are more than
+    /// `most`, those of every n-th block of packets.
     pub(super) fn of_camera(camera: &Camera, width: u32, height: u32, most: usize) -> Self {
         let (across, down) = Camera::tile::<[f32; 16]>();
         let (across, down) = (BLOCK * across, BLOCK * down);
@@ -69,7 +69,7 @@ impl Rays {
         let blocks = blocks_across * u64::from(height.div_ceil(down));
         let most_packets = most / RayPacket::COUNT;
         let mut step = (blocks * u64::from(BLOCK * BLOCK)).div_ceil(most_packets as u64).max(1);
-        // A step that goes well with the width would see a few columns alone.
+        // A step that shares a divisor with the width would see a few columns alone.
         while step > 1 && common_divisor(step, blocks_across) > 1 {
             step += 1;
         }
@@ -112,7 +112,7 @@ impl Rays {
     }
 }
 
-/// The greatest.
+/// The greatest common divisor.
 fn common_divisor(a: u64, b: u64) -> u64 {
     if b == 0 { a } else { common_divisor(b, a % b) }
 }

@@ -43,7 +43,8 @@ impl TierReport {
         1e9 * self.seconds / self.rays as f64
     }
 
-    /// Rays whose closest hit differs from that of `Exact`, beside rounding; rounded up, so that none is lost.
+    /// Rays in a million whose closest hit differs from that of `Exact` by more than rounding; rounded up, so that none
+    /// is lost.
     pub(super) fn wrong_in_a_million(&self) -> u64 {
         let Summary { wrong_hits, wrong_misses, wrong_places, .. } = self.errors;
         let wrong = wrong_hits + wrong_misses + wrong_places;
@@ -55,7 +56,7 @@ impl TierReport {
         if self.seconds > 0.0 { self.rays as f64 / self.seconds / 1e6 } else { 0.0 }
     }
 
-    /// Of so many tests, as a share of all.
+    /// `tests` as a share of all tests.
     fn share(&self, tests: u64) -> f64 {
         if self.stages.tests == 0 { 0.0 } else { tests as f64 / self.stages.tests as f64 }
     }
@@ -66,9 +67,9 @@ impl TierReport {
 pub(super) struct LightingErrors {
     /// Rays that hit in truth as well as by the tier.
     pub(super) points: usize,
-    /// Normals that differ by more than shows.
+    /// Normals that differ by more than can be seen.
     pub(super) normals: usize,
-    /// Points and lights of which one is lit, and the other is not.
+    /// Pairs of a point and a light, lit by the tier or in truth, but not by both.
     pub(super) shadows: usize,
 }
 
@@ -77,7 +78,7 @@ fn counted(count: usize, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
-/// Four digits that mean something.
+/// The number rounded to four significant digits.
 fn rounded(number: f64) -> f64 {
     format!("{number:.3e}").parse().unwrap_or(number)
 }
@@ -145,7 +146,7 @@ impl Report {
     pub fn table(&self, scene: &str) -> String {
         let Self { cpu, lanes, .. } = self;
         let (search, level, threads) = (self.search(), self.level.as_str(), self.thread_count());
-        // A scene is a file's name, and that is no line.
+        // The name of a scene may be a file's, which may hold ends of lines.
         let scene = scene.escape_debug();
         let mut text =
             format!("{scene}: {search}\n{cpu}, {level}, {lanes} lanes, {threads}; {RUSTC}\n");

@@ -8,8 +8,8 @@ const LONG_ENOUGH: Duration = Duration::from_millis(1500);
 /// The fewest rounds and the most, after one that is thrown away.
 const ROUNDS: (usize, usize) = (5, 501);
 
-/// The median of the seconds that each of `passes` takes; `go_on` gets the share done before every one, and ends it with
-/// `None`.
+/// The median of the seconds that each of `passes` takes. Before every pass `go_on` gets the share done; it ends the
+/// measurement with `None`.
 pub(super) fn medians<const N: usize>(
     mut passes: [impl FnMut(); N],
     mut go_on: impl FnMut(f64) -> Option<()>,

@@ -28,7 +28,7 @@ impl Step {
         }
     }
 
-    /// From which share of the whole to which, about as long as it takes.
+    /// The share of the whole at its start and at its end, by about how long it takes.
     const fn part(self) -> [f64; 2] {
         match self {
             Self::Rays => [0.0, 0.03],

@@ -7,14 +7,14 @@ use crate::coloring::{ColorBy, coloring};
 use crate::scene::Scene;
 use std::sync::Arc;
 
-/// What there is to colour by, and by what it is.
+/// What spheres can be coloured by, and what they are coloured by now.
 #[derive(Debug)]
 pub(super) struct Colors {
     choices: Vec<ColorBy>,
-    /// Of the column that was asked for first.
+    /// The range of the column that was asked for first.
     range: Option<Range>,
     first: usize,
-    /// None of a scene that no one has looked at.
+    /// `None` for a scene that has not been shown.
     shown: Option<usize>,
     /// The scene's own colours, while it has others.
     own: Option<Vec<Srgb>>,
@@ -22,7 +22,7 @@ pub(super) struct Colors {
 }
 
 impl Colors {
-    /// Of a scene that has its own colours.
+    /// The choices of a scene that has its own colours.
     pub(super) fn new(scene: &Scene, first: &ColorBy, range: Option<Range>) -> Self {
         let choices = ColorBy::choices(scene.attributes());
         let is_first = |choice: &ColorBy| choice.name().eq_ignore_ascii_case(first.name());
@@ -50,7 +50,7 @@ impl Colors {
         let found = self.choices.get(choice).and_then(|by| coloring(scene, by, range).ok());
         let (colors, legend) = found.map_or((None, None), |found| (found.colors, found.legend));
         self.legend = legend;
-        // Others may look at the scene too, who measure or read ahead: then this becomes another.
+        // Threads that measure or read ahead may share the scene: then this one becomes a copy.
         match (colors, self.own.take()) {
             (Some(colors), own) => {
                 self.own = own.or_else(|| Some(scene.colors().to_vec()));

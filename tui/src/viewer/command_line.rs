@@ -17,7 +17,7 @@ pub(super) fn command_line(scene: &str, view: &View, origin: DVec3) -> String {
     };
     let (fov, projection) = match view.lens {
         Lens::Perspective { fov } => (fov, LensKind::Perspective),
-        // From the eye the picture is as high at the target as by this angle.
+        // The angle under which the eye sees the height of the picture at the target.
         Lens::Parallel { height } => {
             let distance = f64::from(length(view.eye - view.target));
             let fov = 2.0 * (f64::from(height) / 2.0 / distance).atan().to_degrees();

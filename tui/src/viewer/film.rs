@@ -1,7 +1,7 @@
 //! The frames of a file in the viewer: a thread reads them before they are wanted.
 //!
-//! It reads a few frames ahead, fewer of large ones, and keeps one behind; the rest is read again when it
-//! is wanted. No one waits for it: where a frame is not there yet, the picture stays.
+//! The thread reads a few frames ahead, fewer of large ones, and keeps one behind; the rest is read again when it is
+//! wanted. No one waits for the thread: where a frame is not there yet, the picture stays.
 
 use crate::arguments::files::FOLLOW;
 use crate::error::Error;
@@ -59,7 +59,7 @@ pub struct Film {
 }
 
 impl Film {
-    /// A file of which `frame` is shown; `prepare` does to others what was done to that one.
+    /// A file of which `frame` is shown; `prepare` does to other frames what was done to that one.
     ///
     /// # Errors
     /// [`Error::Running`] if there is no thread to read it.

@@ -1,32 +1,32 @@
 //! How frames follow each other over a link: at most two under way, as far as the terminal tells.
 //!
-//! After every frame the terminal is asked how far it has come. While two are unanswered none is drawn, and what is
-//! drawn next is what is wanted then: frames are left out, never queued. So a key is seen after two frames at most,
+//! After every frame the terminal is asked how far it has come. While two frames are unanswered, none is drawn. The
+//! next one shows what is wanted then: frames are left out, never queued. So a key is seen after two frames at most,
 //! however much the link would take. Without answers nothing is known, and nothing is held back.
 //!
-//! No clock: instants come in.
+//! It has no clock: instants come in.
 
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
-/// Frames under way.
+/// The most frames under way.
 const MOST: usize = 2;
 /// An answer that has not come for so long never will: longer than links stall.
 const LOST: Duration = Duration::from_secs(15);
-/// What the last frame says of the link, against all before it.
+/// The weight of what the last frame says of the link, against all before it.
 const WEIGHT: f64 = 0.3;
-/// Seconds on the link that a frame may take; of two and the next one, a key waits for three.
+/// Seconds that a frame may take on the link. A key waits for three frames: two under way, and the next one.
 const FRAME_TIME: f64 = 0.06;
-/// Tolerances in `OKLab`: no one sees the first, and the last while something moves few.
+/// Tolerances in `OKLab`: no one sees the first; few see the last while something moves.
 const TOLERANCES: [f32; 3] = [0.01, 0.02, 0.03];
-/// Bytes of a frame that say something of the link: less is answered at once, whatever the link.
+/// The fewest bytes of a frame that say something of the link: a smaller frame is answered at once, whatever the link.
 const TELLING: usize = 4096;
 
 /// What is under way.
 #[derive(Debug, Default)]
 pub(super) struct Flow {
     under_way: VecDeque<Sent>,
-    /// From the end of a frame to its answer, the last time.
+    /// How long the last answer took, from the end of its frame.
     round_trip: Option<Duration>,
     /// Bytes a second, as far as is known.
     rate: Option<f64>,
@@ -43,7 +43,7 @@ struct Sent {
 }
 
 impl Flow {
-    /// How long until a frame may be sent; none if it may now.
+    /// How long until a frame may be sent; `None` if it may be sent now.
     pub(super) fn wait(&self, now: Instant) -> Option<Duration> {
         let oldest = self.under_way.front().filter(|_| self.under_way.len() >= MOST)?;
         let left = LOST.saturating_sub(now.saturating_duration_since(oldest.at));
@@ -62,7 +62,7 @@ impl Flow {
     pub(super) fn answered(&mut self, now: Instant) {
         let Some(Sent { at, bytes }) = self.under_way.pop_front() else { return };
         self.round_trip = Some(now.saturating_duration_since(at));
-        // The link began with it when it was done with the one before.
+        // The link began with this frame when it was done with the one before.
         let since = self.answered.map_or(at, |answered| answered.max(at));
         self.answered = Some(now);
         let seconds = now.saturating_duration_since(since).as_secs_f64();
@@ -84,17 +84,17 @@ impl Flow {
         self.answered = None;
     }
 
-    /// From the end of a frame to its answer, the last time.
+    /// How long the last answer took, from the end of its frame.
     pub(super) fn round_trip(&self) -> Option<Duration> {
         self.round_trip
     }
 
-    /// How far colours of a frame that passes may be from what is wanted: the slower the link, the farther.
+    /// How far colours of a passing frame may be from the wanted ones: the slower the link, the farther.
     pub(super) fn tolerance(&self) -> f32 {
         TOLERANCES[self.step]
     }
 
-    /// How many bytes a frame may have that can wait: as many as the link takes in its time.
+    /// How many bytes a frame that can wait may have: as many as the link takes in [`FRAME_TIME`].
     pub(super) fn most_bytes(&self) -> usize {
         let bytes = |rate: f64| ((rate * FRAME_TIME) as usize).max(TELLING);
         self.rate.map_or(usize::MAX, bytes)

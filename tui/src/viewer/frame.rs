@@ -35,7 +35,7 @@ impl Viewer<'_> {
         let (size, started) = ((columns, status_row), Instant::now());
         let pictured = self.state.shown.pictured();
         let subject = Subject::new(&pictured, size);
-        // Where nothing but what is written over it has changed, it is not drawn again.
+        // The picture is not drawn again where nothing has changed except what is written over it.
         let last = self.picture.take();
         let rests = last.as_ref().is_some_and(|last| Subject::new(&last.of, last.size) == subject);
         let protocol = self.protocol();
@@ -66,10 +66,11 @@ impl Viewer<'_> {
         if let Some(notice) = &self.notice {
             notice::write(&mut cells, status_row, notice);
         }
-        // The picture first: then the status line can tell what it cost.
+        // The picture is encoded first, so that the status line can tell what it cost.
         self.bytes.clear();
         self.bytes.append(&mut self.pending_removal);
-        // What passes may look alike; at rest all is sent, a part at a time if the link is slow.
+        // A passing frame may merely look alike; at rest all is sent, a part at a time if the link
+        // is slow.
         let economy = match (moving, self.lossless || picture.image.is_some()) {
             (false, _) => Economy { most_bytes: self.flow.most_bytes(), ..Economy::NONE },
             (true, false) => Economy { tolerance: self.flow.tolerance(), ..Economy::NONE },
@@ -117,7 +118,8 @@ impl Viewer<'_> {
         self.send().map_err(|error| lost(&error))
     }
 
-    /// Whether the terminal is asked after every frame how far it has come: it is known to tell.
+    /// Whether the terminal is asked after every frame how far it has come: only if it is known to
+    /// tell.
     pub(super) fn asks_for_status(&self) -> bool {
         let abilities = self.terminal.abilities();
         abilities.has_answered && abilities.reports_status
@@ -176,7 +178,7 @@ impl Viewer<'_> {
                 let split = Split { tiers: *tiers, seam: self.state.seam() };
                 let SplitPicture { mut drawn, ns_a_ray } =
                     split.draw(&mut self.renderer, scene, view, style, size, spending);
-                // What is wrong is counted at rest: it takes as long as a picture.
+                // Wrong answers are counted at rest: counting takes as long as a picture.
                 let figures = (!moving).then(|| {
                     split.figures(&self.renderer, &mut self.mapper, scene, view, style, size)
                 });
@@ -234,7 +236,7 @@ impl Viewer<'_> {
         Ok(())
     }
 
-    /// What is picked, of what would be drawn now.
+    /// What is picked, in the picture that would be drawn now.
     pub(super) fn pick(&mut self) -> Result<Option<Pick<'_>>, Error> {
         let Shown { view, style, structure, cursor, .. } = &self.state.shown;
         let Some(cursor) = cursor else { return Ok(None) };

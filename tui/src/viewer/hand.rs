@@ -27,7 +27,8 @@ impl Hand {
         [f32::from(place.0) - f32::from(from.0), f32::from(place.1) - f32::from(from.1)]
     }
 
-    /// Lets go; whether that was a click: where it took hold, and not led anywhere since.
+    /// Lets go; returns whether that was a click: at the place where it took hold, and not led
+    /// anywhere since.
     pub(super) fn release(&mut self, place: (u16, u16)) -> bool {
         self.hold.take().is_some_and(|hold| !hold.moved && hold.place == place)
     }

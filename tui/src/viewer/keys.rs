@@ -37,7 +37,7 @@ pub(super) enum Input {
     Split,
     /// Show what every tier takes and gets wrong, or no longer.
     Table,
-    /// Move the seam between them so many columns to the right.
+    /// Move the seam between two tiers so many columns to the right.
     Seam(i8),
     /// The other projection.
     Projection,

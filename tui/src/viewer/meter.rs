@@ -2,7 +2,8 @@
 
 use std::time::{Duration, Instant};
 
-/// Figures that change with every frame cannot be read, and cost bytes.
+/// How long figures stay the same: those that change with every frame cannot be read, and cost
+/// bytes.
 const WINDOW: Duration = Duration::from_millis(250);
 
 /// What one frame took.
@@ -14,19 +15,19 @@ pub(super) struct Frame {
     pub(super) making: Duration,
     pub(super) rays: u64,
     pub(super) bytes: usize,
-    /// From the end of a frame to the terminal's answer, the last time.
+    /// How long the terminal's last answer took, from the end of its frame.
     pub(super) round_trip: Option<Duration>,
 }
 
 /// Means over the last frames; zero before the first.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Figures {
-    /// None while frames come one by one.
+    /// `None` while frames come one by one.
     pub(super) frames_per_second: Option<f64>,
     pub(super) milliseconds: f64,
     pub(super) megarays_per_second: f64,
     pub(super) bytes: usize,
-    /// From the end of a frame to the terminal's answer, the last time.
+    /// How long the terminal's last answer took, from the end of its frame.
     pub(super) round_trip: Option<Duration>,
 }
 

@@ -1,16 +1,16 @@
 //! When a frame is drawn, and what it may cost: coarse while something moves if need be, full soon after.
 //!
-//! No clock: durations come in.
+//! It has no clock: durations come in.
 
 use crate::draw::{Effort, Spending};
 use std::time::Duration;
 
-/// So long after the last frame of a movement it is over. A full frame follows if that one was not: most are drawn
+/// A movement is over so long after its last frame. If that frame was not full, a full one follows: most are drawn
 /// within the rest of 150 ms. Keys that are held down come closer together.
 const REST: Duration = Duration::from_millis(100);
-/// The part of an interval that is for drawing; then there are still the bytes, and what a slow frame takes more.
+/// The part of an interval that is for drawing. The rest is for the bytes, and for what a slow frame takes more.
 const DRAWING: f64 = 0.4;
-/// What the last frame says of the rate, against all before it.
+/// The weight of what the last frame says of the rate, against all before it.
 const WEIGHT: f64 = 0.5;
 
 /// The pace of the frames.
@@ -31,7 +31,7 @@ pub(super) struct Pace {
 pub(super) enum Debt {
     /// It shows all.
     None,
-    /// What looks alike while something moves: made good at rest.
+    /// What merely looks alike while something moves: it is made good at rest.
     AtRest,
     /// What was too much for one frame at rest.
     Now,
@@ -43,7 +43,7 @@ impl Pace {
         Self { interval, rate: None, is_full: true, debt: Debt::None }
     }
 
-    /// How long it takes until a frame is due, `since_last` one began; none if all is shown and nothing moves.
+    /// How long it takes until a frame is due, `since_last` one began; `None` if all is shown and nothing moves.
     pub(super) fn wait(&self, moving: bool, since_last: Option<Duration>) -> Option<Duration> {
         let from_last = match (moving, self.is_full, self.debt) {
             (true, ..) => self.interval,
@@ -69,7 +69,7 @@ impl Pace {
         self.debt = debt;
     }
 
-    /// Takes note of a frame that took so long to draw.
+    /// Takes note of how long a frame took to draw.
     pub(super) fn drawn(&mut self, effort: Effort, drawing: Duration) {
         self.is_full = effort.is_full;
         let rate = effort.samples as f64 / drawing.as_secs_f64();
@@ -158,7 +158,7 @@ mod tests {
         assert_eq!(pace.spending(true), before);
     }
 
-    /// Every frame is as dear as its cells and its samples, and the next gets what it says: they settle.
+    /// Every frame takes the time of its cells and its samples, and the next gets what it says: they settle.
     #[test]
     fn frames_settle_where_time_allows() {
         let (few, needed) = (40_000_u64, 200_000_u64);

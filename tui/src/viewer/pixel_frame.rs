@@ -13,11 +13,11 @@ use crate::pixels::{Output, Protocol, kitty};
 use crate::structure::{Order, Structure};
 use crate::terminal::{Reply, pixels_of_cell};
 
-/// Where the picture is seen, and no text: no glyph of any font.
+/// A cell where the picture is seen, and no text: its glyph is in no font.
 pub(super) const NO_TEXT: Cell = Cell { glyph: '\u{10FFFF}', ..Cell::BLANK };
-/// Pixels of a picture that the terminal enlarges, at most: more take longer than they are seen.
+/// The most pixels of a picture, which the terminal then enlarges: more take longer than they are seen.
 const MOST_PIXELS: u32 = 2_500_000;
-/// Text over pixels, where the terminal has not told the colour behind it.
+/// Colours of text over pixels, where the terminal has not told the colour behind it.
 const INK: Color = Color::Rgb([229; 3]);
 const PAPER: Color = Color::Rgb([0; 3]);
 
@@ -34,7 +34,7 @@ impl Viewer<'_> {
                 self.pixels.awaits_first = false;
                 !is_well
             }
-            // It has come past the image, without a word about it.
+            // The terminal has come past the image, without a word about it.
             Reply::Status => self.pixels.awaits_first,
             _ => false,
         };
@@ -49,7 +49,7 @@ impl Viewer<'_> {
         Outcome::Unchanged
     }
 
-    /// Where pixels were asked for by name and are not to be had, that is said.
+    /// Tells the user if pixels were asked for by name and cannot be had.
     pub(super) fn say_no_pixels(&mut self) {
         let name = crate::choice::name(&self.pixels.output);
         if self.pixels.protocol.is_none()
@@ -59,7 +59,7 @@ impl Viewer<'_> {
         }
     }
 
-    /// Draws the picture of the moment in pixels; how its rays found spheres, too.
+    /// Draws the picture of the moment in pixels; also returns its effort, and how its rays found spheres.
     pub(super) fn draw_image(
         &mut self,
         protocol: Protocol,
@@ -125,7 +125,7 @@ impl Viewer<'_> {
         if is_new || is_cleared || has_hole || !self.pixels.is_shown {
             self.terminal.remove_when_leaving(protocol.removal());
             protocol.write(image, (cells.columns(), rows), self.pixels.sent, &mut self.bytes);
-            // Who tells how far it has come has said a word about the image before that.
+            // A terminal that tells how far it has come has said a word about the image before that.
             let is_told = self.asks_for_status();
             self.pixels.awaits_first |= self.pixels.sent == 0 && protocol.has_layers() && is_told;
             self.pixels.sent += 1;

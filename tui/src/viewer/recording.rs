@@ -10,7 +10,7 @@ use std::time::Instant;
 
 /// A recording takes no more memory than this: then it ends by itself.
 const MOST_BYTES: usize = 256 << 20;
-/// More recordings of one scene lie in no folder.
+/// The most recordings of one scene in a folder.
 const MOST_NAMES: u32 = 10_000;
 
 /// A recording that goes on.
@@ -31,7 +31,7 @@ impl Recording {
     /// Takes note of what is shown from `now` on.
     pub(super) fn frame(&mut self, cells: &CellGrid, now: Instant, economy: Economy) {
         let seconds = (now - self.since).as_secs_f64();
-        // A vector takes all there is.
+        // Writing to a vector cannot fail.
         let _ = self.cast.frame(cells, seconds, economy, &mut self.text);
         self.frames += 1;
     }
@@ -45,7 +45,7 @@ impl Recording {
     /// frames are in it.
     ///
     /// # Errors
-    /// What it would have been called, and why it cannot be written: there is no file then.
+    /// Says what it would have been called, and why it cannot be written; then there is no file.
     pub(super) fn write(
         mut self,
         name: &str,

@@ -1,6 +1,6 @@
 //! The seam between two tiers.
 
-/// Where it is: so that it stays in the middle whatever the size, counted from there.
+/// Where the seam is, counted from the middle: so it stays in the middle whatever the size.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Seam {
     /// Columns to the right of the middle.
@@ -8,7 +8,7 @@ pub(super) struct Seam {
 }
 
 impl Seam {
-    /// In this column of so many, or the nearest that there is.
+    /// The seam in this column of `columns`, or in the nearest that there is.
     pub(super) fn at(column: i32, columns: u16) -> Self {
         let column = column.clamp(0, last(columns));
         Self { right: (column - i32::from(columns / 2)) as i16 }

@@ -43,7 +43,7 @@ pub(super) struct Viewer<'a> {
     pub(super) recording: Option<Recording>,
     /// Why a recording could not be written.
     pub(super) failure: Option<Error>,
-    /// What removes images, with the next frame.
+    /// What removes images; it is sent with the next frame.
     pub(super) pending_removal: Vec<u8>,
     pub(super) flow: Flow,
     pub(super) state: State,
@@ -54,7 +54,7 @@ pub(super) struct Viewer<'a> {
     pub(super) meter: Meter,
     pub(super) pace: Pace,
     pub(super) table: Table,
-    /// The last.
+    /// The last picture.
     pub(super) picture: Option<Picture>,
     /// Kept from frame to frame for its memory.
     pub(super) bytes: Vec<u8>,
@@ -71,7 +71,7 @@ pub(super) struct Picture {
     /// How its rays found spheres.
     pub(super) searched: (Order, Structure),
     pub(super) drawn: Drawn,
-    /// In place of cells.
+    /// The image that is shown instead of cells.
     pub(super) image: Option<Image>,
 }
 
@@ -84,7 +84,7 @@ impl Viewer<'_> {
     }
 }
 
-/// The rows of the picture, of so many of the terminal: the last is the status line's, if there are two.
+/// The rows of the picture on a terminal of so many rows: the last is the status line's, if there are two.
 pub(super) fn picture_rows(rows: u16) -> u16 {
     if rows >= 2 { rows - 1 } else { rows }
 }

@@ -1,4 +1,4 @@
-//! What the viewer shows and how it moves. No terminal, no clock: input and durations come in.
+//! What the viewer shows and how it moves. It has no terminal and no clock: input and durations come in.
 
 use super::hand::Hand;
 use super::keys::Input;
@@ -18,7 +18,7 @@ use std::time::Duration;
 
 /// How far a key leads the eye around, in radians: 5 degrees.
 pub const ORBIT_STEP: f32 = PI / 36.0;
-/// What a key or a notch of the wheel enlarges by.
+/// By what factor a key or a notch of the wheel enlarges.
 pub const ZOOM_STEP: f32 = 1.1;
 /// How far a key leads eye and target along the picture, over the picture's height at the target.
 pub const PAN_STEP: f64 = 0.05;
@@ -30,9 +30,9 @@ const LONGEST_STEP: Duration = Duration::from_millis(100);
 /// What the viewer shows first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Start {
-    /// From where.
+    /// From where it is seen.
     pub view: View,
-    /// How.
+    /// How it is drawn.
     pub style: Style,
     /// Which structure is asked for.
     pub structure: Auto<Structure>,
@@ -50,7 +50,7 @@ pub(super) struct State {
     home: View,
     pub(super) shown: Shown,
     hand: Hand,
-    /// Whether it holds the seam.
+    /// Whether the hand holds the seam.
     pulls_seam: bool,
     pub(super) recording: bool,
     /// Columns and rows of the picture: a drag over all rows is half a turn.
@@ -60,7 +60,7 @@ pub(super) struct State {
 }
 
 impl State {
-    /// With so many things to colour by, first by one of them.
+    /// The state at the start; there are `colorings` things to colour by, and `coloring` is the first.
     pub(super) fn new(start: Start, (coloring, colorings): (usize, usize)) -> Self {
         let Start { view, style, structure, comparison, table, legend } = start;
         let shown = Shown {
@@ -165,7 +165,7 @@ impl State {
                     matches!(input, Input::Grab(..)) && self.is_split() && column == self.seam();
             }
             Input::Drag(column, row) if self.pulls_seam => {
-                // So that it is no click.
+                // The hand is led, so that its release is no click.
                 self.hand.led_to((column, row));
                 self.shown.seam = Seam::at(column.into(), self.size.0);
             }
@@ -232,7 +232,7 @@ impl State {
             Input::Spin => *spinning = !*spinning,
             Input::Reset => (*view, *spinning) = (self.home, false),
             Input::Help => *help = !*help,
-            // What concerns the terminal or asks for the scene.
+            // These concern the terminal or need the scene.
             Input::Suspend
             | Input::Resize
             | Input::Step(_)
@@ -248,7 +248,7 @@ impl State {
         if self.shown == *before { Outcome::Unchanged } else { Outcome::Changed }
     }
 
-    /// A pick asks every tier, so where `Exact` cannot be had there is none. It is told where the table is.
+    /// A pick asks every tier, so where `Exact` cannot be had there is none. What it tells replaces the table.
     fn pick(&mut self, cursor: Cursor) {
         if check_floats(Tier::Exact).is_ok() {
             (self.shown.cursor, self.shown.table) = (Some(cursor), false);
@@ -260,14 +260,14 @@ impl State {
         let a_row = PI / f32::from(self.size.1);
         let [right, down] = self.hand.led_to((column, row));
         if [right, down] == [0.0; 2] {
-            // Turned by nothing, the eye would be rounded all the same.
+            // Even a turn by nothing would round the eye.
             return;
         }
         let right = right * self.shown.style.cell_aspect;
         self.shown.view = orbited(&self.shown.view, -right * a_row, down * a_row);
     }
 
-    /// What is under the hand, as far away as the target, stays there.
+    /// What is under the hand, at the target's distance, stays there.
     fn pull_to(&mut self, column: u16, row: u16) {
         let view = self.shown.view;
         let a_row = f64::from(view.height_at_target()) / f64::from(self.size.1);

@@ -12,9 +12,9 @@ const HINT: &str = "? help  q quit ";
 
 /// Writes the status line into `row`: names and figures from the left, the hint from the right.
 ///
-/// Before them stands which frame of a `film` is shown. Where there is no room for all of it, what goes first is the `structure` that the program chose itself, then the
-/// figures from the last; a structure that the user chose stays, and so does object order. The hint goes where there is no room for it beside
-/// the names.
+/// Before them stands which frame of a `film` is shown. Where there is no room for all of it, the `structure` that the
+/// program chose itself is left out first, then the figures, from the last. A structure that the user chose stays, and
+/// so does object order. The hint is left out where there is no room for it beside the names.
 pub(super) fn write(
     cells: &mut CellGrid,
     row: u16,
@@ -48,7 +48,7 @@ fn names(state: &State, order: Order) -> String {
     format!("{} {lens} {charset}{order}{recording}", style.accuracy.as_str())
 }
 
-/// From the one that is missed the most.
+/// The figures, from the one that is missed the most.
 fn figure_texts(figures: Figures) -> [String; 5] {
     let rate =
         figures.frames_per_second.map_or_else(|| "--".to_owned(), |rate| format!("{rate:.0}"));

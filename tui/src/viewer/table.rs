@@ -1,7 +1,8 @@
 //! The table over the picture: measured by a thread of its own, which is told to end when the table is closed.
 //!
-//! No one waits for that thread, whatever it is doing; it ends by itself after the pass that it is in. Of two the later
-//! begins when the earlier has ended, so that they neither disturb each other's times nor add up.
+//! No one waits for that thread, whatever it is doing; it ends by itself after the pass that it is in. Of two
+//! measurements the later begins when the earlier has ended, so that they neither disturb each other's times nor add
+//! up.
 
 use super::shown::Shown;
 use crate::choice::Auto;
@@ -21,9 +22,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{Builder, JoinHandle};
 use std::time::Duration;
 
-/// Between two looks at how far it is.
+/// The time between two looks at how far a measurement is.
 const TICK: Duration = Duration::from_millis(100);
-/// So long after the last frame of a movement it begins.
+/// A measurement begins so long after the last frame of a movement.
 const REST: Duration = Duration::from_millis(100);
 
 /// What is measured.
@@ -41,11 +42,11 @@ impl Subject {
     }
 }
 
-/// Who measures, and what over: owned, since no one waits for the end.
+/// What a measurement needs; it is owned, since no one waits for the end.
 pub(super) struct Means {
     pub(super) scene: Arc<Scene>,
     pub(super) style: Style,
-    /// The one of the pictures, so that there are not two.
+    /// The tree of the pictures, so that there are not two.
     pub(super) tree: Option<Arc<SphereTree>>,
     pub(super) order: Order,
     pub(super) level: Level,
@@ -71,7 +72,7 @@ impl Shared {
         *self.standing.lock().unwrap_or_else(PoisonError::into_inner) = standing;
     }
 
-    /// On this thread alone: those of the pictures are free.
+    /// Measures on this thread alone: the threads of the pictures stay free.
     fn measure(&self, subject: Subject, means: &Means) {
         let Subject { view, structure, size } = subject;
         let Means { scene, style, tree, order, level } = means;
@@ -110,8 +111,8 @@ pub(super) struct Table {
 }
 
 impl Table {
-    /// How long until there is something to do, `since_last` frame began; none while it is closed or done, or waits for
-    /// a picture that never rests.
+    /// How long until there is something to do, `since_last` frame began; `None` while the table is closed or done, or
+    /// waits for a picture that never rests.
     pub(super) fn wait(
         &self,
         shown: &Shown,
@@ -135,8 +136,8 @@ impl Table {
         self.measurement = None;
     }
 
-    /// How the measurement of `subject` stands, by `means`. One of another subject ends; one of this begins if the
-    /// picture `rests`.
+    /// How the measurement of `subject` stands. A measurement of another subject ends. One of this subject begins, by
+    /// `means`, if the picture `rests`.
     pub(super) fn standing(
         &mut self,
         subject: Subject,
@@ -174,7 +175,7 @@ impl Table {
         Ok(Measurement { subject, shared, is_over: false })
     }
 
-    /// A panic there is one here.
+    /// A panic of the thread is one here, too.
     fn tell_why_it_died(&mut self) {
         if let Some(Err(panic)) = self.thread.take().map(JoinHandle::join) {
             resume_unwind(panic);

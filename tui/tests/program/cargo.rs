@@ -2,7 +2,8 @@
 
 use std::process::Command;
 
-/// Without a default `cargo run`, the README's first command, compiles every crate of the workspace: twice as long.
+/// Without a default, `cargo run`, the README's first command, compiles every crate of the workspace: that takes twice
+/// as long.
 #[test]
 fn cargo_run_compiles_the_program_alone() {
     let output = Command::new(env!("CARGO"))

@@ -45,7 +45,7 @@ fn threads_levels_orders_and_structures_do_not_show() {
     }
 }
 
-/// A heap of spheres, so many times as large, or so many times its size away from zero.
+/// A heap of spheres, `scale` times as large, or `away` times its size away from zero.
 fn heap(scale: f64, away: f64) -> String {
     let mut text = "light = \"camera\"\n".to_owned();
     for index in 0..60 {
@@ -64,7 +64,7 @@ fn a_scene_has_no_size_and_no_place() {
         picture(path.to_str().expect("UTF-8"), "--occlusion --edges --depth-cue")
     };
     let usual = draw("crowd.toml", 1.0, 0.0);
-    // By powers of two no number is rounded in another way.
+    // Powers of two round no number in another way.
     for power in [-40, 40] {
         assert!(draw("crowd-scaled.toml", 2.0_f64.powi(power), 0.0) == usual, "2^{power}");
     }
@@ -133,7 +133,8 @@ fn a_legend_says_what_colours_mean() {
     assert!(!picture("caffeine", "--color-by element").contains(" element "));
 }
 
-/// A file with chains is seen with all aids, of several in their colours; what has none is as it always was.
+/// A file with chains is seen with all aids, several chains in their colours; a file without chains is as it always
+/// was.
 #[test]
 fn chains_are_told_apart_unless_somebody_says_otherwise() {
     let pdb = |name: &str, chains: [char; 2]| {

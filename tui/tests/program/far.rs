@@ -7,7 +7,7 @@ use spherule_referee::random::Random;
 /// On a map in metres, and farther away; all are numbers of single precision.
 const PLACES: [[f64; 3]; 2] = [[500_000.0, 5_400_000.0, 310.0], [-3e9, 0.0, 4096.0]];
 
-/// The first in the middle, so that all are as they were once it is subtracted; numbers of 20 bits.
+/// The first is in the middle, so that all are as they were once it is subtracted; the numbers have 20 bits.
 fn spheres() -> Vec<[f64; 4]> {
     let mut random = Random::seeded(21);
     let mut number = || f64::from(random.between(-1.0, 1.0) * 1024.0).round() / 1024.0;

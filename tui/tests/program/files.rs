@@ -68,7 +68,7 @@ fn what_is_unknown_or_ignored_is_said_once() {
     );
 }
 
-/// Nothing is to be seen then, and that is no error: so it is said.
+/// Nothing is to be seen then, which is no error, so the program says it.
 #[test]
 fn spheres_without_a_size_are_said() {
     for (name, text) in [

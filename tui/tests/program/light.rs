@@ -55,7 +55,7 @@ fn sphere_pixels(scene: &Scene, view: &View) -> Vec<(u32, Srgb)> {
 struct Look {
     /// The mean lightness of what is seen of the spheres.
     lightness: f32,
-    /// The share of that with a channel at its end.
+    /// The share of the spheres' pixels with a channel at its end.
     clipped: f32,
     /// How far lightness varies on a sphere, as the mean of the larger ones.
     relief: f32,

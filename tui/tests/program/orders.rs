@@ -91,8 +91,8 @@ fn counts(words: &str) -> [[u64; 3]; 2] {
     })
 }
 
-/// 8 x 4 cells are 16 x 8 rays, 8 packets of 16: a shell around the eye is met by all, twice, since the first is farther;
-/// what is behind the eye by none; and a point that no ray meets by the packet that it lies in.
+/// 8 x 4 cells are 16 x 8 rays, 8 packets of 16. All rays meet a shell around the eye, twice, since the first is
+/// farther; none meets what is behind the eye. A point that no ray meets is tested by the packet that it lies in.
 #[test]
 fn counts_by_hand() {
     let text = "[camera]\neye = [0, 0, 0]\ntarget = [0, 0, -1]\nfov = 90.0\n\

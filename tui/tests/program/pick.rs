@@ -7,7 +7,7 @@ use spherule::scene::builtin::builtin;
 use spherule::style::Style;
 use spherule_kernel::{Intersect, Tier, discriminant, roots};
 
-/// The unit sphere from (0, 0, 3), in parallel, in a picture so high.
+/// The unit sphere from (0, 0, 3), in parallel projection, in a picture of this height.
 fn unit(name: &str, height: u8) -> String {
     let text = format!(
         "[camera]\neye = [0, 0, 3]\ntarget = [0, 0, 0]\nprojection = \"parallel\"\nheight = {height}\n\
@@ -146,7 +146,7 @@ fn against_the_kernel(name: &str, cells: &[(u16, u16)]) -> usize {
         let ray = cell_ray(&view, &Style::PLAIN, size, cell).expect("a cell");
         let word = format!("{},{}", cell.0, cell.1);
         let pick = picked(&[name, "--pick", &word, "--structure", "brute"]);
-        // Which false hits the lecture's forms owe is the structure's; what `Exact` says is not.
+        // The structure decides which false hits the lecture's forms owe; it does not change what `Exact` says.
         for structure in ["auto", "depth-list", "bvh"] {
             let by_it = picked(&[name, "--pick", &word, "--structure", structure]);
             assert_eq!(by_it["tiers"][3], pick["tiers"][3], "{structure}");

@@ -77,7 +77,7 @@ fn kitty_gets_the_pixels_of_the_png() {
     assert!(text.ends_with("\x1b\\\n"));
 }
 
-/// Wrapped for the terminal behind it; where it is, placeholders tell.
+/// Commands are wrapped for the terminal behind tmux; placeholders tell where the image is.
 #[test]
 fn under_tmux_there_are_placeholders() {
     let words = format!("{WORDS} --output kitty");

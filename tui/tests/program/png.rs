@@ -85,7 +85,7 @@ fn threads_structures_and_levels_do_not_show() {
     }
 }
 
-/// Neither are characters, colours and samples asked for; nor is anything printed beside a file.
+/// Options of characters, colours and samples change nothing; nor is anything printed beside a file.
 #[test]
 fn what_is_asked_of_cells_does_not_matter() {
     let folder = folder("png-quiet");

@@ -128,7 +128,7 @@ fn edge_is_where_the_lecture_s_forms_are_wrong_and_exact_is_right() {
     assert_eq!((count(exact), exact["ulp_max"].as_u64()), ([0; 3], Some(0)));
 }
 
-/// The counts of `Fast` by one lane and, for the truth, double precision.
+/// The counts of `Fast`, found by one lane; the truth is in double precision.
 #[test]
 fn the_counts_are_those_of_a_scalar_loop() {
     let (columns, rows) = (60, 24);

@@ -174,12 +174,12 @@ proptest! {
         let next: Vec<Vec3> = light.iter().zip(&noise).map(|(&light, &noise)| light + noise).collect();
         let again = fitter.fit(&next, &mut memory, Some(&first));
         let apart = roots(first.ink).distance(roots(first.paper));
-        // What cannot be seen may change.
+        // A change that cannot be seen is allowed.
         if first.glyph == ' ' || light.len() <= FEW || apart < 0.1 {
             return Ok(());
         }
         prop_assert_eq!(again.glyph, first.glyph);
-        // What no such cell can have is nothing to keep.
+        // A glyph that no such cell can have is not kept.
         let none = Fitted { glyph: 'x', ..first };
         prop_assert_eq!(fitter.fit(&light, &mut memory, Some(&none)).glyph, first.glyph);
     }

@@ -8,7 +8,7 @@ use crate::draw::tracer::{Places, Tracer};
 use crate::shade::silhouettes::{Seen, SeenGrid};
 use spherule_kernel::{Camera, Vec3};
 
-/// Of the many samples, so many are traced at a time: few enough to stay in the cache, and no more memory if all cells are in need.
+/// How many of the many samples are traced at a time: few enough to stay in the cache, and no more memory if all cells are in need.
 const AT_ONCE: usize = 1 << 12;
 
 /// The memory of a thread.
@@ -16,19 +16,19 @@ const AT_ONCE: usize = 1 << 12;
 pub(super) struct Worker {
     tracer: Tracer,
     pub(super) painter: Painter,
-    /// Of the fit.
+    /// The memory of the fit.
     memory: FitMemory,
     /// The cells of a band that need many samples.
     needy: Vec<(u32, u32)>,
-    /// Which of those each cell of a band is, if it is one.
+    /// Which of `needy` each cell of a band is, if any.
     places: Vec<usize>,
     /// The light of many samples, with edges.
     finished: Vec<Vec3>,
 }
 
 impl Worker {
-    /// Writes the light of the few samples of the cells from row `first` on, cell by cell, and what they show, if that is
-    /// asked; returns how many samples and shadow rays that took.
+    /// Writes the light of the few samples of the cells from row `first` on, cell by cell, and what they show, if that is asked. Returns
+    /// how many samples and shadow rays that took.
     pub(super) fn sample(
         &mut self,
         plan: &Plan<'_>,
@@ -48,8 +48,8 @@ impl Worker {
         (light.len() as u64, traced.other_rays)
     }
 
-    /// Fits glyphs to the cells from row `first` on, of which those get `many` samples whose needs are above something.
-    /// What is known: the light of the few samples, and which row they begin with.
+    /// Fits glyphs to the cells from row `first` on. Cells whose needs are above the number in `many` get its samples. Takes the light of
+    /// the few samples, and the row that they begin with.
     pub(super) fn fit(
         &mut self,
         plan: &Plan<'_>,
@@ -63,7 +63,7 @@ impl Worker {
         self.needy.clear();
         self.places.clear();
         let few = plan.few.samples.count() as usize;
-        // What was made of the last cell whose samples are all the same: of background there is much.
+        // The fit of the last cell whose samples are all the same: much of a picture is background.
         let mut flat: Option<(Vec3, Fitted)> = None;
         for (cell, (fit, &need)) in fits.iter_mut().zip(needs).enumerate() {
             if many.is_some_and(|(_, above)| need > above) {

@@ -30,11 +30,11 @@ pub(super) const STATION: Station = Station {
     draw,
 };
 
-/// The picture that was drawn last, and with how many colours. On a large terminal it takes a tenth of a second, and no
-/// arrow changes it.
+/// The picture that was drawn last, and its number of colours. On a large terminal drawing takes a tenth of a second,
+/// and no arrow changes the picture.
 static DRAWN: Mutex<Option<(ColorDepth, CellGrid)>> = Mutex::new(None);
 
-/// The cell that is looked at, from the middle: no terminal is larger than the knobs let it go, and at the edge it
+/// The place of the cell that is looked at, from the middle. The knobs reach beyond any terminal; at its edge the cell
 /// stays.
 fn draw([right, down]: Numbers, canvas: &mut Canvas) -> String {
     let scene = builtin("marbles").unwrap_or_default();

@@ -30,7 +30,8 @@ pub(super) const STATION: Station = Station {
     draw,
 };
 
-/// Which of the rays that fast or geometric gets wrong, and whose picture it is.
+/// Which of the rays that fast or geometric gets wrong is chosen, and which tier's picture is
+/// shown.
 fn draw([index, tier]: Numbers, canvas: &mut Canvas) -> String {
     let scene = builtin("edge").unwrap_or_default();
     let tier = tier as usize;

@@ -27,13 +27,13 @@ pub(super) const STATION: Station = Station {
 };
 
 const SIZE: (u32, u32) = (18, 10);
-/// Steps of an arrow from no test to those that image order takes.
+/// Steps of an arrow from no test to all tests that image order takes.
 const STEPS: i32 = 30;
 
 /// One of the two.
 struct Racer {
     title: &'static str,
-    /// The pixels so far, those past the last not computed at all.
+    /// The pixels so far; those past the end are not computed yet.
     hits: Vec<Option<Hit>>,
     counts: Counts,
     is_done: bool,
@@ -47,7 +47,7 @@ fn image_order(few: &Few, budget: u64) -> Racer {
     Racer { title: "image order", hits, counts: Counts { tests, writes }, is_done }
 }
 
-/// As many spheres as there are tests for.
+/// Object order, with as many spheres as there are tests for.
 fn object_order(few: &Few, budget: u64) -> Racer {
     let drawn = (0..=few.count()).map(|spheres| few.object_order(spheres));
     let affordable = drawn.take_while(|(_, counts)| counts.tests <= budget);

@@ -30,7 +30,7 @@ const LIGHT: Vec3 = Vec3::new(-0.48, 0.6, 0.64);
 /// From dark to light.
 const RAMP: &[u8] = b".:-=+*#%@";
 
-/// A picture of bytes: light where a surface faces it.
+/// A picture of bytes: bright where a surface faces the light.
 struct Rendered {
     hits: Vec<Option<Hit>>,
     bytes: Vec<u8>,
@@ -81,7 +81,7 @@ fn draw([twos, tens]: Numbers, canvas: &mut Canvas) -> String {
     let sphere = |hit: &Option<Hit>| hit.map(|hit| hit.sphere);
     let others =
         plain.hits.iter().zip(&scaled.hits).filter(|(a, b)| sphere(a) != sphere(b)).count();
-    // The first that is white.
+    // The first pixel that is white.
     let seen = plain.hits.iter().position(Option::is_some).unwrap_or(0);
     let (ix, iy) = few.place(seen);
     let t = |picture: &Rendered| picture.hits[seen].map_or(f32::INFINITY, |hit| hit.t);

@@ -10,13 +10,14 @@ pub struct Names {
 }
 
 impl Names {
-    /// The names that occur, in the order in which they first do; the empty one stands for none.
+    /// The names that occur, in the order of their first occurrence; the empty name stands for
+    /// none.
     #[must_use]
     pub fn table(&self) -> &[Box<str>] {
         &self.table
     }
 
-    /// An index into the table a sphere.
+    /// An index into the table for every sphere.
     #[must_use]
     pub fn indices(&self) -> &[u32] {
         &self.indices
@@ -35,11 +36,11 @@ impl Names {
 pub struct NamesBuilder {
     names: Names,
     known: HashMap<Box<[u8]>, u32>,
-    /// Short names that came last, and their indices: most names are short, and few.
+    /// Recent short names, and their indices: most names are short, and few.
     recent: [(u64, u32); RECENT],
 }
 
-/// So many short names are at hand.
+/// How many short names are kept at hand.
 const RECENT: usize = 64;
 
 impl Default for NamesBuilder {
@@ -58,12 +59,13 @@ fn word(name: &[u8]) -> Option<u64> {
 }
 
 impl NamesBuilder {
-    /// Adds the name of the next sphere; what is no UTF-8 in it is replaced. Empty: it has none.
+    /// Adds the name of the next sphere; bytes that are no UTF-8 are replaced. An empty name means
+    /// that the sphere has none.
     pub fn push(&mut self, name: &[u8]) {
         let index = match word(name) {
             None => self.index_of(name),
             Some(word) => {
-                // The high bits of a product depend on all of its factor's.
+                // The high bits of a product depend on all bits of the factor.
                 let place = (word.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 58) as usize;
                 match self.recent[place] {
                     (recent, index) if recent == word => index,
@@ -93,7 +95,7 @@ impl NamesBuilder {
         if let Some(&index) = self.known.get(name) {
             return index;
         }
-        // No more names than spheres, and of those no more than an index can tell.
+        // There are no more names than spheres, and no more spheres than an index can number.
         let index = self.names.table.len() as u32;
         self.names.table.push(String::from_utf8_lossy(name).into());
         self.known.insert(name.into(), index);

@@ -13,9 +13,9 @@ pub(in crate::scene) struct Context {
     pub(in crate::scene) columns: Option<String>,
     /// What the particles of a trajectory are.
     pub(in crate::scene) topology: Option<Arc<Scene>>,
-    /// Where positions are taken from, once a frame has told.
+    /// The origin of positions, once a frame has fixed it.
     pub(in crate::scene) origin: Option<DVec3>,
-    /// What to tell.
+    /// Notes for the user.
     pub(in crate::scene) notes: Notes,
     /// The columns of an mmCIF table, once they have been read.
     pub(in crate::scene) mmcif: Option<Columns>,

@@ -1,7 +1,7 @@
 //! GROMACS's `.gro`: a title, the number of atoms, a line of fixed width an atom, and the box; frame after frame.
 //!
-//! Lengths are in nanometres there, and in angstrom in a scene, as radii are. How wide a number is, the distance between
-//! decimal points tells (GROMACS reference manual, "gro file format").
+//! Lengths are in nanometres there, and in angstrom in a scene, as radii are. The distance between decimal points tells
+//! how wide a number is (GROMACS reference manual, "gro file format").
 
 use super::Context;
 use super::words::{count, excerpt, single};
@@ -75,7 +75,7 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
     particles.finish(&mut context.notes, input.source()).map(Some)
 }
 
-/// From point to point.
+/// The distance from decimal point to decimal point.
 fn width_of(line: &Line<'_>) -> Result<usize, ReadError> {
     let rest = line.bytes.get(COORDINATES..).unwrap_or_default();
     let mut points = rest.iter().enumerate().filter(|(_, byte)| **byte == b'.').map(|(at, _)| at);

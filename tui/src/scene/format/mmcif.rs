@@ -64,7 +64,7 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
     atoms.finish(&mut context.notes, input.source()).map(Some)
 }
 
-/// Whether a line cannot be a row of a table any more.
+/// Whether a line can no longer be a row of the table.
 fn ends_loop(text: &[u8]) -> bool {
     text.first().is_none_or(|first| matches!(first, b'#' | b'_'))
         || text.len() >= 5
@@ -199,7 +199,7 @@ impl<'a> Atoms<'a> {
         }
     }
 
-    /// `false` if the atom is of the next model.
+    /// Adds an atom; returns `false` if it is of the next model.
     fn add(&mut self, line: &Line<'_>, row: &Row) -> Result<bool, ReadError> {
         let columns = self.columns;
         let model = row.value(columns.model);

@@ -13,7 +13,7 @@ use crate::scene::particles::Particles;
 use crate::scene::read_error::ReadError;
 use glam::DVec3;
 
-/// So many other properties are kept: they take memory.
+/// How many other properties are kept at most: they take memory.
 const MOST_KEPT: usize = 4;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -87,7 +87,7 @@ enum Encoding {
 /// Reads the vertices.
 ///
 /// # Errors
-/// [`ReadError`] if the header is none, or the data ends early, or a position is not finite.
+/// [`ReadError`] if there is no valid header, or the data ends early, or a position is not finite.
 pub(super) fn read(input: &mut Input, notes: &mut Notes) -> Result<Scene, ReadError> {
     let (encoding, elements) = header(input)?;
     let source = input.source().to_owned();
@@ -240,7 +240,7 @@ fn header(input: &mut Input) -> Result<(Encoding, Vec<Element>), ReadError> {
     Ok((encoding, elements))
 }
 
-/// Reads an element; the line if it is in one. A list is passed over.
+/// Reads an element; returns the number of its line if it is text. A list is passed over.
 fn row(
     input: &mut Input,
     encoding: Encoding,

@@ -4,7 +4,7 @@ use super::Format;
 use super::table::{Separator, has_axes};
 use crate::scene::number::number;
 
-/// What nothing tells the format of is.
+/// The error for an input whose format nothing tells.
 pub(in crate::scene) const UNKNOWN: &str = "unknown format";
 
 /// The records that a PDB file begins with.
@@ -28,7 +28,7 @@ const OTHERS: [(&[u8], &str); 7] = [
 /// The format of what begins with `head`.
 ///
 /// # Errors
-/// What it is instead, as far as that can be told.
+/// Says what it is instead, as far as that can be told.
 pub(in super::super) fn recognise(head: &[u8]) -> Result<Format, &'static str> {
     if head.starts_with(b"\x93NUMPY") {
         return Ok(Format::Npy);

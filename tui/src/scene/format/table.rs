@@ -1,9 +1,9 @@
 //! Tables: a line a particle, columns between commas, tabs, semicolons or spaces, with a header or without.
 //!
-//! A header names `x`, `y`, `z`, and perhaps `radius`, `r`, `g`, `b` or `red`, `green`, `blue`, and `element` or `type`;
-//! other columns of numbers can be chosen for colours. A unit in brackets may follow a name, as in `x (mm)`. Without a
-//! header the first three are positions and a fourth the radius. `--columns` says otherwise, by names or by numbers from 1. Lines that begin with `#` are passed over, except
-//! that the first may be the header.
+//! A header names `x`, `y`, `z`, and perhaps `radius`, `r`, `g`, `b` or `red`, `green`, `blue`, and `element` or
+//! `type`; other columns of numbers can be chosen for colours. A unit in brackets may follow a name, as in `x (mm)`.
+//! Without a header the first three columns are positions, and a fourth is the radius. `--columns` chooses others, by
+//! names or by numbers from 1. Lines that begin with `#` are passed over, except that the first may be the header.
 
 mod columns;
 mod separator;
@@ -74,7 +74,7 @@ pub(super) fn read(input: &mut Input, context: &mut Context) -> Result<Scene, Re
     particles.finish(&mut context.notes, input.source())
 }
 
-/// Colours are from 0 to 1 unless one is larger: then they are to 255.
+/// Colours go from 0 to 1, unless one is larger: then they go to 255.
 #[derive(Clone, Copy, Debug, Default)]
 struct ColorScale {
     most: f32,

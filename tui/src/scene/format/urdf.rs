@@ -16,7 +16,7 @@ use glam::{DAffine3, DQuat, DVec3};
 use roxmltree::{Document, Node, ParsingOptions};
 use std::collections::HashMap;
 
-/// Joints from the root to a link, at most: then there is a circle.
+/// The most joints from the root to a link; with more, there is a circle.
 const DEEPEST: usize = 1024;
 
 /// Reads the robot.

@@ -82,7 +82,7 @@ impl<'a> Words<'a> {
 /// A number that single precision can hold, in the double precision of the file.
 ///
 /// # Errors
-/// [`ReadError`] if `word`, which begins at `byte` of `line`, is none.
+/// [`ReadError`] if `word`, which begins at `byte` of `line`, is no such number.
 #[inline]
 pub(super) fn coordinate(
     line: &Line<'_>,
@@ -101,7 +101,7 @@ pub(super) fn coordinate(
 /// A finite single-precision number, times `unit`.
 ///
 /// # Errors
-/// [`ReadError`] if `word`, which begins at `byte` of `line`, is none.
+/// [`ReadError`] if `word`, which begins at `byte` of `line`, is no such number.
 #[inline]
 pub(super) fn single(
     line: &Line<'_>,

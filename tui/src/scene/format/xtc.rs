@@ -1,6 +1,6 @@
 //! GROMACS's compressed trajectory, decompressed by the crate `molly`, behind checks that it does not make.
 //!
-//! It has positions alone: what the particles are, another file says.
+//! It holds positions only: another file says what the particles are.
 
 use super::Context;
 use super::gro::ANGSTROM;
@@ -18,15 +18,16 @@ use std::sync::Once;
 
 /// Magic, atoms, step, time, box, atoms again.
 const HEADER: usize = 56;
-/// Of more than nine atoms: precision, least and most coordinates, the index of the small differences.
+/// What follows if there are more than nine atoms: precision, least and most coordinates, the index of the small
+/// differences.
 const COMPRESSED: usize = 32;
-/// The fewest bits an atom takes, less than which there is none: a bit says whether its run goes on.
+/// An atom takes a bit at least, which says whether its run goes on.
 const MOST_ATOMS_A_BYTE: u64 = 8;
 
 /// Reads the next frame.
 ///
 /// # Errors
-/// [`ReadError`] if it is none, or another number of particles than the topology has.
+/// [`ReadError`] if it is no valid frame, or has another number of particles than the topology.
 pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<Scene>, ReadError> {
     if input.is_over()? {
         return Ok(None);
@@ -63,7 +64,7 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
         .iter()
         .zip(centers)
         .map(|(Sphere { radius, .. }, center)| Sphere { center, radius });
-    // The numbers of this format are single already.
+    // The numbers of this format are of single precision already.
     Ok(Some(Scene { origin: DVec3::ZERO, ..topology.moved(list.collect()) }))
 }
 
@@ -107,7 +108,7 @@ fn raw(input: &mut Input) -> Result<Vec<u8>, ReadError> {
 }
 
 thread_local! {
-    /// Whether a panic is caught, and need not be told.
+    /// Whether a panic is caught, and need not be reported.
     static IS_CAUGHT: Cell<bool> = const { Cell::new(false) };
 }
 

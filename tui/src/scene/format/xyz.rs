@@ -81,7 +81,7 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
 /// Leaves out a frame.
 ///
 /// # Errors
-/// [`ReadError`] if it is none.
+/// [`ReadError`] if it is no valid frame.
 pub(super) fn skip(input: &mut Input) -> Result<bool, ReadError> {
     if input.is_over_but_blanks()? {
         return Ok(false);

@@ -1,6 +1,6 @@
 //! What gzip and bzip2 have compressed, told by its first bytes.
 //!
-//! A small file may claim to hold anything: what grows beyond all that data does is refused.
+//! A small file may claim to hold anything, so data that grows more than real data does is refused.
 
 use bzip2::read::MultiBzDecoder;
 use flate2::read::MultiGzDecoder;
@@ -10,9 +10,9 @@ use std::os::unix::fs::FileExt;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
-/// Data that grows to more than so many times its size ...
+/// Data that grows to more than so many times its size is refused ...
 const LARGEST_GROWTH: u64 = 200;
-/// ... is none, where it is longer than this.
+/// ... if it is longer than this.
 const ALWAYS_READ: u64 = 32 << 20;
 
 /// What is in `reader`.
@@ -37,7 +37,7 @@ pub(super) fn decompressed(mut reader: Box<dyn Read + Send>) -> io::Result<Box<d
     Ok(Box::new(Bounded { reader, taken, given: 0 }))
 }
 
-/// How many bytes tell.
+/// How many bytes tell the compression.
 const MAGIC: usize = 10;
 
 fn is_gz(head: &[u8]) -> bool {
@@ -50,7 +50,7 @@ fn is_bz(head: &[u8]) -> bool {
         && matches!(head.get(4..), Some(b"\x31\x41\x59\x26\x53\x59" | b"\x17\x72\x45\x38\x50\x90"))
 }
 
-/// Whether the file is what it is.
+/// Whether the file is not compressed.
 ///
 /// # Errors
 /// If it cannot be read.

@@ -70,7 +70,7 @@ fn every_scene_is_as_in_image_order_however_it_is_cut() {
     }
 }
 
-/// Around the eye, behind it, in one packet, and of no ray: 32 x 32 rays, 64 packets.
+/// Spheres around the eye, behind it, in one packet, and between rays: 32 x 32 rays, 64 packets.
 #[test]
 fn counts_that_are_known() {
     let counts = |rows: &[[f32; 4]]| {

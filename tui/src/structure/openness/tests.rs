@@ -1,6 +1,6 @@
 use super::*;
 
-/// How open it is around every sphere of a list.
+/// The openness around every sphere of a list.
 fn learnt(list: &SphereList, reach: f32) -> Arc<Openness> {
     let openness = Arc::new(Openness::new(list.len(), reach));
     let around =
@@ -59,7 +59,7 @@ fn above_a_ground_it_is_as_open_as_the_sky_is_wide() {
     }
 }
 
-/// Against the same rays in double precision, in a heap.
+/// The rays are also traced in double precision, in a heap of spheres.
 #[test]
 fn in_a_heap_it_is_what_those_rays_meet() {
     let mut seed = 1_u64;
@@ -103,7 +103,7 @@ fn in_a_heap_it_is_what_those_rays_meet() {
     assert!(all.iter().any(|&one| one < 0.5) && all.iter().any(|&one| one > 0.9));
 }
 
-/// By a tree as without, in turns as at once, on whatever thread.
+/// With a tree and without, one after another and at once, and on any thread, the result is the same.
 #[test]
 fn how_it_is_found_does_not_show() {
     let list: SphereList = (0..500_u16)

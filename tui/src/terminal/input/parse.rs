@@ -9,7 +9,7 @@ use crossterm::event::{
 const ESCAPE: u8 = 0x1b;
 /// Ends an operating system command as the string terminator does.
 const BELL: u8 = 0x07;
-/// No sequence that means something is longer.
+/// The longest sequence that means something.
 const LONGEST_SEQUENCE: usize = 64;
 
 /// What comes from the terminal.
@@ -61,12 +61,12 @@ pub(super) fn parse(bytes: &[u8], more_may_come: bool) -> Parsed {
     }
 }
 
-/// Whether `bytes`, which are unfinished, are the beginning of a string, of which there may be any number.
+/// Whether `bytes`, which are unfinished, are the beginning of a string, which may be of any length.
 pub(super) fn is_string(bytes: &[u8]) -> bool {
     matches!(bytes, [ESCAPE, b']' | b'P' | b'_' | b'^' | b'X', ..])
 }
 
-/// Whether `bytes`, which are unfinished, may be a key: an escape without a rest.
+/// Whether `bytes`, which are unfinished, may be a key: an escape that nothing follows.
 pub(super) fn may_be_a_key(bytes: &[u8]) -> bool {
     bytes == [ESCAPE]
 }
@@ -74,8 +74,8 @@ pub(super) fn may_be_a_key(bytes: &[u8]) -> bool {
 /// What follows `ESC` and `kind`, the introducer of an operating system command (OSC), a device control string (DCS), an
 /// application program command (APC), a privacy message (PM) or a string (SOS): all up to the string terminator.
 ///
-/// Another escape begins something else, and the string is broken off. So it is by a control character that no string
-/// holds: whoever types Ctrl-C means it, whatever the terminal has begun to say.
+/// Another escape begins something else and breaks the string off. So does a control character that no string holds:
+/// whoever types Ctrl-C means it, whatever the terminal has begun to say.
 fn string(kind: u8, rest: &[u8]) -> Parsed {
     for (at, &byte) in rest.iter().enumerate() {
         let ended = |length| {

@@ -1,7 +1,8 @@
 //! The input of LAMMPS: counts, a box, and sections, of which `Atoms` is read.
 //!
-//! What its columns are, the style says that is written behind it as a comment, `Atoms # full`; else their number tells:
-//! of five atomic, of seven full, of six charge or molecular, by whether the third is an integer. Three more are images.
+//! The style, which is written behind `Atoms` as a comment, `Atoms # full`, says what its columns are. Without a style
+//! their number tells: five are atomic, seven are full, six are charge or molecular, by whether the third is an
+//! integer. Three more are images.
 
 use super::super::words::{Words, coordinate, count, single};
 use super::dump::id;

@@ -1,7 +1,7 @@
 //! `ITEM: TIMESTEP`, number of atoms, box, and `ITEM: ATOMS` with the names of columns; frame after frame.
 //!
-//! Atoms are in the order of their `id`, since LAMMPS writes them in any. Positions are `x`, `xu`, or in fractions of the
-//! box `xs`, `xsu`: then they are scaled, as the documentation of `dump` has it, also where the box is sheared.
+//! Atoms are sorted by `id`, since LAMMPS writes them in any order. Positions are `x`, `xu`, or in fractions of the box
+//! `xs`, `xsu`. Fractions are scaled as the documentation of `dump` says, also where the box is sheared.
 
 use super::super::Context;
 use super::super::words::{Words, coordinate, count, excerpt, single};
@@ -109,7 +109,7 @@ pub(in super::super) fn frame(
 /// Leaves out a frame.
 ///
 /// # Errors
-/// [`ReadError`] if it is none.
+/// [`ReadError`] if it is no valid frame.
 pub(in super::super) fn skip(input: &mut Input) -> Result<bool, ReadError> {
     let Some((atoms, first, _)) = header(input)? else { return Ok(false) };
     for line in 0..=atoms {
@@ -123,7 +123,7 @@ pub(in super::super) fn skip(input: &mut Input) -> Result<bool, ReadError> {
     Ok(true)
 }
 
-/// Up to `ITEM: ATOMS`, which is next then: how many atoms, the line that says so, and the box.
+/// Reads up to `ITEM: ATOMS`, which is next then. Returns how many atoms there are, the line that says so, and the box.
 fn header(input: &mut Input) -> Result<Option<(usize, usize, Cell)>, ReadError> {
     if input.is_over_but_blanks()? {
         return Ok(None);
@@ -152,7 +152,7 @@ fn header(input: &mut Input) -> Result<Option<(usize, usize, Cell)>, ReadError> 
         } else if item.starts_with(b"BOX BOUNDS") {
             cell = bounds(input)?;
         } else {
-            // A time step, units, a time: a value in a line.
+            // A time step, units, a time: the value is in a line of its own.
             input.expect("its value")?;
         }
     }
@@ -191,7 +191,7 @@ fn columns(line: &Line<'_>) -> Result<Named, ReadError> {
         .filter(|word| !word.is_empty())
         .map(|word| String::from_utf8_lossy(word).into_owned())
         .collect();
-    // Unwrapped before wrapped, plain before scaled: what is written twice is taken once.
+    // Wrapped before unwrapped, plain before scaled: positions that are written twice are taken once.
     let sets = [["x", "y", "z"], ["xu", "yu", "zu"], ["xs", "ys", "zs"], ["xsu", "ysu", "zsu"]];
     let has = |name: &&str| names.iter().any(|other| other == name);
     let Some(set) = sets.iter().position(|set| set.iter().all(&has)) else {
@@ -210,7 +210,7 @@ fn columns(line: &Line<'_>) -> Result<Named, ReadError> {
         },
     };
     let mut kinds: Vec<Kind> = names.iter().map(kind).collect();
-    // The second of a name is a number like any other.
+    // The second column of a name is a number like any other.
     for index in 1..kinds.len() {
         if kinds[..index].contains(&kinds[index]) {
             kinds[index] = Kind::Number;

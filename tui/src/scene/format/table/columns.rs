@@ -4,7 +4,7 @@ use crate::scene::format::words::excerpt;
 use crate::scene::input::Line;
 use crate::scene::read_error::ReadError;
 
-/// So many other columns are kept: they take memory.
+/// How many other columns are kept at most: they take memory.
 const MOST_KEPT: usize = 8;
 
 /// Which column is what.
@@ -17,7 +17,7 @@ pub(super) struct Columns {
     pub(super) kept: Vec<(usize, Box<str>)>,
     /// How many more there are, which are ignored.
     pub(super) further: usize,
-    /// As many fields of a line are looked at.
+    /// How many fields of a line are looked at.
     pub(super) most: usize,
 }
 
@@ -35,7 +35,7 @@ fn find(names: &[&[u8]], wanted: &[&str]) -> Option<usize> {
     })
 }
 
-/// The name of a column, and the unit in brackets behind it: none is empty.
+/// The name of a column, and the unit in brackets behind it; an empty unit is none.
 fn with_unit(name: &[u8]) -> (&[u8], &[u8]) {
     let at = name.iter().position(|byte| matches!(byte, b'(' | b'[')).unwrap_or(name.len());
     let (name, unit) = name.split_at(at);
@@ -43,7 +43,8 @@ fn with_unit(name: &[u8]) -> (&[u8], &[u8]) {
 }
 
 impl Columns {
-    /// Those of a table whose first line has these fields: names, if it is a header. `chosen` are those of `--columns`.
+    /// The columns of a table whose first line has these fields, which are names if it is a header. `chosen` is the
+    /// value of `--columns`.
     ///
     /// # Errors
     /// [`ReadError`] if positions are missing, or lengths have two units.

@@ -10,7 +10,7 @@ pub(in crate::scene::format) enum Separator {
 }
 
 impl Separator {
-    /// The one that is in a line.
+    /// The separator that is in a line.
     pub(in crate::scene::format) fn of(line: &[u8]) -> Self {
         let has = |byte: &u8| line.contains(byte);
         [b'\t', b',', b';'].into_iter().find(has).map_or(Self::Space, Self::Byte)

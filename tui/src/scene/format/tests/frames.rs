@@ -52,7 +52,7 @@ fn a_frame_that_is_none_has_its_line() {
     assert!(message.contains("broken.xyz:11:"), "{message}");
 }
 
-/// While it is written, a frame is not there before its last line has an end.
+/// A frame that is being written is not there before its last line has an end.
 #[test]
 fn a_file_that_grows() {
     let (two, three) = (xyz(2), xyz(3));

@@ -44,8 +44,8 @@ impl Property {
 /// The properties, if the comment states any.
 ///
 /// # Errors
-/// [`ReadError`] if they cannot be: not in threes, of an unknown type, without three columns for positions, or twice the
-/// same.
+/// [`ReadError`] if they are not valid: not in threes, of an unknown type, without three columns for positions, or the
+/// same twice.
 pub(super) fn properties(comment: &Line<'_>) -> Result<Option<Vec<Property>>, ReadError> {
     let text = comment.bytes;
     let lower = text.to_ascii_lowercase();

@@ -101,7 +101,7 @@ fn answers() -> Vec<(String, Option<Reply>)> {
     .into()
 }
 
-/// Whatever is read at a time: an answer is one event, or none, and what follows is the key that it is.
+/// However much is read at a time, an answer is one event or none, and the key that follows it is that key.
 #[test]
 fn answers_are_no_keys_wherever_they_are_split() {
     for (answer, reply) in answers() {
