@@ -42,8 +42,8 @@ fn pin_budget() {
     budget::pin(&fresh);
 }
 
-/// What `Stable` promises in its domain, away from grazing: a table that is pinned anew must
-/// still keep it.
+/// `Stable`'s promise in its domain, away from grazing. A table that is pinned anew must still keep
+/// it.
 #[test]
 fn stable_decides_right_in_its_domain() {
     let domain = [
@@ -67,7 +67,7 @@ fn stable_decides_right_in_its_domain() {
     }
 }
 
-/// What `Exact` promises for every input.
+/// `Exact`'s promise for every input.
 #[test]
 fn exact_is_exact_everywhere() {
     let table = budget::table();

@@ -1,6 +1,6 @@
-//! One answer, whatever the way to it: every variant gives the bits of one lane, whatever its neighbours; a list
-//! gives what its spheres give one at a time, whatever the filter skips; a tree and a depth list give what the list
-//! gives.
+//! One answer, whatever the way to it. Every variant gives the bits of one lane, whatever that lane's neighbours; a
+//! list gives what its spheres give one at a time, whatever the filter skips; a tree and a depth list give what the
+//! list gives.
 
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
@@ -24,7 +24,7 @@ fn alone(tier: Tier, case: &Case) -> Option<f32> {
     pairs_of(tier, Layer::Lanes(1), &[*case])[0]
 }
 
-/// Rule 5 in plain words, sphere by sphere, no filter between.
+/// Rule 5 in plain words: sphere by sphere, without a filter.
 fn by_rule_5(tier: Tier, ray: &Ray, spheres: &[Sphere]) -> Option<Hit> {
     let cases: Vec<Case> = spheres.iter().map(|&sphere| Case { ray: *ray, sphere }).collect();
     let mut closest: Option<Hit> = None;
@@ -38,7 +38,7 @@ fn by_rule_5(tier: Tier, ray: &Ray, spheres: &[Sphere]) -> Option<Hit> {
     closest
 }
 
-/// All variants of lists, and of `tiers` those of all structures.
+/// Checks all variants of lists, and for `tiers` those of all structures.
 fn check_scene(scene: &Scene, tiers: &[Tier]) -> Result<(), TestCaseError> {
     let Scene { rays, spheres } = scene;
     Memory::new(spheres).sorted(Viewpoint::Origin(rays[0].origin), |structures| {
@@ -63,7 +63,7 @@ fn check_scene(scene: &Scene, tiers: &[Tier]) -> Result<(), TestCaseError> {
     })
 }
 
-/// Rules 3 and 4, on the roots that the tier computes.
+/// Checks rules 3 and 4 on the roots that the tier computes.
 fn check_pairs(cases: &[Case]) -> Result<(), TestCaseError> {
     for tier in Tier::ALL {
         let answer = |case: &Case| {
@@ -119,7 +119,7 @@ proptest! {
 proptest! {
     #![proptest_config(strategies::config(300))]
 
-    /// The first ray's origin and direction are the viewpoint's; most others share one of them.
+    /// The viewpoint is the first ray's origin or direction, which most other rays share.
     #[test]
     fn rays_that_share_a_viewpoint(scene in strategies::scene(strategies::case), alone in any::<bool>()) {
         let Scene { mut rays, spheres } = scene;
@@ -156,7 +156,7 @@ proptest! {
     }
 }
 
-/// The filter on what it is hardest for: 2,000 cases a family, each its own list of one.
+/// The filter on the cases that are hardest for it: 2,000 cases a family, each its own list of one.
 #[test]
 fn the_filter_drops_nothing_in_any_family() {
     for family in FAMILIES {
@@ -196,8 +196,8 @@ fn neighbours_change_nothing() {
     }
 }
 
-/// Found by `scenes_are_their_spheres_in_every_size`: with d 2^-38 long, a c is half of the least
-/// number, `Fast` computes D = 0 and calls a miss a hit; the filter must leave that to it.
+/// Found by `scenes_are_their_spheres_in_every_size`. With d 2^-38 long, a c is half of the least number, so `Fast`
+/// computes D = 0 and calls a miss a hit. The filter must leave that decision to `Fast`.
 #[test]
 fn the_filter_keeps_what_underflow_makes_a_hit() {
     let (d, r) = (2.0_f32.powi(-38), 2.0_f32.powi(-37));
@@ -210,8 +210,8 @@ fn the_filter_keeps_what_underflow_makes_a_hit() {
     }
 }
 
-/// Found by `scenes_are_their_spheres_in_every_size`: lengths about 2^-75, whose squares underflow,
-/// and a nearer sphere, by an ulp, in the second group of four.
+/// Found by `scenes_are_their_spheres_in_every_size`. Lengths are about 2^-75, so their squares underflow, and a sphere
+/// that is nearer by an ulp is in the second group of four.
 #[test]
 fn a_nearer_sphere_of_a_later_group_is_kept_where_squares_underflow() {
     let size = 2.0_f32.powi(-76);

@@ -1,4 +1,4 @@
-//! Pictures in cells against the truth: that the scorer is right, and what the program reaches.
+//! Pictures in cells against the truth: whether the scorer is right, and what the program reaches.
 
 mod floors;
 mod ink;

@@ -1,7 +1,7 @@
 //! Each degenerate input by its name, in every variant and every lane.
 //!
-//! The numbers are small integers, so that every tier computes the roots exactly, and what is
-//! tested is how they are judged.
+//! The numbers are small integers, so that every tier computes the roots exactly. So the tests
+//! check only how the roots are judged.
 
 use spherule_kernel::{Ray, Sphere, Tier, Vec3, Viewpoint, discriminant, roots};
 use spherule_referee::case::Case;
@@ -25,8 +25,8 @@ fn straight(change: impl Fn(&mut Ray, &mut Sphere)) -> Case {
     case
 }
 
-/// The case has this answer in every lane of every variant, beside lanes that hit and lanes that
-/// are full of NaN; and the oracle agrees that it should.
+/// Asserts that the case has this answer in every lane of every variant, beside lanes that hit and
+/// lanes that are full of NaN, and that the oracle agrees.
 fn answers(case: &Case, expected: Option<f32>) {
     assert_eq!(oracle::intersect(&case.ray, &case.sphere), expected, "the oracle: {case:?}");
     let bits = expected.map(f32::to_bits);
@@ -77,7 +77,7 @@ fn nan_and_infinity_in_origin_direction_and_center() {
             misses(|ray, _| ray.direction[axis] = value);
             misses(|_, sphere| sphere.center[axis] = value);
         }
-        // The difference is NaN, or infinite.
+        // The difference of centre and origin is NaN, or infinite.
         misses(|ray, sphere| (ray.origin.z, sphere.center.z) = (value, INF));
     }
 }
@@ -122,21 +122,21 @@ fn subnormal_radius() {
 fn intervals() {
     let (before, after) = (f32::next_down, f32::next_up);
     for (t_min, t_max, expected) in [
-        // Empty.
+        // Empty intervals.
         (5.0, 1.0, None),
         (INF, -INF, None),
         (after(2.0), 2.0, None),
-        // Of one number.
+        // Intervals of one number.
         (2.0, 2.0, Some(2.0)),
         (4.0, 4.0, Some(4.0)),
         (3.0, 3.0, None),
-        // Closed at both ends.
+        // Intervals are closed at both ends.
         (0.0, 2.0, Some(2.0)),
         (0.0, before(2.0), None),
         (after(2.0), INF, Some(4.0)),
         (4.0, INF, Some(4.0)),
         (after(4.0), INF, None),
-        // That end in no number.
+        // Intervals with an end that is NaN.
         (NAN, INF, None),
         (0.0, NAN, None),
         (NAN, NAN, None),
@@ -167,7 +167,7 @@ fn hits_behind_the_origin() {
 fn tangent() {
     hits_at(3.0, |ray, _| ray.origin.x = 1.0);
     misses(|ray, sphere| (ray.origin.x, sphere.radius) = (2.0, 1.0));
-    // 3-4-5, away from the axes: p = (3, 4, 3), |d x p| = 5.
+    // A 3-4-5 triangle, away from the axes: p = (3, 4, 3), |d x p| = 5.
     hits_at(3.0, |ray, sphere| {
         (ray.origin, sphere.radius) = (Vec3::new(3.0, 4.0, -3.0), 5.0);
     });
@@ -175,7 +175,7 @@ fn tangent() {
 
 #[test]
 fn origin_on_the_surface() {
-    // Looking in, out, and along.
+    // The ray looks in, out, and along.
     hits_at(0.0, |ray, _| ray.origin = -Vec3::Z);
     hits_at(2.0, |ray, _| (ray.origin, ray.t_min) = (-Vec3::Z, LEAST));
     hits_at(0.0, |ray, _| ray.origin = Vec3::Z);
@@ -186,7 +186,7 @@ fn origin_on_the_surface() {
 
 #[test]
 fn zero_has_no_sign() {
-    // Along the surface from where it starts: b and the root are -0 for some signs of zeros.
+    // Along the surface from the ray's own origin: b and the root are -0 for some signs of zeros.
     let zeros = [0.0, -0.0];
     for origin in [Vec3::X, -Vec3::X, Vec3::Y, -Vec3::Y] {
         for (x, y, z) in [(0, 0, 1.0), (0, 1, 1.0), (1, 0, 1.0), (1, 1, 1.0)]
@@ -257,7 +257,7 @@ fn the_discriminant_whatever_the_interval() {
 }
 
 /// Every pair of places with every pair of special numbers: nothing panics, all widths agree, and
-/// what rule 1 forbids is not hit.
+/// whatever rule 1 excludes is not hit.
 #[test]
 fn special_numbers_in_any_two_places() {
     for first in 0..Case::NUMBERS {

@@ -1,5 +1,5 @@
-//! The door's edges: slices of unequal length, nothing to do, and what is left alone, at every layer of every
-//! structure.
+//! The door's edges: slices of unequal length, empty calls, and memory that must not be touched, at every layer of
+//! every structure.
 
 use spherule_kernel::{
     Bvh, Coherence, DepthList, Hit, HitColumns, HitPacket, Intersect, Lanes, Level, Ray,
@@ -13,10 +13,10 @@ const RAY: Ray = Ray::new(Vec3::new(0.0, 0.0, -3.0), Vec3::Z);
 const MISS: Ray = Ray::new(Vec3::new(0.0, 0.0, -3.0), Vec3::X);
 const SPHERE: Sphere = Sphere { center: Vec3::ZERO, radius: 1.0 };
 const HIT: Option<Hit> = Some(Hit { t: 2.0, sphere: 0 });
-/// What no query answers.
+/// An answer that no query gives.
 const STALE: Option<Hit> = Some(Hit { t: -7.0, sphere: 7 });
 
-/// Traces of every kind of coherence at every level.
+/// Calls `check` with traces of every coherence at every level.
 fn traces(check: impl Fn(Trace<'_>)) {
     for name in levels() {
         let level = Level::named(name).expect("a level of this CPU");
@@ -29,7 +29,7 @@ fn traces(check: impl Fn(Trace<'_>)) {
     }
 }
 
-/// Rays past the end of the output are left out, output past the rays is left alone.
+/// Rays past the end of the output are ignored; output past the rays stays unchanged.
 fn slices(structure: &impl Intersect, hit: Option<Hit>) {
     let occluded = hit.is_some();
     for (rays, outputs) in [
@@ -67,7 +67,7 @@ fn slices(structure: &impl Intersect, hit: Option<Hit>) {
     }
 }
 
-/// The shortest of ten columns counts, whichever it is.
+/// The shortest of ten columns decides the length, whichever it is.
 fn columns(structure: &impl Intersect, hit: Option<Hit>) {
     let found = hit.map_or((f32::INFINITY, u32::MAX), |hit| (hit.t, hit.sphere));
     let numbers = [0.0, 0.0, -3.0, 0.0, 0.0, 1.0, 0.0, f32::INFINITY];
@@ -108,7 +108,7 @@ fn columns(structure: &impl Intersect, hit: Option<Hit>) {
     }
 }
 
-/// The same of packets, whose output is overwritten as far as there are rays.
+/// The same for packets, whose output is overwritten as far as there are rays.
 fn packets(structure: &impl Intersect, hit: Option<Hit>) {
     let (hitting, missing) = (RayPacket::new(&[RAY; 16]), RayPacket::new(&[MISS; 16]));
     let all = if hit.is_some() { 0xffff } else { 0 };
@@ -131,7 +131,7 @@ fn packets(structure: &impl Intersect, hit: Option<Hit>) {
     }
 }
 
-/// And of the caller's own lanes.
+/// The same for the caller's own lanes.
 fn lanes<L: Lanes<Token = ()>>() {
     let structure = SphereList::from(&[SPHERE][..]);
     let (hitting, missing) = (RayPacket::new(&[RAY; 16]), RayPacket::new(&[MISS; 16]));
@@ -184,7 +184,7 @@ fn every_structure_of_one_sphere_and_of_none() {
     }
 }
 
-/// The shortest of the three slices counts.
+/// The shortest of the three slices decides the length.
 #[test]
 fn pairs_of_unequal_slices() {
     for (rays, spheres, outputs) in [(0, 2, 3), (2, 0, 3), (2, 3, 0), (1, 40, 20), (40, 20, 33)] {
@@ -211,7 +211,7 @@ fn pairs_of_unequal_slices() {
     }
 }
 
-/// Each pair on its own, beside rays and spheres that are none.
+/// Each pair on its own, beside invalid rays and spheres.
 #[test]
 fn pairs_beside_what_is_none() {
     let nan = Vec3::splat(f32::NAN);
@@ -244,7 +244,7 @@ fn columns_of_unequal_length() {
     assert!(Spheres::new(&one, &one, &one, &one).is_ok());
 }
 
-/// Whatever spheres come from, they are the same list.
+/// However spheres are given, they make the same list.
 #[test]
 fn lists_from_everything() {
     let rows = [[0.0, 1.0, 2.0, 3.0], [4.0, 5.0, 6.0, 7.0], [f32::NAN, -0.0, 1e38, -1.0]];

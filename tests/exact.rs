@@ -7,7 +7,7 @@
 //! SPHERULE_CASES=1000000 cargo test -p spherule-tests exact -- --nocapture
 //! ```
 //!
-//! `SPHERULE_SEED=N` draws others.
+//! `SPHERULE_SEED=N` draws other cases.
 
 mod discriminant;
 mod lattice;
@@ -35,7 +35,7 @@ fn count() -> u64 {
     variable("SPHERULE_CASES").unwrap_or(1500)
 }
 
-/// Where in the families' streams to begin: past the kept cases and those of other tests.
+/// The first index in the families' streams, past the kept cases and those of other tests.
 fn first() -> u64 {
     (1 + variable("SPHERULE_SEED").unwrap_or(0)) << 40
 }
@@ -45,12 +45,13 @@ fn variable(name: &str) -> Option<u64> {
     Some(value.parse().unwrap_or_else(|_| panic!("{name}={value}: no count")))
 }
 
-/// Bits, since -0 is not 0 here and a NaN shall be seen.
+/// Bits, so that -0 differs from 0 and a NaN is seen.
 fn bits(t: Option<f32>) -> Option<u32> {
     t.map(f32::to_bits)
 }
 
-/// 16 cases with their answers, as pairs and each sphere as a list of its own for all 16 rays.
+/// Checks 16 cases with their answers, as pairs, and each sphere as a list of its own for all 16
+/// rays.
 fn check(cases: &[Case], expected: &[Option<f32>]) {
     let rays: Vec<Ray> = cases.iter().map(|case| case.ray).collect();
     for layer in pair_layers() {
@@ -125,7 +126,7 @@ fn the_closest_of_many_hard_spheres_is_the_oracles() {
             let cases: Vec<Case> =
                 (0..9).map(|index| family.case(first() + scene * 9 + index)).collect();
             let rays: Vec<Ray> = cases.iter().map(|case| case.ray).collect();
-            // Every sphere twice, groups of four apart: equal t, of which the first must win.
+            // Every sphere stands twice, groups of four apart: of equal t the first must win.
             let spheres: Vec<Sphere> = (0..18).map(|i| cases[i * 7 % 9].sphere).collect();
             let expected: Vec<_> = rays.iter().map(|ray| oracle::closest(ray, &spheres)).collect();
             hits += expected.iter().flatten().count();
@@ -139,7 +140,7 @@ fn the_closest_of_many_hard_spheres_is_the_oracles() {
     assert_eq!(hits, equal, "the lower index of twins wins");
 }
 
-/// Every variant of the tier gives the expected hits.
+/// Asserts that every variant of the tier gives the expected hits.
 fn check_scene(scene: &Scene, expected: &[Option<Hit>]) -> Result<(), TestCaseError> {
     let Scene { rays, spheres } = scene;
     let expected: Vec<_> = expected.iter().copied().map(hit_bits).collect();
@@ -156,7 +157,7 @@ fn check_scene(scene: &Scene, expected: &[Option<Hit>]) -> Result<(), TestCaseEr
 proptest! {
     #![proptest_config(strategies::config(256))]
 
-    /// What fails is shrunk to a case that can be read.
+    /// A failure is shrunk to a readable case.
     #[test]
     fn a_drawn_pair_is_the_oracles(case in strategies::case()) {
         let t = oracle::intersect(&case.ray, &case.sphere);
@@ -179,7 +180,7 @@ proptest! {
     }
 }
 
-/// Whatever stands in one lane, the others answer the same bits.
+/// Whatever one lane holds, the others answer with the same bits.
 #[test]
 fn any_bits_change_nothing_for_their_neighbours() {
     let mut random = Random::new(37, first());
@@ -205,7 +206,7 @@ fn any_bits_change_nothing_for_their_neighbours() {
                 assert_eq!(bits(alone[i]), bits(beside[i]), "{layer:?}: {case:?} {disturbed:?}");
             }
         }
-        // The list stays: only the ray of one lane changes.
+        // The list stays the same: only the ray of one lane changes.
         let list: Vec<Sphere> = disturbed.iter().map(|case| case.sphere).collect();
         for variant in exact_lists() {
             let [alone, beside] = rays.each_ref().map(|rays| variant.closest(&list, rays));

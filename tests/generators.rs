@@ -1,4 +1,4 @@
-//! The generators of cases hit what they claim to hit, by the oracle's word.
+//! The generators make the cases that they claim to make, as the oracle confirms.
 
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::TestRunner;
@@ -55,10 +55,10 @@ fn both_answers_occur() {
     for family in FAMILIES {
         let hits = count(usize::from(family.number), hits);
         let (least_hits, least_misses) = match family.number {
-            // From inside, or made to be a hit.
+            // Rays from inside, or cases made to hit.
             7 | 17 => (COUNT / 2, 0),
             21 => (COUNT / 2, COUNT / 50),
-            // Random bits seldom meet.
+            // Random bits seldom make a hit.
             19 => (COUNT / 50, COUNT / 2),
             _ => (COUNT / 10, COUNT / 20),
         };
@@ -224,7 +224,7 @@ fn offsets_below_one_hit_and_above_one_miss() {
     }
 }
 
-/// The rates of true hits of the first measurements, within the noise of 2,000 cases.
+/// The rates of true hits equal those of the first measurements, within the noise of 2,000 cases.
 #[test]
 fn as_many_hit_as_there_should() {
     for measured in MEASURED {

@@ -1,8 +1,8 @@
-//! Pictures: the built-in scenes against files that a person can read in a diff, and the samples
-//! of `unit` against the exact oracle, so that the files are not the program's own word alone.
+//! Pictures: the built-in scenes against files that a person can read in a diff. The samples of `unit` are also held
+//! against the exact oracle, so that the files are not the program's word alone.
 //!
-//! After a change that is meant, `SPHERULE_GOLDEN=write cargo test -p spherule-tests golden`
-//! writes the files in `tui/tests/golden` anew; read the diff before committing it.
+//! After an intended change, `SPHERULE_GOLDEN=write cargo test -p spherule-tests golden` writes the files in
+//! `tui/tests/golden` anew; read the diff before committing it.
 
 use spherule::cells::masks::repertoire;
 use spherule::compare::error_map::ErrorMapper;
@@ -90,7 +90,7 @@ fn colours() {
     }
 }
 
-/// One sample a bin: each bin is on exactly where the oracle says that its ray meets the sphere.
+/// One sample a bin: each bin is on exactly where the oracle says that its ray hits the sphere.
 #[test]
 fn every_sample_of_unit_is_what_the_oracle_says() {
     let scene = scene::builtin::builtin("unit").expect("unit");
@@ -131,14 +131,14 @@ fn every_sample_of_unit_is_what_the_oracle_says() {
     assert!(hits > 20_000 && misses > 20_000, "{hits} hits, {misses} misses");
 }
 
-/// The spheres of `far` from 10^6 and 10^7 diameters and from a few: through a parallel lens along an axis the lines
-/// are the same, and so is every cell, shadows and colours included.
+/// The spheres of `far` from 10^6 and 10^7 diameters and from a few. Through a parallel lens along an axis the lines
+/// are the same from both, and so is every cell, including shadows and colours.
 #[test]
 fn far_looks_as_from_near() {
     let far = scene::builtin::builtin("far").expect("far");
     let view = far.first_view(1.0);
     for depth in [-2_097_152.0, -20_971_520.0] {
-        // The spheres at that depth alone: those before them are not to hide them from afar.
+        // Only the spheres at that depth: spheres in front must not hide them from afar.
         let mut group = Scene::new();
         (group.lighting, group.shadows) = (far.lighting.clone(), true);
         for (sphere, &color) in far.spheres().iter().zip(far.colors()) {

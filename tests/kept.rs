@@ -1,4 +1,4 @@
-//! The cases in files: kept ones, and the vectors of another hand.
+//! The cases in files: our kept cases, and the vectors of another hand.
 
 use spherule_referee::families::HARD;
 use spherule_tests::{kept, oracle, vectors};
@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 #[test]
 fn the_file_is_what_generator_and_oracle_say() {
-    // Not assert_eq: the difference would fill the screen.
+    // No `assert_eq!` of the texts, whose difference would fill the screen.
     let (kept, fresh) = (kept::read(), kept::write());
     let differing = kept.lines().zip(fresh.lines()).position(|(kept, fresh)| kept != fresh);
     assert_eq!(differing, None, "the first line (from 0) that differs");
@@ -28,7 +28,7 @@ fn cases_go_round_and_have_the_oracle_s_answers() {
     }
 }
 
-/// `cargo test -p spherule-tests -- --ignored keep_cases`, after a change of a generator.
+/// Run after a change of a generator: `cargo test -p spherule-tests -- --ignored keep_cases`.
 #[test]
 #[ignore = "writes tests/cases/regimes.txt"]
 fn keep_cases() {

@@ -1,4 +1,4 @@
-//! Spheres by name, in every variant: none, any number of them, full of equals, with invalid members.
+//! Lists with a name, in every variant: no spheres, any number of them, many equal ones, invalid members.
 
 use spherule_kernel::{Hit, Ray, Sphere, Vec3};
 use spherule_tests::variants::{Layer, Memory, lists, variants, viewpoint_of};
@@ -7,7 +7,7 @@ use spherule_tests::variants::{Layer, Memory, lists, variants, viewpoint_of};
 const RAY: Ray = Ray::new(Vec3::new(0.0, 0.0, -3.0), Vec3::Z);
 const SPHERE: Sphere = Sphere { center: Vec3::ZERO, radius: 1.0 };
 
-/// Every variant gives these answers.
+/// Asserts that every variant gives these answers.
 #[track_caller]
 fn answers(spheres: &[Sphere], rays: &[Ray], expected: &[Option<Hit>]) {
     let occluded: Vec<bool> = expected.iter().map(Option::is_some).collect();
@@ -23,7 +23,7 @@ fn answers(spheres: &[Sphere], rays: &[Ray], expected: &[Option<Hit>]) {
     });
 }
 
-/// [`RAY`] hits this sphere.
+/// Asserts that [`RAY`] hits this sphere.
 #[track_caller]
 fn hits(spheres: &[Sphere], sphere: usize) {
     answers(spheres, &[RAY], &[Some(Hit { t: 2.0, sphere: sphere as u32 })]);
@@ -42,7 +42,7 @@ fn no_spheres_and_no_rays() {
     answers(&[], &[], &[]);
 }
 
-/// The one that is hit last in its list, whatever the length: no sphere of a begun group of four,
+/// The sphere that is hit stands last in its list, for any length of the list: no sphere of a partial group of four,
 /// and none of a second block, is lost.
 #[test]
 fn lists_of_any_length() {
@@ -54,7 +54,7 @@ fn lists_of_any_length() {
     }
 }
 
-/// A ray that is done does not end the search for its neighbours.
+/// A finished ray does not end the search for its neighbours.
 #[test]
 fn each_lane_meets_its_own_sphere() {
     let at = |index: u32| Vec3::new(10.0 * index as f32, 0.0, 0.0);
@@ -64,7 +64,7 @@ fn each_lane_meets_its_own_sphere() {
     answers(&spheres, &rays, &expected);
 }
 
-/// A ray that is none does not disturb its neighbours.
+/// An invalid ray does not disturb its neighbours.
 #[test]
 fn rays_that_are_none_among_others() {
     let nan = Vec3::splat(f32::NAN);
@@ -90,7 +90,7 @@ fn rays_that_are_none_among_others() {
 #[test]
 fn a_million_spheres_in_one_place() {
     let spheres = vec![SPHERE; 1_000_000];
-    // In `Exact`, every sphere is a case for exact sums.
+    // In `Exact`, every sphere needs exact sums.
     for variant in lists().filter(|variant| matches!(variant.layer, Layer::Lanes(_))) {
         assert_eq!(variant.closest(&spheres, &[RAY]), [Some(Hit { t: 2.0, sphere: 0 })]);
     }
@@ -101,7 +101,7 @@ fn a_million_spheres_in_one_place() {
 fn the_lowest_index_of_equals() {
     let near = Sphere { center: Vec3::new(0.0, 0.0, -0.5), radius: 0.5 };
     let miss = Sphere { center: Vec3::new(9.0, 0.0, 0.0), radius: 1.0 };
-    // Different spheres that are met at 2, from the third on.
+    // Different spheres are hit at t = 2, from the third on.
     hits(&[miss, Sphere { radius: -1.0, ..near }, near, SPHERE, near], 2);
 }
 

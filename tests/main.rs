@@ -1,4 +1,5 @@
-//! All tests that cross crates, in one binary, so that what they share is compiled and linked once.
+//! All tests that cross crates, in one binary, so that their shared code is compiled and linked
+//! once.
 #![forbid(unsafe_code)]
 
 mod accuracy;

@@ -1,5 +1,5 @@
-//! What must hold between two answers, whatever the right one is: properties of the lecture's
-//! ray and sphere that no tier may lose.
+//! Relations between two answers that must hold, whatever the right answer is: properties of the lecture's ray and
+//! sphere that every tier keeps.
 
 use proptest::prelude::*;
 use spherule_kernel::{Hit, Ray, Sphere, Tier, Vec3, roots};
@@ -15,8 +15,8 @@ fn all_bits(hits: Vec<Option<Hit>>) -> Vec<Option<(u32, u32)>> {
     hits.into_iter().map(bits).collect()
 }
 
-/// A lattice scene, or one a few ulp off: nothing in it comes near under- or overflow. Point
-/// spheres are left out, since the discriminant of one is all rounding, down to its square.
+/// A lattice scene, or one a few ulp off: nothing comes near underflow or overflow. Point spheres are left out, since
+/// their discriminant is all rounding, down to its square.
 fn common() -> impl Strategy<Value = Scene> {
     let case = || prop_oneof![strategies::lattice(), strategies::walked()];
     strategies::scene(case).prop_map(|mut scene| {
@@ -61,8 +61,8 @@ fn has_tangent(scene: &Scene) -> bool {
     scene.rays.iter().any(|ray| scene.spheres.iter().any(|sphere| touches(ray, sphere)))
 }
 
-/// A tangent that proptest found: squares of what is left of its `Stable` discriminant underflow at one scale, not
-/// at twice that.
+/// A tangent that proptest found. Squares of the rest of its `Stable` discriminant underflow at one scale, but not at
+/// twice that.
 #[test]
 fn a_tangent_is_one_at_every_scale_by_exact() {
     let ray = Ray::new(Vec3::new(3.0, 1.0, 0.0), Vec3::new(0.0, -1.000_000_2, -2.000_000_5));
@@ -107,8 +107,8 @@ proptest! {
         }
     }
 
-    /// All lengths twice as large: the same t. Not by `Stable` beside a tangent, as [`Stable`](spherule_kernel::Stable)
-    /// says.
+    /// All lengths twice as large: the same t. `Stable` is exempt beside a tangent, as
+    /// [`Stable`](spherule_kernel::Stable) says.
     #[test]
     fn scaling_the_world_keeps_t(scene in common(), exponent in -10_i64..=10) {
         let by = power_of_two(exponent) as f32;
@@ -117,14 +117,14 @@ proptest! {
         keeps_answers(&scene, &moved(&scene, |v| v * by, by), keeps)?;
     }
 
-    /// A mirror turns signs of products, and no rounding.
+    /// A mirror turns signs of products, but changes no rounding.
     #[test]
     fn mirrors_keep_t(scene in any_scene(), mirrored in any::<[bool; 3]>()) {
         let signs = mirrored.map(|mirrored| if mirrored { -1.0 } else { 1.0 });
         keeps_answers(&scene, &moved(&scene, |v| v * Vec3::from_array(signs), 1.0), |_| true)?;
     }
 
-    /// Looking back along a line: entry and exit change places and signs.
+    /// Looking back along a line swaps entry and exit, and their signs.
     #[test]
     fn looking_back_turns_the_roots(case in strategies::case()) {
         let back = Ray { direction: -case.ray.direction, ..case.ray };
@@ -135,13 +135,13 @@ proptest! {
             let (Some([near, far]), Some([back_near, back_far])) = (forth, back) else { continue };
             let numbers = [near, far, back_near, back_far].iter().all(|t| !t.is_nan());
             if numbers {
-                // Not bits: zero has no sign to turn.
+                // Compares numbers, not bits, since zero has no sign to turn.
                 prop_assert_eq!([near, far], [-back_far, -back_near], "{:?}", tier);
             }
         }
     }
 
-    /// The interval is closed at its end: cut at t, the hit is still there.
+    /// The interval is closed at its end: cut at t, it still holds the hit.
     #[test]
     fn an_interval_that_ends_at_the_hit_finds_it_again(scene in any_scene()) {
         for variant in lists() {
@@ -156,8 +156,8 @@ proptest! {
         }
     }
 
-    /// And at its start: begun at t the hit is still there, begun at the next number it is not,
-    /// and what is found is further.
+    /// The interval is closed at its start: begun at t, it holds the hit; begun at the next number, it does not, and
+    /// what is found is further.
     #[test]
     fn an_interval_that_starts_after_the_hit_finds_another(scene in any_scene()) {
         for variant in lists() {
@@ -188,7 +188,7 @@ proptest! {
         }
     }
 
-    /// Lanes do not know their numbers.
+    /// Lanes do not depend on their numbers.
     #[test]
     fn permuted_lanes_permute_the_answers(
         (scene, order) in any_scene().prop_flat_map(|scene| {
@@ -205,7 +205,7 @@ proptest! {
         }
     }
 
-    /// The order of the list decides nothing but which of equal roots has the lowest index.
+    /// The order of the list decides nothing except which of equal roots has the lowest index.
     #[test]
     fn permuted_spheres_keep_t(
         (scene, order) in any_scene().prop_flat_map(|scene| {
@@ -221,7 +221,7 @@ proptest! {
                 let t = |hit: Option<Hit>| hit.map(|hit| hit.t.to_bits());
                 prop_assert_eq!(t(found), t(hit), "{:?}", variant);
                 let Some(found) = found else { continue };
-                // The first in the new order that is met at this t.
+                // The first sphere in the new order that is hit at this t.
                 let same_t = |&sphere: &Sphere| {
                     let t = pairs_of(variant.tier, Layer::Lanes(1), &[Case { ray: *ray, sphere }])[0];
                     t == Some(found.t)

@@ -61,7 +61,7 @@ fn a_stream_is_its_own() {
     assert_ne!(first(1, 1), first(2, 1));
 }
 
-/// What the benches' scenes are placed by.
+/// The numbers that place the benches' scenes.
 #[test]
 fn single_precision_draws_stay_in_their_ranges() {
     let mut random = Random::seeded(5);

@@ -1,4 +1,5 @@
-//! Object order: spheres one by one, in any order, leave the closest hits of their list; and what is stored is counted.
+//! Object order: spheres one by one, in any order, give the closest hits of their list; and the number of stored hits
+//! is counted.
 
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
@@ -93,7 +94,7 @@ proptest! {
     }
 }
 
-/// Of equals the lowest index stays, and what is met twice is stored once.
+/// Of equal hits the lowest index stays, and a sphere that is hit twice is stored once.
 #[test]
 fn writes_are_counted() {
     let at = |z| Sphere { center: Vec3::new(0.0, 0.0, z), radius: 1.0 };
@@ -115,7 +116,7 @@ fn writes_are_counted() {
     }
 }
 
-/// Only the packets that are named are asked, and numbers past the end are no one's.
+/// Only the named packets are tested, and numbers past the end name none.
 #[test]
 fn packets_by_their_numbers() {
     let list = SphereList::from([[0.0, 0.0, 5.0, 1.0]]);

@@ -1,8 +1,8 @@
 //! The oracle against cases worked by hand, a second derivation, and the vectors of another hand.
 //!
-//! The second derivation knows no square root and no division: by the signs of
-//! f(m) = |m d - p|^2 - r^2 and g(m) = d.(m d - p) at a number m it tells on which side of m a
-//! root lies, and so finds the one `f32` whose rounding interval holds it by halving.
+//! The second derivation uses no square root and no division. By the signs of f(m) = |m d - p|^2 -
+//! r^2 and g(m) = d.(m d - p) at a number m it tells on which side of m a root lies. So it finds,
+//! by halving, the one `f32` whose rounding interval holds the root.
 
 use num_bigint::{BigInt, Sign};
 use spherule_kernel::{Hit, Ray, Sphere, Vec3};
@@ -87,7 +87,7 @@ fn tangents_points_and_the_ulp_beside_them() {
 
 #[test]
 fn roots_round_to_even_and_zero_has_no_sign() {
-    // Tangents of d = (1, 0, 0) at t = p.x, a number of more than 24 bits in c.x - o.x.
+    // Tangents of d = (1, 0, 0) at t = p.x, where c.x - o.x needs more than 24 bits.
     let at = |c: f32, o: f32| {
         let ray = Ray { t_min: f32::NEG_INFINITY, ..Ray::new(Vec3::new(o, 1.0, 0.0), Vec3::X) };
         let sphere = Sphere { center: Vec3::new(c, 0.0, 0.0), radius: 1.0 };
@@ -100,7 +100,8 @@ fn roots_round_to_even_and_zero_has_no_sign() {
     assert_eq!(at(-million, 1.0), (Some(-million), true));
     assert_eq!(at(-million - 2.0, 1.0), (Some(-million - 4.0), true));
     assert_eq!(at(million, -1.5), (Some(million + 2.0), false));
-    // The largest number's last bit is worth 2^104: from half of that on, infinity.
+    // The last bit of the largest number is worth 2^104: from half of that on, the result is
+    // infinite.
     let half = f32::from_bits((103 + 127) << 23);
     assert_eq!(at(f32::MAX, -half), (None, true));
     assert_eq!(at(f32::MAX, -half.next_down()), (Some(f32::MAX), false));
@@ -136,7 +137,7 @@ fn the_closest_of_many_and_the_lowest_of_equals() {
     assert_eq!(oracle::closest(&ray, &[]), None);
 }
 
-/// The number at place `place` of all `f32`, in units of 2^-149; infinity as 2^128.
+/// The number at place `place` among all `f32`, in units of 2^-149; infinity counts as 2^128.
 fn number_at(place: i64) -> BigInt {
     if place.abs() == ulp::ordered(f32::INFINITY) {
         BigInt::from(place.signum()) << (128 + 149)
@@ -145,7 +146,7 @@ fn number_at(place: i64) -> BigInt {
     }
 }
 
-/// Which of the two roots, and on which side of a number it is.
+/// Tells on which side of a number one of the two roots is.
 struct Sides {
     d: [BigInt; 3],
     p: [BigInt; 3],
@@ -156,12 +157,12 @@ struct Sides {
 impl Sides {
     /// How m, in units of 2^-150, compares with the root.
     fn compare(&self, m: &BigInt) -> Ordering {
-        // With d in units of 2^-149, m d is in units of 2^-299: p and r must follow.
+        // With d in units of 2^-149, m d is in units of 2^-299: p and r are shifted to match.
         let q: [BigInt; 3] = std::array::from_fn(|i| m * &self.d[i] - (&self.p[i] << 150));
         let r: BigInt = &self.r << 150;
         let f = (dot(&q, &q) - &r * &r).sign();
         let g = dot(&self.d, &q).sign();
-        // Between the roots f < 0; beyond them f > 0, with g < 0 before and g > 0 after.
+        // Between the roots f < 0. Outside f > 0, with g < 0 before the roots and g > 0 after.
         match (f, g) {
             (Sign::Minus, _) if self.far => Ordering::Less,
             (Sign::Minus, _) => Ordering::Greater,

@@ -9,8 +9,8 @@ use spherule_tests::variants::{Memory, bits, variants, viewpoint_of};
 use std::cmp::Ordering;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
-/// Every variant of `Exact` against integers; returns how many rays have several hits at one t, of which the lowest
-/// index is not the closest.
+/// Checks every variant of `Exact` against integers. Returns how many rays have several hits at one t among which the
+/// closest does not have the lowest index.
 fn check(spheres: &[Sphere], rays: &[Ray]) -> usize {
     let expected: Vec<_> = rays.iter().map(|ray| oracle::closest(ray, spheres)).collect();
     Memory::new(spheres).sorted(viewpoint_of(rays), |structures| {
@@ -28,7 +28,7 @@ fn check(spheres: &[Sphere], rays: &[Ray]) -> usize {
     expected.iter().zip(rays).filter(|(hit, ray)| hit.is_some_and(|hit| !lowest(hit, ray))).count()
 }
 
-/// From a point at `distance` towards points of the unit ball, with t_min as far as spheres reach or not.
+/// Rays from a point at `distance` from `center` towards points of a cube around `center`.
 fn rays_from(random: &mut Random, distance: f64, count: usize, center: Vec3) -> Vec<Ray> {
     let eye = random.direction() * distance as f32 + center;
     let towards = |_| Ray::new(eye, (center + random.in_cube(0.8)) - eye);
@@ -64,7 +64,8 @@ fn translated_doubled_and_nested_spheres_keep_their_order() {
         for sphere in &mut spheres {
             sphere.center += offset;
         }
-        // The same again, an ulp aside, and a little larger: behind and before those they repeat.
+        // The same spheres again, spheres an ulp aside, and slightly larger ones: they are behind and in front of those
+        // that they repeat.
         for index in 0..12 {
             let Sphere { center, radius } = spheres[index];
             spheres.push(spheres[index]);
@@ -79,7 +80,7 @@ fn translated_doubled_and_nested_spheres_keep_their_order() {
     assert!(differ > 30, "{differ} rays on which index and order differ");
 }
 
-/// Some half an hour: `cargo test --test main ten_million_pixels -- --ignored --nocapture`.
+/// Takes some half an hour: `cargo test --test main ten_million_pixels -- --ignored --nocapture`.
 #[test]
 #[ignore = "ten million pixels"]
 fn ten_million_pixels_show_the_spheres_of_integers() {
@@ -87,7 +88,7 @@ fn ten_million_pixels_show_the_spheres_of_integers() {
     on_all_cores(2000, |round| {
         let mut random = Random::new(95, round);
         let mut spheres = ball(&mut random, 12);
-        // Doubled, nested, and an ulp aside; moved.
+        // Doubled, nested, moved, and an ulp aside.
         let power = random.pick(&[0, 10, 16, 20]);
         for index in 0..4 {
             let Sphere { center, radius } = spheres[index];
@@ -114,8 +115,8 @@ fn ten_million_pixels_show_the_spheres_of_integers() {
     assert!(hits > 5_000_000, "{hits}");
 }
 
-/// Spheres on a lattice that touch each other, and cross, in points that rays go through: real ties, of which the
-/// lowest index is the closest; and from afar the same with another t.
+/// Spheres on a lattice that touch and cross each other in points that rays go through. These are real ties, of which
+/// the lowest index is the closest; the same from afar, with another t.
 #[test]
 fn shared_roots_are_ties() {
     let mut random = Random::seeded(93);
@@ -123,7 +124,7 @@ fn shared_roots_are_ties() {
     for _ in 0..60 {
         let whole = |random: &mut Random| random.integer(-4, 4) as f32;
         let point = Vec3::new(whole(&mut random), whole(&mut random), whole(&mut random));
-        // Pythagorean: every centre as far from the point as its radius.
+        // Pythagorean steps: every centre is as far from the point as its radius.
         let steps = [
             (1.0, 2.0, 2.0, 3.0),
             (2.0, 3.0, 6.0, 7.0),

@@ -1,4 +1,4 @@
-//! Orders of rays are made for the scene that they are for, whatever its scale and place.
+//! Orders of rays suit the scene that they are made for, whatever its scale and place.
 
 use spherule_kernel::{Exact, Intersect, Level, Ray, Sphere, SphereList, SphereTree, Trace, Vec3};
 use spherule_tests::orders::{Extent, Order};
@@ -40,14 +40,14 @@ fn any_number_of_live_rays_and_the_same_from_the_same_seed() {
 
 #[test]
 fn rays_meet_every_scene() {
-    // (So few chains are three thin lines, which many a ray misses.)
+    // (So few chains are three thin lines, which many rays miss.)
     for scene in scenes().filter(|scene| scene.name != "chains") {
         for order in Order::ALL {
-            // Of large bursts a few must be towards some sphere.
+            // Of large bursts, a few must go towards some sphere.
             let count = if order == Order::Bursts1000 { 16_000 } else { 2000 };
             let rays = order.rays(scene.spheres.spheres(), count, 1);
             let met = hits(&scene.spheres, &rays).iter().flatten().count();
-            // From a convex thing nothing bounces to it again.
+            // No ray that leaves a convex body bounces back to it.
             let least = if (scene.name, order) == ("one", Order::Bounces) { 0 } else { 4 };
             assert!(met >= least, "{}, {order:?}: {met} of {count} rays hit", scene.name);
         }
@@ -128,7 +128,7 @@ fn orders_are_what_they_are_called() {
     assert!(neighbours(Order::NearlyParallel, direction) == 4095);
 }
 
-/// Calls so long that shuffled rays are sorted, at every level in turn.
+/// Calls long enough that shuffled rays are sorted, at every level in turn.
 #[test]
 fn long_calls_in_any_order_answer_as_one_ray_a_call_does() {
     let scene = Scene::uniform(1000, 16);

@@ -1,4 +1,4 @@
-//! Packets of rays, spheres and hits as memory: what goes in comes out, in every lane width.
+//! Packets of rays, spheres and hits as memory: they return what was stored, in every lane width.
 
 use spherule_kernel::{
     Camera, HitPacket, Lanes, Projection, Ray, RayPacket, Sphere, SpherePacket, Tier, Vec3, f32x4,
@@ -50,7 +50,7 @@ fn has_no_hit_without_a_lane<L: Lanes<Token = ()>>() {
     for lane in 0..40 {
         assert_eq!(hits.hit(lane).is_some(), lane < L::COUNT, "lane {lane} of {}", L::COUNT);
     }
-    // Lanes without a sphere hit nothing, and say so in both arrays.
+    // Lanes without a sphere hit nothing, and both arrays say so.
     let hits = pair_lanes::<L>(Tier::Fast, (), &rays, &SpherePacket::<L::Array>::new(&[]));
     assert!(hits.t().iter().all(|&t| t == f32::INFINITY));
     assert!(hits.spheres().iter().all(|&sphere| sphere == HitPacket::<L::Array>::NO_SPHERE));

@@ -1,6 +1,6 @@
 //! The real program in a pseudo-terminal: what it shows, and how it leaves the terminal.
 //!
-//! Needs no controlling terminal: `setsid -w cargo test -p spherule-tests pty </dev/null` passes as well.
+//! Needs no controlling terminal: `setsid -w cargo test -p spherule-tests pty </dev/null` passes, too.
 
 mod emulated;
 mod frames;
@@ -103,7 +103,7 @@ fn keys_orbit_and_zoom() {
 #[test]
 fn the_mouse_drags_and_zooms() {
     let mut viewer = Viewer::start();
-    // Taken at column 10, row 5, pulled by 10 columns and 2 rows, let go; then the wheel.
+    // Pressed at column 10, row 5, dragged by 10 columns and 2 rows, released; then the wheel.
     viewer.session.type_in("\x1b[<0;11;6M\x1b[<32;21;8M\x1b[<0;21;8m\x1b[<64;21;8M");
     let a_row = PI / f32::from(PICTURE_ROWS);
     let view = zoomed(&orbited(&VIEW, -5.0 * a_row, 2.0 * a_row), ZOOM_STEP);
@@ -139,7 +139,7 @@ fn c_goes_around_the_charsets() {
     viewer.quit();
 }
 
-/// A picture so large that the frames of a movement are coarse.
+/// A picture so large that frames are coarse during a movement.
 #[test]
 fn after_a_movement_the_picture_becomes_full_and_then_there_is_peace() {
     let (columns, rows) = (200, 60);
@@ -152,7 +152,7 @@ fn after_a_movement_the_picture_becomes_full_and_then_there_is_peace() {
     viewer.session.wait_for_peace();
     viewer.wait_for_picture("the full picture still", &expected);
 
-    // Peace is not what any viewer has.
+    // Peace is not the normal state of every viewer.
     viewer.session.type_in(" ");
     assert!(viewer.session.stirs(), "it spins, and nothing happens");
     viewer.session.type_in(" ");
@@ -160,7 +160,7 @@ fn after_a_movement_the_picture_becomes_full_and_then_there_is_peace() {
     viewer.quit();
 }
 
-/// `e` shows what the tier gets wrong, by the tier of the moment, and the picture again.
+/// `e` shows the tier's errors, for the current tier; `e` again shows the picture.
 #[test]
 fn e_shows_the_errors_and_the_picture_again() {
     let mut viewer = Viewer::start();
@@ -186,7 +186,7 @@ fn e_shows_the_errors_and_the_picture_again() {
     viewer.quit();
 }
 
-/// `v` cuts the picture in two; keys, and a drag that begins on it, move the seam, and another drag orbits.
+/// `v` cuts the picture in two. Keys, and a drag that begins on the seam, move the seam; any other drag orbits.
 #[test]
 fn v_shows_two_tiers_and_the_seam_moves() {
     let mut viewer = Viewer::start();
@@ -214,13 +214,13 @@ fn v_shows_two_tiers_and_the_seam_moves() {
     wait_for_seam(&viewer, 43);
     viewer.session.type_in("[");
     wait_for_seam(&viewer, 42);
-    // Taken at column 42, pulled to column 60 and a row lower, let go.
+    // Pressed at column 42, dragged to column 60 and one row down, released.
     viewer.session.type_in("\x1b[<0;43;6M\x1b[<32;61;7M\x1b[<0;61;7m");
     wait_for_seam(&viewer, 60);
     viewer.session.wait_for_peace();
     viewer.session.type_in("v");
     viewer.wait_for_picture("the first view still", &once(&VIEW, COLUMNS, PICTURE_ROWS));
-    // Taken elsewhere, it is the scene that follows.
+    // A drag that begins elsewhere moves the scene.
     viewer.session.type_in("v\x1b[<0;11;6M\x1b[<32;21;6M\x1b[<0;21;6mv");
     let a_row = PI / f32::from(PICTURE_ROWS);
     let view = orbited(&VIEW, -5.0 * a_row, 0.0);
@@ -258,7 +258,7 @@ fn it_spins_until_told_not_to() {
 fn where_nothing_changes_nothing_is_sent() {
     let mut viewer = Viewer::start();
     let sent = viewer.session.output().sent.len();
-    // Keys without a meaning (Enter has none where nothing is picked), and a choice that is made already.
+    // Keys without a meaning (Enter has none while nothing is picked), and a choice that is already made.
     viewer.session.type_in("xyz3\r");
     viewer.session.type_in("q");
     assert!(viewer.session.wait_for_end().success());

@@ -1,4 +1,4 @@
-//! The scenes that are measured are what they say.
+//! The measured scenes are as their table describes them.
 
 use spherule_kernel::{Ray, Sphere, Vec3, Viewpoint};
 use spherule_tests::scenes::{Kind, LARGE, Scene, Size, sample, small, viewpoint};
@@ -143,7 +143,7 @@ fn origins_lie_in_many_spheres() {
     let rays = Kind::ALL.map(|kind| scene.rays(kind).iter().map(|ray| ray.origin));
     for origins in rays {
         let depth = depth(origins, &list);
-        // At a corner of the cube an eighth as many.
+        // At a corner of the cube the number is an eighth.
         let mean = depth.iter().sum::<usize>() as f64 / depth.len() as f64;
         assert!(depth.iter().all(|&depth| depth > 3) && mean > 30.0, "{mean}");
     }

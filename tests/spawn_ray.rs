@@ -1,4 +1,4 @@
-//! Spawned rays: where they start, and that they do not meet it there.
+//! Spawned rays: where they start, and that they miss their sphere there.
 
 mod shadows;
 
@@ -61,14 +61,14 @@ fn sides_are_decided_as_in_integers() {
     assert!(seen.iter().all(|&count| count > 3000), "{seen:?}");
 }
 
-/// A sphere of at least 2^10 ulp of its coordinates, up to 6.4e6, translated up to 1e7; a ray that hits it from up to
-/// 1e7 radii away.
+/// A sphere of at least 2^10 ulp of its coordinates, of radius up to 6.4e6, translated up to 1e7; a ray that hits it
+/// from up to 1e7 radii away.
 fn view(random: &mut Random) -> (Ray, Sphere) {
     let radius = random.log_uniform(-13, 22) as f32;
     let place = (f64::from(radius) * power_of_two(random.integer(0, 13))).min(1e7) as f32;
     let center = match random.integer(0, 3) {
         0 => Vec3::ZERO,
-        // The ground: the origin is a point of it.
+        // The ground: its surface goes through the coordinates' origin.
         1 => radius * random.direction(),
         _ => place * random.direction(),
     };
@@ -97,7 +97,7 @@ fn departing(random: &mut Random, normal: Vec3) -> Vec3 {
     } else {
         random.between(0.0, 2.0)
     };
-    // So long that a root below zero may be rounded to zero.
+    // So long that a root below zero may round to zero.
     let power = if random.one_in(8) { 120 } else { random.integer(-20, 20) };
     let direction = power_of_two(power) as f32 * (across + rise * normal);
     if along(direction, normal) < 0.0 { -direction } else { direction }
@@ -126,7 +126,7 @@ fn origins_are_within_two_steps_of_the_point() {
                 off <= 2.0 * spacing(left.origin) + 2.0_f64.powi(-23) * r + from_afar,
                 "{off}: {ray:?} {sphere:?}"
             );
-            // Near zero numbers are closer than double precision knows the point.
+            // Near zero, neighbouring numbers are closer than double precision knows the point.
             if spacing(left.origin) > 2.0_f64.powi(-45) * r + from_afar {
                 (farthest, total) = (farthest.max(height), total + height);
                 count += 1;
@@ -145,7 +145,7 @@ fn along(direction: Vec3, normal: Vec3) -> f64 {
     direction.as_dvec3().dot(normal.as_dvec3())
 }
 
-/// Returns how many rays left.
+/// Returns how many rays were spawned.
 fn spawned_rays_miss(tier: Tier, seed: u64, count: u32) -> u32 {
     let mut random = Random::seeded(seed);
     let (mut left, mut lost) = (0, 0);
@@ -195,7 +195,7 @@ fn no_tier_meets_the_sphere_where_a_ray_is_spawned() {
     spawned_rays_miss(Tier::Exact, 33, 600_000);
 }
 
-/// Some half an hour: `cargo test --test main a_billion -- --ignored --nocapture`.
+/// Takes some half an hour: `cargo test --test main a_billion -- --ignored --nocapture`.
 #[test]
 #[ignore = "a billion rays"]
 fn a_billion_rays_are_spawned() {
@@ -208,7 +208,7 @@ fn a_billion_rays_are_spawned() {
 
 #[test]
 fn what_has_no_such_origin_is_none() {
-    // Smaller than the spacing of numbers where it lies: only its centre is inside.
+    // Smaller than the spacing of numbers at its place: only its centre is inside.
     let sphere = Sphere { center: Vec3::splat(1e7), radius: 0.25 };
     let ray = Ray::new(Vec3::new(1e7, 1e7, 0.0), Vec3::Z);
     let surface = hit(Tier::Exact, &ray, &sphere).expect("a hit");
@@ -222,14 +222,14 @@ fn what_has_no_such_origin_is_none() {
     let surface = spherule_kernel::surface(Exact, &Ray::new(Vec3::ZERO, Vec3::Z), 0.0, &sphere);
     assert!(surface.spawn_ray(Exact, &sphere, Side::Outside, -Vec3::Z).is_some());
 
-    // A point: nothing is inside, and a ray starts beside it.
+    // A point sphere: nothing is inside, and a ray starts beside it.
     let sphere = Sphere { center: Vec3::Z, radius: 0.0 };
     let surface = hit(Tier::Exact, &Ray::new(Vec3::ZERO, Vec3::Z), &sphere).expect("a hit");
     assert_eq!(surface.spawn_ray(Exact, &sphere, Side::Inside, Vec3::Z), None);
     let left = surface.spawn_ray(Exact, &sphere, Side::Outside, -Vec3::Z).expect("an origin");
     assert!(!SphereList::from([sphere]).any_hit(Exact, &left));
 
-    // What is not valid returns, whatever it returns.
+    // Invalid input returns, with any result.
     for bits in [0x7fc0_0000, 0x7f80_0000, 0xff80_0000, 0x7f7f_ffff, 1, 0x8000_0001] {
         let bad = f32::from_bits(bits);
         let sphere = Sphere { center: Vec3::splat(bad), radius: bad };

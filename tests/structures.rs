@@ -47,13 +47,13 @@ fn every_level_of_this_cpu_runs() {
     }
 }
 
-/// So the structures really are used.
+/// Shows that the structures really are used.
 #[test]
 fn many_times_as_fast_as_brute_force() {
     let (spheres, rays) = (uniform(10_000), camera(EYE, Vec3::ZERO, 0.364, 256));
     let mut memory = Memory::new(&spheres);
     memory.sorted(viewpoint_of(&rays), |structures| {
-        // The least of several: other tests run beside this one.
+        // The least of several times, since other tests run beside this one.
         let least = |structure| {
             let layer = Layer::Packets(Level::best().name());
             let variant = Variant { tier: Tier::Stable, structure, layer };

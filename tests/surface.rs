@@ -1,4 +1,4 @@
-//! The surface at a hit: by `Exact` every coordinate correctly rounded, by the others within what is stated.
+//! The surface at a hit: by `Exact` every coordinate is correctly rounded, by the others within the stated error.
 
 use spherule_kernel::{Exact, Ray, Sphere, SphereList, Stable, Tier, Vec3, roots, surface};
 use spherule_referee::aim::line_distance;
@@ -8,13 +8,13 @@ use spherule_referee::random::{Random, power_of_two};
 use spherule_tests::oracle;
 use spherule_tests::variants::{Layer, surface_layers, surfaces_of};
 
-/// Both roots of a line against integers; returns how many there were.
+/// Checks both roots of a line against integers; returns how many roots there were.
 fn check(ray: &Ray, sphere: &Sphere) -> usize {
     let line = Ray { t_min: f32::NEG_INFINITY, t_max: f32::INFINITY, ..*ray };
     let Some(roots) = oracle::roots(&line, sphere) else { return 0 };
     let mut checked = 0;
     for (t, leaves) in roots.into_iter().zip([false, true]) {
-        // By rule 4 the far root is not the answer where it is rounded as the near one is.
+        // By rule 4 the far root is not the answer if it rounds to the same t as the near one.
         if !t.is_finite() || leaves && t == roots[0] {
             continue;
         }
@@ -65,7 +65,7 @@ fn exact_surfaces_are_correctly_rounded_from_afar_and_for_any_bits() {
                 let sphere = Sphere { center: Vec3::new(a, b, c), radius };
                 (Ray::new(Vec3::new(d, e, f), Vec3::new(g, h, i)), sphere)
             }
-            // Half-way between numbers: the ray goes along an axis, and o - c has 25 bits.
+            // Half-way between numbers: the ray runs along an axis, and o - c has 25 bits.
             2 => {
                 let tie =
                     |random: &mut Random| random.pick(&[-1.0, 1.0]) * power_of_two(-24) as f32;
@@ -74,7 +74,7 @@ fn exact_surfaces_are_correctly_rounded_from_afar_and_for_any_bits() {
                 let origin = Vec3::new(random.between(1.0, 2.0), -random.between(1.0, 2.0), -9.0);
                 (Ray::new(origin, Vec3::Z), sphere)
             }
-            // A ground, seen from a little above it or below.
+            // A ground, seen from slightly above it or below.
             3 => {
                 let radius = 10_f32.powf(random.between(2.0, 7.0));
                 let sphere = Sphere { center: Vec3::new(0.0, -radius, 0.0), radius };
@@ -94,7 +94,7 @@ fn exact_surfaces_are_correctly_rounded_from_afar_and_for_any_bits() {
     assert!(checked > 11_000, "{checked}");
 }
 
-/// Every layer against one ray at a time, which is against integers; every third ray misses.
+/// Every layer against one ray at a time, which is checked against integers; every third ray misses.
 #[test]
 fn surfaces_are_the_same_at_every_layer() {
     let mut random = Random::seeded(7);
@@ -130,8 +130,8 @@ fn surfaces_are_the_same_at_every_layer() {
     }
 }
 
-/// What the others promise: 2^-24, and 2^-50 (|p| + r) / r over the cosine of the normal and the ray, or the root of
-/// that.
+/// The promise of the other tiers: 2^-24, and 2^-50 (|p| + r) / r over the cosine of the normal and the ray, or the
+/// root of that.
 #[test]
 fn other_tiers_are_within_what_is_stated() {
     let mut random = Random::seeded(8);
@@ -140,7 +140,7 @@ fn other_tiers_are_within_what_is_stated() {
         let center = random.in_cube(3.0);
         let origin = center + 10_f32.powf(random.between(0.1, 7.0)) * random.direction();
         let ray = Ray::new(origin, center + random.in_cube(1.0) - origin);
-        // A rim, or nearly so: the sphere reaches past the line.
+        // At the rim, or nearly so: the sphere reaches past the line.
         let to_rim = line_distance(&Case { ray, sphere: Sphere { center, radius: 0.0 } });
         let radius = (to_rim * (1.0 + f64::from(10_f32.powf(random.between(-7.5, 0.0))))) as f32;
         let sphere = Sphere { center, radius };

@@ -1,4 +1,4 @@
-//! The referee's truth, under rules, is that of the oracle.
+//! The referee's truth under rules equals that of the oracle.
 
 use spherule_kernel::{Hit, Tier, roots};
 use spherule_referee::case::Case;
@@ -10,7 +10,7 @@ use std::cmp::Ordering;
 
 const CONTRACT: Rules = Rules::CONTRACT;
 
-/// By big integers.
+/// Decided by big integers.
 fn is_inside(case: &Case) -> bool {
     let (o, c) = (units3(case.ray.origin), units3(case.sphere.center));
     let p: [_; 3] = std::array::from_fn(|i| &c[i] - &o[i]);
@@ -72,7 +72,7 @@ fn of_a_pair() {
     assert!(open > 300 && changed > 1000, "{open} open, {changed} changed");
 }
 
-/// The closest under rules is the closest of those that each sphere has under rules.
+/// The closest hit under rules is the closest of the hits that each sphere has under rules.
 #[test]
 fn of_many_spheres() {
     let rules = Rules { tangents: Tangents::Miss, inside: Inside::Miss, ..CONTRACT };
@@ -103,7 +103,7 @@ fn of_many_spheres() {
     assert!(hits > 500, "{hits}");
 }
 
-/// A generator that asks the kernel for roots gets those of the oracle: the cases are the same for ever.
+/// A generator that asks the kernel for roots gets those of the oracle: so its cases stay the same for ever.
 #[test]
 fn of_the_roots_that_generators_ask_for() {
     for family in FAMILIES {

@@ -1,7 +1,7 @@
 //! The check before the clock: a fast wrong answer is no answer.
 //!
-//! The kernel's ways are held to brute force bit for bit, brute force on the small scenes to `Exact` within what a tier
-//! promises, `Exact` there to the oracle, and everyone else to `Exact`.
+//! The kernel's ways must give brute force's bits. On the small scenes brute force must be within its tier's promise of
+//! `Exact`, and `Exact` must equal the oracle. All other programs are held to `Exact`.
 
 use crate::engine::{Engine, OTHERS_PART, OTHERS_ULP, Promise, Query, Rays, Ready, Run};
 use spherule::tally::ulp_between;
@@ -11,9 +11,9 @@ use spherule_tests::scenes::{Kind, Scene, sample};
 use std::cell::OnceCell;
 use std::collections::HashMap;
 
-/// Tests of brute force that a check of bits may cost, in some of which all is a candidate.
+/// How many tests by brute force a check of bits may cost. In some scenes every test finds a candidate.
 const TESTS: usize = 1 << 26;
-/// Tests by big integers.
+/// How many tests by big integers a check may cost.
 const ORACLE_TESTS: usize = 1 << 14;
 
 /// Rays, and what `Exact` says of them.
@@ -28,12 +28,12 @@ impl WithTruth {
         Self { rays: Rays::new(&sample(scene.rays(kind), count)), truth: OnceCell::new() }
     }
 
-    /// So many that brute force answers them in a moment.
+    /// As many rays as brute force answers in a moment.
     pub(crate) fn few((scene, kind): (&Scene, Kind)) -> Self {
         Self::new((scene, kind), (TESTS / scene.spheres.len().max(1)).min(1 << 16))
     }
 
-    /// The answers of `exact`, the first of which the oracle gives too.
+    /// The answers of `exact`. The oracle confirms the first of them.
     fn truth(&self, spheres: &[Sphere], exact: &Ready) -> &[Option<Hit>] {
         self.truth.get_or_init(|| {
             let truth = answers(&mut *exact(&self.rays), Query::ClosestHit);
@@ -69,7 +69,7 @@ pub(crate) fn check(
             let spheres: Vec<_> = scene.spheres.spheres().iter().collect();
             let truth = own.truth(&spheres, exact);
             let [closest, any] = Query::ALL.map(|query| answers(run, query));
-            // Of spheres that are the same, another engine may name any.
+            // Where spheres are equal, another engine may name any of them.
             let first = first_alike(&spheres);
             let named =
                 |hit: Option<Hit>| hit.map(|hit| Hit { sphere: first[hit.sphere as usize], ..hit });
@@ -88,7 +88,7 @@ pub(crate) fn check(
     }
 }
 
-/// The lowest index of a sphere that is the same, for each.
+/// For each sphere the lowest index of an equal sphere.
 fn first_alike(spheres: &[Sphere]) -> Vec<u32> {
     let bits = |sphere: &Sphere| {
         let [x, y, z] = sphere.center.to_array();

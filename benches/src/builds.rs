@@ -1,4 +1,4 @@
-//! All trees over a scene: how long they take to be built, how large ours is, and who searches them.
+//! All trees over a scene: how long builds take, how large the kernel's tree is, and the engines that use them.
 
 #[cfg(feature = "embree")]
 use crate::engine::embree::{self, Embree, libraries};
@@ -21,7 +21,7 @@ pub(crate) struct Trees {
 }
 
 impl Trees {
-    /// All, Embree's at every level; or without the other crates.
+    /// Builds all trees, Embree's at every level; other crates' if `crates`.
     pub(crate) fn build(scene: &Scene, crates: bool, levels: &[Level]) -> Self {
         let spheres = scene.spheres.spheres();
         let others =
@@ -40,18 +40,18 @@ impl Trees {
     }
 }
 
-/// Times of builds, and the size of ours.
+/// Times of builds, and the size of the kernel's tree.
 pub(crate) struct Builds {
     /// Bytes a sphere, beyond the caller's list.
     pub(crate) bytes: f64,
-    /// Nodes below each other.
+    /// The depth of the tree, in nodes.
     pub(crate) depth: usize,
-    /// In turns, one thread each.
+    /// Times, taken in turns, each on one thread.
     pub(crate) times: Samples<&'static str>,
 }
 
 impl Builds {
-    /// Memory is part of it for all: ours is allocated, filled and freed.
+    /// Memory is part of each build: the kernel's tree is allocated, filled and freed.
     pub(crate) fn measure(scene: &Scene, trees: &Trees, crates: bool, rounds: usize) -> Self {
         let spheres = scene.spheres.spheres();
         let ours = || {

@@ -48,14 +48,14 @@ impl Call {
     ];
 }
 
-/// What was timed: a call, or Embree's of one ray.
+/// What was timed: one of the kernel's calls, or Embree's call of one ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Timed {
     Ours(Call),
     Embree(usize),
 }
 
-/// A scene's rays of a kind, a query, at a level.
+/// The times of a scene's rays of one kind, for one query, at one level.
 pub(crate) struct Row {
     pub(crate) scene: &'static str,
     pub(crate) kind: Kind,
@@ -71,7 +71,7 @@ pub(crate) struct Calls {
     pub(crate) refits: Vec<Refit>,
 }
 
-/// Measures all scenes, or one alone.
+/// Measures all scenes, or `one` alone.
 pub(crate) fn measure(effort: Effort, one: Option<&str>) -> Calls {
     let (size, rays, time, rounds) = match effort {
         Effort::Test => (Size::SMALL, 256, 0, 1),
@@ -145,17 +145,17 @@ impl Row {
         Self { scene, kind, query, level: level.name(), times }
     }
 
-    /// A million rays a second.
+    /// Million rays a second.
     pub(crate) fn rate(&self, call: Call) -> Option<f64> {
         Some(1e3 / self.times.median(&Timed::Ours(call))?.middle)
     }
 
-    /// How many times as fast a call is as another.
+    /// How many times as fast `call` is as `other`.
     pub(crate) fn ratio(&self, call: Call, other: Call) -> Option<Median> {
         self.times.ratio(&Timed::Ours(other), &Timed::Ours(call))
     }
 
-    /// How many times as fast one ray a call is as Embree's, of the version that is the quicker.
+    /// How many times as fast one ray a call is as Embree's call of one ray, in its quicker version.
     pub(crate) fn by_embree(&self) -> Option<Median> {
         let time = |timed: &&Timed| self.times.median(timed).map_or(f64::INFINITY, |it| it.middle);
         let all = self.times.names.iter().filter(|timed| matches!(timed, Timed::Embree(_)));
@@ -252,7 +252,7 @@ impl<'a> Work<'a> {
                     Query::AnyHit => tree.any_hit_columns(Exact, trace, columns, occluded),
                 })
             }
-            // What a call learns is for the next as well: each begins anew.
+            // What one call learns would help the next: so each begins with a new `Trace`.
             (Call::ShortPackets, query) => timed(|| {
                 let many = packets.chunks(SHORT / RayPacket::COUNT);
                 let hits = packet_hits.chunks_mut(SHORT / RayPacket::COUNT);
@@ -278,7 +278,7 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// Of the last run, a ray each: t in bits and the sphere; of any hit, whether.
+    /// The answers of the last run, one a ray: the bits of t and the sphere; for any hit, whether there is one.
     fn answers(&self, query: Query) -> Vec<(u32, u32)> {
         const NONE: (u32, u32) = (f32::INFINITY.to_bits(), u32::MAX);
         let bits = |hit: Option<Hit>| hit.map_or(NONE, |hit| (hit.t.to_bits(), hit.sphere));

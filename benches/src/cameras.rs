@@ -20,7 +20,7 @@ pub(crate) enum Way {
     OneByOne,
     /// By `tile_rays`, then traced.
     InLanes,
-    /// They are there.
+    /// The rays were made before the clock started.
     Before,
     /// The tree makes them.
     ByTree,
@@ -30,7 +30,7 @@ impl Way {
     pub(crate) const ALL: [Self; 4] = [Self::OneByOne, Self::InLanes, Self::Before, Self::ByTree];
 }
 
-/// What was timed: a way at a level, or one of Embree's calls, of rays that are there.
+/// What was timed: a way at a level, or one of Embree's calls, on rays made before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Timed {
     Ours(Way, LevelName),
@@ -96,7 +96,7 @@ impl OfScene {
         LevelName::ALL.into_iter().rev().filter(is_timed)
     }
 
-    /// A million rays a second.
+    /// Million rays a second.
     pub(crate) fn rate(&self, way: Way, level: LevelName) -> Option<f64> {
         Some(1e3 / self.times.median(&Timed::Ours(way, level))?.middle)
     }
@@ -106,7 +106,7 @@ impl OfScene {
         self.times.ratio(&Timed::Ours(other, level), &Timed::Ours(way, level))
     }
 
-    /// How many times as fast as Embree's quickest call with the same instructions, for rays that are there.
+    /// How many times as fast as Embree's quickest call with the same instructions, on rays made before.
     pub(crate) fn times_embree(&self, way: Way, level: LevelName) -> Option<Median> {
         let is_it =
             |timed: &&Timed| matches!(timed, Timed::Embree(name, _) if *name == level.as_str());

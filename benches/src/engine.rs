@@ -15,9 +15,10 @@ use std::cell::OnceCell;
 use std::fmt;
 use std::rc::Rc;
 
-/// The most rays of what takes single rays, if that is not what it is for: enough for a time.
+/// The most rays of an engine that takes single rays where packets are meant: enough for a time.
 const SOME_RAYS: usize = 1 << 15;
-/// Rays that are brought into the cache, then traced with the clock running: the kernel's and Embree's.
+/// Rays of a block: it is brought into the cache, then traced with the clock running. The kernel and Embree share the
+/// size.
 pub(crate) const BLOCK: usize = 4096;
 
 /// What rays want to know.
@@ -35,7 +36,8 @@ impl Query {
 pub(crate) struct Engine {
     pub(crate) label: Label,
     pub(crate) promise: Promise,
-    /// How many rays a sample takes: fewer than all if that would take too long, none if it is checked and not timed.
+    /// How many rays a sample takes: fewer than all if all would take too long; none if the engine is checked and not
+    /// timed.
     pub(crate) most_rays: usize,
     pub(crate) ready: Ready,
 }
@@ -47,15 +49,15 @@ pub(crate) type Ready = Box<dyn Fn(&Rays) -> Box<dyn Run>>;
 pub(crate) trait Run {
     /// Answers for every ray. An engine without code of its own for any hit finds the closest.
     fn run(&mut self, query: Query);
-    /// The answers of the last run; after a query for any hit, which sphere and where mean nothing.
+    /// The answers of the last run. After an any-hit query, the sphere and t mean nothing.
     fn hits(&self) -> Vec<Option<Hit>>;
-    /// Nanoseconds of so many runs.
+    /// The nanoseconds that `runs` runs take.
     fn time(&mut self, query: Query, runs: usize) -> f64 {
         timed(|| (0..runs).for_each(|_| self.run(query)))
     }
 }
 
-/// What an engine is called; no two that are compared are called the same.
+/// What an engine is called; engines that are compared have different labels.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Label {
     /// The way to the hits, or a version of Embree; empty if the name says it.
@@ -74,23 +76,23 @@ impl fmt::Display for Label {
     }
 }
 
-/// What answers must be like, before they are timed.
+/// What an engine's answers must be like before it is timed.
 pub(crate) enum Promise {
     /// The probes answer nothing.
     Nothing,
-    /// Another engine's, bit for bit.
+    /// The answers must be another engine's, bit for bit.
     SameBits(Ready),
-    /// Those of `Exact`, except for a part of the rays, and for an error of t in ulp.
+    /// The answers must be those of `Exact`, except for a share of the rays, and with t off by at most so many ulp.
     Near(f64, u64),
-    /// Another program's: those of `Exact`, except for a part of the rays, and for an error of t by
-    /// [`OTHERS_ULP`], or by [`OTHERS_PART`] of how far away and how large the sphere is.
+    /// Another program: its answers must be those of `Exact`, except for a share of the rays. t may be off by
+    /// [`OTHERS_ULP`], or by [`OTHERS_PART`] of the distance and size of the sphere.
     #[cfg_attr(not(feature = "peers"), expect(dead_code, reason = "only peers are held to it"))]
     Other(f64),
 }
 
-/// It may think otherwise of a start on a surface, and of cancelled digits.
+/// Another program may decide otherwise on a ray that starts on a surface, and where digits cancel.
 pub(crate) const OTHERS_ULP: u64 = 1 << 14;
-/// From between two of thousands of nested spheres, the next is near and its centre far.
+/// A ray that starts between two of thousands of nested spheres: the next surface is near, and its centre far.
 pub(crate) const OTHERS_PART: f32 = 1.0 / (1 << 20) as f32;
 
 impl Promise {
@@ -99,15 +101,16 @@ impl Promise {
     /// The geometric form over a ground: r^2 = 1e6 is known to some 0.1, which is some 1e-4 of length, and some of
     /// the rays start as near to the ground as 0.1.
     pub(crate) const GEOMETRIC_ON_GROUND: Self = Self::Near(8.0 / 1024.0, 1 << 17);
-    /// Grazed spheres, and, from 10^4 scene sizes away, which sphere is in front, with fused operations.
+    /// For grazed spheres, and for which sphere is in front from 10^4 scene sizes away, with fused operations.
     #[cfg(feature = "peers")]
     pub(crate) const OTHERS: Self = Self::Other(2e-2);
-    /// The same, without.
+    /// The same, without fused operations.
     #[cfg(feature = "embree")]
     pub(crate) const OTHERS_UNFUSED: Self = Self::Other(4e-2);
 }
 
-/// Rays, and the same in packets, which all levels of the kernel share: so that they are as warm for each.
+/// Rays, and the same rays in packets. All levels of the kernel share them, so that they are as warm in the cache for
+/// each level.
 pub(crate) struct Rays {
     pub(crate) list: Rc<[Ray]>,
     packets: OnceCell<Rc<[RayPacket]>>,

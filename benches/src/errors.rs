@@ -51,7 +51,7 @@ fn answer(name: &str, case: &Case) -> Option<f32> {
     run.hits()[0].map(|hit| hit.t)
 }
 
-/// Decisions of every kind in a million rays: hits that are misses, misses that are hits, the other root.
+/// Wrong decisions in a million rays, by kind: hits that are misses, misses that are hits, and hits at the other root.
 pub(crate) fn wrong_in_a_million(summary: &Summary) -> [f64; 3] {
     let Summary { wrong_hits, wrong_misses, wrong_places, rays, .. } = *summary;
     [wrong_hits, wrong_misses, wrong_places].map(|count| count as f64 * 1e6 / rays as f64)

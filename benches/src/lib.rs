@@ -7,15 +7,16 @@
 //! | `cargo bench -p spherule-benches --features peers ...` | with other crates |
 //! | `... --features embree ... -- --write` | with other crates and Embree (Debian: `libembree3-3`); and writes `docs/benchmarks` |
 //!
-//! Speed is written for one build at a time: once more with `RUSTFLAGS="-C target-cpu=native"`. `--scene NAME` runs one
-//! large scene alone, `--order NAME` one order of rays, `--rays N` by calls of so many, `--quick` takes a part of the rays, both together take less than a minute; `--test` runs everything
-//! once. The variable `SPHERULE_EMBREE` says which libraries of Embree are opened: paths with colons between them.
+//! Speed is written for one build at a time: run once more with `RUSTFLAGS="-C target-cpu=native"`. `--scene NAME` runs one large scene
+//! alone, `--order NAME` one order of rays, and `--rays N` calls of N rays. `--quick` takes a part of the rays; with `--scene` it takes
+//! less than a minute. `--test` runs everything once. The variable `SPHERULE_EMBREE` names the libraries of Embree to open: paths with
+//! colons between them.
 //!
 //! Data flows one way: [scenes](spherule_tests::scenes), [engines](engine), [the check before the clock](agreement),
 //! [times](measure), [pages](page). Nothing is timed before its answers are checked.
 
 #![cfg(feature = "measured")]
-// Not forbidden, for one interface: a foreign one behind the feature `embree`.
+// Not forbidden, since the feature `embree` needs one foreign interface.
 #![deny(unsafe_code)]
 #![allow(rustdoc::private_intra_doc_links)]
 

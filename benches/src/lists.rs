@@ -1,4 +1,4 @@
-//! Every tier and mark by brute force on the small scenes, in every lanes and at every level.
+//! Every tier and mark by brute force on the small scenes, in every lane width and at every level.
 
 use crate::engine::Query;
 use crate::engine::kernel::Kernel;

@@ -1,4 +1,4 @@
-//! A scene's rays: every engine checked, then all timed in turns.
+//! Measures a scene's rays: checks every engine, then times all in turns.
 
 use crate::agreement::{WithTruth, check};
 use crate::engine::{Engine, Label, Query, Ready, Run};
@@ -22,7 +22,7 @@ pub(crate) enum Effort {
 #[derive(Clone)]
 pub(crate) struct Plan<'a> {
     pub(crate) queries: &'a [Query],
-    /// For one kind of a scene's rays.
+    /// The time for one kind of a scene's rays.
     pub(crate) time: Duration,
     pub(crate) rounds: RangeInclusive<usize>,
     /// The most rays of a sample.
@@ -31,7 +31,7 @@ pub(crate) struct Plan<'a> {
     pub(crate) sample: Duration,
 }
 
-/// An engine with so many rays, checked.
+/// A checked engine, with the number of rays that it is timed on.
 pub(crate) struct Checked {
     pub(crate) label: Label,
     rays: usize,
@@ -39,7 +39,8 @@ pub(crate) struct Checked {
 }
 
 impl Checked {
-    /// Takes nanoseconds a ray, query by query, in samples that take so long at least.
+    /// Makes a sampler for each query. A sample takes `least` or longer, and counts nanoseconds a
+    /// ray.
     pub(crate) fn samplers(
         self,
         queries: &[Query],
@@ -57,7 +58,7 @@ impl Checked {
     }
 }
 
-/// Checks every engine on these rays, at most so many, and keeps those that are to be timed.
+/// Checks every engine on these rays, on `most` at most, and returns those that are to be timed.
 ///
 /// # Panics
 /// If an answer is wrong.
@@ -82,13 +83,13 @@ pub(crate) fn checked(
     timed
 }
 
-/// Times of a scene's rays of a kind.
+/// The times of a scene's rays of one kind.
 pub(crate) struct Measured {
     pub(crate) scene: &'static str,
     pub(crate) kind: Kind,
     /// How many spheres.
     pub(crate) spheres: usize,
-    /// Nanoseconds a ray, in the order of the line-up.
+    /// Nanoseconds a ray, in the order of the engines.
     times: Samples<(Label, Query)>,
 }
 
@@ -120,27 +121,27 @@ impl Measured {
         names.filter(|(_, query)| *query == Query::ClosestHit).map(|(label, _)| label)
     }
 
-    /// Nanoseconds a ray; `None` if that was not timed.
+    /// Nanoseconds a ray; `None` if `label` was not timed.
     fn time(&self, label: &Label, query: Query) -> Option<Median> {
         self.times.median(&(label.clone(), query))
     }
 
-    /// Nanoseconds until a ray is tested against a sphere, closest hit.
+    /// Nanoseconds a ray and sphere, for the closest hit.
     pub(crate) fn time_a_test(&self, label: &Label) -> Option<Median> {
         Some(self.time(label, Query::ClosestHit)?.times(1.0 / self.spheres as f64))
     }
 
-    /// A million rays a second.
+    /// Million rays a second.
     pub(crate) fn rate(&self, label: &Label, query: Query) -> Option<f64> {
         self.time(label, query).map(|time| 1e3 / time.middle)
     }
 
-    /// How many times the time of `other` is that of `label`, round by round.
+    /// The time of `label`, divided by the time of `other`, round by round.
     pub(crate) fn ratio(&self, label: &Label, other: &Label, query: Query) -> Option<Median> {
         self.times.ratio(&(label.clone(), query), &(other.clone(), query))
     }
 
-    /// The fastest of those that `chosen` keeps.
+    /// The fastest of the engines that `chosen` keeps.
     pub(crate) fn fastest(&self, query: Query, chosen: impl Fn(&Label) -> bool) -> Option<&Label> {
         let time = |label: &&Label| self.time(label, query).map_or(f64::INFINITY, |t| t.middle);
         self.labels().filter(|label| chosen(label)).min_by(|a, b| time(a).total_cmp(&time(b)))

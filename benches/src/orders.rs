@@ -25,7 +25,7 @@ enum Timed {
     Embree(usize),
 }
 
-/// An order of rays in a scene, a query, at a level.
+/// Times of one order of rays in a scene, for a query, at a level.
 pub(crate) struct Row {
     pub(crate) scene: &'static str,
     pub(crate) order: Order,
@@ -43,16 +43,16 @@ pub(crate) struct Row {
 #[derive(Clone, Copy)]
 struct Plan {
     rays: usize,
-    /// At least, and at most three times as many, as long as that takes.
+    /// At least so many, and up to three times as many, as long as `time` allows.
     rounds: usize,
     time: Duration,
     /// What a sample of the quickest way, or of Embree's, may take on average; otherwise there are fewer rays.
     nanoseconds: f64,
-    /// Whether all levels take part in every row, or one after the other.
+    /// Whether every row is timed at all levels, or rows take levels in turn.
     every_level: bool,
 }
 
-/// Measures all scenes and orders, or one alone, by calls of so many rays if it is said.
+/// Measures all scenes and orders, or one alone; in calls of `rays` rays if given.
 pub(crate) fn measure(
     effort: Effort,
     (one, order): (Option<&str>, Option<Order>),
@@ -197,22 +197,22 @@ impl Row {
         Some(1e3 / self.times.median(&Timed::Ours(Way::Plain))?.middle)
     }
 
-    /// The plain call by the best way: 1 where it is that.
+    /// The plain call's speed divided by the best way's: 1 where the plain call is the best.
     pub(crate) fn by_best(&self) -> Option<Median> {
         self.plain_by(self.best().map(Timed::Ours))
     }
 
-    /// The plain call by ray by ray.
+    /// The plain call's speed divided by that of ray by ray.
     pub(crate) fn by_ray_by_ray(&self) -> Option<Median> {
         self.plain_by(Some(Timed::Ours(Way::RayByRay)))
     }
 
-    /// What is said to be coherent by ray by ray, whether it is coherent or not.
+    /// The speed of rays said to be coherent, divided by that of ray by ray, whether they are coherent or not.
     pub(crate) fn coherent_by_ray_by_ray(&self) -> Option<Median> {
         self.times.ratio(&Timed::Ours(Way::RayByRay), &Timed::Ours(Way::Coherent))
     }
 
-    /// The plain call by Embree's quickest.
+    /// The plain call's speed divided by that of Embree's quickest call.
     pub(crate) fn by_embree(&self) -> Option<Median> {
         self.plain_by(self.quickest(|timed| matches!(timed, Timed::Embree(_))))
     }

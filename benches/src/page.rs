@@ -1,4 +1,4 @@
-//! Pages in Markdown: what they have in common.
+//! Pages in Markdown: the parts that they share.
 
 pub(crate) mod calls;
 pub(crate) mod cameras;
@@ -14,7 +14,7 @@ use std::process::Command;
 
 /// Where figures come from, in one line: CPU, compiler, instructions, commit and date.
 pub(crate) fn origin() -> String {
-    // What a program prints; nothing if it fails or is not there.
+    // What a program prints; empty if it fails or is absent.
     let output_of = |program: &str, arguments: &[&str]| {
         let output = Command::new(program).args(arguments).output().ok();
         output.map_or_else(String::new, |output| {
@@ -27,7 +27,7 @@ pub(crate) fn origin() -> String {
     format!("{}, {threads} threads; {RUSTC}, {} build; commit {commit}; {date}", cpu(), build())
 }
 
-/// Who made the CPU, in small letters: what limits trees differs from make to make.
+/// Who made the CPU, in small letters: the limits of trees differ between makers.
 pub(crate) fn maker() -> &'static str {
     let cpu = cpu();
     ["AMD", "Intel"]
@@ -37,7 +37,7 @@ pub(crate) fn maker() -> &'static str {
         .map_or("other", |(_, file)| file)
 }
 
-/// Whether the whole program has the instructions that the kernel finds out about.
+/// Whether the whole build has the instructions that the kernel otherwise detects at run time.
 pub(crate) const fn build() -> &'static str {
     if cfg!(target_feature = "avx2") { "native" } else { "plain" }
 }
@@ -46,7 +46,7 @@ pub(crate) const fn build() -> &'static str {
 struct Table(String);
 
 impl Table {
-    /// Names of columns, with bars between them; those after the first `words` are aligned to the right.
+    /// Names of columns, with bars between them. Columns after the first `words` are aligned to the right.
     fn new(words: usize, columns: &str) -> Self {
         let rule =
             (0..columns.split(" | ").count()).map(|i| if i < words { "---|" } else { "--:|" });
@@ -56,21 +56,21 @@ impl Table {
     fn row<C: Display>(&mut self, cells: impl IntoIterator<Item = C>) {
         self.0.push('|');
         for cell in cells {
-            // A bar in a name does not end the cell.
+            // Escapes a bar in a name, which would end the cell.
             let _ = write!(self.0, " {} |", cell.to_string().replace('|', "\\|"));
         }
         self.0.push('\n');
     }
 }
 
-/// Three digits; an empty cell for what was not measured.
+/// Three digits; an empty cell if nothing was measured.
 fn number(value: Option<f64>) -> String {
     let Some(value) = value else { return String::new() };
     let digits = [100.0, 10.0, 1.0].iter().filter(|&&least| value < least).count();
     format!("{value:.digits$}")
 }
 
-/// As it displays; an empty cell for what was not measured.
+/// The value as it displays; an empty cell if nothing was measured.
 fn cell(value: Option<impl Display>) -> String {
     value.map_or_else(String::new, |value| value.to_string())
 }

@@ -7,10 +7,10 @@ use plotters::prelude::*;
 
 type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
 type Panel<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-/// A name, a colour, and a value for numbers of spheres.
+/// A name, a colour, and a value for each number of spheres.
 type Series = (&'static str, RGBColor, Vec<(f64, f64)>);
 
-// Told apart also by the colour-blind (Okabe and Ito).
+// The colour-blind can tell these colours apart (Okabe and Ito).
 const PRIMARY: RGBColor = RGBColor(0, 114, 178);
 const DIFFUSE: RGBColor = RGBColor(213, 94, 0);
 const DEPTH_LIST: RGBColor = RGBColor(0, 158, 115);
@@ -76,7 +76,7 @@ pub(crate) fn embree(origin: &str, scenes: &[OfScene]) -> Outcome<String> {
     })
 }
 
-/// Rays a second, and beside it the build, by the number of spheres.
+/// Rays a second, and beside it the time of the build, by the number of spheres.
 pub(crate) fn growth(origin: &str, steps: &[OfScene]) -> Outcome<String> {
     let title = "Rays a second and time of the build, by the number of uniform spheres";
     let series = |name, colour, value: &dyn Fn(&OfScene) -> Option<f64>| -> Series {

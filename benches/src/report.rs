@@ -48,7 +48,7 @@ enum Part {
     Scales,
 }
 
-/// Measures, prints, and writes if told to.
+/// Measures, prints, and writes the pages if `--write` is given.
 ///
 /// # Errors
 /// If a file cannot be written.
@@ -77,7 +77,8 @@ pub fn report() -> Result<(), Box<dyn error::Error>> {
     let chosen = |own| part.is_none_or(|part| part == own);
     if chosen(Part::Tiers) && scene.is_none() {
         let (errors, lists) = (errors::measure(effort), lists::measure(effort));
-        // The marks have the CPU's instructions in a native build alone: another trade would flatter the tiers.
+        // Only in a native build do the marks have the CPU's instructions: a trade of any other build would flatter the
+        // tiers.
         let trade = page::tiers::trade(&origin, &errors, &lists);
         match build() {
             "native" => put("trade.md", &trade)?,

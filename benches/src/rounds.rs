@@ -1,7 +1,7 @@
-//! Times of several things that are to be compared, taken in turns.
+//! Times of several things to compare, taken in turns.
 //!
-//! On a shared machine the clock and the neighbours change from second to second. So the time is the thread's own,
-//! everything runs once a round, and what is reported is the median of times, and of ratios within a round.
+//! On a shared machine the clock and the neighbours' load change from second to second. So the time is the thread's
+//! own, everything runs once a round, and the results are medians of times, and of ratios within a round.
 
 use rustix::time::{ClockId, clock_gettime};
 use std::fmt;
@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 /// Takes a sample: nanoseconds a unit of work.
 pub(crate) type Sampler<'a> = Box<dyn FnMut() -> f64 + 'a>;
 
-/// For how many nanoseconds this thread has had a CPU.
+/// How many nanoseconds this thread has run on a CPU.
 pub(crate) fn thread_time() -> u64 {
     let time = clock_gettime(ClockId::ThreadCPUTime);
     time.tv_sec as u64 * 1_000_000_000 + time.tv_nsec as u64
@@ -32,15 +32,15 @@ pub(crate) struct Median {
     pub(crate) high: f64,
 }
 
-/// Samples, one a round, of what has the name `K`.
+/// Samples, one a round, of each thing named by a `K`.
 pub(crate) struct Samples<K> {
     pub(crate) names: Vec<K>,
     rounds: Vec<Vec<f64>>,
 }
 
 impl<K: PartialEq> Samples<K> {
-    /// Takes a sample of each a round, after one round that does not count: as many rounds as fit into `time`, judged
-    /// by the first, within `rounds`.
+    /// Takes a sample of each in every round, after one round that does not count. As many rounds are taken as fit into
+    /// `time`, judged by that first round, but within `rounds`.
     pub(crate) fn take(
         all: Vec<(K, Sampler<'_>)>,
         time: Duration,
@@ -63,13 +63,13 @@ impl<K: PartialEq> Samples<K> {
         self.names.iter().position(|other| other == name)
     }
 
-    /// Nanoseconds a unit; `None` for what did not take part.
+    /// Nanoseconds a unit; `None` if `name` did not take part.
     pub(crate) fn median(&self, name: &K) -> Option<Median> {
         let index = self.index(name)?;
         Some(Median::of(self.rounds.iter().map(|round| round[index]).collect()))
     }
 
-    /// How many times the time of `other` is that of `name`, round by round.
+    /// The time of `name`, divided by the time of `other`, round by round.
     pub(crate) fn ratio(&self, name: &K, other: &K) -> Option<Median> {
         let (own, other) = (self.index(name)?, self.index(other)?);
         Some(Median::of(self.rounds.iter().map(|round| round[own] / round[other]).collect()))

@@ -1,5 +1,5 @@
-//! Other units: a scene of 2,000 spheres multiplied by powers of two, and rays of other lengths, against the scene as
-//! it is.
+//! Other units: a scene of 2,000 spheres multiplied by powers of two, with rays of other lengths, against the unscaled
+//! scene.
 
 use crate::engine::Query;
 use crate::engine::kernel::{Kernel, Way, levels};
@@ -9,7 +9,7 @@ use spherule_kernel::Tier;
 use spherule_tests::scenes::{Kind, Scene};
 use std::time::Duration;
 
-/// Exponents of the scene, and of directions; the first is the scene as it is.
+/// Exponents of the scene and of directions. The first pair is the unscaled scene.
 pub(crate) const SCALES: [[i64; 2]; 11] = [
     [0, 0],
     [41, 0],
@@ -72,7 +72,7 @@ impl Scales {
         self.0.rounds()
     }
 
-    /// How many times the time of the scene as it is.
+    /// The time of a scale, divided by the time of the unscaled scene.
     pub(crate) fn ratio(&self, scale: [i64; 2], way: (Kind, Way), query: Query) -> Option<Median> {
         self.0.ratio(&(scale, way, query), &(SCALES[0], way, query))
     }

@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 /// The scene that threads are timed on.
 pub(crate) const FOR_THREADS: &str = "u10k";
 
-/// Rays of a kind that give a first impression, in runs from all of them.
+/// How many rays of a kind `--quick` takes, in runs from all of them.
 const QUICK: usize = 1 << 16;
 
 /// A scene's builds, and the times of both kinds of its rays.
@@ -27,7 +27,7 @@ pub(crate) struct OfScene {
 
 /// All that was measured.
 pub(crate) struct Structures {
-    /// The most rays of a kind, if there are more.
+    /// The most rays of a kind; `None` if all are taken.
     pub(crate) rays: Option<usize>,
     pub(crate) scenes: Vec<OfScene>,
     /// How many times as fast two threads are as one, in [`FOR_THREADS`].
@@ -36,10 +36,10 @@ pub(crate) struct Structures {
     pub(crate) growth: Vec<OfScene>,
 }
 
-/// Measures all of it, or `one` scene alone.
+/// Measures all scenes, or `one` alone.
 pub(crate) fn measure(effort: Effort, one: Option<&str>) -> Structures {
     let levels = levels();
-    // Of growth: pixels enough for a time, few enough for brute force to be shown; and the powers of ten.
+    // For growth: enough pixels to be timed, few enough for brute force to be shown; and the powers of ten.
     let (size, rays, seconds, rounds, builds, (pixels, most)) = match effort {
         Effort::Test => (Size::SMALL, usize::MAX, 0, 1..=1, 1, (32, 4)),
         Effort::Quick => (Size::FULL, QUICK, 4, 3..=9, 1, (512, 8)),
@@ -50,7 +50,7 @@ pub(crate) fn measure(effort: Effort, one: Option<&str>) -> Structures {
     let of_scene = |name| {
         let scene = Scene::large(name, size).expect("listed");
         match (effort, one) {
-            // Without other crates, and without the tiers that are no faster: in under a minute.
+            // Without other crates, and without the tiers that are no faster: so it takes less than a minute.
             (Effort::Quick, Some(_)) => {
                 OfScene::measure(&scene, None, (&levels, &[Tier::Stable, Tier::Exact]), &plan)
             }
@@ -76,7 +76,7 @@ pub(crate) fn measure(effort: Effort, one: Option<&str>) -> Structures {
 }
 
 impl OfScene {
-    /// `rounds` of builds, with other crates; or one without.
+    /// Measures the builds in `rounds` rounds and with other crates; with `None` in one round and without them.
     fn measure(
         scene: &Scene,
         rounds: Option<usize>,
@@ -105,7 +105,7 @@ impl OfScene {
         (self.name, self.measured.each_ref().map(times))
     }
 
-    /// What growth is shown of: a million rays a second, if it took part.
+    /// What the chart of growth shows: million rays a second, if the way took part.
     pub(crate) fn rates(&self) -> [(&'static str, Option<f64>); 6] {
         let [primary, diffuse] = &self.measured;
         let query = Query::ClosestHit;
@@ -140,7 +140,7 @@ impl Measured {
         self.fastest(query, |label| label.name == tier.as_str() && label.lanes == level)
     }
 
-    /// Embree's quickest call with the instructions of a level, of all versions that took part.
+    /// Embree's quickest call with the instructions of a level, over all its versions that took part.
     pub(crate) fn embree(&self, level: &str, query: Query) -> Option<&Label> {
         self.fastest(query, |label| label.way.starts_with(EMBREE) && label.lanes == level)
     }
@@ -151,8 +151,8 @@ impl Measured {
     }
 }
 
-/// How many times as fast two threads find the closest hits of the primary rays as one, with `Stable`: the same
-/// packets, handed out in pieces. By the wall's clock, `None` on a machine with one core.
+/// How many times as fast as one thread two threads find the closest hits of the primary rays with `Stable`. Both trace
+/// the same packets, handed out in pieces. By wall-clock time; `None` on a machine with one core.
 fn two_threads_by_one(scene: &Scene, level: Level, rounds: usize) -> Option<Median> {
     if available_parallelism().map_or(1, usize::from) < 2 {
         return None;
@@ -167,7 +167,7 @@ fn two_threads_by_one(scene: &Scene, level: Level, rounds: usize) -> Option<Medi
             let start = Instant::now();
             let pieces = Mutex::new(packets.chunks(PIECE).zip(hits.chunks_mut(PIECE)));
             let work = || {
-                // The lock is free again before a piece is worked on.
+                // Releases the lock before the piece is worked on.
                 let next = || pieces.lock().ok()?.next();
                 while let Some((rays, hits)) = next() {
                     let mut trace = Trace::new().at(level).coherent();

@@ -27,7 +27,7 @@ impl Pass {
 pub(crate) struct OfRays {
     pub(crate) scene: &'static str,
     pub(crate) kind: Kind,
-    /// The part of the rays that hit anything.
+    /// The share of the rays that hit anything.
     pub(crate) hit: f64,
     /// Nanoseconds a ray.
     times: Samples<(Tier, Pass)>,
@@ -81,13 +81,13 @@ impl OfRays {
         self.times.median(&(tier, pass))
     }
 
-    /// How many times the time of another pass.
+    /// The time of `pass`, divided by the time of `other`.
     pub(crate) fn ratio(&self, tier: Tier, pass: Pass, other: Pass) -> Option<Median> {
         self.times.ratio(&(tier, pass), &(tier, other))
     }
 }
 
-/// How many packets are traced at a time, as pictures are made: what is found of them stays in the cache.
+/// How many packets are traced at a time, as in making a picture: their hits and surfaces stay in the cache.
 const AT_ONCE: usize = 64;
 
 /// The rays, and memory for what is found.
@@ -132,7 +132,7 @@ impl<'a> Passes<'a> {
         }
     }
 
-    /// Returns how many rays hit anything, of which each surface is that of one ray at a time.
+    /// Returns how many rays hit anything. Each of their surfaces must be the one that a call for one ray returns.
     fn checked(&mut self, tier: Tier) -> usize {
         let mut hit_rays = 0;
         for rays in self.rays.chunks(AT_ONCE) {

@@ -1,5 +1,5 @@
-//! Every variant against one lane, bit for bit; and the rules of the contract, on the answers of the
-//! tier itself. These hold whatever bits come in, in the tier's domain or not.
+//! Every variant against one lane, bit for bit; and the rules of the contract, on the answers of the tier itself. Both
+//! hold for any bits, in the tier's domain or not.
 
 use crate::{promise, surfaces, tiles};
 use spherule_kernel::{Hit, Ray, Sphere, Tier, Viewpoint, roots};
@@ -45,8 +45,8 @@ fn check_tier(tier: Tier, scene: &AimedScene, structures: Structures<'_>) {
             assert_eq!(bits(again), bits(hit), "{tier:?}: {ray:?}");
         }
     }
-    // Fast, Geometric, and Stable outside its domain, answer by structures as bounds and not as their formula says:
-    // only lists are as the reference is.
+    // In structures, `Fast`, `Geometric`, and `Stable` outside its domain answer as the bounds say, not as their
+    // formula says: only lists answer as the reference does.
     let same = |variant: &Variant| tier == Tier::Exact || variant.structure == Structure::List;
     for variant in variants().filter(|variant| variant.tier == tier).filter(same) {
         let Answers { hits, occluded } = variant.ask(structures, rays);
@@ -58,7 +58,7 @@ fn check_tier(tier: Tier, scene: &AimedScene, structures: Structures<'_>) {
         }
     }
 
-    // Ray i and the sphere that it was made for.
+    // Ray i and the sphere that it was aimed at.
     let case = |(&ray, &aim): (&Ray, &usize)| Case { ray, sphere: spheres[aim] };
     let cases: Vec<Case> = rays.iter().zip(aims).map(case).collect();
     let answer = |case: &Case| {
@@ -79,7 +79,7 @@ fn check_rules(tier: Tier, ray: &Ray, spheres: &[Sphere], hit: Option<Hit>) {
     let mut expected: Option<Hit> = None;
     for (index, sphere) in spheres.iter().enumerate() {
         let both = roots(tier, ray, sphere);
-        // Rule 1: what is no sphere and what is no ray is never hit.
+        // Rule 1: an invalid sphere is never hit, and an invalid ray never hits.
         let ray_is_valid = ray.origin.is_finite()
             && ray.direction.is_finite()
             && ray.direction.to_array() != [0.0; 3];

@@ -1,4 +1,4 @@
-//! What the fuzz target does, as a library, so that it is tested without a fuzzer.
+//! What the fuzz target does, as a library, so that tests can run it without a fuzzer.
 //!
 //! | room | holds |
 //! |---|---|

@@ -1,11 +1,10 @@
 //! A tier's roots against the exact ones.
 //!
-//! What a tier promises is put as a backward error: its answer must be an exact answer for a
-//! sphere whose squared radius differs by no more than the tier's error, and t may besides be off
-//! by a few roundings. So the exact oracle answers twice, for a sphere a little smaller and one a
-//! little larger: if both are missed the tier must miss, if both are met it must hit, and
-//! its roots must lie between theirs. That holds from head-on to grazing, and asks nothing of the
-//! float arithmetic that is on trial. `Exact` gets no such band.
+//! A tier's promise is put as a backward error. Its answer must be an exact answer for a sphere whose squared radius
+//! differs by no more than the tier's error, and t may also be off by a few roundings. So the exact oracle answers
+//! twice, for a slightly smaller sphere and for a slightly larger one. If the line misses both, the tier must miss; if
+//! it meets both, the tier must hit; and the tier's roots must lie between those of the two spheres. This holds from
+//! head-on to grazing, and needs no float arithmetic of the tier. `Exact` gets no such band.
 
 use spherule_kernel::{Ray, Sphere, Tier};
 use spherule_tests::oracle;
@@ -28,13 +27,13 @@ pub fn judge(tier: Tier, ray: &Ray, sphere: &Sphere, found: Option<[f32; 2]>) {
             square_error: |radius, distance| 24.0 * U * (radius * radius + distance * distance),
             further_error: |distance| 8.0 * U * distance,
         },
-        // The unit direction is rounded, too; t_m by more than b.
+        // The unit direction is rounded too; t_m has a larger error than b.
         Tier::Geometric => Band {
             radii: f64::INFINITY,
             square_error: |radius, distance| 28.0 * U * (radius * radius + distance * distance),
             further_error: |distance| 16.0 * U * distance,
         },
-        // Closest point first: whatever the distance, up to 2^20 radii, the error is one of r^2 alone.
+        // Closest point first: at any distance up to 2^20 radii, the error is one of r^2 alone.
         Tier::Stable => Band {
             radii: LENGTH,
             square_error: |radius, _| 32.0 * U * radius * radius,
@@ -53,7 +52,7 @@ pub fn judge(tier: Tier, ray: &Ray, sphere: &Sphere, found: Option<[f32; 2]>) {
     band.judge(tier.as_str(), ray, sphere, found);
 }
 
-/// How far a tier may be from the exact roots in the domain that is common to `f32` tiers.
+/// How far a tier may be from the exact roots, in the domain that the `f32` tiers share.
 struct Band {
     /// How many radii away a sphere may be.
     radii: f64,
@@ -63,7 +62,7 @@ struct Band {
     further_error: fn(f64) -> f64,
 }
 
-/// |c - o| and |d|, near enough to tell what is promised.
+/// |c - o| and |d|, accurate enough to tell what is promised.
 fn lengths(ray: &Ray, sphere: &Sphere) -> (f64, f64) {
     let length = |v: [f64; 3]| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
     let (o, c) = (ray.origin.to_array(), sphere.center.to_array());
@@ -105,7 +104,7 @@ impl Band {
             assert!(within.is_none(), "false miss, {}", say());
             return;
         };
-        // Between first and last in any case; where the smaller sphere is met, outside its roots.
+        // In any case between first and last; where the line meets the smaller sphere, not between its roots.
         let [inner_near, inner_far] = within.unwrap_or([last, first]);
         let between = |low: f32, t: f32, high: f32| {
             let few_roundings = 8.0 * U * f64::from(t).abs() + 1e-44;

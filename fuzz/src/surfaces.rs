@@ -1,5 +1,5 @@
-//! Surfaces and the rays spawned on them: the same bits at every layer, by `Exact` those of integers, and nothing is
-//! met where a ray is spawned.
+//! Surfaces and the rays spawned on them: the same bits at every layer, by `Exact` the bits of integers, and a spawned
+//! ray meets nothing where it starts.
 
 use spherule_kernel::{Intersect, Ray, Side, Sphere, SphereList, Tier, Vec3, roots, side, surface};
 use spherule_referee::aim::double;
@@ -45,7 +45,7 @@ fn bits(surface: [Vec3; 2]) -> [[u32; 3]; 2] {
 }
 
 fn is_that_of_integers(ray: &Ray, t: f32, sphere: &Sphere, found: [Vec3; 2]) {
-    // By rule 4 the near root, if it is rounded to t.
+    // By rule 4 the near root is the hit, if it is rounded to t.
     let leaves = oracle::roots(ray, sphere).is_some_and(|[near, _]| near != t);
     if let Some(truth) = oracle::surface(ray, sphere, leaves) {
         let truth = truth.map(|v| Vec3::from_array(v.map(|x| x + 0.0)));

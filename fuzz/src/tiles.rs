@@ -4,15 +4,15 @@ use spherule_kernel::{Camera, Projection, Ray, Tier};
 use spherule_referee::bytes::AimedScene;
 use spherule_tests::variants::{Frame, assert_same_tiles};
 
-/// Asks for a picture through the first ray, in steps towards other rays.
+/// Traces a picture through the first ray, in steps towards other rays.
 ///
 /// # Panics
-/// If an answer or a ray is another.
+/// If an answer or a ray differs.
 pub fn check(scene: &AimedScene) {
     let AimedScene { rays, spheres, .. } = scene;
     let ray = |index: usize| rays[index % rays.len()];
     let Ray { origin, direction, .. } = rays[0];
-    // Smaller steps for every sphere: from pixels that are far apart to those that rounding makes one.
+    // The more spheres, the smaller the steps: from pixels that are far apart to those that rounding merges.
     let small = (-2.0 * spheres.len() as f32).exp2();
     let (step_x, step_y) = (small * ray(1).direction, small * ray(2).origin);
     for (projection, corner) in [

@@ -1,5 +1,5 @@
-//! What the program's pictures reach at least, from across the room and from the chair: a loss of half a decibel or of a hundredth of
-//! FLIP fails, and so does a gain that is not noted here.
+//! The floors of the program's pictures, from across the room and from the chair. A loss of half a decibel or of a hundredth of FLIP fails,
+//! and so does a gain that is not noted here.
 
 use spherule::draw::pixels::PixelGrid;
 use spherule::draw::{self, Renderer};
@@ -22,22 +22,22 @@ const COLUMNS: u16 = 40;
 const ROWS: u16 = 20;
 /// How much better than its floor a mode may be, in dB.
 const SLACK: f64 = 0.5;
-/// The same of FLIP.
+/// The same for FLIP.
 const SLACK_OF_FLIP: f64 = 0.008;
 
-/// What a charset reaches at so many colours and in a font.
+/// The floors of a charset with a number of colours, in a font.
 struct Mode {
     charset: Charset,
     depth: ColorDepth,
     font: Font,
-    /// In dB, a little below what is reached.
+    /// In dB, a little below the measured figure.
     far: f64,
     correlation: f64,
-    /// The mean of FLIP, a little above what is reached.
+    /// The mean of FLIP, a little above the measured figure.
     flip: f64,
 }
 
-/// One.
+/// Makes a [`Mode`].
 const fn mode(
     charset: Charset,
     depth: ColorDepth,
@@ -61,7 +61,7 @@ const MODES: [Mode; 11] = [
     mode(Charset::Ascii, ColorDepth::Never, Font::DejaVuSansMono, [15.6, 0.92, 0.797]),
 ];
 
-/// Glyphs and colours, and glyphs and colours that have all of these.
+/// Pairs of glyphs and colours. The second of each pair has all that the first has.
 const CONTAINED: [[(Charset, ColorDepth); 2]; 9] = [
     [(Charset::Half, ColorDepth::Ansi16), (Charset::Half, ColorDepth::Ansi256)],
     [(Charset::Half, ColorDepth::Ansi256), (Charset::Half, ColorDepth::Truecolor)],
@@ -97,10 +97,10 @@ static TRUTH: LazyLock<Truth> = LazyLock::new(|| {
     Truth::new(&Light::of_colors(width as usize, pixels)).expect("whole cells")
 });
 
-/// dB that rounding decides: of 256 colours halves and all blocks end within a hundredth of each other.
+/// Differences in dB that rounding decides: in 256 colours, half blocks and all blocks end within a hundredth of each other.
 const AS_GOOD: f64 = 0.02;
 
-/// What `marbles` reaches.
+/// The figures that `marbles` reaches.
 fn reached(charset: Charset, depth: ColorDepth, font: Font) -> Figures {
     let style = Style { charset, depth, ..Style::PLAIN };
     let scene = marbles();

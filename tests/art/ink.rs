@@ -1,4 +1,4 @@
-//! The program's tables of ink against the fonts. After a change of what is measured, write them again:
+//! The program's tables of ink against the fonts. If what is measured changes, write them again:
 //!
 //! ```text
 //! cargo test -p spherule-tests -- --ignored pin_ink

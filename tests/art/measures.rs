@@ -9,7 +9,7 @@ use spherule_tests::art::{figures::Truth, ssim};
 const WIDTH: i32 = 96;
 const HEIGHT: i32 = 64;
 
-/// A disc before a slope, and the same in coarse steps, with the disc moved by three pixels, and noise.
+/// A disc before a slope; and the same picture in coarse steps, with the disc moved by three pixels, and noise.
 fn pair() -> [Vec<Rgb>; 2] {
     let disc = |x: i32, y: i32, middle: i32| (x - middle).pow(2) + (y - 30).pow(2) < 400;
     let face = |x: i32, y: i32| [230 - x, 60 + y, 40];
@@ -34,7 +34,7 @@ fn pair() -> [Vec<Rgb>; 2] {
 
 #[test]
 fn flip_is_that_of_its_authors() {
-    // What the Python package flip-evaluator 1.7, by the authors, prints for this pair and these pixels a degree.
+    // What the Python package flip-evaluator 1.7, by FLIP's authors, prints for this pair at these pixels a degree.
     let [truth, coarse] = pair();
     for (pixels_a_degree, expected) in
         [(38.0, 0.179_754), (67.020_64, 0.150_012), (15.0, 0.256_236), (120.0, 0.126_764)]

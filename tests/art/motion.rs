@@ -19,11 +19,11 @@ fn what_changes_as_the_truth_does_is_right() {
     let truth = Changes::new(&[grey(0), grey(255), grey(255)]);
     let unrest = truth.unrest(&truth);
     assert_eq!((unrest.seen, unrest.plain), (0.0, 0.0));
-    // An error that stays is none of change.
+    // An error that stays is no error of change.
     let [steady, still] = [grey(90), grey(10)].map(|light| Changes::new(&[light.clone(), light]));
     let unrest = steady.unrest(&still);
     assert_eq!((unrest.seen, unrest.plain), (0.0, 0.0));
-    // From black to white is a step of 1 in lightness; half of the steps have it.
+    // From black to white lightness changes by 1; half of the steps do so.
     let rest = Changes::new(&[grey(0), grey(0), grey(0)]);
     let unrest = truth.unrest(&rest);
     let expected = 0.5_f64.sqrt();

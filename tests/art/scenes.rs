@@ -1,4 +1,4 @@
-//! The judge's own scenes are as they are made. After a change, write them again:
+//! The judge's own scenes equal their files. After a change, write the files again:
 //!
 //! ```text
 //! cargo test -p spherule-tests -- --ignored pin_scenes

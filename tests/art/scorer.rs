@@ -1,4 +1,4 @@
-//! The scorer against cases by hand, and against figures of another program.
+//! The scorer against cases worked by hand, and against figures of another program.
 
 use spherule_tests::art::cell::{Coverage, HEIGHT, WIDTH};
 use spherule_tests::art::figures::{Figures, Truth};
@@ -32,7 +32,7 @@ const CAPTURE: &str = "\x1b[38;2;200;40;90;48;2;10;20;30m▀▖\x1b[38;5;208;48;
 
 #[test]
 fn figures_are_those_of_another_program() {
-    // By a program in NumPy and FreeType of the same definitions; FreeType's curves are coarser.
+    // By a NumPy and FreeType program with the same definitions; FreeType's curves are coarser.
     for (font, far, near, correlation, tolerance) in [
         (Font::Unifont, 11.659_418, 8.180_993, 0.511_632, 2e-4),
         (Font::DejaVuSansMono, 11.498_753, 8.609_865, 0.422_543, 2e-2),
@@ -56,7 +56,7 @@ fn a_picture_that_cells_can_show_is_met() {
         assert_eq!((figures.far, figures.near), (120.0, 120.0));
         assert!((figures.correlation - 1.0).abs() < 1e-9);
     }
-    // The control: halves changed about.
+    // The control: the two halves are swapped.
     let wrong = upper.replace('▀', "▄");
     let figures = score(wrong.as_bytes(), &truth, &xterm(), Font::Unifont).expect("a picture");
     assert!(figures.far < 20.0 && figures.near < 15.0, "{figures:?}");
@@ -86,7 +86,7 @@ fn a_point_is_blurred_into_a_bell() {
     assert!((at(20, 28) - at(24, 32)).abs() < 1e-9 && at(20, 45) == 0.0);
     let sum: f64 = blurred.pixels.iter().map(|pixel| f64::from(pixel[0])).sum();
     assert!((sum - 1.0).abs() < 1e-4);
-    // At the edge nothing is lost.
+    // An edge loses no light.
     let even = Light::of_colors(24, vec![[100; 3]; 24 * 16]);
     let most = even.pixels[0][0];
     assert!(even.blurred(4.0).pixels.iter().all(|pixel| (pixel[0] - most).abs() < 1e-6));
@@ -138,11 +138,11 @@ fn half_a_picture_is_no_picture() {
     assert!(unknown.is_err());
 }
 
-/// Which of 2 x `rows` equal parts are covered; `None` if one is in part.
+/// Which of 2 x `rows` equal parts are covered; `None` if one is partly covered.
 fn parts(coverage: &Coverage, rows: usize) -> Option<u8> {
     let mut bits = 0_u8;
     for part in 0..2 * rows {
-        // A thin line through the middle of the part is inside, or outside.
+        // A thin line through the middle of the part tells whether the part is covered.
         let (x, y) = (part % 2 * 4, (part / 2 * HEIGHT + HEIGHT / 2) / rows);
         let line = &coverage[y * WIDTH + x..][..4];
         match line {
@@ -151,7 +151,7 @@ fn parts(coverage: &Coverage, rows: usize) -> Option<u8> {
             _ => return None,
         }
     }
-    // The area says that there is nothing else.
+    // The area shows that nothing else is covered.
     let area: f32 = coverage.iter().sum();
     let whole = bits.count_ones() as f32 * (WIDTH * HEIGHT) as f32 / (2 * rows) as f32;
     ((area - whole).abs() < 1e-3).then_some(bits)
@@ -171,7 +171,7 @@ fn every_mosaic_is_there() {
         let masks: BTreeSet<u8> = known.filter_map(|coverage| parts(&coverage, rows)).collect();
         assert_eq!(masks.len(), count, "2 x {rows}");
     }
-    // Numbers go row by row: octant 3 is the left of the second row.
+    // Characters are numbered row by row: octant 3 is the left of the second row.
     let octant = geometry::coverage('\u{1cd00}').expect("octant 3");
     assert_eq!(parts(&octant, 4), Some(0b100));
     let sextant = geometry::coverage('\u{1fb02}').expect("sextant 12");
@@ -217,7 +217,8 @@ fn letters_are_in_their_cells() {
             coverage.iter().sum::<f32>()
         };
         assert_eq!(ink(' '), 0.0, "{font:?}");
-        // Of an L the left side and the foot, of a T neither: fonts are read as they are meant.
+        // An L has ink at the left side and the foot, and a T at neither: fonts are not read
+        // mirrored.
         let [l, t] = ['L', 'T'].map(|character| font.coverage(character).expect("a glyph"));
         let part = |coverage: &Coverage, columns: Range<usize>, rows: Range<usize>| {
             let places = rows.flat_map(|y| columns.clone().map(move |x| y * WIDTH + x));

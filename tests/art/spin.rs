@@ -1,4 +1,4 @@
-//! What a picture that turns costs on the line: bytes a frame, since over a slow link they are the speed.
+//! What a turning picture costs on the line, in bytes a frame: over a slow link they decide the speed.
 
 use spherule::draw::{self, Renderer, Spending};
 use spherule::encode::{Economy, Encoder};
@@ -9,7 +9,7 @@ use spherule::view;
 use spherule_kernel::Level;
 use std::f32::consts::{PI, TAU};
 
-/// Places around the scene, and how many frames are drawn there in a row.
+/// Places around the scene, and how many consecutive frames are drawn at each.
 const PLACES: u16 = 6;
 const FRAMES: usize = 4;
 /// 30 degrees a second at 60 frames: the viewer's pace.

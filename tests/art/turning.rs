@@ -1,4 +1,4 @@
-//! How pictures change while they turn, beside how the truth does: the floor of each mode.
+//! How turning pictures change, beside how the truth changes: the limit of each mode.
 
 use spherule::draw::pixels::PixelGrid;
 use spherule::draw::{self, Renderer, Spending};
@@ -19,12 +19,12 @@ use std::convert::Infallible;
 const COLUMNS: u16 = 30;
 const ROWS: u16 = 15;
 const FRAMES: u8 = 4;
-/// A degree of the orbit from frame to frame.
+/// About a degree of the orbit from frame to frame.
 const STEP: f32 = 0.017;
-/// How much less than its most an error may be.
+/// An error may not be less than this share of its limit.
 const SLACK: f64 = 0.9;
 
-/// The most that the error of changes is as an eye sees it, in thousandths.
+/// The limits of the error of changes, as an eye sees it, in thousandths.
 const MOST: [(Charset, ColorDepth, f64); 7] = [
     (Charset::Half, ColorDepth::Truecolor, 11.8),
     (Charset::Sextant, ColorDepth::Truecolor, 11.6),
@@ -40,7 +40,7 @@ fn views(scene: &Scene) -> Vec<View> {
     (0..FRAMES).map(|frame| orbited(&home, f32::from(frame) * STEP, 0.0)).collect()
 }
 
-/// In the pixels that `--png` writes.
+/// The truth in the pixels that `--png` writes.
 fn truth(scene: &Scene, view: &View) -> Light {
     let threads = Threads::default();
     let grid = PixelGrid::new(view, &Style::PLAIN, COLUMNS, ROWS);

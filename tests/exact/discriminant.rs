@@ -1,4 +1,4 @@
-//! The discriminant that `discriminant` returns, against the truth.
+//! The value and bound that `discriminant` returns, against the truth.
 
 use super::{count, first};
 use num_bigint::BigInt;
@@ -18,7 +18,7 @@ fn double_units(x: f64) -> BigInt {
     if x.is_sign_negative() { -magnitude } else { magnitude }
 }
 
-/// The control: the bound is not so large that nothing could fail.
+/// The control: the bound is not so large that no error could exceed it.
 #[test]
 fn the_discriminant_is_within_its_bound() {
     let (mut done, mut rounded, mut beyond_a_part) = (0_u64, 0_u64, 0_u64);

@@ -11,8 +11,8 @@ fn dot(v: [i64; 3], w: [i64; 3]) -> i64 {
     v[0] * w[0] + v[1] * w[1] + v[2] * w[2]
 }
 
-/// The exact path alone, which every root takes in `roots`, against the filtered one, on small
-/// integers; hit or miss also against D in `i64`.
+/// The exact path alone, which every root takes in `roots`, against the filtered path, on small
+/// integers. Hit or miss is also checked against D in `i64`.
 #[test]
 fn expansions_and_filter_agree_on_a_lattice_rich_in_tangents() {
     let total = count() * 10;

@@ -1,4 +1,4 @@
-//! What a terminal answers when it is asked, and the link to it.
+//! A terminal's answers to questions, and the link to it.
 
 use super::session::Keys;
 use std::io::Read;
@@ -19,13 +19,13 @@ pub(crate) const BACKGROUND: &str = "\x1b]11;?\x1b\\";
 pub(crate) const PEN: &str = "\x1bP$qm\x1b\\";
 pub(crate) const IMAGE: &str = "\x1b_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA\x1b\\";
 
-/// What it knows, when it says so, and how it is reached.
+/// What the terminal knows, when it answers, and its link.
 pub(crate) struct Emulated {
     pub(crate) answers: Manner,
     pub(crate) link: Option<Link>,
 }
 
-/// Answers, and their manner.
+/// Answers, and the manner in which they come.
 #[derive(Clone, Default)]
 pub(crate) struct Manner {
     pub(crate) rules: Vec<Rule>,
@@ -36,7 +36,7 @@ pub(crate) struct Manner {
 }
 
 impl Emulated {
-    /// One that draws between brackets, says how far it has come, and has nothing else to tell.
+    /// A terminal that draws between brackets, answers how far it has come, and knows nothing else.
     pub(crate) fn good() -> Self {
         Self::with(&[
             (SYNCHRONIZED, "\x1b[?2026;2$y"),
@@ -45,14 +45,14 @@ impl Emulated {
         ])
     }
 
-    /// One that answers so, at once.
+    /// A terminal that answers by these rules, at once.
     pub(crate) fn with(rules: &[Rule]) -> Self {
         let answers = Manner { rules: rules.to_vec(), ..Manner::default() };
         Self { answers, link: None }
     }
 }
 
-/// Answers what it is asked.
+/// Answers the questions in the output.
 pub(crate) struct Answers {
     rules: Vec<Rule>,
     /// How much of the output has been looked at.
@@ -68,7 +68,7 @@ impl Answers {
             for (due, answer) in answers {
                 thread::sleep(due.saturating_duration_since(Instant::now()));
                 let parts = if manner.is_torn { 1 } else { answer.len().max(1) };
-                // No one types into the middle of an answer.
+                // No key may be typed into the middle of an answer.
                 let mut keys = keys.lock().expect("whoever types does not panic");
                 for part in answer.as_bytes().chunks(parts) {
                     // The program may be gone.
@@ -82,7 +82,7 @@ impl Answers {
         Self { rules: manner.rules, seen: 0, queue, delay: manner.delay }
     }
 
-    /// Answers what is new in all that was sent.
+    /// Answers the questions that are new in `sent`.
     pub(crate) fn look(&mut self, sent: &[u8]) {
         while self.seen < sent.len() {
             let rest = &sent[self.seen..];
@@ -101,12 +101,12 @@ impl Answers {
     }
 }
 
-/// A link that takes so many bytes at once and carries so many a second.
+/// A link that takes a number of bytes at once and carries a number a second.
 #[derive(Clone)]
 pub(crate) struct Link {
     pub(crate) buffer: usize,
     pub(crate) rate: f64,
-    /// While it is set, nothing is carried.
+    /// While this is set, the link carries nothing.
     pub(crate) is_stalled: Arc<AtomicBool>,
 }
 

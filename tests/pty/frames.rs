@@ -10,7 +10,7 @@ fn contents(output: &Output) -> String {
     output.screen().contents()
 }
 
-/// Steps on, back, and plays to the end and on from the beginning; a file of one frame spins as before.
+/// Steps on and back, plays to the end, and goes on from the beginning. A file of one frame still spins.
 #[test]
 fn keys_step_and_play() {
     let path = std::env::temp_dir().join(format!("spherule-{}-frames.xyz", std::process::id()));

@@ -9,7 +9,7 @@ use rustix::process::Signal;
 use spherule_tests::binary::spherule;
 use std::io::Read;
 
-/// After the program was stopped: the terminal is the shell's, and after SIGCONT the program's.
+/// Asserts that after a stop the terminal is the shell's, and after SIGCONT the program's.
 fn assert_stops_and_goes_on(viewer: Viewer) {
     viewer.session.wait_until_stopped();
     assert!(is_cooked(&viewer.session.modes()), "the shell gets no lines");
@@ -134,7 +134,7 @@ fn it_ends_with_its_terminal() {
     let mut reader = pair.master.try_clone_reader().expect("output can be read");
     let mut sent = Vec::new();
     let mut bytes = [0; 4096];
-    // The end of the status line: a terminal that answers nothing gets no brackets.
+    // Waits for the end of the status line: a terminal that answers nothing gets no brackets.
     while !sent.windows(6).any(|bytes| bytes == b"q quit") {
         let count = reader.read(&mut bytes).expect("the program writes");
         sent.extend_from_slice(&bytes[..count]);
@@ -144,7 +144,8 @@ fn it_ends_with_its_terminal() {
     assert_eq!(status.signal(), Some("Hangup"), "{status}");
 }
 
-/// The checks above can fail: what a careless program leaves behind is found, thing by thing.
+/// The checks above can fail: they find everything that a careless program leaves behind, one by
+/// one.
 #[test]
 fn what_is_left_behind_is_found() {
     let left_behind = |script: &str| {

@@ -1,16 +1,16 @@
-//! The lecture, walked through.
+//! Walks through the lecture.
 
 use super::session::{Output, Session};
 use spherule::lecture::stations::STATIONS;
 use spherule_tests::binary::spherule;
 
-/// On a terminal of the least size, with colour.
+/// Starts the lecture on a terminal of the least size, with colour.
 fn start(more: &[&str]) -> Session {
     let arguments = [&["lecture"], more].concat();
     Session::start(spherule(), &arguments, &[], (80, 24))
 }
 
-/// What the screen shows. (Of blanks behind a line the terminal's model knows whether they were written.)
+/// The text on the screen. (The terminal's model also knows whether blanks at the end of a line were written.)
 fn contents(output: &Output) -> String {
     let contents = output.screen().contents();
     contents.lines().map(|line| format!("{}\n", line.trim_end())).collect()
@@ -39,7 +39,7 @@ fn n_goes_through_all_stations_and_arrows_change_them() {
     let mut session = start(&[]);
     for index in 0..STATIONS.len() {
         let first = shown(&session, &heading(index));
-        // Left and down: one of them has somewhere to go in every station.
+        // Left and down: in every station one of them changes something.
         session.type_in("\x1b[D\x1b[B");
         session.wait_for("another page", |output| (contents(output) != first).then_some(()));
         session.type_in("r");

@@ -12,10 +12,10 @@ use std::time::{Duration, Instant};
 const SIZE: (u16, u16) = (200, 60);
 const RATE: f64 = 0.5e6;
 const BUFFER: usize = 256 << 10;
-/// From a key to what it leads to.
+/// The longest time from a key to its effect.
 const LIMIT: Duration = Duration::from_millis(250);
 
-/// A large picture that spins over this link.
+/// Starts a large picture that spins over this link.
 fn spinning(link: &Link, more: &[&str]) -> Session {
     let emulated = Emulated { link: Some(link.clone()), ..Emulated::good() };
     let arguments = [&["marbles", "--color", "truecolor"], more].concat();
@@ -36,8 +36,8 @@ fn shows(tier: &str) -> impl Fn(&Output) -> Option<usize> {
     move |output| last_row(output.screen()).contains(&tier).then_some(output.sent.len())
 }
 
-/// Keys while it spins: how long each takes until it is seen, by the clock, and by what the link carries meanwhile, which
-/// is all that a quiet machine would wait for.
+/// Keys while it spins: how long each takes until its effect is seen, by the clock, and by what the link carries meanwhile, for which a
+/// quiet machine would wait.
 fn delays(session: &mut Session) -> Vec<(Duration, Duration)> {
     let keys = [("1", "fast"), ("3", "exact")].into_iter().cycle();
     keys.take(20)
@@ -81,7 +81,7 @@ fn over_a_slow_link_the_picture_becomes_exact_at_rest() {
     session.type_in(" r");
     session.wait_for_peace();
     let shown = look(session.output().screen(), SIZE.1 - 1);
-    // What the first picture is, without anything before it.
+    // A full redraw: the picture without anything before it.
     session.type_in("\x1a");
     session.wait_until_stopped();
     session.signal(rustix::process::Signal::CONT);
@@ -97,8 +97,8 @@ fn over_a_slow_link_the_picture_becomes_exact_at_rest() {
     assert!(session.wait_for_end().success());
 }
 
-/// While the link stands still nothing is queued: afterwards there are at most the two frames that were under way, and
-/// then what is wanted now.
+/// While the link stalls, nothing is queued. Afterwards at most the two frames that were under way arrive, and then the frame that is
+/// wanted now.
 #[test]
 fn a_link_that_stalls_queues_nothing() {
     let link = Link::new(BUFFER, RATE);
@@ -106,7 +106,7 @@ fn a_link_that_stalls_queues_nothing() {
     link.is_stalled.store(true, SeqCst);
     thread::sleep(Duration::from_secs(1));
     let before = session.output().sent.len();
-    // With the seconds before and after, more than half of `LOST`.
+    // Together with the seconds before and after, this is more than half of `LOST`.
     thread::sleep(Duration::from_secs(8));
     session.type_in("1");
     thread::sleep(Duration::from_secs(1));
@@ -120,7 +120,7 @@ fn a_link_that_stalls_queues_nothing() {
     assert_eq!(session.left_behind(), [""; 0]);
 }
 
-/// It ends as with a terminal that is closed.
+/// The program ends as with a terminal that is closed.
 #[test]
 fn a_link_that_closes_in_the_middle_of_a_frame() {
     let pair = native_pty_system().openpty(size(SIZE.0, SIZE.1)).expect("a pseudo-terminal");
@@ -137,7 +137,7 @@ fn a_link_that_closes_in_the_middle_of_a_frame() {
     assert_eq!(status.signal(), Some("Hangup"), "{status}");
 }
 
-/// `--fps` is a limit, of what is sent.
+/// `--fps` limits how many frames are sent.
 #[test]
 fn frames_are_no_more_than_asked_for() {
     let link = Link::new(BUFFER, 100e6);

@@ -1,4 +1,4 @@
-//! What a screen looks like, to be compared.
+//! What a screen looks like, in a form to compare.
 
 use spherule::cells::masks::opposite;
 use vt100::{Color, Screen};
@@ -6,8 +6,8 @@ use vt100::{Color, Screen};
 /// A glyph and its colours.
 pub(crate) type Look = (String, Color, Color);
 
-/// The first `rows` rows, every cell of them. The ink of a space cannot be seen; of two glyphs that fill what the
-/// other leaves it is the first, whichever the program sent.
+/// Every cell of the first `rows` rows. The ink of a space is invisible, so it does not count. Of two glyphs each of
+/// which fills what the other leaves, the look has the first, whichever the program sent.
 pub(crate) fn look(screen: &Screen, rows: u16) -> Vec<Vec<Look>> {
     let columns = screen.size().1.get();
     (0..rows.min(screen.size().0.get()))
@@ -27,7 +27,7 @@ fn cell_look(screen: &Screen, row: u16, column: u16) -> Option<Look> {
     })
 }
 
-/// Where a cell is shown with ink and paper exchanged: column and row of all such.
+/// The cells that are shown with ink and paper exchanged: column and row of each.
 pub(crate) fn inverse(screen: &Screen) -> Vec<(u16, u16)> {
     let (rows, columns) = screen.size();
     let cells = (0..rows.get()).flat_map(|row| (0..columns.get()).map(move |column| (column, row)));

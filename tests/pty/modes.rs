@@ -1,4 +1,4 @@
-//! What a program can leave behind in a terminal, and the check that it has not.
+//! The states that a program can leave behind in a terminal, and the check that it has left none.
 
 use rustix::termios::{LocalModes, Termios};
 use std::collections::BTreeMap;
@@ -16,12 +16,12 @@ pub(crate) fn line_discipline(modes: &Termios) -> String {
     )
 }
 
-/// Whether what is typed is shown, and given to programs by the line.
+/// Whether the terminal shows typed text and gives it to programs line by line.
 pub(crate) fn is_cooked(modes: &Termios) -> bool {
     modes.local_modes.contains(LocalModes::ECHO | LocalModes::ICANON)
 }
 
-/// What is otherwise than in a fresh terminal; nothing if all is well. By two witnesses: vt100's
+/// All differences from a fresh terminal; empty if all is well. There are two witnesses: vt100's
 /// model of the terminal, and the bytes, since the model does not know every mode.
 pub(crate) fn left_behind(screen: &Screen, sent: &[u8]) -> Vec<String> {
     let mut found = Vec::new();
@@ -44,7 +44,7 @@ pub(crate) fn left_behind(screen: &Screen, sent: &[u8]) -> Vec<String> {
     found
 }
 
-/// Wrapping and the cursor are on in a fresh terminal, all else is off.
+/// In a fresh terminal, wrapping and the cursor are on, and everything else is off.
 fn is_set_at_first(mode: u16) -> bool {
     matches!(mode, 7 | 25)
 }

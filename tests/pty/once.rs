@@ -6,7 +6,8 @@ use super::session::Session;
 use super::viewer::{COLUMNS, ROWS, VIEW};
 use spherule_tests::binary::spherule;
 
-/// What a terminal of `columns` x `rows` shows when the program has ended, and where the prompt comes.
+/// Runs the program to its end in a terminal of `columns` x `rows`, for tests of what it then shows, and where the
+/// prompt comes.
 fn ended(more: &[&str], variables: &[(&str, &str)], columns: u16, rows: u16) -> Session {
     let scene = SceneFile::new(&VIEW);
     let arguments: Vec<&str> =

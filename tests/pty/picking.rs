@@ -1,4 +1,4 @@
-//! Cells that are picked, and pictures that are moved and framed.
+//! Picking cells, and moving and framing pictures.
 
 use super::look::inverse;
 use super::picture::once;
@@ -11,7 +11,7 @@ use spherule_kernel::{Sphere, Vec3};
 
 const ASPECT: f32 = 0.5 * COLUMNS as f32 / PICTURE_ROWS as f32;
 
-/// Waits until just this cell is marked, and `text` stands over the picture.
+/// Waits until this cell alone is marked, and `text` stands over the picture.
 fn wait_for_pick(viewer: &Viewer, cell: (u16, u16), text: &str) {
     viewer.session.wait_for(text, |output| {
         let picked = inverse(output.screen()) == [cell];
@@ -20,7 +20,7 @@ fn wait_for_pick(viewer: &Viewer, cell: (u16, u16), text: &str) {
     });
 }
 
-/// What follows `before` on the screen, as far as the next blank.
+/// The word that follows `before` on the screen, up to the next blank.
 fn word_after(output: &Output, before: &str) -> String {
     let contents = output.screen().contents();
     let (_, rest) = contents.split_once(before).expect(before);
@@ -60,11 +60,11 @@ fn a_click_picks_and_a_drag_does_not() {
     wait_for_pick(&viewer, (40, 9), "sphere 0: ");
     viewer.session.type_in("\x1b[<0;1;1M\x1b[<0;1;1m");
     wait_for_pick(&viewer, (0, 0), "no sphere is hit");
-    // Pulled away and back: the picture and the cell are what they were.
+    // Dragged away and back: the picture and the cell are as before.
     viewer.session.type_in("\x1b[<0;11;6M\x1b[<32;12;6M\x1b[<32;11;6M\x1b[<0;11;6m");
     viewer.session.wait_for_peace();
     wait_for_pick(&viewer, (0, 0), "no sphere is hit");
-    // On the status line there is no cell.
+    // The status line has no cells to pick.
     viewer.session.type_in("\x1b[<0;5;20M\x1b[<0;5;20m");
     viewer.session.wait_for_peace();
     wait_for_pick(&viewer, (0, 0), "no sphere is hit");
@@ -109,7 +109,7 @@ fn shifted_letters_and_the_right_button_move_the_picture() {
         .into_iter()
         .fold(VIEW, |view, (x, y)| panned(&view, x * step(&view), y * step(&view)));
     viewer.wait_for_picture("the pan", &once(&moved, COLUMNS, PICTURE_ROWS));
-    // Pulled by 8 columns and 3 rows, in one go, and let go.
+    // Dragged by 8 columns and 3 rows in one step, then released.
     viewer.session.type_in("r\x1b[<2;11;6M\x1b[<34;19;9M\x1b[<2;19;9m");
     let a_row = f64::from(VIEW.height_at_target()) / f64::from(PICTURE_ROWS);
     let pulled = panned(&VIEW, -8.0 * 0.5 * a_row, 3.0 * a_row);
@@ -127,7 +127,7 @@ fn f_frames_the_scene_and_enter_the_sphere_that_is_picked() {
     let framed = reframed(&VIEW, one, ASPECT);
     viewer.wait_for_picture("the sphere", &once(&framed, COLUMNS, PICTURE_ROWS));
     viewer.session.type_in("f");
-    // The box of the three spheres.
+    // The box around the three spheres.
     let center = Vec3::new(0.25, 0.125, -0.125);
     let spheres =
         [(Vec3::ZERO, 1.0), (Vec3::new(1.5, 0.5, -0.5), 0.75), (Vec3::new(-1.25, -0.5, 0.5), 0.5)];

@@ -1,4 +1,5 @@
-//! The picture that a screen should show, by another way: `spherule --once` with its camera there.
+//! The picture that a screen should show, made in another way: by `spherule --once` with its camera
+//! at the same place.
 
 use super::look::{Look, look};
 use spherule::view::{Lens, View};
@@ -39,7 +40,7 @@ pub(crate) const OPTIONS: [&str; 6] =
     ["--color", "truecolor", "--charset", "half", "--cell-aspect", "1:2"];
 
 fn text(view: &View) -> String {
-    // As f64: its shortest decimal is read back to the same f32.
+    // As f64, whose shortest decimal reads back as the same f32.
     let vector = |v: [f32; 3]| v.map(|x| format!("{:?}", f64::from(x))).join(", ");
     let lens = match view.lens {
         Lens::Perspective { fov } => {

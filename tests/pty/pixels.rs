@@ -1,4 +1,4 @@
-//! Pixels in the viewer: what is sent is what `--png` writes, and nothing is left.
+//! Pixels in the viewer: it sends what `--png` writes, and leaves nothing behind.
 
 use super::emulated::{ATTRIBUTES, CELL_PIXELS, Emulated, IMAGE, Rule, STATUS, SYNCHRONIZED};
 use super::look::last_row;
@@ -20,13 +20,13 @@ const KITTY: [Rule; 6] = [
     (IMAGE, "\x1b_Gi=31;OK\x1b\\"),
     (STATUS, "\x1b[0n"),
     (ATTRIBUTES, "\x1b[?62;c"),
-    // The first image, which is the only one that is to be answered.
+    // Only the first image asks for an answer.
     (",q=0,m=1;", "\x1b_Gi=5460040;OK\x1b\\"),
 ];
 const REMOVED: [&str; 2] =
     ["\x1b_Ga=d,d=I,i=5460040,q=2\x1b\\", "\x1b_Ga=d,d=I,i=5460041,q=2\x1b\\"];
 
-/// Width, height and pixels of the last image that is whole.
+/// Width, height and pixels of the last complete image.
 fn last_image(sent: &[u8]) -> Option<(u32, u32, Vec<u8>)> {
     let text = String::from_utf8_lossy(sent);
     let start = text.rfind("\x1b_Ga=T")?;
@@ -78,7 +78,7 @@ fn kitty_shows_the_pixels_of_the_png_and_nothing_is_left() {
         });
     };
     wait(&viewer, "the pixels of the PNG");
-    // Moved there and back, it is the same at rest; text is over it, and goes.
+    // Moved away and back, the picture at rest is the same; text appears over it, and goes.
     viewer.session.type_in("lr?");
     viewer
         .session
@@ -89,7 +89,7 @@ fn kitty_shows_the_pixels_of_the_png_and_nothing_is_left() {
         (!output.screen().contents().contains("wheel")).then_some(())
     });
     viewer.session.wait_for_peace();
-    // What is made of cells is shown in cells, without an image behind it.
+    // Views made of cells are shown in cells, without an image behind them.
     viewer.session.type_in("e");
     viewer.session.wait_for("the errors", |output| {
         (output.screen().contents().contains("exact: all right")
@@ -98,7 +98,7 @@ fn kitty_shows_the_pixels_of_the_png_and_nothing_is_left() {
     });
     viewer.session.type_in("e");
     wait(&viewer, "the pixels again");
-    // Suspended.
+    // The program is suspended.
     viewer.session.type_in("\x1a");
     viewer.session.wait_until_stopped();
     let is_removed = |output: &Output| {
@@ -114,7 +114,7 @@ fn kitty_shows_the_pixels_of_the_png_and_nothing_is_left() {
     assert!(is_removed(&viewer.session.output()));
 }
 
-/// It claims to have kitty's images, and has none: the first is not answered.
+/// The terminal claims to have kitty's images, but has none: the first image gets no answer.
 #[test]
 fn a_terminal_that_lies_gets_cells() {
     let mut viewer =
@@ -127,7 +127,7 @@ fn a_terminal_that_lies_gets_cells() {
     viewer.quit();
 }
 
-/// Nothing of pixels goes to a terminal that says that it has none.
+/// A terminal that says that it has no pixels gets none.
 #[test]
 fn a_terminal_that_has_no_pixels_gets_cells() {
     for (output, begins) in [("kitty", "\x1b_Ga=T"), ("sixel", "\x1bP0;1"), ("auto", "\x1b_Ga=T")] {
@@ -154,7 +154,7 @@ fn auto_takes_the_pixels_that_there_are() {
     }
 }
 
-/// `y` tells the command line of the view, and it is printed at the end: it draws what was seen.
+/// `y` shows the command line of the view, which is also printed at the end: it draws what was seen.
 #[test]
 fn the_command_line_that_y_tells_draws_what_is_seen() {
     for keys in ["lllk", "o+l", "-HK"] {
@@ -176,7 +176,8 @@ fn the_command_line_that_y_tells_draws_what_is_seen() {
     }
 }
 
-/// `R` begins a recording, and ends it in a file that plays; where none can be written, that is one line, and 1.
+/// `R` begins a recording, and ends it with a file that plays. If no file can be written, the program prints one line
+/// and exits with 1.
 #[test]
 fn r_records() {
     let folder = std::env::temp_dir().join(format!("spherule-cast-{}", std::process::id()));
@@ -210,7 +211,7 @@ fn r_records() {
     let text = std::fs::read_to_string(folder.join("marbles-1.cast")).expect("a recording");
     assert!(text.starts_with("{") && text.lines().count() > 3, "{text}");
     std::fs::remove_dir_all(&folder).expect("it can be removed");
-    // A folder that is gone.
+    // A working folder that no longer exists.
     std::fs::create_dir_all(&folder).expect("a folder");
     let gone = format!("cd {0} && rmdir {0} && exec \"$0\" \"$@\"", folder.display());
     let mut session = record(&gone);

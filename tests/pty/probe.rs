@@ -1,4 +1,4 @@
-//! The terminal is asked what it can do, and never trusted.
+//! The program asks the terminal what it can do, and never trusts it.
 
 use super::emulated::{
     ATTRIBUTES, BACKGROUND, CELL_PIXELS, Emulated, IMAGE, Manner, PEN, Rule, STATUS, SYNCHRONIZED,
@@ -49,7 +49,7 @@ fn shows_the_picture(output: &Output) -> bool {
         && last_row(output.screen()).contains("? help  q quit")
 }
 
-/// The picture as it should be, all keys do what they do, and nothing is left behind.
+/// Asserts that the picture is right, all keys work, and nothing is left behind.
 fn assert_is_usable(mut viewer: Viewer, what: &str) {
     viewer.wait_for_look(what, &once(&VIEW, COLUMNS, PICTURE_ROWS));
     for (key, tier) in [("1", " fast "), ("3", " exact ")] {
@@ -80,7 +80,7 @@ fn every_terminal_shows_the_picture_and_is_left_as_it_was() {
             {
                 let sent = &viewer.session.output().sent;
                 let has = |what: &[u8]| sent.windows(what.len()).any(|bytes| bytes == what);
-                // Torn, some answers may be late, and count from then on.
+                // Torn answers may come late, and count only from then on.
                 if !is_torn {
                     let is_known = knows(&rules, SYNCHRONIZED, ";2$");
                     assert_eq!(has(b"\x1b[?2026h"), is_known, "{what}");
@@ -119,7 +119,7 @@ fn no_probe_asks_nothing() {
     assert_is_usable(viewer, "not asked");
 }
 
-/// Three seconds late, what is still of use counts, and nothing is a key.
+/// Three seconds late, useful answers still count, and none acts as a key.
 #[test]
 fn late_answers_count_from_then_on() {
     // All of them wait at once.
@@ -166,7 +166,7 @@ fn half_an_answer_is_no_key(half: &'static str) {
     let rules = [(BACKGROUND, half)];
     let viewer = Viewer::start_in(Emulated::with(&rules), &[], &[], (COLUMNS, ROWS));
     viewer.wait_for_look(half, &once(&VIEW, COLUMNS, PICTURE_ROWS));
-    // Until it has been given up.
+    // Until the program has given up on the answer.
     thread::sleep(Duration::from_millis(700));
     assert_is_usable(viewer, half);
 }
@@ -184,7 +184,7 @@ fn a_stream_is_no_key() {
     assert_is_usable(viewer, "a stream");
 }
 
-/// A terminal that is known by no name tells its depth; what the user says counts more.
+/// A terminal of unknown name reports its depth; the user's option counts more.
 #[test]
 fn colours_are_as_many_as_the_terminal_tells() {
     let depth = |rules: &[Rule], arguments: &[&str], variables: &[(&str, &str)]| {
@@ -212,7 +212,7 @@ fn colours_are_as_many_as_the_terminal_tells() {
     assert!(depth(&[palette, rest], &["--color", "truecolor"], &[]));
 }
 
-/// Behind a scene that names no background is the terminal's own.
+/// If a scene names no background, the terminal's own shows.
 #[test]
 fn the_background_is_the_terminals_where_nobody_names_one() {
     let rules = [(BACKGROUND, "\x1b]11;rgb:f0f0/e0e0/d0d0\x1b\\"), (ATTRIBUTES, "\x1b[?62c")];

@@ -1,4 +1,4 @@
-//! What a terminal answers is no key, however it comes.
+//! A terminal's answers are no keys, however they come.
 
 use super::picture::once;
 use super::viewer::{COLUMNS, PICTURE_ROWS, VIEW, Viewer};
@@ -27,7 +27,8 @@ fn no_answer_is_a_key_wherever_it_is_split() {
     for answer in ANSWERS {
         for at in 1..answer.len() {
             viewer.session.type_in(&answer[..at]);
-            // Long enough to be read apart, too short for an escape to be the key.
+            // Long enough for the parts to be read separately, too short for an escape to count as
+            // the key.
             thread::sleep(Duration::from_millis(2));
             viewer.session.type_in(&answer[at..]);
         }
@@ -39,7 +40,7 @@ fn no_answer_is_a_key_wherever_it_is_split() {
     viewer.quit();
 }
 
-/// Half an answer, with keys in it, and nothing more.
+/// Half an answer that holds keys, with nothing after it.
 #[test]
 fn half_a_string_is_no_key_and_keys_act_afterwards() {
     let begun = ["\x1b]11;rgb:q c", "\x1b_Gi=1;q c", "\x1bP1$rq c", "\x1b^q c", "\x1bXq c\x1b"];

@@ -1,7 +1,7 @@
 //! A program in a pseudo-terminal of its own, and what its screen shows.
 //!
-//! Nothing here sleeps for a fixed time, except to see that nothing happens: whatever is waited for is looked for
-//! until it is there, and a test fails when it has not come for [`PATIENCE`].
+//! Nothing here sleeps for a fixed time, except to see that nothing happens. Every wait looks until its condition
+//! holds, and a test fails if that takes longer than [`PATIENCE`].
 
 use super::emulated::{Answers, Emulated};
 use super::modes;
@@ -21,14 +21,14 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Far beyond what anything takes on a loaded machine.
+/// Far longer than anything takes on a loaded machine.
 const PATIENCE: Duration = Duration::from_secs(60);
-/// Between two looks at something that does not tell when it changes.
+/// The time between two looks at something that does not report changes.
 const GLANCE: Duration = Duration::from_millis(2);
-/// Far longer than the viewer puts anything off: if nothing happens for so long, nothing will.
+/// Far longer than the viewer delays anything: if nothing happens for so long, nothing will.
 const STILLNESS: Duration = Duration::from_millis(400);
-/// Written by the test itself into the terminal: what has come out before it is all there is. No
-/// terminal knows this sequence, so none shows it.
+/// The test itself writes this into the terminal: all output of the program comes before it. No terminal knows this
+/// sequence, so none shows it.
 const END_MARK: &[u8] = b"\x1b]7777;all has been read\x07";
 
 /// What has come out of the terminal so far.
@@ -43,7 +43,7 @@ impl Output {
     }
 }
 
-/// What is typed, and what the terminal answers.
+/// Where keys are typed and the terminal's answers go.
 pub(crate) type Keys = Arc<Mutex<Box<dyn Write + Send>>>;
 type Shared = Arc<(Mutex<Output>, Condvar)>;
 
@@ -53,14 +53,15 @@ pub(crate) struct Session {
     pid: Pid,
     keys: Keys,
     master: Box<dyn MasterPty + Send>,
-    /// The program's side. Kept open, or the last bytes may be lost with the last who has it.
+    /// The program's side of the terminal. It is kept open, since the last bytes may be lost when its last holder
+    /// closes it.
     line: OwnedFd,
     _slave: Box<dyn SlavePty + Send>,
     output: Shared,
     modes_before: String,
 }
 
-/// A terminal has at least one cell where its model is concerned.
+/// The terminal's model needs at least one cell.
 fn cells(count: u16) -> NonZeroU16 {
     NonZeroU16::new(count.max(1)).expect("at least 1")
 }
@@ -104,7 +105,7 @@ impl Session {
         Self::start_in(Emulated::good(), program, arguments, variables, size)
     }
 
-    /// The same in a terminal, and over a link, of some other kind.
+    /// The same in another kind of terminal, or over a link.
     pub(crate) fn start_in(
         emulated: Emulated,
         program: impl AsRef<OsStr>,
@@ -114,8 +115,8 @@ impl Session {
     ) -> Self {
         let pair = native_pty_system().openpty(size(columns, rows)).expect("a pseudo-terminal");
         let name = pair.master.tty_name().expect("it has a name");
-        // Not as the test's own controlling terminal, should the test have none.
-        // Nor a program's that another test starts meanwhile.
+        // The program's side must not become the test's own controlling terminal if the test has none, nor be inherited
+        // by a program that another test starts meanwhile.
         let flags = OFlags::RDWR | OFlags::NOCTTY | OFlags::CLOEXEC;
         let line = rustix::fs::open(name, flags, Mode::empty()).expect("the program's side opens");
         let modes_before = modes::line_discipline(&tcgetattr(&line).expect("it is a terminal"));
@@ -177,22 +178,22 @@ impl Session {
 
     /// Gives the terminal another size.
     pub(crate) fn resize(&self, columns: u16, rows: u16) {
-        // The model first, so that what is drawn for the new size finds it.
+        // The model first, so that it has the new size when the program draws for it.
         self.output().terminal.screen_mut().set_size(cells(rows), cells(columns));
         self.master.resize(size(columns, rows)).expect("the terminal takes its size");
     }
 
-    /// What has come out so far. While this is held nothing more is read.
+    /// The output so far. While the guard is held, nothing more is read.
     pub(crate) fn output(&self) -> MutexGuard<'_, Output> {
         self.output.0.lock().expect("the reader does not panic")
     }
 
-    /// Lets the terminal take no more output, as Ctrl-S does outside of raw mode.
+    /// Stops the terminal from taking output, as Ctrl-S does outside of raw mode.
     pub(crate) fn block_output(&self) {
         tcflow(&self.line, Action::OOff).expect("the terminal obeys");
     }
 
-    /// Waits until the output is as it should be, and gives what `found` has found in it.
+    /// Waits until `found` finds something in the output, and returns that.
     pub(crate) fn wait_for<T>(&self, what: &str, found: impl Fn(&Output) -> Option<T>) -> T {
         let mut result = None;
         self.wait_until(what, &mut |output| {
@@ -232,7 +233,7 @@ impl Session {
         signs() != before
     }
 
-    /// How often the program's threads went to sleep, as often as they woke up. Only Linux tells.
+    /// How often the program's threads went to sleep, which is how often they woke up. Only Linux tells.
     fn sleeps(&self) -> u64 {
         if !cfg!(target_os = "linux") {
             return 0;
@@ -240,7 +241,7 @@ impl Session {
         let tasks = format!("/proc/{}/task", self.pid);
         let statuses = fs::read_dir(tasks).expect("it runs").filter_map(|task| {
             let status = fs::read_to_string(task.expect("a thread").path().join("status"));
-            // A thread may end meanwhile: then the sum is another.
+            // A thread that ends meanwhile changes the sum.
             let has_ended =
                 |error| matches!(Errno::from_io_error(error), Some(Errno::NOENT | Errno::SRCH));
             if status.as_ref().is_err_and(has_ended) {
@@ -278,7 +279,7 @@ impl Session {
         status
     }
 
-    /// Waits for the program's end alone.
+    /// Waits for the program's end, but not for its output.
     pub(crate) fn wait_for_exit(&mut self) -> ExitStatus {
         let deadline = Instant::now() + PATIENCE;
         loop {
@@ -290,7 +291,7 @@ impl Session {
         }
     }
 
-    /// What the program has left behind, of all that it was given.
+    /// Everything that the program has left behind.
     pub(crate) fn left_behind(&self) -> Vec<String> {
         let output = self.output();
         let mut found = modes::left_behind(output.screen(), &output.sent);

@@ -1,4 +1,4 @@
-//! A terminal whose size changes: the picture follows.
+//! The picture follows a terminal whose size changes.
 
 use super::look::last_row;
 use super::picture::once;

@@ -1,4 +1,4 @@
-//! The table of `t`: measured while the picture stays in hand, and gone at once.
+//! The table of `t`: measured while keys still move the picture, and closed at once.
 
 use super::look::last_row;
 use super::picture::{OPTIONS, once_with};
@@ -11,10 +11,11 @@ use std::fmt::Write;
 use std::fs;
 use std::time::{Duration, Instant};
 
-/// So many rays that it takes seconds to measure them; and how many there are at [`COLUMNS`] x [`PICTURE_ROWS`].
+/// So many samples that measuring the rays takes seconds; and how many rays there are at [`COLUMNS`] x
+/// [`PICTURE_ROWS`].
 const MANY: [&str; 2] = ["--samples", "64"];
 const RAYS: &str = " 109,440 camera rays";
-/// How long the answer to a key may take on a loaded machine, far less than a measurement.
+/// The longest time from a key to its answer on a loaded machine; a measurement takes far longer.
 const AT_ONCE: Duration = Duration::from_millis(500);
 
 fn start() -> Viewer {
@@ -27,7 +28,7 @@ fn contents(output: &Output) -> String {
     output.screen().contents()
 }
 
-/// Waits until this stands over the picture.
+/// Waits until `words` stand over the picture.
 fn wait_for_words(session: &Session, words: &str) {
     session.wait_for(words, |output| {
         (shows_a_frame(output) && contents(output).contains(words)).then_some(())
@@ -54,12 +55,12 @@ fn t_measures_shows_and_escape_closes() {
         for part in ["3 spheres", "1 thread", RAYS, " shadow rays", "ns a ray"] {
             assert!(text.contains(part), "{part}: {text}");
         }
-        // Above it the picture.
+        // The picture is above the table.
         let above = usize::from(PICTURE_ROWS) - 13;
         let picture = once_with(&MANY, &VIEW, COLUMNS, PICTURE_ROWS);
         assert_eq!(super::look::look(output.screen(), above as u16), picture[..above]);
     }
-    // What is measured stays until something is asked for that it is not of.
+    // The results stay until the user asks for something that they do not apply to.
     viewer.session.wait_for_peace();
     viewer.session.type_in("1");
     viewer.session.wait_for("another tier", |output| {
@@ -86,7 +87,7 @@ fn escape_stops_at_once_what_is_measured() {
         // An escape is a key when no sequence has followed for 50 ms.
         assert!(asked.elapsed() < AT_ONCE, "{:?}", asked.elapsed());
     }
-    // No one measures any more.
+    // Nothing measures any more.
     viewer.session.wait_for_peace();
     viewer.quit();
 }
@@ -103,7 +104,7 @@ fn q_leaves_at_once_while_it_measures() {
     assert_eq!(viewer.session.left_behind(), [""; 0]);
 }
 
-/// What is measured is of the picture that is seen: another one is measured anew when it rests.
+/// The table applies to the picture that is seen: another picture is measured anew when it rests.
 #[test]
 fn another_view_or_size_is_measured_anew() {
     let mut viewer = start();
@@ -135,7 +136,7 @@ fn a_picture_that_spins_is_waited_for() {
     viewer.quit();
 }
 
-/// Over an error map, in ASCII, without colour.
+/// The table over an error map, in ASCII, without colour.
 #[test]
 fn without_colour_it_is_ascii() {
     let options = ["--color", "never", "--charset", "ascii", "--show", "table"];
@@ -158,7 +159,7 @@ fn without_colour_it_is_ascii() {
     viewer.quit();
 }
 
-/// However many spheres there are, keys are answered at once.
+/// Keys are answered at once, however many spheres there are.
 #[test]
 fn a_hundred_thousand_spheres_do_not_hold_up_escape() {
     let path = std::env::temp_dir().join(format!("spherule-{}-many.xyz", std::process::id()));

@@ -10,7 +10,7 @@ use spherule_tests::binary::spherule;
 
 pub(crate) const COLUMNS: u16 = 80;
 pub(crate) const ROWS: u16 = 20;
-/// The last row is the status line's.
+/// The last row holds the status line.
 pub(crate) const PICTURE_ROWS: u16 = ROWS - 1;
 
 pub(crate) const VIEW: View = View {
@@ -49,7 +49,7 @@ impl Viewer {
         Self::start_by(options, &[], COLUMNS, ROWS)
     }
 
-    /// In a terminal of some other kind.
+    /// Starts in another kind of terminal.
     pub(crate) fn start_in(
         emulated: Emulated,
         more: &[&str],
@@ -88,7 +88,7 @@ impl Viewer {
         });
     }
 
-    /// The same of a terminal that is not known to draw between brackets.
+    /// The same for a terminal that is not known to draw between brackets.
     pub(crate) fn wait_for_look(&self, what: &str, expected: &[Vec<Look>]) {
         let rows = expected.len() as u16;
         self.session
@@ -103,7 +103,7 @@ impl Viewer {
     }
 }
 
-/// A whole frame: all bytes of it, the status line among them.
+/// Whether the screen shows a whole frame: all its bytes, including the status line.
 pub(crate) fn shows_a_frame(output: &Output) -> bool {
     output.screen().alternate_screen()
         && (output.sent.ends_with(b"\x1b[?2026l") || output.sent.ends_with(b"\x1b[?2026l\x1b[5n"))

@@ -10,13 +10,13 @@ use spherule_tests::oracle;
 use spherule_tests::variants::{Layer, shadow_rays_of, surface_layers};
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
-/// Spheres that touch, overlap, lie one in the other and twice in one place, moved by `offset`.
+/// Spheres that touch, overlap, lie one in another and two in one place, moved by `offset`.
 fn crowd(random: &mut Random, offset: Vec3) -> Vec<Sphere> {
     let mut spheres = vec![Sphere { center: offset - 100.0 * Vec3::Y, radius: 100.0 }];
     for index in 0..14 {
         let Sphere { center, radius } = random.pick(&spheres);
         let sphere = match index % 5 {
-            // As good as touching.
+            // Touching, up to rounding.
             0 => {
                 let other = random.between(0.25, 1.5);
                 Sphere { center: center + (radius + other) * random.direction(), radius: other }
@@ -33,13 +33,13 @@ fn crowd(random: &mut Random, offset: Vec3) -> Vec<Sphere> {
     spheres
 }
 
-/// Shadows of such crowds against integers; returns how many there were, and how many rays.
+/// Checks shadows of such crowds against integers; returns how many there were, and how many rays.
 fn shadows(seed: u64, rays_a_place: u32) -> [u32; 2] {
     let mut random = Random::seeded(seed);
     let (mut rays, mut dark) = (0, 0);
     for place in [0.0, 4096.0, 65_536.0, 262_144.0, 1_048_576.0, 1e7] {
         let offset = place * Vec3::new(1.0, -0.5, 0.75);
-        // At 10^7 numbers are 1 apart: larger spheres. The largest are some 6.5e6, as the Earth in metres.
+        // At 10^7 numbers are 1 apart, so spheres are larger. The largest are some 6.5e6, as the Earth in metres.
         let scale = random.pick(&[if place > 1e5 { 4096.0 } else { 1.0 }, 65_536.0]);
         let spheres: Vec<_> = crowd(&mut random, offset / scale)
             .into_iter()
@@ -81,7 +81,7 @@ fn shadows_are_those_of_integers() {
     assert!(rays > 4000 && dark > 800 && dark < rays - 800, "{dark} of {rays}");
 }
 
-/// Some ten minutes: `cargo test --test main a_million_shadows -- --ignored --nocapture`.
+/// Takes some ten minutes: `cargo test --test main a_million_shadows -- --ignored --nocapture`.
 #[test]
 #[ignore = "a million shadows"]
 fn a_million_shadows_are_those_of_integers() {
@@ -96,7 +96,7 @@ fn a_million_shadows_are_those_of_integers() {
     assert!(rays > 1_000_000, "{rays}");
 }
 
-/// Towards a way and a point, from crowds near and far, moved, rays that came from inside among them.
+/// In one direction and to one point, from crowds near, far and moved; some rays came from inside.
 #[test]
 fn shadow_rays_of_packets_are_those_of_one_ray() {
     let mut random = Random::seeded(24);

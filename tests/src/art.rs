@@ -1,8 +1,7 @@
 //! How near a picture in a terminal comes to the picture that it stands for.
 //!
-//! The bytes that a program writes become a [screen], the screen's cells become pixels, 8x16 a cell,
-//! and these are compared with the truth: a picture of as many pixels. Nothing here is the
-//! program's: shapes of blocks are from Unicode's [charts](geometry), letters from
+//! The bytes that a program writes become a [screen], the screen's cells become pixels, 8x16 a cell, and these are compared with the truth:
+//! a picture of as many pixels. Nothing here comes from the program: shapes of blocks are from Unicode's [charts](geometry), letters from
 //! [fonts](font), colours from [palettes](palette).
 //!
 //! | room | holds |
@@ -10,12 +9,12 @@
 //! | [`screen`] | what a terminal shows after some bytes |
 //! | [`palette`] | what the 16 colours of themes are, and xterm's 256 |
 //! | [`cell`] | how much of each pixel of a cell a glyph covers |
-//! | [`geometry`] | that of blocks |
-//! | [`font`] | that of letters and dots |
+//! | [`geometry`] | the coverage of blocks |
+//! | [`font`] | the coverage of letters and dots |
 //! | [`ink`] | the program's tables of ink, measured again |
 //! | [`srgb`] | colours of a display, and their light |
 //! | [`light`] | pictures in linear light: from a screen, from a PNG; blurred |
-//! | [`flip`] | what a person sees of a difference |
+//! | [`flip`] | the difference that a person sees |
 //! | [`ssim`] | likeness of structure |
 //! | [`figures`] | the figures: what of the truth is seen from reading distance, from across the room, from near, and its shapes alone |
 //! | [`motion`] | how pictures change, against how the truth does |
@@ -41,10 +40,10 @@ use light::Light;
 use palette::Sixteen;
 use screen::Screen;
 
-/// What the terminal shows after `bytes`, against `truth`, in a terminal of these colours and this font.
+/// Scores what the terminal shows after `bytes` against `truth`, in a terminal with these colours and this font.
 ///
 /// # Errors
-/// If the bytes are no picture of the truth's size, or have what no font or terminal here knows.
+/// If the bytes are no picture of the truth's size, or hold what no font or terminal here knows.
 pub fn score(
     bytes: &[u8],
     truth: &Truth,

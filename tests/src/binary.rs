@@ -1,4 +1,4 @@
-//! The program itself, of the profile that whoever asks for it is of.
+//! The program itself, in the profile of the test or example that asks for it.
 
 use std::env;
 use std::path::{Path, PathBuf};
@@ -6,12 +6,12 @@ use std::process::Command;
 use std::sync::OnceLock;
 use std::time::SystemTime;
 
-/// Where `spherule` is, built if it is older than its sources. Cargo names the binaries of another
-/// package to no one, but it puts them two levels above a test or an example:
+/// The path of `spherule`. Builds it if it is older than its sources. Cargo names the binaries of
+/// another package to no one, but it puts them two levels above a test or an example:
 /// `target/PROFILE/deps/main-HASH`.
 ///
 /// # Panics
-/// If it cannot be built.
+/// If `spherule` cannot be built.
 #[must_use]
 pub fn spherule() -> PathBuf {
     static BINARY: OnceLock<PathBuf> = OnceLock::new();
@@ -22,8 +22,8 @@ fn find() -> PathBuf {
     let test = env::current_exe().expect("the test knows its own path");
     let profile_directory = test.parent().and_then(|deps| deps.parent()).expect("in target");
     let binary = profile_directory.join(format!("spherule{}", env::consts::EXE_SUFFIX));
-    // `cargo test` of the workspace has built it; `cargo test -p spherule-tests` builds no other
-    // package's binary, and an old one is worse than none. Not under cargo: no build.
+    // `cargo test` of the workspace has built the program; `cargo test -p spherule-tests` builds no
+    // other package's binary, and an old one is worse than none. Outside cargo nothing is built.
     let fresh = modified(&binary) > newest_source();
     if let Some(cargo) = env::var_os("CARGO").filter(|_| !fresh) {
         let target = profile_directory.parent().expect("in target");
@@ -49,7 +49,7 @@ fn modified(path: &Path) -> SystemTime {
     path.metadata().and_then(|data| data.modified()).unwrap_or(SystemTime::UNIX_EPOCH)
 }
 
-/// When something that the binary is made of was last changed.
+/// When a source of the binary was last changed.
 fn newest_source() -> SystemTime {
     let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let mut pending = vec![

@@ -1,4 +1,4 @@
-//! The one budget table: tier and regime, against wrong hits, wrong misses and ulp.
+//! The one budget table: for each tier and regime, wrong hits, wrong misses and ulp.
 //!
 //! Seeds are fixed and answers have the same bits everywhere, so figures are exact: a test fails
 //! if a tier does worse than the [table] says, and if it does better, so that
@@ -8,8 +8,8 @@
 //! cargo test -p spherule-tests -- --ignored pin_budget
 //! ```
 //!
-//! writes the table again, reasons kept; `git diff` then says what the
-//! change was worth. A reason says why the figure is what it is, and is part of the review.
+//! writes the table again and keeps the reasons; `git diff` then says what the change was worth. A reason says why a
+//! figure is what it is, and is part of the review.
 
 use crate::tally::{self, Errors, Summary};
 use crate::vectors;
@@ -27,11 +27,11 @@ pub enum Set {
     Measured,
     /// [`HARD`], 5,000 cases a regime.
     Hard,
-    /// The [vectors], if they are present: some 4,500 a regime.
+    /// The [vectors], if they are present: some 4,500 cases a regime.
     Vectors,
 }
 
-/// All of them, in the order of the table.
+/// All sets, in the order of the table.
 pub const SETS: [Set; 3] = [Set::Measured, Set::Hard, Set::Vectors];
 
 /// What a tier gets wrong on a regime.
@@ -45,10 +45,10 @@ pub struct Row {
     pub tier: String,
     /// The numbers that [`FIGURES`] names.
     pub figures: [u64; FIGURES.len()],
-    /// What was measured of the form that is the tier's mark, on 10^6 rays of its own: wrong hits / misses in ppm, then
+    /// What was measured on 10^6 rays of its own for the form that is the tier's mark: wrong hits / misses in ppm, then
     /// ulp median / p99.9 / max.
     pub mark: String,
-    /// Why it is what it is.
+    /// Why the figures are what they are.
     pub reason: String,
 }
 
@@ -66,7 +66,7 @@ pub const FIGURES: [&str; 9] = [
 ];
 
 impl Row {
-    /// Hits, misses and roots.
+    /// How many hits, misses and roots are wrong.
     #[must_use]
     pub const fn wrong(&self) -> [u64; 3] {
         let [_, _, hits, misses, roots, ..] = self.figures;
@@ -96,10 +96,10 @@ pub fn read() -> String {
     fs::read_to_string(PATH).expect("tests/cases/budget.txt")
 }
 
-/// The table as it is pinned.
+/// The pinned table.
 ///
 /// # Panics
-/// With the line that is none of a table.
+/// With the line, if one is not a row of the table.
 #[must_use]
 pub fn table() -> Vec<Row> {
     let text = read();
@@ -118,7 +118,7 @@ fn parse(line: &str) -> Option<Row> {
     Some(Row { set, regime, tier, figures: figures.try_into().ok()?, mark, reason })
 }
 
-/// The table's file with these rows, marks and reasons kept.
+/// The text of the table's file with these rows. Marks and reasons are kept.
 ///
 /// A set that was not measured keeps its rows.
 #[must_use]
@@ -147,7 +147,7 @@ pub fn pin(fresh: &[Row]) {
     fs::write(PATH, written(fresh)).expect("a writable folder");
 }
 
-/// Every tier on every regime of the set; `None` if the set is absent.
+/// Measures every tier on every regime of the set; `None` if the set is absent.
 #[must_use]
 pub fn measure(set: Set) -> Option<Vec<Row>> {
     let rows = match set {
@@ -170,7 +170,7 @@ pub fn measure(set: Set) -> Option<Vec<Row>> {
     Some(rows)
 }
 
-/// By the door that users take: a list of one sphere.
+/// Asks as users do: a list of one sphere.
 fn measure_cases(set: Set, regime: &str, cases: impl Iterator<Item = Case>) -> Vec<Row> {
     let engine = |tier: Tier| {
         move |case: &Case| {
@@ -184,7 +184,7 @@ fn measure_cases(set: Set, regime: &str, cases: impl Iterator<Item = Case>) -> V
     let row = |(tier, errors): (Tier, &Errors)| {
         let Summary { rays, hits, wrong_hits, wrong_misses, wrong_places, ulp, .. } =
             errors.summary();
-        // The errors of no hits are zero.
+        // Without hits the errors are zero.
         let ulp = ulp.unwrap_or_default();
         let [median, p999, max, place] = [ulp.median, ulp.p999, ulp.max, errors.place()];
         let figures =

@@ -1,9 +1,9 @@
-//! Long runs, which a test does only if it is asked to.
+//! Long runs, which a test makes only on request.
 
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use std::thread::{available_parallelism, scope};
 
-/// Does `work` of the numbers below `count`, on all cores; prints how far it is. Fails if one of them does.
+/// Calls `work` with each number below `count`, on all cores, and prints its progress.
 ///
 /// # Panics
 /// If `work` does.

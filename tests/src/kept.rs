@@ -1,9 +1,8 @@
 //! Cases kept in the project with the oracle's answers: `tests/cases/regimes.txt`.
 //!
-//! One case a line: the regime's number, the bits of the twelve numbers of a
-//! [`Case`] and of the t of the hit, or `miss`, in hexadecimal. Lines that
-//! start with `#` say where the cases come from. A reader needs neither our generator nor our
-//! oracle, so that a change of either is noticed.
+//! One case a line: the regime's number, the bits of the twelve numbers of a [`Case`], and the bits
+//! of the hit's t, or `miss`, in hexadecimal. Lines that start with `#` say where the cases come
+//! from. A reader needs neither our generator nor our oracle, so a change of either is noticed.
 
 use crate::oracle;
 use spherule_referee::case::Case;
@@ -31,7 +30,7 @@ pub fn path() -> PathBuf {
     [env!("CARGO_MANIFEST_DIR"), "cases", "regimes.txt"].iter().collect()
 }
 
-/// The file as it is in the project.
+/// The text of the file in the project.
 ///
 /// # Panics
 /// If it cannot be read.
@@ -40,7 +39,7 @@ pub fn read() -> String {
     std::fs::read_to_string(path()).expect("tests/cases/regimes.txt")
 }
 
-/// The file as generator and oracle would write it.
+/// The text that generator and oracle would write.
 #[must_use]
 pub fn write() -> String {
     let mut text = String::from(

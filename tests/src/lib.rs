@@ -1,11 +1,11 @@
-//! What the tests of Spherule are made of: a library, so that tests, benches and fuzz targets
-//! judge by the same answers. Cases, random numbers and what proptest draws are those of `spherule-referee`.
+//! What the tests of Spherule are made of. It is a library, so that tests, benches and fuzz targets judge by the same
+//! answers. Cases, random numbers and proptest's strategies are those of `spherule-referee`.
 //!
 //! | room | holds |
 //! |---|---|
 //! | [`oracle`] | the exact answers, from big integers |
 //! | [`variants`] | the one table of tiers, structures and layers of the door |
-//! | [`tally`] | what a tier's answers come to |
+//! | [`tally`] | counts and errors of a tier's answers |
 //! | [`scenes`] | scenes that are measured |
 //! | [`orders`] | orders in which rays come |
 //! | [`kept`] | some of the families' cases with their answers, in a file |
@@ -15,10 +15,10 @@
 //! | [`binary`] | the program itself |
 //! | [`vectors`] | the 100,000 hard cases that lie beside the workspace, if they do |
 //!
-//! `PROPTEST_CASES=100000 cargo test -p spherule-tests` looks longer for counterexamples;
-//! `SPHERULE_VECTORS=<folder>` says where the vectors are, and makes their absence a failure.
-//! After a change of a tier the budget is pinned anew as [`budget`] says; after a change of a
-//! generator the kept cases are written anew as the head of their file says.
+//! `PROPTEST_CASES=100000 cargo test -p spherule-tests` searches longer for counterexamples.
+//! `SPHERULE_VECTORS=<folder>` says where the vectors are, and makes their absence a failure. After a change of a tier,
+//! pin the budget anew as [`budget`] says; after a change of a generator, write the kept cases anew as the head of
+//! their file says.
 
 #[cfg(feature = "art")]
 pub mod art;

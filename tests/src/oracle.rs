@@ -7,20 +7,20 @@
 //! a = d.d    b = d.p    D = b^2 - a (p.p - r^2)    t = (b -+ sqrt D) / a
 //! ```
 //!
-//! the first three are integers too. The unit cancels in t. Rounding a real number to `f32` depends
-//! only on where it lies among the multiples of 2^-150 (every `f32` and every midpoint between two is
-//! one): so the largest multiple not above t, and whether t exceeds it, say everything.
+//! the first three are integers too. The unit cancels in t. How a real number rounds to `f32` depends only on its place
+//! among the multiples of 2^-150, since every `f32` and every midpoint between two is such a multiple. So the largest
+//! multiple not above t, and whether t exceeds it, say everything.
 //!
-//! The rules are those of the contract: 1 invalid input hits nothing; 2 D = 0 is a hit; 3 a root
-//! counts where its rounded value T is finite and in `[t_min, t_max]`; 4 the smaller such T;
-//! 5 over several spheres the smallest root as a real number, then the lowest index.
+//! The rules are those of the contract: 1 invalid input hits nothing; 2 D = 0 is a hit; 3 a root counts if its rounded
+//! value T is finite and in `[t_min, t_max]`; 4 the smaller such T is the answer; 5 over several spheres the smallest
+//! root as a real number wins, then the lowest index.
 
 use num_bigint::{BigInt, Sign};
 use num_traits::{One, Zero};
 use spherule_kernel::{Hit, Ray, Sphere, Tier, Vec3};
 use std::cmp::Ordering;
 
-/// Multiples of 2^-150 are what roots are cut to.
+/// Roots are cut to multiples of 2^-150.
 const CUT: u32 = 150;
 
 /// The line and the sphere as a quadratic with integer coefficients.
@@ -62,15 +62,15 @@ impl Quadratic {
         let square = &self.discriminant << (2 * CUT);
         let root = square.sqrt();
         let root_is_cut = &root * &root != square;
-        // Cutting b - sqrt downwards cuts the square root upwards.
+        // Cutting b - sqrt downwards means cutting the square root upwards.
         let near = b.clone() - &root - i32::from(root_is_cut);
         let far = b + root;
         [near, far].map(|numerator| CutRoot::quotient(&numerator, &self.a, root_is_cut))
     }
 }
 
-/// A real number in halves of 2^-150: even if it is a multiple of 2^-150, else the odd number
-/// between the two multiples around it.
+/// A real number in halves of 2^-150. It is even for a multiple of 2^-150, else the odd number between the two
+/// multiples around the real number.
 struct CutRoot(BigInt);
 
 impl CutRoot {
@@ -81,12 +81,11 @@ impl CutRoot {
         Self(floor * 2 + i32::from(numerator_is_cut || !remainder.is_zero()))
     }
 
-    /// To nearest even, and whether it was a tie: subnormals kept, -0 as +0, infinity where the
-    /// magnitude is 2^128 - 2^103 or more.
+    /// Rounds to nearest even, and says whether it was a tie. Subnormals are kept, -0 becomes +0, and the result is
+    /// infinite if the magnitude is 2^128 - 2^103 or more.
     fn round(&self) -> (f32, bool) {
         let magnitude = self.0.magnitude();
-        // A significand has 24 bits, and the last is never worth less than 2^-149: four of our
-        // halves of 2^-150.
+        // A significand has 24 bits, and its last bit is never worth less than 2^-149: four of the halves of 2^-150.
         let dropped = magnitude.bits().saturating_sub(24).max(2);
         let kept = magnitude >> dropped;
         let rest = magnitude - (&kept << dropped);
@@ -94,8 +93,8 @@ impl CutRoot {
         let odd = kept.bit(0);
         let up = against_half == Ordering::Greater || (against_half == Ordering::Equal && odd);
         let significand = u64::try_from(kept).expect("at most 24 bits") + u64::from(up);
-        // The leading bit of the significand, if there is one, counts as one more exponent; a
-        // carry out of it as another.
+        // The leading bit of the significand, if there is one, adds one to the exponent; a carry out of the significand
+        // adds another.
         let bits = ((dropped - 2) << 23).saturating_add(significand).min(0x7f80_0000);
         let value = f32::from_bits(u32::try_from(bits).expect("at most infinity"));
         let negative = self.0.sign() == Sign::Minus && bits != 0;
@@ -131,20 +130,21 @@ pub fn dot(v: &[BigInt; 3], w: &[BigInt; 3]) -> BigInt {
     &v[0] * &w[0] + &v[1] * &w[1] + &v[2] * &w[2]
 }
 
-/// D in units of 2^-596, the fourth power of that of lengths. `None` for invalid input.
+/// D in units of 2^-596, the fourth power of the unit of lengths. `None` for invalid input.
 #[must_use]
 pub fn discriminant(ray: &Ray, sphere: &Sphere) -> Option<BigInt> {
     Quadratic::new(ray, sphere).map(|quadratic| quadratic.discriminant)
 }
 
-/// How D compares with zero: `Less` misses, `Equal` is a tangent. `None` for invalid input.
+/// How D compares with zero: `Less` is a miss, `Equal` a tangent. `None` for invalid input.
 #[must_use]
 pub fn discriminant_sign(ray: &Ray, sphere: &Sphere) -> Option<Ordering> {
     discriminant(ray, sphere).map(|discriminant| discriminant.cmp(&BigInt::zero()))
 }
 
-/// The unit normal that points out of the sphere, and the point as seen from its centre, where the line enters it, or
-/// where it leaves it, correctly rounded. `None` for invalid input, a line that misses, and a point.
+/// The unit normal that points out of the sphere, and the point relative to its centre, where the line enters the
+/// sphere or, if `leaves`, leaves it; both correctly rounded. `None` for invalid input, a line that misses, and a point
+/// sphere.
 ///
 /// With a t = b -+ sqrt D the point is t d - p = (d b - a p -+ d sqrt D) / a.
 #[must_use]
@@ -162,11 +162,11 @@ pub fn surface(ray: &Ray, sphere: &Sphere, leaves: bool) -> Option<[[f32; 3]; 2]
     let coordinate = |i: usize, of_normal: bool| {
         let whole: BigInt = (&d[i] * &b - &a * (&c[i] - &o[i])) << BITS;
         let along = if leaves { d[i].clone() } else { -d[i].clone() };
-        // Cut downwards: where the square root is taken away, it is cut upwards.
+        // Cuts downwards: where the square root is subtracted, the root is cut upwards.
         let up = is_cut && along.sign() == Sign::Minus;
         let numerator = whole + along * (&root + i32::from(up));
         let is_cut = is_cut && d[i].sign() != Sign::NoSign;
-        // A point is in units of 2^-149, a normal in ones.
+        // A point is in units of 2^-149, a normal in units of one.
         let (numerator, scale) =
             if of_normal { (numerator << CUT, &a * &r) } else { (numerator << 1_u32, a.clone()) };
         CutRoot::quotient(&numerator, &(scale << BITS), is_cut).round().0
@@ -183,7 +183,7 @@ pub fn meets(ray: &Ray, sphere: &Sphere) -> bool {
 
 /// Rules 1 and 2, and both roots of the line, correctly rounded, the smaller first.
 ///
-/// Whatever the interval; infinite if a root overflows.
+/// The interval does not matter. A root that overflows is infinite.
 #[must_use]
 pub fn roots(ray: &Ray, sphere: &Sphere) -> Option<[f32; 2]> {
     roots_and_ties(ray, sphere).map(|roots| roots.map(|(root, _)| root))
@@ -205,7 +205,7 @@ pub fn intersect(ray: &Ray, sphere: &Sphere) -> Option<f32> {
 /// Rules 3 and 4: which of the rounded roots the ray's interval accepts.
 #[must_use]
 pub fn accepted(ray: &Ray, roots: [f32; 2]) -> Option<f32> {
-    // Comparing two given floats rounds nothing; comparing with NaN accepts nothing.
+    // Comparing two given floats rounds nothing; a comparison with NaN accepts nothing.
     let accepted = |t: &f32| t.is_finite() && ray.t_min <= *t && *t <= ray.t_max;
     roots.into_iter().find(accepted)
 }
@@ -227,21 +227,21 @@ pub fn closest(ray: &Ray, spheres: &[Sphere]) -> Option<Hit> {
     closest
 }
 
-/// Rule 5 for a hit whose index is above that of the closest one so far: as a tier has to tell.
+/// Rule 5 for a hit whose index is above that of the closest hit so far, by as much as the tier has to tell.
 #[must_use]
 pub fn is_closer(tier: Tier, ray: &Ray, spheres: &[Sphere], hit: Hit, known: Hit) -> bool {
     if hit.t != known.t || tier != Tier::Exact {
-        // Rounding keeps the order of what it does not make equal.
+        // Rounding may make two roots equal, but never swaps them.
         return hit.t < known.t;
     }
     compare(ray, hit.t, [hit, known].map(|hit| &spheres[hit.sphere as usize])).is_lt()
 }
 
-/// How the roots of two spheres compare, as real numbers, that `ray` hits both at T = `t`.
+/// How the roots of two spheres that `ray` hits, both at T = `t`, compare as real numbers.
 ///
-/// In integers, roots of one line are (b -+ sqrt D) / a with one a. Two that differ do so by 2^-1700 and more in the
-/// numerator, since the product of the four differences of all their conjugates is an integer, and none is above 2^560;
-/// so 2000 bits behind the point tell.
+/// In integers, the roots of one line are (b -+ sqrt D) / a with one a. The product of the four differences of all
+/// conjugates of two roots is an integer, and no difference is above 2^560. So numerators that differ do so by 2^-1700
+/// or more, and 2000 bits after the point tell.
 ///
 /// # Panics
 /// If a sphere is not hit at t.
@@ -255,7 +255,7 @@ pub fn compare(ray: &Ray, t: f32, spheres: [&Sphere; 2]) -> Ordering {
         if quadratic.roots()[0].round().0 == t { b - root } else { b + root }
     });
     let difference = &numerators[0] - &numerators[1];
-    // Either root is cut by less than one.
+    // Each root is cut by less than one.
     if difference.magnitude().bits() <= 2 {
         Ordering::Equal
     } else {

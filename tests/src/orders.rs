@@ -1,7 +1,7 @@
-//! Orders in which rays come: whoever calls the kernel, and in whatever order, must not fall into a trap.
+//! Orders in which rays come: no order of a caller's rays may lead the kernel into a trap.
 //!
-//! Every order makes any number of rays for any scene, from where its spheres are: a scene that is huge, tiny or
-//! elsewhere is met by the same rays, as large and there. The same seed makes the same rays.
+//! Every order makes any number of rays for any scene from the places of its spheres. A scene that is huge, tiny or far
+//! away gets the same rays, at its scale and place. The same seed makes the same rays.
 //!
 //! | order | rays |
 //! |---|---|
@@ -89,7 +89,7 @@ impl Order {
         Self::Bounces,
     ];
 
-    /// As it stands in tables.
+    /// The name in tables.
     #[must_use]
     pub const fn as_str(self) -> &'static str {
         match self {
@@ -130,7 +130,7 @@ impl Order {
         self.rays_in(&Extent::of(spheres), spheres, count, seed)
     }
 
-    /// The same, where the extent is known: to find it takes longer than to make a few rays.
+    /// The same, for a known extent: finding the extent takes longer than making a few rays.
     #[must_use]
     pub fn rays_in(
         self,
@@ -140,7 +140,7 @@ impl Order {
         seed: u64,
     ) -> Vec<Ray> {
         let mut rays = Rays { extent, random: Random::new(seed, self as u64) };
-        // Of orders of two parts, in whole turns.
+        // Orders of two parts change between whole turns.
         let half = count.div_ceil(2).next_multiple_of(64).min(count);
         match self {
             Self::Beam => rays.beam(count, 0.0),
@@ -184,7 +184,7 @@ impl Order {
     }
 }
 
-/// `run` of the first, `run` of the second, and so on, each from where it was left.
+/// Takes `run` rays of the first, `run` of the second, and so on, each time from where it stopped.
 fn in_turns(both: [Vec<Ray>; 2], run: usize, count: usize) -> Vec<Ray> {
     let [mut one, mut other] = both.map(Vec::into_iter);
     let turn =

@@ -1,4 +1,4 @@
-//! Scenes that are measured: spheres, and the rays that meet them. What they draw never changes.
+//! Scenes that are measured: spheres, and the rays that meet them. Their random draws never change.
 //!
 //! | large scene | spheres | camera | diffuse rays |
 //! |---|---|---|---|
@@ -16,12 +16,11 @@
 //! | `huge and tiny` | one of radius 0.9 at the origin, a million tiny ones in the cube | 40 degrees, 4 away | in the cube |
 //! | `chains` | 100 straight rows of 1,000 that touch, 3 long | 40 degrees, 4 away | in the cube |
 //!
-//! [`Scene::spread`], of radii over a millionfold, stands apart: the others have none such.
+//! [`Scene::spread`], whose radii span more than a millionfold, is not in the table: no other scene spans as much.
 //!
-//! A picture has 1024 x 1024 primary rays in tiles of 4 x 4, tiles row by row, so that sixteen rays that follow each
-//! other are a coherent packet. Directions have no unit length. Of diffuse rays, which have nothing in common, there
-//! are a quarter as many; "in the cube" means origins uniform in it, directions uniform. The [small] scenes are
-//! lists.
+//! A picture has 1024 x 1024 primary rays in tiles of 4 x 4, tiles row by row, so that sixteen consecutive rays are a coherent packet.
+//! Directions have no unit length. There are a quarter as many diffuse rays, which have nothing in common; "in the cube" means origins
+//! uniform in it, directions uniform. The [small] scenes are lists.
 
 mod hard;
 mod point;
@@ -59,7 +58,7 @@ pub const SPREAD: &str = "spread";
 /// Spheres and rays.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// As it stands in tables.
+    /// The name in tables.
     pub name: &'static str,
     /// The spheres.
     pub spheres: Rc<SphereList>,
@@ -72,17 +71,17 @@ pub struct Scene {
 /// Which of a scene's rays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// Those of the camera.
+    /// The rays of the camera.
     Primary,
-    /// Those that have nothing in common.
+    /// Rays that have nothing in common.
     Diffuse,
 }
 
 impl Kind {
-    /// Both.
+    /// Both kinds.
     pub const ALL: [Self; 2] = [Self::Primary, Self::Diffuse];
 
-    /// As it stands in tables.
+    /// The name in tables.
     #[must_use]
     pub const fn as_str(self) -> &'static str {
         match self {
@@ -92,8 +91,8 @@ impl Kind {
     }
 }
 
-/// How large scenes may be: the side of the picture in pixels, a multiple of 4, and the most spheres of a scene whose
-/// number is not part of its shape.
+/// How large scenes may be: the side of the picture in pixels, a multiple of 4, and the most spheres of a scene whose shape does not fix
+/// their number.
 #[derive(Clone, Copy, Debug)]
 pub struct Size(pub usize, pub usize);
 
@@ -139,7 +138,7 @@ impl Scene {
             "huge and tiny" => (hard::huge_and_tiny(at_most(1_000_000)), from(4.0), in_cube()),
             "chains" => (hard::chains(at_most(100_000)), from(4.0), in_cube()),
             _ => {
-                // The cube's side is 2; the picture is 2.6 high there.
+                // The cube's side is 2; at the cube the picture is 2.6 high.
                 let distance = 2.0e4;
                 let angle = (1.3_f64 / distance).atan() * 2.0 * 180.0 / PI;
                 let diffuse = rays::from_afar(distance, count);
@@ -159,7 +158,7 @@ impl Scene {
         self.spheres.spheres().iter().any(|sphere| sphere.radius == 1000.0)
     }
 
-    /// Radii over a millionfold: at most 20,000 in the cube, a third of which is in some sphere.
+    /// Radii that span more than a millionfold: at most 20,000 spheres in the cube, a third of which lies in some sphere.
     #[must_use]
     pub fn spread(Size(pixels, most): Size) -> Self {
         Self {
@@ -171,7 +170,7 @@ impl Scene {
         }
     }
 
-    /// `count` uniform spheres, for growth: the rays of the uniform scenes.
+    /// `count` uniform spheres, to measure growth, with the rays of the uniform scenes.
     #[must_use]
     pub fn uniform(count: usize, pixels: usize) -> Self {
         Self {
@@ -183,7 +182,7 @@ impl Scene {
         }
     }
 
-    /// The same, multiplied by a power of two, with directions multiplied by another.
+    /// The same scene multiplied by a power of two, with directions multiplied by another.
     #[must_use]
     pub fn scaled(&self, [scene, length]: [i64; 2]) -> Self {
         let times = |v: Vec3, exponent: i64| {
@@ -208,7 +207,7 @@ impl Scene {
         Rc::new(SphereTree::new((*self.spheres).clone()))
     }
 
-    /// A sphere, and no rays.
+    /// One sphere, and no rays.
     #[must_use]
     pub fn of_case(sphere: Sphere) -> Self {
         let spheres = Rc::new(SphereList::from([sphere]));
@@ -225,7 +224,7 @@ impl Scene {
     }
 }
 
-/// What all of the rays have in common, which a depth list needs; `None` for diffuse rays.
+/// What all of the rays share, which a depth list needs; `None` for diffuse rays.
 #[must_use]
 pub fn viewpoint(rays: &[Ray]) -> Option<Viewpoint> {
     let first = rays.first()?;
@@ -236,17 +235,17 @@ pub fn viewpoint(rays: &[Ray]) -> Option<Viewpoint> {
     parallel.then_some(Viewpoint::Direction(first.direction))
 }
 
-/// About `count` of the rays, in runs that start every so often, so that packets stay together.
+/// About `count` of the rays, in runs spread over all of them, so that packets stay whole.
 #[must_use]
 pub fn sample(rays: &[Ray], count: usize) -> Vec<Ray> {
-    /// Packets that go together in the tree, and more.
+    /// More rays than the packets that go together through the tree have.
     const RUN: usize = 256;
     if rays.len() <= count.max(RUN) {
         return rays.to_vec();
     }
     let runs = (count / RUN).max(1);
     let stride = rays.len() / runs;
-    // Anywhere in each stretch, by the golden ratio: at the same place they would all be of one column of a picture.
+    // A run starts anywhere in its stretch, by the golden ratio. At the same place in each, all runs would be of one column of a picture.
     let within = |run: usize| (run as f64 * 0.618_034).fract() * (stride - RUN) as f64;
     let start = |run: usize| run * stride + within(run) as usize / RUN * RUN;
     (0..runs).flat_map(|run| rays[start(run)..].iter().take(RUN)).copied().collect()

@@ -17,8 +17,8 @@ pub struct Errors {
 impl Errors {
     /// Adds one answer: the t that was found, against the true roots of the line.
     ///
-    /// A hit at the other root counts among the wrong places: the right root was taken to be behind the origin, or the
-    /// wrong one before it.
+    /// A hit at the other root counts as a wrong place: the right root was taken to be behind the origin, or the wrong
+    /// one before it.
     pub fn record(&mut self, case: &Case, roots: Option<[f32; 2]>, answer: Option<f32>) {
         let truth = roots.and_then(|roots| oracle::accepted(&case.ray, roots));
         let away = |a: f32, b: f32| (f64::from(a) - f64::from(b)).abs();
@@ -39,11 +39,11 @@ impl Errors {
         self.tally.summary()
     }
 
-    /// The largest error of the place of a right hit, rounded up to a multiple of 2^-24 of the scene: of the larger of
-    /// radius and distance of the centre. Says what ulp of a t next to zero do not.
+    /// The largest error of the place of a right hit, in units of 2^-24 of the scene, rounded up. The scene is the
+    /// larger of radius and distance of the centre. This says what ulp of a t next to zero cannot.
     #[must_use]
     pub fn place(&self) -> u64 {
-        // Too large a number saturates.
+        // A number that is too large saturates.
         self.worst_place.ceil() as u64
     }
 }
@@ -63,7 +63,7 @@ pub fn measure(cases: impl Iterator<Item = Case>, engines: &[Answer<'_>]) -> Vec
     errors
 }
 
-/// The t on which the ray goes 2^-24 of the scene.
+/// The difference of t for a way of 2^-24 of the scene.
 fn scene_unit(case: &Case) -> f64 {
     let (o, c) = (double(case.ray.origin), double(case.sphere.center));
     let p = [c[0] - o[0], c[1] - o[1], c[2] - o[2]];

@@ -1,8 +1,8 @@
-//! The table of variants: tier, structure and layer of the door, each as a plain function from rays to answers, so
-//! that a test says "all of them" in one loop, and that each is compiled once, here.
+//! The table of variants: tier, structure and layer of the door, each as a plain function from rays to answers. So a
+//! test can ask all of them in one loop, and each is compiled only once, here.
 //!
-//! `Exact` gives the same bits in all of them, `Stable` in its domain; `Fast` and `Geometric` in all lists of
-//! spheres, while depth list and tree may lose false hits of them.
+//! `Exact` gives the same bits in all of them, and so does `Stable` in its domain. `Fast` and `Geometric` give the same
+//! bits in all lists of spheres, but a depth list or a tree may lose their false hits.
 
 mod answers;
 mod ask;

@@ -1,7 +1,7 @@
 //! The 100,000 hard cases that come with the project, made by another hand than ours.
 //!
-//! They are no part of the repository: `SPHERULE_VECTORS` names their folder, and then their absence is a failure. If
-//! it is not set, they are looked for in `shared/vectors` beside the workspace; a test that does not find them says
+//! They are no part of the repository. If `SPHERULE_VECTORS` is set, it names their folder, and their absence is a
+//! failure. Otherwise they are looked for in `shared/vectors` beside the workspace; a test that does not find them says
 //! so and goes on.
 
 use spherule_referee::case::Case;
@@ -48,7 +48,7 @@ pub fn read() -> Option<Vec<Vector>> {
     Some(vectors.collect())
 }
 
-/// The named folder, or else the one beside the workspace; `None`, after a printed skip, if that is absent.
+/// The named folder, or else the one beside the workspace. Prints a skip and returns `None` if that is absent.
 ///
 /// # Panics
 /// If the named folder is absent.
@@ -60,7 +60,7 @@ pub fn folder(named: Option<PathBuf>) -> Option<PathBuf> {
     }
     let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/vectors");
     if !beside.is_dir() {
-        // Past the test harness's capture; nothing is lost if standard error is closed.
+        // Written past the test harness's capture; a closed standard error loses nothing else.
         let _ = writeln!(std::io::stderr(), "skipped: no vectors in shared/vectors");
         return None;
     }

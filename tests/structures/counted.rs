@@ -1,10 +1,10 @@
-//! Lanes that count their operations: what a traversal costs, on any machine, however busy.
+//! Lanes that count their operations: the cost of a traversal on any machine, however busy.
 
 use spherule_kernel::{DoubleLanes, LaneMask, Lanes};
 use std::cell::Cell;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-/// How many lanes.
+/// The number of lanes.
 pub(super) const COUNT: usize = 8;
 
 thread_local! {

@@ -1,4 +1,4 @@
-//! As brute force does: the places where boxes, margins and intervals end.
+//! Answers as brute force gives them, where boxes, margins and intervals end.
 
 use super::scenes::{diffuse, end_at_answers, mixed, point, uniform, unit};
 use super::{BOTH, EXACT};
@@ -29,13 +29,13 @@ fn intervals() {
         ray.direction *= random.uniform(0.5, 2.0) as f32;
     }
     assert_same(BOTH, &rays, &uniform(500));
-    // Ends that are answers, and their neighbours.
+    // Intervals that end at answers, and at their neighbours.
     let spheres = uniform(500);
     end_at_answers(&mut random, &mut rays, &spheres);
     assert_same(BOTH, &rays, &spheres);
 }
 
-/// Parallel to an axis and exactly tangent, which is to run in the face of a box.
+/// Rays parallel to an axis and exactly tangent, which therefore run in the face of a box.
 #[test]
 fn tangents_along_axes() {
     let mut random = Random::new(73, 0);
@@ -57,7 +57,7 @@ fn tangents_along_axes() {
             origin[axis] = -sign * away;
             let mut direction = Vec3::ZERO;
             direction[axis] = sign * random.integer(1, 3) as f32;
-            // Zeros of either sign, and numbers next to zero.
+            // Zeros of either sign, and numbers near zero.
             let other = 3 - axis - side;
             direction[side] = random.pick(&[0.0, -0.0]);
             direction[other] = random.pick(&[0.0, -0.0, 1e-38, -1e-38, 1e-45, 1e-25]);
@@ -67,7 +67,7 @@ fn tangents_along_axes() {
     }
 }
 
-/// Tangents of any direction; origins on, and inside of, spheres.
+/// Tangents of any direction; origins on spheres and inside them.
 #[test]
 fn tangents_and_origins_on_spheres() {
     let mut random = Random::new(74, 0);
@@ -91,7 +91,7 @@ fn tangents_and_origins_on_spheres() {
     assert_same(BOTH, &rays, &spheres);
 }
 
-/// Rays with numbers at which something overflows, vanishes or is none.
+/// Rays with numbers at which something overflows, vanishes or becomes NaN.
 #[test]
 fn rays_of_any_components() {
     let mut random = Random::new(75, 0);
@@ -115,7 +115,7 @@ fn rays_of_any_components() {
     assert_same(EXACT, &rays, &uniform(300));
 }
 
-/// The hard cases' rays against the hard cases' spheres, of one family and of all.
+/// The rays of hard cases against the spheres of hard cases, of one family and of all.
 #[test]
 fn families() {
     let mut all: Vec<Case> = Vec::new();
@@ -126,7 +126,7 @@ fn families() {
         if let Some(difference) = difference(EXACT, &rays, &spheres, viewpoint_of(&rays)) {
             panic!("{family:?}: {difference}");
         }
-        // Beside a scene, moved to where it is.
+        // Beside a scene that is moved to their place.
         let mut beside = uniform(400);
         for (place, sphere) in beside.iter_mut().step_by(40).zip(&spheres) {
             *place = *sphere;
@@ -164,11 +164,11 @@ fn stable_in_its_domain() {
     }
 }
 
-/// `Fast` and `Geometric` may lose what is no hit, and nothing else.
+/// `Fast` and `Geometric` may lose false hits, and nothing else.
 #[test]
 fn false_hits_alone_are_lost() {
     let mut spheres = uniform(500);
-    // Far from the origin, where both forms see hits that are none.
+    // Far from the origin, where both forms have false hits.
     spheres.iter_mut().for_each(|sphere| sphere.center.z -= 300.0);
     let mut random = Random::new(79, 0);
     let rays: Vec<Ray> = (0..4000)

@@ -1,5 +1,5 @@
-//! As brute force does: rays that start far away, or meet what is large beside what is small. The
-//! margins of boxes are narrow there, and everything is next to them.
+//! Answers as brute force gives them, for rays that start far away or meet large spheres beside small ones. The margins
+//! of boxes are narrow there, and everything is close to them.
 
 use super::scenes::{end_at_answers, point, uniform, unit};
 use super::{BOTH, EXACT};
@@ -8,11 +8,11 @@ use spherule_referee::aim::{double, single};
 use spherule_referee::random::{Random, dot, power_of_two};
 use spherule_tests::variants::assert_same;
 
-/// Rays of a bundle.
+/// How many rays a bundle has.
 const BUNDLE: usize = 64;
 
-/// Bundles of rays that look from `distance` at spheres around `middle`: from one point, or beside
-/// each other; in some, rays begin before and end after everything, and half of them look away.
+/// Bundles of rays that look from `distance` at spheres around `middle`: from one point, or parallel beside each other.
+/// In some bundles the intervals begin before and end after everything, and half of the rays look away.
 fn looks(random: &mut Random, middle: Vec3, distance: f64, bundles: usize) -> Vec<Ray> {
     let mut rays = Vec::new();
     for _ in 0..bundles {
@@ -34,7 +34,7 @@ fn looks(random: &mut Random, middle: Vec3, distance: f64, bundles: usize) -> Ve
     rays
 }
 
-/// The point of the line of the ray, as it was rounded, that is closest to `middle`, and its direction of length one.
+/// For the line of the rounded ray: its point closest to `middle`, and its direction of length one.
 fn line(ray: &Ray, middle: Vec3) -> ([f64; 3], [f64; 3]) {
     let (o, d, m) = (double(ray.origin), double(ray.direction), double(middle));
     let length = dot(d, d).sqrt();
@@ -47,8 +47,8 @@ fn plus(a: [f64; 3], factor: f64, b: [f64; 3]) -> [f64; 3] {
     [a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]]
 }
 
-/// Spheres that a ray passes at their radius, give or take some roundings; half of them touch the outermost
-/// ray of a packet, or bundle, from outside.
+/// Spheres that a ray passes at the distance of their radius, give or take some roundings. Half of them touch the
+/// outermost ray of a packet, or bundle, from outside.
 fn beside(random: &mut Random, rays: &[Ray], middle: Vec3, count: usize) -> Vec<Sphere> {
     let sphere = |_| {
         let (ray, across) = if random.one_in(2) {
@@ -66,8 +66,8 @@ fn beside(random: &mut Random, rays: &[Ray], middle: Vec3, count: usize) -> Vec<
     (0..count).map(sphere).collect()
 }
 
-/// The ray of the greatest or the least slope among some that go together, and what is across it in
-/// the plane of that slope, outward.
+/// Of some rays that go together, the ray of the greatest or the least slope; and the outward vector across it in the
+/// plane of that slope.
 fn outermost(random: &mut Random, rays: &[Ray]) -> (Ray, [f64; 3]) {
     let together = random.pick(&[8, 16, BUNDLE]);
     let first = random.integer(0, (rays.len() / together - 1) as i64) as usize * together;
@@ -81,12 +81,12 @@ fn outermost(random: &mut Random, rays: &[Ray]) -> (Ray, [f64; 3]) {
     let mut across = [0.0; 3];
     (across[i], across[k]) = (side, -slope(&ray));
     let length = dot(across, across).sqrt();
-    // Along k the rays may run either way; outward is where the slope grows in the way they run.
+    // Along k the rays may run either way. Outward is where the slope grows along their way.
     let outward = f64::from(ray.direction[k].signum()) / length;
     (ray, across.map(|x| x * outward))
 }
 
-/// Spheres that a ray enters in one point, give or take some roundings: any may be the nearest.
+/// Spheres that a ray enters at one point, give or take some roundings: any of them may be the nearest.
 fn through_one_point(random: &mut Random, rays: &[Ray], middle: Vec3, count: usize) -> Vec<Sphere> {
     let mut spheres = Vec::new();
     while spheres.len() < count {
@@ -103,7 +103,7 @@ fn through_one_point(random: &mut Random, rays: &[Ray], middle: Vec3, count: usi
     spheres
 }
 
-/// All of the above, at `middle` and looked at from `distance`.
+/// Asserts the above at `middle`, seen from `distance`.
 fn assert_same_there(seed: u64, middle: Vec3, distance: f64) {
     let mut random = Random::new(seed, distance.to_bits());
     let mut rays = looks(&mut random, middle, distance, 12);
@@ -130,11 +130,11 @@ fn far_from_the_coordinates_origin() {
     }
 }
 
-/// Lines through the coordinates' origin, with a distance of integers from spheres of an integer
-/// radius: from however far, a tangent is one exactly, and an ulp of the radius away it is none.
+/// Lines through the coordinates' origin, at integer distances from spheres of integer radius. From however far, a
+/// tangent is exactly a tangent, and it is none if the radius is an ulp off.
 #[test]
 fn exact_tangents_from_any_distance() {
-    // Two vectors of integers at right angles, and the length of both.
+    // Two integer vectors at right angles, and the length of both.
     let frames = [
         ([1, 2, 2], [2, 1, -2], 3),
         ([2, 3, 6], [3, -6, 2], 7),
@@ -171,7 +171,7 @@ fn exact_tangents_from_any_distance() {
                 let direction = *along * random.sign() as f32 * random.log_uniform(-8, 8) as f32;
                 let mut ray = Ray::new(-distance * *along, *along);
                 if random.one_in(2) {
-                    // A power of two keeps the line.
+                    // Scaling by a power of two keeps the line.
                     ray.direction = *along * power_of_two(random.integer(-30, 30)) as f32;
                 } else if random.one_in(4) {
                     ray.direction = direction;
@@ -184,8 +184,8 @@ fn exact_tangents_from_any_distance() {
     }
 }
 
-/// Rays in a face of a box, or nearly, that all of its spheres touch: small boxes far from where
-/// a ray begins, and far from where coordinates do.
+/// Rays in a face of a box, or nearly, that all of its spheres touch: small boxes far from a ray's origin, and far from
+/// the coordinates' origin.
 #[test]
 fn in_the_faces_of_boxes() {
     let mut random = Random::new(94, 0);
@@ -203,7 +203,7 @@ fn in_the_faces_of_boxes() {
                 touched[axis] += random.sign() as f32 * radius;
                 let mut direction = unit(&mut random);
                 direction[axis] = random.pick(&[0.0, -0.0, 1e-30, -1e-8, 1e-6]);
-                // Along an axis the line is the very tangent.
+                // Along an axis the line is exactly the tangent.
                 if random.one_in(2) {
                     direction[(axis + 1) % 3] = random.pick(&[0.0, 1e-20, -1e-12]);
                 }
@@ -231,7 +231,7 @@ fn a_ground_and_tiny_spheres() {
                 spheres.push(Sphere { center, radius: size });
             }
             spheres.insert(77, Sphere { center: Vec3::new(0.0, -radius, 0.0), radius });
-            // Along the ground.
+            // Rays along the ground.
             for _ in 0..8 * BUNDLE {
                 let origin = Vec3::new(0.0, 0.01, 0.0) + 0.01 * point(&mut random, 1.0);
                 let mut direction = unit(&mut random);

@@ -1,4 +1,4 @@
-//! Spheres that are none, memory that is too small, and whoever builds the tree.
+//! Invalid spheres, memory that is too small, and different builders of the tree.
 
 use super::scenes::{EYE, camera, mixed, parallel, uniform};
 use super::{BOTH, EXACT};
@@ -19,7 +19,7 @@ fn invalid_and_immense_spheres() {
         let number = random.pick(&numbers);
         if i % 2 == 0 { sphere.radius = number } else { sphere.center[i % 3] = number }
     }
-    // Nothing but such.
+    // Only such spheres.
     let none = vec![Sphere { center: Vec3::ZERO, radius: f32::NAN }; 100];
     let immense = vec![Sphere { center: Vec3::new(0.0, 3e12, 0.0), radius: 3e12 }; 40];
     for (tiers, spheres) in [(EXACT, spheres), (BOTH, none), (EXACT, immense), (BOTH, Vec::new())] {
@@ -55,7 +55,7 @@ fn too_little_memory_for_a_tree() {
         }
         assert!(Bvh::build(list.spheres(), &mut nodes, &mut places, &mut indices).is_ok());
     }
-    // As many as places can be told apart, and one more, for which no memory is enough.
+    // As many spheres as places can tell apart; and one more, for which no memory is enough.
     let most = Bvh::needed(1 << 27);
     assert!(most.nodes * 512 + most.places * 20 <= 40 << 27, "{most:?}");
     assert_eq!(Bvh::needed((1 << 27) + 1).places, usize::MAX);
@@ -93,7 +93,7 @@ fn too_little_memory_for_a_depth_list() {
     assert_eq!(DepthList::scratch(usize::MAX), usize::MAX);
 }
 
-/// Two threads wherever two pieces of work are apart.
+/// Starts two threads wherever two pieces of work are independent.
 struct Threads;
 
 impl Join for Threads {
@@ -112,7 +112,7 @@ impl Join for Threads {
 
 #[test]
 fn threads_build_the_same_tree() {
-    // More leaves than are counted by one thread, and few.
+    // More leaves than one thread counts, and few leaves.
     for count in [40_000, 5000, 300, 17, 16, 1, 0] {
         let list = SphereList::from(uniform(count));
         let alone = SphereTree::new(list.clone());

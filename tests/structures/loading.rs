@@ -1,4 +1,4 @@
-//! A tree that is data: words that are a tree answer as the list does, and any others are an error.
+//! A tree as data: the words of a tree answer as the list does, and any other words are an error.
 
 use super::scenes::{EYE, camera, mixed, uniform, unit};
 use proptest::prelude::*;
@@ -10,7 +10,7 @@ use spherule_referee::strategies;
 use spherule_tests::variants::bits;
 use std::iter::repeat_with;
 
-/// Words before the order.
+/// How many words precede the order.
 const HEADER: usize = 5;
 
 fn words_of(spheres: &[Sphere]) -> Vec<u32> {
@@ -23,7 +23,7 @@ fn error_of(spheres: &[Sphere], words: &[u32]) -> Option<Bvh4Error> {
     Bvh4::load(SphereList::from(spheres).spheres(), words).err()
 }
 
-/// Spheres that bounds see, some that they do not, and some that are none.
+/// Spheres that bounds cover, some that bounds do not cover, and some invalid ones.
 fn of_all_kinds() -> Vec<Sphere> {
     let mut spheres = uniform(37);
     spheres[3].radius = f32::NAN;
@@ -34,7 +34,7 @@ fn of_all_kinds() -> Vec<Sphere> {
     spheres
 }
 
-/// No ray is answered otherwise than by the list.
+/// Asserts that every ray gets the list's answer.
 fn assert_answers(spheres: &[Sphere], tree: &Bvh4<'_>, rays: &[Ray]) {
     let list = SphereList::from(spheres);
     for ray in rays {
@@ -52,7 +52,7 @@ fn what_was_built_is_loaded() {
         let mut words = words_of(&spheres);
         assert_eq!(words.len(), Bvh4::needed(count));
         assert!(words.len() * 4 <= 12 * count + 700, "{count}: {} words", words.len());
-        // What lies behind belongs to no sphere.
+        // Words behind the tree belong to no sphere.
         words.extend([u32::MAX; 3]);
         let list = SphereList::from(spheres.as_slice());
         let tree = Bvh4::load(list.spheres(), &words).expect("what was built");
@@ -110,7 +110,7 @@ fn another_bit_is_another_tree() {
     }
 }
 
-/// A tree over other spheres is none over these.
+/// A tree over other spheres is an error.
 #[test]
 fn of_other_spheres() {
     let spheres = of_all_kinds();
@@ -129,7 +129,8 @@ fn of_other_spheres() {
     assert_eq!(other(&|spheres| spheres[20] = spheres[5]), Some(Bvh4Error::Order));
 }
 
-/// Two spheres that are the same: with one of them twice every box is right, and the other is lost.
+/// Two equal spheres: if the tree holds one of them twice, every box is right, but the other sphere
+/// is lost.
 #[test]
 fn a_lost_sphere_is_seen() {
     let spheres = of_all_kinds();
@@ -141,12 +142,12 @@ fn a_lost_sphere_is_seen() {
         let word = &mut words[HEADER + place.expect("each is there once")];
         *word = *word & 0xffff_0000 | kept;
         assert_eq!(error_of(&spheres, &words), Some(Bvh4Error::Order));
-        // Its place, too.
+        // Changes its place, too.
         words[HEADER + lost as usize] =
             words[HEADER + lost as usize] & 0xffff | words[HEADER + kept as usize] & 0xffff_0000;
         assert_eq!(error_of(&spheres, &words), Some(Bvh4Error::Order));
     }
-    // The control: both in each other's places are a tree.
+    // The control: with the two swapped, the words are still a tree.
     let mut words = words;
     let place = |words: &[u32], index: usize| words[HEADER + index] >> 16;
     let (first, second) = (place(&words, 30), place(&words, 31));
@@ -158,7 +159,7 @@ fn a_lost_sphere_is_seen() {
     assert_eq!(error_of(&spheres, &words), None);
     let list = SphereList::from(spheres.as_slice());
     let tree = Bvh4::load(list.spheres(), &words).expect("a tree");
-    // Of equals the first, wherever they lie.
+    // Of equal spheres the first is the hit, wherever they lie in the tree.
     let mut random = Random::new(111, 0);
     let from = || Ray::new(spheres[30].center, unit(&mut random));
     let rays: Vec<Ray> = repeat_with(from).take(50).collect();
@@ -171,7 +172,7 @@ fn a_lost_sphere_is_seen() {
 proptest! {
     #![proptest_config(strategies::config(300))]
 
-    /// Whatever the words: an error, or a tree that answers as the list does.
+    /// Any words give an error, or a tree that answers as the list does.
     #[test]
     fn any_words(
         seed in any::<u64>(),
@@ -196,7 +197,7 @@ proptest! {
                 _ => words[place] ^ 1 << random.integer(0, 31),
             };
         }
-        // What begins well, and goes on as it likes.
+        // The words begin as a tree and continue at random.
         for word in words.iter_mut().skip(random_from.max(1)) {
             *word = random.bits() as u32;
         }

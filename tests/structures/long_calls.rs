@@ -1,5 +1,5 @@
-//! Long calls, of which a tree finds out how the rays go best: groups, streams, sorted rays, and rays by themselves, each
-//! taken up and given up on the way. The answers are those of ray by ray, which are those of brute force.
+//! Long calls, in which a tree finds out how the rays go best: as groups, streams, sorted rays, or ray by ray. Each way is taken up and
+//! given up in the course of a call. The answers are those of ray by ray, which are those of brute force.
 
 use super::scenes::{diffuse, uniform};
 use spherule_kernel::{
@@ -10,10 +10,10 @@ use spherule_tests::orders::Order;
 use spherule_tests::scenes::{Scene, Size};
 use spherule_tests::variants::{bits, levels};
 
-/// Closest hits, and whether there is any.
+/// Closest hits, and whether there is any hit.
 type Answers = (Vec<Option<(u32, u32)>>, Vec<bool>);
 
-/// By slices, the trace as it is, and as it has become.
+/// Answers by slices. `trace` keeps what it learns.
 fn by_slices(tree: &SphereTree, trace: &mut Trace<'_>, rays: &[Ray]) -> Answers {
     let (mut hits, mut occluded) = (vec![None::<Hit>; rays.len()], vec![false; rays.len()]);
     tree.closest_hits_with(Exact, trace, rays, &mut hits);
@@ -58,7 +58,7 @@ fn check(name: &str, tree: &SphereTree, rays: &[Ray]) {
     let expected = by_slices(tree, &mut Trace::new().incoherent(), rays);
     for level in levels().map(|name| Level::named(name).expect("a level of this CPU")) {
         let name = format!("{name}, {} rays, {level:?}", rays.len());
-        // The second time the trace knows what it has learnt.
+        // The second time, the trace uses what it has learnt.
         let (mut of_slices, mut of_packets) = (Trace::new().at(level), Trace::new().at(level));
         for _ in 0..2 {
             assert!(by_slices(tree, &mut of_slices, rays) == expected, "{name}: slices");
@@ -86,7 +86,7 @@ fn ways_that_are_taken_up_and_given_up() {
     }
 }
 
-/// What is learnt of some rays does not fit those that come.
+/// What a trace learns from some rays does not suit the rays that follow.
 #[test]
 fn rays_that_change_on_the_way() {
     let scene = Scene::large("u10k", Size(32, 3000)).expect("listed");
@@ -96,7 +96,7 @@ fn rays_that_change_on_the_way() {
     check("orders one after the other", &scene.tree(), &rays);
 }
 
-/// One ray in sixteen is none: of no number, of infinity, without an interval, a point.
+/// One ray in sixteen is invalid: NaN, infinity, an empty interval, a zero direction.
 #[test]
 fn rays_of_which_some_are_none() {
     let scene = Scene::large("u10k", Size(32, 3000)).expect("listed");
@@ -113,12 +113,12 @@ fn rays_of_which_some_are_none() {
     check("some are none", &scene.tree(), &rays);
 }
 
-/// A tree of up to four spheres is met as a list; of others they are among.
+/// A tree of up to four spheres is traced as a list; more spheres make a larger tree.
 #[test]
 fn very_few_spheres() {
     for count in 0..=6 {
         let mut list = uniform(count);
-        // One that no bound sees, and one that is none.
+        // One sphere that no bound covers, and an invalid one.
         if count > 2 {
             list[1].radius = 1e30;
             list[2].center.x = f32::NAN;
@@ -128,7 +128,7 @@ fn very_few_spheres() {
     }
 }
 
-/// A tree of more than 8 MB, and rays that are sorted by where they start.
+/// A tree of more than 8 MB, and rays that are sorted by their origins.
 #[test]
 fn many_rays_in_a_large_tree() {
     let scene = Scene::large("u1m", Size(32, 400_000)).expect("listed");

@@ -1,4 +1,4 @@
-//! Trees whose spheres move answer as a list of the spheres does, whatever the way there.
+//! Trees whose spheres move answer as a list of the spheres does, however the spheres came there.
 
 use super::scenes::{EYE, camera, mixed, uniform};
 use spherule_kernel::{
@@ -8,7 +8,7 @@ use spherule_kernel::{
 use spherule_referee::random::Random;
 use spherule_tests::variants::{bits, levels};
 
-/// Asserts that a tree answers as the list of its spheres does, in every level, however its rays are said to be.
+/// Asserts that a tree answers as the list of its spheres does, at every level, whatever the trace says of the rays.
 fn assert_as_list(tree: &impl Intersect, list: &SphereList, tiers: &[Tier], rays: &[Ray]) {
     for &tier in tiers {
         let mut expected = vec![None; rays.len()];
@@ -73,7 +73,7 @@ fn moved(random: &mut Random, sphere: Sphere, other: Sphere, how: usize) -> Sphe
 fn repeated_moves_of_every_kind() {
     let (rays, mut random) = (rays(), Random::new(24, 0));
     for count in [0, 1, 2, 17, 70, 300, 3000] {
-        // Three thousand are held against the list as long as all others together.
+        // The check of three thousand takes as long as all others together.
         let shares: &[i64] = if count < 3000 { &[1, 3, 20] } else { &[3] };
         let start = uniform(count);
         for &share in shares {
@@ -91,7 +91,7 @@ fn repeated_moves_of_every_kind() {
                 let growth = tree.refit(now.as_slice()).expect("as many");
                 assert!(growth.is_finite() && growth > 0.0, "{growth}");
                 assert!(how != 7 || growth == 1.0, "back at the start: {growth}");
-                // Where all hits are of huge spheres, which one is first takes some microseconds for each pair.
+                // Where all hits are of huge spheres, telling which is first takes some microseconds a pair.
                 let rays = some(&rays, &mut random, if how == 3 || how == 4 { 16 } else { 3 });
                 assert_as_list(&tree, &SphereList::from(&now), &[Tier::Exact], &rays);
             }
@@ -99,7 +99,7 @@ fn repeated_moves_of_every_kind() {
     }
 }
 
-/// Alone in its tree, a sphere is tested without a bound: not where it has become none.
+/// A sphere alone in its tree is tested without a bound, except once it is invalid.
 #[test]
 fn one_sphere_becomes_none_and_returns() {
     let rays = rays();
@@ -122,7 +122,7 @@ fn one_sphere_becomes_none_and_returns() {
     }
 }
 
-/// In its domain: no sphere, and no ray, out of scale.
+/// In `Stable`'s domain: no sphere and no ray is out of scale.
 #[test]
 fn stable_moves() {
     let (rays, mut random) = (mixed(200, 6), Random::new(25, 0));
@@ -140,7 +140,7 @@ fn stable_moves() {
     }
 }
 
-/// Spheres that were the same, of which all but a few had no lane, part and come together again.
+/// Equal spheres, of which all but a few had no lane, separate and come together again.
 #[test]
 fn copies_part() {
     let own = uniform(1000);
@@ -167,7 +167,7 @@ fn copies_part() {
     }
 }
 
-/// More the less is left of a tree; none where all go together.
+/// The less is left of a tree, the larger; none where all move together.
 #[test]
 fn growth_says_when_to_build_anew() {
     let start = uniform(10_000);
@@ -214,13 +214,13 @@ fn another_number_is_an_error_and_nothing_changes() {
     }
 }
 
-/// Memory of the caller's: as much as a tree needs, and with room for all to leave.
+/// Memory of the caller's: as much as a tree needs, and with room for all spheres to leave their boxes.
 #[test]
 fn lent_memory() {
     let start = SphereList::from(uniform(500));
     let needed = Bvh::needed(500);
     let rays = rays();
-    // Which of 500 huge spheres is hit first takes a ray a millisecond.
+    // Telling which of 500 huge spheres is first takes a millisecond a ray.
     let some = some(&rays, &mut Random::new(28, 0), 16);
     let far: SphereList =
         start.spheres().iter().map(|s| Sphere { center: s.center, radius: 1e30 }).collect();
@@ -256,7 +256,8 @@ fn lent_memory() {
     }
 }
 
-/// So many spheres out of scale that leaves which take what places there are would leave no room for their indices.
+/// So many spheres out of scale that greedy leaves, which take all places there are, would leave no room for their
+/// indices.
 #[test]
 fn spheres_out_of_scale_have_room_when_built() {
     let mut random = Random::new(27, 0);

@@ -1,5 +1,5 @@
-//! Nothing depends on the units: a scene, or the directions of its rays, multiplied by powers of two have the answers
-//! multiplied, and cost the same.
+//! Nothing depends on the units. If a scene, or the directions of its rays, are multiplied by powers of two, the
+//! answers are multiplied and the cost is the same.
 
 use super::counted::{COUNT, Counted, operations};
 use super::scenes::{EYE, camera, point, uniform, unit};
@@ -11,7 +11,7 @@ use spherule_kernel::{
 use spherule_referee::random::{Random, power_of_two};
 use spherule_tests::variants::{assert_same, bits, brute};
 
-/// Exponents of scenes: what structures saw before scaling ended at 2^40 and 2^-58.
+/// Exponents of scenes. Before scaling, structures covered scenes up to 2^40 and down to 2^-58.
 const SCENES: [i64; 9] = [-100, -75, -60, -41, 0, 41, 64, 75, 100];
 /// Exponents of directions; squares overflow from 2^64 on, and underflow below 2^-63.
 const LENGTHS: [i64; 7] = [-110, -100, -51, 0, 51, 100, 126];
@@ -27,19 +27,19 @@ pub(super) fn scaled(spheres: &[Sphere], exponent: i64) -> Vec<Sphere> {
     spheres.iter().map(scaled).collect()
 }
 
-/// Origins by one power of two, directions by another.
+/// Multiplies origins by one power of two, and directions by another.
 pub(super) fn scaled_rays(rays: &[Ray], exponent: i64, length: i64) -> Vec<Ray> {
     let scaled = |ray: &Ray| Ray::new(times(ray.origin, exponent), times(ray.direction, length));
     rays.iter().map(scaled).collect()
 }
 
-/// From everywhere, to everywhere.
+/// Rays from everywhere to everywhere.
 pub(super) fn diffuse(count: usize) -> Vec<Ray> {
     let mut random = Random::new(100, 0);
     (0..count).map(|_| Ray::new(point(&mut random, 1.0), unit(&mut random))).collect()
 }
 
-/// A structure, and what is said of the rays.
+/// A structure, and for a tree what the trace says of the rays.
 pub(super) const WAYS: [&str; 4] = ["list", "depth list", "packets", "ray by ray"];
 
 /// How many operations each way takes to answer the rays, closest hit and any hit.
@@ -79,7 +79,7 @@ fn counted(
     [closest, any]
 }
 
-/// A cliff fails here: 300 to 1,000 times the operations.
+/// A cost cliff fails here: it would be 300 to 1,000 times the operations.
 #[test]
 fn every_scale_costs_the_same() {
     let spheres = uniform(1000);
@@ -89,13 +89,13 @@ fn every_scale_costs_the_same() {
         let plain_stable = costs(Tier::Stable, &spheres, &rays);
         for exponent in SCENES {
             for length in LENGTHS {
-                // Else t are no numbers, or all zero.
+                // Otherwise every t is infinite, or zero.
                 if (exponent - length).abs() > 120 {
                     continue;
                 }
                 let spheres = scaled(&spheres, exponent);
                 let rays = scaled_rays(&rays, exponent, length);
-                // In the domain of Stable: radii from 2^-6 on.
+                // In the domain of `Stable`: radii from 2^-6 on.
                 let stable = (-34..=34).contains(&exponent) && length >= -120;
                 for (tier, plain) in [(Tier::Exact, plain), (Tier::Stable, plain_stable)] {
                     if tier == Tier::Stable && !stable {
@@ -124,7 +124,7 @@ fn every_scale_costs_the_same() {
     println!("at most {worst:.3} times the operations");
 }
 
-/// Where t are no numbers, or all zero, which no bound can order: still no cliff in a tree.
+/// Every t is infinite, or zero, so that no bound can order the hits: a tree still has no cost cliff.
 #[test]
 fn no_scale_costs_what_brute_force_does() {
     let spheres = uniform(1000);
@@ -143,7 +143,7 @@ fn no_scale_costs_what_brute_force_does() {
     }
 }
 
-/// The same spheres, t multiplied, for every power of two; structures as the list.
+/// The same hits, with t multiplied, for every power of two; structures answer as the list.
 #[test]
 fn scaled_scenes_have_scaled_answers() {
     let spheres = uniform(150);
@@ -157,14 +157,14 @@ fn scaled_scenes_have_scaled_answers() {
         hits
     };
     for exponent in -100..=100 {
-        // t as it is, as the scene is, or by chance.
+        // Directions scaled by one, by the scene's factor, or at random.
         let random_length = random.integer(-100, 100);
         for length in [0, exponent, random_length] {
             let spheres = scaled(&spheres, exponent);
             let rays_here = scaled_rays(&rays, exponent, length);
             let stable = (-34..=34).contains(&exponent);
             assert_same(if stable { BOTH } else { EXACT }, &rays_here, &spheres);
-            // Elsewhere t are subnormal, or infinite.
+            // Otherwise t are subnormal, or infinite.
             let by = exponent - length;
             if by.abs() > 110 {
                 continue;
@@ -185,13 +185,13 @@ fn scaled_scenes_have_scaled_answers() {
     }
 }
 
-/// Numbers at which something is lost that decides.
+/// Numbers at which scaling loses something that decides.
 #[test]
 fn where_powers_of_two_lose_something() {
     let size = power_of_two(100) as f32;
     let at = |x: f32, y: f32, z: f32, radius: f32| Sphere { center: Vec3::new(x, y, z), radius };
 
-    // 2^-60 is zero in the units of a scene of 2^100, and makes a tangent a miss, or a hit through two points.
+    // In the units of a scene of 2^100, 2^-60 is zero. It makes a tangent a miss, or a hit through two points.
     let mut spheres = scaled(&uniform(40), 100);
     let little = power_of_two(-60) as f32;
     for (place, y) in [-little, little, 0.0].into_iter().enumerate() {
@@ -203,7 +203,7 @@ fn where_powers_of_two_lose_something() {
     let met = brute(Tier::Exact).closest(&spheres, &rays[..3]);
     assert_eq!([0, 1, 2].map(|ray| met[ray].is_some()), [false, true, true]);
 
-    // A t of 2^127, where no t of the scene is a number: 2^-24 of the scene away.
+    // A hit at t = 2^127, 2^-24 of the scene away, where no t of the rest of the scene is finite.
     let mut spheres = scaled(&uniform(40), 100);
     spheres.push(at(0.0, 0.0, size, size * (1.0 - power_of_two(-24) as f32)));
     let direction = Vec3::new(0.0, 0.0, power_of_two(-51) as f32);
@@ -212,7 +212,7 @@ fn where_powers_of_two_lose_something() {
     let hit = brute(Tier::Exact).closest(&spheres, &rays[..1])[0];
     assert_eq!(hit.map(|hit| hit.t), Some(power_of_two(127) as f32));
 
-    // A t of -2^-151, which is rounded to zero: 2^-31 of the scene before the origin.
+    // A hit at t = -2^-151, which rounds to zero, 2^-31 of the scene before the origin.
     let mut spheres = uniform(40);
     spheres.retain(|sphere| sphere.center.length() > 0.5);
     spheres.push(at(0.0, 0.0, -0.003_906_25 - power_of_two(-31) as f32, 0.003_906_25));
@@ -224,7 +224,7 @@ fn where_powers_of_two_lose_something() {
     assert_eq!(hit.map(|hit| (hit.t, hit.sphere)), Some((0.0, spheres.len() as u32 - 1)));
 }
 
-/// At the ends of t: what rounds to zero, or to the least number, counts as it is rounded, before the origin too.
+/// At the least t: a root that rounds to zero, or to the least number, counts as rounded, before the origin too.
 #[test]
 fn where_t_are_the_least_numbers() {
     let mut random = Random::new(104, 0);

@@ -1,11 +1,11 @@
-//! Scenes and rays that structures may stumble over.
+//! Scenes and rays that could trip structures.
 
 use spherule_kernel::{Ray, Sphere, Tier, Vec3};
 use spherule_referee::aim::single;
 use spherule_referee::random::Random;
 use spherule_tests::variants::brute;
 
-/// Where most pictures are seen from.
+/// The eye of most pictures.
 pub(super) const EYE: Vec3 = Vec3::new(0.3, 0.4, 4.0);
 
 pub(super) fn point(random: &mut Random, size: f64) -> Vec3 {
@@ -28,7 +28,7 @@ pub(super) fn uniform(count: usize) -> Vec<Sphere> {
     (0..count).map(|_| sphere()).collect()
 }
 
-/// A sphere, six of half its size on it, and so on.
+/// A sphere, six spheres of half its size on it, and so on.
 fn flake(depth: u32) -> Vec<Sphere> {
     let mut spheres = vec![Sphere { center: Vec3::ZERO, radius: 0.5 }];
     let mut from = 0;
@@ -57,7 +57,7 @@ pub(super) fn all() -> Vec<(&'static str, Vec<Sphere>)> {
         sphere.radius *= (random.uniform(-3.0, 1.0) as f32).exp();
     }
     ground[500] = Sphere { center: Vec3::new(0.0, -1000.5, 0.0), radius: 1000.0 };
-    // Ties: each sphere again, in another place of the list.
+    // Ties: each sphere twice, at different places of the list.
     let mut twice = uniform(150);
     twice.extend(uniform(150).into_iter().rev());
     let points = uniform(500).into_iter().map(|sphere| Sphere { radius: 0.0, ..sphere }).collect();
@@ -83,7 +83,7 @@ pub(super) fn camera(eye: Vec3, target: Vec3, slope: f32, size: usize) -> Vec<Ra
     pixels(size).map(ray).collect()
 }
 
-/// The same of parallel rays, from a square of `reach` to each side.
+/// The same for parallel rays, from a square that reaches `reach` to each side.
 pub(super) fn parallel(eye: Vec3, direction: Vec3, reach: f32, size: usize) -> Vec<Ray> {
     let (right, up) = screen(direction.normalize());
     let ray = |[x, y]: [f32; 2]| Ray::new(eye + reach * (x * right + y * up), direction);
@@ -95,7 +95,7 @@ fn screen(way: Vec3) -> (Vec3, Vec3) {
     (right, right.cross(way))
 }
 
-/// From -1 to 1.
+/// The middles of pixels, from -1 to 1.
 fn pixels(size: usize) -> impl Iterator<Item = [f32; 2]> {
     let at = move |i: usize| 2.0 * (i as f32 + 0.5) / size as f32 - 1.0;
     let tiles = (0..size * size).step_by(16).map(move |i| (i / 16 % (size / 4), i / (4 * size)));
@@ -108,13 +108,13 @@ pub(super) fn diffuse(count: usize) -> Vec<Ray> {
     (0..count).map(|_| Ray::new(point(&mut random, 1.0), unit(&mut random))).collect()
 }
 
-/// Such rays, and a picture from [`EYE`].
+/// Diffuse rays, and a picture from [`EYE`].
 pub(super) fn mixed(count: usize, size: usize) -> Vec<Ray> {
     let picture = camera(EYE, Vec3::ZERO, 0.364, size);
     diffuse(count).into_iter().chain(picture).collect()
 }
 
-/// Ends of intervals that are answers, and their neighbours.
+/// Makes intervals end at answers, and at their neighbours.
 pub(super) fn end_at_answers(random: &mut Random, rays: &mut [Ray], spheres: &[Sphere]) {
     let hits = brute(Tier::Exact).closest(spheres, rays);
     for (ray, hit) in rays.iter_mut().zip(hits) {

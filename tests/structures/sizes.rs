@@ -44,7 +44,7 @@ fn mixed(random: &mut Random) -> Vec<(&'static str, Vec<Sphere>)> {
     ]
 }
 
-/// Rays among spheres of that size.
+/// Rays among spheres of this size.
 fn rays_there(exponent: i64) -> Vec<Ray> {
     let mut rays = camera(EYE, Vec3::ZERO, 0.364, 16);
     rays.extend(diffuse(128));
@@ -61,7 +61,7 @@ fn scenes_that_mix_sizes() {
                 let parallel: Vec<Ray> = rays.iter().map(|ray| Ray { direction, ..*ray }).collect();
                 assert_same_from(Viewpoint::Direction(direction), EXACT, &parallel, &spheres);
             }
-            // Not those of a common origin: diffuse rays fit no depth list.
+            // Only the camera's rays, which have a common origin: diffuse rays fit no depth list.
             let costs = costs(Tier::Exact, &spheres, &rays[..256]);
             let [list, others @ ..] = costs;
             for (way, cost) in WAYS.iter().skip(1).zip(others) {
@@ -75,7 +75,8 @@ fn scenes_that_mix_sizes() {
     }
 }
 
-/// A sphere that no bound sees costs what it costs in a list: the others are not met one by one for it.
+/// A sphere that no bound covers costs what it costs in a list: the other spheres are not tested one by one because of
+/// it.
 #[test]
 fn one_large_sphere_leaves_the_others_in_the_tree() {
     let rays = camera(EYE, Vec3::ZERO, 0.364, 16);
@@ -92,7 +93,7 @@ fn one_large_sphere_leaves_the_others_in_the_tree() {
     }
 }
 
-/// An output that is shorter than the rays, of a scene with spheres that no bound sees.
+/// An output shorter than the rays, for a scene with spheres that no bound covers.
 #[test]
 fn shorter_outputs() {
     let (_, spheres) = mixed(&mut Random::new(102, 0)).swap_remove(1);
@@ -119,7 +120,7 @@ fn exponent() -> impl Strategy<Value = i64> {
 proptest! {
     #![proptest_config(strategies::config(150))]
 
-    /// Spheres and rays of any size, directions of any length, and intervals of both.
+    /// Spheres and rays of any size, directions of any length, and intervals of any size.
     #[test]
     fn any_sizes_in_one_scene(
         seed in any::<u64>(),

@@ -1,4 +1,4 @@
-//! As brute force does: what a stream of rays may stumble over, and so every other way.
+//! Answers as brute force gives them, for rays that could trip a stream, and so every other way.
 
 use super::scenes::{diffuse, point, uniform, unit};
 use super::{BOTH, EXACT};
@@ -6,7 +6,7 @@ use spherule_kernel::{Ray, Sphere, Vec3};
 use spherule_referee::random::Random;
 use spherule_tests::variants::assert_same;
 
-/// None, one, and packets that are not full.
+/// No ray, one ray, and packets that are not full.
 #[test]
 fn few_rays() {
     for count in [0, 1, 15, 16, 17, 33] {
@@ -14,7 +14,7 @@ fn few_rays() {
     }
 }
 
-/// No interval, no direction, no number: nothing goes down, alone or beside rays that do.
+/// No interval, no direction, NaN: such rays enter no node, alone or beside rays that do.
 #[test]
 fn dead_rays() {
     let mut rays = diffuse(300);
@@ -33,7 +33,7 @@ fn dead_rays() {
     assert_same(BOTH, &rays, &uniform(300));
 }
 
-/// All of them wait in the same queues, longer than the memory of some.
+/// All rays wait in the same queues, which some variants' memory cannot hold.
 #[test]
 fn equal_rays() {
     let spheres = uniform(300);
@@ -42,7 +42,7 @@ fn equal_rays() {
     }
 }
 
-/// Nothing rules out anything: each node is entered by all rays, and each sphere asked about.
+/// Nothing is ruled out: every ray enters every node and tests every sphere.
 #[test]
 fn every_ray_through_every_sphere() {
     let mut random = Random::new(131, 0);
@@ -62,7 +62,7 @@ fn every_ray_through_every_sphere() {
     }
 }
 
-/// Zeros of both signs beside every sign of the others, from points that lie in the faces of boxes.
+/// Zeros of both signs beside components of every sign, from points in the faces of boxes.
 #[test]
 fn zeros_in_every_octant() {
     let spheres = uniform(200);

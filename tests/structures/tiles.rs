@@ -1,4 +1,4 @@
-//! As brute force does: tiles whose rays a camera makes on the way, by planes around their corner pixels.
+//! Answers as brute force gives them, for tiles whose rays a camera makes during the traversal, behind planes around their corner pixels.
 
 use super::scenes::{self, point, uniform, unit};
 use super::{BOTH, EXACT};
@@ -7,8 +7,8 @@ use spherule_referee::random::Random;
 use spherule_referee::strategies::SPECIALS;
 use spherule_tests::variants::{Frame, assert_same_tiles};
 
-/// A picture of `pixels` x `pixels` from `eye`, or along the way to the target, `slope` or so many units of the scene
-/// from its middle to its edge.
+/// A picture of `pixels` x `pixels` from `eye`, or of rays parallel to the way to the target. From its middle to its edge it measures
+/// `half`: a slope, or units of the scene.
 fn camera(eye: Vec3, target: Vec3, half: f32, pixels: u32, is_parallel: bool) -> Camera {
     let way = (target - eye).normalize();
     let right = way.any_orthonormal_vector();
@@ -31,7 +31,7 @@ fn whole(camera: Camera, width: u32, height: u32) -> Frame {
     Frame { camera, from: (0, 0), count: (width, height), size: (width, height) }
 }
 
-/// Every scene from several sides, near and far, in pictures that tiles fill and in others.
+/// Every scene from several sides, near and far, in pictures that tiles fill exactly and in others.
 #[test]
 fn scenes_from_every_side() {
     let sides = [
@@ -41,7 +41,7 @@ fn scenes_from_every_side() {
     ];
     for (number, (_, spheres)) in scenes::all().into_iter().enumerate() {
         for (side, (eye, half, parallel_half)) in sides.into_iter().enumerate() {
-            // Each scene has both sizes by both projections.
+            // Each scene gets both sizes in both projections.
             let sizes = [(24, 24), (17, 13)];
             let [size, other] = [number + side, number + side + 1].map(|size| sizes[size % 2]);
             let perspective = camera(eye, Vec3::ZERO, half, size.0, false);
@@ -52,8 +52,8 @@ fn scenes_from_every_side() {
     }
 }
 
-/// Where the points of pixels are mostly rounding: corners far away, steps of some ulps, pixels far from the first; and scenes
-/// of every size.
+/// Cameras whose pixels' points are mostly rounding: corners far away, steps of some ulps, pixels far from the first; and scenes of every
+/// size.
 #[test]
 fn rounded_pixels() {
     let mut random = Random::new(121, 0);
@@ -63,11 +63,11 @@ fn rounded_pixels() {
         let half = random.log_uniform(-24, 1) as f32;
         let pixels = 1 << random.integer(4, 24);
         let mut camera = camera(eye, target, half, pixels, random.one_in(2));
-        // Pixel numbers that the tiles begin at, in a picture that is larger than what is looked at.
+        // The pixel at which the tiles begin, in a picture larger than the tiles cover.
         let mut first = || random.integer(0, i64::from(pixels) - 1) as u32;
         let from = (first(), first());
         if random.one_in(3) {
-            // Far from the plane's own origin, and back by steps.
+            // The corner is far from the plane's own origin, and the steps lead back.
             let away = unit(&mut random) * random.log_uniform(0, 20) as f32;
             camera.corner -= away;
             camera.step_x += away / (from.0.max(1) as f32);
@@ -79,7 +79,7 @@ fn rounded_pixels() {
     }
 }
 
-/// Puts small spheres where the rays of these pixels go, so that a plane a little too narrow loses one.
+/// Puts small spheres where the rays of these pixels go, so that a plane that is slightly too narrow loses one.
 fn aim(random: &mut Random, camera: &Camera, (x, y): (u32, u32), spheres: &mut [Sphere]) {
     for sphere in spheres.iter_mut().step_by(2) {
         let pixel =
@@ -92,7 +92,7 @@ fn aim(random: &mut Random, camera: &Camera, (x, y): (u32, u32), spheres: &mut [
     }
 }
 
-/// Any numbers: what is no camera hits nothing, and nothing panics.
+/// Any numbers: an invalid camera hits nothing, and nothing panics.
 #[test]
 fn any_camera() {
     let mut random = Random::new(122, 0);
@@ -119,7 +119,7 @@ fn any_camera() {
     }
 }
 
-/// Spheres that no box sees, none at all, and fewer tiles than a group has.
+/// A sphere that no box covers, no spheres at all, and fewer tiles than a group has.
 #[test]
 fn few_of_everything() {
     let camera = camera(scenes::EYE, Vec3::ZERO, 0.364, 16, false);
@@ -132,7 +132,7 @@ fn few_of_everything() {
     }
 }
 
-/// Half of the pixels have no point: their tiles must not spoil the planes of those beside them. Found by the fuzz target.
+/// Half of the pixels have no finite point: their tiles must not spoil the planes of neighbouring tiles. Found by the fuzz target.
 #[test]
 fn points_beyond_all_numbers() {
     let far = -f32::MAX;

@@ -1,4 +1,4 @@
-//! As brute force does: rays that share an origin or a direction, and those that do not quite.
+//! Answers as brute force gives them, for rays that share an origin or a direction, or nearly do.
 
 use super::scenes::{self, EYE, camera, diffuse, end_at_answers, parallel, point, uniform};
 use super::{BOTH, EXACT};
@@ -57,7 +57,7 @@ fn lengths_and_intervals() {
         }
     }
     assert_same_from(Viewpoint::Origin(eye), EXACT, &rays, &spheres);
-    // No end is negative, so that depth lists are used.
+    // No interval has a negative end, so that depth lists are used.
     let mut rays = camera(eye, Vec3::ZERO, 0.364, 64);
     end_at_answers(&mut random, &mut rays, &spheres);
     assert_same_from(Viewpoint::Origin(eye), EXACT, &rays, &spheres);
@@ -118,7 +118,7 @@ fn rays_that_do_not_fit() {
         }
         assert_same_from(Viewpoint::Origin(eye), EXACT, &rays, &spheres);
         assert_same_from(Viewpoint::Direction(-eye), EXACT, &along, &spheres);
-        // No one's viewpoint, and another's.
+        // A viewpoint of no ray, and one of others.
         for odd in [f32::NAN, f32::INFINITY, 3e38, 0.0, 1e-30] {
             assert_same_from(Viewpoint::Origin(Vec3::splat(odd)), EXACT, &rays[..600], &spheres);
             assert_same_from(Viewpoint::Direction(Vec3::splat(odd)), EXACT, &rays[..600], &spheres);

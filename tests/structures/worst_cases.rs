@@ -7,7 +7,8 @@ use spherule_referee::random::Random;
 use spherule_tests::variants::assert_same;
 use std::time::{Duration, Instant};
 
-/// Builds, and asserts what no input may break: depth, size, and time (per sphere, generous).
+/// Builds a tree, and asserts what no input may break: depth, size, and time (per sphere,
+/// generous).
 fn build(name: &str, spheres: &[Sphere]) {
     let (start, count) = (Instant::now(), spheres.len());
     let tree = SphereTree::new(spheres);

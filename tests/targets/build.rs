@@ -1,4 +1,4 @@
-//! What the linker is told: the memory of the boards, and what a module exports. And a tree, built here, as data.
+//! Tells the linker the memory of the boards, and what a module exports. Also builds a tree as data.
 
 fn main() {
     let of_cargo = |name: &str| std::env::var(name).expect("cargo sets it");

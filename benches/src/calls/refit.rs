@@ -1,11 +1,12 @@
-//! Spheres that move: what a refit takes, by the time of a build.
+//! Spheres that move: the time of a refit, divided by the time of a build.
 
 use crate::rounds::{Median, Sampler, Samples, timed};
 use spherule_kernel::{InTurn, Sphere, SphereList, SphereTree, Vec3};
 use spherule_tests::scenes::Scene;
 use std::time::Duration;
 
-/// Builds and refits of fewer spheres are timed so many spheres at once: of one alone, to read the clock takes as long.
+/// With fewer spheres, several builds or refits are timed together, of about so many spheres: reading the clock takes
+/// as long as a small one.
 const AT_ONCE: usize = 4096;
 
 /// Spheres of a scene that move, against building anew.

@@ -1,8 +1,8 @@
 //! Rays for the kernel in blocks that are in the cache, as Embree gets them.
 //!
-//! Many rays do not stay in the cache from one pass to the next. Whoever makes rays, makes some, traces them, and makes
-//! the next. So a block is copied, then searched with the clock running, then its answers are copied out. Rays
-//! that are no more than a block stay in the cache anyway: they are searched where they are, and the clock is the caller's.
+//! Many rays do not stay in the cache from one pass to the next. A program that makes rays makes some, traces them, and makes the next. So
+//! a block is copied, then searched with the clock running, then its answers are copied out. Rays that fill no more than one block stay in
+//! the cache anyway: they are searched where they are, and the caller keeps the time.
 
 use super::{Query, Run};
 use crate::rounds::{thread_time, timed};
@@ -27,7 +27,7 @@ impl<A: LaneArray> Default for Memory<A> {
 }
 
 impl<A: LaneArray> Memory<A> {
-    /// Makes room for the answers of so many packets, and for a block of so many.
+    /// Makes room for the answers of `packets` packets, and for a block of `block` packets.
     fn reserve(&mut self, packets: usize, block: usize) {
         let room = |(hits, occluded): &mut Answers<A>, count: usize| {
             hits.resize(count.max(hits.len()), HitPacket::none());
@@ -45,7 +45,7 @@ pub(super) struct Blocks<'a, A: LaneArray = [f32; 16]> {
     memory: &'a mut Memory<A>,
     /// Packets of a block.
     size: usize,
-    /// What the clock has seen; nothing of a single block.
+    /// How long the clock ran. Stays zero for a single block.
     nanoseconds: u64,
 }
 
@@ -54,7 +54,7 @@ impl<A: LaneArray> Blocks<'_, A> {
         self.rays.len() <= self.size
     }
 
-    /// With the clock running, what a pass needs once.
+    /// Does, with the clock running, the work that a pass needs once.
     pub(super) fn once<T>(&mut self, work: impl FnOnce() -> T) -> T {
         if self.is_single() {
             return work();
@@ -91,10 +91,10 @@ impl<A: LaneArray> Blocks<'_, A> {
     }
 }
 
-/// Packets of rays, and what searches for their hits.
+/// Packets of rays, and the function that searches for their hits.
 pub(super) struct InPackets<A: LaneArray, S> {
     packets: Rc<[RayPacket<A>]>,
-    /// How many rays.
+    /// The number of rays.
     count: usize,
     /// Packets of a block.
     block: usize,
@@ -117,7 +117,7 @@ impl<A: LaneArray, S: FnMut(Query, &mut Blocks<'_, A>)> InPackets<A, S> {
         Self { packets, count, block, search, memory, any_hit: false }
     }
 
-    /// Returns what the clock has seen.
+    /// Returns how long the clock ran, in nanoseconds.
     fn pass(&mut self, query: Query) -> u64 {
         let memory = &mut *self.memory.borrow_mut();
         memory.reserve(self.packets.len(), self.block);
@@ -146,7 +146,7 @@ impl<A: LaneArray, S: FnMut(Query, &mut Blocks<'_, A>)> Run for InPackets<A, S> 
         (0..self.count).map(hit).collect()
     }
 
-    /// Of the searches alone.
+    /// The time of the searches alone.
     fn time(&mut self, query: Query, runs: usize) -> f64 {
         if self.packets.len() <= self.block {
             return timed(|| (0..runs).for_each(|_| self.run(query)));

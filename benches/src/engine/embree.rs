@@ -1,15 +1,14 @@
 //! Embree 3 and 4: spheres (`RTC_GEOMETRY_TYPE_SPHERE_POINT`), with the instructions of each of the kernel's levels.
 //!
-//! Behind the feature `embree`, since [libraries] in C are opened that not every machine has.
+//! The module is behind the feature `embree`, since it opens [libraries] in C that not every machine has.
 //!
-//! A call is timed as fairly as can be: rays are copied into Embree's records outside the clock (Embree overwrites
-//! them), block by block, so that a block is in the cache when it is traced, as the kernel's blocks are; the
-//! clock sees nothing but calls of `rtcIntersect*` or `rtcOccluded*`. Embree asks its callers to flush subnormal numbers
-//! to zero, and is timed so; the kernel's `Exact` must not be, so the register is put back after every block, and
-//! that is asserted.
+//! A call is timed as fairly as can be. Embree overwrites its records: so rays are copied into them outside the clock, block by block, and
+//! a block is in the cache when it is traced, as the kernel's blocks are. The clock sees nothing but calls of `rtcIntersect*` or
+//! `rtcOccluded*`. Embree asks its callers to flush subnormal numbers to zero, and is timed with that. The kernel's `Exact` must not be
+//! flushed, so the register is restored after every block, and an assertion checks that.
 
-// A foreign interface and a control register: neither can be had without. Everything that is unsafe in this crate is
-// here and in the folder beside.
+// A foreign interface and a control register: Rust has neither without `unsafe`. All unsafe code of this crate is here and in the folder
+// beside.
 #![allow(unsafe_code)]
 
 mod library;
@@ -55,13 +54,13 @@ const _: () = assert!(size_of::<Context>() == 24 && size_of::<Arguments>() == 32
 /// A device and a scene of spheres, with one thread.
 pub(crate) struct Embree {
     library: &'static Library,
-    /// Whose instructions the device has.
+    /// The level whose instructions the device uses.
     level: LevelName,
     device: Handle,
     scene: Handle,
-    /// Centre and radius; the scene reads them as long as it is.
+    /// Centre and radius. The scene reads them as long as it lives.
     _spheres: Box<[[f32; 4]]>,
-    /// How long the build took, of the thread's own time; it has no other thread.
+    /// The thread's own time of the build, which uses no other thread.
     pub(crate) build_nanoseconds: f64,
 }
 
@@ -82,8 +81,7 @@ impl Embree {
         let (buffer, count) = (spheres.as_ptr().cast(), spheres.len());
         let mut scene = null_mut();
         let nanoseconds = flushing(|| {
-            // SAFETY: the handles come from the library, the buffer has `count` elements of 16 bytes and is kept as
-            // long as the scene.
+            // SAFETY: the handles come from the library; the buffer has `count` elements of 16 bytes and lives as long as the scene.
             unsafe {
                 let geometry = (library.new_geometry)(device, SPHERE_POINT);
                 let (kind, format) = (VERTEX_BUFFER, FLOAT4);
@@ -113,7 +111,7 @@ impl Drop for Embree {
     }
 }
 
-/// The calls that the device has instructions for (wider ones are traced ray by ray), and those of streams.
+/// The calls that the device has instructions for (it traces wider ones ray by ray), and the calls of streams.
 pub(crate) fn engines(embree: &Rc<Embree>) -> Vec<Engine> {
     let packets: &[_] = match embree.level {
         LevelName::Baseline => &[(4, "4 rays a call")],
@@ -159,7 +157,7 @@ impl Run for Calls {
         self.hits.clone()
     }
 
-    /// Of the calls alone.
+    /// The time of the calls alone.
     fn time(&mut self, query: Query, runs: usize) -> f64 {
         (0..runs).map(|_| self.pass(query)).sum::<u64>() as f64
     }
@@ -205,20 +203,20 @@ impl Calls {
             nanoseconds += flushing(|| {
                 if let Some(stream) = stream {
                     let (first, count) = (records.as_mut_ptr().cast(), block.len() as c_uint);
-                    // SAFETY: as below; there are so many records, of so many bytes.
+                    // SAFETY: as below; `count` records are there, each of `4 * words` bytes.
                     unsafe { stream(scene, context.cast(), first, count, 4 * words) };
                     return;
                 }
                 for record in records.chunks_exact_mut(words) {
                     let record = record.as_mut_ptr().cast();
-                    // Embree 4 takes them in another order.
+                    // Embree 4 takes the two arguments in the other order.
                     let [first, second] = if library.is_3 {
                         [context.cast(), record]
                     } else {
                         [record, arguments.cast()]
                     };
-                    // SAFETY: all that is pointed to lives; a record has as many rows of `n` words as the call reads
-                    // and writes, and is aligned to 4 `n` bytes, one of a ray to 16, since the first is to 64.
+                    // SAFETY: everything that is pointed to lives. A record has as many rows of `n` words as the call reads and writes. It
+                    // is aligned to 4 `n` bytes, or to 16 for one ray, since the first record is aligned to 64.
                     unsafe {
                         match n {
                             1 => one(scene, first, second),
@@ -234,21 +232,21 @@ impl Calls {
     }
 }
 
-/// The members of a record that are the ray's.
+/// How many members of a record belong to the ray.
 const RAY: usize = 12;
 
 /// A flag for each ray of a record, aligned as the library asks.
 #[repr(align(64))]
 struct Valid([i32; 16]);
 
-/// Writes rays into a record: rows of `n` words, a member each. The last ray fills up.
+/// Writes rays into a record of rows of `n` words, one row a member. The last ray fills the lanes that are left.
 fn fill(record: &mut [u32], n: usize, rays: &[Ray]) {
     for lane in 0..n {
         let ray = &rays[lane.min(rays.len() - 1)];
         let ([ox, oy, oz], [dx, dy, dz]) = (ray.origin.to_array(), ray.direction.to_array());
         let members = [ox, oy, oz, ray.t_min, dx, dy, dz, 0.0, ray.t_max].map(f32::to_bits);
-        // Then mask, id and flags; of the hit normal, u, v, and the indices of primitive, geometry and instance.
-        // Embree 4 has another index, of an instance in an array.
+        // Then mask, id and flags; then, of the hit, normal, u, v, and the indices of primitive, geometry and instance. Embree 4 has one
+        // more index, of an instance in an array.
         let members =
             members.into_iter().chain([u32::MAX, 0, 0, 0, 0, 0, 0, 0, NONE, NONE, NONE, NONE]);
         for (row, member) in record.chunks_exact_mut(n).zip(members) {
@@ -262,13 +260,13 @@ fn read(record: &[u32], n: usize, lane: usize, query: Query) -> Option<Hit> {
     let t = f32::from_bits(member(8));
     match query {
         Query::ClosestHit => (member(18) != NONE).then(|| Hit { t, sphere: member(17) }),
-        // An occluded ray ends at minus infinity.
+        // Embree sets t to minus infinity for an occluded ray.
         Query::AnyHit => (t < 0.0).then_some(Hit { t: 0.0, sphere: 0 }),
     }
 }
 
-/// How many nanoseconds calls of the library take with subnormal numbers flushed to zero, as it asks of its callers;
-/// the register is put back. `calls` must do no floating-point arithmetic of its own.
+/// How many nanoseconds `calls` takes with subnormal numbers flushed to zero, as the library asks of its callers. The register is restored
+/// afterwards. `calls` must do no floating-point arithmetic of its own.
 fn flushing(calls: impl FnOnce()) -> u64 {
     /// Results (bit 15) and operands (bit 6) that are subnormal become zero.
     const FLUSH: u32 = 1 << 15 | 1 << 6;
@@ -282,11 +280,10 @@ fn flushing(calls: impl FnOnce()) -> u64 {
     nanoseconds
 }
 
-/// Writes the register if there is something to write, and reads it.
+/// Writes the register if `write` is a value, and reads it.
 fn control_and_status(write: Option<u32>) -> u32 {
     let mut register = write.unwrap_or(0);
-    // SAFETY: loads and stores four bytes where there are four; what is loaded was stored before, except for two of its
-    // defined bits.
+    // SAFETY: loads and stores four bytes where there are four. The loaded value was stored before, except for two of its defined bits.
     unsafe {
         if write.is_some() {
             asm!("ldmxcsr [{}]", in(reg) &raw const register, options(nostack, readonly));

@@ -1,4 +1,4 @@
-//! The kernel: every tier in every way to the hits, at a level of instructions or in lanes of a fixed width.
+//! The kernel: every tier in every way to the hits, at a level or in lanes of a fixed width.
 
 use super::blocks::{Blocks, InPackets, Memory};
 use super::{BLOCK, Engine, Label, Promise, Query, Ready, SOME_RAYS};
@@ -10,11 +10,11 @@ use spherule_tests::scenes::{Kind, Scene, viewpoint};
 use std::cell::RefCell;
 use std::rc::Rc;
 
-/// Tests of brute force that a sample may cost.
+/// How many tests of brute force a sample may cost.
 const TESTS: usize = 1 << 25;
-/// Rays that a stream has memory for: as many as go down together.
+/// How many rays a stream has memory for: so many go down together.
 pub(crate) const STREAM: usize = 8192;
-/// Places in queues for each: no queue is cut short.
+/// Places in queues for each ray: with so many no queue is cut short.
 const QUEUES: usize = 64;
 
 /// A way to the hits.
@@ -23,10 +23,10 @@ pub(crate) enum Way {
     /// Every ray against every sphere.
     BruteForce,
     RayByRay,
-    /// Queues of rays, so many at a time as there is memory for.
+    /// Queues of rays, [`STREAM`] rays at a time.
     Stream,
     Packets,
-    /// Made anew for every pass over the rays.
+    /// A list that is sorted anew for every pass over the rays.
     DepthList,
 }
 
@@ -41,7 +41,7 @@ impl Way {
         }
     }
 
-    /// Rays that are in the cache when they are searched.
+    /// How many rays are in the cache when they are searched.
     const fn block(self) -> usize {
         match self {
             Self::Stream => STREAM,
@@ -59,7 +59,7 @@ pub(crate) fn levels() -> Vec<Level> {
 pub(crate) struct Kernel<'a> {
     scene: &'a Scene,
     tree: Rc<SphereTree>,
-    /// Shared by all that are compared: the same memory, as warm for each.
+    /// All engines that are compared share this memory, so that it is as warm in the cache for each.
     memory: Rc<RefCell<Memory>>,
 }
 
@@ -68,7 +68,7 @@ impl<'a> Kernel<'a> {
         Self { scene, tree: Rc::clone(tree), memory: Rc::default() }
     }
 
-    /// What others are held to: `Exact` by the tree.
+    /// The engine that others are held to: `Exact` by the tree.
     pub(crate) fn truth(&self) -> Ready {
         self.at_level(Way::RayByRay, Tier::Exact, Level::best())
     }
@@ -95,7 +95,6 @@ impl<'a> Kernel<'a> {
 
     /// Every way: in `tiers` at the first level, in `Stable` at the others.
     pub(crate) fn ways(&self, kind: Kind, levels: &[Level], tiers: &[Tier]) -> Vec<Engine> {
-        // Diffuse rays have no viewpoint.
         use Way::{BruteForce, DepthList, Packets, RayByRay, Stream};
         // Diffuse rays have no viewpoint; a camera's gain nothing as a stream.
         let ways: &[Way] = match kind {
@@ -120,14 +119,14 @@ impl<'a> Kernel<'a> {
         let is_brute_force = way == Way::BruteForce;
         let is_reference = is_brute_force && level.name() == Level::best().name();
         let promise = match tier {
-            // They may lose false hits of their forms in a structure.
+            // A structure may lose the false hits of these forms.
             Tier::Fast | Tier::Geometric if !is_brute_force => Promise::Nothing,
             _ if !is_reference => self.like_brute_force(tier),
             _ if !self.scene.is_small => Promise::Nothing,
             Tier::Geometric if self.scene.has_ground() => Promise::GEOMETRIC_ON_GROUND,
             Tier::Fast | Tier::Geometric => Promise::TEXTBOOK,
-            // The discriminant may cancel to a 32nd of its terms and the root to an 8th of half the chord before the
-            // tier reaches for two-term arithmetic: 6 u of the terms (u = 2^-24) are 96 u of half the chord, and 768 u
+            // Before the tier takes to two-term arithmetic, the discriminant may cancel to a 32nd of its terms, and the
+            // root to an 8th of half the chord. Then 6 u of the terms (u = 2^-24) are 96 u of half the chord, and 768 u
             // of the root.
             Tier::Stable if self.scene.has_ground() => Promise::Near(0.0, 768),
             // Grazing rays lose a few bits of t.

@@ -1,4 +1,4 @@
-//! Two loops that are no tier: what their users pay, and what they get.
+//! Two loops that are no tier: what a user pays without the kernel, and what accuracy that buys.
 //!
 //! * `plain geometric`: the form of the tier `Geometric`, in `f32`: t_m = d.p, l^2 = p.p - t_m^2,
 //!   dt = sqrt(r^2 - l^2), t = t_m -+ dt. Directions are made unit before the clock starts; t is divided by their
@@ -6,9 +6,9 @@
 //! * `plain f64`: the textbook form in double precision, nothing proven: a = d.d, b = d.p, D = b^2 - a (p.p - r^2),
 //!   t = (b -+ sqrt D) / a.
 //!
-//! Both run in the same brute-force loop: four spheres under one branch, roots only behind it and out of line. What
-//! can be done before the clock starts is done before: rays widened, radii squared. Products and sums are fused if
-//! the build has that instruction.
+//! Both run in the same brute-force loop: one branch for four spheres, and roots only behind it and out of line.
+//! Whatever can be done before the clock starts is done before: rays are widened, radii squared. Products and sums are
+//! fused if the build has that instruction.
 
 use super::{Engine, Label, Promise, Query, Run};
 use spherule_kernel::{Hit, Ray, Sphere, Spheres};
@@ -47,21 +47,21 @@ pub(crate) fn marks(scene: &Scene) -> [Engine; 5] {
     ]
 }
 
-/// The loop for lanes of a type of `wide`, whose methods have no trait in common; `$unit` says which form.
+/// The loop for one lane type of `wide`, whose types share no trait for their methods; `$unit` chooses the form.
 macro_rules! brute_force {
     ($module:ident, $vector:ident, $element:ident, $count:literal, unit: $unit:literal) => {
         mod $module {
             use super::*;
             use wide::$vector as V;
 
-            /// A packet. `beside` is what the form needs beside the direction: its length, or d.d.
+            /// A packet. `beside` holds what else the form needs of the direction: its length, or d.d.
             struct Packet {
                 origin: [V; 3],
                 direction: [V; 3],
                 beside: V,
                 t_min: V,
                 t_max: V,
-                /// Of the closest hit: t, infinite if there is none, and the sphere's index as a number.
+                /// The closest hit: t, infinite if there is none, and the sphere's index as a number.
                 best: [V; 2],
             }
 

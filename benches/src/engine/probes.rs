@@ -1,11 +1,12 @@
-//! What the machine's arithmetic can do at best, in registers: the mark for brute force.
+//! What the machine's arithmetic can do at best, in registers: brute force is measured by it.
 //!
-//! A test of a ray against a sphere by the textbook discriminant costs [`TEXTBOOK`] operations. [`FUSED`] is one
-//! fused operation a test; the **FMA limit** of a test is `TEXTBOOK * its time`: as if every operation took the slot
-//! of a fused one. On CPUs where all vector arithmetic shares two ports (Intel) it is a floor for the time. On AMD's
-//! Zen sums, differences and comparisons have ports of their own, so that a share above 1 is possible. [`MIX`] is the
-//! operations of a test, without memory: what a kernel would cost that loads, stores, counts and branches for
-//! nothing. If the target has no fused operation (a plain x86-64 build) a fused one is a product and a sum.
+//! A test of a ray against a sphere by the textbook discriminant costs [`TEXTBOOK`] operations. The probe [`FUSED`]
+//! runs one fused operation a test. The **FMA limit** of a test is `TEXTBOOK` times its time, as if every operation
+//! took the slot of a fused one. On CPUs where all vector arithmetic shares two ports (Intel) the limit is a floor for
+//! the time. On AMD's Zen, sums, differences and comparisons have ports of their own, so that a share above 1 is
+//! possible. The probe [`MIX`] runs the operations of a test without memory: what a kernel would cost if its loads,
+//! stores, counts and branches were free. If the target has no fused operation (a plain x86-64 build), a product and a
+//! sum replace it.
 
 use super::{Engine, Label, Promise, Query, Run};
 use spherule_kernel::{Hit, LaneMask, Lanes, f32x4, f32x8, f32x16};
@@ -24,8 +25,8 @@ const CHAINS: usize = 12;
 /// Tests under one comparison.
 const GROUP: usize = 4;
 
-/// Both in every width, an operation for every ray and sphere. The best of the widths is the peak: a plain build has no
-/// register of 16 lanes.
+/// Both probes in every width, with one operation for every ray and sphere. The best of the widths is the peak, since a
+/// plain build has no register of 16 lanes.
 pub(crate) fn probes(spheres: usize) -> [Engine; 6] {
     let probe = |name, lanes, run: fn(usize)| Engine {
         label: Label { way: "", name, lanes },
@@ -58,7 +59,7 @@ impl Run for Probe {
     }
 }
 
-/// About `operations` fused operations in lanes.
+/// Runs about `operations` fused operations in lanes.
 #[inline(never)]
 fn fused<L: Lanes<Token = ()>>(operations: usize) {
     // Values that the optimiser cannot know and that stay normal: x -> x * factor + addend.
@@ -75,14 +76,14 @@ fn fused<L: Lanes<Token = ()>>(operations: usize) {
     }
 }
 
-/// The arithmetic of about `tests` tests in lanes.
+/// Runs the arithmetic of about `tests` tests in lanes.
 #[inline(never)]
 fn mix<L: Lanes<Token = ()>>(tests: usize) {
     let unknown = |value: f32| L::splat((), black_box(value));
     let origin = [unknown(1e-3), unknown(-2e-3), unknown(1.5e-3)];
     let [dx, dy, dz] = [unknown(0.6), unknown(-0.3), unknown(0.7)];
     let (a, minus_r2, threshold) = (unknown(0.94), unknown(-0.25), unknown(1e30));
-    // Each test starts where the last one ended, so that no subtraction can be shared.
+    // Each test starts where the last one ended, so that the compiler can share no subtraction.
     let [mut x, mut y, mut z] = [unknown(1.0), unknown(2.0), unknown(3.0)];
     let mut candidates = 0;
     for _ in 0..tests.div_ceil(GROUP * L::COUNT) {

@@ -1,35 +1,35 @@
-//! The trial before the clock: every way's answers are checked, on a few rays first, and who is far behind leaves.
+//! The trial before the clock: checks every way's answers, on a few rays first, and drops the ways that are far behind.
 
 use super::ways::{Answers, Way, Work};
 use crate::engine::{Engine, Query, Rays};
 use spherule_kernel::{Level, Ray};
 use spherule_tests::scenes::sample;
 
-/// Rays of trials, in runs from all of them.
+/// How many rays the first trials take, in runs from all of them.
 const PARTS: [usize; 2] = [256, 1024];
 const LAST_PART: usize = PARTS[1];
-/// Nanoseconds of a run that is not repeated.
+/// A run that takes more nanoseconds is not repeated.
 const LONG: f64 = 1e6;
-/// Who takes so many times as long as the best on a part is not timed on all rays.
+/// A way that takes so many times as long as the best on a part is not timed on all rays.
 const SLOW: f64 = 8.0;
-/// Who takes so many times as long as the best on all rays is not the best.
+/// A way that takes so many times as long as the best on all rays is not the best.
 const NEAR: f64 = 1.6;
 /// The fewest rays of a sample.
 const LEAST: usize = 1024;
-/// Tests of brute force that a check may cost.
+/// How many tests of brute force a check may cost.
 const TESTS: usize = 1 << 20;
-/// The share of rays on which another program may think otherwise of whether they hit: those that graze. From far away it
-/// may lose all spheres, if they are small: it subtracts squares of the distance.
+/// The share of rays, those that graze, on which another program may decide otherwise whether they hit. From far away it may lose all
+/// spheres if they are small, since it subtracts squares of the distance.
 const OTHERWISE: f64 = 4e-2;
 
-/// Shown however slow they are.
+/// The ways that are shown however slow they are.
 const SHOWN: [Way; 3] = [Way::RayByRay, Way::Coherent, Way::Plain];
 
-/// Who is to be timed.
+/// What is to be timed.
 pub(super) struct Trial {
-    /// Ray by ray, whatever may be the best, and of [`SHOWN`] who was not too slow.
+    /// Ray by ray, every way that may be the best, and those of [`SHOWN`] that were not too slow.
     pub(super) ways: Vec<Way>,
-    /// Who was too slow, and nanoseconds a ray of a part.
+    /// The ways that were too slow, with nanoseconds a ray of a part.
     pub(super) slow: Vec<(Way, f64)>,
     /// Which of Embree's calls may be the best.
     pub(super) embree: Vec<usize>,
@@ -50,7 +50,7 @@ impl Trial {
     ) -> Self {
         let (mut slow, mut best) = (Vec::new(), f64::INFINITY);
         let mut answers = Answers::Any(Vec::new());
-        // Of few rays one part is all.
+        // A few rays are all in one part.
         let parts = if rays.len() > PARTS[0] { &PARTS[..] } else { &PARTS[..1] };
         for &part in parts {
             work.take(sample(rays, part));
@@ -90,12 +90,12 @@ fn times(
         work.forget();
         let mut time = work.run(way, level, query) / count;
         assert!(work.answers(query) == *truth, "{name}: {way:?} differs from ray by ray");
-        // Of a part, which is in no time, the best of some runs: the first finds nothing in the cache.
+        // A part takes little time, so the best of some runs counts: the first run finds nothing in the cache.
         let again = if work.rays.len() > LAST_PART || time * count > LONG { 0 } else { 2 };
         for _ in 0..again {
             time = time.min(work.run(way, level, query) / count);
         }
-        // Streams of few rays are slow, of more they are not.
+        // Streams are slow for few rays, but not for more.
         if time > SLOW * best && way != Way::Stream {
             slow.push((way, time));
         } else {
@@ -106,7 +106,7 @@ fn times(
     timed
 }
 
-/// Those of Embree's calls that may be the quickest, and nanoseconds a ray of the quickest.
+/// Embree's calls that may be the quickest, and nanoseconds a ray of the quickest.
 fn nearest(
     embree: &[&Engine],
     rays: &[Ray],
@@ -114,7 +114,7 @@ fn nearest(
     truth: &Answers,
     name: &str,
 ) -> (Vec<usize>, f64) {
-    /// Who takes so many times as long as the quickest is not it: of the first part, of all.
+    /// A call that takes so many times as long as the quickest is not the quickest: on the first part, and on the second.
     const FAR: [f64; 2] = [2.0, 1.35];
     let (mut chosen, mut best) = ((0..embree.len()).collect::<Vec<_>>(), 0.0);
     for (part, far) in PARTS.into_iter().zip(FAR) {

@@ -1,6 +1,6 @@
 //! The ways in which a caller can have rays traced, whatever their order.
 //!
-//! What the kernel offers is named here and nowhere else in this report.
+//! Only this module of the report names what the kernel offers.
 
 use crate::engine::Query;
 use crate::rounds::timed;
@@ -10,32 +10,32 @@ use spherule_kernel::{
 };
 use spherule_tests::scenes::viewpoint;
 
-/// A plain user's tier.
+/// The tier of a user who chooses none.
 pub(super) const TIER: Tier = Tier::Exact;
-/// Rays that a stream has memory for.
+/// How many rays a stream has memory for.
 const STREAM: usize = 8192;
-/// Places in queues for each: no queue is cut short.
+/// Places in queues for each ray: with so many no queue is cut short.
 const QUEUES: usize = 64;
-/// A depth list is for at most so many spheres.
+/// The most spheres of a depth list.
 const DEPTH_LIST: usize = 20_000;
 
 /// A way to the hits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Way {
-    /// Slices, and not a word on the rays.
+    /// Slices, with nothing said about the rays.
     Plain,
-    /// Slices, said to be incoherent: what others are held to.
+    /// Slices, said to be incoherent: the other ways are held to its answers.
     RayByRay,
     Coherent,
     Packets,
     IncoherentPackets,
     Stream,
-    /// Made anew every time.
+    /// A list that is sorted anew in every run.
     DepthList,
 }
 
 impl Way {
-    /// All; ray by ray first.
+    /// All ways, ray by ray first.
     pub(super) const ALL: [Self; 7] = [
         Self::RayByRay,
         Self::IncoherentPackets,
@@ -46,11 +46,12 @@ impl Way {
         Self::Plain,
     ];
 
-    /// Those that go through spheres in different ways.
+    /// The ways that go through spheres differently.
     pub(crate) const TRAVERSALS: [Self; 4] =
         [Self::RayByRay, Self::Stream, Self::Coherent, Self::DepthList];
 
-    /// Which of [`Self::TRAVERSALS`] it takes; `None` for the plain call, which chooses.
+    /// Which of [`Self::TRAVERSALS`] the way takes; `None` for the plain call, which chooses
+    /// itself.
     pub(super) const fn traversal(self) -> Option<Self> {
         match self {
             Self::Plain => None,
@@ -60,7 +61,7 @@ impl Way {
         }
     }
 
-    /// As it stands in tables.
+    /// The name in tables.
     pub(crate) const fn as_str(self) -> &'static str {
         match self {
             Self::Plain => "plain",
@@ -73,7 +74,7 @@ impl Way {
         }
     }
 
-    /// Whether it is a way for these rays.
+    /// Whether the way is meant for these rays.
     pub(super) fn is_for(self, work: &Work<'_>) -> bool {
         match self {
             Self::DepthList => {
@@ -100,7 +101,7 @@ pub(super) struct Work<'a> {
     scratch: Vec<f32>,
 }
 
-/// What a ray hits; of any hit, whether it does.
+/// What each ray hits; for any hit, whether it hits.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Answers {
     Closest(Vec<Option<(u32, u32)>>),
@@ -108,7 +109,7 @@ pub(super) enum Answers {
 }
 
 impl<'a> Work<'a> {
-    /// Without rays.
+    /// Memory without rays.
     pub(super) fn new(tree: &'a SphereTree) -> Self {
         Self {
             tree,
@@ -126,7 +127,7 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// With these rays in place of those before.
+    /// Replaces the rays.
     pub(super) fn take(&mut self, rays: Vec<Ray>) {
         self.packets = rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect();
         self.viewpoint = viewpoint(&rays);
@@ -186,7 +187,7 @@ impl<'a> Work<'a> {
         })
     }
 
-    /// Leaves the answers where slices leave theirs, with the clock stopped.
+    /// Traces packets. With the clock stopped, copies the answers to where slices leave theirs.
     fn in_packets(
         &mut self,
         structure: &impl Intersect,
@@ -211,7 +212,7 @@ impl<'a> Work<'a> {
         time
     }
 
-    /// Of the last run.
+    /// The answers of the last run.
     pub(super) fn answers(&self, query: Query) -> Answers {
         match query {
             Query::ClosestHit => Answers::Closest(self.hits.iter().map(bits).collect()),
@@ -228,10 +229,10 @@ impl<'a> Work<'a> {
         self.packets_occluded.iter_mut().for_each(|occluded| *occluded = !*occluded);
     }
 
-    /// The answers of ray by ray.
+    /// Returns the answers of ray by ray.
     ///
     /// # Panics
-    /// If for the first `few` rays brute force has others.
+    /// If brute force has other answers for the first `few` rays.
     pub(super) fn checked(
         &mut self,
         (level, query): (Level, Query),

@@ -7,16 +7,16 @@ use crate::rounds::Median;
 use spherule_kernel::LevelName;
 use std::fmt::Write;
 
-/// What is asked of [`RATIOS`].
+/// The limits for [`RATIOS`].
 const ASKED: [f64; 4] = [0.85, 0.7, 0.7, 1.2];
 
 type Ratio = fn(&Row) -> Option<Median>;
 
-/// The plain call by the best way and by ray by ray; what is said to be coherent by ray by ray; the plain call by Embree.
+/// Ratios of speeds: the plain call by the best way, and by ray by ray; rays said to be coherent by ray by ray; the plain call by Embree.
 const RATIOS: [Ratio; 4] =
     [Row::by_best, Row::by_ray_by_ray, Row::coherent_by_ray_by_ray, Row::by_embree];
 
-/// The middle of a ratio, without what was not measured.
+/// The middle of a ratio; `None` if it was not measured.
 fn middle(row: &Row, ratio: Ratio) -> Option<f64> {
     ratio(row).map(|it| it.middle)
 }
@@ -81,7 +81,7 @@ fn noise(all: &[Row]) -> String {
     )
 }
 
-/// How many rows are below what is asked, level by level.
+/// How many rows are below the limits, level by level.
 fn summary(all: &[Row]) -> String {
     let [best, alone, said, embree] = ASKED;
     let mut table = Table::new(
@@ -140,7 +140,7 @@ fn query_name(query: Query) -> &'static str {
     if query == Query::AnyHit { "any" } else { "closest" }
 }
 
-/// The worst of each name.
+/// The worst row of each name.
 fn worst_of(all: &[Row], what: &str, name: impl Fn(&Row) -> &'static str) -> String {
     let mut names = Vec::new();
     for row in all {

@@ -125,12 +125,12 @@ fn builds(scenes: &[OfScene]) -> String {
     format!("\nBuilds, milliseconds, one thread each, memory included:\n\n{}", table.0)
 }
 
-/// Everyone, on every scene.
+/// Every engine, on every scene.
 fn everyone(scenes: &[OfScene], kind: usize, (query, name): (Query, &str)) -> String {
     let names: Vec<_> = scenes.iter().map(|scene| scene.name).collect();
     let mut table = Table::new(1, &format!(" | {}", names.join(" | ")));
     let all = || scenes.iter().map(|scene| &scene.measured[kind]);
-    // The scene that most took part in has them all.
+    // The scene in which most engines took part names them all.
     let most = all().max_by_key(|measured| measured.labels().count());
     for label in most.into_iter().flat_map(Measured::labels) {
         let rates = all().map(|measured| number(measured.rate(label, query)));

@@ -10,7 +10,7 @@ use spherule_tests::tally::Summary;
 
 const QUERY: Query = Query::ClosestHit;
 
-/// A row each: what a tier or mark costs, and what it gets wrong.
+/// One row for each tier and mark: what it costs, and what it gets wrong.
 pub(crate) fn trade(origin: &str, errors: &[Errors], lists: &[Measured]) -> String {
     let mut table = Table::new(
         1,
@@ -55,7 +55,7 @@ pub(crate) fn errors(origin: &str, errors: &[Errors]) -> String {
     let of_t = |summary: &Summary| {
         let Some(own) = summary.ulp else { return "none found".to_owned() };
         let percent = 100.0 * summary.rounded as f64 / summary.hits as f64;
-        // 100 % is said of all, and of nothing less.
+        // Only when all are rounded correctly is 100 % written.
         let percent = if percent < 100.0 { percent.min(99.99) } else { percent };
         let digits = if percent > 99.0 && percent < 100.0 { 2 } else { 0 };
         format!("{} ({percent:.digits$} %)", ulp(own))
@@ -114,7 +114,7 @@ fn limit(lists: &[Measured]) -> String {
         "tier | rays, spheres | lanes | share of the FMA limit | of the filter's floor | \
          of the operations of a test",
     );
-    // Without ground, and not every line hit.
+    // Only scenes without ground, in which not every line hits.
     for list in lists.iter().filter(|list| list.scene.parse::<usize>().is_ok()) {
         for label in Tier::ALL.into_iter().filter_map(|tier| quickest(list, tier.as_str())) {
             let share = |(probe, operations)| {

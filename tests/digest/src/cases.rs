@@ -17,7 +17,7 @@ const RELATIVES: u64 = 40;
 /// All cases, the kept ones first.
 ///
 /// # Panics
-/// If the file is not as its head says.
+/// If the file does not have the form that its head describes.
 pub(crate) fn all() -> Vec<Case> {
     let text = include_str!("../../cases/regimes.txt");
     let lines = text.lines().filter(|line| !line.starts_with('#'));

@@ -1,9 +1,9 @@
 //! Prints a digest of every tier's answers in every lane width, which no build may change.
 //!
-//! The cases are those of `tests/cases/regimes.txt`, given as bits, and others a few ulp away;
-//! nothing here computes with floats but the kernel. The digest is FNV-1a over the bits of every t
-//! and every index: of the pairs, of the closest hits in the list of all spheres and the surfaces there, of both roots.
-//! With `--control` one bit of the radius of the first sphere that is met is another.
+//! The cases are those of `tests/cases/regimes.txt`, given as bits, and others a few ulp away; only the kernel computes
+//! with floats here. The digest is FNV-1a over the bits of every t and every index: of the pairs, of the closest hits
+//! in the list of all spheres and the surfaces there, and of both roots. `--control` changes one bit of the radius of
+//! the first sphere that is hit.
 
 mod cases;
 
@@ -28,14 +28,13 @@ impl Fnv {
         }
     }
 
-    /// The bits of `t`; of a NaN, which the roots of `Fast` and `Geometric` may be, only that it is one.
+    /// Adds the bits of `t`. Of a NaN, which the roots of `Fast` and `Geometric` may be, adds only that it is one.
     fn t(&mut self, t: f32) {
         self.word(if t.is_nan() { u32::MAX } else { t.to_bits() });
     }
 }
 
-/// The digest of a tier in a width; the index of a pair's sphere is its lane, so that it is left
-/// out.
+/// The digest of a tier in a width. Leaves out the index of a pair's sphere, since that is its lane.
 fn digest<L: Lanes<Token = ()>>(tier: Tier, cases: &[Case]) -> u64 {
     let mut fnv = Fnv::new();
     for cases in cases.chunks(L::COUNT) {
@@ -64,7 +63,7 @@ fn digest<L: Lanes<Token = ()>>(tier: Tier, cases: &[Case]) -> u64 {
 fn lists<L: Lanes<Token = ()>>(fnv: &mut Fnv, tier: Tier, cases: &[Case], spheres: Spheres<'_>) {
     let rays: Vec<_> = cases.iter().map(|case| case.ray).collect();
     let packets: Vec<_> = rays.chunks(L::COUNT).map(RayPacket::<L::Array>::new).collect();
-    // Slices and columns, at the best level that the CPU has, whatever L is.
+    // Slices and columns go at the best level that the CPU has, whatever L is.
     let (mut slice, mut occluded) = (vec![None; rays.len()], vec![false; rays.len()]);
     spheres.closest_hits(tier, &rays, &mut slice);
     spheres.any_hits(tier, &rays, &mut occluded);
@@ -93,7 +92,7 @@ fn lists<L: Lanes<Token = ()>>(fnv: &mut Fnv, tier: Tier, cases: &[Case], sphere
     spheres.closest_hit_lanes::<L>(tier, (), &mut Trace::new(), &packets, &mut hits);
     spheres.any_hit_lanes::<L>(tier, (), &mut Trace::new(), &packets, &mut occluded);
     let mut surfaces = SurfacePacket::none();
-    // Ray by ray: a packet by a packet would be another order in every width.
+    // Ray by ray, since packet by packet would be another order in every width.
     for ray in 0..rays.len() {
         let (packet, lane) = (ray / L::COUNT, ray % L::COUNT);
         fnv.t(hits[packet].t()[lane]);
@@ -108,7 +107,7 @@ fn lists<L: Lanes<Token = ()>>(fnv: &mut Fnv, tier: Tier, cases: &[Case], sphere
     }
 }
 
-/// The digests of all widths, which must be one.
+/// Prints the digests of all widths, and returns whether they are equal.
 fn widths(tier: Tier, cases: &[Case]) -> bool {
     let name = tier.as_str();
     let digests = [

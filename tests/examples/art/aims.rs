@@ -1,10 +1,10 @@
-//! What is reached, and what is missed.
+//! Which aims a picture reaches, and which it misses.
 
 use super::modes::Mode;
 use super::still::Score;
 use spherule_tests::art::figures::Figures;
 
-/// Of one mode, scene and font: whether what is to be reached is.
+/// Which aims one mode reaches in one scene and font.
 pub(crate) struct Reached {
     pub(crate) flip: bool,
     pub(crate) ssim: bool,
@@ -12,7 +12,7 @@ pub(crate) struct Reached {
 }
 
 impl Reached {
-    /// `least`: from across the room.
+    /// `least` is the floor of the figure from across the room.
     pub(crate) fn new(mode: &Mode, least: Option<f64>, score: &Score) -> Self {
         let Score { ours, chafa } = score;
         let beats = |is_no_worse: &dyn Fn(&Figures) -> bool| chafa.as_ref().is_none_or(is_no_worse);
@@ -24,7 +24,7 @@ impl Reached {
         }
     }
 
-    /// A star where something is missed.
+    /// A star if an aim is missed.
     pub(crate) fn mark(is_reached: bool) -> &'static str {
         if is_reached { "" } else { " *" }
     }

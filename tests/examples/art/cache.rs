@@ -1,11 +1,11 @@
-//! What was computed before, in files under `target/art`: chafa's pictures, and figures of pictures.
+//! Results of earlier runs, in files under `target/art`: chafa's pictures, and figures of pictures.
 
 use spherule_tests::art::figures::Figures;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::PathBuf;
 use std::{env, fs, io};
 
-/// Of the measures: whoever changes one changes this.
+/// The version of the measures: a change of a measure must change this number.
 const JUDGE: u32 = 1;
 
 pub(crate) struct Cache(PathBuf);
@@ -20,14 +20,14 @@ impl Cache {
         Ok(Self(path))
     }
 
-    /// The file of what `key` makes.
+    /// The file for what is made from `key`.
     pub(crate) fn file(&self, key: impl Hash, ending: &str) -> PathBuf {
         let mut hasher = DefaultHasher::new();
         (JUDGE, key).hash(&mut hasher);
         self.0.join(format!("{:016x}.{ending}", hasher.finish()))
     }
 
-    /// Numbers of what `key` makes, computed once.
+    /// The numbers made from `key`, computed once.
     pub(crate) fn numbers<const N: usize>(
         &self,
         key: impl Hash,
@@ -46,7 +46,7 @@ impl Cache {
         Ok(numbers)
     }
 
-    /// Figures of what `key` makes.
+    /// The figures made from `key`.
     pub(crate) fn figures(
         &self,
         key: impl Hash,

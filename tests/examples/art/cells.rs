@@ -20,7 +20,7 @@ const PICTURES: [Picture; 3] = [
     ("edge", (120, 40), &["edge --accuracy fast", "edge --accuracy exact"]),
 ];
 
-/// Writes them.
+/// Writes the pictures.
 pub(crate) fn write() -> Result<(), Box<dyn Error>> {
     for (name, (columns, rows), pictures) in PICTURES {
         let mut all = Light { width: 0, pixels: Vec::new() };

@@ -10,7 +10,7 @@ use std::process::{Command, Stdio};
 
 /// Chafa, if it is installed.
 pub(crate) struct Chafa {
-    /// The first line of what it says about itself.
+    /// The first line of its `--version`.
     pub(crate) version: String,
 }
 
@@ -21,7 +21,7 @@ impl Chafa {
         Some(Self { version })
     }
 
-    /// What it makes of `truth`: without dither, and, where colours are few, with.
+    /// Chafa's pictures of `truth`: without dither and, where colours are few, also with dither.
     pub(crate) fn pictures(
         &self,
         cache: &Cache,
@@ -51,9 +51,9 @@ impl Chafa {
     }
 }
 
-/// What a program prints.
+/// Returns what a program prints.
 pub(crate) fn output(command: &mut Command) -> Result<Vec<u8>, String> {
-    // The options alone decide, not the terminal at hand.
+    // The options alone decide, not the terminal that this runs in.
     for variable in ["NO_COLOR", "COLORTERM", "COLUMNS", "LINES"] {
         command.env_remove(variable);
     }

@@ -9,7 +9,7 @@
 //! ... -- --pictures                                                  # writes the README's pictures, tui/pictures
 //! ```
 //!
-//! What was computed before is kept under `target/art`; nothing there is needed.
+//! Earlier results are kept under `target/art`; nothing there is needed.
 #![forbid(unsafe_code)]
 
 mod aims;
@@ -68,7 +68,7 @@ struct Arguments {
     pictures: bool,
 }
 
-/// Whether `name` is among those asked for: all, if none is.
+/// Whether `name` is among those asked for. If none is asked for, all are.
 fn is_asked(asked: &[String], name: &str) -> bool {
     asked.is_empty() || asked.iter().any(|asked| asked == name)
 }
@@ -79,7 +79,7 @@ impl Arguments {
         mode.fonts().iter().copied().filter(is_asked).collect()
     }
 
-    /// A line a mode and font, without scores.
+    /// One line for each mode and font, without scores.
     fn rows(&self) -> Vec<Row> {
         let modes = MODES.iter().filter(|mode| is_asked(&self.only, mode.name));
         let rows = modes.flat_map(|&mode| {

@@ -1,4 +1,4 @@
-//! What is drawn, and what is to be reached.
+//! The modes that are drawn, and the aims of each.
 
 use spherule::style::{Charset, ColorDepth, Style};
 use spherule_tests::art::font::Font;
@@ -9,7 +9,7 @@ pub(crate) const SCENES: [&str; 5] = ["marbles", "flake", "caffeine", "night", "
 /// Columns and rows of every picture.
 pub(crate) const SIZE: (u16, u16) = (80, 40);
 
-/// One way to draw, by us and by chafa.
+/// One way to draw, for this program and for chafa.
 #[derive(Clone, Copy)]
 pub(crate) struct Mode {
     pub(crate) name: &'static str,
@@ -19,28 +19,28 @@ pub(crate) struct Mode {
     pub(crate) chafa: &'static str,
     /// What chafa dithers with, where colours are few.
     pub(crate) dither: Option<&'static str>,
-    /// Whether letters are in it: then fonts matter.
+    /// Whether the mode has letters: only then fonts matter.
     pub(crate) is_text: bool,
     /// The most that FLIP may be, as a share of chafa's.
     pub(crate) most_flip: f64,
     /// The most that the error of changes in motion may be, as a share of chafa's.
     pub(crate) most_unrest: f64,
-    /// The least from across the room, in dB, of the scenes in Unifont: what was reached when this was begun, less 1.
+    /// The floor from across the room, in dB, of each scene in Unifont: what the first version reached, less 1.
     pub(crate) far: [f64; SCENES.len()],
 }
 
 impl Mode {
-    /// How we draw it.
+    /// How this program draws the mode.
     pub(crate) fn style(&self) -> Style {
         Style { charset: self.charset, depth: self.depth, ..Style::PLAIN }
     }
 
-    /// Tones are free without colour.
+    /// Without colour, tones may be chosen freely.
     pub(crate) fn has_colors(&self) -> bool {
         self.depth != ColorDepth::Never
     }
 
-    /// The fonts that it is judged in.
+    /// The fonts that the mode is judged in.
     pub(crate) fn fonts(&self) -> &'static [Font] {
         if self.is_text { &Font::ALL } else { &[Font::Unifont] }
     }
@@ -89,7 +89,7 @@ pub(crate) const MODES: [Mode; 10] = [
     Mode {
         name: "block",
         charset: Charset::Block,
-        // A wide one would push the rest of its line aside.
+        // A wide character would push the rest of its line aside.
         chafa: "--symbols all-wide --colors full",
         most_flip: 0.95,
         most_unrest: 0.7,

@@ -17,16 +17,16 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 pub(crate) const FRAMES: u16 = 12;
 pub(crate) const STEP: f32 = 0.4;
 
-/// What a mode reaches of a scene in a font.
+/// What a mode reaches in a scene and a font.
 #[derive(Clone, Copy)]
 pub(crate) struct Unrest {
     pub(crate) ours: motion::Unrest,
-    /// The best of each figure, with dither and without.
+    /// The best of each figure, with dither or without.
     pub(crate) chafa: Option<motion::Unrest>,
 }
 
 impl fmt::Display for Unrest {
-    /// In thousandths, ours / chafa's, as seen and pixel by pixel.
+    /// In thousandths, ours / chafa's: as an eye sees it, then pixel by pixel.
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let pair = |figure: fn(&motion::Unrest) -> f64| {
             let thousandths = |unrest: &motion::Unrest| format!("{:.1}", 1000.0 * figure(unrest));
@@ -62,7 +62,7 @@ impl<'a> Orbit<'a> {
         Ok(Self { subject, views, truths, key, changes: None, cache, chafa })
     }
 
-    /// Draws and scores in the mode's fonts.
+    /// Draws the frames and scores them in the mode's fonts.
     pub(crate) fn unrest(
         &mut self,
         mode: &Mode,

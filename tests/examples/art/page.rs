@@ -44,7 +44,7 @@ pub(crate) fn page(rows: &[Row], chafa: Option<&str>) -> String {
     page
 }
 
-/// Of one mode and the scene of this place.
+/// The line of one mode, for the scene at `place`.
 fn line(row: &Row, place: usize) -> String {
     let Some((_, score)) = row.scores.iter().find(|(scene, _)| *scene == place) else {
         return String::new();

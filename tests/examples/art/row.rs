@@ -9,9 +9,9 @@ use spherule_tests::art::font::Font;
 pub(crate) struct Row {
     pub(crate) mode: Mode,
     pub(crate) font: Font,
-    /// Of each scene, by its place among all.
+    /// The score in each scene, by the scene's place among all.
     pub(crate) scores: Vec<(usize, Score)>,
-    /// The same in motion.
+    /// The error of changes in motion, likewise.
     pub(crate) unrest: Vec<(usize, Unrest)>,
 }
 
@@ -28,12 +28,12 @@ impl Row {
         Reached::new(&self.mode, self.least(scene), score)
     }
 
-    /// The least from across the room: in Unifont, where it was measured.
+    /// The floor from across the room, in Unifont, where it was measured.
     pub(crate) fn least(&self, scene: usize) -> Option<f64> {
         (self.font == Font::Unifont).then(|| self.mode.far[scene])
     }
 
-    /// Whether it is as calm in motion as is to be reached.
+    /// Whether the mode is calm enough in motion.
     pub(crate) fn is_calm(&self, unrest: &Unrest) -> bool {
         let most = self.mode.most_unrest;
         unrest.chafa.is_none_or(|chafa| unrest.ours.seen <= most * chafa.seen)

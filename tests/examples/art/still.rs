@@ -13,15 +13,15 @@ use spherule_tests::art::screen::Screen;
 use std::error::Error;
 use std::path::Path;
 
-/// What a mode reaches of a scene in a font.
+/// What a mode reaches in a scene and a font.
 #[derive(Clone, Copy)]
 pub(crate) struct Score {
     pub(crate) ours: Figures,
-    /// The best of each figure, with dither and without.
+    /// The best of each figure, with dither or without.
     pub(crate) chafa: Option<Figures>,
 }
 
-/// The scene in pixels, and what scores are made with.
+/// The scene in pixels, and whatever scoring it needs.
 pub(crate) struct Judge<'a> {
     subject: &'a Subject,
     light: Light,
@@ -45,8 +45,8 @@ impl<'a> Judge<'a> {
         Ok(Self { subject, light, colors, truth, pixels_a_degree, cache, chafa })
     }
 
-    /// Draws and scores in the mode's fonts; of the first, the picture goes into the folder `sheets`, between the truth
-    /// and chafa's.
+    /// Draws the picture and scores it in the mode's fonts. For the first font, writes it into the folder `sheets`,
+    /// between the truth and chafa's picture.
     pub(crate) fn scores(
         &self,
         mode: &Mode,
@@ -73,7 +73,7 @@ impl<'a> Judge<'a> {
             });
             if let Some(folder) = sheets {
                 let name = format!("{}-{}-{}.png", mode.name, self.subject.name, font.word());
-                // Chafa's of the lower FLIP.
+                // Of chafa's pictures the one with the lower FLIP.
                 let least =
                     (0..chafas.len()).min_by(|&a, &b| figures[a].flip.total_cmp(&figures[b].flip));
                 let chafa = least.map(|index| chafas[index].clone());
@@ -93,7 +93,7 @@ impl<'a> Judge<'a> {
     }
 }
 
-/// What a terminal of xterm's colours and this font shows.
+/// What a terminal with xterm's colours and this font shows.
 pub(crate) fn shown(bytes: &[u8], font: Font) -> Result<Light, Box<dyn Error>> {
     let (columns, rows) = super::modes::SIZE;
     let palette = sixteen("xterm").ok_or("no such palette")?;

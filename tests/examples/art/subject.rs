@@ -37,7 +37,7 @@ impl Subject {
         Ok(Self { name, scene, home })
     }
 
-    /// In the pixels that `--png` writes.
+    /// The picture in the pixels that `--png` writes.
     pub(crate) fn truth(&self, view: &View) -> Result<Light, Box<dyn Error>> {
         let Self { scene, .. } = self;
         let threads = Threads::new(None).map_err(said)?;
@@ -56,7 +56,7 @@ impl Subject {
         Ok(Light::of_colors(grid.size().0 as usize, colors))
     }
 
-    /// In the cells that `--once` writes from the first of `views` alone; from more, those of the viewer, which draws
+    /// The pictures in cells: for one view the cells that `--once` writes; for several those of the viewer, which draws
     /// them one after the other, with time enough.
     pub(crate) fn pictures(
         &self,
@@ -67,7 +67,7 @@ impl Subject {
         let threads = Threads::new(None).map_err(said)?;
         let mut structures = SceneStructures::new(scene.list(), &threads);
         let workload = picture_workload(scene.spheres().len(), style, SIZE.0, SIZE.1, 1.0);
-        // One renderer: what it carries from frame to frame counts.
+        // One renderer for all views, since what it carries from frame to frame counts.
         let mut renderer = Renderer::new(Level::best(), &threads);
         let spending = match views {
             [_] => Spending::ByNeed,

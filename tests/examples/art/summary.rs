@@ -1,4 +1,4 @@
-//! A summary for whoever changes the program: ours beside chafa's, a line a mode.
+//! A summary for developers of the program: ours beside chafa's, a line a mode.
 
 use super::aims::Reached;
 use super::motion::Unrest;
@@ -7,7 +7,7 @@ use super::still::Score;
 use spherule_tests::art::figures::Figures;
 use std::fmt::Write;
 
-/// A table: its head, what of a score it shows, and whether that is reached.
+/// A table: its head, which figure it shows, and whether the figure's aim is reached.
 type Table = (&'static str, fn(&Figures, Option<&Figures>) -> String, fn(&Reached) -> bool);
 
 const TABLES: [Table; 4] = [

@@ -1,9 +1,9 @@
-//! What a picture that turns costs on the line, and how near it comes to what it would be without saving:
+//! What a turning picture costs on the line, and how near it comes to the picture without economies:
 //! `cargo run --release -p spherule-tests --example wire [FRAMES [SCENE]]`.
 //!
-//! 200 x 60 cells, a degree a frame, drawn as the viewer draws while something moves. Decibels are of distances in
-//! `OKLab`, pixel by pixel of the two pictures, by glyphs and colours of the judge's own; as a mean over the three axes, as
-//! a PSNR is usually taken, they are 4.8 more. The encoder's time is the median.
+//! 200 x 60 cells, a degree a frame, drawn as the viewer draws while something moves. Decibels measure distances in `OKLab`, pixel by pixel
+//! of the two pictures, with the judge's own glyphs and colours. A PSNR is usually the mean over the three axes; that figure is 4.8 dB
+//! more. The encoder's time is the median.
 
 use spherule::cells::CellGrid;
 use spherule::draw::{Renderer, Spending, brute_force};
@@ -25,11 +25,11 @@ use std::time::Instant;
 const SIZE: (u16, u16) = (200, 60);
 const STEP: f32 = 1.0;
 
-/// What a mode costs a frame, and how near it comes.
+/// What a mode costs a frame, and how near its picture comes.
 struct Cost {
     bytes: f64,
     milliseconds: f64,
-    /// None if all is exact.
+    /// `None` if the pictures are equal.
     decibels: Option<f64>,
 }
 
@@ -89,7 +89,7 @@ fn cost(grids: &[CellGrid], tolerance: f32) -> Result<Cost, Box<dyn Error>> {
         bytes += out.len();
         times.push(time);
         is_exact &= encoder.is_exact();
-        // Some of the frames: a picture takes longer to judge than to draw.
+        // Only some frames are judged, since judging a picture takes longer than drawing it.
         if frame.is_multiple_of(8) {
             let shown = encoder.shown().ok_or("nothing is shown")?;
             squares.push(mean_square(&pixels(shown)?, &pixels(grid)?));

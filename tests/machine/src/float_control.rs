@@ -1,6 +1,6 @@
-//! `float_environment_is_sound` in environments that are not.
+//! `float_environment_is_sound` in unsound environments.
 
-// Unsafe code: the control register of SSE is not Rust's to set.
+// Unsafe code: Rust cannot set the control register of SSE.
 #![allow(unsafe_code)]
 
 use spherule_kernel::float_environment_is_sound;
@@ -10,7 +10,7 @@ const DEFAULT: u32 = 0x1f80;
 /// What the kernel says under the given control register.
 fn sound_under(control: u32) -> bool {
     // SAFETY: exceptions stay masked, and the default is restored before Rust's own arithmetic
-    // goes on; between the two there is one call of a function that is not inlined.
+    // continues. Between the two there is one call of a function that is not inlined.
     unsafe {
         core::arch::asm!("ldmxcsr [{}]", in(reg) &control, options(nostack));
         let sound = float_environment_is_sound();
@@ -19,7 +19,7 @@ fn sound_under(control: u32) -> bool {
     }
 }
 
-/// Sound by default, and in no other environment.
+/// Asserts that the default environment is sound, and no other.
 ///
 /// # Panics
 /// If the kernel says otherwise.

@@ -1,4 +1,4 @@
-//! What only unsafe code can set up: a stack that is painted, another floating-point environment.
+//! Tests that need unsafe code: on a painted stack, and in another floating-point environment.
 
 mod float_control;
 mod painted_stack;

@@ -1,4 +1,4 @@
-//! The stack of Exact's fallbacks: less than 1 KiB for a hit, 2.5 KiB for a surface, as their documentation says.
+//! The stack of `Exact`'s fallbacks: less than 1 KiB for a hit, 2.5 KiB for a surface, as their documentation says.
 
 use crate::painted_stack::used;
 use spherule_kernel::{
@@ -8,17 +8,18 @@ use spherule_kernel::{
 use std::hint::black_box;
 use std::sync::LazyLock;
 
-/// What the fallback may use.
+/// The most stack that the fallback may use.
 const LIMIT: usize = 1024;
 
 extern "C" fn nothing() {}
 
-/// The control: as much as is not allowed.
+/// The control: uses more than the limit.
 extern "C" fn too_much() {
     black_box([1_u8; LIMIT]);
 }
 
-/// A tangent, a tie, and the dearest case of the kernel's `flops` test: every way through it.
+/// A tangent, a tie, and the most expensive case of the kernel's `flops` test: together they take every path of the
+/// fallback.
 fn hard() -> [(Ray, Sphere); 3] {
     let case = |o: [f32; 3], d: [f32; 3], c: [f32; 3], radius| {
         let ray = Ray::new(Vec3::from_array(o), Vec3::from_array(d));
@@ -36,7 +37,7 @@ fn hard() -> [(Ray, Sphere); 3] {
     ]
 }
 
-/// Out of the way, so that the cases are not on the painted stack.
+/// In static memory, so that the cases are not on the painted stack.
 static HARD: LazyLock<[(Ray, Sphere); 3]> = LazyLock::new(hard);
 
 extern "C" fn both_roots() {

@@ -1,4 +1,4 @@
-//! Every public way through the kernel, and what its answers come to.
+//! Takes every public way through the kernel, and makes a digest of the answers.
 
 use core::hint::black_box;
 #[cfg(feature = "structures")]
@@ -40,7 +40,7 @@ impl Sum {
         }
     }
 
-    /// A list and a tree, in vectors of four lanes.
+    /// Traces a list and a tree in vectors of four lanes.
     pub(super) fn four_lanes(&mut self, tier: Tier, camera: &Camera, spheres: Spheres<'_>) {
         self.lanes::<f32x4>(tier, camera, &mut Trace::new(), &spheres);
         #[cfg(feature = "structures")]
@@ -58,7 +58,7 @@ impl Sum {
         }
     }
 
-    /// A normal, and spawned rays.
+    /// Computes a normal and spawns rays.
     pub(super) fn surface(&mut self, tier: Tier, ray: &Ray, spheres: Spheres<'_>) {
         let Some(hit) = spheres.closest_hit(tier, ray) else { return };
         let Some(sphere) = spheres.get(hit.sphere as usize) else { return };
@@ -72,7 +72,7 @@ impl Sum {
         }
     }
 
-    /// Normals and points in packets, and spawned rays.
+    /// Computes normals and points in packets, and spawns rays.
     #[cfg(feature = "vectors")]
     pub(super) fn surfaces(&mut self, tier: Tier, rays: &[Ray; 20], spheres: Spheres<'_>) {
         let packets = [RayPacket::new(rays)];
@@ -93,7 +93,7 @@ impl Sum {
         }
     }
 
-    /// The depth list and the tree.
+    /// Traces the depth list and the tree.
     #[cfg(feature = "structures")]
     pub(super) fn structures(
         &mut self,
@@ -102,7 +102,7 @@ impl Sum {
         rays: &[Ray; 20],
         spheres: Spheres<'_>,
     ) {
-        // More memory than most lists of spheres need: too little is a value, too.
+        // More memory than most lists of spheres need; too little memory is an input, too.
         let (mut words, mut scratch) = ([0.0; 1024], [0.0; 1000]);
         let (mut nodes, mut places, mut indices) = ([BvhNode::EMPTY; 4], [[0.0; 4]; 120], [0; 120]);
         let (mut stream_rays, mut queues) = ([StreamRay::EMPTY; 16], [QueuedRay::EMPTY; 280]);
@@ -130,7 +130,7 @@ impl Sum {
         }
     }
 
-    /// The tree of one lane: built, and loaded from words that may be anything.
+    /// Traces the tree of one lane: a built one, and one loaded from arbitrary words.
     pub(super) fn bvh4(
         &mut self,
         tier: Tier,
@@ -149,7 +149,7 @@ impl Sum {
         }
     }
 
-    /// Every layer of the door.
+    /// Calls every layer of the door.
     pub(super) fn structure(
         &mut self,
         tier: Tier,
@@ -211,7 +211,7 @@ impl Sum {
             let tiles = CameraTiles { camera: *camera, size: black_box((8, 8)), corners: &corners };
             structure.closest_hit_tiles(tier, &mut trace, tiles, &mut made, &mut hits);
             self.hits(hits.iter().flat_map(HitPacket::hits));
-            // The same source in every width: the others below, of a list.
+            // The source is the same in every width: the other widths trace a list below.
             self.lanes::<f32>(tier, camera, &mut trace, structure);
             #[cfg(feature = "vectors")]
             self.lanes::<f32x8>(tier, camera, &mut trace, structure);
@@ -234,7 +234,7 @@ impl Sum {
         self.hits(hits.iter().flat_map(HitPacket::hits));
         structure.any_hit_lanes::<L>(tier, (), trace, &rays, &mut occluded);
         self.bits(occluded);
-        // A picture of any size, of which there are too few packets.
+        // A picture of any size, with too few packets for it.
         let size: (u32, u32) = black_box((8, 8));
         let mut corners = [(0, 0); 4];
         let in_order = Camera::tile_corners::<L::Array>(size.0, size.1);

@@ -1,6 +1,6 @@
 //! The kernel in a program without `std`, heap or unwinding: if this links, it needs none of them.
 //!
-//! `prove` builds it, builds its negative controls, and looks for panics in what was linked.
+//! `prove` builds it, builds its negative controls, and looks for panics in the linked program.
 
 #![no_std]
 
@@ -20,7 +20,7 @@ use spherule_kernel::{
     roots,
 };
 
-/// What a firmware does in its own way; without `std` there must be one.
+/// A firmware has its own panic handler; without `std` there must be one.
 #[panic_handler]
 fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
     loop {}
@@ -28,7 +28,7 @@ fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
 
 /// Takes every public way through the kernel, with numbers that the optimiser does not know.
 ///
-/// Returns a digest of the answers, so that nothing can be left out.
+/// Returns a digest of the answers, so that the optimiser can leave nothing out.
 ///
 /// # Safety
 /// `numbers` points to `count` numbers that do not change meanwhile, or is null.
@@ -39,7 +39,7 @@ pub unsafe extern "C" fn spherule_no_std(numbers: *const f32, count: usize) -> u
     if numbers.is_null() {
         return 0;
     }
-    // SAFETY: promised by the caller.
+    // SAFETY: the caller promises it.
     let numbers = unsafe { core::slice::from_raw_parts(numbers, count) };
     let number = |index: usize| numbers.get(index).copied().unwrap_or(0.0);
     let vector = |index: usize| Vec3::new(number(index), number(index + 1), number(index + 2));

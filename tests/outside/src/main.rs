@@ -1,6 +1,7 @@
-//! The rates of every traversal, a line each: level, structure and layer, million rays a second.
+//! Prints the rates of every traversal, one line each: level, structure and layer, million rays a
+//! second.
 //!
-//! `compare` builds this in several profiles and holds their rates against each other.
+//! `compare` builds this program in several profiles and compares their rates.
 
 use rustix::time::{ClockId, clock_gettime};
 use spherule_kernel::{
@@ -12,7 +13,7 @@ use std::hint::black_box;
 const SIDE: u32 = 64;
 const EYE: Vec3 = Vec3::new(0.0, 0.0, -3.0);
 
-/// A number in [-1, 1): a linear congruence.
+/// A number in [-1, 1), from a linear congruence.
 fn number(state: &mut u64) -> f32 {
     *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
     (*state >> 40) as f32 / (1 << 23) as f32 - 1.0

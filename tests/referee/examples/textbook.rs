@@ -1,4 +1,4 @@
-//! A textbook's intersector is judged: where it fails first, and everything that it gets wrong.
+//! Judges a textbook's intersector: where it fails first, and everything that it gets wrong.
 //!
 //! `cargo run --release -p spherule-referee --example textbook`
 
@@ -22,7 +22,7 @@ pub(crate) fn textbook(ray: &Ray, sphere: &Sphere) -> Option<f32> {
     (ray.t_min <= root && root <= ray.t_max).then_some(root)
 }
 
-/// Judges it.
+/// Judges the textbook's intersector.
 pub(crate) fn main() {
     let report = Trial::default().run(&Pair::new("textbook", textbook));
     let first = report.first.map_or(f64::NAN, |first| 1e3 * first.as_secs_f64());

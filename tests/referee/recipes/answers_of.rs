@@ -1,4 +1,4 @@
-//! Asks one recipe in Rust: SPHERES RAYS T; prints the seconds that it took, the fewest of nine times.
+//! Runs one recipe in Rust: SPHERES RAYS T. Prints the seconds that it took, the fewest of nine runs.
 
 use npyz::{NpyFile, WriterBuilder};
 use std::error::Error;
@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 const TIMES: usize = 9;
 
-/// Writes `answer` of every sphere (centre, radius) and its ray (origin, direction, t_min, t_max); of `None` +inf.
+/// Writes `answer` for every sphere (centre, radius) and its ray (origin, direction, t_min, t_max); +inf for `None`.
 pub fn answers_of(
     answer: impl Fn([f32; 4], [f32; 8]) -> Option<f32>,
 ) -> Result<(), Box<dyn Error>> {

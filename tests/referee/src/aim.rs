@@ -4,18 +4,19 @@ use crate::case::Case;
 use crate::random::{Random, cross, dot};
 use spherule_kernel::{Ray, Sphere, Vec3};
 
-/// What a case shall look like before it is rounded to single precision.
+/// The geometry of a case before it is rounded to single precision.
 #[derive(Clone, Copy, Debug)]
 pub struct Aim {
     /// Where the ray starts.
     pub origin: [f64; 3],
     /// The length of the direction.
     pub length: f64,
-    /// From the origin to the point of the line closest to the centre; behind where negative.
+    /// From the origin to the point of the line closest to the centre; negative if that point is
+    /// behind the origin.
     pub distance: f64,
     /// The radius.
     pub radius: f64,
-    /// From the centre to the line, in radii: less than 1 hits.
+    /// From the centre to the line, in radii: a line with less than 1 hits.
     pub offset: f64,
 }
 
@@ -25,7 +26,7 @@ impl Aim {
     pub fn case(&self, random: &mut Random) -> Case {
         let along = random.unit();
         let across = random.perpendicular(along);
-        // Aim the rounded ray, not the one that it was to be.
+        // Aims the rounded ray, not the ray before rounding.
         let origin = single(self.origin);
         let direction = single(along.map(|x| x * self.length));
         let along = normalized(double(direction)).unwrap_or(along);
@@ -58,7 +59,7 @@ pub fn double(v: Vec3) -> [f64; 3] {
     v.to_array().map(f64::from)
 }
 
-/// Of length one; `None` if the length is zero or infinite.
+/// The vector scaled to length one; `None` if its length is zero or infinite.
 fn normalized(v: [f64; 3]) -> Option<[f64; 3]> {
     let length = dot(v, v).sqrt();
     (length > 0.0 && length.is_finite()).then(|| v.map(|x| x / length))

@@ -3,9 +3,9 @@
 /// A hit as it was answered; a miss is `None`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Answer {
-    /// Where, in multiples of the ray's direction. An `f32` is widened: that loses nothing.
+    /// Where the ray hits, in multiples of its direction. Widening an `f32` loses nothing.
     pub t: f64,
-    /// The index of the sphere; `None` if that is not said.
+    /// The index of the sphere; `None` if the intersector does not say it.
     pub sphere: Option<u32>,
 }
 

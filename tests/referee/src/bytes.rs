@@ -1,23 +1,23 @@
-//! A fuzzer's bytes become geometry: bounded numbers mostly, so that lines do meet spheres, and from there by
-//! single ulps to where decisions are hard. Random bits as they are would be huge or NaN.
+//! A fuzzer's bytes become geometry. Most numbers are bounded, so that lines do meet spheres, and single ulps lead from
+//! there to hard decisions. Raw random bits would be huge or NaN.
 
 use spherule_kernel::{Ray, Sphere, Vec3};
 
-/// Rays, each with the sphere that it was made for, and the list of spheres.
+/// Rays, each with the sphere that it is aimed at, and the list of spheres.
 ///
-/// With the feature `arbitrary` it is what a fuzz target takes.
+/// With the feature `arbitrary` a fuzz target can take this type.
 #[derive(Clone, Debug)]
 pub struct AimedScene {
     /// 1 to 16 rays.
     pub rays: Vec<Ray>,
-    /// For every ray the index of a sphere of the list.
+    /// For every ray the index, in `spheres`, of the sphere that it is aimed at.
     pub aims: Vec<usize>,
     /// 1 to 20 spheres.
     pub spheres: Vec<Sphere>,
 }
 
 impl AimedScene {
-    /// Any bytes make a scene; missing ones are zero.
+    /// Makes a scene of any bytes; missing bytes are zero.
     #[must_use]
     pub fn from_bytes(bytes: &[u8]) -> Self {
         let mut bytes = Bytes(bytes);
@@ -97,7 +97,7 @@ impl Bytes<'_> {
     fn ray(&mut self, aim: &Sphere, last: Option<Ray>) -> Ray {
         let Sphere { center, radius } = *aim;
         let mut ray = match (self.next() % 8, last) {
-            // Beside the sphere along an axis: an exact tangent, and its neighbours.
+            // Beside the sphere, parallel to an axis: an exact tangent, and its neighbours.
             (0 | 1, _) => {
                 let (along, across) = self.axes();
                 let origin = center + across * radius + along * self.number();
@@ -123,7 +123,8 @@ impl Bytes<'_> {
                 direction: self.walked(last.direction),
                 ..last
             },
-            // From where the ray before starts, or beside it: what depth lists and coherent packets are for.
+            // From the origin of the ray before, or beside that ray: depth lists and coherent packets are for such
+            // rays.
             (7, Some(last)) => match self.next() % 2 {
                 0 => Ray::new(last.origin, self.vector()),
                 _ => Ray::new(self.vector(), last.direction),

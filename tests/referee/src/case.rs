@@ -1,7 +1,7 @@
-//! One ray, one sphere: what is drawn, kept, shrunk and, if a test fails, printed.
+//! One ray, one sphere: a case is drawn, kept, shrunk and, if a test fails, printed.
 //!
-//! Decimal digits hide the last bit, so numbers are printed as hexadecimal floats, with their
-//! bits beside them: the value to read, the bits to paste into a test.
+//! Decimal digits hide the last bit, so numbers are printed as hexadecimal floats, with their bits
+//! beside them: read the value, paste the bits into a test.
 
 use spherule_kernel::{Ray, Sphere, Vec3};
 use std::fmt;
@@ -76,7 +76,7 @@ impl fmt::Display for Hex {
             (255, 0) => write!(formatter, "{sign}inf")?,
             (255, _) => write!(formatter, "{sign}nan")?,
             (0, 0) => write!(formatter, "{sign}0")?,
-            // Six hexadecimal digits have a bit more than the 23 of the fraction.
+            // Six hexadecimal digits hold one bit more than the 23 bits of the fraction.
             (0, _) => write!(formatter, "{sign}0x0.{:06x}p-126", fraction << 1)?,
             _ => write!(formatter, "{sign}0x1.{:06x}p{}", fraction << 1, exponent - 127)?,
         }

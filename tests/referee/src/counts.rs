@@ -1,13 +1,13 @@
-//! How many answers are right and wrong, in memory that does not grow with them.
+//! How many answers are right and wrong, in memory that does not grow with their number.
 
 use crate::verdict::{Kind, Verdict};
 
-/// What many answers come to.
+/// The counts of many answers.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     /// Rays that were judged.
     pub judged: u64,
-    /// Rays of which nothing is promised.
+    /// Rays about which the rules promise nothing.
     pub unpromised: u64,
     /// Rays that the rules leave open.
     pub open: u64,
@@ -57,20 +57,20 @@ impl Counts {
         self.wrong[kind as usize]
     }
 
-    /// How many are decided otherwise than is true: all ways to be wrong but t.
+    /// How many decisions are wrong: every kind of wrong answer except an inexact t.
     #[must_use]
     pub fn decided_wrong(&self) -> u64 {
         self.wrong.iter().sum::<u64>() - self.of(Kind::T)
     }
 
-    /// How many are wrong in any way.
+    /// How many answers are wrong in any way.
     #[must_use]
     pub fn wrong(&self) -> u64 {
         self.wrong.iter().sum()
     }
 }
 
-/// Numbers up to this are counted each by itself, larger ones by the 32nd part of a power of two.
+/// Numbers up to this are counted one by one; larger ones in bins of a 32nd of a power of two.
 const EACH: u64 = 64;
 
 /// Counts of whole numbers, for quantiles.
@@ -82,7 +82,7 @@ pub struct Steps {
 }
 
 impl Steps {
-    /// Adds one.
+    /// Adds one number.
     pub fn add(&mut self, number: u64) {
         let bin = if number < EACH {
             number
@@ -109,13 +109,14 @@ impl Steps {
         self.max = self.max.max(others.max);
     }
 
-    /// The largest; `None` of none.
+    /// The largest number; `None` if there is none.
     #[must_use]
     pub fn max(&self) -> Option<u64> {
         (self.count > 0).then_some(self.max)
     }
 
-    /// What so many thousandths of all do not exceed: exactly below 64, else up to a 32nd too large. `None` of none.
+    /// What so many thousandths of all numbers do not exceed: exact below 64, else up to a 32nd too large. `None` of
+    /// none.
     #[must_use]
     pub fn quantile(&self, thousandths: u64) -> Option<u64> {
         let mut left = (u128::from(self.count) * u128::from(thousandths)).div_ceil(1000).max(1);

@@ -1,37 +1,37 @@
-//! Answers that are wrong: of each kind the worst and the simplest are kept.
+//! Wrong answers: of each kind the worst and the simplest are kept.
 
 use crate::answer::Answer;
 use crate::simplicity::weight;
 use crate::verdict::Kind;
 use spherule_kernel::{Hit, Ray, Sphere};
 
-/// t that is off by less is no good example of a t that is off: half of the digits are right.
+/// A t that is off by less makes no good example, since half of its digits are right.
 pub const PLAINLY_OFF: f64 = 4096.0;
-/// Up to so many spheres a failure has all.
+/// A failure keeps all spheres if there are no more than this.
 const FEW_SPHERES: usize = 16;
 
 /// An answer that is wrong under an intersector's own rules.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Failure {
-    /// How.
+    /// In which way the answer is wrong.
     pub kind: Kind,
-    /// How much, as [`Verdict::Wrong`](crate::verdict::Verdict::Wrong) says.
+    /// How wrong the answer is, as [`Verdict::Wrong`](crate::verdict::Verdict::Wrong) says.
     pub severity: f64,
     /// The ray.
     pub ray: Ray,
-    /// The spheres: all if they are few, else the true one and the one that was answered.
+    /// The spheres: all if they are few, else the true one and the answered one.
     pub spheres: Vec<Sphere>,
-    /// What was answered; the sphere is an index of `spheres`.
+    /// The answer; its sphere is an index into `spheres`.
     pub answer: Option<Answer>,
-    /// What is true; the sphere is an index of `spheres`.
+    /// The truth; its sphere is an index into `spheres`.
     pub truth: Option<Hit>,
     /// The number of the family, if it is known.
     pub family: Option<u8>,
-    /// Which ray it was; `None` once it has been shrunk.
+    /// The number of the ray; `None` once the failure has been shrunk.
     pub row: Option<u64>,
 }
 
-/// A failure of which it is not known yet whether it is kept; its spheres are all, and theirs are the indices.
+/// A failure before it is decided whether it is kept. It has all spheres, and its indices are theirs.
 pub(crate) struct NewFailure<'a> {
     pub(crate) kind: Kind,
     pub(crate) severity: f64,
@@ -43,7 +43,7 @@ pub(crate) struct NewFailure<'a> {
     pub(crate) row: u64,
 }
 
-/// The failures that are kept, by their kinds.
+/// The failures that are kept, by kind.
 #[derive(Clone, Debug)]
 pub(crate) struct Failures {
     worst: [Option<Failure>; Kind::ALL.len()],
@@ -81,7 +81,7 @@ impl Failures {
 
 impl NewFailure<'_> {
     fn is_worse(&self, than: &Failure) -> bool {
-        // What has no size is the least of all.
+        // A severity of NaN counts as the least.
         let size = |severity: f64| if severity.is_nan() { -1.0 } else { severity };
         size(self.severity) > size(than.severity)
     }
@@ -94,7 +94,7 @@ impl NewFailure<'_> {
             < (faint(than.severity), weight(&than.ray, &than.spheres))
     }
 
-    /// With all spheres if they are few; else with those that it names.
+    /// The failure with all spheres if they are few, else with those that it names.
     fn kept(&self) -> Failure {
         let named = self.answer.and_then(|answer| answer.sphere);
         let (spheres, [truth, named]) =
@@ -112,7 +112,7 @@ impl NewFailure<'_> {
     }
 }
 
-/// The spheres of a failure, and the places among them of those with an index.
+/// The spheres of a failure, and the places of the indexed ones among them.
 fn relevant(spheres: &[Sphere], indices: [Option<u32>; 2]) -> (Vec<Sphere>, [Option<u32>; 2]) {
     if spheres.len() <= FEW_SPHERES {
         return (spheres.to_vec(), indices);

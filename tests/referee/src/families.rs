@@ -1,8 +1,8 @@
 //! The families of cases in which ray-sphere intersection goes wrong.
 //!
-//! The first 22, [`HARD`], have the numbers of the legend of 100,000 cases that another hand made; the constructions are our
-//! own, so that what one hand forgot the other may have. The others are of small integers, where what fails can be
-//! read. A case is told by its family, a seed and an index, and is the same on every machine and for ever.
+//! The first 22, [`HARD`], have the numbers of the legend of 100,000 cases that another hand made. The constructions are our own, so that
+//! one hand may have what the other forgot. The other families are of small integers, so that a failing case is readable. Family, seed and
+//! index determine a case, which is the same on every machine and for ever.
 
 mod ends;
 mod lattice;
@@ -26,10 +26,10 @@ pub struct Family {
     draw: fn(&mut Random) -> Case,
 }
 
-/// The seed of the cases that are kept and pinned: changing it changes all of them.
+/// The seed of the kept and pinned cases: changing it changes all of them.
 pub const SEED: u32 = 22;
 
-/// How many are [`HARD`].
+/// How many families are [`HARD`].
 const HARD_ONES: usize = 22;
 
 /// All families, each at the place of its number.

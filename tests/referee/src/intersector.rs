@@ -1,4 +1,4 @@
-//! What is judged: anything that finds what rays meet.
+//! Any code that finds what rays meet can be judged.
 
 use crate::answer::Answer;
 use crate::rules::{Rules, Ties};
@@ -23,27 +23,27 @@ use spherule_kernel::{Hit, Intersect, Ray, Sphere, SphereList, Tier, pairs};
 /// }
 /// ```
 ///
-/// A method may panic, not return, or answer too few rays: that is reported, and the others are judged.
+/// A method may panic, hang, or answer too few rays: the judge reports that, and judges the other rays.
 pub trait Intersector {
     /// What it is called.
     fn name(&self) -> &str;
 
-    /// The closest hit of each ray, in their order, among `spheres`; `None` of a miss.
+    /// The closest hit of each ray among `spheres`, in the order of the rays; `None` for a miss.
     fn closest_hits(&mut self, spheres: &[Sphere], rays: &[Ray]) -> Vec<Option<Answer>>;
 
-    /// What ray i meets of sphere i alone, which is sphere 0. By default a call of
-    /// [`closest_hits`](Intersector::closest_hits) a ray.
+    /// What ray i meets of sphere i alone, whose index is 0. By default calls
+    /// [`closest_hits`](Intersector::closest_hits) once a ray.
     fn pairs(&mut self, spheres: &[Sphere], rays: &[Ray]) -> Vec<Option<Answer>> {
         let one = |(sphere, ray)| {
             let answers =
                 self.closest_hits(std::slice::from_ref(sphere), std::slice::from_ref(ray));
             answers.into_iter().next()
         };
-        // An answer that is missing ends the list, so that it is too short.
+        // A missing answer ends the list, which makes it too short.
         spheres.iter().zip(rays).map_while(one).collect()
     }
 
-    /// What it promises: by default, the contract.
+    /// What the intersector promises: by default, the contract.
     fn rules(&self) -> Rules {
         Rules::CONTRACT
     }
@@ -63,12 +63,12 @@ impl<F> Pair<F> {
     where
         F: FnMut(&Ray, &Sphere) -> Option<T>,
     {
-        // It knows no more than t.
+        // The function knows no more than t.
         let rules = Rules { ties: Ties::Rounded, ..Rules::CONTRACT };
         Self { name: name.to_owned(), rules, function }
     }
 
-    /// The same, with other promises.
+    /// The same function, with other promises.
     #[must_use]
     pub fn with_rules(self, rules: Rules) -> Self {
         Self { rules, ..self }
@@ -133,7 +133,7 @@ impl Intersector for Kernel {
     fn rules(&self) -> Rules {
         match self.0 {
             Tier::Exact => Rules::CONTRACT,
-            // The others know no more than T.
+            // The other tiers know no more than T.
             _ => Rules { ties: Ties::Rounded, ..Rules::CONTRACT },
         }
     }

@@ -1,6 +1,6 @@
 //! Answers against the truth, ray by ray, under an intersector's own rules and under the contract.
 //!
-//! Rays may come in any number: what is kept are counts, and of each kind of failure the worst and the simplest.
+//! Rays may come in any number, since only counts are kept, and the worst and the simplest failure of each kind.
 
 use crate::answer::Answer;
 use crate::counts::Counts;
@@ -11,18 +11,18 @@ use crate::truth::{self, Shared, Truth};
 use crate::verdict::{Kind, Verdict, margin, verdict};
 use spherule_kernel::{Hit, Ray, Sphere};
 
-/// How finely [`Score::places`] are told: by powers of two of how near to a tangent the line passes.
+/// How many bins [`Score::places`] has: powers of two of how near to a tangent the line passes.
 pub const PLACES: usize = 26;
 
-/// What the answers of one family come to.
+/// The counts of the answers of one family.
 #[derive(Clone, Debug, Default)]
 pub struct Score {
     /// Under the rules of the intersector.
     pub by_rules: Counts,
     /// Under the contract.
     pub by_contract: Counts,
-    /// Judged and wrong decisions under the rules, by how near to a tangent the line passes: place i has lines with |D| / (a r^2) of
-    /// 4^-i to 4^-(i + 1), the last all that are nearer, the first all others.
+    /// Judged rays and wrong decisions under the rules, by how near to a tangent the line passes: place i counts lines with |D| / (a r^2)
+    /// from 4^-i to 4^-(i + 1). The last place counts all nearer lines too, and the first all other lines.
     pub places: [[u64; 2]; PLACES],
 }
 
@@ -37,7 +37,7 @@ pub struct Judge {
 }
 
 impl Judge {
-    /// A judge under these rules. If `maps_places`, it keeps [`Score::places`]: some 30 ns a ray.
+    /// A judge under these rules. If `maps_places`, it keeps [`Score::places`], which costs some 30 ns a ray.
     #[must_use]
     pub fn new(rules: Rules, maps_places: bool) -> Self {
         let scores = vec![Score::default(); FAMILIES.len() + 1];
@@ -46,7 +46,7 @@ impl Judge {
 
     /// Judges the answers to `rays[i]` against `spheres[i]` alone, whose index is 0.
     ///
-    /// `families[i]` is the family of ray i; without any it is not known.
+    /// `families[i]` is the family of ray i, which is unknown if the slice is shorter.
     pub fn pairs(
         &mut self,
         rays: &[Ray],
@@ -74,8 +74,7 @@ impl Judge {
         }
     }
 
-    /// Judges the answers to rays that share their spheres. If one of the spheres is not covered by the rules, nothing is
-    /// promised of any ray.
+    /// Judges the answers to rays that share their spheres. If the rules do not cover one of the spheres, they promise nothing of any ray.
     pub fn shared(
         &mut self,
         shared: &Shared<'_>,
@@ -119,7 +118,7 @@ impl Judge {
         let rules = [self.rules, Rules::CONTRACT];
         let named = answer.and_then(|answer| answer.sphere);
         let there = |index: u32| spheres.get(index as usize);
-        // Under the contract itself there is one verdict, counted twice.
+        // If the rules are the contract, there is one verdict; it is counted under both.
         let count_of_rules = if rules[0] == rules[1] { 1 } else { 2 };
         for (which, (rules, truth)) in rules.iter().zip(truths).take(count_of_rules).enumerate() {
             let counts = if which == 0 { &mut score.by_rules } else { &mut score.by_contract };
@@ -180,7 +179,7 @@ impl Judge {
         &self.rules
     }
 
-    /// The families of which there were rays, by number, and last those of no known family.
+    /// The families of which there were rays, by number; last, the rays of unknown family.
     pub fn scores(&self) -> impl Iterator<Item = (Option<u8>, &Score)> {
         let number = |place: usize| (place < FAMILIES.len()).then_some(place as u8);
         let seen = |score: &Score| score.by_contract.judged + score.by_rules.unpromised > 0;
@@ -208,7 +207,7 @@ impl Judge {
         self.failures.worst(kind)
     }
 
-    /// The failure of a kind that has the fewest digits; of t, of those that are plainly off if there are any.
+    /// The failure of a kind that has the fewest digits. For t, only answers that are plainly off count, if there are any.
     #[must_use]
     pub fn simplest(&self, kind: Kind) -> Option<&Failure> {
         self.failures.simplest(kind)
@@ -216,7 +215,7 @@ impl Judge {
 }
 
 impl Rules {
-    /// Whether truths under them are those under the contract.
+    /// Whether truths under these rules are those under the contract.
     fn closed_as_contract(&self) -> bool {
         self.follow_from_roots() && self.interval == Rules::CONTRACT.interval
     }
@@ -241,6 +240,6 @@ fn place_of(margin: f64) -> usize {
     if size.is_nan() || size >= 1.0 {
         return 0;
     }
-    // Of zero the logarithm is infinite, and the place the last.
+    // The logarithm of zero is infinite, so zero falls into the last place.
     ((-size.log2() / 2.0) as usize).min(PLACES - 1)
 }

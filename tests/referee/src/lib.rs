@@ -16,21 +16,23 @@
 //! println!("{report}");
 //! ```
 //!
-//! What has spheres of its own, a tree or another language behind it implements [`Intersector`]: one method.
+//! Code that has spheres of its own, a tree or another language behind it implements [`Intersector`], which has one required method besides
+//! the name.
 //!
 //! | room | holds |
 //! |---|---|
-//! | [`case`], [`scene`], [`random`], [`ulp`], [`aim`] | a ray and a sphere; rays and spheres; what cases are made by |
+//! | [`case`], [`scene`], [`random`], [`ulp`], [`aim`] | a ray and a sphere; rays and spheres; tools that make cases |
 //! | [`families`], [`measured`] | the families of cases; those in which error is measured |
-//! | [`rules`], [`truth`] | what an intersector promises, and what is true by that |
-//! | [`answer`], [`verdict`], [`counts`], [`failure`], [`judge`] | an answer, how it is wrong, how many are, which are the worst and the simplest, and who counts them |
+//! | [`rules`], [`truth`] | what an intersector promises, and what is true under these promises |
+//! | [`answer`], [`verdict`], [`counts`], [`failure`], [`judge`] | an answer, how it is wrong, how many are wrong, the worst and the
+//! simplest, and the judge that counts them |
 //! | [`simplicity`], [`shrink`], [`snippet`] | how readable a case is, the smallest that fails, and lines to paste |
 //! | [`table`] | counts as a table, and a picture of where in a family it fails |
-//! | [`intersector`], [`watched`], [`trial`] | what is judged; a thread that may panic or hang; all families at once |
+//! | [`intersector`], [`watched`], [`trial`] | what can be judged; a thread that may panic or hang; all families at once |
 //! | [`bytes`], `strategies`, `timed` | a fuzzer's bytes; proptest's strategies; criterion's clock, started after the judge |
 //!
-//! The truth is [`spherule_kernel::Exact`], right for every input; it is held to an oracle in big integers, on these
-//! families too, by the tests of the workspace.
+//! The truth is [`spherule_kernel::Exact`], which is right for every input. The tests of the workspace compare it with an oracle in big
+//! integers, on these families too.
 
 #![forbid(unsafe_code)]
 

@@ -1,8 +1,8 @@
 //! The regimes in which the error of a tier is measured: for the budget table and the reports.
 //!
-//! Those of the project's first measurements, so that figures can be held beside each other: one
-//! ray, one sphere, `t` in `[0, +inf]`. Unlike the [families](crate::families) of hard cases these
-//! are what scenes are made of, or would be, and a rate of wrong answers in them means something.
+//! They are those of the project's first measurements, so that figures can be compared: one ray,
+//! one sphere, `t` in `[0, +inf]`. Unlike the [families](crate::families) of hard cases, these
+//! regimes resemble the content of scenes, so a rate of wrong answers in them means something.
 
 use crate::aim::{Aim, line_distance, single};
 use crate::case::Case;
@@ -23,15 +23,15 @@ enum Kind {
     Aimed { nearest: f64, furthest: f64 },
     /// The line's distance from the centre is the radius times 1 +- 2^-exponent.
     Grazing { exponent: i64 },
-    /// The direction 2^exponent long.
+    /// The direction is 2^exponent long.
     Length { exponent: i64 },
     /// The origin this far from zero.
     Translated { by: f64 },
-    /// Everything times this.
+    /// Everything is multiplied by this.
     Scaled { by: f64 },
     /// The origin 2^-6 to 2^-26 radii under the surface.
     Inside,
-    /// As far over the surface, looking down.
+    /// The origin is as far over the surface, and the ray looks down.
     Outside,
     /// A radius of 6.4e6, the origin 0.1 to 1e4 over the ground at zero.
     Planet,
@@ -40,7 +40,7 @@ enum Kind {
 /// The seed of all measured regimes: changing it changes every pinned figure.
 const SEED: u64 = 6;
 
-/// All of them, in the order of the tables.
+/// All regimes, in the order of the tables.
 pub const MEASURED: [Measured; 19] = [
     measured("ordinary", Kind::Aimed { nearest: 1.5, furthest: 20.0 }),
     measured("dist/r 1e2", Kind::Aimed { nearest: 50.0, furthest: 200.0 }),
@@ -71,7 +71,8 @@ impl Measured {
     /// Case `index`, the same for ever.
     #[must_use]
     pub fn case(&self, index: u64) -> Case {
-        // The regimes share the stream of an index, so they are the same scene made hard.
+        // The regimes share the random stream of an index, so they are the same scene made hard in
+        // different ways.
         let mut random = Random::new(SEED, index);
         self.kind.case(&mut random)
     }
@@ -133,8 +134,8 @@ impl Kind {
     }
 }
 
-/// The origin 2^-6 to 2^-26 radii over the surface, looking down, or (`side` -1) under it: there
-/// also after rounding.
+/// The origin is 2^-6 to 2^-26 radii over the surface, and the ray looks down; with `side` -1 the
+/// origin is under the surface. Both also hold after rounding.
 fn near_surface(random: &mut Random, side: f64) -> Case {
     loop {
         let off = side * power_of_two(-random.integer(6, 26));
@@ -143,7 +144,7 @@ fn near_surface(random: &mut Random, side: f64) -> Case {
         let outward = random.unit().map(|x| x * f64::from(radius) * (1.0 + off));
         let origin = single(std::array::from_fn(|i| f64::from(center[i]) + outward[i]));
 
-        // Double precision holds the squares and all but the last of their sum.
+        // Double precision holds the squares, and their sum except its last bit.
         let p: [f64; 3] = std::array::from_fn(|i| f64::from(origin[i]) - f64::from(center[i]));
         if (dot(p, p) - f64::from(radius) * f64::from(radius)) * side <= 0.0 {
             continue;

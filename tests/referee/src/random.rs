@@ -1,5 +1,5 @@
-//! Random numbers that never change: our own generator, and, except in [`Random::normal`], only operations whose last
-//! bit is the same on every machine (no powers, logarithms or sines).
+//! Random numbers that never change. The generator is our own, and, except in [`Random::normal`], only operations are
+//! used whose last bit is the same on every machine (no powers, logarithms or sines).
 
 use spherule_kernel::Vec3;
 
@@ -8,11 +8,11 @@ use spherule_kernel::Vec3;
 pub struct Random(u64);
 
 impl Random {
-    /// The stream of `seed`, and within it of `index`: any case can be made again on its own.
+    /// The stream of `index` within the stream of `seed`: any case can be made again on its own.
     #[must_use]
     pub const fn new(seed: u64, index: u64) -> Self {
         let mut random = Self::seeded(seed);
-        // Without mixing, the stream of a near seed would be the same stream, a step on.
+        // Without mixing, a near seed would give the same stream, one step on.
         random.0 = random.bits() ^ index;
         random.0 = random.bits();
         random
@@ -32,7 +32,7 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// Any `f32` whatever, NaN and infinities among them.
+    /// Any `f32`, including NaN and infinities.
     pub fn any_f32(&mut self) -> f32 {
         f32::from_bits((self.bits() >> 32) as u32)
     }
@@ -47,7 +47,7 @@ impl Random {
         choices[self.integer(0, choices.len() as i64 - 1) as usize]
     }
 
-    /// True once in `times`.
+    /// True once in `times` on average.
     pub fn one_in(&mut self, times: i64) -> bool {
         self.integer(1, times) == 1
     }
@@ -79,7 +79,7 @@ impl Random {
         }
     }
 
-    /// Uniform in `[low, high]`, on a grid of 2^-24 of it.
+    /// Uniform in `[low, high]`, on a grid of 2^-24 of the interval's length.
     pub fn between(&mut self, low: f32, high: f32) -> f32 {
         let unit = (self.bits() >> 40) as f32 / (1_u64 << 24) as f32;
         low + unit * (high - low)
@@ -90,7 +90,7 @@ impl Random {
         Vec3::from_array([(); 3].map(|()| self.between(-half, half)))
     }
 
-    /// [`Random::unit`] in single precision throughout.
+    /// Like [`Random::unit`], but in single precision throughout.
     pub fn direction(&mut self) -> Vec3 {
         loop {
             let point = self.in_cube(1.0);
@@ -101,8 +101,7 @@ impl Random {
         }
     }
 
-    /// Normal, of mean 0 and variance 1 (Box and Muller); the last bits are those of the machine's logarithm and
-    /// cosine.
+    /// Normal, of mean 0 and variance 1 (Box and Muller). The last bits depend on the machine's logarithm and cosine.
     pub fn normal(&mut self) -> f64 {
         let (radius, angle) = (1.0 - self.uniform(0.0, 1.0), self.uniform(0.0, 1.0));
         (-2.0 * radius.ln()).sqrt() * (angle * core::f64::consts::TAU).cos()
@@ -123,7 +122,7 @@ impl Random {
 /// 2^exponent, exactly.
 ///
 /// # Panics
-/// If it is no normal `f64`.
+/// If 2^exponent is no normal `f64`.
 #[must_use]
 pub fn power_of_two(exponent: i64) -> f64 {
     assert!((-1022..=1023).contains(&exponent), "2^{exponent} is no normal f64");

@@ -1,7 +1,7 @@
-//! What an intersector promises, where that differs from the contract of Spherule.
+//! What an intersector promises, where its promises differ from the contract of Spherule.
 //!
-//! Every rule has the contract's as its default. Cases about which an intersector promises nothing are not judged under its
-//! rules; under the contract all are.
+//! Every rule defaults to the contract's. Cases about which an intersector promises nothing are not judged under its rules; under the
+//! contract all cases are judged.
 
 use spherule_kernel::{Ray, Sphere};
 use std::fmt;
@@ -21,7 +21,7 @@ pub enum Interval {
     OpenEnd,
 }
 
-/// What a line is that touches a sphere in one point.
+/// What a line counts as that touches a sphere in one point.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Tangents {
@@ -30,7 +30,7 @@ pub enum Tangents {
     Hit,
     /// A miss.
     Miss,
-    /// Either: not judged.
+    /// Either answer is right: not judged.
     Either,
 }
 
@@ -43,7 +43,7 @@ pub enum Inside {
     Surface,
     /// Nothing of that sphere.
     Miss,
-    /// The sphere at t = 0: it is a ball. So it is on its surface.
+    /// The sphere at t = 0, since it is a ball. A ray that starts on its surface meets it at t = 0 too.
     Solid,
 }
 
@@ -51,23 +51,23 @@ pub enum Inside {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Ties {
-    /// The one with the lowest index, of roots that are the same real number.
+    /// If the roots are the same real number, the sphere with the lowest index.
     #[default]
     First,
-    /// Any whose root is the same real number.
+    /// Any sphere whose root is the same real number.
     Equal,
-    /// Any whose t is rounded to the same `f32`.
+    /// Any sphere whose t is rounded to the same `f32`.
     Rounded,
 }
 
-/// Whether anything is promised of a kind of input.
+/// Whether the intersector promises anything for a kind of input.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Promise {
-    /// As the contract does.
+    /// The intersector promises what the contract promises.
     #[default]
     Judged,
-    /// Nothing.
+    /// The intersector promises nothing.
     None,
 }
 
@@ -75,10 +75,10 @@ pub enum Promise {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Directions {
-    /// Any.
+    /// Any length.
     #[default]
     Any,
-    /// One, within 2^-20.
+    /// Length one, within 2^-20.
     Unit,
 }
 
@@ -86,11 +86,11 @@ pub enum Directions {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Precision {
-    /// The interval is for t as it is rounded to single precision.
+    /// The interval applies to t rounded to single precision.
     #[default]
     F32,
-    /// The interval is for t in double precision. Judged is what single precision can tell: where a root is rounded to an
-    /// end of the interval, or overflows, either answer is right, and t is off by what it is off when rounded.
+    /// The interval applies to t in double precision. The judge checks what single precision can tell: where a root is rounded to an end of
+    /// the interval, or overflows, either answer is right, and the error of t is that of t when rounded.
     F64,
 }
 
@@ -107,7 +107,7 @@ pub enum Starts {
     Zero,
 }
 
-/// What is promised. The default is the contract.
+/// What an intersector promises. The default is the contract.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -117,23 +117,24 @@ pub enum Starts {
 pub struct Rules {
     /// Which ends of the interval count.
     pub interval: Interval,
-    /// What tangents are.
+    /// What tangents count as.
     pub tangents: Tangents,
-    /// What is met from inside.
+    /// What a ray that starts inside meets.
     pub inside: Inside,
-    /// Which of several is the closest.
+    /// Which of several spheres is the closest.
     pub ties: Ties,
     /// Lengths of directions.
     pub directions: Directions,
     /// Where intervals begin.
     pub starts: Starts,
-    /// Of NaN, infinity (but as an end of the interval), directions of zero, negative radii and empty intervals.
+    /// Whether anything is promised for NaN, infinity (except as an end of the interval), directions of zero, negative radii and empty
+    /// intervals.
     pub invalid: Promise,
     /// The precision of t.
     pub precision: Precision,
-    /// The smallest magnitude but zero of a coordinate, of origin, direction and centre, and of a radius.
+    /// The smallest magnitude, except zero, of a radius and of a coordinate of origin, direction and centre.
     pub smallest: f32,
-    /// The largest.
+    /// The largest such magnitude.
     pub largest: f32,
     /// By how many ulp t may be off.
     pub ulp: u64,
@@ -145,7 +146,7 @@ impl Default for Rules {
     }
 }
 
-/// Why rules are none.
+/// Why rules contradict each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Contradiction(&'static str);
 
@@ -173,10 +174,10 @@ impl Rules {
         ulp: 0,
     };
 
-    /// These rules, if no two of them contradict each other.
+    /// Returns these rules if no two of them contradict each other.
     ///
     /// # Errors
-    /// The first two that do.
+    /// Returns the first two that do.
     pub fn consistent(self) -> Result<Self, Contradiction> {
         let open_start = matches!(self.interval, Interval::Open | Interval::OpenStart);
         let contradiction = if self.smallest.is_nan() || self.largest.is_nan() {
@@ -193,14 +194,14 @@ impl Rules {
         Err(Contradiction(contradiction))
     }
 
-    /// Whether they say of every case what the contract says, except for the ends of the interval.
+    /// Whether these rules say of every case what the contract says, except at the ends of the interval.
     pub(crate) fn follow_from_roots(&self) -> bool {
         self.tangents == Tangents::Hit
             && self.inside == Inside::Surface
             && self.precision == Precision::F32
     }
 
-    /// The ray whose closed interval is the one that counts.
+    /// The ray whose closed interval means what these rules mean.
     pub(crate) fn closed(&self, ray: &Ray) -> Ray {
         let mut ray = *ray;
         if matches!(self.interval, Interval::Open | Interval::OpenStart) {
@@ -212,7 +213,7 @@ impl Rules {
         ray
     }
 
-    /// Whether they promise anything of this ray, whatever the spheres.
+    /// Whether these rules promise anything of this ray, whatever the spheres.
     #[must_use]
     pub fn cover_ray(&self, ray: &Ray) -> bool {
         let Ray { origin, direction, t_min, t_max } = *ray;
@@ -235,7 +236,7 @@ impl Rules {
             && self.have_sizes(&direction.to_array())
     }
 
-    /// Whether they promise anything of this sphere, whatever the ray.
+    /// Whether these rules promise anything of this sphere, whatever the ray.
     #[must_use]
     pub fn cover_sphere(&self, sphere: &Sphere) -> bool {
         (self.invalid == Promise::Judged || sphere.is_valid())
@@ -243,7 +244,7 @@ impl Rules {
             && self.have_sizes(&[sphere.radius])
     }
 
-    /// What is no number is judged by another rule.
+    /// NaN and infinities pass here, since another rule judges them.
     fn have_sizes(&self, numbers: &[f32]) -> bool {
         numbers.iter().all(|x| {
             let size = x.abs();

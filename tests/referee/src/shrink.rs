@@ -1,7 +1,7 @@
-//! The smallest case that fails in the same way: one sphere if one does, small integers, few digits.
+//! Finds the smallest case that fails in the same way: one sphere if one does, small integers, few digits.
 //!
-//! From a case that fails, simpler ones are tried, the simplest first; the first that fails is the next to begin with, until none
-//! does or the time is over. Cases are tried many at once, since a call of what is judged may be dear.
+//! Starting from a case that fails, simpler cases are tried, the simplest first. The first that fails is the next to start from, until none
+//! fails or the time is over. Many cases are tried in one call, since a call of the judged code may be expensive.
 
 use crate::failure::{Failure, PLAINLY_OFF};
 use crate::simplicity::weight;
@@ -15,10 +15,10 @@ const BITS: [u32; 12] = [1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 18, 21];
 /// A ray and its spheres.
 pub type Candidate = (Ray, Vec<Sphere>);
 
-/// The simplest case found within a time that fails as `failure` does.
+/// Returns the simplest case, found within a time, that fails as `failure` does.
 ///
-/// `failures` judges up to `at_once` cases: an entry each, `None` where the answer is right. Of a t that is off only one plainly off, or as
-/// much as the first was, counts.
+/// `failures` judges up to `at_once` cases: it returns one entry for each, `None` where the answer is right. If t is off, a case counts
+/// only if its t is plainly off, or off by as much as the first was.
 pub fn shrink(
     failure: &Failure,
     (time, at_once): (Duration, usize),
@@ -50,7 +50,7 @@ pub fn shrink(
     }
 }
 
-/// Simpler cases than this one.
+/// Cases simpler than this one.
 fn candidates(failure: &Failure) -> Vec<Candidate> {
     let Failure { ray, spheres, .. } = failure;
     let now = weight(ray, spheres);
@@ -64,7 +64,7 @@ fn candidates(failure: &Failure) -> Vec<Candidate> {
     }
     let numbers = numbers_of(ray, spheres);
     let mut push = |numbers: &[f32]| all.push(case_of(numbers));
-    // One number.
+    // Changes one number.
     for place in 0..numbers.len() {
         for simple in simpler_numbers(numbers[place], place) {
             let mut changed = numbers.clone();
@@ -72,7 +72,7 @@ fn candidates(failure: &Failure) -> Vec<Candidate> {
             push(&changed);
         }
     }
-    // All lengths, or the direction, by a power of two; all numbers with fewer bits.
+    // Scales all lengths, or the direction, by a power of two; cuts all numbers to fewer bits.
     let spheres_at = 8;
     let is_length = |place: usize| place < 3 || place >= spheres_at;
     for exponent in [-64, -16, -4, -1, 1, 4, 16, 64] {
@@ -98,7 +98,7 @@ fn candidates(failure: &Failure) -> Vec<Candidate> {
     let whole: Vec<f32> =
         numbers.iter().map(|x| if x.is_finite() { x.round() } else { *x }).collect();
     push(&whole);
-    // An axis moved, so that the ray or a sphere is at its zero; a direction along an axis; an axis for another.
+    // Moves an axis so that the ray or a sphere is at its zero; puts the direction along an axis; swaps axes.
     for axis in 0..3 {
         for zero in [axis, spheres_at + axis] {
             let by = numbers[zero];
@@ -121,10 +121,10 @@ fn candidates(failure: &Failure) -> Vec<Candidate> {
     all
 }
 
-/// Simpler numbers to stand in its place.
+/// Simpler numbers to replace `x`.
 fn simpler_numbers(x: f32, place: usize) -> Vec<f32> {
     let mut simple = vec![0.0, 1.0, -1.0, 2.0, 3.0, -x];
-    // t_max.
+    // This place is t_max.
     if place == 7 {
         simple.push(f32::INFINITY);
     }
@@ -140,7 +140,7 @@ fn simpler_numbers(x: f32, place: usize) -> Vec<f32> {
     simple
 }
 
-/// Cut to so many bits of the significand.
+/// The number cut to `bits` bits of the significand.
 fn with_bits(x: f32, bits: u32) -> f32 {
     if x.is_finite() { f32::from_bits(x.to_bits() & (u32::MAX << (24 - bits.min(24)))) } else { x }
 }

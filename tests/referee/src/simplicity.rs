@@ -2,9 +2,9 @@
 
 use spherule_kernel::{Ray, Sphere};
 
-/// What a sphere weighs beside its numbers.
+/// The weight of a sphere besides its numbers.
 const OF_A_SPHERE: u64 = 256;
-/// What weighs more than all common numbers: a point for a sphere, a negative radius, what is no number.
+/// The weight of oddities, above that of all common numbers: a point for a sphere, a negative radius, NaN or infinity.
 const ODD: u64 = 128;
 
 /// The less, the sooner a case is read: few spheres, zeros, integers of few bits, numbers of common size.

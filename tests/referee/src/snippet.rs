@@ -29,7 +29,7 @@ pub fn hex(x: f32) -> String {
     format!("{sign}0x1{point}{digits}p{:+}", (bits >> 52) as i64 - 1023)
 }
 
-/// What is true and what was answered, in a line.
+/// The truth and the answer, in a line.
 #[must_use]
 pub fn sentence(failure: &Failure) -> String {
     let only = failure.spheres.len() == 1;
@@ -55,7 +55,7 @@ pub fn sentence(failure: &Failure) -> String {
     format!("{}{family}: in truth {truth}; answered was {answer}{off}", failure.kind.name())
 }
 
-/// The case in C: two arrays, and what `intersect` must return.
+/// The case in C: two arrays, and the value that `intersect` must return.
 #[must_use]
 pub fn c(failure: &Failure) -> String {
     let number = |x: f32| match x {
@@ -85,7 +85,7 @@ pub fn c(failure: &Failure) -> String {
     )
 }
 
-/// The case in Python: numpy arrays, as `spherule trace` and `judge` have them.
+/// The case in Python: numpy arrays in the form of `spherule trace` and `judge`.
 #[must_use]
 pub fn python(failure: &Failure) -> String {
     let number = |x: f32| format!("h({:?})", hex(x));
@@ -109,7 +109,7 @@ pub fn python(failure: &Failure) -> String {
     )
 }
 
-/// The case in Rust, in decimals: as many as are read back to the same bits.
+/// The case in Rust, in decimals: as many digits as read back as the same bits.
 #[must_use]
 pub fn rust(failure: &Failure) -> String {
     let number = |x: f32| match x {

@@ -1,8 +1,8 @@
-//! What proptest draws, and shrinks to something that can be read.
+//! What proptest draws and shrinks to a readable case.
 //!
-//! Cases come in four kinds: on a lattice of small integers, where tangents, ties and equal t are
-//! common and a shrunk case is a few digits; a few ulp away from such a case; wild, any number
-//! anywhere; and from the [families](crate::families).
+//! Cases come in four kinds. Some are on a lattice of small integers, where tangents, ties and
+//! equal t are common and a shrunk case has few digits. Some are a few ulp away from such a case.
+//! Some are wild: any number in any place. And some are from the [families](crate::families).
 
 use crate::case::Case;
 use crate::families::FAMILIES;
@@ -15,8 +15,8 @@ use proptest::test_runner::Config;
 use spherule_kernel::Vec3;
 use std::env;
 
-/// `cases` cases a test, or as many as the environment variable `PROPTEST_CASES` says; failures
-/// are printed and not written to files, since what is printed can be pasted into a test.
+/// `cases` cases a test, or as many as the environment variable `PROPTEST_CASES` says. Failures are
+/// printed, not written to files: the print can be pasted into a test.
 #[must_use]
 pub fn config(cases: u32) -> Config {
     let default = Config::default();
@@ -24,7 +24,7 @@ pub fn config(cases: u32) -> Config {
     Config { cases, failure_persistence: None, ..default }
 }
 
-/// Numbers at which something changes.
+/// Numbers at which some behaviour changes.
 pub const SPECIALS: [f32; 24] = [
     0.0,
     -0.0,
@@ -43,7 +43,7 @@ pub const SPECIALS: [f32; 24] = [
     // 2^-40 and 2^40: the ends of the domain of `Stable`.
     f32::from_bits((127 - 40) << 23),
     f32::from_bits((127 + 40) << 23),
-    // 2^63 and 2^64: the first square to overflow.
+    // 2^63 and 2^64: the first square that overflows is that of 2^64.
     f32::from_bits((127 + 63) << 23),
     f32::from_bits((127 + 64) << 23),
     16_777_216.0,
@@ -119,23 +119,23 @@ pub fn case() -> impl Strategy<Value = Case> {
     prop_oneof![lattice(), walked(), wild(), hard()]
 }
 
-/// Up to 35 rays, so that packets of every width are full and begun, and 0 to 40 spheres, so that
-/// groups of four are.
+/// Up to 35 rays, so that packets of every width are full and partly full, and 0 to 40 spheres, so
+/// that groups of four are too.
 ///
-/// Rays and spheres come from `cases`; those of one case meet as the case says, those of the
-/// lattice meet each other, often at equal t.
+/// Rays and spheres come from `cases`. A ray and a sphere of one case meet as the case says. Those
+/// of the lattice meet each other, often at equal t.
 pub fn scene<S: Strategy<Value = Case>>(cases: impl Fn() -> S) -> impl Strategy<Value = Scene> {
     let rays = prop::collection::vec(cases(), 1..=35);
     let spheres = prop::collection::vec(cases(), 0..=40);
     let aimed_and_twins = any::<[bool; 2]>();
     (rays, spheres, aimed_and_twins).prop_map(|(rays, mut spheres, [aimed, twins])| {
-        // Half of the scenes also hold spheres at which their rays were aimed.
+        // Half of the scenes also hold the spheres that their rays were aimed at.
         if aimed {
             for (place, case) in spheres.iter_mut().step_by(2).zip(&rays) {
                 *place = *case;
             }
         }
-        // Half hold spheres twice, groups apart.
+        // Half of the scenes hold spheres twice, several groups apart.
         if twins {
             for index in (0..spheres.len()).step_by(3) {
                 spheres[index] = spheres[index / 2];
@@ -148,12 +148,12 @@ pub fn scene<S: Strategy<Value = Case>>(cases: impl Fn() -> S) -> impl Strategy<
     })
 }
 
-/// A scene near the lattice with all lengths times one power of two, directions times another:
-/// over and under all that filters and tiers guard against.
+/// A scene near the lattice, with all lengths multiplied by one power of two and directions by
+/// another: beyond both ends of what filters and tiers guard against.
 pub fn sized_scene() -> impl Strategy<Value = Scene> {
     let exponents = (-140_i64..=120, -140_i64..=120);
     (scene(walked), exponents).prop_map(|(mut scene, (lengths, directions))| {
-        // In double precision, where the powers are normal numbers.
+        // Computed in double precision, where these powers are normal numbers.
         let scale = |v: Vec3, exponent: i64| {
             Vec3::from_array(v.to_array().map(|x| (f64::from(x) * power_of_two(exponent)) as f32))
         };

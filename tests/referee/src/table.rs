@@ -1,4 +1,4 @@
-//! What a judge has counted, as a table, and as a picture of where in a family it fails.
+//! A judge's counts as a table, and as a picture of where in a family the intersector fails.
 
 use crate::families::FAMILIES;
 use crate::judge::{Judge, Score};
@@ -15,11 +15,11 @@ fn rows(judge: &Judge) -> impl Iterator<Item = (&'static str, &Score)> {
     })
 }
 
-/// A row a family, and one of all: how many were judged under the judge's rules, what was wrong, and, in brackets, how many are decided
-/// wrong under the contract.
+/// One row for each family, and one for all: how many rays were judged under the judge's rules, how many answers were wrong, and, in
+/// brackets, how many decisions are wrong under the contract.
 ///
 /// # Errors
-/// If it cannot be written.
+/// If `out` cannot be written.
 pub fn write_counts(judge: &Judge, out: &mut impl Write) -> fmt::Result {
     write!(out, "{:20} {:>9} {:>9}", "family", "judged", "hits")?;
     for kind in Kind::ALL {
@@ -50,11 +50,11 @@ pub fn write_counts(judge: &Judge, out: &mut impl Write) -> fmt::Result {
     Ok(())
 }
 
-/// A row a family, from lines through the middle of spheres to lines that all but touch them: how large the share of
-/// wrong decisions is. Needs a judge that maps places.
+/// One row for each family: the share of wrong decisions, from lines through the middle of spheres to lines that nearly touch them. Needs a
+/// judge that maps places.
 ///
 /// # Errors
-/// If it cannot be written.
+/// If `out` cannot be written.
 pub fn write_chart(judge: &Judge, out: &mut impl Write) -> fmt::Result {
     writeln!(
         out,

@@ -70,7 +70,7 @@ mod tests {
             family.cases(500).filter(|case| is_tangent(&case.ray, &case.sphere)).count()
         };
         assert_eq!(tangents(&FAMILIES[5]), 500);
-        // Moved along the ray, an origin leaves it a tangent.
+        // A tangent remains one if its origin moves along the ray.
         assert!(tangents(&FAMILIES[6]) < 10);
     }
 }

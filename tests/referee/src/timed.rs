@@ -10,10 +10,10 @@ use std::hint::black_box;
 
 /// Judges the closest hits that the intersector finds, under its own rules, then times them.
 ///
-/// `most_wrong` is the share of rays that may be decided wrong.
+/// `most_wrong` is the share of rays whose decisions may be wrong.
 ///
 /// # Panics
-/// If there are more, with how many, and one of them; or if not every ray has an answer.
+/// If more are wrong, with their number and one of them; or if not every ray has an answer.
 pub fn bench<M: Measurement>(
     group: &mut BenchmarkGroup<'_, M>,
     intersector: &mut impl Intersector,
@@ -28,7 +28,7 @@ pub fn bench<M: Measurement>(
     });
 }
 
-/// Judges what [`bench()`] times.
+/// Judges the answers that [`bench()`] times.
 ///
 /// # Panics
 /// As [`bench()`] does.

@@ -15,16 +15,16 @@ use spherule_kernel::{Ray, Sphere};
 use std::fmt;
 use std::time::{Duration, Instant};
 
-/// Pairs of one call.
+/// How many pairs one call has.
 const PAIRS: u64 = 1024;
-/// Rays and spheres of one scene.
+/// How many rays and spheres one scene has.
 const SCENE: usize = 8;
-/// Cases that are shrunk at once.
+/// How many cases are shrunk in one call.
 const AT_ONCE: usize = 64;
-/// After so many mishaps, or one hang, the rest of a family is left out.
+/// After so many mishaps, or one hang, the trial leaves out the rest of a family.
 const MOST_MISHAPS: usize = 3;
 
-/// What is to be tried.
+/// What a trial asks, and for how long.
 #[derive(Clone, Debug)]
 pub struct Trial {
     /// The families.
@@ -33,11 +33,11 @@ pub struct Trial {
     pub cases: u64,
     /// Their seed.
     pub seed: u32,
-    /// Whether cases are asked in scenes, too: each eight of a family, every ray against all their spheres.
+    /// Whether cases are also asked in scenes: every eight rays of a family against all their eight spheres.
     pub scenes: bool,
     /// How long the smallest case of each kind may be looked for.
     pub shrinking: Duration,
-    /// How long an answer is waited for.
+    /// How long to wait for an answer.
     pub patience: Duration,
 }
 
@@ -58,20 +58,20 @@ impl Default for Trial {
 /// A question without answers.
 #[derive(Clone, Debug)]
 pub struct Unanswered {
-    /// The family that it is of.
+    /// The family that the question is from.
     pub family: Family,
     /// What went wrong.
     pub mishap: Mishap,
-    /// The ray, or the first of them.
+    /// The ray, or the first of several.
     pub ray: Ray,
     /// The spheres of the question.
     pub spheres: Vec<Sphere>,
 }
 
-/// What a trial came to.
+/// The result of a trial.
 #[derive(Clone, Debug)]
 pub struct Report {
-    /// Who was tried.
+    /// The name of the intersector.
     pub name: String,
     /// Counts by family, and the worst failures.
     pub judge: Judge,
@@ -79,16 +79,16 @@ pub struct Report {
     pub smallest: Vec<Failure>,
     /// Questions without answers.
     pub unanswered: Vec<Unanswered>,
-    /// After how long the first failure or mishap was found.
+    /// The time until the first failure or mishap.
     pub first: Option<Duration>,
-    /// How long it took.
+    /// How long the trial took.
     pub took: Duration,
 }
 
 impl Trial {
     /// Asks, judges, and shrinks what is wrong.
     ///
-    /// An intersector that panics, hangs or answers too few rays is cloned anew, and the trial goes on.
+    /// If an intersector panics, hangs or answers too few rays, the trial goes on with a new clone.
     #[must_use]
     pub fn run<I: Intersector + Clone + Send + 'static>(&self, intersector: &I) -> Report {
         let start = Instant::now();
@@ -138,7 +138,7 @@ impl Trial {
                 let Err(mishap) = answer(&question, family, watched, &mut report.judge) else {
                     continue;
                 };
-                // Which of them it is.
+                // Finds out which ray it is.
                 let mut alone = parts(&question).into_iter().map(|part| {
                     let found = answer(&part, family, watched, &mut report.judge).err();
                     found.map(|mishap| (part, mishap))
@@ -170,7 +170,7 @@ impl Trial {
     }
 }
 
-/// Rays against all spheres of a few cases.
+/// Asks all rays of a few cases against all their spheres.
 fn scenes(pairs: &Question) -> Vec<Question> {
     let some = pairs.spheres.chunks(SCENE).zip(pairs.rays.chunks(SCENE));
     let scene = |(spheres, rays): (&[Sphere], &[Ray])| Question {
@@ -227,7 +227,7 @@ fn failure_of<I: Intersector + Clone + Send + 'static>(
 }
 
 impl Report {
-    /// How many answers are wrong under the rules of the intersector, and questions without answers.
+    /// How many answers are wrong under the intersector's rules, plus the questions without answers.
     #[must_use]
     pub fn wrong(&self) -> u64 {
         self.judge.total().by_rules.wrong() + self.unanswered.len() as u64

@@ -1,6 +1,6 @@
 //! What is true of rays and spheres under rules.
 //!
-//! `Exact` has the roots and the order of spheres; what rules say otherwise is settled case by case.
+//! `Exact` gives the roots and the order of spheres; where rules say otherwise, each case is settled by itself.
 
 use crate::rules::{Inside, Precision, Rules, Tangents, Ties};
 use crate::tangent::is_tangent;
@@ -12,9 +12,9 @@ use std::cmp::Ordering;
 /// What is true of a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Truth {
-    /// It hits this.
+    /// The ray hits this.
     Hit(Hit),
-    /// It hits nothing.
+    /// The ray hits nothing.
     Miss,
     /// The rules leave it open.
     Open,
@@ -31,9 +31,9 @@ impl Truth {
     }
 }
 
-/// Ray i against sphere i, which is called 0: `truths` is overwritten.
+/// Ray i against sphere i, whose index counts as 0: overwrites `truths`.
 ///
-/// Cost: some tens of nanoseconds a pair; three times that if rules are not about the interval alone.
+/// Cost: some tens of nanoseconds a pair; three times that if the rules differ in more than the interval.
 pub fn of_pairs(rules: &Rules, rays: &[Ray], spheres: &[Sphere], truths: &mut Vec<Truth>) {
     let closed: Vec<Ray> = rays.iter().map(|ray| rules.closed(ray)).collect();
     let mut hits = vec![None; rays.len().min(spheres.len())];
@@ -45,14 +45,14 @@ pub fn of_pairs(rules: &Rules, rays: &[Ray], spheres: &[Sphere], truths: &mut Ve
     }));
 }
 
-/// One ray and one sphere, which is called 0.
+/// One ray and one sphere, whose index counts as 0.
 #[must_use]
 pub fn of_pair(rules: &Rules, ray: &Ray, sphere: &Sphere) -> Truth {
     let closed = rules.closed(ray);
     settled(rules, &closed, sphere, first_hit(&closed, sphere))
 }
 
-/// By the contract, of a closed interval.
+/// The hit under the contract, for a closed interval.
 fn first_hit(ray: &Ray, sphere: &Sphere) -> Option<Hit> {
     let mut hit = [None];
     pairs(Exact, &[*ray], &[*sphere], &mut hit);
@@ -99,7 +99,7 @@ pub struct Shared<'a> {
 }
 
 impl<'a> Shared<'a> {
-    /// Builds a tree over them.
+    /// Builds a tree over the spheres.
     #[must_use]
     pub fn new(spheres: &'a [Sphere]) -> Self {
         Self { spheres, tree: SphereTree::new(spheres) }
@@ -113,8 +113,8 @@ impl<'a> Shared<'a> {
 
     /// The closest hits of rays: `truths` is overwritten.
     ///
-    /// Cost: that of `Exact` in a tree. Where rules make another hit of the contract's, that ray is tested against every
-    /// sphere; with `inside = "solid"` all rays are.
+    /// Cost: that of `Exact` in a tree. If rules change the contract's hit of a ray, that ray is tested against every sphere; with `inside
+    /// = "solid"` every ray is.
     pub fn truths(&self, rules: &Rules, rays: &[Ray], truths: &mut Vec<Truth>) {
         let closed: Vec<Ray> = rays.iter().map(|ray| rules.closed(ray)).collect();
         let mut hits = vec![None; rays.len()];
@@ -154,14 +154,14 @@ impl<'a> Shared<'a> {
     }
 
     fn order(&self, ray: &Ray, hits: [Hit; 2]) -> Ordering {
-        // What is answered at the start of a ball is no root.
+        // The t at which a ray starts in a ball is no root.
         if hits[0].t != hits[1].t || hits[0].t == 0.0 {
             return hits[0].t.total_cmp(&hits[1].t);
         }
         compare_hits(Exact, ray, hits.map(|hit| (hit.t, &self.spheres[hit.sphere as usize])))
     }
 
-    /// Whether rules let `answered` stand for the true closest hit.
+    /// Whether the rules accept `answered` for the true closest hit.
     #[must_use]
     pub fn is_as_close(&self, rules: &Rules, ray: &Ray, truth: Hit, answered: u32) -> bool {
         let Some(sphere) = self.spheres.get(answered as usize) else { return false };

@@ -11,13 +11,13 @@ pub enum Kind {
     FalseHit,
     /// A miss that is a hit in truth.
     LostHit,
-    /// The right sphere, but nearer to its other root.
+    /// The right sphere, but t is nearer to its other root.
     OtherRoot,
     /// Another sphere than the closest.
     OtherSphere,
     /// The right root, but t is off by more ulp than the rules allow.
     T,
-    /// NaN, an infinite t, or a sphere that there is not.
+    /// NaN, an infinite t, or a sphere that does not exist.
     NoAnswer,
 }
 
@@ -32,7 +32,7 @@ impl Kind {
         Self::NoAnswer,
     ];
 
-    /// What it is called.
+    /// The name of the kind.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -46,25 +46,25 @@ impl Kind {
     }
 }
 
-/// What an answer comes to.
+/// The verdict on an answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Verdict {
-    /// Right, with t off by so many ulp, as few as the rules allow.
+    /// The answer is right, with t off by so many ulp, no more than the rules allow.
     Right {
-        /// How many; `None` of a miss.
+        /// How many ulp; `None` for a miss.
         ulp: Option<u64>,
     },
     /// Wrong.
     Wrong {
-        /// How.
+        /// In which way.
         kind: Kind,
-        /// How much: ulp of t; of false and lost hits |D| / (a r^2), by how much of its square the line passes.
+        /// How wrong: ulp of t; for false and lost hits |D| / (a r^2), the relative margin by which the line passes.
         severity: f64,
     },
 }
 
-/// Judges an answer against the true hit. `is_true_sphere` says whether the sphere that was answered may stand for the true
-/// one; `sphere` is the true one, or of a false hit the one that was answered.
+/// Judges an answer against the true hit. `is_true_sphere` says whether the answered sphere may stand for the true one. `sphere` is the
+/// true sphere, or for a false hit the answered one.
 #[must_use]
 pub fn verdict(
     ray: &Ray,

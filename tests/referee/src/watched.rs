@@ -16,7 +16,7 @@ pub enum Mishap {
     Panicked(String),
     /// It has not returned in time.
     Hung(Duration),
-    /// Not as many answers as rays.
+    /// The number of answers is not that of rays.
     Count {
         /// Answers.
         answers: usize,
@@ -38,14 +38,14 @@ impl fmt::Display for Mishap {
     }
 }
 
-/// What is asked.
+/// A question to an intersector.
 #[derive(Clone, Debug)]
 pub struct Question {
     /// The spheres.
     pub spheres: Vec<Sphere>,
     /// The rays.
     pub rays: Vec<Ray>,
-    /// Whether ray i meets sphere i alone.
+    /// Whether ray i is asked against sphere i alone.
     pub pairs: bool,
 }
 

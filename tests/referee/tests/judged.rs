@@ -1,4 +1,4 @@
-//! Intersectors whose faults are known, judged.
+//! Judges intersectors whose faults are known.
 
 use spherule_kernel::Tier;
 use spherule_referee::answer::Answer;
@@ -63,7 +63,7 @@ fn a_textbook_is_shrunk_to_what_can_be_read() {
     assert!(kinds.contains(&Kind::FalseHit) && kinds.contains(&Kind::LostHit), "{kinds:?}");
     for failure in &report.smallest {
         assert_eq!(failure.spheres.len(), if failure.kind == Kind::OtherSphere { 2 } else { 1 });
-        // What is pasted still fails.
+        // The pasted case still fails.
         let again = textbook::textbook(&failure.ray, &failure.spheres[0]).map(f64::from);
         if failure.spheres.len() == 1 {
             let answered = failure.answer.map(|answer| answer.t);
@@ -80,7 +80,7 @@ fn double_precision_is_judged_where_single_can_tell() {
     let contract = Pair::new("double", double);
     let rules = Rules {
         precision: spherule_referee::rules::Precision::F64,
-        // The sign of D = 0 it cannot tell.
+        // It cannot tell the sign of D = 0.
         tangents: Tangents::Either,
         ..contract.rules()
     };
@@ -100,7 +100,7 @@ fn double_precision_is_judged_where_single_can_tell() {
 /// A rule changes what is true, and nothing else does.
 #[test]
 fn rules_are_kept_or_broken() {
-    // A ball that is not seen from inside, with open ends, without tangents.
+    // A ball that rays do not see from inside, with open ends, without tangents.
     fn open(ray: &Ray, sphere: &Sphere) -> Option<f32> {
         let inside =
             spherule_kernel::side(ray.origin, sphere) == Some(spherule_kernel::Side::Inside);
@@ -206,7 +206,7 @@ fn mishaps_are_reported_and_the_trial_goes_on() {
         assert_eq!((&first.mishap, first.spheres.len()), (&expected, 1));
         assert_eq!(first.ray.direction, spherule_referee::Vec3::ZERO);
         assert!(report.unanswered.iter().all(|unanswered| unanswered.family.name == "degenerate"));
-        // All of the other family, and nothing wrong.
+        // All of the other family is judged, and nothing is wrong.
         let ordinary =
             report.judge.scores().find(|(number, _)| *number == Some(0)).expect("scores").1;
         assert_eq!((ordinary.by_rules.judged, report.judge.total().by_rules.wrong()), (80, 0));

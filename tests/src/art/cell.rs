@@ -8,19 +8,19 @@ pub const HEIGHT: usize = 16;
 /// The share of each pixel that has the colour of the ink, row by row from the top left.
 pub type Coverage = [f32; WIDTH * HEIGHT];
 
-/// One share everywhere.
+/// The same share everywhere.
 #[must_use]
 pub const fn even(share: f32) -> Coverage {
     [share; WIDTH * HEIGHT]
 }
 
-/// The area that is in one of some disjoint rectangles, which are left, top, right and bottom in shares of the cell.
+/// The area covered by disjoint rectangles, each given by left, top, right and bottom in shares of the cell.
 #[must_use]
 pub fn rectangles(rectangles: &[[f32; 4]]) -> Coverage {
     let mut coverage = even(0.0);
     for (pixel, share) in coverage.iter_mut().enumerate() {
         let (x, y) = ((pixel % WIDTH) as f32, (pixel / WIDTH) as f32);
-        // How much of the pixel that begins at `start` is between two edges.
+        // How much of the pixel that begins at `start` lies between two edges.
         let overlap =
             |start: f32, from: f32, to: f32| ((start + 1.0).min(to) - start.max(from)).max(0.0);
         *share = rectangles

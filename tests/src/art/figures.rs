@@ -9,8 +9,8 @@ use super::ssim;
 /// Higher is better, except of `flip`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Figures {
-    /// From reading distance, or another that the truth was made for: the mean of FLIP, which is what an eye sees of
-    /// the difference. Lower is better.
+    /// The mean of FLIP, from reading distance or from the distance that the truth was made for: the difference that an eye sees. Lower is
+    /// better.
     pub flip: f64,
     /// Likeness of structure: SSIM of luma, pixels as they are.
     pub ssim: f64,
@@ -21,7 +21,7 @@ pub struct Figures {
     pub far: f64,
     /// Nose to the screen, in dB: pixel by pixel, in OKLab.
     pub near: f64,
-    /// The correlation of lightness from across the room: shape alone, whatever the brightness and the contrast.
+    /// The correlation of lightness from across the room: it measures shape alone, whatever the brightness and the contrast.
     pub correlation: f64,
 }
 
@@ -53,7 +53,7 @@ impl Truth {
         Self::seen_at(light, READING)
     }
 
-    /// The same, seen from where a degree of the eye's field has so many pixels.
+    /// The same, seen from a distance at which a degree of the eye's field has `pixels_a_degree` pixels.
     ///
     /// # Errors
     /// If it is not cut into cells.
@@ -83,10 +83,10 @@ impl Truth {
         (self.columns, self.rows)
     }
 
-    /// How near a picture of the same size comes.
+    /// How near a picture of the same size comes to the truth.
     ///
     /// # Panics
-    /// If it is of another size.
+    /// If the picture has another size.
     #[must_use]
     pub fn figures(&self, light: &Light) -> Figures {
         assert_eq!(light.pixels.len(), self.near.len(), "another size");
@@ -141,7 +141,7 @@ fn decibels(picture: &[[f32; 3]], truth: &[[f32; 3]]) -> f64 {
     -10.0 * (sum / picture.len() as f64).max(1e-12).log10()
 }
 
-/// Of the lightness; 0 if one picture has a single lightness.
+/// The correlation of lightness; 0 if one picture has a single lightness.
 fn correlation(picture: &[[f32; 3]], truth: &[[f32; 3]]) -> f64 {
     let count = picture.len() as f64;
     let mean =
@@ -154,6 +154,6 @@ fn correlation(picture: &[[f32; 3]], truth: &[[f32; 3]]) -> f64 {
         first += a * a;
         second += b * b;
     }
-    // Rounding leaves a little of an even picture.
+    // An even picture keeps a small rest from rounding.
     if first.min(second) <= 1e-9 * count { 0.0 } else { both / (first * second).sqrt() }
 }

@@ -1,5 +1,5 @@
-//! FLIP: what a person sees when one picture takes the other's place (P. Andersson and others, "FLIP: A Difference
-//! Evaluator for Alternating Images", 2020), by its authors' own code.
+//! FLIP: the difference that a person sees when one picture replaces the other (P. Andersson and others, "FLIP: A
+//! Difference Evaluator for Alternating Images", 2020), computed by its authors' own code.
 
 use super::palette::Rgb;
 use nv_flip::{FlipImageRgb8, FlipPool, flip};

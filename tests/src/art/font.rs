@@ -19,7 +19,7 @@ pub enum Font {
     DejaVuSansMono,
     /// Spleen: bitmaps of 8x16 pixels, as consoles have them. ASCII alone.
     Spleen,
-    /// Noto Sans Mono, antialiased, 16 pixels high; 7 wide, so a column is empty. ASCII alone.
+    /// Noto Sans Mono, antialiased, 16 pixels high. Glyphs are 7 wide, so one column is empty. ASCII alone.
     NotoSansMono,
 }
 
@@ -33,7 +33,7 @@ impl Font {
     pub const ALL: [Self; 4] =
         [Self::Unifont, Self::DejaVuSansMono, Self::Spleen, Self::NotoSansMono];
 
-    /// Its name in a word.
+    /// The name of the font in one word.
     #[must_use]
     pub const fn word(self) -> &'static str {
         match self {
@@ -55,7 +55,7 @@ impl Font {
         }
     }
 
-    /// What the font's glyph covers, `None` if it has none. Dots of braille are always Unifont's.
+    /// What the font's glyph covers; `None` if the font has no glyph. Dots of braille are always Unifont's.
     #[must_use]
     pub fn coverage(self, character: char) -> Option<Coverage> {
         let is_dots = ('\u{2800}'..='\u{28ff}').contains(&character);
@@ -68,7 +68,8 @@ impl Font {
     }
 }
 
-/// Spleen's: after a head of 4 bytes, which its crate's own reader takes apart wrongly, 16 rows for each character.
+/// The glyphs of Spleen: a head of 4 bytes, which the crate's own reader parses wrongly, then 16 rows for each
+/// character.
 fn console(character: char) -> Option<Coverage> {
     let place = 4 + HEIGHT * usize::from(u8::try_from(character).ok().filter(u8::is_ascii)?);
     let rows = FONT_8X16.get(place..place + HEIGHT)?;
@@ -76,7 +77,7 @@ fn console(character: char) -> Option<Coverage> {
     Some(std::array::from_fn(|pixel| f32::from(u8::from(is_on(pixel)))))
 }
 
-/// Noto's.
+/// The glyphs of Noto.
 fn raster(character: char) -> Option<Coverage> {
     let glyph = get_raster(character, FontWeight::Regular, RasterHeight::Size16)?;
     let mut coverage = even(0.0);
@@ -93,12 +94,12 @@ fn bitmap(character: char) -> Option<Coverage> {
         static FONT: RefCell<Unifont> = RefCell::new(Unifont::open());
     }
     FONT.with_borrow_mut(|font| {
-        // What stands for characters that the font lacks.
+        // The glyph for characters that the font lacks.
         let replacement =
             font.load_bitmap(u32::from(char::REPLACEMENT_CHARACTER)).get_bytes().to_vec();
         let glyph = font.load_bitmap(u32::from(character));
         let bytes = glyph.get_bytes();
-        // A wide glyph is as narrow as the cell.
+        // A wide glyph is squeezed into the cell.
         let dots = 8 * bytes.len() / (WIDTH * HEIGHT);
         (bytes != replacement).then(|| {
             std::array::from_fn(|pixel| {
@@ -140,7 +141,7 @@ impl Default for Pen {
 }
 
 impl Pen {
-    /// In straight steps: the rasterizer's own are as wide as a small letter's bow.
+    /// Draws straight steps, since the rasterizer's own steps are as wide as the bow of a small letter.
     fn curve(&mut self, at: impl Fn(f32) -> Point) {
         for step in 1..=STEPS {
             let to = at(f32::from(step) / f32::from(STEPS));
@@ -153,12 +154,12 @@ impl Pen {
 /// Steps of a curve.
 const STEPS: u8 = 16;
 
-/// A share `t` of the way from `a` to `b`.
+/// The point at the share `t` of the way from `a` to `b`.
 fn mix(a: Point, b: Point, t: f32) -> Point {
     point(a.x + t * (b.x - a.x), a.y + t * (b.y - a.y))
 }
 
-/// Rows count downwards.
+/// Flips y, since rows count downwards.
 fn place(x: f32, y: f32) -> Point {
     point(x, BASE_LINE - y)
 }

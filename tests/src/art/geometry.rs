@@ -5,7 +5,7 @@ use super::cell::{Coverage, HEIGHT, WIDTH, even, rectangles};
 
 /// The area of a block character, or of a space; `None` for every other.
 ///
-/// Shades are even tones, as dots too small to see.
+/// Shades are even tones, as if their dots were too small to see.
 #[must_use]
 pub fn coverage(character: char) -> Option<Coverage> {
     let place = |first: char| u32::from(character) - u32::from(first);
@@ -14,7 +14,7 @@ pub fn coverage(character: char) -> Option<Coverage> {
     let left = |share: f32| rectangles(&[[0.0, 0.0, share, 1.0]]);
     let upper = |share: f32| rectangles(&[[0.0, 0.0, 1.0, share]]);
     let right = |share: f32| rectangles(&[[1.0 - share, 0.0, 1.0, 1.0]]);
-    // Those that the eighths of Block Elements lack.
+    // The eighths that Block Elements lacks.
     let others = |first: char| eighths([2, 3, 5, 6, 7][place(first) as usize]);
     Some(match character {
         ' ' | '\u{a0}' => even(0.0),
@@ -51,15 +51,15 @@ pub fn coverage(character: char) -> Option<Coverage> {
     })
 }
 
-/// Which of 2 x 2 parts the quadrants cover; the first part is the lowest bit.
+/// Which of 2 x 2 parts each quadrant character covers; the first part is the lowest bit.
 const QUADRANTS: [u8; 10] =
     [0b0100, 0b1000, 0b0001, 0b1101, 0b1001, 0b0111, 0b1011, 0b0010, 0b0110, 0b1110];
 
-/// Sextants and octants are in the order of their bits, without those that are other characters: none,
-/// the halves, all; and of octants, what is made of quadrants, and quarters of the cell.
+/// Sextants and octants stand in the order of their bits. Shapes that are other characters are left out: none, the
+/// halves, all; and of octants also those made of quadrants, and quarters of the cell.
 const SEXTANTS_ELSEWHERE: [u8; 4] = [0b00_00_00, 0b01_01_01, 0b10_10_10, 0b11_11_11];
 const OCTANTS_ELSEWHERE: [u8; 26] = [
-    // Of quadrants: both rows of an upper or a lower one.
+    // Shapes made of quadrants: both rows of an upper or a lower one.
     0b0000_0000,
     0b0000_0101,
     0b0000_1010,
@@ -90,12 +90,12 @@ const OCTANTS_ELSEWHERE: [u8; 26] = [
     0b1111_1100,
 ];
 
-/// The bits of the `n`-th that is not elsewhere.
+/// The bits of the `n`-th character, without those in `elsewhere`.
 fn nth(elsewhere: &[u8], n: u32) -> Option<u8> {
     (0..=u8::MAX).filter(|bits| !elsewhere.contains(bits)).nth(n as usize)
 }
 
-/// Of 2 x `rows` equal parts, row by row, those whose bits are set.
+/// The parts whose bits are set, of 2 x `rows` equal parts, row by row.
 fn mosaic(bits: u8, rows: u8) -> Coverage {
     let covered = (0..2 * rows).filter(|part| bits >> part & 1 == 1);
     let parts = covered.map(|part| {
@@ -108,7 +108,7 @@ fn mosaic(bits: u8, rows: u8) -> Coverage {
 /// A place on the border: halves of the width, thirds of the height.
 type Place = [u8; 2];
 
-/// From where to where the edges of the diagonals run, and a corner that is filled, as the names from U+1FB3C on say.
+/// For each diagonal where its edge starts and ends, and a corner that is filled, as the names from U+1FB3C on say.
 const DIAGONALS: [(Place, Place, Place); 44] = [
     ([0, 2], [1, 3], [0, 3]),
     ([0, 2], [2, 3], [0, 3]),
@@ -156,7 +156,7 @@ const DIAGONALS: [(Place, Place, Place); 44] = [
     ([0, 1], [2, 2], [2, 0]),
 ];
 
-/// Points of a pixel, side by side, that areas are counted by.
+/// How many points of a pixel, side by side, an area is sampled at.
 const POINTS: usize = 16;
 
 /// The share of each pixel's points that are filled; places are in shares of the cell.

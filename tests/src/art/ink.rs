@@ -4,7 +4,7 @@ use super::cell::{HEIGHT, WIDTH};
 use super::font::Font;
 use std::fmt::Write;
 
-/// The lines between the brackets of a table of `tui/src/ink.rs`: a character each.
+/// The lines between the brackets of a table of `tui/src/ink.rs`, one for each character.
 ///
 /// # Panics
 /// If the font has no ASCII.

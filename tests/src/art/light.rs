@@ -21,13 +21,14 @@ pub struct Light {
 }
 
 impl Light {
-    /// Of encoded colours, row by row.
+    /// Makes a picture of encoded colours, row by row.
     #[must_use]
     pub fn of_colors(width: usize, colors: impl IntoIterator<Item = Rgb>) -> Self {
         Self { width, pixels: colors.into_iter().map(decoded).collect() }
     }
 
-    /// Of a screen: in each pixel the two colours of its cell, as much of each as the glyph says.
+    /// Makes a picture of a screen. Each pixel mixes the two colours of its cell in the shares that
+    /// the glyph gives.
     ///
     /// # Errors
     /// If the font lacks a glyph.
@@ -61,10 +62,10 @@ impl Light {
         Ok(Self { width, pixels })
     }
 
-    /// Of a PNG of 8-bit red, green and blue.
+    /// Reads a PNG of 8-bit red, green and blue.
     ///
     /// # Errors
-    /// If it cannot be read, or is of another kind.
+    /// If the PNG cannot be read, or is of another kind.
     pub fn read_png(path: &Path) -> Result<Self, String> {
         let failed = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
         let file = File::open(path).map_err(|error| failed(&error))?;
@@ -80,7 +81,7 @@ impl Light {
         Ok(Self::of_colors(frame.width as usize, colors))
     }
 
-    /// As a display of 8 bits a channel has it.
+    /// The picture as a display with 8 bits a channel shows it.
     #[must_use]
     pub fn colors(&self) -> Vec<Rgb> {
         self.pixels.iter().copied().map(encoded).collect()
@@ -92,8 +93,8 @@ impl Light {
         self.pixels.len().checked_div(self.width).unwrap_or(0)
     }
 
-    /// As seen from so far away that a point is as wide as a Gaussian of this deviation, in pixels.
-    /// Beyond the edge the picture goes on as at the edge.
+    /// The picture seen from so far away that a point is as wide as a Gaussian of this deviation,
+    /// in pixels. Beyond an edge the picture continues as at the edge.
     #[must_use]
     pub fn blurred(&self, deviation: f32) -> Self {
         let reach = (3.0 * deviation + 0.5) as usize;

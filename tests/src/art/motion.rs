@@ -1,31 +1,31 @@
-//! Pictures one after the other: whether what changes is what changes in truth.
+//! Pictures one after the other: whether they change as the truth changes.
 
 use super::figures::{READING, oklab};
 use super::light::Light;
 
-/// The deviation of what an eye's optics spread, in pixels from reading distance: a thirtieth of a degree.
+/// The deviation of the eye's blur, in pixels from reading distance: a thirtieth of a degree.
 const SPREAD: f32 = READING / 30.0;
 
 /// How pictures change from one to the next, in OKLab.
 #[derive(Clone, Debug)]
 pub struct Changes {
-    /// As an eye sees them from reading distance.
+    /// As an eye sees the changes from reading distance.
     seen: Vec<Vec<[f32; 3]>>,
     /// Pixel by pixel.
     plain: Vec<Vec<[f32; 3]>>,
 }
 
-/// The error of changes: the root of the mean squared distance in OKLab to those of the truth.
+/// The error of changes: the root of the mean squared distance in OKLab from the changes of the truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unrest {
-    /// As an eye sees them from reading distance.
+    /// As an eye sees the changes from reading distance.
     pub seen: f64,
     /// Pixel by pixel.
     pub plain: f64,
 }
 
 impl Changes {
-    /// Of pictures of the same size.
+    /// The changes of pictures of the same size.
     #[must_use]
     pub fn new(pictures: &[Light]) -> Self {
         let changes = |look: &dyn Fn(&Light) -> Vec<[f32; 3]>| {
@@ -35,10 +35,10 @@ impl Changes {
         Self { seen: changes(&|light| oklab(&light.blurred(SPREAD))), plain: changes(&oklab) }
     }
 
-    /// How far they are from those of the truth; 0 if there is one picture alone.
+    /// How far the changes are from those of the truth; 0 if there is only one picture.
     ///
     /// # Panics
-    /// If there are more or fewer.
+    /// If the truth has more or fewer changes.
     #[must_use]
     pub fn unrest(&self, truth: &Self) -> Unrest {
         Unrest { seen: error(&self.seen, &truth.seen), plain: error(&self.plain, &truth.plain) }

@@ -1,4 +1,4 @@
-//! What the colours with numbers are: the 16 of some well-known themes, and xterm's 256.
+//! The colours that numbers stand for: the 16 of some well-known themes, and xterm's 256.
 
 /// Red, green and blue, sRGB-encoded.
 pub type Rgb = [u8; 3];
@@ -41,7 +41,7 @@ const THEMES: [(&str, &str); 4] = [
     ),
 ];
 
-/// The colour at `index` of xterm's 256, the first 16 of which are the theme's: then a cube of 6 x 6 x 6, and greys.
+/// The colour at `index` of xterm's 256. The first 16 are the theme's; then come a cube of 6 x 6 x 6, and greys.
 #[must_use]
 pub fn indexed(index: u8, sixteen: &Sixteen) -> Rgb {
     const LEVELS: [u8; 6] = [0, 95, 135, 175, 215, 255];

@@ -1,13 +1,13 @@
-//! Scenes that are in no program, in files for it: a dark one, and one like noise.
+//! Scenes that the program does not have, in files for it: a dark one, and one like noise.
 
 use spherule_referee::random::Random;
 
 /// A scene in a file of `tests/cases`.
 #[derive(Clone, Copy, Debug)]
 pub struct Kept {
-    /// What it is called; with `.toml`, its file.
+    /// The name. The file is called the same, with `.toml`.
     pub name: &'static str,
-    /// What is in the file.
+    /// The text of the file.
     pub text: fn() -> String,
 }
 
@@ -16,7 +16,7 @@ pub const KEPT: [Kept; 2] =
     [Kept { name: "night", text: night }, Kept { name: "confetti", text: confetti }];
 
 impl Kept {
-    /// Where its file is.
+    /// The path of the file.
     #[must_use]
     pub fn path(&self) -> String {
         format!("{}/cases/{}.toml", env!("CARGO_MANIFEST_DIR"), self.name)
@@ -44,7 +44,7 @@ fn night() -> String {
     text
 }
 
-/// 3000 tiny balls of colours that have nothing to do with their places, before light and dark.
+/// 3000 tiny balls whose colours are independent of their places, before light and dark.
 fn confetti() -> String {
     let mut random = Random::new(25, 1);
     let mut text = String::from(
@@ -70,7 +70,7 @@ fn ball([x, y, z]: [f32; 3], radius: f32, color: &str) -> String {
     )
 }
 
-/// Red, green and blue, each of at least so much.
+/// Red, green and blue, each at least `least`.
 fn color(random: &mut Random, least: i64) -> String {
     let channels = [(); 3].map(|()| random.integer(least, 255));
     channels.iter().fold(String::from("#"), |hash, channel| hash + &format!("{channel:02x}"))

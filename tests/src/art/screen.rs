@@ -29,11 +29,12 @@ const INK: Rgb = [229; 3];
 const BEHIND: Rgb = [0; 3];
 
 impl Screen {
-    /// After lines as they are written to a file: each ends in a newline, which a terminal shows as
+    /// The screen after lines as they are written to a file: each line ends in a newline, which a terminal shows as
     /// carriage return and line feed.
     ///
     /// # Errors
-    /// If there are more or fewer lines than rows, and if anything is not understood: half a picture would be scored.
+    /// If there are more or fewer lines than rows, or if anything is not understood: otherwise half a picture would be
+    /// scored.
     pub fn read(bytes: &[u8], columns: u16, rows: u16, palette: &Sixteen) -> Result<Self, String> {
         let lines = bytes.iter().filter(|&&byte| byte == b'\n').count();
         if lines != usize::from(rows) {
@@ -79,7 +80,7 @@ impl Screen {
     }
 }
 
-/// What a terminal did not understand first.
+/// The first thing that the terminal did not understand.
 #[derive(Default)]
 struct NotUnderstood(Option<String>);
 

@@ -3,11 +3,11 @@
 use super::palette::Rgb;
 use std::sync::LazyLock;
 
-/// The light of every level.
+/// The linear light of every 8-bit level.
 static LEVELS: LazyLock<[f32; 256]> =
     LazyLock::new(|| std::array::from_fn(|level| light(level as f64 / 255.0) as f32));
 
-/// Of a level between 0 and 1.
+/// The light of a level between 0 and 1.
 fn light(level: f64) -> f64 {
     if level <= 0.04045 { level / 12.92 } else { ((level + 0.055) / 1.055).powf(2.4) }
 }
@@ -18,7 +18,7 @@ pub fn decoded(color: Rgb) -> [f32; 3] {
     color.map(|channel| LEVELS[usize::from(channel)])
 }
 
-/// The nearest colour of 8 bits a channel; what a display has not becomes what it has.
+/// The nearest colour of 8 bits a channel; light outside the display's range is clamped.
 #[must_use]
 pub fn encoded(light: [f32; 3]) -> Rgb {
     light.map(|channel| {

@@ -5,12 +5,12 @@ use super::palette::Rgb;
 
 /// Pixels to each side of the middle of a window.
 const REACH: usize = 5;
-/// The deviation of its weights, in pixels.
+/// The deviation of the window's weights, in pixels.
 const DEVIATION: f64 = 1.5;
-/// What keeps quotients of small numbers calm, of levels up to 255.
+/// Constants that stabilise quotients of small numbers, for levels up to 255.
 const CALM: [f64; 2] = [(0.01 * 255.0) * (0.01 * 255.0), (0.03 * 255.0) * (0.03 * 255.0)];
 
-/// The luma of ITU-R BT.601, as the authors' own program has it.
+/// The luma of ITU-R BT.601, as in the authors' own program.
 #[must_use]
 pub fn luma(colors: &[Rgb]) -> Vec<f64> {
     let luma = |&[red, green, blue]: &Rgb| {
@@ -19,8 +19,8 @@ pub fn luma(colors: &[Rgb]) -> Vec<f64> {
     colors.iter().map(luma).collect()
 }
 
-/// The mean over all windows of 11 x 11 that are inside of both pictures; 1 if they are the same. Of a picture that is
-/// smaller than a window, some of the windows that are not.
+/// The mean over all windows of 11 x 11 that lie inside both pictures; 1 if the pictures are equal. If a picture is
+/// smaller than a window, some windows that reach beyond it count.
 #[must_use]
 pub fn mean(width: usize, first: &[f64], second: &[f64]) -> f64 {
     let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).collect::<Vec<_>>();
@@ -44,7 +44,7 @@ pub fn mean(width: usize, first: &[f64], second: &[f64]) -> f64 {
     sum / count
 }
 
-/// The weighted mean of the window around every pixel; beyond the edge the picture goes on as at the edge.
+/// The weighted mean of the window around every pixel. Beyond an edge the picture continues as at the edge.
 fn windows(width: usize, values: &[f64]) -> Vec<f64> {
     let bell = |x: usize| (-((x as f64 - REACH as f64) / DEVIATION).powi(2) / 2.0).exp();
     let weights: [f64; 2 * REACH + 1] = std::array::from_fn(bell);

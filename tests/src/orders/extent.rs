@@ -2,8 +2,8 @@
 
 use spherule_kernel::{Sphere, Spheres};
 
-/// A box around most spheres: for each axis the least and the greatest one in a hundred of them are left out, so that a
-/// single huge one, which rays need not look for, does not hide where the others are.
+/// A box around most spheres. Of each axis the least and the greatest hundredth of the spheres are left out, so that a
+/// single huge sphere, which rays need not look for, does not hide where the others are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extent {
     /// Its least coordinates.
@@ -13,7 +13,7 @@ pub struct Extent {
 }
 
 impl Extent {
-    /// Of the valid spheres; the cube from -1 to 1 if there is none.
+    /// The extent of the valid spheres; the cube from -1 to 1 if there is none.
     #[must_use]
     pub fn of(spheres: Spheres<'_>) -> Self {
         let valid: Vec<_> = spheres.iter().filter(Sphere::is_valid).collect();

@@ -15,7 +15,7 @@ const CAMERA: Point = [1.6, 2.0, 3.2];
 const OTHER_CAMERA: Point = [-3.4, 1.2, -1.8];
 /// From the middle to lights.
 const LIGHTS: [Point; 2] = [[1.5, 2.5, 1.0], [-2.0, 1.8, 0.7]];
-/// Where a beam goes.
+/// The direction of a beam.
 const ASLANT: Point = [0.36, -0.48, -0.8];
 
 /// Makes rays for a scene.
@@ -55,9 +55,9 @@ impl Rays<'_> {
         })
     }
 
-    /// Lines of a picture, evenly apart, each from left to right.
+    /// Lines of a picture, evenly spaced, each from left to right.
     pub(super) fn camera(&mut self, count: usize, other: bool) -> Vec<Ray> {
-        // A few rays are a few lines, too.
+        // A few rays also make a few lines.
         let width = (count / 16).next_power_of_two().clamp(16, LINE);
         let lines = count.div_ceil(width).max(1);
         let camera = Camera::new(self.extent, if other { OTHER_CAMERA } else { CAMERA });
@@ -67,7 +67,7 @@ impl Rays<'_> {
         (0..count).map(ray).collect()
     }
 
-    /// Random pixels of a camera so many scene sizes away.
+    /// Random pixels of a camera `distance` scene sizes away.
     pub(super) fn camera_shuffled(&mut self, count: usize, distance: f64) -> Vec<Ray> {
         let camera = Camera::new(self.extent, ASLANT.map(|x| -2.0 * distance * x));
         let mut pixel =
@@ -75,7 +75,7 @@ impl Rays<'_> {
         (0..count).map(|_| camera.ray(pixel(), pixel())).collect()
     }
 
-    /// From one point each, in directions that differ by 0.02.
+    /// Bursts from one point each, in directions that differ by 0.02.
     pub(super) fn bursts(&mut self, count: usize, alike: usize) -> Vec<Ray> {
         let mut rays = Vec::with_capacity(count);
         while rays.len() < count {
@@ -86,7 +86,7 @@ impl Rays<'_> {
         rays
     }
 
-    /// 64 heights from 25 degrees below to 15 above, then a turn by a step.
+    /// Fans of 64 heights from 25 degrees below to 15 above, each turned by a step.
     pub(super) fn scanner(&mut self, count: usize) -> Vec<Ray> {
         const FAN: usize = 64;
         let (origin, turns) = (self.off_middle([0.11, 0.07, -0.13]), count.div_ceil(FAN));
@@ -116,12 +116,13 @@ impl Rays<'_> {
         (0..count).map(|_| ray(origin, self.random.unit())).collect()
     }
 
-    /// From anywhere inside to anywhere.
+    /// Rays from anywhere inside to anywhere.
     pub(super) fn diffuse(&mut self, count: usize) -> Vec<Ray> {
         (0..count).map(|_| ray(self.inside(), self.random.unit())).collect()
     }
 
-    /// From a random point of a random valid sphere, the steeper the likelier (Lambert); diffuse rays if there is none.
+    /// From a random point of a random valid sphere, the steeper the likelier (Lambert); diffuse rays if no sphere is
+    /// valid.
     pub(super) fn bounces(&mut self, spheres: Spheres<'_>, count: usize) -> Vec<Ray> {
         let bounce = |_| {
             for _ in 0..64 {
@@ -131,7 +132,7 @@ impl Rays<'_> {
                 };
                 let (normal, radius) = (self.random.unit(), f64::from(sphere.radius));
                 let center = sphere.center.to_array().map(f64::from);
-                // A little above: what is rounded stays outside.
+                // A little above the surface, so that the rounded point stays outside.
                 let least = center.iter().fold(radius, |most, x| x.abs().max(most)) * 2.5e-7;
                 let origin = plus(center, radius * (1.0 + 1e-5) + least, normal);
                 let towards = plus(normal, 0.999, self.random.unit());
@@ -146,7 +147,7 @@ impl Rays<'_> {
 /// A pinhole camera that looks at the middle of a scene, which fills its square picture.
 struct Camera {
     eye: Point,
-    /// Forwards, and, to an edge of the picture, right and up.
+    /// Forwards, then right and up as far as an edge of the picture.
     axes: [Point; 3],
 }
 
@@ -157,7 +158,7 @@ impl Camera {
         let forwards = offset.map(|x| -x / distance);
         let right = unit(cross(forwards, [0.0, 1.0, 0.0]));
         let up = cross(right, forwards);
-        // A sphere of 1.3 around the middle fills the picture.
+        // The picture holds a sphere of radius 1.3 around the middle.
         let edge = 1.3 / distance;
         let eye = plus(extent.middle(), extent.half(), offset);
         Self { eye, axes: [forwards, right.map(|x| edge * x), up.map(|x| edge * x)] }

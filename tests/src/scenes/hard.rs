@@ -1,4 +1,4 @@
-//! The spheres of scenes that trees find hard: boxes tell little of them.
+//! The spheres of scenes that are hard for trees: their boxes tell little of them.
 
 use super::point::{direction, plus, rounded, within};
 use super::spheres::{in_cube, uniform};
@@ -11,7 +11,7 @@ pub(super) const ALIKE: usize = 10;
 /// How many spheres a chain has.
 pub(super) const LINKS: usize = 1000;
 
-/// Uniform on the unit sphere, with radii of a quarter to three quarters of the side of a square that each has there.
+/// Uniform on the unit sphere. If each sphere has a square of the surface to itself, its radius is a quarter to three quarters of the side.
 pub(super) fn shell(count: usize) -> Vec<Sphere> {
     let mut random = Random::seeded(10);
     let side = (4.0 * PI / count as f64).sqrt();
@@ -22,7 +22,7 @@ pub(super) fn shell(count: usize) -> Vec<Sphere> {
     (0..count).map(sphere).collect()
 }
 
-/// All around the same point, one within the other, in any order.
+/// Spheres around one point, one within the other, in random order.
 pub(super) fn nested(count: usize) -> Vec<Sphere> {
     let mut random = Random::seeded(11);
     let sphere = |number: usize| {
@@ -36,12 +36,12 @@ pub(super) fn nested(count: usize) -> Vec<Sphere> {
     list
 }
 
-/// Uniform spheres, and the whole list again and again.
+/// Uniform spheres; the whole list is repeated.
 pub(super) fn duplicates(count: usize) -> Vec<Sphere> {
     uniform(count / ALIKE, 12).repeat(ALIKE)
 }
 
-/// Uniform in the cube from -1 to 1, so large that a point in it lies in more than forty of 10,000.
+/// Uniform in the cube from -1 to 1. Of 10,000 spheres so large, a point of the cube lies in more than forty.
 pub(super) fn overlapping(count: usize) -> Vec<Sphere> {
     let mut random = Random::seeded(13);
     let sphere = |_| {
@@ -51,16 +51,15 @@ pub(super) fn overlapping(count: usize) -> Vec<Sphere> {
     (0..count).map(sphere).collect()
 }
 
-/// Uniform in the cube from -1 to 1, a tenth as large as there is room; and in the middle of the list one in the
-/// middle of the cube, from side to side except a tenth.
+/// Uniform in the cube from -1 to 1, a tenth as large as there is room. In the middle of the list stands a sphere in the middle of the
+/// cube, which reaches to a tenth from the cube's sides.
 pub(super) fn huge_and_tiny(count: usize) -> Vec<Sphere> {
     let mut list = in_cube(count - 1, 0.1, 14);
     list.insert(count / 2, Sphere { center: Vec3::ZERO, radius: 0.9 });
     list
 }
 
-/// Rows of [`LINKS`] spheres that touch: straight, of any direction, 3 long, the middle uniform in the cube from
-/// -1 to 1.
+/// Straight rows of [`LINKS`] spheres that touch, in any direction, 3 long, with their middles uniform in the cube from -1 to 1.
 pub(super) fn chains(count: usize) -> Vec<Sphere> {
     const RADIUS: f64 = 1.5 / LINKS as f64;
     let mut random = Random::seeded(15);
@@ -76,8 +75,8 @@ pub(super) fn chains(count: usize) -> Vec<Sphere> {
     (0..count / LINKS).flat_map(|_| chain()).collect()
 }
 
-/// Uniform in the cube from -1 to 1; every power of two of radii from 2^-20 to 1 of the largest is as frequent. 20,000 fill a third of
-/// the cube, fewer as much.
+/// Uniform in the cube from -1 to 1. Radii are 2^-20 to 1 of the largest, and every power of two between is as frequent. 20,000 spheres
+/// fill a third of the cube, and fewer fill as much.
 pub(super) fn spread(count: usize) -> Vec<Sphere> {
     let mut random = Random::seeded(16);
     let largest = 0.1 * (20_000.0 / count as f64).cbrt();

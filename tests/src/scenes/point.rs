@@ -1,4 +1,4 @@
-//! Points and directions in double precision: scenes are made so, and rounded once.
+//! Points and directions in double precision: scenes are made of them, and rounded once.
 
 use spherule_kernel::Vec3;
 use spherule_referee::random::Random;

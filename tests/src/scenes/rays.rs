@@ -4,7 +4,7 @@ use super::point::{Point, direction, plus, rounded, unit, within};
 use spherule_kernel::Ray;
 use spherule_referee::random::{Random, cross};
 
-/// Pixels to a side of a tile: sixteen rays.
+/// Pixels to a side of a tile, which holds sixteen rays.
 const TILE: usize = 4;
 
 /// A pinhole camera with a square picture; `angle` is from its lower to its upper edge, in degrees.
@@ -52,7 +52,8 @@ pub(super) fn scattered(low: Point, high: Point, count: usize) -> Vec<Ray> {
     (0..count).map(ray).collect()
 }
 
-/// Origins uniform on a sphere around the scene, towards points uniform in the cube.
+/// Origins are uniform on a sphere around the scene, and rays go towards points uniform in the
+/// cube.
 pub(super) fn from_afar(distance: f64, count: usize) -> Vec<Ray> {
     let mut random = Random::seeded(8);
     let ray = |_| {

@@ -28,8 +28,8 @@ pub fn scenes() -> [Scene; 5] {
         // surface, and no bound that holds for it is a good one for the others.
         ground("64 + ground", 64),
         ground("1024 + ground", 1024),
-        // About the middle of the cube, so large that the line of every ray meets each, and small enough that no ray
-        // starts inside.
+        // Spheres about the middle of the cube. They are so large that the line of every ray meets each, and so small
+        // that no ray starts inside.
         scene("64, every line hits", spheres(64, 0xa11, 1.0, [20.0, 26.0])),
     ]
 }
@@ -58,8 +58,8 @@ fn scene(name: &'static str, spheres: Vec<Sphere>) -> Scene {
     Scene { name, spheres: Rc::new(spheres.into()), is_small: true, primary, diffuse }
 }
 
-/// A picture of 32 x 32 pixels in tiles of 4 x 4, or origins all around the cube and every ray towards another point in
-/// it. Directions are 0.5 to 6 long.
+/// Rays through a picture of 32 x 32 pixels in tiles of 4 x 4; or rays from all around the cube, each towards another
+/// point in it. Directions are 0.5 to 6 long.
 fn rays(kind: Kind) -> Vec<Ray> {
     let mut lengths = Random::seeded(0x5eed);
     let mut towards = |origin: Vec3, target: Vec3| {
@@ -95,7 +95,7 @@ fn in_cube(random: &mut Random, half: f32) -> Vec3 {
     Vec3::from_array([(); 3].map(|()| between(random, -half, half)))
 }
 
-/// Uniform on the unit sphere: points of the cube, until one lies in the ball.
+/// Uniform on the unit sphere: draws points of the cube until one lies in the ball.
 fn direction(random: &mut Random) -> Vec3 {
     loop {
         let point = in_cube(random, 1.0);

@@ -10,12 +10,12 @@ pub(super) fn one() -> Vec<Sphere> {
     vec![Sphere { center: Vec3::ZERO, radius: 1.0 }]
 }
 
-/// Uniform in the cube from -1 to 1; a quarter to three quarters of the side of a cell large.
+/// Uniform in the cube from -1 to 1; diameters are a quarter to three quarters of the side of a sphere's cell.
 pub(super) fn uniform(count: usize, seed: u64) -> Vec<Sphere> {
     in_cube(count, 0.5, seed)
 }
 
-/// The same, twice as large: half of the cube is in some sphere.
+/// The same, twice as large: half of the cube lies in some sphere.
 pub(super) fn dense(count: usize) -> Vec<Sphere> {
     in_cube(count, 1.0, 6)
 }
@@ -34,8 +34,8 @@ pub(super) fn in_cube(count: usize, radius: f64, seed: u64) -> Vec<Sphere> {
 /// Where the spheres on the ground have their centres.
 pub(super) const LAYER: [Point; 2] = [[-10.0, 0.0, -10.0], [10.0, 1.0, 10.0]];
 
-/// `count - 1` spheres of log-normal radii (the median a fortieth, sigma 0.7; one in a million is thirty times that) in
-/// a layer on a sphere of radius 1000, which is in the middle of the list.
+/// `count - 1` spheres in a layer on a sphere of radius 1000, which is in the middle of the list. Their radii are
+/// log-normal (the median is a fortieth, sigma 0.7; one in a million is thirty times the median).
 pub(super) fn over_ground(count: usize) -> Vec<Sphere> {
     let mut random = Random::seeded(9);
     let [low, high] = LAYER;

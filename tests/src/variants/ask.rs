@@ -29,7 +29,8 @@ impl Variant {
                 self.ask_of(refitted, Trace::new().with(coherence), rays)
             }
             Structure::Stream(count) => {
-                // The least that queues need for few, and for more what they like to have.
+                // The least memory that a few rays need; for more rays, as much as queues like to
+                // have.
                 let needed = StreamMemory::queues_needed(count);
                 let queues = if count < 100 { needed } else { needed + 32 * count };
                 let mut queues = vec![QueuedRay::EMPTY; queues];
@@ -68,7 +69,7 @@ impl Variant {
 
     fn ask_of(&self, structure: &impl Intersect, mut trace: Trace<'_>, rays: &[Ray]) -> Answers {
         let tier = self.tier;
-        // What was there before must not show; nothing past the rays is touched.
+        // Old contents must not show, and nothing past the rays may be touched.
         let stale = Some(Hit { t: -7.0, sphere: 7 });
         let mut hits = vec![stale; rays.len() + 1];
         let mut occluded: Vec<bool> = (0..=rays.len()).map(|i| i % 3 == 0).collect();

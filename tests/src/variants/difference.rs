@@ -6,7 +6,7 @@ use super::table::{Layer, Structure, Variant, brute, variants};
 use spherule_kernel::{Hit, Ray, Sphere, Tier, Viewpoint};
 use spherule_referee::case::HexRay;
 
-/// The bits of a hit: -0 is not 0 here, and a NaN is itself.
+/// The bits of a hit: here -0 differs from 0, and a NaN equals itself.
 #[must_use]
 pub fn bits(hit: Option<Hit>) -> Option<(u32, u32)> {
     hit.map(|hit| (hit.t.to_bits(), hit.sphere))
@@ -14,7 +14,7 @@ pub fn bits(hit: Option<Hit>) -> Option<(u32, u32)> {
 
 /// The first ray for which a tree or depth list of one of `tiers` does not answer, bit for bit, as brute force does.
 ///
-/// Large scenes are left to the variants that have loops of their own.
+/// In large scenes only variants with loops of their own are asked.
 #[must_use]
 pub fn difference(
     tiers: &[Tier],
@@ -27,10 +27,10 @@ pub fn difference(
         let asked = |variant: &Variant| match variant.layer {
             _ if variant.tier != tier || variant.structure == Structure::List => false,
             _ if !variant.holds(spheres.len()) => false,
-            // All that it has are those of one lane.
+            // This structure has loops of one lane only.
             Layer::Lanes(1) if variant.structure == Structure::Bvh4 => true,
             Layer::Ray | Layer::SliceAt(_) => rays.len() * spheres.len() < 20_000,
-            // Baseline's loops, of other width.
+            // The same loops as the baseline's, in another width.
             Layer::Lanes(1) => tier == Tier::Exact,
             _ => true,
         };
@@ -57,7 +57,7 @@ pub fn difference(
 /// [`difference`] as a panic, the depth list sorted from the first ray's origin.
 ///
 /// # Panics
-/// If there is one.
+/// If there is a difference.
 #[track_caller]
 pub fn assert_same(tiers: &[Tier], rays: &[Ray], spheres: &[Sphere]) {
     assert_same_from(viewpoint_of(rays), tiers, rays, spheres);

@@ -11,7 +11,7 @@ pub struct Memory {
     refitted: SphereTree,
     list: SphereList,
     words: Vec<f32>,
-    /// Nothing where there are more spheres than it holds.
+    /// Empty if there are more spheres than the tree holds.
     bvh4: Vec<u32>,
 }
 
@@ -26,12 +26,12 @@ pub struct Structures<'a> {
     pub tree: &'a SphereTree,
     /// A tree that was built over other spheres, and refitted.
     pub refitted: &'a SphereTree,
-    /// The tree of one lane, loaded from what was built.
+    /// The tree of one lane, loaded from the words of a built one.
     pub bvh4: Option<Bvh4<'a>>,
 }
 
 impl Memory {
-    /// A list and trees of these spheres, and memory for a depth list.
+    /// Makes a list and trees of these spheres, and memory for a depth list.
     ///
     /// # Panics
     /// Never: the memory is enough.

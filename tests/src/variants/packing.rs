@@ -1,4 +1,4 @@
-//! Rays of a test as packets and columns, and answers out of packets.
+//! The rays of a test as packets and as columns, and answers read from packets.
 
 use super::answers::Answers;
 use spherule_kernel::{
@@ -26,7 +26,7 @@ pub(super) fn packed<A: LaneArray>(rays: &[Ray]) -> Vec<RayPacket<A>> {
     rays.chunks(A::COUNT).map(RayPacket::new).collect()
 }
 
-/// The answers to `count` rays, and a packet more that was left alone.
+/// The answers to `count` rays. One packet more must have been left alone.
 pub(super) fn unpacked<L: Lanes<Token = ()>>(
     count: usize,
     found: &[HitPacket<L::Array>],

@@ -2,7 +2,8 @@
 
 use spherule_kernel::{Sphere, SphereList, SphereTree, Vec3};
 
-/// How many spheres at most are none, or of another scale, when the tree is built: each is tested against every ray.
+/// At most so many spheres are invalid, or of another scale, when the tree is built, since each of them is tested
+/// against every ray.
 const FEW: usize = 40;
 
 /// A tree that was built over other spheres, and refitted to these.
@@ -16,8 +17,8 @@ pub(super) fn tree(spheres: &[Sphere]) -> SphereTree {
     tree
 }
 
-/// As many, of which most have moved by some of their distance from the origin. Some are none, of another scale, or the
-/// same as others.
+/// As many spheres, most of which have moved by some of their distance from the origin. Some are invalid, of another
+/// scale, or equal to others.
 fn others(spheres: &[Sphere]) -> SphereList {
     let rare = (spheres.len() / FEW).max(7);
     let other = |(index, sphere): (usize, &Sphere)| {

@@ -83,8 +83,7 @@ fn unpacked<A: LaneArray>(surfaces: &[SurfacePacket<A>]) -> Vec<[Vec3; 2]> {
     surfaces.iter().flat_map(lanes).collect()
 }
 
-/// The shadow rays from what every ray hits in a list, as one ray at a time leaves or as packets do; inactive if none
-/// does.
+/// The shadow rays from what every ray hits in a list, spawned ray by ray or in packets; inactive if none is spawned.
 #[must_use]
 pub fn shadow_rays_of(
     tier: Tier,

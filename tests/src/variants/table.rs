@@ -1,6 +1,6 @@
 //! The rows: tier, structure and layer.
 //!
-//! Iterators here are of vectors: a chain of adapters would be compiled anew in each of the tests that walk it.
+//! Iterators here are vectors: every test that walks a chain of adapters would compile it anew.
 
 use spherule_kernel::{Coherence, Level, LevelName, Tier};
 use std::vec::IntoIter;
@@ -10,15 +10,15 @@ use std::vec::IntoIter;
 pub enum Structure {
     /// The spheres in their order.
     List,
-    /// The spheres by depth, with this part of the scratch memory that a trace can use, in sevenths.
+    /// The spheres by depth. A trace can use this part of the scratch memory, in sevenths.
     DepthList(usize),
-    /// A tree, and what is said of its rays.
+    /// A tree, and what the trace says of its rays.
     Tree(Coherence),
-    /// A tree that was built over other spheres, of which some were none, larger or the same, and refitted.
+    /// A tree built over other spheres, some of them invalid, larger or equal, and then refitted.
     Refitted(Coherence),
     /// A tree whose rays go as a stream, with memory for so many at a time.
     Stream(usize),
-    /// The tree of one lane, of as many spheres as it holds.
+    /// The tree of one lane, if it holds as many spheres.
     Bvh4,
 }
 
@@ -27,9 +27,9 @@ pub enum Structure {
 pub enum Layer {
     /// One ray a call.
     Ray,
-    /// A slice of rays, and nothing said of them.
+    /// A slice of rays, with nothing said about them.
     Slice,
-    /// Columns of rays, not all of a length, and nothing said of them.
+    /// Columns of rays, of different lengths, with nothing said about them.
     Columns,
     /// A slice of rays at a level.
     SliceAt(LevelName),
@@ -71,8 +71,8 @@ pub fn levels() -> IntoIter<LevelName> {
     LevelName::ALL.into_iter().filter(has).collect::<Vec<_>>().into_iter()
 }
 
-/// The whole table: of a list every lane width; of the larger structures, whose source is the same in every width,
-/// two.
+/// The whole table. Lists have every lane width. The larger structures have two widths, since their source is the same
+/// in every width.
 pub fn variants() -> IntoIter<Variant> {
     let plain = vec![Layer::Ray, Layer::Slice, Layer::Columns];
     let packets: Vec<Layer> = levels().map(Layer::Packets).collect();
@@ -105,14 +105,14 @@ pub fn variants() -> IntoIter<Variant> {
     table.into_iter()
 }
 
-/// The variants of lists that have loops of their own: rays and slices of them go through packets.
+/// The variants of lists with loops of their own: single rays and slices go through packets.
 pub fn lists() -> IntoIter<Variant> {
     let packed = |layer| matches!(layer, Layer::Packets(_) | Layer::Lanes(_));
     let of_lists = |v: &Variant| v.structure == Structure::List && packed(v.layer);
     variants().filter(of_lists).collect::<Vec<_>>().into_iter()
 }
 
-/// The readable form of a tier: a list, one lane.
+/// The reference for a tier: a list, one lane.
 #[must_use]
 pub const fn reference(tier: Tier) -> Variant {
     Variant { tier, structure: Structure::List, layer: Layer::Lanes(1) }
@@ -125,7 +125,7 @@ pub const fn brute(tier: Tier) -> Variant {
 }
 
 impl Variant {
-    /// Whether the structure can hold so many spheres.
+    /// Whether the structure can hold `count` spheres.
     #[must_use]
     pub fn holds(&self, count: usize) -> bool {
         self.structure != Structure::Bvh4 || count <= MOST_OF_BVH4

@@ -39,7 +39,7 @@ impl Frame {
             .collect()
     }
 
-    /// What all rays have in common.
+    /// The origin or direction that all rays share.
     #[must_use]
     pub fn viewpoint(&self) -> Viewpoint {
         match self.camera.projection {
@@ -49,9 +49,9 @@ impl Frame {
     }
 }
 
-/// Where the tiles of a frame are not answered, bit for bit, as brute force answers the rays of their pixels, or where
-/// other rays are left; by `tiers` that promise the same bits, in every structure. (As in the table of variants: a list in
-/// every width, the larger structures in two.)
+/// Where tiles of a frame are not answered, bit for bit, as brute force answers the rays of their pixels, or where other rays are left.
+/// Asks `tiers` that promise the same bits, in every structure. As in the table of variants, lists have every width, the larger structures
+/// two.
 #[must_use]
 pub fn tile_difference(tiers: &[Tier], frame: &Frame, spheres: &[Sphere]) -> Option<String> {
     Memory::new(spheres).sorted(frame.viewpoint(), |structures| {
@@ -100,7 +100,7 @@ impl Question<'_> {
         let corners = frame.corners::<L::Array>();
         let (width, height) = frame.size;
         let (tile_width, _) = Camera::tile::<L::Array>();
-        // Pixel by pixel.
+        // The expected answers, pixel by pixel.
         let pixel = |(x, y): (u32, u32), lane: u32| {
             let (x, y) = (x.checked_add(lane % tile_width)?, y.checked_add(lane / tile_width)?);
             (x < width && y < height).then(|| frame.camera.get_ray(x, y))
@@ -174,7 +174,7 @@ fn every_structure_at_a_level(
     ]
 }
 
-/// Bit for bit, with one NaN for all: of two, an operation returns any.
+/// Compares bit for bit, except that every NaN equals every other: an operation on two NaN may return either.
 fn same_but_for_nan(a: &Ray, b: &Ray) -> bool {
     let bits = |ray: &Ray| {
         let [o, d] = [ray.origin, ray.direction].map(|vector| vector.to_array());
@@ -210,7 +210,7 @@ fn at_a_level<S: Intersect>(
 
 type Packets<L> = (Vec<RayPacket<<L as Lanes>::Array>>, Vec<HitPacket<<L as Lanes>::Array>>);
 
-/// What was there before must not show; one more must be left alone.
+/// Old contents must not show; one packet more must be left alone.
 fn stale<L: Lanes<Token = ()>>(count: usize) -> Packets<L> {
     let ray = Ray::new(Vec3::new(0.0, 0.0, -3.0), Vec3::Z);
     (vec![RayPacket::new(&[ray; 16]); count + 1], vec![stale_packet::<L>(); count + 1])

@@ -1,6 +1,6 @@
-//! Rays and spheres, ordinary and hard, from nothing but a number: the same on every target.
+//! Rays and spheres, ordinary and hard, made from a number alone: the same on every target.
 //!
-//! Only sums, products, quotients and roots make them, which every target rounds alike, and bits.
+//! Only bits, sums, products, quotients and roots make them, which every target rounds alike.
 
 use spherule_kernel::{Lanes, Ray, Sphere, Vec3};
 
@@ -15,7 +15,7 @@ pub struct Case {
 
 /// How many cases there are.
 pub const CASES: u32 = 20_480;
-/// How many kinds, one after the other.
+/// How many kinds of cases there are; they take turns.
 const KINDS: u32 = 8;
 
 /// Random numbers: `SplitMix64`.
@@ -91,7 +91,7 @@ pub fn case(number: u32) -> Case {
     }
 }
 
-/// A line as far from the centre as the sphere is large, except for some ulp.
+/// A line whose distance from the centre is the radius, give or take some ulp.
 fn grazing(random: &mut Random, Case { ray, sphere }: Case) -> Case {
     let away = ray.direction.cross(random.point());
     let away = away / Lanes::sqrt(away.dot(away));
@@ -120,7 +120,7 @@ fn from_afar(random: &mut Random, Case { ray, sphere }: Case) -> Case {
     Case { ray, sphere: Sphere { center, ..sphere } }
 }
 
-/// Anything between subnormal and too large, and a direction of another length.
+/// Any size from subnormal to too large, and a direction of another length.
 fn of_any_size(random: &mut Random, Case { ray, sphere }: Case) -> Case {
     let (size, length) = (random.power(126), random.power(126));
     let ray = Ray { origin: ray.origin * size, direction: ray.direction * length, ..ray };
@@ -135,7 +135,7 @@ fn from_the_surface(random: &mut Random, Case { ray, sphere }: Case) -> Case {
     Case { ray: Ray { origin, t_min, ..ray }, sphere }
 }
 
-/// An interval that may begin or end between the roots, or hold none.
+/// An interval that may begin or end between the roots, or hold neither.
 fn with_an_interval(random: &mut Random, Case { ray, sphere }: Case) -> Case {
     let t_min = random.number() * 8.0;
     Case { ray: Ray { t_min, t_max: t_min + random.number() * 4.0 + 3.0, ..ray }, sphere }

@@ -1,4 +1,4 @@
-//! What must be the same everywhere: a digest of every tier's answers.
+//! A digest of every tier's answers, which must be the same everywhere.
 
 mod fnv;
 mod questions;
@@ -8,9 +8,9 @@ use crate::platform::print;
 use questions::Asked;
 use spherule_kernel::{Level, LevelName, Tier};
 
-/// Prints the digests at every level that there is, a line each: level, tier, what was asked, and the digest.
+/// Prints the digests at every level that the CPU has, one line each: level, tier, question, and digest.
 ///
-/// With `control` one bit of one answer is another.
+/// With `control`, one bit of one answer is changed.
 #[must_use]
 pub fn print_all(control: bool) -> bool {
     for name in LevelName::ALL {

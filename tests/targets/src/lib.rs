@@ -1,4 +1,4 @@
-//! Programs that run on every target, most of them without an operating system: what they share.
+//! What the programs share that run on every target, most of them without an operating system.
 
 #![cfg_attr(target_os = "none", no_std)]
 

@@ -4,7 +4,7 @@ use spherule_kernel::Spheres;
 
 include!(concat!(env!("OUT_DIR"), "/baked.rs"));
 
-/// How many spheres.
+/// The number of spheres.
 pub const COUNT: usize = BAKED_SPHERES[0].len();
 
 /// The spheres.

@@ -1,4 +1,4 @@
-//! Numbers as text, without the formatting of the standard library: in flash that is as large as a tier.
+//! Prints numbers without the standard library's formatting, which takes as much flash as a tier.
 
 use crate::platform::print;
 

@@ -1,11 +1,11 @@
-//! How much stack a function writes to, and how many instructions it takes, on a Cortex-M.
+//! Measures how much stack a function writes to, and how many instructions it takes, on a Cortex-M.
 
 // Unsafe code: the stack below its pointer, and a timer's registers.
 #![allow(unsafe_code)]
 
 use core::arch::asm;
 
-/// What is measured of a function.
+/// The measured cost of a function.
 #[derive(Clone, Copy, Debug)]
 pub struct Measured {
     /// The bytes of stack that it writes to.
@@ -16,18 +16,18 @@ pub struct Measured {
 
 const PAINT: u32 = 0xa5a5_a5a5;
 const PAINTED: usize = 128 * 1024;
-/// What this function itself has below the pointer that it reads.
+/// The stack of this function itself, below the pointer that it reads.
 const SPARED: usize = 64;
 /// Control, reload value and current value of the timer `SysTick`.
 const SYSTICK: *mut u32 = 0xe000_e010 as *mut u32;
 const LONGEST: u32 = 0x00ff_ffff;
 
-/// Runs `work` over a stack that is painted, and looks how far down it is not any more.
+/// Runs `work` over a painted stack, and finds how far down the paint is gone.
 #[inline(never)]
 pub fn measure(work: fn()) -> Measured {
     let top: usize;
-    // SAFETY: what is below the stack pointer belongs to no one, and the board has more of it than is painted; between
-    // painting and looking only `work` runs. Nothing else uses the timer.
+    // SAFETY: the memory below the stack pointer belongs to no one, and the board has more of it than is painted; only
+    // `work` runs between painting and looking. Nothing else uses the timer.
     unsafe {
         asm!("mov {}, sp", out(reg) top, options(nomem, nostack));
         let bottom = top - PAINTED;

@@ -1,4 +1,4 @@
-//! How a program starts, prints and ends on a target: all that differs between them.
+//! How a program starts, prints and ends on a target: all that differs between targets.
 
 #[cfg(all(target_arch = "arm", target_os = "none"))]
 mod semihosting;
@@ -20,18 +20,18 @@ mod hosted;
 #[cfg(not(any(target_os = "none", target_arch = "wasm32")))]
 pub use hosted::{exit, print};
 
-/// What starts a program that ends by [`exit`].
+/// Defines the start of a program that ends by [`exit`].
 #[macro_export]
 macro_rules! start {
     ($run:path) => {
-        /// Where the processor starts.
+        /// The processor starts here.
         #[cfg(all(target_arch = "arm", target_os = "none"))]
         #[cortex_m_rt::entry]
         fn main() -> ! {
             $crate::platform::exit($run())
         }
 
-        /// Where Linux starts, or who plays it.
+        /// Linux starts here, or an emulator of it.
         #[cfg(all(target_arch = "riscv32", target_os = "none"))]
         #[allow(unsafe_code)]
         #[unsafe(no_mangle)]
@@ -39,7 +39,7 @@ macro_rules! start {
             $crate::platform::exit($run())
         }
 
-        /// What the host of a module calls.
+        /// The host of a module calls this.
         #[cfg(target_arch = "wasm32")]
         #[allow(unsafe_code)]
         #[unsafe(export_name = "run")]

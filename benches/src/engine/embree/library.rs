@@ -1,4 +1,4 @@
-//! The libraries, opened by name when they are first asked for. Their interface is declared by hand, from the headers
+//! Embree's libraries, opened by name at first use. Their interface is declared by hand, from the headers
 //! `rtcore_{device,geometry,scene,ray,common}.h`.
 
 use core::ffi::{c_char, c_int, c_uint, c_void};
@@ -11,7 +11,7 @@ use std::sync::OnceLock;
 pub(super) type Handle = *mut c_void;
 /// `rtcIntersect1`, `rtcOccluded1`: the scene, then context and record (Embree 3) or record and arguments (4).
 type CallOne = unsafe extern "C" fn(Handle, *mut c_void, *mut c_void);
-/// Those of more rays: a flag for each ray before.
+/// The calls of several rays: they take a flag for each ray first.
 type CallMany = unsafe extern "C" fn(*const i32, Handle, *mut c_void, *mut c_void);
 /// `rtcIntersect1M`, `rtcOccluded1M` of Embree 3: scene, context, records, how many, and bytes from one to the next.
 type CallStream = unsafe extern "C" fn(Handle, *mut c_void, *mut c_void, c_uint, usize);
@@ -19,15 +19,15 @@ type CallStream = unsafe extern "C" fn(Handle, *mut c_void, *mut c_void, c_uint,
 type SetSharedBuffer =
     unsafe extern "C" fn(Handle, c_int, c_uint, c_int, *const c_void, usize, usize, usize);
 
-/// What is used of a library.
+/// The functions and constants of one library that are used here.
 pub(crate) struct Library {
-    /// With its version, as it says it.
+    /// The name with the version that the library reports.
     pub(crate) name: String,
     /// Whether it is Embree 3, not 4.
     pub(super) is_3: bool,
-    /// The flag for rays that have something in common.
+    /// The flag for coherent rays.
     pub(super) coherent: c_int,
-    /// 32-bit members of a record of a ray and its hit.
+    /// How many 32-bit members a record of a ray and its hit has.
     pub(super) members: usize,
     pub(super) new_device: unsafe extern "C" fn(*const c_char) -> Handle,
     pub(super) release_device: unsafe extern "C" fn(Handle),
@@ -42,17 +42,17 @@ pub(crate) struct Library {
     pub(super) release_scene: unsafe extern "C" fn(Handle),
     pub(super) intersect1: CallOne,
     pub(super) occluded1: CallOne,
-    /// Of 4, 8 and 16 rays.
+    /// The calls of 4, 8 and 16 rays.
     pub(super) intersect: [CallMany; 3],
     pub(super) occluded: [CallMany; 3],
-    /// Embree 4 has no streams.
+    /// `None` in Embree 4, which has no streams.
     pub(super) intersect_stream: Option<CallStream>,
     pub(super) occluded_stream: Option<CallStream>,
-    /// The functions are in it.
+    /// Keeps the file open that the functions are in.
     _file: File,
 }
 
-/// Those of the variable `SPHERULE_EMBREE`, names or paths with colons between them; Embree 3 of the system unless said.
+/// The libraries that the variable `SPHERULE_EMBREE` names: names or paths with colons between them. Unset, the system's Embree 3.
 ///
 /// # Panics
 /// If one cannot be opened.
@@ -66,9 +66,9 @@ pub(crate) fn libraries() -> &'static [Library] {
 
 impl Library {
     fn open(path: &OsStr) -> Self {
-        /// The property of a device that is the version.
+        /// The device property that holds the version.
         const VERSION: c_int = 0;
-        // SAFETY: what a library does when it is opened is the caller's to answer for, who named it.
+        // SAFETY: the caller named the library, and answers for what it does when it is opened.
         let file = unsafe { File::new(path) };
         let file = file.unwrap_or_else(|error| panic!("{}: {error}", path.display()));
         // SAFETY, here and below: the type is that of the headers, and the file is kept with the function.
@@ -119,10 +119,10 @@ impl Library {
     }
 }
 
-/// The function of that name.
+/// Returns the function called `name`.
 ///
 /// # Safety
-/// It has the type `F`, and is not called after the file is closed.
+/// The function has the type `F`, and is not called after the file is closed.
 unsafe fn function<F: Copy>(file: &File, name: &str) -> F {
     // SAFETY: as the caller promises.
     let symbol = unsafe { file.get::<F>(name.as_bytes()) };

@@ -1,7 +1,8 @@
 //! The binary tree of `bvh`.
 //!
-//! It does not take the best hit so far; boxes come in the order in which they are entered, and the search ends at the
-//! first that is entered behind a hit. For any hit they come as they come, which is faster.
+//! The search does not use the best hit so far. For the closest hit, boxes come in the order in which the ray enters
+//! them, and the search ends at the first box entered behind a hit. For any hit, boxes come in the tree's order, which
+//! is faster.
 
 use super::one_by_one::{PreparedRay, corners, engine};
 use crate::engine::Engine;

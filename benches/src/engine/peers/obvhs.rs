@@ -22,7 +22,7 @@ pub(crate) fn build(spheres: Spheres<'_>) -> Engine {
     let list: Vec<_> = spheres.iter().map(Boxed).collect();
     let mut time_of_core = Duration::ZERO;
     let tree = build_cwbvh(&list, BvhBuildParams::medium_build(), &mut time_of_core);
-    // In the order of the tree, so that no index is looked up on the way.
+    // The spheres in the order of the tree, so that the search looks up no index.
     let in_order = tree.primitive_indices.iter().map(|&index| list[index as usize].0);
     let spheres: Vec<_> = in_order.collect();
     let prepare = |ray: &Ray| {

@@ -4,11 +4,11 @@ use crate::engine::{Engine, Label, Promise, Query, Rays, Run, SOME_RAYS};
 use spherule_kernel::{Hit, Ray, Sphere, Vec3};
 use std::rc::Rc;
 
-/// A ray, and what is known of it before a sphere is.
+/// A ray, and what can be computed of it before any sphere is known.
 #[derive(Clone, Copy)]
 pub(super) struct PreparedRay {
     ray: Ray,
-    /// By the square of the direction's length.
+    /// 1 / the square of the direction's length.
     inverse_square: f32,
 }
 
@@ -39,7 +39,7 @@ pub(super) fn corners(sphere: &Sphere) -> [Vec3; 2] {
     [sphere.center - sphere.radius, sphere.center + sphere.radius]
 }
 
-/// The engine of a tree: a ray as the tree wants it, and what it answers.
+/// The engine of a tree: `prepare` makes a ray as the tree wants it; the tree answers.
 pub(super) fn engine<T: 'static, R: 'static>(
     name: &'static str,
     tree: T,

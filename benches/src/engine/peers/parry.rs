@@ -8,7 +8,8 @@ use parry3d::partitioning::{Bvh, BvhBuildStrategy, BvhNode, TraversalAction};
 use parry3d::query::Ray as TreeRay;
 use spherule_kernel::{Hit, Ray, Spheres, Vec3};
 
-/// What the tree says of a box that is missed; with infinity for a limit every box would be met.
+/// The limit for t, which the tree also returns for a box that is missed: with an infinite limit
+/// every box would count as met.
 const AT_MOST: f32 = f32::MAX;
 
 pub(crate) fn build(spheres: Spheres<'_>) -> Engine {

@@ -75,7 +75,7 @@ impl Run for Deferred {
                 best = nearer.blend(t, best);
                 id = nearer.blend(f32x8::splat(index as f32), id);
             }
-            // Distances become multiples of the direction that was given.
+            // Turns distances into multiples of the direction that was given.
             let t = best.cmp_lt(f32x8::splat(f32::MAX)).blend(best / rays.length, best);
             for (hit, (t, id)) in hits.iter_mut().zip(t.to_array().into_iter().zip(id.to_array())) {
                 *hit = Hit { t, sphere: id as u32 };

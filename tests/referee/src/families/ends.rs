@@ -1,4 +1,4 @@
-//! The ends of single precision: subnormals, overflow, what is no number, and any bits at all.
+//! The ends of single precision: subnormals, overflow, NaN and infinities, and any bits at all.
 
 use super::plain;
 use crate::aim::{Aim, double, single};
@@ -13,7 +13,8 @@ pub(super) fn subnormals(random: &mut Random) -> Case {
     let mut point = || [(); 3].map(|()| random.integer(-reach, reach) as f64 * unit);
     let (origin, center) = (point(), point());
     let radius = random.integer(0, reach / 2) as f64 * unit;
-    // Mostly at the centre, give or take the radius; as short as the rest, or common.
+    // The ray aims at a point within two radii of the centre; its direction is as short as the
+    // rest, or of common length.
     let aside = random.unit().map(|x| x * radius * random.uniform(0.0, 2.0));
     let toward: [f64; 3] = core::array::from_fn(|i| center[i] + aside[i] - origin[i]);
     let scale = if random.one_in(2) { 1.0 } else { power_of_two(random.integer(100, 240)) };
@@ -34,7 +35,7 @@ pub(super) fn near_overflow(random: &mut Random) -> Case {
     Aim { origin, length, distance, radius, offset }.case(random)
 }
 
-/// One of the inputs that the contract judges by name, in an ordinary case.
+/// An ordinary case with one of the inputs that the contract judges by name.
 pub(super) fn degenerate(random: &mut Random) -> Case {
     let mut case = plain::ordinary(random);
     let Case { ray, sphere } = &mut case;
@@ -50,7 +51,7 @@ pub(super) fn degenerate(random: &mut Random) -> Case {
         8 => ray.t_min = f32::NEG_INFINITY,
         9 => (ray.t_min, ray.t_max) = (f32::INFINITY, f32::INFINITY),
         10 => {
-            // The point sphere, where it is met: at twice the direction.
+            // A point sphere that the ray meets: at twice the direction.
             sphere.radius = 0.0;
             ray.origin = Vec3::new(3.0, -5.0, 7.0);
             sphere.center = ray.origin + 2.0 * Vec3::new(1.0, 2.0, -3.0);
@@ -70,7 +71,7 @@ pub(super) fn degenerate(random: &mut Random) -> Case {
     case
 }
 
-/// Roots about the largest and the least that single precision holds.
+/// Roots near the largest and the least numbers of single precision.
 pub(super) fn extreme_t(random: &mut Random) -> Case {
     let large = random.one_in(2);
     let t_exponent = if large { random.integer(124, 130) } else { -random.integer(124, 154) };
@@ -93,7 +94,7 @@ pub(super) fn extreme_t(random: &mut Random) -> Case {
     case
 }
 
-/// Any bits in all places; in half of the cases all of them finite, and the ray a half-line.
+/// Any bits in all places. In half of the cases all numbers are finite, and the ray is a half-line.
 pub(super) fn random_bits(random: &mut Random) -> Case {
     let mut case = Case::from_numbers([0.0; Case::NUMBERS].map(|_| random.any_f32()));
     if random.one_in(2) {
@@ -105,7 +106,7 @@ pub(super) fn random_bits(random: &mut Random) -> Case {
     case
 }
 
-/// Every size of its own power of two, and yet most lines meet.
+/// Every size has its own power of two, and yet most lines meet the sphere.
 pub(super) fn wide_exponents(random: &mut Random) -> Case {
     let radius = random.log_uniform(-126, 100);
     let length = random.log_uniform(-120, 120);
@@ -113,7 +114,7 @@ pub(super) fn wide_exponents(random: &mut Random) -> Case {
     let distance = radius * random.log_uniform(-20, 20) * random.sign();
     let offset = random.uniform(0.0, 1.2);
     let mut case = Aim { origin, length, distance, radius, offset }.case(random);
-    // One coordinate of the direction of another size, the aim kept by moving the centre.
+    // One coordinate of the direction has another size; moving the centre keeps the aim.
     if random.one_in(3) {
         let axis = random.integer(0, 2) as usize;
         case.ray.direction[axis] *= power_of_two(-random.integer(1, 60)) as f32;

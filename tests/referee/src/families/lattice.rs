@@ -1,9 +1,9 @@
 //! Cases whose roots are known in integers: tangents, ties, origins on the surface.
 //!
-//! An integer quaternion (w, x, y, z) of norm n = w^2 + x^2 + y^2 + z^2 gives three integer
-//! vectors of length n, at right angles to each other. With d one of them and h another,
-//! p = s d + m h is at distance |m| n from the line along d: a sphere of radius |m| n is a
-//! tangent, of radius 5 m n / 4 has its roots at s -+ 3 m / 4, all exactly.
+//! An integer quaternion (w, x, y, z) of norm n = w^2 + x^2 + y^2 + z^2 gives three integer vectors
+//! of length n, at right angles to each other. Let d be one of them and h another. Then p = s d + m
+//! h is at distance |m| n from the line along d. So a sphere of radius |m| n is a tangent, and a
+//! sphere of radius 5 m n / 4 has its roots at s -+ 3 m / 4, all exactly.
 
 use crate::case::Case;
 use crate::random::{Random, power_of_two};
@@ -17,7 +17,7 @@ struct Frame {
 }
 
 impl Frame {
-    /// Quaternions with entries up to `reach`, so lengths up to 4 `reach`^2.
+    /// Draws quaternions with entries up to `reach`, so lengths up to 4 `reach`^2.
     fn draw(random: &mut Random, reach: i64) -> Self {
         loop {
             let [w, x, y, z] = [(); 4].map(|()| random.integer(-reach, reach));
@@ -42,7 +42,7 @@ impl Frame {
     }
 }
 
-/// The case with these integers, lengths in units of `unit` and directions of `step`.
+/// The case with these integers: lengths in units of `unit`, directions in units of `step`.
 fn scaled(o: [i64; 3], d: [i64; 3], c: [i64; 3], r: i64, unit: f64, step: f64) -> Case {
     let single = |x: i64, unit: f64| {
         let value = (x as f64 * unit) as f32;
@@ -56,7 +56,7 @@ fn scaled(o: [i64; 3], d: [i64; 3], c: [i64; 3], r: i64, unit: f64, step: f64) -
     }
 }
 
-/// D = 0, in many sizes: in one of four the centre is not where subtraction is exact.
+/// D = 0, in many sizes. In one of four cases the subtraction of origin and centre is not exact.
 pub(super) fn tangent(random: &mut Random) -> Case {
     let frame = Frame::draw(random, 12);
     let (along, across) = (random.integer(-200, 2000), random.integer(-2000, 2000));
@@ -69,7 +69,7 @@ pub(super) fn tangent(random: &mut Random) -> Case {
     scaled(o, frame.columns[0], c, across.abs() * frame.length, unit, step)
 }
 
-/// A tangent with one number one to three ulp away.
+/// A tangent with one of its numbers one to three ulp off.
 pub(super) fn next_to_tangent(random: &mut Random) -> Case {
     let mut numbers = tangent(random).numbers();
     // Origin, direction, centre and radius; not the interval. The radius more often.
@@ -86,7 +86,7 @@ pub(super) fn on_surface(random: &mut Random) -> Case {
     let c = [(); 3].map(|()| random.integer(-1 << 12, 1 << 12));
     let o = core::array::from_fn(|i| c[i] - p[i]);
     let d = match random.integer(0, 3) {
-        // Along the surface, down through the centre, any way.
+        // Along the surface, down through the centre, or in any direction.
         0 => frame.columns[0],
         1 => p,
         _ => [(); 3].map(|()| random.integer(-1 << 20, 1 << 20)),
@@ -99,11 +99,11 @@ pub(super) fn on_surface(random: &mut Random) -> Case {
 /// A root midway between two neighbouring `f32`: the near one, the far one, or a tangent's.
 pub(super) fn tie(random: &mut Random) -> Case {
     loop {
-        // 25 bits, the last one set: midway between two significands of 24 bits.
+        // 25 bits, the last one set: such a number is midway between two significands of 24 bits.
         let midway = random.integer(1 << 23, (1 << 24) - 1) * 2 + 1;
         let fourth = if random.one_in(3) { 0 } else { 1 << random.integer(0, 12) };
         let root = random.sign() as i64 * midway;
-        // The roots lie 3 fourths on either side of the middle.
+        // Each root lies 3 fourths from the middle.
         let middle = root + 3 * fourth * random.sign() as i64;
         let frame = Frame::draw(random, 3);
         let (across, radius) = match fourth {
@@ -125,7 +125,7 @@ pub(super) fn tie(random: &mut Random) -> Case {
         if root < 0 || random.one_in(4) {
             case.ray.t_min = f32::NEG_INFINITY;
         }
-        // The far root answers only where the near one is not accepted.
+        // The far root is the answer only if the interval excludes the near one.
         if middle < root {
             case.ray.t_min = (f64::from(middle as f32) * (unit / step)) as f32;
         }

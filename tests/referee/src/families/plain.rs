@@ -4,7 +4,7 @@ use crate::aim::{Aim, line_distance};
 use crate::case::Case;
 use crate::random::{Random, power_of_two};
 
-/// A scene of a few units: two of three rays hit.
+/// A scene of a few units in size: two of three rays hit.
 fn ordinary_aim(random: &mut Random) -> Aim {
     let radius = random.log_uniform(-3, 2);
     Aim {
@@ -49,7 +49,7 @@ pub(super) fn translated(random: &mut Random) -> Case {
     Aim { origin: random.unit().map(|x| 1e6 * x), ..aim }.case(random)
 }
 
-/// Radii of 2^-90 to 2^-40: alone in the world, or seen from a common distance.
+/// Radii of 2^-90 to 2^-40: all as small, or seen from a common distance.
 pub(super) fn tiny_radius(random: &mut Random) -> Case {
     let aim = ordinary_aim(random);
     let scale = power_of_two(-random.integer(40, 90));
@@ -62,7 +62,7 @@ pub(super) fn tiny_radius(random: &mut Random) -> Case {
     Aim { origin, distance, radius, ..aim }.case(random)
 }
 
-/// Radii of 2^40 to 2^90: seen from as far, or standing on a planet.
+/// Radii of 2^40 to 2^90: seen from as far, or from the surface of a planet.
 pub(super) fn huge_radius(random: &mut Random) -> Case {
     let aim = ordinary_aim(random);
     let scale = power_of_two(random.integer(40, 90));

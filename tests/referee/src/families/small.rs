@@ -1,4 +1,4 @@
-//! Integers of one digit: tangents and ties are common, and what fails can be read.
+//! Integers of one digit: tangents and ties are common, and a failing case is readable.
 
 use crate::case::Case;
 use crate::random::Random;
@@ -26,7 +26,7 @@ pub(super) fn integers(random: &mut Random) -> Case {
     Case::from_numbers([ox, oy, oz, dx, dy, dz, t_min, t_max, cx, cy, cz, radius])
 }
 
-/// The same, one number other than zero up to two ulp away.
+/// The same, with one nonzero number up to two ulp off.
 pub(super) fn near_integers(random: &mut Random) -> Case {
     let mut numbers = integers(random).numbers();
     let moved = |number: &f32| *number != 0.0 && number.is_finite();

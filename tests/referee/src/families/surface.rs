@@ -1,4 +1,4 @@
-//! Rays that start at the surface, near it or on it; intervals that end at a root.
+//! Rays that start near the surface or on it, and intervals that end at a root.
 
 use super::{lattice, plain};
 use crate::aim::{double, single};
@@ -22,13 +22,13 @@ fn near_surface(random: &mut Random, off: f64) -> Case {
     }
 }
 
-/// Within 2^-4 to 2^-26 radii under the surface.
+/// The origin is 2^-4 to 2^-26 radii under the surface.
 pub(super) fn inside(random: &mut Random) -> Case {
     let off = -power_of_two(-random.integer(4, 26));
     near_surface(random, off)
 }
 
-/// Within 2^-4 to 2^-26 radii over the surface, looking down.
+/// The origin is 2^-4 to 2^-26 radii over the surface; the ray looks down.
 pub(super) fn outside(random: &mut Random) -> Case {
     let off = power_of_two(-random.integer(4, 26));
     let mut case = near_surface(random, off);
@@ -44,7 +44,7 @@ pub(super) fn outside(random: &mut Random) -> Case {
 pub(super) fn on(random: &mut Random) -> Case {
     let mut case =
         if random.one_in(2) { near_surface(random, 0.0) } else { lattice::on_surface(random) };
-    // Zero itself, the number after it, and what is behind.
+    // Zero, the number after it, and an interval from behind the origin.
     case.ray.t_min = random.pick(&[0.0, -0.0, f32::from_bits(1), f32::NEG_INFINITY]);
     case
 }

@@ -5,11 +5,11 @@ use std::fmt::Write;
 
 const COUNT: usize = 1000;
 
-/// Returns a scene of many spheres, and its tree, as a source.
+/// Returns Rust source with a scene of many spheres, and its tree.
 ///
 /// # Panics
 ///
-/// Never: columns have equal lengths, and a string takes what is written.
+/// Never: columns have equal lengths, and a string takes everything that is written.
 #[must_use]
 pub fn source() -> String {
     let mut state = 7_u32;

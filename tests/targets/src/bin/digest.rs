@@ -1,4 +1,4 @@
-//! Prints the digest of this target. With an argument, where there are any, one bit of one answer is another.
+//! Prints the digest of this target. An argument, on targets that have arguments, changes one bit of one answer.
 
 #![cfg_attr(target_os = "none", no_std, no_main)]
 

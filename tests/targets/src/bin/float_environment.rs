@@ -1,13 +1,13 @@
-//! Whether `float_environment_is_sound` sees subnormals that are flushed, and other roundings, where a target can set them.
+//! Whether `float_environment_is_sound` detects flushed subnormals and other rounding modes, where a target can set them.
 
 #![cfg_attr(target_os = "none", no_std, no_main)]
-// Unsafe code: the control register of a floating-point unit is not Rust's to set.
+// Unsafe code: Rust cannot set the control register of a floating-point unit.
 #![allow(unsafe_code)]
 
 use spherule_kernel::float_environment_is_sound;
 use spherule_targets::platform::print;
 
-/// The bits of the control register, and what they do: flush, and round up, down and to zero.
+/// The bits of the control register, and their effects: flush, and round up, down and to zero.
 #[cfg(all(target_arch = "arm", target_abi = "eabihf"))]
 mod control {
     pub(super) const MODES: &[(u32, &str)] = &[
@@ -33,19 +33,19 @@ mod control {
     }
 
     pub(super) fn set(bits: u32) {
-        // SAFETY: set back before Rust computes anything but what is asked under these bits.
+        // SAFETY: the bits are set back before Rust computes anything except the question asked under them.
         unsafe { spherule_set_control(bits) }
     }
 }
 
-/// The rounding modes of RISC-V's `frm`: to zero, down, up, and ties away from zero. It has no flushing.
+/// The rounding modes of RISC-V's `frm`: to zero, down, up, and ties away from zero. RISC-V has no flushing.
 #[cfg(all(target_arch = "riscv32", target_feature = "f"))]
 mod control {
     pub(super) const MODES: &[(u32, &str)] =
         &[(1, "frm, to zero"), (2, "frm, down"), (3, "frm, up"), (4, "frm, ties away from zero")];
 
     pub(super) fn set(bits: u32) {
-        // SAFETY: set back before Rust computes anything but what is asked under these bits.
+        // SAFETY: the bits are set back before Rust computes anything except the question asked under them.
         unsafe { core::arch::asm!("fsrm {}", in(reg) bits, options(nomem, nostack)) }
     }
 }
@@ -61,14 +61,14 @@ mod control {
     ];
 
     pub(super) fn set(bits: u32) {
-        // SAFETY: set back before Rust computes anything but what is asked under these bits.
+        // SAFETY: the bits are set back before Rust computes anything except the question asked under them.
         unsafe {
             core::arch::asm!("msr fpcr, {}", in(reg) u64::from(bits), options(nomem, nostack))
         }
     }
 }
 
-/// Numbers are a library's, or the target's have one environment: nothing can be set. (x86-64's are `tests/machine`'s.)
+/// A library computes the numbers, or the target has only one environment: nothing can be set. (x86-64's are in `tests/machine`.)
 #[cfg(not(any(
     all(target_arch = "arm", target_abi = "eabihf"),
     all(target_arch = "riscv32", target_feature = "f"),
@@ -80,7 +80,7 @@ mod control {
     pub(super) fn set(_bits: u32) {}
 }
 
-/// Sound by default, and in no other environment.
+/// Whether the kernel calls the default sound, and every other environment unsound.
 fn run() -> bool {
     if !float_environment_is_sound() {
         print(b"FAILED: the default is not sound\n");

@@ -1,6 +1,6 @@
-//! Draws the lecture's picture in one way, and prints what it took: bytes of stack, and instructions a ray.
+//! Draws the lecture's picture in one way, and prints its cost: bytes of stack, and instructions a ray.
 //!
-//! The way is in the program's name, `size-<tier>-<way>`, so that nothing else is linked.
+//! The program's name, `size-<tier>-<way>`, says the way, so that nothing else is linked.
 
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
@@ -15,7 +15,7 @@ fn run() -> bool {
     let measured = painted_stack::measure(ways::draw);
     numbers::print_decimal(measured.stack);
     platform::print(b" ");
-    // A tick is 40 instructions: 25 MHz, and an instruction a nanosecond.
+    // A tick is 40 instructions: the timer runs at 25 MHz, and an instruction takes a nanosecond.
     numbers::print_decimal(measured.ticks * 40 / (scene::WIDTH * scene::HEIGHT));
     platform::print(b" ");
     numbers::print_decimal(ways::drawn());

@@ -16,7 +16,7 @@ impl Fnv {
         }
     }
 
-    /// The bits of `t`; of a NaN, which the roots of `Fast` and `Geometric` may be, only that it is one.
+    /// Adds the bits of `t`. Of a NaN, which the roots of `Fast` and `Geometric` may be, adds only that it is one.
     pub(super) fn t(&mut self, t: f32) {
         self.word(if t.is_nan() { u32::MAX } else { t.to_bits() });
     }

@@ -1,4 +1,4 @@
-//! Every question to every structure.
+//! Asks every question of every structure.
 
 use super::fnv::Fnv;
 use crate::cases::{CASES, Case, Random, case};
@@ -17,15 +17,15 @@ pub(super) struct Asked {
 
 /// How many cases make a list.
 const LISTED: usize = 20;
-/// Of how many runs of cases one makes a list.
+/// Out of so many runs of cases, one makes a list.
 const EVERY: usize = 8;
 /// How many spheres a tree holds.
 const BUILT: usize = 100;
-/// The memory that it needs.
+/// The memory that the tree needs.
 const NEEDED: BvhSize = Bvh::needed(BUILT);
 
 impl Asked {
-    /// Every case by itself, in one lane and in four.
+    /// Asks every case by itself, in one lane and in four.
     pub(super) fn pairs(&self, control: bool) -> u64 {
         let mut fnv = Fnv::new();
         for first in (0..CASES).step_by(4) {
@@ -37,12 +37,12 @@ impl Asked {
                 fnv.t(alone);
             }
         }
-        // What is held to be seen: the last bit of an answer.
+        // The control: changes the last bit of an answer, which must be noticed.
         fnv.word(u32::from(control));
         fnv.0
     }
 
-    /// Both roots of every case.
+    /// Asks for both roots of every case.
     pub(super) fn roots(&self) -> u64 {
         let mut fnv = Fnv::new();
         for number in 0..CASES {
@@ -55,7 +55,7 @@ impl Asked {
         fnv.0
     }
 
-    /// Cases as lists of their spheres: every ray of one against all.
+    /// Asks lists: every ray of some cases against the spheres of all these cases.
     pub(super) fn lists(&self) -> u64 {
         let mut fnv = Fnv::new();
         for first in (0..CASES).step_by(LISTED * EVERY) {
@@ -77,7 +77,7 @@ impl Asked {
         fnv.0
     }
 
-    /// List, depth list and both trees of an ordinary scene; by `Exact` with spheres that lie one in the other.
+    /// Asks list, depth list and both trees of an ordinary scene; `Exact` also with spheres one inside another.
     pub(super) fn structures(&self) -> u64 {
         let (mut fnv, mut random) = (Fnv::new(), Random(7));
         let mut columns = [[0.0; BUILT]; 4];
@@ -117,7 +117,7 @@ impl Asked {
         fnv.0
     }
 
-    /// The lecture's scene in both projections.
+    /// Asks the lecture's scene in both projections.
     pub(super) fn pictures(&self) -> u64 {
         let mut fnv = Fnv::new();
         let Some(spheres) = scene::spheres() else { return 0 };
@@ -136,7 +136,7 @@ impl Asked {
         fnv.0
     }
 
-    /// What a camera's tiles hit in a tree and in a list, in both projections; the rays, too.
+    /// Asks what a camera's tiles hit in a tree and in a list, in both projections, and for the rays.
     fn tiles(&self, fnv: &mut Fnv, tree: &Bvh<'_>, list: &Spheres<'_>, eye: Vec3) {
         let (step_x, step_y) = (Vec3::new(0.03, 0.001, 0.0), Vec3::new(0.0, -0.03, 0.002));
         let first = Vec3::new(-0.11, 0.12, 1.0);
@@ -151,7 +151,7 @@ impl Asked {
                 step_x: if is_parallel { 9.0 * step_x } else { step_x },
                 step_y: if is_parallel { 9.0 * step_y } else { step_y },
             };
-            // The last of them are cut by the picture's edge.
+            // The picture's edge cuts the last of the tiles.
             let corners = [(0, 0), (4, 0), (0, 4), (4, 4), (8, 0), (8, 4)];
             let tiles = CameraTiles { camera, size: (10, 8), corners: &corners };
             let (mut rays, mut hits) = ([RayPacket::inactive(); 6], [HitPacket::none(); 6]);
@@ -166,7 +166,7 @@ impl Asked {
         }
     }
 
-    /// The closest hit of every ray, and whether there is any.
+    /// Asks for the closest hit of every ray, and whether there is any hit.
     fn ask(&self, fnv: &mut Fnv, structure: &impl Intersect, rays: &[Ray], scratch: &mut [f32]) {
         let mut trace = Trace::new().at(self.level).with_scratch(scratch);
         let (mut hits, mut occluded): ([Option<Hit>; 128], _) = ([None; 128], [false; 128]);

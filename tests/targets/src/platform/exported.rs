@@ -1,4 +1,5 @@
-//! WebAssembly: text is left in memory, where the host of the module reads it. Nothing is imported.
+//! WebAssembly: text is left in memory, where the host of the module reads it. The module imports
+//! nothing.
 
 // Unsafe code: symbols for the host.
 #![allow(unsafe_code)]
@@ -17,7 +18,7 @@ pub fn print(text: &[u8]) {
     }
 }
 
-/// What the program returns to its host.
+/// Returns the program's result to its host.
 pub fn exit(is_success: bool) -> bool {
     is_success
 }
@@ -28,7 +29,7 @@ pub extern "C" fn text() -> *const u8 {
     TEXT.as_ptr().cast()
 }
 
-/// How long it is.
+/// The length of the text.
 #[unsafe(no_mangle)]
 pub extern "C" fn length() -> usize {
     LENGTH.load(Relaxed).min(TEXT.len())

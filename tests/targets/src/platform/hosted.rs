@@ -5,7 +5,7 @@ use std::io::Write as _;
 /// Prints bytes.
 ///
 /// # Panics
-/// If no one reads them.
+/// If standard output is closed.
 pub fn print(text: &[u8]) {
     std::io::stdout().write_all(text).expect("standard output");
 }

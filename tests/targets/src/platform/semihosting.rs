@@ -1,11 +1,12 @@
-//! Cortex-M: a debugger, or an emulator in its place, prints.
+//! Cortex-M: a debugger prints, or an emulator that replaces it.
 
 // Unsafe code: an instruction that stops the processor for the debugger.
 #![allow(unsafe_code)]
 
 use core::arch::asm;
 
-/// The numbers of two operations: write a character, and exit; and two reasons: done, and an error.
+/// The numbers of two operations, to write a character and to exit; and of two reasons to exit,
+/// success and error.
 const WRITE_CHARACTER: usize = 0x03;
 const EXIT: usize = 0x18;
 const DONE: usize = 0x20026;

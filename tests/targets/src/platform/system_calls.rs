@@ -1,4 +1,4 @@
-//! RISC-V: Linux, or an emulator in its place, by its numbers of calls.
+//! RISC-V: calls Linux, or an emulator that replaces it, by the numbers of system calls.
 
 // Unsafe code: system calls.
 #![allow(unsafe_code)]

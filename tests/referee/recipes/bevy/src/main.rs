@@ -9,7 +9,7 @@ use std::error::Error;
 
 fn main() -> Result<(), Box<dyn Error>> {
     answers_of::answers_of(|[x, y, z, radius], [ox, oy, oz, dx, dy, dz, _, t_max]| {
-        // Normalized already, where it promises anything.
+        // The direction is already normalized wherever Bevy promises anything.
         let direction = Dir3A::from_xyz_unchecked(dx, dy, dz);
         let ray = RayCast3d::new(Vec3A::new(ox, oy, oz), direction, t_max);
         let distance =

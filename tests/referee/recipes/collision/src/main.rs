@@ -15,7 +15,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let double = |v: Vector3<f32>| v.map(f64::from);
         let way = point.map(f64::from) - origin.map(f64::from);
         let t = (way.dot(double(direction)) / double(direction).magnitude2()) as f32;
-        // It has no interval.
+        // The library has no interval.
         (t.is_finite() && t_min <= t && t <= t_max).then_some(t)
     })
 }

@@ -1,4 +1,4 @@
-//! ultraviolet, which has vectors alone: the intersector of its README, as it stands there, on them.
+//! ultraviolet, which has only vectors: the intersector of its README, unchanged, on these vectors.
 
 #[path = "../../answers_of.rs"]
 mod answers_of;

@@ -1,4 +1,4 @@
-//! The dearest cases: what doubles cannot decide.
+//! The most expensive cases: those that doubles cannot decide.
 
 use super::memory::Memory;
 use super::program_name::{NAME, by_tier};
@@ -7,7 +7,7 @@ use spherule_kernel::{
     Bvh4, Exact, Fast, Geometric, Intersect, Ray, Sphere, Spheres, Stable, Vec3, roots,
 };
 
-/// A tangent, a tie, and the dearest case of the kernel's cost test: o, d, c and r.
+/// A tangent, a tie, and the most expensive case of the kernel's cost test: o, d, c and r.
 static HARD: [[f32; 10]; 3] = [
     [-3.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0],
     [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 16_777_220.0, 0.0, 0.0, 1.0],
@@ -24,7 +24,7 @@ static HARD: [[f32; 10]; 3] = [
         1.324_018_2e38,
     ],
 ];
-/// Beside each sphere another that is hit at the same t: from a distance of a million, f32 tells nothing less apart.
+/// Beside each sphere, another that is hit at the same t: from a million away, f32 tells no smaller differences apart.
 static TIED: [[f32; 2]; 4] = [[0.0; 2], [0.0; 2], [1e6; 2], [1.0, 1.015_625]];
 
 /// What doubles cannot decide: tangents and ties.

@@ -2,7 +2,7 @@
 
 use core::cell::UnsafeCell;
 
-/// What one function writes to.
+/// Memory that one function writes to.
 pub(super) struct Memory<T>(UnsafeCell<T>);
 
 // SAFETY: there is one thread.
@@ -17,7 +17,7 @@ impl<T> Memory<T> {
     /// The memory, to write to.
     #[allow(unsafe_code, clippy::mut_from_ref)]
     pub(super) fn lend(&self) -> &mut T {
-        // SAFETY: each is lent once.
+        // SAFETY: each memory is lent only once.
         unsafe { &mut *self.0.get() }
     }
 }

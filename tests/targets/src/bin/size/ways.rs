@@ -34,20 +34,20 @@ const fn ends_with(end: &str) -> bool {
 const PIXELS: usize = (WIDTH * HEIGHT) as usize;
 static PICTURE: [AtomicU8; PIXELS] = [const { AtomicU8::new(0) }; PIXELS];
 
-/// Puts a mark, of the sphere that a pixel's ray has hit.
+/// Draws a mark for the sphere that a pixel's ray has hit.
 fn mark(place: usize, sphere: Option<u32>) {
     if let Some(pixel) = PICTURE.get(place) {
         pixel.store(sphere.map_or(b'.', |sphere| b'a' + sphere as u8), Relaxed);
     }
 }
 
-/// A number that tells what was drawn.
+/// A checksum of the picture.
 pub fn drawn() -> u32 {
     let add = |sum: u32, pixel: &AtomicU8| sum * 31 + u32::from(pixel.load(Relaxed));
     PICTURE.iter().fold(0, |sum: u32, pixel| add(sum % (1 << 24), pixel))
 }
 
-/// Whether the picture is that of many spheres.
+/// Whether the picture shows many spheres.
 const OF_MANY: bool = ends_with("-many")
     || ends_with("-baked")
     || ends_with("-baked_any")
@@ -84,7 +84,7 @@ fn draw_many() {
     }
 }
 
-/// A ray at a time, or four.
+/// Draws one ray at a time, or four.
 fn pixels(spheres: Spheres<'_>) {
     let (mut camera, mut place) = (scene::camera(false), 0);
     camera.corner = black_box(camera.corner);
@@ -181,7 +181,7 @@ fn nearest(spheres: Spheres<'_>, ray: &Ray, place: usize) {
     mark(place, closest.1);
 }
 
-/// The textbook's quadratic, without the kernel: what it takes beside.
+/// The textbook's quadratic, without the kernel: the cost of everything else.
 #[inline(always)]
 fn textbook(spheres: Spheres<'_>, ray: &Ray, sqrt: impl Fn(f32) -> f32) -> Option<u32> {
     let (mut closest, mut index) = ((f32::INFINITY, None), 0);
