@@ -12,6 +12,7 @@ pub enum Coherence {
     /// They share an origin or a direction, or nearly so, and lie close together: camera rays, shadow rays to one light.
     /// After packets that do not pay, fewer are passed over before the next try. If this is false, it costs the tries.
     Coherent,
-    /// They share nothing, or far fewer spheres than there are between them. They go ray by ray.
+    /// They share nothing, or far fewer spheres than there are between them. They go ray by ray, or in lent memory as a stream as long
+    /// as enough of them meet.
     Incoherent,
 }

@@ -27,8 +27,8 @@ pub struct Trace<'m> {
     /// Working memory for a [`DepthList`](crate::DepthList), as long as its `scratch` says; other structures need none.
     pub scratch: &'m mut [f32],
     /// The caller's working memory for a tree's streams. If it is `None`, a call with feature `alloc` allocates memory where it gains
-    /// by a stream, or by sorting rays: at most 4.5 MB. The thread keeps this memory for its next call; without `std` the trace keeps
-    /// it. If the allocation fails, the call goes on without the memory.
+    /// by a stream, or by sorting rays: at most 4.5 MB. The trace keeps this memory for its next call; with `std`, the thread
+    /// keeps it when the trace is dropped. If the allocation fails, the call goes on without the memory.
     pub stream: Option<StreamMemory<'m>>,
     /// What calls have allocated for streams.
     #[cfg(feature = "alloc")]

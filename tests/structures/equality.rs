@@ -5,7 +5,7 @@ use super::{BOTH, EXACT};
 use spherule_kernel::{Ray, Sphere, Tier, Vec3, roots};
 use spherule_referee::case::{Case, HexRay};
 use spherule_referee::families::FAMILIES;
-use spherule_referee::random::Random;
+use spherule_referee::random::{Random, power_of_two};
 use spherule_referee::strategies::SPECIALS;
 use spherule_tests::variants::{
     Memory, assert_same, bits, brute, difference, variants, viewpoint_of,
@@ -64,6 +64,35 @@ fn tangents_along_axes() {
             rays.push(Ray::new(origin, direction));
         }
         assert_same(BOTH, &rays, &spheres);
+    }
+}
+
+/// From half a step of t behind the origin on, T = 0 counts, and a step is as long as the ray's direction. Directions within one group
+/// differ here by up to 2^146.
+#[test]
+fn directions_of_any_length_from_one_point() {
+    let mut random = Random::new(78, 0);
+    for round in 0..40 {
+        let (exponent, first) = (random.integer(60, 126), random.integer(-20, 126));
+        let half_a_step = power_of_two(exponent - 150) as f32;
+        let corners = [[5.0, 5.0], [-5.0, 5.0], [5.0, -5.0], [-5.0, -5.0]];
+        let mut spheres: Vec<Sphere> = corners
+            .map(|[x, y]| Sphere { center: Vec3::new(x, y, 5.0), radius: 1.0 })
+            .into_iter()
+            .collect();
+        let mut rays = Vec::new();
+        for ray in 0..64 {
+            let mut slope = || random.between(-0.2, 0.2);
+            let way = Vec3::new(slope(), slope(), 1.0);
+            let exponent = if ray == 0 { first } else { exponent };
+            rays.push(Ray::new(Vec3::ZERO, way * power_of_two(exponent) as f32));
+            if ray % 4 == round % 4 {
+                let center = -random.between(0.2, 1.5) * half_a_step * way;
+                spheres.push(Sphere { center, radius: random.between(0.05, 0.4) * half_a_step });
+            }
+        }
+        assert_same(EXACT, &rays, &spheres);
+        assert_same(EXACT, &rays[..16], &spheres);
     }
 }
 

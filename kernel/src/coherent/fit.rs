@@ -85,7 +85,6 @@ impl Fit {
         let (state, lane) = first?;
         let (along, sign) = heading(axes!(i => state.rays.direction[i].store().get(lane)));
         let origin = axes!(i => state.rays.origin[i].store().get(lane));
-        let error = state.rays.absolute_error.store().get(lane);
 
         let mut one_origin = true;
         for state in states {
@@ -100,8 +99,8 @@ impl Fit {
             });
             one_origin = one_origin && !state.moved && !(live & (x | y | z)).any();
         }
-        let error =
-            if one_origin { error } else { greatest_of!(states, s => s.rays.absolute_error) };
+        // From one point, too: a step of t, which is part of the error, is as long as a ray's direction.
+        let error = greatest_of!(states, s => s.rays.absolute_error);
         let spread = spread_of(spread, extent, error);
         let origin = one_origin.then_some(origin);
         Some(Self { along, sign, absolute_error: error, spread, origin })

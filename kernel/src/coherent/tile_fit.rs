@@ -69,11 +69,7 @@ pub(super) fn enclose<L: Lanes>(
     } else {
         points.slopes(L::COUNT > 1)?
     };
-    let error = if is_parallel {
-        greatest_of!(states, s => s.rays.absolute_error)
-    } else {
-        rays.absolute_error.store().get(0)
-    };
+    let error = greatest_of!(states, s => s.rays.absolute_error);
     let fit = Fit::along(along, sign, error, spread_of(spread, extent, error));
 
     // Each packet's planes. Slopes are moved once more, for rays, and become slopes per x_k, as in `Fit::sides`.

@@ -65,7 +65,7 @@ impl Ways<'_> {
     }
 }
 
-/// A tree of at most so many spheres is traced as a list. (Rays that have nothing in common, AVX-512 and AVX2: as a list, one sphere
+/// A tree of at most so many spheres is traced as a list, except by calls of up to eight rays with `std`. (Rays that have nothing in common, AVX-512 and AVX2: as a list, one sphere
 /// takes 0.35 of the time, two take 0.7, four 0.8 to 1.0, eight 1.2.)
 const LISTED: usize = 4;
 /// How many packets are made at a time: they are still in the nearest cache when they are answered.

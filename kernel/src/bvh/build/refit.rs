@@ -3,7 +3,8 @@
 //! Every lane takes the sphere of its index from where it is now, and boxes are made anew from the leaves up, as the
 //! build makes them; every sphere stays in its leaf. A lane whose sphere is not seen by bounds any more has NaN for a
 //! radius, and so has one whose sphere is the same as that of a lower index in its leaf. A sphere that has no lane
-//! (`unplaced.rs`) is tested by itself, if it is valid, and no copy of one in the tree.
+//! (`unplaced.rs`) is tested by itself, if it is valid and no longer equal to the
+//! sphere in the tree whose copy it was.
 
 mod leaves;
 

@@ -278,3 +278,25 @@ fn groups_that_are_tried_are_of_rays_that_would_come_together() {
         }
     }
 }
+
+/// Of 2^16 rays, too, a group has rays of one cell, not of two.
+#[test]
+fn groups_of_the_most_rays_are_of_one_cell_each() {
+    let rays = beam(MOST);
+    let order = RayKeys::of(&ManyRays::Slice(&rays), GAIN).expect("in no order");
+    let mut places = vec![0; rays.len()];
+    order.write_keys::<wide::f32x16>((), &ManyRays::Slice(&rays), &mut places);
+    let mut groups = [[Ray::new(Vec3::ZERO, Vec3::ZERO); RAYS_OF_A_GROUP]; GROUPS_TRIED];
+    gather_some(&ManyRays::Slice(&rays), &places, &mut groups);
+    for group in groups {
+        // Where each crosses the plane z = 0: in a square of 2.8 by 2.8 at most.
+        let at = |ray: &Ray| ray.origin - ray.direction * (ray.origin.z / ray.direction.z);
+        let filled = group.iter().filter(|ray| ray.is_live()).collect::<Vec<_>>();
+        assert!(filled.len() > RAYS_OF_A_GROUP / 4, "{} rays", filled.len());
+        for axis in 0..2 {
+            let at = filled.iter().map(|ray| at(ray)[axis]);
+            let [low, high] = [at.clone().fold(9.0, f32::min), at.fold(-9.0, f32::max)];
+            assert!(high - low < 0.25, "{low} to {high}");
+        }
+    }
+}

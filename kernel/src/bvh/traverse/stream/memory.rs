@@ -51,7 +51,8 @@ impl<'m> StreamMemory<'m> {
         Ok(Self { rays, queues, everywhere: false })
     }
 
-    /// Lets rays go as a stream even where ray by ray is faster: for measurements and tests.
+    /// Lets rays go as a stream even where ray by ray is faster: for measurements and tests. (With `std`, calls of few rays go one by
+    /// one all the same.)
     ///
     /// ```
     /// use spherule_kernel::{

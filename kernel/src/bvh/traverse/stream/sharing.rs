@@ -159,7 +159,7 @@ impl Waiting {
     fn take(&mut self, paid: bool) {
         let [least, most] = PASSED_OVER;
         self.of = if paid { 0 } else { (2 * self.of).clamp(least, most) };
-        self.left = self.of;
+        self.left = self.of.max(least);
     }
 }
 
@@ -250,9 +250,13 @@ impl Sharing {
         (StreamStrategy::RayByRay, alike)
     }
 
-    /// Counts rays that went by themselves.
+    /// Counts rays that went by themselves. Of fewer rays than a stream can have too few may meet, though of as many as it can have
+    /// enough would: after a time that is forgotten, and other rays, or those in another tree, are tried.
     pub(crate) fn pass_over(&mut self, rays: usize) {
         self.waiting.pass_over(rays);
+        if self.waiting.left == 0 {
+            self.met = f32::NAN;
+        }
     }
 
     /// Takes the count of boxes that rays by themselves have entered.
@@ -280,7 +284,7 @@ impl Sharing {
         if is_alone_next {
             self.share = share.min(1.0);
         }
-        // Judged for as many rays as can go down together: more of those meet.
+        // Judged for 8,192 rays, the most that go down together: more of those meet.
         let mut paid = self.is_enough::<Q>(bvh, TOGETHER);
         if Q::ANY {
             let is_in_vain = share < SPARED[usize::from(is_near(bvh))];
@@ -288,7 +292,7 @@ impl Sharing {
             if !is_alone_next && (is_in_vain || share > MOST_ALONE) {
                 self.believed = 0;
                 if is_in_vain {
-                    self.met = f32::NAN;
+                    (self.met, self.waiting.left) = (f32::NAN, 0);
                     return;
                 }
             }

@@ -64,6 +64,22 @@ fn few_that_meet_or_much_in_vain_end_it_and_all_is_tried_again() {
     assert_eq!(pays(4, seen(1024, 8192)), [true, false]);
 }
 
+/// Of few rays a call too few meet, though of 8,192 enough would: that is not believed for ever.
+#[test]
+fn rays_that_are_too_few_for_a_stream_are_tried_again() {
+    let (tree, _) = scene(2000, 0);
+    let tree = tree.bvh();
+    let mut sharing = Sharing::NOTHING;
+    let seen = Seen { streams: 1, rays: 224, boxes: 1000, entered: 1800, ..Seen::default() };
+    sharing.take::<ClosestHit>(&tree, seen);
+    let pays = |sharing: &Sharing, rays| sharing.may_pay::<ClosestHit>(&tree, rays);
+    assert!(pays(&sharing, 8192) && !pays(&sharing, 1792));
+    sharing.pass_over(PASSED_OVER[0] - 1);
+    assert!(!pays(&sharing, 1792));
+    sharing.pass_over(1);
+    assert!(pays(&sharing, 1792));
+}
+
 #[test]
 fn where_rays_enter_many_boxes_fewer_at_each_are_enough() {
     let (tree, _) = scene(2000, 0);
