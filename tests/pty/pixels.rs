@@ -2,7 +2,7 @@
 
 use super::emulated::{ATTRIBUTES, CELL_PIXELS, Emulated, IMAGE, Rule, STATUS, SYNCHRONIZED};
 use super::look::last_row;
-use super::picture::{SceneFile, once};
+use super::picture::{OPTIONS, SceneFile, once};
 use super::session::{Output, Session};
 use super::viewer::{COLUMNS, PICTURE_ROWS, ROWS, VIEW, Viewer};
 use base64::Engine;
@@ -48,11 +48,11 @@ fn last_image(sent: &[u8]) -> Option<(u32, u32, Vec<u8>)> {
     is_whole.then_some((number("s=")?, number("v=")?, rgb))
 }
 
-fn png() -> (u32, u32, Vec<u8>) {
-    let scene = SceneFile::new(&VIEW);
+/// Width, height and pixels of `--png`, of a file's picture.
+fn png(path: &str) -> (u32, u32, Vec<u8>) {
     let size = format!("{COLUMNS}x{PICTURE_ROWS}");
     let output = Command::new(spherule())
-        .args([scene.path(), "--size", &size, "--png", "-"])
+        .args([path, "--size", &size, "--png", "-"])
         .output()
         .expect("spherule runs");
     let mut reader = png::Decoder::new(Cursor::new(output.stdout)).read_info().expect("a PNG");
@@ -68,7 +68,7 @@ fn text(output: &Output) -> String {
 
 #[test]
 fn kitty_shows_the_pixels_of_the_png_and_nothing_is_left() {
-    let expected = png();
+    let expected = png(SceneFile::new(&VIEW).path());
     let emulated = Emulated::with(&KITTY);
     let mut viewer = Viewer::start_in(emulated, &["--output", "kitty"], &[], (COLUMNS, ROWS));
     let wait = |viewer: &Viewer, what: &str| {
@@ -112,6 +112,34 @@ fn kitty_shows_the_pixels_of_the_png_and_nothing_is_left() {
     assert!(viewer.session.wait_for_end().success());
     assert_eq!(viewer.session.left_behind(), [""; 0]);
     assert!(is_removed(&viewer.session.output()));
+}
+
+/// A molecule of two chains is coloured by chain, as in a PNG, and by the next choice at a key.
+#[test]
+fn pixels_have_the_colours_that_are_chosen() {
+    let molecule = std::env::temp_dir().join(format!("spherule-{}-chains.pdb", std::process::id()));
+    let atom = |number: i32, chain: char| {
+        let x = f64::from(3 * number);
+        format!(
+            "ATOM  {number:5}  CA  ALA {chain}{number:4}    {x:8.3}   0.000   0.000  1.00  0.00           C\n"
+        )
+    };
+    let atoms = [atom(1, 'A'), atom(2, 'A'), atom(3, 'B'), atom(4, 'B')].concat();
+    std::fs::write(&molecule, atoms).expect("it is written");
+    let path = molecule.to_str().expect("a path that is text");
+    let expected = png(path);
+    let arguments = [&[path], OPTIONS.as_slice(), &["--output", "kitty"]].concat();
+    let emulated = Emulated::with(&KITTY);
+    let mut session = Session::start_in(emulated, spherule(), &arguments, &[], (COLUMNS, ROWS));
+    session.wait_for("the pixels of the PNG", |output| {
+        (last_image(&output.sent)? == expected).then_some(())
+    });
+    session.type_in("C");
+    session
+        .wait_for("other colours", |output| (last_image(&output.sent)? != expected).then_some(()));
+    session.type_in("q");
+    assert!(session.wait_for_end().success());
+    std::fs::remove_file(&molecule).expect("it is there");
 }
 
 /// The terminal claims to have kitty's images, but has none: the first image gets no answer.

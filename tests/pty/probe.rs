@@ -4,7 +4,7 @@ use super::emulated::{
     ATTRIBUTES, BACKGROUND, CELL_PIXELS, Emulated, IMAGE, Manner, PEN, Rule, STATUS, SYNCHRONIZED,
 };
 use super::look::{last_row, look};
-use super::picture::once;
+use super::picture::{SceneFile, once};
 use super::session::{Output, Session};
 use super::viewer::{COLUMNS, PICTURE_ROWS, ROWS, VIEW, Viewer};
 use spherule_tests::binary::spherule;
@@ -148,6 +148,25 @@ fn late_answers_count(name: &str, rules: Vec<Rule>) {
         |output: &Output| output.sent[sent..].windows(8).any(|bytes| bytes == b"\x1b[?2026h");
     assert_eq!(has_brackets(&viewer.session.output()), is_known, "{name}");
     assert_is_usable(viewer, name);
+}
+
+/// Left before the first answers come, the program takes them all the same: a shell would read them as keys, and echo them.
+#[test]
+fn late_answers_do_not_reach_the_shell() {
+    let rules = vec![(STATUS, "\x1b[0n"), (ATTRIBUTES, "\x1b[?62;22c")];
+    let answers = Manner { rules, delay: Duration::from_millis(400), is_torn: false };
+    let scene = SceneFile::new(&VIEW);
+    let program = spherule();
+    let then = format!("'{}' '{}'; sleep 1", program.display(), scene.path());
+    let emulated = Emulated { answers, link: None };
+    let mut session = Session::start_in(emulated, "sh", &["-c", &then], &[], (COLUMNS, ROWS));
+    session.wait_for("the questions", |output| {
+        output.sent.windows(3).any(|bytes| bytes == ATTRIBUTES.as_bytes()).then_some(())
+    });
+    session.type_in("q");
+    assert!(session.wait_for_end().success());
+    let sent = String::from_utf8_lossy(&session.output().sent).into_owned();
+    assert!(!sent.contains("^[["), "{sent:?}");
 }
 
 /// Half an answer with keys in it, whole ones that follow it at once, and a stream without an end.

@@ -117,8 +117,8 @@ complete -c spherule -n "__fish_spherule_needs_command" -a "lecture" -d 'Walk th
 complete -c spherule -n "__fish_spherule_needs_command" -a "cases" -d 'Write cases in which ray-sphere intersection goes wrong, or list their families'
 complete -c spherule -n "__fish_spherule_needs_command" -a "judge" -d 'Judge another program\'s answers against exact truth'
 complete -c spherule -n "__fish_spherule_needs_command" -a "scenes" -d 'List the built-in scenes'
-complete -c spherule -n "__fish_spherule_using_subcommand trace" -l spheres -d 'Spheres: .npy, float32, (N, 4): centre xyz, radius' -r -F
-complete -c spherule -n "__fish_spherule_using_subcommand trace" -l rays -d 'Rays: .npy, float32, (M, 8): origin xyz, direction xyz, `t_min`, `t_max`' -r -F
+complete -c spherule -n "__fish_spherule_using_subcommand trace" -l spheres -d 'Spheres: .npy, float32 or float64, (N, 4): centre xyz, radius' -r -F
+complete -c spherule -n "__fish_spherule_using_subcommand trace" -l rays -d 'Rays: .npy, float32 or float64, (M, 8): origin xyz, direction xyz, `t_min`, `t_max`' -r -F
 complete -c spherule -n "__fish_spherule_using_subcommand trace" -l out-t -d 'Where to write t: .npy, float32, (M,), +inf if a ray has no hit' -r -F
 complete -c spherule -n "__fish_spherule_using_subcommand trace" -l out-id -d 'Where to write the sphere: .npy, int32, (M,), -1 if a ray has no hit; with --any 1 or 0' -r -F
 complete -c spherule -n "__fish_spherule_using_subcommand trace" -l repeat -d 'Passes, 1 or more; the speed is that of their median' -r

@@ -166,10 +166,10 @@ pub struct ComputingArguments {
 /// Rays and spheres from files, hits to files.
 #[derive(Args, Clone, Debug)]
 pub struct TraceArguments {
-    /// Spheres: .npy, float32, (N, 4): centre xyz, radius
+    /// Spheres: .npy, float32 or float64, (N, 4): centre xyz, radius
     #[arg(long, value_name = "S.npy")]
     pub spheres: PathBuf,
-    /// Rays: .npy, float32, (M, 8): origin xyz, direction xyz, `t_min`, `t_max`
+    /// Rays: .npy, float32 or float64, (M, 8): origin xyz, direction xyz, `t_min`, `t_max`
     #[arg(long, value_name = "R.npy")]
     pub rays: PathBuf,
     /// Ray i meets sphere i alone

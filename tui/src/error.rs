@@ -1,5 +1,7 @@
 //! How the program ends without success: the exit codes, and the one line on stderr.
 
+pub mod caught;
+
 use std::io::{self, Write};
 use std::process::ExitCode;
 

@@ -79,19 +79,11 @@ pub fn judge(arguments: &JudgeArguments) -> Result<(), Error> {
 
     let mut judge = Judge::new(rules, arguments.chart || arguments.json);
     let (count_of_rays, count_of_spheres) = (rays.rows(), spheres.rows());
-    let all: Vec<Sphere> = if arguments.pairs {
-        Vec::new()
-    } else {
-        spheres
-            .read_rows::<4>(usize::try_from(count_of_spheres).unwrap_or(usize::MAX))?
-            .into_iter()
-            .map(Sphere::from)
-            .collect()
-    };
+    let all = if arguments.pairs { Vec::new() } else { read_spheres(&mut spheres)? };
     let shared = Shared::new(&all);
     let mut from = 0;
     while from < count_of_rays {
-        let count = usize::try_from(count_of_rays - from).map_or(ROWS, |left| left.min(ROWS));
+        let count = rows_at_once(count_of_rays - from);
         let some: Vec<Ray> = rays.read_rows(count)?.into_iter().map(ray).collect();
         let numbers = match &mut families {
             Some(families) => read_families(families, from, count)?,
@@ -128,6 +120,22 @@ pub fn judge(arguments: &JudgeArguments) -> Result<(), Error> {
     };
     let text = if arguments.json { report.json() } else { report.text(arguments.chart) };
     write_stdout(text.as_bytes())
+}
+
+/// How many rows are read next, if so many are left.
+fn rows_at_once(left: u64) -> usize {
+    usize::try_from(left).map_or(ROWS, |left| left.min(ROWS))
+}
+
+/// Reads all spheres. Memory grows with what is there: the header of a pipe may claim anything.
+fn read_spheres(spheres: &mut Array) -> Result<Vec<Sphere>, Error> {
+    let (mut all, mut left) = (Vec::new(), spheres.rows());
+    while left > 0 {
+        let count = rows_at_once(left);
+        all.extend(spheres.read_rows::<4>(count)?.into_iter().map(Sphere::from));
+        left -= count as u64;
+    }
+    Ok(all)
 }
 
 /// Reads the numbers of families; an unknown family is an error.

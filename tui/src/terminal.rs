@@ -13,6 +13,7 @@ mod screen;
 mod signals;
 mod wish;
 
+use crate::error::caught::is_caught;
 use crate::error::{Error, cause};
 pub use abilities::Abilities;
 use abilities::{PATIENCE, questions};
@@ -42,9 +43,11 @@ pub struct Terminal {
     early: VecDeque<Incoming>,
     /// Questions that are not answered yet, such as how far it has come.
     open_questions: u32,
+    /// When it was asked what it can do.
+    asked: Option<Instant>,
 }
 
-/// How long answers are waited for when the terminal is given back. A terminal that is asked is known to answer.
+/// How long answers are waited for when the terminal is given back.
 const LAST_WORDS: Duration = Duration::from_millis(500);
 /// Asks how far the terminal has come (DSR 5): it answers when it has taken everything before.
 const ASK_STATUS: &[u8] = b"\x1b[5n";
@@ -63,6 +66,7 @@ impl Terminal {
             abilities: Abilities::default(),
             early: VecDeque::new(),
             open_questions: 0,
+            asked: None,
         };
         screen::enter()?;
         if may_ask {
@@ -77,7 +81,9 @@ impl Terminal {
             &env::var_os("TERM").unwrap_or_default().to_string_lossy(),
             has_color,
         ))?;
-        let deadline = Instant::now() + PATIENCE;
+        let asked = Instant::now();
+        self.asked = Some(asked);
+        let deadline = asked + PATIENCE;
         while !self.abilities.has_answered {
             let left = deadline.saturating_duration_since(Instant::now());
             match self.input.next(Some(left))? {
@@ -169,9 +175,18 @@ impl Terminal {
 
     /// Waits for the answers that are on their way: they would come to whoever has the terminal next, who would take them
     /// for keys.
+    ///
+    /// A terminal that has answered once is known to answer. One that has not may do so late, or never: for its first
+    /// answers the wait ends soon after it was asked, however late it is left.
     fn take_open_answers(&mut self) {
-        let deadline = Instant::now() + LAST_WORDS;
-        while self.open_questions > 0 {
+        let last = Instant::now() + LAST_WORDS;
+        loop {
+            let first = self.asked.filter(|_| !self.abilities.has_answered);
+            let deadline = match first.map(|asked| asked + PATIENCE + LAST_WORDS) {
+                _ if self.open_questions > 0 => last,
+                Some(deadline) => deadline,
+                None => break,
+            };
             let left = deadline.saturating_duration_since(Instant::now());
             match self.input.next(Some(left)) {
                 Ok(Some(Incoming::Reply(reply))) => self.learn(reply),
@@ -219,13 +234,15 @@ pub fn lost(error: &io::Error) -> Error {
     Error::Running(format!("terminal: {}", cause(error)))
 }
 
-/// The message of a panic on the alternate screen would vanish with it.
+/// The message of a panic on the alternate screen would vanish with it. After one that is caught, the viewer goes on.
 fn restore_before_panic_message() {
     static HOOK: Once = Once::new();
     HOOK.call_once(|| {
         let print = panic::take_hook();
         panic::set_hook(Box::new(move |panic| {
-            screen::restore();
+            if !is_caught() {
+                screen::restore();
+            }
             print(panic);
         }));
     });

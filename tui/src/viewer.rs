@@ -248,9 +248,10 @@ impl Viewer<'_> {
         self.film.as_ref().is_some_and(Film::has_more)
     }
 
-    /// Goes on to the next frame of the file, if it is time and it is there.
+    /// Goes on to the next frame of the file, if it is time and it is there; returns whether there is news to show.
     fn go_on(&mut self) -> bool {
-        let Some(scene) = self.film.as_mut().and_then(Film::next) else { return false };
+        let Some(film) = &mut self.film else { return false };
+        let Some(scene) = film.next() else { return film.take_news() };
         self.structures.go_on(scene.list());
         self.scene = scene;
         self.colors.begin_anew();

@@ -155,7 +155,7 @@ pub(crate) fn gather_some(
     groups: &mut [[Ray; RAYS_OF_A_GROUP]; GROUPS_TRIED],
 ) -> [usize; GROUPS_TRIED] {
     /// The most cells: the number of 2^16 rays, the most that there are, has 17 bits.
-    const CELLS: usize = 2 * MOST >> CROWD;
+    const CELLS: usize = (2 * MOST) >> CROWD;
     const NONE: u8 = GROUPS_TRIED as u8;
     let least = (places.len() | 1).ilog2() + 1;
     let bits = BITS + (BITS + CROWD).saturating_sub(least).min(BITS - 1);

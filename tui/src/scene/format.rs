@@ -62,6 +62,11 @@ impl Format {
         )
     }
 
+    /// Whether whatever follows a frame is another one. Behind the models of the other formats there may be anything.
+    pub(super) fn has_only_frames(self) -> bool {
+        matches!(self, Self::Xyz | Self::Gro | Self::LammpsDump | Self::Xtc)
+    }
+
     /// Reads the next frame; `None` after the last.
     ///
     /// # Errors

@@ -25,6 +25,9 @@ pub struct Frames {
 impl Frames {
     pub(super) fn new(input: Input, format: Format, context: Context, follows: bool) -> Self {
         let places = vec![input.place()];
+        // A pipe is waited for while it is read, and its end is the end.
+        let follows = follows && input.can_be_read_again();
+        let context = Context { follows, ..context };
         Self { input, format, context, places, at: 0, count: None, follows }
     }
 
@@ -101,7 +104,7 @@ impl Frames {
         Ok(scene)
     }
 
-    /// Whether there is a frame `index`, without reading more of it than need be.
+    /// Whether there is a frame `index`, without reading more of it than need be. A pipe may be behind that frame then.
     ///
     /// # Errors
     /// [`ReadError`] if a frame before it is not valid.
@@ -112,10 +115,20 @@ impl Frames {
         if index < self.places.len() - 1 {
             return Ok(true);
         }
-        if self.at == index {
-            return Ok(!self.input.is_over_but_blanks()?);
+        if self.at == index && self.format.has_only_frames() {
+            let before = self.input.place();
+            let is_over = self.input.is_over_but_blanks()?;
+            // A blank line may be the title of the frame.
+            if self.can_go_back() {
+                self.input.go(before)?;
+            }
+            return Ok(!is_over);
         }
-        Ok(self.read(index)?.is_some())
+        // Of a frame that is not wanted there is nothing to note.
+        let notes = std::mem::take(&mut self.context.notes);
+        let scene = self.read(index);
+        self.context.notes = notes;
+        Ok(scene?.is_some())
     }
 
     /// Tries to read what may not be there yet; if it is not, the input goes back to where it was.

@@ -49,10 +49,60 @@ fn of_atom_name(name: &str) -> Option<Element> {
     if ion.contains(&stem) {
         return element(alias);
     }
+    // A capital and a small letter are a symbol, as in `Fe` and `Na+`; names in molecules of life have capitals.
+    if let [capital, small] = stem.as_bytes()
+        && capital.is_ascii_uppercase()
+        && small.is_ascii_lowercase()
+        && let Some(found) = element(stem)
+    {
+        return Some(found);
+    }
     let first = letters.get(..1)?;
     if ["C", "H", "N", "O", "P", "S", "F", "K", "I"].contains(&first) {
         element(first)
     } else {
         element(stem)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn symbol(name: &str) -> Option<&'static str> {
+        of_atom_name(name).map(|element| element.symbol)
+    }
+
+    #[test]
+    fn names_in_mixed_case_are_symbols() {
+        for (name, expected) in [
+            ("Na+", "Na"),
+            ("Cl-", "Cl"),
+            ("Fe", "Fe"),
+            ("Cu", "Cu"),
+            ("Si12", "Si"),
+            ("Ca", "Ca"),
+            ("Co2+", "Co"),
+        ] {
+            assert_eq!(symbol(name), Some(expected), "{name}");
+        }
+    }
+
+    #[test]
+    fn names_in_capitals_are_those_of_molecules_of_life() {
+        for (name, expected) in [
+            ("CA", "C"),
+            ("NA", "Na"),
+            ("CD1", "C"),
+            ("NE2", "N"),
+            ("1HB2", "H"),
+            ("OW", "O"),
+            ("CAL", "Ca"),
+            // No element, so the first letter tells.
+            ("Ow", "O"),
+            ("Hw1", "H"),
+        ] {
+            assert_eq!(symbol(name), Some(expected), "{name}");
+        }
     }
 }

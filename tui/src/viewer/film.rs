@@ -56,6 +56,8 @@ pub struct Film {
     last: Instant,
     can_go_back: bool,
     may_have_more: bool,
+    /// Whether there is a failure to tell of: no frame comes that would be drawn with it.
+    has_news: bool,
 }
 
 impl Film {
@@ -73,17 +75,29 @@ impl Film {
         shared.lock().wanted = first;
         let (can_go_back, may_have_more) = (frames.can_go_back(), frames.follows());
         let theirs = Arc::clone(&shared);
-        let read = move || read_ahead(frames, &theirs, prepare);
+        let read = move || read_ahead(frames, first, &theirs, prepare);
         let thread = Builder::new().name("frames".to_owned()).spawn(read);
         thread.map_err(|error| Error::Running(format!("a thread: {error}")))?;
         let (shown, target, last) = (frame, frame, Instant::now());
-        Ok(Self { shared, shown, target, is_playing: false, last, can_go_back, may_have_more })
+        Ok(Self {
+            shared,
+            shown,
+            target,
+            is_playing: false,
+            last,
+            can_go_back,
+            may_have_more,
+            has_news: false,
+        })
     }
 
     /// Plays, or stops. At the end it begins again.
     pub(super) fn play(&mut self) {
         self.is_playing = !self.is_playing;
-        self.target = self.shown;
+        // A pipe may have passed over what is before the frame that it is asked for.
+        if self.can_go_back {
+            self.target = self.shown;
+        }
     }
 
     /// Whether there may be a frame besides the one that is shown.
@@ -94,12 +108,15 @@ impl Film {
         }
     }
 
-    /// One frame on or back.
+    /// One frame on or back; of a pipe, back only to what is kept.
     pub(super) fn step(&mut self, forward: bool) {
         self.is_playing = false;
-        let count = self.shared.lock().count;
         let target = if forward { self.target + 1 } else { self.target.saturating_sub(1) };
-        if count.is_none_or(|count| target < count) {
+        let state = self.shared.lock();
+        let exists = state.count.is_none_or(|count| target < count);
+        let can_come = forward || self.can_go_back || state.ready.contains_key(&target);
+        drop(state);
+        if exists && can_come {
             self.want(target);
         }
     }
@@ -120,13 +137,13 @@ impl Film {
             let next = Duration::from_secs(1) / RATE;
             return Some(next.saturating_sub(self.last.elapsed()).max(LOOK));
         }
-        let failed = || self.shared.lock().failure.is_some();
-        (self.target != self.shown && !failed()).then_some(LOOK)
+        (self.target != self.shown).then_some(LOOK)
     }
 
     /// The next frame, if it is time for one and it is there.
     pub(super) fn next(&mut self) -> Option<Arc<Scene>> {
-        if self.is_playing && self.last.elapsed() >= Duration::from_secs(1) / RATE {
+        let is_due = self.last.elapsed() >= Duration::from_secs(1) / RATE;
+        if self.is_playing && is_due && self.target == self.shown {
             let count = self.shared.lock().count;
             let next = self.shown + 1;
             let ends = count.is_some_and(|count| next >= count);
@@ -146,8 +163,13 @@ impl Film {
             return None;
         }
         let mut state = self.shared.lock();
-        if state.count.is_some_and(|count| self.target >= count) {
+        let is_beyond = state.count.is_some_and(|count| self.target >= count);
+        let is_lost = state.failure.as_ref().is_some_and(|(index, _)| *index == self.target);
+        if is_beyond || is_lost {
+            // A frame that was there, and no longer is, would be asked for again and again.
+            self.is_playing &= is_beyond;
             self.target = self.shown;
+            self.has_news = is_lost;
             return None;
         }
         let scene = state.ready.get(&self.target).cloned()?;
@@ -158,6 +180,11 @@ impl Film {
         self.shared.changed.notify_all();
         self.last = Instant::now();
         Some(scene)
+    }
+
+    /// Whether the status line tells of a failure since the last call.
+    pub(super) fn take_news(&mut self) -> bool {
+        std::mem::take(&mut self.has_news)
     }
 
     /// For the status line: which frame of how many, or why there is none.
@@ -181,8 +208,10 @@ impl Drop for Film {
     }
 }
 
-/// Reads what is wanted and what follows it, until no one looks any more.
-fn read_ahead(mut frames: Frames, shared: &Shared, prepare: impl Fn(&mut Scene)) {
+/// Reads what is wanted and what follows it, until no one looks any more. `first` is the first frame that has not been
+/// read.
+fn read_ahead(mut frames: Frames, first: usize, shared: &Shared, prepare: impl Fn(&mut Scene)) {
+    let mut unread = first;
     loop {
         let index = {
             let mut state = shared.lock();
@@ -202,8 +231,11 @@ fn read_ahead(mut frames: Frames, shared: &Shared, prepare: impl Fn(&mut Scene))
             Ok(Some(mut scene)) => {
                 prepare(&mut scene);
                 state.ready.insert(index, Arc::new(scene));
+                unread = unread.max(index + 1);
+                // What a pipe has passed cannot be read again.
                 let wanted = state.wanted;
-                state.ready.retain(|&index, _| index + 2 >= wanted && index <= wanted + AHEAD);
+                let farthest = if frames.can_go_back() { wanted + AHEAD } else { usize::MAX };
+                state.ready.retain(|&index, _| index + 2 >= wanted && index <= farthest);
             }
             Ok(None) if frames.follows() => {
                 let waited = shared.changed.wait_timeout(state, FOLLOW);
@@ -214,18 +246,24 @@ fn read_ahead(mut frames: Frames, shared: &Shared, prepare: impl Fn(&mut Scene))
                 state.count = Some(state.count.map_or(count, |known| known.min(count)));
             }
             Err(error) => {
-                state.count = Some(index);
+                // A frame that has been read exists, even if it cannot be read again.
+                if index >= unread {
+                    state.count = Some(index);
+                }
                 state.failure = Some((index, error.to_string()));
             }
         }
     }
 }
 
-/// The next frame to read, if there is one.
+/// The next frame to read, if there is one that has not just failed.
 fn missing(state: &State) -> Option<usize> {
     let spheres = state.ready.values().map(|scene| scene.spheres().len()).sum::<usize>();
     let is_there = |index: usize| state.ready.contains_key(&index);
-    let exists = |index: usize| state.count.is_none_or(|count| index < count);
+    let exists = |index: usize| {
+        state.count.is_none_or(|count| index < count)
+            && state.failure.as_ref().is_none_or(|(failed, _)| *failed != index)
+    };
     if !is_there(state.wanted) {
         return exists(state.wanted).then_some(state.wanted);
     }

@@ -51,6 +51,8 @@ impl Viewer<'_> {
         let (picture, drawing) = match last.filter(same) {
             Some(last) => (last, None),
             None => {
+                self.colors.show(&mut self.scene, self.state.shown.coloring);
+                self.structures.set_aids(self.state.shown.style.aids);
                 let picture = match protocol {
                     Some(protocol) => self.draw_pixels(protocol, size, moving)?,
                     None => self.draw(size, moving)?,
@@ -164,9 +166,7 @@ impl Viewer<'_> {
 
     /// Draws the picture of the moment.
     fn draw(&mut self, size: (u16, u16), moving: bool) -> Result<Picture, Error> {
-        self.colors.show(&mut self.scene, self.state.shown.coloring);
         let Shown { view, style, structure, comparison, .. } = &self.state.shown;
-        self.structures.set_aids(style.aids);
         let count = self.scene.spheres().len();
         let workload = picture_workload(count, style, size.0, size.1, f64::INFINITY);
         let search = self.structures.picture(*structure, &workload, view, &self.scene)?;

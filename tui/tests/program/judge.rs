@@ -1,6 +1,6 @@
 //! `spherule cases` and `spherule judge`: what one writes the other judges, and what both refuse.
 
-use crate::run::{array, file, npy, printed, refusal, run};
+use crate::run::{array, file, npy, printed, refusal, run, run_with_input};
 use serde_json::Value;
 use std::ffi::OsString;
 use std::fs;
@@ -235,6 +235,20 @@ fn answers_that_are_none() {
     assert!(message.ends_with("row 2: no family 99; 0 to 23"), "{message}");
     let missing = refused("missing", &four([inf; 4]), None, "--rules no-such.toml");
     assert_eq!(missing, "no-such.toml: no such file or directory");
+}
+
+/// A header may claim sixteen terabytes, which a pipe need not have.
+#[test]
+fn spheres_of_a_pipe_take_the_memory_that_they_need() {
+    let files = Files::new("pipe", "--count 4 --family ordinary", "exact");
+    let (rays, t) = (files.rays.display(), files.t.display());
+    let line = format!("judge --spheres /dev/stdin --rays {rays} --t {t}");
+    let refused = refusal(&run_with_input(&line, &array(1_000_000_000_000, 4, &[1.0; 8])));
+    assert!(refused.ends_with("fewer bytes than 1000000000000 rows have"), "{refused}");
+    // More than are read at once.
+    let many: Vec<f32> = (0..20_000).flat_map(|x| [x as f32, 0.0, 5.0, 0.25]).collect();
+    let report = printed(&run_with_input(&line, &array(20_000, 4, &many)));
+    assert!(report.starts_with("4 rays, 20000 spheres\n"), "{report}");
 }
 
 #[test]

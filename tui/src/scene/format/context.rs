@@ -19,6 +19,8 @@ pub(in crate::scene) struct Context {
     pub(in crate::scene) notes: Notes,
     /// The columns of an mmCIF table, once they have been read.
     pub(in crate::scene) mmcif: Option<Columns>,
+    /// Whether more may be written to the file: then its end need not be the end of a frame.
+    pub(in crate::scene) follows: bool,
 }
 
 /// The longest text that is read as a whole, in bytes: some half a million spheres.

@@ -24,10 +24,20 @@ const COORDINATES: usize = 20;
 /// # Errors
 /// [`ReadError`] at the first line that is not what it should be.
 pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<Scene>, ReadError> {
+    let before = input.place();
     if input.is_over_but_blanks()? && input.place() != Default::default() {
+        // What is blank may be the title of a frame that is still being written.
+        if input.can_be_read_again() {
+            input.go(before)?;
+        }
         return Ok(None);
     }
-    input.expect("a title")?;
+    let has_blanks = input.place() != before;
+    let title = input.expect("a title")?;
+    // Where the number of atoms follows blank lines, the last of them is the title.
+    if has_blanks && count(title.trimmed()).is_some() {
+        input.give_back();
+    }
     let line = input.expect("a number of atoms")?;
     let (atoms, first) = match count(line.trimmed()) {
         Some(0) => return Err(line.error(0, "no atoms")),

@@ -29,10 +29,21 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
     };
     let mut atoms = Atoms::new(&columns, context.origin);
     let mut row = Row::default();
+    // Where nothing follows yet, a comment is taken for the end of the table: writers end a table with one.
+    let mut has_ended = false;
     while let Some(line) = input.line()? {
-        if !row.is_begun() && ends_loop(line.trimmed()) {
+        let text = line.trimmed();
+        if !row.is_begun() && (text.is_empty() || text[0] == b'#') {
+            has_ended |= !text.is_empty();
+            continue;
+        }
+        if !row.is_begun() && ends_loop(text) {
+            // The next call ends here, too.
+            has_ended = true;
+            input.give_back();
             break;
         }
+        has_ended = false;
         if row.is_begun() && line.bytes.starts_with(b";") {
             return Err(line.error(0, "a text of many lines among atoms"));
         }
@@ -46,6 +57,7 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
             return Err(line.error(0, what));
         }
         if !atoms.add(&line, &row)? {
+            has_ended = true;
             input.give_back();
             break;
         }
@@ -61,15 +73,17 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
     if atoms.particles.is_empty() {
         return Ok(None);
     }
+    if context.follows && !has_ended {
+        return Err(input.ends("the file ends within the table of atoms"));
+    }
     atoms.finish(&mut context.notes, input.source()).map(Some)
 }
 
 /// Whether a line can no longer be a row of the table.
 fn ends_loop(text: &[u8]) -> bool {
-    text.first().is_none_or(|first| matches!(first, b'#' | b'_'))
-        || text.len() >= 5
-            && (text[..5].eq_ignore_ascii_case(b"loop_")
-                || text[..5].eq_ignore_ascii_case(b"data_"))
+    let begins =
+        |word: &[u8]| text.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word));
+    begins(b"_") || begins(b"loop_") || begins(b"data_") || begins(b"save_")
 }
 
 /// Goes to the first row of the table of atoms.
@@ -99,12 +113,11 @@ fn find_atoms(input: &mut Input, context: &mut Context) -> Result<(), ReadError>
             return Ok(());
         }
     }
-    let what = if fractions {
-        "atoms in fractions of a cell: only _atom_site.Cartn_x, _y, _z are read"
-    } else {
-        "no loop over _atom_site"
-    };
-    Err(ReadError::whole(input.source(), what))
+    if fractions {
+        let what = "atoms in fractions of a cell: only _atom_site.Cartn_x, _y, _z are read";
+        return Err(ReadError::whole(input.source(), what));
+    }
+    Err(ReadError::whole(input.source(), "no loop over _atom_site").of_end())
 }
 
 /// The values of a row, which may go over several lines.
@@ -212,7 +225,8 @@ impl<'a> Atoms<'a> {
             (row.value(columns.chain), row.value(columns.residue_number), row.value(columns.name));
         if !row.value(columns.location).is_empty() {
             self.scratch.clear();
-            for part in [chain, b" ", number_text] {
+            let insertion = row.value(columns.insertion);
+            for part in [chain, b" ", number_text, b" ", insertion] {
                 self.scratch.extend_from_slice(part);
             }
             if self.scratch != self.residue {

@@ -27,18 +27,21 @@ const IGNORED: [&str; 6] = ["ANISOU", "CONECT", "HELIX", "SHEET", "SSBOND", "SIG
 pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<Scene>, ReadError> {
     let is_first = input.place() == Default::default();
     let mut atoms = Atoms::new(context.origin);
+    let mut has_ended = false;
     while let Some(line) = input.line()? {
         let record = line.bytes;
         if record.starts_with(b"ATOM") || record.starts_with(b"HETATM") {
             atoms.add(line)?;
         } else if record.starts_with(b"MODEL") {
             if !atoms.is_empty() {
+                has_ended = true;
                 input.give_back();
                 break;
             }
         } else if (record.starts_with(b"ENDMDL") || record.trim_ascii_end() == b"END")
             && !atoms.is_empty()
         {
+            has_ended = true;
             break;
         } else if let Some(name) = IGNORED.iter().find(|name| record.starts_with(name.as_bytes())) {
             context.notes.ignore(name);
@@ -47,10 +50,14 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
     // What remains may be connections and no atom: then there is no further frame.
     if atoms.is_empty() {
         return if is_first {
-            Err(ReadError::whole(input.source(), "no ATOM and no HETATM"))
+            Err(ReadError::whole(input.source(), "no ATOM and no HETATM").of_end())
         } else {
             Ok(None)
         };
+    }
+    // More of the model may be on its way.
+    if context.follows && !has_ended {
+        return Err(input.ends("the file ends within a model"));
     }
     atoms.finish(&mut context.notes, input.source()).map(Some)
 }

@@ -96,6 +96,10 @@ pub(super) fn read(input: &mut Input, notes: &mut Notes) -> Result<Scene, ReadEr
         return Err(ReadError::whole(&source, "no vertices"));
     };
     for element in &elements[..at] {
+        // So many elements as a header claims, and no bytes of them at which the file could end.
+        if encoding != Encoding::Ascii && element.properties.is_empty() {
+            continue;
+        }
         for _ in 0..element.count {
             skip(input, encoding, element)?;
         }

@@ -14,6 +14,9 @@ const PDB: [&str; 24] = [
     "CRYST1", "ORIGX1", "MODEL ", "ATOM  ", "HETATM", "MASTER",
 ];
 
+/// The records in which a number may follow the name at once: `HETATM10000`, `CRYST110000.000`, `DBREF1`.
+const THEN_NUMBER: [&str; 3] = ["HETATM", "CRYST1", "DBREF "];
+
 /// Formats that are known and not read.
 const OTHERS: [(&[u8], &str); 7] = [
     (b"PK\x03\x04", "a zip archive, such as .npz: unpack it first"),
@@ -70,14 +73,12 @@ pub(in super::super) fn recognise(head: &[u8]) -> Result<Format, &'static str> {
     if is_cif(spoken_first.trim_ascii()) {
         return Ok(Format::Mmcif);
     }
-    let is_record =
-        |line: &&[u8]| PDB.iter().any(|name| line.starts_with(name.trim_end().as_bytes()));
     let is_atom = |line: &&[u8]| {
         (line.starts_with(b"ATOM  ") || line.starts_with(b"HETATM"))
             && line.len() >= 54
             && line[34] == b'.'
     };
-    if is_record(&spoken_first) && !is_toml(spoken_first) || lines.iter().any(is_atom) {
+    if is_record(spoken_first) && !is_toml(spoken_first) || lines.iter().any(is_atom) {
         return Ok(Format::Pdb);
     }
     if is_lammps_data(&lines) {
@@ -94,6 +95,16 @@ pub(in super::super) fn recognise(head: &[u8]) -> Result<Format, &'static str> {
 
 fn contains(text: &[u8], part: &[u8]) -> bool {
     memchr::memmem::find(text, part).is_some()
+}
+
+/// A record that a PDB file begins with. Its name ends there: a column of a table may be called `SOURCE_ID`.
+fn is_record(line: &[u8]) -> bool {
+    PDB.iter().any(|name| {
+        let Some(rest) = line.strip_prefix(name.trim_end().as_bytes()) else { return false };
+        rest.first().is_none_or(|byte| {
+            byte.is_ascii_whitespace() || byte.is_ascii_digit() && THEN_NUMBER.contains(name)
+        })
+    })
 }
 
 /// A table, or a key and its value.
@@ -150,4 +161,37 @@ fn is_table(lines: &[&[u8]]) -> bool {
                 || words.iter().take(3).all(|word| number(word).is_some()));
     }
     false
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_header_that_begins_like_a_record_is_a_table() {
+        for header in
+            ["SOURCE_ID,x,y,z", "ATOM,X,Y,Z", "HETATM;x;y;z", "MODEL,x,y,z", "ATOM1,x,y,z"]
+        {
+            assert_eq!(recognise(format!("{header}\n7,1,2,3\n").as_bytes()), Ok(Format::Csv));
+        }
+    }
+
+    #[test]
+    fn records_are_six_columns_wide() {
+        for record in [
+            "TITLE     A TITLE",
+            "REMARK   2",
+            "MODEL        1",
+            "ATOM   1000  N   ALA A   1       1.1     6.1    -6.5",
+            "ATOM  100000 N   ALA A   1       1.1     6.1    -6.5",
+            "ATOM 1000000 N   ALA A   1       1.1     6.1    -6.5",
+            "HETATM12345  O   HOH A   1       1.1     6.1    -6.5",
+            "HETATMA0000  O   HOH A   1      11.104   6.134  -6.504",
+            "CRYST110000.00010000.00010000.000  90.00  90.00  90.00 P 1",
+            "DBREF1 1ABC A    1   100  UNP",
+            "HEADER",
+        ] {
+            assert_eq!(recognise(record.as_bytes()), Ok(Format::Pdb), "{record}");
+        }
+    }
 }

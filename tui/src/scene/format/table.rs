@@ -20,8 +20,8 @@ use crate::scene::read_error::ReadError;
 use glam::DVec3;
 use std::ops::Range;
 
-use columns::Columns;
 pub(super) use columns::has_axes;
+use columns::{Columns, is_header};
 pub(super) use separator::Separator;
 
 /// Reads the table.
@@ -44,7 +44,7 @@ pub(super) fn read(input: &mut Input, context: &mut Context) -> Result<Scene, Re
         let mut fields = Vec::new();
         separator.split(names, usize::MAX, &mut fields);
         let names: Vec<&[u8]> = fields.iter().map(|field| &names[field.clone()]).collect();
-        let is_header = !names.iter().take(3).all(|name| number(name).is_some());
+        let is_header = is_header(&names, chosen.as_deref());
         if is_comment && !(is_header && has_axes(&names)) {
             continue;
         }

@@ -3,6 +3,7 @@
 mod bad;
 mod frames;
 mod good;
+mod mmcif;
 
 use super::Format;
 use crate::scene::frames::Frames;

@@ -4,6 +4,7 @@
 
 use super::Context;
 use super::gro::ANGSTROM;
+use crate::error::caught::catch;
 use crate::scene::Scene;
 use crate::scene::input::Input;
 use crate::scene::particles::Particles;
@@ -11,10 +12,7 @@ use crate::scene::read_error::ReadError;
 use glam::DVec3;
 use molly::{Frame, XTCReader};
 use spherule_kernel::{Sphere, Vec3};
-use std::cell::Cell;
 use std::io::Read as _;
-use std::panic::{self, AssertUnwindSafe, catch_unwind};
-use std::sync::Once;
 
 /// Magic, atoms, step, time, box, atoms again.
 const HEADER: usize = 56;
@@ -107,28 +105,11 @@ fn raw(input: &mut Input) -> Result<Vec<u8>, ReadError> {
     Ok(bytes)
 }
 
-thread_local! {
-    /// Whether a panic is caught, and need not be reported.
-    static IS_CAUGHT: Cell<bool> = const { Cell::new(false) };
-}
-
 /// Decodes a frame. The crate panics where bits run out: that is an error here.
 fn decoded(bytes: &[u8], frame: &mut Frame) -> Result<(), String> {
-    static HOOK: Once = Once::new();
-    HOOK.call_once(|| {
-        let print = panic::take_hook();
-        panic::set_hook(Box::new(move |panic| {
-            if !IS_CAUGHT.get() {
-                print(panic);
-            }
-        }));
-    });
-    IS_CAUGHT.set(true);
-    let read = catch_unwind(AssertUnwindSafe(|| XTCReader::new(bytes).read_frame(frame)));
-    IS_CAUGHT.set(false);
-    match read {
-        Ok(Ok(())) => Ok(()),
-        Ok(Err(error)) => Err(error.to_string()),
-        Err(_) => Err("its bits run out".to_owned()),
+    match catch(|| XTCReader::new(bytes).read_frame(frame)) {
+        Some(Ok(())) => Ok(()),
+        Some(Err(error)) => Err(error.to_string()),
+        None => Err("its bits run out".to_owned()),
     }
 }

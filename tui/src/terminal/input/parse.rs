@@ -95,6 +95,12 @@ fn string(kind: u8, rest: &[u8]) -> Parsed {
 
 /// What follows `ESC [`: parameters, and a final byte that says what they are for.
 fn control_sequence(rest: &[u8]) -> Parsed {
+    // F1 to F5 of Linux's console have a second bracket, and then a letter.
+    match rest {
+        [b'['] => return Parsed::Unfinished,
+        [b'[', b'A'..=b'E', ..] => return Parsed::Taken(4, None),
+        _ => {}
+    }
     let Some(end) = rest.iter().position(|byte| !matches!(byte, b' '..=b'?')) else {
         let is_overlong = rest.len() > LONGEST_SEQUENCE;
         return if is_overlong { Parsed::Taken(2 + rest.len(), None) } else { Parsed::Unfinished };

@@ -1,15 +1,33 @@
 use super::*;
 use crate::scene::open::{Opened, open};
 use crate::scene::reading::Reading;
+use std::io::Write;
+use std::os::fd::AsRawFd;
+use std::path::PathBuf;
+
+fn path(name: &str) -> PathBuf {
+    std::env::temp_dir().join(format!("spherule-{}-{name}", std::process::id()))
+}
+
+fn text(count: usize) -> String {
+    (0..count).map(|index| format!("1\n\nC {index} 0 0\n")).collect()
+}
 
 fn film(name: &str, count: usize) -> Film {
-    let text: String = (0..count).map(|index| format!("1\n\nC {index} 0 0\n")).collect();
-    let path = std::env::temp_dir().join(format!("spherule-{}-{name}", std::process::id()));
-    std::fs::write(&path, text).expect("a file");
-    let Ok(Opened::File(mut frames)) = open(path.to_str().expect("UTF-8"), &Reading::default())
-    else {
-        panic!("no file")
-    };
+    std::fs::write(path(name), text(count)).expect("a file");
+    film_of(path(name).to_str().expect("UTF-8"))
+}
+
+/// The same from a pipe.
+fn piped(count: usize) -> Film {
+    let (reader, mut writer) = std::io::pipe().expect("a pipe");
+    writer.write_all(text(count).as_bytes()).expect("room in the pipe");
+    drop(writer);
+    film_of(&format!("/dev/fd/{}", reader.as_raw_fd()))
+}
+
+fn film_of(name: &str) -> Film {
+    let Ok(Opened::File(mut frames)) = open(name, &Reading::default()) else { panic!("no file") };
     let _ = frames.read(0).expect("a frame").expect("a frame");
     Film::new(frames, 0, |_| ()).expect("a thread")
 }
@@ -23,6 +41,16 @@ fn next(film: &mut Film) -> f32 {
         std::thread::sleep(Duration::from_millis(2));
     }
     panic!("no frame comes: {}", film.status());
+}
+
+fn wait_until(film: &Film, is_so: impl Fn(&State) -> bool) {
+    for _ in 0..2000 {
+        if is_so(&film.shared.lock()) {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    panic!("it is never so: {}", film.status());
 }
 
 #[test]
@@ -61,4 +89,53 @@ fn no_more_is_read_than_has_room() {
     std::thread::sleep(Duration::from_millis(200));
     let ready = film.shared.lock().ready.len();
     assert!(ready <= AHEAD + 3, "{ready}");
+}
+
+#[test]
+fn a_pipe_goes_back_as_far_as_is_kept_and_on_to_its_end() {
+    let mut film = piped(20);
+    for x in 1..=10 {
+        film.step(true);
+        assert_eq!(next(&mut film), x as f32);
+    }
+    wait_until(&film, |state| state.ready.contains_key(&19));
+    // One frame behind is kept.
+    for _ in 0..9 {
+        film.step(false);
+    }
+    assert_eq!(next(&mut film), 9.0);
+    assert!(film.next().is_none() && film.wait().is_none());
+    for x in 10..20 {
+        film.step(true);
+        assert_eq!(next(&mut film), x as f32);
+    }
+    wait_until(&film, |state| state.count.is_some());
+    film.play();
+    std::thread::sleep(Duration::from_millis(100));
+    assert!(film.next().is_none() && film.wait().is_none());
+    assert_eq!(film.status(), "19/20");
+}
+
+/// What it still has can be shown, and why it stopped is told.
+#[test]
+fn a_file_that_is_gone_stops_where_it_would_begin_again() {
+    let mut film = film("gone.xyz", 4);
+    wait_until(&film, |state| state.count.is_some());
+    std::fs::remove_file(path("gone.xyz")).expect("the file");
+    film.play();
+    for x in [1.0, 2.0, 3.0] {
+        assert_eq!(next(&mut film), x);
+    }
+    for _ in 0..2000 {
+        if film.wait().is_none() {
+            break;
+        }
+        assert!(film.next().is_none());
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    assert!(film.wait().is_none() && film.take_news());
+    assert!(film.status().starts_with("frame 0: "), "{}", film.status());
+    film.step(false);
+    assert_eq!(next(&mut film), 2.0);
+    assert_eq!(film.status(), "2/4");
 }

@@ -2,6 +2,7 @@
 
 use crate::scene::format::words::excerpt;
 use crate::scene::input::Line;
+use crate::scene::number::number;
 use crate::scene::read_error::ReadError;
 
 /// How many other columns are kept at most: they take memory.
@@ -24,6 +25,24 @@ pub(super) struct Columns {
 /// Whether a header names positions.
 pub(in crate::scene::format) fn has_axes(names: &[&[u8]]) -> bool {
     ["x", "y", "z"].iter().all(|axis| find(names, &[axis]).is_some())
+}
+
+/// Whether a first line of these fields is a header: among those that positions are read from, one is no number. Those are
+/// the first three, unless `chosen`, the value of `--columns`, says by numbers which; then the others may be labels.
+pub(super) fn is_header(names: &[&[u8]], chosen: Option<&str>) -> bool {
+    let is_number = |name: &[u8]| number(name).is_some();
+    match chosen.and_then(numbered) {
+        Some(columns) => {
+            !columns.iter().all(|&column| names.get(column).is_some_and(|name| is_number(name)))
+        }
+        None => !names.iter().take(3).all(|name| is_number(name)),
+    }
+}
+
+/// The columns that `--columns` says, if each of its words is a number from 1.
+fn numbered(chosen: &str) -> Option<Vec<usize>> {
+    let column = |word: &str| word.trim().parse::<usize>().ok()?.checked_sub(1);
+    chosen.split(',').map(column).collect()
 }
 
 fn find(names: &[&[u8]], wanted: &[&str]) -> Option<usize> {
@@ -58,9 +77,11 @@ impl Columns {
         let named = |wanted: &[&str]| if is_header { find(names, wanted) } else { None };
         match chosen {
             Some(chosen) => {
+                // Where all are numbers, a header's field that looks like one of them is not meant.
+                let has_names = is_header && numbered(chosen).is_none();
                 let numbers: Result<Vec<usize>, ReadError> = chosen
                     .split(',')
-                    .map(|word| column_of(line, names, is_header, word.trim()))
+                    .map(|word| column_of(line, names, has_names, word.trim()))
                     .collect();
                 let numbers = numbers?;
                 let (&[x, y, z] | &[x, y, z, _]) = numbers.as_slice() else {
@@ -151,10 +172,10 @@ impl Columns {
 fn column_of(
     line: &Line<'_>,
     names: &[&[u8]],
-    is_header: bool,
+    has_names: bool,
     word: &str,
 ) -> Result<usize, ReadError> {
-    if is_header && let Some(column) = find(names, &[word]) {
+    if has_names && let Some(column) = find(names, &[word]) {
         return Ok(column);
     }
     match word.parse::<usize>() {

@@ -1,4 +1,5 @@
 use super::*;
+use crate::scene::input::Input;
 use std::fs::OpenOptions;
 
 fn xyz(frames: usize) -> String {
@@ -34,13 +35,26 @@ fn in_any_order_plain_and_compressed() {
     }
 }
 
+fn piped(text: String, follows: bool) -> Frames {
+    let input = Input::of_reader(Box::new(Cursor::new(text.into_bytes())), "-");
+    Frames::new(input.expect("a pipe"), Format::Xyz, Default::default(), follows)
+}
+
 #[test]
 fn a_pipe_goes_forward() {
-    let input =
-        crate::scene::input::Input::of_reader(Box::new(Cursor::new(xyz(300).into_bytes())), "-");
-    let mut frames = Frames::new(input.expect("a pipe"), Format::Xyz, Default::default(), false);
+    let mut frames = piped(xyz(300), false);
     assert_eq!((first_x(&mut frames, 0), first_x(&mut frames, 250)), (Some(0.0), Some(250.0)));
     assert!(!frames.can_go_back());
+}
+
+/// With its last line complete or not: nothing more comes out of it.
+#[test]
+fn a_pipe_that_is_followed_ends_where_it_ends() {
+    for text in [xyz(2), xyz(2).trim_end().to_owned()] {
+        let frames = &mut piped(text, true);
+        assert_eq!((first_x(frames, 0), first_x(frames, 1)), (Some(0.0), Some(1.0)));
+        assert_eq!((first_x(frames, 2), frames.follows()), (None, false));
+    }
 }
 
 #[test]
@@ -70,6 +84,41 @@ fn a_file_that_grows() {
     assert_eq!(first_x(frames, 3), None);
 }
 
+/// Where lines end, half a model is not a frame yet.
+#[test]
+fn a_model_that_grows_is_a_frame_once_it_is_whole() {
+    let atom = |x: f32, y: f32| {
+        format!("ATOM      1  C   ALA A   1    {x:8.3}{y:8.3}   0.000  1.00  0.00           C\n")
+    };
+    let model = |x: f32| format!("MODEL        1\n{}{}", atom(x, 0.0), atom(x, 1.0));
+    let pdb = format!("{}ENDMDL\n{}ENDMDL\n", model(0.0), model(1.0));
+    let table = "data_X\nloop_\n_atom_site.type_symbol\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n\
+        _atom_site.Cartn_z\n_atom_site.pdbx_PDB_model_num\n";
+    let rows = "C 0 0 0 1\nC 0 1 0 1\nC 1 0 0 2\nC 1 1 0 2\n";
+    let expected: [[[f32; 3]; 2]; 2] =
+        [[[0.0; 3], [0.0, 1.0, 0.0]], [[1.0, 0.0, 0.0], [1.0, 1.0, 0.0]]];
+    for (name, head, rest) in [
+        ("growing.pdb", "HEADER    TEST\n", pdb),
+        ("commented.cif", table, format!("{rows}#\n")),
+        ("growing.cif", table, format!("{rows}loop_\n")),
+    ] {
+        let reading = Reading { follow: true, ..Reading::default() };
+        let frames = &mut frames_of(name, head.as_bytes(), &reading);
+        let path = file(name, head.as_bytes());
+        let mut seen = Vec::new();
+        for byte in rest.bytes() {
+            let mut file = OpenOptions::new().append(true).open(&path).expect("a file");
+            file.write_all(&[byte]).expect("written");
+            let scene = frames.read(seen.len()).unwrap_or_else(|error| panic!("{error}"));
+            seen.extend(scene.map(|scene| centers(&scene)));
+        }
+        assert_eq!(seen, expected, "{name}");
+    }
+    // Nothing more comes to a file that is not followed.
+    assert_eq!(centers(&good(model(0.0))), expected[0]);
+    assert_eq!(centers(&good(format!("{table}C 0 0 0 1\nC 0 1 0 1\n"))), expected[0]);
+}
+
 #[test]
 fn dumps_pdb_gro_and_mmcif_have_frames() {
     let dump = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\nITEM: ATOMS id type x y z\n1 1 @ 0 0\n";
@@ -83,5 +132,74 @@ fn dumps_pdb_gro_and_mmcif_have_frames() {
             assert_eq!(centers(&scene)[0][0], scale * index as f32, "{name}");
         }
         assert!(frames.read(5).expect("no error").is_none());
+    }
+}
+
+/// A frame of GRO with one atom.
+fn gro(title: &str, x: usize) -> String {
+    format!("{title}\n    1\n    1SOL     OW    1   {x}.000   1.624   1.679\n   1 1 1\n")
+}
+
+fn gro_x(frames: &mut Frames, index: usize) -> Option<f32> {
+    let scene = frames.read(index).unwrap_or_else(|error| panic!("{error}"))?;
+    Some(centers(&scene)[0][0])
+}
+
+#[test]
+fn a_title_of_gro_may_be_blank() {
+    // Blank lines before a title and at the end are no titles.
+    let text = gro("", 0) + &gro("  ", 1) + &gro("t", 2) + "\n" + &gro("t", 3) + "\n \n";
+    let frames = &mut frames_of("blank.gro", text.as_bytes(), &Reading::default());
+    for index in [0, 1, 2, 3, 1, 0, 3] {
+        assert!(frames.has(index).expect("no error"));
+        assert_eq!(gro_x(frames, index), Some(10.0 * index as f32));
+    }
+    assert!(!frames.has(4).expect("no error"));
+    assert_eq!(gro_x(frames, 4), None);
+    let input = Input::of_reader(Box::new(Cursor::new(text)), "-");
+    let mut pipe = Frames::new(input.expect("a pipe"), Format::Gro, Default::default(), false);
+    let found: Vec<_> = (0..5).map(|index| gro_x(&mut pipe, index)).collect();
+    assert_eq!(found, [Some(0.0), Some(10.0), Some(20.0), Some(30.0), None]);
+}
+
+/// While a blank title is all that has been written of a frame, it is not taken for the end.
+#[test]
+fn a_gro_file_that_grows() {
+    let reading = Reading { follow: true, ..Reading::default() };
+    let path = file("grows.gro", gro("", 0).as_bytes());
+    let frames = &mut frames_of("grows.gro", gro("", 0).as_bytes(), &reading);
+    assert_eq!(gro_x(frames, 0), Some(0.0));
+    for (index, byte) in gro("", 1).bytes().enumerate() {
+        assert_eq!(gro_x(frames, 1), None, "after {index} bytes");
+        let mut file = OpenOptions::new().append(true).open(&path).expect("a file");
+        file.write_all(&[byte]).expect("written");
+    }
+    assert_eq!(gro_x(frames, 1), Some(10.0));
+}
+
+/// Nor are there notes about a frame that is only asked for.
+#[test]
+fn what_follows_the_last_model_is_no_frame() {
+    let end = "ENDMDL\nCONECT    1    2\nEND\n";
+    let pdb = |models: usize| {
+        let atom = "ATOM      1  N   ALA A   1      11.104   6.134  -6.504\n";
+        vec![format!("MODEL        1\n{atom}"); models].join("ENDMDL\n") + end
+    };
+    let mmcif = |models: usize| {
+        let atoms: String = (1..=models).map(|model| format!("N 1 2 3 {model}\n")).collect();
+        let head = ["type_symbol", "Cartn_x", "Cartn_y", "Cartn_z", "pdbx_PDB_model_num"]
+            .map(|column| format!("_atom_site.{column}\n"))
+            .concat();
+        format!("data_X\nloop_\n{head}{atoms}#\nloop_\n_x.y\n_x.z\n1 2\n3 4\n#\n_u.v 5\n")
+    };
+    for (name, text) in [("models.pdb", [1, 2].map(pdb)), ("models.cif", [1, 2].map(mmcif))] {
+        for (text, models) in text.iter().zip(1..) {
+            let frames = &mut frames_of(name, text.as_bytes(), &Reading::default());
+            assert!(frames.read(0).expect("no error").is_some());
+            assert_eq!(frames.has(1).expect("no error"), models == 2, "{text}");
+            assert!(frames.notes().is_empty());
+            assert!(!frames.has(2).expect("no error"));
+            assert_eq!(frames.read(1).expect("no error").is_some(), models == 2, "{text}");
+        }
     }
 }

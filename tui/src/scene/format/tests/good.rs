@@ -81,25 +81,6 @@ fn pdb_by_its_columns() {
 }
 
 #[test]
-fn mmcif_by_the_names_of_columns() {
-    let text = "data_X\n#\n_entry.id X\n_struct.title\n;many\nlines\n;\nloop_\n_atom_site.group_PDB\n_atom_site.type_symbol\n\
-        _atom_site.Cartn_z\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.auth_asym_id\n_atom_site.label_alt_id\n\
-        _atom_site.label_atom_id\n_atom_site.auth_comp_id\n_atom_site.auth_seq_id\n_atom_site.pdbx_PDB_model_num\n\
-        ATOM C 3 1 2.5(3) AA . \"C1'\" DA 7 1\nATOM N 6 4 5 AA A N DA 7 1\nATOM N 9 4 5 AA B N DA\n7 1\n\
-        ATOM O 30 10 20 AB . O DA 7 2\n#\nloop_\n_x.y\n1\n";
-    let scene = good(text);
-    assert_eq!(centers(&scene), [[1.0, 2.5, 3.0], [4.0, 5.0, 6.0]]);
-    assert_eq!(scene.label(0).as_deref(), Some("C1' DA 7 AA"));
-    let frames = &mut frames_of("models.cif", text.as_bytes(), &Reading::default());
-    assert_eq!(
-        frames.read(1).expect("a model").map(|scene| centers(&scene)),
-        Some(vec![[10.0, 20.0, 30.0]])
-    );
-    assert!(frames.read(2).expect("no error").is_none());
-    assert_eq!(frames.read(0).expect("a model").map(|scene| scene.spheres().len()), Some(2));
-}
-
-#[test]
 fn gro_in_angstrom() {
     let text = [
         "water t= 1.0",
@@ -192,6 +173,21 @@ fn tables_by_header_and_without() {
 }
 
 #[test]
+fn numbers_of_columns_are_no_names_and_a_label_makes_no_header() {
+    for (columns, text, expected) in [
+        ("2,3,4", "a,1,2,3\nb,4,5,6\n", vec![[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]),
+        ("2, 4, 5", "name,x,4,y,z\na,1,9,2,3\n", vec![[1.0, 2.0, 3.0]]),
+        // No column has the number 0, so these are names.
+        ("0,1,2", ",0,1,2\n0,1,2,3\n", vec![[1.0, 2.0, 3.0]]),
+    ] {
+        let reading = Reading { columns: Some(columns.to_owned()), ..Reading::default() };
+        let scene = frames_of("labels.csv", text.as_bytes(), &reading).read(0);
+        let scene = scene.unwrap_or_else(|error| panic!("{error}")).expect("a table");
+        assert_eq!(centers(&scene), expected, "{columns}");
+    }
+}
+
+#[test]
 fn ply_in_text_and_in_both_orders() {
     let header = |format: &str| {
         format!(
@@ -231,6 +227,15 @@ fn ply_in_text_and_in_both_orders() {
         assert_eq!(spheres(&scene), [[1.0, 2.0, -3.0, 0.5], [4.0, 5.0, 6.0, 0.25]]);
         assert_eq!(scene.colors(), [Srgb([255, 0, 128]), Srgb([0, 255, 0])]);
     }
+}
+
+/// However many a header claims.
+#[test]
+fn binary_elements_without_properties_have_no_bytes() {
+    let header = "ply\nformat binary_little_endian 1.0\nelement a 18446744073709551615\nelement vertex 1\n\
+        property float x\nproperty float y\nproperty float z\nend_header\n";
+    let point: Vec<u8> = [1.0_f32, 2.0, 3.0].iter().flat_map(|value| value.to_le_bytes()).collect();
+    assert_eq!(centers(&good([header.as_bytes(), &point].concat())), [[1.0, 2.0, 3.0]]);
 }
 
 #[test]

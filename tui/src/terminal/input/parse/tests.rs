@@ -30,6 +30,15 @@ fn keys() {
 }
 
 #[test]
+fn function_keys_of_the_console_are_no_letters() {
+    for letter in 'A'..='E' {
+        assert_eq!(taken(&format!("\x1b[[{letter}q")), (4, None), "{letter}");
+    }
+    assert_eq!(parse(b"\x1b[[", true), Parsed::Unfinished);
+    assert_eq!(taken("\x1b[[q"), (3, None));
+}
+
+#[test]
 fn an_escape_is_a_key_when_nothing_follows() {
     assert_eq!(parse(b"\x1b", true), Parsed::Unfinished);
     assert_eq!(parse(b"\x1b", false), Parsed::Taken(1, pressed(KeyCode::Esc)));

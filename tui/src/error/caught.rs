@@ -1,0 +1,44 @@
+//! Panics of other people's code that are errors here: the program goes on, so no one is told of them.
+
+use std::cell::Cell;
+use std::panic::{self, AssertUnwindSafe, catch_unwind};
+use std::sync::Once;
+
+thread_local! {
+    static IS_CAUGHT: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Whether a panic of this thread is caught, which a hook must know.
+#[must_use]
+pub fn is_caught() -> bool {
+    IS_CAUGHT.get()
+}
+
+/// What `run` returns; `None` if it panics, which is not reported.
+pub fn catch<T>(run: impl FnOnce() -> T) -> Option<T> {
+    static HOOK: Once = Once::new();
+    HOOK.call_once(|| {
+        let print = panic::take_hook();
+        panic::set_hook(Box::new(move |panic| {
+            if !is_caught() {
+                print(panic);
+            }
+        }));
+    });
+    IS_CAUGHT.set(true);
+    let returned = catch_unwind(AssertUnwindSafe(run));
+    IS_CAUGHT.set(false);
+    returned.ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_is_caught_as_long_as_it_runs_and_no_longer() {
+        assert_eq!((catch(is_caught), is_caught()), (Some(true), false));
+        assert_eq!(catch::<i32>(|| panic!("its bits run out")), None);
+        assert!(!is_caught());
+    }
+}

@@ -1,0 +1,46 @@
+use super::*;
+
+#[test]
+fn mmcif_by_the_names_of_columns() {
+    let text = "data_X\n#\n_entry.id X\n_struct.title\n;many\nlines\n;\nloop_\n_atom_site.group_PDB\n_atom_site.type_symbol\n\
+        _atom_site.Cartn_z\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.auth_asym_id\n_atom_site.label_alt_id\n\
+        _atom_site.label_atom_id\n_atom_site.auth_comp_id\n_atom_site.auth_seq_id\n_atom_site.pdbx_PDB_model_num\n\
+        ATOM C 3 1 2.5(3) AA . \"C1'\" DA 7 1\nATOM N 6 4 5 AA A N DA 7 1\nATOM N 9 4 5 AA B N DA\n7 1\n\
+        ATOM O 30 10 20 AB . O DA 7 2\n#\nloop_\n_x.y\n1\n";
+    let scene = good(text);
+    assert_eq!(centers(&scene), [[1.0, 2.5, 3.0], [4.0, 5.0, 6.0]]);
+    assert_eq!(scene.label(0).as_deref(), Some("C1' DA 7 AA"));
+    let frames = &mut frames_of("models.cif", text.as_bytes(), &Reading::default());
+    assert_eq!(
+        frames.read(1).expect("a model").map(|scene| centers(&scene)),
+        Some(vec![[10.0, 20.0, 30.0]])
+    );
+    assert!(frames.read(2).expect("no error").is_none());
+    assert_eq!(frames.read(0).expect("a model").map(|scene| scene.spheres().len()), Some(2));
+}
+
+#[test]
+fn mmcif_residues_are_told_apart_by_their_insertion_codes() {
+    let table = "data_X\nloop_\n_atom_site.type_symbol\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n\
+        _atom_site.auth_asym_id\n_atom_site.auth_seq_id\n_atom_site.pdbx_PDB_ins_code\n_atom_site.label_alt_id\n\
+        _atom_site.label_atom_id\n";
+    let rows =
+        "C 1 0 0 H 52 ? A CA\nC 2 0 0 H 52 ? B CA\nC 3 0 0 H 52 A A CA\nC 4 0 0 H 52 A B CA\n";
+    let scene = good(format!("{table}{rows}"));
+    assert_eq!(centers(&scene), [[1.0, 0.0, 0.0], [3.0, 0.0, 0.0]]);
+}
+
+#[test]
+fn mmcif_blank_lines_and_comments_do_not_end_a_model() {
+    let text = "data_X\nloop_\n_atom_site.type_symbol\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n\
+        C 1 0 0\n\nC 2 0 0\n# a comment\n  # and one more\nC 3\n\n# within a row\n0 0\n#\nloop_\n_x.y\n_x.z\n1\n2\n";
+    let frames = &mut frames_of("comments.cif", text.as_bytes(), &Reading::default());
+    assert_eq!(
+        frames.read(0).expect("a model").map(|scene| centers(&scene)),
+        Some(vec![[1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [3.0, 0.0, 0.0]])
+    );
+    // However often one asks: the next table is not read as atoms.
+    for _ in 0..4 {
+        assert!(frames.read(1).expect("no error").is_none());
+    }
+}
