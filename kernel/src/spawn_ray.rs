@@ -120,7 +120,7 @@ impl Surface {
     }
 
     /// Returns a ray as [`spawn_ray`](Surface::spawn_ray) does, but towards `target`. The target is at t = 1, where the interval
-    /// ends.
+    /// ends. Returns `None`, too, if the target is finite, but the way to it leaves the range of numbers.
     ///
     /// ```
     /// use spherule_kernel::{Exact, Ray, Side, Sphere, Vec3, surface};
@@ -139,7 +139,8 @@ impl Surface {
         target: Vec3,
     ) -> Option<Ray> {
         let ray = |origin| Ray { t_max: 1.0, ..Ray::new(origin, target - origin) };
-        self.spawn(tier.tier(), sphere, side, ray)
+        let spawned = self.spawn(tier.tier(), sphere, side, ray);
+        spawned.filter(|ray| ray.direction.is_finite() || !target.is_finite())
     }
 
     /// Returns the point in the units of the scene, every coordinate rounded once from double precision. It may lie on either

@@ -120,8 +120,8 @@ pub trait Traverse {
         rays: &mut [RayPacket<L::Array>],
         hits: &mut [HitPacket<L::Array>],
     ) {
+        let Some(rays) = rays.get_mut(..count_of(&tiles, rays.len(), hits.len())) else { return };
         tiles.fill::<L>(token, tiles.corners, rays);
-        let rays = rays.get(..tiles.corners.len()).unwrap_or(rays);
         self.in_lanes::<L, ClosestHit>(tier, token, trace, rays, hits);
     }
 
@@ -136,13 +136,20 @@ pub trait Traverse {
     ) {
         #[cfg(feature = "std")]
         {
+            let Some(rays) = rays.get_mut(..count_of(&tiles, rays.len(), hits.len())) else {
+                return;
+            };
             crate::dispatch::compiled::fill_tiles(trace.level, tiles, rays);
-            let rays = rays.get(..tiles.corners.len()).unwrap_or(rays);
             self.in_packets::<ClosestHit>(tier, trace, rays, hits);
         }
         #[cfg(not(feature = "std"))]
         tiles_of_the_build(self, tier, trace, tiles, rays, hits);
     }
+}
+
+/// How many tiles are traced: as far as there are tiles, rays and hits.
+fn count_of(tiles: &CameraTiles<'_>, rays: usize, hits: usize) -> usize {
+    tiles.corners.len().min(rays).min(hits)
 }
 
 /// Without `std`: answers packets in the lanes of the build.

@@ -96,6 +96,32 @@ fn a_million_shadows_are_those_of_integers() {
     assert!(rays > 1_000_000, "{rays}");
 }
 
+/// Asserts that every tier spawns the same rays at every layer; returns how many.
+fn assert_as_one_ray(list: &SphereList, rays: &[Ray], towards: Towards) -> usize {
+    let mut left = 0;
+    for tier in Tier::ALL {
+        let of = |layer| {
+            let spawned = shadow_rays_of(tier, layer, list, rays, towards);
+            let bits = |v: Vec3| v.to_array().map(f32::to_bits);
+            let all = |ray: Ray| {
+                let interval = [ray.t_min, ray.t_max].map(f32::to_bits);
+                ray.is_live().then(|| (bits(ray.origin), bits(ray.direction), interval))
+            };
+            spawned.into_iter().take(rays.len()).map(all).collect::<Vec<_>>()
+        };
+        let expected = of(Layer::Ray);
+        left += expected.iter().flatten().count();
+        for layer in surface_layers() {
+            let found = of(layer);
+            for (index, ray) in rays.iter().enumerate() {
+                let say = (tier, layer, ray);
+                assert_eq!(found[index], expected[index], "{say:?} {towards:?}");
+            }
+        }
+    }
+    left
+}
+
 /// In one direction and to one point, from crowds near, far and moved; some rays came from inside.
 #[test]
 fn shadow_rays_of_packets_are_those_of_one_ray() {
@@ -103,8 +129,7 @@ fn shadow_rays_of_packets_are_those_of_one_ray() {
     let mut left = 0;
     for (place, far) in [(0.0, 1.0), (0.0, 4.0), (0.0, 1e6), (65_536.0, 5.0), (0.0, 1e7)] {
         let offset = place * Vec3::new(1.0, -0.5, 0.75);
-        let spheres = crowd(&mut random, offset);
-        let list = SphereList::from(&spheres[..]);
+        let list = SphereList::from(&crowd(&mut random, offset)[..]);
         let rays: Vec<_> = (0..600)
             .map(|_| {
                 let eye = offset + far * random.direction() + Vec3::Y;
@@ -113,27 +138,45 @@ fn shadow_rays_of_packets_are_those_of_one_ray() {
             .collect();
         let light = offset + 9.0 * random.direction() + 9.0 * Vec3::Y;
         for towards in [Towards::Direction(random.direction()), Towards::Point(light)] {
-            for tier in Tier::ALL {
-                let of = |layer| {
-                    let rays = shadow_rays_of(tier, layer, &list, &rays, towards);
-                    let bits = |v: Vec3| v.to_array().map(f32::to_bits);
-                    let all = |ray: Ray| {
-                        let interval = [ray.t_min, ray.t_max].map(f32::to_bits);
-                        ray.is_live().then(|| (bits(ray.origin), bits(ray.direction), interval))
-                    };
-                    rays.into_iter().take(600).map(all).collect::<Vec<_>>()
-                };
-                let expected = of(Layer::Ray);
-                left += expected.iter().flatten().count();
-                for layer in surface_layers() {
-                    let found = of(layer);
-                    for index in 0..600 {
-                        let say = (tier, layer, far, &rays[index]);
-                        assert_eq!(found[index], expected[index], "{say:?} {towards:?}");
-                    }
-                }
-            }
+            left += assert_as_one_ray(&list, &rays, towards);
         }
     }
     assert!(left > 3000, "{left}");
+}
+
+/// Seen from the surface, a light that is as near turns when the origin moves out by a step.
+#[test]
+fn so_they_are_to_a_light_beside_the_surface() {
+    let mut random = Random::seeded(25);
+    let list = SphereList::from([[0.0, 0.0, 0.0, 1.0]]);
+    let mut left = 0;
+    for _ in 0..60 {
+        let normal = random.direction();
+        let lift = 1.0 + 10_f32.powf(random.between(-8.5, -5.0)) * random.sign() as f32;
+        let beside = 10_f32.powf(random.between(-4.0, -2.0)) * normal.any_orthonormal_vector();
+        let eye = 5.0 * normal;
+        let rays: Vec<_> = (0..64)
+            .map(|_| Ray::new(eye, normal + 0.5 * beside.length() * random.in_cube(1.0) - eye))
+            .collect();
+        left += assert_as_one_ray(&list, &rays, Towards::Point(lift * normal + beside));
+    }
+    assert!(left > 1000, "{left}");
+}
+
+/// A way that is longer than numbers is no shadow ray: nothing would be in its way.
+#[test]
+fn a_way_that_leaves_the_numbers_is_none() {
+    let list = SphereList::from([[-3e38, 0.0, 0.0, 1e37]]);
+    let ray = Ray::new(Vec3::ZERO, Vec3::NEG_X);
+    let (sphere, hit) = (Sphere::from([-3e38, 0.0, 0.0, 1e37]), list.closest_hit(Exact, &ray));
+    let surface = surface(Exact, &ray, hit.expect("a hit").t, &sphere);
+    let far = Vec3::new(3e38, 0.0, 0.0);
+    for tier in [Tier::Exact, Tier::Fast] {
+        assert_eq!(surface.spawn_ray_to(tier, &sphere, Side::Outside, far), None);
+    }
+    assert!(surface.spawn_ray_to(Exact, &sphere, Side::Outside, Vec3::ZERO).is_some());
+    for layer in surface_layers() {
+        let spawned = shadow_rays_of(Tier::Exact, layer, &list, &[ray], Towards::Point(far));
+        assert!(!spawned[0].is_live(), "{layer:?}");
+    }
 }

@@ -2,7 +2,10 @@
 
 use super::scenes::{self, point, uniform, unit};
 use super::{BOTH, EXACT};
-use spherule_kernel::{Camera, Projection, Sphere, Vec3};
+use spherule_kernel::{
+    Camera, CameraTiles, Exact, HitPacket, Intersect, Projection, Ray, RayPacket, Sphere,
+    SphereList, SphereTree, Trace, Vec3,
+};
 use spherule_referee::random::Random;
 use spherule_referee::strategies::SPECIALS;
 use spherule_tests::variants::{Frame, assert_same_tiles};
@@ -167,4 +170,21 @@ fn directions_without_an_inverse() {
             }
         }
     }
+}
+
+/// As far as there are hits, too: rays without room for theirs are left as they are.
+#[test]
+fn rays_without_room_for_their_hits_are_left_alone() {
+    fn check(structure: &impl Intersect) {
+        let camera = camera(scenes::EYE, Vec3::ZERO, 0.364, 8, false);
+        let tiles = CameraTiles { camera, size: (8, 8), corners: &[(0, 0), (4, 0)] };
+        let before = RayPacket::new(&[Ray::new(Vec3::ONE, Vec3::X); 16]);
+        let (mut rays, mut hits) = ([before; 2], [HitPacket::none()]);
+        structure.closest_hit_tiles(Exact, &mut Trace::new(), tiles, &mut rays, &mut hits);
+        assert_ne!(rays[0].ray(0), before.ray(0));
+        assert_eq!((rays[1].ray(0), rays[1].ray(15)), (before.ray(0), before.ray(15)));
+    }
+    let spheres = uniform(40);
+    check(&SphereList::from(spheres.as_slice()));
+    check(&SphereTree::new(spheres.as_slice()));
 }

@@ -11,7 +11,7 @@
 //! its centre is by more than its radius times the length of the normal. Along k itself the group
 //! is bounded by its origins, and by how far its rays still go.
 //!
-//! Slopes are moved by 16 u |w| + u / 64, D by 8 u (F + 2^-11 T) (1 + |w|) and 2^-58, the lengths of normals by
+//! Slopes are moved by 16 u |w| + u / 64, D by A (1 + |w|), A = 8 u (F + 2^-11 T), 2^-58 and four steps of t, the lengths of normals by
 //! 64 u: `docs/traversal-margins.md` proves that this is enough, and `tests/structures/far.rs` guards it.
 
 use crate::bvh::node::{BvhNode, WIDTH};

@@ -259,17 +259,21 @@ impl<L: Lanes> Spawn<L> {
             let size = dot(axes!(i => d[i].abs()), axes!(i => q[i].abs()));
             away |= (size.like(8.0 * U) * size).lt(dot(d, q)).bits() << first;
         }
+        let infinity = step.like(f32::INFINITY);
         let (inner, outer) = (L::mask(token, inner), L::mask(token, outer));
         let on_side = (self.inside & inner) | (!self.inside & outer);
-        let unsure = !(inner | outer);
+        // The way to a light may leave the range of numbers.
+        let length = direction[0].abs() + direction[1].abs() + direction[2].abs();
+        let unsure = !(inner | outer) | !length.lt(infinity);
         if tier.tier() == Tier::Exact {
-            let spawned = on_side & (self.inside | L::mask(token, away));
+            let spawned = on_side & !unsure & (self.inside | L::mask(token, away));
             return Tried { origin, direction, spawned, unknown: unsure | (on_side & !spawned) };
         }
 
-        // The tier says whether it sees the sphere. From inside it matters at which root: such rays go one by one.
-        let infinity = step.like(f32::INFINITY);
-        let outside = active & on_side & !self.inside;
+        // The tier says whether it sees the sphere. From inside it matters at which root: such rays go one by one. So do those
+        // that go back, which may meet the sphere: the way to a light turns as the origin moves out.
+        let faces = self.faces(direction);
+        let outside = active & on_side & !unsure & !self.inside & faces;
         let rays = RayLanes {
             origin,
             direction,
@@ -279,6 +283,7 @@ impl<L: Lanes> Spawn<L> {
         };
         let t = test_lanes(tier, &rays, self.center, self.radius, outside, infinity);
         let spawned = outside & !t.lt(infinity);
-        Tried { origin, direction, spawned, unknown: unsure | (on_side & self.inside) }
+        let unknown = unsure | (on_side & (self.inside | !faces));
+        Tried { origin, direction, spawned, unknown }
     }
 }
