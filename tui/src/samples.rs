@@ -40,6 +40,10 @@ impl CellSamples {
         let mut best = (1, wanted.next_multiple_of(halves));
         for across in 2..=wanted {
             let down = wanted.div_ceil(across).next_multiple_of(halves);
+            // Glyphs are fitted to no more samples than can be asked for.
+            if across * down > MOST_SAMPLES {
+                continue;
+            }
             // Of two grids that are as good, the wider is taken: edges that are nearly upright are the harder.
             if cost(across, down) <= cost(best.0, best.1) {
                 best = (across, down);
@@ -125,6 +129,21 @@ mod tests {
         assert_eq!(grid(Charset::Ascii, 0, 0.5), (1, 1));
         assert_eq!(grid(Charset::Ascii, u32::MAX, 0.5), grid(Charset::Ascii, 256, 0.5));
         assert_eq!(grid(Charset::Ascii, 9, f32::NAN), (1, 9));
+    }
+
+    #[test]
+    fn no_grid_has_more_than_can_be_asked_for() {
+        for charset in [Charset::Ascii, Charset::Half, Charset::Sextant, Charset::Block] {
+            for cell_aspect in [0.2, 0.4, 0.45, 0.5, 0.6, 1.0, 2.0] {
+                for samples in 1..=2 * MOST_SAMPLES {
+                    let (across, down) = grid(charset, samples, cell_aspect);
+                    assert!(
+                        across * down <= MOST_SAMPLES,
+                        "{charset:?} {samples}: {across} x {down}"
+                    );
+                }
+            }
+        }
     }
 
     #[test]

@@ -58,6 +58,10 @@ impl Surfaces {
     }
 }
 
+/// The bits of 2^-126 and 2^126: each is the other's inverse.
+const LEAST_POWER: u32 = 1 << 23;
+const GREATEST_POWER: u32 = 253 << 23;
+
 /// The cosines between normals and rays, whichever way these point; no number where there is no ray.
 ///
 /// They are computed lane after lane, so that the compiler takes several at a time: one by one they took a tenth of a frame.
@@ -67,8 +71,14 @@ fn cosines(surfaces: &SurfacePacket, rays: &RayPacket) -> [f32; RayPacket::COUNT
     });
     let mut cosines = [0.0; RayPacket::COUNT];
     for lane in 0..RayPacket::COUNT {
-        let along = nx[lane] * dx[lane] + ny[lane] * dy[lane] + nz[lane] * dz[lane];
-        let square = dx[lane] * dx[lane] + dy[lane] * dy[lane] + dz[lane] * dz[lane];
+        // Way to a light: its square may leave the range of numbers, so the largest component is brought near 1, exactly.
+        let largest = dx[lane].abs().max(dy[lane].abs()).max(dz[lane].abs());
+        let power =
+            (largest.to_bits() & f32::INFINITY.to_bits()).clamp(LEAST_POWER, GREATEST_POWER);
+        let inverse = f32::from_bits(LEAST_POWER + GREATEST_POWER - power);
+        let [x, y, z] = [dx[lane] * inverse, dy[lane] * inverse, dz[lane] * inverse];
+        let along = nx[lane] * x + ny[lane] * y + nz[lane] * z;
+        let square = x * x + y * y + z * z;
         cosines[lane] = along.abs() / square.sqrt();
     }
     cosines

@@ -28,7 +28,7 @@ pub struct CrowdArguments {
     #[arg(long, value_name = "LOW:HIGH", requires = "color_by", allow_hyphen_values = true)]
     pub range: Option<Range>,
     /// Write what colours mean over the picture, also outside the viewer
-    #[arg(long, conflicts_with_all = ["png", "pick"])]
+    #[arg(long, conflicts_with_all = ["png", "pick", "cast"])]
     pub legend: bool,
     /// Less light where others are in the way; auto: if there are chains
     #[arg(long, value_name = "WHEN", default_value = "auto", value_parser = auto_or::<Switch>())]

@@ -48,12 +48,12 @@ fn bin([red, green, blue]: [u8; 3]) -> usize {
 impl Palette {
     /// The palette of a picture's pixels, three channels each.
     pub(super) fn new(rgb: &[u8]) -> Self {
-        let mut sums = vec![(0_u32, [0_u32; 3]); LEVELS * LEVELS * LEVELS];
+        let mut sums = vec![(0_u64, [0_u64; 3]); LEVELS * LEVELS * LEVELS];
         for pixel in rgb.as_chunks::<3>().0 {
             let (count, sum) = &mut sums[bin(*pixel)];
             *count += 1;
             for (sum, channel) in sum.iter_mut().zip(pixel) {
-                *sum += u32::from(*channel);
+                *sum += u64::from(*channel);
             }
         }
         let used = sums.iter().enumerate().filter(|(_, (count, _))| *count > 0);
@@ -137,6 +137,14 @@ mod tests {
             assert_eq!(palette.colors[usize::from(palette.entry(color))], Srgb(color));
         }
         assert!(Palette::new(&[]).colors.len() <= 1);
+    }
+
+    /// More than 2^32 / 255 white pixels.
+    #[test]
+    fn a_large_white_picture_is_white() {
+        let rgb = vec![255; 3 * 17_000_000];
+        let palette = Palette::new(&rgb);
+        assert_eq!(palette.colors[usize::from(palette.entry([255; 3]))], Srgb([255; 3]));
     }
 
     #[test]

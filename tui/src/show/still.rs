@@ -3,6 +3,7 @@
 use super::once::Once;
 use super::reading::while_reading;
 use crate::choice::Auto;
+use crate::coloring::legend::Legend;
 use crate::draw::{Renderer, picture_workload};
 use crate::error::Error;
 use crate::scene::Scene;
@@ -31,18 +32,18 @@ impl Still {
         mut structures: SceneStructures<'_>,
         frames: &mut Frames,
         range: Range<usize>,
-        prepared: impl Fn(Scene) -> Scene,
+        prepared: impl Fn(Scene) -> (Scene, Option<Legend>),
     ) -> Result<(), Error> {
         let Self { view, style, structure, size: (columns, rows), is_terminal } = *self;
         let end = range.end;
         while_reading(frames, range, |index, scene| {
-            let scene = prepared(scene);
+            let (scene, legend) = prepared(scene);
             structures.go_on(scene.list());
             let workload = picture_workload(scene.spheres().len(), &style, columns, rows, 1.0)
                 .with_moves((end - index - 1) as f64);
             let search = structures.picture(structure, &workload, &view, &scene)?;
             let once = Once { scene: &scene, view, style, size: self.size, is_terminal };
-            once.picture(renderer, &search, None)
+            once.picture(renderer, &search, legend)
         })
     }
 }

@@ -131,6 +131,30 @@ fn a_legend_says_what_colours_mean() {
         .collect();
     assert_eq!(rows, [Some(1), Some(2), Some(3), Some(4)]);
     assert!(!picture("caffeine", "--color-by element").contains(" element "));
+    for none in ["--output sixel", "--show error", "--cast -"] {
+        let words = format!("caffeine --once --legend {none}");
+        assert!(refusal(&run(words.split_whitespace())).contains("--legend"), "{none}");
+    }
+}
+
+/// Frames have scales of their own, and so legends of their own.
+#[test]
+fn every_frame_has_its_legend() {
+    let frames = "1\nProperties=species:S:1:pos:R:3:q:R:1\nC 0 0 0 1\n".to_owned()
+        + "2\nProperties=species:S:1:pos:R:3:q:R:1\nC 0 0 0 5\nC 2 0 0 7\n";
+    let path = file("legends.xyz", frames.as_bytes());
+    let words = "--size 40x10 --frames 0..2 --color-by q --legend --color 16 --charset ascii";
+    let printed = printed(&run([path.as_os_str()]
+        .into_iter()
+        .chain(words.split_whitespace().map(AsRef::as_ref))));
+    let lines: Vec<_> = printed.lines().collect();
+    assert_eq!(lines.len(), 20);
+    // The second frame's numbers begin at 5 and end at 7.
+    for (frame, [low, high]) in [(&lines[..10], ["1", "1"]), (&lines[10..], ["5", "7"])] {
+        let has = |line: &&str, what: &str| line.contains(&format!(" {what}"));
+        assert!(frame.iter().any(|line| has(line, "q ")), "{printed}");
+        assert!(frame.iter().any(|line| has(line, low) && has(line, high)), "{printed}");
+    }
 }
 
 /// A file with chains is seen with all aids, several chains in their colours; a file without chains is as it always

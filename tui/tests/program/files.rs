@@ -34,6 +34,10 @@ fn a_frame_is_named_and_further_frames_are_said() {
         assert!(refusal(&with(&path, &format!("--frames {range}"))).contains("A..B"));
     }
     assert!(refusal(&run(["marbles", "--frame", "1"])).contains("it has one frame"));
+    for else_one in ["--png -", "--pick 1,1", "--show error", "--output sixel"] {
+        let refused = refusal(&with(&path, &format!("--frames 0..2 {else_one}")));
+        assert!(refused.contains("--frames writes pictures of cells"), "{refused}");
+    }
 }
 
 /// From a pipe, compressed, each frame as from the file.
