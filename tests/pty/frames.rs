@@ -5,39 +5,59 @@ use super::session::{Output, Session};
 use super::viewer::{COLUMNS, ROWS, shows_a_frame};
 use spherule_tests::binary::spherule;
 use std::fs;
+use std::path::PathBuf;
 
 fn contents(output: &Output) -> String {
     output.screen().contents()
 }
 
-/// Steps on and back, plays to the end, and goes on from the beginning. A file of one frame still spins.
+/// The viewer on a file of frames.
+struct Film {
+    session: Session,
+    path: PathBuf,
+}
+
+impl Film {
+    fn of(name: &str, bytes: &[u8]) -> Self {
+        let path = std::env::temp_dir().join(format!("spherule-{}-{name}", std::process::id()));
+        fs::write(&path, bytes).expect("a temporary file");
+        let name = path.to_str().expect("a path that is text");
+        let arguments = [&[name], OPTIONS.as_slice()].concat();
+        let session = Session::start(spherule(), &arguments, &[], (COLUMNS, ROWS));
+        session.wait_for("a frame", |output| shows_a_frame(output).then_some(()));
+        Self { session, path }
+    }
+
+    fn wait_for(&self, words: &str) {
+        self.session.wait_for(words, |output| contents(output).contains(words).then_some(()));
+    }
+
+    /// Plays to the end and from the beginning, stops, and quits.
+    fn plays_and_quits(mut self) {
+        self.session.type_in(" ");
+        self.wait_for(">11/12");
+        self.wait_for(">3/12");
+        self.session.type_in(" ");
+        self.session.wait_for_peace();
+        fs::remove_file(&self.path).expect("it can be removed");
+        self.session.type_in("q");
+        assert!(self.session.wait_for_end().success());
+        assert_eq!(self.session.left_behind(), [""; 0]);
+    }
+}
+
+/// Steps on and back, plays to the end, and goes on from the beginning.
 #[test]
 fn keys_step_and_play() {
-    let path = std::env::temp_dir().join(format!("spherule-{}-frames.xyz", std::process::id()));
     let text: String =
         (0..12).map(|index| format!("2\n\nC {index} 0 0\nO 0 {index} 0\n")).collect();
-    fs::write(&path, text).expect("a temporary file");
-    let name = path.to_str().expect("a path that is text");
-    let arguments = [&[name], OPTIONS.as_slice()].concat();
-    let mut session = Session::start(spherule(), &arguments, &[], (COLUMNS, ROWS));
-    session.wait_for("a frame", |output| shows_a_frame(output).then_some(()));
-    let wait_for = |session: &Session, words: &str| {
-        session.wait_for(words, |output| contents(output).contains(words).then_some(()));
-    };
-    wait_for(&session, " 0/");
-    session.type_in("..");
-    wait_for(&session, " 2/");
-    session.type_in(",");
-    wait_for(&session, " 1/");
-    session.type_in(" ");
-    wait_for(&session, ">11/12");
-    wait_for(&session, ">3/12");
-    session.type_in(" ");
-    session.wait_for_peace();
-    fs::remove_file(&path).expect("it can be removed");
-    session.type_in("q");
-    assert!(session.wait_for_end().success());
-    assert_eq!(session.left_behind(), [""; 0]);
+    let mut film = Film::of("frames.xyz", text.as_bytes());
+    film.wait_for(" 0/");
+    film.session.type_in("..");
+    film.wait_for(" 2/");
+    film.session.type_in(",");
+    film.wait_for(" 1/");
+    film.plays_and_quits();
 }
 
 /// Frames of GROMACS's `.xtc`, each of an atom at some x: so few are not compressed. What follows them has more atoms,
@@ -61,26 +81,11 @@ fn damaged_xtc(frames: u32) -> Vec<u8> {
     bytes
 }
 
-/// The library that unpacks frames panics at a damaged one. That is caught, so the viewer keeps the terminal.
+/// The library that unpacks frames panics at a damaged one, which is read ahead of those that are shown. The panic is caught, so
+/// the viewer keeps the terminal.
 #[test]
 fn a_damaged_frame_does_not_end_the_film() {
-    let path = std::env::temp_dir().join(format!("spherule-{}-damaged.xtc", std::process::id()));
-    fs::write(&path, damaged_xtc(12)).expect("a temporary file");
-    let name = path.to_str().expect("a path that is text");
-    let arguments = [&[name], OPTIONS.as_slice()].concat();
-    let mut session = Session::start(spherule(), &arguments, &[], (COLUMNS, ROWS));
-    let wait_for = |session: &Session, words: &str| {
-        session.wait_for(words, |output| contents(output).contains(words).then_some(()));
-    };
-    wait_for(&session, " 0/");
-    // The damaged frame is read ahead of those that are shown.
-    session.type_in(" ");
-    wait_for(&session, ">11/12");
-    wait_for(&session, ">3/12");
-    session.type_in(" ");
-    session.wait_for_peace();
-    fs::remove_file(&path).expect("it can be removed");
-    session.type_in("q");
-    assert!(session.wait_for_end().success());
-    assert_eq!(session.left_behind(), [""; 0]);
+    let film = Film::of("damaged.xtc", &damaged_xtc(12));
+    film.wait_for(" 0/");
+    film.plays_and_quits();
 }

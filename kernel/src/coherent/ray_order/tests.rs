@@ -259,44 +259,39 @@ fn shuffled_rays_take_half_the_work_of_ray_by_ray() {
     }
 }
 
-#[test]
-fn groups_that_are_tried_are_of_rays_that_would_come_together() {
-    let rays = shuffled(scan_lines());
-    let order = RayKeys::of(&ManyRays::Slice(&rays), GAIN).expect("in no order");
+/// Returns how wide the widest group on trial is, in either of two coordinates of its rays.
+fn widest(rays: &[Ray], coordinates: impl Fn(&Ray) -> Vec3) -> f32 {
+    let many = ManyRays::Slice(rays);
+    let order = RayKeys::of(&many, GAIN).expect("in no order");
     let mut places = vec![0; rays.len()];
-    order.write_keys::<wide::f32x16>((), &ManyRays::Slice(&rays), &mut places);
+    order.write_keys::<wide::f32x16>((), &many, &mut places);
     let mut groups = [[Ray::new(Vec3::ZERO, Vec3::ZERO); RAYS_OF_A_GROUP]; GROUPS_TRIED];
-    gather_some(&ManyRays::Slice(&rays), &places, &mut groups);
+    gather_some(&many, &places, &mut groups);
+    let mut widest = 0.0_f32;
     for group in groups {
-        let filled = group.into_iter().filter(Ray::is_live).collect::<Vec<_>>();
+        let filled = group.iter().filter(|ray| ray.is_live()).map(&coordinates).collect::<Vec<_>>();
         assert!(filled.len() > RAYS_OF_A_GROUP / 4, "{} rays", filled.len());
-        // A cell of sixteen pixels by sixteen at most.
         for axis in 0..2 {
-            let at = filled.iter().map(|ray| ray.direction[axis]);
-            let [low, high] = [at.clone().fold(1.0, f32::min), at.fold(-1.0, f32::max)];
-            assert!(high - low < 16.0 / 256.0, "{}", 256.0 * (high - low));
+            let at = filled.iter().map(|place| place[axis]);
+            let [low, high] = [at.clone().fold(9.0, f32::min), at.fold(-9.0, f32::max)];
+            widest = widest.max(high - low);
         }
     }
+    widest
+}
+
+#[test]
+fn groups_that_are_tried_are_of_rays_that_would_come_together() {
+    // A cell of sixteen pixels by sixteen at most.
+    let widest = widest(&shuffled(scan_lines()), |ray| ray.direction);
+    assert!(widest < 16.0 / 256.0, "{}", 256.0 * widest);
 }
 
 /// Of 2^16 rays, too, a group has rays of one cell, not of two.
 #[test]
 fn groups_of_the_most_rays_are_of_one_cell_each() {
-    let rays = beam(MOST);
-    let order = RayKeys::of(&ManyRays::Slice(&rays), GAIN).expect("in no order");
-    let mut places = vec![0; rays.len()];
-    order.write_keys::<wide::f32x16>((), &ManyRays::Slice(&rays), &mut places);
-    let mut groups = [[Ray::new(Vec3::ZERO, Vec3::ZERO); RAYS_OF_A_GROUP]; GROUPS_TRIED];
-    gather_some(&ManyRays::Slice(&rays), &places, &mut groups);
-    for group in groups {
-        // Where each crosses the plane z = 0: in a square of 2.8 by 2.8 at most.
-        let at = |ray: &Ray| ray.origin - ray.direction * (ray.origin.z / ray.direction.z);
-        let filled = group.iter().filter(|ray| ray.is_live()).collect::<Vec<_>>();
-        assert!(filled.len() > RAYS_OF_A_GROUP / 4, "{} rays", filled.len());
-        for axis in 0..2 {
-            let at = filled.iter().map(|ray| at(ray)[axis]);
-            let [low, high] = [at.clone().fold(9.0, f32::min), at.fold(-9.0, f32::max)];
-            assert!(high - low < 0.25, "{low} to {high}");
-        }
-    }
+    // Where each crosses the plane z = 0: in a square of 2.8 by 2.8 at most.
+    let crossing = |ray: &Ray| ray.origin - ray.direction * (ray.origin.z / ray.direction.z);
+    let widest = widest(&beam(MOST), crossing);
+    assert!(widest < 0.25, "{widest}");
 }
