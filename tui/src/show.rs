@@ -1,6 +1,7 @@
 //! One picture, or the viewer: what `spherule [SCENE]` does.
 
 mod cast;
+mod conflicts;
 mod once;
 mod reading;
 mod still;
@@ -57,14 +58,12 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     let mut surroundings = Surroundings::of_process(is_terminal);
     let PictureArguments { png, cast, pick, crowd, .. } = arguments;
     let of_frames = arguments.scene.file.frames.clone();
-    if of_frames.is_some() && (png.is_some() || pick.is_some() || arguments.show.is_some()) {
-        let else_one =
-            "--frames writes pictures of cells; for --png, --pick and --show say --frame N";
-        return Err(Error::Input(else_one.to_owned()));
-    }
     let at_once =
         arguments.once || png.is_some() || pick.is_some() || cast.is_some() || of_frames.is_some();
     let in_viewer = is_terminal && !at_once && !surroundings.is_dumb();
+    if !in_viewer {
+        conflicts::refuse(arguments)?;
+    }
     let color_by = crowd.color_by(&scene);
     let colored = coloring(&scene, &color_by, crowd.range);
     let colored =
@@ -187,13 +186,6 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         return write_stdout(text.as_bytes());
     }
     let protocol = arguments.output.protocol(&abilities).filter(|_| arguments.show.is_none());
-    let of_cells = if protocol.is_some() { "--output" } else { "--show" };
-    if crowd.legend && (protocol.is_some() || arguments.show.is_some()) {
-        return Err(Error::Input(format!("--legend: {of_cells} has none outside the viewer")));
-    }
-    if of_frames.is_some() && protocol.is_some() {
-        return Err(Error::Input("--frames writes pictures of cells: --output cells".to_owned()));
-    }
     if let Some(protocol) = protocol {
         let cell = pixels_of_cell(None).unwrap_or_else(|| PixelGrid::usual_cell(&style));
         let grid = PixelGrid::in_cells(&view, &style, (columns, rows), cell, SAMPLES);

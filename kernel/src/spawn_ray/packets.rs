@@ -245,8 +245,9 @@ impl<L: Lanes> Spawn<L> {
         let origin = self.origin(surfaces, step, steps);
         let direction = direction_from(origin, towards);
 
-        // On which side the origin surely is, and whether the ray surely goes away from the centre.
-        let [mut inner, mut outer, mut away] = [0_u32; 3];
+        // On which side the origin surely is, and whether the ray surely goes away from the centre; and whether it is finite: the
+        // way to a light may leave the range of numbers.
+        let [mut inner, mut outer, mut away, mut finite] = [0_u32; 4];
         for part in 0..L::PARTS {
             let first = part * L::Double::COUNT;
             let d = axes!(i => direction[i].widen(part));
@@ -258,13 +259,11 @@ impl<L: Lanes> Spawn<L> {
             let q = axes!(i => x[i] - c[i]);
             let size = dot(axes!(i => d[i].abs()), axes!(i => q[i].abs()));
             away |= (size.like(8.0 * U) * size).lt(dot(d, q)).bits() << first;
+            finite |= size.lt(size.like(f64::INFINITY)).bits() << first;
         }
-        let infinity = step.like(f32::INFINITY);
         let (inner, outer) = (L::mask(token, inner), L::mask(token, outer));
         let on_side = (self.inside & inner) | (!self.inside & outer);
-        // The way to a light may leave the range of numbers.
-        let length = direction[0].abs() + direction[1].abs() + direction[2].abs();
-        let unsure = !(inner | outer) | !length.lt(infinity);
+        let unsure = !((inner | outer) & L::mask(token, finite));
         if tier.tier() == Tier::Exact {
             let spawned = on_side & !unsure & (self.inside | L::mask(token, away));
             return Tried { origin, direction, spawned, unknown: unsure | (on_side & !spawned) };
@@ -272,7 +271,7 @@ impl<L: Lanes> Spawn<L> {
 
         // The tier says whether it sees the sphere. From inside it matters at which root: such rays go one by one. So do those
         // that go back, which may meet the sphere: the way to a light turns as the origin moves out.
-        let faces = self.faces(direction);
+        let (faces, infinity) = (self.faces(direction), step.like(f32::INFINITY));
         let outside = active & on_side & !unsure & !self.inside & faces;
         let rays = RayLanes {
             origin,
