@@ -15,6 +15,7 @@
 //! 64 u: `docs/traversal-margins.md` proves that this is enough, and `tests/structures/far.rs` guards it.
 
 use crate::bvh::node::{BvhNode, WIDTH};
+use crate::bvh::traverse::prepared_ray::ABSOLUTE_ERROR;
 use crate::count::count;
 use crate::geometry::sphere_columns::SphereColumns;
 use crate::lanes::{LaneArray, LaneMask, Lanes};
@@ -56,6 +57,57 @@ pub(crate) fn turn<L: Lanes>(slope: L) -> L {
 #[inline(always)]
 pub(crate) fn length<L: Lanes>(slope: L) -> L {
     slope * slope * slope.like(0.5 * LARGER) + slope.like(LARGER)
+}
+
+/// What of a sphere counts at planes and depths.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Outline {
+    /// The sphere.
+    Sphere,
+    /// Its box: a tier with a spread sees hits of lines that pass the sphere, and a tree may lose those past the box alone.
+    Box,
+    /// A sphere that is larger by `spread` times its distance: from the frame's origin, and that from there to the rays' origins.
+    Spread { spread: f32, far: f32 },
+}
+
+impl Outline {
+    /// For a tier of that spread in a tree.
+    #[inline(always)]
+    pub(super) fn in_tree(spread: f32) -> Self {
+        if spread == 0.0 { Self::Sphere } else { Self::Box }
+    }
+
+    /// For a tier of that spread in a depth list; the error is the largest of the rays.
+    #[inline(always)]
+    pub(super) fn in_list(spread: f32, absolute_error: f32) -> Self {
+        if spread == 0.0 {
+            return Self::Sphere;
+        }
+        // The error has |o|_inf times its factor; |o|_2 is less than twice that.
+        Self::Spread { spread, far: absolute_error * (2.0 / ABSOLUTE_ERROR / U) }
+    }
+
+    /// The radii of part `part` of sixteen spheres.
+    #[inline(always)]
+    fn radius<L: Lanes>(self, token: L::Token, spheres: &SphereColumns<'_>, part: usize) -> L {
+        let radius = L::load_part(token, spheres.radius, part);
+        match self {
+            Self::Sphere | Self::Box => radius,
+            Self::Spread { spread, far } => {
+                let [x, y, z] = axes!(i => L::load_part(token, spheres.center[i], part).abs());
+                (x + y + z + radius + radius.like(far)).filter_mul_add(radius.like(spread), radius)
+            }
+        }
+    }
+
+    /// By how many radii the outline reaches past its centre, along an axis across, at a plane.
+    #[inline(always)]
+    fn reach(self, line: &Line) -> f32 {
+        match self {
+            Self::Sphere | Self::Spread { .. } => line.length,
+            Self::Box => LARGER + LARGER * line.slope.abs(),
+        }
+    }
 }
 
 /// The four planes: for the first of the two axes across, then for the second, a line below and one above the rays.
@@ -129,19 +181,18 @@ impl Sides {
         ]
     }
 
-    /// Returns which of sixteen spheres may be between the planes; each counts as larger by `spread` times its
-    /// distance.
+    /// Returns which of sixteen spheres may be between the planes, by their outlines.
     #[inline(always)]
     pub(crate) fn look<L: Lanes>(
         &self,
         token: L::Token,
         spheres: &SphereColumns<'_>,
-        spread: f32,
+        outline: Outline,
     ) -> u32 {
         let k = self.along % 3;
         let mut places = 0;
         for part in 0..WIDTH / L::COUNT {
-            let radius = spread_radius::<L>(token, spheres, part, spread);
+            let radius = outline.radius::<L>(token, spheres, part);
             let along = L::load_part(token, spheres.center[k], part);
             let mut met = L::splat(token, 0.0).le(radius);
             let axes = across(k);
@@ -152,8 +203,9 @@ impl Sides {
                     .filter_mul_add(L::splat(token, below.slope), L::splat(token, below.offset));
                 let most = along
                     .filter_mul_add(L::splat(token, above.slope), L::splat(token, above.offset));
-                let highest = radius.filter_mul_add(L::splat(token, below.length), across);
-                let lowest = (-radius).filter_mul_add(L::splat(token, above.length), across);
+                let [up, down] = [outline.reach(&below), outline.reach(&above)];
+                let highest = radius.filter_mul_add(L::splat(token, up), across);
+                let lowest = (-radius).filter_mul_add(L::splat(token, down), across);
                 met = met & least.le(highest) & lowest.le(most);
             }
             places |= met.bits() << (part * L::COUNT);
@@ -229,41 +281,25 @@ impl Frustum {
         }
     }
 
-    /// Returns which of sixteen spheres may be hit; each counts as larger by `spread` times its distance.
+    /// Returns which of sixteen spheres may be hit, by their outlines.
     #[inline(always)]
     pub(super) fn look<L: Lanes>(
         &self,
         token: L::Token,
         spheres: &SphereColumns<'_>,
-        spread: f32,
+        outline: Outline,
     ) -> u32 {
         count!(GroupLeaf);
         let sign = L::splat(token, self.sign);
         let (start, end) = (L::splat(token, self.start), L::splat(token, self.end));
         let mut places = 0;
         for part in 0..WIDTH / L::COUNT {
-            let radius = spread_radius::<L>(token, spheres, part, spread);
+            let radius = outline.radius::<L>(token, spheres, part);
             let radius = radius * radius.like(LARGER);
             let depth = L::load_part(token, spheres.center[self.sides.along % 3], part) * sign;
             let met = (depth - radius).le(end) & start.le(depth + radius);
             places |= met.bits() << (part * L::COUNT);
         }
-        places & self.sides.look::<L>(token, spheres, spread)
+        places & self.sides.look::<L>(token, spheres, outline)
     }
-}
-
-/// Returns the radii of part `part` of sixteen spheres, each larger by `spread` times its distance.
-#[inline(always)]
-fn spread_radius<L: Lanes>(
-    token: L::Token,
-    spheres: &SphereColumns<'_>,
-    part: usize,
-    spread: f32,
-) -> L {
-    let radius = L::load_part(token, spheres.radius, part);
-    if spread == 0.0 {
-        return radius;
-    }
-    let [x, y, z] = axes!(i => L::load_part(token, spheres.center[i], part).abs());
-    (x + y + z + radius).filter_mul_add(radius.like(spread), radius)
 }

@@ -6,6 +6,7 @@
 use super::depth_list::DepthList;
 use super::effort::Effort;
 use super::fit::{Fit, greatest_of, spread_of};
+use super::frustum::Outline;
 use super::listed::Listed;
 use super::packet_group::{GROUP, meet_block};
 use super::packet_state::PacketState;
@@ -158,6 +159,7 @@ impl ListSource<'_> {
             let Some(frustum) = fit.enclose(states, NARROW) else {
                 return linear::traverse::<L, Q>(tier, token, self.list.spheres, rays, answers);
             };
+            let outline = Outline::in_list(tier.spread(), fit.absolute_error);
             let slack = spread_of(tier.spread(), self.list.extent, fit.absolute_error);
             let mut reach = f32::NEG_INFINITY;
             for place in 0..states.len() {
@@ -180,7 +182,7 @@ impl ListSource<'_> {
                 let block = (number as u32, &spheres, depth);
                 number += 1;
                 // Short lists leave out already what lies before the rays.
-                let places = frustum.sides.look::<L>(token, &spheres, tier.spread());
+                let places = frustum.sides.look::<L>(token, &spheres, outline);
                 if places == 0 {
                     continue;
                 }
@@ -189,7 +191,7 @@ impl ListSource<'_> {
                     self,
                     states,
                     block,
-                    (places, tier.spread()),
+                    (places, outline),
                     #[inline(always)]
                     |state| self.depth_of(state, slack),
                     (&mut reach, &mut effort),

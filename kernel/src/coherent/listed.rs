@@ -80,7 +80,7 @@ impl<'a> Listed<'a> {
     pub(super) fn inside<'b, L: Lanes>(
         &self,
         token: L::Token,
-        Survey { frustum, reach, spread, .. }: &Survey,
+        Survey { frustum, reach, outline, .. }: &Survey,
         memory: &'b mut [f32],
     ) -> Option<Listed<'b>> {
         // As many whole blocks as there is room for.
@@ -92,7 +92,7 @@ impl<'a> Listed<'a> {
             if depth > *reach {
                 break;
             }
-            let places = frustum.look::<L>(token, &spheres, *spread);
+            let places = frustum.look::<L>(token, &spheres, *outline);
             for part in 0..WIDTH / L::COUNT {
                 let here = places >> (part * L::COUNT) & (u32::MAX >> (32 - L::COUNT));
                 if here == 0 {

@@ -1,6 +1,7 @@
 //! The packets of a group: how they begin, and meet a block of spheres together.
 
 use super::effort::Effort;
+use super::frustum::Outline;
 use super::packet_state::PacketState;
 use crate::Accuracy;
 use crate::bvh::source::SphereSource;
@@ -15,7 +16,7 @@ use crate::query::Query;
 pub(super) const GROUP: usize = 4;
 
 /// Tests the spheres `places` of sixteen, which begin at `depth`, with every packet that goes so deep and whose planes do
-/// not exclude them, taken as larger by `spread`. If a packet's depth changes, `end` becomes the greatest depth that any packet
+/// not exclude them, by that outline. If a packet's depth changes, `end` becomes the greatest depth that any packet
 /// still goes to. `effort` is counted.
 #[inline(always)]
 pub(super) fn meet_block<L: Lanes, Q: Query>(
@@ -23,7 +24,7 @@ pub(super) fn meet_block<L: Lanes, Q: Query>(
     source: &impl SphereSource,
     states: &mut [PacketState<'_, L>],
     (number, spheres, depth): (u32, &SphereColumns<'_>, f32),
-    (places, spread): (u32, f32),
+    (places, outline): (u32, Outline),
     depth_of: impl Fn(&PacketState<'_, L>) -> f32,
     (end, effort): (&mut f32, &mut Effort),
 ) {
@@ -34,7 +35,7 @@ pub(super) fn meet_block<L: Lanes, Q: Query>(
             continue;
         }
         count!(PacketLeaf);
-        let places = places & state.sides.look::<L>(state.token(), spheres, spread);
+        let places = places & state.sides.look::<L>(state.token(), spheres, outline);
         held = (held << 16) | u64::from(places);
         if places != 0 && state.meet::<Q>(tier, source, (number, spheres), places, effort) {
             state.depth = depth_of(state);

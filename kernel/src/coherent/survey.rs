@@ -1,7 +1,7 @@
 //! What the rays of many packets cannot leave, and how deep they go.
 
 use super::fit::{ALONG, Fit, heading, spread_of};
-use super::frustum::{Frustum, across, margin};
+use super::frustum::{Frustum, Outline, across, margin};
 use super::view::View;
 use crate::accuracy::RayLanes;
 use crate::bvh::traverse::prepared_ray::PreparedLanes;
@@ -16,8 +16,8 @@ pub(super) struct Survey {
     /// What their rays cannot leave, and the greatest depth of the list that a ray goes to.
     pub(super) frustum: Frustum,
     pub(super) reach: f32,
-    /// Of the tier.
-    pub(super) spread: f32,
+    /// By which spheres count, for the tier.
+    pub(super) outline: Outline,
 }
 
 /// Returns how deep the rays of a packet go, raised by the margin: the depth at which they start, and their s.
@@ -28,7 +28,8 @@ pub(super) fn reaches<L: Lanes>(view: &View, best: L, origin: [L; 3], absolute_e
 
 impl Survey {
     /// Of no packet.
-    const NONE: Self = Self { packets: 0, frustum: Frustum::NONE, reach: 0.0, spread: 0.0 };
+    const NONE: Self =
+        Self { packets: 0, frustum: Frustum::NONE, reach: 0.0, outline: Outline::Sphere };
 
     /// For packets against spheres that are scaled by a factor and have an extent, by a tier that has a spread: these are `size`.
     /// Returns a survey of no packet if the first does not fit.
@@ -134,7 +135,8 @@ impl Survey {
             end: f32::INFINITY,
         };
         let reach = reach.filter_greatest() + spread_of(spread, extent, error);
-        Some(Self { packets, frustum, reach, spread })
+        let outline = Outline::in_list(spread, error);
+        Some(Self { packets, frustum, reach, outline })
     }
 }
 

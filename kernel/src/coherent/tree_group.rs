@@ -15,7 +15,7 @@
 use super::box_sample::BoxSample;
 use super::effort::Effort;
 use super::fit::Fit;
-use super::frustum::Inside;
+use super::frustum::{Inside, Outline};
 use super::giving_up::{Allowance, LEAST_RAYS, live_rays};
 use super::packet_group::{GROUP, approach, meet_block};
 use super::packet_source::PacketSource;
@@ -215,7 +215,8 @@ impl Boxes {
             let Some(Leaf { columns: spheres, lanes }) = bvh.leaf(number) else { continue };
             effort.leaf();
             let mut end = frustum.end;
-            let places = frustum.look::<L>(token, &spheres, 0.0) & lanes;
+            let outline = Outline::in_tree(tier.spread());
+            let places = frustum.look::<L>(token, &spheres, outline) & lanes;
             if places == 0 {
                 continue;
             }
@@ -224,7 +225,7 @@ impl Boxes {
                 bvh,
                 states,
                 (number, &spheres, depth),
-                (places, 0.0),
+                (places, outline),
                 #[inline(always)]
                 |state| fit.end(core::slice::from_ref(state)),
                 (&mut end, &mut effort),

@@ -7,7 +7,7 @@
 
 use super::{NAMES, U, ray, rules};
 use crate::bvh::traverse::prepared_ray::{ABSOLUTE_ERROR, PreparedLanes};
-use crate::coherent::frustum::{Sides, length, margin, turn};
+use crate::coherent::frustum::{Outline, Sides, length, margin, turn};
 use crate::geometry::camera::tiles::{CameraTiles, POINT_ERROR};
 use crate::geometry::sphere_columns::SphereColumns;
 use crate::proofs::polynomial::Polynomial;
@@ -48,7 +48,7 @@ pub(in crate::proofs) fn needs() -> Needs {
         let sides = Sides { along: 2, slope: slopes, offset: offsets, length: lengths };
         let [cx, cy, cz, r] = [cx, cy, cz, r].map(|node| [node.tag(); 16]);
         let spheres = SphereColumns { center: [&cx, &cy, &cz], radius: &r };
-        let _ = sides.look::<Recorded>((), &spheres, 0.0);
+        let _ = sides.look::<Recorded>((), &spheres, Outline::Sphere);
         (slope, low, moved, long)
     });
     let index = |wanted: Operation| {
