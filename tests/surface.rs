@@ -5,6 +5,7 @@ use spherule_referee::aim::line_distance;
 use spherule_referee::case::Case;
 use spherule_referee::families::FAMILIES;
 use spherule_referee::random::{Random, power_of_two};
+use spherule_referee::ulp::step;
 use spherule_tests::oracle;
 use spherule_tests::variants::{Layer, surface_layers, surfaces_of};
 
@@ -162,6 +163,31 @@ fn other_tiers_are_within_what_is_stated() {
     }
     println!("{used:.3} of what is stated used");
     assert!(hits > 30_000 && used > 0.1, "{hits} {used}");
+}
+
+/// From 9 * 10^5 radii away the roots are ten steps of t apart: near enough for a tier's near root to be rounded to the far one, but
+/// `t_min` excludes the near root.
+#[test]
+fn a_far_root_behind_t_min_has_the_far_normal() {
+    let list = SphereList::from([[0.8, 0.0, 900_000.0, 1.0]]);
+    let ray = Ray { t_min: 900_000.0, ..Ray::new(Vec3::ZERO, Vec3::Z) };
+    for (tier, layer) in surface_layers().flat_map(|at| [(Tier::Stable, at), (Tier::Exact, at)]) {
+        let [normal, _] = surfaces_of(tier, layer, &list, &[ray])[0];
+        let off = (normal - Vec3::new(-0.8, 0.0, 0.6)).abs().max_element();
+        assert!(off < 1e-6, "{normal} by {tier:?}, {layer:?}");
+    }
+}
+
+/// As another tier may answer.
+#[test]
+fn a_t_that_is_no_root_has_the_surface_at_the_nearer_one() {
+    let (ray, sphere) = (Ray::new(Vec3::ZERO, Vec3::Z), Sphere::from([0.0, 0.0, 5.0, 1.0]));
+    for (root, normal) in [(4.0, Vec3::NEG_Z), (6.0, Vec3::Z)] {
+        for t in [-1000, -2, -1, 0, 1, 2, 1000].map(|ulp| step(root, ulp)) {
+            assert_eq!(surface(Exact, &ray, t, &sphere).normal, normal, "{t}");
+            assert_eq!(surface(Stable, &ray, t, &sphere).normal, normal, "{t}");
+        }
+    }
 }
 
 #[test]

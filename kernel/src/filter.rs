@@ -20,7 +20,8 @@
 //! The bound, kappa = 114 u, and the sizes for which it holds, are proven in `docs/numerics.md`;
 //! `tests/proofs` climbs towards it. Sizes are those in the units of a block of spheres. Where a tier's own squares
 //! underflow, the filter leaves the decision to the tier. A sphere outside of those sizes passes always (w = +inf), as
-//! does a ray (threshold -inf). An invalid sphere never passes, and an inactive ray only beside a sphere out of range.
+//! does a ray (threshold -inf). An invalid sphere passes only with such a ray, and the group's test leaves it out; an inactive ray
+//! passes only beside a sphere out of range.
 //! Within those rules no NaN can arise, so the maximum of four means what it says.
 
 pub(crate) mod ball;

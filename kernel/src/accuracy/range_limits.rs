@@ -4,8 +4,8 @@
 //! Both roots are at least (b - sqrt D) / a, so both are past the limit where b - sqrt D > limit a, with D = a
 //! r^2 - |d x p|^2 raised by the most that it can be off. (r |d| instead of sqrt D takes a third of the operations, but
 //! `Exact` took 3.3 times as long as `Fast` where incoherent rays meet 64 large spheres that overlap.) The test has a
-//! margin of 2^-20 of its terms. The margin also covers the error of the t of `Stable`, 2^-22 (|p| + r) / |d| where its
-//! squares do not underflow; where |p| + r is so small that they might, nothing is told. The t of `Fast` and
+//! margin of 2^-20 of its terms. Margin and raise also cover the error of the t of `Stable`, (24u r + 4u |p|) / |d| where
+//! its squares do not underflow; where |p| + r is so small that they might, nothing is told. The t of `Fast` and
 //! `Geometric` may be off by anything, so these tiers do not use the test.
 //!
 //! Directions may have any length. Where |p| + r is as small as 2^-38, or so large that squares overflow, nothing is

@@ -40,8 +40,8 @@ use crate::{LaneMask, Lanes, Ray, Sphere};
 ///
 /// - Decisions are right except for tangents closer than 2^-41 (|p| + r). The most that a search
 ///   found is 2^-49.
-/// - t is within 8 ulp if the ray starts a radius or more from the surface. The most that a search
-///   found is 7; 36 follows from the margins of the traversal.
+/// - t is within 12 ulp if the ray starts a radius or more from the surface. The most that a search
+///   found is 9; 36 follows from the margins of the traversal.
 /// - If it starts nearer, t is within 2^-17 r of distance.
 ///
 /// A scene multiplied by a power of two has the same answers, except for tangents that close: the squares that decide them may underflow.

@@ -151,14 +151,16 @@ impl<D: DoubleLanes> Line<D> {
         (point, error, per_radius)
     }
 
-    /// The lanes in which `t` is as near the near root as a tier gets, or nearer to it than to the far one.
+    /// The lanes in which `t` is as near the near root as a tier gets, or nearer to it than to the far one. A near root before `t_min`
+    /// is answered only by a t before the middle: that of a tier which takes the root to be later.
     #[inline(always)]
-    fn answers_near(&self, t: D) -> D::Mask {
+    fn answers_near(&self, t: D, t_min: D) -> D::Mask {
         let zero = t.like(0.0);
         let root = D::select(zero.lt(self.discriminant), self.discriminant, zero).sqrt();
         let past_middle = t * self.a - self.slope;
         let from_near = (past_middle + root).abs();
-        past_middle.le(zero) | from_near.le((t * self.a).abs() * t.like(NEAR))
+        let is_near = from_near.le((t * self.a).abs() * t.like(NEAR));
+        past_middle.le(zero) | (is_near & (t_min * self.a).le(self.slope - root))
     }
 
     /// The unit normal, and the point at the radius along it: `point` may be off the sphere, where a tier saw a hit but
@@ -226,7 +228,8 @@ fn projected<L: Lanes>(rays: &RayLanes<L>, t: L, center: [L; 3], radius: L) -> S
     let mut surfaces = [[zeros; 3]; 3];
     for part in 0..L::PARTS {
         let line = Line::of_part::<L, false>(rays, center, radius, part);
-        let found = line.projected(line.point(line.answers_near(t.widen(part))).0);
+        let is_near = line.answers_near(t.widen(part), rays.t_min.widen(part));
+        let found = line.projected(line.point(is_near).0);
         for i in 0..3 {
             L::narrow(&mut surfaces[0][i], part, found[0][i]);
             L::narrow(&mut surfaces[1][i], part, found[1][i]);

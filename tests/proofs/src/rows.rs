@@ -89,7 +89,7 @@ const ROWS: &[Row] = rows! {
         [64.0, 25.0], &[0.25], |x| geometric_row().iter().all(|part| part * U <= x);
     "what D is raised by, of size²", "accuracy/range_limits.rs", "const RAISE", RAISE, IN_U, [64.0, 20.0], &[0.25],
         |x| range_limits::needs()[0] * U <= x;
-    "margin of a limit", "accuracy/range_limits.rs", "const MARGIN", LIMIT, IN_U, [16.0, 11.012], HALF,
+    "margin of a limit", "accuracy/range_limits.rs", "const MARGIN", LIMIT, IN_U, [16.0, 9.056], HALF,
         |x| range_limits::needs()[1..].iter().all(|part| part * U <= x);
     "κ", "filter.rs", "const KAPPA", KAPPA, IN_U, [114.0, 112.0], &[0.5, 112.0 / 114.0], filter::holds;
     "pad of a box, of C", "bvh/build/bounds.rs", "const PAD", PAD, IN_U, [40.0, 35.0], HALF, |x| boxes::needs()[0] * U <= x;

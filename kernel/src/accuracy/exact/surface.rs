@@ -7,7 +7,7 @@ use super::from_start;
 use super::order::Answered;
 use crate::accuracy::RayLanes;
 use crate::accuracy::surface::{Line, SurfaceLanes, line, rest};
-use crate::exact::{QuadraticTerms, Root, SurfaceCoordinate, Surveyed};
+use crate::exact::{Quadratic, QuadraticTerms, Root, SurfaceCoordinate, Surveyed};
 use crate::geometry::surface::Surface;
 use crate::lanes::{DoubleLanes, LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::axes;
@@ -20,8 +20,19 @@ const U: f64 = f64::EPSILON / 2.0;
 /// The surface of a sphere of positive radius where `ray` hits it at `t`; by exact sums where double precision does not
 /// decide.
 pub(super) fn at(ray: &Ray, t: f32, sphere: &Sphere) -> Surface {
-    let root = Answered::new(ray, t, sphere).root;
     let line = line::<true>(ray, sphere);
+    let terms = QuadraticTerms::new(
+        ray.origin.to_array(),
+        ray.direction.to_array(),
+        sphere.center.to_array(),
+        sphere.radius,
+    );
+    let mut root = Answered::new(ray, t, sphere).root;
+    if root == Root::Far && f64::from(t) * line.a < line.slope {
+        // A far root rounds to a t before the middle if the roots are that close. Else t answers neither.
+        let far = Quadratic::new(&terms).map(|quadratic| quadratic.rounded(Root::Far));
+        root = if far == Some(t) { Root::Far } else { Root::Near };
+    }
     let (value, error, per_radius) = line.point(root == Root::Near);
     let of_point = if line.error < line.discriminant { error } else { f64::INFINITY };
     let seen = from_start::point(ray, sphere, &line, root == Root::Near);
@@ -31,12 +42,6 @@ pub(super) fn at(ray: &Ray, t: f32, sphere: &Sphere) -> Surface {
         _ => (value[axis % 3], of_point),
     };
 
-    let terms = QuadraticTerms::new(
-        ray.origin.to_array(),
-        ray.direction.to_array(),
-        sphere.center.to_array(),
-        sphere.radius,
-    );
     let rounded = |axis: usize, of: Surveyed| {
         let (value, of_point) = estimated(axis);
         let (value, error, most) = match of {

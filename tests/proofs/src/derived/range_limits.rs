@@ -65,8 +65,9 @@ pub(in crate::proofs) fn needs() -> [f64; 3] {
     let raise = raise.over(&in_lengths(&raised)) * f64::from(RAISE);
 
     // b; the root, and its difference with b: each is the size at most, except for the raise; and the error of
-    // `Stable`.
-    let stable = 4.0 * U;
+    // `Stable`, 24u r + 4u |p|. What of the raise D does not need, of size^2, lowers b - root by half as much of the size, since
+    // the root of D is at most the size.
+    let stable = 24.0 * U - 0.499 * (f64::from(RAISE) - raise);
     let need = &in_lengths(&error_of_b) + &high.scaled(3.0 * U * (1.0 + 1.0 / 256.0) + stable);
     let of_size = need.over(&in_lengths(&sized));
     // limit a; half of what is between t and the next one; the sum with the margin.
