@@ -2,7 +2,7 @@
 
 use super::departing;
 use spherule_kernel::{
-    Exact, Intersect, Ray, Side, Sphere, SphereList, Tier, Towards, Vec3, surface,
+    Exact, Intersect, Ray, Side, Sphere, SphereList, Tier, Towards, Vec3, side, surface,
 };
 use spherule_referee::random::Random;
 use spherule_tests::campaign::on_all_cores;
@@ -55,12 +55,8 @@ fn shadows(seed: u64, rays_a_place: u32) -> [u32; 2] {
             let Some(hit) = list.closest_hit(Exact, &ray) else { continue };
             let sphere = spheres[hit.sphere as usize];
             let surface = surface(Exact, &ray, hit.t, &sphere);
-            let inside = surface.normal.dot(ray.direction) > 0.0;
-            let (to, outward) = if inside {
-                (Side::Inside, -surface.normal)
-            } else {
-                (Side::Outside, surface.normal)
-            };
+            let to = surface.incident_side(ray.direction);
+            let outward = if to == Side::Inside { -surface.normal } else { surface.normal };
             let direction = departing(&mut random, outward);
             let spawned = surface.spawn_ray(Exact, &sphere, to, direction).expect("an origin");
             let others = spheres.iter().enumerate();
@@ -161,6 +157,68 @@ fn so_they_are_to_a_light_beside_the_surface() {
         left += assert_as_one_ray(&list, &rays, Towards::Point(lift * normal + beside));
     }
     assert!(left > 1000, "{left}");
+}
+
+/// From inside along the least number, where the normal's coordinate is below a half: their product in single precision is zero.
+#[test]
+fn rays_along_the_least_number_have_sides() {
+    let radius = 2_f32.powi(-30);
+    let list = SphereList::from([[0.0, 0.0, 0.0, radius]]);
+    let least = f32::from_bits(1) * Vec3::Z;
+    let starts = [0.9, 0.92, 0.94, 0.96, 0.98];
+    let rays = starts.map(|x| Ray::new(x * radius * Vec3::X, least));
+    let spawned = shadow_rays_of(Tier::Exact, Layer::Ray, &list, &rays, Towards::Direction(-least));
+    for (ray, spawned) in rays.iter().zip(&spawned) {
+        // Back to where the ray came from, and to the far side.
+        let sphere = Sphere::from([0.0, 0.0, 0.0, radius]);
+        assert_eq!(side(spawned.origin, &sphere), Some(Side::Inside), "{ray:?}");
+        assert!(list.any_hit(Exact, spawned), "{ray:?}");
+    }
+    let left = assert_as_one_ray(&list, &rays, Towards::Direction(-least));
+    assert!(left >= rays.len(), "{left}");
+}
+
+/// Tangents at points that single precision has: n.d is zero except for the normal's rounding, which is of either sign.
+#[test]
+fn tangents_came_from_outside() {
+    let triples = [[3.0, 4.0, 5.0], [7.0, 24.0, 25.0], [8.0, 15.0, 17.0], [20.0, 21.0, 29.0]];
+    for [x, y, radius] in triples {
+        let list = SphereList::from([[0.0, 0.0, 0.0, radius]]);
+        for [first, second] in [[0, 1], [1, 2], [2, 0]] {
+            let vector = |a: f32, b: f32| {
+                let mut v = Vec3::ZERO;
+                (v[first], v[second]) = (a, b);
+                v
+            };
+            let point = vector(x, y);
+            for direction in [vector(-y, x), vector(y, -x)] {
+                let rays = [Ray::new(point - direction, direction)];
+                let outwards = assert_as_one_ray(&list, &rays, Towards::Direction(point));
+                let inwards = assert_as_one_ray(&list, &rays, Towards::Direction(-point));
+                assert!(outwards > 0 && inwards == 0, "{rays:?}: {outwards} {inwards}");
+            }
+        }
+    }
+}
+
+/// An ulp of the least coordinates is the least number; the largest number has no next.
+#[test]
+fn rays_are_spawned_at_both_ends_of_the_numbers() {
+    let (tiny, large) = (2_f32.powi(-127), 2_f32.powi(120));
+    let from = |x, y, z, direction| Ray::new(Vec3::new(x, y, z), direction);
+    for (sphere, ray, towards) in [
+        ([0.0; 4], from(0.0, 0.0, -3.0, Vec3::Z), Vec3::NEG_Z),
+        ([0.0, 0.0, 0.0, tiny], from(0.0, 0.0, -1.0, Vec3::Z), Vec3::NEG_Z),
+        ([0.0, 0.0, 0.0, tiny], from(0.0, 0.0, 0.0, Vec3::Z), Vec3::NEG_Z),
+        ([0.0, 0.0, 0.0, f32::MAX], from(0.0, 0.0, 0.0, Vec3::X), Vec3::NEG_X),
+        ([f32::MAX, 0.0, 0.0, large], from(f32::MAX, 2.0 * large, 0.0, Vec3::NEG_Y), Vec3::Y),
+    ] {
+        let list = SphereList::from([sphere]);
+        let towards = Towards::Direction(towards);
+        let spawned = shadow_rays_of(Tier::Exact, Layer::Ray, &list, &[ray], towards);
+        assert!(spawned[0].is_live(), "{sphere:?} {ray:?}");
+        assert!(assert_as_one_ray(&list, &[ray], towards) > 0);
+    }
 }
 
 /// A way that is longer than numbers is no shadow ray: nothing would be in its way.

@@ -2,7 +2,7 @@
 //!
 //! Steps are tried in double-precision lanes; a ray that these cannot decide goes on alone.
 
-use super::{Side, U, next, start_of, step_of};
+use super::{GRAZING, U, next, start_of, step_of};
 use crate::accuracy::{Accuracy, RayLanes, Tier, test_lanes};
 use crate::geometry::hit::HitPacket;
 use crate::geometry::ray::{Ray, RayPacket};
@@ -30,8 +30,9 @@ pub type SurfaceHit<'a, A = [f32; 16]> = (&'a RayPacket<A>, &'a HitPacket<A>, &'
 pub type SurfaceHits<'a, A = [f32; 16]> =
     (&'a [RayPacket<A>], &'a [HitPacket<A>], &'a [SurfacePacket<A>]);
 
-/// Returns rays to a light from the hits of a packet. Each begins on the side of the surface that its ray came from; where that
-/// side does not face the light, or nothing was hit, the lane is inactive. `hits` and `surfaces` are the answers of `tier` for
+/// Returns rays to a light from the hits of a packet. Each begins on the side of the surface that its ray came from
+/// ([`incident_side`](crate::Surface::incident_side)). The lane is inactive where that side does not face the light, where nothing was
+/// hit, and where there is no ray by `spawn_ray`. `hits` and `surfaces` are the answers of `tier` for
 /// `rays` among `spheres`.
 ///
 /// A ray is bit for bit that of [`Surface::spawn_ray`](crate::Surface::spawn_ray) or `spawn_ray_to`, in every lane width. Cost:
@@ -145,8 +146,7 @@ fn one_by_one<A: LaneArray>(
         let sphere = hits.hit(lane).and_then(|hit| spheres.get(hit.sphere as usize));
         let Some(sphere) = sphere else { continue };
         let surface = surfaces.surface(lane);
-        let came = rays.ray(lane).direction;
-        let side = if surface.normal.dot(came) > 0.0 { Side::Inside } else { Side::Outside };
+        let side = surface.incident_side(rays.ray(lane).direction);
         let ray = match towards {
             Towards::Direction(direction) => surface.spawn_ray(tier, &sphere, side, direction),
             Towards::Point(target) => surface.spawn_ray_to(tier, &sphere, side, target),
@@ -161,6 +161,21 @@ fn direction_from<L: Lanes>(from: [L; 3], towards: Towards) -> [L; 3] {
         Towards::Direction(direction) => axes!(i => from[i].like(direction[i])),
         Towards::Point(point) => axes!(i => from[i].like(point[i]) - from[i]),
     }
+}
+
+/// Where n.d exceeds `least` times |d|_1. Double precision holds every product; in single precision that of a direction of 2^-149 is
+/// zero.
+#[inline(always)]
+fn are_along<L: Lanes>(normal: [L; 3], direction: [L; 3], least: f64) -> L::Mask {
+    let token = normal[0].token();
+    let mut along = 0_u32;
+    for part in 0..L::PARTS {
+        let n = axes!(i => normal[i].widen(part));
+        let d = axes!(i => direction[i].widen(part));
+        let length = d[0].abs() + d[1].abs() + d[2].abs();
+        along |= (length.like(least) * length).lt(dot(n, d)).bits() << (part * L::Double::COUNT);
+    }
+    L::mask(token, along)
 }
 
 /// Where rays are spawned.
@@ -194,15 +209,14 @@ impl<L: Lanes> Spawn<L> {
         let token = radius.token();
         let normal = axes!(i => L::load(token, &surfaces.normal[i]));
         let came = axes!(i => L::load(token, &rays.direction[i]));
-        Self { center, radius, normal, inside: radius.like(0.0).lt(dot(normal, came)) }
+        Self { center, radius, normal, inside: are_along(normal, came, GRAZING) }
     }
 
     /// Where the surface faces that way.
     #[inline(always)]
     fn faces(&self, direction: [L; 3]) -> L::Mask {
-        let cosine = dot(self.normal, direction);
-        let zero = cosine.like(0.0);
-        (self.inside & cosine.lt(zero)) | (!self.inside & zero.lt(cosine))
+        let towards = axes!(i => L::select(self.inside, -self.normal[i], self.normal[i]));
+        are_along(towards, direction, 0.0)
     }
 
     /// A step to the side where the ray is spawned.

@@ -110,17 +110,14 @@ pub fn shadow_rays_of(
                 let hit = list.closest_hit(tier, ray)?;
                 let sphere = list.spheres().get(hit.sphere as usize)?;
                 let surface = surface(tier, ray, hit.t, &sphere);
-                let inside = surface.normal.dot(ray.direction) > 0.0;
-                let (side, outward) = if inside {
-                    (Side::Inside, -surface.normal)
-                } else {
-                    (Side::Outside, surface.normal)
-                };
+                let normal = surface.normal.as_dvec3();
+                let side = surface.incident_side(ray.direction);
+                let outward = if side == Side::Inside { -normal } else { normal };
                 let direction = match towards {
                     Towards::Direction(direction) => direction,
                     Towards::Point(point) => point - surface.position(&sphere),
                 };
-                if outward.dot(direction) <= 0.0 {
+                if outward.dot(direction.as_dvec3()) <= 0.0 {
                     return None;
                 }
                 match towards {
