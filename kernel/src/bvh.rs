@@ -6,8 +6,7 @@
 //! coordinate, so that one ray is tested against all of them at once. A leaf holds up to sixteen spheres in the same
 //! way, and takes no more room than they need: leaves lie one behind the other. The [build](Bvh::build) goes from the
 //! root down by the surface area heuristic (Wald 2007: sixteen bins an axis), and a budget of nodes and places bounds
-//! the memory (`bvh/build/budget.rs`). Of spheres that are the same, only the one with the lowest index is in the
-//! tree.
+//! the memory (`bvh/build/budget.rs`). Of spheres that are the same, a leaf holds only the one with the lowest index.
 //!
 //! Incoherent rays are traced ray by ray (`bvh/traverse/wavefront.rs`), or, with memory for it, in queues that go
 //! down together (`bvh/traverse/stream.rs`); packets that look the same way go down as groups

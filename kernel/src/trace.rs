@@ -124,8 +124,8 @@ impl<'m> Trace<'m> {
     }
 
     /// Lends memory for streams. It replaces the memory that a tree allocates by itself, and is used for rays that are said to be
-    /// incoherent, too. Rays that have nothing in common are traced as a stream as long as enough of them meet at the same boxes; with
-    /// fewer than 8 places in queues a ray, they never are.
+    /// incoherent, too. Rays that have nothing in common are traced as a stream as long as enough of them meet at the same boxes. With
+    /// too little memory to gain by ([`queues_needed`](StreamMemory::queues_needed)) they never are.
     ///
     /// ```
     /// use spherule_kernel::{QueuedRay, StreamMemory, StreamRay, Trace};

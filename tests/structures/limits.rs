@@ -4,8 +4,8 @@ use super::scenes::{EYE, camera, mixed, parallel, uniform};
 use super::{BOTH, EXACT};
 use spherule_kernel::bvh::Join;
 use spherule_kernel::{
-    Bvh, BvhNode, DepthList, QueuedRay, Sphere, SphereList, SphereTree, StreamMemory, StreamRay,
-    TooSmall, Vec3, Viewpoint,
+    Bvh, BvhNode, BvhSize, DepthList, QueuedRay, Sphere, SphereList, SphereTree, StreamMemory,
+    StreamRay, TooSmall, Vec3, Viewpoint,
 };
 use spherule_referee::random::Random;
 use spherule_tests::variants::{assert_same, assert_same_from};
@@ -55,11 +55,40 @@ fn too_little_memory_for_a_tree() {
         }
         assert!(Bvh::build(list.spheres(), &mut nodes, &mut places, &mut indices).is_ok());
     }
+    let bytes = |count| Bvh::needed(count).nodes * 512 + Bvh::needed(count).places * 20;
+    assert_eq!((0..20_000).map(|count| bytes(count).saturating_sub(40 * count)).max(), Some(1040));
     // As many spheres as places can tell apart; and one more, for which no memory is enough.
     let most = Bvh::needed(1 << 27);
     assert!(most.nodes * 512 + most.places * 20 <= 40 << 27, "{most:?}");
     assert_eq!(Bvh::needed((1 << 27) + 1).places, usize::MAX);
     assert_eq!(Bvh::needed(usize::MAX).nodes, usize::MAX);
+}
+
+/// Memory that is longer than needed: its rest is left alone, and the tree is that of as much as is needed.
+#[test]
+fn more_memory_than_a_tree_needs() {
+    let list = SphereList::from(uniform(5000));
+    let BvhSize { nodes: needed, places } = Bvh::needed(5000);
+    // A node that a build would not leave as it is.
+    let mut one = [BvhNode::EMPTY; 3];
+    let few = SphereList::from(uniform(40));
+    let (mut numbers, mut indices) = (vec![[0.0; 4]; places], vec![0; places]);
+    let built = Bvh::build(few.spheres(), &mut one, &mut numbers, &mut indices);
+    assert!(built.expect("enough").depth() > 0);
+    let node = format!("{:?}", one[0]);
+
+    let trees = [0, 10_000].map(|more| {
+        let mut nodes = vec![one[0]; needed + more];
+        let mut numbers = vec![[7.5; 4]; places + more];
+        let mut indices = vec![77; places + more];
+        let tree = Bvh::build(list.spheres(), &mut nodes, &mut numbers, &mut indices);
+        let tree = format!("{:?}", tree.expect("enough"));
+        assert!(nodes[needed..].iter().all(|left| format!("{left:?}") == node));
+        assert!(numbers[places..].iter().all(|left| *left == [7.5; 4]));
+        assert!(indices[places..].iter().all(|left| *left == 77));
+        tree
+    });
+    assert!(trees[0] == trees[1]);
 }
 
 #[test]

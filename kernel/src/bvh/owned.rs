@@ -37,6 +37,9 @@ impl SphereTree {
     ///
     /// Cost: as [`Bvh::build`]. Aborts, as `Vec` does, if there is no memory.
     ///
+    /// # Panics
+    /// If there are more than 2^27 spheres, more than [`Bvh::needed`] has memory for.
+    ///
     /// ```
     /// use spherule_kernel::SphereTree;
     ///

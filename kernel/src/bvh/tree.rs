@@ -79,8 +79,8 @@ impl SphereSource for Bvh<'_> {
 }
 
 impl<'a> Bvh<'a> {
-    /// Returns how much memory any list of `count` spheres needs: at most 40 bytes a sphere, and 700 more. A built tree takes 24
-    /// to 28 bytes a sphere of it, as [`size`](Bvh::size) says.
+    /// Returns how much memory any list of `count` spheres needs: at most 40 bytes a sphere, and 1,040 more. A built tree takes
+    /// 24 to 28 bytes a sphere of it, as [`size`](Bvh::size) says.
     ///
     /// More than 2^27 spheres are too many: then no memory is enough.
     ///
@@ -251,7 +251,8 @@ impl<'a> Bvh<'a> {
         self.boxes_per_ray.cost(self.outside.len()) / self.cost_when_built
     }
 
-    /// Returns how much memory the tree takes: at most what [`needed`](Bvh::needed) says.
+    /// Returns how much memory the tree takes: at most what [`needed`](Bvh::needed) says; after a refit, a place more for each sphere that
+    /// no box holds.
     ///
     /// ```
     /// use spherule_kernel::{Bvh, SphereTree};

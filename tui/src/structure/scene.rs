@@ -13,7 +13,9 @@ use crate::scene::{Light, Scene, Source};
 use crate::style::Aids;
 use crate::threads::Threads;
 use crate::view::View;
-use spherule_kernel::{Coherence, DepthList, Sphere, SphereList, SphereTree, Spheres, Viewpoint};
+use spherule_kernel::{
+    Bvh, Coherence, DepthList, Sphere, SphereList, SphereTree, Spheres, Viewpoint,
+};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -272,7 +274,7 @@ fn built<'a>(
         None => {
             let start = Instant::now();
             let built = SphereTree::build_with(threads, list.clone());
-            let built = built.map_err(|_| no_memory("a tree", list.spheres()))?;
+            let built = built.map_err(|_| no_tree(list.spheres().len()))?;
             *time += start.elapsed();
             Arc::new(built)
         }
@@ -287,14 +289,22 @@ fn depth_list<'a>(
     memory: &'a mut Vec<f32>,
 ) -> Result<Search<'a>, Error> {
     let missing = DepthList::needed(spheres.len()).saturating_sub(memory.len());
-    memory.try_reserve_exact(missing).map_err(|_| no_memory("a depth list", spheres))?;
+    memory.try_reserve_exact(missing).map_err(|_| no_memory("a depth list", spheres.len()))?;
     memory.resize(memory.len() + missing, 0.0);
     let list = DepthList::sort(spheres, viewpoint, memory);
     list.map(Search::DepthList).map_err(|error| Error::Running(error.to_string()))
 }
 
-fn no_memory(what: &str, spheres: Spheres<'_>) -> Error {
-    Error::Running(format!("no memory for {what} of {} spheres", spheres.len()))
+fn no_tree(spheres: usize) -> Error {
+    if Bvh::needed(spheres).places < usize::MAX {
+        return no_memory("a tree", spheres);
+    }
+    let what = "a tree holds at most 134217728 spheres; --structure brute needs none";
+    Error::Running(what.to_owned())
+}
+
+fn no_memory(what: &str, spheres: usize) -> Error {
+    Error::Running(format!("no memory for {what} of {spheres} spheres"))
 }
 
 #[cfg(test)]

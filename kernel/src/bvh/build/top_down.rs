@@ -40,9 +40,13 @@ pub(crate) fn build(
     indices: &mut [u32],
 ) -> Built {
     let scale = SceneScale::of(spheres);
-    let all = needed(spheres.len()).places.min(places.len()).min(indices.len());
+    // What is beyond the need is left alone, and changes no tree.
+    let needed = needed(spheres.len());
+    let all = needed.places.min(places.len()).min(indices.len());
     let (places, indices) =
         (places.get_mut(..all).unwrap_or_default(), indices.get_mut(..all).unwrap_or_default());
+    let most = needed.nodes.min(nodes.len());
+    let nodes = nodes.get_mut(..most).unwrap_or_default();
     let first = fill(places, indices, spheres, &scale);
     let inside = places.len() - first;
     let mut run = Run { spheres: places, indices };

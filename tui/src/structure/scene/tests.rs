@@ -43,3 +43,13 @@ fn frames_go_on_with_a_tree_that_follows_them() {
     structures.go_on(scene.list());
     assert_eq!(structures.structure(None, &one), Structure::Bvh);
 }
+
+#[test]
+fn more_spheres_than_a_tree_holds_is_no_matter_of_memory() {
+    let told = |spheres| match no_tree(spheres) {
+        Error::Running(what) => what,
+        error => panic!("{error:?}"),
+    };
+    assert_eq!(told(1 << 27), "no memory for a tree of 134217728 spheres");
+    assert!(told((1 << 27) + 1).contains("at most 134217728 spheres"));
+}

@@ -26,8 +26,9 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
             }
             return;
         }
-        // The queues of children begin behind the queues of all octants.
-        let all = self.rays.len();
+        // The queues of children begin behind the queues of all octants, in which no more rays wait than go down together. (Behind
+        // places for all rays there may be none left but the least: then each ray enters each node alone.)
+        let all = (self.together.max(1) * L::COUNT).min(self.rays.len());
         self.frames[0] = Frame { node: root, next: from, end: to, base: all, ..Frame::EMPTY };
         let mut depth = 0;
         loop {

@@ -220,7 +220,8 @@ impl Sharing {
         if memory.everywhere {
             return (StreamStrategy::Stream, rays);
         }
-        if small_tree::leaves(bvh).is_some() || memory.queues.len() < LEAST_QUEUES * together {
+        let is_too_little = together < LEAST_RAYS || memory.queues.len() < LEAST_QUEUES * together;
+        if small_tree::leaves(bvh).is_some() || is_too_little {
             return (StreamStrategy::RayByRay, rays);
         }
 

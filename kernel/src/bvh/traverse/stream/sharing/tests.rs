@@ -36,6 +36,29 @@ fn rays_that_meet_go_as_a_stream_in_memory_that_a_call_takes() {
     }
 }
 
+/// In lent memory: for few rays, for many with few places in queues, and for as many as go down together.
+#[test]
+fn memory_that_is_too_little_to_gain_by_is_not_used() {
+    let (tree, rays) = scene(2000, 1 << 14);
+    let nodes = |places: usize, queues: usize| {
+        let mut hits = vec![None; rays.len()];
+        let mut of_rays = vec![StreamRay::EMPTY; places];
+        let mut of_queues = vec![QueuedRay::EMPTY; queues];
+        let memory = StreamMemory::new(&mut of_rays, &mut of_queues).expect("enough");
+        let mut trace = Trace::new().incoherent().with_stream(memory);
+        let work = Work::of(|| tree.closest_hits_with(Exact, &mut trace, &rays, &mut hits));
+        work.count(Kind::StreamNode)
+    };
+    for [places, queues] in [[16, 272], [63, 4096], [1008, 1 << 16], [TOGETHER, 7 * TOGETHER]] {
+        assert_eq!(nodes(places, queues), 0, "{places}");
+    }
+    // However many rays there is memory for, those that go down together are as many.
+    let queues = 8 * TOGETHER + 256;
+    let together = nodes(TOGETHER, queues);
+    assert!(together > 0);
+    assert_eq!(nodes(8 * TOGETHER, queues), together);
+}
+
 #[test]
 fn few_that_meet_or_much_in_vain_end_it_and_all_is_tried_again() {
     let seen = |boxes, entered| Seen { streams: 1, rays: 1024, boxes, entered, ..Seen::default() };
