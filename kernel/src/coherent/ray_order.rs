@@ -9,6 +9,8 @@
 //!   one point (a light) are, too. (In a near tree these run 1.02 to 1.2 times as fast sorted, but at 0.8 of the speed in chains and a
 //!   shell.)
 //! - Rays that are nearly parallel (a beam, a sun) are sorted by where they cross a plane.
+//! - Rays that start in one of two points (two cameras, the eyes of a stereoscope) are sorted by point and direction. They are in order
+//!   only if each ray and the next are of one camera: of rays by turns every packet holds both.
 //! - Others make no groups. But in a far tree they gain by being sorted by where they start, since rays of one place read
 //!   one part of the tree. This holds for closest hits, and for any hits of rays that end somewhere (at several lights, or near
 //!   by). (Any hits of rays without an end ran at 0.74 to 0.9 of the speed.)
@@ -24,6 +26,7 @@
 //! and 1. Slower are closest hits of rays all around from a point among a million, 0.89 to 0.95, and calls whose trial is in vain, 0.93
 //! to 0.97.
 
+mod grid;
 mod keys;
 
 use crate::bvh::traverse::stream::bytes_of;
@@ -33,9 +36,10 @@ use crate::geometry::ray::Ray;
 use crate::numeric::radix_sort::radix_sort;
 use crate::query::Query;
 use glam::Vec3;
-use keys::{BITS, Key};
+use grid::{Grid, Space};
+use keys::{BITS, is_of_second};
 
-pub(crate) use keys::{MOST, RayKeys};
+pub(crate) use keys::{MOST, RayKeys, SecondGrid};
 
 /// The fewest rays that gain by groups, and by starting near each other. (Sorted, any hits of 16,384 rays ran at 1.2 to 2.1 of the
 /// speed for shuffled cameras and beams among nested spheres and 10,000, but at 0.5 to 0.9 in chains, 0.7 to 0.9 along an axis and
@@ -49,6 +53,7 @@ const FAR: usize = 1 << 23;
 /// How many rays are looked at, and how many after each.
 const LOOKED_AT: usize = 256;
 const AFTER: usize = 4;
+const A_FEW: usize = 5;
 /// Of so many first rays one is like most, even if some others are among them.
 const FIRST: usize = 4;
 /// Rays are in order if most have a neighbour in their cell, where a cell is of 2^8 rays.
@@ -101,37 +106,65 @@ impl RayKeys {
         }
         let some = looked_at.get(..count)?;
 
-        let mut keys = Self::along_mean(some, gain.radius);
+        let grid = Grid::along_mean(some.iter(), gain.radius);
         let within = gain.radius * ONE_POINT;
         let in_groups = gain.in_groups && rays.count() >= FEWEST_IN_GROUPS;
         let start = |ray: &Ray| ray.origin;
         // (Not finite if a ray has no end.)
         let end = |ray: &Ray| ray.origin + ray.direction * ray.t_max;
         let is_light = in_groups && gain.is_far && are_one_point(some, end, within);
-        if is_light || (in_groups && are_one_point(some, start, within)) {
-            keys.key = Key::Direction;
-        } else if in_groups && are_most(some, |ray| keys.is_parallel(ray)) {
-            keys.key = Key::Crossing;
-        } else if !gain.by_start || (gain.is_any && !are_most(some, |ray| ray.t_max.is_finite())) {
-            return None;
-        }
-        keys.lay_grid(some, if keys.key == Key::Direction { 1.0 } else { gain.radius });
+        let mut viewpoints = None;
+        let space = if is_light || (in_groups && are_one_point(some, start, within)) {
+            Space::Direction
+        } else if in_groups && are_most(some, |ray| grid.is_parallel(ray)) {
+            Space::Crossing
+        } else {
+            viewpoints = if in_groups { two_points(some, within) } else { None };
+            let gains_by_start =
+                gain.by_start && (!gain.is_any || are_most(some, |ray| ray.t_max.is_finite()));
+            if viewpoints.is_none() && !gains_by_start {
+                return None;
+            }
+            if viewpoints.is_some() { Space::Direction } else { Space::Start }
+        };
+        let most = if space == Space::Direction { 1.0 } else { gain.radius };
+        let keys = match viewpoints {
+            None => {
+                let grid = grid.laid(space, some.iter(), most);
+                Self { space, grid, second: None, are_by_turns: false }
+            }
+            Some(viewpoints) => {
+                let [grid, second] = [false, true].map(|second| {
+                    let of_point =
+                        some.iter().filter(|ray| is_of_second(viewpoints, ray) == second);
+                    Grid::along_mean(of_point.clone(), gain.radius).laid(space, of_point, most)
+                });
+                let second = Some(SecondGrid { viewpoints, grid: second });
+                Self { space, grid, second, are_by_turns: false }
+            }
+        };
 
         let cell_of_some = (BITS + TOGETHER).saturating_sub((rays.count() | 1).ilog2()).min(BITS);
         let cell = |number| rays.ray(number).map(|ray| keys.key(&ray) >> cell_of_some);
-        let mut in_order = 0;
-        for number in (0..LOOKED_AT).map(|number| number * step) {
+        // How many have such a neighbour next to them, and among those that follow.
+        let [mut next, mut near] = [0; 2];
+        for number in 0..LOOKED_AT {
+            // A few rays later from one to the next: two cameras may take turns of a divisor of the step.
+            let number = number * step + number % step.min(A_FEW);
             let own = cell(number);
-            in_order += usize::from((1..=AFTER).any(|after| cell(number + after) == own));
+            next += usize::from(cell(number + 1) == own);
+            near += usize::from((1..=AFTER).any(|after| cell(number + after) == own));
         }
-        (4 * in_order < 3 * LOOKED_AT).then_some(keys)
+        let [is_next, is_near] = [next, near].map(|count| 4 * count >= 3 * LOOKED_AT);
+        let is_in_order = if keys.second.is_some() { is_next } else { is_near };
+        (!is_in_order).then_some(Self { are_by_turns: is_near, ..keys })
     }
 
     /// Returns whether groups are to be tried before all rays are sorted: for closest hits in a near tree. (If they are tried in a far
     /// tree, too, few pass: among a million spheres rays all around from a point run at 1.0 of the speed unsorted, instead of 0.92, but a
     /// beam at 1.0, instead of 1.35, and rays to a light at 0.7 to 1.0, instead of 1.1 to 1.3.)
     pub(crate) fn needs_a_trial<Q: Query>(&self, gain: GainByOrder) -> bool {
-        !Q::ANY && !gain.is_far && self.key != Key::Start
+        self.second.is_some() || (!Q::ANY && !gain.is_far && self.space != Space::Start)
     }
 }
 
@@ -180,6 +213,30 @@ pub(crate) fn gather_some(
     counts
 }
 
+/// Writes rays of two viewpoints that take turns into `groups`: each of rays of one viewpoint that follow each other. Returns how many
+/// are in each group. (These are of a line, rather than of a cell; but no keys are made for them.)
+#[inline(never)]
+pub(crate) fn gather_turns(
+    rays: &ManyRays<'_>,
+    second: &SecondGrid,
+    groups: &mut [[Ray; RAYS_OF_A_GROUP]; GROUPS_TRIED],
+) -> [usize; GROUPS_TRIED] {
+    let mut counts = [0; GROUPS_TRIED];
+    for (number, (group, count)) in groups.iter_mut().zip(&mut counts).enumerate() {
+        let from = rays.count() / GROUPS_TRIED * number;
+        for place in from..from + AFTER * RAYS_OF_A_GROUP {
+            if let Some(ray) = rays.ray(place)
+                && is_of_second(second.viewpoints, &ray) == (number % 2 == 1)
+                && let Some(free) = group.get_mut(*count)
+            {
+                *free = ray;
+                *count += 1;
+            }
+        }
+    }
+    counts
+}
+
 /// The number of a ray.
 #[inline(always)]
 pub(crate) const fn number_of(place: u32) -> usize {
@@ -191,6 +248,19 @@ fn are_one_point(rays: &[Ray], point: impl Fn(&Ray) -> Vec3, within: f32) -> boo
     rays.iter().take(FIRST).any(|one| {
         let one = point(one);
         are_most(rays, |ray| (point(ray) - one).abs().cmple(Vec3::splat(within)).all())
+    })
+}
+
+/// Returns two points in which most of the rays start, if no one point is.
+fn two_points(rays: &[Ray], within: f32) -> Option<[Vec3; 2]> {
+    let is_at =
+        |ray: &Ray, point: Vec3| (ray.origin - point).abs().cmple(Vec3::splat(within)).all();
+    // Few rays tell that most pairs are none.
+    let (few, some) = (rays.get(..4 * FIRST)?, rays.get(..2 * FIRST)?);
+    let mut pairs = some.iter().flat_map(|one| some.iter().map(|other| [one.origin, other.origin]));
+    pairs.find(|pair| {
+        let is_of_pair = |ray: &Ray| pair.iter().any(|&point| is_at(ray, point));
+        are_most(few, is_of_pair) && are_most(rays, is_of_pair)
     })
 }
 

@@ -92,3 +92,41 @@ fn groups_that_do_little_less_may_not_go_apart_as_often() {
         assert!(work.count(Kind::GroupFit) < count as u64 / 150, "{count} rays");
     }
 }
+
+/// Two cameras that take turns of a few rays: each has its groups, where these do much less than their rays apart, as among large
+/// spheres; not in clusters of small ones, where a stream is faster.
+#[test]
+fn cameras_that_take_turns_are_told_apart_where_it_pays() {
+    let mut random = Random(109);
+    let large =
+        SphereTree::new((0..1000).map(|_| (point(&mut random), 0.06)).collect::<SphereList>());
+    let middles: [Vec3; 60] = core::array::from_fn(|_| point(&mut random));
+    let sphere = |number: usize| (middles[number % 60] + 0.08 * point(&mut random), 0.002);
+    let clusters = SphereTree::new((0..60_000).map(sphere).collect::<SphereList>());
+    let by_turns = |count: usize, run: usize| {
+        let width = (count as f32 / 2.0).sqrt();
+        let ray = |number: usize| {
+            let pixel = (number / (2 * run) * run + number % run) as f32;
+            let [x, y] = [pixel % width, pixel / width].map(|place| place / width - 0.5);
+            let along = Vec3::new(x, y, 1.5);
+            let is_second = number / run % 2 == 1;
+            if is_second { Ray::new(-EYE, -along) } else { Ray::new(EYE, along) }
+        };
+        (0..count).map(ray).collect::<Vec<_>>()
+    };
+    // The sampled rays of 50,000 are a multiple of three apart.
+    for (count, run) in [(32_000, 1), (32_000, 2), (50_000, 3), (65_536, 1)] {
+        let rays = by_turns(count, run);
+        let (mut hits, mut occluded) = (vec![None; count], vec![false; count]);
+        for (tree, is_sorted) in [(&large, true), (&clusters, false)] {
+            let closest = Work::of(|| tree.closest_hits(Exact, &rays, &mut hits));
+            let any = Work::of(|| tree.any_hits(Exact, &rays, &mut occluded));
+            let streams = [closest, any].map(|work| work.count(Kind::StreamNode));
+            assert_eq!(
+                streams.map(|nodes| nodes == 0),
+                [is_sorted; 2],
+                "{count} {run} {streams:?}"
+            );
+        }
+    }
+}
