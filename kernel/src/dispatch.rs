@@ -79,14 +79,15 @@ impl Level {
         }))
     }
 
-    /// The best that the CPU has; without `std` the build's own.
+    /// The best that the CPU has; without `std` the build's own. (Not `const`, which it cannot be with `std`.)
     #[must_use]
     #[cfg(not(feature = "std"))]
-    pub const fn best() -> Self {
+    pub fn best() -> Self {
         Self(())
     }
 
-    /// Returns the level of that name; `None` if the CPU does not have it.
+    /// Returns the level of that name; `None` if the CPU does not have it. [`Baseline`](LevelName::Baseline) is what the build's target
+    /// guarantees: it has another name if that is more.
     ///
     /// ```
     /// use spherule_kernel::{Level, LevelName};

@@ -4,8 +4,8 @@
 //!
 //! | layer | rays are | costs beside the traversal |
 //! |---|---|---|
-//! | slices | `&[Ray]` | some 3 ns a ray to pack and unpack, 40 KiB of stack (without `std` 8 KiB) |
-//! | packets | `&[RayPacket]`, sixteen a packet | nothing |
+//! | slices | `&[Ray]` | some 3 ns a ray to pack and unpack, 40 KiB of stack (without `std` 8 KiB), 90 where rays are sorted |
+//! | packets | `&[RayPacket]`, sixteen a packet | nothing; 90 KiB of stack where rays are sorted |
 //! | lanes | packets of your vectors' width, their token | compiled in your crate: its profile counts |
 //!
 //! Slices and packets are traced at the best level that the CPU has, or at the one that [`Trace`] names.

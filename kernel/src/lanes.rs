@@ -51,7 +51,7 @@ pub trait Lanes:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// How many lanes; 1 to 32, a multiple of [`DoubleLanes::COUNT`] of [`Lanes::Double`].
+    /// How many lanes: 1, 4, 8 or 16, and a multiple of [`DoubleLanes::COUNT`] of [`Lanes::Double`].
     const COUNT: usize;
     /// u, half a unit in the last place of 1: margins are multiples of it. Leave it as it is: lanes hold `f32`. (The
     /// tests run the kernel over shorter floats.)
