@@ -9,7 +9,7 @@ pub mod scale;
 
 use crate::color::Srgb;
 use crate::scene::Scene;
-use crate::scene::attributes::{Attributes, Naming, Own};
+use crate::scene::attributes::{Attributes, Naming, NumberColumn, Own};
 use crate::scene::elements::of_number;
 use categories::{NEUTRAL, category};
 use legend::{Entries, Legend};
@@ -55,7 +55,9 @@ impl ColorBy {
     /// What there is in a scene to colour by, its own colours first.
     #[must_use]
     pub fn choices(attributes: &Attributes) -> Vec<Self> {
-        let names = NAMINGS.iter().filter(|(_, naming)| attributes.names(*naming).is_some());
+        let names = NAMINGS.iter().filter(|(name, naming)| {
+            attributes.names(*naming).is_some() && attributes.column(name).is_none()
+        });
         let names = names.map(|(_, naming)| Self::Names(*naming));
         let element = attributes.elements.as_ref().map(|_| Self::Element);
         let columns = attributes.columns.iter().map(|column| Self::Column(column.name.clone()));
@@ -108,6 +110,14 @@ pub struct Coloring {
     pub legend: Option<Legend>,
 }
 
+impl Coloring {
+    /// Whether the colours mean numbers.
+    #[must_use]
+    pub fn has_numbers(&self) -> bool {
+        self.legend.as_ref().is_some_and(Legend::has_numbers)
+    }
+}
+
 /// Finds the colours of `scene` by something. Numbers are coloured from one end of `range` to the other, or of the numbers that there are.
 ///
 /// # Errors
@@ -140,6 +150,10 @@ pub fn coloring(scene: &Scene, by: &ColorBy, range: Option<Range>) -> Result<Col
             })
         }
         ColorBy::Names(naming) => {
+            // Where the file itself has a column of numbers with that name, that is meant.
+            if let Some(column) = attributes.column(by.name()) {
+                return Ok(by_numbers(column, range));
+            }
             let names = attributes.names(*naming).ok_or_else(missing)?;
             let mut places = 0..;
             // A sphere without a name takes no colour away from others.
@@ -162,16 +176,17 @@ pub fn coloring(scene: &Scene, by: &ColorBy, range: Option<Range>) -> Result<Col
         }
         ColorBy::Column(name) => {
             let column = attributes.column(name).ok_or_else(missing)?;
-            let range = range.unwrap_or_else(|| Range::of(&column.values));
-            let color = |&value: &f32| range.place(value).map_or(NEUTRAL, color_of);
-            let has_none = column.values.iter().any(|value| value.is_nan());
-            let legend = Legend::new(&column.name, Entries::Numbers { range, has_none });
-            Ok(Coloring {
-                colors: Some(column.values.iter().map(color).collect()),
-                legend: Some(legend),
-            })
+            Ok(by_numbers(column, range))
         }
     }
+}
+
+fn by_numbers(column: &NumberColumn, range: Option<Range>) -> Coloring {
+    let range = range.unwrap_or_else(|| Range::of(&column.values));
+    let color = |&value: &f32| range.place(value).map_or(NEUTRAL, color_of);
+    let has_none = column.values.iter().any(|value| value.is_nan());
+    let legend = Legend::new(&column.name, Entries::Numbers { range, has_none });
+    Coloring { colors: Some(column.values.iter().map(color).collect()), legend: Some(legend) }
 }
 
 #[cfg(test)]

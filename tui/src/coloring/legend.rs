@@ -37,6 +37,11 @@ pub enum Entries {
 type Part = (String, Option<Srgb>);
 
 impl Legend {
+    /// Whether colours mean numbers.
+    pub(super) fn has_numbers(&self) -> bool {
+        matches!(self.entries, Entries::Numbers { .. })
+    }
+
     /// A legend with the name of what spheres are coloured by, and its values.
     #[must_use]
     pub fn new(title: &str, entries: Entries) -> Self {

@@ -1,5 +1,5 @@
 use super::*;
-use crate::scene::attributes::{NamesBuilder, NumberColumn};
+use crate::scene::attributes::NamesBuilder;
 use spherule_kernel::{SphereList, Vec3};
 
 /// Four atoms: C and N of chain A, O of chain B, and one that no one knows anything of.
@@ -40,6 +40,31 @@ fn numbers_have_a_scale_of_their_own_range_or_another() {
     assert_eq!(colors("b_factor", None), [color_of(0.0), color_of(0.5), color_of(1.0), NEUTRAL]);
     let range = Some(Range { low: 20.0, high: 40.0 });
     assert_eq!(colors("B_FACTOR", range), [color_of(0.0), color_of(0.0), color_of(0.5), NEUTRAL]);
+}
+
+/// Also where the scene has names of that kind besides, as those of elements are types.
+#[test]
+fn a_column_of_the_file_s_own_goes_before_names() {
+    let mut attributes = scene().attributes().clone();
+    for name in ["Chain", "type"] {
+        attributes
+            .columns
+            .push(NumberColumn { name: name.into(), values: vec![0.0, 1.0, 2.0, 1.0] });
+    }
+    let choices = ColorBy::choices(&attributes);
+    let names: Vec<_> = choices.iter().map(ColorBy::name).collect();
+    assert_eq!(names, ["scene", "element", "b_factor", "Chain", "type"]);
+    let list = SphereList::from_iter([(Vec3::ZERO, 1.0); 4]);
+    let scene = Scene::of_spheres(list, vec![Srgb::WHITE; 4], attributes);
+    for (by, name) in [("chain", "Chain"), ("type", "type")] {
+        let by: ColorBy = by.parse().expect("a choice");
+        let found = coloring(&scene, &by, None).expect("colours");
+        let [low, middle, high] = [0.0, 0.5, 1.0].map(color_of);
+        assert_eq!(found.colors, Some(vec![low, middle, high, middle]));
+        let range = Range { low: 0.0, high: 2.0 };
+        let numbers = Entries::Numbers { range, has_none: false };
+        assert_eq!(found.legend, Some(Legend::new(name, numbers)));
+    }
 }
 
 #[test]

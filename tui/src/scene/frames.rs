@@ -43,6 +43,12 @@ impl Frames {
         self.count.filter(|_| !self.follows)
     }
 
+    /// The frame that would be read next: all before it have been passed.
+    #[must_use]
+    pub fn at(&self) -> usize {
+        self.at
+    }
+
     /// Whether more may be written to the file.
     #[must_use]
     pub fn follows(&self) -> bool {
@@ -80,6 +86,10 @@ impl Frames {
     /// # Errors
     /// [`ReadError`] if a frame is not valid.
     pub fn read(&mut self, index: usize) -> Result<Option<Scene>, ReadError> {
+        if !self.format.has_frames() && index > 0 {
+            self.count = Some(1);
+            return Ok(None);
+        }
         let nearest = index.min(self.places.len() - 1);
         if self.at != nearest && (index < self.at || nearest > self.at) {
             self.input.go(self.places[nearest])?;
@@ -88,18 +98,17 @@ impl Frames {
         while self.at < index {
             let format = self.format;
             if !self.attempt(|input, context| format.skip(input, context))?.unwrap_or(false) {
+                self.count = Some(self.at);
                 return Ok(None);
             }
             self.passed();
-        }
-        if !self.format.has_frames() && index > 0 {
-            self.count = Some(1);
-            return Ok(None);
         }
         let format = self.format;
         let scene = self.attempt(|input, context| format.frame(input, context))?.flatten();
         if scene.is_some() {
             self.passed();
+        } else {
+            self.count = Some(self.at);
         }
         Ok(scene)
     }

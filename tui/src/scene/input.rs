@@ -7,6 +7,7 @@ mod bytes;
 mod compressed;
 mod line;
 mod place;
+mod until_end;
 
 use super::read_error::ReadError;
 use crate::error::cause;
@@ -19,6 +20,7 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::PathBuf;
 use std::time::Duration;
+use until_end::UntilEnd;
 
 /// The longest line, in bytes: a million columns have room.
 pub(super) const LONGEST_LINE: usize = 16 << 20;
@@ -74,16 +76,21 @@ impl Input {
         } else {
             None
         };
-        let mut input = Self::of_reader(Box::new(file), source)?;
+        // More may be written behind its end.
+        let mut input = Self::reading(Box::new(file), source)?;
         (input.file, input.size) = (Some(path), size);
         Ok(input)
     }
 
-    /// Any other input: it is read once.
+    /// Any other input: it is read once, and only to its end.
     ///
     /// # Errors
     /// [`ReadError`] if it cannot be read.
     pub(super) fn of_reader(reader: Box<dyn Read + Send>, source: &str) -> Result<Self, ReadError> {
+        Self::reading(Box::new(UntilEnd::new(reader)), source)
+    }
+
+    fn reading(reader: Box<dyn Read + Send>, source: &str) -> Result<Self, ReadError> {
         let reader = decompressed(reader);
         let reader = reader.map_err(|error| ReadError::whole(source, cause(&error)))?;
         Ok(Self {

@@ -42,6 +42,15 @@ impl Notes {
         }
     }
 
+    /// Notes that columns of these names are ignored, if there are any.
+    pub(super) fn ignored_columns(&mut self, names: &[&str]) {
+        match names {
+            [] => {}
+            [name] => self.note(format!("the column {name:?} is ignored")),
+            _ => self.note(format!("{} columns are ignored ({})", names.len(), listed(names))),
+        }
+    }
+
     /// Notes that a kind of record is ignored, once.
     pub(super) fn ignore(&mut self, record: &'static str) {
         if !self.ignored.0.contains(&record) {
@@ -69,10 +78,7 @@ impl Notes {
             return Ok(());
         }
         self.unknown_said = true;
-        let mut list = names[..names.len().min(MOST_NAMES)].join(", ");
-        if names.len() > MOST_NAMES {
-            list += ", ...";
-        }
+        let list = listed(names);
         let (particles, are) = if count == 1 { ("particle", "is") } else { ("particles", "are") };
         let types = if names.len() == 1 {
             "an unknown type".to_owned()
@@ -107,4 +113,10 @@ impl Notes {
             let _ = writeln!(io::stderr(), "spherule: {line}");
         }
     }
+}
+
+/// The first of `names`, with commas.
+fn listed(names: &[&str]) -> String {
+    let list = names[..names.len().min(MOST_NAMES)].join(", ");
+    if names.len() > MOST_NAMES { list + ", ..." } else { list }
 }

@@ -7,7 +7,7 @@ use super::reading::{Reading, first, frames, input_of};
 use super::{Scene, builtin};
 use crate::error::cause;
 use std::fs::File;
-use std::io;
+use std::io::{self, Cursor, IsTerminal, Read};
 use std::path::Path;
 
 /// What a name stands for.
@@ -26,16 +26,17 @@ pub enum Opened {
 /// [`ReadError`] if there is no such scene, or it cannot be read.
 pub fn open(name: &str, reading: &Reading) -> Result<Opened, ReadError> {
     if name == "-" {
-        return frames(Input::of_reader(Box::new(io::stdin()), "-")?, reading).map(Opened::File);
+        let input = standard_input().map_err(|error| ReadError::whole("-", cause(&error)))?;
+        return frames(Input::of_reader(input, "-")?, reading).map(Opened::File);
     }
     if let Some(scene) = builtin::builtin(name) {
-        return Ok(Opened::Builtin(scene));
+        return built_in(scene, name, reading);
     }
     let file = match File::open(name) {
         Ok(file) => file,
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
             return match builtin::shipped_file(name) {
-                Some(scene) => Ok(Opened::Builtin(scene)),
+                Some(scene) => built_in(scene, name, reading),
                 None if is_plain_word(name) => {
                     Err(ReadError::whole(name, "no such scene, built in or in a file"))
                 }
@@ -45,6 +46,27 @@ pub fn open(name: &str, reading: &Reading) -> Result<Opened, ReadError> {
         Err(error) => return Err(ReadError::whole(name, cause(&error))),
     };
     frames(input_of(file, name)?, reading).map(Opened::File)
+}
+
+/// Standard input. A terminal is read to its end at once: what is typed later are keys of the viewer.
+fn standard_input() -> io::Result<Box<dyn Read + Send>> {
+    let mut input = io::stdin();
+    if !input.is_terminal() {
+        return Ok(Box::new(input));
+    }
+    let mut typed = Vec::new();
+    input.read_to_end(&mut typed)?;
+    Ok(Box::new(Cursor::new(typed)))
+}
+
+/// A built-in scene, which no file tells how it is read.
+fn built_in(scene: Scene, name: &str, reading: &Reading) -> Result<Opened, ReadError> {
+    let what = match reading {
+        Reading { topology: Some(file), .. } => format!("--topology {file}: for .xtc"),
+        Reading { columns: Some(columns), .. } => format!("--columns {columns}: for tables"),
+        _ => return Ok(Opened::Builtin(scene)),
+    };
+    Err(ReadError::whole(name, format!("{what}; this scene is built in")))
 }
 
 /// The scene called `name`; of a file, its first frame.
@@ -61,4 +83,26 @@ pub fn scene(name: &str) -> Result<Scene, ReadError> {
 fn is_plain_word(name: &str) -> bool {
     let path = Path::new(name);
     path.extension().is_none() && path.components().count() == 1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_built_in_scene_has_neither_columns_nor_a_topology() {
+        let (columns, topology) = (Some("1,2,3".to_owned()), Some("x.gro".to_owned()));
+        for name in ["marbles", "caffeine.xyz"] {
+            let refusal = |reading| open(name, &reading).expect_err("refused").to_string();
+            assert_eq!(
+                refusal(Reading { columns: columns.clone(), ..Reading::default() }),
+                format!("{name}: --columns 1,2,3: for tables; this scene is built in")
+            );
+            assert_eq!(
+                refusal(Reading { topology: topology.clone(), ..Reading::default() }),
+                format!("{name}: --topology x.gro: for .xtc; this scene is built in")
+            );
+            open(name, &Reading::default()).expect("it is built in");
+        }
+    }
 }

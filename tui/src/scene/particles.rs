@@ -124,9 +124,12 @@ impl Particles {
         for column in &mut self.columns {
             permute(&mut column.values, &order);
         }
-        for names in self.names.iter_mut().chain([&mut self.kinds]) {
+        for names in &mut self.names {
             names.permute(|indices| permute(indices, &order));
         }
+        let former = self.kinds.permute(|indices| permute(indices, &order));
+        let line = |&kind: &u32| self.lines.get(kind as usize).copied();
+        self.lines = former.iter().filter_map(line).collect();
     }
 
     /// The scene. `source` is the file in errors.
@@ -172,7 +175,7 @@ impl Particles {
                     .map(|kind| match of_number(known[kind].into()) {
                         Some(element) => element.color,
                         None if symbols == Symbols::Numbers => {
-                            TYPE_COLORS[kind % TYPE_COLORS.len()]
+                            type_color(kind, &kinds.table()[kind])
                         }
                         None => NEUTRAL,
                     })
@@ -214,6 +217,15 @@ impl Particles {
         scene.lighting = Lighting::Camera;
         Ok(scene)
     }
+}
+
+/// The colour of a type: by its number, so that types which come and go between frames keep theirs, else by its `place`
+/// among the types.
+fn type_color(place: usize, name: &str) -> Srgb {
+    let count = TYPE_COLORS.len();
+    let number = name.parse::<i32>().ok();
+    let number = number.map(|number| (i64::from(number) - 1).rem_euclid(count as i64) as usize);
+    TYPE_COLORS[number.unwrap_or(place % count)]
 }
 
 fn permute<T: Copy>(values: &mut Vec<T>, order: &[u32]) {

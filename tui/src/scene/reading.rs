@@ -45,13 +45,17 @@ pub fn read(
 
 pub(super) fn first(mut frames: Frames) -> Result<Scene, ReadError> {
     let source = frames.source().to_owned();
-    frames.read(0)?.ok_or_else(|| ReadError::whole(&source, "no particles"))
+    frames.read(0)?.ok_or_else(|| no_particles(&source))
+}
+
+fn no_particles(source: &str) -> ReadError {
+    ReadError::whole(source, "no particles")
 }
 
 pub(super) fn frames(mut input: Input, reading: &Reading) -> Result<Frames, ReadError> {
     let format = match reading.format {
         Some(format) => format,
-        None => format_of(&mut input)?,
+        None => format_of(&mut input, reading.follow)?,
     };
     let topology = match &reading.topology {
         None => None,
@@ -61,10 +65,7 @@ pub(super) fn frames(mut input: Input, reading: &Reading) -> Result<Frames, Read
             );
             return Err(ReadError::whole(input.source(), what));
         }
-        Some(name) => {
-            let file = File::open(name).map_err(|error| ReadError::whole(name, cause(&error)))?;
-            Some(Arc::new(first(frames(input_of(file, name)?, &Reading::default())?)?))
-        }
+        Some(name) => Some(Arc::new(topology(name, reading.strict)?)),
     };
     let columns = reading.columns.clone();
     if columns.is_some() && format != Format::Csv {
@@ -75,19 +76,30 @@ pub(super) fn frames(mut input: Input, reading: &Reading) -> Result<Frames, Read
     Ok(Frames::new(input, format, context, reading.follow))
 }
 
-/// The format that the content tells, or else the name.
-fn format_of(input: &mut Input) -> Result<Format, ReadError> {
+/// The file called `name`, as what the particles of a trajectory are.
+fn topology(name: &str, strict: bool) -> Result<Scene, ReadError> {
+    let file = File::open(name).map_err(|error| ReadError::whole(name, cause(&error)))?;
+    let mut frames = frames(input_of(file, name)?, &Reading { strict, ..Reading::default() })?;
+    let scene = frames.read(0)?.ok_or_else(|| no_particles(name))?;
+    frames.report();
+    Ok(scene)
+}
+
+/// The format that the content tells; if it is unknown, or still to come, that which the name ends in.
+fn format_of(input: &mut Input, follow: bool) -> Result<Format, ReadError> {
     let source = input.source().to_owned();
+    let is_awaited = follow && input.can_be_read_again();
+    let wrong = |what: &str| ReadError::whole(&source, what);
     let head = input.head()?;
-    if head.is_empty() {
-        return Err(ReadError::whole(&source, "the file is empty"));
+    match recognise(head) {
+        Ok(format) => Ok(format),
+        Err(_) if head.is_empty() && !is_awaited => Err(wrong("the file is empty")),
+        Err(_) if head.is_empty() => {
+            ending(&source).ok_or_else(|| wrong("the file is empty; --format says what it will be"))
+        }
+        Err(UNKNOWN) => ending(&source).ok_or_else(|| wrong(&unknown())),
+        Err(what) => Err(wrong(what)),
     }
-    recognise(head).or_else(|what| {
-        ending(&source).ok_or_else(|| {
-            let what = if what == UNKNOWN { unknown() } else { what.to_owned() };
-            ReadError::whole(&source, what)
-        })
-    })
 }
 
 /// The message that the format is not known, and which formats are.

@@ -35,19 +35,12 @@ pub(super) fn resolved(kinds: &Names, symbols: Symbols) -> Vec<u8> {
 fn of_atom_name(name: &str) -> Option<Element> {
     let letters = name.trim_start_matches(|c: char| c.is_ascii_digit());
     let stem = letters.trim_end_matches(|c: char| !c.is_ascii_alphabetic());
-    let ion = [
+    let ions = [
         "NA", "CL", "MG", "ZN", "FE", "MN", "BR", "LI", "CU", "CO", "NI", "CAL", "SOD", "CLA",
         "POT",
     ];
-    let alias = match stem {
-        "CAL" => "CA",
-        "SOD" => "NA",
-        "CLA" => "CL",
-        "POT" => "K",
-        _ => stem,
-    };
-    if ion.contains(&stem) {
-        return element(alias);
+    if ions.contains(&stem) {
+        return of_ion(stem);
     }
     // A capital and a small letter are a symbol, as in `Fe` and `Na+`; names in molecules of life have capitals.
     if let [capital, small] = stem.as_bytes()
@@ -63,6 +56,18 @@ fn of_atom_name(name: &str) -> Option<Element> {
     } else {
         element(stem)
     }
+}
+
+/// The element of an atom that is an ion, or a metal, by itself: its whole name tells, without a charge behind it.
+pub(super) fn of_ion(name: &str) -> Option<Element> {
+    element(match name.trim_end_matches(|c: char| !c.is_ascii_alphabetic()) {
+        // As CHARMM calls them.
+        "CAL" => "CA",
+        "SOD" => "NA",
+        "CLA" => "CL",
+        "POT" => "K",
+        stem => stem,
+    })
 }
 
 #[cfg(test)]

@@ -116,13 +116,26 @@ fn a_size_out_of_range() {
     }
 }
 
+/// They are held whole, unlike a file of pixels.
+#[test]
+fn more_pixels_than_a_terminal_shows() {
+    for how in ["kitty", "sixel", "iterm2"] {
+        let words = format!("unit --size 4096x4096 --output {how}");
+        let message = refusal(&run(words.split(' ')));
+        assert!(message.contains("pixels are too many for --output"), "{message}");
+    }
+    let message = refusal(&run("unit --png a.png --output kitty".split(' ')));
+    assert!(message.contains("--png writes a file"), "{message}");
+}
+
 #[test]
 fn standard_input_that_is_no_scene() {
     assert!(refusal(&run_with_input("-", b"")).starts_with("-: the file is empty"));
     let message = refusal(&run_with_input("-", b"2\n\nH 0 0 0\n"));
     assert!(message.starts_with("-:4:1: the file ends"), "{message}");
     assert!(refusal(&run_with_input("- --format toml", b"2\n")).starts_with("-:1:"));
-    assert!(refusal(&run_with_input("-", b"\xff\xfe\n")).contains("unknown format"));
+    assert!(refusal(&run_with_input("-", b"\xfd\xfe\n")).contains("unknown format"));
+    assert!(refusal(&run_with_input("-", b"\xff\xfe\n\0")).contains("UTF-16 text"));
     assert!(
         refusal(&run_with_input("- --format toml", b"\xff\xfe\n"))
             .starts_with("-:1: not valid UTF-8")

@@ -1,6 +1,7 @@
 //! Other people's files, on the command line: frames, notes, pipes.
 
 use crate::run::{file, printed, refusal, run, run_with_input};
+use std::ffi::OsStr;
 use std::io::Write;
 use std::process::Output;
 
@@ -38,6 +39,46 @@ fn a_frame_is_named_and_further_frames_are_said() {
         let refused = refusal(&with(&path, &format!("--frames 0..2 {else_one}")));
         assert!(refused.contains("--frames writes pictures of cells"), "{refused}");
     }
+}
+
+#[test]
+fn whatever_shows_one_frame_says_that_there_are_more() {
+    let path = file("more.xyz", TWO.as_bytes());
+    for words in [
+        "--pick 10,2",
+        "--png -",
+        "--output kitty",
+        "--show error",
+        "--show split:fast,exact",
+        "--cast - --frames 2",
+    ] {
+        let output = with(&path, &format!("--size 20x5 {words}"));
+        assert!(output.status.success() && !output.stdout.is_empty(), "{words}");
+        let more = "more.xyz: frame 0 is shown; there are more: --frame N\n";
+        assert!(stderr(&output).ends_with(more), "{words}: {}", stderr(&output));
+        if !words.contains("--frames") {
+            let last = with(&path, &format!("--size 20x5 {words} --frame 1"));
+            assert_eq!((last.status.code(), stderr(&last)), (Some(0), String::new()), "{words}");
+        }
+    }
+}
+
+/// A frame without what is asked for, between frames that have it.
+#[test]
+fn a_frame_without_the_colours_or_radii_that_are_asked_for_is_said() {
+    let with_charge = "1\nProperties=species:S:1:pos:R:3:charge:R:1\nC 0 0 0 1\n";
+    let without = "1\nno charge\nC 0 0 0\n";
+    let path =
+        file("charges.xyz", format!("{with_charge}{without}{without}{with_charge}").as_bytes());
+    let output = with(&path, "--size 20x5 --frames 0.. --color-by charge --radius charge");
+    assert_eq!(String::from_utf8_lossy(&output.stdout).lines().count(), 20);
+    let said = stderr(&output);
+    let keeps = |what: &str| {
+        said.lines()
+            .filter(|line| line.contains(&format!("frame 1 keeps its {what}: no charge")))
+            .count()
+    };
+    assert_eq!((keeps("colours"), keeps("radii"), said.lines().count()), (1, 1, 2), "{said}");
 }
 
 /// From a pipe, compressed, each frame as from the file.
@@ -115,4 +156,30 @@ fn options_that_a_file_has_no_use_for() {
     assert!(refusal(&with(&table, "--columns a,b")).contains("three for x, y and z"));
     assert!(refusal(&with(&table, "--columns a,b,q")).contains("no column \"q\""));
     assert!(printed(&with(&table, "--columns a,b,c --size 9x3")).lines().count() == 3);
+}
+
+/// The notes about it are its own.
+#[test]
+fn types_that_a_topology_does_not_know_are_said_or_refused() {
+    let gro = "t\n 3\n    1SOL     OW    1   0.126   1.624   1.679\n    1SOL    HW1    2   0.190   1.661   1.747\n    \
+        1SOL     MW    3   0.177   1.568   1.613\n   1.8 1.8 1.8\n";
+    let topology = file("topology.gro", gro.as_bytes());
+    // Magic, atoms, what says when and in which box, atoms again; few atoms are not compressed.
+    let mut xtc = [1995_u32.to_be_bytes(), 3_u32.to_be_bytes()].concat();
+    xtc.extend([0; 44]);
+    xtc.extend(3_u32.to_be_bytes());
+    xtc.extend((0..9_u8).flat_map(|value| f32::from(value).to_be_bytes()));
+    let path = file("topology.xtc", &xtc);
+    let with_topology = |options: &[&str]| {
+        let named = [path.as_os_str(), OsStr::new("--topology"), topology.as_os_str()];
+        run(named.into_iter().chain(options.iter().map(OsStr::new)))
+    };
+    let drawn = with_topology(&["--size", "20x5"]);
+    assert!(drawn.status.success());
+    let said = stderr(&drawn);
+    assert!(said.ends_with("topology.gro: 1 particle is of an unknown type (MW): drawn grey\n"));
+    assert_eq!(said.lines().count(), 1, "{said}");
+    let strict = refusal(&with_topology(&["--strict"]));
+    let expected = "topology.gro:5:1: \"MW\" is no element; without --strict it is drawn grey";
+    assert!(strict.ends_with(expected), "{strict}");
 }

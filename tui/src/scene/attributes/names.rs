@@ -86,9 +86,25 @@ impl NamesBuilder {
         self.names.table.len()
     }
 
-    /// Brings the spheres into another order.
-    pub(in super::super) fn permute(&mut self, permute: impl FnOnce(&mut Vec<u32>)) {
-        permute(&mut self.names.indices);
+    /// Brings the spheres into another order, and the table into that of its names' first occurrence then. Returns where
+    /// the names stood in the table before.
+    pub(in super::super) fn permute(&mut self, permute: impl FnOnce(&mut Vec<u32>)) -> Vec<u32> {
+        let Names { table, indices } = &mut self.names;
+        permute(indices);
+        let (mut places, mut former) = (vec![None; table.len()], Vec::new());
+        for index in indices {
+            let before = *index;
+            *index = *places[before as usize].get_or_insert_with(|| {
+                former.push(before);
+                former.len() as u32 - 1
+            });
+        }
+        *table = former.iter().map(|&before| std::mem::take(&mut table[before as usize])).collect();
+        for place in self.known.values_mut() {
+            *place = places[*place as usize].unwrap_or_default();
+        }
+        self.recent = [(u64::MAX, 0); RECENT];
+        former
     }
 
     fn index_of(&mut self, name: &[u8]) -> u32 {
@@ -140,6 +156,22 @@ mod tests {
         assert!(
             all.iter().chain(&all).enumerate().all(|(index, name)| names.get(index) == Some(name))
         );
+    }
+
+    #[test]
+    fn the_table_follows_the_order_of_the_spheres() {
+        let mut builder = NamesBuilder::default();
+        for name in ["B", "", "A", "a long name", "B"] {
+            builder.push(name.as_bytes());
+        }
+        assert_eq!(builder.permute(|indices| indices.swap(0, 2)), [2, 1, 0, 3]);
+        for name in ["", "B", "a long name", "C"] {
+            builder.push(name.as_bytes());
+        }
+        let names = builder.finish().expect("names");
+        assert_eq!(names.indices(), [0, 1, 2, 3, 2, 1, 2, 3, 4]);
+        let table: Vec<&str> = names.table().iter().map(|name| &**name).collect();
+        assert_eq!(table, ["A", "", "B", "a long name", "C"]);
     }
 
     #[test]

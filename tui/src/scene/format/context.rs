@@ -2,8 +2,10 @@
 
 use super::mmcif_columns::Columns;
 use crate::scene::Scene;
+use crate::scene::input::Place;
 use crate::scene::notes::Notes;
 use glam::DVec3;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// What a reader knows besides the input.
@@ -17,8 +19,9 @@ pub(in crate::scene) struct Context {
     pub(in crate::scene) origin: Option<DVec3>,
     /// Notes for the user.
     pub(in crate::scene) notes: Notes,
-    /// The columns of an mmCIF table, once they have been read.
-    pub(in crate::scene) mmcif: Option<Columns>,
+    /// The columns of an mmCIF file's tables of atoms, by the place of a table's first row, as far as they have been read.
+    /// A table with the columns of the one before is left out.
+    pub(in crate::scene) mmcif: BTreeMap<Place, Columns>,
     /// Whether more may be written to the file: then its end need not be the end of a frame.
     pub(in crate::scene) follows: bool,
 }

@@ -4,10 +4,11 @@
 //! how wide a number is (GROMACS reference manual, "gro file format").
 
 use super::Context;
-use super::words::{count, excerpt, single};
+use super::words::{Words, count, excerpt, single};
 use crate::scene::Scene;
 use crate::scene::attributes::Naming;
 use crate::scene::input::{Input, Line};
+use crate::scene::number::number;
 use crate::scene::particles::Particles;
 use crate::scene::read_error::ReadError;
 use crate::scene::symbols::Symbols;
@@ -70,19 +71,34 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
         particles.kind(name, line.number);
         particles.naming(Naming::Name).push(name);
         particles.naming(Naming::Residue).push(residue);
-        let number =
+        let residue_number =
             std::str::from_utf8(fixed[..5].trim_ascii()).ok().and_then(|text| text.parse().ok());
-        particles.residue_numbers.push(number.unwrap_or(0));
+        particles.residue_numbers.push(residue_number.unwrap_or(0));
         velocities |= !line.bytes[end..].trim_ascii().is_empty();
     }
     if input.is_over()? {
         return Err(input.ends("the file ends before the box"));
     }
-    input.expect("the box")?;
+    check_box(input.expect("the box")?, atoms, first)?;
     if velocities {
         context.notes.note("velocities are ignored");
     }
     particles.finish(&mut context.notes, input.source()).map(Some)
+}
+
+/// The box may be blank, and wide numbers may touch, but it is no further atom.
+fn check_box(line: Line<'_>, atoms: usize, first: usize) -> Result<(), ReadError> {
+    let mut words = Words::of(line);
+    while let Some((byte, word)) = words.next() {
+        if number(word).is_none() && word.iter().any(u8::is_ascii_alphabetic) {
+            let what = format!(
+                "{} in the box is no number; the number of atoms in line {first} is {atoms}",
+                excerpt(word)
+            );
+            return Err(line.error(byte, what));
+        }
+    }
+    Ok(())
 }
 
 /// The distance from decimal point to decimal point.

@@ -1,4 +1,4 @@
-//! mmCIF: the loop over `_atom_site`, whose columns are named; a frame is a `pdbx_PDB_model_num`.
+//! mmCIF: the loop over `_atom_site`, whose columns are named; a frame is a `pdbx_PDB_model_num` in a block of data.
 //!
 //! All else is passed over. Of alternate locations the first is drawn. Grammar: "CIF 1.1 syntax", IUCr.
 
@@ -13,6 +13,7 @@ use crate::scene::number::number;
 use crate::scene::particles::Particles;
 use crate::scene::read_error::ReadError;
 use glam::DVec3;
+use std::collections::HashSet;
 use std::ops::Range;
 
 /// Reads the next model.
@@ -20,13 +21,14 @@ use std::ops::Range;
 /// # Errors
 /// [`ReadError`] at the first atom whose coordinates are none, and if there is no table of atoms.
 pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<Scene>, ReadError> {
-    if input.place() == Default::default() {
-        context.mmcif = None;
-        find_atoms(input, context)?;
+    let is_first = input.place() == Default::default();
+    if (is_first || is_past_table(input)?) && !find_atoms(input, context, is_first)? {
+        return Ok(None);
     }
-    let Some(columns) = context.mmcif.clone() else {
+    let Some((_, columns)) = context.mmcif.range(..=input.place()).next_back() else {
         return Ok(None);
     };
+    let columns = columns.clone();
     let mut atoms = Atoms::new(&columns, context.origin);
     let mut row = Row::default();
     // Where nothing follows yet, a comment is taken for the end of the table: writers end a table with one.
@@ -86,8 +88,21 @@ fn ends_loop(text: &[u8]) -> bool {
     begins(b"_") || begins(b"loop_") || begins(b"data_") || begins(b"save_")
 }
 
-/// Goes to the first row of the table of atoms.
-fn find_atoms(input: &mut Input, context: &mut Context) -> Result<(), ReadError> {
+/// Whether the table of atoms has no further row; passes over blank lines and comments.
+fn is_past_table(input: &mut Input) -> Result<bool, ReadError> {
+    while let Some(line) = input.line()? {
+        let text = line.trimmed();
+        if !text.is_empty() && text[0] != b'#' {
+            let is_past = ends_loop(text);
+            input.give_back();
+            return Ok(is_past);
+        }
+    }
+    Ok(false)
+}
+
+/// Goes to the first row of the next table of atoms; `false` if there is no further one. A first one there must be.
+fn find_atoms(input: &mut Input, context: &mut Context, is_first: bool) -> Result<bool, ReadError> {
     let (mut tags, mut in_text) = (Vec::new(), false);
     let mut fractions = false;
     while let Some(line) = input.line()? {
@@ -108,10 +123,25 @@ fn find_atoms(input: &mut Input, context: &mut Context) -> Result<(), ReadError>
             }
             tags.push(String::from_utf8_lossy(&tag[11..]).into_owned());
         } else if !tags.is_empty() && !text.is_empty() && text[0] != b'#' {
-            context.mmcif = Some(Columns::of(&tags, &line)?);
+            if ends_loop(text) {
+                // A table without rows.
+                tags.clear();
+                continue;
+            }
+            let columns = Columns::of(&tags, &line)?;
             input.give_back();
-            return Ok(());
+            let place = input.place();
+            let before = context.mmcif.range(..=place).next_back();
+            if before.is_none_or(|(_, before)| *before != columns) {
+                context.mmcif.insert(place, columns);
+            }
+            return Ok(true);
         }
+    }
+    if !is_first {
+        // A further block may be on its way.
+        let ends = || Err(input.ends("the file ends before a further table of atoms"));
+        return if context.follows { ends() } else { Ok(false) };
     }
     if fractions {
         let what = "atoms in fractions of a cell: only _atom_site.Cartn_x, _y, _z are read";
@@ -191,7 +221,7 @@ struct Atoms<'a> {
     model: Option<Vec<u8>>,
     residue: Vec<u8>,
     /// The names of those atoms of the residue that have locations.
-    located: Vec<Box<[u8]>>,
+    located: HashSet<Box<[u8]>>,
     left_out: usize,
     scratch: Vec<u8>,
 }
@@ -206,7 +236,7 @@ impl<'a> Atoms<'a> {
             particles,
             model: None,
             residue: Vec::new(),
-            located: Vec::new(),
+            located: HashSet::new(),
             left_out: 0,
             scratch: Vec::new(),
         }
@@ -231,13 +261,13 @@ impl<'a> Atoms<'a> {
             }
             if self.scratch != self.residue {
                 std::mem::swap(&mut self.scratch, &mut self.residue);
-                self.located.clear();
+                // A large set would take long to clear, however few names are in it.
+                self.located = HashSet::new();
             }
-            if self.located.iter().any(|located| **located == *name) {
+            if !self.located.insert(name.into()) {
                 self.left_out += 1;
                 return Ok(true);
             }
-            self.located.push(name.into());
         }
         let at = |axis: usize, called: &str| {
             let word = row.word(columns.position[axis]);

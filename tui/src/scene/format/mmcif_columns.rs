@@ -4,7 +4,7 @@ use crate::scene::input::Line;
 use crate::scene::read_error::ReadError;
 
 /// Which column of the table is what.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::scene) struct Columns {
     pub(super) count: usize,
     pub(super) position: [usize; 3],

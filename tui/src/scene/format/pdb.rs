@@ -14,8 +14,9 @@ use crate::scene::notes::Notes;
 use crate::scene::number::number;
 use crate::scene::particles::Particles;
 use crate::scene::read_error::ReadError;
-use crate::scene::symbols::Symbols;
+use crate::scene::symbols::{Symbols, of_ion};
 use glam::DVec3;
+use std::collections::HashSet;
 
 /// The records that say what a picture of spheres does not show.
 const IGNORED: [&str; 6] = ["ANISOU", "CONECT", "HELIX", "SHEET", "SSBOND", "SIGATM"];
@@ -68,7 +69,7 @@ struct Atoms {
     /// Chain, number and insertion of the residue of the last atom, ...
     residue: [u8; 6],
     /// ... and the names of those of its atoms that have locations.
-    located: Vec<[u8; 4]>,
+    located: HashSet<[u8; 4]>,
     left_out: usize,
 }
 
@@ -77,7 +78,7 @@ impl Atoms {
         let column = |name: &str| NumberColumn { name: name.into(), values: Vec::new() };
         let columns = vec![column("occupancy"), column("b_factor")];
         let particles = Particles { columns, ..Particles::from(origin) };
-        Self { particles, residue: [0; 6], located: Vec::new(), left_out: 0 }
+        Self { particles, residue: [0; 6], located: HashSet::new(), left_out: 0 }
     }
 
     fn is_empty(&self) -> bool {
@@ -93,14 +94,12 @@ impl Atoms {
         let residue = [fixed[21], fixed[22], fixed[23], fixed[24], fixed[25], fixed[26]];
         let name = [fixed[12], fixed[13], fixed[14], fixed[15]];
         if residue != self.residue {
-            (self.residue, _) = (residue, self.located.clear());
+            // A large set would take long to clear, however few names are in it.
+            (self.residue, self.located) = (residue, HashSet::new());
         }
-        if fixed[16] != b' ' {
-            if self.located.contains(&name) {
-                self.left_out += 1;
-                return Ok(());
-            }
-            self.located.push(name);
+        if fixed[16] != b' ' && !self.located.insert(name) {
+            self.left_out += 1;
+            return Ok(());
         }
         let at = |from: usize, axis| {
             let word = fixed[from..from + 8].trim_ascii();
@@ -110,13 +109,14 @@ impl Atoms {
         let particles = &mut self.particles;
         particles.center(center);
         let symbol = bytes.get(76..bytes.len().min(78)).unwrap_or_default().trim_ascii();
+        let residue_name = fixed[17..21].trim_ascii();
         if symbol.first().is_some_and(u8::is_ascii_alphabetic) {
             particles.kind(symbol, line.number);
         } else {
-            particles.kind(symbol_of(&name), line.number);
+            particles.kind(symbol_of(&name, residue_name), line.number);
         }
         particles.naming(Naming::Name).push(name.trim_ascii());
-        particles.naming(Naming::Residue).push(fixed[17..21].trim_ascii());
+        particles.naming(Naming::Residue).push(residue_name);
         let chain = match fixed[21] {
             b' ' => bytes.get(72..bytes.len().min(76)).unwrap_or_default().trim_ascii(),
             _ => &fixed[21..22],
@@ -147,8 +147,14 @@ impl Atoms {
     }
 }
 
-/// The element in the name of an atom: it is right-justified in the first two columns.
-fn symbol_of(name: &[u8; 4]) -> &[u8] {
+/// The element in the name of an atom: it is right-justified in the first two columns. An atom with the name of its
+/// residue is an ion, or a metal, wherever the name stands.
+fn symbol_of<'a>(name: &'a [u8; 4], residue: &[u8]) -> &'a [u8] {
+    if name.trim_ascii() == residue
+        && let Some(ion) = std::str::from_utf8(residue).ok().and_then(of_ion)
+    {
+        return ion.symbol.as_bytes();
+    }
     let two = &name[..2];
     if two[0].is_ascii_alphabetic() {
         let is_element = std::str::from_utf8(two).ok().and_then(element).is_some();

@@ -104,7 +104,8 @@ pub(super) fn read(input: &mut Input, notes: &mut Notes) -> Result<Scene, ReadEr
             skip(input, encoding, element)?;
         }
     }
-    if elements.len() > at + 1 {
+    let others = elements[..at].iter().chain(&elements[at + 1..]);
+    if others.map(|element| element.count).any(|count| count > 0) {
         notes.note("only the vertices are drawn");
     }
     vertices(input, encoding, &elements[at], notes)
@@ -118,7 +119,10 @@ fn vertices(
 ) -> Result<Scene, ReadError> {
     let names = &element.properties;
     let find = |wanted: &[&str]| {
-        names.iter().position(|property| wanted.contains(&property.name.as_str()))
+        let is_it = |property: &Property| {
+            property.list.is_none() && wanted.contains(&property.name.as_str())
+        };
+        names.iter().position(is_it)
     };
     let source = input.source().to_owned();
     let (Some(x), Some(y), Some(z)) = (find(&["x"]), find(&["y"]), find(&["z"])) else {
@@ -132,9 +136,10 @@ fn vertices(
             || radius == Some(index)
             || color.is_some_and(|color| color.contains(&index))
     };
-    let mut kept: Vec<usize> =
-        (0..names.len()).filter(|&index| !taken(index) && names[index].list.is_none()).collect();
-    notes.further_columns(kept.len().saturating_sub(MOST_KEPT));
+    let (mut kept, lists): (Vec<usize>, Vec<usize>) = (0..names.len())
+        .filter(|&index| !taken(index))
+        .partition(|&index| names[index].list.is_none());
+    notes.further_columns(kept.len().saturating_sub(MOST_KEPT) + lists.len());
     kept.truncate(MOST_KEPT);
     let mut particles = Particles {
         columns: kept

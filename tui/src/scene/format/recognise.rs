@@ -1,7 +1,7 @@
 //! What an input is, told by its first bytes.
 
 use super::Format;
-use super::table::{Separator, has_axes};
+use super::table::{Separator, comment, has_axes};
 use crate::scene::number::number;
 
 /// The error for an input whose format nothing tells.
@@ -17,15 +17,25 @@ const PDB: [&str; 24] = [
 /// The records in which a number may follow the name at once: `HETATM10000`, `CRYST110000.000`, `DBREF1`.
 const THEN_NUMBER: [&str; 3] = ["HETATM", "CRYST1", "DBREF "];
 
-/// Formats that are known and not read.
-const OTHERS: [(&[u8], &str); 7] = [
-    (b"PK\x03\x04", "a zip archive, such as .npz: unpack it first"),
-    (b"\x89HDF", "HDF5, which is not read"),
-    (b"CDF", "NetCDF, which is not read"),
-    (b"\x00\x00\x07\xc9", "a TRR trajectory, which is not read; .xtc is"),
-    (b"\x54\x00\x00\x00CORD", "a DCD trajectory, which is not read; .xtc is"),
-    (b"7z\xbc\xaf", "a 7z archive: unpack it first"),
-    (b"\xfd7zXZ", "xz, which is not read; .gz and .bz2 are"),
+/// Formats that are known and not read, by what they may begin with.
+const OTHERS: [(&[&[u8]], &str); 8] = [
+    (&[b"PK\x03\x04"], "a zip archive, such as .npz: unpack it first"),
+    (&[b"\x89HDF"], "HDF5, which is not read"),
+    (&[b"CDF\x01", b"CDF\x02", b"CDF\x05"], "NetCDF, which is not read"),
+    (&[b"\x00\x00\x07\xc9"], "a TRR trajectory, which is not read; .xtc is"),
+    // Fortran writes the length of a record before it, in four bytes or eight of either order.
+    (
+        &[
+            b"\x54\x00\x00\x00CORD",
+            b"\x00\x00\x00\x54CORD",
+            b"\x54\x00\x00\x00\x00\x00\x00\x00CORD",
+            b"\x00\x00\x00\x00\x00\x00\x00\x54CORD",
+        ],
+        "a DCD trajectory, which is not read; .xtc is",
+    ),
+    (&[b"7z\xbc\xaf"], "a 7z archive: unpack it first"),
+    (&[b"\xfd7zXZ"], "xz, which is not read; .gz and .bz2 are"),
+    (&[b"\xff\xfe", b"\xfe\xff"], "UTF-16 text; save it as UTF-8"),
 ];
 
 /// The format of what begins with `head`.
@@ -39,7 +49,8 @@ pub(in super::super) fn recognise(head: &[u8]) -> Result<Format, &'static str> {
     if head.starts_with(b"\x00\x00\x07\xcb") || head.starts_with(b"\x00\x00\x07\xe7") {
         return Ok(Format::Xtc);
     }
-    if let Some((_, what)) = OTHERS.iter().find(|(magic, _)| head.starts_with(magic)) {
+    let begins = |magics: &[&[u8]]| magics.iter().any(|magic| head.starts_with(magic));
+    if let Some((_, what)) = OTHERS.iter().find(|(magics, _)| begins(magics)) {
         return Err(what);
     }
     let head = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head);
@@ -144,15 +155,15 @@ fn is_lammps_data(lines: &[&[u8]]) -> bool {
 fn is_table(lines: &[&[u8]]) -> bool {
     let mut fields = Vec::new();
     for line in lines.iter().filter(|line| !line.trim_ascii().is_empty()) {
-        let text = line.trim_ascii();
-        let text = text.strip_prefix(b"#").unwrap_or(text).trim_ascii();
+        let comment = comment(line);
+        let text = comment.unwrap_or(line.trim_ascii());
         let separator = Separator::of(text);
         separator.split(text, 1 << 10, &mut fields);
         let words: Vec<&[u8]> = fields.iter().map(|field| &text[field.clone()]).collect();
         if has_axes(&words) {
             return true;
         }
-        if line.trim_ascii().starts_with(b"#") {
+        if comment.is_some() {
             continue;
         }
         let is_separated = separator != Separator::Space;

@@ -1,11 +1,14 @@
 //! Tables: a line a particle, columns between commas, tabs, semicolons or spaces, with a header or without.
 //!
-//! A header names `x`, `y`, `z`, and perhaps `radius`, `r`, `g`, `b` or `red`, `green`, `blue`, and `element` or
-//! `type`; other columns of numbers can be chosen for colours. A unit in brackets may follow a name, as in `x (mm)`.
-//! Without a header the first three columns are positions, and a fourth is the radius. `--columns` chooses others, by
-//! names or by numbers from 1. Lines that begin with `#` are passed over, except that the first may be the header.
+//! A header names `x`, `y`, `z`, and perhaps `radius`, or `r` alone, `r`, `g`, `b` or `red`, `green`, `blue`, and
+//! `element` or `type`; other columns of numbers can be chosen for colours. A unit in brackets may follow a name, as in
+//! `x (mm)`. Each row has as many values as the header has names, or is refused: a column that is not named would shift the
+//! others. Without a header the first three columns are positions, and a fourth is the radius. `--columns` chooses others,
+//! by names or by numbers from 1. Lines that begin with `#` or `%` are passed over, except that one before the rows may be
+//! the header.
 
 mod columns;
+mod first_line;
 mod separator;
 
 use super::Context;
@@ -17,61 +20,128 @@ use crate::scene::input::{Input, Line};
 use crate::scene::number::number;
 use crate::scene::particles::Particles;
 use crate::scene::read_error::ReadError;
+use crate::scene::symbols::Symbols;
 use glam::DVec3;
 use std::ops::Range;
 
 pub(super) use columns::has_axes;
-use columns::{Columns, is_header};
+use columns::{Columns, is_by_number, is_header};
+use first_line::FirstLine;
+pub(super) use first_line::comment;
 pub(super) use separator::Separator;
+use separator::is_comment_sign;
 
 /// Reads the table.
 ///
 /// # Errors
-/// [`ReadError`] at the first line without a number where one should be, and if there is no line.
+/// [`ReadError`] at the first line without a number where one should be, or with more or fewer values than the header has
+/// names, and if there is no line.
 pub(super) fn read(input: &mut Input, context: &mut Context) -> Result<Scene, ReadError> {
-    let chosen = context.columns.clone();
-    let (separator, columns, is_header) = loop {
-        let Some(line) = input.line()? else {
-            return Err(ReadError::whole(input.source(), "no line with numbers"));
-        };
-        let text = line.trimmed();
-        if text.is_empty() {
-            continue;
-        }
-        let is_comment = text[0] == b'#';
-        let names = if is_comment { text[1..].trim_ascii() } else { line.bytes };
-        let separator = Separator::of(names);
-        let mut fields = Vec::new();
-        separator.split(names, usize::MAX, &mut fields);
-        let names: Vec<&[u8]> = fields.iter().map(|field| &names[field.clone()]).collect();
-        let is_header = is_header(&names, chosen.as_deref());
-        if is_comment && !(is_header && has_axes(&names)) {
-            continue;
-        }
-        let columns = Columns::new(&line, &names, is_header, chosen.as_deref())?;
-        break (separator, columns, is_header);
-    };
-    if !is_header {
-        input.give_back();
-    }
+    let Layout { separator, columns, header } = layout(input, context.columns.as_deref())?;
     context.notes.further_columns(columns.further);
     let kept = columns.kept.iter();
     let kept = kept.map(|(_, name)| NumberColumn { name: name.clone(), values: Vec::new() });
-    let mut particles = Particles { columns: kept.collect(), ..Particles::default() };
+    let symbols = if columns.may_number_kinds { Symbols::Numbers } else { Symbols::Elements };
+    let mut particles = Particles { columns: kept.collect(), symbols, ..Particles::default() };
     let (mut fields, mut scale) = (Vec::new(), ColorScale::default());
     let mut raw = Vec::new();
+    let most = header.map_or(columns.most, |header| header.names + 1);
     while let Some(line) = input.line()? {
-        if line.trimmed().first().is_none_or(|&first| first == b'#') {
+        if is_between_rows(&line) {
             continue;
         }
-        separator.split(line.bytes, columns.most, &mut fields);
+        separator.split(line.bytes, most, &mut fields);
+        if let Some(header) = header
+            && !separator.fits(line.bytes, &fields, header.names)
+        {
+            return Err(misfit(&line, separator, header));
+        }
         add(&line, &fields, &columns, &mut particles, &mut raw, &mut scale)?;
     }
     if particles.is_empty() {
-        return Err(ReadError::whole(input.source(), "no line with numbers"));
+        return Err(no_row(input));
     }
     particles.colors = raw.iter().map(|channels| scale.color(*channels)).collect();
     particles.finish(&mut context.notes, input.source())
+}
+
+/// How rows are read.
+#[derive(Debug)]
+struct Layout {
+    separator: Separator,
+    columns: Columns,
+    /// The header, if its names say what the fields of rows are.
+    header: Option<Header>,
+}
+
+/// Where a header is, and how many names it has.
+#[derive(Clone, Copy, Debug)]
+struct Header {
+    line: usize,
+    names: usize,
+}
+
+/// Reads up to the first row, which is next then.
+fn layout(input: &mut Input, chosen: Option<&str>) -> Result<Layout, ReadError> {
+    let (mut first, mut is_header) = loop {
+        let Some(line) = input.line()? else { return Err(no_row(input)) };
+        if line.trimmed().is_empty() {
+            continue;
+        }
+        let first = FirstLine::of(&line);
+        let names = first.names();
+        let is_header = is_header(&names, chosen);
+        if !first.is_comment || is_header && has_axes(&names) {
+            break (first, is_header);
+        }
+    };
+    let is_by_number = is_by_number(chosen);
+    if is_header {
+        while let Some(row) = input.line()? {
+            if is_between_rows(&row) {
+                continue;
+            }
+            // Columns that are chosen by number can be read without names.
+            if !first.fit(&row) && is_by_number {
+                (first, is_header) = (FirstLine::of(&row), false);
+            }
+            input.give_back();
+            break;
+        }
+    } else {
+        input.give_back();
+    }
+    let names = first.names();
+    let columns = Columns::new(&names, is_header, chosen)
+        .map_err(|what| ReadError::at(input.source(), first.number, 1, what))?;
+    let header = Header { line: first.number, names: names.len() };
+    let header = (is_header && !is_by_number).then_some(header);
+    Ok(Layout { separator: first.separator, columns, header })
+}
+
+/// Whether a line is blank, or a comment.
+fn is_between_rows(line: &Line<'_>) -> bool {
+    line.trimmed().first().is_none_or(|&first| is_comment_sign(first))
+}
+
+/// More rows may be on their way.
+fn no_row(input: &Input) -> ReadError {
+    ReadError::whole(input.source(), "no line with numbers").of_end()
+}
+
+/// The error that a row has other fields than the header names.
+#[cold]
+fn misfit(line: &Line<'_>, separator: Separator, header: Header) -> ReadError {
+    let mut fields = Vec::new();
+    separator.split(line.bytes, usize::MAX, &mut fields);
+    let byte = fields.get(header.names).map_or(line.bytes.len(), |field| field.start);
+    let what = format!(
+        "{} values; the header in line {} names {}; --columns takes columns by number",
+        fields.len(),
+        header.line,
+        header.names
+    );
+    line.error(byte, what)
 }
 
 /// Colours go from 0 to 1, unless one is larger: then they go to 255.
@@ -120,10 +190,20 @@ fn add(
     let text =
         |column: usize| fields.get(column).map_or(&b""[..], |field| &line.bytes[field.clone()]);
     if let Some(column) = columns.kind {
-        particles.kind(text(column), line.number);
+        let (name, known) = (text(column), particles.kinds.known());
+        particles.kind(name, line.number);
+        // One type that is no number makes all of them symbols.
+        if particles.kinds.known() > known && !is_whole(name) {
+            particles.symbols = Symbols::Elements;
+        }
     }
     for ((column, _), kept) in columns.kept.iter().zip(&mut particles.columns) {
         kept.values.push(number(text(*column)).map_or(f32::NAN, |value| value as f32));
     }
     Ok(())
+}
+
+/// Whether a type is a whole number, however it is written, or missing.
+fn is_whole(name: &[u8]) -> bool {
+    name.is_empty() || number(name).is_some_and(|value| value.fract() == 0.0)
 }

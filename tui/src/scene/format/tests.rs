@@ -4,6 +4,8 @@ mod bad;
 mod frames;
 mod good;
 mod mmcif;
+mod recognised;
+mod tables;
 
 use super::Format;
 use crate::scene::frames::Frames;

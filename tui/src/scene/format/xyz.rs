@@ -48,11 +48,9 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
     match properties {
         Some(properties) => {
             particles.columns = columns(&properties);
-            for property in &properties {
-                if property.is_ignored() {
-                    context.notes.note(format!("the column {:?} is ignored", property.name));
-                }
-            }
+            let ignored = properties.iter().filter(|property| property.is_ignored());
+            let ignored: Vec<&str> = ignored.map(|property| property.name.as_str()).collect();
+            context.notes.ignored_columns(&ignored);
             for atoms in 0..count {
                 let Some(line) = input.line()? else { return Err(ends(input, atoms)) };
                 atom_of_properties(line, &properties, &mut particles)?;
@@ -113,7 +111,7 @@ fn check_next(input: &mut Input, count: usize, first: usize) -> Result<(), ReadE
 
 fn count_line(input: &mut Input) -> Result<(usize, usize), ReadError> {
     if input.is_over()? {
-        return Err(ReadError::whole(input.source(), "the file is empty"));
+        return Err(ReadError::whole(input.source(), "the file is empty").of_end());
     }
     let line = input.expect("a number of atoms")?;
     let text = line.trimmed();

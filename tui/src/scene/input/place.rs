@@ -6,7 +6,7 @@ use std::io::{self, Read};
 use std::path::Path;
 
 /// A place in an input, before a line.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(in crate::scene) struct Place {
     pub(super) offset: u64,
     pub(super) number: usize,

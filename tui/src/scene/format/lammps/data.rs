@@ -125,9 +125,25 @@ pub(in super::super) fn read(input: &mut Input, notes: &mut Notes) -> Result<Sce
         };
         add(line, &style, &mut particles, &mut ids, &mut charges.values)?;
     }
+    check_next(input, atoms, first)?;
     particles.columns.push(charges);
     particles.sort_by(&ids);
     particles.finish(notes, input.source())
+}
+
+/// What follows may be a section, but not another atom.
+fn check_next(input: &mut Input, atoms: usize, first: usize) -> Result<(), ReadError> {
+    while let Some(line) = input.line()? {
+        match line.trimmed().first() {
+            None | Some(b'#') => {}
+            Some(byte) if byte.is_ascii_digit() => {
+                let what = format!("one atom more than the {atoms} that line {first} says");
+                return Err(line.error(0, what));
+            }
+            Some(_) => break,
+        }
+    }
+    Ok(())
 }
 
 fn add(

@@ -56,6 +56,9 @@ pub(in super::super) fn frame(
     context: &mut Context,
 ) -> Result<Option<Scene>, ReadError> {
     let Some((atoms, first, cell)) = header(input)? else { return Ok(None) };
+    if atoms == 0 {
+        return Err(ReadError::at(input.source(), first, 1, "a frame without atoms"));
+    }
     let (kinds, names, scaled) = columns(&input.expect("ITEM: ATOMS")?)?;
     let mut particles = Particles { symbols: Symbols::Numbers, ..Particles::from(context.origin) };
     let has_element = kinds.contains(&Kind::Element);
@@ -102,8 +105,29 @@ pub(in super::super) fn frame(
         }
         particles.center(if scaled { cell.point(position) } else { DVec3::from_array(position) });
     }
+    // Where the file grows, this is left to whoever reads on: the next line may not be whole yet.
+    if !context.follows {
+        check_next(input, atoms, first)?;
+    }
     particles.sort_by(&ids);
     particles.finish(&mut context.notes, input.source()).map(Some)
+}
+
+/// What follows may be another frame, but not another atom.
+fn check_next(input: &mut Input, atoms: usize, first: usize) -> Result<(), ReadError> {
+    if input.is_over_but_blanks()? {
+        return Ok(());
+    }
+    let line = input.expect("ITEM:")?;
+    if !line.bytes.starts_with(b"ITEM:") {
+        let what = format!(
+            "{} where an ITEM: should be; the number of atoms in line {first} is {atoms}",
+            excerpt(line.bytes)
+        );
+        return Err(line.error(0, what));
+    }
+    input.give_back();
+    Ok(())
 }
 
 /// Leaves out a frame.
@@ -142,8 +166,7 @@ fn header(input: &mut Input) -> Result<Option<(usize, usize, Cell)>, ReadError> 
             return Ok(Some((atoms, first, cell)));
         } else if item.starts_with(b"NUMBER OF ATOMS") {
             let line = input.expect("the number of atoms")?;
-            let found = count(line.trimmed());
-            let Some(found) = found.filter(|&found| found > 0) else {
+            let Some(found) = count(line.trimmed()) else {
                 return Err(
                     line.error(0, format!("{} is no number of atoms", excerpt(line.trimmed())))
                 );

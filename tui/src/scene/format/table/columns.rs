@@ -1,9 +1,7 @@
 //! Which column is what: by a header, by `--columns`, or by their number.
 
 use crate::scene::format::words::excerpt;
-use crate::scene::input::Line;
 use crate::scene::number::number;
-use crate::scene::read_error::ReadError;
 
 /// How many other columns are kept at most: they take memory.
 const MOST_KEPT: usize = 8;
@@ -15,6 +13,8 @@ pub(super) struct Columns {
     pub(super) radius: Option<usize>,
     pub(super) color: Option<[usize; 3]>,
     pub(super) kind: Option<usize>,
+    /// Whether `kind` is called a type, not an element: then numbers in it are no atomic numbers.
+    pub(super) may_number_kinds: bool,
     pub(super) kept: Vec<(usize, Box<str>)>,
     /// How many more there are, which are ignored.
     pub(super) further: usize,
@@ -37,6 +37,11 @@ pub(super) fn is_header(names: &[&[u8]], chosen: Option<&str>) -> bool {
         }
         None => !names.iter().take(3).all(|name| is_number(name)),
     }
+}
+
+/// Whether `--columns` says columns by numbers, so that names do not matter.
+pub(super) fn is_by_number(chosen: Option<&str>) -> bool {
+    chosen.and_then(numbered).is_some()
 }
 
 /// The columns that `--columns` says, if each of its words is a number from 1.
@@ -66,27 +71,26 @@ impl Columns {
     /// value of `--columns`.
     ///
     /// # Errors
-    /// [`ReadError`] if positions are missing, or lengths have two units.
+    /// What is wrong with that line, if positions are missing, or lengths have two units.
     pub(super) fn new(
-        line: &Line<'_>,
         names: &[&[u8]],
         is_header: bool,
         chosen: Option<&str>,
-    ) -> Result<Self, ReadError> {
+    ) -> Result<Self, String> {
         let mut columns = Self::default();
         let named = |wanted: &[&str]| if is_header { find(names, wanted) } else { None };
         match chosen {
             Some(chosen) => {
                 // Where all are numbers, a header's field that looks like one of them is not meant.
                 let has_names = is_header && numbered(chosen).is_none();
-                let numbers: Result<Vec<usize>, ReadError> = chosen
+                let numbers: Result<Vec<usize>, String> = chosen
                     .split(',')
-                    .map(|word| column_of(line, names, has_names, word.trim()))
+                    .map(|word| column_of(names, has_names, word.trim()))
                     .collect();
                 let numbers = numbers?;
                 let (&[x, y, z] | &[x, y, z, _]) = numbers.as_slice() else {
                     let what = "--columns: three for x, y and z, and perhaps one for the radius";
-                    return Err(line.error(0, what));
+                    return Err(what.to_owned());
                 };
                 columns.position = [x, y, z];
                 columns.radius = numbers.get(3).copied();
@@ -106,29 +110,31 @@ impl Columns {
                         .take(12)
                         .map(|name| String::from_utf8_lossy(name).into_owned())
                         .collect();
-                    let what = format!(
+                    return Err(format!(
                         "no columns x, y, z in {}; --columns names others",
                         excerpt(names.join(",").as_bytes())
-                    );
-                    return Err(line.error(0, what));
+                    ));
                 };
                 columns.position = [x, y, z];
                 columns.radius = named(&["radius", "rad"]);
+                // Beside g and b, r is red.
+                if columns.radius.is_none() && named(&["g", "b"]).is_none() {
+                    columns.radius = named(&["r"]);
+                }
                 let lengths = columns.position.into_iter().chain(columns.radius);
                 let units = lengths.map(|column| with_unit(names[column]).1);
                 let mut units = units.filter(|unit| !unit.is_empty());
                 let first = units.next().unwrap_or_default();
                 if let Some(other) = units.find(|unit| *unit != first) {
-                    let what = format!(
+                    return Err(format!(
                         "lengths in {} and in {}; nothing is converted, --columns takes them as they are",
                         excerpt(first),
                         excerpt(other)
-                    );
-                    return Err(line.error(0, what));
+                    ));
                 }
             }
             None if names.len() < 3 => {
-                return Err(line.error(0, format!("{} columns; positions are three", names.len())));
+                return Err(format!("{} columns; positions are three", names.len()));
             }
             None => {
                 columns.position = [0, 1, 2];
@@ -140,7 +146,9 @@ impl Columns {
             found.iter().all(Option::is_some).then(|| found.map(Option::unwrap_or_default))
         };
         columns.color = channels(["red", "green", "blue"]).or_else(|| channels(["r", "g", "b"]));
-        columns.kind = named(&["element", "symbol", "species", "type", "kind"]);
+        let (element, kind) = (named(&["element", "symbol", "species"]), named(&["type", "kind"]));
+        columns.kind = element.or(kind);
+        columns.may_number_kinds = element.is_none();
         let taken = |column: usize| {
             columns.position.contains(&column)
                 || [columns.radius, columns.kind].contains(&Some(column))
@@ -169,17 +177,12 @@ impl Columns {
     }
 }
 
-fn column_of(
-    line: &Line<'_>,
-    names: &[&[u8]],
-    has_names: bool,
-    word: &str,
-) -> Result<usize, ReadError> {
+fn column_of(names: &[&[u8]], has_names: bool, word: &str) -> Result<usize, String> {
     if has_names && let Some(column) = find(names, &[word]) {
         return Ok(column);
     }
     match word.parse::<usize>() {
         Ok(column) if (1..=names.len()).contains(&column) => Ok(column - 1),
-        _ => Err(line.error(0, format!("--columns: no column {word:?} among {}", names.len()))),
+        _ => Err(format!("--columns: no column {word:?} among {}", names.len())),
     }
 }

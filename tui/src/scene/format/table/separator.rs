@@ -2,6 +2,11 @@
 
 use std::ops::Range;
 
+/// Whether what begins with this byte is a comment: numpy and gnuplot write `#`, MATLAB `%`.
+pub(super) fn is_comment_sign(byte: u8) -> bool {
+    matches!(byte, b'#' | b'%')
+}
+
 /// What separates columns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::scene::format) enum Separator {
@@ -53,6 +58,22 @@ impl Separator {
             }
             at += 1;
         }
+    }
+
+    /// Whether a row of these fields, the first `count + 1` at least, has `count` values. A comment may follow them. Where
+    /// a byte separates fields, those at the end may be missing, and empty ones may follow.
+    #[inline]
+    pub(super) fn fits(self, line: &[u8], fields: &[Range<usize>], count: usize) -> bool {
+        match fields.get(count) {
+            Some(surplus) => self.is_nothing(&line[surplus.start..]),
+            None => fields.len() == count || self != Self::Space,
+        }
+    }
+
+    #[cold]
+    fn is_nothing(self, rest: &[u8]) -> bool {
+        let is_empty = |&byte: &u8| byte <= b' ' || byte == b'"' || self == Self::Byte(byte);
+        rest.iter().all(is_empty) || rest.first().is_some_and(|&first| is_comment_sign(first))
     }
 }
 

@@ -1,6 +1,7 @@
 use super::*;
 use crate::scene::input::{Input, LONGEST_LINE};
 use std::io::{self, Read};
+use std::time::{Duration, Instant};
 
 #[test]
 fn a_count_that_lies() {
@@ -14,16 +15,53 @@ fn a_count_that_lies() {
         error("1\n\nH 0 0 0\nH 0 0 1\n"),
         "f:4:1: one atom more than the 1 that line 1 says"
     );
+    let data = "LAMMPS data\n\n1 atoms\n\nAtoms # atomic\n\n1 1 0 0 0\n\n# a comment\n2 1 1 0 0\n";
+    assert_eq!(error(data), "f:10:1: one atom more than the 1 that line 3 says");
     assert_eq!(error("1"), "f:2:1: the file ends before its comment");
     assert_eq!(error("0\nnothing\n"), "f:1:1: a molecule without atoms");
     assert_eq!(error(""), "f: the file is empty");
     assert!(error("-3\n\n").starts_with("f:1:1: "));
     let dump = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n9\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\nITEM: ATOMS id type x y z\n1 1 0 0 0\n";
     assert_eq!(error(dump), "f:11:1: the file ends after 1 of the 9 atoms that line 4 says");
+    assert_eq!(
+        error(dump.replace("\n9\n", "\n1\n") + "2 1 0 0 0\n"),
+        "f:11:1: \"2 1 0 0 0\" where an ITEM: should be; the number of atoms in line 4 is 1"
+    );
     assert!(
         error("t\n 2\n    1SOL     OW    1   0.000   1.624   1.679\n")
             .contains("ends after 1 of the 2")
     );
+    let gro = |end: &str| format!("t\n 1\n    1SOL     OW    1   0.000   1.624   1.679\n{end}\n");
+    assert_eq!(
+        error(gro("    2SOL     OW    2   0.000   1.624   1.679\n   1 1 1")),
+        "f:4:5: \"2SOL\" in the box is no number; the number of atoms in line 2 is 1"
+    );
+    for end in ["", "   1 1 1", "1000.000001000.00000-100.00000", "1e3 1D3 1"] {
+        assert_eq!(good(gro(end)).spheres().len(), 1, "{end}");
+    }
+}
+
+/// The time grows with the file, not with its square.
+#[test]
+fn a_residue_of_many_alternate_locations() {
+    let count = 300_000_u32;
+    let name = |index: u32| -> String {
+        let letter = |place| char::from(b'A' + (index / 26_u32.pow(place) % 26) as u8);
+        (0..4).map(letter).collect()
+    };
+    let atom =
+        |index| format!("ATOM      1 {}AALA A   1       0.000   0.000   0.000\n", name(index));
+    let pdb: String = (0..count).map(atom).collect();
+    let tags = ["type_symbol", "Cartn_x", "Cartn_y", "Cartn_z", "label_alt_id", "label_atom_id"]
+        .map(|tag| format!("_atom_site.{tag}\n"))
+        .concat();
+    let rows: String = (0..count).map(|index| format!("C 0 0 0 A {}\n", name(index))).collect();
+    for text in [pdb, format!("data_x\nloop_\n{tags}{rows}")] {
+        let begun = Instant::now();
+        assert_eq!(good(text).spheres().len(), count as usize);
+        let took = begun.elapsed();
+        assert!(took < Duration::from_secs(20), "{took:?}");
+    }
 }
 
 #[test]

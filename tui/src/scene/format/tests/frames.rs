@@ -1,5 +1,8 @@
 use super::*;
+use crate::coloring::{ColorBy, coloring};
+use crate::scene::attributes::Naming;
 use crate::scene::input::Input;
+use clap::ValueEnum;
 use std::fs::OpenOptions;
 
 fn xyz(frames: usize) -> String {
@@ -33,6 +36,22 @@ fn in_any_order_plain_and_compressed() {
         assert_eq!(first_x(frames, 5), Some(5.0));
         assert!(frames.has(19).expect("no error") && !frames.has(20).expect("no error"));
     }
+}
+
+/// However far behind it a frame is asked for.
+#[test]
+fn the_end_tells_how_many_there_are() {
+    let follow = Reading { follow: true, ..Reading::default() };
+    for (reading, count) in [(Reading::default(), Some(3)), (follow, None)] {
+        let frames = &mut frames_of("count.xyz", xyz(3).as_bytes(), &reading);
+        assert_eq!((first_x(frames, 60), frames.count()), (None, count));
+        assert_eq!((first_x(frames, 2), frames.at()), (Some(2.0), 3));
+        assert_eq!((first_x(frames, 3), frames.count()), (None, count));
+    }
+    let table = &mut frames_of("count.csv", b"x,y,z\n1,2,3\n", &Reading::default());
+    assert!(table.read(60).expect("no error").is_none());
+    assert_eq!(table.count(), Some(1));
+    assert!(table.read(0).expect("no error").is_some());
 }
 
 fn piped(text: String, follows: bool) -> Frames {
@@ -84,6 +103,16 @@ fn a_file_that_grows() {
     assert_eq!(first_x(frames, 3), None);
 }
 
+#[test]
+fn an_empty_file_that_is_followed_has_no_frame_yet() {
+    for &format in Format::value_variants().iter().filter(|format| format.has_frames()) {
+        let reading = Reading { format: Some(format), follow: true, ..Reading::default() };
+        let frames = &mut frames_of(&format!("empty.{format:?}"), b"", &reading);
+        let scene = frames.read(0).unwrap_or_else(|error| panic!("{format:?}: {error}"));
+        assert!(scene.is_none(), "{format:?}");
+    }
+}
+
 /// Where lines end, half a model is not a frame yet.
 #[test]
 fn a_model_that_grows_is_a_frame_once_it_is_whole() {
@@ -101,6 +130,11 @@ fn a_model_that_grows_is_a_frame_once_it_is_whole() {
         ("growing.pdb", "HEADER    TEST\n", pdb),
         ("commented.cif", table, format!("{rows}#\n")),
         ("growing.cif", table, format!("{rows}loop_\n")),
+        (
+            "growing-blocks.cif",
+            table,
+            format!("C 0 0 0 1\nC 0 1 0 1\n#\n{table}C 1 0 0 1\nC 1 1 0 1\n#\n"),
+        ),
     ] {
         let reading = Reading { follow: true, ..Reading::default() };
         let frames = &mut frames_of(name, head.as_bytes(), &reading);
@@ -133,6 +167,41 @@ fn dumps_pdb_gro_and_mmcif_have_frames() {
         }
         assert!(frames.read(5).expect("no error").is_none());
     }
+}
+
+/// A frame of a dump with these atoms: id, molecule, type, x, y, z.
+fn dump(atoms: &[&str]) -> String {
+    let rows: String = atoms.iter().map(|atom| format!("{atom}\n")).collect();
+    format!(
+        "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\nITEM: ATOMS id mol type x y z\n{rows}",
+        atoms.len()
+    )
+}
+
+/// LAMMPS writes atoms in any order, and they come and go.
+#[test]
+fn types_keep_their_colours() {
+    let atoms = ["1 5 1 0 0 0", "2 4 2 9 0 0", "3 4 9 5 0 0"];
+    let text = dump(&atoms) + &dump(&[atoms[2], atoms[1], atoms[0]]) + &dump(&atoms[1..]);
+    let frames = &mut frames_of("types.dump", text.as_bytes(), &Reading::default());
+    let mut scene =
+        |index| frames.read(index).unwrap_or_else(|error| panic!("{error}")).expect("a frame");
+    let (first, other_order, without_one) = (scene(0), scene(1), scene(2));
+    assert_eq!(other_order.colors(), first.colors());
+    assert_eq!(without_one.colors(), &first.colors()[1..]);
+    for by in [Naming::Type, Naming::Molecule].map(ColorBy::Names) {
+        assert_eq!(coloring(&other_order, &by, None), coloring(&first, &by, None), "{by:?}");
+    }
+}
+
+#[test]
+fn a_frame_of_a_dump_without_atoms_is_passed_over_unless_it_is_shown() {
+    let text = dump(&["1 1 1 0 0 0"]) + &dump(&[]) + &dump(&["1 1 1 2 0 0"]);
+    let frames = &mut frames_of("none.dump", text.as_bytes(), &Reading::default());
+    let scene = frames.read(2).unwrap_or_else(|error| panic!("{error}")).expect("a frame");
+    assert_eq!(centers(&scene), [[2.0, 0.0, 0.0]]);
+    let message = frames.read(1).expect_err("no atoms").to_string();
+    assert!(message.ends_with("none.dump:14:1: a frame without atoms"), "{message}");
 }
 
 /// A frame of GRO with one atom.

@@ -81,6 +81,28 @@ fn pdb_by_its_columns() {
 }
 
 #[test]
+fn pdb_atoms_without_a_symbol() {
+    let expected = [
+        ("SOD ", "SOD", 11),
+        (" POT", "POT", 19),
+        ("POT ", "POT", 19),
+        (" CLA", "CLA", 17),
+        (" NA ", " NA", 11),
+        (" CL ", " CL", 17),
+        (" FE2", "FE2", 26),
+        (" CA ", "ALA", 6),
+        (" NA ", "HEM", 7),
+    ];
+    let rows = expected.map(|(name, residue, _)| {
+        format!(
+            "HETATM    1 {name} {residue}    2        0.000   0.000   0.000  0.00  0.00      I\n"
+        )
+    });
+    let elements = expected.map(|(_, _, element)| element).to_vec();
+    assert_eq!(good(rows.concat()).attributes().elements, Some(elements));
+}
+
+#[test]
 fn gro_in_angstrom() {
     let text = [
         "water t= 1.0",
@@ -327,6 +349,26 @@ fn what_is_ignored_is_said() {
         "ply\nformat ascii 1.0\nelement vertex 1\n{properties}end_header\n1 2 3 4 5 6 7 8\n"
     );
     assert_eq!(notes("wide.ply", &ply), ["1 further column is ignored"]);
+    let faces = |count: usize, rows: &str| {
+        format!(
+            "ply\nformat ascii 1.0\nelement face {count}\nproperty list uchar int i\nelement vertex 1\n\
+            property float x\nproperty list uchar float l\nproperty float y\nproperty float z\nend_header\n{rows}"
+        )
+    };
+    assert_eq!(notes("no-faces.ply", &faces(0, "1 1 9 2 3\n")), ["1 further column is ignored"]);
+    assert_eq!(
+        notes("faces.ply", &faces(1, "3 0 0 0\n1 1 9 2 3\n")),
+        ["only the vertices are drawn", "1 further column is ignored"]
+    );
+    let xyz = |properties: &str, values: &str| {
+        format!("1\nProperties=pos:R:3:{properties}\n0 0 0 {values}\n")
+    };
+    assert_eq!(notes("one.xyz", &xyz("f:R:3", "1 1 1")), ["the column \"f\" is ignored"]);
+    let letters = "abcdefg".chars().map(|name| format!("{name}:S:1")).collect::<Vec<_>>().join(":");
+    assert_eq!(
+        notes("several.xyz", &xyz(&letters, "1 1 1 1 1 1 1")),
+        ["7 columns are ignored (a, b, c, d, e, f, ...)"]
+    );
     let lammps = "LAMMPS data\n\n2 atoms\n1 bonds\n0 angles\n1 atom types\n\nAtoms # full\n\n\
         1 1 1 0.5 0 0 0\n2 1 1 -0.5 1 0 0\n\nBonds\n\n1 1 1 2\n";
     assert_eq!(notes("bonded.data", lammps), ["ignored: bonds"]);

@@ -10,7 +10,7 @@ fn mmcif_by_the_names_of_columns() {
     let scene = good(text);
     assert_eq!(centers(&scene), [[1.0, 2.5, 3.0], [4.0, 5.0, 6.0]]);
     assert_eq!(scene.label(0).as_deref(), Some("C1' DA 7 AA"));
-    let frames = &mut frames_of("models.cif", text.as_bytes(), &Reading::default());
+    let frames = &mut frames_of("by-names.cif", text.as_bytes(), &Reading::default());
     assert_eq!(
         frames.read(1).expect("a model").map(|scene| centers(&scene)),
         Some(vec![[10.0, 20.0, 30.0]])
@@ -42,5 +42,36 @@ fn mmcif_blank_lines_and_comments_do_not_end_a_model() {
     // However often one asks: the next table is not read as atoms.
     for _ in 0..4 {
         assert!(frames.read(1).expect("no error").is_none());
+    }
+}
+
+/// As of several models that are saved together; each block has columns of its own.
+#[test]
+fn mmcif_blocks_are_frames() {
+    let table = |axes: [char; 3], rows: &str| {
+        let tags = axes.map(|axis| format!("_atom_site.Cartn_{axis}\n")).concat();
+        let tags = format!("_atom_site.type_symbol\n_atom_site.pdbx_PDB_model_num\n{tags}");
+        format!("#\nloop_\n{tags}{rows}#\n")
+    };
+    let one = "data_A\n".to_owned() + &table(['x', 'y', 'z'], "C 1 0 0 0\nC 2 1 0 0\n");
+    let other = "data_B\n".to_owned() + &table(['z', 'y', 'x'], "C 1 0 0 2\nC 2 0 0 3\n");
+    let none = "data_N\n#\nloop_\n_x.y\n_x.z\n1 2\n#\n";
+    let no_row = "data_R\n".to_owned() + &table(['x', 'y', 'z'], "");
+    for (name, text) in [
+        ("blocks.cif", format!("{one}{other}")),
+        ("between.cif", format!("{none}{no_row}{one}{none}{no_row}{other}")),
+        ("end.cif", format!("{one}{other}{no_row}{none}")),
+    ] {
+        let frames = &mut frames_of(name, text.as_bytes(), &Reading::default());
+        assert!(frames.has(1).expect("no error"), "{name}");
+        for index in [0, 2, 1, 3, 1, 0, 3] {
+            let scene = frames.read(index).unwrap_or_else(|error| panic!("{name}: {error}"));
+            let expected = Some(vec![[index as f32, 0.0, 0.0]]);
+            assert_eq!(scene.map(|scene| centers(&scene)), expected, "{name}");
+        }
+        for _ in 0..2 {
+            assert!(!frames.has(4).expect("no error"), "{name}");
+            assert!(frames.read(4).expect("no error").is_none(), "{name}");
+        }
     }
 }

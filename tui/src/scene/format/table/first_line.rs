@@ -1,0 +1,98 @@
+//! The first line of a table: the names of columns, in a comment or not, or the first row.
+
+use super::separator::{Separator, is_comment_sign};
+use crate::scene::input::Line;
+use std::ops::Range;
+
+/// What a comment says behind its sign; `None` of a line that is none. A first word that ends in `:` tells what follows, as
+/// in `# columns: x y z`, and is left out.
+pub(in crate::scene::format) fn comment(line: &[u8]) -> Option<&[u8]> {
+    let text = line.trim_ascii();
+    let signs = text.iter().take_while(|&&byte| is_comment_sign(byte)).count();
+    if signs == 0 {
+        return None;
+    }
+    let text = text[signs..].trim_ascii_start();
+    let end = text.iter().position(u8::is_ascii_whitespace).unwrap_or(text.len());
+    let (word, rest) = text.split_at(end);
+    Some(if word.ends_with(b":") { rest.trim_ascii_start() } else { text })
+}
+
+/// The first line, kept while the next is read.
+#[derive(Debug)]
+pub(super) struct FirstLine {
+    text: Vec<u8>,
+    fields: Vec<Range<usize>>,
+    pub(super) separator: Separator,
+    pub(super) is_comment: bool,
+    /// Which line it is, from 1.
+    pub(super) number: usize,
+}
+
+impl FirstLine {
+    pub(super) fn of(line: &Line<'_>) -> Self {
+        let comment = comment(line.bytes);
+        let is_comment = comment.is_some();
+        let text = comment.unwrap_or(line.bytes).to_vec();
+        let (separator, mut fields) = (Separator::of(&text), Vec::new());
+        separator.split(&text, usize::MAX, &mut fields);
+        Self { text, fields, separator, is_comment, number: line.number }
+    }
+
+    /// Its fields, which are names if it is a header.
+    pub(super) fn names(&self) -> Vec<&[u8]> {
+        self.fields.iter().map(|field| &self.text[field.clone()]).collect()
+    }
+
+    /// Makes the names of a header those of the fields of `row`, the first below it; `false` if it is not known how.
+    pub(super) fn fit(&mut self, row: &Line<'_>) -> bool {
+        let (count, mut fields) = (self.fields.len(), Vec::new());
+        self.separator.split(row.bytes, usize::MAX, &mut fields);
+        // Positions are three: names between commas may stand above values between spaces.
+        if fields.len() < 3 {
+            self.separator = Separator::of(row.bytes);
+            self.separator.split(row.bytes, usize::MAX, &mut fields);
+        }
+        let separator = self.separator;
+        let fits = |count: usize| separator.fits(row.bytes, &fields, count);
+        if fits(count) {
+            return true;
+        }
+        if separator == Separator::Space {
+            let with_units = self.with_units();
+            if fits(with_units.len()) {
+                self.fields = with_units;
+                return true;
+            }
+        }
+        // R's write.table names rows, but not the column of these names, and quotes the names of both.
+        let is_quoted = |text: &[u8]| text.trim_ascii_start().starts_with(b"\"");
+        let has_row_names = is_quoted(&self.text) && is_quoted(row.bytes) && fits(count + 1);
+        if has_row_names {
+            self.fields.insert(0, 0..0);
+        }
+        has_row_names
+    }
+
+    /// The fields, each with what follows it in brackets: `x [km]` is one name.
+    fn with_units(&self) -> Vec<Range<usize>> {
+        let mut names: Vec<Range<usize>> = Vec::new();
+        let mut open = 0_usize;
+        for field in &self.fields {
+            let text = &self.text[field.clone()];
+            let is_unit = open > 0 || matches!(text.first(), Some(b'(' | b'['));
+            match names.last_mut() {
+                Some(name) if is_unit => name.end = field.end,
+                _ => names.push(field.clone()),
+            }
+            for byte in text {
+                match byte {
+                    b'(' | b'[' => open += 1,
+                    b')' | b']' => open = open.saturating_sub(1),
+                    _ => {}
+                }
+            }
+        }
+        names
+    }
+}

@@ -1,0 +1,53 @@
+use super::*;
+
+fn refused(name: &str, bytes: &[u8], reading: &Reading) -> String {
+    let path = file(name, bytes);
+    open(path.to_str().expect("UTF-8"), reading).expect_err("no format").to_string()
+}
+
+/// A name says what unknown content is, but not what known content is not.
+#[test]
+fn content_that_is_known_is_not_read_as_its_name_says() {
+    let files: [(&str, &[u8], &str); 9] = [
+        ("sheet.csv", b"PK\x03\x04............", "a zip archive"),
+        ("page.pdb", b"<!DOCTYPE html>\n<html></html>\n", "no <robot>"),
+        ("powershell.csv", b"\xff\xfex\0,\0y\0,\0z\0\n\0", "UTF-16 text; save it as UTF-8"),
+        ("excel.csv", b"\xfe\xff\0x\0,\0y\0,\0z\0\n", "UTF-16 text; save it as UTF-8"),
+        ("amber.xyz", b"CDF\x01....", "NetCDF"),
+        ("little.xtc", b"\x54\0\0\0CORD....", "a DCD trajectory"),
+        ("big.xtc", b"\0\0\0\x54CORD....", "a DCD trajectory"),
+        ("long.xtc", b"\x54\0\0\0\0\0\0\0CORD....", "a DCD trajectory"),
+        ("big-long.xtc", b"\0\0\0\0\0\0\0\x54CORD....", "a DCD trajectory"),
+    ];
+    for (name, bytes, part) in files {
+        let message = refused(name, bytes, &Reading::default());
+        assert!(message.contains(part), "{name}: {message}");
+    }
+    let unknown = &mut frames_of("text.csv", b"Some text.\n", &Reading::default());
+    assert!(unknown.read(0).expect_err("no table").to_string().contains("no columns x, y, z"));
+    assert_eq!(centers(&good("CDF,x,y,z\n0.5,1,2,3\n")), [[1.0, 2.0, 3.0]]);
+}
+
+#[test]
+fn a_file_that_is_still_empty_becomes_what_its_name_says() {
+    let reading = Reading { follow: true, ..Reading::default() };
+    let gro = "t\n    1\n    1SOL     OW    1   0.126   1.624   1.679\n   1 1 1\n";
+    for (name, text, spheres) in [
+        ("awaited.xyz", "1\n\nC 0 0 0\n", 1),
+        ("awaited.gro", gro, 1),
+        ("awaited.pdb", PDB, 3),
+        ("awaited.csv", "x,y,z\n1,2,3\n4,5,6\n", 2),
+    ] {
+        let frames = &mut frames_of(name, b"", &reading);
+        for _ in 0..2 {
+            assert!(frames.read(0).unwrap_or_else(|error| panic!("{error}")).is_none(), "{name}");
+        }
+        file(name, text.as_bytes());
+        let scene = frames.read(0).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(scene.map(|scene| scene.spheres().len()), Some(spheres), "{name}");
+        let message = refused(name, b"", &Reading::default());
+        assert!(message.ends_with(": the file is empty"), "{message}");
+    }
+    let nameless = refused("awaited", b"", &reading);
+    assert!(nameless.ends_with(": the file is empty; --format says what it will be"), "{nameless}");
+}

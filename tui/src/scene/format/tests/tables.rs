@@ -1,0 +1,109 @@
+use super::*;
+
+const EXPECTED: [[f32; 3]; 2] = [[0.5, 1.5, 2.5], [3.0, 4.0, 5.0]];
+
+/// The table, read by these columns.
+fn by(columns: &str, text: &str) -> Scene {
+    let reading = Reading {
+        format: Some(Format::Csv),
+        columns: Some(columns.to_owned()),
+        ..Reading::default()
+    };
+    let scene = frames_of("by.csv", text.as_bytes(), &reading).read(0);
+    scene.unwrap_or_else(|error| panic!("{error}")).expect("a table")
+}
+
+/// R names rows, comments begin with a sign and perhaps a word, and units are words of their own.
+#[test]
+fn values_are_those_of_their_names() {
+    for text in [
+        "\"x\" \"y\" \"z\"\n\"1\" 0.5 1.5 2.5\n\"2\" 3 4 5\n",
+        "\"x\",\"y\",\"z\"\n\"1\",0.5,1.5,2.5\n\"2\",3,4,5\n",
+        "\"x\"\t\"y\"\t\"z\"\n\"a b\"\t0.5\t1.5\t2.5\n\"c\"\t3\t4\t5\n",
+        "# columns: x y z vx vy vz\n0.5 1.5 2.5 4 5 6\n3 4 5 4 5 6\n",
+        "# columns: x, y, z, vx\n0.5, 1.5, 2.5, 6\n3, 4, 5, 6\n",
+        "## id x y z\n7 0.5 1.5 2.5\n8 3 4 5\n",
+        "% a comment\n%x y z\n0.5 1.5 2.5\n% between\n3 4 5\n",
+        "% 1 2 3\n0.5 1.5 2.5\n3 4 5\n",
+        "# x [km] y [km] z[km]\n0.5 1.5 2.5\n3 4 5\n",
+        "# x y z (in kpc) v\n0.5 1.5 2.5 9\n3 4 5 9\n",
+        "# x, y, z\n0.5 1.5 2.5\n3 4 5\n",
+        "x y z\n0.5;1.5;2.5\n3;4;5\n",
+        "x y z\n0.5 1.5 2.5 # the first\n3 4 5 \n",
+        "x,y,z\n0.5,1.5,2.5,\n3,4,5, ,\"\"\n",
+        "x,y,z,v\n0.5,1.5,2.5\n3,4,5,9\n",
+        "\"name\",x,y,z\n\"a\",0.5,1.5,2.5,\n\"b\",3,4,5,\n",
+    ] {
+        assert_eq!(centers(&good(text)), EXPECTED, "{text}");
+    }
+    let scene = good("% x y z r\n1 2 3 0.5\n");
+    assert_eq!(spheres(&scene), [[1.0, 2.0, 3.0, 0.5]]);
+}
+
+/// What is not named would shift the names of the others.
+#[test]
+fn more_or_fewer_values_than_names_are_refused() {
+    for (text, place, values) in [
+        ("x y z\n1 0.5 1.5 2.5\n", "f:2:11", "4 values; the header in line 1 names 3"),
+        ("x y z\n1 2 3 4 5 6\n", "f:2:7", "6 values; the header in line 1 names 3"),
+        ("x y z\n\"1\" 0.5 1.5 2.5\n", "f:2:13", "4 values; the header in line 1 names 3"),
+        ("\n# id: x y z\n7 1 2 3\n", "f:3:7", "4 values; the header in line 2 names 3"),
+        ("# x y z\n1 2 3\n\n1 2\n", "f:4:4", "2 values; the header in line 1 names 3"),
+        ("# x y z of stars\n1 2 3\n", "f:2:6", "3 values; the header in line 1 names 5"),
+        ("x,y,z\n1,2,3\n1,2,3,4\n", "f:3:7", "4 values; the header in line 1 names 3"),
+        ("x;y;z\n1;2;3;;4\n", "f:2:7", "5 values; the header in line 1 names 3"),
+        ("x\ty\tz\n7\t1\t2\t3\n", "f:2:7", "4 values; the header in line 1 names 3"),
+    ] {
+        let expected = format!("{place}: {values}; --columns takes columns by number");
+        assert_eq!(error(text), expected, "{text}");
+    }
+}
+
+#[test]
+fn columns_by_number_need_no_names() {
+    assert_eq!(centers(&by("2,3,4", "x y z\n1 0.5 1.5 2.5\n2 3 4 5\n")), EXPECTED);
+    assert_eq!(centers(&by("1,2,3", "x, y, z\n0.5 1.5 2.5\n3 4 5\n")), EXPECTED);
+    let ragged = by("1,2,3", "x y z name\n0.5 1.5 2.5 Sol\n3 4 5 Alpha Centauri\n");
+    assert_eq!(centers(&ragged), EXPECTED);
+    // Where the names fit, they hold.
+    let named = by("2,3,4", "id,x,y,z,element\n1,0.5,1.5,2.5,C,\n2,3,4,5,O,\n");
+    assert_eq!(named.attributes().elements, Some(vec![6, 8]));
+}
+
+#[test]
+fn numbered_types_are_no_elements() {
+    let plain = good("x,y,z\n0,0,0\n.01,0,0\n");
+    for text in [
+        "x,y,z,type\n0,0,0,1\n.01,0,0,2\n",
+        "x,y,z,Kind\n0,0,0,1.0\n.01,0,0,-1e0\n",
+        "x,y,z,type\n0,0,0,\n.01,0,0,2\n",
+    ] {
+        let scene = good(text);
+        assert_eq!(spheres(&scene), spheres(&plain), "{text}");
+        assert_eq!(scene.attributes().elements, None, "{text}");
+        assert_ne!(scene.colors()[0], scene.colors()[1], "{text}");
+    }
+    for (text, numbers) in [
+        ("x,y,z,element\n0,0,0,1\n1,0,0,2\n", [1, 2]),
+        ("x,y,z,type\n0,0,0,C\n1,0,0,O\n", [6, 8]),
+        ("x,y,z,type\n0,0,0,1\n1,0,0,O\n", [1, 8]),
+        ("type,x,y,z,symbol\n1,0,0,0,6\n2,1,0,0,8\n", [6, 8]),
+    ] {
+        assert_eq!(good(text).attributes().elements, Some(numbers.to_vec()), "{text}");
+    }
+}
+
+#[test]
+fn r_without_g_and_b_is_the_radius() {
+    let alone = good("x,y,z,r\n0,0,0,5\n20,0,0,1\n");
+    assert_eq!(spheres(&alone), [[0.0, 0.0, 0.0, 5.0], [20.0, 0.0, 0.0, 1.0]]);
+    let colored = good("x,y,z,r,red,green,blue\n0,0,0,5,255,0,128\n");
+    assert_eq!(spheres(&colored), [[0.0, 0.0, 0.0, 5.0]]);
+    assert!(colored.attributes().own.colors);
+    let named = good("x,y,z,r,radius\n0,0,0,5,2\n");
+    assert_eq!(spheres(&named), [[0.0, 0.0, 0.0, 2.0]]);
+    // Magnitudes.
+    let bands = good("x,y,z,g,r,i\n0,0,0,-5,-4,3\n");
+    assert!(!bands.attributes().own.radii && bands.attributes().column("r").is_some());
+    assert!(error("x (m),y (m),z (m),r (mm)\n1,2,3,4\n").contains("lengths in \"(m)\" and in"));
+}
