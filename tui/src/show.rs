@@ -5,46 +5,40 @@ mod conflicts;
 mod once;
 mod reading;
 mod still;
+mod written;
 
 use crate::arguments::files::Subject;
 use crate::arguments::{ComputingArguments, Overlay, PictureArguments};
 use crate::color::Srgb;
-use crate::coloring::coloring;
-use crate::compare::Comparison;
-use crate::draw::pixels::{PixelGrid, SAMPLES};
+use crate::coloring::{Coloring, coloring};
 use crate::draw::{Renderer, picture_workload};
-use crate::error::{Error, write_stdout};
+use crate::error::Error;
 use crate::machine::check_floats;
-use crate::pick::report::Report;
-use crate::pick::{Pick, cell_ray};
-use crate::progress::{PATIENCE, Progress};
+use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::scene::frames::Frames;
-use crate::structure::scene::{PictureSearch, SceneStructures};
+use crate::structure::scene::SceneStructures;
 use crate::style::{Charset, ColorDepth, PIPE_SIZE, Style};
 use crate::terminal::color_depth::{ColorChoice, Surroundings};
 use crate::terminal::locale::is_without_unicode;
 use crate::terminal::{Abilities, Terminal, lost, pixels_of_cell};
 use crate::threads::Threads;
-use crate::tradeoff::Question;
-use crate::view::View;
 use crate::viewer::film::Film;
-use crate::{png_file, scene, viewer};
+use crate::{scene, viewer};
 use crossterm::terminal;
-use once::Once;
-use spherule_kernel::{Level, Ray, Tier};
+use spherule_kernel::{Level, Tier};
 use std::io::IsTerminal;
 use std::ops::RangeInclusive;
-use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 use still::Still;
+use written::Written;
 
 /// The widest cell and the narrowest that a terminal is believed to have.
 const LIKELY_ASPECTS: RangeInclusive<f32> = 0.2..=2.0;
 
-/// Shows a scene: in the viewer if standard output is a terminal that can show it, except with `--once`, `--png` and
-/// `--pick`.
+/// Shows a scene: in the viewer if standard output is a terminal that can show it, except with `--once`, `--size` and options that
+/// write something else.
 ///
 /// # Errors
 /// [`Error`] if there is no such scene, or it cannot be shown.
@@ -57,17 +51,21 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     let is_terminal = std::io::stdout().is_terminal();
     let mut surroundings = Surroundings::of_process(is_terminal);
     let PictureArguments { png, cast, pick, crowd, .. } = arguments;
-    let of_frames = arguments.scene.file.frames.clone();
-    let at_once =
-        arguments.once || png.is_some() || pick.is_some() || cast.is_some() || of_frames.is_some();
-    let in_viewer = is_terminal && !at_once && !surroundings.is_dumb();
+    let of_frames = arguments.scene.file.frames.is_some();
+    let has_size = arguments.scene.size.is_some();
+    let at_once = arguments.once || png.is_some() || pick.is_some() || cast.is_some();
+    let in_viewer = is_terminal && !(at_once || of_frames || has_size || surroundings.is_dumb());
     if !in_viewer {
-        conflicts::refuse(arguments)?;
+        conflicts::refuse(arguments, is_terminal)?;
     }
     let color_by = crowd.color_by(&scene);
     let colored = coloring(&scene, &color_by, crowd.range);
     let colored =
         colored.map_err(|error| Error::Input(format!("{}: {error}", arguments.scene.name)))?;
+    if !in_viewer && crowd.range.is_some() && !colored.has_numbers() {
+        let what = format!("--range: for numbers; colours are by {}", color_by.name());
+        return Err(Error::Input(what));
+    }
     let ComputingArguments { structure, level, threads } = arguments.computing;
     let threads = Threads::new(threads)?;
     let mut structures =
@@ -127,28 +125,8 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         aids: arguments.crowd.aids(&scene),
     };
     let view = arguments.scene.view(&scene, style.picture_aspect(columns, rows));
-    let mut renderer = Renderer::new(level.unwrap_or_else(Level::best), &threads);
+    let renderer = Renderer::new(level.unwrap_or_else(Level::best), &threads);
     structures.set_aids(style.aids);
-    if let Some(file) = cast {
-        if is_terminal && file == Path::new("-") {
-            return Err(Error::Input("--cast -: standard output is a terminal".to_owned()));
-        }
-        let frames = arguments.scene.file.turn().map_err(Error::Input)?;
-        let rate = arguments.fps.unwrap_or(30);
-        let turn = cast::Turn { frames, rate, lossless: arguments.lossless };
-        let picture = (&view, &style, (columns, rows));
-        let search = (&mut structures, structure);
-        return cast::write(file, turn, &scene, search, picture, &mut renderer);
-    }
-    if let Some(file) = png {
-        if is_terminal && file == Path::new("-") {
-            return Err(Error::Input("--png -: standard output is a terminal".to_owned()));
-        }
-        let grid = PixelGrid::new(&view, &style, columns, rows);
-        let workload = grid.workload(scene.spheres().len());
-        let search = structures.picture(structure, &workload, &view, &scene)?;
-        return write_png(&scene, &search, &grid, &style, &renderer, file);
-    }
     if let Some(terminal) = terminal {
         let comparison = arguments.show.and_then(Overlay::comparison);
         let table = arguments.show == Some(Overlay::Table);
@@ -162,7 +140,7 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
             rate: arguments.fps,
             lossless: arguments.lossless,
             output: arguments.output,
-            scene_name: arguments.scene.name.clone(),
+            asked: arguments.scene.clone(),
         };
         let asked = arguments.scene.clone();
         let prepare = move |scene: &mut Scene| {
@@ -173,68 +151,51 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         let film = frames.map(|frames| Film::new(frames, frame, prepare));
         return viewer::run(scene, colors, structures, start, renderer, (wire, film.transpose()?));
     }
-    let ray = arguments.pick.map(|cell| ray_of_pick(&view, &style, (columns, rows), cell));
-    let ray = ray.transpose()?;
-    let moves = of_frames.as_ref().map_or(0, |range| range.len().saturating_sub(1));
-    let workload = picture_workload(scene.spheres().len(), &style, columns, rows, 1.0)
-        .with_moves(moves as f64);
-    let search = structures.picture(structure, &workload, &view, &scene)?;
-    if let Some((cell, ray)) = ray {
-        let pick = Pick::new(&scene, &search, renderer.machine().0, ray);
-        let report = Report { scene: &arguments.scene.name, size: (columns, rows), cell, pick };
-        let text = if arguments.json { report.json() } else { report.text() };
-        return write_stdout(text.as_bytes());
-    }
-    let protocol = arguments.output.protocol(&abilities).filter(|_| arguments.show.is_none());
-    if let Some(protocol) = protocol {
-        let cell = pixels_of_cell(None).unwrap_or_else(|| PixelGrid::usual_cell(&style));
-        let grid = PixelGrid::in_cells(&view, &style, (columns, rows), cell, SAMPLES);
-        let image = renderer.draw_image(&scene, &search, style.accuracy, &grid);
-        let mut bytes = Vec::new();
-        protocol.write_in_line(&image, (columns, rows), &mut bytes);
-        return write_stdout(&bytes);
-    }
-    let once = Once { scene: &scene, view, style, size: (columns, rows), is_terminal };
-    match arguments.show {
-        None => {
-            once.picture(&mut renderer, &search, colored.legend.filter(|_| crowd.legend))?;
-            let prepared = |mut scene: Scene| {
-                paint_background(&mut scene, background);
-                // A frame without these radii goes without them.
-                let _ = arguments.scene.set_radii(&mut scene);
-                let colored = coloring(&scene, &color_by, crowd.range).ok();
-                let (colors, legend) =
-                    colored.map_or((None, None), |colored| (colored.colors, colored.legend));
-                if let Some(colors) = colors {
-                    scene.set_colors(colors);
-                }
-                (scene, legend.filter(|_| crowd.legend))
-            };
-            let Some(mut frames) = frames else { return Ok(()) };
-            let Some(range) = of_frames else { return say_more(&mut frames, frame) };
-            let still = Still { view, style, structure, size: (columns, rows), is_terminal };
-            still.pictures(&mut renderer, structures, &mut frames, frame + 1..range.end, prepared)
+
+    let size = (columns, rows);
+    let mut written =
+        Written { arguments, scene: &scene, view, style, size, is_terminal, renderer, structures };
+    written.first(colored.legend.filter(|_| crowd.legend))?;
+    let Some(mut frames) = frames else { return Ok(()) };
+    let of_frames = arguments.scene.file.frames.clone().filter(|_| cast.is_none());
+    let Some(range) = of_frames else {
+        let by = if written.is_picture() { "--frame N, --frames A..B" } else { "--frame N" };
+        return say_more(&mut frames, frame, by);
+    };
+    // What some frames do not have: told once, for the first of them.
+    let [mut no_radii, mut no_colors] = [None, None];
+    let prepared = |index: usize, mut scene: Scene| {
+        paint_background(&mut scene, background);
+        if let Err(error) = arguments.scene.set_radii(&mut scene) {
+            no_radii.get_or_insert(format!("frame {index} keeps its radii: {error}"));
         }
-        Some(Overlay::Tiers(Comparison::Errors)) => once.errors(&renderer, &search),
-        Some(Overlay::Tiers(Comparison::Split(tiers))) => once.split(tiers, &mut renderer, &search),
-        Some(Overlay::Table) => {
-            let cells = once.drawn(&mut renderer, &search);
-            let machine = renderer.machine();
-            let question =
-                Question { scene: &scene, view, style, size: (columns, rows), structure, machine };
-            once.table(cells, &question, &mut structures)
+        let colored = coloring(&scene, &color_by, crowd.range).unwrap_or_else(|error| {
+            no_colors.get_or_insert(format!("frame {index} keeps its colours: {error}"));
+            Coloring { colors: None, legend: None }
+        });
+        if let Some(colors) = colored.colors {
+            scene.set_colors(colors);
         }
+        (scene, colored.legend.filter(|_| crowd.legend))
+    };
+    let Written { mut renderer, structures, .. } = written;
+    let still = Still { view, style, structure, size, is_terminal };
+    still.pictures(&mut renderer, structures, &mut frames, frame + 1..range.end, prepared)?;
+    for note in [no_radii, no_colors].into_iter().flatten() {
+        frames.note(note);
     }
+    frames.report();
+    Ok(())
 }
 
 /// From so many spheres on, building a tree takes a while.
 const MANY: usize = 1_000_000;
 
-/// Says that there are frames that are not shown.
-fn say_more(frames: &mut Frames, frame: usize) -> Result<(), Error> {
+/// Says that there are frames that are not shown, and `by` what they are.
+fn say_more(frames: &mut Frames, frame: usize, by: &str) -> Result<(), Error> {
     // A wrong frame behind the picture does not make it wrong.
     if !frames.follows() && frames.has(frame + 1).unwrap_or(false) {
-        frames.note(format!("frame {frame} is shown; there are more: --frame N, --frames A..B"));
+        frames.note(format!("frame {frame} is shown; there are more: {by}"));
         frames.report();
     }
     Ok(())
@@ -245,43 +206,6 @@ fn paint_background(scene: &mut Scene, background: Option<Srgb>) {
     if let Some(background) = background.filter(|_| !scene.names_background) {
         scene.background = background;
     }
-}
-
-/// The ray through a cell of `--pick`, and that cell.
-fn ray_of_pick(
-    view: &View,
-    style: &Style,
-    (columns, rows): (u16, u16),
-    cell: (u16, u16),
-) -> Result<((u16, u16), Ray), Error> {
-    // A pick asks every tier.
-    check_floats(Tier::Exact)?;
-    let outside = || {
-        let (column, row) = cell;
-        let picture = format!("the picture, which is {columns}x{rows}");
-        Error::Input(format!("--pick {column},{row}: outside of {picture}; cells count from 0"))
-    };
-    let ray = cell_ray(view, style, (columns, rows), cell).ok_or_else(outside)?;
-    Ok((cell, ray))
-}
-
-fn write_png(
-    scene: &Scene,
-    search: &PictureSearch<'_>,
-    grid: &PixelGrid,
-    style: &Style,
-    renderer: &Renderer<'_>,
-    file: &Path,
-) -> Result<(), Error> {
-    let (mut progress, mut done) = (Progress::after(PATIENCE), 0_u32);
-    png_file::write(file, grid.size(), |output| {
-        renderer.draw_pixels(scene, search, style.accuracy, grid, |row| {
-            output.write_all(row)?;
-            done += 1;
-            progress.show("drawing", f64::from(done) / f64::from(grid.size().1));
-            Ok(())
-        })
-    })
 }
 
 /// A terminal may not know its size, or report a wrong one.

@@ -1,13 +1,12 @@
 //! `--cast`: an orbit as a recording.
 
-use super::PATIENCE;
 use crate::cast::Cast;
 use crate::choice::Auto;
 use crate::draw::picture_workload;
 use crate::draw::{Renderer, Spending};
 use crate::encode::Economy;
 use crate::error::Error;
-use crate::progress::Progress;
+use crate::progress::{PATIENCE, Progress};
 use crate::scene::Scene;
 use crate::structure::Structure;
 use crate::structure::scene::SceneStructures;

@@ -1,17 +1,17 @@
 //! Options that ask for what is not there outside the viewer: they are refused, not ignored.
 
+use super::written::protocol;
 use crate::arguments::PictureArguments;
 use crate::error::Error;
-use crate::terminal::Abilities;
 
-/// Refuses `--frames` and `--legend` beside options whose output has neither.
+/// Refuses `--frames` and `--legend` beside options whose output has neither, and `--output` beside `--png`.
 ///
 /// # Errors
 /// [`Error::Input`], which names both options.
-pub(super) fn refuse(arguments: &PictureArguments) -> Result<(), Error> {
-    let PictureArguments { png, pick, show, output, crowd, scene, .. } = arguments;
+pub(super) fn refuse(arguments: &PictureArguments, is_terminal: bool) -> Result<(), Error> {
+    let PictureArguments { png, pick, show, crowd, scene, .. } = arguments;
     let show = ("--show", show.is_some());
-    let pixels = ("--output", output.protocol(&Abilities::default()).is_some());
+    let pixels = ("--output", protocol(arguments, is_terminal).is_some());
     let first = |options: &[(&'static str, bool)]| {
         options.iter().find(|(_, is_asked_for)| *is_asked_for).map(|(name, _)| *name)
     };
@@ -21,6 +21,11 @@ pub(super) fn refuse(arguments: &PictureArguments) -> Result<(), Error> {
     {
         let what = format!("--frames writes pictures of cells; with {other} say --frame N");
         return Err(Error::Input(what));
+    }
+    if png.is_some() && pixels.1 {
+        return Err(Error::Input(
+            "--png writes a file; without it --output writes pixels".to_owned(),
+        ));
     }
     if crowd.legend
         && let Some(other) = first(&[show, pixels])

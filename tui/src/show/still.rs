@@ -32,12 +32,12 @@ impl Still {
         mut structures: SceneStructures<'_>,
         frames: &mut Frames,
         range: Range<usize>,
-        prepared: impl Fn(Scene) -> (Scene, Option<Legend>),
+        mut prepared: impl FnMut(usize, Scene) -> (Scene, Option<Legend>),
     ) -> Result<(), Error> {
         let Self { view, style, structure, size: (columns, rows), is_terminal } = *self;
         let end = range.end;
         while_reading(frames, range, |index, scene| {
-            let (scene, legend) = prepared(scene);
+            let (scene, legend) = prepared(index, scene);
             structures.go_on(scene.list());
             let workload = picture_workload(scene.spheres().len(), &style, columns, rows, 1.0)
                 .with_moves((end - index - 1) as f64);

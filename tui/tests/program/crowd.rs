@@ -109,6 +109,8 @@ fn what_a_scene_does_not_have_is_refused() {
     assert!(error("--color-by chain --range 1").contains("LOW:HIGH"));
     assert!(error("--range 1:2").contains("--color-by"));
     assert!(error("--edges=maybe").contains("maybe"));
+    let names = refusal(&run(words("caffeine --once --color-by element --range 1:2")));
+    assert_eq!(names, "--range: for numbers; colours are by element");
 }
 
 #[test]

@@ -102,6 +102,17 @@ fn a_pipe_gets_eighty_by_twenty_four_without_colour() {
     assert!(text.is_ascii());
 }
 
+/// Those terminals' variable is there in a pipe, too.
+#[test]
+fn a_pipe_gets_no_pixels_from_a_terminal_that_has_them() {
+    let cells = printed(&run(["unit"]));
+    for name in ["WezTerm", "iTerm.app"] {
+        let auto = ["unit", "--output", "auto"];
+        let output = spherule().args(auto).env("TERM_PROGRAM", name).output();
+        assert_eq!(printed(&output.expect("the program runs")), cells, "{name}");
+    }
+}
+
 #[test]
 fn every_coloured_line_is_closed_by_a_reset() {
     for color in ["16", "256", "truecolor", "always"] {
