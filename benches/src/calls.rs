@@ -5,7 +5,7 @@ mod refit;
 pub(crate) use self::refit::Refit;
 use crate::builds::{EMBREE, Trees};
 use crate::engine::kernel::levels;
-use crate::engine::{Engine, Query, Rays};
+use crate::engine::{EVERY_SECOND, Engine, Query, Rays};
 use crate::measure::Effort;
 use crate::rounds::{Median, Sampler, Samples, timed};
 use spherule_kernel::{
@@ -121,6 +121,7 @@ impl Row {
         let count = rays.len() as f64;
         let run = |call| {
             let mut work = work.borrow_mut();
+            work.forget();
             work.run(call, level, query);
             work.answers(query)
         };
@@ -278,6 +279,16 @@ impl<'a> Work<'a> {
         }
     }
 
+    /// Overwrites the answers with wrong ones, so that a run that writes none is seen.
+    fn forget(&mut self) {
+        self.hits.fill(Some(Hit { t: f32::NAN, sphere: u32::MAX }));
+        self.occluded.iter_mut().enumerate().for_each(|(ray, hit)| *hit = ray % 2 == 0);
+        self.packet_hits.fill(HitPacket::none());
+        self.packets_occluded.fill(EVERY_SECOND);
+        self.column_hits.0.fill(f32::NAN);
+        self.column_hits.1.fill(u32::MAX);
+    }
+
     /// The answers of the last run, one a ray: the bits of t and the sphere; for any hit, whether there is one.
     fn answers(&self, query: Query) -> Vec<(u32, u32)> {
         const NONE: (u32, u32) = (f32::INFINITY.to_bits(), u32::MAX);
@@ -294,5 +305,33 @@ impl<'a> Work<'a> {
             }
         };
         (0..self.rays.len()).map(answer).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Calls leave their answers where others look for theirs.
+    #[test]
+    fn a_call_that_writes_nothing_is_seen() {
+        let scene = Scene::large("u64", Size::SMALL).expect("listed");
+        let tree = scene.tree();
+        for query in Query::ALL {
+            let mut work = Work::new(&tree, scene.rays(Kind::Primary));
+            let mut run = |call| {
+                work.forget();
+                // As if it had run.
+                work.last = call;
+                let forgotten = work.answers(query);
+                work.run(call, Level::best(), query);
+                [forgotten, work.answers(query)]
+            };
+            let [_, expected] = run(Call::Packets);
+            for call in Call::ALL {
+                let [forgotten, found] = run(call);
+                assert!(found == expected && forgotten != expected, "{query:?}, {call:?}");
+            }
+        }
     }
 }

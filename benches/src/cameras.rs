@@ -217,11 +217,18 @@ impl<'a> Picture<'a> {
         time
     }
 
+    /// Forgets rays and hits, so that a way that makes none is seen.
+    fn forget(&mut self) {
+        self.rays.fill(RayPacket::inactive());
+        self.hits.fill(HitPacket::none());
+    }
+
     /// # Panics
     /// If a way's hits are not those of brute force, or its rays not the camera's.
     fn check(&mut self, level: Level) {
         let blocks = self.corners.len().div_ceil(PACKETS);
         for block in (0..blocks).step_by(blocks.div_ceil(4)) {
+            self.forget();
             self.block(block, Way::OneByOne, level);
             let (rays, hits) = (self.rays.clone(), self.hits.clone());
             let mut expected = vec![HitPacket::none(); 4];
@@ -230,9 +237,29 @@ impl<'a> Picture<'a> {
             self.tree.list().closest_hit_packets(Tier::Stable, &mut trace, few, &mut expected);
             assert!(hits.starts_with(&expected[..few.len()]), "not as brute force");
             for way in [Way::InLanes, Way::Before, Way::ByTree] {
+                self.forget();
                 self.block(block, way, level);
                 assert!(self.rays == rays && self.hits == hits, "{way:?}");
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The tree's own rays and hits are not what another way left.
+    #[test]
+    fn a_way_that_makes_nothing_is_seen() {
+        let scene = Scene::large("u64", Size::SMALL).expect("listed");
+        let (tree, (camera, pixels)) = (scene.tree(), camera(&scene));
+        let mut picture = Picture::new(&tree, camera, pixels, 1);
+        picture.check(Level::best());
+        let found = (picture.rays.clone(), picture.hits.clone());
+        picture.forget();
+        assert!(picture.rays != found.0 && picture.hits != found.1);
+        picture.block(0, Way::ByTree, Level::best());
+        assert!(picture.rays == found.0 && picture.hits == found.1);
     }
 }

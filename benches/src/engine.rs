@@ -17,6 +17,8 @@ use std::rc::Rc;
 
 /// The most rays of an engine that takes single rays where packets are meant: enough for a time.
 const SOME_RAYS: usize = 1 << 15;
+/// What stands in place of answers to any-hit queries that are forgotten: every second ray hits, as in no scene.
+pub(crate) const EVERY_SECOND: u32 = 0x5555_5555;
 /// Rays of a block: it is brought into the cache, then traced with the clock running. The kernel and Embree share the
 /// size.
 pub(crate) const BLOCK: usize = 4096;
@@ -51,6 +53,9 @@ pub(crate) trait Run {
     fn run(&mut self, query: Query);
     /// The answers of the last run. After an any-hit query, the sphere and t mean nothing.
     fn hits(&self) -> Vec<Option<Hit>>;
+    /// Overwrites the answers in memory, its own or another engine's, with wrong ones, so that a run that writes none is seen. There is
+    /// nothing to do if memory is shared neither with another engine nor by queries.
+    fn forget(&mut self) {}
     /// The nanoseconds that `runs` runs take.
     fn time(&mut self, query: Query, runs: usize) -> f64 {
         timed(|| (0..runs).for_each(|_| self.run(query)))

@@ -4,8 +4,8 @@ use crate::engine::Rays;
 use crate::measure::Effort;
 use crate::rounds::{Median, Sampler, Samples, timed};
 use spherule_kernel::{
-    Coherence, HitPacket, Intersect, Level, RayPacket, SphereTree, SurfacePacket, Tier, Towards,
-    Trace, Vec3, shadow_packets, surface, surface_packets,
+    Coherence, HitPacket, Intersect, Level, Ray, RayPacket, Side, Sphere, SphereTree, Surface,
+    SurfacePacket, Tier, Towards, Trace, Vec3, shadow_packets, surface, surface_packets,
 };
 use spherule_tests::scenes::{Kind, LARGE, Scene, Size};
 use std::cell::RefCell;
@@ -16,6 +16,7 @@ use std::time::Duration;
 pub(crate) enum Pass {
     Hits,
     Surfaces,
+    /// Shadow rays are made, not traced.
     ShadowRays,
 }
 
@@ -34,7 +35,7 @@ pub(crate) struct OfRays {
 }
 
 /// Where the light is.
-const LIGHT: Towards = Towards::Direction(Vec3::new(0.4, 0.8, 0.45));
+const LIGHT: Vec3 = Vec3::new(0.4, 0.8, 0.45);
 
 /// Measures all large scenes, or `one` alone: primary rays by coherent packets, diffuse ones ray by ray.
 pub(crate) fn measure(effort: Effort, one: Option<&str>) -> Vec<OfRays> {
@@ -128,26 +129,84 @@ impl<'a> Passes<'a> {
             surface_packets(tier, level, spheres, rays, hits, surfaces);
         }
         if pass == Pass::ShadowRays {
-            shadow_packets(tier, level, spheres, (rays, hits, surfaces), LIGHT, shadow_rays);
+            let hit = (rays, &hits[..], &surfaces[..]);
+            shadow_packets(tier, level, spheres, hit, Towards::Direction(LIGHT), shadow_rays);
         }
     }
 
-    /// Returns how many rays hit anything. Each of their surfaces must be the one that a call for one ray returns.
+    /// Forgets what was found, so that a call that finds nothing is seen.
+    fn forget(&mut self) {
+        self.hits.fill(HitPacket::none());
+        self.surfaces.fill(SurfacePacket::none());
+        self.shadow_rays.fill(RayPacket::inactive());
+    }
+
+    /// Returns how many rays hit anything.
+    ///
+    /// # Panics
+    /// If there is none, or anything is not what a call for one ray returns.
     fn checked(&mut self, tier: Tier) -> usize {
         let mut hit_rays = 0;
         for rays in self.rays.chunks(AT_ONCE) {
-            self.some(rays, tier, Pass::Surfaces);
-            for (place, packet) in rays.iter().enumerate() {
-                for lane in 0..RayPacket::COUNT {
-                    let Some(hit) = self.hits[place].hit(lane) else { continue };
-                    let sphere = self.tree.list().spheres().get(hit.sphere as usize);
-                    let sphere = sphere.expect("a sphere of the list");
-                    let truth = surface(tier, &packet.ray(lane), hit.t, &sphere);
-                    assert_eq!(self.surfaces[place].surface(lane), truth, "{tier:?} {sphere:?}");
-                    hit_rays += 1;
+            self.forget();
+            self.some(rays, tier, Pass::ShadowRays);
+            hit_rays += self.compared(rays, tier);
+        }
+        assert!(hit_rays > 0, "{tier:?}: nothing is hit");
+        hit_rays
+    }
+
+    /// Compares all surfaces of `rays`, and the shadow rays from some of them, with what a call for one ray returns. Returns how many rays
+    /// hit anything.
+    fn compared(&self, rays: &[RayPacket], tier: Tier) -> usize {
+        let mut hit_rays = 0;
+        for (place, packet) in rays.iter().enumerate() {
+            for lane in 0..RayPacket::COUNT {
+                let Some(hit) = self.hits[place].hit(lane) else { continue };
+                let sphere = self.tree.list().spheres().get(hit.sphere as usize);
+                let (ray, sphere) = (packet.ray(lane), sphere.expect("a sphere of the list"));
+                let truth = surface(tier, &ray, hit.t, &sphere);
+                assert_eq!(self.surfaces[place].surface(lane), truth, "{tier:?} {sphere:?}");
+                if lane == place % RayPacket::COUNT {
+                    let found = Some(self.shadow_rays[place].ray(lane)).filter(Ray::is_live);
+                    let truth = shadow_ray(tier, &ray, &truth, &sphere);
+                    assert_eq!(found, truth, "{tier:?} {sphere:?}");
                 }
+                hit_rays += 1;
             }
         }
         hit_rays
+    }
+}
+
+/// The shadow ray from where a ray hits, by a call for one ray; `None` where the surface does not face the light.
+fn shadow_ray(tier: Tier, ray: &Ray, surface: &Surface, sphere: &Sphere) -> Option<Ray> {
+    let side = surface.incident_side(ray.direction);
+    let normal = surface.normal.as_dvec3();
+    let outward = if side == Side::Inside { -normal } else { normal };
+    let faces = outward.dot(LIGHT.as_dvec3()) > 0.0;
+    faces.then(|| surface.spawn_ray(tier, sphere, side, LIGHT))?
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::panic::{AssertUnwindSafe, catch_unwind};
+
+    /// As if a later call had found nothing.
+    #[test]
+    fn a_call_that_finds_nothing_is_seen() {
+        let scene = Scene::large("u64", Size::SMALL).expect("listed");
+        let (tree, packets) = (scene.tree(), Rays::new(scene.rays(Kind::Primary)).packets());
+        let mut passes = Passes::new(&tree, Kind::Primary, &packets);
+        for tier in [Tier::Stable, Tier::Exact] {
+            assert!(passes.checked(tier) > 100);
+            for pass in Pass::ALL {
+                passes.forget();
+                passes.some(&packets, tier, pass);
+                let compared = catch_unwind(AssertUnwindSafe(|| passes.compared(&packets, tier)));
+                assert_eq!(compared.is_ok(), pass == Pass::ShadowRays, "{tier:?} {pass:?}");
+            }
+        }
     }
 }

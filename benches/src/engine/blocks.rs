@@ -4,7 +4,7 @@
 //! a block is copied, then searched with the clock running, then its answers are copied out. Rays that fill no more than one block stay in
 //! the cache anyway: they are searched where they are, and the caller keeps the time.
 
-use super::{Query, Run};
+use super::{EVERY_SECOND, Query, Run};
 use crate::rounds::{thread_time, timed};
 use spherule_kernel::{Hit, HitPacket, LaneArray, RayPacket};
 use std::cell::RefCell;
@@ -36,6 +36,13 @@ impl<A: LaneArray> Memory<A> {
         room(&mut self.answers, packets);
         room(&mut self.block_answers, block);
         self.rays.resize(block.max(self.rays.len()), RayPacket::inactive());
+    }
+
+    fn forget(&mut self) {
+        for (hits, occluded) in [&mut self.answers, &mut self.block_answers] {
+            hits.fill(HitPacket::none());
+            occluded.fill(EVERY_SECOND);
+        }
     }
 }
 
@@ -144,6 +151,12 @@ impl<A: LaneArray, S: FnMut(Query, &mut Blocks<'_, A>)> Run for InPackets<A, S> 
             if self.any_hit { any() } else { hits[packet].hit(lane) }
         };
         (0..self.count).map(hit).collect()
+    }
+
+    fn forget(&mut self) {
+        let memory = &mut *self.memory.borrow_mut();
+        memory.reserve(self.packets.len(), self.block);
+        memory.forget();
     }
 
     /// The time of the searches alone.

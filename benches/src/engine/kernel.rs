@@ -122,6 +122,7 @@ impl<'a> Kernel<'a> {
             // A structure may lose the false hits of these forms.
             Tier::Fast | Tier::Geometric if !is_brute_force => Promise::Nothing,
             _ if !is_reference => self.like_brute_force(tier),
+            Tier::Exact => Promise::Near(0.0, 0),
             _ if !self.scene.is_small => Promise::Nothing,
             Tier::Geometric if self.scene.has_ground() => Promise::GEOMETRIC_ON_GROUND,
             Tier::Fast | Tier::Geometric => Promise::TEXTBOOK,
@@ -131,7 +132,6 @@ impl<'a> Kernel<'a> {
             Tier::Stable if self.scene.has_ground() => Promise::Near(0.0, 768),
             // Grazing rays lose a few bits of t.
             Tier::Stable => Promise::Near(0.0, 64),
-            Tier::Exact => Promise::Near(0.0, 0),
             other => unreachable!("no promise of {other:?}"),
         };
         let most_rays = match (way, kind) {
@@ -211,4 +211,39 @@ fn answer(
         Query::ClosestHit => structure.closest_hit_packets(tier, &mut trace, rays, hits),
         Query::AnyHit => structure.any_hit_packets(tier, &mut trace, rays, occluded),
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::checked;
+    use spherule_tests::scenes::small;
+    use std::panic::{AssertUnwindSafe, catch_unwind};
+
+    /// An engine that is honest leaves the truth in the memory that all share.
+    #[test]
+    fn an_engine_that_writes_nothing_is_seen() {
+        let scene = small::cube("64", 64);
+        for kind in Kind::ALL {
+            let kernel = Kernel::new(&scene, &scene.tree());
+            let honest = kernel.ways(kind, &levels()[..1], &[Tier::Stable, Tier::Exact]);
+            let all: Vec<_> = honest.iter().collect();
+            let passes = |engines: &[&Engine]| {
+                let truth = kernel.truth();
+                let check = || drop(checked((&scene, kind), engines, &truth, usize::MAX));
+                catch_unwind(AssertUnwindSafe(check)).is_ok()
+            };
+            assert!(passes(&all));
+            for engine in kernel.ways(kind, &levels()[..1], &[Tier::Stable, Tier::Exact]) {
+                let memory = Rc::clone(&kernel.memory);
+                let ready: Ready = Box::new(move |rays| {
+                    let search = |_, _: &mut Blocks<'_>| {};
+                    let (packets, memory) = (rays.packets(), Rc::clone(&memory));
+                    Box::new(InPackets::new(packets, rays.list.len(), BLOCK, search, memory))
+                });
+                let name = engine.label.to_string();
+                assert!(!passes(&[&Engine { ready, ..engine }]), "{name}");
+            }
+        }
+    }
 }

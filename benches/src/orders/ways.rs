@@ -2,7 +2,7 @@
 //!
 //! Only this module of the report names what the kernel offers.
 
-use crate::engine::Query;
+use crate::engine::{EVERY_SECOND, Query};
 use crate::rounds::timed;
 use spherule_kernel::{
     DepthList, Hit, HitPacket, Intersect, Level, QueuedRay, Ray, RayPacket, SphereTree,
@@ -220,13 +220,14 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// Forgets the answers, so that a run that writes none is seen.
+    /// Overwrites the answers with wrong ones, so that a run that writes none is seen. (Bits that are inverted are right again when they
+    /// are inverted twice.)
     pub(super) fn forget(&mut self) {
         let wrong = Some(Hit { t: f32::NAN, sphere: u32::MAX });
         self.hits.fill(wrong);
-        self.occluded.iter_mut().for_each(|occluded| *occluded = !*occluded);
+        self.occluded.iter_mut().enumerate().for_each(|(ray, hit)| *hit = ray % 2 == 0);
         self.packet_hits.fill(HitPacket::none());
-        self.packets_occluded.iter_mut().for_each(|occluded| *occluded = !*occluded);
+        self.packets_occluded.fill(EVERY_SECOND);
     }
 
     /// Returns the answers of ray by ray.
@@ -239,6 +240,7 @@ impl<'a> Work<'a> {
         few: usize,
         name: &str,
     ) -> Answers {
+        self.forget();
         self.run(Way::RayByRay, level, query);
         let answers = self.answers(query);
         let (rays, list) = (&self.rays[..few.min(self.rays.len())], self.tree.list());

@@ -8,7 +8,7 @@ use spherule_kernel::Tier;
 pub(crate) fn page(origin: &str, all: &[OfRays]) -> String {
     let mut table = Table::new(
         2,
-        "scene | rays | that hit | ns a ray, `exact` | with surfaces | with shadow rays | \
+        "scene | rays | that hit | ns a ray, `exact` | with surfaces | with shadow rays made | \
          surfaces: times `exact` without | times `stable` without | shadow rays: times `exact` with surfaces",
     );
     for rays in all {
@@ -27,8 +27,9 @@ pub(crate) fn page(origin: &str, all: &[OfRays]) -> String {
     }
     format!(
         "# Surfaces and shadow rays, {} build\n\n{origin}\n\nClosest hits by the tree, primary rays in coherent packets, \
-         diffuse ones ray by ray; then normals and points of what is hit; then shadow rays from there to a light. One thread; \
-         medians of {} interleaved rounds [quartiles]. Before anything is timed, surfaces are those of one ray at a time.\n\n{}",
+         diffuse ones ray by ray; then normals and points of what is hit; then shadow rays from there to a light, made, not traced. \
+         One thread; medians of {} interleaved rounds [quartiles]. Before anything is timed, surfaces and shadow rays are those \
+         of one ray at a time.\n\n{}",
         build(),
         all.iter().map(OfRays::rounds).min().unwrap_or(0),
         table.0

@@ -86,4 +86,10 @@ impl<T, R, C: Fn(&T, &R) -> Option<Hit>, A: Fn(&T, &R) -> bool> Run for OneByOne
     fn hits(&self) -> Vec<Option<Hit>> {
         self.hits.clone()
     }
+
+    fn forget(&mut self) {
+        let every_second =
+            (0..).map(|ray| (ray % 2 == 0).then_some(Hit { t: f32::NAN, sphere: 0 }));
+        self.hits.iter_mut().zip(every_second).for_each(|(hit, wrong)| *hit = wrong);
+    }
 }
