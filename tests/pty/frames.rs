@@ -89,3 +89,34 @@ fn a_damaged_frame_does_not_end_the_film() {
     film.wait_for(" 0/");
     film.plays_and_quits();
 }
+
+/// What is typed behind the end of a scene are keys, and no frame.
+#[test]
+fn a_scene_that_is_typed_leaves_the_keys_to_the_viewer() {
+    let format = ["--format", "xyz"];
+    for format in [&format[..0], &format[..]] {
+        let arguments = [&["-"], OPTIONS.as_slice(), format].concat();
+        let mut session = Session::start(spherule(), &arguments, &[], (COLUMNS, ROWS));
+        // Ctrl-D ends it.
+        session.type_in("1\n\nC 0 0 0\n\x04");
+        session.wait_for("a frame", |output| shows_a_frame(output).then_some(()));
+        session.type_in("1");
+        session.wait_for("a tier", |output| contents(output).contains(" fast ").then_some(()));
+        session.type_in("q");
+        assert!(session.wait_for_end().success());
+    }
+}
+
+/// The table is of the frame that is shown.
+#[test]
+fn another_frame_is_measured_anew() {
+    let mut film =
+        Film::of("table.xyz", b"2\n\nC 0 0 0\nO 0 1 0\n3\n\nC 0 0 0\nO 0 1 0\nO 1 0 0\n");
+    film.session.type_in("t");
+    film.wait_for("2 spheres");
+    film.session.type_in(".");
+    film.wait_for("3 spheres");
+    fs::remove_file(&film.path).expect("it can be removed");
+    film.session.type_in("q");
+    assert!(film.session.wait_for_end().success());
+}

@@ -1,5 +1,7 @@
 //! How the program stops, goes on and ends, and what it leaves behind.
 
+use super::emulated::{Emulated, STATUS};
+use super::look::last_row;
 use super::modes::is_cooked;
 use super::picture::{SceneFile, once};
 use super::session::{Session, command, size};
@@ -8,6 +10,8 @@ use portable_pty::native_pty_system;
 use rustix::process::Signal;
 use spherule_tests::binary::spherule;
 use std::io::Read;
+use std::thread;
+use std::time::{Duration, Instant};
 
 /// Asserts that after a stop the terminal is the shell's, and after SIGCONT the program's.
 fn assert_stops_and_goes_on(viewer: Viewer) {
@@ -52,6 +56,78 @@ fn after_a_stop_that_cannot_be_caught_it_draws_again() {
         (redrawn && shows_a_frame(output)).then_some(())
     });
     viewer.quit();
+}
+
+/// A good terminal whose answers are so late.
+fn late(delay: Duration) -> Emulated {
+    let mut emulated = Emulated::good();
+    emulated.answers.delay = delay;
+    emulated
+}
+
+/// The shell has had the answers that came meanwhile, so they are not waited for when it is left.
+#[test]
+fn after_a_stop_that_cannot_be_caught_it_leaves_at_once() {
+    // It would wait for half a second. A loaded machine may need more than one try.
+    let is_at_once = || leaves_after_a_stop() < Duration::from_millis(400);
+    assert!((0..5).any(|_| is_at_once()));
+}
+
+/// How long it takes to leave after it was stopped with an answer on its way.
+fn leaves_after_a_stop() -> Duration {
+    const DELAY: Duration = Duration::from_millis(300);
+    let mut viewer = Viewer::start_in(late(DELAY), &[], &[], (COLUMNS, ROWS));
+    viewer.wait_for_look("the picture", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.session.wait_for_peace();
+    viewer.session.type_in("1");
+    viewer
+        .session
+        .wait_for("a frame", |output| last_row(output.screen()).contains(" fast ").then_some(()));
+    viewer.session.signal(Signal::STOP);
+    viewer.session.wait_until_stopped();
+    thread::sleep(2 * DELAY);
+    viewer.session.take_input();
+    viewer.session.signal(Signal::CONT);
+    viewer.session.wait_for_peace();
+    let asked = Instant::now();
+    viewer.session.type_in("q");
+    assert!(viewer.session.wait_for_exit().success());
+    asked.elapsed()
+}
+
+/// However it ends while answers are on their way: a terminal that is given back would echo them.
+#[test]
+fn answers_on_their_way_do_not_reach_the_shell() {
+    type End = fn(&mut Session);
+    let ways: [(&str, End); 3] = [
+        ("SIGTERM", |session| session.signal(Signal::TERM)),
+        ("SIGTSTP", |session| session.signal(Signal::TSTP)),
+        ("a panic", |session| session.type_in("!")),
+    ];
+    // All of them wait at once.
+    thread::scope(|scope| {
+        for (what, end) in ways {
+            scope.spawn(move || {
+                let emulated = late(Duration::from_millis(150));
+                let variables = [("SPHERULE_TEST_PANIC", "1")];
+                let mut viewer = Viewer::start_in(emulated, &[], &variables, (COLUMNS, ROWS));
+                viewer.session.wait_for_peace();
+                viewer.session.type_in(" ");
+                viewer.session.wait_for("frames", |output| {
+                    let sent = String::from_utf8_lossy(&output.sent);
+                    (sent.matches(STATUS).count() > 6).then_some(())
+                });
+                end(&mut viewer.session);
+                viewer.session.wait_for("the normal screen", |output| {
+                    (!output.screen().alternate_screen()).then_some(())
+                });
+                thread::sleep(Duration::from_secs(1));
+                assert!(is_cooked(&viewer.session.modes()), "{what}");
+                let sent = String::from_utf8_lossy(&viewer.session.output().sent).into_owned();
+                assert!(!sent.contains("^[["), "{what}: {sent:?}");
+            });
+        }
+    });
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Walks through the lecture.
 
+use super::emulated::{ATTRIBUTES, STATUS, SYNCHRONIZED};
 use super::session::{Output, Session};
 use spherule::lecture::stations::STATIONS;
 use spherule_tests::binary::spherule;
@@ -82,5 +83,31 @@ fn it_follows_the_size_and_says_what_it_needs() {
     session.resize(120, 40);
     let large = shown(&session, "q quit");
     assert!(!large.contains("needs"), "{large}");
+    quit(session, "q");
+}
+
+/// A walk has the terminal's size.
+#[test]
+fn a_station_of_a_size_is_written() {
+    let mut session = start(&["--size", "79x24", "--station", "1"]);
+    assert!(session.wait_for_end().success());
+    let output = session.output();
+    assert!(!output.sent.windows(3).any(|bytes| bytes == b"\x1b[?"), "a mode is set");
+    assert!(contents(&output).contains("needs 80x24, has 79x24"), "{}", contents(&output));
+}
+
+#[test]
+fn no_probe_asks_nothing() {
+    let mut session = start(&["--no-probe"]);
+    for index in [0, 1] {
+        let heading = heading(index);
+        let is_there = |output: &Output| contents(output).contains(&heading).then_some(());
+        session.wait_for(&heading, is_there);
+        session.type_in("n");
+    }
+    for question in [ATTRIBUTES, STATUS, SYNCHRONIZED] {
+        let sent = String::from_utf8_lossy(&session.output().sent).into_owned();
+        assert!(!sent.contains(question), "{question:?}");
+    }
     quit(session, "q");
 }

@@ -1,6 +1,8 @@
 //! Pixels in the viewer: it sends what `--png` writes, and leaves nothing behind.
 
-use super::emulated::{ATTRIBUTES, CELL_PIXELS, Emulated, IMAGE, Rule, STATUS, SYNCHRONIZED};
+use super::emulated::{
+    ATTRIBUTES, CELL_PIXELS, Emulated, IMAGE, Manner, Rule, STATUS, SYNCHRONIZED,
+};
 use super::look::last_row;
 use super::picture::{OPTIONS, SceneFile, once};
 use super::session::{Output, Session};
@@ -12,6 +14,8 @@ use rustix::process::Signal;
 use spherule_tests::binary::spherule;
 use std::io::{Cursor, Read};
 use std::process::Command;
+use std::thread;
+use std::time::Duration;
 
 /// A kitty whose cells have 8x16 pixels.
 const KITTY: [Rule; 6] = [
@@ -153,6 +157,28 @@ fn a_terminal_that_lies_gets_cells() {
     viewer.session.type_in("13");
     viewer.wait_for_picture("cells", &once(&VIEW, COLUMNS, PICTURE_ROWS));
     viewer.quit();
+}
+
+/// Over a slow link, the frames before the first image are answered after it was sent: that is no silence about it.
+#[test]
+fn answers_to_earlier_frames_deny_no_image() {
+    let delay = Duration::from_millis(300);
+    let answers = Manner { rules: KITTY.to_vec(), delay, is_torn: false };
+    let emulated = Emulated { answers, link: None };
+    let options = ["--show", "error", "--output", "kitty"];
+    let mut viewer = Viewer::start_in(emulated, &options, &[], (COLUMNS, ROWS));
+    viewer.session.wait_for_peace();
+    // It spins, in cells, with two frames under way.
+    viewer.session.type_in(" ");
+    viewer
+        .session
+        .wait_for("frames", |output| (text(output).matches(STATUS).count() > 4).then_some(()));
+    viewer.session.type_in("e ");
+    viewer.session.wait_for("an image", |output| last_image(&output.sent).is_some().then_some(()));
+    thread::sleep(3 * delay);
+    assert!(!viewer.session.output().screen().contents().contains("the terminal has none"));
+    viewer.session.type_in("q");
+    assert!(viewer.session.wait_for_end().success());
 }
 
 /// A terminal that says that it has no pixels gets none.

@@ -12,7 +12,7 @@ use rustix::fd::OwnedFd;
 use rustix::fs::{Mode, OFlags};
 use rustix::io::Errno;
 use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, kill_process, waitid};
-use rustix::termios::{Action, Termios, tcflow, tcgetattr};
+use rustix::termios::{Action, QueueSelector, Termios, tcflow, tcflush, tcgetattr};
 use std::ffi::OsStr;
 use std::fs;
 use std::io::{Read, Write};
@@ -191,6 +191,11 @@ impl Session {
     /// Stops the terminal from taking output, as Ctrl-S does outside of raw mode.
     pub(crate) fn block_output(&self) {
         tcflow(&self.line, Action::OOff).expect("the terminal obeys");
+    }
+
+    /// Takes all input that the program has not read, as a shell does while the program is stopped.
+    pub(crate) fn take_input(&self) {
+        tcflush(&self.line, QueueSelector::IFlush).expect("the terminal obeys");
     }
 
     /// Waits until `found` finds something in the output, and returns that.

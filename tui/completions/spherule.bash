@@ -275,7 +275,7 @@ _spherule() {
             return 0
             ;;
         spherule__subcmd__lecture)
-            opts="-h --station --once --list --size --color --help"
+            opts="-h --station --once --list --size --color --no-probe --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0

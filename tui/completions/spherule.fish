@@ -107,7 +107,7 @@ complete -c spherule -n "__fish_spherule_needs_command" -l follow -d 'Wait for f
 complete -c spherule -n "__fish_spherule_needs_command" -l legend -d 'Write what colours mean over the picture, also outside the viewer'
 complete -c spherule -n "__fish_spherule_needs_command" -l no-probe -d 'Ask the terminal nothing: not what it can do, nor how far it has come'
 complete -c spherule -n "__fish_spherule_needs_command" -l lossless -d 'Send every frame of the viewer as it is, and none that looks alike'
-complete -c spherule -n "__fish_spherule_needs_command" -l once -d 'Write one picture, also to a terminal'
+complete -c spherule -n "__fish_spherule_needs_command" -l once -d 'Write one picture, also to a terminal; so does --size'
 complete -c spherule -n "__fish_spherule_needs_command" -l json -d 'With --pick, write a JSON object'
 complete -c spherule -n "__fish_spherule_needs_command" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c spherule -n "__fish_spherule_needs_command" -s V -l version -d 'Print version'
@@ -121,7 +121,7 @@ complete -c spherule -n "__fish_spherule_using_subcommand trace" -l spheres -d '
 complete -c spherule -n "__fish_spherule_using_subcommand trace" -l rays -d 'Rays: .npy, float32 or float64, (M, 8): origin xyz, direction xyz, `t_min`, `t_max`' -r -F
 complete -c spherule -n "__fish_spherule_using_subcommand trace" -l out-t -d 'Where to write t: .npy, float32, (M,), +inf if a ray has no hit' -r -F
 complete -c spherule -n "__fish_spherule_using_subcommand trace" -l out-id -d 'Where to write the sphere: .npy, int32, (M,), -1 if a ray has no hit; with --any 1 or 0' -r -F
-complete -c spherule -n "__fish_spherule_using_subcommand trace" -l repeat -d 'Passes, 1 or more; the speed is that of their median' -r
+complete -c spherule -n "__fish_spherule_using_subcommand trace" -l repeat -d 'Passes, 1 to 1000000; the speed is that of their median' -r
 complete -c spherule -n "__fish_spherule_using_subcommand trace" -l accuracy -d 'How far hits may be trusted; algebraic is another name for fast' -r -f -a "fast\t''
 geometric\t''
 stable\t''
@@ -185,8 +185,9 @@ always\t'As many colours as the terminal has, also into a pipe'
 16\t'The 16 of the user\'s theme'
 256\t'The xterm palette'
 truecolor\t'24 bits'"
-complete -c spherule -n "__fish_spherule_using_subcommand lecture" -l once -d 'Write the station, or all, also to a terminal'
+complete -c spherule -n "__fish_spherule_using_subcommand lecture" -l once -d 'Write the station, or all, also to a terminal; so does --size'
 complete -c spherule -n "__fish_spherule_using_subcommand lecture" -l list -d 'List the stations, with the part of the lecture and the source files of each'
+complete -c spherule -n "__fish_spherule_using_subcommand lecture" -l no-probe -d 'Ask the terminal nothing'
 complete -c spherule -n "__fish_spherule_using_subcommand lecture" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c spherule -n "__fish_spherule_using_subcommand cases" -l family -d 'Families, with commas between them [default: all]' -r
 complete -c spherule -n "__fish_spherule_using_subcommand cases" -l count -d 'How many cases, of all families together and in turns' -r

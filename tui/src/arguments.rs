@@ -54,8 +54,8 @@ pub enum Command {
     Tradeoff(TradeoffArguments),
     /// Walk through the graphics lecture: fourteen stations whose numbers are computed as they are shown
     ///
-    /// On a terminal ? shows the keys. Into a pipe or a file, on a dumb terminal, or with --once, the station that
-    /// --station names is written, or all of them.
+    /// On a terminal ? shows the keys. Into a pipe or a file, on a dumb terminal, or with --once or --size, the station
+    /// that --station names is written, or all of them.
     Lecture(LectureArguments),
     /// Write cases in which ray-sphere intersection goes wrong, or list their families
     Cases(CasesArguments),
@@ -127,7 +127,7 @@ pub struct PictureArguments {
     /// What is written: cells, or pixels by a protocol of terminals
     #[arg(long, value_name = "HOW", default_value = "cells", conflicts_with_all = ["cast", "pick"])]
     pub output: Output,
-    /// Write one picture, also to a terminal
+    /// Write one picture, also to a terminal; so does --size
     #[arg(long)]
     pub once: bool,
     /// Write one turn around the scene as a recording of a terminal (asciinema, version 2); - for standard output
@@ -184,8 +184,8 @@ pub struct TraceArguments {
     /// Where to write the sphere: .npy, int32, (M,), -1 if a ray has no hit; with --any 1 or 0
     #[arg(long, value_name = "I.npy")]
     pub out_id: Option<PathBuf>,
-    /// Passes, 1 or more; the speed is that of their median
-    #[arg(long, value_name = "N", default_value = "1", value_parser = value_parser!(u32).range(1..), allow_negative_numbers = true)]
+    /// Passes, 1 to 1000000; the speed is that of their median
+    #[arg(long, value_name = "N", default_value = "1", value_parser = value_parser!(u32).range(1..=1_000_000), allow_negative_numbers = true)]
     pub repeat: u32,
     /// Report as a JSON object
     #[arg(long)]
@@ -229,6 +229,7 @@ pub enum Request {
 pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, Error> {
     let matches = Arguments::command().try_get_matches_from(arguments).and_then(|matches| {
         check_order(&matches)?;
+        check_frames(&matches)?;
         Arguments::from_arg_matches(&matches)
     });
     match matches {
@@ -244,6 +245,17 @@ fn check_order(matches: &ArgMatches) -> Result<(), clap::Error> {
     let is_object = matches!(matches.try_get_one("order"), Ok(Some(Order::Object)));
     if is_object && matches.value_source("structure") == Some(ValueSource::CommandLine) {
         let message = "the argument '--order object' cannot be used with '--structure <HOW>'";
+        return Err(Arguments::command().error(ErrorKind::ArgumentConflict, message));
+    }
+    Ok(())
+}
+
+/// Refuses `--frames` beside `tradeoff`, which measures one frame.
+fn check_frames(matches: &ArgMatches) -> Result<(), clap::Error> {
+    let tradeoff = matches.subcommand_matches("tradeoff");
+    let source = tradeoff.and_then(|tradeoff| tradeoff.value_source("frames"));
+    if source == Some(ValueSource::CommandLine) {
+        let message = "the argument '--frames <A..B>' cannot be used with 'tradeoff', which measures one frame: --frame <N>";
         return Err(Arguments::command().error(ErrorKind::ArgumentConflict, message));
     }
     Ok(())

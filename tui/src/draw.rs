@@ -90,9 +90,11 @@ pub fn picture_workload(
 
 /// Cells that are drawn at a time, in whole rows, so that the largest picture fits into memory. Smaller pictures are drawn at once.
 const STRIP: usize = 1 << 17;
+/// The most of a strip's few samples, unless a row has more: their light takes 100 MB.
+const STRIP_SAMPLES: usize = 1 << 23;
 
-/// How many columns beside a cell influence it: one of samples, two of fits, and one more that letters look at.
-const BESIDE: u16 = 4;
+/// How many columns beside a cell influence it: one of samples, two of fits, and one more that letters look at. Edges reach farther.
+const BESIDE: usize = 4;
 /// The first column of a part is a multiple of this, as packets and the pattern of dither need it.
 const ALIGNED: u16 = 8;
 
@@ -152,11 +154,14 @@ impl<'a> Renderer<'a> {
         part: Range<u16>,
         spending: Spending,
     ) -> Drawn {
-        let from = part.start.saturating_sub(BESIDE) / ALIGNED * ALIGNED;
-        let drawn = from..part.end.saturating_add(BESIDE).min(columns);
-        let width = drawn.len();
         let traced = self.traced(scene, search, style);
-        let plan = Plan::new(traced, view, style, (columns, rows), spending).only(drawn);
+        let plan = Plan::new(traced, view, style, (columns, rows), spending);
+        let [of_edges, _] = plan.edges_reach();
+        let beside = u16::try_from(of_edges.saturating_add(BESIDE)).unwrap_or(u16::MAX);
+        let from = part.start.saturating_sub(beside) / ALIGNED * ALIGNED;
+        let drawn = from..part.end.saturating_add(beside).min(columns);
+        let width = drawn.len();
+        let plan = plan.only(drawn);
         let mut all = CellGrid::new(width as u16, rows);
         let effort = self.in_strips(&plan, &mut all);
         let mut cells = CellGrid::new(part.len() as u16, rows);
@@ -169,7 +174,8 @@ impl<'a> Renderer<'a> {
 
     /// Draws what is planned, strip by strip.
     fn in_strips(&mut self, plan: &Plan<'_>, cells: &mut CellGrid) -> Effort {
-        let (columns, height) = (cells.columns(), usize::from(self.strip_rows(cells.columns())));
+        let (columns, samples) = (cells.columns(), plan.few.samples.count());
+        let height = usize::from(self.strip_rows(columns, samples));
         let strips = cells.cells_mut().chunks_mut((height * usize::from(columns)).max(1));
         strips.zip((0..).step_by(height)).fold(Effort::NONE, |effort, (cells, first)| {
             effort.and(self.strip.draw(plan, self.threads, first, cells))
@@ -191,7 +197,7 @@ impl<'a> Renderer<'a> {
     ) -> Result<(), E> {
         let traced = self.traced(scene, search, style);
         let plan = Plan::new(traced, view, style, (columns, rows), Spending::ByNeed);
-        let height = self.strip_rows(columns);
+        let height = self.strip_rows(columns, plan.few.samples.count());
         for first in (0..rows).step_by(height.into()) {
             let mut cells = CellGrid::new(columns, height.min(rows - first));
             self.strip.draw(&plan, self.threads, first.into(), cells.cells_mut());
@@ -200,9 +206,10 @@ impl<'a> Renderer<'a> {
         Ok(())
     }
 
-    /// How many rows of so many cells are drawn at a time.
-    fn strip_rows(&self, columns: u16) -> u16 {
-        let rows = self.most_cells / usize::from(columns.max(1));
+    /// How many rows of so many cells, of so many samples each, are drawn at a time.
+    fn strip_rows(&self, columns: u16, samples: u32) -> u16 {
+        let most_cells = self.most_cells.min(STRIP_SAMPLES / samples.max(1) as usize);
+        let rows = most_cells / usize::from(columns.max(1));
         u16::try_from(rows).unwrap_or(u16::MAX).max(1)
     }
 

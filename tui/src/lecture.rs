@@ -31,7 +31,7 @@ pub struct LectureArguments {
     /// The station, 1 to 14 or by its name
     #[arg(long, value_name = "STATION", value_parser = station)]
     pub station: Option<usize>,
-    /// Write the station, or all, also to a terminal
+    /// Write the station, or all, also to a terminal; so does --size
     #[arg(long)]
     pub once: bool,
     /// List the stations, with the part of the lecture and the source files of each
@@ -43,10 +43,13 @@ pub struct LectureArguments {
     /// Colours
     #[arg(long, value_name = "WHEN", default_value = "auto")]
     pub color: ColorChoice,
+    /// Ask the terminal nothing
+    #[arg(long)]
+    pub no_probe: bool,
 }
 
-/// Walks through the lecture on a terminal that can show it. With `--once`, or into a pipe, prints the station that is
-/// asked for, or all of them.
+/// Walks through the lecture on a terminal that can show it. With `--once` or `--size`, or into a pipe, prints the
+/// station that is asked for, or all of them.
 ///
 /// # Errors
 /// [`Error`] if nothing can be shown.
@@ -57,8 +60,10 @@ pub fn lecture(arguments: &LectureArguments) -> Result<(), Error> {
     let is_terminal = std::io::stdout().is_terminal();
     let surroundings = Surroundings::of_process(is_terminal);
     let style = Style { depth: surroundings.depth(arguments.color), ..Style::PLAIN };
-    if is_terminal && !arguments.once && !surroundings.is_dumb() {
-        return walk::walk(arguments.station.unwrap_or(0), style);
+    // A walk has the terminal's size.
+    let at_once = arguments.once || arguments.size.is_some();
+    if is_terminal && !at_once && !surroundings.is_dumb() {
+        return walk::walk(arguments.station.unwrap_or(0), style, !arguments.no_probe);
     }
     // A terminal may not know its size, or report a wrong one.
     let is_usable = |&(columns, rows): &(u16, u16)| {

@@ -1,7 +1,5 @@
 //! Answers compared with the truth: counts of wrong decisions, and the error of t in ulp.
 
-use spherule_kernel::Hit;
-
 /// What is wrong with an answer, from nothing to the worst.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Class {
@@ -78,20 +76,8 @@ pub struct Ulp {
 }
 
 impl Tally {
-    /// Compares the closest hits of many rays, `answers[i]` with `truths[i]`.
-    pub fn of(
-        answers: impl IntoIterator<Item = Option<Hit>>,
-        truths: impl IntoIterator<Item = Option<Hit>>,
-    ) -> Self {
-        let mut tally = Self::default();
-        for (answer, truth) in answers.into_iter().zip(truths) {
-            let elsewhere = answer.zip(truth).is_some_and(|(a, b)| a.sphere != b.sphere);
-            tally.record(answer.map(|hit| hit.t), truth.map(|hit| hit.t), elsewhere);
-        }
-        tally
-    }
-
-    /// Adds one ray: the t of the answer, the t of the truth and, if both hit, whether they hit different places.
+    /// Adds one ray: the t of the answer, the t of the truth and, if both hit, whether they hit different places: different spheres, or
+    /// different roots of one.
     pub fn record(&mut self, answer: Option<f32>, truth: Option<f32>, elsewhere: bool) {
         let counts = &mut self.counts;
         counts.rays += 1;
@@ -165,10 +151,17 @@ mod tests {
 
     #[test]
     fn wrong_decisions_are_counted_by_their_kind() {
-        let hit = |t, sphere| Some(Hit { t, sphere });
-        let answers =
-            [None, hit(1.0, 0), None, hit(1.0, 2), hit(1.0, 3), hit(1.0_f32.next_up(), 3)];
-        let truths = [None, None, hit(1.0, 0), hit(1.0, 3), hit(1.0, 3), hit(1.0, 3)];
+        let mut tally = Tally::default();
+        for (answer, truth, elsewhere) in [
+            (None, None, false),
+            (Some(1.0), None, false),
+            (None, Some(1.0), false),
+            (Some(1.0), Some(1.0), true),
+            (Some(1.0), Some(1.0), false),
+            (Some(1.0_f32.next_up()), Some(1.0), false),
+        ] {
+            tally.record(answer, truth, elsewhere);
+        }
         let expected = Summary {
             rays: 6,
             hits: 4,
@@ -178,7 +171,7 @@ mod tests {
             rounded: 1,
             ulp: Some(Ulp { median: 0, p999: 1, max: 1 }),
         };
-        assert_eq!(Tally::of(answers, truths).summary(), expected);
+        assert_eq!(tally.summary(), expected);
     }
 
     #[test]

@@ -11,6 +11,8 @@ pub mod locale;
 mod reply;
 mod screen;
 mod signals;
+mod tty;
+mod unanswered;
 mod wish;
 
 use crate::error::caught::is_caught;
@@ -20,6 +22,7 @@ use abilities::{PATIENCE, questions};
 use crossterm::terminal;
 pub use input::Incoming;
 use input::Input;
+use reply::LARGEST_CELL;
 pub use reply::Reply;
 use std::collections::VecDeque;
 use std::env;
@@ -41,14 +44,8 @@ pub struct Terminal {
     abilities: Abilities,
     /// What the user did while answers were waited for.
     early: VecDeque<Incoming>,
-    /// Questions that are not answered yet, such as how far it has come.
-    open_questions: u32,
-    /// When it was asked what it can do.
-    asked: Option<Instant>,
 }
 
-/// How long answers are waited for when the terminal is given back.
-const LAST_WORDS: Duration = Duration::from_millis(500);
 /// Asks how far the terminal has come (DSR 5): it answers when it has taken everything before.
 const ASK_STATUS: &[u8] = b"\x1b[5n";
 
@@ -65,8 +62,6 @@ impl Terminal {
             input: Input::open().map_err(|error| screen::no_terminal(&error))?,
             abilities: Abilities::default(),
             early: VecDeque::new(),
-            open_questions: 0,
-            asked: None,
         };
         screen::enter()?;
         if may_ask {
@@ -82,7 +77,7 @@ impl Terminal {
             has_color,
         ))?;
         let asked = Instant::now();
-        self.asked = Some(asked);
+        unanswered::asked_first(asked);
         let deadline = asked + PATIENCE;
         while !self.abilities.has_answered {
             let left = deadline.saturating_duration_since(Instant::now());
@@ -97,10 +92,12 @@ impl Terminal {
 
     fn learn(&mut self, reply: Reply) {
         self.abilities.learn(reply);
-        if reply == Reply::Status {
-            self.open_questions = self.open_questions.saturating_sub(1);
+        match reply {
+            Reply::Status => unanswered::answered(),
+            Reply::Attributes { .. } => unanswered::answered_first(),
+            _ => {}
         }
-        if self.abilities.has_answered && self.open_questions == 0 {
+        if self.abilities.has_answered && unanswered::count() == 0 {
             self.input.await_answers(false);
         }
     }
@@ -141,7 +138,8 @@ impl Terminal {
     /// # Errors
     /// If the terminal is gone.
     pub fn show(&self, bytes: &[u8]) -> io::Result<()> {
-        screen::show(bytes).map_err(or_hung_up)
+        screen::show(bytes).map_err(or_hung_up)?;
+        Ok(())
     }
 
     /// Sends `bytes` in one piece, and asks the terminal to answer [`Reply::Status`] when it has taken them.
@@ -150,9 +148,19 @@ impl Terminal {
     /// If the terminal is gone.
     pub fn show_and_ask(&mut self, bytes: &mut Vec<u8>) -> io::Result<()> {
         bytes.extend_from_slice(ASK_STATUS);
-        self.open_questions += 1;
+        // Before it is sent: whoever gives the terminal back meanwhile waits for the answer.
+        unanswered::asked();
         self.input.await_answers(true);
-        screen::show(bytes).map_err(or_hung_up)
+        if !screen::show(bytes).map_err(or_hung_up)? {
+            unanswered::answered();
+        }
+        Ok(())
+    }
+
+    /// How many frames are sent whose [`Reply::Status`] is still to come.
+    #[must_use]
+    pub fn open_questions(&self) -> u32 {
+        unanswered::count()
     }
 
     /// Sets the `bytes` that are sent before the terminal is given back, whenever that is: they remove images.
@@ -175,18 +183,9 @@ impl Terminal {
 
     /// Waits for the answers that are on their way: they would come to whoever has the terminal next, who would take them
     /// for keys.
-    ///
-    /// A terminal that has answered once is known to answer. One that has not may do so late, or never: for its first
-    /// answers the wait ends soon after it was asked, however late it is left.
     fn take_open_answers(&mut self) {
-        let last = Instant::now() + LAST_WORDS;
-        loop {
-            let first = self.asked.filter(|_| !self.abilities.has_answered);
-            let deadline = match first.map(|asked| asked + PATIENCE + LAST_WORDS) {
-                _ if self.open_questions > 0 => last,
-                Some(deadline) => deadline,
-                None => break,
-            };
+        let leaving = Instant::now();
+        while let Some(deadline) = unanswered::until(leaving) {
             let left = deadline.saturating_duration_since(Instant::now());
             match self.input.next(Some(left)) {
                 Ok(Some(Incoming::Reply(reply))) => self.learn(reply),
@@ -194,13 +193,18 @@ impl Terminal {
                 Ok(None) | Err(_) => break,
             }
         }
-        self.open_questions = 0;
+        unanswered::forget();
     }
 
-    /// Whether the screen was taken again since the last call: nothing drawn before is on it.
+    /// Whether the screen was taken again since the last call: nothing drawn before is on it, and whoever had the terminal
+    /// meanwhile has had its answers.
     #[must_use]
-    pub fn was_resumed(&self) -> bool {
-        screen::was_resumed()
+    pub fn was_resumed(&mut self) -> bool {
+        let was_resumed = screen::was_resumed();
+        if was_resumed {
+            unanswered::forget();
+        }
+        was_resumed
     }
 }
 
@@ -222,7 +226,9 @@ fn or_hung_up(error: io::Error) -> io::Error {
 pub fn pixels_of_cell(told: Option<(u16, u16)>) -> Option<(u32, u32)> {
     let of_system = || {
         let size = terminal::window_size().ok()?;
-        let pixels = |all: u16, cells: u16| all.checked_div(cells).filter(|&pixels| pixels > 0);
+        let pixels = |all: u16, cells: u16| {
+            all.checked_div(cells).filter(|pixels| (1..=LARGEST_CELL).contains(pixels))
+        };
         Some((pixels(size.width, size.columns)?, pixels(size.height, size.rows)?))
     };
     of_system().or(told).map(|(width, height)| (u32::from(width), u32::from(height)))

@@ -52,6 +52,8 @@ const POLE: f32 = 0.017;
 const NATURAL_FOV: std::ops::RangeInclusive<f32> = 10.0..=90.0;
 /// The useful distances of the eye and heights of the picture: beyond them, rays to what is seen are no numbers.
 const USEFUL: std::ops::Range<f32> = 1e-30..1e30;
+/// The largest angle, in radians, by which rounding may turn a view when the eye goes nearer: a twentieth of a degree.
+const LARGEST_TURN: f32 = 1e-3;
 /// The field of view, in degrees, if changing the projection moves the eye.
 const USUAL_FOV: f32 = 40.0;
 
@@ -78,11 +80,16 @@ impl View {
     #[must_use]
     pub fn height_at_target(&self) -> f32 {
         match self.lens {
-            Lens::Perspective { fov } => {
-                2.0 * length(self.eye - self.target) * (fov / 2.0).to_radians().tan()
-            }
+            Lens::Perspective { fov } => self.height_under(fov.into()),
             Lens::Parallel { height } => height,
         }
+    }
+
+    /// The height at the target of what the eye sees under an angle of `fov` degrees.
+    #[must_use]
+    pub fn height_under(&self, fov: f64) -> f32 {
+        let distance = f64::from(length(self.eye - self.target));
+        (2.0 * distance * (fov / 2.0).to_radians().tan()) as f32
     }
 
     /// The kernel's camera for a picture of `width` x `height` samples that is `aspect` times as
@@ -168,14 +175,18 @@ pub fn panned(view: &View, right: f64, up: f64) -> View {
 }
 
 /// Makes what is at the target appear `factor` times as large: by going nearer in perspective, by a lower picture in parallel. A factor
-/// that is not finite and above 0, or that would leave the range of useful numbers, changes nothing.
+/// that is not finite and above 0, or that would leave the range of useful numbers, changes nothing. Nor does one that leads nearer than
+/// floats lie at the target.
 #[must_use]
 pub fn zoomed(view: &View, factor: f32) -> View {
     let useful = |size: f32| factor > 0.0 && USEFUL.contains(&size);
     match view.lens {
         Lens::Perspective { .. } => {
             let way = (view.eye - view.target) / factor;
-            if useful(length(way)) { View { eye: view.target + way, ..*view } } else { *view }
+            let eye = eye_at(view.target, way);
+            // The way back is open wherever the eye is.
+            let eye = if factor > 1.0 { eye } else { Some(view.target + way) };
+            eye.filter(|_| useful(length(way))).map_or(*view, |eye| View { eye, ..*view })
         }
         Lens::Parallel { height } => {
             let height = height / factor;
@@ -187,7 +198,7 @@ pub fn zoomed(view: &View, factor: f32) -> View {
 /// The same picture at the target, through the other lens.
 ///
 /// Back and forth gives the same view. The exception is a parallel picture so high or low that its angle would be unnatural: then the eye
-/// moves.
+/// moves, or if floats are too far apart for that, nothing changes.
 #[must_use]
 pub fn with_projection(view: &View, kind: LensKind) -> View {
     let height = view.height_at_target();
@@ -202,13 +213,17 @@ pub fn with_projection(view: &View, kind: LensKind) -> View {
             }
             let distance = height / 2.0 / (USUAL_FOV / 2.0).to_radians().tan();
             let outward = direction(way).unwrap_or(Vec3::Z);
-            View {
-                eye: view.target + distance * outward,
-                lens: Lens::Perspective { fov: USUAL_FOV },
-                ..*view
-            }
+            let lens = Lens::Perspective { fov: USUAL_FOV };
+            let eye = eye_at(view.target, distance * outward);
+            eye.map_or(*view, |eye| View { eye, lens, ..*view })
         }
     }
+}
+
+/// The eye that is `way` from the target; `None` where floats are so far apart that it would look from elsewhere.
+fn eye_at(target: Vec3, way: Vec3) -> Option<Vec3> {
+    let eye = target + way;
+    (length(eye - target - way) <= LARGEST_TURN * length(way)).then_some(eye)
 }
 
 /// The vector made one long; `None` if it has no direction. (Squares of single precision are far within the range of double.)

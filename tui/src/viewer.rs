@@ -18,6 +18,7 @@ mod pace;
 mod picking;
 mod pixel_frame;
 mod pixels;
+mod printable;
 mod recording;
 mod seam;
 mod session;
@@ -26,6 +27,7 @@ mod state;
 mod status;
 mod table;
 
+use crate::arguments::SceneArguments;
 use crate::choice::Auto;
 use crate::coloring::ColorBy;
 use crate::coloring::scale::Range;
@@ -79,8 +81,8 @@ pub struct Wire {
     pub lossless: bool,
     /// What `--output` says.
     pub output: Output,
-    /// What the scene is called on the command line.
-    pub scene_name: String,
+    /// What the command line says of the scene.
+    pub asked: SceneArguments,
 }
 
 /// Shows `scene`, which has its own colours, on the terminal until the user quits: from `start` on, coloured by
@@ -97,7 +99,7 @@ pub fn run(
     renderer: Renderer<'_>,
     (wire, film): (Wire, Option<Film>),
 ) -> Result<(), Error> {
-    let Wire { terminal, surroundings, color, rate, lossless, output, scene_name } = wire;
+    let Wire { terminal, surroundings, color, rate, lossless, output, asked } = wire;
     let usual = if env::var_os("SSH_CONNECTION").is_some() { REMOTE_RATE } else { LOCAL_RATE };
     let interval = Duration::from_secs(1) / u32::from(rate.unwrap_or(usual)).max(1);
     let colors = Colors::new(&scene, color_by, range);
@@ -110,7 +112,7 @@ pub fn run(
         lossless,
         pixels: Pixels::new(output, &terminal),
         terminal,
-        scene_name,
+        asked,
         notice: None,
         told: Vec::new(),
         recording: None,
@@ -238,6 +240,8 @@ impl Viewer<'_> {
         if self.terminal.was_resumed() {
             self.encoder.forget();
             self.flow.forget();
+            // Whoever had the terminal has had the answer.
+            self.pixels.awaits_first = None;
             outcome = outcome.and(Outcome::Changed);
         }
         Ok(outcome)
@@ -255,6 +259,7 @@ impl Viewer<'_> {
         self.structures.go_on(scene.list());
         self.scene = scene;
         self.colors.begin_anew();
+        self.table.close();
         // The last picture is of another scene.
         self.picture = None;
         true

@@ -35,7 +35,7 @@ pub struct SceneArguments {
     pub target: Option<DVec3>,
     /// The vertical field of view in degrees; of a parallel projection, the angle from the eye that is as high at the target
     #[arg(long, value_name = "DEGREES", value_parser = field_of_view, allow_negative_numbers = true)]
-    pub fov: Option<f32>,
+    pub fov: Option<f64>,
     /// Then leads the eye around the target: degrees to the right, degrees up
     #[arg(long, value_name = "RIGHT,UP", value_parser = orbit, allow_hyphen_values = true)]
     pub orbit: Option<[f32; 2]>,
@@ -54,11 +54,12 @@ impl SceneArguments {
     /// Opens the scene, and the file that it is from.
     ///
     /// # Errors
-    /// [`Error::Input`] if there is no such scene, or it cannot be read.
+    /// [`Error::Input`] if there is no such scene, it cannot be read, or the eye is its target.
     pub fn open(&self) -> Result<Subject, Error> {
         let mut subject = self.file.open(&self.name)?;
         let set = self.set_radii(&mut subject.scene);
-        set.map_err(|error| Error::Input(format!("{}: {error}", self.name)))?;
+        set.and_then(|()| self.check_eye(&subject.scene))
+            .map_err(|error| Error::Input(format!("{}: {error}", self.name)))?;
         let Subject { scene, frames, .. } = &mut subject;
         if let Some(frames) = frames
             && scene.spheres().iter().all(|sphere| sphere.radius == 0.0)
@@ -78,18 +79,40 @@ impl SceneArguments {
         self.radius.as_ref().map_or(Ok(()), |radius| set_radii(scene, radius))
     }
 
+    /// Refuses an eye that is asked for where it looks.
+    fn check_eye(&self, scene: &Scene) -> Result<(), String> {
+        // The shape of the picture only moves an eye that no one has placed.
+        let view = self.placed(scene, 1.0);
+        if (self.eye.is_some() || self.target.is_some()) && view.eye == view.target {
+            return Err("the camera's target is its eye: another --eye or --target".to_owned());
+        }
+        Ok(())
+    }
+
+    /// The scene's first view, with eye and target where they are asked for.
+    fn placed(&self, scene: &Scene, aspect: f64) -> View {
+        let view = scene.first_view(aspect as f32);
+        let place = |point: DVec3| (point - scene.origin).as_vec3();
+        let eye = self.eye.map_or(view.eye, place);
+        let target = self.target.map_or(view.target, place);
+        View { eye, target, ..view }
+    }
+
     /// Where the scene is first seen from, in a picture of `aspect`, width over height.
     #[must_use]
     pub fn view(&self, scene: &Scene, aspect: f64) -> View {
-        let mut view = scene.first_view(aspect as f32);
+        let mut view = self.placed(scene, aspect);
         let kind = self.projection.unwrap_or(view.lens_kind());
-        let place = |point: DVec3| (point - scene.origin).as_vec3();
-        view.eye = self.eye.map_or(view.eye, place);
-        view.target = self.target.map_or(view.target, place);
-        view.lens = self.fov.map_or(view.lens, |fov| Lens::Perspective { fov });
+        view.lens = self.fov.map_or(view.lens, |fov| Lens::Perspective { fov: fov as f32 });
         if let Some([right, up]) = self.orbit {
             view = orbited(&view, right.to_radians(), up.to_radians());
         }
-        with_projection(&view, kind)
+        match self.fov {
+            // As high as asked for: an angle of single precision would be another height.
+            Some(fov) if kind == LensKind::Parallel => {
+                View { lens: Lens::Parallel { height: view.height_under(fov) }, ..view }
+            }
+            _ => with_projection(&view, kind),
+        }
     }
 }

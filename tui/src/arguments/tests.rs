@@ -86,6 +86,7 @@ fn what_is_wrong_is_said_in_one_line() {
         ("--order pixel", "image, object"),
         ("--order object --structure bvh", "cannot be used with '--structure <HOW>'"),
         ("tradeoff --structure auto --order object", "cannot be used with '--structure <HOW>'"),
+        ("tradeoff t.xyz --frames 2..9", "one frame: --frame <N>"),
         ("--threads 0", "1..=1024"),
         ("tradeoff --threads 1025", "1..=1024"),
         ("trace --threads two", "--threads <N>"),
@@ -135,6 +136,25 @@ fn what_is_wrong_is_said_in_one_line() {
             other => panic!("{line}: {other:?}"),
         }
     }
+}
+
+#[test]
+fn an_eye_on_the_target_sees_nothing() {
+    for line in [
+        "unit --eye 0,0,0",
+        "unit --eye 0,0,0 --projection parallel",
+        "unit --eye 1,2,3 --target 1,2,3 --orbit 30,0",
+        "unit --eye 1,1,1 --target 1.00000001,1,1",
+    ] {
+        match picture(line).scene.open() {
+            Err(Error::Input(message)) => {
+                let expected = "unit: the camera's target is its eye: another --eye or --target";
+                assert_eq!(message, expected, "{line}");
+            }
+            other => panic!("{line}: {other:?}"),
+        }
+    }
+    picture("unit --eye 0,0,3 --target 0,0,1").scene.open().expect("an eye beside the target");
 }
 
 /// Scripts say `tiles`, the name that the depth list had first.

@@ -43,9 +43,10 @@ pub(super) fn orbit(text: &str) -> Result<[f32; 2], &'static str> {
         .ok_or("RIGHT,UP in degrees, such as 30,-10")
 }
 
-/// An angle in degrees.
-pub(super) fn field_of_view(text: &str) -> Result<f32, &'static str> {
-    let degrees = text.parse().ok().filter(|degrees: &f32| *degrees > 0.0 && *degrees < 180.0);
+/// An angle in degrees, which is one in single precision, too.
+pub(super) fn field_of_view(text: &str) -> Result<f64, &'static str> {
+    let is_angle = |degrees: &f64| *degrees as f32 > 0.0 && (*degrees as f32) < 180.0;
+    let degrees = text.parse().ok().filter(is_angle);
     degrees.ok_or("degrees, above 0 and below 180, such as 40")
 }
 

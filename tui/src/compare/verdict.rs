@@ -1,6 +1,7 @@
 //! What one answer gets wrong against the truth, and counts of many such verdicts.
 
 pub use crate::tally::Class;
+use crate::tally::Tally;
 use spherule_kernel::{Exact, Hit, Ray, Sphere, Spheres, roots};
 
 /// A [`Class`], and how far t is off in ulp if both hit the same sphere.
@@ -32,6 +33,22 @@ impl Verdict {
         };
         Self { class, ulp }
     }
+}
+
+/// Judges the closest hits of many rays, `answers[i]` of `rays[i]` by `truths[i]`, and counts.
+pub(crate) fn tally(
+    rays: impl IntoIterator<Item = Ray>,
+    spheres: Spheres<'_>,
+    answers: impl IntoIterator<Item = Option<Hit>>,
+    truths: impl IntoIterator<Item = Option<Hit>>,
+) -> Tally {
+    let mut tally = Tally::default();
+    for ((ray, answer), truth) in rays.into_iter().zip(answers).zip(truths) {
+        let Verdict { class, .. } = Verdict::of(&ray, spheres, answer, truth);
+        let elsewhere = matches!(class, Class::OtherSphere | Class::OtherRoot);
+        tally.record(answer.map(|hit| hit.t), truth.map(|hit| hit.t), elsewhere);
+    }
+    tally
 }
 
 /// Whether the answer is nearer to another root of the line than to the truth.
@@ -210,6 +227,19 @@ mod tests {
             let class = ulp.checked_ilog2().map_or(Class::Right, |log| Class::Off(log as u8));
             assert_eq!(found.class, class);
         }
+    }
+
+    /// A hit at the other root is in a wrong place, and its t is not among the errors in ulp.
+    #[test]
+    fn a_tally_tells_roots_apart() {
+        let ray = Ray::new(Vec3::ZERO, Vec3::Z);
+        let spheres = Spheres::new(&[0.0; 2], &[0.0; 2], &[5.0, 0.0], &[1.0, 2.0]);
+        let spheres = spheres.expect("as many of each");
+        let truth = hit(4.0, 0);
+        let answers = [truth, hit(stepped(4.0, 3), 0), hit(6.0, 0), hit(2.0, 1), None];
+        let found = tally([ray; 5], spheres, answers, [truth; 5]).summary();
+        assert_eq!((found.wrong_places, found.wrong_misses, found.rounded), (2, 1, 1));
+        assert_eq!(found.ulp.map(|ulp| ulp.max), Some(3));
     }
 
     /// Where both roots are one, there is no other.

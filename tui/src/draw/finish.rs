@@ -4,7 +4,7 @@ use super::sample_grid::{SampleGrid, Traced};
 use crate::samples::CellSamples;
 use crate::scene::attributes::Naming;
 use crate::shade::depth_cue::DepthCue;
-use crate::shade::silhouettes::{Pitch, Seen, SeenGrid, darkened};
+use crate::shade::silhouettes::{Pitch, Seen, SeenGrid, darkened, reach};
 use crate::style::Style;
 use crate::view::View;
 use spherule_kernel::{Hit, Spheres, Vec3};
@@ -56,6 +56,12 @@ impl<'a> Finish<'a> {
         let index = hit.sphere as usize;
         let radius = self.spheres.get(index).map_or(0.0, |sphere| sphere.radius);
         Seen { depth: hit.t, radius, part: self.parts.get(index).copied().unwrap_or(0) }
+    }
+
+    /// How many columns and rows of cells away there may be what darkens a cell.
+    pub(super) fn reach(&self) -> [usize; 2] {
+        let samples = (self.few.across as usize, self.few.down as usize);
+        if self.edges { reach(samples, self.cell_aspect) } else { [0; 2] }
     }
 
     /// What the few samples show of rows of so many cells.

@@ -78,6 +78,11 @@ impl<'a> Plan<'a> {
         }
     }
 
+    /// How many columns and rows of cells away there may be what darkens a cell.
+    pub(super) fn edges_reach(&self) -> [usize; 2] {
+        self.finish.as_ref().map_or([0; 2], Finish::reach)
+    }
+
     /// The same picture, but only these columns are drawn, as if it ended with them.
     pub(super) fn only(mut self, columns: Range<u16>) -> Self {
         (self.left, self.columns) = (columns.start.into(), columns.len());

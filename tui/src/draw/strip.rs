@@ -22,6 +22,7 @@ use crate::style::{Charset, ColorDepth};
 use crate::threads::Threads;
 use spherule_kernel::Vec3;
 use std::iter;
+use std::mem::swap;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 use worker::Worker;
@@ -33,6 +34,8 @@ const BAND: usize = 4;
 
 /// How many rows of fits around a row influence its cells.
 const HALO: usize = 2;
+/// How many rows of samples around a row influence its fits. Edges reach farther.
+const AROUND: usize = 1;
 
 /// The memory of a strip.
 #[derive(Debug, Default)]
@@ -41,22 +44,38 @@ pub(super) struct Strip {
     light: Vec<Vec3>,
     /// What the few samples show, if edges are to be seen.
     seen: Vec<Seen>,
-    /// The light in `OKLab`.
+    /// The light in `OKLab`, if cells may be in need.
     looks: Vec<Vec3>,
     /// How far the few samples of a cell disagree.
     needs: Vec<f32>,
     /// The needs of cells in need.
     sorted: Vec<f32>,
+    /// What is kept of the last picture, or of both parts of one that are drawn by turns: first of the part that was drawn last.
+    kept: [Kept; 2],
+    /// One a thread.
+    workers: Vec<Worker>,
+}
+
+/// What is kept from frame to frame.
+#[derive(Debug, Default)]
+struct Kept {
     /// The fits of the frame before, until they are made anew.
     fits: Vec<Fitted>,
     /// The cells that were made of the fits.
     shown: Vec<Cell>,
-    /// The rows and columns that the fits are of, and their characters and colours.
-    fits_of: Option<(Range<usize>, usize, usize, Charset, ColorDepth)>,
+    /// What the fits are of.
+    of: Option<Place>,
     /// Whether the fits were drawn at rest.
     at_rest: bool,
-    /// One a thread.
-    workers: Vec<Worker>,
+}
+
+/// Rows and columns, and their characters and colours.
+#[derive(Debug, PartialEq)]
+struct Place {
+    rows: Range<usize>,
+    columns: Range<usize>,
+    charset: Charset,
+    depth: ColorDepth,
 }
 
 /// The rows and so many around them, of `all` rows of the picture.
@@ -105,22 +124,22 @@ impl Strip {
     ) -> Effort {
         let rows = first..first + cells.len() / plan.columns;
         let fitted = rows_around(&rows, HALO, plan.rows);
-        let sampled = rows_around(&fitted, 1, plan.rows);
+        let [_, of_edges] = plan.edges_reach();
+        let sampled = rows_around(&fitted, AROUND + of_edges, plan.rows);
         let band = BAND * plan.columns;
         let (samples, shadow_rays) = (AtomicU64::new(0), AtomicU64::new(0));
         let count = |(traced, shadows)| {
             samples.fetch_add(traced, Ordering::Relaxed);
             shadow_rays.fetch_add(shadows, Ordering::Relaxed);
         };
-        let Self { light, seen, looks, needs, sorted, fits, shown, fits_of, at_rest, workers } =
-            self;
+        let Self { light, seen, looks, needs, sorted, kept: [kept, other], workers } = self;
 
         let few = plan.few.samples.count() as usize;
         light.resize(sampled.len() * plan.columns * few, Vec3::ZERO);
-        looks.resize(light.len(), Vec3::ZERO);
+        looks.resize(if plan.many.is_empty() { 0 } else { light.len() }, Vec3::ZERO);
         let edges = plan.finish.as_ref().filter(|finish| finish.edges);
         seen.resize(if edges.is_some() { light.len() } else { 0 }, Seen::NOTHING);
-        let bands = light.chunks_mut(band * few).zip(looks.chunks_mut(band * few));
+        let bands = light.chunks_mut(band * few).zip(chunks_or_nothing(looks, band * few));
         let bands = bands.zip(chunks_or_nothing(seen, band * few));
         let bands = bands.zip(sampled.clone().step_by(BAND));
         threads.share(workers, bands, |worker, (((light, looks), seen), first)| {
@@ -131,7 +150,7 @@ impl Strip {
         });
         let edges = edges.map(|finish| (finish, finish.grid(seen, plan.columns)));
         if let Some((finish, grid)) = &edges {
-            let bands = light.chunks_mut(band * few).zip(looks.chunks_mut(band * few));
+            let bands = light.chunks_mut(band * few).zip(chunks_or_nothing(looks, band * few));
             threads.share(workers, bands.zip((0..).step_by(BAND)), |_, ((light, looks), first)| {
                 darken(finish, grid, first, light);
                 write_looks(light, looks);
@@ -149,14 +168,22 @@ impl Strip {
         let grant = left.grant(needs, &grids, sorted);
         let many = plan.many.get(grant.grid).map(|sampling| (sampling, grant.above));
 
+        let place = Place {
+            rows: fitted.clone(),
+            columns: plan.left..plan.left + plan.columns,
+            charset: plan.style.charset,
+            depth: plan.style.depth,
+        };
+        if kept.of.as_ref().is_none_or(|of| of.columns != place.columns) {
+            swap(kept, other);
+        }
+        let Kept { fits, shown, of, at_rest } = kept;
         // Fits of another place, or of cells of another kind, say nothing.
-        let place =
-            Some((fitted.clone(), plan.left, plan.columns, plan.style.charset, plan.style.depth));
-        if plan.is_steady || *fits_of != place {
+        if plan.is_steady || of.as_ref() != Some(&place) {
             fits.clear();
             shown.clear();
         }
-        *fits_of = place;
+        *of = Some(place);
         // A movement begins with what was there at rest.
         if *at_rest && !plan.is_steady {
             fits.iter_mut().for_each(change::at_rest);

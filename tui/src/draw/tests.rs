@@ -2,7 +2,7 @@ use super::*;
 use crate::cells::Cell;
 use crate::scene::builtin::builtin;
 use crate::structure::scene::SceneStructures;
-use crate::style::{Charset, ColorDepth};
+use crate::style::{Aids, Charset, ColorDepth};
 use crate::view::orbited;
 use clap::ValueEnum;
 use std::convert::Infallible;
@@ -57,20 +57,26 @@ fn a_budget_that_suffices_is_not_seen() {
     }
 }
 
-/// Counts glyphs that differ from the picture before, in pictures of marbles, each from a little farther to the right.
-fn changes_of_glyphs(style: &Style, keeps: bool) -> usize {
+/// Counts glyphs that differ from the picture before, in pictures of marbles, each from a little farther to the right, and drawn part
+/// by part.
+fn changes_of_glyphs(style: &Style, parts: &[(u16, u16)], keeps: bool) -> usize {
     marbles(style, 1, STRIP, |renderer, scene, search, view| {
         let mut changes = 0;
-        let mut last: Option<CellGrid> = None;
+        let mut last: Option<Vec<Cell>> = None;
         for step in 0..6_u8 {
             let view = orbited(view, f32::from(step) * 0.007, 0.0);
             if !keeps {
                 renderer.strip = Strip::default();
             }
             let spending = Spending::AtMost(u64::MAX);
-            let cells = renderer.draw(scene, search, &view, style, SIZE, spending).cells;
+            let mut cells = Vec::new();
+            for &(from, to) in parts {
+                let (scene, part) = ((scene, search), from..to);
+                let drawn = renderer.draw_columns(scene, &view, style, SIZE, part, spending);
+                cells.extend_from_slice(drawn.cells.cells());
+            }
             if let Some(last) = last.replace(cells.clone()) {
-                let pairs = last.cells().iter().zip(cells.cells());
+                let pairs = last.iter().zip(&cells);
                 changes += pairs.filter(|(last, cell)| last.glyph != cell.glyph).count();
             }
         }
@@ -82,9 +88,11 @@ fn changes_of_glyphs(style: &Style, keeps: bool) -> usize {
 fn what_moves_keeps_its_glyphs() {
     let letters = Style { charset: Charset::Ascii, depth: ColorDepth::Never, ..STYLE };
     for (style, most) in [(STYLE, 0.9), (letters, 0.6)] {
-        let [kept, anew] = [true, false].map(|keeps| changes_of_glyphs(&style, keeps));
-        let is_calm = (kept as f64) < most * anew as f64;
-        assert!(kept > 0 && is_calm, "{style:?}: {kept} changes, {anew} without a frame before");
+        for parts in [&[(0, 60)][..], &[(0, 29), (30, 60)]] {
+            let [kept, anew] = [true, false].map(|keeps| changes_of_glyphs(&style, parts, keeps));
+            let is_calm = (kept as f64) < most * anew as f64;
+            assert!(kept > 0 && is_calm, "{style:?} {parts:?}: {kept} changes, {anew} anew");
+        }
     }
 }
 
@@ -199,6 +207,69 @@ fn strips_do_not_show() {
             assert!(cells == expected.cells(), "{height} rows, {depth:?}");
         }
     }
+}
+
+/// With edges, cells depend on rows and columns that are farther away.
+const EDGES: Style = Style { aids: Aids { edges: true, ..Aids::NONE }, ..STYLE };
+
+#[test]
+fn strips_with_edges_do_not_show() {
+    for samples in [None, Some(16)] {
+        let style = Style { samples, ..EDGES };
+        let expected = drawn(&style, 1, STRIP, Spending::ByNeed).cells;
+        for rows in [1, 7] {
+            let found = drawn(&style, 1, rows * 60, Spending::ByNeed).cells;
+            assert!(found == expected, "{samples:?}, {rows} rows");
+        }
+    }
+}
+
+#[test]
+fn parts_are_the_whole_with_edges_in_cells_of_every_shape() {
+    for cell_aspect in [0.5, 0.2, 0.05] {
+        let style = Style { cell_aspect, ..EDGES };
+        marbles(&style, 1, STRIP, |renderer, scene, search, view| {
+            let whole = renderer.draw(scene, search, view, &style, SIZE, Spending::ByNeed).cells;
+            for seam in [12_u16, 24, 40, 50] {
+                for part in [0..seam, seam..60] {
+                    let columns = usize::from(part.start)..usize::from(part.end);
+                    let (scene, spending) = ((scene, search), Spending::ByNeed);
+                    let found = renderer.draw_columns(scene, view, &style, SIZE, part, spending);
+                    let is_same = |row| found.cells.row(row) == &whole.row(row)[columns.clone()];
+                    assert!((0..SIZE.1).all(is_same), "{cell_aspect}, columns {columns:?}");
+                }
+            }
+        });
+    }
+}
+
+/// Many samples are few cells at a time, and a wide row is traced in parts.
+#[test]
+fn many_samples_are_drawn_a_part_at_a_time() {
+    let threads = Threads::default();
+    let renderer = Renderer::new(Level::best(), &threads);
+    for (columns, samples, rows) in [
+        (4096, 1, 32),
+        (4096, 4, 32),
+        (4096, 64, 32),
+        (4096, 256, 8),
+        (200, 256, 163),
+        (1, 4, 65_535),
+    ] {
+        assert_eq!(renderer.strip_rows(columns, samples), rows, "{columns} columns, {samples}");
+    }
+    let style = Style { samples: Some(256), ..STYLE };
+    let size = (90, 8);
+    marbles(&style, 1, STRIP, |renderer, scene, search, view| {
+        let whole = renderer.draw(scene, search, view, &style, size, Spending::ByNeed).cells;
+        for part in [0..45, 45..90_u16] {
+            let columns = usize::from(part.start)..usize::from(part.end);
+            let (scene, spending) = ((scene, search), Spending::ByNeed);
+            let found = renderer.draw_columns(scene, view, &style, size, part, spending).cells;
+            let is_same = |row| found.row(row) == &whole.row(row)[columns.clone()];
+            assert!((0..size.1).all(is_same), "{columns:?}");
+        }
+    });
 }
 
 #[test]

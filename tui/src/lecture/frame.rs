@@ -31,6 +31,11 @@ const HELP: [&str; 14] = [
     "                                                            ",
 ];
 
+/// Columns and rows of what a station draws, on a page of this size.
+pub(super) fn room((columns, rows): (u16, u16)) -> (u16, u16) {
+    (columns.max(LEAST.0) - 2, rows.max(LEAST.1) - ABOVE - BELOW)
+}
+
 /// The page of station `index`, in so many columns and rows; if these are less than [`LEAST`], the top left of a larger
 /// page.
 pub(super) fn page(
@@ -44,7 +49,8 @@ pub(super) fn page(
     let mut page = Canvas::new(width, height, style);
     let station = &STATIONS[index];
     write_words(&mut page, index, station);
-    let mut drawn = Canvas::new(width - 2, height - ABOVE - BELOW, style);
+    let (inner_columns, inner_rows) = room((columns, rows));
+    let mut drawn = Canvas::new(inner_columns, inner_rows, style);
     station.show(numbers, &mut drawn);
     page.copy(1, ABOVE.into(), &drawn.into_cells());
     if help {

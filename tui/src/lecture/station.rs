@@ -22,17 +22,49 @@ pub(super) struct Knob {
     ends: [i32; 2],
     /// Whether the least follows the greatest.
     around: bool,
+    /// The side of the picture beside the text along which it leads, if it is the place of a cell.
+    side: Option<Side>,
 }
+
+/// A side of a picture.
+#[derive(Clone, Copy, Debug)]
+enum Side {
+    Columns,
+    Rows,
+}
+
+/// Farther from the middle than any cell of a terminal.
+const FAR: i32 = 4096;
 
 impl Knob {
     /// A number within `ends`.
     pub(super) const fn within(first: i32, steps: [i32; 2], ends: [i32; 2]) -> Self {
-        Self { first, steps, ends, around: false }
+        Self { first, steps, ends, around: false, side: None }
     }
 
     /// A number from 0 to `count` - 1, around in a circle.
     pub(super) const fn around(first: i32, steps: [i32; 2], count: i32) -> Self {
-        Self { first, steps, ends: [0, count - 1], around: true }
+        Self { first, steps, ends: [0, count - 1], around: true, side: None }
+    }
+
+    /// The column of a cell, from the middle of the picture beside the text.
+    pub(super) const fn column(first: i32) -> Self {
+        Self { side: Some(Side::Columns), ..Self::within(first, [1, 0], [-FAR, FAR]) }
+    }
+
+    /// The row of a cell, downwards from the middle.
+    pub(super) const fn row(first: i32) -> Self {
+        Self { side: Some(Side::Rows), ..Self::within(first, [0, -1], [-FAR, FAR]) }
+    }
+
+    /// The nearest number that is seen in a picture of so many columns and rows.
+    fn seen(&self, number: i32, [columns, rows]: [i32; 2]) -> i32 {
+        let count = match self.side {
+            None => return number,
+            Some(Side::Columns) => columns,
+            Some(Side::Rows) => rows,
+        };
+        number.clamp(-(count / 2), count - 1 - count / 2)
     }
 
     fn turned(&self, number: i32, turn: Turn) -> i32 {
@@ -96,6 +128,21 @@ impl Station {
     /// The numbers after an arrow.
     pub(super) fn turned(&self, [one, other]: Numbers, turn: Turn) -> Numbers {
         [self.knobs[0].turned(one, turn), self.knobs[1].turned(other, turn)]
+    }
+
+    /// The numbers after an arrow, on a canvas of so many columns and rows: no arrow leads past what is seen, from where
+    /// another would have to lead back.
+    pub(super) fn turned_in(
+        &self,
+        (columns, rows): (u16, u16),
+        numbers: Numbers,
+        turn: Turn,
+    ) -> Numbers {
+        let picture = [i32::from(columns) - self.text, i32::from(rows)];
+        let seen = |[one, other]: Numbers| {
+            [self.knobs[0].seen(one, picture), self.knobs[1].seen(other, picture)]
+        };
+        seen(self.turned(seen(numbers), turn))
     }
 
     /// Draws all of it.

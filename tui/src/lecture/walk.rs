@@ -1,6 +1,6 @@
 //! The walk from station to station: keys in, pages out, until somebody quits.
 
-use super::frame;
+use super::frame::{self, LEAST};
 use super::station::{Numbers, Station, Turn};
 use super::stations::STATIONS;
 use crate::encode::Encoder;
@@ -33,11 +33,14 @@ struct Walk {
     /// The numbers of every station, so that coming back finds those that were left.
     numbers: [Numbers; STATIONS.len()],
     help: bool,
+    /// Columns and rows of what is drawn.
+    room: (u16, u16),
 }
 
 impl Walk {
     fn new(index: usize) -> Self {
-        Self { index, numbers: STATIONS.each_ref().map(Station::first), help: false }
+        let numbers = STATIONS.each_ref().map(Station::first);
+        Self { index, numbers, help: false, room: frame::room(LEAST) }
     }
 
     /// Does what a key asks for; returns `false` if that is to quit.
@@ -46,7 +49,7 @@ impl Walk {
         match input {
             Input::Next => self.index = (self.index + 1) % STATIONS.len(),
             Input::Back => self.index = (self.index + STATIONS.len() - 1) % STATIONS.len(),
-            Input::Turn(turn) => *numbers = station.turned(*numbers, turn),
+            Input::Turn(turn) => *numbers = station.turned_in(self.room, *numbers, turn),
             Input::Reset => *numbers = station.first(),
             Input::Escape if !self.help => return false,
             Input::Help | Input::Escape => self.help = !self.help,
@@ -57,28 +60,34 @@ impl Walk {
     }
 }
 
-/// Walks from station `index` on.
+/// Walks from station `index` on. If `may_ask`, asks the terminal what it can do.
 ///
 /// # Errors
 /// [`Error::Running`] if there is no terminal to read keys from, or it goes away.
-pub(super) fn walk(index: usize, style: Style) -> Result<(), Error> {
-    let mut terminal =
-        Terminal::enter(true, style.depth != ColorDepth::Never).map_err(|error| lost(&error))?;
+pub(super) fn walk(index: usize, style: Style, may_ask: bool) -> Result<(), Error> {
+    let has_color = style.depth != ColorDepth::Never;
+    let mut terminal = Terminal::enter(may_ask, has_color).map_err(|error| lost(&error))?;
     let mut walk = Walk::new(index);
     let mut encoder = Encoder::new();
     loop {
-        show(&terminal, &walk, &mut encoder, style).map_err(|error| lost(&error))?;
+        show(&terminal, &mut walk, &mut encoder, style).map_err(|error| lost(&error))?;
         if !take_input(&mut terminal, &mut walk, &mut encoder).map_err(|error| lost(&error))? {
             return Ok(());
         }
     }
 }
 
-fn show(terminal: &Terminal, walk: &Walk, encoder: &mut Encoder, style: Style) -> io::Result<()> {
+fn show(
+    terminal: &Terminal,
+    walk: &mut Walk,
+    encoder: &mut Encoder,
+    style: Style,
+) -> io::Result<()> {
     let (columns, rows) = terminal.size()?;
     if columns == 0 || rows == 0 {
         return Ok(());
     }
+    walk.room = frame::room((columns, rows));
     let numbers = walk.numbers[walk.index];
     let page = frame::page(walk.index, numbers, walk.help, (columns, rows), style);
     let mut bytes = Vec::new();
@@ -141,6 +150,7 @@ fn of_key(key: KeyCode) -> Option<Input> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lecture::stations::station;
     use crossterm::event::{KeyEvent, KeyModifiers};
 
     #[test]
@@ -152,6 +162,27 @@ mod tests {
         }
         walk.apply(Input::Back);
         assert_eq!(walk.index, STATIONS.len() - 1);
+    }
+
+    #[test]
+    fn an_arrow_leads_back_at_once_from_where_another_was_held_down() {
+        let index = station("illumination").expect("a station");
+        for (held, back) in [
+            (Turn::Right, Turn::Left),
+            (Turn::Left, Turn::Right),
+            (Turn::Up, Turn::Down),
+            (Turn::Down, Turn::Up),
+        ] {
+            let mut walk = Walk::new(index);
+            for _ in 0..100 {
+                assert!(walk.apply(Input::Turn(held)));
+            }
+            let page =
+                |walk: &Walk| frame::page(index, walk.numbers[index], false, LEAST, Style::PLAIN);
+            let at_the_edge = page(&walk);
+            assert!(walk.apply(Input::Turn(back)));
+            assert!(page(&walk) != at_the_edge, "{back:?}");
+        }
     }
 
     #[test]

@@ -14,8 +14,9 @@ use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use std::fmt::Write as _;
 use std::io::Write as _;
+use std::process;
 
-/// The numbers of our images; the images of others are left alone. They have 24 bits, as colours of placeholders have.
+/// The numbers of the viewer's images; the images of others are left alone. They have 24 bits, as colours of placeholders have.
 pub const NUMBERS: [u32; 2] = [0x53_5048, 0x53_5049];
 /// Bytes of a piece, encoded: no more is allowed.
 const PIECE: usize = 4096;
@@ -57,17 +58,24 @@ pub(super) fn write_in_line(
     out: &mut Vec<u8>,
 ) {
     if through_tmux {
-        send(image, NUMBERS[0], &format!("U=1,{},q=2", size(cells)), true, out);
+        let number = lasting_number();
+        send(image, number, &format!("U=1,{},q=2", size(cells)), true, out);
         for row in 0..cells.1 {
             if row > 0 {
                 out.push(b'\n');
             }
-            placeholder_row(cells.0, row, NUMBERS[0], out);
+            placeholder_row(cells.0, row, number, out);
         }
     } else {
         // Without a number, so that the next one leaves it where it is.
         command_with_pixels(image, &format!("{},q=2", size(cells)), false, out);
     }
+}
+
+/// The number of an image that stays when the program has ended: another process has another one. The highest of its 24
+/// bits is set, which is not set in [`NUMBERS`].
+fn lasting_number() -> u32 {
+    0x80_0000 | (process::id() & 0x7f_ffff)
 }
 
 /// Appends what removes both images and frees their memory.

@@ -83,6 +83,22 @@ impl Pitch {
     }
 }
 
+/// How wide a shade is, across and down, in samples of which each cell has so many.
+fn widths((across, down): (usize, usize), cell_aspect: f32) -> [f32; 2] {
+    [(WIDTH * across as f32 / cell_aspect).max(1.0), (WIDTH * down as f32).max(1.0)]
+}
+
+/// How many columns and rows of cells away there may be what darkens a cell.
+#[must_use]
+pub fn reach(samples: (usize, usize), cell_aspect: f32) -> [usize; 2] {
+    let [width_x, width_y] = widths(samples, cell_aspect);
+    // Finer samples lie up to half a sample beside these. Casts saturate.
+    let cells = |width: f32, samples: usize| {
+        (((1.0 + CORE) * width + 0.5) as usize).div_ceil(samples.max(1))
+    };
+    [cells(width_x, samples.0), cells(width_y, samples.1)]
+}
+
 impl SeenGrid<'_> {
     /// How dark it is, 0 to 1, at a place where `seen` is seen. The place is counted in samples of this grid from the middle of the first.
     #[must_use]
@@ -93,8 +109,7 @@ impl SeenGrid<'_> {
         let (across, down) = self.samples;
         let (width, rows) =
             (self.columns * across, self.seen.len() / (self.columns * across).max(1));
-        let reach_x = (WIDTH * across as f32 / self.cell_aspect).max(1.0);
-        let reach_y = (WIDTH * down as f32).max(1.0);
+        let [reach_x, reach_y] = widths(self.samples, self.cell_aspect);
         let pitch = PITCHES * self.pitch.at(seen.depth);
         let range = |place: f32, reach: f32, count: usize| {
             let reach = (1.0 + CORE) * reach;
@@ -157,6 +172,19 @@ mod tests {
 
     fn seen(depth: f32, part: u32) -> Seen {
         Seen { depth, radius: 1.0, part }
+    }
+
+    #[test]
+    fn shades_end_where_they_reach() {
+        for (samples, cell_aspect, expected) in [
+            ((2, 2), 0.5, [3, 1]),
+            ((2, 2), 0.05, [24, 1]),
+            ((3, 6), 0.5, [3, 2]),
+            ((1, 1), 2.0, [1, 1]),
+            ((2, 2), 0.0, [usize::MAX / 2 + 1, 1]),
+        ] {
+            assert_eq!(reach(samples, cell_aspect), expected, "{samples:?} {cell_aspect}");
+        }
     }
 
     #[test]

@@ -7,6 +7,7 @@
 mod parse;
 
 use super::signals::die_by;
+use super::tty;
 use crossterm::event::Event;
 pub use parse::Incoming;
 use parse::{Parsed, is_string, may_be_a_key, parse};
@@ -17,8 +18,7 @@ use signal_hook::consts::{SIGHUP, SIGWINCH};
 use signal_hook::low_level;
 use std::collections::VecDeque;
 use std::fs::File;
-use std::io::{self, IsTerminal, Read};
-use std::os::fd::AsFd;
+use std::io::{self, Read};
 use std::os::unix::net::UnixStream;
 use std::time::{Duration, Instant};
 
@@ -49,12 +49,7 @@ pub(super) struct Input {
 impl Input {
     /// Listens to the terminal, and from now on also to SIGWINCH: ask for the size afterwards.
     pub(super) fn open() -> io::Result<Self> {
-        let stdin = io::stdin();
-        Self::reading(if stdin.is_terminal() {
-            File::from(stdin.as_fd().try_clone_to_owned()?)
-        } else {
-            File::open("/dev/tty")?
-        })
+        Self::reading(tty::open()?)
     }
 
     fn reading(tty: File) -> io::Result<Self> {

@@ -6,6 +6,8 @@ use crate::color::Srgb;
 
 /// The longest answer that is understood.
 const LONGEST: usize = 256;
+/// The most pixels of a cell, in width and height: a terminal that claims more is not believed.
+pub(super) const LARGEST_CELL: u16 = 512;
 /// A background of no palette: a terminal that tells it back has 24 bits.
 pub(super) const RARE_COLOR: [u8; 3] = [1, 2, 3];
 
@@ -42,7 +44,7 @@ pub(super) fn of_sequence(parameters: &[u8], last: u8) -> Option<Reply> {
         b'n' => (text == "0").then_some(Reply::Status),
         b't' => {
             let mut sizes = text.strip_prefix("6;")?.split(';').map(str::parse::<u16>);
-            let mut next = || sizes.next()?.ok().filter(|&size| size > 0);
+            let mut next = || sizes.next()?.ok().filter(|size| (1..=LARGEST_CELL).contains(size));
             let (height, width) = (next()?, next()?);
             Some(Reply::CellPixels(width, height))
         }
@@ -157,6 +159,10 @@ mod tests {
         assert_eq!(of_string(b'^', b"11;rgb:ff/ff/ff"), None);
         assert_eq!(of_string(b']', &[b'1'; 1000]), None);
         assert_eq!(of_sequence(b"6;0;9", b't'), None);
+        assert_eq!(of_sequence(b"6;512;256", b't'), Some(Reply::CellPixels(256, 512)));
+        for too_large in ["6;60000;60000", "6;513;256", "6;20;513"] {
+            assert_eq!(of_sequence(too_large.as_bytes(), b't'), None, "{too_large}");
+        }
         assert_eq!(of_sequence(b"?2026;0$", b'y'), Some(Reply::Synchronized(false)));
         assert_eq!(of_sequence(b"?2026;2$", b'y'), Some(Reply::Synchronized(true)));
         assert_eq!(of_sequence(b"?25;2$", b'y'), None);

@@ -1,5 +1,6 @@
 //! The screen and modes of the terminal: taken, given back, and written to, by any thread.
 
+use super::unanswered;
 use crossterm::terminal;
 use std::io;
 use std::os::fd::AsFd;
@@ -14,8 +15,9 @@ const ENTER: &[u8] = b"\x1b[?1049h\x1b[?25l\x1b[?7l\x1b[?1000h\x1b[?1002h\x1b[?1
 /// The reverse, whatever a broken-off frame has left behind.
 const LEAVE: &[u8] =
     b"\x1b[?2026l\x1b[m\x1b[?1006l\x1b[?1002l\x1b[?1000l\x1b[?7h\x1b[?25h\x1b[?1049l";
-/// A thread that is stuck in writing must not keep the others from giving the terminal back.
-const PATIENCE: Duration = Duration::from_millis(500);
+/// A thread that is stuck in writing must not keep the others from giving the terminal back. One that gives it back is
+/// waited for, as long as it waits for answers.
+const PATIENCE: Duration = Duration::from_millis(800);
 
 /// Between [`Terminal::enter`] and the last restoration, suspended or not.
 static RUNNING: AtomicBool = AtomicBool::new(false);
@@ -35,13 +37,18 @@ pub(super) fn enter() -> io::Result<()> {
     take()
 }
 
-/// Sends `bytes` in one piece, or drops them if the terminal is given back just now.
-pub(super) fn show(bytes: &[u8]) -> io::Result<()> {
+/// Sends `bytes` in one piece, or drops them if the terminal is given back just now; returns whether it has sent them.
+pub(super) fn show(bytes: &[u8]) -> io::Result<bool> {
+    // Whoever gives the terminal back holds the output until the last answers are read, perhaps by this thread.
+    if !SHOWN.load(SeqCst) {
+        return Ok(false);
+    }
     let _output = output();
     if bytes.is_empty() || !SHOWN.load(SeqCst) {
-        return Ok(());
+        return Ok(false);
     }
-    write(bytes)
+    write(bytes)?;
+    Ok(true)
 }
 
 /// Whether the screen was taken again since the last call.
@@ -60,6 +67,8 @@ pub(super) fn leave() {
     let _output = output();
     if SHOWN.swap(false, SeqCst) {
         let _ = write(&leaving());
+        // Outside of raw mode they would be echoed.
+        unanswered::let_come();
         let _ = terminal::disable_raw_mode();
     }
 }

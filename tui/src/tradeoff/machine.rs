@@ -4,9 +4,9 @@ use super::rays::{Kind, Rays, most_rays};
 use super::report::TierReport;
 use super::speed;
 use super::watch::{Step, Watch};
+use crate::compare::verdict::tally;
 use crate::structure::Structure;
 use crate::structure::search::{Scratch, Search, Tracing};
-use crate::tally::Tally;
 use crate::threads::{Threads, packets_a_task};
 use spherule_kernel::{
     AnyHit, ClosestHit, Coherence, HitPacket, Level, RayPacket, Spheres, Stages, Tier, stages,
@@ -50,7 +50,7 @@ impl Machine<'_> {
         let errors = hits.iter().map(|found| {
             watch.go_on(step, 0.95)?;
             let [found, truth] = [found, exact].map(|hits| hits.iter().flat_map(HitPacket::hits));
-            Some(Tally::of(found, truth).summary())
+            Some(tally(rays.each(), spheres, found, truth).summary())
         });
         let errors = errors.collect::<Option<Vec<_>>>()?;
         let exact = stages_of(rays, spheres, || watch.go_on(step, 1.0))?;

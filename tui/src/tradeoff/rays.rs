@@ -60,6 +60,13 @@ impl Rays {
         Self { kind, count: packets.iter().map(live).sum(), packets, parts: lengths }
     }
 
+    /// Every lane's ray, packet by packet.
+    pub(super) fn each(&self) -> impl Iterator<Item = Ray> {
+        self.packets
+            .iter()
+            .flat_map(|packet| (0..RayPacket::COUNT).map(move |lane| packet.ray(lane)))
+    }
+
     /// The rays of a picture of `width` x `height` samples, in the order in which it is drawn; if there are more than
     /// `most`, those of every n-th block of packets.
     pub(super) fn of_camera(camera: &Camera, width: u32, height: u32, most: usize) -> Self {

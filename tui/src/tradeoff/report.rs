@@ -185,11 +185,13 @@ impl Report {
             text += &format!("{order:<7}{tests:>18}{stored:>13}{:>13}\n", writes.overwritten);
         }
         if let Some(errors) = &self.lighting {
-            text += &format!("\n{} points and their lights\n", errors[0].points);
-            text += "              wrong    wrong\ntier        normals  shadows\n";
-            for (tier, LightingErrors { normals, shadows, .. }) in Tier::ALL.into_iter().zip(errors)
+            text += "\npoints that tier and exact hit, and their lights\n";
+            text += "                       wrong    wrong\n";
+            text += "tier         points  normals  shadows\n";
+            for (tier, LightingErrors { points, normals, shadows }) in
+                Tier::ALL.into_iter().zip(errors)
             {
-                text += &format!("{:<10}{normals:>9}{shadows:>9}\n", tier.as_str());
+                text += &format!("{:<10}{points:>9}{normals:>9}{shadows:>9}\n", tier.as_str());
             }
         }
         text + FOOT
@@ -226,11 +228,12 @@ const HEAD: [[&str; 12]; 2] = [
 /// How wide they are.
 const WIDTHS: [usize; 12] = [10, 9, 9, 9, 10, 8, 8, 9, 9, 11, 9, 9];
 const FOOT: &str = "
-Wrong: the closest hit differs from that of exact, counted in rays. ulp: of t, where both meet the
-same sphere. Times are medians of passes in turns, without the building of a structure, for shadow
-rays those of any hit. A test is a ray and a sphere, whether a structure makes it or not. Shadow
-rays are those of exact; the other tiers' own start farther from the surface. A normal is wrong if
-it differs by 1/256; a shadow if a point receives a light by one of both tiers alone. In image order
-every ray is tested against every sphere, and writes its pixel once. In object order a sphere is tested
-against the packets of rays in its bounds on the screen; a write is a hit that is stored.
+Wrong: the closest hit differs from that of exact, counted in rays; wrong sphere: another is met, or
+the same at its other root. ulp: of t, where both meet the same sphere at the same root. Times are
+medians of passes in turns, without the building of a structure, for shadow rays those of any hit. A
+test is a ray and a sphere, whether a structure makes it or not. Shadow rays are those of exact; the
+other tiers' own start farther from the surface. A normal is wrong if it differs by 1/256; a shadow
+if a point receives a light by one of both tiers alone. In image order every ray is tested against
+every sphere, and writes its pixel once. In object order a sphere is tested against the packets of
+rays in its bounds on the screen; a write is a hit that is stored.
 ";

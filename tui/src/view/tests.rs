@@ -81,6 +81,44 @@ fn zooming_in_and_out_comes_back() {
     }
 }
 
+/// Far from zero, floats around the target are too far apart for an eye that is very near.
+#[test]
+fn however_far_it_zooms_in_it_looks_from_the_same_side() {
+    let target = Vec3::new(1.25, -2.5, 3.1);
+    let start = View { eye: target + Vec3::new(0.3, 1.7, 9.0), target, ..VIEW };
+    let (mut view, mut steps) = (start, 0);
+    for _ in 0..200 {
+        let nearer = zoomed(&view, 1.1);
+        steps += i32::from(nearer != view);
+        view = nearer;
+    }
+    assert!((80..150).contains(&steps), "{steps}");
+    for _ in 0..steps {
+        let farther = zoomed(&view, 1.0 / 1.1);
+        assert_ne!(farther, view, "the way back is open");
+        view = farther;
+    }
+    let [before, after] = [start, view].map(|view| view.axes()[0]);
+    assert!(before.dot(after) > 0.9998, "{}", before.dot(after));
+    assert!((view.height_at_target() / start.height_at_target() - 1.0).abs() < 0.02);
+    // Through the other lens there is no end, and no eye for what is seen then.
+    let parallel = with_projection(&start, LensKind::Parallel);
+    let low = (0..700).fold(parallel, |view, _| zoomed(&view, 1.1));
+    assert!(low.height_at_target() < 1e-25);
+    assert_eq!(with_projection(&low, LensKind::Perspective), low);
+}
+
+/// As high as the picture that the camera makes, also where the angle is nearly flat.
+#[test]
+fn the_height_at_the_target_is_the_cameras() {
+    for fov in [1e-3, 40.0, 179.0, 179.999_98] {
+        let view = View { lens: Lens::Perspective { fov }, ..VIEW };
+        let height = 5.0 * f64::from(view.camera(1, 1, 1.0).step_y.length());
+        let error = f64::from(view.height_at_target()) / height - 1.0;
+        assert!(error.abs() < 1e-6, "{fov}: {error}");
+    }
+}
+
 #[test]
 fn the_other_projection_keeps_the_size_at_the_target() {
     let parallel = with_projection(&VIEW, LensKind::Parallel);

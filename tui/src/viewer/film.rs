@@ -3,6 +3,7 @@
 //! The thread reads a few frames ahead, fewer of large ones, and keeps one behind; the rest is read again when it is
 //! wanted. No one waits for the thread: where a frame is not there yet, the picture stays.
 
+use super::printable::in_cells;
 use crate::arguments::files::FOLLOW;
 use crate::error::Error;
 use crate::scene::Scene;
@@ -108,6 +109,11 @@ impl Film {
         }
     }
 
+    /// The frame that is shown.
+    pub(super) fn shown(&self) -> usize {
+        self.shown
+    }
+
     /// One frame on or back; of a pipe, back only to what is kept.
     pub(super) fn step(&mut self, forward: bool) {
         self.is_playing = false;
@@ -163,13 +169,21 @@ impl Film {
             return None;
         }
         let mut state = self.shared.lock();
-        let is_beyond = state.count.is_some_and(|count| self.target >= count);
         let is_lost = state.failure.as_ref().is_some_and(|(index, _)| *index == self.target);
-        if is_beyond || is_lost {
+        if let Some(count) = state.count.filter(|&count| self.target >= count) {
+            // Steps went past an end that had not been seen: they lead to the last frame, but not back.
+            self.target = count.saturating_sub(1).max(self.shown);
+            if self.target == self.shown {
+                self.has_news = state.failure.is_some();
+                return None;
+            }
+            state.wanted = self.target;
+            self.shared.changed.notify_all();
+        } else if is_lost {
             // A frame that was there, and no longer is, would be asked for again and again.
-            self.is_playing &= is_beyond;
+            self.is_playing = false;
             self.target = self.shown;
-            self.has_news = is_lost;
+            self.has_news = true;
             return None;
         }
         let scene = state.ready.get(&self.target).cloned()?;
@@ -191,7 +205,7 @@ impl Film {
     pub(super) fn status(&self) -> String {
         let state = self.shared.lock();
         if let Some((index, why)) = &state.failure {
-            return format!("frame {index}: {why}");
+            return format!("frame {index}: {}", in_cells(why));
         }
         let mark = if self.is_playing { ">" } else { "" };
         let more = if state.count.is_none() { "+" } else { "" };
@@ -225,6 +239,8 @@ fn read_ahead(mut frames: Frames, first: usize, shared: &Shared, prepare: impl F
                 state = shared.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
             }
         };
+        // What is passed over in a pipe could not be read any more, and the end may come before what is wanted.
+        let index = if frames.can_go_back() { index } else { index.min(unread) };
         let read = frames.read(index);
         let mut state = shared.lock();
         match read {
@@ -232,10 +248,13 @@ fn read_ahead(mut frames: Frames, first: usize, shared: &Shared, prepare: impl F
                 prepare(&mut scene);
                 state.ready.insert(index, Arc::new(scene));
                 unread = unread.max(index + 1);
-                // What a pipe has passed cannot be read again.
-                let wanted = state.wanted;
-                let farthest = if frames.can_go_back() { wanted + AHEAD } else { usize::MAX };
-                state.ready.retain(|&index, _| index + 2 >= wanted && index <= farthest);
+                // What a pipe has passed cannot be read again, and any frame may be its last.
+                let (wanted, is_pipe) = (state.wanted, !frames.can_go_back());
+                let farthest = if is_pipe { usize::MAX } else { wanted + AHEAD };
+                state.ready.retain(|&index, _| {
+                    let is_last = is_pipe && index + 1 == unread;
+                    (index + 2 >= wanted || is_last) && index <= farthest
+                });
             }
             Ok(None) if frames.follows() => {
                 let waited = shared.changed.wait_timeout(state, FOLLOW);
@@ -246,11 +265,14 @@ fn read_ahead(mut frames: Frames, first: usize, shared: &Shared, prepare: impl F
                 state.count = Some(state.count.map_or(count, |known| known.min(count)));
             }
             Err(error) => {
-                // A frame that has been read exists, even if it cannot be read again.
+                let mut failed = index;
+                // A frame that has been read exists, even if it cannot be read again. Else the wrong one may be before the one
+                // that is wanted.
                 if index >= unread {
-                    state.count = Some(index);
+                    failed = frames.at().clamp(unread, index);
+                    state.count = Some(failed);
                 }
-                state.failure = Some((index, error.to_string()));
+                state.failure = Some((failed, error.to_string()));
             }
         }
     }

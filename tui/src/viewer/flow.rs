@@ -60,6 +60,11 @@ impl Flow {
 
     /// The oldest frame has come to the terminal.
     pub(super) fn answered(&mut self, now: Instant) {
+        // What was sent so long ago never was answered: this answer is to a later one.
+        let is_lost = |sent: &Sent| now.saturating_duration_since(sent.at) >= LOST;
+        while self.under_way.front().is_some_and(is_lost) {
+            self.under_way.pop_front();
+        }
         let Some(Sent { at, bytes }) = self.under_way.pop_front() else { return };
         self.round_trip = Some(now.saturating_duration_since(at));
         // The link began with this frame when it was done with the one before.
@@ -134,6 +139,18 @@ mod tests {
         // One that no one asked for.
         flow.answered(start + LOST);
         assert_eq!(flow.wait(start), None);
+    }
+
+    #[test]
+    fn a_lost_answer_does_not_make_later_ones_late() {
+        let (mut flow, start) = (Flow::default(), Instant::now());
+        flow.sent(10_000, start);
+        let later = start + 60_000 * MS;
+        flow.sent(10_000, later);
+        flow.answered(later + 20 * MS);
+        assert_eq!(flow.round_trip(), Some(20 * MS));
+        assert!(flow.under_way.is_empty());
+        assert!(flow.most_bytes() > 10_000, "no link that takes a minute: {}", flow.most_bytes());
     }
 
     /// Half a megabyte a second: frames become smaller until the link takes them in time.

@@ -12,7 +12,7 @@ use crate::cells::CellGrid;
 use crate::compare::Comparison;
 use crate::compare::legend::MapPainter;
 use crate::compare::split::{Split, SplitPicture};
-use crate::draw::{Drawn, Effort, picture_workload};
+use crate::draw::{Drawn, picture_workload};
 use crate::encode::Economy;
 use crate::error::Error;
 use crate::pick::{Pick, cell_ray, report};
@@ -21,14 +21,14 @@ use crate::terminal::lost;
 use crate::tradeoff::chart;
 use std::io;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 impl Viewer<'_> {
     /// Draws and sends one frame, in one write.
     pub(super) fn show_frame(&mut self, now: Instant, moving: bool) -> Result<(), Error> {
         let (columns, rows) = self.learn_size().map_err(|error| lost(&error))?;
         if columns == 0 || rows == 0 {
-            self.pace.drawn(Effort::NONE, Duration::ZERO);
+            self.pace.rest();
             return Ok(());
         }
         let status_row = picture_rows(rows);

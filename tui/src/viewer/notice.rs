@@ -1,6 +1,8 @@
 //! Words of the program, over the last rows of the picture until the next key.
 
 use super::command_line::command_line;
+use super::film::Film;
+use super::printable::in_cells;
 use super::recording::Recording;
 use super::session::Viewer;
 use crate::cells::{CellGrid, Color};
@@ -11,7 +13,9 @@ use std::time::Instant;
 impl Viewer<'_> {
     /// Tells the command line that shows what is seen now; it is printed at the end, too.
     pub(super) fn tell_command_line(&mut self) {
-        let line = command_line(&self.scene_name, &self.state.shown.view, self.scene.origin);
+        let frame = self.film.as_ref().map_or(0, Film::shown);
+        let view = &self.state.shown.view;
+        let line = command_line(&self.asked, frame, view, self.scene.origin);
         if self.told.last() != Some(&line) {
             self.told.push(line.clone());
         }
@@ -28,7 +32,7 @@ impl Viewer<'_> {
                 "recording: R ends it".to_owned()
             }
             Some(recording) => {
-                let stem = Path::new(&self.scene_name).file_stem().unwrap_or_default();
+                let stem = Path::new(&self.asked.name).file_stem().unwrap_or_default();
                 let stem = stem.to_string_lossy();
                 // Standard input is called `-`, which begins an option.
                 let name = if stem.starts_with('-') { "spherule" } else { &*stem };
@@ -49,10 +53,7 @@ impl Viewer<'_> {
 /// Writes `text` over the last of the first `rows` rows, in as many as it needs.
 pub(super) fn write(cells: &mut CellGrid, rows: u16, text: &str) {
     let columns = usize::from(cells.columns()).max(1);
-    let letters: Vec<char> =
-        format!(" {} ", text.escape_debug().collect::<String>().replace("\\'", "'"))
-            .chars()
-            .collect();
+    let letters: Vec<char> = format!(" {} ", in_cells(text)).chars().collect();
     let lines: Vec<String> = letters.chunks(columns).map(|line| line.iter().collect()).collect();
     let first = usize::from(rows).saturating_sub(lines.len());
     for (row, line) in (first..usize::from(rows)).zip(lines) {
@@ -67,10 +68,15 @@ mod tests {
 
     #[test]
     fn it_is_wrapped_over_the_last_rows() {
-        let mut cells = CellGrid::new(5, 4);
-        write(&mut cells, 3, "abcdefg");
-        let row = |row| cells.row(row).iter().map(|cell| cell.glyph).collect::<String>();
-        assert_eq!([row(0), row(1), row(2), row(3)], ["     ", " abcd", "efg  ", "     "]);
+        let written = |text: &str| {
+            let mut cells = CellGrid::new(5, 4);
+            write(&mut cells, 3, text);
+            let row = |row| cells.row(row).iter().map(|cell| cell.glyph).collect::<String>();
+            [0, 1, 2, 3].map(row)
+        };
+        assert_eq!(written("abcdefg"), ["     ", " abcd", "efg  ", "     "]);
+        // A quote is itself, in the name of a file.
+        assert_eq!(written(r#""b.xyz"#), ["     ", r#" "b.x"#, "yz   ", "     "]);
         write(&mut CellGrid::new(1, 1), 1, "abc");
         write(&mut CellGrid::new(0, 0), 0, "abc");
     }

@@ -69,6 +69,11 @@ impl Pace {
         self.debt = debt;
     }
 
+    /// Takes note that there is nothing to draw on: nothing is left to be shown.
+    pub(super) fn rest(&mut self) {
+        (self.is_full, self.debt) = (true, Debt::None);
+    }
+
     /// Takes note of how long a frame took to draw.
     pub(super) fn drawn(&mut self, effort: Effort, drawing: Duration) {
         self.is_full = effort.is_full;
@@ -146,6 +151,17 @@ mod tests {
         pace.drawn(effort(20_000, true), 20 * MS);
         pace.owes(Debt::None);
         assert_eq!(pace.wait(false, Some(MS)), None);
+    }
+
+    /// Else a terminal that has become 0x0 would be looked at again and again.
+    #[test]
+    fn what_is_owed_is_not_owed_to_a_terminal_without_a_cell() {
+        let mut pace = pace();
+        pace.drawn(effort(8000, false), 8 * MS);
+        pace.owes(Debt::Now);
+        pace.rest();
+        assert_eq!(pace.wait(false, Some(MS)), None);
+        assert_eq!(pace.wait(true, Some(MS)), Some(19 * MS));
     }
 
     #[test]

@@ -9,7 +9,7 @@ use crate::draw::pixels::{PixelGrid, SAMPLES};
 use crate::draw::{Effort, Spending};
 use crate::error::Error;
 use crate::picture::Image;
-use crate::pixels::{Output, Protocol, kitty};
+use crate::pixels::{Output, Protocol};
 use crate::structure::{Order, Structure};
 use crate::terminal::{Reply, pixels_of_cell};
 
@@ -17,6 +17,8 @@ use crate::terminal::{Reply, pixels_of_cell};
 pub(super) const NO_TEXT: Cell = Cell { glyph: '\u{10FFFF}', ..Cell::BLANK };
 /// The most pixels of a picture, which the terminal then enlarges: more take longer than they are seen.
 const MOST_PIXELS: u32 = 2_500_000;
+/// The most pixels of a picture that is not enlarged: no screen has more, whatever a terminal says of its cells.
+const LARGEST_SCREEN: u32 = 1 << 26;
 /// Colours of text over pixels, where the terminal has not told the colour behind it.
 const INK: Color = Color::Rgb([229; 3]);
 const PAPER: Color = Color::Rgb([0; 3]);
@@ -29,15 +31,7 @@ impl Viewer<'_> {
 
     /// Falls back to cells where the terminal has told that it knows no such images, or has said nothing of the first.
     pub(super) fn heed_image_reply(&mut self, reply: Reply) -> Outcome {
-        let has_failed = match reply {
-            Reply::Image(number, is_well) if kitty::NUMBERS.contains(&number) => {
-                self.pixels.awaits_first = false;
-                !is_well
-            }
-            // The terminal has come past the image, without a word about it.
-            Reply::Status => self.pixels.awaits_first,
-            _ => false,
-        };
+        let has_failed = self.pixels.are_denied_by(reply);
         let abilities = self.terminal.abilities();
         let is_denied = self.pixels.output.protocol(abilities).is_none();
         if self.pixels.protocol.is_some() && (has_failed || is_denied) {
@@ -68,15 +62,9 @@ impl Viewer<'_> {
     ) -> Result<(Image, Effort, (Order, Structure)), Error> {
         let Shown { view, style, structure, .. } = &self.state.shown;
         let told = self.terminal.abilities().cell_pixels;
-        let mut cell = pixels_of_cell(told).unwrap_or_else(|| PixelGrid::usual_cell(style));
+        let cell = pixels_of_cell(told).unwrap_or_else(|| PixelGrid::usual_cell(style));
         let area = u32::from(size.0) * u32::from(size.1);
-        // Sixels are not enlarged.
-        while protocol != Protocol::Sixel
-            && cell.0.min(cell.1) > 1
-            && area.saturating_mul(cell.0 * cell.1) > MOST_PIXELS
-        {
-            cell = (cell.0 / 2, cell.1 / 2);
-        }
+        let cell = drawn_cell(protocol, cell, area);
         let pixels = u64::from(area) * u64::from(cell.0 * cell.1);
         let across = match self.pace.spending(moving) {
             Spending::AtMost(most) if most < 4 * pixels => 1,
@@ -126,8 +114,9 @@ impl Viewer<'_> {
             self.terminal.remove_when_leaving(protocol.removal());
             protocol.write(image, (cells.columns(), rows), self.pixels.sent, &mut self.bytes);
             // A terminal that tells how far it has come has said a word about the image before that.
-            let is_told = self.asks_for_status();
-            self.pixels.awaits_first |= self.pixels.sent == 0 && protocol.has_layers() && is_told;
+            if self.pixels.sent == 0 && protocol.has_layers() && self.asks_for_status() {
+                self.pixels.awaits_first = Some(self.terminal.open_questions());
+            }
             self.pixels.sent += 1;
             self.pixels.is_shown = true;
             if !protocol.has_layers() {
@@ -143,5 +132,29 @@ impl Viewer<'_> {
             self.pixels.is_shown = false;
             self.encoder.forget();
         }
+    }
+}
+
+/// The pixels that are drawn for each of so many cells of this size.
+fn drawn_cell(protocol: Protocol, cell: (u32, u32), cells: u32) -> (u32, u32) {
+    // Sixels are not enlarged.
+    let most = if protocol == Protocol::Sixel { LARGEST_SCREEN } else { MOST_PIXELS };
+    let mut drawn = cell;
+    while drawn.0.min(drawn.1) > 1 && cells.saturating_mul(drawn.0 * drawn.1) > most {
+        drawn = (drawn.0 / 2, drawn.1 / 2);
+    }
+    drawn
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_picture_has_no_more_pixels_than_a_screen() {
+        assert_eq!(drawn_cell(Protocol::Sixel, (20, 40), 200 * 60), (20, 40));
+        assert_eq!(drawn_cell(Protocol::Iterm2, (20, 40), 200 * 60), (10, 20));
+        let (width, height) = drawn_cell(Protocol::Sixel, (512, 512), 200 * 60);
+        assert!(width == height && (32..=64).contains(&width), "{width}x{height}");
     }
 }

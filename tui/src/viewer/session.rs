@@ -10,6 +10,7 @@ use super::recording::Recording;
 use super::shown::Shown;
 use super::state::State;
 use super::table::Table;
+use crate::arguments::SceneArguments;
 use crate::compare::error_map::ErrorMapper;
 use crate::compare::split::Times;
 use crate::draw::{Drawn, Renderer};
@@ -35,7 +36,8 @@ pub(super) struct Viewer<'a> {
     pub(super) color: ColorChoice,
     pub(super) lossless: bool,
     pub(super) pixels: Pixels,
-    pub(super) scene_name: String,
+    /// What the command line says of the scene.
+    pub(super) asked: SceneArguments,
     /// A word of the program, until the next key.
     pub(super) notice: Option<String>,
     /// Command lines that were asked for: printed when the terminal is given back.

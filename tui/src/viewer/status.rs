@@ -30,11 +30,12 @@ pub(super) fn write(
     let line = |structure: &str, count: usize| {
         format!(" {names}{structure}{} ", figures[..count].concat())
     };
+    let width = |line: &str| line.chars().count();
     let most = figures.len();
     let mut lines =
         iter::once(line(&word, most)).chain((0..=most).rev().map(|count| line(chosen, count)));
-    let line = match lines.find(|line| line.len() + HINT.len() <= columns) {
-        Some(line) => format!("{line}{HINT:>room$}", room = columns - line.len()),
+    let line = match lines.find(|line| width(line) + HINT.len() <= columns) {
+        Some(line) => format!("{line}{HINT:>room$}", room = columns - width(&line)),
         None => line(chosen, most),
     };
     cells.write(0, row, &format!("{line:columns$}"), Color::Default, Color::Default);
@@ -188,6 +189,15 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn letters_of_two_bytes_have_one_cell() {
+        let (mut cells, state) = (CellGrid::new(90, 1), state(AUTO));
+        let (film, searched) = (Some("frame 1: \u{e9}"), (Order::Image, Structure::Bvh));
+        write(&mut cells, 0, (&state, film), searched, Figures::default());
+        let text: String = cells.row(0).iter().map(|cell| cell.glyph).collect();
+        assert!(text.starts_with(" frame 1: \u{e9}  stable ") && text.ends_with(HINT), "{text}");
     }
 
     #[test]

@@ -6,6 +6,7 @@ use base64::engine::general_purpose::STANDARD;
 use flate2::read::ZlibDecoder;
 use spherule::color::{Srgb, oklab};
 use spherule::picture::Image;
+use spherule::pixels::kitty;
 use spherule::pixels::sixel::percent;
 use std::io::{Cursor, Read};
 
@@ -91,6 +92,14 @@ fn under_tmux_there_are_placeholders() {
     let (keys, image) = of_kitty(&unwrapped);
     assert!(image == png(WORDS), "other pixels");
     assert!(keys.split(',').any(|key| key == "U=1"), "{keys}");
+    // The next picture leaves this one where it is, and so does the viewer.
+    let number_of = |text: &str| {
+        let mut keys = text.split(',').filter_map(|key| key.strip_prefix("i="));
+        keys.next().and_then(|number| number.parse::<u32>().ok()).expect("a number")
+    };
+    let again = String::from_utf8(sent(&words, Some("/tmp/tmux,1,0"))).expect("UTF-8");
+    let (number, next) = (number_of(&keys), number_of(&again));
+    assert!(number != next && !kitty::NUMBERS.contains(&number), "{number}, {next}");
     let rows: Vec<&str> = cells.trim_end_matches('\n').split('\n').collect();
     assert_eq!(rows.len(), 9);
     for (row, mark) in
@@ -98,7 +107,8 @@ fn under_tmux_there_are_placeholders() {
     {
         assert_eq!(row.matches('\u{10EEEE}').count(), 30);
         assert!(row.contains(&format!("\u{10EEEE}{mark}\u{305}\u{10EEEE}")), "{row:?}");
-        assert!(row.starts_with("\x1b[38;2;83;80;72m"), "{row:?}");
+        let [_, red, green, blue] = number.to_be_bytes();
+        assert!(row.starts_with(&format!("\x1b[38;2;{red};{green};{blue}m")), "{row:?}");
     }
 }
 

@@ -110,6 +110,23 @@ fn the_counts_are_those_of_a_loop() {
     }
 }
 
+/// The three columns of `tradeoff` are the kinds that a map of the same rays counts: a hit at the other root is at a wrong place.
+#[test]
+fn tradeoff_counts_as_wrong_what_a_map_does() {
+    let rays = "edge --samples 64 --size 80x24 --structure brute";
+    let map = shown(&format!("{rays} --accuracy fast"));
+    let [spheres, hits, misses, roots] =
+        ["S sphere", "F false", "L lost", "R root"].map(|name| count(&map, name));
+    assert!(roots > 0, "{map}");
+    let report = printed(&run(format!("tradeoff --json {rays}").split(' ')));
+    let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
+    let fast = &report["tiers"][0];
+    assert_eq!((&fast["accuracy"], &fast["rays_kind"]), (&"fast".into(), &"camera".into()));
+    let wrong = ["wrong_hits", "wrong_misses", "wrong_sphere"];
+    let wrong = wrong.map(|key| fast[key].as_u64().expect(key));
+    assert_eq!(wrong, [hits, misses, spheres + roots], "{map}");
+}
+
 #[test]
 fn every_size_and_depth() {
     for size in ["1x1", "2x3", "3x4", "1x9", "80x24", "301x70"] {

@@ -166,6 +166,11 @@ fn rays_and_spheres_that_do_not_fit() {
     assert!(refusal(&run(["trace", "--rays", "r.npy"])).contains("--spheres"));
     let both = "trace --spheres s --rays r --any --out-t t".split(' ');
     assert!(refusal(&run(both)).contains("cannot be used with"));
+    // The times of all passes are kept.
+    for repeat in ["0", "1000001", "4294967295"] {
+        let words = ["trace", "--spheres", "s", "--rays", "r", "--repeat", repeat];
+        assert!(refusal(&run(words)).contains("1..=1000000"), "{repeat}");
+    }
     let missing = "trace --spheres no-such.npy --rays r.npy".split(' ');
     assert_eq!(refusal(&run(missing)), "no-such.npy: no such file or directory");
 }

@@ -192,6 +192,22 @@ fn a_table_for_people() {
     assert!(head.contains(" baseline, 16 lanes, 1 thread;"), "{head}");
 }
 
+/// Tiers that lose hits of `edge` light fewer points than exact; every row of the table says how many.
+#[test]
+fn the_table_has_every_tier_s_points() {
+    let text = printed(&run("tradeoff edge --size 60x24".split(' ')));
+    let table = text.split_once("\npoints that ").expect("the table of lights").1;
+    let expected = lighting(&EDGE);
+    for (accuracy, expected) in ["fast", "geometric", "stable", "exact"].into_iter().zip(expected) {
+        let row = table.lines().find_map(|line| line.strip_prefix(accuracy)).expect("a row");
+        let words = row.split_whitespace();
+        let said: Vec<u64> = words.map(|word| word.parse().expect("a number")).collect();
+        assert_eq!(said, expected, "{accuracy}: {text}");
+    }
+    let [fast, .., exact] = expected;
+    assert!(fast[0] < exact[0], "{fast:?} {exact:?}");
+}
+
 #[test]
 fn bad_use() {
     for (words, part) in [

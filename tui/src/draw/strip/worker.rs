@@ -4,12 +4,15 @@ use crate::cells::fit::{FitMemory, Fitted};
 use crate::cells::paint::Painter;
 use crate::draw::finish::Finish;
 use crate::draw::plan::{Plan, Sampling};
+use crate::draw::sample_grid::SampleGrid;
 use crate::draw::tracer::{Places, Tracer};
 use crate::shade::silhouettes::{Seen, SeenGrid};
 use spherule_kernel::{Camera, Vec3};
 
 /// How many of the many samples are traced at a time: few enough to stay in the cache, and no more memory if all cells are in need.
 const AT_ONCE: usize = 1 << 12;
+/// About how many of the few samples are traced at a time: those of a band, unless it is very wide or they are many.
+const FEW_AT_ONCE: usize = 1 << 16;
 
 /// The memory of a thread.
 #[derive(Debug, Default)]
@@ -38,14 +41,25 @@ impl Worker {
     ) -> (u64, u64) {
         let Sampling { samples, grid, .. } = &plan.few;
         let how = (&plan.traced, plan.finish.as_ref());
-        let rows = first..first + light.len() / (plan.columns * samples.count() as usize);
-        let part = (plan.left, plan.columns);
-        let traced = self.tracer.trace_cells(how, (*samples, grid), part, rows);
-        light.copy_from_slice(traced.pixels);
-        if !seen.is_empty() {
-            seen.copy_from_slice(traced.seen);
+        let (columns, count) = (plan.columns, samples.count() as usize);
+        let rows = light.len() / (columns * count);
+        // Whole packets.
+        let (tile_width, _) = Camera::tile::<[f32; 16]>();
+        let at_once = (FEW_AT_ONCE / (rows * count)).max(1).next_multiple_of(tile_width as usize);
+        let mut rays = 0;
+        for from in (0..columns).step_by(at_once) {
+            let width = at_once.min(columns - from);
+            let left = plan.left + from;
+            // As if the picture ended with these columns.
+            let grid = SampleGrid { width: (left + width) as u32 * samples.across, ..*grid };
+            let rows = first..first + rows;
+            let traced = self.tracer.trace_cells(how, (*samples, &grid), (left, width), rows);
+            let (place, line) = (from * count, columns * count);
+            put(traced.pixels, width * count, light, (place, line));
+            put(traced.seen, width * count, seen, (place, line));
+            rays += traced.other_rays;
         }
-        (light.len() as u64, traced.other_rays)
+        (light.len() as u64, rays)
     }
 
     /// Fits glyphs to the cells from row `first` on. Cells whose needs are above the number in `many` get its samples. Takes the light of
@@ -154,5 +168,12 @@ impl Worker {
             }
         }
         ((needy.len() * count) as u64, rays)
+    }
+}
+
+/// Writes rows of so many values into `all`, each at this place of a longer line; nothing if nothing is asked.
+fn put<T: Copy>(rows: &[T], width: usize, all: &mut [T], (place, line): (usize, usize)) {
+    for (line, row) in all.chunks_mut(line).zip(rows.chunks(width)) {
+        line[place..][..width].copy_from_slice(row);
     }
 }

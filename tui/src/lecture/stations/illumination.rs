@@ -25,7 +25,7 @@ pub(super) const STATION: Station = Station {
         Source { file: "kernel/src/surface.rs", symbols: &["surface"] },
         Source { file: "kernel/src/spawn_ray.rs", symbols: &["spawn_ray"] },
     ],
-    knobs: [Knob::within(3, [1, 0], [-4096, 4096]), Knob::within(-2, [0, -1], [-4096, 4096])],
+    knobs: [Knob::column(3), Knob::row(-2)],
     text: 35,
     draw,
 };

@@ -1,10 +1,11 @@
 //! Where single precision ends, and what `Exact` does about it.
 
+use crate::compare::verdict::{Verdict, tally};
 use crate::lecture::canvas::{Canvas, Role};
 use crate::lecture::station::{Knob, Numbers, Source, Station, number};
 use crate::scene::Scene;
 use crate::scene::builtin::builtin;
-use crate::tally::{Class, Summary, Tally};
+use crate::tally::{Class, Summary};
 use spherule_kernel::{Hit, Intersect, Ray, Tier};
 
 pub(super) const STATION: Station = Station {
@@ -20,6 +21,7 @@ pub(super) const STATION: Station = Station {
         Source { file: "tui/scenes/edge.toml", symbols: &["sphere"] },
         Source { file: "kernel/src/accuracy/exact.rs", symbols: &["Exact"] },
         Source { file: "kernel/src/accuracy/stable.rs", symbols: &["Stable"] },
+        Source { file: "tui/src/compare/verdict.rs", symbols: &["Verdict", "tally"] },
         Source { file: "tui/src/tally.rs", symbols: &["Tally", "ulp_between"] },
     ],
     knobs: [
@@ -43,9 +45,12 @@ fn draw([index, tier]: Numbers, canvas: &mut Canvas) -> String {
         hits
     });
     let [fast, geometric, _, exact] = &hits;
+    let class = |hits: &[Option<Hit>], ray: usize| {
+        Verdict::of(&rays[ray], scene.spheres(), hits[ray], exact[ray]).class
+    };
     let wrong: Vec<usize> = (0..rays.len())
         .filter(|&ray| {
-            [fast, geometric].iter().any(|hits| class(hits[ray], exact[ray]) >= Class::LostHit)
+            [fast, geometric].into_iter().any(|hits| class(hits, ray) >= Class::OtherRoot)
         })
         .collect();
     let chosen = match wrong.len() {
@@ -56,7 +61,7 @@ fn draw([index, tier]: Numbers, canvas: &mut Canvas) -> String {
     let shown = &hits[tier];
     for ray in 0..rays.len() {
         let (column, row) = (ray as i32 % width, ray as i32 / width);
-        let (glyph, role) = sign(class(shown[ray], exact[ray]));
+        let (glyph, role) = sign(class(shown, ray));
         canvas.put(column, row, glyph, role);
     }
     let (column, row) = (chosen as i32 % width, chosen as i32 / width);
@@ -68,7 +73,9 @@ fn draw([index, tier]: Numbers, canvas: &mut Canvas) -> String {
 
     let of_rays = Tier::ALL.iter().zip(&hits).map(|(tier, hits)| of_ray(*tier, hits[chosen]));
     let of_all = Tier::ALL.iter().zip(&hits).map(|(tier, hits)| {
-        of_all(*tier, &Tally::of(hits.iter().copied(), exact.iter().copied()).summary())
+        let [answers, truths] = [hits, exact].map(|hits| hits.iter().copied());
+        let judged = tally(rays.iter().copied(), scene.spheres(), answers, truths);
+        of_all(*tier, &judged.summary())
     });
     format!(
         "\
@@ -79,6 +86,7 @@ of all {} rays, decided wrongly:
 tier       hit miss sphere max ulp
 {}
 hit: a hit that is a miss in truth.
+sphere: another, or its other root.
 ulp: steps of f32 between its t
 and the right one, where it hits.",
         of_rays.collect::<String>(),
@@ -94,21 +102,14 @@ fn rays(scene: &Scene, canvas: &Canvas, width: u32, height: u32) -> Vec<Ray> {
     (0..width * height).map(|ray| camera.get_ray(ray % width, ray / width)).collect()
 }
 
-/// What is wrong with an answer.
-fn class(answer: Option<Hit>, truth: Option<Hit>) -> Class {
-    let elsewhere = answer.zip(truth).is_some_and(|(a, b)| a.sphere != b.sphere);
-    let [t, true_t] = [answer, truth].map(|hit| hit.map(|hit| hit.t));
-    Class::of(t, true_t, elsewhere).0
-}
-
 /// A right decision or a wrong one.
 fn sign(class: Class) -> (char, Role) {
     match class {
         Class::Miss => (' ', Role::Plain),
         Class::FalseHit => ('+', Role::Wrong),
         Class::LostHit => ('-', Role::Wrong),
-        Class::OtherSphere => ('x', Role::Wrong),
-        Class::Right | Class::Off(_) | Class::OtherRoot => ('#', Role::Sphere),
+        Class::OtherSphere | Class::OtherRoot => ('x', Role::Wrong),
+        Class::Right | Class::Off(_) => ('#', Role::Sphere),
     }
 }
 

@@ -7,6 +7,8 @@ use crossterm::event::{
 };
 
 const ESCAPE: u8 = 0x1b;
+const CTRL_C: u8 = 3;
+const CTRL_Z: u8 = 26;
 /// Ends an operating system command as the string terminator does.
 const BELL: u8 = 0x07;
 /// The longest sequence that means something.
@@ -38,8 +40,11 @@ pub(super) fn parse(bytes: &[u8], more_may_come: bool) -> Parsed {
         [ESCAPE, b'[', rest @ ..] => control_sequence(rest),
         [ESCAPE, kind @ (b']' | b'P' | b'_' | b'^' | b'X'), rest @ ..] => string(*kind, rest),
         [ESCAPE, b'O'] => Parsed::Unfinished,
+        // Not the end of that key: it is broken off, and another thing begins.
+        [ESCAPE, b'O', 0..=0x1f, ..] => Parsed::Taken(2, None),
         [ESCAPE, b'O', last, ..] => Parsed::Taken(3, arrow(*last).map(user)),
-        [ESCAPE, ESCAPE, ..] => Parsed::Taken(1, Some(user(key(KeyCode::Esc)))),
+        // Whoever types Ctrl-C or Ctrl-Z after it means it.
+        [ESCAPE, ESCAPE | CTRL_C | CTRL_Z, ..] => Parsed::Taken(1, Some(user(key(KeyCode::Esc)))),
         // A key with Alt.
         [ESCAPE, _, ..] => Parsed::Taken(2, None),
         [b'\r', ..] => Parsed::Taken(1, Some(user(key(KeyCode::Enter)))),
@@ -99,6 +104,7 @@ fn control_sequence(rest: &[u8]) -> Parsed {
     match rest {
         [b'['] => return Parsed::Unfinished,
         [b'[', b'A'..=b'E', ..] => return Parsed::Taken(4, None),
+        [b'M', report @ ..] => return bytes_of_mouse(report),
         _ => {}
     }
     let Some(end) = rest.iter().position(|byte| !matches!(byte, b' '..=b'?')) else {
@@ -118,6 +124,17 @@ fn control_sequence(rest: &[u8]) -> Parsed {
     };
     let of_terminal = || reply::of_sequence(parameters, last).map(Incoming::Reply);
     Parsed::Taken(2 + end + 1, of_user.map(user).or_else(of_terminal))
+}
+
+/// What follows `ESC [ M`: button, column and row in a byte each, with 32 added, from terminals that know no decimal
+/// coordinates. A control character breaks it off, except 0, which is a place too far away.
+fn bytes_of_mouse(report: &[u8]) -> Parsed {
+    let report = &report[..report.len().min(3)];
+    match report.iter().position(|byte| matches!(byte, 1..=0x1f)) {
+        Some(end) => Parsed::Taken(3 + end, None),
+        None if report.len() < 3 => Parsed::Unfinished,
+        None => Parsed::Taken(6, None),
+    }
 }
 
 fn user(event: Event) -> Incoming {

@@ -71,6 +71,37 @@ fn steps_go_on_and_back_and_end_at_the_ends() {
     assert_eq!(film.status(), "2/3");
 }
 
+/// Whoever holds the key down is ahead of what has been read. Of a pipe no frame can be read again.
+#[test]
+fn steps_past_an_end_that_is_not_known_lead_to_the_last_frame() {
+    let mut film = film("beyond.xyz", 3);
+    wait_until(&film, |state| state.count.is_some());
+    {
+        let mut state = film.shared.lock();
+        state.count = None;
+        state.ready.clear();
+    }
+    film.want(5);
+    assert_eq!(next(&mut film), 2.0);
+    assert_eq!(film.status(), "2/3");
+    assert!(film.next().is_none() && film.wait().is_none());
+    let mut pipe = piped(20);
+    pipe.want(60);
+    assert_eq!(next(&mut pipe), 19.0);
+    assert_eq!(pipe.status(), "19/20");
+}
+
+#[test]
+fn steps_past_a_frame_that_is_wrong_lead_to_the_one_before() {
+    std::fs::write(path("wrong.xyz"), text(3) + "2\n\nC 0 0 0\n").expect("a file");
+    let mut film = film_of(path("wrong.xyz").to_str().expect("UTF-8"));
+    film.want(60);
+    assert_eq!(next(&mut film), 2.0);
+    // Why there is no other may have been told before the steps.
+    let status = film.status();
+    assert!(status == "2/3" || status.starts_with("frame 3: "), "{status}");
+}
+
 #[test]
 fn it_plays_all_and_begins_again() {
     let mut film = film("plays.xyz", 4);

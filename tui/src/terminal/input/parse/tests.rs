@@ -45,6 +45,17 @@ fn an_escape_is_a_key_when_nothing_follows() {
     assert_eq!(parse(b"\x1b[1;", true), Parsed::Unfinished);
     assert_eq!(parse(b"\x1b[1;", false), Parsed::Taken(4, None));
     assert_eq!(taken("\x1b\x1b"), (1, pressed(KeyCode::Esc)));
+    for control in ["\x1b\x03", "\x1b\x1a"] {
+        assert_eq!(taken(control), (1, pressed(KeyCode::Esc)), "{control:?}");
+    }
+}
+
+/// Else an answer, or Ctrl-C, would be lost.
+#[test]
+fn alt_and_o_take_nothing_that_follows_them() {
+    for next in ["\x1b[0n", "\x03", "\r"] {
+        assert_eq!(taken(&format!("\x1bO{next}")), (2, None), "{next:?}");
+    }
 }
 
 #[test]
@@ -70,6 +81,20 @@ fn the_mouse() {
     assert_eq!(taken("\x1b[<64;11;6m"), (11, None));
     assert_eq!(taken("\x1b[<3;11;6M"), (10, None));
     assert_eq!(taken("\x1b[<0;99999;6M"), (13, None));
+}
+
+/// The bytes of a report may be letters that are keys.
+#[test]
+fn the_mouse_in_three_bytes_is_no_key() {
+    assert_eq!(taken("\x1b[M q!k"), (6, None));
+    assert_eq!(taken("\x1b[M\0\0\0k"), (6, None));
+    for begun in ["\x1b[M", "\x1b[M ", "\x1b[M q"] {
+        assert_eq!(parse(begun.as_bytes(), true), Parsed::Unfinished, "{begun:?}");
+        assert_eq!(parse(begun.as_bytes(), false), Parsed::Taken(begun.len(), None), "{begun:?}");
+    }
+    // What breaks it off acts.
+    assert_eq!(taken("\x1b[M\x03"), (3, None));
+    assert_eq!(taken("\x1b[M q\x1b[C"), (5, None));
 }
 
 #[test]
