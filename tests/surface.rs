@@ -178,6 +178,22 @@ fn a_far_root_behind_t_min_has_the_far_normal() {
     }
 }
 
+/// A root counts by what it rounds to: both round to `t_min`, so the near one is hit.
+#[test]
+fn a_near_root_that_rounds_to_t_min_has_the_near_normal() {
+    for (z, x, t_min, normal) in
+        [(0.1, 0.953_939_2, 12_000_000.0, -0.3), (0.005, 0.999_687_45, 900_000.0, -0.025)]
+    {
+        let list = SphereList::from([[x, 0.0, t_min, 1.0]]);
+        let ray = Ray { t_min, ..Ray::new(z * Vec3::Z, Vec3::Z) };
+        for (tier, layer) in surface_layers().flat_map(|at| [(Tier::Stable, at), (Tier::Exact, at)])
+        {
+            let [found, _] = surfaces_of(tier, layer, &list, &[ray])[0];
+            assert!((found.z - normal).abs() < 1e-3, "{found} by {tier:?}, {layer:?}");
+        }
+    }
+}
+
 /// As another tier may answer.
 #[test]
 fn a_t_that_is_no_root_has_the_surface_at_the_nearer_one() {

@@ -221,6 +221,18 @@ fn rays_are_spawned_at_both_ends_of_the_numbers() {
     }
 }
 
+/// From the surface the way to the target overflows; from half a step out it does not.
+#[test]
+fn a_way_that_is_just_a_number_is_one() {
+    let (far, radius) = (2_f32.powi(104), 2_f32.powi(103));
+    let list = SphereList::from([[-far, 0.0, 0.0, radius]]);
+    let ray = Ray::new(Vec3::ZERO, Vec3::NEG_X);
+    let towards = Towards::Point(f32::MAX * Vec3::X);
+    let spawned = shadow_rays_of(Tier::Exact, Layer::Ray, &list, &[ray], towards);
+    assert!(spawned[0].is_live());
+    assert!(assert_as_one_ray(&list, &[ray], towards) > 0);
+}
+
 /// A way that is longer than numbers is no shadow ray: nothing would be in its way.
 #[test]
 fn a_way_that_leaves_the_numbers_is_none() {

@@ -33,6 +33,8 @@ pub struct SurfaceLanes<L> {
 const SPLITTER: f64 = 536_870_913.0;
 /// 16 ulp of t, at least.
 const NEAR: f64 = 16.0 / 8_388_608.0;
+/// Half an ulp of t, at most.
+const HALF_A_STEP: f64 = 0.5 / 8_388_608.0;
 /// u, of double precision.
 const U: f64 = f64::EPSILON / 2.0;
 
@@ -151,8 +153,8 @@ impl<D: DoubleLanes> Line<D> {
         (point, error, per_radius)
     }
 
-    /// The lanes in which `t` is as near the near root as a tier gets, or nearer to it than to the far one. A near root before `t_min`
-    /// is answered only by a t before the middle: that of a tier which takes the root to be later.
+    /// The lanes in which `t` is as near the near root as a tier gets, or nearer to it than to the far one. A near root that rounds
+    /// to a t before `t_min` is answered only by a t before the middle: that of a tier which takes the root to be later.
     #[inline(always)]
     fn answers_near(&self, t: D, t_min: D) -> D::Mask {
         let zero = t.like(0.0);
@@ -160,7 +162,8 @@ impl<D: DoubleLanes> Line<D> {
         let past_middle = t * self.a - self.slope;
         let from_near = (past_middle + root).abs();
         let is_near = from_near.le((t * self.a).abs() * t.like(NEAR));
-        past_middle.le(zero) | (is_near & (t_min * self.a).le(self.slope - root))
+        let rounding = (t * self.a).abs() * t.like(HALF_A_STEP);
+        past_middle.le(zero) | (is_near & (t_min * self.a).le(self.slope - root + rounding))
     }
 
     /// The unit normal, and the point at the radius along it: `point` may be off the sphere, where a tier saw a hit but

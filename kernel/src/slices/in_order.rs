@@ -131,7 +131,8 @@ fn groups_pay<S: Traverse + ?Sized, Q: LevelQuery>(
         let [did, by_rays] = trial.learnt.efforts();
         efforts = [efforts[0] + did, efforts[1] + by_rays];
         sorting += EFFORT_OF_SORTING * count as u64;
-        // A group in vain takes several times as long as its rays by themselves: no more than two or three are tried.
+        // A group in vain takes several times as long as its rays by themselves: no more than two or three are tried, except of rays by
+        // turns, most of which would go by themselves at a quarter of the others' effort.
         if apart > most_apart {
             return false;
         }
@@ -141,7 +142,7 @@ fn groups_pay<S: Traverse + ?Sized, Q: LevelQuery>(
         Tried::Turns(_) => {
             let of_cells = OF_A_CELL[0] * did / OF_A_CELL[1];
             let of_apart = by_rays * apart as u64 / PART_OF_APART;
-            is_within(MOST_OF_TURNS, [of_cells + sorting + of_apart, by_rays])
+            by_rays > 0 && is_within(MOST_OF_TURNS, [of_cells + sorting + of_apart, by_rays])
         }
         Tried::Cells(_, true) => is_within(MOST_OF_TWO, [did + sorting, by_rays]),
         Tried::Cells(_, false) => {

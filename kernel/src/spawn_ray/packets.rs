@@ -173,7 +173,9 @@ fn are_along<L: Lanes>(normal: [L; 3], direction: [L; 3], least: f64) -> L::Mask
         let n = axes!(i => normal[i].widen(part));
         let d = axes!(i => direction[i].widen(part));
         let length = d[0].abs() + d[1].abs() + d[2].abs();
-        along |= (length.like(least) * length).lt(dot(n, d)).bits() << (part * L::Double::COUNT);
+        // A way of infinite length has a side, too.
+        let bound = if least == 0.0 { length.like(0.0) } else { length.like(least) * length };
+        along |= bound.lt(dot(n, d)).bits() << (part * L::Double::COUNT);
     }
     L::mask(token, along)
 }

@@ -29,7 +29,7 @@ pub(crate) struct SecondGrid {
     pub(super) grid: Grid,
 }
 
-/// Whether a ray starts nearer to the second viewpoint. (By sums of sizes, which do not overflow.)
+/// Whether a ray starts nearer to the second viewpoint, by sums of sizes: squares would overflow sooner.
 #[inline(always)]
 pub(super) fn is_of_second(viewpoints: [Vec3; 2], ray: &Ray) -> bool {
     let [first, second] = viewpoints.map(|point| (ray.origin - point).abs().element_sum());
