@@ -56,7 +56,7 @@ impl ColorBy {
     #[must_use]
     pub fn choices(attributes: &Attributes) -> Vec<Self> {
         let names = NAMINGS.iter().filter(|(name, naming)| {
-            attributes.names(*naming).is_some() && attributes.column(name).is_none()
+            attributes.names(*naming).is_some() && column_of_numbers(attributes, name).is_none()
         });
         let names = names.map(|(_, naming)| Self::Names(*naming));
         let element = attributes.elements.as_ref().map(|_| Self::Element);
@@ -151,7 +151,7 @@ pub fn coloring(scene: &Scene, by: &ColorBy, range: Option<Range>) -> Result<Col
         }
         ColorBy::Names(naming) => {
             // Where the file itself has a column of numbers with that name, that is meant.
-            if let Some(column) = attributes.column(by.name()) {
+            if let Some(column) = column_of_numbers(attributes, by.name()) {
                 return Ok(by_numbers(column, range));
             }
             let names = attributes.names(*naming).ok_or_else(missing)?;
@@ -179,6 +179,11 @@ pub fn coloring(scene: &Scene, by: &ColorBy, range: Option<Range>) -> Result<Col
             Ok(by_numbers(column, range))
         }
     }
+}
+
+/// The column of that name, unless no number is in it.
+fn column_of_numbers<'a>(attributes: &'a Attributes, name: &str) -> Option<&'a NumberColumn> {
+    attributes.column(name).filter(|column| column.values.iter().any(|value| !value.is_nan()))
 }
 
 fn by_numbers(column: &NumberColumn, range: Option<Range>) -> Coloring {

@@ -66,6 +66,11 @@ pub(super) fn of_ion(name: &str) -> Option<Element> {
         "SOD" => "NA",
         "CLA" => "CL",
         "POT" => "K",
+        "LIT" => "LI",
+        "RUB" => "RB",
+        "CES" => "CS",
+        "BAR" => "BA",
+        "CAD" => "CD",
         stem => stem,
     })
 }

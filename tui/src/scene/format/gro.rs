@@ -86,10 +86,11 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
     particles.finish(&mut context.notes, input.source()).map(Some)
 }
 
-/// The box may be blank, and wide numbers may touch, but it is no further atom.
+/// The box may be blank, wide numbers may touch, and words may follow three numbers; but it is no further atom.
 fn check_box(line: Line<'_>, atoms: usize, first: usize) -> Result<(), ReadError> {
     let mut words = Words::of(line);
-    while let Some((byte, word)) = words.next() {
+    for _ in 0..3 {
+        let Some((byte, word)) = words.next() else { break };
         if number(word).is_none() && word.iter().any(u8::is_ascii_alphabetic) {
             let what = format!(
                 "{} in the box is no number; the number of atoms in line {first} is {atoms}",

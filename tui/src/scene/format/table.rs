@@ -45,7 +45,7 @@ pub(super) fn read(input: &mut Input, context: &mut Context) -> Result<Scene, Re
     let mut particles = Particles { columns: kept.collect(), symbols, ..Particles::default() };
     let (mut fields, mut scale) = (Vec::new(), ColorScale::default());
     let mut raw = Vec::new();
-    let most = header.map_or(columns.most, |header| header.names + 1);
+    let most = header.map_or(columns.most, |header| header.names.0 + 1);
     while let Some(line) = input.line()? {
         if is_between_rows(&line) {
             continue;
@@ -78,12 +78,13 @@ struct Layout {
 #[derive(Clone, Copy, Debug)]
 struct Header {
     line: usize,
-    names: usize,
+    /// And whether rows may lack values at their end.
+    names: (usize, bool),
 }
 
 /// Reads up to the first row, which is next then.
 fn layout(input: &mut Input, chosen: Option<&str>) -> Result<Layout, ReadError> {
-    let (mut first, mut is_header) = loop {
+    let (first, is_header) = loop {
         let Some(line) = input.line()? else { return Err(no_row(input)) };
         if line.trimmed().is_empty() {
             continue;
@@ -96,28 +97,53 @@ fn layout(input: &mut Input, chosen: Option<&str>) -> Result<Layout, ReadError> 
         }
     };
     let is_by_number = is_by_number(chosen);
-    if is_header {
-        while let Some(row) = input.line()? {
-            if is_between_rows(&row) {
-                continue;
-            }
-            // Columns that are chosen by number can be read without names.
-            if !first.fit(&row) && is_by_number {
-                (first, is_header) = (FirstLine::of(&row), false);
-            }
+    let (first, is_header) = match is_header {
+        true => header_of_rows(input, first, chosen)?,
+        false => {
             input.give_back();
-            break;
+            (first, false)
         }
-    } else {
-        input.give_back();
-    }
+    };
     let names = first.names();
     let columns = Columns::new(&names, is_header, chosen)
         .map_err(|what| ReadError::at(input.source(), first.number, 1, what))?;
-    let header = Header { line: first.number, names: names.len() };
+    let header = Header { line: first.number, names: (names.len(), first.some_may_be_missing) };
     let header = (is_header && !is_by_number).then_some(header);
     Ok(Layout { separator: first.separator, columns, header })
 }
+
+/// Reads up to the first row, and finds the header that fits it: `first`, or one of the comments after it, the last of those that do; if
+/// none fits, `first`. Returns the row, and `false`, if columns are chosen by number, which can be read without names.
+fn header_of_rows(
+    input: &mut Input,
+    first: FirstLine,
+    chosen: Option<&str>,
+) -> Result<(FirstLine, bool), ReadError> {
+    let mut candidates = vec![first];
+    while let Some(row) = input.line()? {
+        if is_between_rows(&row) {
+            let next = FirstLine::of(&row);
+            let names = next.names();
+            let is_candidate = next.is_comment && is_header(&names, chosen) && has_axes(&names);
+            if is_candidate && candidates[0].is_comment && candidates.len() < MOST_HEADERS {
+                candidates.push(next);
+            }
+            continue;
+        }
+        let fitting = candidates.iter_mut().rposition(|candidate| candidate.fit(&row));
+        let without_names =
+            (fitting.is_none() && is_by_number(chosen)).then(|| FirstLine::of(&row));
+        input.give_back();
+        if let Some(row) = without_names {
+            return Ok((row, false));
+        }
+        return Ok((candidates.swap_remove(fitting.unwrap_or(0)), true));
+    }
+    Ok((candidates.swap_remove(0), true))
+}
+
+/// So many comments are looked at.
+const MOST_HEADERS: usize = 16;
 
 /// Whether a line is blank, or a comment.
 fn is_between_rows(line: &Line<'_>) -> bool {
@@ -134,12 +160,12 @@ fn no_row(input: &Input) -> ReadError {
 fn misfit(line: &Line<'_>, separator: Separator, header: Header) -> ReadError {
     let mut fields = Vec::new();
     separator.split(line.bytes, usize::MAX, &mut fields);
-    let byte = fields.get(header.names).map_or(line.bytes.len(), |field| field.start);
+    let byte = fields.get(header.names.0).map_or(line.bytes.len(), |field| field.start);
     let what = format!(
         "{} values; the header in line {} names {}; --columns takes columns by number",
         fields.len(),
         header.line,
-        header.names
+        header.names.0
     );
     line.error(byte, what)
 }

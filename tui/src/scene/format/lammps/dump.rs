@@ -105,21 +105,26 @@ pub(in super::super) fn frame(
         }
         particles.center(if scaled { cell.point(position) } else { DVec3::from_array(position) });
     }
-    // Where the file grows, this is left to whoever reads on: the next line may not be whole yet.
-    if !context.follows {
-        check_next(input, atoms, first)?;
+    // Where a file grows, or in a pipe, this is left to whoever reads on: the next line may not be whole yet.
+    if !context.follows && input.can_be_read_again() {
+        check_next(input, (atoms, first), names.len())?;
     }
     particles.sort_by(&ids);
     particles.finish(&mut context.notes, input.source()).map(Some)
 }
 
-/// What follows may be another frame, but not another atom.
-fn check_next(input: &mut Input, atoms: usize, first: usize) -> Result<(), ReadError> {
+/// What follows may be another frame, or what a run that was cut off has left of it, but not another atom of so many words.
+fn check_next(
+    input: &mut Input,
+    (atoms, first): (usize, usize),
+    words: usize,
+) -> Result<(), ReadError> {
     if input.is_over_but_blanks()? {
         return Ok(());
     }
     let line = input.expect("ITEM:")?;
-    if !line.bytes.starts_with(b"ITEM:") {
+    let count = line.bytes.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()).count();
+    if count >= words && !line.bytes.starts_with(b"ITEM:") {
         let what = format!(
             "{} where an ITEM: should be; the number of atoms in line {first} is {atoms}",
             excerpt(line.bytes)

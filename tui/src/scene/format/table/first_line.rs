@@ -25,6 +25,9 @@ pub(super) struct FirstLine {
     fields: Vec<Range<usize>>,
     pub(super) separator: Separator,
     pub(super) is_comment: bool,
+    /// Whether rows may lack values at their end: where they are separated by the byte that separates the names. (A comment, or names
+    /// between spaces above values between commas, may be a sentence that has nothing to do with the columns.)
+    pub(super) some_may_be_missing: bool,
     /// Which line it is, from 1.
     pub(super) number: usize,
 }
@@ -36,7 +39,8 @@ impl FirstLine {
         let text = comment.unwrap_or(line.bytes).to_vec();
         let (separator, mut fields) = (Separator::of(&text), Vec::new());
         separator.split(&text, usize::MAX, &mut fields);
-        Self { text, fields, separator, is_comment, number: line.number }
+        let some_may_be_missing = !is_comment && separator != Separator::Space;
+        Self { text, fields, separator, is_comment, some_may_be_missing, number: line.number }
     }
 
     /// Its fields, which are names if it is a header.
@@ -48,13 +52,16 @@ impl FirstLine {
     pub(super) fn fit(&mut self, row: &Line<'_>) -> bool {
         let (count, mut fields) = (self.fields.len(), Vec::new());
         self.separator.split(row.bytes, usize::MAX, &mut fields);
-        // Positions are three: names between commas may stand above values between spaces.
-        if fields.len() < 3 {
-            self.separator = Separator::of(row.bytes);
-            self.separator.split(row.bytes, usize::MAX, &mut fields);
+        // Positions are three: names between commas may stand above values between spaces. And tabs, which are spaces too, may have
+        // nothing between them.
+        let other = Separator::of(row.bytes);
+        if fields.len() < 3 || self.separator == Separator::Space && fields.len() < count {
+            self.some_may_be_missing &= other == self.separator;
+            self.separator = other;
+            other.split(row.bytes, usize::MAX, &mut fields);
         }
-        let separator = self.separator;
-        let fits = |count: usize| separator.fits(row.bytes, &fields, count);
+        let (separator, some_may_be_missing) = (self.separator, self.some_may_be_missing);
+        let fits = |count: usize| separator.fits(row.bytes, &fields, (count, some_may_be_missing));
         if fits(count) {
             return true;
         }

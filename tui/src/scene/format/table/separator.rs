@@ -60,13 +60,18 @@ impl Separator {
         }
     }
 
-    /// Whether a row of these fields, the first `count + 1` at least, has `count` values. A comment may follow them. Where
-    /// a byte separates fields, those at the end may be missing, and empty ones may follow.
+    /// Whether a row of these fields, the first `count + 1` at least, has `count` values. A comment may follow them, and, where a
+    /// byte separates fields, empty ones. If `some_may_be_missing`, those at the end may.
     #[inline]
-    pub(super) fn fits(self, line: &[u8], fields: &[Range<usize>], count: usize) -> bool {
+    pub(super) fn fits(
+        self,
+        line: &[u8],
+        fields: &[Range<usize>],
+        (count, some_may_be_missing): (usize, bool),
+    ) -> bool {
         match fields.get(count) {
             Some(surplus) => self.is_nothing(&line[surplus.start..]),
-            None => fields.len() == count || self != Self::Space,
+            None => fields.len() == count || some_may_be_missing,
         }
     }
 

@@ -23,10 +23,18 @@ fn a_count_that_lies() {
     assert!(error("-3\n\n").starts_with("f:1:1: "));
     let dump = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n9\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\nITEM: ATOMS id type x y z\n1 1 0 0 0\n";
     assert_eq!(error(dump), "f:11:1: the file ends after 1 of the 9 atoms that line 4 says");
-    assert_eq!(
-        error(dump.replace("\n9\n", "\n1\n") + "2 1 0 0 0\n"),
-        "f:11:1: \"2 1 0 0 0\" where an ITEM: should be; the number of atoms in line 4 is 1"
-    );
+    // Of a file, where looking at the next line waits for nothing; and not at what a run that was cut off has left.
+    let one = dump.replace("\n9\n", "\n1\n");
+    let frame = |end: &str| {
+        frames_of("count.dump", (one.clone() + end).as_bytes(), &Reading::default()).read(0)
+    };
+    let wrong = frame("2 1 0 0 0\n").expect_err("an atom more").to_string();
+    let what = "11:1: \"2 1 0 0 0\" where an ITEM: should be; the number of atoms in line 4 is 1";
+    assert!(wrong.ends_with(what), "{wrong}");
+    for end in ["", "IT", "\0\0\0", "ITEM: TIMESTEP\n"] {
+        let scene = frame(end).expect("a frame").expect("a frame");
+        assert_eq!(scene.spheres().len(), 1, "{end:?}");
+    }
     assert!(
         error("t\n 2\n    1SOL     OW    1   0.000   1.624   1.679\n")
             .contains("ends after 1 of the 2")

@@ -33,6 +33,9 @@ fn values_are_those_of_their_names() {
         "x,y,z\n0.5,1.5,2.5,\n3,4,5, ,\"\"\n",
         "x,y,z,v\n0.5,1.5,2.5\n3,4,5,9\n",
         "\"name\",x,y,z\n\"a\",0.5,1.5,2.5,\n\"b\",3,4,5,\n",
+        "# x y z in kpc\n# x y z mass\n0.5 1.5 2.5 9\n3 4 5 9\n",
+        "# x y z mass\n# x y z are in kpc\n0.5 1.5 2.5 9\n3 4 5 9\n",
+        "# x y z name\n0.5\t1.5\t2.5\t\n3\t4\t5\tb\n",
     ] {
         assert_eq!(centers(&good(text)), EXPECTED, "{text}");
     }
@@ -49,6 +52,13 @@ fn more_or_fewer_values_than_names_are_refused() {
         ("x y z\n\"1\" 0.5 1.5 2.5\n", "f:2:13", "4 values; the header in line 1 names 3"),
         ("\n# id: x y z\n7 1 2 3\n", "f:3:7", "4 values; the header in line 2 names 3"),
         ("# x y z\n1 2 3\n\n1 2\n", "f:4:4", "2 values; the header in line 1 names 3"),
+        (
+            "# positions x y z in km\n1,2,3,0.5\n",
+            "f:2:10",
+            "4 values; the header in line 1 names 6",
+        ),
+        ("Positions x y z (km)\n1,2,3,4\n", "f:2:8", "4 values; the header in line 1 names 5"),
+        ("# stars, x, y, z, epoch\n1,2,3,4\n", "f:2:8", "4 values; the header in line 1 names 5"),
         ("# x y z of stars\n1 2 3\n", "f:2:6", "3 values; the header in line 1 names 5"),
         ("x,y,z\n1,2,3\n1,2,3,4\n", "f:3:7", "4 values; the header in line 1 names 3"),
         ("x;y;z\n1;2;3;;4\n", "f:2:7", "5 values; the header in line 1 names 3"),
