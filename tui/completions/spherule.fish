@@ -24,7 +24,7 @@ function __fish_spherule_using_subcommand
     contains -- $cmd[1] $argv
 end
 
-complete -c spherule -n "__fish_spherule_needs_command" -l size -d 'Picture size in cells, each 1 to 4096 [default: 80x24; on a terminal all rows but the last]' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l size -d 'Picture size in cells, each 1 to 4096, without the viewer [default: 80x24; on a terminal all rows but the last]' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l samples -d 'Rays a cell, 1 to 256; auto: more where they are needed' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l projection -d 'The projection, whatever the scene says' -r -f -a "perspective\t'Far things look smaller'
 parallel\t'They do not'"
@@ -138,7 +138,7 @@ complete -c spherule -n "__fish_spherule_using_subcommand trace" -l pairs -d 'Ra
 complete -c spherule -n "__fish_spherule_using_subcommand trace" -l any -d 'Only whether a ray meets anything'
 complete -c spherule -n "__fish_spherule_using_subcommand trace" -l json -d 'Report as a JSON object'
 complete -c spherule -n "__fish_spherule_using_subcommand trace" -s h -l help -d 'Print help (see more with \'--help\')'
-complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l size -d 'Picture size in cells, each 1 to 4096 [default: 80x24; on a terminal all rows but the last]' -r
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l size -d 'Picture size in cells, each 1 to 4096, without the viewer [default: 80x24; on a terminal all rows but the last]' -r
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l samples -d 'Rays a cell, 1 to 256; auto: more where they are needed' -r
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l projection -d 'The projection, whatever the scene says' -r -f -a "perspective\t'Far things look smaller'
 parallel\t'They do not'"

@@ -51,10 +51,10 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     let is_terminal = std::io::stdout().is_terminal();
     let mut surroundings = Surroundings::of_process(is_terminal);
     let PictureArguments { png, cast, pick, crowd, .. } = arguments;
-    let of_frames = arguments.scene.file.frames.is_some();
+    let has_frames = arguments.scene.file.frames.is_some();
     let has_size = arguments.scene.size.is_some();
     let at_once = arguments.once || png.is_some() || pick.is_some() || cast.is_some();
-    let in_viewer = is_terminal && !(at_once || of_frames || has_size || surroundings.is_dumb());
+    let in_viewer = is_terminal && !(at_once || has_frames || has_size || surroundings.is_dumb());
     if !in_viewer {
         conflicts::refuse(arguments, is_terminal)?;
     }
@@ -159,7 +159,12 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     let Some(mut frames) = frames else { return Ok(()) };
     let of_frames = arguments.scene.file.frames.clone().filter(|_| cast.is_none());
     let Some(range) = of_frames else {
-        let by = if written.is_picture() { "--frame N, --frames A..B" } else { "--frame N" };
+        let by = match (written.is_picture(), has_frames) {
+            (true, _) => "--frame N, --frames A..B",
+            // Beside the frames of a turn.
+            (false, true) => "--frames A..B",
+            (false, false) => "--frame N",
+        };
         return say_more(&mut frames, frame, by);
     };
     // What some frames do not have: told once, for the first of them.
@@ -180,12 +185,13 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     };
     let Written { mut renderer, structures, .. } = written;
     let still = Still { view, style, structure, size, is_terminal };
-    still.pictures(&mut renderer, structures, &mut frames, frame + 1..range.end, prepared)?;
+    let range = frame + 1..range.end;
+    let shown = still.pictures(&mut renderer, structures, &mut frames, range, prepared);
     for note in [no_radii, no_colors].into_iter().flatten() {
         frames.note(note);
     }
     frames.report();
-    Ok(())
+    shown
 }
 
 /// From so many spheres on, building a tree takes a while.
@@ -193,8 +199,9 @@ const MANY: usize = 1_000_000;
 
 /// Says that there are frames that are not shown, and `by` what they are.
 fn say_more(frames: &mut Frames, frame: usize, by: &str) -> Result<(), Error> {
-    // A wrong frame behind the picture does not make it wrong.
-    if !frames.follows() && frames.has(frame + 1).unwrap_or(false) {
+    // A wrong frame behind the picture does not make it wrong. What a pipe may bring is not waited for.
+    let is_asked = frames.can_go_back() && !frames.follows();
+    if is_asked && frames.has(frame + 1).unwrap_or(false) {
         frames.note(format!("frame {frame} is shown; there are more: {by}"));
         frames.report();
     }

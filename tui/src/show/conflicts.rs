@@ -3,6 +3,7 @@
 use super::written::protocol;
 use crate::arguments::PictureArguments;
 use crate::error::Error;
+use crate::pixels::Output;
 
 /// Refuses `--frames` and `--legend` beside options whose output has neither, and `--output` beside `--png`.
 ///
@@ -22,7 +23,8 @@ pub(super) fn refuse(arguments: &PictureArguments, is_terminal: bool) -> Result<
         let what = format!("--frames writes pictures of cells; with {other} say --frame N");
         return Err(Error::Input(what));
     }
-    if png.is_some() && pixels.1 {
+    // (`auto` is no wish for pixels.)
+    if png.is_some() && pixels.1 && arguments.output != Output::Auto {
         return Err(Error::Input(
             "--png writes a file; without it --output writes pixels".to_owned(),
         ));

@@ -66,9 +66,10 @@ pub(super) fn restore() {
 pub(super) fn leave() {
     let _output = output();
     if SHOWN.swap(false, SeqCst) {
-        let _ = write(&leaving());
-        // Outside of raw mode they would be echoed.
-        unanswered::let_come();
+        // Outside of raw mode answers would be echoed. A terminal that is gone answers nothing.
+        if write(&leaving()).is_ok() {
+            unanswered::let_come();
+        }
         let _ = terminal::disable_raw_mode();
     }
 }

@@ -26,6 +26,8 @@ struct State {
     /// The frame that is wanted next.
     wanted: usize,
     ready: BTreeMap<usize, Arc<Scene>>,
+    /// The first frame that is still to be written to a file that is followed.
+    unwritten: Option<usize>,
     /// How many frames there are, once that is known.
     count: Option<usize>,
     /// Why there is no further frame.
@@ -117,10 +119,16 @@ impl Film {
     /// One frame on or back; of a pipe, back only to what is kept.
     pub(super) fn step(&mut self, forward: bool) {
         self.is_playing = false;
-        let target = if forward { self.target + 1 } else { self.target.saturating_sub(1) };
+        let target = match forward {
+            true => self.target + 1,
+            // What a pipe may never bring is not waited for any more.
+            false if !self.can_go_back && self.target > self.shown => self.shown,
+            false => self.target.saturating_sub(1),
+        };
         let state = self.shared.lock();
         let exists = state.count.is_none_or(|count| target < count);
-        let can_come = forward || self.can_go_back || state.ready.contains_key(&target);
+        let is_kept = target == self.shown || state.ready.contains_key(&target);
+        let can_come = forward || self.can_go_back || is_kept;
         drop(state);
         if exists && can_come {
             self.want(target);
@@ -169,6 +177,11 @@ impl Film {
             return None;
         }
         let mut state = self.shared.lock();
+        if let Some(unwritten) = state.unwritten.filter(|&unwritten| self.target > unwritten) {
+            // Steps went past the end of a file that grows: they wait for its next frame.
+            (self.target, state.wanted) = (unwritten, unwritten);
+            self.shared.changed.notify_all();
+        }
         let is_lost = state.failure.as_ref().is_some_and(|(index, _)| *index == self.target);
         if let Some(count) = state.count.filter(|&count| self.target >= count) {
             // Steps went past an end that had not been seen: they lead to the last frame, but not back.
@@ -246,6 +259,7 @@ fn read_ahead(mut frames: Frames, first: usize, shared: &Shared, prepare: impl F
         match read {
             Ok(Some(mut scene)) => {
                 prepare(&mut scene);
+                state.unwritten = None;
                 state.ready.insert(index, Arc::new(scene));
                 unread = unread.max(index + 1);
                 // What a pipe has passed cannot be read again, and any frame may be its last.
@@ -257,6 +271,7 @@ fn read_ahead(mut frames: Frames, first: usize, shared: &Shared, prepare: impl F
                 });
             }
             Ok(None) if frames.follows() => {
+                state.unwritten = Some(frames.at());
                 let waited = shared.changed.wait_timeout(state, FOLLOW);
                 drop(waited.unwrap_or_else(PoisonError::into_inner));
             }

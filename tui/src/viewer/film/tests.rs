@@ -91,6 +91,32 @@ fn steps_past_an_end_that_is_not_known_lead_to_the_last_frame() {
     assert_eq!(pipe.status(), "19/20");
 }
 
+/// They wait for the next frame of a file that grows; of a pipe, a step back gives the wait up.
+#[test]
+fn steps_past_the_end_of_what_grows_wait_for_one_frame() {
+    let name = path("grows.xyz");
+    std::fs::write(&name, text(3)).expect("a file");
+    let reading = Reading { follow: true, ..Reading::default() };
+    let Ok(Opened::File(mut frames)) = open(name.to_str().expect("UTF-8"), &reading) else {
+        panic!("no file")
+    };
+    let _ = frames.read(0).expect("a frame").expect("a frame");
+    let mut film = Film::new(frames, 0, |_| ()).expect("a thread");
+    (0..60).for_each(|_| film.step(true));
+    wait_until(&film, |state| state.unwritten == Some(3));
+    assert!(film.next().is_none());
+    std::fs::write(&name, text(4)).expect("a file");
+    assert_eq!(next(&mut film), 3.0);
+
+    // (Before the end of this one is known.)
+    let mut pipe = piped(20);
+    pipe.shared.lock().count = None;
+    pipe.want(60);
+    pipe.shared.lock().count = None;
+    pipe.step(false);
+    assert!(pipe.wait().is_none(), "it waits");
+}
+
 #[test]
 fn steps_past_a_frame_that_is_wrong_lead_to_the_one_before() {
     std::fs::write(path("wrong.xyz"), text(3) + "2\n\nC 0 0 0\n").expect("a file");
