@@ -84,7 +84,8 @@ pub fn side(point: Vec3, sphere: &Sphere) -> Option<Side> {
 
 impl Surface {
     /// Returns the side of the sphere from which a ray along `direction` came here: inside if it goes out, by more than the
-    /// normal's rounding may hide. A tangent came from outside, as any ray within 2^-21 radians of one may.
+    /// normal's rounding may hide. A tangent came from outside, as any ray within 2^-21 radians of one may. (Of
+    /// the other tiers' normals this holds near the sphere: of tangents from afar they are off by more.)
     ///
     /// ```
     /// use spherule_kernel::{Exact, Ray, Side, Sphere, Vec3, surface};

@@ -9,8 +9,8 @@
 //!   one point (a light) are, too. (In a near tree these run 1.02 to 1.2 times as fast sorted, but at 0.8 of the speed in chains and a
 //!   shell.)
 //! - Rays that are nearly parallel (a beam, a sun) are sorted by where they cross a plane.
-//! - Rays that start in one of two points (two cameras, the eyes of a stereoscope) are sorted by point and direction. They are in order
-//!   only if each ray and the next are of one camera: of rays by turns every packet holds both.
+//! - Rays that start in one of two points that are apart (two cameras) are sorted by point and direction. They are in order only if
+//!   each ray and the next are of one camera: of rays by turns every packet holds both.
 //! - Others make no groups. But in a far tree they gain by being sorted by where they start, since rays of one place read
 //!   one part of the tree. This holds for closest hits, and for any hits of rays that end somewhere (at several lights, or near
 //!   by). (Any hits of rays without an end ran at 0.74 to 0.9 of the speed.)
@@ -53,6 +53,7 @@ const FAR: usize = 1 << 23;
 /// How many rays are looked at, and how many after each.
 const LOOKED_AT: usize = 256;
 const AFTER: usize = 4;
+/// By so many rays the places where neighbours are looked for differ from multiples of a step.
 const A_FEW: usize = 5;
 /// Of so many first rays one is like most, even if some others are among them.
 const FIRST: usize = 4;
@@ -60,6 +61,9 @@ const FIRST: usize = 4;
 const TOGETHER: u32 = 8;
 /// Points count as one if they are within such a share of the scene's size: rays to one light end with rounding errors of their own.
 const ONE_POINT: f32 = 1.0 / (1 << 20) as f32;
+/// Two viewpoints are apart if they are so far from each other, as a share of the scene's size: packets with rays of a stereoscope's two
+/// eyes go together as they are. (A fiftieth apart, any hits of a sheet ran at 0.77 of the speed, told apart.)
+const APART: f32 = 1.0 / 8.0;
 /// How many groups are tried, how many rays each has, and how many the cell that they are from: 2^6.
 pub(crate) const GROUPS_TRIED: usize = 8;
 pub(crate) const RAYS_OF_A_GROUP: usize = 64;
@@ -119,7 +123,7 @@ impl RayKeys {
         } else if in_groups && are_most(some, |ray| grid.is_parallel(ray)) {
             Space::Crossing
         } else {
-            viewpoints = if in_groups { two_points(some, within) } else { None };
+            viewpoints = if in_groups { two_points(some, gain.radius) } else { None };
             let gains_by_start =
                 gain.by_start && (!gain.is_any || are_most(some, |ray| ray.t_max.is_finite()));
             if viewpoints.is_none() && !gains_by_start {
@@ -160,9 +164,9 @@ impl RayKeys {
         (!is_in_order).then_some(Self { are_by_turns: is_near, ..keys })
     }
 
-    /// Returns whether groups are to be tried before all rays are sorted: those of two viewpoints, and closest hits in a near tree. (If they are tried in a far
-    /// tree, too, few pass: among a million spheres rays all around from a point run at 1.0 of the speed unsorted, instead of 0.92, but a
-    /// beam at 1.0, instead of 1.35, and rays to a light at 0.7 to 1.0, instead of 1.1 to 1.3.)
+    /// Returns whether groups are to be tried before all rays are sorted: those of two viewpoints, and closest hits in a near tree. (If
+    /// those of one are tried in a far tree, too, few pass: among a million spheres rays all around from a point run at 1.0 of the speed
+    /// unsorted, instead of 0.92, but a beam at 1.0, instead of 1.35, and rays to a light at 0.7 to 1.0, instead of 1.1 to 1.3.)
     pub(crate) fn needs_a_trial<Q: Query>(&self, gain: GainByOrder) -> bool {
         self.second.is_some() || (!Q::ANY && !gain.is_far && self.space != Space::Start)
     }
@@ -251,14 +255,18 @@ fn are_one_point(rays: &[Ray], point: impl Fn(&Ray) -> Vec3, within: f32) -> boo
     })
 }
 
-/// Returns two points in which most of the rays start, if no one point is.
-fn two_points(rays: &[Ray], within: f32) -> Option<[Vec3; 2]> {
-    let is_at =
-        |ray: &Ray, point: Vec3| (ray.origin - point).abs().cmple(Vec3::splat(within)).all();
+/// Returns two points in which most of the rays start, if no one point is, and they are apart in a scene of that radius.
+fn two_points(rays: &[Ray], radius: f32) -> Option<[Vec3; 2]> {
+    let within = Vec3::splat(radius * ONE_POINT);
+    let is_at = |ray: &Ray, point: Vec3| (ray.origin - point).abs().cmple(within).all();
     // Few rays tell that most pairs are none.
     let (few, some) = (rays.get(..4 * FIRST)?, rays.get(..2 * FIRST)?);
     let mut pairs = some.iter().flat_map(|one| some.iter().map(|other| [one.origin, other.origin]));
     pairs.find(|pair| {
+        let [one, other] = *pair;
+        if (one - other).abs().max_element() < radius * APART {
+            return false;
+        }
         let is_of_pair = |ray: &Ray| pair.iter().any(|&point| is_at(ray, point));
         are_most(few, is_of_pair) && are_most(rays, is_of_pair)
     })

@@ -60,15 +60,14 @@ impl RayKeys {
         rays: &ManyRays<'_>,
         places: &mut [u32],
     ) {
-        match (self.space, &self.second) {
-            (Space::Start, _) => self.write::<L>(token, (Space::Start, None), rays, places),
-            (Space::Crossing, _) => self.write::<L>(token, (Space::Crossing, None), rays, places),
-            (Space::Direction, second) => match second {
-                None => self.write::<L>(token, (Space::Direction, None), rays, places),
-                Some(_) => {
-                    self.write::<L>(token, (Space::Direction, second.as_ref()), rays, places);
-                }
-            },
+        if self.second.is_some() {
+            let by = (Space::Direction, self.second.as_ref());
+            return self.write::<L>(token, by, rays, places);
+        }
+        match self.space {
+            Space::Start => self.write::<L>(token, (Space::Start, None), rays, places),
+            Space::Direction => self.write::<L>(token, (Space::Direction, None), rays, places),
+            Space::Crossing => self.write::<L>(token, (Space::Crossing, None), rays, places),
         }
     }
 

@@ -139,6 +139,15 @@ fn two_cameras_are_sorted_one_after_the_other() {
             }
         }
     }
+    // The eyes of a stereoscope are as one camera.
+    for (apart, is_sorted) in [(0.24, false), (0.26, true)] {
+        let mut eyes = two_cameras(1, &lines);
+        for (number, ray) in eyes.iter_mut().enumerate() {
+            let side = if number % 2 == 0 { -0.5 } else { 0.5 };
+            *ray = Ray { origin: EYE + side * apart * Vec3::X, ..lines[number] };
+        }
+        assert_eq!(space_of(&eyes, near).is_some(), is_sorted, "{apart}");
+    }
     // Of three cameras there are not two points that most rays start in.
     let mut three = two_cameras(1, &lines);
     for ray in three.iter_mut().step_by(3) {
