@@ -149,7 +149,7 @@ impl ManyOccluded<'_> {
             Self::Packets(packets) => {
                 if let Some(bits) = packets.get_mut(index / RayPacket::COUNT) {
                     let lane = index % RayPacket::COUNT;
-                    *bits = *bits & !(1 << lane) | u32::from(one) << lane;
+                    *bits = *bits & 0xffff & !(1 << lane) | u32::from(one) << lane;
                 }
             }
         }

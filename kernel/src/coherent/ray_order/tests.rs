@@ -273,6 +273,7 @@ fn every_ray_keeps_its_place_among_the_answers() {
         tree.closest_hit_packets(Exact, &mut trace, &packets, &mut hits);
         tree.any_hit_packets(Exact, &mut trace, &packets, &mut bits_of);
         kept += usize::from(!trace.kept.take_numbers().is_empty());
+        assert!(bits_of.iter().all(|bits| bits >> 16 == 0), "packets have sixteen lanes");
         for lane in 0..16 * packets.len() {
             let (hit, one) = (hits[lane / 16].hit(lane % 16), one.get(lane).copied().flatten());
             assert!(
