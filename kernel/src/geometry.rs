@@ -5,6 +5,8 @@ pub(crate) mod columns;
 pub(crate) mod hit;
 pub(crate) mod many;
 pub(crate) mod many_answers;
+#[cfg(feature = "alloc")]
+pub(crate) mod moved_spheres;
 pub(crate) mod ray;
 pub(crate) mod sphere;
 pub(crate) mod sphere_columns;

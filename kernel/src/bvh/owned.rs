@@ -8,6 +8,7 @@ use super::leaf::{BEFORE, BEHIND};
 use super::memory::RefitError;
 use super::node::BvhNode;
 use super::tree::Bvh;
+use crate::geometry::moved_spheres::MovedSpheres;
 use crate::geometry::sphere_list::SphereList;
 use alloc::collections::TryReserveError;
 use alloc::vec::Vec;
@@ -98,8 +99,11 @@ impl SphereTree {
         Self { spheres, nodes, places, indices, built }
     }
 
-    /// Replaces each sphere of the tree by the one with the same index in `spheres`, centre and radius. Returns the
+    /// Replaces each sphere of the tree by the one with the same index in `moved`, centre and radius. Returns the
     /// [growth](Bvh::growth) of the boxes since the tree was built: at 1.5 or 2 it is time to build anew.
+    ///
+    /// `moved` is [`Spheres`](crate::Spheres), a slice, a vector or an array of anything that becomes a [`Sphere`](crate::Sphere), or a
+    /// [`SphereList`]. If one of your conversions panics, refit the tree again before it is used.
     ///
     /// Guarantees what a new tree guarantees. [`BvhMemory::refit`](crate::BvhMemory::refit) says what becomes of spheres that
     /// are not valid, and of those far larger or smaller than they were.
@@ -120,26 +124,28 @@ impl SphereTree {
     /// # Ok::<(), RefitError>(())
     /// ```
     ///
-    /// Cost: a tenth to a quarter of a build's time. No memory, unless many spheres have left the boxes: then 8 bytes for each
-    /// of them.
+    /// Cost: a tenth to a quarter of a build's time. Spheres are copied into the list that the tree owns; only a `SphereList`
+    /// replaces it. No memory, except where more spheres are out of the boxes than ever before: 8 bytes for each of them. Aborts, as
+    /// `Vec` does, if there is none.
     ///
     /// # Errors
-    /// [`RefitError::OtherCount`] if `spheres` has another number of spheres; then the tree is as it was.
-    pub fn refit(&mut self, spheres: impl Into<SphereList>) -> Result<f32, RefitError> {
-        let moved = spheres.into();
+    /// [`RefitError::OtherCount`] if `moved` has another number of spheres; then the tree is as it was.
+    pub fn refit(&mut self, moved: impl MovedSpheres) -> Result<f32, RefitError> {
         let Self { spheres, nodes, places, indices, built } = self;
-        let (count, given) = (spheres.spheres().len(), moved.spheres().len());
+        let (count, given) = (spheres.spheres().len(), moved.count());
         if count != given {
             return Err(RefitError::OtherCount { built: count, given });
         }
-        let list = moved.spheres();
+        moved.replace(spheres);
+        let list = spheres.spheres();
         let needed = refit_anyway(built, &list, nodes, places, indices);
         if needed > indices.len() {
-            // As many again to sort them with.
-            indices.resize(needed + built.outside, 0);
+            // As many again to sort them with, and no more: a vector that grows by itself becomes twice as long.
+            let length = needed + built.outside;
+            indices.reserve_exact(length - indices.len());
+            indices.resize(length, 0);
             refit_anyway(built, &list, nodes, places, indices);
         }
-        *spheres = moved;
         Ok(self.bvh().growth())
     }
 
@@ -168,5 +174,56 @@ impl SphereTree {
     #[must_use]
     pub const fn list(&self) -> &SphereList {
         &self.spheres
+    }
+}
+
+#[cfg(all(test, proofs))]
+mod tests {
+    use super::SphereTree;
+    use crate::{Sphere, SphereList, Vec3};
+    use alloc::vec::Vec;
+
+    fn row() -> Vec<Sphere> {
+        (0..1000).map(|number| Sphere::from([number as f32, 0.0, 5.0, 0.25])).collect()
+    }
+
+    /// Where the numbers of a tree lie.
+    fn memory(tree: &SphereTree) -> ([*const f32; 4], *const u32) {
+        (tree.list().spheres().columns().map(<[f32]>::as_ptr), tree.indices.as_ptr())
+    }
+
+    #[test]
+    fn spheres_that_are_lent_are_written_into_the_memory_that_the_tree_has() {
+        let start = row();
+        let moved: Vec<Sphere> =
+            start.iter().map(|s| Sphere { center: s.center + Vec3::Y, ..*s }).collect();
+        let [first, second] = [&start, &moved].map(SphereList::from);
+        let mut tree = SphereTree::new(&start);
+        let before = memory(&tree);
+        tree.refit(&moved).expect("as many");
+        assert!(*tree.list() == second && memory(&tree) == before, "a vector");
+        tree.refit(start.as_slice()).expect("as many");
+        assert!(*tree.list() == first && memory(&tree) == before, "a slice");
+        tree.refit(second.spheres()).expect("as many");
+        assert!(*tree.list() == second && memory(&tree) == before, "columns");
+        tree.refit(start).expect("as many");
+        assert!(*tree.list() == first && memory(&tree) == before, "rows that are given");
+        tree.refit(second.clone()).expect("as many");
+        assert!(*tree.list() == second, "a list, which brings its memory");
+    }
+
+    #[test]
+    fn a_sphere_that_leaves_the_boxes_takes_eight_bytes() {
+        let mut spheres = row();
+        let mut tree = SphereTree::new(&spheres);
+        assert_eq!(tree.indices.capacity(), tree.built.places);
+        for left in [1, 3] {
+            for sphere in spheres.iter_mut().take(left) {
+                sphere.radius = 1e30;
+            }
+            tree.refit(&spheres).expect("as many");
+            assert_eq!(tree.built.outside, left);
+            assert_eq!(tree.indices.capacity(), tree.built.places + 2 * left);
+        }
     }
 }

@@ -56,6 +56,16 @@ impl SphereList {
         self.r.push(radius);
     }
 
+    /// Writes spheres over those of the list, from the first on, as far as both go.
+    pub(super) fn overwrite(&mut self, spheres: impl Iterator<Item: Into<Sphere>>) {
+        let Self { x, y, z, r } = self;
+        let places = x.iter_mut().zip(y).zip(z.iter_mut().zip(r));
+        for (((x, y), (z, r)), sphere) in places.zip(spheres) {
+            let Sphere { center, radius } = sphere.into();
+            (*x, *y, *z, *r) = (center.x, center.y, center.z, radius);
+        }
+    }
+
     /// How many spheres.
     ///
     /// ```
