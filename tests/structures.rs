@@ -3,6 +3,7 @@
 
 mod counted;
 mod equality;
+mod false_hits;
 mod far;
 mod limits;
 mod loading;

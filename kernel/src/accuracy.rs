@@ -29,7 +29,7 @@ pub use geometric::Geometric;
 pub use stable::Stable;
 pub use tier::Accuracy;
 
-pub(crate) use formula::{TierFormula, TierWork, Underflow};
+pub(crate) use formula::{Squares, TierFormula, TierWork, Underflow};
 pub(crate) use roots::{RayLanes, all_finite};
 #[cfg(feature = "std")]
 pub(crate) use tier::test_one;

@@ -4,7 +4,7 @@
 //! cancels where the sphere is far for its size, and b - sqrt D where the ray starts near the
 //! surface: the tier trades this loss for speed, and the report counts it.
 
-use super::formula::{Tier, TierFormula, Underflow};
+use super::formula::{Squares, Tier, TierFormula, Underflow};
 use super::roots::{RayLanes, Roots, line_roots_of};
 use crate::numeric::axes::{axes, dot};
 use crate::{Lanes, Ray, Sphere};
@@ -34,6 +34,7 @@ impl TierFormula for Fast {
     /// 2^-30: what underflows in D is below 2^-148.
     const UNDERFLOW: Underflow =
         Underflow { length: 1.0 / (1 << 30) as f32, size: 1.0 / (1 << 30) as f32 };
+    const SQUARES: Squares = Squares::OfPointsAndDirections;
     type Prepared<L: Lanes> = FastRays<L>;
 
     #[inline(always)]

@@ -78,6 +78,9 @@ pub trait TierFormula: Copy + Debug {
     /// The sizes below which underflow may make the tier see hits.
     const UNDERFLOW: Underflow = Underflow::NONE;
 
+    /// What the tier squares in single precision.
+    const SQUARES: Squares = Squares::None;
+
     /// What the tier computes once a packet.
     type Prepared<L: Lanes>: Copy;
 
@@ -132,6 +135,17 @@ pub trait TierFormula: Copy + Debug {
     ) -> (SurfaceLanes<L>, L::Mask) {
         (surface::in_lanes(rays, t, center, radius), active)
     }
+}
+
+/// What a tier squares in single precision, so that it sees no hit where the squares overflow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Squares {
+    /// Nothing: it sees each hit.
+    None,
+    /// Points.
+    OfPoints,
+    /// Points, and directions as given.
+    OfPointsAndDirections,
 }
 
 /// The sizes below which a tier may see hits where there are none, since its squares underflow: a filter lets such

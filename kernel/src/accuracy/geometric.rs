@@ -6,7 +6,7 @@
 //! b - sqrt D do in [`Fast`](super::Fast). The unit direction is rounded besides, and |v| = 1 is taken for granted.
 //! [`Stable`](super::Stable) is this form with each of these errors cured.
 
-use super::formula::{Tier, TierFormula, Underflow};
+use super::formula::{Squares, Tier, TierFormula, Underflow};
 use super::roots::{RayLanes, Roots, line_roots_of};
 use crate::numeric::axes::{axes, dot};
 use crate::{Lanes, Ray, Sphere};
@@ -38,6 +38,7 @@ impl TierFormula for Geometric {
     /// as the filter asks: what underflows in r^2 - l^2 is below 2^-146.
     const UNDERFLOW: Underflow =
         Underflow { length: 1.0 / (1_u64 << 50) as f32, size: 1.0 / (1_u64 << 60) as f32 };
+    const SQUARES: Squares = Squares::OfPointsAndDirections;
     type Prepared<L: Lanes> = GeometricRays<L>;
 
     #[inline(always)]

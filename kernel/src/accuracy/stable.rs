@@ -25,7 +25,7 @@
 //!
 //! The direction is scaled by a power of two to a length near one, which is exact, and t is scaled back.
 
-use super::formula::{Tier, TierFormula, Underflow};
+use super::formula::{Squares, Tier, TierFormula, Underflow};
 use super::range_limits::{RangeLimits, longest};
 use super::roots::{RayLanes, Roots, line_roots_of};
 use crate::numeric::axes::{axes, dot};
@@ -71,6 +71,7 @@ impl TierFormula for Stable {
     /// 2^-144.
     const UNDERFLOW: Underflow =
         Underflow { length: f32::MIN_POSITIVE, size: 1.0 / (1_u64 << 60) as f32 };
+    const SQUARES: Squares = Squares::OfPoints;
     type Prepared<L: Lanes> = StableRays<L>;
 
     #[inline(always)]

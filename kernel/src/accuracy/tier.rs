@@ -4,7 +4,7 @@
 //! [`spread`](TierFormula::SPREAD). The tests of spheres are compiled for each tier, as a [`TierWork`], and the tier
 //! chooses among them: at build time if it is a type, by one branch if it is a [`Tier`].
 
-use super::formula::{Tier, TierFormula, TierWork, Underflow};
+use super::formula::{Squares, Tier, TierFormula, TierWork, Underflow};
 use super::roots::RayLanes;
 use super::{Exact, Fast, Geometric, Stable};
 use crate::count::count;
@@ -23,6 +23,8 @@ mod sealed {
         fn answer_error(self) -> f32;
         /// [`TierFormula::UNDERFLOW`](super::TierFormula::UNDERFLOW).
         fn underflow(self) -> super::Underflow;
+        /// [`TierFormula::SQUARES`](super::TierFormula::SQUARES).
+        fn squares(self) -> super::Squares;
         /// Does `work` by the formula of the tier.
         fn with_formula<W: super::TierWork>(self, work: W) -> W::Output;
         /// [`TierFormula::compare_at`](super::TierFormula::compare_at).
@@ -52,6 +54,11 @@ impl<F: TierFormula> sealed::Chosen for F {
     #[inline(always)]
     fn underflow(self) -> Underflow {
         F::UNDERFLOW
+    }
+
+    #[inline(always)]
+    fn squares(self) -> Squares {
+        F::SQUARES
     }
 
     #[inline(always)]
@@ -95,6 +102,16 @@ impl sealed::Chosen for Tier {
             Self::Geometric => Geometric::UNDERFLOW,
             Self::Stable => Stable::UNDERFLOW,
             Self::Exact => Exact::UNDERFLOW,
+        }
+    }
+
+    #[inline(always)]
+    fn squares(self) -> Squares {
+        match self {
+            Self::Fast => Fast::SQUARES,
+            Self::Geometric => Geometric::SQUARES,
+            Self::Stable => Stable::SQUARES,
+            Self::Exact => Exact::SQUARES,
         }
     }
 

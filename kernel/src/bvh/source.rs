@@ -10,6 +10,8 @@ use crate::scale::scene::SceneScale;
 pub(crate) trait SphereSource {
     /// The list that the structure is made of.
     fn spheres(&self) -> Spheres<'_>;
+    /// Whether spheres have boxes along the axes of what the rays are in.
+    fn is_tree(&self) -> bool;
     /// The sphere at a place, and its index.
     fn sphere_at(&self, place: u32) -> Option<(Sphere, u32)>;
 }

@@ -6,6 +6,7 @@ pub(crate) mod deferred;
 mod in_flight;
 #[cfg(feature = "std")]
 pub(crate) mod one_ray;
+mod overflow;
 pub(crate) mod packet_set;
 pub(crate) mod prepared_packet;
 pub(crate) mod prepared_ray;

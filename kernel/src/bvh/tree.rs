@@ -17,6 +17,10 @@ use glam::Vec3;
 ///
 /// It borrows the list that it was built from, and holds copies of its spheres in an order of its own.
 ///
+/// It answers bit for bit what the list does, by [`Exact`](crate::Exact) for every input, by [`Stable`](crate::Stable) in its domain. Of the
+/// hits that [`Fast`](crate::Fast) and [`Geometric`](crate::Geometric) find on lines that pass a sphere by, a tree of more than four spheres
+/// loses those on lines that miss the box around the sphere: by every call the same.
+///
 /// ```
 /// use spherule_kernel::{Bvh, BvhNode, Exact, Intersect, Ray, Spheres, Vec3};
 ///
@@ -56,6 +60,11 @@ impl SphereSource for Bvh<'_> {
     #[inline(always)]
     fn spheres(&self) -> Spheres<'_> {
         self.spheres
+    }
+
+    #[inline(always)]
+    fn is_tree(&self) -> bool {
+        true
     }
 
     #[inline(always)]
@@ -236,9 +245,10 @@ impl<'a> Bvh<'a> {
     /// anew if it is used for more than a few frames.
     ///
     /// This is an estimate by the surface area heuristic (MacDonald and Booth 1990), for rays through the space in which most of
-    /// the spheres are. It stays 1 if the scene moves, grows or shrinks as a whole. Sixteen spheres that no box holds, which
-    /// every ray must meet, count as one box that every ray enters. Trees of up to 64 spheres have no boxes that a ray looks
-    /// at.
+    /// the spheres are. It stays 1 if the scene grows or shrinks as a whole,
+    /// or moves to within some 2^10 of its spheres' sizes of the coordinates' origin: farther off margins grow, in a new tree
+    /// as well. Sixteen spheres that no box holds, which every ray must meet, count as one box that every ray enters. Trees of
+    /// up to 64 spheres have no boxes that a ray looks at.
     ///
     /// ```
     /// use spherule_kernel::SphereTree;

@@ -18,8 +18,8 @@ pub(super) const HEADER: usize = 5;
 /// which [loads](Bvh4::load) them; or it is [built](Bvh4::build) where it is used. `docs/targets.md` says what each of the two
 /// takes.
 ///
-/// It answers through [`Intersect`](crate::Intersect), bit for bit as the list does, with the reservations of `Bvh` for
-/// `Fast` and `Geometric`. It answers wider packets lane by lane, in code that is compiled where it is called. Where there are
+/// It answers through [`Intersect`](crate::Intersect), bit for bit as the list does, except that by `Fast` and `Geometric`
+/// it loses some of their hits on lines that miss the box around a sphere. It answers wider packets lane by lane, in code that is compiled where it is called. Where there are
 /// vectors, `Bvh` is many times as fast.
 ///
 /// ```

@@ -8,7 +8,7 @@ use super::order::index_in;
 use super::shape::{HIGHEST, Place, WIDTH};
 use super::tree::Bvh4;
 use crate::Accuracy;
-use crate::accuracy::{RayLanes, TierFormula, TierWork};
+use crate::accuracy::{RayLanes, Squares, TierFormula, TierWork};
 use crate::bvh::traverse::prepared_packet::PreparedPacket;
 use crate::geometry::ray::RayPacket;
 use crate::lanes::{LaneArray, LaneMask, Lanes};
@@ -74,7 +74,9 @@ impl<L: Lanes, Q: Query> TierWork for Walk<'_, L, Q> {
             return;
         }
         let mut ray = PreparedPacket::<L::Array>::NONE;
-        ray.prepare::<L>(&rays, tree.boxes.scale.factor, tree.extent, F::SPREAD);
+        // No root is sure before its sphere is tested, so that it need not be known which squares overflow.
+        let of_tier = (F::SPREAD, Squares::None);
+        ray.prepare::<L>(&rays, tree.boxes.scale.factor, tree.extent, of_tier);
         let tested = F::prepare(&rays);
         let mut limits = Q::limits::<L>(token, answer);
         let (mut stack, mut slabs) = (Stack::EMPTY, Slabs::new(&ray));

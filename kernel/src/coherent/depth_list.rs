@@ -26,8 +26,8 @@ use crate::scale::scene::SceneScale;
 ///
 /// It answers bit for bit what the list of spheres does: by [`Exact`](crate::Exact) for every input, by
 /// [`Stable`](crate::Stable) in its domain, by [`Fast`](crate::Fast) and [`Geometric`](crate::Geometric) except for
-/// hits that their forms find on lines that pass a sphere by. Lists and filters only decide what is skipped, under
-/// the bounds of the tree (`docs/traversal-margins.md`); every t is a tier's. Units do not matter, since bounds see spheres
+/// hits that their forms find on lines that pass a sphere by: whether it finds them may depend on the rays of a call.
+/// Lists and filters only decide what is skipped, under the bounds of the tree (`docs/traversal-margins.md`); every t is a tier's. Units do not matter, since bounds see spheres
 /// and rays multiplied by powers of two.
 ///
 /// What the bounds do not cover is not skipped. Spheres that are 2^40 times as large or small as most are tested as in a

@@ -59,22 +59,30 @@ pub(crate) fn length<L: Lanes>(slope: L) -> L {
     slope * slope * slope.like(0.5 * LARGER) + slope.like(LARGER)
 }
 
+/// By how much of its distance a box is larger: 16u.
+const BORDER: f32 = 16.0 * U;
+
 /// What of a sphere counts at planes and depths.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Outline {
     /// The sphere.
     Sphere,
-    /// Its box: a tier with a spread sees hits of lines that pass the sphere, and a tree may lose those past the box alone.
-    Box,
+    /// Its box: a tier with a spread sees hits of lines that pass the sphere, and a tree loses those past the box alone. The box is larger,
+    /// as a [`Spread`](Self::Spread) of 16u is: a ray by itself is taken to meet it from 9u of its distance outside, and turned planes
+    /// are off by less than as much again.
+    Box { far: f32 },
     /// A sphere that is larger by `spread` times its distance: from the frame's origin, and that from there to the rays' origins.
     Spread { spread: f32, far: f32 },
 }
 
 impl Outline {
-    /// For a tier of that spread in a tree.
+    /// For a tier of that spread in a tree; the error is the largest of the rays.
     #[inline(always)]
-    pub(super) fn in_tree(spread: f32) -> Self {
-        if spread == 0.0 { Self::Sphere } else { Self::Box }
+    pub(super) fn in_tree(spread: f32, absolute_error: f32) -> Self {
+        match Self::in_list(spread, absolute_error) {
+            Self::Spread { far, .. } => Self::Box { far },
+            other => other,
+        }
     }
 
     /// For a tier of that spread in a depth list; the error is the largest of the rays.
@@ -92,7 +100,8 @@ impl Outline {
     fn radius<L: Lanes>(self, token: L::Token, spheres: &SphereColumns<'_>, part: usize) -> L {
         let radius = L::load_part(token, spheres.radius, part);
         match self {
-            Self::Sphere | Self::Box => radius,
+            Self::Sphere => radius,
+            Self::Box { far } => Self::Spread { spread: BORDER, far }.radius(token, spheres, part),
             Self::Spread { spread, far } => {
                 let [x, y, z] = axes!(i => L::load_part(token, spheres.center[i], part).abs());
                 (x + y + z + radius + radius.like(far)).filter_mul_add(radius.like(spread), radius)
@@ -105,7 +114,7 @@ impl Outline {
     fn reach(self, line: &Line) -> f32 {
         match self {
             Self::Sphere | Self::Spread { .. } => line.length,
-            Self::Box => LARGER + LARGER * line.slope.abs(),
+            Self::Box { .. } => LARGER + LARGER * line.slope.abs(),
         }
     }
 }

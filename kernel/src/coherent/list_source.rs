@@ -115,6 +115,11 @@ impl SphereSource for ListSource<'_> {
     }
 
     #[inline(always)]
+    fn is_tree(&self) -> bool {
+        false
+    }
+
+    #[inline(always)]
     fn sphere_at(&self, place: u32) -> Option<(Sphere, u32)> {
         let index = self.listed.indices().get(place as usize)?.to_bits();
         Some((self.list.spheres.get(index as usize)?, index))
@@ -133,21 +138,25 @@ impl ListSource<'_> {
     ) {
         let inactive = RayPacket::inactive();
         let mut states = [self.state_of::<L>(token, &inactive); GROUP];
-        let (mut live, mut covered) = (false, true);
+        let (factor, extent, squares) = (self.list.scale.factor, self.list.extent, tier.squares());
+        let (mut live, mut usual) = (false, true);
         for place in 0..rays.len().min(GROUP) {
             states[place] = self.state_of(token, &rays[place]);
-            live |= states[place].live.any();
-            covered &= states[place].covered;
+            let state = &states[place];
+            let overflows = state.live & state.rays.may_overflow(squares, factor, extent);
+            live |= state.live.any();
+            usual &= state.covered & !overflows.any();
         }
         let states = states.get_mut(..rays.len()).unwrap_or_default();
-        if !covered {
+        if !usual {
             L::out_of_line(
                 token,
                 #[inline(always)]
                 || {
                     for place in 0..states.len().min(rays.len()) {
                         let rays = self.view.in_frame(&RayLanes::load(token, &rays[place]));
-                        states[place].begin_again(&rays, self.list.scale.factor, None);
+                        states[place].begin_again(&rays, factor, None);
+                        states[place].leave_to_tier(squares, factor, extent);
                     }
                 },
             );

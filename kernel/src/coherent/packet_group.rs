@@ -56,19 +56,21 @@ pub(super) fn meet_block<L: Lanes, Q: Query>(
 /// time.
 #[inline(always)]
 pub(super) fn approach<L: Lanes>(
+    tier: impl Accuracy,
     states: &mut [PacketState<'_, L>],
     factor: f32,
     extent: f32,
-    spread: f32,
 ) {
     let Some(first) = states.first() else { return };
-    let (token, moves) = (first.token(), spread == 0.0);
+    let (token, moves, squares) = (first.token(), tier.spread() == 0.0, tier.squares());
     let (mut covered, mut far) = (true, far_away(first.live, first.rays.absolute_error, extent));
+    let mut overflows = first.live & first.rays.may_overflow(squares, factor, extent);
     for state in states.iter() {
         covered &= state.covered;
         far = far | far_away(state.live, state.rays.absolute_error, extent);
+        overflows = overflows | state.live & state.rays.may_overflow(squares, factor, extent);
     }
-    if covered && !(moves && far.any()) {
+    if covered && !(moves && far.any()) && !overflows.any() {
         return;
     }
     L::out_of_line(
@@ -77,6 +79,7 @@ pub(super) fn approach<L: Lanes>(
         || {
             for state in states {
                 state.approach(factor, if moves { Some(extent) } else { None });
+                state.leave_to_tier(squares, factor, extent);
             }
         },
     );

@@ -10,7 +10,7 @@
 use super::effort::Effort;
 use super::frustum::Sides;
 use crate::Accuracy;
-use crate::accuracy::{RayLanes, is_closer, test_lanes};
+use crate::accuracy::{RayLanes, Squares, is_closer, test_lanes};
 use crate::bvh::source::{SphereLanes, SphereSource};
 use crate::bvh::traverse::prepared_ray::PreparedLanes;
 use crate::bvh::traverse::root_interval::{Pass, RootInterval};
@@ -97,6 +97,13 @@ impl<'a, L: Lanes> PacketState<'a, L> {
         self.begin_again(&RayLanes::load(self.token(), self.packet), factor, extent);
     }
 
+    /// Leaves no root sure of rays whose squares overflow.
+    #[inline(always)]
+    pub(super) fn leave_to_tier(&mut self, squares: Squares, factor: f32, extent: f32) {
+        let overflowing = self.rays.overflowing(squares, factor, extent);
+        self.rays = self.rays.left_to_tier(overflowing);
+    }
+
     /// Takes answers that are known, after all else.
     #[inline(always)]
     pub(super) fn take_known<Q: Query>(&mut self, answer: &Q::Packet<L::Array>) {
@@ -158,7 +165,10 @@ impl<'a, L: Lanes> PacketState<'a, L> {
         let center = axes!(i => L::splat(token, spheres.center[i][place % WIDTH]));
         let radius = L::splat(token, spheres.radius[place % WIDTH]);
         let pass = Pass::new(origin, direction, absolute_error, center, radius);
-        let near = self.live & pass.may_hit::<SPREADS>(start[0], self.best, spread);
+        let mut near = self.live & pass.may_hit::<SPREADS>(start[0], self.best, spread);
+        if SPREADS && source.is_tree() {
+            near = near & pass.meets_box();
+        }
         if !near.any() {
             return false;
         }

@@ -137,7 +137,7 @@ impl Boxes {
             return Ended::Unfit;
         }
         count!(GroupFit);
-        approach(states, bvh.scale.factor, bvh.extent, tier.spread());
+        approach(tier, states, bvh.scale.factor, bvh.extent);
         let by_corners = match tiles {
             Some((source, at)) => {
                 source.enclose(at, states, (bvh.scale.factor, bvh.extent, tier.spread(), NARROW))
@@ -215,7 +215,7 @@ impl Boxes {
             let Some(Leaf { columns: spheres, lanes }) = bvh.leaf(number) else { continue };
             effort.leaf();
             let mut end = frustum.end;
-            let outline = Outline::in_tree(tier.spread());
+            let outline = Outline::in_tree(tier.spread(), fit.absolute_error);
             let places = frustum.look::<L>(token, &spheres, outline) & lanes;
             if places == 0 {
                 continue;

@@ -65,17 +65,8 @@ impl Ways<'_> {
     }
 }
 
-/// A tree of at most so many spheres is traced as a list, except by calls of up to eight rays with `std`. (Rays that have nothing in common, AVX-512 and AVX2: as a list, one sphere
-/// takes 0.35 of the time, two take 0.7, four 0.8 to 1.0, eight 1.2.)
-const LISTED: usize = 4;
 /// How many packets are made at a time: they are still in the nearest cache when they are answered.
 const LISTED_PACKETS: usize = 16;
-
-/// Returns whether a tree is traced as a list.
-#[inline(always)]
-pub(crate) fn is_listed(bvh: &Bvh<'_>) -> bool {
-    bvh.spheres.len() <= LISTED
-}
 
 /// Answers every ray: incoherent rays one by one, others in the groups and packets that pay.
 #[inline(always)]
@@ -88,7 +79,7 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
     answers: &mut [Q::Packet<L::Array>],
 ) {
     let count = source.count().min(answers.len());
-    let (coherence, is_listed) = (ways.coherence, is_listed(bvh));
+    let (coherence, is_listed) = (ways.coherence, small_tree::is_listed(bvh));
     // Spheres that no bound sees are tested first, for all packets: all begin with these hits.
     // (Tiles are then made once more below: such spheres are rare, and whether tiles are whole is known only as they are made.)
     let is_met_first = is_listed | !bvh.outside.is_empty();

@@ -45,7 +45,7 @@ impl Traverse for Bvh<'_> {
         let leaves_held = |asked: &Asked| leaves_held(trace.level, self, asked);
         count <= ONE_BY_ONE
             || (count <= few_rays::few(self) * RayPacket::COUNT
-                && !tree_source::is_listed(self)
+                && !small_tree::is_listed(self)
                 && (trace.coherence == Coherence::Incoherent
                     || few_rays::differ(self, rays, range, leaves_held)))
     }

@@ -125,7 +125,8 @@ fn begin_packet<L: Lanes, Q: Query>(
 ) {
     count!(RayPacket);
     let rays = RayLanes::<L>::load(token, packet);
-    prepared.prepare::<L>(&rays, bvh.scale.factor, bvh.extent, tier.spread());
+    let of_tier = (tier.spread(), tier.squares());
+    prepared.prepare::<L>(&rays, bvh.scale.factor, bvh.extent, of_tier);
     let rest = rays.live.bits() & !prepared.covered;
     if rest != 0 {
         let mut rays = rays;

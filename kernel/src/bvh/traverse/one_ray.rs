@@ -21,7 +21,7 @@ use super::ray_time::RayTime;
 use super::root_interval::RayProbe;
 use super::small_tree::{self, AT_ONCE};
 use crate::Accuracy;
-use crate::accuracy::RayLanes;
+use crate::accuracy::{RayLanes, Squares};
 use crate::bvh::leaf::place_of;
 use crate::bvh::node::{BvhNode, DEPTH, LEAF, NO_CHILD, WIDTH, octant_of};
 use crate::bvh::tree::Bvh;
@@ -77,6 +77,10 @@ fn search<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
     if !rays.live {
         return Q::one(&search.answer, 0);
     }
+    // Which false hits are seen must not depend on how many rays a call has.
+    if SPREADS && small_tree::is_listed(bvh) {
+        return search.of_list();
+    }
     // A tree of one sphere: to look at the sphere costs as much as to test it. (A refit may have made it no sphere, which only
     // its bounds would say: then no box has an extent.)
     if let [_, u32::MAX, u32::MAX, u32::MAX] = bvh.indices
@@ -92,11 +96,12 @@ fn search<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
     let mut prepared = PreparedLanes::from_there::<true>(&scaled);
     let mut along = (scaled.rays.direction, prepared.time.length);
     // `Fast` and `Geometric` are off by so much more that moving rays gains nothing: their rays are not moved.
-    let far = !SPREADS && far_away(prepared.covered, prepared.absolute_error, bvh.extent);
+    let far = (!SPREADS && far_away(prepared.covered, prepared.absolute_error, bvh.extent))
+        | prepared.may_overflow(tier.squares(), bvh.scale.factor, bvh.extent);
     if !prepared.covered | far {
         // Copied number by number: copied as a whole, the numbers would go through memory on both paths.
         let PreparedLanes { covered, origin, direction, time, absolute_error, start, end } =
-            again(ray, bvh, !SPREADS);
+            again(ray, bvh, (tier.squares(), !SPREADS));
         let RayTime { per_t, shift, length } = time;
         prepared = PreparedLanes {
             covered,
@@ -134,7 +139,7 @@ fn search<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
     };
     if let Some(leaves) = small_tree::leaves(bvh) {
         let may_hit = search.may_hit::<L, SPREADS>(&spheres, leaves);
-        if !Q::ANY && may_hit.count_ones() <= AT_ONCE {
+        if !Q::ANY && !SPREADS && may_hit.count_ones() <= AT_ONCE {
             search.keep(leaves, may_hit);
         } else if search.meet::<L, SPREADS>(token, &mut spheres, time, leaves, may_hit) {
             return Q::one(&search.answer, 0);
@@ -244,10 +249,12 @@ fn enter<L: Lanes, Q: Query>(
 /// 1 to 4 % of a ray's time.)
 #[cold]
 #[inline(never)]
-fn again(ray: &Ray, bvh: &Bvh<'_>, moves: bool) -> PreparedLanes<f32> {
+fn again(ray: &Ray, bvh: &Bvh<'_>, (squares, moves): (Squares, bool)) -> PreparedLanes<f32> {
     let rays = RayLanes::<f32>::load((), &RayPacket::new(core::slice::from_ref(ray)));
     let extent = if moves { Some(bvh.extent) } else { None };
-    PreparedLanes::of_any_length(&rays, bvh.scale.factor, extent)
+    let prepared = PreparedLanes::of_any_length(&rays, bvh.scale.factor, extent);
+    let overflows = prepared.overflowing(squares, bvh.scale.factor, bvh.extent);
+    prepared.left_to_tier(overflows)
 }
 
 /// A node on the way, and which of its children are left.

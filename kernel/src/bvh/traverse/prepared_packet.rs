@@ -2,7 +2,7 @@
 
 use super::prepared_ray::{PreparedLanes, Slab, far_away};
 use super::ray_time::RayTime;
-use crate::accuracy::RayLanes;
+use crate::accuracy::{RayLanes, Squares};
 use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::scale::rays::ScaledRays;
 
@@ -56,7 +56,8 @@ impl<A: LaneArray> PreparedPacket<A> {
         down: [0; 3],
     };
 
-    /// Prepares the rays of a packet for a scene that is scaled by `factor`, and replaces those that were here. (Returned as a
+    /// Prepares the rays of a packet for a scene that is scaled by `factor`, and a tier of that spread which squares that much; replaces those
+    /// that were here. (Returned as a
     /// value, they were copied: 3 % of a traversal.)
     #[inline(always)]
     pub(crate) fn prepare<L: Lanes<Array = A>>(
@@ -64,11 +65,12 @@ impl<A: LaneArray> PreparedPacket<A> {
         rays: &RayLanes<L>,
         factor: f32,
         extent: f32,
-        spread: f32,
+        (spread, squares): (f32, Squares),
     ) {
         let prepared = PreparedLanes::as_they_are(&ScaledRays::new(rays, factor));
         // `Fast` and `Geometric` are off by so much more that moving rays gains nothing: their rays are not moved.
-        let unusual = rays.live & !prepared.covered;
+        let unusual =
+            rays.live & (!prepared.covered | prepared.may_overflow(squares, factor, extent));
         let again = if spread > 0.0 {
             unusual
         } else {
@@ -85,7 +87,8 @@ impl<A: LaneArray> PreparedPacket<A> {
             move || {
                 let extent_if_moved = if spread > 0.0 { None } else { Some(extent) };
                 let prepared = PreparedLanes::of_any_length(&rays, factor, extent_if_moved);
-                self.set(prepared, extent, spread);
+                let overflowing = prepared.overflowing(squares, factor, extent);
+                self.set(prepared.left_to_tier(overflowing), extent, spread);
             },
         );
     }

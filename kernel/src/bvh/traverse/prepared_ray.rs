@@ -57,7 +57,7 @@ pub(super) struct Slab<L: Lanes> {
 }
 
 /// Rays are moved where the closest point is farther than this many times the distance that is left.
-const WORTH_IT: f32 = 8.0;
+pub(super) const WORTH_IT: f32 = 8.0;
 /// The absolute error of F + 2^-11 T, in u.
 pub(crate) const ABSOLUTE_ERROR: f32 = 8.0;
 /// The ray's pad of a slab is so many times the absolute error.

@@ -1,7 +1,7 @@
 //! Searches for how much of the pads of boxes a ray's answer uses, in the slab of a box around one sphere.
 
 use super::{Numbers, lane, line, numbers, or_none, square};
-use crate::accuracy::TierFormula;
+use crate::accuracy::{Squares, TierFormula};
 use crate::bvh::build::bounds::padded;
 use crate::bvh::traverse::prepared_packet::PreparedPacket;
 use crate::proofs::climb::{Random, assert_published, climb_twice};
@@ -14,7 +14,7 @@ fn used<A: TierFormula>(numbers: &Numbers) -> f64 {
     let Some([near, far]) = A::line_roots(&line, &sphere) else { return -1.0 };
     let rays = lane(&line);
     let mut packet = PreparedPacket::<[f32; 1]>::NONE;
-    packet.prepare(&rays, 1.0, 1e12, 0.0);
+    packet.prepare(&rays, 1.0, 1e12, (0.0, Squares::None));
     if packet.covered == 0 {
         return -1.0;
     }

@@ -2,7 +2,7 @@
 //! ray's pad besides.
 
 use super::{U, rules};
-use crate::accuracy::RayLanes;
+use crate::accuracy::{RayLanes, Squares};
 use crate::bvh::node::BvhNode;
 use crate::bvh::traverse::prepared_packet::PreparedPacket;
 use crate::bvh::traverse::ray_state::RayState;
@@ -21,7 +21,7 @@ pub(in crate::proofs) fn needs() -> [f64; 2] {
         let (origin, direction) = ([ox, oy, oz], [dx, dy, dz]);
         let rays = RayLanes { origin, direction, t_min, t_max, live: true };
         let mut packet = PreparedPacket::<[f32; 1]>::NONE;
-        packet.prepare::<Recorded>(&rays, 1.0, 1e12, 0.0);
+        packet.prepare::<Recorded>(&rays, 1.0, 1e12, (0.0, Squares::None));
         let mut node = BvhNode::EMPTY;
         (node.low[0][0], node.high[0][0]) = (low.tag(), low.tag());
         let mut state = RayState::NEW;

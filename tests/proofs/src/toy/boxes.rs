@@ -8,7 +8,7 @@
 //! build of the tree is written for `f32` alone, and repeated here.
 
 use super::pairs;
-use crate::accuracy::RayLanes;
+use crate::accuracy::{RayLanes, Squares};
 use crate::bvh::build::bounds::PAD;
 use crate::bvh::node::{BvhNode, NO_CHILD};
 use crate::bvh::traverse::deferred::RayPlace;
@@ -94,7 +94,7 @@ impl Case {
     /// Whether a ray whose interval is no more than that answer enters the box.
     fn enters<F: Format>(&self, t: f64, pad: f64) -> bool {
         let mut packet = PreparedPacket::<[f32; 1]>::NONE;
-        packet.prepare(&self.rays::<F>([t, t]), 1.0, self.extent, 0.0);
+        packet.prepare(&self.rays::<F>([t, t]), 1.0, self.extent, (0.0, Squares::None));
         let mut state = RayState::NEW;
         state.begin(&packet, 0, RayPlace::FIRST, 0);
         state.stack.clear();

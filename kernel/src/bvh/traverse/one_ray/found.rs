@@ -56,6 +56,17 @@ impl<T: Accuracy, Q: Query> Search<'_, T, Q> {
         Some(least(time.after(limit), end))
     }
 
+    /// Answers as the list of all spheres does.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn of_list(mut self) -> Q::One {
+        let Self { tier, bvh, ray, answer, .. } = &mut self;
+        let packet = RayPacket::new(core::slice::from_ref(*ray));
+        let (rays, answers) = (core::slice::from_ref(&packet), core::slice::from_mut(answer));
+        linear::traverse_some::<f32, Q>(*tier, (), &bvh.spheres, rays, answers);
+        Q::one(&self.answer, 0)
+    }
+
     /// Which spheres of leaves may be hit, sixteen bits a leaf; none behind the last leaf.
     #[inline(always)]
     pub(super) fn may_hit<L: Lanes, const SPREADS: bool>(
@@ -133,7 +144,10 @@ impl<T: Accuracy, Q: Query> Search<'_, T, Q> {
             // its leaf.)
             let RayProbe { start, end, raise, spread, .. } = *probe;
             let interval = pass.root_interval::<SPREADS>(start, end, raise, spread);
-            let candidates = interval.candidates.bits();
+            let mut candidates = interval.candidates.bits();
+            if SPREADS {
+                candidates &= pass.meets_box().bits();
+            }
             let (entries, bounds) = (interval.entry.store(), interval.bound.store());
             // The loop goes by `bits`, so that it does not wait for the roots.
             let mut rest = bits;
