@@ -11,7 +11,8 @@ fn main() {
     // A character is twice as high as it is wide.
     let camera = Camera {
         projection: Projection::Perspective { eye: Vec3::ZERO },
-        corner: Vec3::new(-0.72, 0.48, -1.0),
+        // The centre of the first pixel: the picture's edges are half a step farther out, at 0.72 and 0.48 to each side.
+        corner: Vec3::new(-0.71, 0.46, -1.0),
         step_x: Vec3::new(0.02, 0.0, 0.0),
         step_y: Vec3::new(0.0, -0.04, 0.0),
     };

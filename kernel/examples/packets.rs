@@ -6,6 +6,7 @@ use spherule_kernel::{
 };
 
 const SIDE: u32 = 64;
+const STEP: f32 = 1.0 / SIDE as f32;
 
 fn main() {
     // A wall of a hundred spheres.
@@ -16,9 +17,10 @@ fn main() {
     );
     let camera = Camera {
         projection: Projection::Perspective { eye: Vec3::ZERO },
-        corner: Vec3::new(-0.5, 0.5, -1.0),
-        step_x: Vec3::new(1.0 / SIDE as f32, 0.0, 0.0),
-        step_y: Vec3::new(0.0, -1.0 / SIDE as f32, 0.0),
+        // The centre of the first pixel: the picture's edges are at 0.5 to each side.
+        corner: Vec3::new(0.5 * STEP - 0.5, 0.5 - 0.5 * STEP, -1.0),
+        step_x: Vec3::new(STEP, 0.0, 0.0),
+        step_y: Vec3::new(0.0, -STEP, 0.0),
     };
 
     // A packet is a tile of the picture: its rays look the same way. The tree makes them, and knows what four tiles may

@@ -19,7 +19,8 @@ fn main() {
 
     let camera = Camera {
         projection: Projection::Perspective { eye: Vec3::new(0.0, 4.0, 8.0) },
-        corner: Vec3::new(-0.72, 0.0, -1.0),
+        // The centre of the first pixel, half a step from the picture's edges: 0.72 to each side, and the horizon.
+        corner: Vec3::new(-0.71, -0.02, -1.0),
         step_x: Vec3::new(0.02, 0.0, 0.0),
         step_y: Vec3::new(0.0, -0.04, 0.0),
     };

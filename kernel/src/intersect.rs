@@ -1,14 +1,4 @@
 //! The door: every scene structure answers the same questions, by the same methods.
-//!
-//! There are three layers, by what the caller keeps:
-//!
-//! | layer | rays are | costs beside the traversal |
-//! |---|---|---|
-//! | slices | `&[Ray]` | some 3 ns a ray to pack and unpack, 40 KiB of stack (without `std` 8 KiB), 90 where rays are sorted |
-//! | packets | `&[RayPacket]`, sixteen a packet | nothing; 90 KiB of stack where rays are sorted |
-//! | lanes | packets of your vectors' width, their token | compiled in your crate: its profile counts |
-//!
-//! Slices and packets are traced at the best level that the CPU has, or at the one that [`Trace`] names.
 
 use crate::Accuracy;
 use crate::geometry::camera::tiles::CameraTiles;
@@ -53,6 +43,32 @@ use crate::trace::Trace;
 /// spheres.
 ///
 /// Neither units nor the lengths of directions matter to any structure.
+///
+/// Beside the traversal there are three layers, by what the caller keeps:
+///
+/// | layer | rays are | costs |
+/// |---|---|---|
+/// | slices, columns | `&[Ray]`, [`RayColumns`] | some 3 ns a ray, to pack and unpack it |
+/// | packets | `&[RayPacket]`, sixteen rays each | nothing, unless a tree sorts shuffled rays: these are copied |
+/// | lanes | packets as wide as your vectors, and their token | compiled in your crate: its profile counts |
+///
+/// Slices, columns and packets are traced at the best level that the CPU has, or at the one that [`Trace`] names.
+///
+/// # Stack
+///
+/// With `std`, provide 128 KiB for slices, columns and packets: a tree that sorts the shuffled rays of a long call takes some 100 KiB in an
+/// optimised build. A thread of 64 KiB overflows. (Threads of Rust's have 2 MiB, unless you say less.) Slices take 40 KiB in every
+/// structure.
+///
+/// Without `std`, slices take some 8 KiB in a list. One ray a call takes 0.7 to 2.3 KiB on a Cortex-M4F, by tier and structure;
+/// `docs/targets.md` says how much to provide.
+///
+/// # Where it runs
+///
+/// Calls are reentrant, and structures may be shared by threads. No call can be stopped: for an answer in time, pass fewer rays a call.
+///
+/// The trait is not dyn-compatible, since its methods are generic over the tier. If the structure is chosen at run time, match on an enum
+/// of yours; [`Tier`](crate::Tier) is a tier that is chosen so.
 ///
 /// ```
 /// use spherule_kernel::{Exact, Hit, Intersect, Ray, SphereList, Vec3};

@@ -1,6 +1,6 @@
 //! Viewing rays, one pixel at a time or a tile of them.
 //!
-//! A camera is an eye (or, in a parallel projection, a direction), the corner of its image plane
+//! A camera is an eye (or, in a parallel projection, a direction), the first pixel of its image plane
 //! and the steps from one pixel to the next: vectors only, so that no tangent is needed here.
 //! Pixel `(0, 0)` is the one at the corner, `x` grows along `step_x` and `y` along `step_y`.
 //!
@@ -33,7 +33,8 @@ pub enum Projection {
 pub struct Camera {
     /// Perspective or parallel.
     pub projection: Projection,
-    /// The centre of pixel `(0, 0)`: relative to the eye in perspective, in space in parallel.
+    /// The centre of pixel `(0, 0)`: relative to the eye in perspective, in space in parallel. It is the picture's outermost point at
+    /// this corner, plus `(step_x + step_y) / 2`.
     pub corner: Vec3,
     /// From a pixel to its right-hand neighbour.
     pub step_x: Vec3,

@@ -13,6 +13,9 @@ pub struct Hit {
 
 /// A [`Hit`] or none for every lane of a packet, in plain arrays: sixteen lanes unless `A` says
 /// otherwise.
+///
+/// Only calls write hits into it. To merge answers of your own, keep `Hit`s: [`compare_hits`](crate::compare_hits) says which of two comes
+/// first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct HitPacket<A: LaneArray = [f32; 16]> {

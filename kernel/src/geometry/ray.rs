@@ -82,6 +82,21 @@ impl Ray {
     }
 }
 
+/// Origin and direction, as [`Ray::new`] takes them.
+///
+/// ```
+/// use spherule_kernel::{Ray, Vec3};
+///
+/// let ray = Ray::from([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+/// assert_eq!(ray, Ray::new(Vec3::X, Vec3::Y));
+/// ```
+impl From<[[f32; 3]; 2]> for Ray {
+    #[inline]
+    fn from([origin, direction]: [[f32; 3]; 2]) -> Self {
+        Self::new(Vec3::from_array(origin), Vec3::from_array(direction))
+    }
+}
+
 /// A packet of rays, component by component, in plain arrays: sixteen rays unless `A` says otherwise.
 ///
 /// A packet is memory, not registers: it holds no vector type, so it may be made on one side of a

@@ -60,6 +60,21 @@ impl From<(Vec3, f32)> for Sphere {
     }
 }
 
+/// The centre is an array, as other crates' vectors become.
+///
+/// ```
+/// use spherule_kernel::{Sphere, Vec3};
+///
+/// let sphere = Sphere { center: Vec3::new(0.0, 0.0, 5.0), radius: 1.0 };
+/// assert_eq!(Sphere::from(([0.0, 0.0, 5.0], 1.0)), sphere);
+/// ```
+impl From<([f32; 3], f32)> for Sphere {
+    #[inline]
+    fn from((center, radius): ([f32; 3], f32)) -> Self {
+        Self { center: Vec3::from_array(center), radius }
+    }
+}
+
 /// A list of spheres in the caller's memory, coordinate by coordinate.
 ///
 /// Sphere `i` is `(x[i], y[i], z[i])` with radius `r[i]`, and `i` is the index that a hit names.

@@ -9,6 +9,7 @@ use spherule_kernel::{
     RayPacket, SphereList, SphereTree, Trace, Vec3, Viewpoint,
 };
 use std::hint::black_box;
+use std::thread;
 
 const SIDE: u32 = 64;
 const EYE: Vec3 = Vec3::new(0.0, 0.0, -3.0);
@@ -97,9 +98,33 @@ fn seconds() -> f64 {
     now.tv_sec as f64 + now.tv_nsec as f64 * 1e-9
 }
 
+/// Shuffled rays in a tree take the most stack, no more than `Intersect` says to provide: a thread that has less ends the process.
+fn stack_suffices(tree: &SphereTree) {
+    const PROVIDED: usize = 128 << 10;
+    let mut state = 3;
+    let mut away = || Ray::new(EYE, point(&mut state) - EYE);
+    let rays: Vec<Ray> = (0..40_000).map(|_| away()).collect();
+    let packets: Vec<RayPacket> = rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect();
+    for level in LevelName::ALL.into_iter().filter_map(Level::named) {
+        let (mut hits, mut of_packets) =
+            (vec![None; rays.len()], vec![HitPacket::none(); packets.len()]);
+        let call = || {
+            tree.closest_hits_with(Exact, &mut Trace::new().at(level), &rays, &mut hits);
+            let mut trace = Trace::new().at(level);
+            tree.closest_hit_packets(Exact, &mut trace, &packets, &mut of_packets);
+        };
+        thread::scope(|scope| {
+            let thread = thread::Builder::new().stack_size(PROVIDED).spawn_scoped(scope, call);
+            thread.expect("a thread").join().expect("no panic");
+        });
+        assert!(of_packets.iter().flat_map(HitPacket::hits).eq(hits.iter().copied()));
+    }
+}
+
 fn main() {
     let (few, many) = (cloud(64, 0.1), cloud(10_000, 0.02));
     let tree = SphereTree::new(many.clone());
+    stack_suffices(&tree);
     let mut memory = vec![0.0; DepthList::needed(many.len())];
     let mut scratch = vec![0.0; DepthList::scratch(many.len())];
     let sorted = DepthList::sort(many.spheres(), Viewpoint::Origin(EYE), &mut memory)

@@ -43,6 +43,9 @@ fn main() -> ! {
 
 /// Draws a turn; false if there is nowhere to draw, or the processor does not compute as it must.
 fn draw_all() -> bool {
+    if !float_environment_is_sound() {
+        return false;
+    }
     let (Ok(mut screen), Ok(spheres)) = (hio::hstdout(), Spheres::new(&X, &Y, &Z, &RADIUS)) else {
         return false;
     };
@@ -61,14 +64,15 @@ fn draw_all() -> bool {
         }
         eye = Vec3::new(turn * (eye.x + eye.z), 0.0, turn * (eye.z - eye.x));
     }
-    float_environment_is_sound()
+    true
 }
 
 /// A camera that looks at the spheres' middle. A character is twice as high as it is wide.
 fn camera_at(eye: Vec3) -> Camera {
     let right = Vec3::new(eye.z, 0.0, -eye.x) * 0.013;
     let down = Vec3::new(0.0, -0.13, 0.0);
-    let corner = -eye - 0.5 * (WIDTH as f32 * right + HEIGHT as f32 * down);
+    // The centre of the first pixel, from that of the picture.
+    let corner = -eye - 0.5 * ((WIDTH - 1) as f32 * right + (HEIGHT - 1) as f32 * down);
     Camera { projection: Projection::Perspective { eye }, corner, step_x: right, step_y: down }
 }
 
