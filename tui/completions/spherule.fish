@@ -48,7 +48,7 @@ xtc\t'GROMACS\'s compressed trajectory'
 urdf\t'A robot whose parts are spheres'"
 complete -c spherule -n "__fish_spherule_needs_command" -l columns -d 'Columns of a table for x, y, z and perhaps the radius: names, or numbers from 1' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l topology -d 'The file that says what the particles of an .xtc are' -r
-complete -c spherule -n "__fish_spherule_needs_command" -l frame -d 'The frame that is shown first, from 0' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l frame -d 'The frame that is shown first, from 0 [default: the first with particles]' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l frames -d 'Write the pictures of frames A to B - 1, from 0; without B, up to the last; N is 0..N' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l radius -d 'How large spheres are: van-der-waals, covalent, a number, or a column of numbers [default: as the scene says]' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l accuracy -d 'How far hits may be trusted; algebraic is another name for fast' -r -f -a "fast\t''
@@ -162,7 +162,7 @@ xtc\t'GROMACS\'s compressed trajectory'
 urdf\t'A robot whose parts are spheres'"
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l columns -d 'Columns of a table for x, y, z and perhaps the radius: names, or numbers from 1' -r
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l topology -d 'The file that says what the particles of an .xtc are' -r
-complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l frame -d 'The frame that is shown first, from 0' -r
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l frame -d 'The frame that is shown first, from 0 [default: the first with particles]' -r
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l frames -d 'Write the pictures of frames A to B - 1, from 0; without B, up to the last; N is 0..N' -r
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l radius -d 'How large spheres are: van-der-waals, covalent, a number, or a column of numbers [default: as the scene says]' -r
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l structure -d 'How spheres are searched' -r -f -a "auto\t'Whatever suits'

@@ -14,6 +14,7 @@ use crate::coloring::{Coloring, coloring};
 use crate::draw::{Renderer, picture_workload};
 use crate::error::Error;
 use crate::machine::check_floats;
+use crate::pixels::Output;
 use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::scene::frames::Frames;
@@ -21,7 +22,7 @@ use crate::structure::scene::SceneStructures;
 use crate::style::{Charset, ColorDepth, PIPE_SIZE, Style};
 use crate::terminal::color_depth::{ColorChoice, Surroundings};
 use crate::terminal::locale::is_without_unicode;
-use crate::terminal::{Abilities, Terminal, lost, pixels_of_cell};
+use crate::terminal::{Abilities, Terminal, Uses, lost, pixels_of_cell};
 use crate::threads::Threads;
 use crate::viewer::film::Film;
 use crate::{scene, viewer};
@@ -47,7 +48,7 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         // Answers are wrong where they differ from exact.
         check_floats(Tier::Exact)?;
     }
-    let Subject { mut scene, frame, frames } = arguments.scene.open()?;
+    let Subject { mut scene, frame, frames } = open(arguments)?;
     let is_terminal = std::io::stdout().is_terminal();
     let mut surroundings = Surroundings::of_process(is_terminal);
     let PictureArguments { png, cast, pick, crowd, .. } = arguments;
@@ -81,8 +82,12 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         structures.picture(structure, &workload, &view, &scene)?;
     }
     // From here on every error is told by `main`, after the terminal was given back.
-    let has_color = surroundings.depth(arguments.color) != ColorDepth::Never;
-    let terminal = in_viewer.then(|| Terminal::enter(!arguments.no_probe, has_color)).transpose();
+    let uses = Uses {
+        color: surroundings.depth(arguments.color) != ColorDepth::Never,
+        kitty: arguments.output == Output::Kitty,
+        sixel: matches!(arguments.output, Output::Sixel | Output::Auto),
+    };
+    let terminal = in_viewer.then(|| Terminal::enter(!arguments.no_probe, uses)).transpose();
     let terminal = terminal.map_err(|error| lost(&error))?;
     let abilities =
         terminal.as_ref().map_or_else(Abilities::default, |terminal| *terminal.abilities());
@@ -192,6 +197,15 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     }
     frames.report();
     shown
+}
+
+/// Opens the scene. The frames of a turn are not the file's: they do not end the search for one with particles.
+fn open(arguments: &PictureArguments) -> Result<Subject, Error> {
+    let mut asked = arguments.scene.clone();
+    if arguments.cast.is_some() {
+        asked.file.frames = asked.file.frames.map(|frames| frames.start..usize::MAX);
+    }
+    asked.open()
 }
 
 /// From so many spheres on, building a tree takes a while.

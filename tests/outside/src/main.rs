@@ -98,9 +98,9 @@ fn seconds() -> f64 {
     now.tv_sec as f64 + now.tv_nsec as f64 * 1e-9
 }
 
-/// Shuffled rays in a tree take the most stack, no more than `Intersect` says to provide: a thread that has less ends the process.
+/// Shuffled rays in a tree take the most stack, no more than `Intersect` says to provide: with less, the process ends.
 fn stack_suffices(tree: &SphereTree) {
-    const PROVIDED: usize = 128 << 10;
+    const PROVIDED: usize = if cfg!(debug_assertions) { 512 << 10 } else { 256 << 10 };
     let mut state = 3;
     let mut away = || Ray::new(EYE, point(&mut state) - EYE);
     let rays: Vec<Ray> = (0..40_000).map(|_| away()).collect();

@@ -24,9 +24,9 @@ pub struct FileArguments {
     /// The file that says what the particles of an .xtc are
     #[arg(long, value_name = "FILE")]
     pub topology: Option<String>,
-    /// The frame that is shown first, from 0
-    #[arg(long, value_name = "N", default_value_t = 0, conflicts_with = "frames")]
-    pub frame: usize,
+    /// The frame that is shown first, from 0 [default: the first with particles]
+    #[arg(long, value_name = "N", conflicts_with = "frames")]
+    pub frame: Option<usize>,
     /// Write the pictures of frames A to B - 1, from 0; without B, up to the last; N is 0..N
     #[arg(long, value_name = "A..B", value_parser = range)]
     pub frames: Option<Range<usize>>,
@@ -47,7 +47,7 @@ pub struct Subject {
 }
 
 impl FileArguments {
-    /// The first frame that is asked for.
+    /// The first frame that is asked for; if no one is named, the first of those with particles.
     ///
     /// # Errors
     /// [`Error::Input`] if there is no such scene or frame, or it cannot be read.
@@ -60,26 +60,38 @@ impl FileArguments {
             strict: self.strict,
             follow: self.follow,
         };
-        let first = self.frames.as_ref().map_or(self.frame, |frames| frames.start);
+        let one = |frame: usize| frame..frame.saturating_add(1);
+        let asked = self.frames.clone().unwrap_or(self.frame.map_or(0..usize::MAX, one));
+        let first = asked.start;
         match open(name, &reading).map_err(wrong)? {
             Opened::Builtin(_) if first > 0 => {
                 Err(Error::Input(format!("{name}: frame {first}: it has one frame")))
             }
             Opened::Builtin(scene) => Ok(Subject { scene, frame: 0, frames: None }),
             Opened::File(mut frames) => {
+                let (mut frame, mut empty) = (first, None);
                 let scene = loop {
-                    match frames.read(first).map_err(wrong)? {
-                        Some(scene) => break scene,
-                        None if frames.follows() => std::thread::sleep(FOLLOW),
-                        None => {
-                            return Err(Error::Input(format!(
-                                "{name}: no frame {first}; frames count from 0"
-                            )));
+                    match frames.read(frame) {
+                        Ok(Some(scene)) => break scene,
+                        Ok(None) if frames.follows() => std::thread::sleep(FOLLOW),
+                        Ok(None) => {
+                            let none = || format!("{name}: no frame {first}; frames count from 0");
+                            return Err(empty.map_or_else(|| Error::Input(none()), wrong));
                         }
+                        Err(error) if error.is_empty_frame && frame + 1 < asked.end => {
+                            empty.get_or_insert(error);
+                            frame += 1;
+                        }
+                        Err(error) => return Err(wrong(error)),
                     }
                 };
+                if frame > first {
+                    let what =
+                        format!("frame {first} has no atoms; frame {frame} is the next with any");
+                    frames.note(what);
+                }
                 frames.report();
-                Ok(Subject { scene, frame: first, frames: Some(frames) })
+                Ok(Subject { scene, frame, frames: Some(frames) })
             }
         }
     }

@@ -84,7 +84,7 @@ impl Frames {
     /// again.
     ///
     /// # Errors
-    /// [`ReadError`] if a frame is not valid.
+    /// [`ReadError`] if a frame is not valid. One without particles is passed.
     pub fn read(&mut self, index: usize) -> Result<Option<Scene>, ReadError> {
         if !self.format.has_frames() && index > 0 {
             self.count = Some(1);
@@ -104,13 +104,15 @@ impl Frames {
             self.passed();
         }
         let format = self.format;
-        let scene = self.attempt(|input, context| format.frame(input, context))?.flatten();
-        if scene.is_some() {
-            self.passed();
-        } else {
-            self.count = Some(self.at);
+        let scene = self.attempt(|input, context| format.frame(input, context));
+        let scene = scene.map(Option::flatten);
+        match &scene {
+            Ok(Some(_)) => self.passed(),
+            Ok(None) => self.count = Some(self.at),
+            Err(error) if error.is_empty_frame => self.passed(),
+            Err(_) => {}
         }
-        Ok(scene)
+        scene
     }
 
     /// Whether there is a frame `index`, without reading more of it than need be. A pipe may be behind that frame then.

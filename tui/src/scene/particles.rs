@@ -103,6 +103,14 @@ impl Particles {
         }
     }
 
+    /// Changes what tells the element of particle `index`, by what `line` says.
+    pub(super) fn rename_kind(&mut self, index: usize, name: &[u8], line: usize) {
+        self.kinds.rename(index, name);
+        if self.kinds.known() > self.lines.len() {
+            self.lines.push(line);
+        }
+    }
+
     /// The names of one kind.
     #[inline]
     pub(super) fn naming(&mut self, naming: Naming) -> &mut NamesBuilder {

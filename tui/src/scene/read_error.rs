@@ -15,6 +15,8 @@ pub struct ReadError {
     pub what: String,
     /// Whether the input ends too early, so that it may be valid when more of it has been written.
     pub ends_early: bool,
+    /// Whether it is a frame without particles, behind which there may be others.
+    pub is_empty_frame: bool,
 }
 
 impl ReadError {
@@ -22,7 +24,7 @@ impl ReadError {
     #[must_use]
     pub fn whole(source: &str, what: impl Into<String>) -> Self {
         let (source, what) = (source.to_owned(), what.into());
-        Self { source, line: None, column: None, what, ends_early: false }
+        Self { source, line: None, column: None, what, ends_early: false, is_empty_frame: false }
     }
 
     /// About a place in a file.
@@ -35,6 +37,12 @@ impl ReadError {
     #[must_use]
     pub fn of_end(self) -> Self {
         Self { ends_early: true, ..self }
+    }
+
+    /// The same, of a frame without particles, all of which has been read.
+    #[must_use]
+    pub fn of_empty_frame(self) -> Self {
+        Self { is_empty_frame: true, ..self }
     }
 }
 

@@ -92,6 +92,12 @@ fn format_of(input: &mut Input, follow: bool) -> Result<Format, ReadError> {
     let wrong = |what: &str| ReadError::whole(&source, what);
     let head = input.head()?;
     match recognise(head) {
+        Ok(Format::Pdb)
+            if extension(&source)
+                .is_some_and(|extension| extension.eq_ignore_ascii_case("pqr")) =>
+        {
+            Err(wrong("PQR, which is not read; --format pdb reads what has the columns of PDB"))
+        }
         Ok(format) => Ok(format),
         Err(_) if head.is_empty() && !is_awaited => Err(wrong("the file is empty")),
         Err(_) if head.is_empty() => {
@@ -110,9 +116,13 @@ fn unknown() -> String {
 
 /// The format that the name ends in.
 fn ending(name: &str) -> Option<Format> {
+    Format::from_str(extension(name)?, true).ok()
+}
+
+/// The extension of a file, without that of its compression.
+fn extension(name: &str) -> Option<&str> {
     let name = name.strip_suffix(".gz").or_else(|| name.strip_suffix(".bz2")).unwrap_or(name);
-    let ending = Path::new(name).extension()?.to_str()?;
-    Format::from_str(ending, true).ok()
+    Path::new(name).extension()?.to_str()
 }
 
 /// The bytes of a file that is called `name`.

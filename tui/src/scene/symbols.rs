@@ -19,9 +19,7 @@ pub(super) enum Symbols {
 pub(super) fn resolved(kinds: &Names, symbols: Symbols) -> Vec<u8> {
     let number = |name: &str| {
         let found = match symbols {
-            Symbols::Elements => element(name).or_else(|| {
-                element(name.trim_end_matches(|c: char| c.is_ascii_digit() || c == '+' || c == '-'))
-            }),
+            Symbols::Elements => of_symbol(name),
             Symbols::AtomNames => of_atom_name(name),
             Symbols::Numbers => None,
         };
@@ -30,9 +28,15 @@ pub(super) fn resolved(kinds: &Names, symbols: Symbols) -> Vec<u8> {
     kinds.table().iter().map(|name| number(name)).collect()
 }
 
+/// The element of a symbol or an atomic number, perhaps with a number behind it.
+pub(super) fn of_symbol(name: &str) -> Option<Element> {
+    let is_behind = |c: char| c.is_ascii_digit() || c == '+' || c == '-';
+    element(name).or_else(|| element(name.trim_end_matches(is_behind)))
+}
+
 /// The element that the name of an atom tells. In molecules of life, the names of all atoms of C, H, N, O, P and S
 /// begin with that letter; ions have names of their own.
-fn of_atom_name(name: &str) -> Option<Element> {
+pub(super) fn of_atom_name(name: &str) -> Option<Element> {
     let letters = name.trim_start_matches(|c: char| c.is_ascii_digit());
     let stem = letters.trim_end_matches(|c: char| !c.is_ascii_alphabetic());
     let ions = [
@@ -51,10 +55,12 @@ fn of_atom_name(name: &str) -> Option<Element> {
         return Some(found);
     }
     let first = letters.get(..1)?;
-    if ["C", "H", "N", "O", "P", "S", "F", "K", "I"].contains(&first) {
+    let is_isotope = ["D", "T"].contains(&letters);
+    if is_isotope || ["C", "H", "N", "O", "P", "S", "F", "K", "I"].contains(&first) {
         element(first)
     } else {
-        element(stem)
+        // Another letter alone is no element, but a bead of several atoms, as `W` is water in Martini.
+        Some(stem).filter(|stem| stem.len() > 1).and_then(element)
     }
 }
 
@@ -113,6 +119,18 @@ mod tests {
             ("Hw1", "H"),
         ] {
             assert_eq!(symbol(name), Some(expected), "{name}");
+        }
+    }
+
+    #[test]
+    fn heavy_hydrogen_is_hydrogen() {
+        assert_eq!(["D", "T", "D2A"].map(symbol), [Some("H"), Some("H"), None]);
+    }
+
+    #[test]
+    fn a_bead_is_no_element() {
+        for name in ["W", "W1", "B", "BB", "U"] {
+            assert_eq!(symbol(name), None, "{name}");
         }
     }
 }

@@ -9,8 +9,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::thread;
 
-/// Calls `draw` with the frames of `range` in order, as far as there are any; waits for those of a file that is
-/// followed.
+/// Calls `draw` with the frames of `range` in order, as far as there are any, without those that have no particles; waits
+/// for those of a file that is followed.
 ///
 /// A thread reads one frame ahead.
 ///
@@ -48,12 +48,24 @@ fn read_all(
     sender: &SyncSender<Result<(usize, Scene), Error>>,
     is_over: &AtomicBool,
 ) {
-    for index in range {
+    let mut has_empty = false;
+    'frames: for index in range {
         let frame = loop {
             match frames.read(index) {
                 Ok(Some(scene)) => break Ok((index, scene)),
                 Ok(None) if !frames.follows() || is_over.load(Ordering::Relaxed) => return,
                 Ok(None) => thread::sleep(FOLLOW),
+                Err(error) if error.is_empty_frame => {
+                    // What is not sent does not tell that no one takes it.
+                    if is_over.load(Ordering::Relaxed) {
+                        return;
+                    }
+                    if !std::mem::replace(&mut has_empty, true) {
+                        frames
+                            .note(format!("frame {index} has no atoms: such frames are left out"));
+                    }
+                    continue 'frames;
+                }
                 Err(error) => break Err(Error::Input(error.to_string())),
             }
         };
@@ -74,21 +86,45 @@ mod tests {
 
     /// Draws the frames of a file of this text, as x of their first atom, until one is `last`.
     fn drawn(name: &str, text: &str, follow: bool, last: f32) -> (Vec<f32>, Result<(), Error>) {
-        let path = std::env::temp_dir().join(format!("spherule-{}-{name}", std::process::id()));
-        std::fs::write(&path, text).expect("a file");
-        let reading = Reading { follow, ..Reading::default() };
-        let Ok(Opened::File(mut frames)) = open(path.to_str().expect("UTF-8"), &reading) else {
-            panic!("no file")
-        };
+        let (seen, result) = numbered(name, text, follow, last);
+        assert!(seen.iter().enumerate().all(|(place, &(index, _))| index == place), "{seen:?}");
+        (seen.into_iter().map(|(_, x)| x).collect(), result)
+    }
+
+    /// The same, with their numbers.
+    fn numbered(
+        name: &str,
+        text: &str,
+        follow: bool,
+        last: f32,
+    ) -> (Vec<(usize, f32)>, Result<(), Error>) {
+        let mut frames = opened(name, text, follow);
         let mut seen = Vec::new();
         let result = while_reading(&mut frames, 0..9, |index, scene| {
             let x = scene.spheres().get(0).expect("an atom").center.x;
-            assert_eq!(index, seen.len());
-            seen.push(x);
+            seen.push((index, x));
             let end = || Error::of_output("standard output", &ErrorKind::BrokenPipe.into());
             if x == last { Err(end()) } else { Ok(()) }
         });
         (seen, result)
+    }
+
+    /// A file of this text.
+    fn opened(name: &str, text: &str, follow: bool) -> Frames {
+        let path = std::env::temp_dir().join(format!("spherule-{}-{name}", std::process::id()));
+        std::fs::write(&path, text).expect("a file");
+        let reading = Reading { follow, ..Reading::default() };
+        match open(path.to_str().expect("UTF-8"), &reading) {
+            Ok(Opened::File(frames)) => frames,
+            other => panic!("no file: {other:?}"),
+        }
+    }
+
+    /// A frame of a dump with an atom at each of these x.
+    fn dump(atoms: &[usize]) -> String {
+        let rows: String = atoms.iter().map(|x| format!("1 1 {x} 0 0\n")).collect();
+        let (head, count) = ("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS", atoms.len());
+        format!("{head}\n{count}\nITEM: ATOMS id type x y z\n{rows}")
     }
 
     const THREE: &str = "1\n\nC 0 0 0\n1\n\nC 1 0 0\n1\n\nC 2 0 0\n";
@@ -98,6 +134,23 @@ mod tests {
         let (seen, result) = drawn("order.xyz", THREE, false, 9.0);
         assert_eq!(seen, [0.0, 1.0, 2.0]);
         result.expect("no error");
+    }
+
+    #[test]
+    fn frames_without_atoms_are_left_out() {
+        let text = [dump(&[]), dump(&[1]), dump(&[]), dump(&[]), dump(&[4])].concat();
+        let (seen, result) = numbered("empty.dump", &text, false, 9.0);
+        assert_eq!(seen, [(1, 1.0), (4, 4.0)]);
+        result.expect("no error");
+    }
+
+    /// However many of them follow.
+    #[test]
+    fn frames_without_atoms_are_not_read_for_no_one() {
+        let mut frames = opened("unread.dump", &dump(&[]).repeat(3), false);
+        let (sender, _) = sync_channel(0);
+        read_all(&mut frames, 0..9, &sender, &AtomicBool::new(true));
+        assert_eq!(frames.at(), 1);
     }
 
     #[test]

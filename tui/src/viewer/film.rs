@@ -3,49 +3,19 @@
 //! The thread reads a few frames ahead, fewer of large ones, and keeps one behind; the rest is read again when it is
 //! wanted. No one waits for the thread: where a frame is not there yet, the picture stays.
 
+mod ahead;
+
 use super::printable::in_cells;
-use crate::arguments::files::FOLLOW;
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::scene::frames::Frames;
-use std::collections::BTreeMap;
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use ahead::{Shared, read_ahead};
+use std::sync::Arc;
 use std::thread::Builder;
 use std::time::{Duration, Instant};
 
-/// Frames that are read before they are wanted, at most ...
-const AHEAD: usize = 8;
-/// ... and spheres in them.
-const MOST_SPHERES: usize = 8_000_000;
 /// Frames a second while it plays, at most.
 pub(super) const RATE: u32 = 25;
-
-/// What the viewer and the reading thread share.
-#[derive(Debug, Default)]
-struct State {
-    /// The frame that is wanted next.
-    wanted: usize,
-    ready: BTreeMap<usize, Arc<Scene>>,
-    /// The first frame that is still to be written to a file that is followed.
-    unwritten: Option<usize>,
-    /// How many frames there are, once that is known.
-    count: Option<usize>,
-    /// Why there is no further frame.
-    failure: Option<(usize, String)>,
-    is_over: bool,
-}
-
-#[derive(Debug, Default)]
-struct Shared {
-    state: Mutex<State>,
-    changed: Condvar,
-}
-
-impl Shared {
-    fn lock(&self) -> MutexGuard<'_, State> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
 
 /// The frames of a file, and which is shown.
 #[derive(Debug)]
@@ -119,13 +89,14 @@ impl Film {
     /// One frame on or back; of a pipe, back only to what is kept.
     pub(super) fn step(&mut self, forward: bool) {
         self.is_playing = false;
-        let target = match forward {
-            true => self.target + 1,
-            // What a pipe may never bring is not waited for any more.
-            false if !self.can_go_back && self.target > self.shown => self.shown,
-            false => self.target.saturating_sub(1),
-        };
         let state = self.shared.lock();
+        let target = match forward {
+            true => state.beyond_empty(self.target + 1, true),
+            // What a pipe may never bring is not waited for any more.
+            false if !self.can_go_back && self.target > self.shown => Some(self.shown),
+            false => self.target.checked_sub(1).and_then(|frame| state.beyond_empty(frame, false)),
+        };
+        let target = target.unwrap_or(self.target);
         let exists = state.count.is_none_or(|count| target < count);
         let is_kept = target == self.shown || state.ready.contains_key(&target);
         let can_come = forward || self.can_go_back || is_kept;
@@ -182,6 +153,16 @@ impl Film {
             (self.target, state.wanted) = (unwritten, unwritten);
             self.shared.changed.notify_all();
         }
+        if state.empty.contains(&self.target) {
+            // Whoever plays goes on, also from the end to the beginning.
+            let forward = self.is_playing || self.target > self.shown;
+            self.target = state.beyond_empty(self.target, forward).unwrap_or(self.shown);
+            state.wanted = self.target;
+            self.shared.changed.notify_all();
+            if self.target == self.shown {
+                return None;
+            }
+        }
         let is_lost = state.failure.as_ref().is_some_and(|(index, _)| *index == self.target);
         if let Some(count) = state.count.filter(|&count| self.target >= count) {
             // Steps went past an end that had not been seen: they lead to the last frame, but not back.
@@ -233,83 +214,6 @@ impl Drop for Film {
         self.shared.lock().is_over = true;
         self.shared.changed.notify_all();
     }
-}
-
-/// Reads what is wanted and what follows it, until no one looks any more. `first` is the first frame that has not been
-/// read.
-fn read_ahead(mut frames: Frames, first: usize, shared: &Shared, prepare: impl Fn(&mut Scene)) {
-    let mut unread = first;
-    loop {
-        let index = {
-            let mut state = shared.lock();
-            loop {
-                if state.is_over {
-                    return;
-                }
-                if let Some(index) = missing(&state) {
-                    break index;
-                }
-                state = shared.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
-            }
-        };
-        // What is passed over in a pipe could not be read any more, and the end may come before what is wanted.
-        let index = if frames.can_go_back() { index } else { index.min(unread) };
-        let read = frames.read(index);
-        let mut state = shared.lock();
-        match read {
-            Ok(Some(mut scene)) => {
-                prepare(&mut scene);
-                state.unwritten = None;
-                state.ready.insert(index, Arc::new(scene));
-                unread = unread.max(index + 1);
-                // What a pipe has passed cannot be read again, and any frame may be its last.
-                let (wanted, is_pipe) = (state.wanted, !frames.can_go_back());
-                let farthest = if is_pipe { usize::MAX } else { wanted + AHEAD };
-                state.ready.retain(|&index, _| {
-                    let is_last = is_pipe && index + 1 == unread;
-                    (index + 2 >= wanted || is_last) && index <= farthest
-                });
-            }
-            Ok(None) if frames.follows() => {
-                state.unwritten = Some(frames.at());
-                let waited = shared.changed.wait_timeout(state, FOLLOW);
-                drop(waited.unwrap_or_else(PoisonError::into_inner));
-            }
-            Ok(None) => {
-                let count = frames.count().unwrap_or(index);
-                state.count = Some(state.count.map_or(count, |known| known.min(count)));
-            }
-            Err(error) => {
-                let mut failed = index;
-                // A frame that has been read exists, even if it cannot be read again. Else the wrong one may be before the one
-                // that is wanted.
-                if index >= unread {
-                    failed = frames.at().clamp(unread, index);
-                    state.count = Some(failed);
-                }
-                state.failure = Some((failed, error.to_string()));
-            }
-        }
-    }
-}
-
-/// The next frame to read, if there is one that has not just failed.
-fn missing(state: &State) -> Option<usize> {
-    let spheres = state.ready.values().map(|scene| scene.spheres().len()).sum::<usize>();
-    let is_there = |index: usize| state.ready.contains_key(&index);
-    let exists = |index: usize| {
-        state.count.is_none_or(|count| index < count)
-            && state.failure.as_ref().is_none_or(|(failed, _)| *failed != index)
-    };
-    if !is_there(state.wanted) {
-        return exists(state.wanted).then_some(state.wanted);
-    }
-    if spheres >= MOST_SPHERES {
-        return None;
-    }
-    (state.wanted..=state.wanted + AHEAD)
-        .find(|&index| !is_there(index))
-        .filter(|&index| exists(index))
 }
 
 #[cfg(test)]

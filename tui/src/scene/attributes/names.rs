@@ -80,6 +80,12 @@ impl NamesBuilder {
         self.names.indices.push(index);
     }
 
+    /// Gives sphere `index`, which has been added, another name.
+    pub(in super::super) fn rename(&mut self, index: usize, name: &[u8]) {
+        let name = self.index_of(name);
+        self.names.indices[index] = name;
+    }
+
     /// How many names there are, the empty one among them.
     #[must_use]
     pub fn known(&self) -> usize {

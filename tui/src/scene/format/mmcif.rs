@@ -2,6 +2,8 @@
 //!
 //! All else is passed over. Of alternate locations the first is drawn. Grammar: "CIF 1.1 syntax", IUCr.
 
+mod row;
+
 use super::context::Context;
 use super::mmcif_columns::Columns;
 use super::words::coordinate;
@@ -13,8 +15,8 @@ use crate::scene::number::number;
 use crate::scene::particles::Particles;
 use crate::scene::read_error::ReadError;
 use glam::DVec3;
+use row::Row;
 use std::collections::HashSet;
-use std::ops::Range;
 
 /// Reads the next model.
 ///
@@ -104,7 +106,7 @@ fn is_past_table(input: &mut Input) -> Result<bool, ReadError> {
 /// Goes to the first row of the next table of atoms; `false` if there is no further one. A first one there must be.
 fn find_atoms(input: &mut Input, context: &mut Context, is_first: bool) -> Result<bool, ReadError> {
     let (mut tags, mut in_text) = (Vec::new(), false);
-    let mut fractions = false;
+    let (mut fractions, mut component) = (false, false);
     while let Some(line) = input.line()? {
         if line.bytes.starts_with(b";") {
             in_text = !in_text;
@@ -116,6 +118,7 @@ fn find_atoms(input: &mut Input, context: &mut Context, is_first: bool) -> Resul
         let text = line.trimmed();
         let is_tag = text.len() > 11 && text[..11].eq_ignore_ascii_case(b"_atom_site.");
         fractions |= text.len() > 16 && text[..17].eq_ignore_ascii_case(b"_atom_site_fract_");
+        component |= text.len() > 15 && text[..16].eq_ignore_ascii_case(b"_chem_comp_atom.");
         if is_tag {
             let tag = text.split(u8::is_ascii_whitespace).next().unwrap_or_default();
             if tag.len() < text.len() && !text[tag.len()..].trim_ascii().starts_with(b"#") {
@@ -147,72 +150,11 @@ fn find_atoms(input: &mut Input, context: &mut Context, is_first: bool) -> Resul
         let what = "atoms in fractions of a cell: only _atom_site.Cartn_x, _y, _z are read";
         return Err(ReadError::whole(input.source(), what));
     }
+    if component {
+        let what = "a component's _chem_comp_atom, which is not read; _atom_site is";
+        return Err(ReadError::whole(input.source(), what));
+    }
     Err(ReadError::whole(input.source(), "no loop over _atom_site").of_end())
-}
-
-/// The values of a row, which may go over several lines.
-#[derive(Default)]
-struct Row {
-    text: Vec<u8>,
-    words: Vec<Range<usize>>,
-}
-
-impl Row {
-    fn is_begun(&self) -> bool {
-        !self.words.is_empty()
-    }
-
-    fn clear(&mut self) {
-        self.text.clear();
-        self.words.clear();
-    }
-
-    fn word(&self, column: usize) -> &[u8] {
-        &self.text[self.words[column].clone()]
-    }
-
-    /// As `word`, but empty where there is none: `.` or `?`.
-    fn value(&self, column: Option<usize>) -> &[u8] {
-        match column.map(|column| self.word(column)) {
-            None | Some(b"." | b"?") => b"",
-            Some(word) => word,
-        }
-    }
-
-    fn add(&mut self, line: &Line<'_>) -> Result<(), ReadError> {
-        let from = self.text.len();
-        self.text.extend_from_slice(line.bytes);
-        self.text.push(b' ');
-        let text = &self.text;
-        let mut at = from;
-        while at < text.len() {
-            if text[at] <= b' ' {
-                at += 1;
-                continue;
-            }
-            let quote = text[at];
-            if quote == b'#' {
-                break;
-            }
-            if quote == b'\'' || quote == b'"' {
-                // A quote ends a value only before white space.
-                let end = (at + 1..text.len() - 1)
-                    .find(|&end| text[end] == quote && text[end + 1] <= b' ');
-                let Some(end) = end else {
-                    return Err(line.error(at - from, "a quote that does not end in its line"));
-                };
-                self.words.push(at + 1..end);
-                at = end + 1;
-            } else {
-                let start = at;
-                while text[at] > b' ' {
-                    at += 1;
-                }
-                self.words.push(start..at);
-            }
-        }
-        Ok(())
-    }
 }
 
 struct Atoms<'a> {

@@ -4,19 +4,21 @@
 //! more than 99,999 atoms; the numbers of residues may be in hybrid-36. Format: wwPDB, "Atomic Coordinate Entry Format
 //! Description", version 3.3 (2012); hybrid-36: R. W. Grosse-Kunstleve, <https://cci.lbl.gov/hybrid_36/>.
 
+mod symbol;
+
 use super::Context;
 use super::words::coordinate;
 use crate::scene::Scene;
 use crate::scene::attributes::{Naming, NumberColumn};
-use crate::scene::elements::element;
 use crate::scene::input::{Input, Line};
 use crate::scene::notes::Notes;
 use crate::scene::number::number;
 use crate::scene::particles::Particles;
 use crate::scene::read_error::ReadError;
-use crate::scene::symbols::{Symbols, of_ion};
+use crate::scene::symbols::{Symbols, of_symbol};
 use glam::DVec3;
 use std::collections::HashSet;
+use symbol::{begins_left, symbol_of};
 
 /// The records that say what a picture of spheres does not show.
 const IGNORED: [&str; 6] = ["ANISOU", "CONECT", "HELIX", "SHEET", "SSBOND", "SIGATM"];
@@ -32,7 +34,7 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
     while let Some(line) = input.line()? {
         let record = line.bytes;
         if record.starts_with(b"ATOM") || record.starts_with(b"HETATM") {
-            atoms.add(line)?;
+            atoms.add(line).map_err(|error| if is_pqr(&line) { pqr(&line) } else { error })?;
         } else if record.starts_with(b"MODEL") {
             if !atoms.is_empty() {
                 has_ended = true;
@@ -71,6 +73,12 @@ struct Atoms {
     /// ... and the names of those of its atoms that have locations.
     located: HashSet<[u8; 4]>,
     left_out: usize,
+    /// The symbols that have been seen, and whether they are elements'.
+    symbols: Vec<([u8; 2], bool)>,
+    /// Whether names begin in the first column, whatever their elements, ...
+    are_left: bool,
+    /// ... and, until that is seen, the atoms whose element it would change, with their names and residues.
+    undecided: Vec<(usize, [u8; 4], [u8; 4])>,
 }
 
 impl Atoms {
@@ -78,7 +86,15 @@ impl Atoms {
         let column = |name: &str| NumberColumn { name: name.into(), values: Vec::new() };
         let columns = vec![column("occupancy"), column("b_factor")];
         let particles = Particles { columns, ..Particles::from(origin) };
-        Self { particles, residue: [0; 6], located: HashSet::new(), left_out: 0 }
+        Self {
+            particles,
+            residue: [0; 6],
+            located: HashSet::new(),
+            left_out: 0,
+            symbols: Vec::new(),
+            are_left: false,
+            undecided: Vec::new(),
+        }
     }
 
     fn is_empty(&self) -> bool {
@@ -106,15 +122,16 @@ impl Atoms {
             coordinate(&line, from, word, axis)
         };
         let center = DVec3::new(at(30, "x")?, at(38, "y")?, at(46, "z")?);
-        let particles = &mut self.particles;
-        particles.center(center);
-        let symbol = bytes.get(76..bytes.len().min(78)).unwrap_or_default().trim_ascii();
-        let residue_name = fixed[17..21].trim_ascii();
-        if symbol.first().is_some_and(u8::is_ascii_alphabetic) {
-            particles.kind(symbol, line.number);
+        self.particles.center(center);
+        let residue_field = [fixed[17], fixed[18], fixed[19], fixed[20]];
+        let residue_name = residue_field.trim_ascii();
+        let symbol = [76, 77].map(|column: usize| bytes.get(column).copied().unwrap_or(b' '));
+        if self.is_symbol(symbol) {
+            self.particles.kind(symbol.trim_ascii(), line.number);
         } else {
-            particles.kind(symbol_of(&name, residue_name), line.number);
+            self.kind_of_name(&name, &residue_field, line.number);
         }
+        let particles = &mut self.particles;
         particles.naming(Naming::Name).push(name.trim_ascii());
         particles.naming(Naming::Residue).push(residue_name);
         let chain = match fixed[21] {
@@ -134,6 +151,41 @@ impl Atoms {
         Ok(())
     }
 
+    /// Whether an element is written there, and no type of a force field.
+    #[inline]
+    fn is_symbol(&mut self, columns: [u8; 2]) -> bool {
+        let text = columns.trim_ascii();
+        // Files of old have numbers of lines there.
+        if !text.first().is_some_and(u8::is_ascii_alphabetic) {
+            return false;
+        }
+        if let Some((_, is_symbol)) = self.symbols.iter().find(|(seen, _)| *seen == columns) {
+            return *is_symbol;
+        }
+        let is_symbol = std::str::from_utf8(text).is_ok_and(|text| of_symbol(text).is_some());
+        self.symbols.push((columns, is_symbol));
+        is_symbol
+    }
+
+    /// Adds what the name of the next atom tells of its element.
+    fn kind_of_name(&mut self, name: &[u8; 4], residue_field: &[u8; 4], line: usize) {
+        let residue = residue_field.trim_ascii();
+        if !self.are_left && begins_left(name, residue) {
+            self.are_left = true;
+            for (atom, name, residue) in std::mem::take(&mut self.undecided) {
+                let symbol = symbol_of(&name, residue.trim_ascii(), true);
+                self.particles.rename_kind(atom, symbol, line);
+            }
+        }
+        let symbol = symbol_of(name, residue, self.are_left);
+        // A name that begins further on is the same to both.
+        let is_undecided = !self.are_left && name[0].is_ascii_alphabetic();
+        if is_undecided && !symbol.eq_ignore_ascii_case(symbol_of(name, residue, true)) {
+            self.undecided.push((self.particles.residue_numbers.len(), *name, *residue_field));
+        }
+        self.particles.kind(symbol, line);
+    }
+
     fn finish(mut self, notes: &mut Notes, source: &str) -> Result<Scene, ReadError> {
         if self.left_out > 0 {
             let atoms = if self.left_out == 1 { "atom is" } else { "atoms are" };
@@ -147,26 +199,16 @@ impl Atoms {
     }
 }
 
-/// The element in the name of an atom: it is right-justified in the first two columns. An atom with the name of its
-/// residue is an ion, or a metal, wherever the name stands.
-fn symbol_of<'a>(name: &'a [u8; 4], residue: &[u8]) -> &'a [u8] {
-    if name.trim_ascii() == residue
-        && let Some(ion) = std::str::from_utf8(residue).ok().and_then(of_ion)
-    {
-        return ion.symbol.as_bytes();
-    }
-    let two = &name[..2];
-    if two[0].is_ascii_alphabetic() {
-        let is_element = std::str::from_utf8(two).ok().and_then(element).is_some();
-        // Four letters begin a hydrogen's name in the first column.
-        return if name[0] == b'H' && !name.contains(&b' ') || !is_element {
-            &name[..1]
-        } else {
-            two
-        };
-    }
-    let first = name.iter().position(u8::is_ascii_alphabetic);
-    first.map_or(b"", |first| &name[first..=first])
+/// Whether a line is an atom of PQR: words between spaces, of which the last five are a position, a charge and a radius.
+fn is_pqr(line: &Line<'_>) -> bool {
+    let words = line.bytes.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+    let words: Vec<&[u8]> = words.take(12).collect();
+    let is_finite = |word: &&[u8]| number(word).is_some_and(f64::is_finite);
+    (10..=11).contains(&words.len()) && words.iter().rev().take(5).all(is_finite)
+}
+
+fn pqr(line: &Line<'_>) -> ReadError {
+    line.error(0, "values between spaces, as in PQR, which is not read; PDB has columns")
 }
 
 /// The number of a residue: four digits, or hybrid-36 from 10,000 on; 0 where it is neither.
@@ -184,4 +226,18 @@ fn residue_number(field: [u8; 4]) -> i32 {
         };
     }
     std::str::from_utf8(text).ok().and_then(|text| text.parse().ok()).unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_whose_element_no_other_atom_changes_are_decided() {
+        let mut atoms = Atoms::new(None);
+        for (name, undecided) in [(b"AU  ", 0), (b" CA ", 0), (b"NE  ", 1)] {
+            atoms.kind_of_name(name, b"LIG ", 1);
+            assert_eq!(atoms.undecided.len(), undecided, "{name:?}");
+        }
+    }
 }

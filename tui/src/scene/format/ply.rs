@@ -2,7 +2,9 @@
 //!
 //! Faces and all else are passed over: only spheres are drawn. G. Turk, "The PLY Polygon File Format" (1994).
 
-use super::words::{count, excerpt};
+mod header;
+
+use super::words::excerpt;
 use crate::color::Srgb;
 use crate::scene::Scene;
 use crate::scene::attributes::NumberColumn;
@@ -12,77 +14,10 @@ use crate::scene::number::number;
 use crate::scene::particles::Particles;
 use crate::scene::read_error::ReadError;
 use glam::DVec3;
+use header::{Element, Encoding, Property, Scalar, header};
 
 /// How many other properties are kept at most: they take memory.
 const MOST_KEPT: usize = 4;
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Scalar {
-    Int(usize),
-    Uint(usize),
-    Float,
-    Double,
-}
-
-impl Scalar {
-    fn named(name: &[u8]) -> Option<Self> {
-        Some(match name {
-            b"char" | b"int8" => Self::Int(1),
-            b"uchar" | b"uint8" => Self::Uint(1),
-            b"short" | b"int16" => Self::Int(2),
-            b"ushort" | b"uint16" => Self::Uint(2),
-            b"int" | b"int32" => Self::Int(4),
-            b"uint" | b"uint32" => Self::Uint(4),
-            b"float" | b"float32" => Self::Float,
-            b"double" | b"float64" => Self::Double,
-            _ => return None,
-        })
-    }
-
-    fn size(self) -> usize {
-        match self {
-            Self::Int(size) | Self::Uint(size) => size,
-            Self::Float => 4,
-            Self::Double => 8,
-        }
-    }
-
-    /// The value of little-endian bytes.
-    fn value(self, bytes: [u8; 8]) -> f64 {
-        let bits = u64::from_le_bytes(bytes);
-        match self {
-            Self::Uint(_) => bits as f64,
-            Self::Int(size) => {
-                let spare = 64 - 8 * size as u32;
-                (((bits << spare) as i64) >> spare) as f64
-            }
-            Self::Float => f64::from(f32::from_bits(bits as u32)),
-            Self::Double => f64::from_bits(bits),
-        }
-    }
-}
-
-#[derive(Clone, Debug)]
-struct Property {
-    name: String,
-    kind: Scalar,
-    /// The type of the length, if it is a list.
-    list: Option<Scalar>,
-}
-
-#[derive(Clone, Debug)]
-struct Element {
-    is_vertex: bool,
-    count: usize,
-    properties: Vec<Property>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Encoding {
-    Ascii,
-    Little,
-    Big,
-}
 
 /// Reads the vertices.
 ///
@@ -129,7 +64,12 @@ fn vertices(
         return Err(ReadError::whole(&source, "vertices without x, y, z"));
     };
     let radius = find(&["radius"]);
-    let color = [find(&["red", "r"]), find(&["green", "g"]), find(&["blue", "b"])];
+    let color = [
+        ["red", "r", "diffuse_red"],
+        ["green", "g", "diffuse_green"],
+        ["blue", "b", "diffuse_blue"],
+    ];
+    let color = color.map(|names| find(&names));
     let color = color.iter().all(Option::is_some).then(|| color.map(Option::unwrap_or_default));
     let taken = |index: usize| {
         [x, y, z].contains(&index)
@@ -186,67 +126,6 @@ fn vertices(
         }
     }
     particles.finish(notes, &source)
-}
-
-fn header(input: &mut Input) -> Result<(Encoding, Vec<Element>), ReadError> {
-    let (mut encoding, mut elements) = (None, Vec::<Element>::new());
-    input.expect("ply")?;
-    loop {
-        let line = input.expect("end_header")?;
-        let words: Vec<&[u8]> =
-            line.bytes.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()).collect();
-        match words.as_slice() {
-            [b"end_header"] => break,
-            [b"comment" | b"obj_info", ..] | [] => {}
-            [b"format", name, b"1.0"] => {
-                encoding = match *name {
-                    b"ascii" => Some(Encoding::Ascii),
-                    b"binary_little_endian" => Some(Encoding::Little),
-                    b"binary_big_endian" => Some(Encoding::Big),
-                    _ => None,
-                };
-                if encoding.is_none() {
-                    return Err(line.error(0, format!("the format {} is not known", excerpt(name))));
-                }
-            }
-            [b"element", name, number] => {
-                let Some(count) = count(number) else {
-                    return Err(
-                        line.error(0, format!("{} is no number of elements", excerpt(number)))
-                    );
-                };
-                elements.push(Element {
-                    is_vertex: *name == b"vertex",
-                    count,
-                    properties: Vec::new(),
-                });
-            }
-            [b"property", rest @ ..] => {
-                let property = match rest {
-                    [b"list", length, kind, name] => {
-                        let length = Scalar::named(length);
-                        Scalar::named(kind).zip(length).map(|(kind, list)| (kind, Some(list), name))
-                    }
-                    [kind, name] => Scalar::named(kind).map(|kind| (kind, None, name)),
-                    _ => None,
-                };
-                let (Some((kind, list, name)), Some(element)) = (property, elements.last_mut())
-                else {
-                    return Err(line.error(0, format!("{} is no property", excerpt(line.bytes))));
-                };
-                let name = String::from_utf8_lossy(name).into_owned();
-                element.properties.push(Property { name, kind, list });
-            }
-            _ => {
-                return Err(
-                    line.error(0, format!("{} is not known in a header", excerpt(line.bytes)))
-                );
-            }
-        }
-    }
-    let encoding =
-        encoding.ok_or_else(|| ReadError::whole(input.source(), "no format in the header"))?;
-    Ok((encoding, elements))
 }
 
 /// Reads an element; returns the number of its line if it is text. A list is passed over.

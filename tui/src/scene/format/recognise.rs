@@ -67,7 +67,10 @@ pub(in super::super) fn recognise(head: &[u8]) -> Result<Format, &'static str> {
     if !digits.is_empty() && digits.iter().all(u8::is_ascii_digit) {
         return Ok(Format::Xyz);
     }
-    if is_gro(&lines) {
+    // Below a header that is a comment there may be the number of rows.
+    let is_header =
+        first.starts_with(b"//") && comment(first).is_some_and(|names| has_axes(&fields(names).1));
+    if !is_header && is_gro(&lines) {
         return Ok(Format::Gro);
     }
     if first.starts_with(b"<") {
@@ -151,15 +154,18 @@ fn is_lammps_data(lines: &[&[u8]]) -> bool {
     lines.iter().take(40).any(says)
 }
 
+/// The fields of a text, and what separates them.
+fn fields(text: &[u8]) -> (Separator, Vec<&[u8]>) {
+    let (separator, mut fields) = (Separator::of(text), Vec::new());
+    separator.split(text, 1 << 10, &mut fields);
+    (separator, fields.into_iter().map(|field| &text[field]).collect())
+}
+
 /// A header that names positions, or three numbers or more.
 fn is_table(lines: &[&[u8]]) -> bool {
-    let mut fields = Vec::new();
     for line in lines.iter().filter(|line| !line.trim_ascii().is_empty()) {
         let comment = comment(line);
-        let text = comment.unwrap_or(line.trim_ascii());
-        let separator = Separator::of(text);
-        separator.split(text, 1 << 10, &mut fields);
-        let words: Vec<&[u8]> = fields.iter().map(|field| &text[field.clone()]).collect();
+        let (separator, words) = fields(comment.unwrap_or(line.trim_ascii()));
         if has_axes(&words) {
             return true;
         }
@@ -184,6 +190,14 @@ mod tests {
             ["SOURCE_ID,x,y,z", "ATOM,X,Y,Z", "HETATM;x;y;z", "MODEL,x,y,z", "ATOM1,x,y,z"]
         {
             assert_eq!(recognise(format!("{header}\n7,1,2,3\n").as_bytes()), Ok(Format::Csv));
+        }
+    }
+
+    #[test]
+    fn a_title_of_gro_may_begin_with_slashes() {
+        let rest = "    1\n    1SOL     OW    1   0.126   1.624   1.679\n   1 1 1\n";
+        for (first, format) in [("// water", Format::Gro), ("//X Y Z", Format::Csv)] {
+            assert_eq!(recognise(format!("{first}\n{rest}").as_bytes()), Ok(format), "{first}");
         }
     }
 

@@ -1,18 +1,18 @@
 //! Tables: a line a particle, columns between commas, tabs, semicolons or spaces, with a header or without.
 //!
-//! A header names `x`, `y`, `z`, and perhaps `radius`, or `r` alone, `r`, `g`, `b` or `red`, `green`, `blue`, and
+//! A header names `x`, `y`, `z`, and perhaps `radius`, `diameter` or `r` alone, `r`, `g`, `b` or `red`, `green`, `blue`, and
 //! `element` or `type`; other columns of numbers can be chosen for colours. A unit in brackets may follow a name, as in
 //! `x (mm)`. Each row has as many values as the header has names, or is refused: a column that is not named would shift the
 //! others. Without a header the first three columns are positions, and a fourth is the radius. `--columns` chooses others,
-//! by names or by numbers from 1. Lines that begin with `#` or `%` are passed over, except that one before the rows may be
-//! the header.
+//! by names or by numbers from 1. Lines that begin with `#` or `%` are passed over, and with `//` unless a header begins otherwise,
+//! except that one before the rows may be the header, below which the number of rows may stand.
 
 mod columns;
 mod first_line;
 mod separator;
 
 use super::Context;
-use super::words::coordinate;
+use super::words::{coordinate, count, half_diameter};
 use crate::color::Srgb;
 use crate::scene::Scene;
 use crate::scene::attributes::NumberColumn;
@@ -29,7 +29,7 @@ use columns::{Columns, is_by_number, is_header};
 use first_line::FirstLine;
 pub(super) use first_line::comment;
 pub(super) use separator::Separator;
-use separator::is_comment_sign;
+use separator::comment_signs;
 
 /// Reads the table.
 ///
@@ -37,7 +37,8 @@ use separator::is_comment_sign;
 /// [`ReadError`] at the first line without a number where one should be, or with more or fewer values than the header has
 /// names, and if there is no line.
 pub(super) fn read(input: &mut Input, context: &mut Context) -> Result<Scene, ReadError> {
-    let Layout { separator, columns, header } = layout(input, context.columns.as_deref())?;
+    let Layout { separator, columns, header, width, has_slashes } =
+        layout(input, context.columns.as_deref())?;
     context.notes.further_columns(columns.further);
     let kept = columns.kept.iter();
     let kept = kept.map(|(_, name)| NumberColumn { name: name.clone(), values: Vec::new() });
@@ -45,9 +46,11 @@ pub(super) fn read(input: &mut Input, context: &mut Context) -> Result<Scene, Re
     let mut particles = Particles { columns: kept.collect(), symbols, ..Particles::default() };
     let (mut fields, mut scale) = (Vec::new(), ColorScale::default());
     let mut raw = Vec::new();
-    let most = header.map_or(columns.most, |header| header.names.0 + 1);
+    let mut other_width = None;
+    let most = header.map(|header| header.names.0).or(width);
+    let most = most.map_or(columns.most, |count| count + 1);
     while let Some(line) = input.line()? {
-        if is_between_rows(&line) {
+        if is_between_rows(&line, has_slashes) {
             continue;
         }
         separator.split(line.bytes, most, &mut fields);
@@ -56,10 +59,20 @@ pub(super) fn read(input: &mut Input, context: &mut Context) -> Result<Scene, Re
         {
             return Err(misfit(&line, separator, header));
         }
+        if let Some(width) = width
+            && other_width.is_none()
+            && !separator.fits(line.bytes, &fields, (width, false))
+        {
+            other_width = Some(line.number);
+        }
         add(&line, &fields, &columns, &mut particles, &mut raw, &mut scale)?;
     }
     if particles.is_empty() {
         return Err(no_row(input));
+    }
+    if let Some(line) = other_width {
+        let what = "has not as many values as the first row: all rows are read as spheres";
+        context.notes.note(format!("line {line} {what}"));
     }
     particles.colors = raw.iter().map(|channels| scale.color(*channels)).collect();
     particles.finish(&mut context.notes, input.source())
@@ -72,6 +85,10 @@ struct Layout {
     columns: Columns,
     /// The header, if its names say what the fields of rows are.
     header: Option<Header>,
+    /// How many values the first row has, if nothing says what they are.
+    width: Option<usize>,
+    /// Whether comments between rows may begin with `//`.
+    has_slashes: bool,
 }
 
 /// Where a header is, and how many names it has.
@@ -97,19 +114,26 @@ fn layout(input: &mut Input, chosen: Option<&str>) -> Result<Layout, ReadError> 
         }
     };
     let is_by_number = is_by_number(chosen);
-    let (first, is_header) = match is_header {
+    // Below a header without slashes, a row may begin with an address.
+    let has_slashes = !is_header || first.has_slashes;
+    let (mut first, is_header) = match is_header {
         true => header_of_rows(input, first, chosen)?,
         false => {
             input.give_back();
             (first, false)
         }
     };
+    let has_slashes = has_slashes || is_header && first.has_slashes;
+    if !is_header && chosen.is_none() {
+        first.end_at_comment();
+    }
     let names = first.names();
     let columns = Columns::new(&names, is_header, chosen)
         .map_err(|what| ReadError::at(input.source(), first.number, 1, what))?;
     let header = Header { line: first.number, names: (names.len(), first.some_may_be_missing) };
     let header = (is_header && !is_by_number).then_some(header);
-    Ok(Layout { separator: first.separator, columns, header })
+    let width = (!is_header && chosen.is_none()).then_some(names.len());
+    Ok(Layout { separator: first.separator, columns, header, width, has_slashes })
 }
 
 /// Reads up to the first row, and finds the header that fits it: `first`, or one of the comments after it, the last of those that do; if
@@ -120,19 +144,28 @@ fn header_of_rows(
     chosen: Option<&str>,
 ) -> Result<(FirstLine, bool), ReadError> {
     let mut candidates = vec![first];
+    let mut has_count = false;
     while let Some(row) = input.line()? {
-        if is_between_rows(&row) {
-            let next = FirstLine::of(&row);
+        let next = FirstLine::of(&row);
+        let is_candidate = next.is_comment && candidates[0].is_comment && {
             let names = next.names();
-            let is_candidate = next.is_comment && is_header(&names, chosen) && has_axes(&names);
-            if is_candidate && candidates[0].is_comment && candidates.len() < MOST_HEADERS {
+            is_header(&names, chosen) && has_axes(&names)
+        };
+        if is_candidate {
+            if candidates.len() < MOST_HEADERS {
                 candidates.push(next);
             }
             continue;
         }
+        if is_between_rows(&row, candidates.iter().any(|candidate| candidate.has_slashes)) {
+            continue;
+        }
+        if candidates[0].is_comment && !has_count && count(row.trimmed()).is_some() {
+            has_count = true;
+            continue;
+        }
         let fitting = candidates.iter_mut().rposition(|candidate| candidate.fit(&row));
-        let without_names =
-            (fitting.is_none() && is_by_number(chosen)).then(|| FirstLine::of(&row));
+        let without_names = (fitting.is_none() && is_by_number(chosen)).then_some(next);
         input.give_back();
         if let Some(row) = without_names {
             return Ok((row, false));
@@ -145,9 +178,10 @@ fn header_of_rows(
 /// So many comments are looked at.
 const MOST_HEADERS: usize = 16;
 
-/// Whether a line is blank, or a comment.
-fn is_between_rows(line: &Line<'_>) -> bool {
-    line.trimmed().first().is_none_or(|&first| is_comment_sign(first))
+/// Whether a line is blank, or a comment, which begins with `//` only if `has_slashes`.
+fn is_between_rows(line: &Line<'_>, has_slashes: bool) -> bool {
+    let text = line.trimmed();
+    text.is_empty() || comment_signs(text) > 0 && (has_slashes || !text.starts_with(b"//"))
 }
 
 /// More rows may be on their way.
@@ -201,6 +235,12 @@ fn add(
     let value = |column, name| number_in(column, name).map(|value| value as f32);
     let [x, y, z] = columns.position;
     particles.center(DVec3::new(number_in(x, "x")?, number_in(y, "y")?, number_in(z, "z")?));
+    let text =
+        |column: usize| fields.get(column).map_or(&b""[..], |field| &line.bytes[field.clone()]);
+    if let Some(column) = columns.diameter {
+        let byte = fields.get(column).map_or(line.bytes.len(), |field| field.start);
+        particles.radii.push(half_diameter(line, byte, text(column), "the diameter")?);
+    }
     if let Some(column) = columns.radius {
         let radius = value(column, "the radius")?;
         if radius < 0.0 {
@@ -213,8 +253,6 @@ fn add(
         scale.most = channels.iter().copied().fold(scale.most, f32::max);
         raw.push(channels);
     }
-    let text =
-        |column: usize| fields.get(column).map_or(&b""[..], |field| &line.bytes[field.clone()]);
     if let Some(column) = columns.kind {
         let (name, known) = (text(column), particles.kinds.known());
         particles.kind(name, line.number);

@@ -3,9 +3,12 @@
 mod bad;
 mod frames;
 mod good;
+mod lammps;
 mod mmcif;
+mod pdb;
 mod recognised;
 mod tables;
+mod xyz;
 
 use super::Format;
 use crate::scene::frames::Frames;

@@ -118,6 +118,23 @@ pub(super) fn single(
     }
 }
 
+/// Half a diameter; NaN, as of a particle without a radius, if it is missing, NaN or negative.
+///
+/// # Errors
+/// [`ReadError`] if `word`, which begins at `byte` of `line`, is another word than a number, or is infinite.
+pub(super) fn half_diameter(
+    line: &Line<'_>,
+    byte: usize,
+    word: &[u8],
+    name: &str,
+) -> Result<f32, ReadError> {
+    match number(word) {
+        Some(value) if value.is_nan() || value < 0.0 => Ok(f32::NAN),
+        None if word.is_empty() => Ok(f32::NAN),
+        _ => single(line, byte, word, name, 0.5),
+    }
+}
+
 /// A whole number of zero or more.
 pub(super) fn count(word: &[u8]) -> Option<usize> {
     std::str::from_utf8(word).ok()?.parse().ok()

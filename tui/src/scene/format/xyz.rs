@@ -9,14 +9,14 @@
 //! ```
 //!
 //! A comment with `Properties=species:S:1:pos:R:3:radius:R:1` says what the columns are, as ASE, OVITO and QUIP write
-//! it: then positions are taken from `pos` alone, radii from `radius`, colours from `color`, numbers from the other
-//! columns of one number. Memory grows with the atoms that are there, not with the number that the first line claims.
+//! it: then positions are taken from `pos` alone, radii from `radius` or `diameter`, colours from `color`, numbers from the
+//! other columns of one number. Memory grows with the atoms that are there, not with the number that the first line claims.
 //! The format names no lights, so they go with the eye.
 
 mod properties;
 
 use super::Context;
-use super::words::{Words, count, excerpt, single};
+use super::words::{Words, count, excerpt, half_diameter, single};
 use crate::color::Srgb;
 use crate::scene::Scene;
 use crate::scene::attributes::NumberColumn;
@@ -157,12 +157,17 @@ fn atom_of_properties(
                 particles.center(point);
             }
             Kind::Radius => {
-                let (byte, word) = words.expect("a radius")?;
-                let radius = single(&line, byte, word, "radius", 1.0)?;
+                let (byte, word) = words.expect(&property.name)?;
+                let radius = single(&line, byte, word, &property.name, 1.0)?;
                 if radius < 0.0 {
-                    return Err(line.error(byte, format!("radius is {radius}: negative")));
+                    let what = format!("{} is {radius}: negative", property.name);
+                    return Err(line.error(byte, what));
                 }
                 particles.radii.push(radius);
+            }
+            Kind::Diameter => {
+                let (byte, word) = words.expect(&property.name)?;
+                particles.radii.push(half_diameter(&line, byte, word, &property.name)?);
             }
             Kind::Color => {
                 let mut channels = [0; 3];
@@ -203,9 +208,14 @@ fn atom_of_properties(
 }
 
 fn truth(word: &[u8]) -> Option<f64> {
-    match word {
-        b"T" | b"True" | b"true" => Some(1.0),
-        b"F" | b"False" | b"false" => Some(0.0),
-        _ => None,
+    let is = |letter: &[u8], name: &[u8]| {
+        word.eq_ignore_ascii_case(letter) || word.eq_ignore_ascii_case(name)
+    };
+    if is(b"T", b"true") {
+        Some(1.0)
+    } else if is(b"F", b"false") {
+        Some(0.0)
+    } else {
+        None
     }
 }

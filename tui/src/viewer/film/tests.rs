@@ -1,3 +1,4 @@
+use super::ahead::{AHEAD, State};
 use super::*;
 use crate::scene::open::{Opened, open};
 use crate::scene::reading::Reading;
@@ -126,6 +127,31 @@ fn steps_past_a_frame_that_is_wrong_lead_to_the_one_before() {
     // Why there is no other may have been told before the steps.
     let status = film.status();
     assert!(status == "2/3" || status.starts_with("frame 3: "), "{status}");
+}
+
+/// Not even at the end is one of them waited for.
+#[test]
+fn frames_without_atoms_are_passed_over() {
+    let frame = |x: usize, atoms: usize| {
+        let row = format!("1 1 {x} 0 0\n").repeat(atoms);
+        format!(
+            "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n{atoms}\nITEM: ATOMS id type x y z\n{row}"
+        )
+    };
+    let atoms = [1, 0, 0, 1, 1, 0, 0];
+    let text: String = atoms.iter().enumerate().map(|(x, &atoms)| frame(x, atoms)).collect();
+    std::fs::write(path("empty.dump"), text).expect("a file");
+    let mut film = film_of(path("empty.dump").to_str().expect("UTF-8"));
+    for (forward, x) in [(true, 3.0), (false, 0.0), (true, 3.0), (true, 4.0)] {
+        film.step(forward);
+        assert_eq!(next(&mut film), x);
+    }
+    wait_until(&film, |state| state.count == Some(5));
+    film.step(true);
+    assert!(film.next().is_none() && film.wait().is_none());
+    film.play();
+    let seen: Vec<f32> = (0..4).map(|_| next(&mut film)).collect();
+    assert_eq!(seen, [0.0, 3.0, 4.0, 0.0]);
 }
 
 #[test]

@@ -1,11 +1,12 @@
 //! The input of LAMMPS: counts, a box, and sections, of which `Atoms` is read.
 //!
 //! The style, which is written behind `Atoms` as a comment, `Atoms # full`, says what its columns are. Without a style
-//! their number tells: five are atomic, seven are full, six are charge or molecular, by whether the third is an
+//! their number tells: five are atomic, seven are full or sphere, six are charge or molecular, by whether the third is an
 //! integer. Three more are images.
 
-use super::super::words::{Words, coordinate, count, single};
+use super::super::words::{Words, coordinate, count, excerpt, single};
 use super::dump::id;
+use super::style::Style;
 use crate::scene::Scene;
 use crate::scene::attributes::{Naming, NumberColumn};
 use crate::scene::input::{Input, Line};
@@ -16,52 +17,8 @@ use crate::scene::read_error::ReadError;
 use crate::scene::symbols::Symbols;
 use glam::DVec3;
 
-/// Which column is what; the first is the id.
-#[derive(Clone, Copy, Debug)]
-struct Style {
-    kind: usize,
-    molecule: Option<usize>,
-    charge: Option<usize>,
-    diameter: Option<usize>,
-    position: usize,
-}
-
-impl Style {
-    const ATOMIC: Self =
-        Self { kind: 1, molecule: None, charge: None, diameter: None, position: 2 };
-    const CHARGE: Self = Self { charge: Some(2), position: 3, ..Self::ATOMIC };
-    const MOLECULAR: Self = Self { kind: 2, molecule: Some(1), position: 3, ..Self::ATOMIC };
-    const FULL: Self = Self { charge: Some(3), position: 4, ..Self::MOLECULAR };
-    const SPHERE: Self = Self { diameter: Some(2), position: 4, ..Self::ATOMIC };
-
-    fn named(name: &[u8]) -> Option<Self> {
-        Some(match name {
-            b"atomic" => Self::ATOMIC,
-            b"charge" => Self::CHARGE,
-            b"angle" | b"bond" | b"molecular" => Self::MOLECULAR,
-            b"full" => Self::FULL,
-            b"sphere" => Self::SPHERE,
-            _ => return None,
-        })
-    }
-
-    fn of_columns(line: &Line<'_>) -> Option<Self> {
-        let text = line.bytes.split(|&byte| byte == b'#').next().unwrap_or_default();
-        let words: Vec<&[u8]> =
-            text.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()).collect();
-        let is_integer =
-            |word: &[u8]| std::str::from_utf8(word).is_ok_and(|text| text.parse::<i64>().is_ok());
-        let images =
-            words.len() >= 8 && words[words.len() - 3..].iter().all(|word| is_integer(word));
-        match words.len() - if images { 3 } else { 0 } {
-            5 => Some(Self::ATOMIC),
-            6 if is_integer(words[2]) => Some(Self::MOLECULAR),
-            6 => Some(Self::CHARGE),
-            7 => Some(Self::FULL),
-            _ => None,
-        }
-    }
-}
+/// The error where nothing tells what columns are.
+const NO_STYLE: &str = "columns of no known atom style: write it behind Atoms, as in Atoms # full";
 
 /// Reads the atoms.
 ///
@@ -69,7 +26,7 @@ impl Style {
 /// [`ReadError`] at the first line that is not what it should be, and if there is no section of atoms.
 pub(in super::super) fn read(input: &mut Input, notes: &mut Notes) -> Result<Scene, ReadError> {
     let mut announced = None;
-    let style = loop {
+    let (style, unknown) = loop {
         let Some(line) = input.line()? else {
             return Err(ReadError::whole(input.source(), "no section Atoms"));
         };
@@ -78,13 +35,12 @@ pub(in super::super) fn read(input: &mut Input, notes: &mut Notes) -> Result<Sce
         if text == b"Atoms" {
             let hint = parts.next().unwrap_or_default().trim_ascii();
             let style = Style::named(hint);
-            if style.is_none() && !hint.is_empty() {
-                let hint = String::from_utf8_lossy(hint).into_owned();
-                notes.note(format!(
-                    "the atom style {hint:?} is not known: columns are told by their number"
-                ));
+            let unknown = (style.is_none() && !hint.is_empty())
+                .then(|| format!("the atom style {} is not known", excerpt(hint)));
+            if let Some(unknown) = &unknown {
+                notes.note(format!("{unknown}: columns are told by their number"));
             }
-            break style;
+            break (style, unknown);
         }
         if let Some(number) = text.strip_suffix(b"atoms") {
             announced = count(number.trim_ascii()).map(|count| (count, line.number));
@@ -106,24 +62,27 @@ pub(in super::super) fn read(input: &mut Input, notes: &mut Notes) -> Result<Sce
     let mut particles = Particles { symbols: Symbols::Numbers, ..Particles::default() };
     let (mut ids, mut columns) = (Vec::new(), None);
     let mut charges = NumberColumn { name: "charge".into(), values: Vec::new() };
-    for atom in 0..atoms {
+    let mut atom = 0;
+    while atom < atoms {
         let ends =
             || format!("the file ends after {atom} of the {atoms} atoms that line {first} says");
         let Some(line) = input.line()? else { return Err(input.ends(ends())) };
+        if line.trimmed().starts_with(b"#") {
+            continue;
+        }
         let style = match columns {
             Some(style) => style,
             None => {
                 let found = style.or_else(|| Style::of_columns(&line));
-                let unknown = || {
-                    line.error(
-                        0,
-                        "columns of no known atom style: write it behind Atoms, as in Atoms # full",
-                    )
+                let wrong = || {
+                    let nor = |unknown: &String| format!("{unknown}, and its columns tell none");
+                    line.error(0, unknown.as_ref().map_or_else(|| NO_STYLE.to_owned(), nor))
                 };
-                *columns.insert(found.ok_or_else(unknown)?)
+                *columns.insert(found.ok_or_else(wrong)?)
             }
         };
         add(line, &style, &mut particles, &mut ids, &mut charges.values)?;
+        atom += 1;
     }
     check_next(input, atoms, first)?;
     particles.columns.push(charges);

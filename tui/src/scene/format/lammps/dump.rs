@@ -5,6 +5,7 @@
 
 use super::super::Context;
 use super::super::words::{Words, coordinate, count, excerpt, single};
+use super::cell::Cell;
 use crate::scene::Scene;
 use crate::scene::attributes::{Naming, NumberColumn};
 use crate::scene::input::{Input, Line};
@@ -27,26 +28,6 @@ enum Kind {
     Number,
 }
 
-/// The corner of the box and its three edges.
-#[derive(Clone, Copy, Debug, Default)]
-struct Cell {
-    low: [f64; 3],
-    length: [f64; 3],
-    /// xy, xz, yz.
-    tilt: [f64; 3],
-}
-
-impl Cell {
-    fn point(&self, [x, y, z]: [f64; 3]) -> DVec3 {
-        let Self { low, length, tilt: [xy, xz, yz] } = self;
-        DVec3::new(
-            low[0] + x * length[0] + y * xy + z * xz,
-            low[1] + y * length[1] + z * yz,
-            low[2] + z * length[2],
-        )
-    }
-}
-
 /// Reads the next frame.
 ///
 /// # Errors
@@ -56,10 +37,12 @@ pub(in super::super) fn frame(
     context: &mut Context,
 ) -> Result<Option<Scene>, ReadError> {
     let Some((atoms, first, cell)) = header(input)? else { return Ok(None) };
+    let heading = input.expect("ITEM: ATOMS")?;
     if atoms == 0 {
-        return Err(ReadError::at(input.source(), first, 1, "a frame without atoms"));
+        let what = "a frame without atoms";
+        return Err(ReadError::at(input.source(), first, 1, what).of_empty_frame());
     }
-    let (kinds, names, scaled) = columns(&input.expect("ITEM: ATOMS")?)?;
+    let (kinds, names, scaled) = columns(&heading)?;
     let mut particles = Particles { symbols: Symbols::Numbers, ..Particles::from(context.origin) };
     let has_element = kinds.contains(&Kind::Element);
     if has_element {
@@ -178,36 +161,13 @@ fn header(input: &mut Input) -> Result<Option<(usize, usize, Cell)>, ReadError> 
             };
             atoms = Some((found, line.number));
         } else if item.starts_with(b"BOX BOUNDS") {
-            cell = bounds(input)?;
+            let is_general = item.split(u8::is_ascii_whitespace).any(|word| word == b"origin");
+            cell = Cell::read(input, is_general)?;
         } else {
             // A time step, units, a time: the value is in a line of its own.
             input.expect("its value")?;
         }
     }
-}
-
-fn bounds(input: &mut Input) -> Result<Cell, ReadError> {
-    let (mut cell, mut high) = (Cell::default(), [0.0; 3]);
-    for (axis, high) in high.iter_mut().enumerate() {
-        let line = input.expect("the box")?;
-        let mut words = Words::of(line);
-        let mut value = |name: &str| {
-            let (byte, word) = words.expect(name)?;
-            number(word)
-                .ok_or_else(|| line.error(byte, format!("{name} is {}: no number", excerpt(word))))
-        };
-        (cell.low[axis], *high) = (value("low")?, value("high")?);
-        cell.tilt[axis] = value("tilt").unwrap_or(0.0);
-    }
-    // The bounds are those of a box around the sheared one.
-    let [xy, xz, yz] = cell.tilt;
-    let corners = [0.0, xy, xz, xy + xz];
-    cell.low[0] -= corners.iter().copied().fold(0.0, f64::min);
-    high[0] -= corners.iter().copied().fold(0.0, f64::max);
-    cell.low[1] -= yz.min(0.0);
-    high[1] -= yz.max(0.0);
-    cell.length = std::array::from_fn(|axis| high[axis] - cell.low[axis]);
-    Ok(cell)
 }
 
 type Named = (Vec<Kind>, Vec<String>, bool);

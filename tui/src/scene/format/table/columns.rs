@@ -11,6 +11,8 @@ const MOST_KEPT: usize = 8;
 pub(super) struct Columns {
     pub(super) position: [usize; 3],
     pub(super) radius: Option<usize>,
+    /// In place of radii.
+    pub(super) diameter: Option<usize>,
     pub(super) color: Option<[usize; 3]>,
     pub(super) kind: Option<usize>,
     /// Whether `kind` is called a type, not an element: then numbers in it are no atomic numbers.
@@ -121,9 +123,9 @@ impl Columns {
                 if columns.radius.is_none() && named(&["g", "b"]).is_none() {
                     columns.radius = named(&["r"]);
                 }
+                let unit = |column: usize| with_unit(names[column]).1;
                 let lengths = columns.position.into_iter().chain(columns.radius);
-                let units = lengths.map(|column| with_unit(names[column]).1);
-                let mut units = units.filter(|unit| !unit.is_empty());
+                let mut units = lengths.map(unit).filter(|unit| !unit.is_empty());
                 let first = units.next().unwrap_or_default();
                 if let Some(other) = units.find(|unit| *unit != first) {
                     return Err(format!(
@@ -131,6 +133,13 @@ impl Columns {
                         excerpt(first),
                         excerpt(other)
                     ));
+                }
+                if columns.radius.is_none() {
+                    // In another unit it is a number like any other.
+                    let is_length = |&column: &usize| {
+                        first.is_empty() || unit(column).is_empty() || unit(column) == first
+                    };
+                    columns.diameter = named(&["diameter"]).filter(is_length);
                 }
             }
             None if names.len() < 3 => {
@@ -151,7 +160,7 @@ impl Columns {
         columns.may_number_kinds = element.is_none();
         let taken = |column: usize| {
             columns.position.contains(&column)
-                || [columns.radius, columns.kind].contains(&Some(column))
+                || [columns.radius, columns.diameter, columns.kind].contains(&Some(column))
                 || columns.color.is_some_and(|color| color.contains(&column))
         };
         let others = (0..names.len()).filter(|&column| !taken(column));
@@ -169,8 +178,8 @@ impl Columns {
             .collect();
         columns.kept = kept;
         let color = columns.color.into_iter().flatten();
-        let all =
-            columns.position.into_iter().chain(columns.radius).chain(columns.kind).chain(color);
+        let sizes = columns.radius.or(columns.diameter);
+        let all = columns.position.into_iter().chain(sizes).chain(columns.kind).chain(color);
         let all = all.chain(columns.kept.iter().map(|(column, _)| *column));
         columns.most = all.max().unwrap_or(0) + 1;
         Ok(columns)

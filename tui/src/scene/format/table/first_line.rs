@@ -1,6 +1,6 @@
 //! The first line of a table: the names of columns, in a comment or not, or the first row.
 
-use super::separator::{Separator, is_comment_sign};
+use super::separator::{Separator, comment_signs};
 use crate::scene::input::Line;
 use std::ops::Range;
 
@@ -8,7 +8,7 @@ use std::ops::Range;
 /// in `# columns: x y z`, and is left out.
 pub(in crate::scene::format) fn comment(line: &[u8]) -> Option<&[u8]> {
     let text = line.trim_ascii();
-    let signs = text.iter().take_while(|&&byte| is_comment_sign(byte)).count();
+    let signs = comment_signs(text);
     if signs == 0 {
         return None;
     }
@@ -18,6 +18,12 @@ pub(in crate::scene::format) fn comment(line: &[u8]) -> Option<&[u8]> {
     Some(if word.ends_with(b":") { rest.trim_ascii_start() } else { text })
 }
 
+/// The names that a comment of Yade's has: `#format x_y_z_r`.
+fn names_of_format(comment: &[u8]) -> Option<&[u8]> {
+    let names = comment.strip_prefix(b"format ")?.trim_ascii();
+    (!names.iter().any(u8::is_ascii_whitespace)).then_some(names)
+}
+
 /// The first line, kept while the next is read.
 #[derive(Debug)]
 pub(super) struct FirstLine {
@@ -25,6 +31,8 @@ pub(super) struct FirstLine {
     fields: Vec<Range<usize>>,
     pub(super) separator: Separator,
     pub(super) is_comment: bool,
+    /// Whether it is one behind `//`.
+    pub(super) has_slashes: bool,
     /// Whether rows may lack values at their end: where they are separated by the byte that separates the names. (A comment, or names
     /// between spaces above values between commas, may be a sentence that has nothing to do with the columns.)
     pub(super) some_may_be_missing: bool,
@@ -36,16 +44,27 @@ impl FirstLine {
     pub(super) fn of(line: &Line<'_>) -> Self {
         let comment = comment(line.bytes);
         let is_comment = comment.is_some();
-        let text = comment.unwrap_or(line.bytes).to_vec();
-        let (separator, mut fields) = (Separator::of(&text), Vec::new());
+        let has_slashes = line.trimmed().starts_with(b"//");
+        let joined = comment.and_then(names_of_format);
+        let text = joined.or(comment).unwrap_or(line.bytes).to_vec();
+        let separator = joined.map_or_else(|| Separator::of(&text), |_| Separator::Byte(b'_'));
+        let mut fields = Vec::new();
         separator.split(&text, usize::MAX, &mut fields);
         let some_may_be_missing = !is_comment && separator != Separator::Space;
-        Self { text, fields, separator, is_comment, some_may_be_missing, number: line.number }
+        let number = line.number;
+        Self { text, fields, separator, is_comment, has_slashes, some_may_be_missing, number }
     }
 
     /// Its fields, which are names if it is a header.
     pub(super) fn names(&self) -> Vec<&[u8]> {
         self.fields.iter().map(|field| &self.text[field.clone()]).collect()
+    }
+
+    /// Leaves out the comment behind the values of a row.
+    pub(super) fn end_at_comment(&mut self) {
+        let is_comment = |field: &Range<usize>| comment_signs(&self.text[field.clone()]) > 0;
+        let end = self.fields.iter().position(is_comment);
+        self.fields.truncate(end.unwrap_or(self.fields.len()));
     }
 
     /// Makes the names of a header those of the fields of `row`, the first below it; `false` if it is not known how.

@@ -2,9 +2,15 @@
 
 use std::ops::Range;
 
-/// Whether what begins with this byte is a comment: numpy and gnuplot write `#`, MATLAB `%`.
-pub(super) fn is_comment_sign(byte: u8) -> bool {
-    matches!(byte, b'#' | b'%')
+/// How many bytes at the beginning of a text say that it is a comment; 0 if it is none. numpy and gnuplot write `#`, MATLAB
+/// `%`, CloudCompare `//`.
+pub(super) fn comment_signs(text: &[u8]) -> usize {
+    let is_sign: fn(&u8) -> bool = match text {
+        [b'#' | b'%', ..] => |byte: &u8| matches!(byte, b'#' | b'%'),
+        [b'/', b'/', ..] => |byte: &u8| *byte == b'/',
+        _ => return 0,
+    };
+    text.iter().take_while(|byte| is_sign(byte)).count()
 }
 
 /// What separates columns.
@@ -78,7 +84,7 @@ impl Separator {
     #[cold]
     fn is_nothing(self, rest: &[u8]) -> bool {
         let is_empty = |&byte: &u8| byte <= b' ' || byte == b'"' || self == Self::Byte(byte);
-        rest.iter().all(is_empty) || rest.first().is_some_and(|&first| is_comment_sign(first))
+        rest.iter().all(is_empty) || comment_signs(rest) > 0
     }
 }
 

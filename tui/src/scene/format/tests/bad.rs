@@ -265,4 +265,7 @@ fn what_is_known_and_not_read() {
     assert!(error("<html></html>").contains("no <robot>"));
     assert!(error("a,b,c\n1,2,3\n").contains("--columns names others"));
     assert!(error("data_x\nloop_\n_atom_site_fract_x\n0.5\n").contains("fractions"));
+    let component =
+        "data_ALA\nloop_\n_chem_comp_atom.atom_id\n_chem_comp_atom.model_Cartn_x\nN 2.281\n";
+    assert!(error(component).contains("a component's _chem_comp_atom, which is not read"));
 }

@@ -1,106 +1,5 @@
 use super::*;
 use crate::color::Srgb;
-use crate::scene::attributes::Naming;
-
-#[test]
-fn xyz_as_it_always_was() {
-    let scene = good("3\nwater\nO 0 0 0.119\n h 0 0.763 -0.477 extra 7\n1\t0 -0.763 -4.77e-1\n");
-    assert_eq!(centers(&scene)[2], [0.0, -0.763, -0.477]);
-    assert_eq!(spheres(&scene)[2][3], 1.10);
-    assert_eq!(scene.label(0).as_deref(), Some("O 1"));
-    assert_eq!(scene.attributes().element(1), Some(1));
-}
-
-#[test]
-fn line_ends_a_byte_order_mark_and_latin1_do_not_matter() {
-    let plain = "2\nwater\nO 0 0 0.119\nH 0 0.763 -0.477\n";
-    for text in [
-        plain.replace('\n', "\r\n"),
-        plain.trim_end().to_owned(),
-        format!("{plain}\n\n"),
-        format!("\u{feff}{plain}"),
-    ] {
-        assert_eq!(good(text).spheres().len(), 2);
-    }
-    assert_eq!(
-        good([b"1\n\xc5ngstr\xf6m\n".as_slice(), b"He 0 0 0\n"].concat()).spheres().len(),
-        1
-    );
-}
-
-/// The order of columns is what Properties say: forces are never taken for positions.
-#[test]
-fn properties_are_obeyed() {
-    let text = "2\nLattice=\"9 0 0 0 9 0 0 0 9\" Properties=forces:R:3:species:S:1:pos:R:3:radius:R:1:color:R:3:q:R:1 pbc=\"T T T\"\n\
-        9 9 9 C 1 2 3 0.5 1 0 0.5 -1\n8 8 8 O 4 5 6 0.25 0 1 0 2.5\n";
-    let scene = good(text);
-    assert_eq!(spheres(&scene), [[1.0, 2.0, 3.0, 0.5], [4.0, 5.0, 6.0, 0.25]]);
-    assert_eq!(scene.colors(), [Srgb([255, 0, 128]), Srgb([0, 255, 0])]);
-    assert_eq!(scene.attributes().column("q").map(|q| q.values.clone()), Some(vec![-1.0, 2.5]));
-    assert!(scene.attributes().own.radii && scene.attributes().own.colors);
-    let without = good("1\nProperties=\"pos:R:3\"\n1 2 3\n");
-    assert_eq!(centers(&without), [[1.0, 2.0, 3.0]]);
-}
-
-#[test]
-fn an_unknown_type_is_grey() {
-    let scene = good("3\n\nH 0 0 0\nXx 1 0 0\nMW 2 0 0\n");
-    assert_eq!(scene.colors()[1], crate::scene::particles::NEUTRAL);
-    assert_eq!(scene.attributes().names(Naming::Type).and_then(|names| names.get(1)), Some("Xx"));
-    let reading = Reading { strict: true, ..Reading::default() };
-    let refused = frames_of("strict.xyz", b"2\n\nH 0 0 0\nXx 1 0 0\n", &reading).read(0);
-    let message = refused.expect_err("strict").to_string();
-    assert!(message.contains("strict.xyz:4:1: \"Xx\" is no element"), "{message}");
-    let mut frames =
-        frames_of("grey.xyz", b"3\n\nXx 0 0 0\nYy 1 0 0\nXx 2 0 0\n", &Reading::default());
-    assert!(frames.read(0).is_ok());
-    assert_eq!(frames.notes(), ["3 particles are of 2 unknown types (Xx, Yy): drawn grey"]);
-    assert!(frames.notes().is_empty());
-}
-
-#[test]
-fn pdb_by_its_columns() {
-    let scene = good(PDB);
-    assert_eq!(
-        centers(&scene),
-        [[11.104, 6.134, -6.504], [11.639, 6.071, -5.147], [1.0, 2.0, 3.0]]
-    );
-    assert_eq!(scene.label(1).as_deref(), Some("CA ALA 1 A"));
-    // A000 is what follows 9999.
-    assert_eq!(scene.label(2).as_deref(), Some("FE HEM 10000 B"));
-    assert_eq!(scene.attributes().elements, Some(vec![7, 6, 26]));
-    assert_eq!(scene.attributes().column("b_factor").map(|b| b.values[1]), Some(11.0));
-    let frames = &mut frames_of("alt.pdb", PDB.as_bytes(), &Reading::default());
-    assert_eq!(
-        frames.read(1).expect("a model").map(|scene| centers(&scene)),
-        Some(vec![[21.104, 6.134, -6.504]])
-    );
-    assert!(frames.read(2).expect("no error").is_none());
-    let expected = ["1 atom is left out: alternate locations after the first", "ignored: CONECT"];
-    assert_eq!(frames.notes(), expected);
-}
-
-#[test]
-fn pdb_atoms_without_a_symbol() {
-    let expected = [
-        ("SOD ", "SOD", 11),
-        (" POT", "POT", 19),
-        ("POT ", "POT", 19),
-        (" CLA", "CLA", 17),
-        (" NA ", " NA", 11),
-        (" CL ", " CL", 17),
-        (" FE2", "FE2", 26),
-        (" CA ", "ALA", 6),
-        (" NA ", "HEM", 7),
-    ];
-    let rows = expected.map(|(name, residue, _)| {
-        format!(
-            "HETATM    1 {name} {residue}    2        0.000   0.000   0.000  0.00  0.00      I\n"
-        )
-    });
-    let elements = expected.map(|(_, _, element)| element).to_vec();
-    assert_eq!(good(rows.concat()).attributes().elements, Some(elements));
-}
 
 #[test]
 fn gro_in_angstrom() {
@@ -117,50 +16,9 @@ fn gro_in_angstrom() {
     assert_eq!(centers(&scene)[0], [0.126 * 10.0, 1.624 * 10.0, 1.679 * 10.0]);
     assert_eq!(scene.attributes().elements, Some(vec![8, 1, 0]));
     assert_eq!(scene.label(1).as_deref(), Some("HW1 SOL 1"));
-}
-
-#[test]
-fn lammps_dumps_in_order_scaled_and_sheared() {
-    let dump = |columns: &str, atoms: &str| {
-        format!(
-            "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp pp\n-1 3\n0 10\n0 10\nITEM: ATOMS {columns}\n{atoms}"
-        )
-    };
-    let plain = good(dump("id type x y z vx", "2 1 4 5 6 0.5\n1 2 1 2 3 0.25\n"));
-    assert_eq!(centers(&plain), [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
-    assert_eq!(plain.label(0).as_deref(), Some("2 1"));
-    assert_eq!(plain.attributes().column("vx").map(|v| v.values.clone()), Some(vec![0.25, 0.5]));
-    let scaled = good(dump("id type xs ys zs radius", "1 1 0.5 0.1 0.2 2\n2 1 0 0 1 3\n"));
-    assert_eq!(spheres(&scaled), [[1.0, 1.0, 2.0, 2.0], [-1.0, 0.0, 10.0, 3.0]]);
-    // xlo_bound = xlo + min(0, xy, xz, xy + xz): lo is 0, and hi 4.
-    let sheared = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS xy xz yz pp pp pp\n0 6 2\n0 10 0\n0 10 0\nITEM: ATOMS id element xs ys zs\n1 Fe 0.5 0.5 0\n";
-    let sheared = good(sheared);
-    assert_eq!(centers(&sheared), [[3.0, 5.0, 0.0]]);
-    assert_eq!(sheared.attributes().elements, Some(vec![26]));
-}
-
-#[test]
-fn lammps_data_by_style_and_by_columns() {
-    let data = |head: &str, atoms: &str| {
-        format!(
-            "LAMMPS data\n\n2 atoms\n1 atom types\n\n0 10 xlo xhi\n\nMasses\n\n1 12.0\n\n{head}\n\n{atoms}\nBonds\n\n1 1 1 2\n"
-        )
-    };
-    for (head, atoms) in [
-        ("Atoms # full", "2 1 1 -0.5 4 5 6 0 0 0\n1 1 1 0.5 1 2 3 0 0 0\n"),
-        ("Atoms", "1 1 1 0.5 1 2 3 0 0 0\n2 1 1 -0.5 4 5 6 0 0 0\n"),
-        ("Atoms", "1 1 1 0.5 1 2 3\n2 1 1 -0.5 4 5 6\n"),
-        ("Atoms # atomic", "1 1 1 2 3\n2 1 4 5 6\n"),
-        ("Atoms", "1 1 1 2 3\n2 1 4 5 6\n"),
-        ("Atoms", "1 1 0.5 1 2 3\n2 1 -0.5 4 5 6\n"),
-        ("Atoms", "1 7 1 1 2 3\n2 7 1 4 5 6\n"),
-    ] {
-        assert_eq!(
-            centers(&good(data(head, atoms))),
-            [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]],
-            "{head}\n{atoms}"
-        );
-    }
+    // Martini's water is a bead.
+    let bead = good("t\n    1\n    1W        W    1   0.126   1.624   1.679\n   1 1 1\n");
+    assert_eq!(bead.attributes().elements, None);
 }
 
 #[test]
@@ -249,6 +107,17 @@ fn ply_in_text_and_in_both_orders() {
         assert_eq!(spheres(&scene), [[1.0, 2.0, -3.0, 0.5], [4.0, 5.0, 6.0, 0.25]]);
         assert_eq!(scene.colors(), [Srgb([255, 0, 128]), Srgb([0, 255, 0])]);
     }
+}
+
+#[test]
+fn diffuse_colours_of_ply_are_colours() {
+    let channels =
+        ["red", "green", "blue"].map(|name| format!("property uchar diffuse_{name}\n")).concat();
+    let scene = good(format!(
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n\
+        {channels}end_header\n1 2 3 255 0 128\n"
+    ));
+    assert_eq!(scene.colors(), [Srgb([255, 0, 128])]);
 }
 
 /// However many a header claims.

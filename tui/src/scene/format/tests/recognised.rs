@@ -23,6 +23,15 @@ fn content_that_is_known_is_not_read_as_its_name_says() {
         let message = refused(name, bytes, &Reading::default());
         assert!(message.contains(part), "{name}: {message}");
     }
+    // In the columns of PDB its radii would be lost without a word.
+    let pqr = "ATOM      1  N   ALA     1      11.104   6.134  -6.504 -0.300 1.8240\n";
+    let message = refused("columns.pqr", pqr.as_bytes(), &Reading::default());
+    assert!(message.contains("PQR, which is not read; --format pdb"), "{message}");
+    let reading = Reading { format: Some(Format::Pdb), ..Reading::default() };
+    let asked = frames_of("asked.pqr", pqr.as_bytes(), &reading).read(0).expect("a molecule");
+    assert_eq!(asked.map(|scene| centers(&scene)), Some(vec![[11.104, 6.134, -6.504]]));
+    let words = "ATOM 1 N ALA 1 11.10412 6.13401 -6.50418 -0.30000 1.82400\n";
+    assert!(error(words).contains("f:1:1: values between spaces, as in PQR, which is not read"));
     let unknown = &mut frames_of("text.csv", b"Some text.\n", &Reading::default());
     assert!(unknown.read(0).expect_err("no table").to_string().contains("no columns x, y, z"));
     assert_eq!(centers(&good("CDF,x,y,z\n0.5,1,2,3\n")), [[1.0, 2.0, 3.0]]);

@@ -1,4 +1,5 @@
 use super::*;
+use crate::color::Srgb;
 
 const EXPECTED: [[f32; 3]; 2] = [[0.5, 1.5, 2.5], [3.0, 4.0, 5.0]];
 
@@ -116,4 +117,89 @@ fn r_without_g_and_b_is_the_radius() {
     let bands = good("x,y,z,g,r,i\n0,0,0,-5,-4,3\n");
     assert!(!bands.attributes().own.radii && bands.attributes().column("r").is_some());
     assert!(error("x (m),y (m),z (m),r (mm)\n1,2,3,4\n").contains("lengths in \"(m)\" and in"));
+}
+
+/// Without a host's scheme an address begins like a comment.
+#[test]
+fn an_address_begins_a_row_below_a_header() {
+    let rows = "//cdn.org/a.png,0.5,1.5,2.5\n//cdn.org/b.png,3,4,5\n";
+    for header in ["file,x,y,z\n", "# file,x,y,z\n", "// of a shop\nfile,x,y,z\n"] {
+        assert_eq!(centers(&good(format!("{header}{rows}"))), EXPECTED, "{header}");
+    }
+    assert_eq!(centers(&by("2,3,4", &format!("file,x,y,z\n{rows}"))), EXPECTED);
+    let named = "# of a shop: x y z\n//X,Y,Z\n0.5,1.5,2.5\n// between\n3,4,5\n";
+    assert_eq!(centers(&good(named)), EXPECTED);
+}
+
+/// CloudCompare's text, with the number of points below the header or without; the third line is as long as one of GRO.
+#[test]
+fn a_header_behind_slashes() {
+    let row = |x: usize| {
+        format!("{x}.12345678 2245.12345678 33.12345678 200 100 50 0.510000 0.5 0.5 0.5\n")
+    };
+    let rows = [row(1), row(2)].concat();
+    for count in ["", "2\n"] {
+        let scene = good(format!("//X Y Z R G B Scalar_field Nx Ny Nz\n{count}{rows}"));
+        assert_eq!(scene.spheres().len(), 2, "{count}");
+        assert_eq!(scene.colors(), [Srgb([200, 100, 50]); 2], "{count}");
+        let field = scene.attributes().column("Scalar_field").map(|field| field.values.clone());
+        assert_eq!(field, Some(vec![0.51; 2]), "{count}");
+        assert_eq!(centers(&good(format!("//X Y Z\n{count}0.5 1.5 2.5\n3 4 5\n"))), EXPECTED);
+    }
+    assert_eq!(centers(&good("// a comment\n0.5 1.5 2.5\n// another\n3 4 5 // 1\n")), EXPECTED);
+}
+
+#[test]
+fn names_between_underscores() {
+    let scene = good("#format x_y_z_r_clumpId\n0.5 1.5 2.5 0.25 7\n3 4 5 0.5 7\n");
+    assert_eq!(spheres(&scene), [[0.5, 1.5, 2.5, 0.25], [3.0, 4.0, 5.0, 0.5]]);
+    assert!(scene.attributes().column("clumpId").is_some());
+}
+
+#[test]
+fn a_diameter_is_twice_the_radius() {
+    let scene = good("x,y,z,Diameter (m)\n0.5,1.5,2.5,1\n");
+    assert_eq!(spheres(&scene), [[0.5, 1.5, 2.5, 0.5]]);
+    let scene = good("x,y,z,diameter,radius\n0.5,1.5,2.5,1,2\n");
+    assert_eq!(spheres(&scene), [[0.5, 1.5, 2.5, 2.0]]);
+}
+
+#[test]
+fn a_diameter_that_is_missing_is_no_radius() {
+    let missing = spheres(&good("x,y,z\n1,2,3\n4,5,6\n"))[0];
+    for value in ["", "NaN", "-2"] {
+        let scene = good(format!("x,y,z,diameter\n1,2,3,{value}\n4,5,6,2\n"));
+        assert_eq!(spheres(&scene), [missing, [4.0, 5.0, 6.0, 1.0]], "{value}");
+    }
+    let scene = good("x,y,z,diameter\n1,2,3\n4,5,6,2\n");
+    assert_eq!(spheres(&scene), [missing, [4.0, 5.0, 6.0, 1.0]]);
+    let message = error("x,y,z,diameter\n1,2,3,wide\n");
+    assert_eq!(message, "f:2:7: the diameter is \"wide\": no number");
+}
+
+#[test]
+fn a_diameter_in_another_unit_is_a_number() {
+    let scene = good("x (m),y (m),z (m),diameter (cm)\n1,2,3,200\n");
+    assert!(!scene.attributes().own.radii);
+    let column = scene.attributes().column("diameter (cm)").map(|column| column.values.clone());
+    assert_eq!(column, Some(vec![200.0]));
+    let scene = good("x (m),y (m),z (m),diameter (m)\n1,2,3,2\n");
+    assert_eq!(spheres(&scene), [[1.0, 2.0, 3.0, 1.0]]);
+}
+
+/// As of MercuryDPM, where each frame has a line of its own.
+#[test]
+fn rows_of_another_width_are_said() {
+    let notes = |text: &str| {
+        let frames = &mut frames_of("widths.txt", text.as_bytes(), &Reading::default());
+        frames.read(0).unwrap_or_else(|error| panic!("{error}"));
+        frames.notes()
+    };
+    let particle = "1 2 3 0 0 0 0.5 0 0 0 0 0 0 0\n";
+    let text = format!("2 0 0 0 -1 10 10 1\n{particle}{particle}");
+    let what = "has not as many values as the first row: all rows are read as spheres";
+    assert!(notes(&text).contains(&format!("line 2 {what}")), "{:?}", notes(&text));
+    for same in ["1 2 3\n4 5 6 # the last\n", "1 2 3 # the first\n4 5 6\n", "1 2 3 #1\n4 5 6\n"] {
+        assert!(notes(same).is_empty(), "{same}");
+    }
 }

@@ -11,6 +11,7 @@ pub(super) enum Kind {
     Species,
     Position,
     Radius,
+    Diameter,
     Color,
     Name(Naming),
     Number,
@@ -18,14 +19,20 @@ pub(super) enum Kind {
     Other,
 }
 
+/// Columns of names that are elements where no other column tells them.
+const TYPES: [&str; 2] = ["type", "atom_types"];
+
+/// Columns of atomic numbers.
+const NUMBERS: [&str; 3] = ["z", "numbers", "atomic_numbers"];
+
 /// A name, and what its columns are.
 #[derive(Clone, Debug)]
 pub(super) struct Property {
     pub(super) name: String,
     pub(super) kind: Kind,
     pub(super) columns: usize,
-    /// Whether colours are integers from 0 to 255.
-    bytes: bool,
+    /// Whether they are integers: then colours go to 255.
+    is_integer: bool,
 }
 
 impl Property {
@@ -36,7 +43,7 @@ impl Property {
 
     /// A channel of a colour: reals from 0 to 1, integers to 255.
     pub(super) fn channel(&self, value: f32) -> u8 {
-        let value = if self.bytes { value } else { 255.0 * value };
+        let value = if self.is_integer { value } else { 255.0 * value };
         value.round().clamp(0.0, 255.0) as u8
     }
 }
@@ -81,20 +88,49 @@ pub(super) fn properties(comment: &Line<'_>) -> Result<Option<Vec<Property>>, Re
         }
         if matches!(
             kind,
-            Kind::Species | Kind::Position | Kind::Radius | Kind::Color | Kind::Name(_)
+            Kind::Position | Kind::Radius | Kind::Diameter | Kind::Color | Kind::Name(_)
         ) {
             if found.contains(&kind) {
                 return wrong(format!("Properties: {name:?} names a second column for the same"));
             }
             found.push(kind);
         }
-        let bytes = triple[1] == b"I";
-        all.push(Property { name, kind, columns, bytes });
+        let is_integer = triple[1] == b"I";
+        all.push(Property { name, kind, columns, is_integer });
     }
     if !found.contains(&Kind::Position) {
         return wrong(format!("Properties={}: no pos:R:3 among them", excerpt(value)));
     }
+    choose_species(&mut all);
+    if found.contains(&Kind::Radius) {
+        for property in all.iter_mut().filter(|property| property.kind == Kind::Diameter) {
+            property.kind = Kind::Number;
+        }
+    }
     Ok(Some(all))
+}
+
+/// Leaves one column to tell elements: their symbols, else their numbers, else types. Others are names.
+fn choose_species(all: &mut [Property]) {
+    let is_species = |property: &Property| property.kind == Kind::Species;
+    let has_name = |property: &Property, names: &[&str]| {
+        names.iter().any(|name| property.name.eq_ignore_ascii_case(name))
+    };
+    let is_symbol = |property: &Property| is_species(property) && !has_name(property, &TYPES);
+    let is_number = |property: &Property| {
+        property.is_integer && property.columns == 1 && has_name(property, &NUMBERS)
+    };
+    let find = |is_it: &dyn Fn(&Property) -> bool| all.iter().position(is_it);
+    let chosen = find(&is_symbol).or_else(|| find(&is_number)).or_else(|| find(&is_species));
+    let mut is_named = false;
+    for (index, property) in all.iter_mut().enumerate() {
+        if Some(index) == chosen {
+            property.kind = Kind::Species;
+        } else if property.kind == Kind::Species {
+            property.kind = if is_named { Kind::Other } else { Kind::Name(Naming::Type) };
+            is_named = true;
+        }
+    }
 }
 
 fn kind(name: &str, kind: u8, columns: usize) -> Kind {
@@ -103,9 +139,9 @@ fn kind(name: &str, kind: u8, columns: usize) -> Kind {
         ("species" | "element" | "type" | "atom_types" | "symbols", 1) if kind == b'S' => {
             Kind::Species
         }
-        ("z" | "numbers" | "atomic_numbers", 1) if kind == b'I' => Kind::Number,
         ("pos" | "position" | "positions", _) if number => Kind::Position,
         ("radius" | "radii", 1) if number => Kind::Radius,
+        ("diameter" | "diameters", 1) if number => Kind::Diameter,
         ("color" | "colour" | "rgb" | "vertex_color", 3) if number => Kind::Color,
         ("molecule" | "mol" | "molecule_identifier", 1) => Kind::Name(Naming::Molecule),
         ("residuenames" | "resname" | "residue", 1) if kind == b'S' => Kind::Name(Naming::Residue),
