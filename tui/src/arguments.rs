@@ -4,6 +4,7 @@ mod crowd;
 pub mod files;
 mod overlay;
 mod scene;
+mod second_scene;
 mod values;
 
 use crate::cases::CasesArguments;
@@ -24,6 +25,7 @@ use clap::{ArgMatches, Args, CommandFactory, FromArgMatches, Parser, Subcommand,
 pub use crowd::CrowdArguments;
 pub use overlay::Overlay;
 pub use scene::SceneArguments;
+use second_scene::second_scene;
 use spherule_kernel::{Level, Tier};
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -144,7 +146,8 @@ pub struct PictureArguments {
     #[arg(long, value_name = "COL,ROW", value_parser = cell, conflicts_with_all = ["png", "show"], allow_hyphen_values = true)]
     pub pick: Option<(u16, u16)>,
     /// With --pick, write a JSON object
-    #[arg(long, requires = "pick")]
+    // clap does not miss --pick beside what conflicts with it.
+    #[arg(long, requires = "pick", conflicts_with_all = ["cast", "output", "png", "show"])]
     pub json: bool,
 }
 
@@ -227,7 +230,8 @@ pub enum Request {
 /// # Errors
 /// [`Error::Input`], in one line, if it is wrong.
 pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, Error> {
-    let matches = Arguments::command().try_get_matches_from(arguments).and_then(|matches| {
+    let words: Vec<_> = arguments.into_iter().collect();
+    let matches = Arguments::command().try_get_matches_from(&words).and_then(|matches| {
         check_order(&matches)?;
         check_frames(&matches)?;
         Arguments::from_arg_matches(&matches)
@@ -235,7 +239,11 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, E
     match matches {
         Ok(arguments) => Ok(Request::Run(Box::new(arguments))),
         Err(error) if error.exit_code() == 0 => Ok(Request::Print(error.to_string())),
-        Err(error) => Err(Error::Input(in_one_line(&error.to_string()))),
+        Err(error) => {
+            let behind = words.get(1..).unwrap_or_default();
+            let message = second_scene(&error, &Arguments::command(), behind);
+            Err(Error::Input(message.unwrap_or_else(|| in_one_line(&error.to_string()))))
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 //! Case i is of the family i modulo their number, so that the first cases, however few, are spread over the families.
 //! Rows are written as they are made: memory does not grow with their number.
 
+use crate::error::stdout::Stdout;
 use crate::error::{Error, write_stdout};
 use crate::whole_file::WholeFile;
 use clap::{Args, value_parser};
@@ -111,7 +112,7 @@ fn list(families: &[Family]) -> String {
 
 /// A JSON object a line.
 fn write_lines(arguments: &CasesArguments, families: &[Family]) -> Result<(), Error> {
-    let mut stdout = BufWriter::new(io::stdout().lock());
+    let mut stdout = BufWriter::new(Stdout);
     let failed = |error: io::Error| Error::of_output("standard output", &error);
     let mut exact = Kernel(Tier::Exact);
     for index in 0..arguments.count {

@@ -1,6 +1,7 @@
 //! How the program ends without success: the exit codes, and the one line on stderr.
 
 pub mod caught;
+pub mod stdout;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -50,12 +51,10 @@ pub fn cause(error: &io::Error) -> String {
     text.split(" (os error").next().unwrap_or_default().to_lowercase()
 }
 
-/// Writes all `bytes` to standard output, and flushes it.
+/// Writes all `bytes` to standard output.
 ///
 /// # Errors
 /// [`Error`] if that fails.
 pub fn write_stdout(bytes: &[u8]) -> Result<(), Error> {
-    let mut stdout = io::stdout().lock();
-    let written = stdout.write_all(bytes).and_then(|()| stdout.flush());
-    written.map_err(|error| Error::of_output("standard output", &error))
+    stdout::write(bytes).map_err(|error| Error::of_output("standard output", &error))
 }

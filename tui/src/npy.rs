@@ -2,9 +2,10 @@
 //! does not make: a header may lie about its own length and about the array's.
 
 use crate::error::{Error, cause};
+use crate::whole_file::WholeFile;
 use npyz::{DType, NpyHeader, Order, Serialize, WriteOptions, WriterBuilder};
 use std::fs::File;
-use std::io::{self, BufReader, BufWriter, Read, Write};
+use std::io::{self, BufReader, BufWriter, IntoInnerError, Read};
 use std::path::Path;
 
 /// The longest header: one that states a type, an order and a shape takes some hundred bytes, and
@@ -183,25 +184,47 @@ pub fn read_rows<const N: usize>(path: &Path) -> Result<Vec<[f32; N]>, Error> {
     Ok(values)
 }
 
-/// Writes a one-dimensional array of the type that numpy calls `dtype`.
-///
-/// # Errors
-/// [`Error::Running`] if the file cannot be written.
-pub fn write_column<T: Serialize>(
-    path: &Path,
-    dtype: &str,
-    values: impl ExactSizeIterator<Item = T>,
-) -> Result<(), Error> {
-    let write = || {
-        let dtype = dtype.parse().map_err(io::Error::other)?;
-        let mut file = BufWriter::new(File::create(path)?);
-        let options = WriteOptions::new().dtype(DType::Plain(dtype)).shape(&[values.len() as u64]);
-        let mut writer = options.writer(&mut file).begin_nd()?;
-        writer.extend(values)?;
-        writer.finish()?;
-        file.flush()
-    };
-    write().map_err(|error| Error::of_output(&path.display().to_string(), &error))
+/// A one-dimensional array that has been written, and has not got its name yet.
+#[derive(Debug)]
+pub struct Column {
+    name: String,
+    file: WholeFile,
+}
+
+impl Column {
+    /// Writes an array of the type that numpy calls `dtype`.
+    ///
+    /// # Errors
+    /// [`Error::Running`] if the file cannot be written. Then there is no file of this name, or it is as it was.
+    pub fn write<T: Serialize>(
+        path: &Path,
+        dtype: &str,
+        values: impl ExactSizeIterator<Item = T>,
+    ) -> Result<Self, Error> {
+        let write = || {
+            let dtype = dtype.parse().map_err(io::Error::other)?;
+            let mut file = BufWriter::new(WholeFile::create(path)?);
+            let options =
+                WriteOptions::new().dtype(DType::Plain(dtype)).shape(&[values.len() as u64]);
+            let mut writer = options.writer(&mut file).begin_nd()?;
+            writer.extend(values)?;
+            writer.finish()?;
+            file.into_inner().map_err(IntoInnerError::into_error)
+        };
+        let name = path.display().to_string();
+        match write() {
+            Ok(file) => Ok(Self { name, file }),
+            Err(error) => Err(Error::of_output(&name, &error)),
+        }
+    }
+
+    /// Gives it its name.
+    ///
+    /// # Errors
+    /// As [`Self::write`].
+    pub fn finish(self) -> Result<(), Error> {
+        self.file.finish().map_err(|error| Error::of_output(&self.name, &error))
+    }
 }
 
 /// The header, once it is known to be harmless.

@@ -164,13 +164,14 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     let Some(mut frames) = frames else { return Ok(()) };
     let of_frames = arguments.scene.file.frames.clone().filter(|_| cast.is_none());
     let Some(range) = of_frames else {
-        let by = match (written.is_picture(), has_frames) {
-            (true, _) => "--frame N, --frames A..B",
-            // Beside the frames of a turn.
-            (false, true) => "--frames A..B",
-            (false, false) => "--frame N",
+        let by = if written.is_picture() { "--frame N, --frames A..B" } else { "--frame N" };
+        let what = if has_frames {
+            // They were those of the turn.
+            format!("a turn around frame {frame} is recorded; R in the viewer records frames")
+        } else {
+            format!("frame {frame} is shown; there are more: {by}")
         };
-        return say_more(&mut frames, frame, by);
+        return say_more(&mut frames, frame, what);
     };
     // What some frames do not have: told once, for the first of them.
     let [mut no_radii, mut no_colors] = [None, None];
@@ -211,12 +212,12 @@ fn open(arguments: &PictureArguments) -> Result<Subject, Error> {
 /// From so many spheres on, building a tree takes a while.
 const MANY: usize = 1_000_000;
 
-/// Says that there are frames that are not shown, and `by` what they are.
-fn say_more(frames: &mut Frames, frame: usize, by: &str) -> Result<(), Error> {
+/// Says `what` if there are frames that are not shown.
+fn say_more(frames: &mut Frames, frame: usize, what: String) -> Result<(), Error> {
     // A wrong frame behind the picture does not make it wrong. What a pipe may bring is not waited for.
     let is_asked = frames.can_go_back() && !frames.follows();
     if is_asked && frames.has(frame + 1).unwrap_or(false) {
-        frames.note(format!("frame {frame} is shown; there are more: {by}"));
+        frames.note(what);
         frames.report();
     }
     Ok(())

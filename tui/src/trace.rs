@@ -9,7 +9,7 @@ mod report;
 use crate::arguments::{ComputingArguments, TraceArguments};
 use crate::choice::name;
 use crate::error::{Error, write_stdout};
-use crate::npy;
+use crate::npy::{self, Column};
 use crate::structure::Structure;
 use crate::structure::scene::SceneStructures;
 use crate::structure::search::Tracing;
@@ -18,6 +18,7 @@ use batches::{batches, runs, workload};
 use passes::{Passes, Query};
 use report::Report;
 use spherule_kernel::{Coherence, Hit, Level, Ray, RayPacket, SphereList, Vec3};
+use std::path::Path;
 use std::sync::Arc;
 
 /// Traces the rays that `arguments` name, writes the hits, and prints a line about it.
@@ -27,6 +28,7 @@ use std::sync::Arc;
 /// written, or there is no memory or no thread.
 pub fn trace(arguments: &TraceArguments) -> Result<(), Error> {
     let ComputingArguments { structure, threads, level } = arguments.computing;
+    refuse_stdout(arguments)?;
     let query = match (arguments.pairs, arguments.any) {
         (true, _) => Query::Pairs,
         (false, true) => Query::Any,
@@ -73,13 +75,12 @@ pub fn trace(arguments: &TraceArguments) -> Result<(), Error> {
         Some(_) if arguments.pairs => index as i32,
         Some(hit) => hit.sphere as i32,
     };
-    if let Some(path) = &arguments.out_t {
-        let t = hits.iter().map(|hit| hit.map_or(f32::INFINITY, |hit| hit.t));
-        npy::write_column(path, "<f4", t)?;
-    }
-    if let Some(path) = &arguments.out_id {
-        npy::write_column(path, "<i4", hits.iter().enumerate().map(id))?;
-    }
+    let t = hits.iter().map(|hit| hit.map_or(f32::INFINITY, |hit| hit.t));
+    let ids = hits.iter().enumerate().map(id);
+    let out_t = arguments.out_t.as_ref().map(|path| Column::write(path, "<f4", t)).transpose()?;
+    let out_id = arguments.out_id.as_ref().map(|path| Column::write(path, "<i4", ids));
+    // Both files are whole before one of them gets its name.
+    [out_t, out_id.transpose()?].into_iter().flatten().try_for_each(Column::finish)?;
     let report = Report {
         rays: rays.len(),
         spheres: list.len(),
@@ -95,6 +96,17 @@ pub fn trace(arguments: &TraceArguments) -> Result<(), Error> {
     };
     let text = if arguments.json { report.json() } else { report.line() };
     write_stdout(text.as_bytes())
+}
+
+/// Refuses arrays on standard output, which has the line about them.
+fn refuse_stdout(arguments: &TraceArguments) -> Result<(), Error> {
+    for (option, path) in [("--out-t", &arguments.out_t), ("--out-id", &arguments.out_id)] {
+        if path.as_deref() == Some(Path::new("-")) {
+            let what = format!("{option} -: standard output has the report; name a file");
+            return Err(Error::Input(what));
+        }
+    }
+    Ok(())
 }
 
 /// Checks that there are not too many spheres and rays, and as many of each for pairs.

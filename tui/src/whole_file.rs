@@ -3,12 +3,12 @@
 //! It is written under another name in the same folder, and renamed when it is done. Whatever is no file, such as a
 //! device or a pipe, is written in place.
 
+use crate::error::stdout::Stdout;
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::iterator::{Handle, Signals};
 use signal_hook::low_level::emulate_default_handler;
 use std::fs::{self, File, OpenOptions, Permissions};
 use std::io::{self, Write};
-use std::os::fd::AsFd;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::thread;
@@ -17,7 +17,9 @@ use tempfile::NamedTempFile;
 /// A file that is being written.
 #[derive(Debug)]
 pub enum WholeFile {
-    /// What is no file.
+    /// Standard output.
+    Stdout(Stdout),
+    /// What else is no file.
     InPlace(File),
     /// Under its other name.
     Unfinished {
@@ -32,30 +34,35 @@ pub enum WholeFile {
 
 impl WholeFile {
     /// Creates a file that will be called `name`; `-` is standard output. If there is a file of that name, it stays
-    /// until the new one is whole.
+    /// until the new one is whole, which has its mode.
     ///
     /// # Errors
     /// If it cannot be made.
     pub fn create(name: &Path) -> io::Result<Self> {
         if name == Path::new("-") {
-            let stdout = io::stdout().as_fd().try_clone_to_owned()?;
-            return Ok(Self::InPlace(stdout.into()));
+            return Ok(Self::Stdout(Stdout));
         }
         // The file that a symbolic link leads to, not the link.
         let name = fs::canonicalize(name).unwrap_or_else(|_| name.to_owned());
-        match fs::metadata(&name) {
+        let old = match fs::metadata(&name) {
             Ok(data) if data.is_dir() => return Err(io::ErrorKind::IsADirectory.into()),
             Ok(data) if !data.is_file() => {
                 return Ok(Self::InPlace(OpenOptions::new().write(true).open(name)?));
             }
-            _ => {}
-        }
+            Ok(data) => Some(data.permissions()),
+            Err(_) => None,
+        };
         let folder = name.parent().filter(|folder| !folder.as_os_str().is_empty());
-        // As any new file: the system takes away what the user's mask says.
+        // As any new file: the system takes away what the user's mask says. One that replaces another is the user's
+        // alone until it is open to those who might read the other.
+        let mode = if old.is_some() { 0o600 } else { 0o666 };
         let file = tempfile::Builder::new()
             .prefix(".spherule-")
-            .permissions(Permissions::from_mode(0o666))
+            .permissions(Permissions::from_mode(mode))
             .tempfile_in(folder.unwrap_or_else(|| Path::new(".")))?;
+        if let Some(old) = old {
+            file.as_file().set_permissions(old)?;
+        }
         let watch = Watch::new(file.path().to_owned())?;
         Ok(Self::Unfinished { file, name, watch })
     }
@@ -66,7 +73,7 @@ impl WholeFile {
     /// If not all of it is on the disk, or it cannot be renamed: then it is removed.
     pub fn finish(self) -> io::Result<()> {
         match self {
-            Self::InPlace(_) => Ok(()),
+            Self::Stdout(_) | Self::InPlace(_) => Ok(()),
             Self::Unfinished { file, name, watch: _watch } => {
                 // A disk over a network may be full only now.
                 file.as_file().sync_all()?;
@@ -75,8 +82,9 @@ impl WholeFile {
         }
     }
 
-    fn file(&mut self) -> &mut File {
+    fn output(&mut self) -> &mut dyn Write {
         match self {
+            Self::Stdout(stdout) => stdout,
             Self::InPlace(file) => file,
             Self::Unfinished { file, .. } => file.as_file_mut(),
         }
@@ -85,7 +93,7 @@ impl WholeFile {
 
 impl Write for WholeFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.file().write(bytes)
+        self.output().write(bytes)
     }
 
     fn flush(&mut self) -> io::Result<()> {

@@ -84,7 +84,7 @@ impl Frames {
     /// again.
     ///
     /// # Errors
-    /// [`ReadError`] if a frame is not valid. One without particles is passed.
+    /// [`ReadError`] if a frame is not valid, or the file is followed and was cut. A frame without particles is passed.
     pub fn read(&mut self, index: usize) -> Result<Option<Scene>, ReadError> {
         if !self.format.has_frames() && index > 0 {
             self.count = Some(1);
@@ -147,6 +147,10 @@ impl Frames {
         &mut self,
         read: impl FnOnce(&mut Input, &mut Context) -> Result<T, ReadError>,
     ) -> Result<Option<T>, ReadError> {
+        // What is written to it from then on need not begin a line where reading would go on.
+        if self.follows && self.input.was_cut() {
+            return Err(ReadError::whole(self.input.source(), "the file was cut"));
+        }
         let before = self.input.place();
         let result = read(&mut self.input, &mut self.context);
         // A line without an end may still go on.

@@ -5,6 +5,7 @@
 
 mod bytes;
 mod compressed;
+mod cut;
 mod line;
 mod place;
 mod until_end;

@@ -37,13 +37,14 @@ pub(super) fn command_line(
     };
     let mut line = format!(
         "spherule {} --eye {} --target {} --fov {fov} --projection {}",
-        quoted(&asked.name),
+        scene_name(&asked.name),
         place(view.eye),
         place(view.target),
         name(&projection)
     );
     for (option, value) in reading(asked, frame) {
-        line += &format!(" {option} {}", quoted(&value));
+        let between = if value.starts_with('-') { '=' } else { ' ' };
+        line += &format!(" {option}{between}{}", quoted(&value));
     }
     line
 }
@@ -69,6 +70,11 @@ fn reading(
     ]
     .into_iter()
     .filter_map(|(option, value)| Some((option, value?)))
+}
+
+/// The scene as a word that is no option.
+fn scene_name(name: &str) -> String {
+    if name.starts_with('-') && name != "-" { quoted(&format!("./{name}")) } else { quoted(name) }
 }
 
 /// A word of a shell.
@@ -106,6 +112,19 @@ mod tests {
         );
         let parallel = View { lens: Lens::Parallel { height: 10.0 }, ..View::FRONT };
         assert!(line("unit", &parallel).ends_with(" --fov 90 --projection parallel"));
+    }
+
+    #[test]
+    fn a_name_that_begins_with_a_dash_is_no_option() {
+        let words = ["--topology=-a.gro", "--", "-dash.toml"];
+        let line = command_line(&asked(&words), 0, &View::FRONT, DVec3::ZERO);
+        assert!(line.starts_with("spherule ./-dash.toml --eye "), "{line}");
+        assert!(line.ends_with(" --topology=-a.gro"), "{line}");
+        let again = asked(&line.split(' ').skip(1).collect::<Vec<_>>());
+        assert_eq!(again.name, "./-dash.toml");
+        assert_eq!(again.file.topology.as_deref(), Some("-a.gro"));
+        let line = command_line(&asked(&["-"]), 0, &View::FRONT, DVec3::ZERO);
+        assert!(line.starts_with("spherule - --eye "), "{line}");
     }
 
     #[test]

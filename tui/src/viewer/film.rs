@@ -81,6 +81,11 @@ impl Film {
         }
     }
 
+    /// Whether there is something to say of frames: how many there are, or why no other comes.
+    pub(super) fn has_status(&self) -> bool {
+        self.has_more() || self.shared.lock().ending.is_some()
+    }
+
     /// The frame that is shown.
     pub(super) fn shown(&self) -> usize {
         self.shown
@@ -100,6 +105,7 @@ impl Film {
         let exists = state.count.is_none_or(|count| target < count);
         let is_kept = target == self.shown || state.ready.contains_key(&target);
         let can_come = forward || self.can_go_back || is_kept;
+        self.has_news |= !exists && state.ending.is_some();
         drop(state);
         if exists && can_come {
             self.want(target);
@@ -132,11 +138,14 @@ impl Film {
             let count = self.shared.lock().count;
             let next = self.shown + 1;
             let ends = count.is_some_and(|count| next >= count);
-            let next = match (ends, self.can_go_back) {
+            // A file that is followed ends only at a frame that is wrong: whoever plays it is told.
+            let begins_again = self.can_go_back && !self.may_have_more;
+            let next = match (ends, begins_again) {
                 (false, _) => next,
                 (true, true) => 0,
                 (true, false) => {
                     self.is_playing = false;
+                    self.has_news = true;
                     self.shown
                 }
             };
@@ -168,7 +177,7 @@ impl Film {
             // Steps went past an end that had not been seen: they lead to the last frame, but not back.
             self.target = count.saturating_sub(1).max(self.shown);
             if self.target == self.shown {
-                self.has_news = state.failure.is_some();
+                self.has_news = state.ending.is_some();
                 return None;
             }
             state.wanted = self.target;
@@ -198,7 +207,10 @@ impl Film {
     /// For the status line: which frame of how many, or why there is none.
     pub(super) fn status(&self) -> String {
         let state = self.shared.lock();
-        if let Some((index, why)) = &state.failure {
+        // What ends the film is read long before it would be shown, and is told of where it would be next.
+        let is_at_end = !self.is_playing && state.count == Some(self.shown + 1);
+        let ending = state.ending.as_ref().filter(|_| is_at_end);
+        if let Some((index, why)) = state.failure.as_ref().or(ending) {
             return format!("frame {index}: {}", in_cells(why));
         }
         let mark = if self.is_playing { ">" } else { "" };

@@ -41,6 +41,37 @@ fn a_frame_is_named_and_further_frames_are_said() {
     }
 }
 
+/// A simulation may begin without particles.
+#[test]
+fn frames_without_atoms_are_passed_over() {
+    let frame = |rows: &str| {
+        let (head, count) = ("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS", rows.lines().count());
+        format!("{head}\n{count}\nITEM: ATOMS id type x y z\n{rows}")
+    };
+    let (one, two) = (frame("1 1 0 0 0\n"), frame("1 1 0 0 0\n2 1 3 0 0\n"));
+    let empty = frame("");
+    let path = file("empty.dump", [&*empty, &empty, &one, &empty, &two].concat().as_bytes());
+    let first = with(&path, "--size 20x5");
+    assert!(first.status.success());
+    let said = stderr(&first);
+    assert!(said.contains("frame 0 has no atoms; frame 2 is the next with any\n"), "{said}");
+    assert!(said.ends_with("frame 2 is shown; there are more: --frame N, --frames A..B\n"));
+    assert_eq!(first.stdout, with(&path, "--size 20x5 --frame 2").stdout);
+    let all = with(&path, "--size 20x5 --frames 0..");
+    assert_eq!(String::from_utf8_lossy(&all.stdout).lines().count(), 10);
+    assert!(stderr(&all).contains("frame 3 has no atoms: such frames are left out\n"));
+    for named in ["--frame 0", "--frames 0..2"] {
+        let message = refusal(&with(&path, named));
+        assert!(message.ends_with(": a frame without atoms"), "{named}: {message}");
+    }
+    // The frames of a turn are not the file's.
+    let turn = with(&path, "--size 20x5 --cast - --frames 2");
+    assert!(turn.status.success(), "{}", stderr(&turn));
+    assert!(stderr(&turn).contains("frame 0 has no atoms; frame 2 is the next with any\n"));
+    let none = file("none.dump", [&*empty, &empty].concat().as_bytes());
+    assert!(refusal(&with(&none, "")).ends_with("none.dump:4:1: a frame without atoms"));
+}
+
 #[test]
 fn whatever_shows_one_frame_says_that_there_are_more() {
     let path = file("more.xyz", TWO.as_bytes());
@@ -54,9 +85,12 @@ fn whatever_shows_one_frame_says_that_there_are_more() {
     ] {
         let output = with(&path, &format!("--size 20x5 {words}"));
         assert!(output.status.success() && !output.stdout.is_empty(), "{words}");
-        let by = if words.contains("--frames") { "--frames A..B" } else { "--frame N" };
-        let more = format!("more.xyz: frame 0 is shown; there are more: {by}\n");
-        assert!(stderr(&output).ends_with(&more), "{words}: {}", stderr(&output));
+        let more = if words.contains("--frames") {
+            "more.xyz: a turn around frame 0 is recorded; R in the viewer records frames\n"
+        } else {
+            "more.xyz: frame 0 is shown; there are more: --frame N\n"
+        };
+        assert!(stderr(&output).ends_with(more), "{words}: {}", stderr(&output));
         if !words.contains("--frames") {
             let last = with(&path, &format!("--size 20x5 {words} --frame 1"));
             assert_eq!((last.status.code(), stderr(&last)), (Some(0), String::new()), "{words}");
@@ -92,6 +126,9 @@ fn a_pipe_is_unpacked_and_has_frames() {
     let expected = printed(&with(&path, "--size 20x5 --frames 0..2"));
     assert_eq!(printed(&run_with_input("- --size 20x5 --frames 0..2", &gz)), expected);
     assert_eq!(printed(&run_with_input("- --size 20x5 --frames 0..2", TWO.as_bytes())), expected);
+    // As a tape has it.
+    let padded = [&*gz, &[0; 512][..]].concat();
+    assert_eq!(printed(&run_with_input("- --size 20x5 --frames 0..2", &padded)), expected);
     let cut = refusal(&run_with_input("-", &gz[..gz.len() - 5]));
     assert!(cut.contains("the compressed data ends early"), "{cut}");
 }

@@ -3,8 +3,9 @@
 use crate::run::{printed, refusal, run, spherule};
 use png::{BitDepth, ColorType, Decoder, SrgbRenderingIntent};
 use rustix::process::{Pid, Signal, kill_process};
-use std::fs;
+use std::fs::{self, Permissions};
 use std::io::Cursor;
+use std::os::unix::fs::PermissionsExt;
 use std::os::unix::process::ExitStatusExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
@@ -119,6 +120,19 @@ fn a_file_is_replaced_by_a_whole_one_and_a_link_is_followed() {
     assert!(link.is_symlink());
     assert!(fs::read(file).expect("a file") == png("unit"));
     assert_eq!(names(&folder).len(), 2);
+}
+
+/// Who may not read the old file may not read the new one; nor does the user's mask count again.
+#[test]
+fn a_file_that_is_replaced_keeps_its_mode() {
+    let file = folder("png-mode").join("a.png");
+    let mode = || fs::metadata(&file).expect("a file").permissions().mode() & 0o777;
+    for old in [0o600, 0o666] {
+        fs::write(&file, "before").expect("a writable folder");
+        fs::set_permissions(&file, Permissions::from_mode(old)).expect("the owner's file");
+        let output = run(["unit".as_ref(), "--png".as_ref(), file.as_os_str()]);
+        assert_eq!((&*printed(&output), mode()), ("", old), "{old:o}");
+    }
 }
 
 #[test]

@@ -5,6 +5,7 @@ use crate::scenes::inward;
 use crate::traced::traced;
 use spherule_kernel::{Intersect, Ray, SphereList, Tier, Vec3};
 use spherule_referee::random::Random;
+use std::ffi::OsStr;
 
 /// 7 spheres and 101 rays (so that the last packet is not full), hostile ones among them.
 fn data() -> (Vec<f32>, Vec<f32>) {
@@ -192,6 +193,32 @@ fn an_output_that_cannot_be_written_is_a_failure() {
         assert_eq!((output.status.code(), output.stdout.len()), (Some(1), 0), "{stderr}");
         assert!(stderr.starts_with(&format!("spherule: {target}: ")), "{stderr}");
     }
+}
+
+/// What was there before stays until both are whole.
+#[test]
+fn an_output_is_no_half_of_two_and_not_standard_output() {
+    let (spheres, rays) = data();
+    let spheres = file("halves.s.npy", &array(7, 4, &spheres));
+    let rays = file("halves.r.npy", &array(101, 8, &rays));
+    let t = file("halves.t.npy", b"before");
+    let written = |outputs: [&OsStr; 4]| {
+        let mut command = spherule();
+        command.arg("trace").args(outputs).arg("--spheres").arg(&spheres).arg("--rays").arg(&rays);
+        command.output().expect("the program runs")
+    };
+    let (out_t, out_id) = (OsStr::new("--out-t"), OsStr::new("--out-id"));
+    let (stdout, nowhere) = (OsStr::new("-"), OsStr::new("no/such/i.npy"));
+    let failed = written([out_t, t.as_os_str(), out_id, nowhere]);
+    assert_eq!(failed.status.code(), Some(1));
+    for (option, outputs) in [
+        ("--out-t", [out_t, stdout, out_id, nowhere]),
+        ("--out-id", [out_t, t.as_os_str(), out_id, stdout]),
+    ] {
+        let message = refusal(&written(outputs));
+        assert_eq!(message, format!("{option} -: standard output has the report; name a file"));
+    }
+    assert_eq!(std::fs::read(&t).expect("a file"), b"before");
 }
 
 /// Numbers of either size and byte order, in either order of axes: the same rays and spheres.

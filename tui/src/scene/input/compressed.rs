@@ -2,8 +2,10 @@
 //!
 //! A small file may claim to hold anything, so data that grows more than real data does is refused.
 
+mod members;
+
 use bzip2::read::MultiBzDecoder;
-use flate2::read::MultiGzDecoder;
+use members::Members;
 use std::fs::File;
 use std::io::{self, Cursor, Read};
 use std::os::unix::fs::FileExt;
@@ -29,11 +31,8 @@ pub(super) fn decompressed(mut reader: Box<dyn Read + Send>) -> io::Result<Box<d
     }
     let taken = Arc::new(AtomicU64::new(0));
     let counted = Counted { reader: all, taken: Arc::clone(&taken) };
-    let reader: Box<dyn Read + Send> = if gz {
-        Box::new(MultiGzDecoder::new(counted))
-    } else {
-        Box::new(MultiBzDecoder::new(counted))
-    };
+    let reader: Box<dyn Read + Send> =
+        if gz { Box::new(Members::new(counted)) } else { Box::new(MultiBzDecoder::new(counted)) };
     Ok(Box::new(Bounded { reader, taken, given: 0 }))
 }
 

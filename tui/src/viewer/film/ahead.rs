@@ -23,8 +23,10 @@ pub(super) struct State {
     pub(super) unwritten: Option<usize>,
     /// How many frames there are, up to the last that can be shown, once that is known.
     pub(super) count: Option<usize>,
-    /// Why there is no further frame.
+    /// A frame that has been read and cannot be read again, and why.
     pub(super) failure: Option<(usize, String)>,
+    /// The frame at which the film ends because it is wrong, and why.
+    pub(super) ending: Option<(usize, String)>,
     pub(super) is_over: bool,
 }
 
@@ -116,14 +118,16 @@ pub(super) fn read_ahead(
                 unread = unread.max(index + 1);
             }
             Err(error) => {
-                let mut failed = index;
+                let why = error.to_string();
                 // A frame that has been read exists, even if it cannot be read again. Else the wrong one may be before the one
                 // that is wanted.
-                if index >= unread {
-                    failed = frames.at().clamp(unread, index);
+                if index < unread {
+                    state.failure = Some((index, why));
+                } else {
+                    let failed = frames.at().clamp(unread, index);
                     state.end_at(failed);
+                    state.ending = Some((failed, why));
                 }
-                state.failure = Some((failed, error.to_string()));
             }
         }
     }

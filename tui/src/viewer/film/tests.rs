@@ -2,6 +2,7 @@ use super::ahead::{AHEAD, State};
 use super::*;
 use crate::scene::open::{Opened, open};
 use crate::scene::reading::Reading;
+use std::fs::OpenOptions;
 use std::io::Write;
 use std::os::fd::AsRawFd;
 use std::path::PathBuf;
@@ -28,7 +29,18 @@ fn piped(count: usize) -> Film {
 }
 
 fn film_of(name: &str) -> Film {
-    let Ok(Opened::File(mut frames)) = open(name, &Reading::default()) else { panic!("no file") };
+    film_by(name, &Reading::default())
+}
+
+/// One of a file that grows.
+fn followed(name: &str, count: usize) -> Film {
+    std::fs::write(path(name), text(count)).expect("a file");
+    let reading = Reading { follow: true, ..Reading::default() };
+    film_by(path(name).to_str().expect("UTF-8"), &reading)
+}
+
+fn film_by(name: &str, reading: &Reading) -> Film {
+    let Ok(Opened::File(mut frames)) = open(name, reading) else { panic!("no file") };
     let _ = frames.read(0).expect("a frame").expect("a frame");
     Film::new(frames, 0, |_| ()).expect("a thread")
 }
@@ -95,18 +107,12 @@ fn steps_past_an_end_that_is_not_known_lead_to_the_last_frame() {
 /// They wait for the next frame of a file that grows; of a pipe, a step back gives the wait up.
 #[test]
 fn steps_past_the_end_of_what_grows_wait_for_one_frame() {
-    let name = path("grows.xyz");
-    std::fs::write(&name, text(3)).expect("a file");
-    let reading = Reading { follow: true, ..Reading::default() };
-    let Ok(Opened::File(mut frames)) = open(name.to_str().expect("UTF-8"), &reading) else {
-        panic!("no file")
-    };
-    let _ = frames.read(0).expect("a frame").expect("a frame");
-    let mut film = Film::new(frames, 0, |_| ()).expect("a thread");
+    let mut film = followed("grows.xyz", 3);
     (0..60).for_each(|_| film.step(true));
     wait_until(&film, |state| state.unwritten == Some(3));
     assert!(film.next().is_none());
-    std::fs::write(&name, text(4)).expect("a file");
+    let file = OpenOptions::new().append(true).open(path("grows.xyz"));
+    file.and_then(|mut file| file.write_all(b"1\n\nC 3 0 0\n")).expect("a file");
     assert_eq!(next(&mut film), 3.0);
 
     // (Before the end of this one is known.)
@@ -124,9 +130,62 @@ fn steps_past_a_frame_that_is_wrong_lead_to_the_one_before() {
     let mut film = film_of(path("wrong.xyz").to_str().expect("UTF-8"));
     film.want(60);
     assert_eq!(next(&mut film), 2.0);
-    // Why there is no other may have been told before the steps.
-    let status = film.status();
-    assert!(status == "2/3" || status.starts_with("frame 3: "), "{status}");
+    assert!(film.status().starts_with("frame 3: "), "{}", film.status());
+}
+
+#[test]
+fn a_frame_that_is_wrong_is_told_of_where_it_would_be_next() {
+    let frame = |index: usize| {
+        let x = if index == 20 { "x" } else { "0" };
+        format!("2\nframe {index}\nC {index} 0 0\nO {x} {index} 0\n")
+    };
+    std::fs::write(path("damaged.xyz"), (0..60).map(frame).collect::<String>()).expect("a file");
+    let mut film = film_of(path("damaged.xyz").to_str().expect("UTF-8"));
+    for x in 1..=19 {
+        film.step(true);
+        assert_eq!(next(&mut film), x as f32);
+        if x == 12 {
+            wait_until(&film, |state| state.ending.is_some());
+        }
+        assert!(x == 19 || film.status().starts_with(&format!("{x}/")), "{}", film.status());
+    }
+    film.step(true);
+    assert!(film.next().is_none() && film.take_news());
+    assert!(film.status().starts_with("frame 20: "), "{}", film.status());
+    film.step(false);
+    assert_eq!(next(&mut film), 18.0);
+    assert_eq!(film.status(), "18/20");
+}
+
+/// There is nothing to count or to play then.
+#[test]
+fn a_second_frame_that_is_wrong_is_told_of() {
+    std::fs::write(path("second.xyz"), text(1) + "2\n\nC 0 0 0\n").expect("a file");
+    let film = film_of(path("second.xyz").to_str().expect("UTF-8"));
+    wait_until(&film, |state| state.ending.is_some());
+    assert!(film.has_status() && !film.has_more());
+    assert!(film.status().starts_with("frame 1: "), "{}", film.status());
+}
+
+/// What is written to it from then on would be read from the middle of a line.
+#[test]
+fn a_file_that_is_cut_while_it_is_followed_ends_the_film() {
+    let mut film = followed("cut.xyz", 3);
+    film.play();
+    assert_eq!((next(&mut film), next(&mut film)), (1.0, 2.0));
+    wait_until(&film, |state| state.unwritten == Some(3));
+    std::fs::write(path("cut.xyz"), text(1)).expect("a file");
+    wait_until(&film, |state| state.ending.is_some());
+    for _ in 0..2000 {
+        if film.wait().is_none() {
+            break;
+        }
+        assert!(film.next().is_none());
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    assert!(film.wait().is_none() && film.take_news());
+    let expected = format!("frame 3: {}: the file was cut", path("cut.xyz").display());
+    assert_eq!(film.status(), expected);
 }
 
 /// Not even at the end is one of them waited for.
