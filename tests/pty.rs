@@ -4,11 +4,13 @@
 
 mod emulated;
 mod frames;
+mod keyboard;
 mod leaving;
 mod lecture;
 mod link;
 mod look;
 mod modes;
+mod multiplexer;
 mod once;
 mod picking;
 mod picture;
@@ -16,6 +18,7 @@ mod pixels;
 mod probe;
 mod replies;
 mod session;
+mod sixels;
 mod sizes;
 mod table;
 mod viewer;
@@ -136,6 +139,17 @@ fn c_goes_around_the_charsets() {
             .wait_for(charset, |output| last_row(output.screen()).contains(&named).then_some(()));
     }
     viewer.wait_for_picture("the first charset", &expected);
+    viewer.quit();
+}
+
+/// A terminal may draw a glyph wider than its cell, over cells that stay as they are.
+#[test]
+fn another_charset_is_written_over_what_the_last_has_left() {
+    let mut viewer = Viewer::start();
+    viewer.session.output().terminal.process(b"\x1b7\x1b[Hwide\x1b8");
+    // Around to the first.
+    viewer.session.type_in("ccccccc");
+    viewer.wait_for_picture("the picture", &once(&VIEW, COLUMNS, PICTURE_ROWS));
     viewer.quit();
 }
 

@@ -5,7 +5,7 @@ use super::look::last_row;
 use super::modes::is_cooked;
 use super::picture::{SceneFile, once};
 use super::session::{Session, command, size};
-use super::viewer::{COLUMNS, PICTURE_ROWS, ROWS, VIEW, Viewer, shows_a_frame};
+use super::viewer::{COLUMNS, PICTURE_ROWS, ROWS, STOPPED, VIEW, Viewer, shows_a_frame};
 use portable_pty::native_pty_system;
 use rustix::process::Signal;
 use spherule_tests::binary::spherule;
@@ -13,16 +13,15 @@ use std::io::Read;
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Asserts that after a stop the terminal is the shell's, and after SIGCONT the program's.
-fn assert_stops_and_goes_on(viewer: Viewer) {
-    viewer.session.wait_until_stopped();
+/// Asserts that after a stop the terminal is the shell's, and the program's when it goes on.
+fn assert_is_left_and_taken_again(mut viewer: Viewer, go_on: impl FnOnce(&mut Session)) {
     assert!(is_cooked(&viewer.session.modes()), "the shell gets no lines");
     viewer.session.wait_for("the normal screen", |output| {
         (!output.screen().alternate_screen()).then_some(())
     });
     assert_eq!(viewer.session.left_behind(), [""; 0]);
     let sent = viewer.session.output().sent.len();
-    viewer.session.signal(Signal::CONT);
+    go_on(&mut viewer.session);
     viewer.wait_for_picture("the picture again", &once(&VIEW, COLUMNS, PICTURE_ROWS));
     assert!(!is_cooked(&viewer.session.modes()));
     let redrawn = viewer.session.output().sent[sent..].windows(4).any(|bytes| bytes == b"\x1b[2J");
@@ -31,17 +30,35 @@ fn assert_stops_and_goes_on(viewer: Viewer) {
 }
 
 #[test]
-fn ctrl_z_stops_and_sigcont_draws_again() {
+fn ctrl_z_stops_a_job_and_fg_draws_again() {
+    let mut viewer = Viewer::start_as_job();
+    viewer.session.type_in("\x1a");
+    viewer
+        .session
+        .wait_for("the shell", |output| output.sent.ends_with(STOPPED.as_bytes()).then_some(()));
+    assert_is_left_and_taken_again(viewer, |session| session.type_in("\n"));
+}
+
+/// What leads its session is all that runs in its terminal: no one would be told of a stop.
+#[test]
+fn ctrl_z_without_a_shell_stops_nothing_and_says_so() {
     let mut viewer = Viewer::start();
     viewer.session.type_in("\x1a");
-    assert_stops_and_goes_on(viewer);
+    viewer.session.wait_for("a word about it", |output| {
+        output.screen().contents().contains("no shell to continue it").then_some(())
+    });
+    assert!(!is_cooked(&viewer.session.modes()));
+    viewer.session.type_in("3");
+    viewer.wait_for_picture("the picture", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.quit();
 }
 
 #[test]
 fn sigtstp_stops_and_sigcont_draws_again() {
     let viewer = Viewer::start();
     viewer.session.signal(Signal::TSTP);
-    assert_stops_and_goes_on(viewer);
+    viewer.session.wait_until_stopped();
+    assert_is_left_and_taken_again(viewer, |session| session.signal(Signal::CONT));
 }
 
 #[test]
@@ -179,7 +196,7 @@ fn signals_restore_and_kill() {
 #[test]
 fn killed_while_it_is_stopped_it_leaves_the_terminal_alone() {
     let mut viewer = Viewer::start();
-    viewer.session.type_in("\x1a");
+    viewer.session.signal(Signal::TSTP);
     viewer.session.wait_until_stopped();
     viewer.session.signal(Signal::TERM);
     viewer.session.signal(Signal::CONT);

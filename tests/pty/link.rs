@@ -82,7 +82,7 @@ fn over_a_slow_link_the_picture_becomes_exact_at_rest() {
     session.wait_for_peace();
     let shown = look(session.output().screen(), SIZE.1 - 1);
     // A full redraw: the picture without anything before it.
-    session.type_in("\x1a");
+    session.signal(rustix::process::Signal::TSTP);
     session.wait_until_stopped();
     session.signal(rustix::process::Signal::CONT);
     session.wait_for("a full frame", |output| {

@@ -27,6 +27,34 @@ fn once_leaves_a_row_for_the_prompt() {
     assert_eq!(output.screen().cursor_position(), (ROWS - 1, 0));
 }
 
+/// Nothing is asked, and a terminal that was started in another one has inherited a variable of it.
+#[test]
+fn a_terminal_that_was_started_in_another_gets_cells() {
+    for (term, gets_pixels) in [("wezterm", true), ("alacritty", false)] {
+        let variables = [("TERM", term), ("TERM_PROGRAM", "WezTerm")];
+        let session = ended(&["--once", "--output", "auto"], &variables, COLUMNS, ROWS);
+        let sent = &session.output().sent;
+        assert_eq!(sent.windows(6).any(|bytes| bytes == b"\x1b]1337"), gets_pixels, "{term}");
+    }
+}
+
+/// With the size of the terminal: a row more, and the top of the picture would be pushed out.
+#[test]
+fn a_picture_in_pixels_leaves_a_row_for_the_prompt() {
+    let session = ended(&["--once", "--output", "kitty"], &[], COLUMNS, ROWS);
+    let output = session.output();
+    let sent = String::from_utf8_lossy(&output.sent);
+    let (before, _) = sent.split_once("\x1b_Ga=T").expect("an image");
+    let mut terminal = vt100::Parser::new(output.screen().size().0, output.screen().size().1, 0);
+    terminal.process(before.as_bytes());
+    // From there it covers all rows but the last, and the cursor stays.
+    assert_eq!(terminal.screen().cursor_position(), (0, 0));
+    assert!(sent.contains(&format!("r={},", ROWS - 1)) && sent.contains(",C=1,"), "{sent:?}");
+    assert_eq!(output.screen().cursor_position(), (ROWS - 1, 0));
+    // No row has gone out at the top.
+    assert_eq!(output.sent.iter().filter(|&&byte| byte == b'\n').count(), usize::from(ROWS - 1));
+}
+
 #[test]
 fn a_size_that_is_asked_for_is_kept() {
     let session = ended(&["--once", "--size", "30x7"], &[], COLUMNS, ROWS);

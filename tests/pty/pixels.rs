@@ -103,7 +103,7 @@ fn kitty_shows_the_pixels_of_the_png_and_nothing_is_left() {
     viewer.session.type_in("e");
     wait(&viewer, "the pixels again");
     // The program is suspended.
-    viewer.session.type_in("\x1a");
+    viewer.session.signal(Signal::TSTP);
     viewer.session.wait_until_stopped();
     let is_removed = |output: &Output| {
         let text = text(output);
@@ -206,6 +206,23 @@ fn auto_takes_the_pixels_that_there_are() {
         assert!(viewer.session.wait_for_end().success());
         assert_eq!(viewer.session.left_behind(), [""; 0]);
     }
+}
+
+/// Another font may leave columns and rows as they are.
+#[test]
+fn cells_of_another_size_have_as_many_pixels() {
+    let emulated = Emulated::with(&KITTY);
+    let mut viewer = Viewer::start_in(emulated, &["--output", "kitty"], &[], (COLUMNS, ROWS));
+    for (width, height) in [(8, 16), (12, 24), (7, 14)] {
+        viewer.session.resize_cells(width, height);
+        let expected = (u32::from(COLUMNS * width), u32::from(PICTURE_ROWS * height));
+        viewer.session.wait_for("pixels of the new size", |output| {
+            let (across, down, _) = last_image(&output.sent)?;
+            ((across, down) == expected).then_some(())
+        });
+    }
+    viewer.session.type_in("q");
+    assert!(viewer.session.wait_for_end().success());
 }
 
 /// `y` shows the command line of the view, which is also printed at the end: it draws what was seen.

@@ -10,13 +10,14 @@ use portable_pty::{
 };
 use rustix::fd::OwnedFd;
 use rustix::fs::{Mode, OFlags};
-use rustix::io::Errno;
+use rustix::io::{Errno, ioctl_fionread};
 use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, kill_process, waitid};
 use rustix::termios::{Action, QueueSelector, Termios, tcflow, tcflush, tcgetattr};
 use std::ffi::OsStr;
 use std::fs;
 use std::io::{Read, Write};
 use std::num::NonZeroU16;
+use std::path::PathBuf;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -81,7 +82,7 @@ pub(crate) fn command(
     for name in ["NO_COLOR", "CLICOLOR_FORCE", "SSH_CONNECTION", "LINES", "COLUMNS"] {
         command.env_remove(name);
     }
-    for name in ["LC_ALL", "LC_CTYPE"] {
+    for name in ["LC_ALL", "LC_CTYPE", "TMUX", "TERM_PROGRAM"] {
         command.env_remove(name);
     }
     command.env("LANG", "C.UTF-8");
@@ -183,6 +184,20 @@ impl Session {
         self.master.resize(size(columns, rows)).expect("the terminal takes its size");
     }
 
+    /// Gives the terminal's cells another size in pixels, as another font does.
+    pub(crate) fn resize_cells(&self, width: u16, height: u16) {
+        let (rows, columns) = self.output().screen().size();
+        let (columns, rows) = (columns.get(), rows.get());
+        let (pixel_width, pixel_height) = (columns * width, rows * height);
+        let size = PtySize { pixel_width, pixel_height, ..size(columns, rows) };
+        self.master.resize(size).expect("the terminal takes its size");
+    }
+
+    /// The terminal no longer knows its size, as one on a serial line; its screen stays.
+    pub(crate) fn forget_size(&self) {
+        self.master.resize(size(0, 0)).expect("the terminal takes its size");
+    }
+
     /// The output so far. While the guard is held, nothing more is read.
     pub(crate) fn output(&self) -> MutexGuard<'_, Output> {
         self.output.0.lock().expect("the reader does not panic")
@@ -196,6 +211,11 @@ impl Session {
     /// Takes all input that the program has not read, as a shell does while the program is stopped.
     pub(crate) fn take_input(&self) {
         tcflush(&self.line, QueueSelector::IFlush).expect("the terminal obeys");
+    }
+
+    /// How many bytes of input the program has left to the shell.
+    pub(crate) fn unread(&self) -> u64 {
+        ioctl_fionread(&self.line).expect("the terminal tells")
     }
 
     /// Waits until `found` finds something in the output, and returns that.
@@ -261,6 +281,17 @@ impl Session {
             line.and_then(|count| count.trim().parse::<u64>().ok()).expect("a count")
         });
         sleeps.sum()
+    }
+
+    /// The name of the program's side.
+    pub(crate) fn terminal_name(&self) -> PathBuf {
+        self.master.tty_name().expect("it has a name")
+    }
+
+    /// The names of all that the program has open; of none, except on Linux.
+    pub(crate) fn open_files(&self) -> Vec<PathBuf> {
+        let Ok(files) = fs::read_dir(format!("/proc/{}/fd", self.pid)) else { return Vec::new() };
+        files.filter_map(|file| fs::read_link(file.ok()?.path()).ok()).collect()
     }
 
     /// The modes of the program's side now.

@@ -1,6 +1,6 @@
 //! The picture follows a terminal whose size changes.
 
-use super::look::last_row;
+use super::look::{last_row, look};
 use super::picture::once;
 use super::viewer::{COLUMNS, PICTURE_ROWS, ROWS, VIEW, Viewer, shows_a_frame};
 
@@ -53,11 +53,31 @@ fn a_key_and_a_resize_at_once_both_count() {
 
 #[test]
 fn a_terminal_without_a_cell_is_waited_for() {
-    let viewer = Viewer::start_at_size(0, 0);
+    let viewer = Viewer::start_at_size(0, 7);
     viewer.session.wait_for("the start", |output| output.screen().hide_cursor().then_some(()));
     viewer.session.resize(COLUMNS, ROWS);
     viewer.wait_for_picture("the picture", &once(&VIEW, COLUMNS, PICTURE_ROWS));
     viewer.session.resize(1, 1);
     viewer.session.resize(0, 7);
     viewer.quit();
+}
+
+/// As on a serial line. Until it tells a size it has the usual one, or that of the variables.
+#[test]
+fn a_terminal_of_unknown_size_is_drawn_on() {
+    let variables = [("COLUMNS", "50"), ("LINES", "12")];
+    for (variables, columns, rows) in [(&variables[..0], 80, 24), (&variables[..], 50, 12)] {
+        let viewer = Viewer::start_with(variables, 100, 30);
+        viewer.wait_for_picture("the told size", &once(&VIEW, 100, 29));
+        viewer.session.forget_size();
+        let expected = once(&VIEW, columns, rows - 1);
+        viewer.session.wait_for("a picture of the size that is supposed", |output| {
+            let shown = look(output.screen(), rows - 1);
+            let shown = shown.iter().map(|row| &row[..usize::from(columns)]);
+            shown.eq(expected.iter().map(Vec::as_slice)).then_some(())
+        });
+        viewer.session.resize(COLUMNS, ROWS);
+        viewer.wait_for_picture("the told size", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+        viewer.quit();
+    }
 }

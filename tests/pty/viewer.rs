@@ -20,6 +20,9 @@ pub(crate) const VIEW: View = View {
     lens: Lens::Perspective { fov: 40.0 },
 };
 
+/// A shell sends this when its job has been stopped. No terminal shows it.
+pub(crate) const STOPPED: &str = "\x1b]7777;stopped\x07";
+
 /// The viewer on the test's scene, and the scene's file, which must outlive its reading.
 pub(crate) struct Viewer {
     pub(crate) session: Session,
@@ -60,6 +63,22 @@ impl Viewer {
         let arguments = [&[scene.path()], OPTIONS.as_slice(), more].concat();
         let session = Session::start_in(emulated, spherule(), &arguments, variables, size);
         Self { session, _scene: scene }
+    }
+
+    /// Started as a job of a shell, which sends [`STOPPED`] when it is stopped, and continues it after a line of input.
+    /// The first picture is there.
+    pub(crate) fn start_as_job() -> Self {
+        let scene = SceneFile::new(&VIEW);
+        let script =
+            format!("set -m; \"$0\" \"$@\"; printf '{STOPPED}'; read -r line; fg >/dev/null");
+        let program = spherule();
+        let program = program.to_str().expect("a path that is text");
+        let arguments =
+            [&["-c", script.as_str(), program, scene.path()], OPTIONS.as_slice()].concat();
+        let session = Session::start("sh", &arguments, &[], (COLUMNS, ROWS));
+        let viewer = Self { session, _scene: scene };
+        viewer.wait_for_frame();
+        viewer
     }
 
     fn start_by(options: &[&str], variables: &[(&str, &str)], columns: u16, rows: u16) -> Self {

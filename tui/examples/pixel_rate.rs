@@ -34,8 +34,11 @@ fn main() -> Result<(), Box<dyn Error>> {
             let workload =
                 picture_workload(scene.list().len(), &style, cells.0, cells.1, f64::INFINITY);
             let renderer = Renderer::new(Level::best(), &threads);
-            let protocols =
-                [Protocol::Kitty { through_tmux: false }, Protocol::Sixel, Protocol::Iterm2];
+            let protocols = [
+                Protocol::Kitty { through_tmux: false },
+                Protocol::Sixel { colors: 256 },
+                Protocol::Iterm2,
+            ];
             let (mut drawing, mut encoding, mut bytes) = (vec![], [vec![], vec![], vec![]], [0; 3]);
             for frame in 0..frames {
                 let view = view::orbited(&home, 0.02 * frame as f32, 0.0);

@@ -3,7 +3,7 @@
 //! | protocol | pixels | who |
 //! |---|---|---|
 //! | `kitty` | just as they are, deflated | kitty, Ghostty, Konsole, `WezTerm`; under tmux by placeholders |
-//! | `sixel` | in a palette of 256, chosen in `OKLab` | foot, xterm, Windows Terminal, mlterm |
+//! | `sixel` | in a palette of 256 or fewer, chosen in `OKLab` | foot, xterm, Windows Terminal, mlterm |
 //! | `iterm2` | just as they are, as a PNG | iTerm2, `WezTerm`, VS Code |
 
 mod diacritics;
@@ -15,8 +15,12 @@ pub mod sixel;
 use crate::choice::Auto;
 use crate::picture::Image;
 use crate::terminal::Abilities;
+use crate::terminal::multiplexer::Multiplexer;
 use clap::ValueEnum;
 use std::env;
+
+/// What terminals of many kinds are called.
+const GENERAL: [&str; 5] = ["xterm-256color", "xterm", "xterm-color", "xterm-new", "xterm-direct"];
 
 /// What the program writes to a terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -42,7 +46,10 @@ pub enum Protocol {
         through_tmux: bool,
     },
     /// DEC's.
-    Sixel,
+    Sixel {
+        /// At most, of 256.
+        colors: u16,
+    },
     /// The one of iTerm2.
     Iterm2,
 }
@@ -52,26 +59,40 @@ impl Output {
     /// name is believed, unless the terminal has answered all questions and not that one.
     #[must_use]
     pub fn protocol(self, abilities: &Abilities) -> Auto<Protocol> {
-        let through_tmux = env::var_os("TMUX").is_some_and(|name| !name.is_empty());
+        let multiplexer = Multiplexer::of_process();
+        let through_tmux = multiplexer == Some(Multiplexer::Tmux);
         let kitty = Protocol::Kitty { through_tmux };
-        // tmux takes questions that are not for it, and answers none of them.
+        let sixel = Protocol::Sixel { colors: abilities.sixel_colors.unwrap_or(256) };
         let denies = |has: bool| abilities.has_answered && !has;
         match self {
             Self::Cells => None,
-            Self::Kitty => (through_tmux || !denies(abilities.kitty)).then_some(kitty),
-            Self::Sixel => (!denies(abilities.sixel)).then_some(Protocol::Sixel),
+            Self::Kitty => (!denies(abilities.kitty)).then_some(kitty),
+            Self::Sixel => (!denies(abilities.sixel)).then_some(sixel),
             Self::Iterm2 => Some(Protocol::Iterm2),
             Self::Auto if abilities.kitty => Some(kitty),
-            Self::Auto if is_known_for_iterm2() => Some(Protocol::Iterm2),
-            Self::Auto if abilities.sixel => Some(Protocol::Sixel),
+            // tmux says that it has sixels, whatever is behind it.
+            Self::Auto if multiplexer.is_some() => None,
+            Self::Auto if is_known_for_iterm2(&variable("TERM_PROGRAM"), &variable("TERM")) => {
+                Some(Protocol::Iterm2)
+            }
+            Self::Auto if abilities.sixel => Some(sixel),
             Self::Auto => None,
         }
     }
 }
 
-/// No question tells whether a terminal has iTerm2's protocol.
-fn is_known_for_iterm2() -> bool {
-    env::var_os("TERM_PROGRAM").is_some_and(|name| name == "iTerm.app" || name == "WezTerm")
+/// No question tells whether a terminal has iTerm2's protocol. Another one that was started in it has inherited the name of the
+/// `program`: it is believed only if it calls terminals `term`.
+fn is_known_for_iterm2(program: &str, term: &str) -> bool {
+    match program {
+        "iTerm.app" => term.starts_with("iterm") || GENERAL.contains(&term),
+        "WezTerm" => term == "wezterm" || GENERAL.contains(&term),
+        _ => false,
+    }
+}
+
+fn variable(name: &str) -> String {
+    env::var_os(name).unwrap_or_default().to_string_lossy().into_owned()
 }
 
 impl Protocol {
@@ -85,9 +106,9 @@ impl Protocol {
     pub fn write(self, image: &Image, cells: (u16, u16), number: u32, out: &mut Vec<u8>) {
         match self {
             Self::Kitty { through_tmux } => kitty::write(image, cells, number, through_tmux, out),
-            Self::Sixel => {
+            Self::Sixel { colors } => {
                 out.extend_from_slice(b"\x1b[H");
-                sixel::write(image, out);
+                sixel::write(image, colors, out);
             }
             Self::Iterm2 => {
                 out.extend_from_slice(b"\x1b[H");
@@ -96,11 +117,20 @@ impl Protocol {
         }
     }
 
-    /// Appends what shows `image` where the cursor is, and moves the cursor to the line below.
-    pub fn write_in_line(self, image: &Image, cells: (u16, u16), out: &mut Vec<u8>) {
+    /// Appends what shows `image` where the cursor is, and moves the cursor to the line below; the image may be
+    /// higher than the screen.
+    pub fn write_in_line(
+        self,
+        image: &Image,
+        cells: (u16, u16),
+        is_higher: bool,
+        out: &mut Vec<u8>,
+    ) {
         match self {
-            Self::Kitty { through_tmux } => kitty::write_in_line(image, cells, through_tmux, out),
-            Self::Sixel => sixel::write(image, out),
+            Self::Kitty { through_tmux } => {
+                kitty::write_in_line(image, cells, through_tmux, is_higher, out);
+            }
+            Self::Sixel { colors } => sixel::write(image, colors, out),
             Self::Iterm2 => iterm2::write(image, cells, out),
         }
         out.push(b'\n');
@@ -113,8 +143,35 @@ impl Protocol {
         match self {
             Self::Kitty { through_tmux } => kitty::remove(through_tmux, &mut out),
             // These images are where text is.
-            Self::Sixel | Self::Iterm2 => out.extend_from_slice(b"\x1b[2J"),
+            Self::Sixel { .. } | Self::Iterm2 => out.extend_from_slice(b"\x1b[2J"),
         }
         out
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_program_is_believed_where_the_terminal_has_a_name_that_it_gives() {
+        for (program, term, expected) in [
+            ("iTerm.app", "xterm-256color", true),
+            ("iTerm.app", "xterm", true),
+            ("iTerm.app", "iterm2", true),
+            ("WezTerm", "xterm-256color", true),
+            ("WezTerm", "wezterm", true),
+            ("WezTerm", "iterm2", false),
+            ("WezTerm", "alacritty", false),
+            ("WezTerm", "foot", false),
+            ("iTerm.app", "screen.xterm-256color", false),
+            ("iTerm.app", "tmux-256color", false),
+            ("iTerm.app", "xterm-kitty", false),
+            ("iTerm.app", "xterm-ghostty", false),
+            ("Apple_Terminal", "xterm-256color", false),
+            ("", "xterm-256color", false),
+        ] {
+            assert_eq!(is_known_for_iterm2(program, term), expected, "{program}, {term}");
+        }
     }
 }

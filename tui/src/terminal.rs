@@ -7,7 +7,9 @@
 mod abilities;
 pub mod color_depth;
 mod input;
+mod job;
 pub mod locale;
+pub mod multiplexer;
 mod reply;
 mod screen;
 mod signals;
@@ -17,11 +19,12 @@ mod wish;
 
 use crate::error::caught::is_caught;
 use crate::error::{Error, cause};
-pub use abilities::Abilities;
+pub use abilities::{ASKED_IMAGE, Abilities, Uses};
 use abilities::{PATIENCE, questions};
 use crossterm::terminal;
 pub use input::Incoming;
 use input::Input;
+use multiplexer::Multiplexer;
 use reply::LARGEST_CELL;
 pub use reply::Reply;
 use std::collections::VecDeque;
@@ -42,6 +45,8 @@ const LARGEST_SIZE: u16 = 4096;
 pub struct Terminal {
     input: Input,
     abilities: Abilities,
+    /// Whether the terminal behind tmux has still to answer.
+    awaits_behind: bool,
     /// What the user did while answers were waited for.
     early: VecDeque<Incoming>,
 }
@@ -50,36 +55,38 @@ pub struct Terminal {
 const ASK_STATUS: &[u8] = b"\x1b[5n";
 
 impl Terminal {
-    /// Takes the terminal. If `may_ask`, asks it what it can do, about colours too if `has_color`, and waits for the
-    /// answers for at most a fifth of a second.
+    /// Takes the terminal. If `may_ask`, asks it what it can do of all that there are `uses` for, and waits for the answers
+    /// for at most a fifth of a second.
     ///
     /// # Errors
     /// If there is no terminal to read keys from, or it does not do what it is told.
-    pub fn enter(may_ask: bool, has_color: bool) -> io::Result<Self> {
+    pub fn enter(may_ask: bool, uses: Uses) -> io::Result<Self> {
         signals::watch()?;
         restore_before_panic_message();
         let mut this = Self {
             input: Input::open().map_err(|error| screen::no_terminal(&error))?,
             abilities: Abilities::default(),
+            awaits_behind: false,
             early: VecDeque::new(),
         };
         screen::enter()?;
         if may_ask {
-            this.ask(has_color)?;
+            this.ask(uses)?;
         }
         Ok(this)
     }
 
-    fn ask(&mut self, has_color: bool) -> io::Result<()> {
+    fn ask(&mut self, uses: Uses) -> io::Result<()> {
         self.input.await_answers(true);
-        screen::show(&questions(
-            &env::var_os("TERM").unwrap_or_default().to_string_lossy(),
-            has_color,
-        ))?;
+        let term = env::var_os("TERM").unwrap_or_default();
+        let multiplexer = Multiplexer::of_process();
+        screen::show(&questions(&term.to_string_lossy(), multiplexer, uses))?;
+        // tmux itself answers first; the terminal behind it may never be asked.
+        self.awaits_behind = uses.kitty && multiplexer == Some(Multiplexer::Tmux);
         let asked = Instant::now();
         unanswered::asked_first(asked);
         let deadline = asked + PATIENCE;
-        while !self.abilities.has_answered {
+        while !self.abilities.has_answered || self.awaits_behind {
             let left = deadline.saturating_duration_since(Instant::now());
             match self.input.next(Some(left))? {
                 Some(Incoming::Reply(reply)) => self.learn(reply),
@@ -91,15 +98,40 @@ impl Terminal {
     }
 
     fn learn(&mut self, reply: Reply) {
-        self.abilities.learn(reply);
+        // What is just the window's size is no limit: it grows with the window.
+        let is_window =
+            matches!(reply, Reply::SixelPixels(width, height) if self.is_window(width, height));
+        if !is_window {
+            self.abilities.learn(reply);
+        }
         match reply {
             Reply::Status => unanswered::answered(),
-            Reply::Attributes { .. } => unanswered::answered_first(),
+            Reply::Image(ASKED_IMAGE, _) => self.awaits_behind = false,
             _ => {}
         }
-        if self.abilities.has_answered && unanswered::count() == 0 {
+        if !self.abilities.has_answered {
+            return;
+        }
+        if !self.awaits_behind {
+            unanswered::answered_first();
+        }
+        let now = Instant::now();
+        if unanswered::until(now).is_none_or(|end| end <= now) {
             self.input.await_answers(false);
         }
+    }
+
+    /// Whether the window has so many pixels now, apart from what is left over beside its cells.
+    fn is_window(&self, width: u32, height: u32) -> bool {
+        let (Some(cell), Ok(cells)) = (pixels_of_cell(self.abilities.cell_pixels), self.size())
+        else {
+            return false;
+        };
+        let is_side = |pixels: u32, count: u16, cell: u32| {
+            let all = u32::from(count) * cell;
+            (all..all + cell).contains(&pixels)
+        };
+        is_side(width, cells.0, cell.0) && is_side(height, cells.1, cell.1)
     }
 
     /// What is known of the terminal by now.
@@ -124,12 +156,16 @@ impl Terminal {
         Ok(incoming)
     }
 
-    /// Columns and rows, each at most 4096; either may be 0.
+    /// Columns and rows, each at most 4096; one of them may be 0. A terminal that knows neither, as on a serial line, has
+    /// those of `COLUMNS` and `LINES`, or the usual ones, until it tells others.
     ///
     /// # Errors
     /// If the terminal does not tell.
     pub fn size(&self) -> io::Result<(u16, u16)> {
-        let (columns, rows) = terminal::size()?;
+        let (columns, rows) = match terminal::size()? {
+            (0, 0) => (count_of("COLUMNS").unwrap_or(80), count_of("LINES").unwrap_or(24)),
+            size => size,
+        };
         Ok((columns.min(LARGEST_SIZE), rows.min(LARGEST_SIZE)))
     }
 
@@ -168,17 +204,20 @@ impl Terminal {
         screen::set_removal(bytes);
     }
 
-    /// Gives the terminal back and stops the process group, as Ctrl-Z does outside of raw mode.
-    /// The screen is taken again by the thread that sees SIGCONT.
+    /// Gives the terminal back and stops the process group, as Ctrl-Z does outside of raw mode, unless no shell could
+    /// continue it; returns whether it was stopped. The screen is taken again by the thread that sees SIGCONT.
     ///
     /// # Errors
     /// If the group cannot be stopped.
-    pub fn suspend(&mut self) -> io::Result<()> {
+    pub fn suspend(&mut self) -> io::Result<bool> {
+        if !job::has_shell() {
+            return Ok(false);
+        }
         self.take_open_answers();
         screen::leave();
-        // SIGTSTP sent to oneself is dropped where the group is orphaned; SIGSTOP never is.
+        // SIGTSTP would come to the thread that watches for it.
         rustix::process::kill_current_process_group(rustix::process::Signal::STOP)?;
-        Ok(())
+        Ok(true)
     }
 
     /// Waits for the answers that are on their way: they would come to whoever has the terminal next, who would take them
@@ -213,6 +252,11 @@ impl Drop for Terminal {
         self.take_open_answers();
         screen::restore();
     }
+}
+
+/// How many columns or rows a variable tells.
+fn count_of(variable: &str) -> Option<u16> {
+    env::var(variable).ok()?.parse::<u16>().ok().filter(|&count| count > 0)
 }
 
 /// A terminal that goes away in the middle of a frame is treated as one that is found gone when it is read.

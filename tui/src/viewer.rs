@@ -135,6 +135,7 @@ pub fn run(
     viewer.heed_abilities();
     viewer.say_no_pixels();
     viewer.learn_size().map_err(|error| lost(&error))?;
+    viewer.say_too_large();
     let mut last_frame: Option<Instant> = None;
     let mut stale = true;
     loop {
@@ -196,12 +197,17 @@ impl Viewer<'_> {
             }
             match keys::input(&event) {
                 Some(keys::Input::Suspend) => {
-                    self.terminal.suspend().map_err(|error| lost(&error))?;
+                    let was_stopped = self.terminal.suspend().map_err(|error| lost(&error))?;
+                    if !was_stopped {
+                        self.notice = Some("Ctrl-Z: there is no shell to continue it".to_owned());
+                        outcome = outcome.and(Outcome::Changed);
+                    }
                 }
                 // The terminal may have moved its cells about, even if the size is the same.
                 Some(keys::Input::Resize) => {
                     self.encoder.forget();
                     self.learn_size().map_err(|error| lost(&error))?;
+                    self.say_too_large();
                     outcome = Outcome::Changed;
                 }
                 Some(keys::Input::CommandLine) => {
@@ -230,7 +236,13 @@ impl Viewer<'_> {
                     self.film.iter_mut().for_each(|film| film.step(forward));
                     outcome = outcome.and(Outcome::Changed);
                 }
-                Some(input) => outcome = outcome.and(self.state.apply(input)),
+                Some(input) => {
+                    // Glyphs that the terminal draws wider than a cell must leave nothing behind.
+                    if input == keys::Input::Charset {
+                        self.encoder.forget();
+                    }
+                    outcome = outcome.and(self.state.apply(input));
+                }
                 None => {}
             }
             if outcome == Outcome::Quit {

@@ -6,7 +6,7 @@ use super::stations::STATIONS;
 use crate::encode::Encoder;
 use crate::error::Error;
 use crate::style::{ColorDepth, Style};
-use crate::terminal::{Incoming, LONGEST_BACKLOG, Terminal, Wish, lost, wish};
+use crate::terminal::{Incoming, LONGEST_BACKLOG, Terminal, Uses, Wish, lost, wish};
 use crossterm::event::{Event, KeyCode};
 use std::io;
 use std::time::Duration;
@@ -65,8 +65,8 @@ impl Walk {
 /// # Errors
 /// [`Error::Running`] if there is no terminal to read keys from, or it goes away.
 pub(super) fn walk(index: usize, style: Style, may_ask: bool) -> Result<(), Error> {
-    let has_color = style.depth != ColorDepth::Never;
-    let mut terminal = Terminal::enter(may_ask, has_color).map_err(|error| lost(&error))?;
+    let uses = Uses { color: style.depth != ColorDepth::Never, kitty: false, sixel: false };
+    let mut terminal = Terminal::enter(may_ask, uses).map_err(|error| lost(&error))?;
     let mut walk = Walk::new(index);
     let mut encoder = Encoder::new();
     loop {
@@ -106,7 +106,9 @@ fn take_input(terminal: &mut Terminal, walk: &mut Walk, encoder: &mut Encoder) -
         let Incoming::User(event) = incoming else { continue };
         let Some(input) = input(&event) else { continue };
         match input {
-            Input::Suspend => terminal.suspend()?,
+            Input::Suspend => {
+                terminal.suspend()?;
+            }
             // The terminal may have moved its cells about, even if the size is the same.
             Input::Resize => encoder.forget(),
             _ => {}

@@ -50,11 +50,12 @@ pub(super) fn write(
     }
 }
 
-/// Appends an image where the cursor is.
+/// Appends an image where the cursor is, which is then in its last row, or below if it is higher than the screen.
 pub(super) fn write_in_line(
     image: &Image,
     cells: (u16, u16),
     through_tmux: bool,
+    is_higher: bool,
     out: &mut Vec<u8>,
 ) {
     if through_tmux {
@@ -66,9 +67,20 @@ pub(super) fn write_in_line(
             }
             placeholder_row(cells.0, row, number, out);
         }
-    } else {
+    } else if is_higher {
         // Without a number, so that the next one leaves it where it is.
         command_with_pixels(image, &format!("{},q=2", size(cells)), false, out);
+    } else {
+        // Where the image is as wide as the screen, the cursor itself would go a row too far.
+        let down = cells.1.saturating_sub(1);
+        if down > 0 {
+            let room = "\n".repeat(down.into());
+            out.extend_from_slice(format!("{room}\x1b[{down}A").as_bytes());
+        }
+        command_with_pixels(image, &format!("{},C=1,q=2", size(cells)), false, out);
+        if down > 0 {
+            out.extend_from_slice(format!("\x1b[{down}B").as_bytes());
+        }
     }
 }
 

@@ -46,8 +46,8 @@ fn bin([red, green, blue]: [u8; 3]) -> usize {
 }
 
 impl Palette {
-    /// The palette of a picture's pixels, three channels each.
-    pub(super) fn new(rgb: &[u8]) -> Self {
+    /// The palette of a picture's pixels, three channels each: at most as many colours, and at most 256.
+    pub(super) fn new(rgb: &[u8], most: usize) -> Self {
         let mut sums = vec![(0_u64, [0_u64; 3]); LEVELS * LEVELS * LEVELS];
         for pixel in rgb.as_chunks::<3>().0 {
             let (count, sum) = &mut sums[bin(*pixel)];
@@ -65,7 +65,7 @@ impl Palette {
             })
             .collect();
         let mut boxes = vec![Cluster::new(&bins, 0, bins.len())];
-        while boxes.len() < MOST {
+        while boxes.len() < most.min(MOST) {
             let worst = (0..boxes.len()).max_by(|&a, &b| boxes[a].error.total_cmp(&boxes[b].error));
             let Some(worst) = worst.filter(|&worst| boxes[worst].error > 0.0) else { break };
             let Cluster { start, end, axis, at, .. } = boxes[worst];
@@ -131,19 +131,19 @@ mod tests {
     #[test]
     fn few_colours_are_kept_as_they_are() {
         let colors = [[0, 0, 0], [255, 0, 0], [12, 200, 99], [255; 3]];
-        let palette = Palette::new(colors.repeat(7).as_flattened());
+        let palette = Palette::new(colors.repeat(7).as_flattened(), MOST);
         assert_eq!(palette.colors.len(), 4);
         for color in colors {
             assert_eq!(palette.colors[usize::from(palette.entry(color))], Srgb(color));
         }
-        assert!(Palette::new(&[]).colors.len() <= 1);
+        assert!(Palette::new(&[], MOST).colors.len() <= 1);
     }
 
     /// More than 2^32 / 255 white pixels.
     #[test]
     fn a_large_white_picture_is_white() {
         let rgb = vec![255; 3 * 17_000_000];
-        let palette = Palette::new(&rgb);
+        let palette = Palette::new(&rgb, MOST);
         assert_eq!(palette.colors[usize::from(palette.entry([255; 3]))], Srgb([255; 3]));
     }
 
@@ -152,7 +152,8 @@ mod tests {
         let pixels: Vec<[u8; 3]> = (0..=255_u8)
             .flat_map(|red| (0..=255_u8).map(move |green| [red, green, red / 2 + green / 2]))
             .collect();
-        let palette = Palette::new(pixels.as_flattened());
+        assert_eq!(Palette::new(pixels.as_flattened(), 16).colors.len(), 16);
+        let palette = Palette::new(pixels.as_flattened(), MOST);
         assert_eq!(palette.colors.len(), MOST);
         let far = |pixel: &[u8; 3]| {
             let entry = palette.colors[usize::from(palette.entry(*pixel))];

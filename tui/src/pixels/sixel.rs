@@ -9,10 +9,10 @@ use std::io::Write;
 /// Rows of a band.
 const BAND: usize = 6;
 
-/// Appends an image where the cursor is.
-pub(super) fn write(image: &Image, out: &mut Vec<u8>) {
+/// Appends an image of so many colours where the cursor is, which is then in its last row.
+pub(super) fn write(image: &Image, colors: u16, out: &mut Vec<u8>) {
     let (width, height) = (image.width as usize, image.height as usize);
-    let palette = Palette::new(&image.rgb);
+    let palette = Palette::new(&image.rgb, colors.into());
     // No pixel is without a colour; such pixels would stay as they are. Pixels are square, and so
     // many.
     let _ = write!(out, "\x1bP0;1;0q\"1;1;{width};{height}");
@@ -22,7 +22,10 @@ pub(super) fn write(image: &Image, out: &mut Vec<u8>) {
     }
     // For every colour, which rows of each column have it.
     let mut columns = vec![0_u8; MOST * width];
-    for band in image.rgb.chunks(3 * width.max(1) * BAND) {
+    for (place, band) in image.rgb.chunks(3 * width.max(1) * BAND).enumerate() {
+        if place > 0 {
+            out.push(b'-');
+        }
         let mut used = [false; MOST];
         for (row, pixels) in band.chunks(3 * width).enumerate() {
             for (column, pixel) in pixels.as_chunks::<3>().0.iter().enumerate() {
@@ -41,7 +44,6 @@ pub(super) fn write(image: &Image, out: &mut Vec<u8>) {
             push_runs(columns, out);
             columns.fill(0);
         }
-        out.push(b'-');
     }
     out.extend_from_slice(b"\x1b\\");
 }

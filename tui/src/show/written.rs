@@ -18,10 +18,11 @@ use crate::progress::{PATIENCE, Progress};
 use crate::scene::Scene;
 use crate::structure::choose::Workload;
 use crate::structure::scene::{PictureSearch, SceneStructures};
-use crate::style::Style;
+use crate::style::{PIPE_SIZE, Style};
 use crate::terminal::{Abilities, pixels_of_cell};
 use crate::tradeoff::Question;
 use crate::view::View;
+use crossterm::terminal;
 use spherule_kernel::{Ray, Tier};
 use std::path::Path;
 
@@ -123,7 +124,7 @@ impl Written<'_, '_> {
     }
 
     fn pixels(&mut self, protocol: Protocol) -> Result<(), Error> {
-        let Self { scene, view, style, size, .. } = *self;
+        let Self { scene, view, style, size, is_terminal, .. } = *self;
         let cell = pixels_of_cell(None).unwrap_or_else(|| PixelGrid::usual_cell(&style));
         let grid = PixelGrid::in_cells(&view, &style, size, cell, SAMPLES);
         let (width, height) = grid.size();
@@ -136,7 +137,11 @@ impl Written<'_, '_> {
         let search = self.structures.picture(structure, &workload, &view, scene)?;
         let image = self.renderer.draw_image(scene, &search, style.accuracy, &grid);
         let mut bytes = Vec::new();
-        protocol.write_in_line(&image, size, &mut bytes);
+        // A screen that is not known is supposed to be as high as a picture for a pipe.
+        let rows =
+            if is_terminal { terminal::size().map_or(0, |size| size.1) } else { PIPE_SIZE.1 };
+        let is_higher = (1..size.1).contains(&rows);
+        protocol.write_in_line(&image, size, is_higher, &mut bytes);
         write_stdout(&bytes)
     }
 

@@ -3,6 +3,7 @@
 //! Questions are asked once, together. The last is one that every terminal answers: what has not been answered before
 //! it never will be. An answer that comes late counts from then on.
 
+use super::multiplexer::Multiplexer;
 use super::reply::{RARE_COLOR, Reply};
 use crate::color::Srgb;
 use std::time::Duration;
@@ -10,7 +11,7 @@ use std::time::Duration;
 /// How long the answers are waited for before the first picture.
 pub(super) const PATIENCE: Duration = Duration::from_millis(200);
 /// The number of an image that is asked about and never sent.
-const ASKED_IMAGE: u32 = 31;
+pub const ASKED_IMAGE: u32 = 31;
 
 /// What is known of a terminal. What it has not said is not known.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -31,6 +32,10 @@ pub struct Abilities {
     pub kitty: bool,
     /// Whether it shows sixels.
     pub sixel: bool,
+    /// In how many colours.
+    pub sixel_colors: Option<u16>,
+    /// How many pixels of them, across and down, however large the window is.
+    pub sixel_pixels: Option<(u32, u32)>,
 }
 
 impl Abilities {
@@ -44,28 +49,50 @@ impl Abilities {
             Reply::Truecolor(has) => self.truecolor = Some(has),
             Reply::Image(ASKED_IMAGE, is_well) => self.kitty = is_well,
             Reply::Image(..) => {}
+            Reply::SixelColors(colors) => self.sixel_colors = Some(colors),
+            Reply::SixelPixels(width, height) => self.sixel_pixels = Some((width, height)),
             Reply::Status => self.reports_status = true,
         }
     }
 }
 
-/// The questions for a terminal called `term`; without colour, the one about colours is left out, since it sets a
-/// colour.
+/// What the program has a use for, where that decides what is asked.
+#[derive(Clone, Copy, Debug)]
+pub struct Uses {
+    /// Colours: the question about them sets one.
+    pub color: bool,
+    /// Images by kitty's protocol, also of the terminal behind tmux.
+    pub kitty: bool,
+    /// Images in sixels: how large they may be, and in how many colours.
+    pub sixel: bool,
+}
+
+/// The questions for a terminal called `term`, or for the `multiplexer` that shows it.
 ///
 /// The console of Linux gets only those that it answers: old ones show the letters of strings that they do not know.
-pub(super) fn questions(term: &str, has_color: bool) -> Vec<u8> {
+pub(super) fn questions(term: &str, multiplexer: Option<Multiplexer>, uses: Uses) -> Vec<u8> {
     const LAST: &str = "\x1b[5n\x1b[c";
     if term == "linux" {
         return LAST.into();
     }
     let [red, green, blue] = RARE_COLOR;
-    let pen = format!("\x1b[48;2;{red};{green};{blue}m\x1bP$qm\x1b\\\x1b[m");
-    let pen = if has_color { &*pen } else { "" };
-    format!(
-        "{pen}\x1b[?2026$p\x1b[16t\x1b]11;?\x1b\\\
-         \x1b_Gi={ASKED_IMAGE},s=1,v=1,a=q,t=d,f=24;AAAA\x1b\\{LAST}"
-    )
-    .into()
+    let pen = match multiplexer {
+        // The terminal behind it would get the letters.
+        Some(Multiplexer::Screen) => String::new(),
+        _ if !uses.color => String::new(),
+        _ => format!("\x1b[48;2;{red};{green};{blue}m\x1bP$qm\x1b\\\x1b[m"),
+    };
+    let image = format!("\x1b_Gi={ASKED_IMAGE},s=1,v=1,a=q,t=d,f=24;AAAA\x1b\\");
+    let image = match multiplexer {
+        None => image,
+        Some(Multiplexer::Tmux) if uses.kitty => {
+            format!("\x1bPtmux;{}\x1b\\", image.replace('\x1b', "\x1b\x1b"))
+        }
+        // It would be the title of a window, for good.
+        Some(_) => String::new(),
+    };
+    let sixel = if uses.sixel { "\x1b[?1;1;0S\x1b[?2;4;0S" } else { "" };
+    format!("{pen}\x1b[?2026$p\x1b[16t\x1b]11;?\x1b\\{image}{sixel}{LAST}").into()
 }
 
 #[cfg(test)]
@@ -89,10 +116,33 @@ mod tests {
     #[test]
     fn the_questions_leave_the_pen_alone_and_end_with_the_one_that_all_answer() {
         for term in ["xterm-256color", "linux"] {
-            let questions = String::from_utf8(questions(term, true)).expect("UTF-8");
+            let uses = Uses { color: true, kitty: true, sixel: true };
+            let questions = String::from_utf8(questions(term, None, uses)).expect("UTF-8");
             assert!(questions.ends_with("\x1b[c"), "{questions:?}");
             assert_eq!(questions.contains("48;2;"), questions.contains("\x1b[m"));
             assert!(term != "linux" || !questions.contains(['P', ']', '_', '$']));
+        }
+    }
+
+    #[test]
+    fn multiplexers_get_no_string_that_they_take_for_something_else() {
+        for (multiplexer, gets_dcs, gets_apc) in [
+            (None, true, true),
+            (Some(Multiplexer::Tmux), true, false),
+            (Some(Multiplexer::Screen), false, false),
+        ] {
+            for kitty in [false, true] {
+                let uses = Uses { color: true, kitty, sixel: false };
+                let questions = questions("screen", multiplexer, uses);
+                let questions = String::from_utf8(questions).expect("UTF-8");
+                let wrapped = "\x1bPtmux;\x1b\x1b_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA\x1b\x1b\\\x1b\\";
+                let is_for_tmux = kitty && multiplexer == Some(Multiplexer::Tmux);
+                assert_eq!(questions.contains(wrapped), is_for_tmux, "{multiplexer:?}, {kitty}");
+                let bare = questions.replace(wrapped, "");
+                assert_eq!(bare.contains("\x1bP"), gets_dcs, "{multiplexer:?}, {kitty}");
+                assert_eq!(bare.contains("48;2;"), gets_dcs, "{multiplexer:?}, {kitty}");
+                assert_eq!(bare.contains("\x1b_"), gets_apc, "{multiplexer:?}, {kitty}");
+            }
         }
     }
 }

@@ -1,5 +1,6 @@
 //! How many colours: what the user asks for, then what the environment says.
 
+use super::multiplexer::Multiplexer;
 use crate::style::ColorDepth;
 use clap::ValueEnum;
 use std::env;
@@ -35,6 +36,8 @@ pub struct Surroundings {
     pub force: bool,
     /// `TERM`.
     pub term: String,
+    /// What shows the program a terminal of its own.
+    pub multiplexer: Option<Multiplexer>,
     /// `COLORTERM` promises 24 bits.
     pub truecolor: bool,
     /// What the terminal itself says of 24 bits, if it was asked and has answered.
@@ -53,6 +56,7 @@ impl Surroundings {
             force: !["", "0"].contains(&text("CLICOLOR_FORCE").as_str()),
             // Not `anstyle_query::term_supports_color`: an empty name promises no colour.
             term: text("TERM"),
+            multiplexer: Multiplexer::of_process(),
             truecolor: anstyle_query::truecolor(),
             told: None,
         }
@@ -96,7 +100,7 @@ impl Surroundings {
             "" | "dumb" => ColorDepth::Never,
             _ if self.told == Some(true) => ColorDepth::Truecolor,
             _ if self.told == Some(false) => of_palette,
-            term if term.starts_with("screen") => of_palette,
+            _ if self.multiplexer == Some(Multiplexer::Screen) => of_palette,
             term if self.truecolor || KNOWN.iter().any(|known| term.contains(known)) => {
                 ColorDepth::Truecolor
             }
@@ -114,7 +118,7 @@ mod tests {
     fn the_order_of_precedence() {
         use ColorDepth::{Ansi16, Ansi256, Truecolor};
         let none = ColorDepth::Never;
-        // Flag, `NO_COLOR`, `CLICOLOR_FORCE`, terminal, `TERM`, `COLORTERM`, and the depth.
+        // Flag, `NO_COLOR`, `CLICOLOR_FORCE`, terminal, `TERM` and `TMUX`, `COLORTERM`, and the depth.
         let rows = [
             // The flag rules.
             (Never, 0, 1, 1, "xterm-256color", 1, none),
@@ -140,6 +144,9 @@ mod tests {
             (Auto, 0, 0, 1, "xterm-256color", 0, Ansi256),
             (Auto, 0, 0, 1, "xterm-256color", 1, Truecolor),
             (Auto, 0, 0, 1, "tmux-256color", 1, Truecolor),
+            // tmux may have GNU screen's name.
+            (Auto, 0, 0, 1, "screen-256color TMUX", 1, Truecolor),
+            (Auto, 0, 0, 1, "screen-256color TMUX", 0, Ansi256),
             (Auto, 0, 0, 1, "screen-256color", 1, Ansi256),
             (Auto, 0, 0, 1, "screen", 1, Ansi16),
             (Auto, 0, 0, 1, "xterm-kitty", 0, Truecolor),
@@ -147,11 +154,16 @@ mod tests {
         ];
         for row in rows {
             let (choice, no_color, force, is_terminal, term, truecolor, depth) = row;
+            let (term, is_in_tmux) = match term.split_once(' ') {
+                Some((term, _)) => (term, true),
+                None => (term, false),
+            };
             let surroundings = Surroundings {
                 is_terminal: is_terminal == 1,
                 no_color: no_color == 1,
                 force: force == 1,
                 term: term.to_owned(),
+                multiplexer: Multiplexer::called(term, is_in_tmux),
                 truecolor: truecolor == 1,
                 told: None,
             };

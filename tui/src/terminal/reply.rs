@@ -29,6 +29,10 @@ pub enum Reply {
     Truecolor(bool),
     /// What it says of an image by kitty's protocol: its number, and whether all is well.
     Image(u32, bool),
+    /// How many colours an image in sixels may have (XTSMGRAPHICS 1).
+    SixelColors(u16),
+    /// How many pixels such an image may have, across and down (XTSMGRAPHICS 2).
+    SixelPixels(u32, u32),
     /// It has taken what was sent to it so far (DSR 5).
     Status,
 }
@@ -42,6 +46,18 @@ pub(super) fn of_sequence(parameters: &[u8], last: u8) -> Option<Reply> {
             Some(Reply::Attributes { sixel: attributes.any(|attribute| attribute == "4") })
         }
         b'n' => (text == "0").then_some(Reply::Status),
+        b'S' => {
+            let mut numbers = text.strip_prefix('?')?.split(';').map(str::parse::<u32>);
+            let mut next = || numbers.next()?.ok();
+            // The second number is 0 if all is well.
+            match (next()?, next()?, next().filter(|&number| number > 0)?, next()) {
+                (1, 0, colors, None) => {
+                    Some(Reply::SixelColors(u16::try_from(colors).unwrap_or(u16::MAX)))
+                }
+                (2, 0, width, Some(height @ 1..)) => Some(Reply::SixelPixels(width, height)),
+                _ => None,
+            }
+        }
         b't' => {
             let mut sizes = text.strip_prefix("6;")?.split(';').map(str::parse::<u16>);
             let mut next = || sizes.next()?.ok().filter(|size| (1..=LARGEST_CELL).contains(size));
@@ -162,6 +178,12 @@ mod tests {
         assert_eq!(of_sequence(b"6;512;256", b't'), Some(Reply::CellPixels(256, 512)));
         for too_large in ["6;60000;60000", "6;513;256", "6;20;513"] {
             assert_eq!(of_sequence(too_large.as_bytes(), b't'), None, "{too_large}");
+        }
+        assert_eq!(of_sequence(b"?1;0;16", b'S'), Some(Reply::SixelColors(16)));
+        assert_eq!(of_sequence(b"?1;0;65536", b'S'), Some(Reply::SixelColors(65535)));
+        assert_eq!(of_sequence(b"?2;0;1000;800", b'S'), Some(Reply::SixelPixels(1000, 800)));
+        for no_limit in ["?1;3;0", "?1;0;0", "?1;3", "?2;0;0;0", "?2;0;1000", "?3;0;1;1", "1"] {
+            assert_eq!(of_sequence(no_limit.as_bytes(), b'S'), None, "{no_limit}");
         }
         assert_eq!(of_sequence(b"?2026;0$", b'y'), Some(Reply::Synchronized(false)));
         assert_eq!(of_sequence(b"?2026;2$", b'y'), Some(Reply::Synchronized(true)));

@@ -1,9 +1,9 @@
 //! The screen and modes of the terminal: taken, given back, and written to, by any thread.
 
 use super::unanswered;
+use crate::error::stdout::write;
 use crossterm::terminal;
 use std::io;
-use std::os::fd::AsFd;
 use std::sync::atomic::{AtomicBool, Ordering::SeqCst};
 use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 use std::thread;
@@ -128,21 +128,4 @@ fn output() -> Option<MutexGuard<'static, ()>> {
             Err(TryLockError::WouldBlock) => thread::sleep(Duration::from_millis(1)),
         }
     }
-}
-
-/// One `write(2)`, unless the terminal takes less at once. Not through `io::Stdout`: its buffer
-/// cuts a frame at the last newline.
-fn write(mut bytes: &[u8]) -> io::Result<()> {
-    let stdout = io::stdout();
-    while !bytes.is_empty() {
-        match rustix::io::write(stdout.as_fd(), bytes) {
-            Ok(0) => return Err(io::ErrorKind::WriteZero.into()),
-            Ok(written) => bytes = &bytes[written..],
-            Err(rustix::io::Errno::INTR) => {}
-            // Someone who shares the terminal has made it non-blocking.
-            Err(rustix::io::Errno::AGAIN) => thread::sleep(Duration::from_millis(1)),
-            Err(error) => return Err(error.into()),
-        }
-    }
-    Ok(())
 }

@@ -45,7 +45,7 @@ pub(super) fn asked_first(now: Instant) {
     questions().first = Some(now + PATIENCE + LAST_WORDS);
 }
 
-/// It has answered all that it ever will of that.
+/// It has answered all that it ever will of that, and so has one behind it that was asked.
 pub(super) fn answered_first() {
     questions().first = None;
 }

@@ -16,7 +16,6 @@ use crate::draw::{Drawn, picture_workload};
 use crate::encode::Economy;
 use crate::error::Error;
 use crate::pick::{Pick, cell_ray, report};
-use crate::pixels::Protocol;
 use crate::terminal::lost;
 use crate::tradeoff::chart;
 use std::io;
@@ -42,19 +41,21 @@ impl Viewer<'_> {
         if protocol.is_none() {
             self.remove_images();
         }
+        // A font of another size may leave columns and rows as they are.
+        let cell = protocol.map(|protocol| self.pixels_of_cell(protocol, size));
         let same = |last: &Picture| {
             last.of == pictured
                 && last.size == size
+                && last.cell == cell
                 && last.drawn.effort.is_full
-                && last.image.is_some() == protocol.is_some()
         };
         let (picture, drawing) = match last.filter(same) {
             Some(last) => (last, None),
             None => {
                 self.colors.show(&mut self.scene, self.state.shown.coloring);
                 self.structures.set_aids(self.state.shown.style.aids);
-                let picture = match protocol {
-                    Some(protocol) => self.draw_pixels(protocol, size, moving)?,
+                let picture = match cell {
+                    Some(cell) => self.draw_pixels(cell, size, moving)?,
                     None => self.draw(size, moving)?,
                 };
                 (picture, Some(started.elapsed()))
@@ -103,7 +104,7 @@ impl Viewer<'_> {
                 self.meter.count(frame, now)
             }
         };
-        let film = self.film.as_ref().filter(|film| film.has_more()).map(Film::status);
+        let film = self.film.as_ref().filter(|film| film.has_status()).map(Film::status);
         status::write(
             &mut cells,
             status_row,
@@ -147,21 +148,21 @@ impl Viewer<'_> {
         }
     }
 
-    /// Draws the picture of the moment in pixels.
+    /// Draws the picture of the moment in pixels, so many a cell.
     fn draw_pixels(
         &mut self,
-        protocol: Protocol,
+        cell: (u32, u32),
         size: (u16, u16),
         moving: bool,
     ) -> Result<Picture, Error> {
         let started = Instant::now();
-        let (image, effort, searched) = self.draw_image(protocol, size, moving)?;
+        let (image, effort, searched) = self.draw_image(cell, size, moving)?;
         self.pace.drawn(effort, started.elapsed());
         let mut cells = CellGrid::new(size.0, size.1);
         cells.cells_mut().fill(NO_TEXT);
         let (of, drawn, image) =
             (self.state.shown.pictured(), Drawn { cells, effort }, Some(image));
-        Ok(Picture { of, size, searched, drawn, image })
+        Ok(Picture { of, size, cell: Some(cell), searched, drawn, image })
     }
 
     /// Draws the picture of the moment.
@@ -197,7 +198,8 @@ impl Viewer<'_> {
         };
         self.pace.drawn(drawn.effort, started.elapsed());
         let searched = (search.order(), search.structure);
-        Ok(Picture { of: self.state.shown.pictured(), size, searched, drawn, image: None })
+        let of = self.state.shown.pictured();
+        Ok(Picture { of, size, cell: None, searched, drawn, image: None })
     }
 
     /// Writes what is open over the first `rows` rows: the table of a subject, a pick, the keys.

@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::picture::Image;
 use crate::pixels::{Output, Protocol};
 use crate::structure::{Order, Structure};
-use crate::terminal::{Reply, pixels_of_cell};
+use crate::terminal::{ASKED_IMAGE, Reply, pixels_of_cell};
 
 /// A cell where the picture is seen, and no text: its glyph is in no font.
 pub(super) const NO_TEXT: Cell = Cell { glyph: '\u{10FFFF}', ..Cell::BLANK };
@@ -24,20 +24,46 @@ const INK: Color = Color::Rgb([229; 3]);
 const PAPER: Color = Color::Rgb([0; 3]);
 
 impl Viewer<'_> {
-    /// The protocol for what is shown now; what tiers get wrong is shown in cells.
+    /// The protocol for what is shown now; what tiers get wrong is shown in cells, and what is too large.
     pub(super) fn protocol(&self) -> Auto<Protocol> {
-        self.pixels.protocol.filter(|_| self.state.shown.comparison.is_none())
+        let protocol = self.pixels.protocol.filter(|_| self.state.shown.comparison.is_none());
+        protocol.filter(|&protocol| self.exceeded(protocol).is_none())
+    }
+
+    /// How many pixels the terminal shows, if the picture has more by this protocol: sixels are not enlarged.
+    fn exceeded(&self, protocol: Protocol) -> Option<(u32, u32)> {
+        let most = self.terminal.abilities().sixel_pixels?;
+        let size = self.state.size();
+        let cell = self.pixels_of_cell(protocol, size);
+        let is_more = cell.0 * u32::from(size.0) > most.0 || cell.1 * u32::from(size.1) > most.1;
+        (is_more && matches!(protocol, Protocol::Sixel { .. })).then_some(most)
+    }
+
+    /// Tells the user if the picture is too large for sixels, which were asked for by name.
+    pub(super) fn say_too_large(&mut self) {
+        let exceeded = self.pixels.protocol.and_then(|protocol| self.exceeded(protocol));
+        if let Some((width, height)) = exceeded.filter(|_| self.pixels.output == Output::Sixel) {
+            self.notice =
+                Some(format!("--output sixel: the terminal shows {width}x{height} pixels at most"));
+        }
     }
 
     /// Falls back to cells where the terminal has told that it knows no such images, or has said nothing of the first.
+    /// Goes on to pixels where one behind tmux says late that it has them.
     pub(super) fn heed_image_reply(&mut self, reply: Reply) -> Outcome {
         let has_failed = self.pixels.are_denied_by(reply);
-        let abilities = self.terminal.abilities();
-        let is_denied = self.pixels.output.protocol(abilities).is_none();
-        if self.pixels.protocol.is_some() && (has_failed || is_denied) {
+        let protocol = self.pixels.output.protocol(self.terminal.abilities());
+        if self.pixels.protocol.is_some() && (has_failed || protocol.is_none()) {
             self.remove_images();
             self.pixels.protocol = None;
             self.say_no_pixels();
+            return Outcome::Changed;
+        }
+        let is_named = self.pixels.output == Output::Kitty;
+        if self.pixels.protocol.is_none() && is_named && reply == Reply::Image(ASKED_IMAGE, true) {
+            self.pixels.protocol = protocol;
+            let denial = self.denial();
+            self.notice.take_if(|notice| *notice == denial);
             return Outcome::Changed;
         }
         Outcome::Unchanged
@@ -45,27 +71,34 @@ impl Viewer<'_> {
 
     /// Tells the user if pixels were asked for by name and cannot be had.
     pub(super) fn say_no_pixels(&mut self) {
-        let name = crate::choice::name(&self.pixels.output);
         if self.pixels.protocol.is_none()
             && !matches!(self.pixels.output, Output::Auto | Output::Cells)
         {
-            self.notice = Some(format!("--output {name}: the terminal has none of these pixels"));
+            self.notice = Some(self.denial());
         }
     }
 
-    /// Draws the picture of the moment in pixels; also returns its effort, and how its rays found spheres.
+    fn denial(&self) -> String {
+        let name = crate::choice::name(&self.pixels.output);
+        format!("--output {name}: the terminal has none of these pixels")
+    }
+
+    /// How many pixels a cell of the picture has, in width and height.
+    pub(super) fn pixels_of_cell(&self, protocol: Protocol, size: (u16, u16)) -> (u32, u32) {
+        let told = self.terminal.abilities().cell_pixels;
+        let usual = || PixelGrid::usual_cell(&self.state.shown.style);
+        drawn_cell(protocol, pixels_of_cell(told).unwrap_or_else(usual), area(size))
+    }
+
+    /// Draws the picture of the moment in pixels, so many a cell; also returns its effort, and how its rays found spheres.
     pub(super) fn draw_image(
         &mut self,
-        protocol: Protocol,
+        cell: (u32, u32),
         size: (u16, u16),
         moving: bool,
     ) -> Result<(Image, Effort, (Order, Structure)), Error> {
         let Shown { view, style, structure, .. } = &self.state.shown;
-        let told = self.terminal.abilities().cell_pixels;
-        let cell = pixels_of_cell(told).unwrap_or_else(|| PixelGrid::usual_cell(style));
-        let area = u32::from(size.0) * u32::from(size.1);
-        let cell = drawn_cell(protocol, cell, area);
-        let pixels = u64::from(area) * u64::from(cell.0 * cell.1);
+        let pixels = u64::from(area(size)) * u64::from(cell.0 * cell.1);
         let across = match self.pace.spending(moving) {
             Spending::AtMost(most) if most < 4 * pixels => 1,
             Spending::AtMost(_) => 2,
@@ -135,10 +168,15 @@ impl Viewer<'_> {
     }
 }
 
+fn area((columns, rows): (u16, u16)) -> u32 {
+    u32::from(columns) * u32::from(rows)
+}
+
 /// The pixels that are drawn for each of so many cells of this size.
 fn drawn_cell(protocol: Protocol, cell: (u32, u32), cells: u32) -> (u32, u32) {
     // Sixels are not enlarged.
-    let most = if protocol == Protocol::Sixel { LARGEST_SCREEN } else { MOST_PIXELS };
+    let is_sixel = matches!(protocol, Protocol::Sixel { .. });
+    let most = if is_sixel { LARGEST_SCREEN } else { MOST_PIXELS };
     let mut drawn = cell;
     while drawn.0.min(drawn.1) > 1 && cells.saturating_mul(drawn.0 * drawn.1) > most {
         drawn = (drawn.0 / 2, drawn.1 / 2);
@@ -152,9 +190,10 @@ mod tests {
 
     #[test]
     fn a_picture_has_no_more_pixels_than_a_screen() {
-        assert_eq!(drawn_cell(Protocol::Sixel, (20, 40), 200 * 60), (20, 40));
+        let sixel = Protocol::Sixel { colors: 256 };
+        assert_eq!(drawn_cell(sixel, (20, 40), 200 * 60), (20, 40));
         assert_eq!(drawn_cell(Protocol::Iterm2, (20, 40), 200 * 60), (10, 20));
-        let (width, height) = drawn_cell(Protocol::Sixel, (512, 512), 200 * 60);
+        let (width, height) = drawn_cell(sixel, (512, 512), 200 * 60);
         assert!(width == height && (32..=64).contains(&width), "{width}x{height}");
     }
 }

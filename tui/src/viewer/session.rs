@@ -70,6 +70,8 @@ pub(super) struct Picture {
     pub(super) of: Shown,
     /// Columns and rows.
     pub(super) size: (u16, u16),
+    /// Width and height of a cell, if it is drawn in pixels.
+    pub(super) cell: Option<(u32, u32)>,
     /// How its rays found spheres.
     pub(super) searched: (Order, Structure),
     pub(super) drawn: Drawn,

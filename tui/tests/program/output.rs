@@ -6,8 +6,12 @@ use spherule::choice::name;
 use spherule::style::Charset;
 use std::ffi::OsStr;
 use std::fs::OpenOptions;
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Read};
+use std::os::fd::OwnedFd;
+use std::os::unix::net::UnixStream;
 use std::process::Stdio;
+use std::thread;
+use std::time::Duration;
 
 /// Pictures that leave nothing to choose, in all characters and colours: as many lines as rows, and of one colour lines that
 /// are the same.
@@ -161,6 +165,31 @@ fn the_depth_is_what_the_environment_says() {
     assert!(text("xterm-256color", "yes").contains("8;5;"));
     let sixteen = text("xterm", "");
     assert!(!sixteen.contains("8;2;") && !sixteen.contains("8;5;"));
+}
+
+/// Whoever shares the pipe may have made it non-blocking: then it takes nothing when it is full.
+#[test]
+fn a_slow_reader_gets_all() {
+    for words in [
+        // Written at once, then by parts.
+        "marbles --size 300x100 --color truecolor --show split:fast,exact",
+        "cases --json --count 3000",
+        "cases --out-spheres - --count 30000",
+    ] {
+        let expected = run(words.split(' ')).stdout;
+        assert!(expected.len() > 300_000, "{words}: {} bytes fill no pipe", expected.len());
+        let (mut reader, stdout) = UnixStream::pair().expect("a socket");
+        stdout.set_nonblocking(true).expect("it can be");
+        let child = spherule().args(words.split(' ')).stdout(OwnedFd::from(stdout)).spawn();
+        let mut child = child.expect("the program runs");
+        let mut all = vec![0];
+        reader.read_exact(&mut all).expect("a byte");
+        // Meanwhile it is full.
+        thread::sleep(Duration::from_millis(50));
+        reader.read_to_end(&mut all).expect("the rest");
+        assert!(child.wait().expect("the program ends").success(), "{words}");
+        assert!(all == expected, "{words}: {} bytes of {}", all.len(), expected.len());
+    }
 }
 
 #[test]

@@ -75,7 +75,24 @@ fn kitty_gets_the_pixels_of_the_png() {
     for key in ["a=T", "f=24", "o=z", "c=30", "r=9"] {
         assert!(keys.split(',').any(|own| own == key), "{key} in {keys}");
     }
-    assert!(text.ends_with("\x1b\\\n"));
+    // The cursor stays, in the first of as many rows, and then goes below them.
+    assert!(keys.split(',').any(|key| key == "C=1"), "{keys}");
+    assert!(text.starts_with(&format!("{}\x1b[8A\x1b_G", "\n".repeat(8))));
+    assert!(text.ends_with("\x1b\\\x1b[8B\n"));
+    let row = String::from_utf8(sent("marbles --size 30x1 --output kitty", None)).expect("UTF-8");
+    assert!(row.starts_with("\x1b_G") && row.ends_with("\x1b\\\n"), "{row:?}");
+}
+
+/// A picture that is higher than the usual screen would go out at its top: there the terminal itself moves the cursor.
+#[test]
+fn a_screen_that_is_not_known_has_the_rows_of_a_picture_in_a_pipe() {
+    for (rows, stays) in [(24, true), (25, false), (60, false)] {
+        let words = format!("marbles --size 6x{rows} --output kitty");
+        let text = String::from_utf8(sent(&words, None)).expect("UTF-8");
+        let (keys, _) = of_kitty(&text);
+        assert_eq!(keys.split(',').any(|key| key == "C=1"), stays, "{rows}: {keys}");
+        assert_eq!(text.starts_with('\n'), stays, "{rows}");
+    }
 }
 
 /// Commands are wrapped for the terminal behind tmux; placeholders tell where the image is.
@@ -187,7 +204,11 @@ fn sixels_are_the_pixels_of_the_png_in_256_colours() {
     {
         let text =
             String::from_utf8(sent(&format!("{words} --output sixel"), None)).expect("UTF-8");
+        // After the last band the cursor is in the last row of cells.
+        assert!(text.ends_with("\x1b\\\n") && !text.ends_with("-\x1b\\\n"), "{words}");
         let (image, expected) = (of_sixel(&text), png(words));
+        let bands = expected.height.div_ceil(6) as usize;
+        assert_eq!(text.matches('-').count(), bands - 1, "{words}");
         assert_eq!((image.width, image.height), (expected.width, expected.height));
         let pairs = || image.rgb.as_chunks::<3>().0.iter().zip(expected.rgb.as_chunks::<3>().0);
         let mut colors: Vec<_> = pairs().map(|(own, _)| own).collect();

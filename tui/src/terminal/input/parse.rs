@@ -1,6 +1,8 @@
 //! What terminals send: keys, the mouse and answers, as far as the program has a use for them. What it has no use for
 //! is taken in whole, so that its parts are not mistaken for keys.
 
+mod coded;
+
 use super::super::reply::{self, Reply};
 use crossterm::event::{
     Event, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind,
@@ -47,16 +49,7 @@ pub(super) fn parse(bytes: &[u8], more_may_come: bool) -> Parsed {
         [ESCAPE, ESCAPE | CTRL_C | CTRL_Z, ..] => Parsed::Taken(1, Some(user(key(KeyCode::Esc)))),
         // A key with Alt.
         [ESCAPE, _, ..] => Parsed::Taken(2, None),
-        [b'\r', ..] => Parsed::Taken(1, Some(user(key(KeyCode::Enter)))),
-        [control @ 1..=26, ..] => {
-            let letter = KeyCode::Char(char::from(control + b'a' - 1));
-            let event = Event::Key(KeyEvent::new(letter, KeyModifiers::CONTROL));
-            Parsed::Taken(1, Some(user(event)))
-        }
-        [printable @ b' '..=b'~', ..] => {
-            Parsed::Taken(1, Some(user(key(KeyCode::Char(char::from(*printable))))))
-        }
-        [_, ..] => Parsed::Taken(1, None),
+        [byte, ..] => Parsed::Taken(1, of_byte(*byte).map(user)),
     };
     match parsed {
         Parsed::Unfinished if !more_may_come => {
@@ -112,15 +105,17 @@ fn control_sequence(rest: &[u8]) -> Parsed {
         return if is_overlong { Parsed::Taken(2 + rest.len(), None) } else { Parsed::Unfinished };
     };
     let (parameters, last) = (&rest[..end], rest[end]);
-    let is_plain = parameters.iter().all(|byte| matches!(byte, b'0'..=b'9' | b';'));
+    // Behind a colon is more about the number before it.
+    let is_plain = parameters.iter().all(|byte| matches!(byte, b'0'..=b'9' | b';' | b':'));
     let of_user = match last {
         // Not a final byte: the sequence is broken off, and another thing begins.
         0..=0x1f => return Parsed::Taken(2 + end, None),
         b'M' | b'm' if parameters.first() == Some(&b'<') => mouse(&parameters[1..], last == b'm'),
-        b'~' if is_plain => page(parameters),
+        _ if !is_plain || coded::is_let_go(parameters) => None,
+        b'u' => coded::of_u(parameters).and_then(of_byte),
+        b'~' => page(parameters).or_else(|| coded::of_27(parameters).and_then(of_byte)),
         // Parameters of an arrow are modifiers.
-        _ if is_plain => arrow(last),
-        _ => None,
+        _ => arrow(last),
     };
     let of_terminal = || reply::of_sequence(parameters, last).map(Incoming::Reply);
     Parsed::Taken(2 + end + 1, of_user.map(user).or_else(of_terminal))
@@ -143,6 +138,20 @@ fn user(event: Event) -> Incoming {
 
 fn key(code: KeyCode) -> Event {
     Event::Key(KeyEvent::new(code, KeyModifiers::NONE))
+}
+
+/// A key that is sent as one byte.
+fn of_byte(byte: u8) -> Option<Event> {
+    match byte {
+        b'\r' => Some(key(KeyCode::Enter)),
+        ESCAPE => Some(key(KeyCode::Esc)),
+        1..=26 => {
+            let letter = KeyCode::Char(char::from(byte + b'a' - 1));
+            Some(Event::Key(KeyEvent::new(letter, KeyModifiers::CONTROL)))
+        }
+        b' '..=b'~' => Some(key(KeyCode::Char(char::from(byte)))),
+        _ => None,
+    }
 }
 
 fn arrow(last: u8) -> Option<Event> {

@@ -29,6 +29,51 @@ fn keys() {
     assert_eq!(taken("\x1a"), (1, Some(control('z'))));
 }
 
+/// Some terminals send no other Ctrl-C, Ctrl-Z or Escape than these.
+#[test]
+fn keys_by_their_codes_are_the_same_keys() {
+    let letter = |letter| pressed(KeyCode::Char(letter));
+    for (bytes, expected) in [
+        ("\x1b[99;5u", Some(control('c'))),
+        ("\x1b[27;5;99~", Some(control('c'))),
+        ("\x1b[122;5u", Some(control('z'))),
+        ("\x1b[27;5;122~", Some(control('z'))),
+        // With Num Lock, with Shift, and held down.
+        ("\x1b[99;133u", Some(control('c'))),
+        ("\x1b[99:67;6u", Some(control('c'))),
+        ("\x1b[99;5:1u", Some(control('c'))),
+        ("\x1b[99;5:2u", Some(control('c'))),
+        ("\x1b[27u", pressed(KeyCode::Esc)),
+        ("\x1b[27;1u", pressed(KeyCode::Esc)),
+        ("\x1b[27;5u", pressed(KeyCode::Esc)),
+        ("\x1b[91;5u", pressed(KeyCode::Esc)),
+        ("\x1b[27;1;27~", pressed(KeyCode::Esc)),
+        ("\x1b[13;2u", pressed(KeyCode::Enter)),
+        ("\x1b[113u", letter('q')),
+        ("\x1b[113;;113u", letter('q')),
+        ("\x1b[107;2u", letter('K')),
+        ("\x1b[47:63;2u", letter('?')),
+        ("\x1b[27;2;63~", letter('?')),
+        ("\x1b[27;2;75~", letter('K')),
+        ("\x1b[1;1:1A", pressed(KeyCode::Up)),
+        ("\x1b[5;1:2~", pressed(KeyCode::PageUp)),
+        // Let go, with Alt, of no byte, or no key at all.
+        ("\x1b[99;5:3u", None),
+        ("\x1b[1;1:3A", None),
+        ("\x1b[5;1:3~", None),
+        ("\x1b[113;3u", None),
+        ("\x1b[27;3;113~", None),
+        ("\x1b[57361u", None),
+        ("\x1b[113;0u", None),
+        ("\x1b[113;99999u", None),
+        ("\x1b[27;5~", None),
+        ("\x1b[?1u", None),
+        ("\x1b[u", None),
+    ] {
+        assert_eq!(taken(&format!("{bytes}q")), (bytes.len(), expected), "{bytes:?}");
+    }
+}
+
 #[test]
 fn function_keys_of_the_console_are_no_letters() {
     for letter in 'A'..='E' {
