@@ -76,7 +76,9 @@ pub fn cases(arguments: &CasesArguments) -> Result<(), Error> {
         numbers.write(|| vec![family.number])?;
     }
     // All files are whole before any of them gets its name.
-    [spheres, rays, numbers].into_iter().try_for_each(Output::finish)
+    let mut outputs = [spheres, rays, numbers];
+    outputs.iter_mut().try_for_each(Output::written)?;
+    outputs.into_iter().try_for_each(Output::finish)
 }
 
 /// Case `index`, and its family.
@@ -169,6 +171,14 @@ impl Output {
         file.write_all(&bytes()).map_err(|error| Error::of_output(name, &error))
     }
 
+    /// Sees to it that all of the array is on the disk.
+    fn written(&mut self) -> Result<(), Error> {
+        let Some((name, file)) = &mut self.0 else { return Ok(()) };
+        let written = file.flush().and_then(|()| file.get_ref().written());
+        written.map_err(|error| Error::of_output(name, &error))
+    }
+
+    /// Gives the file its name.
     fn finish(self) -> Result<(), Error> {
         let Some((name, file)) = self.0 else { return Ok(()) };
         let failed = |error: io::Error| Error::of_output(&name, &error);

@@ -184,7 +184,7 @@ pub fn read_rows<const N: usize>(path: &Path) -> Result<Vec<[f32; N]>, Error> {
     Ok(values)
 }
 
-/// A one-dimensional array that has been written, and has not got its name yet.
+/// A one-dimensional array that is whole on the disk, and has not got its name yet.
 #[derive(Debug)]
 pub struct Column {
     name: String,
@@ -209,7 +209,8 @@ impl Column {
             let mut writer = options.writer(&mut file).begin_nd()?;
             writer.extend(values)?;
             writer.finish()?;
-            file.into_inner().map_err(IntoInnerError::into_error)
+            let file = file.into_inner().map_err(IntoInnerError::into_error)?;
+            file.written().map(|()| file)
         };
         let name = path.display().to_string();
         match write() {

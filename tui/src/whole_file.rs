@@ -37,7 +37,7 @@ impl WholeFile {
     /// until the new one is whole, which has its mode.
     ///
     /// # Errors
-    /// If it cannot be made.
+    /// If it cannot be made, or the file that is there cannot be written to.
     pub fn create(name: &Path) -> io::Result<Self> {
         if name == Path::new("-") {
             return Ok(Self::Stdout(Stdout));
@@ -49,7 +49,11 @@ impl WholeFile {
             Ok(data) if !data.is_file() => {
                 return Ok(Self::InPlace(OpenOptions::new().write(true).open(name)?));
             }
-            Ok(data) => Some(data.permissions()),
+            Ok(data) => {
+                // Who may not write to a file may not replace it, even if the folder is theirs.
+                OpenOptions::new().write(true).open(&name)?;
+                Some(data.permissions())
+            }
             Err(_) => None,
         };
         let folder = name.parent().filter(|folder| !folder.as_os_str().is_empty());
@@ -67,16 +71,26 @@ impl WholeFile {
         Ok(Self::Unfinished { file, name, watch })
     }
 
+    /// Sees to it that all that has been written is on the disk.
+    ///
+    /// # Errors
+    /// If it is not: a disk over a network may be full only now.
+    pub fn written(&self) -> io::Result<()> {
+        match self {
+            Self::Stdout(_) | Self::InPlace(_) => Ok(()),
+            Self::Unfinished { file, .. } => file.as_file().sync_all(),
+        }
+    }
+
     /// Gives the file its name.
     ///
     /// # Errors
     /// If not all of it is on the disk, or it cannot be renamed: then it is removed.
     pub fn finish(self) -> io::Result<()> {
+        self.written()?;
         match self {
             Self::Stdout(_) | Self::InPlace(_) => Ok(()),
             Self::Unfinished { file, name, watch: _watch } => {
-                // A disk over a network may be full only now.
-                file.as_file().sync_all()?;
                 file.persist(name).map(|_| ()).map_err(|error| error.error)
             }
         }

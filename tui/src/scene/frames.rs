@@ -15,6 +15,8 @@ pub struct Frames {
     context: Context,
     /// Where frames begin, as far as that is known: one more than have been passed.
     places: Vec<Place>,
+    /// What a file that is followed had just before the last of them, if that is known.
+    tail: Option<Vec<u8>>,
     /// The frame at whose start the input is.
     at: usize,
     /// How many there are, once that is known.
@@ -28,7 +30,7 @@ impl Frames {
         // A pipe is waited for while it is read, and its end is the end.
         let follows = follows && input.can_be_read_again();
         let context = Context { follows, ..context };
-        Self { input, format, context, places, at: 0, count: None, follows }
+        Self { input, format, context, places, tail: None, at: 0, count: None, follows }
     }
 
     /// The name of the file.
@@ -84,7 +86,8 @@ impl Frames {
     /// again.
     ///
     /// # Errors
-    /// [`ReadError`] if a frame is not valid, or the file is followed and was cut. A frame without particles is passed.
+    /// [`ReadError`] if a frame is not valid, or the file is followed and has other contents now. A frame without particles
+    /// is passed.
     pub fn read(&mut self, index: usize) -> Result<Option<Scene>, ReadError> {
         if !self.format.has_frames() && index > 0 {
             self.count = Some(1);
@@ -147,9 +150,8 @@ impl Frames {
         &mut self,
         read: impl FnOnce(&mut Input, &mut Context) -> Result<T, ReadError>,
     ) -> Result<Option<T>, ReadError> {
-        // What is written to it from then on need not begin a line where reading would go on.
-        if self.follows && self.input.was_cut() {
-            return Err(ReadError::whole(self.input.source(), "the file was cut"));
+        if self.follows && !self.has_what_was_passed()? {
+            return Ok(None);
         }
         let before = self.input.place();
         let result = read(&mut self.input, &mut self.context);
@@ -166,10 +168,104 @@ impl Frames {
         Ok(Some(result))
     }
 
+    /// Whether the file still has what has been passed. One that is copied over again is shorter for a while.
+    ///
+    /// # Errors
+    /// [`ReadError`] if it has something else there: what follows need not begin a line.
+    fn has_what_was_passed(&mut self) -> Result<bool, ReadError> {
+        let last = self.places[self.places.len() - 1];
+        if !self.input.reaches(last, self.places[self.at])? {
+            return Ok(false);
+        }
+        let found = self.input.bytes_before(last);
+        if matches!((&self.tail, &found), (Some(tail), Some(found)) if tail != found) {
+            let what = "the file was written anew, with other contents";
+            return Err(ReadError::whole(self.input.source(), what));
+        }
+        Ok(true)
+    }
+
     fn passed(&mut self) {
         self.at += 1;
         if self.at == self.places.len() {
-            self.places.push(self.input.place());
+            let place = self.input.place();
+            self.places.push(place);
+            self.tail = if self.follows { self.input.bytes_before(place) } else { None };
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs::{File, rename, write};
+    use std::io::Write;
+    use std::path::{Path, PathBuf};
+
+    fn path(name: &str) -> PathBuf {
+        std::env::temp_dir().join(format!("spherule-{}-{name}", std::process::id()))
+    }
+
+    fn text(count: usize) -> String {
+        (0..count).map(|index| format!("1\n\nC {index} 0 0\n")).collect()
+    }
+
+    fn followed(path: &Path) -> Frames {
+        let file = File::open(path).expect("a file");
+        let input = Input::of_file(file, path.to_owned(), "file").expect("an input");
+        Frames::new(input, Format::Xyz, Context::default(), true)
+    }
+
+    /// Who copies a file over another cuts it, and it grows again; others put a new one in its place.
+    #[test]
+    fn a_file_that_is_written_anew_goes_on_where_it_was() {
+        let (path, new) = (path("anew.xyz"), path("anew.new"));
+        let copy = |text: String| write(&path, text).expect("a file");
+        let replace = |text: String| {
+            write(&new, text).expect("a file");
+            rename(&new, &path).expect("the file");
+        };
+        copy(text(3));
+        let mut frames = followed(&path);
+        let mut x = |index| {
+            let scene = frames.read(index).unwrap_or_else(|error| panic!("{error}"));
+            scene.map(|scene| scene.spheres().get(0).expect("an atom").center.x)
+        };
+        // All three are in the buffer then.
+        assert_eq!(x(0), Some(0.0));
+        for count in [0, 1] {
+            copy(text(count));
+            assert_eq!(x(1), None, "{count}");
+        }
+        copy(text(3));
+        assert_eq!([x(1), x(2), x(3)], [Some(1.0), Some(2.0), None]);
+        for count in [0, 2, 3] {
+            copy(text(count));
+            assert_eq!(x(3), None, "{count}");
+        }
+        copy(text(4));
+        assert_eq!([x(3), x(4)], [Some(3.0), None]);
+        replace(text(2));
+        assert_eq!([x(4), x(0)], [None, None]);
+        replace(text(5));
+        assert_eq!([x(4), x(0), x(5)], [Some(4.0), Some(0.0), None]);
+        replace(text(6).replace('C', "O"));
+        let error = frames.read(5).expect_err("other contents");
+        assert_eq!(error.to_string(), "file: the file was written anew, with other contents");
+    }
+
+    #[test]
+    fn a_file_that_was_empty_may_be_compressed() {
+        let path = path("empty.xyz.gz");
+        write(&path, "").expect("a file");
+        let mut frames = followed(&path);
+        assert!(frames.read(0).expect("no error").is_none());
+        let mut gz = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::fast());
+        gz.write_all(text(50).as_bytes()).expect("room in memory");
+        write(&path, gz.finish().expect("room in memory")).expect("a file");
+        for index in 0..=50 {
+            let scene = frames.read(index).unwrap_or_else(|error| panic!("{error}"));
+            assert_eq!(scene.is_some(), index < 50, "{index}");
         }
     }
 }

@@ -16,7 +16,7 @@ use crate::progress::Progress;
 use compressed::decompressed;
 pub(super) use line::Line;
 pub(super) use place::Place;
-use place::open_at;
+use place::{open_at, uncompressed};
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::PathBuf;
@@ -55,8 +55,8 @@ pub(super) struct Input {
     terminated: bool,
     /// Shows the progress of reading, until `be_quiet` is called.
     progress: Option<Progress>,
-    /// The size of a file that is not compressed.
-    size: Option<u64>,
+    /// The open file, if it is not compressed.
+    plain: Option<File>,
 }
 
 impl std::fmt::Debug for Input {
@@ -71,15 +71,11 @@ impl Input {
     /// # Errors
     /// [`ReadError`] if it cannot be read.
     pub(super) fn of_file(file: File, path: PathBuf, source: &str) -> Result<Self, ReadError> {
-        let failed = |error: io::Error| ReadError::whole(source, cause(&error));
-        let size = if compressed::is_plain(&file).map_err(failed)? {
-            file.metadata().ok().map(|metadata| metadata.len())
-        } else {
-            None
-        };
+        let plain = uncompressed(&file);
+        let plain = plain.map_err(|error| ReadError::whole(source, cause(&error)))?;
         // More may be written behind its end.
         let mut input = Self::reading(Box::new(file), source)?;
-        (input.file, input.size) = (Some(path), size);
+        (input.file, input.plain) = (Some(path), plain);
         Ok(input)
     }
 
@@ -106,7 +102,7 @@ impl Input {
             last: Place::default(),
             terminated: true,
             progress: Some(Progress::after(PATIENCE)),
-            size: None,
+            plain: None,
         })
     }
 
@@ -167,9 +163,10 @@ impl Input {
     fn tell(&mut self) {
         let Some(progress) = &mut self.progress else { return };
         let read = self.before + self.end as u64;
-        match self.size.filter(|&size| size > 0) {
-            Some(size) => progress.show("reading", read as f64 / size as f64),
-            None => progress.say(&format!("reading, {} MB", read / 10_000_000 * 10)),
+        let metadata = self.plain.as_ref().and_then(|file| file.metadata().ok());
+        match metadata.map(|metadata| metadata.len()) {
+            Some(size) if size > 0 => progress.show("reading", read as f64 / size as f64),
+            _ => progress.say(&format!("reading, {} MB", read / 10_000_000 * 10)),
         }
     }
 
@@ -293,8 +290,9 @@ impl Input {
         let Some(path) = &self.file else {
             return Err(ReadError::whole(&self.source, "a pipe cannot be read again"));
         };
-        let reader = open_at(path, place.offset);
-        self.reader = reader.map_err(|error| ReadError::whole(&self.source, cause(&error)))?;
+        let opened = open_at(path, place.offset);
+        let opened = opened.map_err(|error| ReadError::whole(&self.source, cause(&error)));
+        (self.reader, self.plain) = opened?;
         (self.start, self.end, self.before, self.number) = (0, 0, place.offset, place.number);
         Ok(())
     }

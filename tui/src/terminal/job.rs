@@ -10,6 +10,18 @@ struct Place {
     session: i32,
 }
 
+/// The parent of a process, in its namespace.
+#[derive(Clone, Copy, Debug)]
+struct Parent {
+    place: Place,
+    /// Whether it is an init of containers.
+    is_init: bool,
+}
+
+/// Inits of containers, among them what Docker and Podman call those they bring. They make a group for their child, in
+/// their session, as a shell does; but they wait for its end alone.
+const INITS: [&str; 4] = ["tini", "docker-init", "catatonit", "podman-init"];
+
 /// Whether a shell waits for the process group, as for a job: then it is told of a stop.
 ///
 /// No one is told of the group of a session's leader, such as a program that is all that runs in its terminal, nor of a group
@@ -19,7 +31,9 @@ pub(super) fn has_shell() -> bool {
     let places = if cfg!(target_os = "linux") { places_by_files() } else { places_by_calls() };
     let Some((Place { group, session }, parent)) = places else { return true };
     match parent {
-        Some(parent) => parent.session == session && is_a_job(group, session, parent.group),
+        Some(Parent { place, is_init }) => {
+            !is_init && place.session == session && is_a_job(group, session, place.group)
+        }
         // The parent is outside, and so is a session that it shares.
         None => session == 0,
     }
@@ -33,17 +47,24 @@ fn is_a_job(group: i32, session: i32, group_of_parent: i32) -> bool {
 }
 
 /// Where the process is, and its parent, if that is in the namespace.
-fn places_by_files() -> Option<(Place, Option<Place>)> {
+fn places_by_files() -> Option<(Place, Option<Parent>)> {
     let read = |process: &str| {
         let line = fs::read(format!("/proc/{process}/stat")).ok()?;
-        of_line(&String::from_utf8_lossy(&line))
+        Some(String::from_utf8_lossy(&line).into_owned())
     };
-    let (own, parent) = read("self")?;
+    let (own, parent) = of_line(&read("self")?)?;
     if parent == 0 {
         return Some((own, None));
     }
-    let (place_of_parent, _) = read(&parent.to_string())?;
-    Some((own, Some(place_of_parent)))
+    let line = read(&parent.to_string())?;
+    let (place, _) = of_line(&line)?;
+    Some((own, Some(Parent { place, is_init: is_init(&line) })))
+}
+
+/// Whether the line of its `stat` says that a process is an init of containers.
+fn is_init(line: &str) -> bool {
+    let name = line.split_once('(').and_then(|(_, rest)| rest.rsplit_once(')'));
+    name.is_some_and(|(name, _)| INITS.contains(&name))
 }
 
 /// Where a process is, and its parent's number, from the line of its `stat`; its name may hold anything.
@@ -57,14 +78,17 @@ fn of_line(line: &str) -> Option<(Place, i32)> {
 }
 
 /// The same where numbers are never 0.
-fn places_by_calls() -> Option<(Place, Option<Place>)> {
+fn places_by_calls() -> Option<(Place, Option<Parent>)> {
     let read = |process: Option<Pid>| {
         let (group, session) = (getpgid(process).ok()?, getsid(process).ok()?);
         Some(Place { group: group.as_raw_pid(), session: session.as_raw_pid() })
     };
     let (own, parent) = (read(None)?, getppid());
-    let place_of_parent = if parent.is_some() { Some(read(parent)?) } else { None };
-    Some((own, place_of_parent))
+    let parent = match parent {
+        Some(_) => Some(Parent { place: read(parent)?, is_init: false }),
+        None => None,
+    };
+    Some((own, parent))
 }
 
 #[cfg(test)]
@@ -82,6 +106,24 @@ mod tests {
         // In a namespace: of a shell that was started in it, or part of a job from outside.
         assert!(is_a_job(job, 0, shell));
         assert!(is_a_job(0, 0, 0));
+    }
+
+    #[test]
+    fn inits_are_known_by_their_names() {
+        for (line, expected) in [
+            ("1 (tini) S 0 1 1 34816 7 4194560", true),
+            ("1 (docker-init) S 0 1 1 34816 7 4194560", true),
+            ("1 (podman-init) S 0 1 1 34816 7 4194560", true),
+            ("9 (catatonit) S 1 9 1 34816 12 4194560", true),
+            ("1 (bash) S 0 1 1 34816 7 4194560", false),
+            ("17 (a (tini) b) S 16 15 14 0", false),
+            ("17 (tini)) S 16 15 14 0", false),
+            ("17 () S 16 15 14 0", false),
+            ("17 tini S 16 15 14 0", false),
+            ("", false),
+        ] {
+            assert_eq!(is_init(line), expected, "{line}");
+        }
     }
 
     #[test]

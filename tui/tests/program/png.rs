@@ -3,7 +3,7 @@
 use crate::run::{printed, refusal, run, spherule};
 use png::{BitDepth, ColorType, Decoder, SrgbRenderingIntent};
 use rustix::process::{Pid, Signal, kill_process};
-use std::fs::{self, Permissions};
+use std::fs::{self, OpenOptions, Permissions};
 use std::io::Cursor;
 use std::os::unix::fs::PermissionsExt;
 use std::os::unix::process::ExitStatusExt;
@@ -133,6 +133,23 @@ fn a_file_that_is_replaced_keeps_its_mode() {
         let output = run(["unit".as_ref(), "--png".as_ref(), file.as_os_str()]);
         assert_eq!((&*printed(&output), mode()), ("", old), "{old:o}");
     }
+}
+
+/// Who owns the folder could put another in its place.
+#[test]
+fn a_file_that_is_write_protected_stays() {
+    let folder = folder("png-protected");
+    let file = folder.join("a.png");
+    fs::write(&file, "before").expect("a writable folder");
+    fs::set_permissions(&file, Permissions::from_mode(0o444)).expect("the owner's file");
+    if OpenOptions::new().write(true).open(&file).is_ok() {
+        println!("skipped: root may write to any file");
+        return;
+    }
+    let found = failure(&run(["unit".as_ref(), "--png".as_ref(), file.as_os_str()]));
+    assert_eq!(found, format!("spherule: {}: permission denied", file.display()));
+    assert_eq!(fs::read(&file).expect("a file"), b"before");
+    assert_eq!(names(&folder), ["a.png"]);
 }
 
 #[test]

@@ -4,8 +4,8 @@
 //! `element` or `type`; other columns of numbers can be chosen for colours. A unit in brackets may follow a name, as in
 //! `x (mm)`. Each row has as many values as the header has names, or is refused: a column that is not named would shift the
 //! others. Without a header the first three columns are positions, and a fourth is the radius. `--columns` chooses others,
-//! by names or by numbers from 1. Lines that begin with `#` or `%` are passed over, and with `//` unless a header begins otherwise,
-//! except that one before the rows may be the header, below which the number of rows may stand.
+//! by names or by numbers from 1. Lines that begin with `#` or `%` are passed over, and with `//` unless a header begins otherwise or,
+//! without one, the rows begin with labels; except that one before the rows may be the header, below which the number of rows may stand.
 
 mod columns;
 mod first_line;
@@ -101,6 +101,7 @@ struct Header {
 
 /// Reads up to the first row, which is next then.
 fn layout(input: &mut Input, chosen: Option<&str>) -> Result<Layout, ReadError> {
+    let mut is_below_slashes = false;
     let (first, is_header) = loop {
         let Some(line) = input.line()? else { return Err(no_row(input)) };
         if line.trimmed().is_empty() {
@@ -112,10 +113,17 @@ fn layout(input: &mut Input, chosen: Option<&str>) -> Result<Layout, ReadError> 
         if !first.is_comment || is_header && has_axes(&names) {
             break (first, is_header);
         }
+        is_below_slashes |= first.has_slashes;
     };
     let is_by_number = is_by_number(chosen);
-    // Below a header without slashes, a row may begin with an address.
-    let has_slashes = !is_header || first.has_slashes;
+    // A row may begin with an address below a header without slashes, or if the first row begins with no number.
+    let has_slashes = match is_header {
+        true => first.has_slashes,
+        false => {
+            let has_label = first.names().first().is_some_and(|name| number(name).is_none());
+            is_below_slashes || !has_label
+        }
+    };
     let (mut first, is_header) = match is_header {
         true => header_of_rows(input, first, chosen)?,
         false => {

@@ -12,17 +12,28 @@ pub(in crate::scene) struct Place {
     pub(super) number: usize,
 }
 
-/// What follows `offset` bytes of the file, unpacked if it is compressed.
+/// The same open file, if it is not compressed.
+///
+/// # Errors
+/// What the system says.
+pub(super) fn uncompressed(file: &File) -> io::Result<Option<File>> {
+    is_plain(file)?.then(|| file.try_clone()).transpose()
+}
+
+/// What follows `offset` bytes of the file, unpacked if it is compressed, and the open file if it is not.
 ///
 /// # Errors
 /// What the system says, or the unpacking.
-pub(super) fn open_at(path: &Path, offset: u64) -> io::Result<Box<dyn Read + Send>> {
+pub(super) fn open_at(
+    path: &Path,
+    offset: u64,
+) -> io::Result<(Box<dyn Read + Send>, Option<File>)> {
     let mut file = File::open(path)?;
-    if is_plain(&file)? {
+    if let Some(plain) = uncompressed(&file)? {
         io::Seek::seek(&mut file, io::SeekFrom::Start(offset))?;
-        return Ok(Box::new(file));
+        return Ok((Box::new(file), Some(plain)));
     }
     let mut reader = decompressed(Box::new(file))?;
     io::copy(&mut reader.by_ref().take(offset), &mut io::sink())?;
-    Ok(reader)
+    Ok((reader, None))
 }

@@ -167,14 +167,14 @@ fn a_second_frame_that_is_wrong_is_told_of() {
     assert!(film.status().starts_with("frame 1: "), "{}", film.status());
 }
 
-/// What is written to it from then on would be read from the middle of a line.
+/// They would be read from the middle of a line.
 #[test]
-fn a_file_that_is_cut_while_it_is_followed_ends_the_film() {
+fn other_contents_of_a_file_that_is_followed_end_the_film() {
     let mut film = followed("cut.xyz", 3);
     film.play();
     assert_eq!((next(&mut film), next(&mut film)), (1.0, 2.0));
     wait_until(&film, |state| state.unwritten == Some(3));
-    std::fs::write(path("cut.xyz"), text(1)).expect("a file");
+    std::fs::write(path("cut.xyz"), text(4).replace('C', "O")).expect("a file");
     wait_until(&film, |state| state.ending.is_some());
     for _ in 0..2000 {
         if film.wait().is_none() {
@@ -184,8 +184,8 @@ fn a_file_that_is_cut_while_it_is_followed_ends_the_film() {
         std::thread::sleep(Duration::from_millis(2));
     }
     assert!(film.wait().is_none() && film.take_news());
-    let expected = format!("frame 3: {}: the file was cut", path("cut.xyz").display());
-    assert_eq!(film.status(), expected);
+    let what = "the file was written anew, with other contents";
+    assert_eq!(film.status(), format!("frame 3: {}: {what}", path("cut.xyz").display()));
 }
 
 /// Not even at the end is one of them waited for.

@@ -127,6 +127,11 @@ fn an_address_begins_a_row_below_a_header() {
         assert_eq!(centers(&good(format!("{header}{rows}"))), EXPECTED, "{header}");
     }
     assert_eq!(centers(&by("2,3,4", &format!("file,x,y,z\n{rows}"))), EXPECTED);
+    // Or below a row that has a label, unless comments have slashes.
+    assert_eq!(centers(&by("2,3,4", "/a 0.5 1.5 2.5\n//nas/b 3 4 5\n")), EXPECTED);
+    assert_eq!(centers(&by("2,3,4", "# of a shop\n/a 0.5 1.5 2.5\n//nas/b 3 4 5\n")), EXPECTED);
+    assert_eq!(centers(&by("2,3,4", "// of\na 0.5 1.5 2.5\n// between\nb 3 4 5\n")), EXPECTED);
+    assert_eq!(centers(&by("1,2,3", "0.5 1.5 2.5\n// between\n3 4 5\n")), EXPECTED);
     let named = "# of a shop: x y z\n//X,Y,Z\n0.5,1.5,2.5\n// between\n3,4,5\n";
     assert_eq!(centers(&good(named)), EXPECTED);
 }

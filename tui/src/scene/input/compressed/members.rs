@@ -1,15 +1,16 @@
 //! The members of a gzip file, one behind the other.
 //!
-//! Zeros behind the last one are no data, as for `zcat`: a tape or a disk fills its blocks with them. Other bytes are damage.
+//! Zeros behind the last one are no data, as for `zcat`: a tape or a disk fills its blocks with them. Other bytes are damage,
+//! behind zeros too.
 
 use flate2::bufread::GzDecoder;
-use std::io::{self, BufReader, Chain, Cursor, Read};
+use std::io::{self, BufRead, BufReader, Chain, Cursor, Read};
 
 /// Bytes of the file that are read at once.
 const BLOCK: usize = 32 << 10;
 
-/// How many bytes tell what follows a member.
-const HEAD: u64 = 2;
+/// How many bytes tell what follows a member: none begins with 0.
+const HEAD: u64 = 1;
 
 /// A member, behind the bytes that told it.
 type Member<R> = GzDecoder<Chain<Cursor<Vec<u8>>, BufReader<R>>>;
@@ -40,15 +41,29 @@ impl<R: Read> Read for Members<R> {
             }
             let mut head = Vec::new();
             member.get_mut().take(HEAD).read_to_end(&mut head)?;
-            let is_padding = head.iter().all(|&byte| byte == 0);
-            let ended = self.member.take().filter(|_| !is_padding);
-            self.member = ended.map(|ended| {
+            if head.iter().all(|&byte| byte == 0) {
+                pass_padding(member.get_mut())?;
+                self.member = None;
+                return Ok(0);
+            }
+            self.member = self.member.take().map(|ended| {
                 let (_, rest) = ended.into_inner().into_inner();
                 GzDecoder::new(Cursor::new(head).chain(rest))
             });
         }
         Ok(0)
     }
+}
+
+/// Reads the rest of the file, which is zeros or damage.
+fn pass_padding(rest: &mut impl BufRead) -> io::Result<()> {
+    for byte in rest.bytes() {
+        if byte? != 0 {
+            let what = "other bytes behind the zeros at its end";
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, what));
+        }
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -87,8 +102,13 @@ mod tests {
     #[test]
     fn members_follow_each_other_and_what_follows_them_is_no_data() {
         let two = [member("one\n"), member(""), member("two\n")].concat();
-        let ends: [(&[u8], &str); 3] =
-            [(b"", "nothing"), (&[0; 512], "zeros"), (b"\0", "one zero")];
+        let blocks = vec![0; 3 * BLOCK];
+        let ends: [(&[u8], &str); 4] = [
+            (b"", "nothing"),
+            (&[0; 512], "zeros"),
+            (b"\0", "one zero"),
+            (&blocks, "blocks of zeros"),
+        ];
         for (behind, what) in ends {
             let all = [&*two, behind].concat();
             assert_eq!(unpacked(&all).expect(what), "one\ntwo\n", "{what}");
@@ -107,5 +127,17 @@ mod tests {
         wrong[sum] ^= 1;
         assert_eq!(kind(&[&*one, &wrong].concat()), io::ErrorKind::InvalidInput);
         assert_eq!(kind(&[&one, b"other bytes".as_slice()].concat()), io::ErrorKind::InvalidInput);
+    }
+
+    #[test]
+    fn what_is_behind_zeros_is_not_lost() {
+        let two = member("two\n");
+        for zeros in [1, 2, 3, 512, BLOCK] {
+            for behind in [&*two, b"x".as_slice()] {
+                let all = [&*member("one\n"), &*vec![0; zeros], behind].concat();
+                let error = unpacked(&all).expect_err("data behind zeros");
+                assert_eq!(error.kind(), io::ErrorKind::InvalidInput, "{zeros}");
+            }
+        }
     }
 }
