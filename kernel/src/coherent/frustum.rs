@@ -99,14 +99,14 @@ impl Outline {
     #[inline(always)]
     fn radius<L: Lanes>(self, token: L::Token, spheres: &SphereColumns<'_>, part: usize) -> L {
         let radius = L::load_part(token, spheres.radius, part);
-        match self {
-            Self::Sphere => radius,
-            Self::Box { far } => Self::Spread { spread: BORDER, far }.radius(token, spheres, part),
-            Self::Spread { spread, far } => {
-                let [x, y, z] = axes!(i => L::load_part(token, spheres.center[i], part).abs());
-                (x + y + z + radius + radius.like(far)).filter_mul_add(radius.like(spread), radius)
-            }
-        }
+        // (A call of itself would not be inlined, and runs without its level: a camera's rays at 0.83 of the speed, by `Fast` at 0.3.)
+        let (spread, far) = match self {
+            Self::Sphere => return radius,
+            Self::Box { far } => (BORDER, far),
+            Self::Spread { spread, far } => (spread, far),
+        };
+        let [x, y, z] = axes!(i => L::load_part(token, spheres.center[i], part).abs());
+        (x + y + z + radius + radius.like(far)).filter_mul_add(radius.like(spread), radius)
     }
 
     /// By how many radii the outline reaches past its centre, along an axis across, at a plane.
