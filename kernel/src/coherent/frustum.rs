@@ -60,7 +60,7 @@ pub(crate) fn length<L: Lanes>(slope: L) -> L {
 }
 
 /// By how much of its distance a box is larger: 16u.
-const BORDER: f32 = 16.0 * U;
+pub(crate) const BORDER: f32 = 16.0 * U;
 
 /// What of a sphere counts at planes and depths.
 #[derive(Clone, Copy, Debug)]

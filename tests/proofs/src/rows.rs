@@ -10,8 +10,8 @@ use crate::accuracy::constants::Constants;
 use crate::accuracy::range_limits::{MARGIN as LIMIT, RAISE};
 use crate::bvh::build::bounds::PAD;
 use crate::bvh::traverse::prepared_ray::{ABSOLUTE_ERROR, PADS};
-use crate::bvh::traverse::root_interval::{DELTA, SLACK};
-use crate::coherent::frustum::{LARGER, MARGIN, TURN};
+use crate::bvh::traverse::root_interval::{BORDER, DELTA, SLACK};
+use crate::coherent::frustum::{BORDER as BORDER_AT_PLANES, LARGER, MARGIN, TURN};
 use crate::coherent::tile_fit::{ERRORS, SMALL};
 use crate::coherent::view::DEPTH_MARGIN;
 use crate::filter::KAPPA;
@@ -100,6 +100,9 @@ const ROWS: &[Row] = rows! {
     "δ, of S", LEAF, "const DELTA", DELTA as f64 * U, IN_U, [48.0, 41.27], HALF, |x| leaves::holds(DELTA * crate::numeric::rounding::U, x);
     "W, of δ r", LEAF, "const SLACK", SLACK[0], AS_IT_IS, [0.5, 0.5], HALF, |x| leaves::holds(SLACK[0], x);
     "W, of δ²", LEAF, "const SLACK", SLACK[1], AS_IT_IS, [0.3125, 0.1111], &[0.25], |x| leaves::holds(SLACK[1], x);
+    "border of a box, of the largest |f|", LEAF, "const BORDER", BORDER as f64 * U, IN_U, [5.0, 4.0], HALF, |x| leaves::border() * U <= x;
+    "the same, at planes", FRUSTUM, "const BORDER", BORDER_AT_PLANES, IN_U, [16.0, 9.0], HALF,
+        |x| (leaves::border() + f64::from(BORDER)) * U <= x;
     "turn of a slope, of |w|", FRUSTUM, "const TURN", TURN[0], IN_U, [16.0, 12.01], HALF, |x| frustum::needs().turn[0] * U <= x;
     "turn of a slope, besides", FRUSTUM, "const TURN", TURN[1], IN_U, [0.015_625, 0.00806], HALF, |x| frustum::needs().turn[1] * U <= x;
     "margin of a plane, in absolute errors", FRUSTUM, "const MARGIN", MARGIN, AS_IT_IS, [1.0, 0.875], HALF, |x| frustum::needs().margin <= x;

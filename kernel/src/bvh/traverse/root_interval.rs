@@ -131,7 +131,7 @@ pub(crate) struct Pass<L> {
 /// delta of S, in u.
 pub(crate) const DELTA: f32 = 48.0;
 /// How far outside the border of a box a line still meets it, in u of f: what single precision is off, so that no true hit is lost.
-const BORDER: f32 = 5.0;
+pub(crate) const BORDER: f32 = 5.0;
 /// The factors of delta r and of delta^2 in W.
 pub(crate) const SLACK: [f32; 2] = [0.5, 0.3125];
 

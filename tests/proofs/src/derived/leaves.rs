@@ -7,7 +7,7 @@
 //! The results are polynomials in M = |m|, r and the absolute error: the polynomials of the source must be larger, term
 //! by term.
 
-use super::{U, operands};
+use super::{U, name_differences, operands};
 use crate::accuracy::RayLanes;
 use crate::bvh::traverse::prepared_ray::PreparedLanes;
 use crate::bvh::traverse::root_interval::Pass;
@@ -16,6 +16,31 @@ use crate::proofs::recorded::{Operation, record};
 use crate::proofs::running_error::{Input, RunningError};
 use crate::scale::rays::ScaledRays;
 use std::vec::Vec;
+
+/// What is computed of a line beside a box may be off, in u of the largest |f| times |n_i| + |n_j|. (The right-hand side is off by some
+/// u of r: less than the u that is left, where r is below a quarter of |f|; nearer, either an n_i is nearly zero, and roundings keep the
+/// order of what is compared, or |n_i| + |n_j| is larger than their length.)
+pub(in crate::proofs) fn border() -> f64 {
+    let witness = [0.1, 0.2, 0.3, 0.8, 0.6, 0.1, 3.0, 2.0, 1.0, 1.5, 1e-6];
+    let ((), graph) = record(witness, |[ox, oy, oz, nx, ny, nz, cx, cy, cz, r, error]| {
+        let _ = Pass::new([ox, oy, oz], [nx, ny, nz], error, [cx, cy, cz], r).meets_box();
+    });
+    let names = ["ox", "oy", "oz", "nx", "ny", "nz", "cx", "cy", "cz", "r", "error"];
+    let off = |name: &str| if name.starts_with('n') { U } else { 0.0 };
+    let inputs = names.map(|name| Input { off: off(name), ..Input::named(name) });
+    let mut rules = RunningError::new(24, &inputs);
+    name_differences(&mut rules, &graph, &["fx", "fy", "fz"]);
+    rules.run(&graph);
+    let is_product = |node: usize| matches!(graph[node], Operation::Product(..));
+    let across = (0..graph.len()).filter(|node| match graph[*node] {
+        Operation::Difference(a, b) => is_product(a) && is_product(b),
+        _ => false,
+    });
+    let errors: Vec<_> = across.map(|node| rules.bound(node).error()).collect();
+    assert_eq!(errors.len(), 3, "two axes at a time");
+    let coefficients = errors.iter().flat_map(|error| error.terms().map(|(_, of)| of / U));
+    coefficients.fold(0.0, f64::max)
+}
 
 /// What the roundings of the formula come to, in u.
 #[derive(Clone, Copy, Debug)]

@@ -56,6 +56,18 @@ fn next(film: &mut Film) -> f32 {
     panic!("no frame comes: {}", film.status());
 }
 
+/// No frame comes any more, and there is something to tell.
+fn stops_with_news(film: &mut Film) {
+    for _ in 0..2000 {
+        if film.wait().is_none() {
+            break;
+        }
+        assert!(film.next().is_none());
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    assert!(film.wait().is_none() && film.take_news());
+}
+
 fn wait_until(film: &Film, is_so: impl Fn(&State) -> bool) {
     for _ in 0..2000 {
         if is_so(&film.shared.lock()) {
@@ -176,14 +188,7 @@ fn other_contents_of_a_file_that_is_followed_end_the_film() {
     wait_until(&film, |state| state.unwritten == Some(3));
     std::fs::write(path("cut.xyz"), text(4).replace('C', "O")).expect("a file");
     wait_until(&film, |state| state.ending.is_some());
-    for _ in 0..2000 {
-        if film.wait().is_none() {
-            break;
-        }
-        assert!(film.next().is_none());
-        std::thread::sleep(Duration::from_millis(2));
-    }
-    assert!(film.wait().is_none() && film.take_news());
+    stops_with_news(&mut film);
     let what = "the file was written anew, with other contents";
     assert_eq!(film.status(), format!("frame 3: {}: {what}", path("cut.xyz").display()));
 }
@@ -268,14 +273,7 @@ fn a_file_that_is_gone_stops_where_it_would_begin_again() {
     for x in [1.0, 2.0, 3.0] {
         assert_eq!(next(&mut film), x);
     }
-    for _ in 0..2000 {
-        if film.wait().is_none() {
-            break;
-        }
-        assert!(film.next().is_none());
-        std::thread::sleep(Duration::from_millis(2));
-    }
-    assert!(film.wait().is_none() && film.take_news());
+    stops_with_news(&mut film);
     assert!(film.status().starts_with("frame 0: "), "{}", film.status());
     film.step(false);
     assert_eq!(next(&mut film), 2.0);
