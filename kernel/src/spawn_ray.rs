@@ -12,10 +12,14 @@
 //! d.(x - c) >= 0, both roots are below zero. From inside one root is below zero, and one above. The interval begins a little
 //! above zero, 2^-42 r from the origin. Rounding has moved the origin by more, so double precision can tell that the ray leaves
 //! the sphere. (If the interval begins at the least number above zero, it cannot: a picture of marbles took three times as long.)
-//! Tiers that know less are asked whether they see the sphere. If they do, the ray begins a step farther away, then two, then
-//! four.
+//! Tiers that know less are asked whether they see the sphere there, or, from inside, its far side no more. If so, the ray begins
+//! a step farther away, then two, then four.
+//!
+//! Nor may the interval begin behind the far side, which along the surface is as near as the origin is deep, or nearly. The origin
+//! is at least -(|x - c|^2 - r^2) / 2r from the surface. If that is more than t_min |d|, no root needs to be computed.
 
 pub(crate) mod packets;
+mod until;
 
 use crate::accuracy::{Accuracy, Tier};
 use crate::exact::QuadraticTerms;
@@ -38,12 +42,34 @@ pub enum Side {
     Inside,
 }
 
+impl Side {
+    /// Returns the other side: where a refracted ray goes.
+    ///
+    /// ```
+    /// use spherule_kernel::Side;
+    ///
+    /// assert_eq!(Side::Inside.opposite(), Side::Outside);
+    /// ```
+    #[must_use]
+    pub const fn opposite(self) -> Self {
+        match self {
+            Self::Outside => Self::Inside,
+            Self::Inside => Self::Outside,
+        }
+    }
+}
+
 /// Where the interval begins: 2^-42 r from the origin, or a little more, but above zero.
 #[inline(always)]
 fn start_of<L: Lanes>(direction: [L; 3], radius: L) -> L {
-    let longest = direction[0].abs().filter_max(direction[1].abs()).filter_max(direction[2].abs());
-    let start = radius * radius.like(NEAREST) / longest;
+    let start = radius * radius.like(NEAREST) / largest_of(direction);
     start.filter_max(radius.like(f32::from_bits(1)))
+}
+
+/// The largest coordinate.
+#[inline(always)]
+fn largest_of<L: Lanes>(vector: [L; 3]) -> L {
+    vector[0].abs().filter_max(vector[1].abs()).filter_max(vector[2].abs())
 }
 
 /// 2^-42.
@@ -96,7 +122,7 @@ impl Surface {
     /// ```
     #[must_use]
     pub fn incident_side(&self, direction: Vec3) -> Side {
-        let [n, d] = [self.normal, direction].map(|v| v.to_array().map(f64::from));
+        let [n, d] = [self.outward(), direction].map(|v| v.to_array().map(f64::from));
         let length = d[0].abs() + d[1].abs() + d[2].abs();
         if dot(n, d) > GRAZING * length { Side::Inside } else { Side::Outside }
     }
@@ -105,13 +131,16 @@ impl Surface {
     /// where it starts. Returns `None` if none of 64 origins along the normal will do: always inside a sphere with r = 0, seldom
     /// where a sphere is as small as the spacing of numbers, and where the origin would be past the largest number.
     ///
-    /// [`side`](crate::side()) proves that the origin is on that side. If `tier` is `Exact` and r is at least 2^10 ulps of the
-    /// origin's largest coordinate, the origin is one or two of these ulps from the point. (Near the coordinates' zero, where an
-    /// ulp is below 2^-45 r, it is as near as double precision knows the point.) For the other tiers it is as far away as they
-    /// need in order not to see the sphere there. The interval begins 2^-42 r from the origin, and has no end.
+    /// [`side`](crate::side()) proves that the origin is on that side. If `tier` is `Exact`, r is at least 2^10 ulps of the
+    /// origin's largest coordinate, and `direction` points to `side`, the origin is one or two of these ulps from the point. (Near
+    /// the coordinates' zero, where an ulp is below 2^-45 r, it is as near as double precision knows the point, and as its far side
+    /// needs. If the ray goes back by a cosine below 2^-20, it is up to 2^-41 r higher, to pass over the sphere.) For the other
+    /// tiers it is as far away as they need in order not to see the sphere there. The interval begins 2^-42 r from the origin, or at
+    /// 2^-149 if that is more (2^-149 |d| is long only for very long directions), and has no end.
     ///
     /// If `direction` points to `side`, an outside ray never meets the sphere again, and an inside ray meets its far side,
-    /// unless the t of that hit is rounded to zero. Else the ray meets whatever is there.
+    /// unless the t of that hit is rounded to zero or infinity, or squares of another tier overflow or underflow. Else the ray
+    /// meets whatever is there.
     ///
     /// Cost: some 100 double-precision operations; the other tiers add a test of the sphere.
     ///
@@ -138,7 +167,8 @@ impl Surface {
     }
 
     /// Returns a ray as [`spawn_ray`](Surface::spawn_ray) does, but towards `target`. The target is at t = 1, where the interval
-    /// ends. Returns `None`, too, if the target is finite, but the way to it leaves the range of numbers.
+    /// ends. Returns `None`, too, if the target is finite, but the way to it leaves the range of numbers. If the target lies on a
+    /// sphere of the scene, as that of a light that is one, end the ray before it: [`Ray::until`].
     ///
     /// ```
     /// use spherule_kernel::{Exact, Ray, Side, Sphere, Vec3, surface};
@@ -180,6 +210,15 @@ impl Surface {
         axes!(i => f64::from(sphere.center()[i]) + (f64::from(self.point[i]) + f64::from(self.rest[i])))
     }
 
+    /// The normal, away from the centre: a caller may have turned it towards his ray.
+    fn outward(&self) -> Vec3 {
+        if along(self.normal.to_array(), self.point.to_array()) < 0.0 {
+            -self.normal
+        } else {
+            self.normal
+        }
+    }
+
     fn spawn(
         &self,
         tier: Tier,
@@ -188,7 +227,7 @@ impl Surface {
         from: impl Fn(Vec3) -> Ray,
     ) -> Option<Ray> {
         let point = self.in_scene(sphere);
-        let outward = self.normal.to_array().map(f64::from);
+        let outward = self.outward().to_array().map(f64::from);
         let rounded = point.map(|x| x as f32);
         let step = step_of(rounded, sphere.radius);
         let step = f64::from(if to == Side::Outside { step } else { -step });
@@ -209,6 +248,12 @@ impl Surface {
     }
 }
 
+/// n.p in single precision: its sign alone is asked, and all three products have it.
+#[inline(always)]
+fn along<L: Lanes>(normal: [L; 3], point: [L; 3]) -> L {
+    normal[0] * point[0] + normal[1] * point[1] + normal[2] * point[2]
+}
+
 /// How many steps from the surface the next origin is tried: 0, 1/2, 1, 2, 4 ...
 #[inline(always)]
 fn next(steps: f64) -> f64 {
@@ -223,7 +268,7 @@ const BACK: f64 = 8.0 * f32::EPSILON as f64;
 /// A step: an ulp of the largest coordinate; more near zero, where a point is not known so well.
 #[inline(always)]
 fn step_of<L: Lanes>(point: [L; 3], radius: L) -> L {
-    let largest = point[0].abs().filter_max(point[1].abs()).filter_max(point[2].abs());
+    let largest = largest_of(point);
     // Between half an ulp and one, so that the sum is rounded to the next number; of the half, since the largest number has no next.
     let half = largest * largest.like(0.5);
     let ulp = (half + half * half.like(MORE_THAN_HALF)) - half;
@@ -250,11 +295,36 @@ fn sees_start(tier: Tier, ray: &Ray, sphere: &Sphere, to: Side, outward: [f64; 3
             (tier != Tier::Exact || !goes_away(ray, sphere))
                 && roots(tier, ray, sphere).is_some_and(|both| both.into_iter().any(is_seen))
         }
-        Side::Inside => {
-            tier != Tier::Exact && roots(tier, ray, sphere).is_some_and(|[near, _]| is_seen(near))
-        }
+        Side::Inside if tier == Tier::Exact && is_deep(ray, sphere) => false,
+        // Where a tier's squares leave the range of numbers, it sees nothing from anywhere.
+        Side::Inside => match roots(tier, ray, sphere) {
+            Some([near, far]) => {
+                is_seen(near) || (far < ray.t_min && !is_rounded_to_zero(far, ray, sphere))
+            }
+            None => {
+                ray.direction.length_squared().is_normal()
+                    && (sphere.radius * sphere.radius).is_normal()
+            }
+        },
     }
 }
+
+/// Whether a far root is zero because it is rounded: that of another tier may be zero by cancellation.
+fn is_rounded_to_zero(far: f32, ray: &Ray, sphere: &Sphere) -> bool {
+    far == 0.0 && roots(Tier::Exact, ray, sphere).is_none_or(|[_, far]| far == 0.0)
+}
+
+/// Whether the far side is surely not before t_min: the origin is deeper than t_min |d| <= t_min √3 max |d_i|.
+fn is_deep(ray: &Ray, sphere: &Sphere) -> bool {
+    let r = f64::from(sphere.radius);
+    let [x, c] = [ray.origin, sphere.center].map(|v| v.to_array().map(f64::from));
+    let (power, margin) = power_of(x, c, r);
+    let start = f64::from(ray.t_min) * f64::from(largest_of(ray.direction.to_array()));
+    power < -(margin + DEEP * r * start)
+}
+
+/// 2√3, and a little more for what is rounded.
+const DEEP: f64 = 3.5;
 
 /// Whether a ray goes away from the centre of `sphere` where it starts, or around it: d.(o - c) >= 0.
 fn goes_away(ray: &Ray, sphere: &Sphere) -> bool {

@@ -2,7 +2,7 @@
 //!
 //! Steps are tried in double-precision lanes; a ray that these cannot decide goes on alone.
 
-use super::{GRAZING, U, next, start_of, step_of};
+use super::{DEEP, GRAZING, U, largest_of, next, start_of, step_of};
 use crate::accuracy::{Accuracy, RayLanes, Tier, test_lanes};
 use crate::geometry::hit::HitPacket;
 use crate::geometry::ray::{Ray, RayPacket};
@@ -262,15 +262,21 @@ impl<L: Lanes> Spawn<L> {
         let direction = direction_from(origin, towards);
 
         // On which side the origin surely is, and whether the ray surely goes away from the centre; and whether it is finite: the
-        // way to a light may leave the range of numbers.
-        let [mut inner, mut outer, mut away, mut finite] = [0_u32; 4];
+        // way to a light may leave the range of numbers. From inside, whether its far side is surely not before the interval.
+        let (start, longest) = (start_of(direction, self.radius), largest_of(direction));
+        let [mut inner, mut outer, mut away, mut deep, mut finite] = [0_u32; 5];
         for part in 0..L::PARTS {
             let first = part * L::Double::COUNT;
             let d = axes!(i => direction[i].widen(part));
             let x = axes!(i => origin[i].widen(part));
             let c = axes!(i => self.center[i].widen(part));
-            let (power, margin) = power_of(x, c, self.radius.widen(part));
+            let radius = self.radius.widen(part);
+            let (power, margin) = power_of(x, c, radius);
             inner |= power.lt(-margin).bits() << first;
+            if self.inside.any() {
+                let near = radius.like(DEEP) * radius * (start.widen(part) * longest.widen(part));
+                deep |= power.lt(-(margin + near)).bits() << first;
+            }
             outer |= margin.lt(power).bits() << first;
             let q = axes!(i => x[i] - c[i]);
             let size = dot(axes!(i => d[i].abs()), axes!(i => q[i].abs()));
@@ -281,7 +287,8 @@ impl<L: Lanes> Spawn<L> {
         let on_side = (self.inside & inner) | (!self.inside & outer);
         let unsure = !((inner | outer) & L::mask(token, finite));
         if tier.tier() == Tier::Exact {
-            let spawned = on_side & !unsure & (self.inside | L::mask(token, away));
+            let leaves = L::mask(token, deep) | (!self.inside & L::mask(token, away));
+            let spawned = on_side & !unsure & leaves;
             return Tried { origin, direction, spawned, unknown: unsure | (on_side & !spawned) };
         }
 
@@ -289,13 +296,7 @@ impl<L: Lanes> Spawn<L> {
         // that go back, which may meet the sphere: the way to a light turns as the origin moves out.
         let (faces, infinity) = (self.faces(direction), step.like(f32::INFINITY));
         let outside = active & on_side & !unsure & !self.inside & faces;
-        let rays = RayLanes {
-            origin,
-            direction,
-            t_min: start_of(direction, self.radius),
-            t_max: infinity,
-            live: outside,
-        };
+        let rays = RayLanes { origin, direction, t_min: start, t_max: infinity, live: outside };
         let t = test_lanes(tier, &rays, self.center, self.radius, outside, infinity);
         let spawned = outside & !t.lt(infinity);
         let unknown = unsure | (on_side & (self.inside | !faces));
