@@ -4,8 +4,8 @@
 //! The code is slow, scalar, and right for every finite `f32`.
 
 pub(crate) mod long_accumulator;
-pub(crate) mod order;
-pub(crate) mod quadratic;
+mod order;
+mod quadratic;
 mod surface;
 
 #[cfg(all(test, proofs))]

@@ -10,7 +10,7 @@ use crate::geometry::ray::{Ray, RayPacket};
 use crate::lanes::Lanes;
 use crate::query::{AnyHit, ClosestHit};
 use crate::slices;
-use crate::structures::Traverse;
+use crate::structures::{Lend, Traverse};
 use crate::trace::Trace;
 
 /// Spheres that rays are intersected with: [`Spheres`](crate::Spheres) tests every ray against every sphere; a
@@ -79,7 +79,7 @@ use crate::trace::Trace;
 /// spheres.closest_hits(Exact, &rays, &mut hits);
 /// assert_eq!(hits, [Some(Hit { t: 4.0, sphere: 0 }), None]);
 /// ```
-pub trait Intersect: Traverse {
+pub trait Intersect: Lend {
     /// Returns the closest hit of one ray; `None` if it hits nothing.
     ///
     /// Cost: with `std` a tree has a traversal for one ray, and other structures use one lane of a packet. Many rays in one call are
@@ -93,7 +93,7 @@ pub trait Intersect: Traverse {
     /// assert_eq!(hit.map(|hit| hit.t), Some(4.0));
     /// ```
     fn closest_hit(&self, tier: impl Accuracy, ray: &Ray) -> Option<Hit> {
-        self.one_plainly::<ClosestHit>(tier, ray)
+        self.lend().one_plainly::<ClosestHit>(tier, ray)
     }
 
     /// Returns whether one ray hits anything.
@@ -107,7 +107,7 @@ pub trait Intersect: Traverse {
     /// assert!(!spheres.any_hit(Exact, &Ray { t_max: 3.9, ..ray }));
     /// ```
     fn any_hit(&self, tier: impl Accuracy, ray: &Ray) -> bool {
-        self.one_plainly::<AnyHit>(tier, ray)
+        self.lend().one_plainly::<AnyHit>(tier, ray)
     }
 
     /// [`closest_hit`](Intersect::closest_hit), traced as `trace` says.
@@ -126,7 +126,7 @@ pub trait Intersect: Traverse {
         trace: &mut Trace<'_>,
         ray: &Ray,
     ) -> Option<Hit> {
-        self.one::<ClosestHit>(tier, trace, ray)
+        self.lend().one::<ClosestHit>(tier, trace, ray)
     }
 
     /// [`any_hit`](Intersect::any_hit), traced as `trace` says.
@@ -138,7 +138,7 @@ pub trait Intersect: Traverse {
     /// assert!(tree.any_hit_with(Exact, &mut Trace::new(), &Ray::new(Vec3::ZERO, Vec3::Z)));
     /// ```
     fn any_hit_with(&self, tier: impl Accuracy, trace: &mut Trace<'_>, ray: &Ray) -> bool {
-        self.one::<AnyHit>(tier, trace, ray)
+        self.lend().one::<AnyHit>(tier, trace, ray)
     }
 
     /// Finds the closest hit of every ray: `hits[i]` becomes that of `rays[i]`, or `None` if the ray hits nothing.
@@ -197,7 +197,7 @@ pub trait Intersect: Traverse {
         hits: &mut [Option<Hit>],
     ) {
         let (rays, hits) = (ManyRays::Slice(rays), ManyHits::Slice(hits));
-        slices::traverse::<Self, ClosestHit>(self, tier, trace, rays, hits);
+        slices::traverse::<_, ClosestHit>(&*self.lend(), tier, trace, rays, hits);
     }
 
     /// [`any_hits`](Intersect::any_hits), traced as `trace` says.
@@ -218,7 +218,7 @@ pub trait Intersect: Traverse {
         occluded: &mut [bool],
     ) {
         let (rays, occluded) = (ManyRays::Slice(rays), ManyOccluded::Slice(occluded));
-        slices::traverse::<Self, AnyHit>(self, tier, trace, rays, occluded);
+        slices::traverse::<_, AnyHit>(&*self.lend(), tier, trace, rays, occluded);
     }
 
     /// Finds the closest hit of every ray in eight columns, and writes it into two columns: number `i` of each becomes the hit of ray
@@ -248,7 +248,7 @@ pub trait Intersect: Traverse {
         hits: HitColumns<'_>,
     ) {
         let (rays, hits) = (ManyRays::Columns(rays), ManyHits::Columns(hits));
-        slices::traverse::<Self, ClosestHit>(self, tier, trace, rays, hits);
+        slices::traverse::<_, ClosestHit>(&*self.lend(), tier, trace, rays, hits);
     }
 
     /// Finds whether each ray of eight columns hits anything. The shortest column decides how many rays are traced; answers past its
@@ -277,7 +277,7 @@ pub trait Intersect: Traverse {
         occluded: &mut [bool],
     ) {
         let (rays, occluded) = (ManyRays::Columns(rays), ManyOccluded::Slice(occluded));
-        slices::traverse::<Self, AnyHit>(self, tier, trace, rays, occluded);
+        slices::traverse::<_, AnyHit>(&*self.lend(), tier, trace, rays, occluded);
     }
 
     /// Finds the closest hit of every ray of every packet: `hits[i]` becomes those of `rays[i]`. A long call sorts shuffled rays, as
@@ -300,7 +300,7 @@ pub trait Intersect: Traverse {
         rays: &[RayPacket],
         hits: &mut [HitPacket],
     ) {
-        slices::traverse_packets::<Self, ClosestHit>(self, tier, trace, rays, hits);
+        slices::traverse_packets::<_, ClosestHit>(&*self.lend(), tier, trace, rays, hits);
     }
 
     /// Finds whether each ray of every packet hits anything: bit `i` of `occluded[k]` is set if lane `i` of `rays[k]` does.
@@ -321,7 +321,7 @@ pub trait Intersect: Traverse {
         rays: &[RayPacket],
         occluded: &mut [u32],
     ) {
-        slices::traverse_packets::<Self, AnyHit>(self, tier, trace, rays, occluded);
+        slices::traverse_packets::<_, AnyHit>(&*self.lend(), tier, trace, rays, occluded);
     }
 
     /// Makes the rays of a camera's tiles, and finds their closest hits. Rays and hits of tile `i` go to packet `i`, as far as there
@@ -363,7 +363,7 @@ pub trait Intersect: Traverse {
         hits: &mut [HitPacket],
     ) {
         trace.learnt.begin_call::<ClosestHit>(rays.len());
-        self.tiles_in_packets(tier, trace, tiles, rays, hits);
+        self.lend().tiles_in_packets(tier, trace, tiles, rays, hits);
     }
 
     /// [`closest_hit_packets`](Intersect::closest_hit_packets) in the caller's lanes, with their token. The level of `trace`
@@ -388,7 +388,7 @@ pub trait Intersect: Traverse {
         hits: &mut [HitPacket<L::Array>],
     ) {
         trace.learnt.begin_call::<ClosestHit>(rays.len());
-        self.in_lanes::<L, ClosestHit>(tier, token, trace, rays, hits);
+        self.lend().in_lanes::<L, ClosestHit>(tier, token, trace, rays, hits);
     }
 
     /// [`any_hit_packets`](Intersect::any_hit_packets) in the caller's lanes, with their token. The level of `trace` is
@@ -413,7 +413,7 @@ pub trait Intersect: Traverse {
         occluded: &mut [u32],
     ) {
         trace.learnt.begin_call::<AnyHit>(rays.len());
-        self.in_lanes::<L, AnyHit>(tier, token, trace, rays, occluded);
+        self.lend().in_lanes::<L, AnyHit>(tier, token, trace, rays, occluded);
     }
 
     /// [`closest_hit_tiles`](Intersect::closest_hit_tiles) in the caller's lanes, with their token. Tiles are as large as
@@ -429,8 +429,8 @@ pub trait Intersect: Traverse {
         hits: &mut [HitPacket<L::Array>],
     ) {
         trace.learnt.begin_call::<ClosestHit>(rays.len());
-        self.tiles_in_lanes::<L>(tier, token, trace, tiles, rays, hits);
+        self.lend().tiles_in_lanes::<L>(tier, token, trace, tiles, rays, hits);
     }
 }
 
-impl<S: Traverse> Intersect for S {}
+impl<S: Lend> Intersect for S {}

@@ -23,8 +23,32 @@ use crate::lanes::Lanes;
 use crate::linear;
 use crate::query::{ClosestHit, Query};
 use crate::trace::Trace;
+use core::ops::Deref;
 #[cfg(feature = "std")]
 use core::ops::Range;
+
+/// A structure that is traced itself, or that lends the one that is.
+pub trait Lend {
+    /// The structure that is traced.
+    type Lent<'a>: Traverse
+    where
+        Self: 'a;
+
+    /// Lends it.
+    fn lend(&self) -> impl Deref<Target = Self::Lent<'_>>;
+}
+
+impl<S: Traverse> Lend for S {
+    type Lent<'a>
+        = S
+    where
+        S: 'a;
+
+    #[inline(always)]
+    fn lend(&self) -> impl Deref<Target = Self::Lent<'_>> {
+        self
+    }
+}
 
 /// The traversals of a structure.
 pub trait Traverse {

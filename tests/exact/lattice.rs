@@ -11,10 +11,10 @@ fn dot(v: [i64; 3], w: [i64; 3]) -> i64 {
     v[0] * w[0] + v[1] * w[1] + v[2] * w[2]
 }
 
-/// The exact path alone, which every root takes in `roots`, against the filtered path, on small
-/// integers. Hit or miss is also checked against D in `i64`.
+/// `roots`, which has no filter and no lanes, against pairs and lists, on small integers. Hit or miss is also checked
+/// against D in `i64`.
 #[test]
-fn expansions_and_filter_agree_on_a_lattice_rich_in_tangents() {
+fn roots_pairs_and_lists_agree_on_a_lattice_rich_in_tangents() {
     let total = count() * 10;
     let (mut tangents, mut hits, mut done) = (0_u64, 0_u64, 0_u64);
     let mut random = Random::new(31, first());
@@ -45,7 +45,7 @@ fn expansions_and_filter_agree_on_a_lattice_rich_in_tangents() {
         let ray = Ray { t_min, ..Ray::new(single(origin), single(direction)) };
         let sphere = |i: usize| Sphere { center: single(centers[i]), radius: radii[i] as f32 };
         let cases: Vec<Case> = (0..16).map(|i| Case { ray, sphere: sphere(i) }).collect();
-        let pure: Vec<Option<f32>> = cases
+        let alone: Vec<Option<f32>> = cases
             .iter()
             .zip(centers.iter().zip(radii))
             .map(|(case, (center, radius))| {
@@ -58,11 +58,11 @@ fn expansions_and_filter_agree_on_a_lattice_rich_in_tangents() {
                 roots.and_then(|roots| oracle::accepted(&case.ray, roots))
             })
             .collect();
-        hits += pure.iter().flatten().count() as u64;
+        hits += alone.iter().flatten().count() as u64;
 
         let spheres: Vec<Sphere> = cases.iter().map(|case| case.sphere).collect();
         let mut expected: Option<Hit> = None;
-        for (index, t) in pure.iter().enumerate() {
+        for (index, t) in alone.iter().enumerate() {
             if let Some(t) = *t
                 && expected.is_none_or(|hit| t < hit.t)
             {
@@ -72,7 +72,7 @@ fn expansions_and_filter_agree_on_a_lattice_rich_in_tangents() {
         for layer in pair_layers() {
             let found = pairs_of(Tier::Exact, layer, &cases);
             for (index, case) in cases.iter().enumerate() {
-                assert_eq!(bits(found[index]), bits(pure[index]), "{layer:?}: {case:?}");
+                assert_eq!(bits(found[index]), bits(alone[index]), "{layer:?}: {case:?}");
             }
         }
         for variant in exact_lists() {

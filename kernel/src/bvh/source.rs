@@ -16,14 +16,25 @@ pub(crate) trait SphereSource {
     fn sphere_at(&self, place: u32) -> Option<(Sphere, u32)>;
 }
 
-/// The spheres of a list that are in its tree; the places of others are empty.
+/// Some spheres of a list, by rising index.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct InsideSpheres<'a> {
+pub(crate) struct SomeSpheres<'a> {
     pub(crate) spheres: Spheres<'a>,
-    pub(crate) scale: SceneScale,
+    pub(crate) which: Which<'a>,
 }
 
-impl SphereRun for InsideSpheres<'_> {
+/// Which spheres of a list.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Which<'a> {
+    /// Those that bounds see at this scale; the places of others are empty.
+    Inside(SceneScale),
+    /// Those with these indices.
+    Indices(&'a [u32]),
+    /// Those with these indices, as bits.
+    IndexBits(&'a [f32]),
+}
+
+impl SphereRun for SomeSpheres<'_> {
     #[inline(always)]
     fn list(&self) -> Spheres<'_> {
         self.spheres
@@ -31,43 +42,24 @@ impl SphereRun for InsideSpheres<'_> {
 
     #[inline(always)]
     fn count(&self) -> usize {
-        self.spheres.len()
+        match self.which {
+            Which::Inside(_) => self.spheres.len(),
+            Which::Indices(indices) => indices.len(),
+            Which::IndexBits(indices) => indices.len(),
+        }
     }
 
     #[inline(always)]
     fn index(&self, number: usize) -> u32 {
-        match self.spheres.get(number) {
-            Some(sphere) if self.scale.scaled(&sphere).is_some() => number as u32,
-            _ => u32::MAX,
-        }
-    }
-}
-
-/// The spheres of a tree that no bound sees, by rising index.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct OutsideSpheres<'a> {
-    /// The list that the tree was built from.
-    pub(crate) spheres: Spheres<'a>,
-    pub(crate) indices: &'a [u32],
-}
-
-impl SphereRun for OutsideSpheres<'_> {
-    #[inline(always)]
-    fn list(&self) -> Spheres<'_> {
-        self.spheres
-    }
-
-    #[inline(always)]
-    fn count(&self) -> usize {
-        self.indices.len()
-    }
-
-    #[inline(always)]
-    fn index(&self, number: usize) -> u32 {
-        match self.indices.get(number) {
-            Some(&index) => index,
-            None => u32::MAX,
-        }
+        let index = match self.which {
+            Which::Inside(scale) => match self.spheres.get(number) {
+                Some(sphere) if scale.scaled(&sphere).is_some() => Some(number as u32),
+                _ => None,
+            },
+            Which::Indices(indices) => indices.get(number).copied(),
+            Which::IndexBits(indices) => indices.get(number).copied().map(f32::to_bits),
+        };
+        index.unwrap_or(u32::MAX)
     }
 }
 

@@ -7,7 +7,7 @@ use super::build::top_down;
 use super::built::Built;
 use super::leaf::{Leaf, extent_of, number_of};
 use super::node::{BvhNode, DEPTH, LEAF, NO_CHILD, WIDTH};
-use super::source::{InsideSpheres, OutsideSpheres, SphereSource};
+use super::source::{SomeSpheres, SphereSource, Which};
 use crate::geometry::sphere::{Sphere, Spheres};
 use crate::memory::TooSmall;
 use crate::scale::scene::SceneScale;
@@ -209,14 +209,14 @@ impl<'a> Bvh<'a> {
 
     /// The spheres that are in the tree, in the order of their list.
     #[inline(always)]
-    pub(crate) fn inside(&self) -> InsideSpheres<'a> {
-        InsideSpheres { spheres: self.spheres, scale: self.scale }
+    pub(crate) fn inside(&self) -> SomeSpheres<'a> {
+        SomeSpheres { spheres: self.spheres, which: Which::Inside(self.scale) }
     }
 
     /// The spheres that no bound sees.
     #[inline(always)]
-    pub(crate) fn outside(&self) -> OutsideSpheres<'a> {
-        OutsideSpheres { spheres: self.spheres, indices: self.outside }
+    pub(crate) fn outside(&self) -> SomeSpheres<'a> {
+        SomeSpheres { spheres: self.spheres, which: Which::Indices(self.outside) }
     }
 
     /// The leaf of a number.

@@ -2,6 +2,7 @@
 
 use super::shape::{Shape, part_bits};
 use crate::geometry::sphere::{Sphere, Spheres};
+use crate::numeric::heap_sort::heap_sort;
 use crate::numeric::rounding::{least, most};
 use crate::scale::scene::SceneScale;
 
@@ -107,64 +108,20 @@ fn longest_axis(spheres: &Spheres<'_>, part: &[u32]) -> usize {
     axis
 }
 
-/// Sorts a part by an axis, and equals by index. It uses a heap, which takes no memory, and no more time for some
-/// spheres than for others.
+/// Sorts a part by an axis, and equals by index.
 fn sort(spheres: &Spheres<'_>, axis: usize, part: &mut [u32]) {
-    let heap = Heap { spheres, axis };
-    for root in (0..part.len() / 2).rev() {
-        let Some(&index) = part.get(root) else { return };
-        heap.sink(part, root, index);
-    }
-    let mut rest = part;
-    while let Some((last, others)) = rest.split_last_mut() {
-        if let Some(first) = others.first_mut() {
-            core::mem::swap(first, last);
-            let index = *first;
-            heap.sink(others, 0, index);
-        }
-        rest = others;
-    }
+    heap_sort(
+        part,
+        #[inline(always)]
+        |a, b| {
+            let (x, y) = (coordinate(spheres, axis, a), coordinate(spheres, axis, b));
+            x < y || (x == y && a < b)
+        },
+    );
 }
 
-/// By what spheres are sorted.
-struct Heap<'a> {
-    spheres: &'a Spheres<'a>,
-    axis: usize,
-}
-
-impl Heap<'_> {
-    /// Whether `a` comes before `b`.
-    #[inline(always)]
-    fn is_before(&self, a: u32, b: u32) -> bool {
-        let (x, y) = (self.coordinate(a), self.coordinate(b));
-        x < y || (x == y && a < b)
-    }
-
-    #[inline(always)]
-    fn coordinate(&self, index: u32) -> f32 {
-        let center = self.spheres.get(index as usize).map_or([0.0; 3], |sphere| sphere.center());
-        center.get(self.axis).copied().unwrap_or(0.0)
-    }
-
-    /// Puts `index` at `root` of a heap, or below what comes after it.
-    fn sink(&self, heap: &mut [u32], mut root: usize, index: u32) {
-        loop {
-            let (left, right) = (heap.get(2 * root + 1), heap.get(2 * root + 2));
-            let (below, child) = match (left, right) {
-                (Some(&left), Some(&right)) if self.is_before(left, right) => (2 * root + 2, right),
-                (Some(&left), _) => (2 * root + 1, left),
-                (None, _) => break,
-            };
-            if !self.is_before(index, child) {
-                break;
-            }
-            if let Some(place) = heap.get_mut(root) {
-                *place = child;
-            }
-            root = below;
-        }
-        if let Some(place) = heap.get_mut(root) {
-            *place = index;
-        }
-    }
+#[inline(always)]
+fn coordinate(spheres: &Spheres<'_>, axis: usize, index: u32) -> f32 {
+    let center = spheres.get(index as usize).map_or([0.0; 3], |sphere| sphere.center());
+    center.get(axis).copied().unwrap_or(0.0)
 }

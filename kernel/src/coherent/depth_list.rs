@@ -15,8 +15,8 @@
 use super::depth_sort;
 use super::listed::{COLUMNS, Listed, column_length};
 use super::view::{View, Viewpoint};
+use crate::bvh::source::{SomeSpheres, Which};
 use crate::geometry::sphere::Spheres;
-use crate::geometry::sphere_run::SphereRun;
 use crate::memory::TooSmall;
 use crate::scale::scene::SceneScale;
 
@@ -127,12 +127,10 @@ impl<'a> DepthList<'a> {
 
     /// Returns the spheres that no bound sees.
     #[inline(always)]
-    pub(super) fn outside(&self) -> OutsidePlaces<'a> {
+    pub(super) fn outside(&self) -> SomeSpheres<'a> {
         let behind = self.listed.indices().get(self.listed.count..).unwrap_or_default();
-        OutsidePlaces {
-            spheres: self.spheres,
-            indices: behind.get(..self.outside).unwrap_or_default(),
-        }
+        let outside = behind.get(..self.outside).unwrap_or_default();
+        SomeSpheres { spheres: self.spheres, which: Which::IndexBits(outside) }
     }
 
     /// The list that was sorted.
@@ -149,33 +147,5 @@ impl<'a> DepthList<'a> {
     #[must_use]
     pub const fn spheres(&self) -> Spheres<'a> {
         self.spheres
-    }
-}
-
-/// The spheres of a list that no bound sees, by rising index.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct OutsidePlaces<'a> {
-    spheres: Spheres<'a>,
-    /// As bits.
-    indices: &'a [f32],
-}
-
-impl SphereRun for OutsidePlaces<'_> {
-    #[inline(always)]
-    fn list(&self) -> Spheres<'_> {
-        self.spheres
-    }
-
-    #[inline(always)]
-    fn count(&self) -> usize {
-        self.indices.len()
-    }
-
-    #[inline(always)]
-    fn index(&self, number: usize) -> u32 {
-        match self.indices.get(number) {
-            Some(index) => index.to_bits(),
-            None => u32::MAX,
-        }
     }
 }

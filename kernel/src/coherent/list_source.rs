@@ -15,6 +15,7 @@ use super::view::View;
 use crate::Accuracy;
 use crate::accuracy::RayLanes;
 use crate::bvh::source::SphereSource;
+use crate::count::count;
 use crate::geometry::ray::RayPacket;
 use crate::geometry::sphere::{Sphere, Spheres};
 use crate::lanes::{LaneMask, Lanes};
@@ -162,6 +163,7 @@ impl ListSource<'_> {
             );
         }
         if live {
+            count!(GroupFit);
             let Some(fit) = Fit::of(states, self.list.extent, tier.spread()) else {
                 return linear::traverse::<L, Q>(tier, token, self.list.spheres, rays, answers);
             };
@@ -190,6 +192,7 @@ impl ListSource<'_> {
             {
                 let block = (number as u32, &spheres, depth);
                 number += 1;
+                count!(GroupLeaf);
                 // Short lists leave out already what lies before the rays.
                 let places = frustum.sides.look::<L>(token, &spheres, outline);
                 if places == 0 {

@@ -5,6 +5,7 @@ use super::frustum::{Frustum, Outline, across, margin};
 use super::view::View;
 use crate::accuracy::RayLanes;
 use crate::bvh::traverse::prepared_ray::PreparedLanes;
+use crate::count::count;
 use crate::geometry::ray::RayPacket;
 use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::axes;
@@ -86,6 +87,7 @@ impl Survey {
         let (mut minus_start, mut reach, mut error) = (none, none, none.like(0.0));
         let mut packets = 0;
         for packet in rays {
+            count!(GroupPacket);
             let rays = RayLanes::<L>::load(token, packet);
             let prepared = prepared::<L, ANY_LENGTH>(view, &rays, factor);
             let PreparedLanes { origin, direction: n, absolute_error, covered, end, .. } = prepared;

@@ -24,52 +24,25 @@ impl MovedSpheres for SphereList {
     }
 }
 
-impl MovedSpheres for Spheres<'_> {
-    fn count(&self) -> usize {
-        self.len()
-    }
+/// Spheres that are copied, by what is iterated over.
+macro_rules! copied {
+    ($([$($generics:tt)*] $spheres:ty: |$self:ident| $iterator:expr;)*) => {$(
+        impl<$($generics)*> MovedSpheres for $spheres {
+            fn count(&self) -> usize {
+                self.len()
+            }
 
-    fn replace(self, list: &mut SphereList) {
-        list.overwrite(self.iter());
-    }
+            fn replace($self, list: &mut SphereList) {
+                list.overwrite($iterator);
+            }
+        }
+    )*};
 }
 
-impl<S: Into<Sphere> + Copy> MovedSpheres for &[S] {
-    fn count(&self) -> usize {
-        self.len()
-    }
-
-    fn replace(self, list: &mut SphereList) {
-        list.overwrite(self.iter().copied());
-    }
-}
-
-impl<S: Into<Sphere> + Copy> MovedSpheres for &Vec<S> {
-    fn count(&self) -> usize {
-        self.len()
-    }
-
-    fn replace(self, list: &mut SphereList) {
-        list.overwrite(self.iter().copied());
-    }
-}
-
-impl<S: Into<Sphere>> MovedSpheres for Vec<S> {
-    fn count(&self) -> usize {
-        self.len()
-    }
-
-    fn replace(self, list: &mut SphereList) {
-        list.overwrite(self.into_iter());
-    }
-}
-
-impl<S: Into<Sphere>, const N: usize> MovedSpheres for [S; N] {
-    fn count(&self) -> usize {
-        N
-    }
-
-    fn replace(self, list: &mut SphereList) {
-        list.overwrite(self.into_iter());
-    }
+copied! {
+    [] Spheres<'_>: |self| self.iter();
+    [S: Into<Sphere> + Copy] &[S]: |self| self.iter().copied();
+    [S: Into<Sphere> + Copy] &Vec<S>: |self| self.iter().copied();
+    [S: Into<Sphere>] Vec<S>: |self| self.into_iter();
+    [S: Into<Sphere>, const N: usize] [S; N]: |self| self.into_iter();
 }

@@ -1,38 +1,44 @@
-//! Sorts whole numbers in place, without a reachable panic.
+//! Sorts whole numbers in place, by any order of theirs, without a reachable panic.
 //!
-//! The standard library's sorts panic where an order contradicts itself, and not every compiler sees that the order of
-//! numbers never does. Source: Williams, Algorithm 232: Heapsort (1964).
+//! The standard library's sorts panic where an order contradicts itself, and not every compiler sees that an order
+//! never does. Source: Williams, Algorithm 232: Heapsort (1964).
 
-/// Sorts `numbers`. Cost: n log n steps, whatever their order.
-pub(crate) fn heap_sort(numbers: &mut [u32]) {
+/// Sorts `numbers`, of which one `is_before` another. Cost: n log n steps, whatever their order; no memory.
+pub(crate) fn heap_sort(numbers: &mut [u32], is_before: impl Fn(u32, u32) -> bool) {
     for root in (0..numbers.len() / 2).rev() {
-        sink(numbers, root);
+        let Some(&number) = numbers.get(root) else { return };
+        sink(numbers, root, number, &is_before);
     }
-    let mut heap = numbers;
-    while let [first, .., last] = heap {
-        core::mem::swap(first, last);
-        let Some((_, rest)) = heap.split_last_mut() else { break };
-        heap = rest;
-        sink(heap, 0);
+    let mut rest = numbers;
+    while let Some((last, others)) = rest.split_last_mut() {
+        if let Some(first) = others.first_mut() {
+            core::mem::swap(first, last);
+            let number = *first;
+            sink(others, 0, number, &is_before);
+        }
+        rest = others;
     }
 }
 
-/// Moves a number down a heap, the largest on top, until none below it is larger.
-fn sink(heap: &mut [u32], mut at: usize) {
-    while let Some(&left) = heap.get(2 * at + 1) {
-        let right = heap.get(2 * at + 2).copied();
-        let is_right = right.is_some_and(|right| left < right);
-        let (child, larger) = (2 * at + 1 + usize::from(is_right), right.unwrap_or(left).max(left));
-        let Some(&number) = heap.get(at) else { return };
-        if larger <= number {
-            return;
+/// Puts `number` at `root` of a heap, or below what comes after it.
+fn sink(heap: &mut [u32], mut root: usize, number: u32, is_before: &impl Fn(u32, u32) -> bool) {
+    loop {
+        let (left, right) = (heap.get(2 * root + 1), heap.get(2 * root + 2));
+        let (below, child) = match (left, right) {
+            (Some(&left), Some(&right)) if is_before(left, right) => (2 * root + 2, right),
+            (Some(&left), _) => (2 * root + 1, left),
+            (None, _) => break,
+        };
+        if !is_before(number, child) {
+            break;
         }
-        for (place, number) in [(at, larger), (child, number)] {
-            if let Some(place) = heap.get_mut(place) {
-                *place = number;
-            }
+        if let Some(place) = heap.get_mut(root) {
+            *place = child;
         }
-        at = child;
+        root = below;
+    }
+    if let Some(place) = heap.get_mut(root) {
+        *place = number;
     }
 }
 
@@ -52,7 +58,7 @@ mod tests {
                 let mut numbers: Vec<_> = (0..count).map(|_| random.below(most) as u32).collect();
                 let mut expected = numbers.clone();
                 expected.sort_unstable();
-                heap_sort(&mut numbers);
+                heap_sort(&mut numbers, |a, b| a < b);
                 assert_eq!(numbers, expected);
             }
         }

@@ -91,7 +91,7 @@ fn sort(indices: &mut [u32], spare: &mut [u32], below: usize) {
     }
     // As many, and no more: every second round reads what the one before wrote, and nothing else.
     let Some(spare) = spare.get_mut(..indices.len()) else {
-        heap_sort(indices);
+        heap_sort(indices, |one, next| one < next);
         return;
     };
     // After an even number of rounds the indices are where they were.
