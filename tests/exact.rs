@@ -7,7 +7,8 @@
 //! SPHERULE_CASES=1000000 cargo test -p spherule-tests exact -- --nocapture
 //! ```
 //!
-//! `SPHERULE_SEED=N` draws other cases.
+//! `SPHERULE_SEED=N` draws other cases. Whether neighbours change anything is asked by `tests/agreement.rs`, as often as
+//! `PROPTEST_CASES` says.
 
 mod discriminant;
 mod lattice;
@@ -17,7 +18,6 @@ use proptest::test_runner::TestCaseError;
 use spherule_kernel::{Hit, Ray, Sphere, Tier, roots};
 use spherule_referee::case::Case;
 use spherule_referee::families::FAMILIES;
-use spherule_referee::random::Random;
 use spherule_referee::scene::Scene;
 use spherule_referee::strategies;
 use spherule_tests::variants::{
@@ -177,44 +177,5 @@ proptest! {
         let expected: Vec<_> =
             scene.rays.iter().map(|ray| oracle::closest(ray, &scene.spheres)).collect();
         check_scene(&scene, &expected)?;
-    }
-}
-
-/// Whatever one lane holds, the others answer with the same bits.
-#[test]
-fn any_bits_change_nothing_for_their_neighbours() {
-    let mut random = Random::new(37, first());
-    for round in 0..count() * 4 {
-        let family = random.pick(&FAMILIES);
-        let cases: Vec<Case> = (0..16).map(|i| family.case(first() + round * 16 + i)).collect();
-        let lane = random.integer(0, 15) as usize;
-        let mut disturbed = cases.clone();
-        disturbed[lane] = if random.one_in(2) {
-            Case::from_numbers([(); Case::NUMBERS].map(|()| random.any_f32()))
-        } else {
-            let other = random.pick(&FAMILIES);
-            other.case(random.bits())
-        };
-        let rays = [&cases, &disturbed]
-            .map(|cases| -> Vec<Ray> { cases.iter().map(|case| case.ray).collect() });
-        let others = || (0..16).filter(|&index| index != lane);
-        for layer in pair_layers() {
-            let [alone, beside] =
-                [&cases, &disturbed].map(|cases| pairs_of(Tier::Exact, layer, cases));
-            for i in others() {
-                let (case, disturbed) = (cases[i], disturbed[lane]);
-                assert_eq!(bits(alone[i]), bits(beside[i]), "{layer:?}: {case:?} {disturbed:?}");
-            }
-        }
-        // The list stays the same: only the ray of one lane changes.
-        let list: Vec<Sphere> = disturbed.iter().map(|case| case.sphere).collect();
-        for variant in exact_lists() {
-            let [alone, beside] = rays.each_ref().map(|rays| variant.closest(&list, rays));
-            for i in others() {
-                let (case, disturbed) = (cases[i], disturbed[lane]);
-                let [alone, beside] = [alone[i], beside[i]].map(hit_bits);
-                assert_eq!(alone, beside, "{variant:?}: {case:?} {disturbed:?}");
-            }
-        }
     }
 }

@@ -18,6 +18,7 @@ mod objects;
 mod oracle;
 mod order;
 mod orders;
+mod own_lanes;
 mod packets;
 #[cfg(target_os = "linux")]
 mod pty;

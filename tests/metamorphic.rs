@@ -3,12 +3,11 @@
 
 use proptest::prelude::*;
 use spherule_kernel::{Hit, Ray, Sphere, Tier, Vec3, roots};
-use spherule_referee::case::Case;
 use spherule_referee::random::power_of_two;
 use spherule_referee::scene::Scene;
 use spherule_referee::strategies;
-use spherule_tests::oracle::{discriminant_sign, is_closer};
-use spherule_tests::variants::{Layer, bits, lists, pairs_of};
+use spherule_tests::oracle::discriminant_sign;
+use spherule_tests::variants::{bits, lists};
 use std::cmp::Ordering;
 
 fn all_bits(hits: Vec<Option<Hit>>) -> Vec<Option<(u32, u32)>> {
@@ -184,54 +183,6 @@ proptest! {
                         "{:?}: {:?}, then {:?}", variant, hit, found
                     );
                 }
-            }
-        }
-    }
-
-    /// Lanes do not depend on their numbers.
-    #[test]
-    fn permuted_lanes_permute_the_answers(
-        (scene, order) in any_scene().prop_flat_map(|scene| {
-            let order: Vec<usize> = (0..scene.rays.len()).collect();
-            (Just(scene), Just(order).prop_shuffle())
-        })
-    ) {
-        let rays: Vec<Ray> = order.iter().map(|&index| scene.rays[index]).collect();
-        for variant in lists() {
-            let hits = variant.closest(&scene.spheres, &scene.rays);
-            let expected: Vec<_> = order.iter().map(|&index| bits(hits[index])).collect();
-            let found = all_bits(variant.closest(&scene.spheres, &rays));
-            prop_assert_eq!(found, expected, "{:?}", variant);
-        }
-    }
-
-    /// The order of the list decides nothing except which of equal roots has the lowest index.
-    #[test]
-    fn permuted_spheres_keep_t(
-        (scene, order) in any_scene().prop_flat_map(|scene| {
-            let order: Vec<usize> = (0..scene.spheres.len()).collect();
-            (Just(scene), Just(order).prop_shuffle())
-        })
-    ) {
-        let spheres: Vec<Sphere> = order.iter().map(|&index| scene.spheres[index]).collect();
-        for variant in lists() {
-            let hits = variant.closest(&scene.spheres, &scene.rays);
-            let found = variant.closest(&spheres, &scene.rays);
-            for ((ray, hit), found) in scene.rays.iter().zip(hits).zip(found) {
-                let t = |hit: Option<Hit>| hit.map(|hit| hit.t.to_bits());
-                prop_assert_eq!(t(found), t(hit), "{:?}", variant);
-                let Some(found) = found else { continue };
-                // The first sphere in the new order that is hit at this t.
-                let same_t = |&sphere: &Sphere| {
-                    let t = pairs_of(variant.tier, Layer::Lanes(1), &[Case { ray: *ray, sphere }])[0];
-                    t == Some(found.t)
-                };
-                let tied = spheres.iter().enumerate().filter(|(_, sphere)| same_t(sphere));
-                let tied = tied.map(|(index, _)| Hit { sphere: index as u32, ..found });
-                let closer = |known: Hit, hit: Hit| {
-                    if is_closer(variant.tier, ray, &spheres, hit, known) { hit } else { known }
-                };
-                prop_assert_eq!(tied.reduce(closer), Some(found));
             }
         }
     }

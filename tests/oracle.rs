@@ -5,9 +5,10 @@
 //! by halving, the one `f32` whose rounding interval holds the root.
 
 use num_bigint::{BigInt, Sign};
-use spherule_kernel::{Hit, Ray, Sphere, Vec3};
+use spherule_kernel::{Hit, Ray, Sphere, Tier, Vec3, roots};
 use spherule_referee::case::Case;
 use spherule_referee::families::FAMILIES;
+use spherule_referee::random::power_of_two;
 use spherule_referee::ulp;
 use spherule_tests::oracle::{self, dot, units, units3};
 use spherule_tests::vectors;
@@ -124,6 +125,70 @@ fn roots_round_to_even_and_zero_has_no_sign() {
     assert_eq!(tiny(-least, 1.9), 0x8000_0001);
     assert_eq!(tiny(least, f32::MAX), 0);
     assert_eq!(tiny(-0.0, 1.0), 0);
+}
+
+/// Asserts that both the oracle and `Exact` find these roots, bit for bit.
+fn are_the_roots(case: &Case, expected: Option<[f32; 2]>) {
+    let Case { ray, sphere } = case;
+    let found = [oracle::roots(ray, sphere), roots(Tier::Exact, ray, sphere)];
+    let bits = |roots: Option<[f32; 2]>| roots.map(|roots| roots.map(f32::to_bits));
+    assert_eq!(found.map(bits), [bits(expected); 2], "{found:?}, not {expected:?}: {case:?}");
+}
+
+#[test]
+fn both_roots_by_hand() {
+    let two_to = |exponent| power_of_two(exponent) as f32;
+    let (million, max, infinity) = (two_to(24), f32::MAX, f32::INFINITY);
+    let (least, normal, half) = (two_to(-149), two_to(-126), two_to(103));
+    let (up, down) = (f32::next_up, f32::next_down);
+    // From (0, y, 0) along (d, 0, 0), and a sphere of radius r about (c, 0, 0).
+    for (y, d, c, r, expected) in [
+        (0.0, 1.0, 3.0, 1.0, Some([2.0, 4.0])),
+        (0.0, -2.0, 3.0, 1.0, Some([-2.0, -1.0])),
+        // A tangent, and an ulp beside it: r^2 - 1 is about 2^-22.
+        (1.0, 1.0, 3.0, 1.0, Some([3.0, 3.0])),
+        (1.0, 1.0, 3.0, down(1.0), None),
+        (1.0, 1.0, 3.0, up(1.0), Some([3.0 - two_to(-11), 3.0 + two_to(-11)])),
+        // A point.
+        (0.0, 1.0, 3.0, 0.0, Some([3.0, 3.0])),
+        (least, 1.0, 3.0, 0.0, None),
+        (0.0, 2.0, 0.0, 0.0, Some([0.0, 0.0])),
+        // Ties: 2^24 + 1 falls, 2^24 + 3 rises.
+        (0.0, 1.0, million, 1.0, Some([million - 1.0, million])),
+        (0.0, 1.0, million, 3.0, Some([million - 3.0, million + 4.0])),
+        (0.0, 1.0, million + 4.0, 1.0, Some([million + 4.0, million + 4.0])),
+        (0.0, 1.0, million + 4.0, 3.0, Some([million, million + 8.0])),
+        (0.0, 1.0, -million, 1.0, Some([-million, 1.0 - million])),
+        (0.0, 1.0, -million, 3.0, Some([-million - 4.0, 3.0 - million])),
+        // A hair beside them: above 2^24 + 1, and 2^-128 / 6 below 2^24 + 3.
+        (0.0, 1.0, million, up(1.0), Some([million - 1.0, million + 2.0])),
+        (two_to(-64), 1.0, million, 3.0, Some([million - 3.0, million + 2.0])),
+        // -2^-150 and 2^-150 are ties with zero, which has no sign.
+        (0.0, two_to(127), 1.0, 1.0, Some([0.0, normal])),
+        (0.0, two_to(127), 1.0, up(1.0), Some([0.0, normal])),
+        (0.0, -two_to(127), 1.0, up(1.0), Some([-normal, 0.0])),
+        // Three halves of the least number are a tie as well.
+        (0.0, two_to(127), 1.0, up(up(up(1.0))), Some([-2.0 * least, normal + 2.0 * least])),
+        (0.0, 2.0, 3.0 * least, 0.0, Some([2.0 * least, 2.0 * least])),
+        (0.0, 1.0, 3.0 * least, least, Some([2.0 * least, 4.0 * least])),
+        (0.0, least, 3.0 * least, least, Some([2.0, 4.0])),
+        // The largest number and half of what its last bit is worth: a tie, and infinity is even.
+        (0.0, 1.0, max, half, Some([down(max), infinity])),
+        (0.0, 1.0, max, down(half), Some([max, max])),
+        (0.0, -1.0, max, half, Some([-infinity, -down(max)])),
+        (0.0, -1.0, max, down(half), Some([-max, -max])),
+        (0.0, least, max, 0.0, Some([infinity, infinity])),
+    ] {
+        let ray = Ray::new(Vec3::new(0.0, y, 0.0), Vec3::new(d, 0.0, 0.0));
+        let sphere = Sphere { center: Vec3::new(c, 0.0, 0.0), radius: r };
+        are_the_roots(&Case { ray, sphere }, expected);
+    }
+    // A tangent in no coordinate plane: p = 5 d + 9 (2, 1, -2), and |d x p|^2 = 9 * 9 * 81.
+    let ray = Ray::new(Vec3::ZERO, Vec3::new(1.0, 2.0, 2.0));
+    for (radius, expected) in [(27.0, Some([5.0, 5.0])), (down(27.0), None)] {
+        let sphere = Sphere { center: Vec3::new(23.0, 19.0, -8.0), radius };
+        are_the_roots(&Case { ray, sphere }, expected);
+    }
 }
 
 #[test]

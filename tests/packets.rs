@@ -5,6 +5,7 @@ use spherule_kernel::{
     f32x8, f32x16, pair_lanes,
 };
 use spherule_referee::families::FAMILIES;
+use spherule_referee::random::Random;
 
 /// Some rays of any bits.
 fn rays(count: u64) -> Vec<Ray> {
@@ -56,25 +57,58 @@ fn has_no_hit_without_a_lane<L: Lanes<Token = ()>>() {
     assert!(hits.spheres().iter().all(|&sphere| sphere == HitPacket::<L::Array>::NO_SPHERE));
 }
 
+/// Any camera, whose vectors have sizes of their own.
+fn camera(random: &mut Random) -> Camera {
+    let mut number = || (random.sign() * random.log_uniform(-6, 6)) as f32;
+    let mut vector = || Vec3::from_array([(); 3].map(|()| number()));
+    let (end, corner, step_x, step_y) = (vector(), vector(), vector(), vector());
+    let projection = if random.one_in(2) {
+        Projection::Perspective { eye: end }
+    } else {
+        Projection::Parallel { direction: end }
+    };
+    Camera { projection, corner, step_x, step_y }
+}
+
 /// The rays of a tile are those of its pixels, row by row; outside the picture there is none.
 fn holds_the_rays_of_a_tile<L: Lanes>() {
-    let vector = |seed: u64| FAMILIES[0].case(seed).ray.origin;
-    for projection in
-        [Projection::Perspective { eye: vector(1) }, Projection::Parallel { direction: vector(2) }]
-    {
-        let camera = Camera { projection, corner: vector(3), step_x: vector(4), step_y: vector(5) };
-        let (width, height) = Camera::tile::<L::Array>();
-        assert_eq!((width * height) as usize, L::COUNT);
-        assert!(width == height || width == 2 * height, "{width} x {height}");
-        for (ix, iy) in [(0, 0), (8, 4), (11, 6), (13, 9), (40, 40)] {
-            let packet = camera.packet::<L::Array>(ix, iy, 13, 8);
+    let (tile_width, tile_height): (u32, u32) = match L::COUNT {
+        1 => (1, 1),
+        4 => (2, 2),
+        8 => (4, 2),
+        _ => (4, 4),
+    };
+    assert_eq!(Camera::tile::<L::Array>(), (tile_width, tile_height));
+    assert!(!Ray::INACTIVE.is_live());
+    let mut random = Random::new(51, 0);
+    for _ in 0..300 {
+        let camera = camera(&mut random);
+        let mut up_to = |end| random.integer(1, end) as u32;
+        let (width, height) = (up_to(20), up_to(20));
+        // Checks a packet, and counts its pixels in the picture.
+        let pixels = |ix: u32, iy: u32| {
+            let packet = camera.packet::<L::Array>(ix, iy, width, height);
+            let mut pixels = 0;
             for lane in 0..L::COUNT as u32 {
-                let (x, y) = (ix + lane % width, iy + lane / width);
-                let inside = x < 13 && y < 8;
+                let (x, y) = (ix + lane % tile_width, iy + lane / tile_width);
+                let inside = x < width && y < height;
                 let expected = if inside { camera.get_ray(x, y) } else { Ray::INACTIVE };
-                assert_eq!(bits(&packet.ray(lane as usize)), bits(&expected), "({x}, {y})");
+                let found = packet.ray(lane as usize);
+                assert_eq!(bits(&found), bits(&expected), "({x}, {y}) of {width} x {height}");
+                pixels += u32::from(inside);
+            }
+            pixels
+        };
+        // Tiles hold all pixels.
+        let mut held = 0;
+        for iy in (0..height).step_by(tile_height as usize) {
+            for ix in (0..width).step_by(tile_width as usize) {
+                held += pixels(ix, iy);
             }
         }
+        assert_eq!(held, width * height);
+        // A packet may begin anywhere, also outside.
+        pixels(up_to(40), up_to(40));
     }
 }
 

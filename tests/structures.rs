@@ -1,7 +1,6 @@
 //! Depth list and tree answer as brute force does, bit for bit, in every variant; no input makes a tree deep, slow or
 //! large.
 
-mod counted;
 mod equality;
 mod false_hits;
 mod far;

@@ -2,72 +2,42 @@
 //! given up in the course of a call. The answers are those of ray by ray, which are those of brute force.
 
 use super::scenes::{diffuse, uniform};
-use spherule_kernel::{
-    Exact, Hit, HitColumns, HitPacket, Intersect, Level, Ray, RayColumns, RayPacket, SphereList,
-    SphereTree, Trace, Vec3,
-};
+use spherule_kernel::{Level, Ray, SphereList, SphereTree, Tier, Trace, Vec3};
 use spherule_tests::orders::Order;
 use spherule_tests::scenes::{Scene, Size};
-use spherule_tests::variants::{bits, levels};
+use spherule_tests::variants::{Layer, Structure, Variant, bits, levels};
 
 /// Closest hits, and whether there is any hit.
 type Answers = (Vec<Option<(u32, u32)>>, Vec<bool>);
 
-/// Answers by slices. `trace` keeps what it learns.
-fn by_slices(tree: &SphereTree, trace: &mut Trace<'_>, rays: &[Ray]) -> Answers {
-    let (mut hits, mut occluded) = (vec![None::<Hit>; rays.len()], vec![false; rays.len()]);
-    tree.closest_hits_with(Exact, trace, rays, &mut hits);
-    tree.any_hits_with(Exact, trace, rays, &mut occluded);
-    (hits.into_iter().map(bits).collect(), occluded)
+/// Answers by `layer`. `trace` keeps what it learns.
+fn ask(layer: Layer, tree: &SphereTree, trace: &mut Trace<'_>, rays: &[Ray]) -> Answers {
+    let structure = Structure::Tree(trace.coherence);
+    let answers = Variant { tier: Tier::Exact, structure, layer }.ask_tree(tree, trace, rays);
+    (answers.hits.into_iter().map(bits).collect(), answers.occluded)
 }
 
-fn by_packets(tree: &SphereTree, trace: &mut Trace<'_>, rays: &[Ray]) -> Answers {
-    let packets: Vec<_> = rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect();
-    let (mut hits, mut occluded) = (vec![HitPacket::none(); packets.len()], vec![0; packets.len()]);
-    tree.closest_hit_packets(Exact, trace, &packets, &mut hits);
-    tree.any_hit_packets(Exact, trace, &packets, &mut occluded);
-    let hits = hits.iter().flat_map(HitPacket::hits).take(rays.len()).map(bits).collect();
-    let is_occluded =
-        |ray: usize| occluded[ray / RayPacket::COUNT] >> (ray % RayPacket::COUNT) & 1 == 1;
-    (hits, (0..rays.len()).map(is_occluded).collect())
-}
-
-fn by_columns(tree: &SphereTree, trace: &mut Trace<'_>, rays: &[Ray]) -> Answers {
-    let column = |of: fn(&Ray) -> f32| rays.iter().map(of).collect::<Vec<_>>();
-    let origin = [column(|r| r.origin.x), column(|r| r.origin.y), column(|r| r.origin.z)];
-    let direction =
-        [column(|r| r.direction.x), column(|r| r.direction.y), column(|r| r.direction.z)];
-    let (t_min, t_max) = (column(|r| r.t_min), column(|r| r.t_max));
-    let columns = RayColumns {
-        origin: origin.each_ref().map(Vec::as_slice),
-        direction: direction.each_ref().map(Vec::as_slice),
-        t_min: &t_min,
-        t_max: &t_max,
-    };
-    let (mut t, mut sphere) = (vec![0.0; rays.len()], vec![0; rays.len()]);
-    let mut occluded = vec![false; rays.len()];
-    tree.closest_hit_columns(Exact, trace, columns, HitColumns { t: &mut t, sphere: &mut sphere });
-    tree.any_hit_columns(Exact, trace, columns, &mut occluded);
-    let hit = |(t, sphere): (f32, u32)| (sphere != u32::MAX).then_some((t.to_bits(), sphere));
-    (t.into_iter().zip(sphere).map(hit).collect(), occluded)
+fn ray_by_ray(tree: &SphereTree, rays: &[Ray]) -> Answers {
+    ask(Layer::SliceAt(Level::best().name()), tree, &mut Trace::new().incoherent(), rays)
 }
 
 /// # Panics
 /// If a way differs from ray by ray.
 fn check(name: &str, tree: &SphereTree, rays: &[Ray]) {
-    let expected = by_slices(tree, &mut Trace::new().incoherent(), rays);
+    let expected = ray_by_ray(tree, rays);
     for level in levels().map(|name| Level::named(name).expect("a level of this CPU")) {
         let name = format!("{name}, {} rays, {level:?}", rays.len());
+        let (slices, packets) = (Layer::SliceAt(level.name()), Layer::Packets(level.name()));
         // The second time, the trace uses what it has learnt.
         let (mut of_slices, mut of_packets) = (Trace::new().at(level), Trace::new().at(level));
         for _ in 0..2 {
-            assert!(by_slices(tree, &mut of_slices, rays) == expected, "{name}: slices");
-            assert!(by_packets(tree, &mut of_packets, rays) == expected, "{name}: packets");
+            assert!(ask(slices, tree, &mut of_slices, rays) == expected, "{name}: slices");
+            assert!(ask(packets, tree, &mut of_packets, rays) == expected, "{name}: packets");
         }
         let coherent = &mut Trace::new().at(level).coherent();
-        assert!(by_slices(tree, coherent, rays) == expected, "{name}: said to be coherent");
+        assert!(ask(slices, tree, coherent, rays) == expected, "{name}: said to be coherent");
         let trace = &mut Trace::new().at(level);
-        assert!(by_columns(tree, trace, rays) == expected, "{name}: columns");
+        assert!(ask(Layer::Columns, tree, trace, rays) == expected, "{name}: columns");
     }
 }
 
@@ -134,8 +104,9 @@ fn many_rays_in_a_large_tree() {
     let scene = Scene::large("u1m", Size(32, 400_000)).expect("listed");
     let tree = scene.tree();
     let rays = Order::Diffuse.rays(scene.spheres.spheres(), 40_000, 1);
-    let expected = by_slices(&tree, &mut Trace::new().incoherent(), &rays);
-    let found = by_slices(&tree, &mut Trace::new(), &rays);
-    assert!(found == expected, "slices");
-    assert!(by_packets(&tree, &mut Trace::new(), &rays) == expected, "packets");
+    let expected = ray_by_ray(&tree, &rays);
+    let best = Level::best().name();
+    for layer in [Layer::SliceAt(best), Layer::Packets(best)] {
+        assert!(ask(layer, &tree, &mut Trace::new(), &rays) == expected, "{layer:?}");
+    }
 }

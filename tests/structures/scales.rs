@@ -1,20 +1,11 @@
-//! Nothing depends on the units. If a scene, or the directions of its rays, are multiplied by powers of two, the
-//! answers are multiplied and the cost is the same.
+//! Nothing depends on the units. If a scene, or the directions of its rays, are multiplied by powers of two, the answers
+//! are multiplied. `tests/proofs/src/scales.rs` shows that the work is the same.
 
-use super::counted::{COUNT, Counted, operations};
 use super::scenes::{EYE, camera, point, uniform, unit};
 use super::{BOTH, EXACT};
-use spherule_kernel::{
-    Coherence, DepthList, HitPacket, Intersect, Ray, RayPacket, Sphere, SphereList, SphereTree,
-    Tier, Trace, Vec3, Viewpoint,
-};
+use spherule_kernel::{Intersect, Ray, Sphere, SphereList, Tier, Vec3};
 use spherule_referee::random::{Random, power_of_two};
 use spherule_tests::variants::{assert_same, bits, brute};
-
-/// Exponents of scenes. Before scaling, structures covered scenes up to 2^40 and down to 2^-58.
-const SCENES: [i64; 9] = [-100, -75, -60, -41, 0, 41, 64, 75, 100];
-/// Exponents of directions; squares overflow from 2^64 on, and underflow below 2^-63.
-const LENGTHS: [i64; 7] = [-110, -100, -51, 0, 51, 100, 126];
 
 fn times(vector: Vec3, exponent: i64) -> Vec3 {
     Vec3::from_array(vector.to_array().map(|x| (f64::from(x) * power_of_two(exponent)) as f32))
@@ -37,110 +28,6 @@ pub(super) fn scaled_rays(rays: &[Ray], exponent: i64, length: i64) -> Vec<Ray> 
 pub(super) fn diffuse(count: usize) -> Vec<Ray> {
     let mut random = Random::new(100, 0);
     (0..count).map(|_| Ray::new(point(&mut random, 1.0), unit(&mut random))).collect()
-}
-
-/// A structure, and for a tree what the trace says of the rays.
-pub(super) const WAYS: [&str; 4] = ["list", "depth list", "packets", "ray by ray"];
-
-/// How many operations each way takes to answer the rays, closest hit and any hit.
-pub(super) fn costs(tier: Tier, spheres: &[Sphere], rays: &[Ray]) -> [[u64; 2]; 4] {
-    let list = SphereList::from(spheres);
-    let tree = SphereTree::new(list.clone());
-    let mut memory = vec![0.0; DepthList::needed(spheres.len())];
-    let viewpoint = Viewpoint::Origin(rays[0].origin);
-    let depth = DepthList::sort(list.spheres(), viewpoint, &mut memory).expect("enough memory");
-    let packets: Vec<_> = rays.chunks(COUNT).map(RayPacket::<[f32; COUNT]>::new).collect();
-    let mut scratch = vec![0.0; DepthList::scratch(spheres.len())];
-    WAYS.map(|way| {
-        let coherence = if way == "packets" { Coherence::Coherent } else { Coherence::Incoherent };
-        let mut trace = Trace::new().with(coherence).with_scratch(&mut scratch);
-        match way {
-            "list" => counted(tier, &list, &mut trace, &packets),
-            "depth list" => counted(tier, &depth, &mut trace, &packets),
-            _ => counted(tier, &tree, &mut trace, &packets),
-        }
-    })
-}
-
-fn counted(
-    tier: Tier,
-    structure: &impl Intersect,
-    trace: &mut Trace<'_>,
-    packets: &[RayPacket<[f32; COUNT]>],
-) -> [u64; 2] {
-    let mut hits = vec![HitPacket::none(); packets.len()];
-    let mut occluded = vec![0; packets.len()];
-    let closest = operations(|| {
-        structure.closest_hit_lanes::<Counted<f32>>(tier, (), trace, packets, &mut hits);
-    });
-    let any = operations(|| {
-        structure.any_hit_lanes::<Counted<f32>>(tier, (), trace, packets, &mut occluded);
-    });
-    [closest, any]
-}
-
-/// A cost cliff fails here: it would be 300 to 1,000 times the operations.
-#[test]
-fn every_scale_costs_the_same() {
-    let spheres = uniform(1000);
-    let (mut worst, mut coherent) = (0.0_f64, true);
-    for rays in [camera(EYE, Vec3::ZERO, 0.364, 16), diffuse(256)] {
-        let plain = costs(Tier::Exact, &spheres, &rays);
-        let plain_stable = costs(Tier::Stable, &spheres, &rays);
-        for exponent in SCENES {
-            for length in LENGTHS {
-                // Otherwise every t is infinite, or zero.
-                if (exponent - length).abs() > 120 {
-                    continue;
-                }
-                let spheres = scaled(&spheres, exponent);
-                let rays = scaled_rays(&rays, exponent, length);
-                // In the domain of `Stable`: radii from 2^-6 on.
-                let stable = (-34..=34).contains(&exponent) && length >= -120;
-                for (tier, plain) in [(Tier::Exact, plain), (Tier::Stable, plain_stable)] {
-                    if tier == Tier::Stable && !stable {
-                        continue;
-                    }
-                    let costs = costs(tier, &spheres, &rays);
-                    for (way, (cost, plain)) in WAYS.iter().zip(costs.iter().zip(plain)) {
-                        // A depth list is for rays of a common origin.
-                        if *way == "depth list" && !coherent {
-                            continue;
-                        }
-                        for query in 0..2 {
-                            let ratio = cost[query] as f64 / plain[query] as f64;
-                            worst = worst.max(ratio);
-                            assert!(
-                                ratio <= 1.1,
-                                "{tier:?}, {way}, scene 2^{exponent}, |d| 2^{length}: {ratio:.2}"
-                            );
-                        }
-                    }
-                }
-            }
-        }
-        coherent = false;
-    }
-    println!("at most {worst:.3} times the operations");
-}
-
-/// Every t is infinite, or zero, so that no bound can order the hits: a tree still has no cost cliff.
-#[test]
-fn no_scale_costs_what_brute_force_does() {
-    let spheres = uniform(1000);
-    let rays = camera(EYE, Vec3::ZERO, 0.364, 16);
-    let plain = costs(Tier::Exact, &spheres, &rays);
-    for (exponent, length) in [(-100, 100), (100, -100), (-75, 126), (100, -149)] {
-        let costs =
-            costs(Tier::Exact, &scaled(&spheres, exponent), &scaled_rays(&rays, exponent, length));
-        for (way, (cost, plain)) in WAYS.iter().zip(costs.iter().zip(plain)).skip(2) {
-            for query in 0..2 {
-                let ratio = cost[query] as f64 / plain[query] as f64;
-                println!("{way}, scene 2^{exponent}, |d| 2^{length}: {ratio:.2}");
-                assert!(ratio <= 12.0, "{way}, scene 2^{exponent}, |d| 2^{length}: {ratio:.2}");
-            }
-        }
-    }
 }
 
 /// The same hits, with t multiplied, for every power of two; structures answer as the list.

@@ -1,7 +1,5 @@
 //! Proofs of the kernel's bounds by machine, and tests of what is private in it: `docs/proofs.md`.
 
-mod by_hand;
-mod camera_packets;
 pub(crate) mod climb;
 mod climbs;
 mod corners;
@@ -17,5 +15,8 @@ mod polynomial;
 mod recorded;
 mod rows;
 mod running_error;
+// Its work is counted at a level.
+#[cfg(feature = "std")]
+mod scales;
 mod toy;
 pub(crate) mod work;

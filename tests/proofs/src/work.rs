@@ -49,13 +49,13 @@ kinds! {
     StreamLeaf "stream leaf" 10.0,
     /// The same, once more.
     StreamRoots "stream roots" 35.0,
-    /// A packet is prepared as one of a group.
+    /// A packet is prepared as one of a group, or surveyed for a depth list.
     GroupPacket "grouped" 18.0,
     /// Planes are laid around a group, or it is found not to fit.
     GroupFit "fit" 380.0,
     /// A group's planes against the boxes of a node.
     GroupNode "group node" 17.0,
-    /// A group's planes against a leaf.
+    /// A group's planes against a leaf, or sixteen spheres of a depth list.
     GroupLeaf "group leaf" 22.0,
     /// A packet's planes against a leaf.
     PacketLeaf "packet leaf" 16.0,

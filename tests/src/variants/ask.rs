@@ -6,7 +6,7 @@ use super::packing::{columns_of, level, packed, stale_packet, unpacked};
 use super::table::{Layer, Structure, Variant};
 use spherule_kernel::{
     DepthList, Hit, HitColumns, Intersect, Lanes, QueuedRay, Ray, RayColumns, Sphere, SphereList,
-    StreamMemory, StreamRay, Trace, f32x4, f32x8, f32x16,
+    SphereTree, StreamMemory, StreamRay, Trace, f32x4, f32x8, f32x16,
 };
 
 impl Variant {
@@ -22,11 +22,13 @@ impl Variant {
             Structure::DepthList(sevenths) => {
                 let words = DepthList::scratch(list.spheres().len()) * sevenths / 7;
                 let mut scratch = vec![f32::NAN; words];
-                self.ask_of(depth_list, Trace::new().with_scratch(&mut scratch), rays)
+                self.ask_of(depth_list, &mut Trace::new().with_scratch(&mut scratch), rays)
             }
-            Structure::Tree(coherence) => self.ask_of(tree, Trace::new().with(coherence), rays),
+            Structure::Tree(coherence) => {
+                self.ask_tree(tree, &mut Trace::new().with(coherence), rays)
+            }
             Structure::Refitted(coherence) => {
-                self.ask_of(refitted, Trace::new().with(coherence), rays)
+                self.ask_tree(refitted, &mut Trace::new().with(coherence), rays)
             }
             Structure::Stream(count) => {
                 // The least memory that a few rays need; for more rays, as much as queues like to
@@ -36,13 +38,19 @@ impl Variant {
                 let mut queues = vec![QueuedRay::EMPTY; queues];
                 let mut memory = vec![StreamRay::EMPTY; count];
                 let memory = StreamMemory::new(&mut memory, &mut queues).expect("enough");
-                let trace = Trace::new().incoherent().with_stream(memory.everywhere());
-                self.ask_of(tree, trace, rays)
+                let mut trace = Trace::new().incoherent().with_stream(memory.everywhere());
+                self.ask_tree(tree, &mut trace, rays)
             }
             Structure::Bvh4 => {
-                self.ask_of(&bvh4.expect("no more spheres than it holds"), Trace::new(), rays)
+                self.ask_of(&bvh4.expect("no more spheres than it holds"), &mut Trace::new(), rays)
             }
         }
+    }
+
+    /// What these rays hit in a tree, whatever the structure. `trace` keeps what it learns.
+    #[must_use]
+    pub fn ask_tree(&self, tree: &SphereTree, trace: &mut Trace<'_>, rays: &[Ray]) -> Answers {
+        self.ask_of(tree, trace, rays)
     }
 
     /// The closest hits in a list, whatever the structure.
@@ -61,13 +69,13 @@ impl Variant {
 
     fn ask_list(&self, list: &SphereList, rays: &[Ray]) -> Answers {
         match self.layer {
-            Layer::Lanes(4) => self.lanes::<_, f32x4>(list, Trace::new(), rays),
-            Layer::Lanes(16) => self.lanes::<_, f32x16>(list, Trace::new(), rays),
-            _ => self.ask_of(list, Trace::new(), rays),
+            Layer::Lanes(4) => self.lanes::<_, f32x4>(list, &mut Trace::new(), rays),
+            Layer::Lanes(16) => self.lanes::<_, f32x16>(list, &mut Trace::new(), rays),
+            _ => self.ask_of(list, &mut Trace::new(), rays),
         }
     }
 
-    fn ask_of(&self, structure: &impl Intersect, mut trace: Trace<'_>, rays: &[Ray]) -> Answers {
+    fn ask_of(&self, structure: &impl Intersect, trace: &mut Trace<'_>, rays: &[Ray]) -> Answers {
         let tier = self.tier;
         // Old contents must not show, and nothing past the rays may be touched.
         let stale = Some(Hit { t: -7.0, sphere: 7 });
@@ -92,8 +100,8 @@ impl Variant {
                 let columns = RayColumns { origin, direction, t_min, t_max };
                 let (mut t, mut sphere) = (vec![-7.0; rays.len() + 2], vec![7; rays.len() + 1]);
                 let found = HitColumns { t: &mut t, sphere: &mut sphere };
-                structure.closest_hit_columns(tier, &mut trace, columns, found);
-                structure.any_hit_columns(tier, &mut trace, columns, &mut occluded);
+                structure.closest_hit_columns(tier, trace, columns, found);
+                structure.any_hit_columns(tier, trace, columns, &mut occluded);
                 let none = |t: f32, sphere: u32| sphere == u32::MAX && t == f32::INFINITY;
                 let hit = |(&t, &sphere)| (!none(t, sphere)).then_some(Hit { t, sphere });
                 hits = t.iter().zip(&sphere).map(hit).collect();
@@ -101,16 +109,16 @@ impl Variant {
             }
             Layer::SliceAt(name) => {
                 trace.level = level(name);
-                structure.closest_hits_with(tier, &mut trace, rays, &mut hits);
-                structure.any_hits_with(tier, &mut trace, rays, &mut occluded);
+                structure.closest_hits_with(tier, trace, rays, &mut hits);
+                structure.any_hits_with(tier, trace, rays, &mut occluded);
             }
             Layer::Packets(name) => {
                 trace.level = level(name);
                 let packets = packed(rays);
                 let mut found = vec![stale_packet::<f32x16>(); packets.len() + 1];
                 let mut bits = vec![u32::MAX; packets.len() + 1];
-                structure.closest_hit_packets(tier, &mut trace, &packets, &mut found);
-                structure.any_hit_packets(tier, &mut trace, &packets, &mut bits);
+                structure.closest_hit_packets(tier, trace, &packets, &mut found);
+                structure.any_hit_packets(tier, trace, &packets, &mut bits);
                 return unpacked::<f32x16>(rays.len(), &found, &bits);
             }
             Layer::Lanes(1) => return self.lanes::<_, f32>(structure, trace, rays),
@@ -127,14 +135,14 @@ impl Variant {
     fn lanes<S: Intersect, L: Lanes<Token = ()>>(
         &self,
         structure: &S,
-        mut trace: Trace<'_>,
+        trace: &mut Trace<'_>,
         rays: &[Ray],
     ) -> Answers {
         let packets = packed(rays);
         let mut found = vec![stale_packet::<L>(); packets.len() + 1];
         let mut bits = vec![u32::MAX; packets.len() + 1];
-        structure.closest_hit_lanes::<L>(self.tier, (), &mut trace, &packets, &mut found);
-        structure.any_hit_lanes::<L>(self.tier, (), &mut trace, &packets, &mut bits);
+        structure.closest_hit_lanes::<L>(self.tier, (), trace, &packets, &mut found);
+        structure.any_hit_lanes::<L>(self.tier, (), trace, &packets, &mut bits);
         unpacked::<L>(rays.len(), &found, &bits)
     }
 }
