@@ -3,8 +3,9 @@
 mod refit;
 
 pub(crate) use self::refit::Refit;
+use crate::agreement::{WithTruth, check};
 use crate::builds::{EMBREE, Trees};
-use crate::engine::kernel::levels;
+use crate::engine::kernel::{Kernel, levels};
 use crate::engine::{EVERY_SECOND, Engine, Query, Rays};
 use crate::measure::Effort;
 use crate::rounds::{Median, Sampler, Samples, timed};
@@ -12,7 +13,7 @@ use spherule_kernel::{
     Exact, Hit, HitColumns, HitPacket, Intersect, Level, LevelName, Ray, RayColumns, RayPacket,
     SphereTree, Trace,
 };
-use spherule_tests::scenes::{Kind, LARGE, Scene, Size, sample};
+use spherule_tests::scenes::{Kind, LARGE, Scene, Size};
 use std::cell::RefCell;
 use std::time::Duration;
 
@@ -84,15 +85,21 @@ pub(crate) fn measure(effort: Effort, one: Option<&str>) -> Calls {
         let scene = Scene::large(name, size).expect("listed");
         let levels = levels();
         let trees = Trees::build(&scene, false, &levels);
+        let exact = Kernel::new(&scene, &trees.ours).truth();
         for kind in Kind::ALL {
-            let rays = sample(scene.rays(kind), rays);
+            let some = WithTruth::new((&scene, kind), rays);
             for &level in &levels {
                 let engines = trees.others.iter().filter(|engine| is_one_ray(engine, level));
                 let engines: Vec<_> = engines.collect();
+                for &engine in &engines {
+                    let mut run = (engine.ready)(&some.rays);
+                    check((&scene, engine), (&some, &some), &mut *run, &exact);
+                }
                 for query in Query::ALL {
                     let asked = (scene.name, kind, query, level);
                     let plan = (Duration::from_millis(time), rounds);
-                    all.rows.push(Row::measure(asked, &trees.ours, &engines, &rays, plan));
+                    let row = Row::measure(asked, &trees.ours, &engines, &some.rays, plan);
+                    all.rows.push(row);
                 }
             }
         }
@@ -114,11 +121,11 @@ impl Row {
         (scene, kind, query, level): (&'static str, Kind, Query, Level),
         tree: &SphereTree,
         embree: &[&Engine],
-        rays: &[Ray],
+        rays: &Rays,
         (time, rounds): (Duration, usize),
     ) -> Self {
-        let work = RefCell::new(Work::new(tree, rays));
-        let count = rays.len() as f64;
+        let work = RefCell::new(Work::new(tree, &rays.list));
+        let count = rays.list.len() as f64;
         let run = |call| {
             let mut work = work.borrow_mut();
             work.forget();
@@ -136,9 +143,8 @@ impl Row {
             let sample = move || work.borrow_mut().run(call, level, query) / count;
             samplers.push((Timed::Ours(call), Box::new(sample)));
         }
-        let shared = Rays::new(rays);
         for (index, engine) in embree.iter().enumerate() {
-            let mut run = (engine.ready)(&shared);
+            let mut run = (engine.ready)(rays);
             let sample = move || run.time(query, 1) / count;
             samplers.push((Timed::Embree(index), Box::new(sample)));
         }

@@ -1,7 +1,8 @@
 //! Rays that a camera makes, in the ways that it can make them, with the clock running from the camera to the hits.
 
+use crate::agreement::{WithTruth, check};
 use crate::builds::{EMBREE, Trees};
-use crate::engine::kernel::levels;
+use crate::engine::kernel::{Kernel, levels};
 use crate::engine::{BLOCK, Query, Rays};
 use crate::measure::Effort;
 use crate::rounds::{Median, Sampler, Samples, timed};
@@ -65,19 +66,21 @@ impl OfScene {
         let levels = levels();
         let trees = Trees::build(scene, false, &levels);
         let picture = RefCell::new(Picture::new(&trees.ours, camera, pixels, blocks));
-        let rays = picture.borrow().rays();
+        let made = WithTruth::of(picture.borrow().rays());
+        let (count, exact) = (made.rays.list.len() as f64, Kernel::new(scene, &trees.ours).truth());
         let mut samplers = Vec::<(_, Sampler<'_>)>::new();
         for &level in &levels {
             picture.borrow_mut().check(level);
             for way in Way::ALL {
-                let (picture, count) = (&picture, rays.list.len() as f64);
+                let picture = &picture;
                 let sample = move || picture.borrow_mut().pass(way, level) / count;
                 samplers.push((Timed::Ours(way, level.name()), Box::new(sample)));
             }
         }
         for (index, engine) in trees.others.iter().enumerate() {
             if engine.label.way.starts_with(EMBREE) {
-                let (mut run, count) = ((engine.ready)(&rays), rays.list.len() as f64);
+                let mut run = (engine.ready)(&made.rays);
+                check((scene, engine), (&made, &made), &mut *run, &exact);
                 let sample = move || run.time(Query::ClosestHit, 1) / count;
                 samplers.push((Timed::Embree(engine.label.lanes, index), Box::new(sample)));
             }

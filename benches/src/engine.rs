@@ -83,10 +83,12 @@ impl fmt::Display for Label {
 
 /// What an engine's answers must be like before it is timed.
 pub(crate) enum Promise {
-    /// The probes answer nothing.
+    /// Probes answer nothing; brute force in a large scene is what the other ways are held to.
     Nothing,
     /// The answers must be another engine's, bit for bit.
     SameBits(Ready),
+    /// The same, except on rays on which the other engine answers a hit that is none.
+    SameButFalseHits(Ready),
     /// The answers must be those of `Exact`, except for a share of the rays, and with t off by at most so many ulp.
     Near(f64, u64),
     /// Another program: its answers must be those of `Exact`, except for a share of the rays. t may be off by

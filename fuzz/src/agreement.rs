@@ -1,5 +1,5 @@
-//! Every variant against one lane, bit for bit; and the rules of the contract, on the answers of the tier itself. Both
-//! hold for any bits, in the tier's domain or not.
+//! Every variant against one lane; and the rules of the contract, on the answers of the tier itself, which hold for any
+//! bits, in the tier's domain or not.
 
 use crate::{promise, surfaces, tiles};
 use spherule_kernel::{Hit, Ray, Sphere, Tier, Viewpoint, roots};
@@ -18,25 +18,29 @@ use spherule_tests::variants::{
 /// # Panics
 /// If an answer is wrong.
 pub fn check(scene: &AimedScene) {
-    let Ray { origin, direction, .. } = scene.rays[0];
-    let mut memory = Memory::new(&scene.spheres);
-    for viewpoint in [Viewpoint::Origin(origin), Viewpoint::Direction(direction)] {
-        memory.sorted(viewpoint, |structures| {
-            for tier in Tier::ALL {
-                check_tier(tier, scene, structures);
-            }
-        });
+    let AimedScene { rays, spheres, .. } = scene;
+    let one_lane = Tier::ALL.map(|tier| (tier, reference(tier).closest(spheres, rays)));
+    for (tier, answers) in &one_lane {
+        check_one_lane(*tier, scene, answers);
+        check_pairs(*tier, scene);
+        surfaces::check(*tier, scene);
     }
-    for tier in Tier::ALL {
-        surfaces::check(tier, scene);
-    }
+    let Ray { origin, direction, .. } = rays[0];
+    let mut memory = Memory::new(spheres);
+    memory.sorted(Viewpoint::Origin(origin), |structures| {
+        check_variants(variants(), structures, scene, &one_lane);
+    });
+    // The other structures have no viewpoint.
+    let lists = variants().filter(|variant| matches!(variant.structure, Structure::DepthList(_)));
+    memory.sorted(Viewpoint::Direction(direction), |structures| {
+        check_variants(lists, structures, scene, &one_lane);
+    });
     tiles::check(scene);
 }
 
-fn check_tier(tier: Tier, scene: &AimedScene, structures: Structures<'_>) {
-    let AimedScene { rays, aims, spheres } = scene;
-    let single = reference(tier).closest(spheres, rays);
-    for (ray, &hit) in rays.iter().zip(&single) {
+/// The rules on a tier's answers.
+fn check_one_lane(tier: Tier, AimedScene { rays, spheres, .. }: &AimedScene, hits: &[Option<Hit>]) {
+    for (ray, &hit) in rays.iter().zip(hits) {
         check_rules(tier, ray, spheres, hit);
         // Rule 3: the interval is closed, so the t that was returned finds the same hit again.
         if let Some(Hit { t, .. }) = hit {
@@ -45,20 +49,76 @@ fn check_tier(tier: Tier, scene: &AimedScene, structures: Structures<'_>) {
             assert_eq!(bits(again), bits(hit), "{tier:?}: {ray:?}");
         }
     }
-    // In structures, `Fast`, `Geometric`, and `Stable` outside its domain answer as the bounds say, not as their
-    // formula says: only lists answer as the reference does.
-    let same = |variant: &Variant| tier == Tier::Exact || variant.structure == Structure::List;
-    for variant in variants().filter(|variant| variant.tier == tier).filter(same) {
+}
+
+/// Asks variants, and judges each answer; `one_lane` has the answers of every tier.
+fn check_variants(
+    asked: impl Iterator<Item = Variant>,
+    structures: Structures<'_>,
+    AimedScene { rays, spheres, .. }: &AimedScene,
+    one_lane: &[(Tier, Vec<Option<Hit>>)],
+) {
+    let is_promised =
+        |ray: &Ray| spheres.iter().all(|sphere| promise::is_stable_in_structures(ray, sphere));
+    let stable: Vec<bool> = rays.iter().map(is_promised).collect();
+    let hit_of = |tier: Tier, ray: usize| {
+        one_lane.iter().find(|(other, _)| *other == tier).and_then(|(_, hits)| hits[ray])
+    };
+    for variant in asked {
         let Answers { hits, occluded } = variant.ask(structures, rays);
-        for (index, expected) in single.iter().enumerate() {
-            let (hit, occluded) = (hits[index], occluded[index]);
-            let say = || format!("{variant:?}, ray {index} of {scene:?}");
-            assert_eq!(bits(hit), bits(*expected), "closest: {}", say());
-            assert_eq!(occluded, expected.is_some(), "any: {}", say());
+        for (index, ray) in rays.iter().enumerate() {
+            let answer = (hits[index], occluded[index]);
+            let expected = [variant.tier, Tier::Exact].map(|tier| hit_of(tier, index));
+            let judged = judge(&variant, (ray, spheres), answer, (expected, stable[index]));
+            if let Err(wrong) = judged {
+                panic!(
+                    "{wrong}: {variant:?}, ray {index}: {answer:?} for {expected:?}: {rays:?} {spheres:?}"
+                );
+            }
         }
     }
+}
 
-    // Ray i and the sphere that it was aimed at.
+/// Judges a closest hit and any hit of a variant, with the answers in one lane of its tier and of `Exact`, and whether structures promise
+/// those of `Stable`.
+fn judge(
+    variant: &Variant,
+    (ray, spheres): (&Ray, &[Sphere]),
+    (hit, occluded): (Option<Hit>, bool),
+    ([list, exact], stable): ([Option<Hit>; 2], bool),
+) -> Result<(), &'static str> {
+    let Variant { tier, structure, .. } = *variant;
+    if structure == Structure::List || tier == Tier::Exact || tier == Tier::Stable && stable {
+        return if bits(hit) != bits(list) {
+            Err("closest")
+        } else if occluded != list.is_some() {
+            Err("any")
+        } else {
+            Ok(())
+        };
+    }
+    // The other answers may lack false hits. Where squares underflow, bounds see what the ray meets: any hit is true, and what lies
+    // behind is lost.
+    let is_own = |Hit { t, sphere }: Hit| {
+        let roots = roots(tier, ray, &spheres[sphere as usize]);
+        roots.and_then(|roots| accepted(ray, roots)).map(f32::to_bits) == Some(t.to_bits())
+    };
+    // In a depth list, and by `Stable` outside its domain, the rays that go together decide which false hits are lost.
+    let is_depth_list = matches!(structure, Structure::DepthList(_));
+    let same_by_every_call = !is_depth_list && tier != Tier::Stable;
+    match hit {
+        Some(hit) if !is_own(hit) => Err("a t that is not the tier's"),
+        Some(_) if same_by_every_call && !occluded => Err("a closest hit without any hit"),
+        None if same_by_every_call && occluded && exact.is_none() => {
+            Err("any hit without a closest hit")
+        }
+        _ if occluded && list.is_none() && exact.is_none() => Err("any hit of nothing"),
+        _ => Ok(()),
+    }
+}
+
+/// Ray i and the sphere that it was aimed at.
+fn check_pairs(tier: Tier, AimedScene { rays, aims, spheres }: &AimedScene) {
     let case = |(&ray, &aim): (&Ray, &usize)| Case { ray, sphere: spheres[aim] };
     let cases: Vec<Case> = rays.iter().zip(aims).map(case).collect();
     let answer = |case: &Case| {
@@ -104,6 +164,7 @@ pub(crate) fn random_bytes(seed: u64) -> Vec<u8> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use spherule_kernel::Vec3;
 
     #[test]
     fn random_scenes_pass() {
@@ -141,6 +202,34 @@ mod tests {
             files += 1;
         }
         assert!(files >= 20, "{files} files");
+    }
+
+    /// In every structure but the list.
+    #[test]
+    fn a_wrong_answer_of_a_structure_is_seen() {
+        let ray = Ray::new(Vec3::ZERO, Vec3::Z);
+        let spheres = [[0.0, 0.0, 5.0, 1.0], [0.0, 0.0, 9.0, 1.0]].map(Sphere::from);
+        let [near, behind, nearer] =
+            [(4.0, 0), (8.0, 1), (3.0, 0)].map(|(t, sphere)| Some(Hit { t, sphere }));
+        let mut asked = 0;
+        for variant in variants().filter(|variant| variant.structure != Structure::List) {
+            let judge = |answer, list, stable| {
+                judge(&variant, (&ray, &spheres), answer, ([list, list], stable))
+            };
+            for stable in [false, true] {
+                assert_eq!(judge((near, true), near, stable), Ok(()), "{variant:?}");
+                assert_eq!(judge((None, false), None, stable), Ok(()), "{variant:?}");
+                assert!(judge((nearer, true), near, stable).is_err(), "{variant:?}");
+                assert!(judge((None, true), None, stable).is_err(), "{variant:?}");
+            }
+            let is_exact = matches!(variant.tier, Tier::Stable | Tier::Exact);
+            assert_eq!(judge((behind, true), near, true).is_err(), is_exact, "{variant:?}");
+            let is_depth_list = matches!(variant.structure, Structure::DepthList(_));
+            let is_seen = is_exact || !is_depth_list;
+            assert_eq!(judge((near, false), near, true).is_err(), is_seen, "{variant:?}");
+            asked += 1;
+        }
+        assert!(asked > 100, "{asked} variants");
     }
 
     #[test]

@@ -79,6 +79,15 @@ pub fn in_domain(ray: &Ray, sphere: &Sphere) -> bool {
         && (1.0 / LENGTH..=LENGTH).contains(&length)
 }
 
+/// Whether every structure promises the bits of `Stable` for this sphere: in the contract's domain. An invalid sphere is hit
+/// by no tier.
+#[must_use]
+pub fn is_stable_in_structures(ray: &Ray, sphere: &Sphere) -> bool {
+    let (distance, _) = lengths(ray, sphere);
+    let is_tiny = 0.0 < distance && distance < 1.0 / REACH;
+    !sphere.is_valid() || in_domain(ray, sphere) && !is_tiny
+}
+
 impl Band {
     fn judge(&self, tier: &str, ray: &Ray, sphere: &Sphere, found: Option<[f32; 2]>) {
         let (distance, length) = lengths(ray, sphere);

@@ -1,6 +1,8 @@
 //! Wrong answers: of each kind the worst and the simplest are kept.
 
+use crate::aim::double;
 use crate::answer::Answer;
+use crate::random::dot;
 use crate::simplicity::weight;
 use crate::verdict::Kind;
 use spherule_kernel::{Hit, Ray, Sphere};
@@ -19,7 +21,8 @@ pub struct Failure {
     pub severity: f64,
     /// The ray.
     pub ray: Ray,
-    /// The spheres: all if they are few, else the true one and the answered one.
+    /// The spheres: all if they are few, else the true one and the answered one, or, if neither is known, the one that is nearest to the
+    /// answered point.
     pub spheres: Vec<Sphere>,
     /// The answer; its sphere is an index into `spheres`.
     pub answer: Option<Answer>,
@@ -97,8 +100,8 @@ impl NewFailure<'_> {
     /// The failure with all spheres if they are few, else with those that it names.
     fn kept(&self) -> Failure {
         let named = self.answer.and_then(|answer| answer.sphere);
-        let (spheres, [truth, named]) =
-            relevant(self.spheres, [self.truth.map(|hit| hit.sphere), named]);
+        let indices = [self.truth.map(|hit| hit.sphere), named];
+        let (spheres, [truth, named]) = relevant(self.spheres, indices, || self.nearest());
         Failure {
             kind: self.kind,
             severity: self.severity,
@@ -110,18 +113,75 @@ impl NewFailure<'_> {
             row: Some(self.row),
         }
     }
+
+    /// The sphere whose surface is nearest to the answered point.
+    fn nearest(&self) -> Option<u32> {
+        let t = self.answer?.t;
+        let (o, d) = (double(self.ray.origin), double(self.ray.direction));
+        let point: [f64; 3] = core::array::from_fn(|i| o[i] + t * d[i]);
+        let distance = |sphere: &Sphere| {
+            let c = double(sphere.center);
+            let p = core::array::from_fn(|i| point[i] - c[i]);
+            // NaN is farther than any number.
+            (dot(p, p).sqrt() - f64::from(sphere.radius)).abs()
+        };
+        let all = (0..).zip(self.spheres);
+        all.min_by(|(_, a), (_, b)| distance(a).total_cmp(&distance(b))).map(|(index, _)| index)
+    }
 }
 
-/// The spheres of a failure, and the places of the indexed ones among them.
-fn relevant(spheres: &[Sphere], indices: [Option<u32>; 2]) -> (Vec<Sphere>, [Option<u32>; 2]) {
+/// The spheres of a failure, and the places of the indexed ones among them. If none of these exists, `other` is kept.
+fn relevant(
+    spheres: &[Sphere],
+    indices: [Option<u32>; 2],
+    other: impl FnOnce() -> Option<u32>,
+) -> (Vec<Sphere>, [Option<u32>; 2]) {
     if spheres.len() <= FEW_SPHERES {
         return (spheres.to_vec(), indices);
     }
+    let there = |index: &u32| spheres.get(*index as usize).copied();
     let mut kept: Vec<u32> = indices.into_iter().flatten().collect();
+    if !kept.iter().any(|index| there(index).is_some()) {
+        kept.extend(other());
+    }
     kept.sort_unstable();
     kept.dedup();
     let place = |index: u32| kept.iter().position(|&kept| kept == index).map(|place| place as u32);
     let places = indices.map(|index| index.and_then(place));
-    let there = |index: &u32| spheres.get(*index as usize).copied();
     (kept.iter().filter_map(there).collect(), places)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spherule_kernel::Vec3;
+
+    /// Beside a ray, the last one the nearest.
+    fn many() -> Vec<Sphere> {
+        let mut spheres: Vec<_> =
+            (0..20).map(|i| Sphere::from([9.0 + i as f32, 0.0, 50.0, 1.0])).collect();
+        spheres.push(Sphere::from([1.25, 0.0, 50.0, 1.0]));
+        spheres
+    }
+
+    #[test]
+    fn a_false_hit_without_a_sphere_keeps_the_nearest() {
+        let (ray, spheres) = (Ray::new(Vec3::ZERO, Vec3::Z), many());
+        for (sphere, kind) in [(None, Kind::FalseHit), (Some(99), Kind::NoAnswer)] {
+            let new = NewFailure {
+                kind,
+                severity: 1.0,
+                ray: &ray,
+                spheres: &spheres,
+                answer: Some(Answer { t: 50.0, sphere }),
+                truth: None,
+                family: None,
+                row: 0,
+            };
+            let kept = new.kept();
+            assert_eq!(kept.spheres, [spheres[20]]);
+            // A sphere that does not exist is none of those that are kept.
+            assert_eq!(kept.answer.and_then(|answer| answer.sphere), sphere.map(|_| 1));
+        }
+    }
 }

@@ -9,6 +9,7 @@ mod lattice;
 mod plain;
 mod small;
 mod surface;
+mod unit_direction;
 
 use crate::case::Case;
 use crate::random::Random;
@@ -37,7 +38,12 @@ pub const FAMILIES: [Family; 24] = [
     family(0, "ordinary", "nothing: a scene of a few units, for comparison", plain::ordinary),
     family(1, "far-1e2", "p.p - r^2 where the centre is 100 radii away", plain::far::<2>),
     family(2, "far-1e4", "p.p - r^2 where r^2 is below the last bit of p.p", plain::far::<4>),
-    family(3, "far-1e6", "c - o, rounded at a millionth of the radius", plain::far::<6>),
+    family(
+        3,
+        "far-1e6",
+        "c - o, rounded where the radius is a millionth of the way",
+        plain::far::<6>,
+    ),
     family(
         4,
         "grazing",
@@ -54,7 +60,7 @@ pub const FAMILIES: [Family; 24] = [
     family(
         7,
         "inside",
-        "t near zero: starts 2^-4 to 2^-26 radii under the surface",
+        "t near zero: starts 2^-4 to 2^-26 radii under the surface, give or take rounding",
         surface::inside,
     ),
     family(
@@ -69,12 +75,17 @@ pub const FAMILIES: [Family; 24] = [
         "d.d that overflows or underflows: directions 2^20 to 2^120 long, or as short",
         plain::direction_length,
     ),
-    family(10, "translated", "c - o: a common scene, a million units from zero", plain::translated),
-    family(11, "tiny-radius", "r^2 that underflows: radii of 2^-90 to 2^-40", plain::tiny_radius),
+    family(
+        10,
+        "translated",
+        "products of c and o that cancel: a common scene, a million units from zero",
+        plain::translated,
+    ),
+    family(11, "tiny-radius", "r^2 that underflows: radii of 2^-93 to 2^-37", plain::tiny_radius),
     family(
         12,
         "huge-radius",
-        "r^2 that overflows, and standing on a planet: radii of 2^40 to 2^90",
+        "r^2 that overflows, and standing on a planet: radii of 2^37 to 2^93",
         plain::huge_radius,
     ),
     family(
@@ -107,7 +118,12 @@ pub const FAMILIES: [Family; 24] = [
         "the rounding of t: roots midway between two neighbouring numbers",
         lattice::tie,
     ),
-    family(18, "extreme-t", "t about the largest and the least number", ends::extreme_t),
+    family(
+        18,
+        "extreme-t",
+        "t about the largest and the least number; 6 in 100 directions overflow, so hit nothing",
+        ends::extreme_t,
+    ),
     family(19, "random-bits", "any bits in all places", ends::random_bits),
     family(
         20,
@@ -118,7 +134,7 @@ pub const FAMILIES: [Family; 24] = [
     family(
         21,
         "outside",
-        "t near zero: starts 2^-4 to 2^-26 radii over the surface, looking down",
+        "t near zero: starts 2^-4 to 2^-26 radii over the surface, give or take rounding, looking down",
         surface::outside,
     ),
     family(
@@ -164,6 +180,15 @@ impl Family {
     #[must_use]
     pub fn seeded(&self, seed: u32, index: u64) -> Case {
         (self.draw)(&mut Random::new(u64::from(seed) + (u64::from(self.number) << 32), index))
+    }
+
+    /// Case `index` of a seed, its direction brought to length one, as near as `f32` does: for what promises nothing of other lengths.
+    ///
+    /// An end of the interval stays as many ulp from the root that it was made for; other ends keep their places on the ray. Rounding moves
+    /// the line, so tangents and ties are near ones, except along an axis.
+    #[must_use]
+    pub fn seeded_unit(&self, seed: u32, index: u64) -> Case {
+        unit_direction::with_unit_direction(&self.seeded(seed, index))
     }
 
     /// The first `count` cases of the pinned [`SEED`].

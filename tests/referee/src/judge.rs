@@ -9,7 +9,7 @@ use crate::families::FAMILIES;
 use crate::rules::Rules;
 use crate::truth::{self, Shared, Truth};
 use crate::verdict::{Kind, Verdict, margin, verdict};
-use spherule_kernel::{Hit, Ray, Sphere};
+use spherule_kernel::{Hit, Ray, Sphere, float_environment_is_sound};
 
 /// How many bins [`Score::places`] has: powers of two of how near to a tangent the line passes.
 pub const PLACES: usize = 26;
@@ -22,7 +22,8 @@ pub struct Score {
     /// Under the contract.
     pub by_contract: Counts,
     /// Judged rays and wrong decisions under the rules, by how near to a tangent the line passes: place i counts lines with |D| / (a r^2)
-    /// from 4^-i to 4^-(i + 1). The last place counts all nearer lines too, and the first all other lines.
+    /// from 4^-i to 4^-(i + 1). The last place counts all nearer lines too, and the first all other lines. A ray that
+    /// misses several spheres has no place unless the answer names one.
     pub places: [[u64; 2]; PLACES],
 }
 
@@ -47,6 +48,9 @@ impl Judge {
     /// Judges the answers to `rays[i]` against `spheres[i]` alone, whose index is 0.
     ///
     /// `families[i]` is the family of ray i, which is unknown if the slice is shorter.
+    ///
+    /// # Panics
+    /// If this thread's floats are not what `Exact` needs, as [`float_environment_is_sound`] tells: truths would be wrong.
     pub fn pairs(
         &mut self,
         rays: &[Ray],
@@ -54,6 +58,7 @@ impl Judge {
         answers: &[Option<Answer>],
         families: &[u8],
     ) {
+        assert_sound_floats();
         let (mut by_rules, mut by_contract) = (Vec::new(), Vec::new());
         truth::of_pairs(&Rules::CONTRACT, rays, spheres, &mut by_contract);
         let same = self.rules.closed_as_contract();
@@ -75,6 +80,9 @@ impl Judge {
     }
 
     /// Judges the answers to rays that share their spheres. If the rules do not cover one of the spheres, they promise nothing of any ray.
+    ///
+    /// # Panics
+    /// As [`Judge::pairs`] does.
     pub fn shared(
         &mut self,
         shared: &Shared<'_>,
@@ -82,6 +90,7 @@ impl Judge {
         answers: &[Option<Answer>],
         families: &[u8],
     ) {
+        assert_sound_floats();
         let (mut by_rules, mut by_contract) = (Vec::new(), Vec::new());
         shared.truths(&Rules::CONTRACT, rays, &mut by_contract);
         let same = self.rules.closed_as_contract();
@@ -118,6 +127,7 @@ impl Judge {
         let rules = [self.rules, Rules::CONTRACT];
         let named = answer.and_then(|answer| answer.sphere);
         let there = |index: u32| spheres.get(index as usize);
+        let only = (spheres.len() == 1).then_some(0);
         // If the rules are the contract, there is one verdict; it is counted under both.
         let count_of_rules = if rules[0] == rules[1] { 1 } else { 2 };
         for (which, (rules, truth)) in rules.iter().zip(truths).take(count_of_rules).enumerate() {
@@ -135,7 +145,7 @@ impl Judge {
                 Verdict::Wrong { kind: Kind::NoAnswer, severity: f64::INFINITY }
             } else {
                 let sphere = hit.map(|hit| hit.sphere).or(named).and_then(there);
-                let sphere = sphere.or(if spheres.len() == 1 { spheres.first() } else { None });
+                let sphere = sphere.or(only.and_then(there));
                 let is_true = hit.is_none_or(|hit| {
                     named.is_none_or(|named| named == hit.sphere || is_as_close(rules, hit, named))
                 });
@@ -150,8 +160,7 @@ impl Judge {
                 score.by_contract.add(hit.is_some(), found);
             }
             if self.maps_places
-                && let Some(sphere) =
-                    hit.map(|hit| hit.sphere).or(named).or(Some(0)).and_then(there)
+                && let Some(sphere) = hit.map(|hit| hit.sphere).or(named).or(only).and_then(there)
             {
                 let place = place_of(margin(ray, sphere));
                 score.places[place][0] += 1;
@@ -233,6 +242,13 @@ struct Judged<'a> {
     truths: [Truth; 2],
     answer: Option<Answer>,
     covered: bool,
+}
+
+fn assert_sound_floats() {
+    assert!(
+        float_environment_is_sound(),
+        "this thread does not round to nearest, or takes subnormals for zero: truths would be wrong"
+    );
 }
 
 fn place_of(margin: f64) -> usize {

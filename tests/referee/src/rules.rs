@@ -78,7 +78,7 @@ pub enum Directions {
     /// Any length.
     #[default]
     Any,
-    /// Length one, within 2^-20.
+    /// Length one, within 2^-20: a trial brings its cases to it.
     Unit,
 }
 

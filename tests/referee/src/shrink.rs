@@ -17,8 +17,8 @@ pub type Candidate = (Ray, Vec<Sphere>);
 
 /// Returns the simplest case, found within a time, that fails as `failure` does.
 ///
-/// `failures` judges up to `at_once` cases: it returns one entry for each, `None` where the answer is right. If t is off, a case counts
-/// only if its t is plainly off, or off by as much as the first was.
+/// `failures` judges up to `at_once` cases: it returns one entry for each, `None` where the answer is right, or fewer if its own time is
+/// over. If t is off, a case counts only if its t is plainly off, or off by as much as the first was.
 pub fn shrink(
     failure: &Failure,
     (time, at_once): (Duration, usize),

@@ -1,7 +1,9 @@
 //! Criterion's clock, started only after the answers have been judged.
 
+use crate::case::{HexRay, HexSphere};
 use crate::intersector::Intersector;
 use crate::judge::Judge;
+use crate::rules::Rules;
 use crate::truth::Shared;
 use criterion::measurement::Measurement;
 use criterion::{BenchmarkGroup, Throughput};
@@ -13,7 +15,8 @@ use std::hint::black_box;
 /// `most_wrong` is the share of rays whose decisions may be wrong.
 ///
 /// # Panics
-/// If more are wrong, with their number and one of them; or if not every ray has an answer.
+/// If more are wrong, with their number and one of them; if not every ray has an answer; if no answer can be judged, since the rules
+/// promise nothing of these rays and spheres or leave all of them open; or as [`Judge::shared`] does.
 pub fn bench<M: Measurement>(
     group: &mut BenchmarkGroup<'_, M>,
     intersector: &mut impl Intersector,
@@ -38,11 +41,18 @@ pub fn check(
     most_wrong: f64,
 ) {
     let answers = intersector.closest_hits(spheres, rays);
-    let name = intersector.name();
+    let (name, rules) = (intersector.name(), intersector.rules());
     assert_eq!(answers.len(), rays.len(), "{name}: not as many answers as rays");
-    let mut judge = Judge::new(intersector.rules(), false);
+    let mut judge = Judge::new(rules, false);
     judge.shared(&Shared::new(spheres), rays, &answers, &[]);
     let counts = judge.total().by_rules;
+    assert!(
+        counts.judged > 0 || rays.is_empty(),
+        "{name}: no answer can be judged: its rules leave {} rays open, and promise nothing of {}{}",
+        counts.open,
+        counts.unpromised,
+        not_covered(&rules, (spheres, rays))
+    );
     let wrong = counts.decided_wrong();
     let example = crate::verdict::Kind::ALL.into_iter().find_map(|kind| judge.worst(kind));
     assert!(
@@ -52,10 +62,20 @@ pub fn check(
     );
 }
 
+/// A sphere of which rules promise nothing, and so nothing of the scene; else such a ray.
+fn not_covered(rules: &Rules, (spheres, rays): (&[Sphere], &[Ray])) -> String {
+    if let Some(sphere) = spheres.iter().find(|sphere| !rules.cover_sphere(sphere)) {
+        return format!(", since there is a {}", HexSphere(sphere));
+    }
+    let ray = rays.iter().find(|ray| !rules.cover_ray(ray));
+    ray.map_or_else(String::new, |ray| format!(", such as the {}", HexRay(ray)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::intersector::{Kernel, Pair};
+    use crate::rules::{Directions, Promise};
     use spherule_kernel::{Tier, Vec3};
 
     #[test]
@@ -71,5 +91,32 @@ mod tests {
         let (spheres, rays) =
             (vec![[0.0, 0.0, 5.0, 1.0].into()], vec![Ray::new(Vec3::ZERO, Vec3::Z)]);
         check(&mut Pair::new("blind", |_: &Ray, _: &Sphere| None::<f32>), (&spheres, &rays), 0.5);
+    }
+
+    /// The check of an intersector that sees nothing, under these rules.
+    fn check_blind(rules: Rules, (spheres, rays): (&[Sphere], &[Ray])) {
+        let blind = Pair::new("blind", |_: &Ray, _: &Sphere| None::<f32>);
+        check(&mut blind.with_rules(rules), (spheres, rays), 0.5);
+    }
+
+    #[test]
+    #[should_panic(expected = "promise nothing of 1, since there is a sphere at (")]
+    fn a_scene_of_which_nothing_is_promised_is_not_timed() {
+        let spheres = [[0.0, 0.0, 5.0, 1.0], [0.0, 0.0, 5.0, -1.0]].map(Sphere::from);
+        let rules = Rules { invalid: Promise::None, ..Rules::CONTRACT };
+        check_blind(rules, (&spheres, &[Ray::new(Vec3::ZERO, Vec3::Z)]));
+    }
+
+    #[test]
+    #[should_panic(expected = "promise nothing of 1, such as the ray from (")]
+    fn rays_of_which_nothing_is_promised_are_not_timed() {
+        let rules = Rules { directions: Directions::Unit, ..Rules::CONTRACT };
+        let spheres = [Sphere::from([0.0, 0.0, 5.0, 1.0])];
+        check_blind(rules, (&spheres, &[Ray::new(Vec3::ZERO, 2.0 * Vec3::Z)]));
+    }
+
+    #[test]
+    fn no_rays_have_no_answers_to_judge() {
+        check_blind(Rules::CONTRACT, (&[], &[]));
     }
 }

@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::families::{FAMILIES, Family, SEED};
 use crate::intersector::Intersector;
 use crate::judge::Judge;
-use crate::rules::Rules;
+use crate::rules::{Directions, Rules};
 use crate::shrink::{Candidate, shrink};
 use crate::snippet::{rust, sentence};
 use crate::table::write_counts;
@@ -13,10 +13,13 @@ use crate::verdict::Kind;
 use crate::watched::{Mishap, Question, Watched};
 use spherule_kernel::{Ray, Sphere};
 use std::fmt;
+use std::ops::Range;
 use std::time::{Duration, Instant};
 
-/// How many pairs one call has.
-const PAIRS: u64 = 1024;
+/// How many pairs one call has, unless the intersector is slow.
+const PAIRS: usize = 1024;
+/// A slow intersector is asked so many times fewer rays at once.
+const FEWER: usize = 4;
 /// How many rays and spheres one scene has.
 const SCENE: usize = 8;
 /// How many cases are shrunk in one call.
@@ -35,7 +38,7 @@ pub struct Trial {
     pub seed: u32,
     /// Whether cases are also asked in scenes: every eight rays of a family against all their eight spheres.
     pub scenes: bool,
-    /// How long the smallest case of each kind may be looked for.
+    /// How long the smallest case of each kind may be looked for, besides one case that takes longer.
     pub shrinking: Duration,
     /// How long to wait for an answer.
     pub patience: Duration,
@@ -88,13 +91,16 @@ pub struct Report {
 impl Trial {
     /// Asks, judges, and shrinks what is wrong.
     ///
-    /// If an intersector panics, hangs or answers too few rays, the trial goes on with a new clone.
+    /// If an intersector panics, hangs or answers too few rays, the trial goes on with a new clone. If it is slow, it is asked fewer rays
+    /// at once. If its rules want directions of length one, so are those of the cases.
+    ///
+    /// # Panics
+    /// As [`Judge::pairs`] does.
     #[must_use]
     pub fn run<I: Intersector + Clone + Send + 'static>(&self, intersector: &I) -> Report {
         let start = Instant::now();
         let rules = intersector.rules();
-        let mut watched = Watched::new(intersector, self.patience);
-        let mut report = Report {
+        let report = Report {
             name: intersector.name().to_owned(),
             judge: Judge::new(rules, true),
             smallest: Vec::new(),
@@ -102,71 +108,112 @@ impl Trial {
             first: None,
             took: Duration::ZERO,
         };
+        let watched = Watched::new(intersector, self.patience);
+        let mut course = Course { trial: self, watched, report, start, at_once: PAIRS };
         for family in &self.families {
-            self.try_family(family, &mut watched, &mut report, start);
+            course.try_family(family);
         }
+        let Course { mut watched, mut report, .. } = course;
         for kind in Kind::ALL {
             let Some(failure) = report.judge.simplest(kind) else { continue };
+            let begun = Instant::now();
             let smallest = shrink(failure, (self.shrinking, AT_ONCE), |candidates| {
-                candidates.iter().map(|case| failure_of(case, rules, &mut watched)).collect()
+                // One case may take as long as patience lasts.
+                let in_time = candidates.iter().take_while(|_| begun.elapsed() < self.shrinking);
+                in_time.map(|case| failure_of(case, rules, &mut watched)).collect()
             });
             report.smallest.push(smallest);
         }
         report.took = start.elapsed();
         report
     }
+}
 
-    fn try_family<I: Intersector + Clone + Send + 'static>(
-        &self,
-        family: &Family,
-        watched: &mut Watched<I>,
-        report: &mut Report,
-        start: Instant,
-    ) {
-        let mut mishaps = 0;
-        let mut from = 0;
-        while from < self.cases {
-            let indices = from..(from + PAIRS).min(self.cases);
+/// A trial on its way.
+struct Course<'a, I> {
+    trial: &'a Trial,
+    watched: Watched<I>,
+    report: Report,
+    start: Instant,
+    /// The most rays of a question.
+    at_once: usize,
+}
+
+impl<I: Intersector + Clone + Send + 'static> Course<'_, I> {
+    fn try_family(&mut self, family: &Family) {
+        let Trial { cases, seed, scenes: has_scenes, .. } = *self.trial;
+        let is_unit = self.report.judge.rules().directions == Directions::Unit;
+        let case = |index| {
+            if is_unit { family.seeded_unit(seed, index) } else { family.seeded(seed, index) }
+        };
+        let (mut mishaps, mut from) = (0, 0);
+        while from < cases {
+            let indices = from..(from + PAIRS as u64).min(cases);
             from = indices.end;
-            let (rays, spheres): (Vec<Ray>, Vec<Sphere>) = indices
-                .map(|index| family.seeded(self.seed, index))
-                .map(|case| (case.ray, case.sphere))
-                .unzip();
+            let (rays, spheres): (Vec<Ray>, Vec<Sphere>) =
+                indices.map(case).map(|case| (case.ray, case.sphere)).unzip();
             let all = Question { spheres, rays, pairs: true };
-            let scenes = self.scenes.then(|| scenes(&all)).into_iter().flatten();
-            for question in std::iter::once(all.clone()).chain(scenes) {
-                let Err(mishap) = answer(&question, family, watched, &mut report.judge) else {
-                    continue;
-                };
-                // Finds out which ray it is.
-                let mut alone = parts(&question).into_iter().map(|part| {
-                    let found = answer(&part, family, watched, &mut report.judge).err();
-                    found.map(|mishap| (part, mishap))
-                });
-                let hangs = matches!(mishap, Mishap::Hung(_));
-                let found: Vec<_> = if hangs {
-                    alone.find_map(|found| found).into_iter().collect()
-                } else {
-                    alone.flatten().take(MOST_MISHAPS).collect()
-                };
-                let found = if found.is_empty() { vec![(question, mishap)] } else { found };
-                for (question, mishap) in found {
-                    mishaps += if hangs { MOST_MISHAPS } else { 1 };
-                    let Question { spheres, rays, .. } = question;
-                    let ray = rays.first().copied().unwrap_or(Ray::INACTIVE);
-                    report.unanswered.push(Unanswered { family: *family, mishap, ray, spheres });
-                }
-                report.first.get_or_insert_with(|| start.elapsed());
-                if mishaps >= MOST_MISHAPS {
-                    return;
+            let scenes = if has_scenes { scenes(&all) } else { Vec::new() };
+            for question in std::iter::once(all).chain(scenes) {
+                let (rays, mut asked) = (question.rays.len(), 0);
+                while asked < rays {
+                    let some = asked..(asked + self.at_once).min(rays);
+                    asked = some.end;
+                    mishaps += self.ask(part(&question, some), family);
+                    if mishaps >= MOST_MISHAPS {
+                        return;
+                    }
                 }
             }
-            if report.first.is_none()
-                && Kind::ALL.iter().any(|&kind| report.judge.worst(kind).is_some())
+            let judge = &self.report.judge;
+            if self.report.first.is_none()
+                && Kind::ALL.iter().any(|&kind| judge.worst(kind).is_some())
             {
-                report.first = Some(start.elapsed());
+                self.report.first = Some(self.start.elapsed());
             }
         }
+    }
+
+    /// Asks, and if there are no answers, every ray alone. Returns the number of mishaps; a hang counts as the most.
+    fn ask(&mut self, question: Question, family: &Family) -> usize {
+        let Err(mishap) = self.answer(&question, family) else { return 0 };
+        let hangs = matches!(mishap, Mishap::Hung(_));
+        let (most, begun) = (if hangs { 1 } else { MOST_MISHAPS }, Instant::now());
+        let rays = question.rays.len();
+        let alone = (0..rays).map(|ray| part(&question, ray..ray + 1));
+        let without_answer = alone.filter_map(|one| {
+            let mishap = self.answer(&one, family).err();
+            mishap.map(|mishap| (one, mishap))
+        });
+        let mut found: Vec<_> = without_answer.take(most).collect();
+        if found.is_empty() {
+            // Alone they take as long, so it is slow.
+            if hangs && begun.elapsed() >= self.trial.patience / 2 {
+                self.at_once = (rays / FEWER).max(1);
+                return 0;
+            }
+            found.push((question, mishap));
+        }
+        let mishaps = if hangs { MOST_MISHAPS } else { found.len() };
+        for (Question { spheres, rays, .. }, mishap) in found {
+            let ray = rays.first().copied().unwrap_or(Ray::INACTIVE);
+            self.report.unanswered.push(Unanswered { family: *family, mishap, ray, spheres });
+        }
+        self.report.first.get_or_insert_with(|| self.start.elapsed());
+        mishaps
+    }
+
+    fn answer(&mut self, question: &Question, family: &Family) -> Result<(), Mishap> {
+        let answers = self.watched.ask(question)?;
+        let families = vec![family.number; answers.len()];
+        let Question { spheres, rays, pairs } = question;
+        let judge = &mut self.report.judge;
+        if *pairs {
+            judge.pairs(rays, spheres, &answers, &families);
+        } else {
+            judge.shared(&Shared::new(spheres), rays, &answers, &families);
+        }
+        Ok(())
     }
 }
 
@@ -181,31 +228,11 @@ fn scenes(pairs: &Question) -> Vec<Question> {
     some.map(scene).collect()
 }
 
-/// A question for every ray.
-fn parts(question: &Question) -> Vec<Question> {
+/// Some rays of a question.
+fn part(question: &Question, some: Range<usize>) -> Question {
     let Question { spheres, rays, pairs } = question;
-    let of = |(index, ray): (usize, &Ray)| {
-        let spheres = if *pairs { vec![spheres[index]] } else { spheres.clone() };
-        Question { spheres, rays: vec![*ray], pairs: *pairs }
-    };
-    rays.iter().enumerate().map(of).collect()
-}
-
-fn answer<I: Intersector + Clone + Send + 'static>(
-    question: &Question,
-    family: &Family,
-    watched: &mut Watched<I>,
-    judge: &mut Judge,
-) -> Result<(), Mishap> {
-    let answers = watched.ask(question)?;
-    let families = vec![family.number; answers.len()];
-    let Question { spheres, rays, pairs } = question;
-    if *pairs {
-        judge.pairs(rays, spheres, &answers, &families);
-    } else {
-        judge.shared(&Shared::new(spheres), rays, &answers, &families);
-    }
-    Ok(())
+    let spheres = if *pairs { spheres[some.clone()].to_vec() } else { spheres.clone() };
+    Question { spheres, rays: rays[some].to_vec(), pairs: *pairs }
 }
 
 /// How one case fails, if it does.

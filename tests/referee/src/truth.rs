@@ -2,10 +2,12 @@
 //!
 //! `Exact` gives the roots and the order of spheres; where rules say otherwise, each case is settled by itself.
 
-use crate::rules::{Inside, Precision, Rules, Tangents, Ties};
+use crate::aim::double;
+use crate::random::{dot, power_of_two};
+use crate::rules::{Inside, Interval, Precision, Rules, Tangents, Ties};
 use crate::tangent::is_tangent;
 use spherule_kernel::{
-    Exact, Hit, Intersect, Ray, Side, Sphere, SphereTree, compare_hits, pairs, roots, side,
+    Exact, Hit, Intersect, Ray, Side, Sphere, SphereTree, Vec3, compare_hits, pairs, roots, side,
 };
 use std::cmp::Ordering;
 
@@ -41,15 +43,14 @@ pub fn of_pairs(rules: &Rules, rays: &[Ray], spheres: &[Sphere], truths: &mut Ve
     truths.clear();
     truths.extend(hits.into_iter().enumerate().map(|(index, hit)| {
         let hit: Option<Hit> = hit.map(|hit| Hit { sphere: 0, ..hit });
-        settled(rules, &closed[index], &spheres[index], hit)
+        settled(rules, &rays[index], &spheres[index], hit)
     }));
 }
 
 /// One ray and one sphere, whose index counts as 0.
 #[must_use]
 pub fn of_pair(rules: &Rules, ray: &Ray, sphere: &Sphere) -> Truth {
-    let closed = rules.closed(ray);
-    settled(rules, &closed, sphere, first_hit(&closed, sphere))
+    settled(rules, ray, sphere, first_hit(&rules.closed(ray), sphere))
 }
 
 /// The hit under the contract, for a closed interval.
@@ -59,18 +60,21 @@ fn first_hit(ray: &Ray, sphere: &Sphere) -> Option<Hit> {
     hit[0].map(|hit| Hit { sphere: 0, ..hit })
 }
 
-/// What rules make of the contract's hit, of a ray whose interval is closed.
+/// What rules make of the contract's hit, which is that of the closed interval.
 fn settled(rules: &Rules, ray: &Ray, sphere: &Sphere, hit: Option<Hit>) -> Truth {
     let truth = hit.map_or(Truth::Miss, Truth::Hit);
     if rules.follow_from_roots() {
         return truth;
     }
+    // A root that is rounded to an end, as the ray has it, may lie on either side of it.
     if rules.precision == Precision::F64
+        && ray.is_live()
         && let Some(roots) = roots(Exact, ray, sphere)
         && roots.iter().any(|t| *t == ray.t_min || *t == ray.t_max || t.is_infinite())
     {
         return Truth::Open;
     }
+    let ray = &rules.closed(ray);
     if rules.inside == Inside::Solid
         && ray.is_live()
         && sphere.is_valid()
@@ -96,13 +100,17 @@ fn settled(rules: &Rules, ray: &Ray, sphere: &Sphere, hit: Option<Hit>) -> Truth
 pub struct Shared<'a> {
     spheres: &'a [Sphere],
     tree: SphereTree,
+    /// No point of a valid sphere is farther from zero.
+    reach: f64,
 }
 
 impl<'a> Shared<'a> {
     /// Builds a tree over the spheres.
     #[must_use]
     pub fn new(spheres: &'a [Sphere]) -> Self {
-        Self { spheres, tree: SphereTree::new(spheres) }
+        let valid = spheres.iter().filter(|sphere| sphere.is_valid());
+        let reach = valid.map(|sphere| length(sphere.center) + f64::from(sphere.radius));
+        Self { spheres, tree: SphereTree::new(spheres), reach: reach.fold(0.0, f64::max) }
     }
 
     /// The spheres.
@@ -114,28 +122,33 @@ impl<'a> Shared<'a> {
     /// The closest hits of rays: `truths` is overwritten.
     ///
     /// Cost: that of `Exact` in a tree. If rules change the contract's hit of a ray, that ray is tested against every sphere; with `inside
-    /// = "solid"` every ray is.
+    /// = "solid"` every ray is, and with `precision = "f64"` a ray on which roots may be too large for single precision.
     pub fn truths(&self, rules: &Rules, rays: &[Ray], truths: &mut Vec<Truth>) {
         let closed: Vec<Ray> = rays.iter().map(|ray| rules.closed(ray)).collect();
         let mut hits = vec![None; rays.len()];
         self.tree.closest_hits(Exact, &closed, &mut hits);
         truths.clear();
-        truths.extend(closed.iter().zip(hits).map(|(ray, hit)| self.settled(rules, ray, hit)));
+        truths.extend(rays.iter().zip(hits).map(|(ray, hit)| self.settled(rules, ray, hit)));
     }
 
     fn settled(&self, rules: &Rules, ray: &Ray, hit: Option<Hit>) -> Truth {
         let truth = hit.map_or(Truth::Miss, Truth::Hit);
-        if rules.follow_from_roots() || (hit.is_none() && rules.inside != Inside::Solid) {
+        if rules.follow_from_roots() {
             return truth;
         }
-        let of_sphere = |index: u32| {
-            let sphere = &self.spheres[index as usize];
-            match settled(rules, ray, sphere, first_hit(ray, sphere)) {
-                Truth::Hit(hit) => Truth::Hit(Hit { sphere: index, ..hit }),
-                other => other,
-            }
+        let is_double = rules.precision == Precision::F64;
+        if is_double && self.is_first_at_an_end(rules, ray, hit) {
+            return Truth::Open;
+        }
+        let of_sphere = |index: u32| match of_pair(rules, ray, &self.spheres[index as usize]) {
+            Truth::Hit(hit) => Truth::Hit(Hit { sphere: index, ..hit }),
+            other => other,
         };
-        if rules.inside != Inside::Solid && hit.is_some_and(|hit| of_sphere(hit.sphere) == truth) {
+        // A root that overflows is behind every other, except where the interval begins before all.
+        let may_be_first = hit.is_none() || ray.t_min == f32::NEG_INFINITY;
+        let sees_all =
+            rules.inside == Inside::Solid || is_double && may_be_first && self.may_overflow(ray);
+        if !sees_all && hit.is_none_or(|hit| of_sphere(hit.sphere) == truth) {
             return truth;
         }
         let mut closest: Option<Hit> = None;
@@ -144,7 +157,7 @@ impl<'a> Shared<'a> {
                 Truth::Open => return Truth::Open,
                 Truth::Miss => {}
                 Truth::Hit(hit) => {
-                    if closest.is_none_or(|known| self.order(ray, [hit, known]).is_lt()) {
+                    if closest.is_none_or(|known| self.order(rules, ray, [hit, known]).is_lt()) {
                         closest = Some(hit);
                     }
                 }
@@ -153,9 +166,23 @@ impl<'a> Shared<'a> {
         closest.map_or(Truth::Miss, Truth::Hit)
     }
 
-    fn order(&self, ray: &Ray, hits: [Hit; 2]) -> Ordering {
+    /// Whether the first root in the interval with both its ends is rounded to one of them. `hit` is the contract's.
+    fn is_first_at_an_end(&self, rules: &Rules, ray: &Ray, hit: Option<Hit>) -> bool {
+        let is_closed = rules.interval == Interval::Closed;
+        let first = if is_closed { hit } else { self.tree.closest_hit(Exact, ray) };
+        first.is_some_and(|hit| hit.t == ray.t_min || hit.t == ray.t_max)
+    }
+
+    /// Whether a root may be too large for single precision.
+    fn may_overflow(&self, ray: &Ray) -> bool {
+        let farthest = length(ray.origin) + self.reach;
+        ray.is_live() && farthest >= power_of_two(127) * length(ray.direction)
+    }
+
+    fn order(&self, rules: &Rules, ray: &Ray, hits: [Hit; 2]) -> Ordering {
         // The t at which a ray starts in a ball is no root.
-        if hits[0].t != hits[1].t || hits[0].t == 0.0 {
+        let is_start = rules.inside == Inside::Solid && hits[0].t == 0.0;
+        if hits[0].t != hits[1].t || is_start {
             return hits[0].t.total_cmp(&hits[1].t);
         }
         compare_hits(Exact, ray, hits.map(|hit| (hit.t, &self.spheres[hit.sphere as usize])))
@@ -168,9 +195,19 @@ impl<'a> Shared<'a> {
         if rules.ties == Ties::First {
             return answered == truth.sphere;
         }
-        let Truth::Hit(hit) = of_pair(rules, ray, sphere) else { return false };
-        let hit = Hit { sphere: answered, ..hit };
-        hit.t == truth.t
-            && (rules.ties == Ties::Rounded || self.order(&rules.closed(ray), [hit, truth]).is_eq())
+        let hit = match of_pair(rules, ray, sphere) {
+            Truth::Hit(hit) => Some(hit),
+            // If either answer is right, so is the hit.
+            Truth::Open => first_hit(&rules.closed(ray), sphere),
+            Truth::Miss => None,
+        };
+        let is_tie = |hit| self.order(rules, ray, [hit, truth]).is_eq();
+        hit.map(|hit| Hit { sphere: answered, ..hit })
+            .is_some_and(|hit| hit.t == truth.t && (rules.ties == Ties::Rounded || is_tie(hit)))
     }
+}
+
+fn length(v: Vec3) -> f64 {
+    let v = double(v);
+    dot(v, v).sqrt()
 }

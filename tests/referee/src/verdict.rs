@@ -11,7 +11,7 @@ pub enum Kind {
     FalseHit,
     /// A miss that is a hit in truth.
     LostHit,
-    /// The right sphere, but t is nearer to its other root.
+    /// The right sphere, but t is off by more ulp than the rules allow, and nearer to its other root.
     OtherRoot,
     /// Another sphere than the closest.
     OtherSphere,
@@ -85,20 +85,14 @@ pub fn verdict(
             if !is_true_sphere {
                 return wrong(Kind::OtherSphere, ulp as f64);
             }
-            if ulp == 0 {
-                return Verdict::Right { ulp: Some(0) };
+            if ulp <= most_ulp {
+                return Verdict::Right { ulp: Some(ulp) };
             }
             let away = |t: f32| (answer.t - f64::from(t)).abs();
             let roots = sphere.and_then(|sphere| roots(Exact, ray, sphere));
             let is_elsewhere =
                 roots.is_some_and(|roots| roots.iter().any(|&root| away(root) < away(truth.t)));
-            if is_elsewhere {
-                wrong(Kind::OtherRoot, ulp as f64)
-            } else if ulp > most_ulp {
-                wrong(Kind::T, ulp as f64)
-            } else {
-                Verdict::Right { ulp: Some(ulp) }
-            }
+            wrong(if is_elsewhere { Kind::OtherRoot } else { Kind::T }, ulp as f64)
         }
     }
 }
@@ -111,4 +105,23 @@ pub fn margin(ray: &Ray, sphere: &Sphere) -> f64 {
     let a: f64 = ray.direction.to_array().map(f64::from).iter().map(|x| x * x).sum();
     let r = f64::from(sphere.radius);
     d / (a * r * r)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spherule_kernel::Vec3;
+
+    #[test]
+    fn what_the_rules_allow_is_right_even_at_the_other_root() {
+        let ray = Ray::new(Vec3::ZERO, Vec3::Z);
+        let sphere = Sphere::from([0.0, 0.0, 8_388_616.0, 1.0]);
+        let [near, far] = roots(Exact, &ray, &sphere).expect("a hit");
+        assert_eq!(ulp_between(near, far), 2);
+        let truth = Some(Hit { t: near, sphere: 0 });
+        let judged =
+            |most_ulp| verdict(&ray, Some(&sphere), truth, Some(Answer::at(far)), (true, most_ulp));
+        assert_eq!(judged(4), Verdict::Right { ulp: Some(2) });
+        assert_eq!(judged(1), Verdict::Wrong { kind: Kind::OtherRoot, severity: 2.0 });
+    }
 }

@@ -4,10 +4,12 @@ use spherule_kernel::Tier;
 use spherule_referee::answer::Answer;
 use spherule_referee::families::{FAMILIES, Family};
 use spherule_referee::intersector::{Kernel, Pair};
-use spherule_referee::rules::{Inside, Interval, Promise, Starts, Tangents};
+use spherule_referee::rules::{Directions, Inside, Interval, Promise, Starts, Tangents};
 use spherule_referee::verdict::Kind;
 use spherule_referee::watched::Mishap;
 use spherule_referee::{Intersector, Ray, Rules, Sphere, Trial, snippet};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
 
 fn trial() -> Trial {
@@ -155,6 +157,24 @@ fn what_is_not_promised_is_not_judged() {
     );
 }
 
+#[test]
+fn rules_that_want_unit_directions_get_them() {
+    let exact = |ray: &Ray, sphere: &Sphere| {
+        let roots = spherule_kernel::roots(spherule_kernel::Exact, ray, sphere)?;
+        roots.into_iter().find(|t| t.is_finite() && ray.t_min <= *t && *t <= ray.t_max)
+    };
+    let exact = Pair::new("exact", exact);
+    let rules = Rules { directions: Directions::Unit, ..exact.rules() };
+    let trial = Trial { families: named(&["far-1e4", "interval-at-root"]), ..trial() };
+    let report = trial.run(&exact.with_rules(rules));
+    // In pairs and in scenes.
+    assert_eq!(report.judge.scores().count(), 2);
+    for (family, score) in report.judge.scores() {
+        let counts = &score.by_rules;
+        assert!(counts.judged > 590 && counts.wrong() == 0, "{family:?}: {counts:?}");
+    }
+}
+
 /// Panics at some rays, hangs at others, answers too few.
 #[derive(Clone)]
 struct Faulty(Fault);
@@ -219,4 +239,60 @@ fn nonsense_is_no_answer() {
     let report = trial.run(&Faulty(Fault::AnswersNonsense));
     assert!(report.judge.total().by_rules.of(Kind::NoAnswer) > 0);
     assert_eq!(report.smallest.len(), 1);
+}
+
+/// Takes some time for every call, and may see nothing.
+#[derive(Clone)]
+struct Slow {
+    time: Duration,
+    is_blind: bool,
+    calls: Arc<AtomicU32>,
+}
+
+impl Slow {
+    fn new(time: Duration, is_blind: bool) -> Self {
+        Self { time, is_blind, calls: Arc::default() }
+    }
+}
+
+impl Intersector for Slow {
+    fn name(&self) -> &str {
+        "slow"
+    }
+
+    fn closest_hits(&mut self, spheres: &[Sphere], rays: &[Ray]) -> Vec<Option<Answer>> {
+        self.calls.fetch_add(1, Ordering::Relaxed);
+        std::thread::sleep(self.time);
+        if self.is_blind {
+            return vec![None; rays.len()];
+        }
+        Kernel(Tier::Exact).closest_hits(spheres, rays)
+    }
+}
+
+#[test]
+fn who_is_slow_does_not_hang() {
+    let patience = Duration::from_millis(500);
+    let trial =
+        Trial { families: named(&["ordinary"]), cases: 1300, scenes: false, patience, ..trial() };
+    let report = trial.run(&Slow::new(patience / 500, false));
+    assert!(report.unanswered.is_empty(), "{:?}", report.unanswered);
+    assert_eq!(report.judge.total().by_rules.judged, 1300);
+}
+
+#[test]
+fn a_slow_intersector_is_shrunk_no_longer_than_others() {
+    let slow = Slow::new(Duration::from_millis(10), true);
+    let trial = Trial {
+        families: named(&["ordinary"]),
+        cases: 20,
+        scenes: false,
+        shrinking: Duration::from_millis(100),
+        ..trial()
+    };
+    let report = trial.run(&slow);
+    assert_eq!(report.smallest.len(), 1);
+    // A call a case, then those that the time allows.
+    let calls = slow.calls.load(Ordering::Relaxed);
+    assert!(calls <= 20 + 10, "{calls} calls");
 }

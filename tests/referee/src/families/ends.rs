@@ -71,7 +71,7 @@ pub(super) fn degenerate(random: &mut Random) -> Case {
     case
 }
 
-/// Roots near the largest and the least numbers of single precision.
+/// Roots near the largest and the least numbers of single precision. For the least t, one direction in eight overflows.
 pub(super) fn extreme_t(random: &mut Random) -> Case {
     let large = random.one_in(2);
     let t_exponent = if large { random.integer(124, 130) } else { -random.integer(124, 154) };

@@ -49,7 +49,7 @@ pub(super) fn translated(random: &mut Random) -> Case {
     Aim { origin: random.unit().map(|x| 1e6 * x), ..aim }.case(random)
 }
 
-/// Radii of 2^-90 to 2^-40: all as small, or seen from a common distance.
+/// Radii of 2^-93 to 2^-37: all as small, or seen from a common distance.
 pub(super) fn tiny_radius(random: &mut Random) -> Case {
     let aim = ordinary_aim(random);
     let scale = power_of_two(-random.integer(40, 90));
@@ -62,7 +62,7 @@ pub(super) fn tiny_radius(random: &mut Random) -> Case {
     Aim { origin, distance, radius, ..aim }.case(random)
 }
 
-/// Radii of 2^40 to 2^90: seen from as far, or from the surface of a planet.
+/// Radii of 2^37 to 2^93: seen from as far, or from the surface of a planet.
 pub(super) fn huge_radius(random: &mut Random) -> Case {
     let aim = ordinary_aim(random);
     let scale = power_of_two(random.integer(40, 90));

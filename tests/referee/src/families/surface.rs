@@ -7,7 +7,8 @@ use crate::random::{Random, power_of_two};
 use crate::ulp::step;
 use spherule_kernel::{Exact, Ray, Sphere, roots};
 
-/// An origin at `radius * (1 + off)` from the centre, and any direction.
+/// An origin at `radius * (1 + off)` from the centre, and any direction. The sphere may lie four radii from zero: where `off` is small,
+/// rounding the origin may take it to another depth, or to the other side.
 fn near_surface(random: &mut Random, off: f64) -> Case {
     let radius = random.log_uniform(-4, 10);
     let center = random.unit().map(|x| x * radius * random.uniform(0.0, 4.0));
@@ -22,13 +23,13 @@ fn near_surface(random: &mut Random, off: f64) -> Case {
     }
 }
 
-/// The origin is 2^-4 to 2^-26 radii under the surface.
+/// The origin is 2^-4 to 2^-26 radii under the surface before it is rounded; then 3 in 100 are over it or on it.
 pub(super) fn inside(random: &mut Random) -> Case {
     let off = -power_of_two(-random.integer(4, 26));
     near_surface(random, off)
 }
 
-/// The origin is 2^-4 to 2^-26 radii over the surface; the ray looks down.
+/// The origin is 2^-4 to 2^-26 radii over the surface before it is rounded; then 3 in 100 are under it or on it. The ray looks down.
 pub(super) fn outside(random: &mut Random) -> Case {
     let off = power_of_two(-random.integer(4, 26));
     let mut case = near_surface(random, off);
