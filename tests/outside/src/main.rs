@@ -1,12 +1,12 @@
-//! Prints the rates of every traversal, one line each: level, structure and layer, million rays a
-//! second.
+//! Prints the rates of every traversal, one line each: level, structure and rays, query, form of the
+//! rays; million rays a second.
 //!
-//! `compare` builds this program in several profiles and compares their rates.
+//! `compare` builds this program in several profiles, or with an earlier kernel, and compares rates.
 
 use rustix::time::{ClockId, clock_gettime};
 use spherule_kernel::{
-    Bvh, Camera, DepthList, Exact, Hit, HitPacket, Intersect, Level, LevelName, Projection, Ray,
-    RayPacket, SphereList, SphereTree, Trace, Vec3, Viewpoint,
+    Accuracy, Bvh, Camera, DepthList, Exact, Fast, Hit, HitPacket, Intersect, Level, LevelName,
+    Projection, Ray, RayPacket, SphereList, SphereTree, Trace, Vec3, Viewpoint,
 };
 use std::hint::black_box;
 use std::thread;
@@ -52,30 +52,70 @@ fn diffuse() -> Vec<RayPacket> {
     rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect()
 }
 
-/// Prints the best of some rates, by packets and by slices.
+/// Rays in both forms that many are traced in.
+struct Rays {
+    packets: Vec<RayPacket>,
+    single: Vec<Ray>,
+}
+
+impl Rays {
+    fn new(packets: Vec<RayPacket>) -> Self {
+        let lanes = |packet: &RayPacket| {
+            let packet = *packet;
+            (0..RayPacket::COUNT).map(move |lane| packet.ray(lane))
+        };
+        Self { single: packets.iter().flat_map(lanes).collect(), packets }
+    }
+}
+
+/// Prints the best of some rates of either query, by packets and by slices.
 fn race(
     name: &str,
-    level: Level,
-    scratch: &mut [f32],
+    tier: impl Accuracy + Copy,
+    mut trace: Trace<'_>,
     structure: &impl Intersect,
-    rays: &[RayPacket],
+    rays: &Rays,
 ) {
-    let singles: Vec<Ray> =
-        rays.iter().flat_map(|packet| (0..RayPacket::COUNT).map(|lane| packet.ray(lane))).collect();
-    let mut packets = vec![HitPacket::none(); rays.len()];
-    let mut slices: Vec<Option<Hit>> = vec![None; singles.len()];
-    let mut trace = Trace::new().at(level).with_scratch(scratch);
-    trace = if name == "tree-single" { trace.incoherent() } else { trace.coherent() };
+    let Rays { packets, single } = rays;
+    let (mut of_packets, mut hits) =
+        (vec![HitPacket::none(); packets.len()], vec![None; single.len()]);
     let by_packets = best(|| {
-        structure.closest_hit_packets(Exact, &mut trace, black_box(rays), &mut packets);
+        structure.closest_hit_packets(tier, &mut trace, black_box(packets), &mut of_packets);
     });
     let by_slices = best(|| {
-        structure.closest_hits_with(Exact, &mut trace, black_box(&singles), &mut slices);
+        structure.closest_hits_with(tier, &mut trace, black_box(single), &mut hits);
     });
-    assert!(packets.iter().flat_map(HitPacket::hits).eq(slices.iter().copied()));
-    let million = singles.len() as f64 / 1e6;
-    println!("{}/{name}/packets {:.4}", level.name().as_str(), million / by_packets);
-    println!("{}/{name}/slices {:.4}", level.name().as_str(), million / by_slices);
+    assert!(of_packets.iter().flat_map(HitPacket::hits).eq(hits.iter().copied()));
+    print(name, "closest", by_packets, by_slices, single.len());
+
+    let (mut lanes, mut occluded) = (vec![0; packets.len()], vec![false; single.len()]);
+    let by_packets = best(|| {
+        structure.any_hit_packets(tier, &mut trace, black_box(packets), &mut lanes);
+    });
+    let by_slices = best(|| {
+        structure.any_hits_with(tier, &mut trace, black_box(single), &mut occluded);
+    });
+    assert!(hits.iter().map(Option::is_some).eq(occluded.iter().copied()));
+    let lane_of = |ray: usize| lanes[ray / RayPacket::COUNT] >> (ray % RayPacket::COUNT) & 1 == 1;
+    assert!((0..single.len()).map(lane_of).eq(occluded.iter().copied()));
+    print(name, "any", by_packets, by_slices, single.len());
+}
+
+/// Prints the rate of one ray a call, nothing said.
+fn race_one_by_one(name: &str, structure: &impl Intersect, rays: &Rays) {
+    let mut hits = vec![None::<Hit>; rays.single.len()];
+    let time = best(|| {
+        for (ray, hit) in black_box(&rays.single).iter().zip(&mut hits) {
+            *hit = structure.closest_hit(Exact, ray);
+        }
+    });
+    println!("{name}/closest/calls {:.4}", rays.single.len() as f64 / 1e6 / time);
+}
+
+fn print(name: &str, query: &str, by_packets: f64, by_slices: f64, rays: usize) {
+    let million = rays as f64 / 1e6;
+    println!("{name}/{query}/packets {:.4}", million / by_packets);
+    println!("{name}/{query}/slices {:.4}", million / by_slices);
 }
 
 /// The least of some times of a pass, in seconds.
@@ -130,11 +170,20 @@ fn main() {
     let sorted = DepthList::sort(many.spheres(), Viewpoint::Origin(EYE), &mut memory)
         .expect("memory as long as it is needed");
     let tree: Bvh<'_> = tree.bvh();
-    let (primary, diffuse) = (primary(), diffuse());
+    let (primary, diffuse) = (Rays::new(primary()), Rays::new(diffuse()));
     for level in LevelName::ALL.into_iter().filter_map(Level::named) {
-        race("list", level, &mut [], &few, &primary);
-        race("depth-list", level, &mut scratch, &sorted, &primary);
-        race("tree-packets", level, &mut [], &tree, &primary);
-        race("tree-single", level, &mut [], &tree, &diffuse);
+        let name = |row: &str| format!("{}/{row}", level.name().as_str());
+        let plain = || Trace::new().at(level);
+        let sorting = plain().coherent().with_scratch(&mut scratch);
+        race(&name("list"), Exact, plain().coherent(), &few, &primary);
+        race(&name("depth-list"), Exact, sorting, &sorted, &primary);
+        race(&name("camera"), Exact, plain(), &tree, &primary);
+        race(&name("camera-said"), Exact, plain().coherent(), &tree, &primary);
+        race(&name("camera-fast"), Fast, plain(), &tree, &primary);
+        race(&name("diffuse"), Exact, plain(), &tree, &diffuse);
+        race(&name("diffuse-said"), Exact, plain().incoherent(), &tree, &diffuse);
+        race(&name("diffuse-fast"), Fast, plain(), &tree, &diffuse);
     }
+    race_one_by_one("best/camera", &tree, &primary);
+    race_one_by_one("best/diffuse", &tree, &diffuse);
 }
