@@ -29,13 +29,13 @@ use std::io::IsTerminal;
 #[derive(Args, Clone, Debug)]
 pub struct LectureArguments {
     /// The station, 1 to 14 or by its name
-    #[arg(long, value_name = "STATION", value_parser = station)]
+    #[arg(long, value_name = "STATION", value_parser = station, allow_negative_numbers = true)]
     pub station: Option<usize>,
     /// Write the station, or all, also to a terminal; so does --size
     #[arg(long)]
     pub once: bool,
     /// List the stations, with the part of the lecture and the source files of each
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["station", "size"])]
     pub list: bool,
     /// Size of a station in cells [default: 80x24; on a terminal all rows but the last]
     #[arg(long, value_name = "COLSxROWS", value_parser = size)]
@@ -59,7 +59,8 @@ pub fn lecture(arguments: &LectureArguments) -> Result<(), Error> {
     }
     let is_terminal = std::io::stdout().is_terminal();
     let surroundings = Surroundings::of_process(is_terminal);
-    let style = Style { depth: surroundings.depth(arguments.color), ..Style::PLAIN };
+    let (depth, theme) = (surroundings.depth(arguments.color), surroundings.theme(None));
+    let style = Style { depth, theme, ..Style::PLAIN };
     // A walk has the terminal's size.
     let at_once = arguments.once || arguments.size.is_some();
     if is_terminal && !at_once && !surroundings.is_dumb() {

@@ -2,6 +2,7 @@
 //!
 //! The rays are those that a picture of the scene takes; the truth is what `Exact` says.
 
+mod blocks;
 pub mod chart;
 mod lighting;
 mod machine;

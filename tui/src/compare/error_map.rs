@@ -56,6 +56,7 @@ struct Sampled<'a> {
     scene: &'a Scene,
     search: &'a PictureSearch<'a>,
     tracing: Tracing,
+    threads: &'a Threads,
     camera: Camera,
     /// The first column of cells, and how many there are.
     columns: (u32, u32),
@@ -64,7 +65,7 @@ struct Sampled<'a> {
 
 impl ErrorMapper {
     /// Compares the tier of `style` with `Exact` on the few samples of a picture of `scene` from `view`. `progress` gets the share done.
-    /// `level` and `threads` change nothing but how long it takes.
+    /// `level` and `threads` change nothing but how long it takes; when the threads are stopped, the map is worthless.
     #[must_use]
     pub fn map(
         &mut self,
@@ -99,6 +100,7 @@ impl ErrorMapper {
             scene,
             search,
             tracing,
+            threads,
             camera,
             columns: (part.start.into(), columns.into()),
             samples,
@@ -127,7 +129,7 @@ impl ErrorMapper {
 impl Worker {
     /// Writes the worst class of every cell from row `first` on.
     fn judge(&mut self, sampled: &Sampled<'_>, first: u32, classes: &mut [Class]) -> Counts {
-        let &Sampled { scene, search, tracing, ref camera, columns, samples } = sampled;
+        let &Sampled { scene, search, tracing, threads, ref camera, columns, samples } = sampled;
         let Self { tiles, rays, answers, truths, scratch } = self;
         let top = first * samples.down;
         let (left_column, columns) = columns;
@@ -140,14 +142,22 @@ impl Worker {
         tiles.clear();
         tiles.extend(corners);
         rays.resize(tiles.len(), RayPacket::inactive());
-        let of_camera = CameraTiles { camera: *camera, size: (width, height), corners: tiles };
         let mut trace = |tier, hits: &mut Vec<HitPacket>| {
             hits.resize(rays.len(), HitPacket::none());
             let tracing = Tracing { tier, ..tracing };
-            search.camera.tile_hits(tracing, scratch, of_camera, rays, hits);
+            for part in search.camera.parts(rays.len(), threads) {
+                let corners = &tiles[part.clone()];
+                let tiles = CameraTiles { camera: *camera, size: (width, height), corners };
+                let (rays, hits) = (&mut rays[part.clone()], &mut hits[part]);
+                search.camera.tile_hits(tracing, scratch, tiles, rays, hits);
+            }
         };
         trace(tracing.tier, answers);
         trace(Tier::Exact, truths);
+        if threads.are_stopped() {
+            // Hits may be those of another call, even of another scene.
+            return Counts::default();
+        }
 
         let (spheres, mut counts) = (scene.spheres(), Counts::default());
         let (tile_width, _) = Camera::tile::<[f32; 16]>();

@@ -142,7 +142,7 @@ fn decisions(map: &ErrorMap, names: [&str; 4]) -> Vec<Word> {
     let tier = map.tier.as_str();
     let head = match (counts.worst, counts.wrong_decisions()) {
         (None, _) if map.tier == Tier::Exact => {
-            format!("{tier}: all right, it is the truth itself")
+            format!("{tier}: all right, it is the truth")
         }
         (None, _) => format!("{tier}: all right"),
         (_, 0) => format!("{tier}: no wrong decision"),
@@ -255,6 +255,15 @@ mod tests {
             let told: u64 = told.map(|n| n.replace(',', "").parse::<u64>().expect("a count")).sum();
             assert_eq!(told, ulp, "{legend:#?}");
         }
+    }
+
+    #[test]
+    fn forty_columns_have_room_for_the_truth() {
+        let style = Style { accuracy: Tier::Exact, ..fast(ColorDepth::Never, Charset::Ascii) };
+        let map = map("unit", &style, (40, 12), 1);
+        let cells = MapPainter::new(&style).cells(&map, 0..12);
+        let text: String = cells.row(10).iter().map(|cell| cell.glyph).collect();
+        assert_eq!(text.trim(), "exact: all right, it is the truth");
     }
 
     #[test]

@@ -66,10 +66,11 @@ impl Marks {
     pub(super) fn new(style: &Style) -> Self {
         let has_letters = style.charset == Charset::Ascii
             || matches!(style.depth, ColorDepth::Never | ColorDepth::Ansi16);
-        let nearest = |srgb: Srgb| {
+        let nearest = |srgb: Srgb, is_paper: bool| {
             let look = oklab(srgb.to_linear());
             let away = |entry: Entry| (entry.look - look).length_squared();
             let entries = entries(style.depth, &style.theme).into_iter();
+            let entries = entries.filter(|entry| entry.is_paper || !is_paper);
             let best = entries.min_by(|&a, &b| away(a).total_cmp(&away(b)));
             best.map_or(Color::Rgb(srgb.0), |entry| entry.color)
         };
@@ -85,9 +86,9 @@ impl Marks {
                 let paper = color(class);
                 let is_dark = luminance(paper.to_linear()) < 0.18;
                 let ink = if is_dark { Srgb::WHITE } else { Srgb::BLACK };
-                cell.background = nearest(paper);
+                cell.background = nearest(paper, true);
                 if cell.glyph != ' ' {
-                    cell.foreground = nearest(ink);
+                    cell.foreground = nearest(ink, false);
                 }
             }
         }
@@ -110,6 +111,7 @@ impl Marks {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::palette::Theme;
 
     const DECISIONS: [Class; 4] =
         [Class::OtherRoot, Class::LostHit, Class::FalseHit, Class::OtherSphere];
@@ -132,20 +134,30 @@ mod tests {
             [ColorDepth::Never, ColorDepth::Ansi16, ColorDepth::Ansi256, ColorDepth::Truecolor]
         {
             for charset in [Charset::Ascii, Charset::Half, Charset::Block] {
-                let marks = Marks::new(&Style { charset, depth, ..Style::PLAIN });
-                let mut seen = Vec::new();
-                for class in one_a_look() {
-                    let cell = marks.cell(class);
-                    let look = (cell.glyph, cell.background);
-                    assert!(!seen.contains(&look), "{depth:?} {charset:?}: {class:?}, {seen:?}");
-                    assert!(
-                        cell.glyph == ' '
-                            || cell.background == Color::Default
-                            || cell.foreground != cell.background
-                    );
-                    seen.push(look);
+                let style = Style { charset, depth, ..Style::PLAIN };
+                let few_papers = Theme { papers: 8, ..Theme::VGA };
+                for style in [style, Style { theme: few_papers, ..style }] {
+                    every_look_is_its_own(&style);
                 }
             }
+        }
+    }
+
+    fn every_look_is_its_own(style: &Style) {
+        let (marks, mut seen) = (Marks::new(style), Vec::new());
+        for class in one_a_look() {
+            let cell = marks.cell(class);
+            let look = (cell.glyph, cell.background);
+            assert!(!seen.contains(&look), "{style:?}: {class:?}, {seen:?}");
+            assert!(
+                cell.glyph == ' '
+                    || cell.background == Color::Default
+                    || cell.foreground != cell.background
+            );
+            if let Color::Ansi16(paper) = cell.background {
+                assert!(paper < style.theme.papers, "{style:?}: {class:?}");
+            }
+            seen.push(look);
         }
     }
 

@@ -1,8 +1,9 @@
 //! What one answer gets wrong against the truth, and counts of many such verdicts.
 
+use super::middle;
 pub use crate::tally::Class;
 use crate::tally::Tally;
-use spherule_kernel::{Exact, Hit, Ray, Sphere, Spheres, roots};
+use spherule_kernel::{Exact, Hit, Ray, Spheres, roots};
 
 /// A [`Class`], and how far t is off in ulp if both hit the same sphere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -51,27 +52,18 @@ pub(crate) fn tally(
     tally
 }
 
-/// Whether the answer is nearer to another root of the line than to the truth.
+/// Whether the answer is nearer to the other root of the line than to that of the truth: beyond the middle between them.
 fn is_at_the_other_root(ray: &Ray, spheres: Spheres<'_>, answer: Hit, truth: Hit) -> bool {
-    let away = |t: f32| (f64::from(answer.t) - f64::from(t)).abs();
     let Some(sphere) = spheres.get(truth.sphere as usize) else { return false };
-    if are_before_or_behind(ray, &sphere, [answer.t, truth.t]) {
+    if middle::are_before_or_behind(ray, &sphere, [answer.t, truth.t]) {
         return false;
     }
-    let roots = roots(Exact, ray, &sphere);
-    roots.is_some_and(|roots| roots.iter().any(|&root| away(root) < away(truth.t)))
-}
-
-/// Whether double precision is sure that both are on one side of the middle between the roots, as most are: then the
-/// answer is not at the other root.
-fn are_before_or_behind(ray: &Ray, sphere: &Sphere, t: [f32; 2]) -> bool {
-    let (direction, center) = (ray.direction.as_dvec3(), sphere.center.as_dvec3());
-    let way = center - ray.origin.as_dvec3();
-    let (middle, squared) = (way.dot(direction), direction.length_squared());
-    let sides = t.map(|t| f64::from(t) * squared - middle);
-    // This is thousands of times the error of these few operations.
-    let least = 1e-12 * (way.abs().dot(direction.abs()) + middle.abs());
-    sides.iter().all(|&side| side > least) || sides.iter().all(|&side| side < -least)
+    // Of roots that are one number, t tells neither.
+    let apart = roots(Exact, ray, &sphere).filter(|[near, far]| near < far);
+    apart.is_some_and(|[near, _]| {
+        let side = middle::side(answer.t, ray, &sphere);
+        if truth.t == near { side.is_gt() } else { side.is_lt() }
+    })
 }
 
 /// The worst ray of some.
@@ -168,7 +160,7 @@ impl Counts {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use spherule_kernel::Vec3;
+    use spherule_kernel::{Intersect, Vec3};
 
     fn hit(t: f32, sphere: u32) -> Option<Hit> {
         Some(Hit { t, sphere })
@@ -240,6 +232,20 @@ mod tests {
         let found = tally([ray; 5], spheres, answers, [truth; 5]).summary();
         assert_eq!((found.wrong_places, found.wrong_misses, found.rounded), (2, 1, 1));
         assert_eq!(found.ulp.map(|ulp| ulp.max), Some(3));
+    }
+
+    /// Where D is lost, the textbook's t is next to the middle, and rounded roots may be as far from it.
+    #[test]
+    fn next_to_the_middle_the_nearer_root_is_told() {
+        let origin = Vec3::new(115.54503, 93.65253, 1990.1035);
+        let ray = Ray::new(origin, Vec3::new(-0.060_130_928, -0.045_098_197, -0.997_171_2));
+        let spheres = Spheres::new(&[-4.4], &[1.8], &[0.0], &[1.9]).expect("one of each");
+        let truth = spheres.closest_hit(Exact, &ray);
+        assert_eq!(truth.map(|hit| hit.t), Some(1995.3837));
+        for (t, is_elsewhere) in [(1995.8287_f32, true), (1995.8287_f32.next_down(), false)] {
+            let class = Verdict::of(&ray, spheres, hit(t, 0), truth).class;
+            assert_eq!(class == Class::OtherRoot, is_elsewhere, "{t}: {class:?}");
+        }
     }
 
     /// Where both roots are one, there is no other.

@@ -8,7 +8,7 @@ use crate::style::{ColorDepth, Style};
 pub(super) enum Role {
     /// Text.
     Plain,
-    /// What is shown and does not count.
+    /// What is shown and does not count. Its colour is that of text: themes have papers of every grey.
     Faint,
     /// A ray.
     Ray,
@@ -31,8 +31,7 @@ impl Role {
     /// seen on light and dark.
     fn color(self) -> Color {
         match self {
-            Self::Plain => Color::Default,
-            Self::Faint => Color::Ansi16(8),
+            Self::Plain | Self::Faint => Color::Default,
             Self::Ray => Color::Ansi16(6),
             Self::Sphere => Color::Ansi16(5),
             Self::Hit => Color::Ansi16(2),
@@ -106,7 +105,7 @@ impl Canvas {
 
     /// Fills one cell: with colour all of it, else with the glyph.
     pub(super) fn fill(&mut self, column: i32, row: i32, glyph: char, role: Role) {
-        let color = self.color(role);
+        let color = self.style.theme.paper(self.color(role));
         self.set(column, row, Cell { glyph, foreground: color, background: color });
     }
 
@@ -127,6 +126,24 @@ impl Canvas {
         if (0..self.columns()).contains(&column) && (0..self.rows()).contains(&row) {
             let index = row * self.columns() + column;
             self.cells.cells_mut()[index as usize] = cell;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::palette::THEMES;
+
+    /// Papers are among a theme's blacks and whites; what is filled in these is no text.
+    #[test]
+    fn text_is_seen_on_the_paper_of_every_theme() {
+        let roles = [Role::Plain, Role::Faint, Role::Ray, Role::Sphere, Role::Hit, Role::Wrong];
+        let roles = roles.into_iter().chain((0..6).map(Role::Nth));
+        for (role, (name, theme)) in roles.flat_map(|role| THEMES.map(|theme| (role, theme))) {
+            let Color::Ansi16(ink) = role.color() else { continue };
+            let papers = [0, 7, 8, 15].map(|paper| theme.colors[paper]);
+            assert!(!papers.contains(&theme.colors[usize::from(ink)]), "{role:?} in {name}");
         }
     }
 }

@@ -20,10 +20,23 @@ pub(super) struct Knob {
     steps: [i32; 2],
     /// The least and the greatest.
     ends: [i32; 2],
-    /// Whether the least follows the greatest.
-    around: bool,
+    /// What follows them.
+    past: Past,
+    /// The greatest that is seen in a picture of so many columns and rows, if that may be less.
+    most: Option<fn([i32; 2]) -> i32>,
     /// The side of the picture beside the text along which it leads, if it is the place of a cell.
     side: Option<Side>,
+}
+
+/// Where a step leads that would go past an end.
+#[derive(Clone, Copy, Debug)]
+enum Past {
+    /// To the end.
+    End,
+    /// Nowhere: the number stays.
+    Nowhere,
+    /// To the other end, around.
+    Around,
 }
 
 /// A side of a picture.
@@ -39,12 +52,23 @@ const FAR: i32 = 4096;
 impl Knob {
     /// A number within `ends`.
     pub(super) const fn within(first: i32, steps: [i32; 2], ends: [i32; 2]) -> Self {
-        Self { first, steps, ends, around: false, side: None }
+        Self { first, steps, ends, past: Past::End, most: None, side: None }
     }
 
     /// A number from 0 to `count` - 1, around in a circle.
     pub(super) const fn around(first: i32, steps: [i32; 2], count: i32) -> Self {
-        Self { first, steps, ends: [0, count - 1], around: true, side: None }
+        Self { past: Past::Around, ..Self::within(first, steps, [0, count - 1]) }
+    }
+
+    /// One of `count` pixels, in rows of `columns`: on and back, up and down.
+    pub(super) const fn pixel(first: i32, columns: i32, count: i32) -> Self {
+        let steps = [1, -columns];
+        Self { past: Past::Nowhere, ..Self::within(first, steps, [0, count - 1]) }
+    }
+
+    /// The same, but in a picture of so many columns and rows no more than `most`.
+    pub(super) const fn up_to(self, most: fn([i32; 2]) -> i32) -> Self {
+        Self { most: Some(most), ..self }
     }
 
     /// The column of a cell, from the middle of the picture beside the text.
@@ -58,7 +82,9 @@ impl Knob {
     }
 
     /// The nearest number that is seen in a picture of so many columns and rows.
-    fn seen(&self, number: i32, [columns, rows]: [i32; 2]) -> i32 {
+    fn seen(&self, number: i32, picture: [i32; 2]) -> i32 {
+        let number = self.most.map_or(number, |most| number.min(most(picture)));
+        let [columns, rows] = picture;
         let count = match self.side {
             None => return number,
             Some(Side::Columns) => columns,
@@ -75,11 +101,11 @@ impl Knob {
             Turn::Up => up,
             Turn::Down => -up,
         };
-        let [least, greatest] = self.ends;
-        if self.around {
-            (number + step).rem_euclid(greatest + 1)
-        } else {
-            number.saturating_add(step).clamp(least, greatest)
+        let ([least, greatest], next) = (self.ends, number.saturating_add(step));
+        match self.past {
+            Past::Around => next.rem_euclid(greatest + 1),
+            Past::Nowhere if !(least..=greatest).contains(&next) => number,
+            Past::End | Past::Nowhere => next.clamp(least, greatest),
         }
     }
 }
@@ -156,6 +182,13 @@ impl Station {
 pub(super) fn number(x: f32) -> String {
     // Without the sign of -0.
     format!("{:?}", x + 0.0)
+}
+
+/// A number with three decimals.
+pub(super) fn decimals(x: f32) -> String {
+    let text = format!("{x:.3}");
+    // Without the sign of what is rounded to 0.
+    if text == "-0.000" { "0.000".to_owned() } else { text }
 }
 
 /// As [`number`], coordinate by coordinate.

@@ -1,8 +1,10 @@
 //! Every station at every size, and its numbers against the kernel's.
 
+mod room;
+
 use super::canvas::Canvas;
 use super::frame::{LEAST, page};
-use super::station::{Numbers, Station, Turn};
+use super::station::{Numbers, Station, Turn, decimals};
 use super::stations::{STATIONS, station};
 use crate::style::{ColorDepth, Style};
 use spherule_kernel::{
@@ -86,6 +88,22 @@ fn arrows_held_down_end_somewhere() {
             }
             assert!(text(station, numbers).len() > 300, "{} {turn:?}", station.name);
         }
+    }
+}
+
+#[test]
+fn a_row_up_or_down_stays_in_its_column() {
+    let station = &STATIONS[station("image-order").expect("a station")];
+    for turn in [Turn::Up, Turn::Down] {
+        let held = (0..50).fold(station.first(), |numbers, _| station.turned(numbers, turn));
+        assert_eq!((held[0] - station.first()[0]) % 20, 0, "{turn:?}: {held:?}");
+    }
+}
+
+#[test]
+fn what_is_rounded_to_zero_has_no_sign() {
+    for (x, text) in [(-0.0004, "0.000"), (-0.0, "0.000"), (0.0004, "0.000"), (-0.0006, "-0.001")] {
+        assert_eq!(decimals(x), text);
     }
 }
 

@@ -168,13 +168,16 @@ mod tests {
 
     #[test]
     fn an_arrow_leads_back_at_once_from_where_another_was_held_down() {
-        let index = station("illumination").expect("a station");
-        for (held, back) in [
+        let turns = [
             (Turn::Right, Turn::Left),
             (Turn::Left, Turn::Right),
             (Turn::Up, Turn::Down),
             (Turn::Down, Turn::Up),
-        ] {
+        ];
+        let stations = ["illumination", "first-picture"];
+        for (name, (held, back)) in stations.iter().flat_map(|name| turns.map(|turn| (name, turn)))
+        {
+            let index = station(name).expect("a station");
             let mut walk = Walk::new(index);
             for _ in 0..100 {
                 assert!(walk.apply(Input::Turn(held)));
@@ -183,7 +186,7 @@ mod tests {
                 |walk: &Walk| frame::page(index, walk.numbers[index], false, LEAST, Style::PLAIN);
             let at_the_edge = page(&walk);
             assert!(walk.apply(Input::Turn(back)));
-            assert!(page(&walk) != at_the_edge, "{back:?}");
+            assert!(page(&walk) != at_the_edge, "{name} {back:?}");
         }
     }
 

@@ -44,7 +44,7 @@ pub const BUILTINS: [Builtin; 6] = [
     },
     Builtin {
         name: "far",
-        description: "spheres and their shadows from 10^6 and 10^7 diameters, where t is coarser than they are",
+        description: "spheres and their shadows from 10^6 and 10^7 diameters, where t is as coarse as the smallest",
         scene: far,
     },
     Builtin {

@@ -1,5 +1,6 @@
 //! The rays that a picture of a scene takes: from the camera, and from there to the lights.
 
+use super::blocks::Blocks;
 use crate::scene::Light;
 use crate::shade::{ShadowRays, Surfaces};
 use crate::structure::Structure;
@@ -68,24 +69,19 @@ impl Rays {
     }
 
     /// The rays of a picture of `width` x `height` samples, in the order in which it is drawn; if there are more than
-    /// `most`, those of every n-th block of packets.
+    /// `most`, those of some blocks of packets, from everywhere.
     pub(super) fn of_camera(camera: &Camera, width: u32, height: u32, most: usize) -> Self {
         let (across, down) = Camera::tile::<[f32; 16]>();
         let (across, down) = (BLOCK * across, BLOCK * down);
-        let blocks_across = u64::from(width.div_ceil(across));
-        let blocks = blocks_across * u64::from(height.div_ceil(down));
         let most_packets = most / RayPacket::COUNT;
-        let mut step = (blocks * u64::from(BLOCK * BLOCK)).div_ceil(most_packets as u64).max(1);
-        // A step that shares a divisor with the width would see a few columns alone.
-        while step > 1 && common_divisor(step, blocks_across) > 1 {
-            step += 1;
-        }
-        let packets = (0..blocks).step_by(step as usize).flat_map(|index| {
-            let left = (index % blocks_across) as u32 * across;
-            let top = (index / blocks_across) as u32 * down;
+        let most_blocks = most_packets / (BLOCK * BLOCK) as usize;
+        let blocks = Blocks::new(width.div_ceil(across), height.div_ceil(down), most_blocks);
+        let packets = blocks.each().flat_map(|(column, row)| {
+            let (left, top) = (column * across, row * down);
             Camera::tile_corners::<[f32; 16]>((width - left).min(across), (height - top).min(down))
                 .map(move |(x, y)| camera.packet(left + x, top + y, width, height))
         });
+        // There is one block at least, even if there are fewer packets to trace.
         Self::new(Kind::Camera, std::iter::once(packets.take(most_packets).collect()))
     }
 
@@ -119,11 +115,6 @@ impl Rays {
     }
 }
 
-/// The greatest common divisor.
-fn common_divisor(a: u64, b: u64) -> u64 {
-    if b == 0 { a } else { common_divisor(b, a % b) }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -151,10 +142,5 @@ mod tests {
         let (spheres, hit) = (scene.spheres(), (&rays, &*hits));
         let shadow = Rays::of_shadows(tracing, hit, spheres, &lights, MOST_RAYS);
         assert!(rays.count > MOST_RAYS / 4 && shadow.count > 0 && shadow.count <= MOST_RAYS);
-        let across = |packet: &RayPacket| packet.ray(0).direction.x.to_bits();
-        let mut columns: Vec<u32> = rays.packets.iter().map(across).collect();
-        columns.sort_unstable();
-        columns.dedup();
-        assert!(columns.len() > 500, "{} columns", columns.len());
     }
 }

@@ -154,7 +154,7 @@ impl Report {
         for tier in &self.tiers {
             if tier.rays_kind != kind {
                 kind = tier.rays_kind;
-                text += &format!("\n{} {kind} rays\n", tier.rays);
+                text += &format!("\n{}\n", counted(tier.rays, &format!("{kind} ray")));
                 for words in HEAD {
                     text += &row(&words.map(str::to_owned));
                 }

@@ -20,18 +20,23 @@ pub(super) const STATION: Station = Station {
         Source { file: "tui/scenes/unit.toml", symbols: &["sphere", "camera"] },
         Source { file: "tui/src/draw/tracer.rs", symbols: &["tile_hits"] },
     ],
-    knobs: [Knob::within(12, [0, 1], [2, 200]), Knob::within(0, [1, 0], [-12, 12])],
+    knobs: [Knob::within(12, [0, 1], [2, 200]).up_to(most), Knob::within(0, [1, 0], [-12, 12])],
     text: 33,
     draw,
 };
+
+/// The most rows of pixels that so many columns and rows of cells have room for.
+fn most([columns, rows]: [i32; 2]) -> i32 {
+    (rows - 2).min((columns - 2) / 3)
+}
 
 /// Rows of pixels, and steps of the zoom.
 fn draw([wanted, zoom]: Numbers, canvas: &mut Canvas) -> String {
     let (wanted, scene) = (wanted.unsigned_abs(), builtin("unit").unwrap_or_default());
     let (columns, rows) = (canvas.columns(), canvas.rows());
     let room = (columns - STATION.text, rows);
-    // No more pixels than there is room for.
-    let most = ((rows - 2).min((columns - STATION.text - 2) / 3)) as u32;
+    let most = most(room.into()) as u32;
+    // The room may have become smaller.
     let height = wanted.min(most);
     let (width, height) = (height * 3 / 2, height);
     let aspect = f64::from(width) / f64::from(height);
@@ -47,7 +52,7 @@ fn draw([wanted, zoom]: Numbers, canvas: &mut Canvas) -> String {
 
     let hits = white.iter().filter(|&&white| white).count();
     let share = 100.0 * hits as f32 / rays.len() as f32;
-    if height < wanted {
+    if height == most {
         canvas.write(columns - STATION.text + 1, 17, "no room for more pixels", Role::Faint);
     }
     let [x, y, z] = rays[0].direction.to_array().map(number);

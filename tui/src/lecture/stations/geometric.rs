@@ -70,7 +70,8 @@ kernel makes v, and scales back.",
 p - c = {p}
 d = {d}
 |d| = {length}   r = {r}
-v = d/|d| = {unit}
+v = d/|d|
+  = {unit}
 
 t_m = -p.v = {middle}
 l^2 = p.p - t_m^2 = {ll}

@@ -4,7 +4,7 @@ use crate::cells::CellGrid;
 use crate::color::{Srgb, luminance};
 use crate::draw;
 use crate::lecture::canvas::{Canvas, Role};
-use crate::lecture::station::{Knob, Numbers, Source, Station, number};
+use crate::lecture::station::{Knob, Numbers, Source, Station, decimals, number};
 use crate::scene::builtin::builtin;
 use crate::scene::{Light, Scene, Source as LightSource};
 use crate::style::{ColorDepth, Style};
@@ -51,11 +51,13 @@ fn draw([right, down]: Numbers, canvas: &mut Canvas) -> String {
     canvas.copy(0, 0, cells);
     let within = |off: i32, size: u16| (i32::from(size) / 2 + off).clamp(0, i32::from(size) - 1);
     let (column, row) = (within(right, columns), within(down, rows));
-    for (above, frame) in [(-1, "+---+"), (1, "+---+")] {
-        canvas.write(column - 2, row + above, frame, Role::Plain);
+    for (row, frame) in (row - 1..).zip(["+---+", "|   |", "+---+"]) {
+        for (column, glyph) in (column - 2..i32::from(columns)).zip(frame.chars()) {
+            if glyph != ' ' {
+                canvas.put(column, row, glyph, Role::Plain);
+            }
+        }
     }
-    canvas.put(column - 2, row, '|', Role::Plain);
-    canvas.put(column + 2, row, '|', Role::Plain);
 
     let camera = view.camera(columns.into(), rows.into(), aspect);
     let ray = camera.get_ray(column as u32, row as u32);
@@ -92,8 +94,8 @@ fn lit(scene: &Scene, ray: &Ray, lights: &[Light]) -> String {
             (true, true) => "a sphere is in the way: shadow",
             (true, false) => "nothing is in the way: lit",
         };
-        let way = coordinates(to_light);
-        of_lights += &format!("light {number}: l ({way})\n  n.l = {cosine:.3}\n  {verdict}\n");
+        let (way, dot) = (coordinates(to_light), decimals(cosine));
+        of_lights += &format!("light {number}: l ({way})\n  n.l = {dot}\n  {verdict}\n");
         if !is_dark {
             received += cosine * light.color.to_linear();
         }
@@ -120,5 +122,5 @@ little light from everywhere",
 }
 
 fn coordinates(v: Vec3) -> String {
-    format!("{:.3}, {:.3}, {:.3}", v.x + 0.0, v.y + 0.0, v.z + 0.0)
+    v.to_array().map(decimals).join(", ")
 }

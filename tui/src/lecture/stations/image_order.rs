@@ -3,8 +3,8 @@
 use crate::lecture::canvas::{Canvas, Role, letter};
 use crate::lecture::few::Few;
 use crate::lecture::pixels::{Pixel, Pixels};
-use crate::lecture::station::{Knob, Numbers, Source, Station, number};
-use spherule_kernel::{Exact, Hit, Ray, Vec3, roots};
+use crate::lecture::station::{Knob, Numbers, Source, Station, decimals, number};
+use spherule_kernel::{Exact, Hit, Ray, roots};
 
 pub(super) const STATION: Station = Station {
     name: "image-order",
@@ -20,7 +20,7 @@ pub(super) const STATION: Station = Station {
         Source { file: "tui/src/structure/object_order.rs", symbols: &["image order"] },
     ],
     knobs: [
-        Knob::within(112, [1, -(SIZE.0 as i32)], [0, (SIZE.0 * SIZE.1) as i32 - 1]),
+        Knob::pixel(112, SIZE.0 as i32, (SIZE.0 * SIZE.1) as i32),
         Knob::within(0, [0, 0], [0, 0]),
     ],
     text: 35,
@@ -43,14 +43,14 @@ fn draw([done, _]: Numbers, canvas: &mut Canvas) -> String {
     canvas.write(0, pixels.rows(), "[ ] this pixel   . not computed yet", Role::Faint);
 
     let ray = few.ray(done);
-    let Vec3 { x, y, z } = ray.direction;
+    let [x, y, z] = ray.direction.to_array().map(decimals);
     let answers = tests_of(&few, &ray, hits[done]);
     let stored =
         few.shown(hits[done]).map_or("background".to_owned(), |sphere| letter(sphere).to_string());
     format!(
         "\
 pixel ({ix}, {iy}): get_ray({ix}, {iy})
-d = ({x:.3}, {y:.3}, {z:.3})
+d = ({x}, {y}, {z})
 
 for each sphere: intersect
 {answers}

@@ -24,8 +24,8 @@ pub(super) const STATION: Station = Station {
     draw,
 };
 
-/// The chart and the number line show t from here to there.
-const SHOWN: [f32; 2] = [-2.0, 8.0];
+/// The chart and the number line show t from here to there: a little more than the knobs reach.
+const SHOWN: [f32; 2] = [-2.5, 8.5];
 const SPHERE: [f32; 4] = [3.0, 0.6, 0.0, 2.0];
 
 /// t_min and t_max, in quarters.
@@ -61,7 +61,7 @@ fn draw(ends: Numbers, canvas: &mut Canvas) -> String {
         axis.mark(canvas, end(*t), glyph, role);
         axis.mark(canvas, end(*t) - 0.6 * Vec3::Y, name, role);
     }
-    for whole in [-2_i8, 0, 2, 4, 6] {
+    for whole in [-2_i8, 0, 2, 4, 6, 8] {
         axis.mark(canvas, end(whole.into()) + 0.6 * Vec3::Y, &whole.to_string(), Role::Faint);
     }
 

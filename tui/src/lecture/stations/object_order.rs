@@ -73,7 +73,7 @@ fn draw([done, reversed]: Numbers, canvas: &mut Canvas) -> String {
 for each sphere:
         tests  writes  overwritten
 {rows}
-Tested: blocks of 4 x 4 pixels, all
+Tested: blocks of 4 x 4 pixels
 that the sphere's bounds touch.
 
 {order}

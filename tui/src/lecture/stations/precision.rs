@@ -13,7 +13,7 @@ pub(super) const STATION: Station = Station {
     title: "where f32 ends, and what exact does",
     topic: "forms in floats",
     words: [
-        "From 1000 radii away, p.p - r^2 loses r in rounding: both forms of the lecture",
+        "At 1000 radii, p.p - r^2 keeps four bits of r^2: both forms of the lecture",
         "decide wrongly. Stable rearranges; exact goes on until the decision is proven.",
     ],
     arrows: "left, right: a ray that is wrong   up, down: tier",
@@ -87,8 +87,7 @@ tier       hit miss sphere max ulp
 {}
 hit: a hit that is a miss in truth.
 sphere: another, or its other root.
-ulp: steps of f32 between its t
-and the right one, where it hits.",
+ulp: steps of f32 from the right t.",
         of_rays.collect::<String>(),
         rays.len(),
         of_all.collect::<String>()

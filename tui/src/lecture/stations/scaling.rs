@@ -105,7 +105,7 @@ fn draw([twos, tens]: Numbers, canvas: &mut Canvas) -> String {
     let why = if tens == 0 {
         "a is a power of two: a d is not rounded, and every bit is the same."
     } else {
-        "a is no power of two: a d is rounded to f32, so it may be a ray beside, by 2^-24 of d."
+        "a is no power of two: a d is rounded, and may be a ray beside, by 2^-24 of d."
     };
     canvas.write(0, row + 3, why, Role::Faint);
     String::new()
