@@ -2,6 +2,7 @@
 //!
 //! Needs no controlling terminal: `setsid -w cargo test -p spherule-tests pty </dev/null` passes, too.
 
+mod busy;
 mod emulated;
 mod frames;
 mod keyboard;

@@ -4,7 +4,8 @@ use super::picture::OPTIONS;
 use super::session::{Output, Session};
 use super::viewer::{COLUMNS, ROWS, shows_a_frame};
 use spherule_tests::binary::spherule;
-use std::fs;
+use std::fs::{self, OpenOptions};
+use std::io::Write;
 use std::path::PathBuf;
 
 fn contents(output: &Output) -> String {
@@ -19,10 +20,14 @@ struct Film {
 
 impl Film {
     fn of(name: &str, bytes: &[u8]) -> Self {
+        Self::with(&[], name, bytes)
+    }
+
+    fn with(options: &[&str], name: &str, bytes: &[u8]) -> Self {
         let path = std::env::temp_dir().join(format!("spherule-{}-{name}", std::process::id()));
         fs::write(&path, bytes).expect("a temporary file");
         let name = path.to_str().expect("a path that is text");
-        let arguments = [&[name], OPTIONS.as_slice()].concat();
+        let arguments = [&[name], options, OPTIONS.as_slice()].concat();
         let session = Session::start(spherule(), &arguments, &[], (COLUMNS, ROWS));
         session.wait_for("a frame", |output| shows_a_frame(output).then_some(()));
         Self { session, path }
@@ -60,6 +65,20 @@ fn keys_step_and_play() {
     film.plays_and_quits();
 }
 
+/// Without a key, too.
+#[test]
+fn frames_that_are_written_meanwhile_are_counted() {
+    let frame = "1\n\nC 0 0 0\n";
+    let mut film = Film::with(&["--follow"], "written.xyz", frame.as_bytes());
+    film.wait_for(" 0/1+");
+    let file = OpenOptions::new().append(true).open(&film.path);
+    file.and_then(|mut file| file.write_all(frame.repeat(2).as_bytes())).expect("it is written");
+    film.wait_for(" 0/3+");
+    film.session.type_in("q");
+    assert!(film.session.wait_for_end().success());
+    fs::remove_file(&film.path).expect("it can be removed");
+}
+
 /// Frames of GROMACS's `.xtc`, each of an atom at some x: so few are not compressed. What follows them has more atoms,
 /// and differences that there are none of.
 fn damaged_xtc(frames: u32) -> Vec<u8> {
@@ -82,11 +101,15 @@ fn damaged_xtc(frames: u32) -> Vec<u8> {
 }
 
 /// The library that unpacks frames panics at a damaged one, which is read ahead of those that are shown. The panic is caught, so
-/// the viewer keeps the terminal.
+/// the viewer keeps the terminal. Whoever plays the film is told that there is more.
 #[test]
 fn a_damaged_frame_does_not_end_the_film() {
-    let film = Film::of("damaged.xtc", &damaged_xtc(12));
+    let mut film = Film::of("damaged.xtc", &damaged_xtc(12));
     film.wait_for(" 0/");
+    film.session.type_in(" ");
+    film.wait_for(">11/12!");
+    film.wait_for(" frame 12: ");
+    film.session.type_in(" ");
     film.plays_and_quits();
 }
 

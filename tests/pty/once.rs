@@ -5,6 +5,7 @@ use super::picture::{OPTIONS, SceneFile, once};
 use super::session::Session;
 use super::viewer::{COLUMNS, ROWS, VIEW};
 use spherule_tests::binary::spherule;
+use std::ops::RangeInclusive;
 
 /// Runs the program to its end in a terminal of `columns` x `rows`, for tests of what it then shows, and where the
 /// prompt comes.
@@ -93,6 +94,23 @@ fn a_locale_without_unicode_gets_ascii() {
         });
         session.type_in("q");
         assert!(session.wait_for_end().success());
+    }
+}
+
+/// Bright colours are inks there: as papers they have codes that it takes for others.
+#[test]
+fn linux_s_console_gets_no_bright_paper() {
+    let variables = [("TERM", "linux"), ("COLORTERM", "")];
+    for scene in ["unit", "marbles"] {
+        let size = (COLUMNS, ROWS);
+        let mut session = Session::start(spherule(), &[scene, "--once"], &variables, size);
+        assert!(session.wait_for_end().success());
+        let sent = String::from_utf8_lossy(&session.output().sent).into_owned();
+        let pens = sent.split("\x1b[").skip(1).filter_map(|part| part.split_once('m'));
+        let parameters = pens.flat_map(|(parameters, _)| parameters.split(';'));
+        let codes: Vec<u8> = parameters.filter_map(|code| code.parse().ok()).collect();
+        let has = |range: RangeInclusive<u8>| codes.iter().any(|code| range.contains(code));
+        assert!(has(40..=47) && has(90..=97) && !has(100..=107), "{scene}: {codes:?}");
     }
 }
 

@@ -86,10 +86,19 @@ pub(crate) fn once(view: &View, columns: u16, rows: u16) -> Vec<Vec<Look>> {
 /// The same with more options.
 pub(crate) fn once_with(options: &[&str], view: &View, columns: u16, rows: u16) -> Vec<Vec<Look>> {
     let scene = SceneFile::new(view);
-    let output = Command::new(spherule())
-        .args([scene.path(), "--once", "--size", &format!("{columns}x{rows}")])
-        .args(OPTIONS)
-        .args(options)
+    let mut command = Command::new(spherule());
+    drawn(command.arg(scene.path()).args(OPTIONS).args(options), columns, rows)
+}
+
+/// What a command line, as a shell reads it, prints with `--once`: its first word is `spherule`.
+pub(crate) fn once_by(line: &str, columns: u16, rows: u16) -> Vec<Vec<Look>> {
+    let script = line.replacen("spherule", "\"$0\"", 1) + " \"$@\"";
+    drawn(Command::new("sh").args(["-c", &script]).arg(spherule()), columns, rows)
+}
+
+fn drawn(command: &mut Command, columns: u16, rows: u16) -> Vec<Vec<Look>> {
+    let output = command
+        .args(["--once", "--size", &format!("{columns}x{rows}")])
         .env_remove("NO_COLOR")
         .stdin(Stdio::null())
         .output()

@@ -118,6 +118,23 @@ fn kitty_shows_the_pixels_of_the_png_and_nothing_is_left() {
     assert!(is_removed(&viewer.session.output()));
 }
 
+/// A file has no cells: the terminal from which the program was started has no part in what is written.
+#[test]
+fn a_file_gets_the_pixels_of_the_png_from_whatever_terminal() {
+    let file = std::env::temp_dir().join(format!("spherule-{}-kitty", std::process::id()));
+    let options = format!("--size {COLUMNS}x{PICTURE_ROWS} --output kitty");
+    let script = format!("read -r line; \"$0\" unit {options} >'{}'", file.display());
+    let program = spherule();
+    let arguments = ["-c", script.as_str(), program.to_str().expect("text")];
+    let mut session = Session::start("sh", &arguments, &[], (COLUMNS, ROWS));
+    session.resize_cells(12, 20);
+    session.type_in("\n");
+    assert!(session.wait_for_end().success());
+    let sent = std::fs::read(&file).expect("a file");
+    std::fs::remove_file(&file).expect("it can be removed");
+    assert!(last_image(&sent) == Some(png("unit")), "other pixels");
+}
+
 /// A molecule of two chains is coloured by chain, as in a PNG, and by the next choice at a key.
 #[test]
 fn pixels_have_the_colours_that_are_chosen() {
@@ -228,8 +245,17 @@ fn cells_of_another_size_have_as_many_pixels() {
 /// `y` shows the command line of the view, which is also printed at the end: it draws what was seen.
 #[test]
 fn the_command_line_that_y_tells_draws_what_is_seen() {
-    for keys in ["lllk", "o+l", "-HK"] {
-        let mut viewer = Viewer::start();
+    for (more, keys) in [
+        ("", "lllk"),
+        ("", "o+l"),
+        ("", "-HK"),
+        ("", "2Ed"),
+        ("--accuracy fast --samples 4 --occlusion --edges", "lE"),
+        ("--background 203040 --depth-cue=on", "k1"),
+    ] {
+        let more: Vec<&str> = more.split_whitespace().collect();
+        let mut viewer = Viewer::start_as(&more, &[], COLUMNS, ROWS);
+        viewer.wait_for_frame();
         viewer.session.type_in(keys);
         viewer.session.wait_for_peace();
         let seen = super::look::look(viewer.session.output().screen(), PICTURE_ROWS);
@@ -242,8 +268,8 @@ fn the_command_line_that_y_tells_draws_what_is_seen() {
         let text = text(&viewer.session.output());
         let line = text.rsplit("\x1b[?1049l").next().expect("the normal screen");
         let line = line.lines().next().expect("a line").trim();
-        let words: Vec<&str> = line.split(' ').skip(2).collect();
-        assert_eq!(super::picture::once_with(&words, &VIEW, COLUMNS, PICTURE_ROWS), seen, "{line}");
+        let line = &line[line.find("spherule ").expect("the program")..];
+        assert_eq!(super::picture::once_by(line, COLUMNS, PICTURE_ROWS), seen, "{line}");
     }
 }
 

@@ -23,6 +23,10 @@ const QUESTIONS: [(&str, &str); 7] = [
     ("image", IMAGE),
 ];
 
+/// What a terminal with white paper answers.
+const ON_WHITE: [Rule; 2] =
+    [(BACKGROUND, "\x1b]11;rgb:ffff/ffff/ffff\x1b\\"), (ATTRIBUTES, "\x1b[?62c")];
+
 /// What the terminals of the file answer.
 fn terminals() -> Vec<(&'static str, Vec<Rule>)> {
     let mut terminals: Vec<(&str, Vec<Rule>)> = Vec::new();
@@ -229,6 +233,54 @@ fn colours_are_as_many_as_the_terminal_tells() {
     let palette = (PEN, "\x1bP1$r0;48:5:16m\x1b\\");
     assert!(!depth(&[palette, rest], &[], &[]));
     assert!(depth(&[palette, rest], &["--color", "truecolor"], &[]));
+}
+
+/// Without a light, white spheres would be lost there.
+#[test]
+fn white_spheres_are_seen_on_a_white_terminal() {
+    let mut session = Session::start_in(
+        Emulated::with(&ON_WHITE),
+        spherule(),
+        &["unit", "--color", "truecolor"],
+        &[],
+        (COLUMNS, ROWS),
+    );
+    session.wait_for("the sphere", |output| {
+        let paper = |row, column| Some(output.screen().cell(row, column)?.bgcolor());
+        let (corner, middle) = (paper(0, 0)?, paper(PICTURE_ROWS / 2, COLUMNS / 2)?);
+        (corner == Color::Rgb(0, 0, 0) && middle == Color::Rgb(255, 255, 255)).then_some(())
+    });
+    session.type_in("q");
+    assert!(session.wait_for_end().success());
+}
+
+/// Nothing is written on what no sphere covers.
+#[test]
+fn without_colour_the_background_is_blank_on_a_white_terminal() {
+    for charset in ["ascii", "braille"] {
+        let mut session = Session::start_in(
+            Emulated::with(&ON_WHITE),
+            spherule(),
+            &["caffeine", "--charset", charset],
+            &[("NO_COLOR", "1")],
+            (COLUMNS, ROWS),
+        );
+        session.wait_for("the picture", |output| {
+            let status = last_row(output.screen());
+            (status.contains("? help") && !status.contains("drawing ...")).then_some(())
+        });
+        let shown = |left, right| -> String {
+            let output = session.output();
+            let rows = 0..PICTURE_ROWS;
+            let lines = rows.map(|row| output.screen().contents_between(row, left, row, right));
+            // Braille has a blank of its own.
+            lines.collect::<String>().replace([' ', '\u{2800}'], "")
+        };
+        assert_eq!(shown(0, 2), "", "{charset}");
+        assert_ne!(shown(0, COLUMNS), "", "{charset}");
+        session.type_in("q");
+        assert!(session.wait_for_end().success());
+    }
 }
 
 /// If a scene names no background, the terminal's own shows.

@@ -122,9 +122,11 @@ impl Viewer {
     }
 }
 
-/// Whether the screen shows a whole frame: all its bytes, including the status line.
+/// Whether the screen shows a whole frame: all its bytes, including the status line, which does not say that the next
+/// picture is being drawn.
 pub(crate) fn shows_a_frame(output: &Output) -> bool {
     output.screen().alternate_screen()
         && (output.sent.ends_with(b"\x1b[?2026l") || output.sent.ends_with(b"\x1b[?2026l\x1b[5n"))
         && !last_row(output.screen()).trim().is_empty()
+        && !last_row(output.screen()).contains("drawing ...")
 }

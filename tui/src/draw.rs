@@ -218,10 +218,13 @@ impl<'a> Renderer<'a> {
         scene: &'b Scene,
         search: &'b PictureSearch<'b>,
         style: &Style,
-    ) -> Traced<'b> {
+    ) -> Traced<'b>
+    where
+        'a: 'b,
+    {
         let tracing =
             Tracing { tier: style.accuracy, level: self.level, coherence: search.coherence };
-        Traced { tracing, scene, search }
+        Traced { tracing, scene, search, threads: self.threads }
     }
 }
 

@@ -14,6 +14,7 @@ use crate::scene::{Light, Scene, Source};
 use crate::structure::openness::OpennessMemory;
 use crate::structure::scene::PictureSearch;
 use crate::structure::search::{Scratch, Search, Tracing};
+use crate::threads::Threads;
 use exposure::{Exposure, STEEPNESS};
 use spherule_kernel::{
     HitPacket, RayPacket, Spheres, SurfaceHits, SurfacePacket, Towards, Vec3, shadow_packets,
@@ -106,9 +107,17 @@ impl ShadowRays {
         &self.rays
     }
 
-    /// Finds which of them meet anything.
-    fn trace(&mut self, tracing: Tracing, scratch: &mut Scratch, search: &Search<'_>) {
-        search.any_hits(tracing, scratch, &self.rays, &mut self.occluded);
+    /// Finds which of them meet anything, until the threads are stopped.
+    fn trace(
+        &mut self,
+        tracing: Tracing,
+        (scratch, threads): (&mut Scratch, &Threads),
+        search: &Search<'_>,
+    ) {
+        for part in search.parts(self.rays.len(), threads) {
+            let (rays, occluded) = (&self.rays[part.clone()], &mut self.occluded[part]);
+            search.any_hits(tracing, scratch, rays, occluded);
+        }
     }
 }
 
@@ -157,11 +166,11 @@ impl Shader {
     }
 
     /// Lights what was added since the last call: hits of these packets; `search` is that of the picture. Returns how many rays that took,
-    /// to lights and for openness.
+    /// to lights and for openness. When the threads are stopped, the light is worthless.
     pub fn light(
         &mut self,
         tracing: Tracing,
-        scratch: &mut Scratch,
+        (scratch, threads): (&mut Scratch, &Threads),
         scene: &Scene,
         search: &PictureSearch<'_>,
         (rays, hits): (&[RayPacket], &[HitPacket]),
@@ -175,7 +184,7 @@ impl Shader {
                 shadow_rays.cast(tracing, scene.spheres(), (rays, hits, surfaces), light);
                 let towards = search.to_lights.get(index);
                 if let Some(towards) = towards {
-                    shadow_rays.trace(tracing, scratch, towards);
+                    shadow_rays.trace(tracing, (&mut *scratch, threads), towards);
                 }
                 let brightness = light.color.to_linear();
                 let mut samples = samples.iter_mut();

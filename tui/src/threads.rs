@@ -6,6 +6,7 @@ use rayon::iter::{ParallelBridge, ParallelIterator};
 use rayon::{ThreadPool, ThreadPoolBuilder, current_thread_index};
 use spherule_kernel::Join;
 use std::num::NonZeroUsize;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::sync::{Mutex, PoisonError};
 use std::thread::available_parallelism;
 
@@ -41,6 +42,8 @@ pub fn packets_a_tree_task(packets: usize) -> usize {
 #[derive(Debug, Default)]
 pub struct Threads {
     pool: Option<ThreadPool>,
+    /// Whether no one waits any more for what is shared.
+    are_stopped: AtomicBool,
 }
 
 impl Threads {
@@ -56,7 +59,7 @@ impl Threads {
         }
         let pool = ThreadPoolBuilder::new().num_threads(count).build();
         let pool = pool.map_err(|error| Error::Running(format!("{count} threads: {error}")))?;
-        Ok(Self { pool: Some(pool) })
+        Ok(Self { pool: Some(pool), ..Self::default() })
     }
 
     /// How many.
@@ -65,8 +68,25 @@ impl Threads {
         self.pool.as_ref().map_or(1, ThreadPool::current_num_threads)
     }
 
-    /// Calls `work` with every task, on all threads at once. Each thread has one of the `memories`,
-    /// which grow to the number of threads.
+    /// Tells, from another thread, that no one waits any more for what is shared: tasks that have not begun are left out,
+    /// and long ones end when they [ask](Threads::are_stopped). Whoever stops them must throw the results away.
+    pub fn stop(&self) {
+        self.are_stopped.store(true, Relaxed);
+    }
+
+    /// Lets the next tasks be done again.
+    pub fn go_on(&self) {
+        self.are_stopped.store(false, Relaxed);
+    }
+
+    /// Whether no one waits any more.
+    #[must_use]
+    pub fn are_stopped(&self) -> bool {
+        self.are_stopped.load(Relaxed)
+    }
+
+    /// Calls `work` with every task, on all threads at once, unless they are [stopped](Threads::stop). Each thread has one
+    /// of the `memories`, which grow to the number of threads.
     ///
     /// The thread that gets a task is left to chance: the result of a task must not depend on the
     /// contents of the memory.
@@ -80,6 +100,9 @@ impl Threads {
         // Not `for_each_init`, which makes a memory for each piece of work: these memories outlive a picture.
         let memories: Vec<_> = memories.iter_mut().map(Mutex::new).collect();
         let work = |task| {
+            if self.are_stopped() {
+                return;
+            }
             // Never waits: no two threads have the same index, and one does a task at a time.
             let own = &memories[current_thread_index().unwrap_or(0)];
             work(&mut own.lock().unwrap_or_else(PoisonError::into_inner), task);
@@ -131,6 +154,23 @@ mod tests {
             let mut all = done.concat();
             all.sort_unstable();
             assert!(all.into_iter().eq(0..1000), "{count}");
+        }
+    }
+
+    #[test]
+    fn stopped_threads_leave_out_what_has_not_begun() {
+        for count in [1, 2] {
+            let (threads, mut done) = (threads(count), Vec::new());
+            threads.share(&mut done, 0..1000, |done: &mut usize, _| {
+                threads.stop();
+                *done += 1;
+            });
+            // Each thread may have begun with one.
+            let sum = done.iter().sum::<usize>();
+            assert!((1..=usize::from(count)).contains(&sum) && threads.are_stopped(), "{done:?}");
+            threads.go_on();
+            threads.share(&mut done, 0..1000, |done: &mut usize, _| *done += 1);
+            assert_eq!(done.iter().sum::<usize>(), sum + 1000);
         }
     }
 

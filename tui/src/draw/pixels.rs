@@ -42,8 +42,8 @@ pub struct PixelGrid {
 }
 
 impl PixelGrid {
-    /// The pixels of a picture of `columns` x `rows` cells: 8 across a cell, and as many down as make them square, as far as whole numbers
-    /// do.
+    /// The pixels of a picture of `columns` x `rows` cells: 8 across a cell, and as many down as make them square in a
+    /// [square](Self::square) style.
     #[must_use]
     pub fn new(view: &View, style: &Style, columns: u16, rows: u16) -> Self {
         Self::in_cells(view, style, (columns, rows), Self::usual_cell(style), SAMPLES)
@@ -69,6 +69,13 @@ impl PixelGrid {
             cells: (columns, rows),
             cell,
         }
+    }
+
+    /// The style with the shape of a cell that whole pixels give it: in a file pixels are square, and spheres are to be round.
+    #[must_use]
+    pub fn square(style: &Style) -> Style {
+        let (width, height) = Self::usual_cell(style);
+        Style { cell_aspect: width as f32 / height as f32, ..*style }
     }
 
     /// The pixels across and down a cell of which nothing is known but its shape.
@@ -126,7 +133,7 @@ impl Renderer<'_> {
         mut take: impl FnMut(&[u8]) -> Result<(), E>,
     ) -> Result<(), E> {
         let tracing = Tracing { tier: accuracy, level: self.level, coherence: search.coherence };
-        let traced = Traced { tracing, scene, search };
+        let traced = Traced { tracing, scene, search, threads: self.threads };
         let (style, (columns, cell_rows)) = (&grid.style, grid.cells);
         let few = CellSamples::FEW;
         let few_grid = SampleGrid::new(&grid.view, style, few, columns, cell_rows);

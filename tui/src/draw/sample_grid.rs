@@ -5,6 +5,7 @@ use crate::scene::Scene;
 use crate::structure::scene::PictureSearch;
 use crate::structure::search::Tracing;
 use crate::style::Style;
+use crate::threads::Threads;
 use crate::view::View;
 use spherule_kernel::Camera;
 
@@ -14,6 +15,8 @@ pub(super) struct Traced<'a> {
     pub(super) tracing: Tracing,
     pub(super) scene: &'a Scene,
     pub(super) search: &'a PictureSearch<'a>,
+    /// Whoever stops them no longer waits for the picture.
+    pub(super) threads: &'a Threads,
 }
 
 /// A grid of samples over the whole picture: sample `(x, y)` is the ray `camera.get_ray(x, y)`.

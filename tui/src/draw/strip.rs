@@ -213,6 +213,10 @@ impl Strip {
         });
         shown.clear();
         shown.extend_from_slice(cells);
+        if threads.are_stopped() {
+            // Some of it is of this picture, and some of the last.
+            *of = None;
+        }
         let samples = samples.into_inner();
         let rays = samples + shadow_rays.into_inner();
         Effort { samples, rays, is_full: plan.is_steady && grant == Grant::FULL }

@@ -273,6 +273,24 @@ fn many_samples_are_drawn_a_part_at_a_time() {
 }
 
 #[test]
+fn a_picture_that_no_one_waits_for_leaves_nothing_to_the_next() {
+    let moving = Spending::AtMost(u64::MAX);
+    for threads in [1, 2] {
+        let expected = drawn(&STYLE, threads, STRIP, moving).cells;
+        let found = marbles(&STYLE, threads, STRIP, |renderer, scene, search, view| {
+            let aside = orbited(view, 0.007, 0.0);
+            let _ = renderer.draw(scene, search, &aside, &STYLE, SIZE, moving);
+            renderer.threads.stop();
+            let stopped = renderer.draw(scene, search, view, &STYLE, SIZE, moving);
+            assert_eq!(stopped.effort.samples, 0);
+            renderer.threads.go_on();
+            renderer.draw(scene, search, view, &STYLE, SIZE, moving).cells
+        });
+        assert!(found == expected, "{threads} threads");
+    }
+}
+
+#[test]
 fn strips_share_a_budget() {
     let whole = drawn(&STYLE, 1, STRIP, Spending::AtMost(12_000)).effort;
     let strips = drawn(&STYLE, 1, 7 * 60, Spending::AtMost(12_000)).effort;

@@ -92,7 +92,7 @@ impl Tracer {
     /// the light is to be finished, pixels are samples, and have faded already.
     ///
     /// Every sample adds its `share` to the pixel that `places` names, in the order of the packets, so that sums are
-    /// the same whoever computes them.
+    /// the same whoever computes them. When the threads are stopped, the light is worthless.
     pub(super) fn trace(
         &mut self,
         (traced, finish): (&Traced<'_>, Option<&Finish<'_>>),
@@ -101,7 +101,7 @@ impl Tracer {
         (pixels, share): (usize, f32),
         places: impl Fn((u32, u32)) -> Places,
     ) -> Light<'_> {
-        let &Traced { tracing, scene, search } = traced;
+        let &Traced { tracing, scene, search, threads } = traced;
         let &SampleGrid { camera, width, height } = grid;
 
         // Rays, and what they meet.
@@ -109,15 +109,22 @@ impl Tracer {
         self.corners.extend(corners);
         self.rays.resize(self.corners.len(), RayPacket::inactive());
         self.hits.resize(self.corners.len(), HitPacket::none());
-        let tiles = CameraTiles { camera, size: (width, height), corners: &self.corners };
-        let (rays, hits) = (&mut self.rays, &mut self.hits);
-        search.camera.tile_hits(tracing, &mut self.scratch, tiles, rays, hits);
+        for part in search.camera.parts(self.corners.len(), threads) {
+            let corners = &self.corners[part.clone()];
+            let tiles = CameraTiles { camera, size: (width, height), corners };
+            let (rays, hits) = (&mut self.rays[part.clone()], &mut self.hits[part]);
+            search.camera.tile_hits(tracing, &mut self.scratch, tiles, rays, hits);
+        }
 
         // The background is light already; what was met is noted for the shader.
         self.picture.reset(pixels);
         self.shader.show_openness(search.setting.around.is_some());
         self.seen.clear();
         self.seen.resize(if finish.is_some() { pixels } else { 0 }, Seen::NOTHING);
+        if threads.are_stopped() {
+            // Hits may be those of another call, even of another scene.
+            return Light { pixels: self.picture.pixels(), seen: &self.seen, other_rays: 0 };
+        }
         let background = share * scene.background.to_linear();
         for (&(left, top), hits) in self.corners.iter().zip(&self.hits) {
             self.shader.begin_packet();
@@ -144,8 +151,8 @@ impl Tracer {
 
         // Light.
         let hits = (&*self.rays, &*self.hits);
-        let other_rays =
-            self.shader.light(tracing, &mut self.scratch, scene, search, hits, &mut self.picture);
+        let memory = (&mut self.scratch, threads);
+        let other_rays = self.shader.light(tracing, memory, scene, search, hits, &mut self.picture);
         if let Some(finish) = finish {
             for (light, seen) in self.picture.pixels_mut().iter_mut().zip(&self.seen) {
                 finish.fade(light, seen);

@@ -131,10 +131,12 @@ impl<'a> SceneStructures<'a> {
     /// Replaces the spheres. If there are as many as before, a tree is refitted to them, until it is `WORN`; else it is
     /// built again when it is used.
     ///
-    /// For a million spheres that move a little, a refit takes a fraction of the time of a build.
+    /// For a million spheres that move a little, a refit takes a fraction of the time of a build. What there is to see stays
+    /// what it was in the first picture, as the view does: else a sphere that leaves would change how all others fade.
     pub fn go_on(&mut self, list: &Arc<SphereList>) {
+        self.subject.get_or_insert_with(|| subject(self.list.spheres()));
         self.list = Arc::clone(list);
-        (self.subject, self.openness) = (None, None);
+        self.openness = None;
         let Some(tree) = self.tree.take() else { return };
         // A tree that others still use is left to them.
         let Ok(mut tree) = Arc::try_unwrap(tree) else { return };
@@ -146,6 +148,13 @@ impl<'a> SceneStructures<'a> {
             self.tree = Some(Arc::new(tree));
         }
         self.build += start.elapsed();
+    }
+
+    /// From now on `subject` is what there is to see.
+    pub fn frame(&mut self, subject: Sphere) {
+        if self.subject != Some(subject) {
+            (self.subject, self.openness) = (Some(subject), None);
+        }
     }
 
     /// Returns `choice` or, if that is open, the cheapest structure for this work.

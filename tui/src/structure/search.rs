@@ -2,9 +2,16 @@
 
 use super::object_order::{ObjectOrder, Raster};
 pub use super::tracing::Tracing;
+use crate::threads::Threads;
 use spherule_kernel::{
     Bvh, CameraTiles, DepthList, HitPacket, Intersect, RayPacket, Spheres, Trace, tile_rays,
 };
+use std::ops::Range;
+
+/// The tests of brute force between two questions whether anyone still waits: 16 to 90 ms, by the CPU's level.
+const TESTS: usize = 1 << 27;
+/// The fewest packets of a part: the spheres are prepared for each part, which takes as long as a packet.
+const FEWEST: usize = 8;
 
 /// Spheres, and how rays find them. Threads may share it.
 #[derive(Clone, Copy, Debug)]
@@ -45,6 +52,23 @@ impl Scratch {
 }
 
 impl Search<'_> {
+    /// Parts of so many packets, to be traced one after the other, until `threads` are stopped. Only brute force over many
+    /// spheres takes so long that it has more than one; its answers do not depend on what is traced together.
+    pub fn parts<'t>(
+        &self,
+        packets: usize,
+        threads: &'t Threads,
+    ) -> impl Iterator<Item = Range<usize>> + use<'t> {
+        let at_once = match self {
+            Self::Brute(spheres) => (TESTS / RayPacket::COUNT / spheres.len().max(1)).max(FEWEST),
+            Self::DepthList(_) | Self::Bvh(_) | Self::Objects(_) => packets.max(1),
+        };
+        (0..packets)
+            .step_by(at_once)
+            .map(move |from| from..packets.min(from + at_once))
+            .take_while(move |_| !threads.are_stopped())
+    }
+
     /// Writes the closest hit of every ray to `hits`.
     pub fn closest_hits(
         &self,
@@ -108,6 +132,63 @@ impl Search<'_> {
             Self::Objects(objects) => {
                 objects.spheres().any_hit_packets(tier, trace, rays, occluded);
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::view::View;
+    use spherule_kernel::{Camera, Coherence, Level, SphereList, SphereTree, Tier};
+
+    #[test]
+    fn brute_force_over_many_spheres_has_parts_until_it_is_stopped() {
+        let threads = Threads::default();
+        let parts = |search: &Search<'_>| search.parts(150, &threads).collect::<Vec<_>>();
+        let list = SphereList::from(vec![[0.0_f32, 0.0, 0.0, 1.0]; 1 << 17]);
+        let many = Search::Brute(list.spheres());
+        assert_eq!(parts(&many), [0..64, 64..128, 128..150]);
+        let tree = SphereTree::new([[0.0, 0.0, 0.0, 1.0]]);
+        for search in [Search::Brute(tree.list().spheres()), Search::Bvh(tree.bvh())] {
+            assert!(search.parts(150, &threads).eq(std::iter::once(0..150)));
+            assert_eq!(search.parts(0, &threads).count(), 0);
+        }
+        let mut halves = many.parts(150, &threads);
+        assert_eq!(halves.next(), Some(0..64));
+        threads.stop();
+        assert_eq!(halves.next(), None);
+        assert!(parts(&many).is_empty());
+    }
+
+    /// Parts as small as there are, against all packets at once.
+    #[test]
+    fn what_is_traced_together_changes_no_answer_of_brute_force() {
+        let spheres = (0..300_u16).map(|index| {
+            let [x, y] = [index % 20, index / 20].map(|at| f32::from(at) * 0.25 - 2.0);
+            [x, y, x * y, 0.2]
+        });
+        let list = SphereList::from(spheres.collect::<Vec<_>>());
+        let (size, search) = ((64, 48), Search::Brute(list.spheres()));
+        let camera = View::FRONT.camera(size.0, size.1, 4.0 / 3.0);
+        let corners: Vec<_> = Camera::tile_corners::<[f32; 16]>(size.0, size.1).collect();
+        for tier in Tier::ALL {
+            let traced = |at_once: usize| {
+                let (level, coherence) = (Level::best(), Coherence::Coherent);
+                let (tracing, mut scratch) =
+                    (Tracing { tier, level, coherence }, Scratch::default());
+                let mut rays = vec![RayPacket::inactive(); corners.len()];
+                let mut hits = vec![HitPacket::none(); corners.len()];
+                let parts = rays.chunks_mut(at_once).zip(hits.chunks_mut(at_once));
+                for (corners, (rays, hits)) in corners.chunks(at_once).zip(parts) {
+                    let tiles = CameraTiles { camera, size, corners };
+                    search.tile_hits(tracing, &mut scratch, tiles, rays, hits);
+                }
+                hits.iter().flat_map(HitPacket::hits).collect::<Vec<_>>()
+            };
+            let whole = traced(corners.len());
+            assert!(whole.iter().flatten().count() > 500, "{tier:?}");
+            assert!(traced(FEWEST) == whole, "{tier:?}");
         }
     }
 }

@@ -1,21 +1,31 @@
 //! The command line that shows what is seen now.
 
-use crate::arguments::SceneArguments;
+mod drawing;
+
+use super::colors::Colors;
+use super::state::State;
+use crate::arguments::{PictureArguments, SceneArguments};
 use crate::choice::name;
 use crate::length::length;
+use crate::scene::Scene;
 use crate::scene::radii::RadiusBy;
-use crate::view::{Lens, LensKind, View};
+use crate::view::{Lens, LensKind};
+use drawing::drawing;
 use glam::DVec3;
 use spherule_kernel::Vec3;
+use std::ffi::OsString;
+use std::str::Utf8Chunk;
 
-/// `spherule` with the scene that was `asked` for, whose zero is at `origin` in its file, all that `view` needs, and all
-/// that the file must be read by.
+/// `spherule` with the scene that was `asked` for, all that its view needs, all that the file must be read by, and how it is drawn.
 pub(super) fn command_line(
-    asked: &SceneArguments,
+    asked: &PictureArguments,
     frame: usize,
-    view: &View,
-    origin: DVec3,
+    state: &State,
+    scene: &Scene,
+    colors: &Colors,
 ) -> String {
+    let view = &state.shown.view;
+    let origin = scene.origin;
     let place = |point: Vec3| {
         // The digits of single precision, where they are the file's own.
         if origin == DVec3::ZERO {
@@ -37,14 +47,22 @@ pub(super) fn command_line(
     };
     let mut line = format!(
         "spherule {} --eye {} --target {} --fov {fov} --projection {}",
-        scene_name(&asked.name),
+        scene_name(asked.scene.name.path().as_os_str().as_encoded_bytes()),
         place(view.eye),
         place(view.target),
         name(&projection)
     );
-    for (option, value) in reading(asked, frame) {
-        let between = if value.starts_with('-') { '=' } else { ' ' };
-        line += &format!(" {option}{between}{}", quoted(&value));
+    let drawing = drawing(asked, state, scene, colors).into_iter();
+    let drawing = drawing.map(|(option, value)| (option, value.map(OsString::from)));
+    let reading = reading(&asked.scene, frame, scene);
+    let reading = reading.map(|(option, value)| (option, Some(value)));
+    for (option, value) in reading.chain(drawing) {
+        line += &format!(" {option}");
+        if let Some(value) = value {
+            let value = value.as_encoded_bytes();
+            line.push(if value.starts_with(b"-") { '=' } else { ' ' });
+            line += &quoted(value);
+        }
     }
     line
 }
@@ -53,54 +71,128 @@ pub(super) fn command_line(
 fn reading(
     asked: &SceneArguments,
     frame: usize,
-) -> impl Iterator<Item = (&'static str, String)> + use<> {
-    let radius = asked.radius.as_ref().map(|radius| match radius {
+    scene: &Scene,
+) -> impl Iterator<Item = (&'static str, OsString)> + use<> {
+    // A frame that lacks them has kept its own.
+    let radius = asked.radius.as_ref().filter(|radius| has_radii(scene, radius));
+    let radius = radius.map(|radius| match radius {
         RadiusBy::VanDerWaals => "van-der-waals".to_owned(),
         RadiusBy::Covalent => "covalent".to_owned(),
         RadiusBy::Number(radius) => radius.to_string(),
         RadiusBy::Column(column) => column.to_string(),
     });
+    let radius = radius.or_else(|| radius_of_film(asked, frame, scene));
     let file = &asked.file;
     [
-        ("--frame", (frame > 0).then(|| frame.to_string())),
-        ("--format", file.format.map(|format| name(&format))),
-        ("--columns", file.columns.clone()),
-        ("--topology", file.topology.clone()),
-        ("--radius", radius),
+        ("--frame", (frame > 0).then(|| OsString::from(frame.to_string()))),
+        ("--format", file.format.map(|format| OsString::from(name(&format)))),
+        ("--columns", file.columns.as_ref().map(OsString::from)),
+        ("--topology", file.topology.as_ref().map(|file| OsString::from(file.path()))),
+        ("--radius", radius.map(OsString::from)),
     ]
     .into_iter()
     .filter_map(|(option, value)| Some((option, value?)))
 }
 
-/// The scene as a word that is no option.
-fn scene_name(name: &str) -> String {
-    if name.starts_with('-') && name != "-" { quoted(&format!("./{name}")) } else { quoted(name) }
+/// Whether `scene` has what these radii are made of.
+fn has_radii(scene: &Scene, radius: &RadiusBy) -> bool {
+    let attributes = scene.attributes();
+    match radius {
+        RadiusBy::VanDerWaals | RadiusBy::Covalent => attributes.elements.is_some(),
+        RadiusBy::Number(_) => true,
+        RadiusBy::Column(name) => attributes.column(name).is_some(),
+    }
 }
 
-/// A word of a shell.
-fn quoted(word: &str) -> String {
-    let is_plain = |c: char| c.is_ascii_alphanumeric() || "_-./,".contains(c);
-    if !word.is_empty() && word.chars().all(is_plain) {
-        word.to_owned()
+/// The radius of all spheres, where the file states none: another frame has fixed it, and this one alone would have its own.
+fn radius_of_film(asked: &SceneArguments, frame: usize, scene: &Scene) -> Option<String> {
+    let is_first = frame == asked.file.frame.unwrap_or(0);
+    let radius = scene.unstated_radius.filter(|_| !is_first)?;
+    scene.spheres().iter().all(|sphere| sphere.radius == radius).then(|| radius.to_string())
+}
+
+/// The scene as a word that is no option.
+fn scene_name(name: &[u8]) -> String {
+    if name.starts_with(b"-") && name != b"-" {
+        quoted(&[b"./", name].concat())
     } else {
-        format!("'{}'", word.replace('\'', r"'\''"))
+        quoted(name)
     }
+}
+
+/// A word of a shell. What is not seen, or is no text, is written as bash, ksh and zsh read it.
+fn quoted(word: &[u8]) -> String {
+    let is_plain = |byte: u8| byte.is_ascii_alphanumeric() || b"_-./,:".contains(&byte);
+    match str::from_utf8(word) {
+        Ok(text) if !text.is_empty() && text.bytes().all(is_plain) => text.to_owned(),
+        Ok(text) if !text.chars().any(char::is_control) => {
+            format!("'{}'", text.replace('\'', r"'\''"))
+        }
+        _ => format!("$'{}'", word.utf8_chunks().map(|chunk| escaped(&chunk)).collect::<String>()),
+    }
+}
+
+/// Text between `$'` and `'`, and the bytes behind it that are none.
+fn escaped(chunk: &Utf8Chunk<'_>) -> String {
+    let octal = |bytes: &[u8]| bytes.iter().map(|byte| format!("\\{byte:03o}")).collect::<String>();
+    let letter = |letter: char| match letter {
+        '\'' | '\\' => format!("\\{letter}"),
+        _ if letter.is_control() => octal(letter.encode_utf8(&mut [0; 4]).as_bytes()),
+        _ => letter.to_string(),
+    };
+    chunk.valid().chars().map(letter).collect::<String>() + &octal(chunk.invalid())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::arguments::Arguments;
+    use crate::color::Srgb;
+    use crate::coloring::ColorBy;
+    use crate::scene::attributes::Attributes;
+    use crate::style::Style;
+    use crate::view::View;
+    use crate::viewer::Start;
     use clap::Parser;
+    use spherule_kernel::{Sphere, SphereList};
+    use std::os::unix::ffi::OsStringExt;
 
-    fn asked(words: &[&str]) -> SceneArguments {
-        let words = std::iter::once("spherule").chain(words.iter().copied());
-        Arguments::try_parse_from(words).expect("a command line").picture.scene
+    fn asked(words: &[OsString]) -> PictureArguments {
+        let words = std::iter::once(OsString::from("spherule")).chain(words.iter().cloned());
+        Arguments::try_parse_from(words).expect("a command line").picture
+    }
+
+    /// The command line of a view, whose style is the usual one.
+    fn told(asked: &PictureArguments, frame: usize, view: &View, scene: &Scene) -> String {
+        let start = Start {
+            view: *view,
+            style: Style::PLAIN,
+            structure: None,
+            comparison: None,
+            table: false,
+            legend: false,
+        };
+        let colors = Colors::new(scene, &ColorBy::Scene, None);
+        command_line(asked, frame, &State::new(start, colors.start()), scene, &colors)
+    }
+
+    fn words(words: &[&str]) -> Vec<OsString> {
+        words.iter().map(OsString::from).collect()
+    }
+
+    /// The command line of a frame, in coordinates of the file.
+    fn of_words(line: &[&str], frame: usize) -> String {
+        told(&asked(&words(line)), frame, &View::FRONT, &Scene::new())
+    }
+
+    /// The scene of a command line without quotes.
+    fn again(line: &str) -> SceneArguments {
+        asked(&words(&line.split(' ').skip(1).collect::<Vec<_>>())).scene
     }
 
     /// The command line of the first frame, in coordinates of the file.
     fn line(scene: &str, view: &View) -> String {
-        command_line(&asked(&[scene]), 0, view, DVec3::ZERO)
+        told(&asked(&words(&[scene])), 0, view, &Scene::new())
     }
 
     #[test]
@@ -116,15 +208,36 @@ mod tests {
 
     #[test]
     fn a_name_that_begins_with_a_dash_is_no_option() {
-        let words = ["--topology=-a.gro", "--", "-dash.toml"];
-        let line = command_line(&asked(&words), 0, &View::FRONT, DVec3::ZERO);
+        let line = of_words(&["--topology=-a.gro", "--", "-dash.toml"], 0);
         assert!(line.starts_with("spherule ./-dash.toml --eye "), "{line}");
         assert!(line.ends_with(" --topology=-a.gro"), "{line}");
-        let again = asked(&line.split(' ').skip(1).collect::<Vec<_>>());
+        let again = again(&line);
         assert_eq!(again.name, "./-dash.toml");
         assert_eq!(again.file.topology.as_deref(), Some("-a.gro"));
-        let line = command_line(&asked(&["-"]), 0, &View::FRONT, DVec3::ZERO);
+        let line = of_words(&["-"], 0);
         assert!(line.starts_with("spherule - --eye "), "{line}");
+    }
+
+    #[test]
+    fn a_name_that_cannot_be_printed_is_escaped() {
+        let names: [(&[u8], &str); 8] = [
+            (b"a:1,b.toml", "a:1,b.toml"),
+            (b"", "''"),
+            ("caf\u{e9}.toml".as_bytes(), "'caf\u{e9}.toml'"),
+            (b"bad\xff7.toml", r"$'bad\3777.toml'"),
+            (b"esc\x1b[31m.toml", r"$'esc\033[31m.toml'"),
+            (b"it's\\\n", r"$'it\'s\\\012'"),
+            ("\u{9b}\u{e9}".as_bytes(), "$'\\302\\233\u{e9}'"),
+            (b"-\xff", r"$'./-\377'"),
+        ];
+        for (name, expected) in names {
+            assert_eq!(scene_name(name), expected);
+        }
+        let topology = OsString::from_vec(b"--topology=t\xff.gro".to_vec());
+        let asked = asked(&[OsString::from_vec(b"t\xff.xtc".to_vec()), topology]);
+        let line = told(&asked, 0, &View::FRONT, &Scene::new());
+        assert!(line.starts_with(r"spherule $'t\377.xtc' --eye "), "{line}");
+        assert!(line.ends_with(r" --topology $'t\377.gro'"), "{line}");
     }
 
     #[test]
@@ -132,27 +245,56 @@ mod tests {
         for height in [1e30, 1e9, 1.0, 1e-9, 1e-30] {
             let view = View { lens: Lens::Parallel { height }, ..View::FRONT };
             let line = line("unit", &view);
-            let again = asked(&line.split(' ').skip(1).collect::<Vec<_>>());
-            assert_eq!(again.projection, Some(LensKind::Parallel), "{line}");
+            assert_eq!(again(&line).projection, Some(LensKind::Parallel), "{line}");
         }
     }
 
     #[test]
     fn it_has_the_frame_and_what_the_file_is_read_by() {
         let words = ["t.dat", "--format", "csv", "--columns", "a,b,c", "--radius", "0.5"];
-        let line = command_line(&asked(&words), 0, &View::FRONT, DVec3::ZERO);
+        let line = of_words(&words, 0);
         let end = " --projection perspective --format csv --columns a,b,c --radius 0.5";
         assert!(line.ends_with(end), "{line}");
         let words = ["t.xtc", "--topology", "a b.gro", "--frame", "2", "--radius", "vdw"];
-        let line = command_line(&asked(&words), 7, &View::FRONT, DVec3::ZERO);
+        let mut elements = Attributes::default();
+        elements.elements = Some(vec![6]);
+        let list = SphereList::from_iter([(Vec3::ZERO, 1.0)]);
+        let scene = Scene::of_spheres(list, vec![Srgb::WHITE], elements);
+        let line = told(&asked(&self::words(&words)), 7, &View::FRONT, &scene);
         let end = " --frame 7 --topology 'a b.gro' --radius van-der-waals";
         assert!(line.ends_with(end), "{line}");
+    }
+
+    /// A frame that is read alone has its own.
+    #[test]
+    fn it_has_the_radius_that_another_frame_has_fixed() {
+        let mut scene = Scene::new();
+        scene.push(Sphere { center: Vec3::ZERO, radius: 0.3 }, Srgb::WHITE, None);
+        scene.unstated_radius = Some(0.3);
+        let radius = |line: &[&str], frame, scene: &Scene| {
+            let line = told(&asked(&words(line)), frame, &View::FRONT, scene);
+            line.split_once(" --radius ").map(|(_, radius)| radius.to_owned())
+        };
+        assert_eq!(radius(&["t.dump"], 3, &scene).as_deref(), Some("0.3"));
+        assert_eq!(radius(&["t.dump", "--frame", "3"], 0, &scene).as_deref(), Some("0.3"));
+        assert_eq!(radius(&["t.dump", "--radius", "2"], 3, &scene).as_deref(), Some("2"));
+        for lacking in ["rad", "vdw", "covalent"] {
+            let line = ["t.dump", "--radius", lacking];
+            assert_eq!(radius(&line, 3, &scene).as_deref(), Some("0.3"), "{lacking}");
+            assert_eq!(radius(&line, 0, &scene), None, "{lacking}");
+        }
+        assert_eq!(radius(&["t.dump"], 0, &scene), None);
+        assert_eq!(radius(&["t.dump", "--frame", "3"], 3, &scene), None);
+        scene.push(Sphere { center: Vec3::X, radius: 1.7 }, Srgb::WHITE, None);
+        assert_eq!(radius(&["t.dump"], 3, &scene), None);
     }
 
     #[test]
     fn it_is_in_the_coordinates_of_the_file() {
         let view = View { eye: Vec3::new(0.5, -2.0, 1e-7), ..View::FRONT };
-        let line = command_line(&asked(&["map"]), 0, &view, DVec3::new(5e5, 5.4e6, 0.0));
+        let mut scene = Scene::new();
+        scene.origin = DVec3::new(5e5, 5.4e6, 0.0);
+        let line = told(&asked(&words(&["map"])), 0, &view, &scene);
         assert!(line.starts_with("spherule map --eye 500000.5,5399998,0.0000001"), "{line}");
         assert!(line.contains(" --target 500000,5400000,0 "), "{line}");
     }

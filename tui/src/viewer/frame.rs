@@ -3,72 +3,131 @@
 use super::film::Film;
 use super::meter::Frame;
 use super::pace::Debt;
-use super::pixel_frame::NO_TEXT;
-use super::session::{Picture, Viewer, picture_rows};
-use super::shown::Shown;
+use super::session::{Picture, Viewer};
+use super::shown::Outcome;
+use super::studio::Studio;
 use super::table::{Means, Subject};
 use super::{help, notice, picking, status};
 use crate::cells::CellGrid;
-use crate::compare::Comparison;
-use crate::compare::legend::MapPainter;
-use crate::compare::split::{Split, SplitPicture};
-use crate::draw::{Drawn, picture_workload};
+use crate::coloring::legend::Legend;
 use crate::encode::Economy;
 use crate::error::Error;
-use crate::pick::{Pick, cell_ray, report};
+use crate::pick::report;
 use crate::terminal::lost;
 use crate::tradeoff::chart;
 use std::io;
-use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
-impl Viewer<'_> {
-    /// Draws and sends one frame, in one write.
-    pub(super) fn show_frame(&mut self, now: Instant, moving: bool) -> Result<(), Error> {
+/// What the status line says first while a picture is drawn that takes long.
+const DRAWING: &str = "drawing ...";
+
+/// When and where a frame is shown.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Occasion {
+    /// When it was due, and when it was begun.
+    now: Instant,
+    started: Instant,
+    /// The rows of the terminal.
+    rows: u16,
+    /// Whether it is one of a movement.
+    pub(super) moving: bool,
+}
+
+/// What can be told besides a picture while none is drawn.
+#[derive(Default)]
+pub(super) struct Known {
+    /// What the table is measured by, if it is open and the picture rests.
+    means: Option<Means>,
+    /// Lines about the cell that is picked.
+    picked: Vec<String>,
+}
+
+impl Viewer {
+    /// Draws and sends one frame, in one write. Returns what was asked for meanwhile; if that is another picture, this one
+    /// is not shown.
+    pub(super) fn show_frame(
+        &mut self,
+        studio: &mut Studio<'_>,
+        now: Instant,
+        moving: bool,
+    ) -> Result<Outcome, Error> {
         let (columns, rows) = self.learn_size().map_err(|error| lost(&error))?;
         if columns == 0 || rows == 0 {
             self.pace.rest();
-            return Ok(());
+            return Ok(Outcome::Unchanged);
         }
-        let status_row = picture_rows(rows);
-        let (size, started) = ((columns, status_row), Instant::now());
-        let pictured = self.state.shown.pictured();
-        let subject = Subject::new(&pictured, size);
-        // The picture is not drawn again where nothing has changed except what is written over it.
-        let last = self.picture.take();
-        let rests = last.as_ref().is_some_and(|last| Subject::new(&last.of, last.size) == subject);
-        let protocol = self.protocol();
-        if protocol.is_none() {
+        let started = Instant::now();
+        let occasion = Occasion { now, started, rows, moving };
+        if self.protocol().is_none() {
             self.remove_images();
         }
-        // A font of another size may leave columns and rows as they are.
-        let cell = protocol.map(|protocol| self.pixels_of_cell(protocol, size));
-        let same = |last: &Picture| {
-            last.of == pictured
-                && last.size == size
-                && last.cell == cell
-                && last.drawn.effort.is_full
-        };
-        let (picture, drawing) = match last.filter(same) {
-            Some(last) => (last, None),
-            None => {
-                self.colors.show(&mut self.scene, self.state.shown.coloring);
-                self.structures.set_aids(self.state.shown.style.aids);
-                let picture = match cell {
-                    Some(cell) => self.draw_pixels(cell, size, moving)?,
-                    None => self.draw(size, moving)?,
-                };
-                (picture, Some(started.elapsed()))
+        let wanted = self.wanted();
+        // Even if the picture stays: what was begun before may have been given up in other colours.
+        if let Some(lack) = self.colors.show(&mut self.scene, wanted.pictured.coloring) {
+            let frame = self.film.as_ref().map_or(0, Film::shown);
+            self.tell(format!("frame {frame} keeps its colours: {lack}"));
+        }
+        if let Some(subject) = self.framed.take() {
+            studio.structures.frame(subject);
+        }
+        studio.structures.set_aids(wanted.pictured.style.aids);
+        let last = self.picture.as_ref();
+        let subject = |of: &Picture| (of.of.scene, Subject::new(&of.of.pictured, of.of.size));
+        let before = last.map(subject);
+        // The picture is not drawn again where nothing has changed except what is written over it.
+        let is_same = last.is_some_and(|last| last.of == wanted && last.drawn.effort.is_full);
+        let (mut outcome, mut drawing) = (Outcome::Unchanged, None);
+        if !is_same {
+            let (drawn, meanwhile) = self.draw(studio, wanted, &occasion)?;
+            outcome = meanwhile;
+            let Some((picture, time)) = drawn else {
+                self.pace.gave_up();
+                return Ok(outcome);
+            };
+            self.pace.drawn(picture.drawn.effort, time);
+            let charset = |of: &Picture| of.of.pictured.style.charset;
+            if self.picture.as_ref().is_some_and(|last| charset(last) != charset(&picture)) {
+                // Since the key was pressed, the last picture may have been shown once more.
+                self.encoder.forget();
             }
-        };
+            self.picture = Some(picture);
+            drawing = Some(started.elapsed());
+        }
+        let Some(mut picture) = self.picture.take() else { return Ok(outcome) };
+        picture.legend.clone_from(&self.colors.legend);
+        let shown = &self.state.shown;
+        let rests = before == Some((wanted.scene, Subject::new(shown, wanted.size)));
+        let means = (rests && shown.table).then(|| studio.means(&self.scene, shown));
+        let pick = studio.pick(&self.scene, shown, wanted.size)?;
+        // In ASCII: a cell holds no glyph that is two columns wide, and a label may.
+        let printable = |label: &str| label.escape_default().to_string();
+        let picked = pick.map(|pick| report::lines(&pick, printable)).unwrap_or_default();
+        self.present(&picture, Some(Known { means, picked }), drawing, &occasion)?;
+        self.picture = Some(picture);
+        Ok(outcome)
+    }
 
+    /// Sends a picture, which took so long to draw if it is new, what is written over it, and the status line. What is
+    /// `known` is `None` while the next picture is drawn.
+    pub(super) fn present(
+        &mut self,
+        picture: &Picture,
+        known: Option<Known>,
+        drawing: Option<Duration>,
+        occasion: &Occasion,
+    ) -> Result<(), Error> {
+        let &Occasion { now, started, rows, moving } = occasion;
+        let (columns, status_row) = picture.of.size;
+        let (protocol, draws) = (self.protocol(), known.is_none());
         let mut cells = CellGrid::new(columns, rows);
         let drawn = &picture.drawn;
         cells.cells_mut()[..drawn.cells.cells().len()].copy_from_slice(drawn.cells.cells());
-        self.write_over(&mut cells, status_row, (subject, rests))?;
+        let legend = picture.legend.as_ref();
+        self.write_over(&mut cells, status_row, legend, known.unwrap_or_default());
         if let Some(notice) = &self.notice {
             notice::write(&mut cells, status_row, notice);
         }
+        self.owes_notice = false;
         // The picture is encoded first, so that the status line can tell what it cost.
         self.bytes.clear();
         self.bytes.append(&mut self.pending_removal);
@@ -89,12 +148,13 @@ impl Viewer<'_> {
             }
         }
         self.encoder.encode_part(&cells, economy, &mut self.bytes);
-        let is_exact = self.encoder.is_exact();
-        self.pace.owes(match (is_exact, moving) {
-            (true, _) => Debt::None,
-            (false, true) => Debt::AtRest,
-            (false, false) => Debt::Now,
-        });
+        if !draws {
+            self.pace.owes(match (self.encoder.is_exact(), moving) {
+                (true, _) => Debt::None,
+                (false, true) => Debt::AtRest,
+                (false, false) => Debt::Now,
+            });
+        }
         let figures = match drawing {
             None => self.meter.figures(),
             Some(drawing) => {
@@ -104,20 +164,23 @@ impl Viewer<'_> {
                 self.meter.count(frame, now)
             }
         };
-        let film = self.film.as_ref().filter(|film| film.has_status()).map(Film::status);
+        let film = self.film.as_ref().and_then(Film::line);
+        let first = film.into_iter().chain(draws.then(|| DRAWING.to_owned()));
+        let first = first.collect::<Vec<_>>().join("  ");
+        let structure = self.state.shown.structure.or(picture.structure);
         status::write(
             &mut cells,
             status_row,
-            (&self.state, film.as_deref()),
-            picture.searched,
+            (&self.state, &*first),
+            (self.order, structure),
             figures,
         );
         self.encoder.encode_row(&cells, status_row, &mut self.bytes);
         self.encoder.bracket(0, &mut self.bytes);
-        if picture.image.is_none() {
+        // Its time is that of the picture, and comes before that of what is shown meanwhile.
+        if picture.image.is_none() && !draws {
             self.note_recording(&cells, now, economy);
         }
-        self.picture = Some(picture);
         self.send().map_err(|error| lost(&error))
     }
 
@@ -148,105 +211,29 @@ impl Viewer<'_> {
         }
     }
 
-    /// Draws the picture of the moment in pixels, so many a cell.
-    fn draw_pixels(
-        &mut self,
-        cell: (u32, u32),
-        size: (u16, u16),
-        moving: bool,
-    ) -> Result<Picture, Error> {
-        let started = Instant::now();
-        let (image, effort, searched) = self.draw_image(cell, size, moving)?;
-        self.pace.drawn(effort, started.elapsed());
-        let mut cells = CellGrid::new(size.0, size.1);
-        cells.cells_mut().fill(NO_TEXT);
-        let (of, drawn, image) =
-            (self.state.shown.pictured(), Drawn { cells, effort }, Some(image));
-        Ok(Picture { of, size, cell: Some(cell), searched, drawn, image })
-    }
-
-    /// Draws the picture of the moment.
-    fn draw(&mut self, size: (u16, u16), moving: bool) -> Result<Picture, Error> {
-        let Shown { view, style, structure, comparison, .. } = &self.state.shown;
-        let count = self.scene.spheres().len();
-        let workload = picture_workload(count, style, size.0, size.1, f64::INFINITY);
-        let search = self.structures.picture(*structure, &workload, view, &self.scene)?;
-        let (scene, spending) = ((&*self.scene, &search), self.pace.spending(moving));
-        let started = Instant::now();
-        let drawn = match comparison {
-            None => self.renderer.draw(&self.scene, &search, view, style, size, spending),
-            Some(Comparison::Split(tiers)) => {
-                let split = Split { tiers: *tiers, seam: self.state.seam() };
-                let SplitPicture { mut drawn, ns_a_ray } =
-                    split.draw(&mut self.renderer, scene, view, style, size, spending);
-                // Wrong answers are counted at rest: counting takes as long as a picture.
-                let figures = (!moving).then(|| {
-                    split.figures(&self.renderer, &mut self.mapper, scene, view, style, size)
-                });
-                let medians = self.times.medians(*tiers, ns_a_ray);
-                split.write(&mut drawn.cells, size.1, medians, figures);
-                drawn.effort.is_full &= !moving;
-                drawn
-            }
-            Some(Comparison::Errors) => {
-                let machine = self.renderer.machine();
-                let map = self.mapper.map(scene, view, style, size, machine, |_| {});
-                // All of it, at every pace.
-                let cells = MapPainter::new(style).cells(&map, 0..size.1);
-                Drawn { cells, effort: map.effort() }
-            }
-        };
-        self.pace.drawn(drawn.effort, started.elapsed());
-        let searched = (search.order(), search.structure);
-        let of = self.state.shown.pictured();
-        Ok(Picture { of, size, cell: None, searched, drawn, image: None })
-    }
-
-    /// Writes what is open over the first `rows` rows: the table of a subject, a pick, the keys.
+    /// Writes what is open over the first `rows` rows: the table, a pick, the picture's legend, the keys.
     fn write_over(
         &mut self,
         cells: &mut CellGrid,
         rows: u16,
-        (subject, rests): (Subject, bool),
-    ) -> Result<(), Error> {
+        legend: Option<&Legend>,
+        Known { means, picked }: Known,
+    ) {
         if self.state.shown.table {
-            let means = || Means {
-                scene: Arc::clone(&self.scene),
-                style: self.state.shown.style,
-                tree: self.structures.tree(),
-                order: self.structures.order(),
-                level: self.renderer.machine().0,
-            };
-            let standing = self.table.standing(subject, rests, means);
+            let subject = Subject::new(&self.state.shown, (cells.columns(), rows));
+            let standing = self.table.standing(subject, means);
             chart::write(cells, rows, &self.state.shown.style, &standing);
         } else {
             self.table.close();
         }
         if let Some(cursor) = self.state.shown.cursor {
-            // In ASCII: a cell holds no glyph that is two columns wide, and a label may.
-            let printable = |label: &str| label.escape_default().to_string();
-            let pick = self.pick()?;
-            let lines = pick.map(|pick| report::lines(&pick, printable)).unwrap_or_default();
-            picking::write(cells, rows, cursor, &lines);
+            picking::write(cells, rows, cursor, &picked);
         }
-        if let Some(legend) = self.colors.legend.as_ref().filter(|_| self.state.shown.legend) {
+        if let Some(legend) = legend.filter(|_| self.state.shown.legend) {
             legend.write(cells, rows, &self.state.shown.style);
         }
         if self.state.shown.help {
             help::write(cells, rows);
         }
-        Ok(())
-    }
-
-    /// What is picked, in the picture that would be drawn now.
-    pub(super) fn pick(&mut self) -> Result<Option<Pick<'_>>, Error> {
-        let Shown { view, style, structure, cursor, .. } = &self.state.shown;
-        let Some(cursor) = cursor else { return Ok(None) };
-        let (size, count) = (self.state.size(), self.scene.spheres().len());
-        let workload = picture_workload(count, style, size.0, size.1, f64::INFINITY);
-        let search = self.structures.picture(*structure, &workload, view, &self.scene)?;
-        let ray = cell_ray(view, style, size, (cursor.column, cursor.row));
-        let level = self.renderer.machine().0;
-        Ok(ray.map(|ray| Pick::new(&self.scene, &search, level, ray)))
     }
 }

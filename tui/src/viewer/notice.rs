@@ -10,12 +10,20 @@ use crate::error::{Error, cause};
 use std::path::Path;
 use std::time::Instant;
 
-impl Viewer<'_> {
+impl Viewer {
+    /// Tells something that comes by itself, behind what is told already.
+    pub(super) fn tell(&mut self, what: String) {
+        self.notice = Some(match self.notice.take() {
+            Some(told) => format!("{told}; {what}"),
+            None => what,
+        });
+        self.owes_notice = true;
+    }
+
     /// Tells the command line that shows what is seen now; it is printed at the end, too.
     pub(super) fn tell_command_line(&mut self) {
         let frame = self.film.as_ref().map_or(0, Film::shown);
-        let view = &self.state.shown.view;
-        let line = command_line(&self.asked, frame, view, self.scene.origin);
+        let line = command_line(&self.asked, frame, &self.state, &self.scene, &self.colors);
         if self.told.last() != Some(&line) {
             self.told.push(line.clone());
         }
@@ -32,7 +40,7 @@ impl Viewer<'_> {
                 "recording: R ends it".to_owned()
             }
             Some(recording) => {
-                let stem = Path::new(&self.asked.name).file_stem().unwrap_or_default();
+                let stem = Path::new(&self.asked.scene.name).file_stem().unwrap_or_default();
                 let stem = stem.to_string_lossy();
                 // Standard input is called `-`, which begins an option.
                 let name = if stem.starts_with('-') { "spherule" } else { &*stem };

@@ -22,6 +22,8 @@ pub(super) struct Pace {
     rate: Option<f64>,
     /// Whether what was drawn last is all there is to see.
     is_full: bool,
+    /// Whether the last picture was given up before it was drawn.
+    gave_up: bool,
     /// What the terminal does not show yet of what was drawn last.
     debt: Debt,
 }
@@ -40,7 +42,7 @@ pub(super) enum Debt {
 impl Pace {
     /// Nothing has been drawn yet.
     pub(super) fn new(interval: Duration) -> Self {
-        Self { interval, rate: None, is_full: true, debt: Debt::None }
+        Self { interval, rate: None, is_full: true, gave_up: false, debt: Debt::None }
     }
 
     /// How long it takes until a frame is due, `since_last` one began; `None` if all is shown and nothing moves.
@@ -64,6 +66,17 @@ impl Pace {
         }
     }
 
+    /// Whether a picture may be given up because what it shows has moved on. One that tells how long samples take is drawn to
+    /// its end, and so is every other: else a key that is held down would leave nothing to be seen of pictures that take long.
+    pub(super) fn may_give_up(&self) -> bool {
+        self.rate.is_some() && !self.gave_up
+    }
+
+    /// Takes note that a picture was given up.
+    pub(super) fn gave_up(&mut self) {
+        self.gave_up = true;
+    }
+
     /// Takes note of what is left to be sent.
     pub(super) fn owes(&mut self, debt: Debt) {
         self.debt = debt;
@@ -76,7 +89,7 @@ impl Pace {
 
     /// Takes note of how long a frame took to draw.
     pub(super) fn drawn(&mut self, effort: Effort, drawing: Duration) {
-        self.is_full = effort.is_full;
+        (self.is_full, self.gave_up) = (effort.is_full, false);
         let rate = effort.samples as f64 / drawing.as_secs_f64();
         // No samples, or a clock that stood.
         if rate > 0.0 && rate.is_finite() {
@@ -135,6 +148,21 @@ mod tests {
         for since in [0, 100, 1000] {
             assert_eq!(pace.wait(false, Some(since * MS)), None);
         }
+    }
+
+    #[test]
+    fn a_movement_gives_up_no_first_picture_and_no_two_in_a_row() {
+        let mut pace = Pace::new(INTERVAL);
+        assert!(!pace.may_give_up());
+        pace.gave_up();
+        pace.drawn(effort(0, true), MS);
+        assert!(!pace.may_give_up());
+        pace.drawn(effort(20_000, true), 900 * MS);
+        assert!(pace.may_give_up());
+        pace.gave_up();
+        assert!(!pace.may_give_up());
+        pace.drawn(effort(20_000, true), 900 * MS);
+        assert!(pace.may_give_up());
     }
 
     #[test]

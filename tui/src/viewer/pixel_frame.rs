@@ -1,16 +1,13 @@
 //! Frames in pixels, with text over them.
 
 use super::session::Viewer;
-use super::shown::{Outcome, Shown};
+use super::shown::Outcome;
 use crate::cells::{Cell, CellGrid, Color};
 use crate::choice::Auto;
 use crate::color::Srgb;
-use crate::draw::pixels::{PixelGrid, SAMPLES};
-use crate::draw::{Effort, Spending};
-use crate::error::Error;
+use crate::draw::pixels::PixelGrid;
 use crate::picture::Image;
 use crate::pixels::{Output, Protocol};
-use crate::structure::{Order, Structure};
 use crate::terminal::{ASKED_IMAGE, Reply, pixels_of_cell};
 
 /// A cell where the picture is seen, and no text: its glyph is in no font.
@@ -23,7 +20,7 @@ const LARGEST_SCREEN: u32 = 1 << 26;
 const INK: Color = Color::Rgb([229; 3]);
 const PAPER: Color = Color::Rgb([0; 3]);
 
-impl Viewer<'_> {
+impl Viewer {
     /// The protocol for what is shown now; what tiers get wrong is shown in cells, and what is too large.
     pub(super) fn protocol(&self) -> Auto<Protocol> {
         let protocol = self.pixels.protocol.filter(|_| self.state.shown.comparison.is_none());
@@ -88,29 +85,6 @@ impl Viewer<'_> {
         let told = self.terminal.abilities().cell_pixels;
         let usual = || PixelGrid::usual_cell(&self.state.shown.style);
         drawn_cell(protocol, pixels_of_cell(told).unwrap_or_else(usual), area(size))
-    }
-
-    /// Draws the picture of the moment in pixels, so many a cell; also returns its effort, and how its rays found spheres.
-    pub(super) fn draw_image(
-        &mut self,
-        cell: (u32, u32),
-        size: (u16, u16),
-        moving: bool,
-    ) -> Result<(Image, Effort, (Order, Structure)), Error> {
-        let Shown { view, style, structure, .. } = &self.state.shown;
-        let pixels = u64::from(area(size)) * u64::from(cell.0 * cell.1);
-        let across = match self.pace.spending(moving) {
-            Spending::AtMost(most) if most < 4 * pixels => 1,
-            Spending::AtMost(_) => 2,
-            _ => SAMPLES,
-        };
-        let grid = PixelGrid::in_cells(view, style, size, cell, across);
-        let workload = grid.workload(self.scene.spheres().len());
-        let search = self.structures.picture(*structure, &workload, view, &self.scene)?;
-        let image = self.renderer.draw_image(&self.scene, &search, style.accuracy, &grid);
-        let samples = pixels * u64::from(across * across);
-        let effort = Effort { samples, rays: samples, is_full: across == SAMPLES };
-        Ok((image, effort, (search.order(), search.structure)))
     }
 
     /// Appends the image if it is new or must be shown again, then the text that is over it: all of `cells` but their last

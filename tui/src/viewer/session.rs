@@ -7,39 +7,50 @@ use super::meter::Meter;
 use super::pace::Pace;
 use super::pixels::Pixels;
 use super::recording::Recording;
-use super::shown::Shown;
 use super::state::State;
 use super::table::Table;
-use crate::arguments::SceneArguments;
-use crate::compare::error_map::ErrorMapper;
-use crate::compare::split::Times;
-use crate::draw::{Drawn, Renderer};
+use super::wanted::Wanted;
+use crate::arguments::PictureArguments;
+use crate::cells::CellGrid;
+use crate::choice::Auto;
+use crate::coloring::legend::Legend;
+use crate::draw::{Drawn, Effort};
 use crate::encode::Encoder;
 use crate::error::Error;
 use crate::picture::Image;
 use crate::scene::Scene;
-use crate::structure::scene::SceneStructures;
 use crate::structure::{Order, Structure};
 use crate::terminal::Terminal;
 use crate::terminal::color_depth::{ColorChoice, Surroundings};
+use crossterm::event::Event;
+use spherule_kernel::Sphere;
 use std::sync::Arc;
 
-/// The scene and the terminal, and what is kept from frame to frame.
-pub(super) struct Viewer<'a> {
+/// The scene and the terminal, and what is kept from frame to frame, except what draws.
+pub(super) struct Viewer {
     pub(super) scene: Arc<Scene>,
+    /// How many scenes have come after the first: frames of its file, some of them again.
+    pub(super) changes: usize,
     pub(super) colors: Colors,
     /// Its file, if it may have more frames.
     pub(super) film: Option<Film>,
-    pub(super) structures: SceneStructures<'a>,
+    /// In which order rays and spheres meet.
+    pub(super) order: Order,
     pub(super) terminal: Terminal,
     pub(super) surroundings: Surroundings,
     pub(super) color: ColorChoice,
     pub(super) lossless: bool,
     pub(super) pixels: Pixels,
-    /// What the command line says of the scene.
-    pub(super) asked: SceneArguments,
+    /// What the command line says.
+    pub(super) asked: PictureArguments,
+    /// What is framed since the last picture.
+    pub(super) framed: Option<Sphere>,
+    /// What the user did while a picture was drawn, and what can only be done when no one draws.
+    pub(super) postponed: Option<Event>,
     /// A word of the program, until the next key.
     pub(super) notice: Option<String>,
+    /// Whether what came by itself has not been shown yet: until then no key takes it away.
+    pub(super) owes_notice: bool,
     /// Command lines that were asked for: printed when the terminal is given back.
     pub(super) told: Vec<String>,
     pub(super) recording: Option<Recording>,
@@ -49,9 +60,6 @@ pub(super) struct Viewer<'a> {
     pub(super) pending_removal: Vec<u8>,
     pub(super) flow: Flow,
     pub(super) state: State,
-    pub(super) renderer: Renderer<'a>,
-    pub(super) mapper: ErrorMapper,
-    pub(super) times: Times,
     pub(super) encoder: Encoder,
     pub(super) meter: Meter,
     pub(super) pace: Pace,
@@ -66,20 +74,38 @@ pub(super) struct Viewer<'a> {
 /// A picture without what is written over it.
 #[derive(Debug)]
 pub(super) struct Picture {
-    /// What it is of.
-    pub(super) of: Shown,
-    /// Columns and rows.
-    pub(super) size: (u16, u16),
-    /// Width and height of a cell, if it is drawn in pixels.
-    pub(super) cell: Option<(u32, u32)>,
-    /// How its rays found spheres.
-    pub(super) searched: (Order, Structure),
+    pub(super) of: Wanted,
+    /// By which structure it was drawn; `None` if it is [blank](Picture::blank).
+    pub(super) structure: Auto<Structure>,
     pub(super) drawn: Drawn,
     /// The image that is shown instead of cells.
     pub(super) image: Option<Image>,
+    /// What its colours mean: those of the next one may mean something else.
+    pub(super) legend: Option<Legend>,
 }
 
-impl Viewer<'_> {
+impl Picture {
+    /// What is there before the first picture of its size.
+    pub(super) fn blank(of: Wanted) -> Self {
+        let cells = CellGrid::new(of.size.0, of.size.1);
+        let effort = Effort { is_full: false, ..Effort::NONE };
+        Self { of, structure: None, drawn: Drawn { cells, effort }, image: None, legend: None }
+    }
+}
+
+impl Viewer {
+    /// Which picture is wanted now.
+    pub(super) fn wanted(&self) -> Wanted {
+        let size = self.state.size();
+        Wanted {
+            scene: self.changes,
+            pictured: self.state.shown.pictured(),
+            size,
+            // A font of another size may leave columns and rows as they are.
+            cell: self.protocol().map(|protocol| self.pixels_of_cell(protocol, size)),
+        }
+    }
+
     /// Asks the terminal for its size, which may be without a cell.
     pub(super) fn learn_size(&mut self) -> std::io::Result<(u16, u16)> {
         let (columns, rows) = self.terminal.size()?;
@@ -89,6 +115,6 @@ impl Viewer<'_> {
 }
 
 /// The rows of the picture on a terminal of so many rows: the last is the status line's, if there are two.
-pub(super) fn picture_rows(rows: u16) -> u16 {
+fn picture_rows(rows: u16) -> u16 {
     if rows >= 2 { rows - 1 } else { rows }
 }

@@ -51,4 +51,9 @@ impl Shown {
     pub(super) fn pictured(&self) -> Self {
         Self { help: false, legend: false, spinning: false, table: false, cursor: None, ..*self }
     }
+
+    /// The same, where keys that are held down and drags have moved `other`.
+    pub(super) fn moved_as(&self, other: &Self) -> Self {
+        Self { view: other.view, seam: other.seam, ..*self }
+    }
 }

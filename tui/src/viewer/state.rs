@@ -48,6 +48,8 @@ pub struct Start {
 #[derive(Clone, Debug)]
 pub(super) struct State {
     home: View,
+    /// The characters at the start.
+    pub(super) first_charset: Charset,
     pub(super) shown: Shown,
     hand: Hand,
     /// Whether the hand holds the seam.
@@ -78,6 +80,7 @@ impl State {
         };
         Self {
             home: view,
+            first_charset: style.charset,
             shown,
             hand: Hand::default(),
             pulls_seam: false,
@@ -98,6 +101,11 @@ impl State {
         let before = self.shown;
         self.shown.style.depth = depth;
         self.since(&before)
+    }
+
+    /// Tells how many things there are to colour by.
+    pub(super) fn set_colorings(&mut self, colorings: usize) {
+        self.colorings = colorings;
     }
 
     /// Columns and rows of the picture.

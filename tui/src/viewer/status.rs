@@ -4,7 +4,7 @@ use super::meter::Figures;
 use super::shown::Shown;
 use super::state::State;
 use crate::cells::{CellGrid, Color};
-use crate::choice::name;
+use crate::choice::{Auto, name};
 use crate::structure::{Order, Structure};
 use std::iter;
 
@@ -12,20 +12,21 @@ const HINT: &str = "? help  q quit ";
 
 /// Writes the status line into `row`: names and figures from the left, the hint from the right.
 ///
-/// Before them stands which frame of a `film` is shown. Where there is no room for all of it, the `structure` that the
-/// program chose itself is left out first, then the figures, from the last. A structure that the user chose stays, and
-/// so does object order. The hint is left out where there is no room for it beside the names.
+/// Before them stands what is to come `first`: which frame of a file is shown, and that a picture is being drawn. Where
+/// there is no room for all of it, the `structure` that the program chose itself is left out first, then the figures,
+/// from the last. A structure that the user chose stays, and so does object order. The hint is left out where there is
+/// no room for it beside the names.
 pub(super) fn write(
     cells: &mut CellGrid,
     row: u16,
-    (state, film): (&State, Option<&str>),
-    (order, structure): (Order, Structure),
+    (state, first): (&State, &str),
+    (order, structure): (Order, Auto<Structure>),
     figures: Figures,
 ) {
     let columns = usize::from(cells.columns());
-    let film = film.map_or_else(String::new, |film| format!("{film}  "));
-    let (names, figures) = (film + &names(state, order), figure_texts(figures));
-    let word = format!(" {}", name(&structure));
+    let first = if first.is_empty() { String::new() } else { format!("{first}  ") };
+    let (names, figures) = (first + &names(state, order), figure_texts(figures));
+    let word = structure.map_or_else(String::new, |structure| format!(" {}", name(&structure)));
     let chosen = if state.shown.structure.is_some() { &*word } else { "" };
     let line = |structure: &str, count: usize| {
         format!(" {names}{structure}{} ", figures[..count].concat())
@@ -67,7 +68,6 @@ fn figure_texts(figures: Figures) -> [String; 5] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::choice::Auto;
     use crate::style::{Charset, Style};
     use crate::view::View;
     use crate::viewer::Start;
@@ -92,7 +92,7 @@ mod tests {
 
     fn text(columns: u16, state: &State, searched: (Order, Structure), figures: Figures) -> String {
         let mut cells = CellGrid::new(columns, 2);
-        write(&mut cells, 1, (state, None), searched, figures);
+        write(&mut cells, 1, (state, ""), (searched.0, Some(searched.1)), figures);
         cells.row(1).iter().map(|cell| cell.glyph).collect()
     }
 
@@ -194,10 +194,25 @@ mod tests {
     #[test]
     fn letters_of_two_bytes_have_one_cell() {
         let (mut cells, state) = (CellGrid::new(90, 1), state(AUTO));
-        let (film, searched) = (Some("frame 1: \u{e9}"), (Order::Image, Structure::Bvh));
-        write(&mut cells, 0, (&state, film), searched, Figures::default());
+        let searched = (Order::Image, Some(Structure::Bvh));
+        write(&mut cells, 0, (&state, "frame 1: \u{e9}"), searched, Figures::default());
         let text: String = cells.row(0).iter().map(|cell| cell.glyph).collect();
         assert!(text.starts_with(" frame 1: \u{e9}  stable ") && text.ends_with(HINT), "{text}");
+    }
+
+    /// Before the first picture nothing is known of its structure.
+    #[test]
+    fn what_comes_first_stays_where_there_is_little_room() {
+        for (columns, expected) in [
+            (61, " drawing ...  stable perspective half  -- fps ? help  q quit "),
+            (12, " drawing ..."),
+        ] {
+            let (mut cells, state) = (CellGrid::new(columns, 1), state(AUTO));
+            let searched = (Order::Image, None);
+            write(&mut cells, 0, (&state, "drawing ..."), searched, Figures::default());
+            let text: String = cells.row(0).iter().map(|cell| cell.glyph).collect();
+            assert_eq!(text, expected);
+        }
     }
 
     #[test]

@@ -137,16 +137,11 @@ impl Table {
     }
 
     /// How the measurement of `subject` stands. A measurement of another subject ends. One of this subject begins, by
-    /// `means`, if the picture `rests`.
-    pub(super) fn standing(
-        &mut self,
-        subject: Subject,
-        rests: bool,
-        means: impl FnOnce() -> Means,
-    ) -> Standing {
+    /// `means`, if there are any: if the picture rests.
+    pub(super) fn standing(&mut self, subject: Subject, means: Option<Means>) -> Standing {
         self.measurement.take_if(|of| of.subject != subject);
-        if self.measurement.is_none() && rests {
-            match self.begin(subject, means()) {
+        if let Some(means) = means.filter(|_| self.measurement.is_none()) {
+            match self.begin(subject, means) {
                 Ok(begun) => self.measurement = Some(begun),
                 Err(error) => return Standing::Failed(format!("no thread: {error}")),
             }

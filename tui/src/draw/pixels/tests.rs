@@ -49,13 +49,23 @@ fn pixels_are_as_square_as_whole_numbers_are() {
     assert_eq!(size(20.0), (80, 3));
 }
 
-/// White on black, in whatever cells: as much light as the disc has area, in a square of its size.
+/// White on black, in whatever cells: as much light as the disc has area, as wide as it is high.
 #[test]
 fn a_disc_is_round_and_has_its_area() {
     let mut scene = Scene::new();
     scene.push(Sphere { center: Vec3::ZERO, radius: 1.0 }, Srgb::WHITE, None);
-    for (cell_aspect, columns, count) in [(0.5, 20, 10), (0.75, 9, 11), (1.0, 13, 9)] {
-        let style = Style { cell_aspect, ..Style::PLAIN };
+    for (cell_aspect, columns, count) in [
+        (0.45, 20, 10),
+        (11.0 / 24.0, 20, 10),
+        (0.5, 20, 10),
+        (0.6, 20, 10),
+        (0.75, 9, 11),
+        (1.0, 13, 9),
+        (3.0, 20, 40),
+        (20.0, 20, 120),
+    ] {
+        let style = PixelGrid::square(&Style { cell_aspect, ..Style::PLAIN });
+        assert_eq!(PixelGrid::square(&style), style);
         let rows = rows(&scene, &VIEW, &style, (columns, count), 1);
         let width = rows[0].len() / 3;
         let light = |pixel: &[u8]| f64::from(Srgb([pixel[0], pixel[1], pixel[2]]).to_linear().x);
@@ -72,6 +82,7 @@ fn a_disc_is_round_and_has_its_area() {
         let a_column = 4.0 * style.picture_aspect(columns, count) / width as f64;
         assert!((lit_rows as f64 * a_row - 2.0).abs() < 2.1 * a_row, "{cell_aspect}");
         assert!((lit_columns as f64 * a_column - 2.0).abs() < 2.1 * a_column, "{cell_aspect}");
+        assert!(lit_columns.abs_diff(lit_rows) <= 2, "{cell_aspect}: {lit_columns} x {lit_rows}");
     }
 }
 
@@ -93,7 +104,7 @@ fn strips_tiles_and_threads_do_not_show() {
     let search = structures.picture(None, &workload, &view, &scene).expect("memory");
     let level = Level::best();
     let tracing = Tracing { tier: Tier::Exact, level, coherence: search.coherence };
-    let traced = Traced { tracing, scene: &scene, search: &search };
+    let traced = Traced { tracing, scene: &scene, search: &search, threads: &threads };
     let mut tracer = Tracer::default();
     for (x, y) in [(0, 0), (31, 15), (32, 16), (719, 428), (100, 370), (359, 200)] {
         let corner = std::iter::once((x * SAMPLES, y * SAMPLES));

@@ -123,6 +123,9 @@ impl Worker {
         let at_once = (AT_ONCE / count).max(1);
         let mut rays = 0;
         for (needy, begin) in needy.chunks(at_once).zip((0..).step_by(at_once)) {
+            if plan.traced.threads.are_stopped() {
+                break;
+            }
             // The packets of a cell one after the other.
             let corners = needy.iter().flat_map(|&(column, row)| {
                 let tiles = (0..down).step_by(tile_height as usize);

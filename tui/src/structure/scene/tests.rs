@@ -44,6 +44,35 @@ fn frames_go_on_with_a_tree_that_follows_them() {
     assert_eq!(structures.structure(None, &one), Structure::Bvh);
 }
 
+/// A sphere that leaves changes nothing in how the others fade, as it does not change the view.
+#[test]
+fn frames_fade_as_the_first_did_until_another_is_framed() {
+    let list = |x: f32| {
+        let centers = [Vec3::ZERO, Vec3::new(x, 0.0, 0.0)];
+        Arc::new(SphereList::from_iter(centers.map(|center| (center, 1.0))))
+    };
+    let (threads, near, far) = (Threads::default(), list(3.0), list(60.0));
+    let [first, later] = [&near, &far].map(|list| subject(list.spheres()));
+    let fades = |structures: &mut SceneStructures<'_>| {
+        structures.set_aids(Aids { depth_cue: true, ..Aids::NONE });
+        structures.setting().expect("memory").subject
+    };
+    let mut structures = SceneStructures::new(&near, &threads);
+    assert_eq!(fades(&mut structures), Some(first));
+    structures.go_on(&far);
+    assert_eq!(fades(&mut structures), Some(first));
+    structures.frame(later);
+    assert_eq!(fades(&mut structures), Some(later));
+
+    // Also if nothing faded before.
+    let mut structures = SceneStructures::new(&near, &threads);
+    structures.go_on(&far);
+    assert_eq!(fades(&mut structures), Some(first));
+    let mut structures = SceneStructures::new(&near, &threads);
+    structures.frame(later);
+    assert_eq!(fades(&mut structures), Some(later));
+}
+
 #[test]
 fn more_spheres_than_a_tree_holds_is_no_matter_of_memory() {
     let told = |spheres| match no_tree(spheres) {

@@ -167,6 +167,19 @@ fn there_is_a_table_or_a_pick() {
     assert_eq!(state.apply(Input::Escape), Outcome::Quit);
 }
 
+/// A later frame may have more than the first.
+#[test]
+fn colourings_come_in_a_circle() {
+    let mut state = state();
+    let next = |state: &mut State| {
+        state.apply(Input::Coloring);
+        state.shown.coloring
+    };
+    assert_eq!([0; 3].map(|_| next(&mut state)), [1, 2, 0]);
+    state.set_colorings(5);
+    assert_eq!([0; 5].map(|_| next(&mut state)), [1, 2, 3, 4, 0]);
+}
+
 #[test]
 fn escape_closes_the_help_first() {
     let mut state = state();

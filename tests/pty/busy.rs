@@ -1,0 +1,150 @@
+//! Keys while a picture is drawn that takes far longer than anyone waits.
+
+use super::look::{Look, last_row, look};
+use super::picture::OPTIONS;
+use super::session::{Output, Session};
+use super::viewer::{COLUMNS, PICTURE_ROWS, ROWS, shows_a_frame};
+use spherule_tests::binary::spherule;
+use std::fs;
+use std::path::PathBuf;
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+/// Spheres along each edge of a cube: so many tests of a ray against a sphere that a picture takes three seconds at least.
+const SIDE: u16 = 64;
+/// The same of a table: its pictures take a second, and so longer than those of a movement are waited for.
+const SIDE_OF_TABLE: u16 = 27;
+const SLOW: [&str; 6] = ["--structure", "brute", "--samples", "64", "--threads", "1"];
+/// The longest time from a key to its answer on a loaded machine.
+const AT_ONCE: Duration = Duration::from_secs(1);
+/// The longest time of a picture on a loaded machine.
+const AT_LAST: Duration = Duration::from_secs(30);
+/// From a key that is held down to the same again.
+const REPETITION: Duration = Duration::from_millis(30);
+
+/// Where the spheres are.
+fn lattice(side: u16) -> impl Iterator<Item = [u16; 3]> {
+    (0..side).flat_map(move |x| (0..side).flat_map(move |y| (0..side).map(move |z| [x, y, z])))
+}
+
+/// Writes the cube as an array.
+fn cube() -> PathBuf {
+    let path = std::env::temp_dir().join(format!("spherule-{}-cube.npy", std::process::id()));
+    let shape = format!("({}, 4)", u32::from(SIDE).pow(3));
+    let head = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': {shape}, }}");
+    let head = format!("{head:<117}\n");
+    let spheres =
+        lattice(SIDE).flat_map(|[x, y, z]| [f32::from(x), f32::from(y), f32::from(z), 0.3]);
+    let magic = b"\x93NUMPY\x01\x00\x76\x00".iter().copied();
+    let bytes = magic.chain(head.bytes()).chain(spheres.flat_map(f32::to_le_bytes));
+    fs::write(&path, bytes.collect::<Vec<u8>>()).expect("a temporary file");
+    path
+}
+
+/// The viewer on a table that has a column `q`, and its file.
+struct OnTable {
+    session: Session,
+    path: PathBuf,
+}
+
+impl OnTable {
+    fn start(name: &str, more: &[&str]) -> Self {
+        let path = std::env::temp_dir().join(format!("spherule-{}-{name}", std::process::id()));
+        let lines = lattice(SIDE_OF_TABLE).map(|[x, y, z]| format!("{x},{y},{z},0.3,{x}\n"));
+        fs::write(&path, format!("x,y,z,r,q\n{}", lines.collect::<String>())).expect("a file");
+        let name = path.to_str().expect("a path that is text");
+        let arguments = [&[name], OPTIONS.as_slice(), SLOW.as_slice(), more].concat();
+        let session = Session::start(spherule(), &arguments, &[], (COLUMNS, ROWS));
+        Self { session, path }
+    }
+
+    fn quit(mut self) {
+        self.session.type_in("q");
+        assert!(self.session.wait_for_end().success());
+        fs::remove_file(&self.path).expect("it can be removed");
+    }
+
+    /// Types a key again and again until something is seen.
+    fn hold(&mut self, key: &str, is_seen: impl Fn(&Output) -> bool) {
+        let began = Instant::now();
+        while !is_seen(&self.session.output()) {
+            assert!(began.elapsed() < AT_LAST, "nothing is seen while {key} is held down");
+            self.session.type_in(key);
+            sleep(REPETITION);
+        }
+    }
+}
+
+fn says_that_it_draws(output: &Output) -> bool {
+    output.screen().alternate_screen() && last_row(output.screen()).contains("drawing ...")
+}
+
+/// Help opens, another structure takes over, and `q` quits.
+#[test]
+fn keys_are_answered_while_a_picture_is_drawn() {
+    let path = cube();
+    let name = path.to_str().expect("a path that is text");
+    let arguments = [&[name], OPTIONS.as_slice(), SLOW.as_slice()].concat();
+    let mut session = Session::start(spherule(), &arguments, &[], (COLUMNS, ROWS));
+    session.wait_for("a word about it", |output| says_that_it_draws(output).then_some(()));
+    fs::remove_file(&path).expect("it can be removed");
+
+    let asked = Instant::now();
+    session.type_in("?");
+    session.wait_for("the help", |output| {
+        let helps = output.screen().contents().contains("wheel");
+        (helps && says_that_it_draws(output)).then_some(())
+    });
+    assert!(asked.elapsed() < AT_ONCE, "{:?}", asked.elapsed());
+
+    session.type_in("?ss");
+    session.wait_for("the picture by a tree", |output| {
+        (shows_a_frame(output) && last_row(output.screen()).contains(" bvh ")).then_some(())
+    });
+
+    session.type_in("ss");
+    session.wait_for("a word about it", |output| says_that_it_draws(output).then_some(()));
+    let asked = Instant::now();
+    session.type_in("q");
+    assert!(session.wait_for_end().success());
+    assert!(asked.elapsed() < AT_ONCE, "{:?}", asked.elapsed());
+    assert_eq!(session.left_behind(), [""; 0]);
+}
+
+/// From the start on, when it is not known yet how long a picture takes, and later.
+#[test]
+fn a_key_that_is_held_down_leaves_pictures_to_be_seen() {
+    let mut viewer = OnTable::start("held.csv", &[]);
+    let mut before = Vec::<Vec<Look>>::new();
+    for key in ["l", "l", "l", "f"] {
+        let picture = |output: &Output| look(output.screen(), PICTURE_ROWS);
+        viewer.hold(key, |output| shows_a_frame(output) && picture(output) != before);
+        before = picture(&viewer.session.output());
+    }
+    viewer.quit();
+}
+
+/// The last picture stays while the next is drawn, without a legend as before.
+#[test]
+fn a_legend_comes_with_its_picture() {
+    let mut viewer = OnTable::start("back.csv", &["--legend"]);
+    let has_legend = |output: &Output| {
+        output.screen().contents_between(0, 0, 0, COLUMNS).trim_end().ends_with(" q")
+    };
+    let waits_for = |viewer: &OnTable, what: &str, legend: bool| {
+        viewer.session.wait_for(what, |output| {
+            (shows_a_frame(output) && has_legend(output) == legend).then_some(())
+        });
+    };
+    waits_for(&viewer, "the first picture", false);
+    viewer.session.type_in("C");
+    let is_early = viewer.session.wait_for("a word about it", |output| {
+        says_that_it_draws(output).then(|| has_legend(output))
+    });
+    assert!(!is_early);
+    viewer.session.type_in("C");
+    waits_for(&viewer, "the picture without it", false);
+    viewer.session.type_in("C");
+    waits_for(&viewer, "the picture with it", true);
+    viewer.quit();
+}

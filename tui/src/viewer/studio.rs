@@ -1,0 +1,173 @@
+//! What draws pictures: it is lent to a thread while the viewer listens.
+
+use super::pixel_frame::NO_TEXT;
+use super::session::Picture;
+use super::shown::Shown;
+use super::table::Means;
+use super::wanted::Wanted;
+use crate::cells::CellGrid;
+use crate::compare::Comparison;
+use crate::compare::error_map::ErrorMapper;
+use crate::compare::legend::MapPainter;
+use crate::compare::split::{Split, SplitPicture, Times};
+use crate::draw::pixels::{PixelGrid, SAMPLES};
+use crate::draw::{Drawn, Effort, Renderer, Spending, picture_workload};
+use crate::error::Error;
+use crate::pick::{Pick, cell_ray};
+use crate::scene::Scene;
+use crate::structure::scene::SceneStructures;
+use crate::threads::Threads;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// What is kept from picture to picture to draw them.
+#[derive(Debug)]
+pub(super) struct Studio<'a> {
+    pub(super) structures: SceneStructures<'a>,
+    renderer: Renderer<'a>,
+    mapper: ErrorMapper,
+    times: Times,
+}
+
+/// How a picture is drawn.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Manner {
+    /// The column between two tiers.
+    pub(super) seam: u16,
+    /// Whether it is one of a movement.
+    pub(super) moving: bool,
+    pub(super) spending: Spending,
+}
+
+impl<'a> Studio<'a> {
+    /// Has drawn nothing yet.
+    pub(super) fn new(structures: SceneStructures<'a>, renderer: Renderer<'a>) -> Self {
+        let (mapper, times) = (ErrorMapper::default(), Times::default());
+        Self { structures, renderer, mapper, times }
+    }
+
+    /// The threads that draw: to stop them ends the picture that is being drawn, which is then worthless.
+    pub(super) fn threads(&self) -> &'a Threads {
+        self.renderer.machine().1
+    }
+
+    /// What measures the table of the picture that `shown` has of `scene`.
+    pub(super) fn means(&self, scene: &Arc<Scene>, shown: &Shown) -> Means {
+        Means {
+            scene: Arc::clone(scene),
+            style: shown.style,
+            tree: self.structures.tree(),
+            order: self.structures.order(),
+            level: self.renderer.machine().0,
+        }
+    }
+
+    /// Draws the picture of `scene` that is wanted; also returns how long that took.
+    pub(super) fn draw(
+        &mut self,
+        scene: &Scene,
+        wanted: &Wanted,
+        manner: Manner,
+    ) -> Result<(Picture, Duration), Error> {
+        match wanted.cell {
+            Some(cell) => self.draw_pixels(scene, wanted, cell, manner.spending),
+            None => self.draw_cells(scene, wanted, manner),
+        }
+    }
+
+    /// Draws the picture in pixels, so many a cell.
+    fn draw_pixels(
+        &mut self,
+        scene: &Scene,
+        wanted: &Wanted,
+        cell: (u32, u32),
+        spending: Spending,
+    ) -> Result<(Picture, Duration), Error> {
+        let started = Instant::now();
+        let Shown { view, style, structure, .. } = &wanted.pictured;
+        let (columns, rows) = wanted.size;
+        let pixels = u64::from(columns) * u64::from(rows) * u64::from(cell.0 * cell.1);
+        let across = match spending {
+            Spending::AtMost(most) if most < 4 * pixels => 1,
+            Spending::AtMost(_) => 2,
+            Spending::ByNeed => SAMPLES,
+        };
+        let grid = PixelGrid::in_cells(view, style, wanted.size, cell, across);
+        let workload = grid.workload(scene.spheres().len());
+        let search = self.structures.picture(*structure, &workload, view, scene)?;
+        let image = self.renderer.draw_image(scene, &search, style.accuracy, &grid);
+        let samples = pixels * u64::from(across * across);
+        let effort = Effort { samples, rays: samples, is_full: across == SAMPLES };
+        let mut cells = CellGrid::new(columns, rows);
+        cells.cells_mut().fill(NO_TEXT);
+        let (structure, drawn) = (Some(search.structure), Drawn { cells, effort });
+        let picture = Picture { of: *wanted, structure, drawn, image: Some(image), legend: None };
+        Ok((picture, started.elapsed()))
+    }
+
+    /// Draws the picture in cells.
+    fn draw_cells(
+        &mut self,
+        scene: &Scene,
+        wanted: &Wanted,
+        Manner { seam, moving, spending }: Manner,
+    ) -> Result<(Picture, Duration), Error> {
+        let (Wanted { pictured, size, .. }, threads) = (wanted, self.threads());
+        let Shown { view, style, structure, comparison, .. } = pictured;
+        let count = scene.spheres().len();
+        let workload = picture_workload(count, style, size.0, size.1, f64::INFINITY);
+        let search = self.structures.picture(*structure, &workload, view, scene)?;
+        let searched = (scene, &search);
+        let started = Instant::now();
+        let drawn = match comparison {
+            None => self.renderer.draw(scene, &search, view, style, *size, spending),
+            Some(Comparison::Split(tiers)) => {
+                let split = Split { tiers: *tiers, seam };
+                let SplitPicture { mut drawn, ns_a_ray } =
+                    split.draw(&mut self.renderer, searched, view, style, *size, spending);
+                // Wrong answers are counted at rest: counting takes as long as a picture.
+                let (renderer, mapper) = (&self.renderer, &mut self.mapper);
+                let figures = (!moving)
+                    .then(|| split.figures(renderer, mapper, searched, view, style, *size));
+                // Those of a picture that no one waits for say nothing.
+                let ns_a_ray = if threads.are_stopped() { [None; 2] } else { ns_a_ray };
+                let medians = self.times.medians(*tiers, ns_a_ray);
+                split.write(&mut drawn.cells, size.1, medians, figures);
+                drawn.effort.is_full &= !moving;
+                drawn
+            }
+            Some(Comparison::Errors) => {
+                let machine = self.renderer.machine();
+                let map = self.mapper.map(searched, view, style, *size, machine, |_| {});
+                // All of it, at every pace.
+                let cells = MapPainter::new(style).cells(&map, 0..size.1);
+                Drawn { cells, effort: map.effort() }
+            }
+        };
+        let picture = Picture {
+            of: *wanted,
+            structure: Some(search.structure),
+            drawn,
+            image: None,
+            legend: None,
+        };
+        Ok((picture, started.elapsed()))
+    }
+
+    /// What is picked, in the picture that would be drawn now.
+    pub(super) fn pick<'s>(
+        &mut self,
+        scene: &'s Scene,
+        shown: &Shown,
+        size: (u16, u16),
+    ) -> Result<Option<Pick<'s>>, Error> {
+        let Shown { view, style, structure, cursor, .. } = shown;
+        let Some(cursor) = cursor else { return Ok(None) };
+        let count = scene.spheres().len();
+        let workload = picture_workload(count, style, size.0, size.1, f64::INFINITY);
+        let level = self.renderer.machine().0;
+        let search = self.structures.picture(*structure, &workload, view, scene)?;
+        let ray = cell_ray(view, style, size, (cursor.column, cursor.row));
+        Ok(ray.map(|ray| Pick::new(scene, &search, level, ray)))
+    }
+}
