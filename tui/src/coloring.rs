@@ -1,11 +1,12 @@
 //! How spheres are coloured: in their own colours, or by what the scene's file says of them.
 //!
 //! Names get colours that everybody can tell apart, in the order in which they first occur. Numbers get a scale that becomes lighter from
-//! the least to the largest. Colours of elements are the ones that chemists know.
+//! the least to the largest. Both hold for all frames of a file. Colours of elements are the ones that chemists know.
 
 pub mod categories;
 pub mod legend;
 pub mod scale;
+pub mod seen;
 
 use crate::color::Srgb;
 use crate::scene::Scene;
@@ -14,6 +15,7 @@ use crate::scene::elements::of_number;
 use categories::{NEUTRAL, category};
 use legend::{Entries, Legend};
 use scale::{Range, color_of};
+use seen::Seen;
 use std::str::FromStr;
 
 /// By what spheres are coloured.
@@ -60,7 +62,11 @@ impl ColorBy {
         });
         let names = names.map(|(_, naming)| Self::Names(*naming));
         let element = attributes.elements.as_ref().map(|_| Self::Element);
-        let columns = attributes.columns.iter().map(|column| Self::Column(column.name.clone()));
+        let columns = attributes
+            .columns
+            .iter()
+            .filter(|column| has_numbers(column) && is_meant(&column.name));
+        let columns = columns.map(|column| Self::Column(column.name.clone()));
         [Self::Scene].into_iter().chain(element).chain(names).chain(columns).collect()
     }
 
@@ -119,15 +125,26 @@ impl Coloring {
 }
 
 /// Finds the colours of `scene` by something. Numbers are coloured from one end of `range` to the other, or of the numbers that there are.
+/// Names and numbers that have been `seen` in other frames of its file count too.
 ///
 /// # Errors
 /// If `scene` does not have that: says what it has instead.
-pub fn coloring(scene: &Scene, by: &ColorBy, range: Option<Range>) -> Result<Coloring, String> {
+pub fn coloring(
+    scene: &Scene,
+    by: &ColorBy,
+    range: Option<Range>,
+    seen: &mut Seen,
+) -> Result<Coloring, String> {
     let attributes = scene.attributes();
     let missing = || {
         let has = ColorBy::choices(attributes);
-        let has: Vec<_> = has.iter().map(ColorBy::name).collect();
-        format!("no {} in this scene to colour by; it has {}", by.name(), has.join(", "))
+        let has = has.iter().map(ColorBy::name).collect::<Vec<_>>().join(", ");
+        match attributes.column(by.name()) {
+            Some(column) => {
+                format!("column {} has no number to colour by; there are {has}", column.name)
+            }
+            None => format!("no {} in this scene to colour by; it has {has}", by.name()),
+        }
     };
     match by {
         ColorBy::Scene => Ok(Coloring { colors: None, legend: None }),
@@ -152,22 +169,21 @@ pub fn coloring(scene: &Scene, by: &ColorBy, range: Option<Range>) -> Result<Col
         ColorBy::Names(naming) => {
             // Where the file itself has a column of numbers with that name, that is meant.
             if let Some(column) = column_of_numbers(attributes, by.name()) {
-                return Ok(by_numbers(column, range));
+                return Ok(by_numbers(column, range, seen));
             }
             let names = attributes.names(*naming).ok_or_else(missing)?;
-            let mut places = 0..;
             // A sphere without a name takes no colour away from others.
-            let table: Vec<_> = names
-                .table()
-                .iter()
-                .map(|name| {
-                    if name.is_empty() { NEUTRAL } else { places.next().map_or(NEUTRAL, category) }
-                })
-                .collect();
+            let mut place = |name: &str| (!name.is_empty()).then(|| seen.place(*naming, name));
+            let places: Vec<_> = names.table().iter().map(|name| place(name)).collect();
+            let colors = places.iter().map(|place| place.map_or(NEUTRAL, category));
+            let table: Vec<_> = colors.collect();
             let color = |&index: &u32| table.get(index as usize).copied().unwrap_or(NEUTRAL);
+            // They are listed in the same order in all frames, those without a name last.
+            let mut order: Vec<_> = (0..table.len()).collect();
+            order.sort_by_key(|&index| places[index].unwrap_or(usize::MAX));
             let shown =
                 |name: &str| if name.is_empty() { "none".to_owned() } else { name.to_owned() };
-            let entries = table.iter().copied().zip(names.table().iter().map(|name| shown(name)));
+            let entries = order.iter().map(|&index| (table[index], shown(&names.table()[index])));
             let legend = Legend::new(by.name(), Entries::Names(entries.collect()));
             Ok(Coloring {
                 colors: Some(names.indices().iter().map(color).collect()),
@@ -175,19 +191,30 @@ pub fn coloring(scene: &Scene, by: &ColorBy, range: Option<Range>) -> Result<Col
             })
         }
         ColorBy::Column(name) => {
-            let column = attributes.column(name).ok_or_else(missing)?;
-            Ok(by_numbers(column, range))
+            let column = column_of_numbers(attributes, name).ok_or_else(missing)?;
+            Ok(by_numbers(column, range, seen))
         }
     }
 }
 
-/// The column of that name, unless no number is in it.
-fn column_of_numbers<'a>(attributes: &'a Attributes, name: &str) -> Option<&'a NumberColumn> {
-    attributes.column(name).filter(|column| column.values.iter().any(|value| !value.is_nan()))
+/// Whether a column can be asked for by its name: that is not empty, and means no other choice, except names of a kind.
+fn is_meant(name: &str) -> bool {
+    let is_naming = NAMINGS.iter().any(|(naming, _)| *naming == name);
+    is_naming || matches!(name.parse::<ColorBy>(), Ok(ColorBy::Column(_)))
 }
 
-fn by_numbers(column: &NumberColumn, range: Option<Range>) -> Coloring {
-    let range = range.unwrap_or_else(|| Range::of(&column.values));
+/// The column of that name, unless no number is in it.
+fn column_of_numbers<'a>(attributes: &'a Attributes, name: &str) -> Option<&'a NumberColumn> {
+    attributes.column(name).filter(|column| has_numbers(column))
+}
+
+/// Whether there is a number in a column: in one of words there is none.
+fn has_numbers(column: &NumberColumn) -> bool {
+    column.values.iter().any(|value| !value.is_nan())
+}
+
+fn by_numbers(column: &NumberColumn, range: Option<Range>, seen: &mut Seen) -> Coloring {
+    let range = range.unwrap_or_else(|| seen.range(column));
     let color = |&value: &f32| range.place(value).map_or(NEUTRAL, color_of);
     let has_none = column.values.iter().any(|value| value.is_nan());
     let legend = Legend::new(&column.name, Entries::Numbers { range, has_none });

@@ -3,12 +3,14 @@
 pub mod attributes;
 pub mod builtin;
 pub mod elements;
+pub mod file_name;
+mod fixed;
 pub mod format;
 pub mod frames;
 pub mod framing;
 mod input;
 mod lighting;
-mod notes;
+pub(crate) mod notes;
 mod number;
 pub mod open;
 mod origin;
@@ -42,6 +44,8 @@ pub struct Scene {
     /// The place, in the file's coordinates, of the zero of all positions here. It is the zero of the file, except
     /// where the file's spheres are far from that.
     pub origin: DVec3,
+    /// The radius of spheres for which the file states none, where something tells it and there are such spheres.
+    pub unstated_radius: Option<f32>,
     /// The colour of what no sphere covers.
     pub background: Srgb,
     /// Whether the scene itself names the background: then it is not the user's to choose.

@@ -3,15 +3,20 @@
 //! It is written under another name in the same folder, and renamed when it is done. Whatever is no file, such as a
 //! device or a pipe, is written in place.
 
+mod outputs;
+mod place;
+mod watch;
+
+pub use outputs::check_outputs;
+pub use watch::Watch;
+
 use crate::error::stdout::Stdout;
-use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-use signal_hook::iterator::{Handle, Signals};
-use signal_hook::low_level::emulate_default_handler;
+use place::place;
 use std::fs::{self, File, OpenOptions, Permissions};
 use std::io::{self, Write};
-use std::os::unix::fs::PermissionsExt;
+use std::os::unix::ffi::OsStrExt;
+use std::os::unix::fs::{MetadataExt, PermissionsExt, fchown};
 use std::path::{Path, PathBuf};
-use std::thread;
 use tempfile::NamedTempFile;
 
 /// A file that is being written.
@@ -34,7 +39,7 @@ pub enum WholeFile {
 
 impl WholeFile {
     /// Creates a file that will be called `name`; `-` is standard output. If there is a file of that name, it stays
-    /// until the new one is whole, which has its mode.
+    /// until the new one is whole, which has its mode, and its group as far as the user may give it that.
     ///
     /// # Errors
     /// If it cannot be made, or the file that is there cannot be written to.
@@ -42,32 +47,38 @@ impl WholeFile {
         if name == Path::new("-") {
             return Ok(Self::Stdout(Stdout));
         }
-        // The file that a symbolic link leads to, not the link.
-        let name = fs::canonicalize(name).unwrap_or_else(|_| name.to_owned());
-        let old = match fs::metadata(&name) {
+        // As it was named: a pipe, which `/dev/stdout` may be, has no place.
+        let old = match fs::metadata(name) {
             Ok(data) if data.is_dir() => return Err(io::ErrorKind::IsADirectory.into()),
             Ok(data) if !data.is_file() => {
                 return Ok(Self::InPlace(OpenOptions::new().write(true).open(name)?));
             }
             Ok(data) => {
                 // Who may not write to a file may not replace it, even if the folder is theirs.
-                OpenOptions::new().write(true).open(&name)?;
-                Some(data.permissions())
+                OpenOptions::new().write(true).open(name)?;
+                Some(data)
             }
+            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+            Err(_) if names_folder(name) => return Err(io::ErrorKind::NotADirectory.into()),
             Err(_) => None,
         };
+        // The file that a symbolic link leads to, not the link.
+        let name = place(name);
         let folder = name.parent().filter(|folder| !folder.as_os_str().is_empty());
         // As any new file: the system takes away what the user's mask says. One that replaces another is the user's
         // alone until it is open to those who might read the other.
         let mode = if old.is_some() { 0o600 } else { 0o666 };
-        let file = tempfile::Builder::new()
-            .prefix(".spherule-")
-            .permissions(Permissions::from_mode(mode))
-            .tempfile_in(folder.unwrap_or_else(|| Path::new(".")))?;
+        let (watch, file) = Watch::over(|| {
+            tempfile::Builder::new()
+                .prefix(".spherule-")
+                .permissions(Permissions::from_mode(mode))
+                .tempfile_in(folder.unwrap_or_else(|| Path::new(".")))
+        })?;
         if let Some(old) = old {
-            file.as_file().set_permissions(old)?;
+            // The group first: bits of the mode are lost with another.
+            let _ = fchown(file.as_file(), None, Some(old.gid()));
+            file.as_file().set_permissions(old.permissions())?;
         }
-        let watch = Watch::new(file.path().to_owned())?;
         Ok(Self::Unfinished { file, name, watch })
     }
 
@@ -105,6 +116,12 @@ impl WholeFile {
     }
 }
 
+/// Whether only a folder may have this name. (A [`Path`] leaves such an end out.)
+fn names_folder(name: &Path) -> bool {
+    let name = name.as_os_str().as_bytes();
+    name.ends_with(b"/") || name.ends_with(b"/.")
+}
+
 impl Write for WholeFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.output().write(bytes)
@@ -112,41 +129,5 @@ impl Write for WholeFile {
 
     fn flush(&mut self) -> io::Result<()> {
         Ok(())
-    }
-}
-
-/// Removes a file if the user or the system ends the process.
-#[derive(Debug)]
-pub struct Watch {
-    signals: Handle,
-}
-
-impl Watch {
-    fn new(path: PathBuf) -> io::Result<Self> {
-        let hang_up = if is_ignored(SIGHUP) { None } else { Some(SIGHUP) };
-        let mut signals = Signals::new([SIGINT, SIGTERM].into_iter().chain(hang_up))?;
-        let handle = signals.handle();
-        thread::Builder::new().name("signals".into()).spawn(move || {
-            if let Some(signal) = signals.forever().next() {
-                let _ = fs::remove_file(path);
-                let _ = emulate_default_handler(signal);
-            }
-        })?;
-        Ok(Self { signals: handle })
-    }
-}
-
-/// Whether whoever started the process wants a signal to do nothing, as `nohup` does with SIGHUP: a handler would undo
-/// that. Linux tells; on other systems it is assumed.
-fn is_ignored(signal: i32) -> bool {
-    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
-    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
-    mask.is_none_or(|mask| mask >> (signal - 1) & 1 == 1)
-}
-
-impl Drop for Watch {
-    fn drop(&mut self) {
-        self.signals.close();
     }
 }

@@ -5,12 +5,15 @@ use super::scale::{Range, color_of};
 use crate::cells::{CellGrid, Color};
 use crate::color::Srgb;
 use crate::palette::shown;
-use crate::style::Style;
+use crate::style::{Charset, Style};
 
 /// The most columns that a name takes.
 const LONGEST: usize = 16;
 /// Columns of the scale of numbers.
 const SCALE: usize = 16;
+/// The digits of the scale's ends, and those by which any two `f32` differ.
+const FEW_DIGITS: usize = 4;
+const MOST_DIGITS: usize = 9;
 
 /// What colours mean.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,7 +42,16 @@ type Part = (String, Option<Srgb>);
 impl Legend {
     /// Whether colours mean numbers.
     pub(super) fn has_numbers(&self) -> bool {
-        matches!(self.entries, Entries::Numbers { .. })
+        self.range().is_some()
+    }
+
+    /// The numbers between which colours lie, if they mean numbers.
+    #[must_use]
+    pub fn range(&self) -> Option<Range> {
+        match self.entries {
+            Entries::Numbers { range, .. } => Some(range),
+            Entries::Names(_) => None,
+        }
     }
 
     /// A legend with the name of what spheres are coloured by, and its values.
@@ -61,9 +73,10 @@ impl Legend {
         for (row, line) in (0..rows).zip(&lines) {
             let mut column = left;
             for (text, color) in line {
-                let paper =
-                    color.map_or(Color::Default, |color| shown(color, style.depth, &style.theme));
-                cells.write(column as u16, row, text, Color::Default, paper);
+                match color {
+                    Some(color) => swatch(cells, (column as u16, row), text.len(), *color, style),
+                    None => cells.write(column as u16, row, text, Color::Default, Color::Default),
+                }
                 column += text.len();
             }
             cells.write(
@@ -93,7 +106,7 @@ impl Legend {
                 scale.extend(colors.map(|color| (" ".to_owned(), Some(color))));
                 scale.push((" ".to_owned(), None));
                 lines.push(scale);
-                let [low, high] = [range.low, range.high].map(number);
+                let [low, high] = ends(*range);
                 let room = SCALE.saturating_sub(low.len()).max(high.len() + 1);
                 lines.push(vec![(format!(" {low}{high:>room$} "), None)]);
                 if *has_none {
@@ -103,6 +116,23 @@ impl Legend {
         }
         lines
     }
+}
+
+/// Writes so many cells of a colour. One that cannot be paper is ink that fills them, on black, as it is in a picture.
+fn swatch(
+    cells: &mut CellGrid,
+    (column, row): (u16, u16),
+    width: usize,
+    color: Srgb,
+    style: &Style,
+) {
+    let color = shown(color, style.depth, &style.theme);
+    let (glyph, ink, paper) = match style.charset {
+        _ if style.theme.paper(color) == color => (" ", Color::Default, color),
+        Charset::Ascii => ("#", color, Color::Ansi16(0)),
+        _ => ("█", color, Color::Ansi16(0)),
+    };
+    cells.write(column, row, &glyph.repeat(width), ink, paper);
 }
 
 fn named(color: Srgb, name: &str) -> Vec<Part> {
@@ -130,22 +160,24 @@ fn printable(text: &str) -> String {
     format!("{cut}...")
 }
 
-/// Writes a number in four digits, or in as many as there are before the point.
-fn number(value: f32) -> String {
-    let size = value.abs();
-    if size != 0.0 && !(1e-3..1e6).contains(&size) {
-        return format!("{value:.3e}");
+/// Writes both ends in four digits, or in so many more that they differ.
+fn ends(range: Range) -> [String; 2] {
+    let written = |digits| [range.low, range.high].map(|end| number(end, digits));
+    let differ = |[low, high]: &[String; 2]| low != high || range.low == range.high;
+    (FEW_DIGITS..MOST_DIGITS).map(written).find(differ).unwrap_or_else(|| written(MOST_DIGITS))
+}
+
+/// Writes a number in so many digits, or in as many as there are before the point.
+fn number(value: f32, digits: usize) -> String {
+    let behind_first = digits - 1;
+    let scientific = format!("{value:.behind_first$e}");
+    let exponent = scientific.split_once('e').and_then(|(_, text)| text.parse::<i32>().ok());
+    let exponent = exponent.unwrap_or(0);
+    if !(-3..6).contains(&exponent) {
+        return scientific;
     }
-    let digits = if size >= 1000.0 {
-        0
-    } else if size >= 100.0 {
-        1
-    } else if size >= 10.0 {
-        2
-    } else {
-        3
-    };
-    let text = format!("{value:.digits$}");
+    let decimals = usize::try_from(behind_first as i32 - exponent).unwrap_or(0);
+    let text = format!("{value:.decimals$}");
     let text =
         if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
     text.to_owned()
@@ -154,6 +186,8 @@ fn number(value: f32) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::palette::Theme;
+    use crate::scene::elements::of_number;
     use crate::style::ColorDepth;
 
     const STYLE: Style = Style { depth: ColorDepth::Truecolor, ..Style::PLAIN };
@@ -181,6 +215,32 @@ mod tests {
         let papers: Vec<_> = cells.row(2)[5..].iter().map(|cell| cell.background).collect();
         let own = Color::Rgb([1; 3]);
         assert_eq!(papers[..4], [Color::Default, own, own, Color::Default]);
+    }
+
+    #[test]
+    fn colours_that_cannot_be_paper_are_ink() {
+        let theme = Theme { papers: 8, ..Theme::VGA };
+        let elements = [8, 1, 6].map(|number| of_number(number).expect("known"));
+        let entries = elements.map(|element| (element.color, element.symbol.to_owned()));
+        let legend = Legend::new("element", Entries::Names(entries.into()));
+        for (charset, glyph) in [(Charset::Half, '█'), (Charset::Ascii, '#')] {
+            let style = Style { charset, depth: ColorDepth::Ansi16, theme, ..Style::PLAIN };
+            let mut cells = CellGrid::new(9, 8);
+            legend.write(&mut cells, 8, &style);
+            let swatch = |row| {
+                let cell = cells.row(row)[1];
+                assert_eq!(cells.row(row)[2], cell);
+                assert!(matches!(cell.background, Color::Ansi16(0..8)), "{cell:?}");
+                if cell.glyph == ' ' {
+                    return cell.background;
+                }
+                assert_eq!((cell.glyph, cell.background), (glyph, Color::Ansi16(0)));
+                cell.foreground
+            };
+            let [oxygen, hydrogen, carbon] = [1, 2, 3].map(swatch);
+            assert!(matches!(oxygen, Color::Ansi16(1 | 9)), "{oxygen:?}");
+            assert!(oxygen != hydrogen && oxygen != carbon && hydrogen != carbon);
+        }
     }
 
     #[test]
@@ -224,8 +284,36 @@ mod tests {
 
     #[test]
     fn numbers_are_short() {
-        let texts = [0.0, 0.5, -12.3456, 1e-7, 123.45, 1e9, 99_999.0].map(number);
-        assert_eq!(texts, ["0", "0.5", "-12.35", "1.000e-7", "123.4", "1.000e9", "99999"]);
+        for (value, text) in [
+            (0.0, "0"),
+            (0.5, "0.5"),
+            (-12.3456, "-12.35"),
+            (0.0123, "0.0123"),
+            (0.001_234_5, "0.001234"),
+            (0.000_999_96, "0.001"),
+            (9.9996, "10"),
+            (1e-7, "1.000e-7"),
+            (123.45, "123.4"),
+            (1e9, "1.000e9"),
+            (99_999.0, "99999"),
+        ] {
+            assert_eq!(number(value, FEW_DIGITS), text);
+        }
         assert_eq!(printable("Ångström and more of it"), "\\u{c5}ngstr...");
+    }
+
+    #[test]
+    fn ends_that_differ_are_written_so() {
+        for (low, high, texts) in [
+            (0.001_23, 0.001_9, ["0.00123", "0.0019"]),
+            (0.0021, 0.0024, ["0.0021", "0.0024"]),
+            (293.11, 293.14, ["293.11", "293.14"]),
+            (100_000.1, 100_000.4, ["100000.1", "100000.4"]),
+            (1e-9, 1.000_02e-9, ["1.00000e-9", "1.00002e-9"]),
+            (1.0, 1.0_f32.next_up(), ["1", "1.0000001"]),
+            (7.0, 7.0, ["7", "7"]),
+        ] {
+            assert_eq!(ends(Range { low, high }), texts);
+        }
     }
 }

@@ -17,15 +17,17 @@ pub struct Range {
 }
 
 impl Range {
-    /// From the least to the largest of the finite `values`; from 0 to 1 if there are none.
+    /// From the least to the largest of the finite `values`; `None` if there are none.
     #[must_use]
-    pub fn of(values: &[f32]) -> Self {
+    pub fn of(values: &[f32]) -> Option<Self> {
         let finite = values.iter().copied().filter(|value| value.is_finite());
-        let range = finite.fold(None, |range: Option<Self>, value| {
-            let Self { low, high } = range.unwrap_or(Self { low: value, high: value });
-            Some(Self { low: low.min(value), high: high.max(value) })
-        });
-        range.unwrap_or(Self { low: 0.0, high: 1.0 })
+        finite.map(|value| Self { low: value, high: value }).reduce(Self::widened)
+    }
+
+    /// The least range that holds both, if each begins at its least number.
+    #[must_use]
+    pub fn widened(self, other: Self) -> Self {
+        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
     /// Where a number lies, 0 to 1; 0.5 if all numbers are the same; `None` for NaN.
@@ -130,14 +132,14 @@ mod tests {
 
     #[test]
     fn ranges_are_of_finite_numbers() {
-        let range = Range::of(&[f32::NAN, 3.0, -1.0, f32::INFINITY]);
-        assert_eq!(range, Range { low: -1.0, high: 3.0 });
+        let range = Range { low: -1.0, high: 3.0 };
+        assert_eq!(Range::of(&[f32::NAN, 3.0, -1.0, f32::INFINITY]), Some(range));
         assert_eq!(
             [-9.0, -1.0, 1.0, f32::INFINITY, f32::NAN].map(|value| range.place(value)),
             [Some(0.0), Some(0.0), Some(0.5), Some(1.0), None]
         );
-        assert_eq!(Range::of(&[f32::NAN]), Range { low: 0.0, high: 1.0 });
-        assert_eq!(Range::of(&[7.0, 7.0]).place(7.0), Some(0.5));
+        assert_eq!(Range::of(&[f32::NAN]), None);
+        assert_eq!(Range::of(&[7.0, 7.0]).and_then(|range| range.place(7.0)), Some(0.5));
         let widest = Range { low: f32::MIN, high: f32::MAX };
         assert_eq!(widest.place(0.0), Some(0.5));
     }

@@ -19,7 +19,7 @@ fn scene() -> Scene {
 
 fn colors(by: &str, range: Option<Range>) -> Vec<Srgb> {
     let by: ColorBy = by.parse().expect("a choice");
-    let coloring = coloring(&scene(), &by, range).expect("colours");
+    let coloring = coloring(&scene(), &by, range, &mut Seen::default()).expect("colours");
     coloring.colors.expect("not the scene's own")
 }
 
@@ -58,7 +58,7 @@ fn a_column_of_the_file_s_own_goes_before_names() {
     let scene = Scene::of_spheres(list, vec![Srgb::WHITE; 4], attributes);
     for (by, name) in [("chain", "Chain"), ("type", "type")] {
         let by: ColorBy = by.parse().expect("a choice");
-        let found = coloring(&scene, &by, None).expect("colours");
+        let found = coloring(&scene, &by, None, &mut Seen::default()).expect("colours");
         let [low, middle, high] = [0.0, 0.5, 1.0].map(color_of);
         assert_eq!(found.colors, Some(vec![low, middle, high, middle]));
         let range = Range { low: 0.0, high: 2.0 };
@@ -68,10 +68,45 @@ fn a_column_of_the_file_s_own_goes_before_names() {
 }
 
 #[test]
+fn every_choice_can_be_asked_for_by_its_name() {
+    let mut attributes = scene().attributes().clone();
+    for name in ["", "scene", "Charge"] {
+        attributes.columns.push(NumberColumn { name: name.into(), values: vec![1.0; 4] });
+    }
+    let choices = ColorBy::choices(&attributes);
+    let names: Vec<_> = choices.iter().map(ColorBy::name).collect();
+    assert_eq!(names, ["scene", "element", "chain", "b_factor", "Charge"]);
+    for choice in choices {
+        assert_eq!(choice.name().parse::<ColorBy>(), Ok(choice));
+    }
+}
+
+/// A table has such columns beside its numbers.
+#[test]
+fn a_column_of_words_is_none_of_numbers() {
+    let mut attributes = scene().attributes().clone();
+    for name in ["Label", "residue"] {
+        attributes.columns.push(NumberColumn { name: name.into(), values: vec![f32::NAN; 4] });
+    }
+    let choices = ColorBy::choices(&attributes);
+    assert_eq!(choices, ColorBy::choices(scene().attributes()));
+    let list = SphereList::from_iter([(Vec3::ZERO, 1.0); 4]);
+    let scene = Scene::of_spheres(list, vec![Srgb::WHITE; 4], attributes);
+    for (by, name) in [("label", "Label"), ("residue", "residue")] {
+        let by: ColorBy = by.parse().expect("a choice");
+        let error = coloring(&scene, &by, None, &mut Seen::default()).expect_err("words");
+        let expected = format!(
+            "column {name} has no number to colour by; there are scene, element, chain, b_factor"
+        );
+        assert_eq!(error, expected);
+    }
+}
+
+#[test]
 fn what_a_scene_does_not_have_is_said_with_what_it_has() {
     for by in ["residue", "charge"] {
         let by: ColorBy = by.parse().expect("a choice");
-        let error = coloring(&scene(), &by, None).expect_err("missing");
+        let error = coloring(&scene(), &by, None, &mut Seen::default()).expect_err("missing");
         let expected = format!(
             "no {} in this scene to colour by; it has scene, element, chain, b_factor",
             by.name()
@@ -107,7 +142,7 @@ fn several_chains_are_coloured_unless_the_file_has_colours() {
 fn legends_say_what_there_is() {
     let legend = |by: &str| {
         let by: ColorBy = by.parse().expect("a choice");
-        coloring(&scene(), &by, None).expect("colours").legend
+        coloring(&scene(), &by, None, &mut Seen::default()).expect("colours").legend
     };
     let names = [(category(0), "A"), (category(1), "B"), (NEUTRAL, "none")];
     let names = names.map(|(color, name)| (color, name.to_owned())).to_vec();
@@ -116,4 +151,45 @@ fn legends_say_what_there_is() {
     let numbers = Entries::Numbers { range, has_none: true };
     assert_eq!(legend("b_factor"), Some(Legend::new("b_factor", numbers)));
     assert_eq!(legend("scene"), None);
+}
+
+/// Chains that come and go, in another order, and numbers that leave the first frame's scale.
+#[test]
+fn a_colour_means_the_same_in_all_frames() {
+    let frame = |atoms: &[(&str, f32)]| {
+        let mut chains = NamesBuilder::default();
+        atoms.iter().for_each(|(chain, _)| chains.push(chain.as_bytes()));
+        let values = atoms.iter().map(|(_, number)| *number).collect();
+        let mut attributes = Attributes::default();
+        attributes.columns = vec![NumberColumn { name: "q".into(), values }];
+        attributes.set_names(Naming::Chain, chains.finish());
+        let list: SphereList = atoms.iter().map(|_| (Vec3::ZERO, 1.0)).collect();
+        Scene::of_spheres(list, vec![Srgb::WHITE; atoms.len()], attributes)
+    };
+    let frames = [
+        frame(&[("1", 0.0), ("2", 4.0)]),
+        frame(&[("2", 8.0)]),
+        frame(&[("", 2.0), ("3", 2.0), ("2", 2.0), ("1", 2.0)]),
+    ];
+    let mut seen = Seen::default();
+    let mut colored = |by: ColorBy, range| {
+        frames.each_ref().map(|scene| coloring(scene, &by, range, &mut seen).expect("colours"))
+    };
+    let chains = colored(ColorBy::Names(Naming::Chain), None);
+    let [one, two, three] = [0, 1, 2].map(category);
+    let colors = chains.each_ref().map(|of| of.colors.clone().expect("not the scene's own"));
+    assert_eq!(colors, [vec![one, two], vec![two], vec![NEUTRAL, three, two, one]]);
+    let names = [(one, "1"), (two, "2"), (three, "3"), (NEUTRAL, "none")];
+    let names = names.map(|(color, name)| (color, name.to_owned())).to_vec();
+    assert_eq!(chains[2].legend, Some(Legend::new("chain", Entries::Names(names))));
+
+    let legend = |low, high| {
+        let range = Range { low, high };
+        Some(Legend::new("q", Entries::Numbers { range, has_none: false }))
+    };
+    // A range that is asked for is no part of what has been seen.
+    let asked = colored(ColorBy::Column("q".into()), Some(Range { low: 9.0, high: 1.0 }));
+    assert!(asked.iter().all(|of| of.legend == legend(9.0, 1.0)));
+    let numbers = colored(ColorBy::Column("Q".into()), None);
+    assert_eq!(numbers.map(|of| of.legend), [legend(0.0, 4.0), legend(0.0, 8.0), legend(0.0, 8.0)]);
 }

@@ -3,12 +3,14 @@
 mod context;
 mod gro;
 mod lammps;
+mod mercury;
 mod mmcif;
 mod mmcif_columns;
 mod npy_points;
 mod pdb;
 mod ply;
 pub(super) mod recognise;
+pub(crate) mod replaced;
 mod table;
 mod urdf;
 mod words;
@@ -40,6 +42,8 @@ pub enum Format {
     LammpsDump,
     /// The input of LAMMPS
     LammpsData,
+    /// MercuryDPM's .data
+    Mercury,
     /// A table: comma, tab, semicolon or space between columns
     #[value(alias = "tsv")]
     Csv,
@@ -56,15 +60,12 @@ pub enum Format {
 impl Format {
     /// Whether a file of this format may have more than one frame.
     pub(super) fn has_frames(self) -> bool {
-        matches!(
-            self,
-            Self::Xyz | Self::Pdb | Self::Mmcif | Self::Gro | Self::LammpsDump | Self::Xtc
-        )
+        self.has_only_frames() || matches!(self, Self::Pdb | Self::Mmcif)
     }
 
     /// Whether whatever follows a frame is another one. Behind the models of the other formats there may be anything.
     pub(super) fn has_only_frames(self) -> bool {
-        matches!(self, Self::Xyz | Self::Gro | Self::LammpsDump | Self::Xtc)
+        matches!(self, Self::Xyz | Self::Gro | Self::LammpsDump | Self::Mercury | Self::Xtc)
     }
 
     /// Reads the next frame; `None` after the last.
@@ -82,6 +83,7 @@ impl Format {
             Self::Mmcif => mmcif::frame(input, context),
             Self::Gro => gro::frame(input, context),
             Self::LammpsDump => lammps::dump::frame(input, context),
+            Self::Mercury => mercury::frame(input, context),
             Self::Xtc => xtc::frame(input, context),
             Self::LammpsData => lammps::data::read(input, &mut context.notes).map(Some),
             Self::Csv => table::read(input, context).map(Some),
@@ -90,8 +92,12 @@ impl Format {
             Self::Urdf => urdf::read(input, &mut context.notes).map(Some),
             Self::Toml => of_toml(input).map(Some),
         }?;
-        // Frames are seen from one view, so all have the origin of the first.
-        context.origin = context.origin.or(scene.as_ref().map(|scene| scene.origin));
+        // Frames are seen from one view, so all have the origin of the first, and particles without a radius keep their size.
+        if let Some(scene) = &scene {
+            let fixed = &mut context.fixed;
+            fixed.origin = fixed.origin.or(Some(scene.origin));
+            fixed.radius = fixed.radius.or(scene.unstated_radius);
+        }
         Ok(scene)
     }
 
@@ -103,7 +109,17 @@ impl Format {
         match self {
             Self::Xyz => xyz::skip(input),
             Self::LammpsDump => lammps::dump::skip(input),
-            _ => Ok(self.frame(input, context)?.is_some()),
+            Self::Mercury => mercury::skip(input),
+            _ => {
+                let radius = context.fixed.radius;
+                let frame = self.frame(input, context);
+                // The size is that of a frame that is shown.
+                context.fixed.radius = radius;
+                match frame {
+                    Err(error) if error.is_empty_frame => Ok(true),
+                    frame => Ok(frame?.is_some()),
+                }
+            }
         }
     }
 }

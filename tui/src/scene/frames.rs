@@ -90,7 +90,7 @@ impl Frames {
     /// is passed.
     pub fn read(&mut self, index: usize) -> Result<Option<Scene>, ReadError> {
         if !self.format.has_frames() && index > 0 {
-            self.count = Some(1);
+            self.end_at_one();
             return Ok(None);
         }
         let nearest = index.min(self.places.len() - 1);
@@ -110,12 +110,21 @@ impl Frames {
         let scene = self.attempt(|input, context| format.frame(input, context));
         let scene = scene.map(Option::flatten);
         match &scene {
+            Ok(Some(_)) if !self.format.has_frames() => {
+                self.passed();
+                self.end_at_one();
+            }
             Ok(Some(_)) => self.passed(),
             Ok(None) => self.count = Some(self.at),
             Err(error) if error.is_empty_frame => self.passed(),
             Err(_) => {}
         }
         scene
+    }
+
+    /// There is one frame, whatever else is written.
+    fn end_at_one(&mut self) {
+        (self.count, self.follows) = (Some(1), false);
     }
 
     /// Whether there is a frame `index`, without reading more of it than need be. A pipe may be behind that frame then.
@@ -153,7 +162,7 @@ impl Frames {
         if self.follows && !self.has_what_was_passed()? {
             return Ok(None);
         }
-        let before = self.input.place();
+        let (before, fixed) = (self.input.place(), self.context.fixed);
         let result = read(&mut self.input, &mut self.context);
         // A line without an end may still go on.
         let is_partial = match &result {
@@ -162,6 +171,8 @@ impl Frames {
         };
         if self.follows && is_partial {
             self.input.go_anew(before)?;
+            // The end of the last number may be missing.
+            self.context.fixed = fixed;
             return Ok(None);
         }
         let result = result?;

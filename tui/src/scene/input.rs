@@ -6,6 +6,7 @@
 mod bytes;
 mod compressed;
 mod cut;
+mod head;
 mod line;
 mod place;
 mod until_end;
@@ -28,9 +29,6 @@ pub(super) const LONGEST_LINE: usize = 16 << 20;
 
 /// What is read at once, at least.
 const BLOCK: usize = 256 << 10;
-
-/// How much of an input is looked at to tell what it is.
-const HEAD: usize = 64 << 10;
 
 /// How long reading may take before its progress is shown.
 const PATIENCE: Duration = Duration::from_secs(1);
@@ -57,6 +55,8 @@ pub(super) struct Input {
     progress: Option<Progress>,
     /// The open file, if it is not compressed.
     plain: Option<File>,
+    /// Why reading failed, if no one has been told yet.
+    failure: Option<io::Error>,
 }
 
 impl std::fmt::Debug for Input {
@@ -103,6 +103,7 @@ impl Input {
             terminated: true,
             progress: Some(Progress::after(PATIENCE)),
             plain: None,
+            failure: None,
         })
     }
 
@@ -127,17 +128,14 @@ impl Input {
         self.file.is_some()
     }
 
-    /// The beginning of what has not been taken, enough to tell its format.
-    ///
-    /// # Errors
-    /// [`ReadError`] if it cannot be read.
-    pub(super) fn head(&mut self) -> Result<&[u8], ReadError> {
-        while self.end - self.start < HEAD && self.fill()? {}
-        Ok(&self.buffer[self.start..self.end.min(self.start + HEAD)])
-    }
-
     /// Reads more; `false` if there is none.
     fn fill(&mut self) -> Result<bool, ReadError> {
+        self.check()?;
+        self.read_on().map_err(|error| self.failed(&error))
+    }
+
+    /// As [`Self::fill`], whatever has failed before.
+    fn read_on(&mut self) -> io::Result<bool> {
         if self.start > 0 {
             self.buffer.copy_within(self.start..self.end, 0);
             self.before += self.start as u64;
@@ -154,7 +152,7 @@ impl Input {
                     return Ok(read > 0);
                 }
                 Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
-                Err(error) => return Err(self.failed(&error)),
+                Err(error) => return Err(error),
             }
         }
     }
@@ -293,6 +291,7 @@ impl Input {
         let opened = open_at(path, place.offset);
         let opened = opened.map_err(|error| ReadError::whole(&self.source, cause(&error)));
         (self.reader, self.plain) = opened?;
+        self.failure = None;
         (self.start, self.end, self.before, self.number) = (0, 0, place.offset, place.number);
         Ok(())
     }

@@ -105,14 +105,19 @@ impl Notes {
     /// Writes what has been noted since the last call to standard error, a line each.
     pub(super) fn report(&mut self, source: &str) {
         for text in self.take() {
-            let line: String = format!("{source}: {text}")
-                .chars()
-                .map(|c| if c.is_control() { '\u{fffd}' } else { c })
-                .collect();
-            // If it cannot be said, the picture still comes.
-            let _ = writeln!(io::stderr(), "spherule: {line}");
+            say(source, &text);
         }
     }
+}
+
+/// Writes what there is to say of a file to standard error, in one line.
+pub(crate) fn say(source: &str, text: &str) {
+    let line: String = format!("{source}: {text}")
+        .chars()
+        .map(|c| if c.is_control() { '\u{fffd}' } else { c })
+        .collect();
+    // If it cannot be said, the picture still comes.
+    let _ = writeln!(io::stderr(), "spherule: {line}");
 }
 
 /// The first of `names`, with commas.

@@ -1,11 +1,14 @@
 //! From the name of a scene to the scene: built in, a file, or standard input.
 
+use super::file_name::FileName;
 use super::frames::Frames;
 use super::input::Input;
 use super::read_error::ReadError;
 use super::reading::{Reading, first, frames, input_of};
 use super::{Scene, builtin};
+use crate::choice;
 use crate::error::cause;
+use std::ffi::OsStr;
 use std::fs::File;
 use std::io::{self, Cursor, IsTerminal, Read};
 use std::path::Path;
@@ -24,15 +27,16 @@ pub enum Opened {
 ///
 /// # Errors
 /// [`ReadError`] if there is no such scene, or it cannot be read.
-pub fn open(name: &str, reading: &Reading) -> Result<Opened, ReadError> {
-    if name == "-" {
+pub fn open(name: impl AsRef<OsStr>, reading: &Reading) -> Result<Opened, ReadError> {
+    let name = &FileName::from(name.as_ref().to_owned());
+    if *name == "-" {
         let input = standard_input().map_err(|error| ReadError::whole("-", cause(&error)))?;
         return frames(Input::of_reader(input, "-")?, reading).map(Opened::File);
     }
     if let Some(scene) = builtin::builtin(name) {
         return built_in(scene, name, reading);
     }
-    let file = match File::open(name) {
+    let file = match File::open(name.path()) {
         Ok(file) => file,
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
             return match builtin::shipped_file(name) {
@@ -64,6 +68,11 @@ fn built_in(scene: Scene, name: &str, reading: &Reading) -> Result<Opened, ReadE
     let what = match reading {
         Reading { topology: Some(file), .. } => format!("--topology {file}: for .xtc"),
         Reading { columns: Some(columns), .. } => format!("--columns {columns}: for tables"),
+        Reading { format: Some(format), .. } => {
+            format!("--format {}: for files", choice::name(format))
+        }
+        Reading { strict: true, .. } => "--strict: for files".to_owned(),
+        Reading { follow: true, .. } => "--follow: for files".to_owned(),
         _ => return Ok(Opened::Builtin(scene)),
     };
     Err(ReadError::whole(name, format!("{what}; this scene is built in")))
@@ -88,10 +97,13 @@ fn is_plain_word(name: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::format::Format;
+    use std::ffi::OsString;
 
     #[test]
-    fn a_built_in_scene_has_neither_columns_nor_a_topology() {
-        let (columns, topology) = (Some("1,2,3".to_owned()), Some("x.gro".to_owned()));
+    fn a_built_in_scene_has_nothing_of_a_file() {
+        let columns = Some("1,2,3".to_owned());
+        let topology = Some(FileName::from(OsString::from("x.gro")));
         for name in ["marbles", "caffeine.xyz"] {
             let refusal = |reading| open(name, &reading).expect_err("refused").to_string();
             assert_eq!(
@@ -102,6 +114,17 @@ mod tests {
                 refusal(Reading { topology: topology.clone(), ..Reading::default() }),
                 format!("{name}: --topology x.gro: for .xtc; this scene is built in")
             );
+            let of_file =
+                |option: &str| format!("{name}: {option}: for files; this scene is built in");
+            let format = Some(Format::LammpsDump);
+            assert_eq!(
+                refusal(Reading { format, ..Reading::default() }),
+                of_file("--format lammps-dump")
+            );
+            let strict = Reading { strict: true, ..Reading::default() };
+            assert_eq!(refusal(strict), of_file("--strict"));
+            let follow = Reading { follow: true, ..Reading::default() };
+            assert_eq!(refusal(follow), of_file("--follow"));
             open(name, &Reading::default()).expect("it is built in");
         }
     }

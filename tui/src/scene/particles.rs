@@ -1,10 +1,11 @@
 //! The particles of a frame, as a file states them, and the scene that they become.
 //!
 //! The element of particles is looked up once per name, not once per particle. A particle with neither an element nor a
-//! radius of its own is as large as particles are apart, or, beside elements, as a small atom.
+//! radius of its own is as large as particles are apart, or, beside elements, as a small atom, and as large in all frames.
 
 use super::attributes::{Attributes, Names, NamesBuilder, Naming, NumberColumn};
 use super::elements::of_number;
+use super::fixed::Fixed;
 use super::notes::Notes;
 use super::origin::{FIRST, origin};
 use super::read_error::ReadError;
@@ -24,6 +25,9 @@ pub(super) const NEUTRAL: Srgb = Srgb([0xa8, 0xa8, 0xa8]);
 /// In angstrom; the radius of an unknown particle beside atoms.
 const UNKNOWN_RADIUS: f32 = 1.2;
 
+/// The radius of particles that nothing is apart from.
+const LONE_RADIUS: f32 = 1.0;
+
 /// Colours that the colour-blind tell apart, for types without an element: M. Okabe, K. Ito, "Color Universal Design"
 /// (2002), without black.
 const TYPE_COLORS: [Srgb; 7] = [
@@ -39,9 +43,9 @@ const TYPE_COLORS: [Srgb; 7] = [
 /// The particles of a frame. What is not empty has a value a particle.
 #[derive(Debug, Default)]
 pub(super) struct Particles {
-    /// Counted from `origin`, once that is known.
+    /// Counted from the origin, once that is fixed.
     pub(super) centers: Vec<Vec3>,
-    pub(super) origin: Option<DVec3>,
+    pub(super) fixed: Fixed,
     /// The first centres, which tell the origin, in the file's coordinates.
     pub(super) first: Vec<DVec3>,
     /// NaN where there is none.
@@ -59,9 +63,9 @@ pub(super) struct Particles {
 }
 
 impl Particles {
-    /// No particles yet, of a file whose positions are counted from `origin`, if a frame before has fixed it.
-    pub(super) fn from(origin: Option<DVec3>) -> Self {
-        Self { origin, ..Self::default() }
+    /// No particles yet, of a file of which frames before have `fixed` something.
+    pub(super) fn from(fixed: Fixed) -> Self {
+        Self { fixed, ..Self::default() }
     }
 
     /// Whether there are no particles.
@@ -72,7 +76,7 @@ impl Particles {
     /// Adds the centre of the next particle, in the file's coordinates.
     #[inline]
     pub(super) fn center(&mut self, center: DVec3) {
-        match self.origin {
+        match self.fixed.origin {
             Some(origin) => self.centers.push((center - origin).as_vec3()),
             None => self.first_center(center),
         }
@@ -89,7 +93,7 @@ impl Particles {
     /// Fixes the origin of positions from now on, and returns it.
     fn settle(&mut self) -> DVec3 {
         let first = std::mem::take(&mut self.first);
-        let origin = *self.origin.get_or_insert_with(|| origin(&first, &self.radii));
+        let origin = *self.fixed.origin.get_or_insert_with(|| origin(&first, &self.radii));
         self.centers.extend(first.into_iter().map(|center| (center - origin).as_vec3()));
         origin
     }
@@ -148,6 +152,7 @@ impl Particles {
         let origin = self.settle();
         let Self {
             centers,
+            fixed,
             radii,
             mut colors,
             kinds,
@@ -197,13 +202,21 @@ impl Particles {
                 None => colors.resize(count, NEUTRAL),
             }
         }
-        let missing = if has_elements { UNKNOWN_RADIUS } else { half_spacing(&centers) };
-        let radius_of_number: Vec<f32> = (0..=u8::MAX)
-            .map(|number| of_number(number.into()).map_or(missing, |element| element.radius))
+        let told = fixed.radius.or_else(|| match has_elements {
+            true => Some(UNKNOWN_RADIUS),
+            false => half_spacing(&centers),
+        });
+        let unstated = told.unwrap_or(LONE_RADIUS);
+        let radius_of_number: Vec<Option<f32>> = (0..=u8::MAX)
+            .map(|number| of_number(number.into()).map(|element| element.radius))
             .collect();
-        let radius = |index: usize| match radii.get(index) {
+        let mut has_unstated = false;
+        let mut radius = |index: usize| match radii.get(index) {
             Some(radius) if !radius.is_nan() => *radius,
-            _ => radius_of_number[usize::from(number_of(index))],
+            _ => radius_of_number[usize::from(number_of(index))].unwrap_or_else(|| {
+                has_unstated = true;
+                unstated
+            }),
         };
         let list = centers.iter().enumerate();
         let list = list.map(|(index, &center)| Sphere { center, radius: radius(index) }).collect();
@@ -221,6 +234,7 @@ impl Particles {
         }
         let mut scene = Scene::of_spheres(list, colors, attributes);
         scene.origin = origin;
+        scene.unstated_radius = told.filter(|_| has_unstated);
         scene.background = BACKGROUND;
         scene.lighting = Lighting::Camera;
         Ok(scene)

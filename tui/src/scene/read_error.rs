@@ -49,7 +49,8 @@ impl ReadError {
 impl fmt::Display for ReadError {
     /// `file:line:column: what`.
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "{}", self.source)?;
+        // An empty name would not be seen.
+        formatter.write_str(if self.source.is_empty() { "''" } else { self.source.as_str() })?;
         for place in [self.line, self.column].into_iter().flatten() {
             write!(formatter, ":{place}")?;
         }
@@ -58,3 +59,14 @@ impl fmt::Display for ReadError {
 }
 
 impl std::error::Error for ReadError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_empty_name_is_seen() {
+        assert_eq!(ReadError::whole("", "no such file").to_string(), "'': no such file");
+        assert_eq!(ReadError::at("a", 1, 2, "wrong").to_string(), "a:1:2: wrong");
+    }
+}

@@ -1,7 +1,8 @@
 //! From bytes to the frames of a file, whose format its content tells.
 
 use super::Scene;
-use super::format::recognise::{UNKNOWN, recognise};
+use super::file_name::FileName;
+use super::format::recognise::{UNKNOWN, recognise, settled};
 use super::format::{Context, Format};
 use super::frames::Frames;
 use super::input::Input;
@@ -23,7 +24,7 @@ pub struct Reading {
     /// The columns of a table, with commas.
     pub columns: Option<String>,
     /// The file that says what the particles of a trajectory are.
-    pub topology: Option<String>,
+    pub topology: Option<FileName>,
     /// Whether particles of unknown types are an error.
     pub strict: bool,
     /// Whether more may be written to the file.
@@ -77,8 +78,8 @@ pub(super) fn frames(mut input: Input, reading: &Reading) -> Result<Frames, Read
 }
 
 /// The file called `name`, as what the particles of a trajectory are.
-fn topology(name: &str, strict: bool) -> Result<Scene, ReadError> {
-    let file = File::open(name).map_err(|error| ReadError::whole(name, cause(&error)))?;
+fn topology(name: &FileName, strict: bool) -> Result<Scene, ReadError> {
+    let file = File::open(name.path()).map_err(|error| ReadError::whole(name, cause(&error)))?;
     let mut frames = frames(input_of(file, name)?, &Reading { strict, ..Reading::default() })?;
     let scene = frames.read(0)?.ok_or_else(|| no_particles(name))?;
     frames.report();
@@ -90,22 +91,33 @@ fn format_of(input: &mut Input, follow: bool) -> Result<Format, ReadError> {
     let source = input.source().to_owned();
     let is_awaited = follow && input.can_be_read_again();
     let wrong = |what: &str| ReadError::whole(&source, what);
-    let head = input.head()?;
-    match recognise(head) {
+    let head = input.head(|head| settled(head).is_some());
+    let (recognised, is_empty) = (recognise(head), head.is_empty());
+    let what = match recognised {
         Ok(Format::Pdb)
             if extension(&source)
                 .is_some_and(|extension| extension.eq_ignore_ascii_case("pqr")) =>
         {
-            Err(wrong("PQR, which is not read; --format pdb reads what has the columns of PDB"))
+            let what = "PQR, which is not read; --format pdb reads what has the columns of PDB";
+            return Err(wrong(what));
         }
-        Ok(format) => Ok(format),
-        Err(_) if head.is_empty() && !is_awaited => Err(wrong("the file is empty")),
-        Err(_) if head.is_empty() => {
-            ending(&source).ok_or_else(|| wrong("the file is empty; --format says what it will be"))
-        }
-        Err(UNKNOWN) => ending(&source).ok_or_else(|| wrong(&unknown())),
-        Err(what) => Err(wrong(what)),
+        Ok(format) => return Ok(format),
+        Err(what) => what,
+    };
+    if what == UNKNOWN
+        && (is_awaited || !is_empty)
+        && let Some(format) = ending(&source)
+    {
+        return Ok(format);
     }
+    // Where reading failed, the content is not all that there is.
+    input.check()?;
+    Err(match (is_empty, is_awaited) {
+        (true, true) => wrong("the file is empty; --format says what it will be"),
+        (true, false) => wrong("the file is empty"),
+        (false, _) if what == UNKNOWN => wrong(&unknown()),
+        (false, _) => wrong(what),
+    })
 }
 
 /// The message that the format is not known, and which formats are.
@@ -126,13 +138,13 @@ fn extension(name: &str) -> Option<&str> {
 }
 
 /// The bytes of a file that is called `name`.
-pub(super) fn input_of(file: File, name: &str) -> Result<Input, ReadError> {
+pub(super) fn input_of(file: File, name: &FileName) -> Result<Input, ReadError> {
     let metadata = file.metadata().map_err(|error| ReadError::whole(name, cause(&error)))?;
     if metadata.is_dir() {
         return Err(ReadError::whole(name, "is a directory"));
     }
     if metadata.is_file() {
-        Input::of_file(file, name.into(), name)
+        Input::of_file(file, name.path().to_owned(), name)
     } else {
         Input::of_reader(Box::new(file), name)
     }

@@ -2,14 +2,14 @@
 
 use spherule_kernel::Vec3;
 
-/// Half of the distance between particles, if they fill the box that most of them are in; 1 if the box has no size.
-pub(super) fn half_spacing(centers: &[Vec3]) -> f32 {
+/// Half of the distance between particles, if they fill the box that most of them are in; none if the box has no size.
+pub(super) fn half_spacing(centers: &[Vec3]) -> Option<f32> {
     /// How many particles tell where most are.
     const MOST: usize = 10_000;
     let some: Vec<Vec3> =
         centers.iter().step_by(centers.len().div_ceil(MOST).max(1)).copied().collect();
     if some.len() < 2 {
-        return 1.0;
+        return None;
     }
     let (mut volume, mut dimensions) = (1.0_f64, 0_u8);
     for axis in 0..3 {
@@ -23,9 +23,9 @@ pub(super) fn half_spacing(centers: &[Vec3]) -> f32 {
         }
     }
     if dimensions == 0 {
-        return 1.0;
+        return None;
     }
     let apart = (volume / centers.len() as f64).powf(1.0 / f64::from(dimensions));
     let half = (0.5 * apart) as f32;
-    if half.is_finite() && half > 0.0 { half } else { 1.0 }
+    Some(half).filter(|half| half.is_finite() && *half > 0.0)
 }

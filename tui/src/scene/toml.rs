@@ -1,21 +1,27 @@
 //! Scenes in TOML: the format is stated in `docs/program.md` and, by example, in the tests below.
 
+mod projection;
+mod table;
+
 use super::origin::{FIRST, origin};
 use super::read_error::ReadError;
 use super::{Light, Lighting, Scene, Source};
 use crate::color::Srgb;
 use crate::view::{Lens, LensKind, View};
 use glam::DVec3;
+use projection::projection;
 use serde::Deserialize;
 use serde::de::{Deserializer, Error, SeqAccess, Unexpected, Visitor};
 use spherule_kernel::{Sphere, Vec3};
 use std::fmt;
 use std::ops::Range;
+use table::Table;
 use toml::Spanned;
 
 /// A number and its place in the file.
 type Number = Spanned<f64>;
-type Vector = Spanned<[Number; 3]>;
+/// Three numbers, if it is right: from a longer array serde would take the first three.
+type Vector = Spanned<Vec<Number>>;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -23,9 +29,9 @@ struct SceneTable {
     background: Option<Spanned<String>>,
     #[serde(default)]
     shadows: bool,
-    camera: Option<Spanned<CameraTable>>,
+    camera: Option<Spanned<Table<CameraTable>>>,
     #[serde(default)]
-    sphere: Vec<SphereTable>,
+    sphere: Vec<Table<SphereTable>>,
     #[serde(default)]
     light: LightEntry,
 }
@@ -36,7 +42,7 @@ struct CameraTable {
     eye: Vector,
     target: Vector,
     up: Option<Vector>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "projection")]
     projection: LensKind,
     fov: Option<Number>,
     height: Option<Number>,
@@ -53,7 +59,7 @@ struct SphereTable {
 
 /// What `light` is: tables, or the word for the lights that go with the eye. TOML does not allow both.
 enum LightEntry {
-    Tables(Vec<Spanned<LightTable>>),
+    Tables(Vec<Spanned<Table<LightTable>>>),
     Camera,
 }
 
@@ -114,18 +120,25 @@ const USUAL_FOV: f32 = 40.0;
 /// camera that cannot see, no sphere.
 pub fn read(text: &str, source: &str) -> Result<Scene, ReadError> {
     let table: SceneTable = toml::from_str(text).map_err(|error| {
-        let message = error.message().lines().map(str::trim).collect::<Vec<_>>().join(", ");
-        let place = Place { text, source, origin: DVec3::ZERO };
-        place.error(error.span().unwrap_or(0..0), message)
+        let mut message = error.message().lines().map(str::trim).collect::<Vec<_>>().join(", ");
+        let span = error.span().unwrap_or(0..0);
+        if message == "duplicate key"
+            && let Some(key) = text.get(span.clone())
+        {
+            message = format!("{message} `{key}`");
+        }
+        Place { text, source, origin: DVec3::ZERO }.error(span, message)
     })?;
     let first = &table.sphere[..table.sphere.len().min(FIRST)];
-    let centers: Vec<_> = first.iter().map(|sphere| double(&sphere.center)).collect();
-    let radii: Vec<_> = first.iter().map(|sphere| *sphere.radius.get_ref() as f32).collect();
+    let centers: Vec<_> = first.iter().map(|Table(sphere)| double(&sphere.center)).collect();
+    let radii: Vec<_> = first.iter().map(|Table(sphere)| *sphere.radius.get_ref() as f32).collect();
     scene(table, &Place { text, source, origin: origin(&centers, &radii) })
 }
 
+/// The vector in double precision, whose missing numbers are zero until it is refused.
 fn double(vector: &Vector) -> DVec3 {
-    DVec3::from_array(vector.get_ref().each_ref().map(|number| *number.get_ref()))
+    let number = |axis: usize| vector.get_ref().get(axis).map_or(0.0, |number| *number.get_ref());
+    DVec3::new(number(0), number(1), number(2))
 }
 
 /// Turns places in the text into errors, and numbers that stand there into those of the scene.
@@ -155,11 +168,12 @@ impl Place<'_> {
     }
 
     fn vector(&self, vector: &Vector, name: &str) -> Result<Vec3, ReadError> {
-        let mut result = Vec3::ZERO;
-        for (axis, number) in vector.get_ref().iter().enumerate() {
-            result[axis] = self.number(number, name)?;
-        }
-        Ok(result)
+        let [x, y, z] = vector.get_ref().as_slice() else {
+            let what = format!("{name} is an array of {}, not of 3", vector.get_ref().len());
+            return Err(self.error(vector.span(), what));
+        };
+        let number = |number| self.number(number, name);
+        Ok(Vec3::new(number(x)?, number(y)?, number(z)?))
     }
 
     fn position(&self, vector: &Vector, name: &str) -> Result<Vec3, ReadError> {
@@ -191,7 +205,7 @@ fn scene(table: SceneTable, place: &Place<'_>) -> Result<Scene, ReadError> {
     scene.names_background = table.background.is_some();
     scene.shadows = table.shadows;
     scene.view = table.camera.map(|camera| view(&camera, place)).transpose()?;
-    for sphere in &table.sphere {
+    for Table(sphere) in &table.sphere {
         let center = place.position(&sphere.center, "center")?;
         let radius = place.number(&sphere.radius, "radius")?;
         if radius < 0.0 {
@@ -219,8 +233,8 @@ fn lighting(entry: &LightEntry, place: &Place<'_>) -> Result<Lighting, ReadError
     }
 }
 
-fn light(table: &Spanned<LightTable>, place: &Place<'_>) -> Result<Light, ReadError> {
-    let LightTable { direction, position, color } = table.get_ref();
+fn light(table: &Spanned<Table<LightTable>>, place: &Place<'_>) -> Result<Light, ReadError> {
+    let Table(LightTable { direction, position, color }) = table.get_ref();
     let source = match (direction, position) {
         (Some(direction), None) => Source::Direction(place.direction(direction, "direction")?),
         (None, Some(position)) => Source::Position(place.position(position, "position")?),
@@ -232,8 +246,8 @@ fn light(table: &Spanned<LightTable>, place: &Place<'_>) -> Result<Light, ReadEr
     Ok(Light { source, color: place.color(color.as_ref(), Srgb::WHITE)? })
 }
 
-fn view(table: &Spanned<CameraTable>, place: &Place<'_>) -> Result<View, ReadError> {
-    let camera = table.get_ref();
+fn view(table: &Spanned<Table<CameraTable>>, place: &Place<'_>) -> Result<View, ReadError> {
+    let Table(camera) = table.get_ref();
     let eye = place.position(&camera.eye, "eye")?;
     let target = place.position(&camera.target, "target")?;
     let up = match &camera.up {
@@ -246,8 +260,8 @@ fn view(table: &Spanned<CameraTable>, place: &Place<'_>) -> Result<View, ReadErr
     Ok(View { eye, target, up, lens: lens(table, place)? })
 }
 
-fn lens(table: &Spanned<CameraTable>, place: &Place<'_>) -> Result<Lens, ReadError> {
-    let camera = table.get_ref();
+fn lens(table: &Spanned<Table<CameraTable>>, place: &Place<'_>) -> Result<Lens, ReadError> {
+    let Table(camera) = table.get_ref();
     let in_vain = |number: &Number, what| Err(place.error(number.span(), what));
     match (camera.projection, &camera.fov, &camera.height) {
         (LensKind::Perspective, _, Some(height)) => {

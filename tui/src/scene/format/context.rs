@@ -2,9 +2,9 @@
 
 use super::mmcif_columns::Columns;
 use crate::scene::Scene;
+use crate::scene::fixed::Fixed;
 use crate::scene::input::Place;
 use crate::scene::notes::Notes;
-use glam::DVec3;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -15,8 +15,8 @@ pub(in crate::scene) struct Context {
     pub(in crate::scene) columns: Option<String>,
     /// What the particles of a trajectory are.
     pub(in crate::scene) topology: Option<Arc<Scene>>,
-    /// The origin of positions, once a frame has fixed it.
-    pub(in crate::scene) origin: Option<DVec3>,
+    /// What frames before have fixed for those that follow.
+    pub(in crate::scene) fixed: Fixed,
     /// Notes for the user.
     pub(in crate::scene) notes: Notes,
     /// The columns of an mmCIF file's tables of atoms, by the place of a table's first row, as far as they have been read.

@@ -41,14 +41,12 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
     }
     let line = input.expect("a number of atoms")?;
     let (atoms, first) = match count(line.trimmed()) {
-        Some(0) => return Err(line.error(0, "no atoms")),
         Some(atoms) => (atoms, line.number),
         None => {
             return Err(line.error(0, format!("{} is no number of atoms", excerpt(line.trimmed()))));
         }
     };
-    let mut particles =
-        Particles { symbols: Symbols::AtomNames, ..Particles::from(context.origin) };
+    let mut particles = Particles { symbols: Symbols::AtomNames, ..Particles::from(context.fixed) };
     let (mut width, mut velocities) = (0, false);
     for atom in 0..atoms {
         let ends =
@@ -80,6 +78,9 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
         return Err(input.ends("the file ends before the box"));
     }
     check_box(input.expect("the box")?, atoms, first)?;
+    if atoms == 0 {
+        return Err(ReadError::at(input.source(), first, 1, "no atoms").of_empty_frame());
+    }
     if velocities {
         context.notes.note("velocities are ignored");
     }

@@ -1,21 +1,27 @@
-//! mmCIF: the loop over `_atom_site`, whose columns are named; a frame is a `pdbx_PDB_model_num` in a block of data.
+//! mmCIF: the loop over `_atom_site`, whose columns are named; a frame is a `pdbx_PDB_model_num` in a block of data, or a block's
+//! component, `_chem_comp_atom`, where it has no other atoms.
 //!
 //! All else is passed over. Of alternate locations the first is drawn. Grammar: "CIF 1.1 syntax", IUCr.
 
+mod component;
 mod row;
+mod rows;
 
 use super::context::Context;
 use super::mmcif_columns::Columns;
 use super::words::coordinate;
 use crate::scene::Scene;
 use crate::scene::attributes::{Naming, NumberColumn};
+use crate::scene::fixed::Fixed;
 use crate::scene::input::{Input, Line};
 use crate::scene::notes::Notes;
 use crate::scene::number::number;
 use crate::scene::particles::Particles;
 use crate::scene::read_error::ReadError;
+use component::{CATEGORY, Component, Heading};
 use glam::DVec3;
 use row::Row;
+use rows::{begins, ends_loop, read_rows};
 use std::collections::HashSet;
 
 /// Reads the next model.
@@ -24,56 +30,21 @@ use std::collections::HashSet;
 /// [`ReadError`] at the first atom whose coordinates are none, and if there is no table of atoms.
 pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<Scene>, ReadError> {
     let is_first = input.place() == Default::default();
-    if (is_first || is_past_table(input)?) && !find_atoms(input, context, is_first)? {
-        return Ok(None);
+    if is_first || is_past_table(input)? {
+        match find_atoms(input, context, is_first)? {
+            Found::Table => {}
+            Found::Component(component) => {
+                return component.finish(&mut context.notes, input.source()).map(Some);
+            }
+            Found::Nothing => return Ok(None),
+        }
     }
     let Some((_, columns)) = context.mmcif.range(..=input.place()).next_back() else {
         return Ok(None);
     };
     let columns = columns.clone();
-    let mut atoms = Atoms::new(&columns, context.origin);
-    let mut row = Row::default();
-    // Where nothing follows yet, a comment is taken for the end of the table: writers end a table with one.
-    let mut has_ended = false;
-    while let Some(line) = input.line()? {
-        let text = line.trimmed();
-        if !row.is_begun() && (text.is_empty() || text[0] == b'#') {
-            has_ended |= !text.is_empty();
-            continue;
-        }
-        if !row.is_begun() && ends_loop(text) {
-            // The next call ends here, too.
-            has_ended = true;
-            input.give_back();
-            break;
-        }
-        has_ended = false;
-        if row.is_begun() && line.bytes.starts_with(b";") {
-            return Err(line.error(0, "a text of many lines among atoms"));
-        }
-        row.add(&line)?;
-        if row.words.len() < columns.count {
-            continue;
-        }
-        if row.words.len() > columns.count {
-            let what =
-                format!("{} values; the table has {} columns", row.words.len(), columns.count);
-            return Err(line.error(0, what));
-        }
-        if !atoms.add(&line, &row)? {
-            has_ended = true;
-            input.give_back();
-            break;
-        }
-        row.clear();
-    }
-    if row.is_begun() && row.words.len() < columns.count {
-        return Err(input.ends(format!(
-            "the file ends after {} of {} values of an atom",
-            row.words.len(),
-            columns.count
-        )));
-    }
+    let mut atoms = Atoms::new(&columns, context.fixed);
+    let has_ended = read_rows(input, columns.count, |line, row| atoms.add(line, row))?;
     if atoms.particles.is_empty() {
         return Ok(None);
     }
@@ -81,13 +52,6 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
         return Err(input.ends("the file ends within the table of atoms"));
     }
     atoms.finish(&mut context.notes, input.source()).map(Some)
-}
-
-/// Whether a line can no longer be a row of the table.
-fn ends_loop(text: &[u8]) -> bool {
-    let begins =
-        |word: &[u8]| text.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word));
-    begins(b"_") || begins(b"loop_") || begins(b"data_") || begins(b"save_")
 }
 
 /// Whether the table of atoms has no further row; passes over blank lines and comments.
@@ -103,10 +67,28 @@ fn is_past_table(input: &mut Input) -> Result<bool, ReadError> {
     Ok(false)
 }
 
-/// Goes to the first row of the next table of atoms; `false` if there is no further one. A first one there must be.
-fn find_atoms(input: &mut Input, context: &mut Context, is_first: bool) -> Result<bool, ReadError> {
-    let (mut tags, mut in_text) = (Vec::new(), false);
-    let (mut fractions, mut component) = (false, false);
+/// What there is to show next.
+enum Found {
+    /// A table of atoms, whose first row is next.
+    Table,
+    /// A component, whose block has been read.
+    Component(Box<Component>),
+    Nothing,
+}
+
+/// Goes to the first row of the next table of atoms, or to the end of the next block without one that has a component. There must be a
+/// first of them.
+fn find_atoms(
+    input: &mut Input,
+    context: &mut Context,
+    is_first: bool,
+) -> Result<Found, ReadError> {
+    let (mut tags, mut heading, mut in_text) = (Vec::new(), Heading::default(), false);
+    let (mut fractions, mut unplaced) = (false, false);
+    // Of the block: it may begin before.
+    let mut has_table = !is_first;
+    // What is wrong with it does not matter in a block that has a table.
+    let mut component: Result<Option<Component>, ReadError> = Ok(None);
     while let Some(line) = input.line()? {
         if line.bytes.starts_with(b";") {
             in_text = !in_text;
@@ -116,9 +98,34 @@ fn find_atoms(input: &mut Input, context: &mut Context, is_first: bool) -> Resul
             continue;
         }
         let text = line.trimmed();
-        let is_tag = text.len() > 11 && text[..11].eq_ignore_ascii_case(b"_atom_site.");
-        fractions |= text.len() > 16 && text[..17].eq_ignore_ascii_case(b"_atom_site_fract_");
-        component |= text.len() > 15 && text[..16].eq_ignore_ascii_case(b"_chem_comp_atom.");
+        if begins(text, CATEGORY) {
+            heading.add(&line)?;
+            tags.clear();
+            continue;
+        }
+        if !heading.is_empty() && !text.is_empty() && text[0] != b'#' {
+            input.give_back();
+            let heading = std::mem::take(&mut heading);
+            if !has_table {
+                let read = Component::read(&heading, input, context.fixed);
+                if read.is_err() {
+                    // The line may begin a text.
+                    input.give_back();
+                }
+                component = component.and_then(|before| Ok(read?.or(before)));
+                unplaced |= matches!(component, Ok(None));
+            }
+            continue;
+        }
+        if begins(text, b"data_") {
+            if let Some(component) = std::mem::replace(&mut component, Ok(None))? {
+                input.give_back();
+                return Ok(Found::Component(Box::new(component)));
+            }
+            has_table = false;
+        }
+        let is_tag = begins(text, b"_atom_site.");
+        fractions |= begins(text, b"_atom_site_fract_");
         if is_tag {
             let tag = text.split(u8::is_ascii_whitespace).next().unwrap_or_default();
             if tag.len() < text.len() && !text[tag.len()..].trim_ascii().starts_with(b"#") {
@@ -138,23 +145,31 @@ fn find_atoms(input: &mut Input, context: &mut Context, is_first: bool) -> Resul
             if before.is_none_or(|(_, before)| *before != columns) {
                 context.mmcif.insert(place, columns);
             }
-            return Ok(true);
+            return Ok(Found::Table);
         }
     }
-    if !is_first {
-        // A further block may be on its way.
-        let ends = || Err(input.ends("the file ends before a further table of atoms"));
-        return if context.follows { ends() } else { Ok(false) };
+    let mut component = component?;
+    if !has_table && !heading.is_empty() {
+        component = Component::read(&heading, input, context.fixed)?.or(component);
+        unplaced |= component.is_none();
     }
-    if fractions {
-        let what = "atoms in fractions of a cell: only _atom_site.Cartn_x, _y, _z are read";
-        return Err(ReadError::whole(input.source(), what));
+    // A further block may be on its way, or the end of this one.
+    if context.follows && (component.is_some() || !is_first) {
+        return Err(input.ends("the file ends before a further table of atoms"));
     }
-    if component {
-        let what = "a component's _chem_comp_atom, which is not read; _atom_site is";
-        return Err(ReadError::whole(input.source(), what));
+    match component {
+        Some(component) => Ok(Found::Component(Box::new(component))),
+        None if !is_first => Ok(Found::Nothing),
+        None if fractions => {
+            let what = "atoms in fractions of a cell: only _atom_site.Cartn_x, _y, _z are read";
+            Err(ReadError::whole(input.source(), what))
+        }
+        None if unplaced => {
+            let what = "components without positions: _chem_comp_atom has neither model_Cartn_x nor pdbx_model_Cartn_x_ideal nor x";
+            Err(ReadError::whole(input.source(), what))
+        }
+        None => Err(ReadError::whole(input.source(), "no loop over _atom_site").of_end()),
     }
-    Err(ReadError::whole(input.source(), "no loop over _atom_site").of_end())
 }
 
 struct Atoms<'a> {
@@ -169,10 +184,10 @@ struct Atoms<'a> {
 }
 
 impl<'a> Atoms<'a> {
-    fn new(columns: &'a Columns, origin: Option<DVec3>) -> Self {
+    fn new(columns: &'a Columns, fixed: Fixed) -> Self {
         let column = |name: &str| NumberColumn { name: name.into(), values: Vec::new() };
         let kept = vec![column("occupancy"), column("b_factor")];
-        let particles = Particles { columns: kept, ..Particles::from(origin) };
+        let particles = Particles { columns: kept, ..Particles::from(fixed) };
         Self {
             columns,
             particles,

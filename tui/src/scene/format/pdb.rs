@@ -1,15 +1,18 @@
 //! PDB: columns of fixed width; a frame is a `MODEL`, or all that comes before `END`.
 //!
 //! Of alternate locations the first is drawn. Serial numbers are not read, so it does not matter that there are none for
-//! more than 99,999 atoms; the numbers of residues may be in hybrid-36. Format: wwPDB, "Atomic Coordinate Entry Format
-//! Description", version 3.3 (2012); hybrid-36: R. W. Grosse-Kunstleve, <https://cci.lbl.gov/hybrid_36/>.
+//! more than 99,999 atoms; the numbers of residues may be in hybrid-36. AutoDock's PDBQT is read, too. Format: wwPDB,
+//! "Atomic Coordinate Entry Format Description", version 3.3 (2012); hybrid-36: R. W. Grosse-Kunstleve,
+//! <https://cci.lbl.gov/hybrid_36/>.
 
+mod autodock;
 mod symbol;
 
 use super::Context;
 use super::words::coordinate;
 use crate::scene::Scene;
 use crate::scene::attributes::{Naming, NumberColumn};
+use crate::scene::fixed::Fixed;
 use crate::scene::input::{Input, Line};
 use crate::scene::notes::Notes;
 use crate::scene::number::number;
@@ -29,7 +32,7 @@ const IGNORED: [&str; 6] = ["ANISOU", "CONECT", "HELIX", "SHEET", "SSBOND", "SIG
 /// [`ReadError`] at the first atom without coordinates, and if there is no atom in the file.
 pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<Scene>, ReadError> {
     let is_first = input.place() == Default::default();
-    let mut atoms = Atoms::new(context.origin);
+    let mut atoms = Atoms::new(context.fixed);
     let mut has_ended = false;
     while let Some(line) = input.line()? {
         let record = line.bytes;
@@ -82,10 +85,10 @@ struct Atoms {
 }
 
 impl Atoms {
-    fn new(origin: Option<DVec3>) -> Self {
+    fn new(fixed: Fixed) -> Self {
         let column = |name: &str| NumberColumn { name: name.into(), values: Vec::new() };
         let columns = vec![column("occupancy"), column("b_factor")];
-        let particles = Particles { columns, ..Particles::from(origin) };
+        let particles = Particles { columns, ..Particles::from(fixed) };
         Self {
             particles,
             residue: [0; 6],
@@ -126,7 +129,10 @@ impl Atoms {
         let residue_field = [fixed[17], fixed[18], fixed[19], fixed[20]];
         let residue_name = residue_field.trim_ascii();
         let symbol = [76, 77].map(|column: usize| bytes.get(column).copied().unwrap_or(b' '));
-        if self.is_symbol(symbol) {
+        let kind = autodock::type_of(bytes);
+        if let Some(kind) = kind {
+            self.particles.kind(autodock::symbol_of(kind), line.number);
+        } else if self.is_symbol(symbol) {
             self.particles.kind(symbol.trim_ascii(), line.number);
         } else {
             self.kind_of_name(&name, &residue_field, line.number);
@@ -134,7 +140,8 @@ impl Atoms {
         let particles = &mut self.particles;
         particles.naming(Naming::Name).push(name.trim_ascii());
         particles.naming(Naming::Residue).push(residue_name);
-        let chain = match fixed[21] {
+        let chain: &[u8] = match fixed[21] {
+            b' ' if kind.is_some() => b"",
             b' ' => bytes.get(72..bytes.len().min(76)).unwrap_or_default().trim_ascii(),
             _ => &fixed[21..22],
         };
@@ -234,7 +241,7 @@ mod tests {
 
     #[test]
     fn names_whose_element_no_other_atom_changes_are_decided() {
-        let mut atoms = Atoms::new(None);
+        let mut atoms = Atoms::new(Fixed::default());
         for (name, undecided) in [(b"AU  ", 0), (b" CA ", 0), (b"NE  ", 1)] {
             atoms.kind_of_name(name, b"LIG ", 1);
             assert_eq!(atoms.undecided.len(), undecided, "{name:?}");

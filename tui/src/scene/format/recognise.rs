@@ -46,7 +46,7 @@ pub(in super::super) fn recognise(head: &[u8]) -> Result<Format, &'static str> {
     if head.starts_with(b"\x93NUMPY") {
         return Ok(Format::Npy);
     }
-    if head.starts_with(b"\x00\x00\x07\xcb") || head.starts_with(b"\x00\x00\x07\xe7") {
+    if is_xtc(head) {
         return Ok(Format::Xtc);
     }
     let begins = |magics: &[&[u8]]| magics.iter().any(|magic| head.starts_with(magic));
@@ -101,10 +101,33 @@ pub(in super::super) fn recognise(head: &[u8]) -> Result<Format, &'static str> {
     if is_toml(spoken_first) {
         return Ok(Format::Toml);
     }
+    if is_mercury(&lines) {
+        return Ok(Format::Mercury);
+    }
     if is_table(&lines) {
         return Ok(Format::Csv);
     }
     Err(UNKNOWN)
+}
+
+/// The format of what begins with `head`, if it has frames and nothing that follows can change it: then the first frame may be shown
+/// before more has come.
+pub(in super::super) fn settled(head: &[u8]) -> Option<Format> {
+    /// GRO is told by its third line.
+    const TELLING: usize = 3;
+    if is_xtc(head) {
+        return Some(Format::Xtc);
+    }
+    // The last line may go on.
+    let whole = memchr::memrchr(b'\n', head)?;
+    if memchr::memchr_iter(b'\n', head).count() < TELLING {
+        return None;
+    }
+    recognise(&head[..whole]).ok().filter(|format| format.has_frames())
+}
+
+fn is_xtc(head: &[u8]) -> bool {
+    head.starts_with(b"\x00\x00\x07\xcb") || head.starts_with(b"\x00\x00\x07\xe7")
 }
 
 fn contains(text: &[u8], part: &[u8]) -> bool {
@@ -161,6 +184,27 @@ fn fields(text: &[u8]) -> (Separator, Vec<&[u8]>) {
     (separator, fields.into_iter().map(|field| &text[field]).collect())
 }
 
+/// A number of particles, a time and a box, and below them the values of a particle, which are more. (A frame may have no particles:
+/// then another follows.)
+fn is_mercury(lines: &[&[u8]]) -> bool {
+    let mut head = None;
+    for line in lines.iter().map(|line| line.trim_ascii()).filter(|line| !line.is_empty()) {
+        let (separator, words) = fields(line);
+        if separator != Separator::Space || words.iter().any(|word| number(word).is_none()) {
+            return false;
+        }
+        match (head, words.len()) {
+            (None, values @ (6 | 8)) => match super::words::count(words[0]) {
+                Some(0) => {}
+                Some(_) => head = Some(values),
+                None => return false,
+            },
+            (head, values) => return matches!((head, values), (Some(6), 8) | (Some(8), 14 | 15)),
+        }
+    }
+    false
+}
+
 /// A header that names positions, or three numbers or more.
 fn is_table(lines: &[&[u8]]) -> bool {
     for line in lines.iter().filter(|line| !line.trim_ascii().is_empty()) {
@@ -199,6 +243,35 @@ mod tests {
         for (first, format) in [("// water", Format::Gro), ("//X Y Z", Format::Csv)] {
             assert_eq!(recognise(format!("{first}\n{rest}").as_bytes()), Ok(format), "{first}");
         }
+    }
+
+    /// However little of it has come.
+    #[test]
+    fn what_is_settled_stays() {
+        let atom = "ATOM      1  N   ALA A   1      11.104   6.134  -6.504\n";
+        for text in [
+            "3\nwater\nO 0 0 0\n",
+            "13\r\nwater\r\nO 0 0 0\r\n",
+            "t\n 1\n    1SOL     OW    1   0.126   1.624   1.679\n",
+            "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n",
+            "# a\n\n# b\n\ndata_x\nloop_\n",
+            "# a\n\n# b\n\nx = 1\n",
+            format!("REMARK\n\n{atom}").as_str(),
+            format!("no\nrecord\nhere\n{atom}").as_str(),
+            "0 0 0 0 5 5\n2 0 0 0 5 5\n0 0 0 0 1 0 0 0\n",
+            "0 0 0 0 5 5\n2 0 0 0 5 5\n0 0 0 0 1 0\n",
+            "LAMMPS data\n\n\n3 atoms\n",
+            "1 2 3\n4 5 6\n7 8 9\n10 atoms\n",
+            "a,b,c\n1,2,3\n4,5,6\n",
+        ] {
+            let whole = recognise(text.as_bytes()).ok().filter(|format| format.has_frames());
+            assert_eq!(settled(text.as_bytes()), whole, "{text}");
+            for end in 0..text.len() {
+                let settled = settled(&text.as_bytes()[..end]);
+                assert!(settled.is_none() || settled == whole, "{settled:?} after {end}: {text}");
+            }
+        }
+        assert_eq!(settled(b"\x00\x00\x07\xcb"), Some(Format::Xtc));
     }
 
     #[test]

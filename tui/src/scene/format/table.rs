@@ -29,7 +29,7 @@ use columns::{Columns, is_by_number, is_header};
 use first_line::FirstLine;
 pub(super) use first_line::comment;
 pub(super) use separator::Separator;
-use separator::comment_signs;
+use separator::{comment_signs, number_before_comment};
 
 /// Reads the table.
 ///
@@ -238,7 +238,11 @@ fn add(
             let what = format!("{name} is missing: {} columns, not {}", fields.len(), column + 1);
             return Err(line.error(line.bytes.len(), what));
         };
-        coordinate(line, field.start, &line.bytes[field.clone()], name)
+        let text = &line.bytes[field.clone()];
+        coordinate(line, field.start, text, name).or_else(|error| {
+            let value = number_before_comment(line.bytes, field).ok_or(error)?;
+            coordinate(line, field.start, value, name)
+        })
     };
     let value = |column, name| number_in(column, name).map(|value| value as f32);
     let [x, y, z] = columns.position;
@@ -246,8 +250,11 @@ fn add(
     let text =
         |column: usize| fields.get(column).map_or(&b""[..], |field| &line.bytes[field.clone()]);
     if let Some(column) = columns.diameter {
-        let byte = fields.get(column).map_or(line.bytes.len(), |field| field.start);
-        particles.radii.push(half_diameter(line, byte, text(column), "the diameter")?);
+        let field = fields.get(column);
+        let byte = field.map_or(line.bytes.len(), |field| field.start);
+        let value = field.and_then(|field| number_before_comment(line.bytes, field));
+        let value = value.unwrap_or_else(|| text(column));
+        particles.radii.push(half_diameter(line, byte, value, "the diameter")?);
     }
     if let Some(column) = columns.radius {
         let radius = value(column, "the radius")?;
@@ -270,7 +277,11 @@ fn add(
         }
     }
     for ((column, _), kept) in columns.kept.iter().zip(&mut particles.columns) {
-        kept.values.push(number(text(*column)).map_or(f32::NAN, |value| value as f32));
+        let value = number(text(*column)).or_else(|| {
+            let field = fields.get(*column)?;
+            number(number_before_comment(line.bytes, field)?)
+        });
+        kept.values.push(value.map_or(f32::NAN, |value| value as f32));
     }
     Ok(())
 }

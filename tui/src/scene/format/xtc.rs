@@ -6,13 +6,13 @@ use super::Context;
 use super::gro::ANGSTROM;
 use crate::error::caught::catch;
 use crate::scene::Scene;
+use crate::scene::fixed::Fixed;
 use crate::scene::input::Input;
 use crate::scene::particles::Particles;
 use crate::scene::read_error::ReadError;
 use glam::DVec3;
 use molly::{Frame, XTCReader};
 use spherule_kernel::{Sphere, Vec3};
-use std::io::Read as _;
 
 /// Magic, atoms, step, time, box, atoms again.
 const HEADER: usize = 56;
@@ -47,7 +47,8 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
     }
     let Some(topology) = &context.topology else {
         context.notes.note("positions alone: --topology FILE says what the particles are");
-        let particles = Particles { centers, ..Particles::from(Some(DVec3::ZERO)) };
+        let fixed = Fixed { origin: Some(DVec3::ZERO), ..context.fixed };
+        let particles = Particles { centers, ..Particles::from(fixed) };
         return particles.finish(&mut context.notes, &source).map(Some);
     };
     let spheres = topology.spheres();
@@ -97,8 +98,7 @@ fn raw(input: &mut Input) -> Result<Vec<u8>, ReadError> {
     };
     let from = bytes.len();
     // Memory grows with what is there.
-    let read = std::io::Read::take(&mut *input, rest).read_to_end(&mut bytes);
-    read.map_err(|error| ReadError::whole(input.source(), error.to_string()))?;
+    input.up_to(rest, &mut bytes)?;
     if ((bytes.len() - from) as u64) < rest {
         return Err(ReadError::whole(input.source(), "the file ends within a frame").of_end());
     }

@@ -38,8 +38,12 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
     }
     let (count, first) = count_line(input)?;
     let comment = input.expect("its comment")?;
+    if count == 0 {
+        let what = "a molecule without atoms";
+        return Err(ReadError::at(input.source(), first, 1, what).of_empty_frame());
+    }
     let properties = properties(&comment)?;
-    let mut particles = Particles::from(context.origin);
+    let mut particles = Particles::from(context.fixed);
     let ends = |input: &Input, atoms| {
         input.ends(format!(
             "the file ends after {atoms} of the {count} atoms that line {first} says"
@@ -72,7 +76,10 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
     if particles.kinds.known() == 0 {
         particles.symbols = Symbols::Numbers;
     }
-    check_next(input, count, first)?;
+    // Where a file grows, or in a pipe, this is left to whoever reads on: the next line may be long in coming, unless it has been read.
+    if !context.follows && (input.can_be_read_again() || input.has_line()) {
+        check_next(input, count, first)?;
+    }
     particles.finish(&mut context.notes, input.source()).map(Some)
 }
 
@@ -116,7 +123,6 @@ fn count_line(input: &mut Input) -> Result<(usize, usize), ReadError> {
     let line = input.expect("a number of atoms")?;
     let text = line.trimmed();
     match count(text) {
-        Some(0) => Err(line.error(0, "a molecule without atoms")),
         Some(count) => Ok((count, line.number)),
         None => Err(line.error(0, format!("{} is no number of atoms", excerpt(text)))),
     }

@@ -21,6 +21,22 @@ impl Input {
         Ok(bytes)
     }
 
+    /// Adds the next bytes to `bytes`, at most so many.
+    ///
+    /// # Errors
+    /// [`ReadError`] if they cannot be read.
+    pub(in crate::scene) fn up_to(
+        &mut self,
+        most: u64,
+        bytes: &mut Vec<u8>,
+    ) -> Result<(), ReadError> {
+        let read = Read::take(&mut *self, most).read_to_end(bytes);
+        read.map(drop).map_err(|error| {
+            let wrong = ReadError::whole(&self.source, cause(&error));
+            if error.kind() == io::ErrorKind::UnexpectedEof { wrong.of_end() } else { wrong }
+        })
+    }
+
     /// Reads exactly so many bytes as `bytes` has room for.
     ///
     /// # Errors
@@ -40,13 +56,16 @@ impl Read for Input {
         if self.start == self.end {
             self.before += self.end as u64;
             (self.start, self.end) = (0, 0);
+            if let Some(error) = self.failure.take() {
+                return Err(error);
+            }
             if bytes.len() >= BLOCK {
                 let read = self.reader.read(bytes)?;
                 self.before += read as u64;
                 self.tell();
                 return Ok(read);
             }
-            if !self.fill().map_err(|error| io::Error::other(error.what))? {
+            if !self.read_on()? {
                 return Ok(0);
             }
         }

@@ -71,7 +71,7 @@ fn the_light_of_the_camera_is_asked_for_by_its_name() {
     assert_eq!(scene.lighting, Lighting::Plain);
     // It goes with no other light: TOML has no key twice.
     let both = error(&format!("light = \"camera\"\n{sphere}[[light]]\ndirection = [1, 0, 0]\n"));
-    assert!(both.starts_with("s.toml:5:3: duplicate key"), "{both}");
+    assert!(both.starts_with("s.toml:5:3: duplicate key `light`"), "{both}");
 }
 
 #[test]
@@ -90,7 +90,14 @@ fn every_mistake_has_a_line_and_a_column() {
         ("\nshadow = true\n".to_owned(), "2:1: unknown field `shadow`"),
         ("é = [[[\n".to_owned(), "1:"),
         (sphere("radius = \"big\""), "2:10: invalid type"),
-        (sphere("center = [0, 0]\nradius = 1"), "2:10: "),
+        (sphere("center = [0, 0]\nradius = 1"), "2:10: center is an array of 2, not of 3"),
+        (sphere("center = [0, 0, 0, 1]\nradius = 1"), "2:10: center is an array of 4, not of 3"),
+        (sphere("center = [0, 0, 0, \"x\"]\nradius = 1"), "2:20: invalid type: string"),
+        (
+            "sphere = [[[0, 0, 0], 1]]\n".to_owned(),
+            "1:11: invalid type: sequence, expected a table",
+        ),
+        ("[[camera]]\n".to_owned(), "1:1: invalid type: sequence, expected a table"),
         (sphere("colour = \"#ffffff\""), "2:1: unknown field"),
         (radius("-1.0"), "3:10: radius is -1: negative"),
         (radius("nan"), "3:10: radius is NaN: not finite in single precision"),
@@ -117,6 +124,13 @@ fn every_mistake_has_a_line_and_a_column() {
         (camera("target = [0, 0, 5]"), "6:10: the camera's target"),
         (target("fov = 180"), "7:7: fov is 180"),
         (target("up = [0, 0, 0]"), "7:6: up has no"),
+        (target("up = [0, 1, 0, 0]"), "7:6: up is an array of 4, not of 3"),
+        (light("position = [0, 9, 0, 1]"), "5:12: position is an array of 4, not of 3"),
+        (target("projection = {perspective = []}"), "7:14: invalid type: map, expected \"persp"),
+        (
+            target("projection = 3"),
+            "7:14: invalid type: integer `3`, expected \"perspective\" or \"parallel\"",
+        ),
         (target("projection = \"fish\""), "7:14: unknown"),
     ] {
         let found = error(&text);

@@ -43,7 +43,7 @@ pub(in super::super) fn frame(
         return Err(ReadError::at(input.source(), first, 1, what).of_empty_frame());
     }
     let (kinds, names, scaled) = columns(&heading)?;
-    let mut particles = Particles { symbols: Symbols::Numbers, ..Particles::from(context.origin) };
+    let mut particles = Particles { symbols: Symbols::Numbers, ..Particles::from(context.fixed) };
     let has_element = kinds.contains(&Kind::Element);
     if has_element {
         particles.symbols = Symbols::Elements;

@@ -1,5 +1,6 @@
 //! Which column is what: by a header, by `--columns`, or by their number.
 
+use super::separator::number_before_comment;
 use crate::scene::format::words::excerpt;
 use crate::scene::number::number;
 
@@ -32,7 +33,9 @@ pub(in crate::scene::format) fn has_axes(names: &[&[u8]]) -> bool {
 /// Whether a first line of these fields is a header: among those that positions are read from, one is no number. Those are
 /// the first three, unless `chosen`, the value of `--columns`, says by numbers which; then the others may be labels.
 pub(super) fn is_header(names: &[&[u8]], chosen: Option<&str>) -> bool {
-    let is_number = |name: &[u8]| number(name).is_some();
+    let is_number = |name: &[u8]| {
+        number(name).is_some() || number_before_comment(name, &(0..name.len())).is_some()
+    };
     match chosen.and_then(numbered) {
         Some(columns) => {
             !columns.iter().all(|&column| names.get(column).is_some_and(|name| is_number(name)))
@@ -168,7 +171,8 @@ impl Columns {
         let kept: Vec<(usize, Box<str>)> = others
             .take(MOST_KEPT)
             .map(|column| {
-                let name = if is_header {
+                // pandas writes its index without a name.
+                let name = if is_header && !names[column].is_empty() {
                     String::from_utf8_lossy(names[column]).into()
                 } else {
                     format!("{}", column + 1).into()
@@ -193,5 +197,18 @@ fn column_of(names: &[&[u8]], has_names: bool, word: &str) -> Result<usize, Stri
     match word.parse::<usize>() {
         Ok(column) if (1..=names.len()).contains(&column) => Ok(column - 1),
         _ => Err(format!("--columns: no column {word:?} among {}", names.len())),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_column_without_a_name_has_its_number() {
+        let names: [&[u8]; 5] = [b"", b"x", b"y", b"z", b"r"];
+        let columns = Columns::new(&names, true, None).expect("a header");
+        let kept: Vec<_> = columns.kept.iter().map(|(column, name)| (*column, &**name)).collect();
+        assert_eq!(kept, [(0, "1")]);
     }
 }

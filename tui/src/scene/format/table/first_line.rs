@@ -1,6 +1,6 @@
 //! The first line of a table: the names of columns, in a comment or not, or the first row.
 
-use super::separator::{Separator, comment_signs};
+use super::separator::{Separator, comment_signs, number_before_comment};
 use crate::scene::input::Line;
 use std::ops::Range;
 
@@ -62,8 +62,11 @@ impl FirstLine {
 
     /// Leaves out the comment behind the values of a row.
     pub(super) fn end_at_comment(&mut self) {
-        let is_comment = |field: &Range<usize>| comment_signs(&self.text[field.clone()]) > 0;
-        let end = self.fields.iter().position(is_comment);
+        let end = self.fields.iter().enumerate().find_map(|(index, field)| {
+            let text = &self.text[field.clone()];
+            let has_value = number_before_comment(&self.text, field).is_some();
+            (has_value || comment_signs(text) > 0).then_some(index + usize::from(has_value))
+        });
         self.fields.truncate(end.unwrap_or(self.fields.len()));
     }
 

@@ -1,5 +1,6 @@
 //! The fields of a line.
 
+use crate::scene::number::number;
 use std::ops::Range;
 
 /// How many bytes at the beginning of a text say that it is a comment; 0 if it is none. numpy and gnuplot write `#`, MATLAB
@@ -11,6 +12,19 @@ pub(super) fn comment_signs(text: &[u8]) -> usize {
         _ => return 0,
     };
     text.iter().take_while(|byte| is_sign(byte)).count()
+}
+
+/// The number in a field of `line` that a comment follows, behind white space; `None` of any other field. (A label may have such a
+/// sign, and so may whatever is in quotes.)
+#[cold]
+pub(super) fn number_before_comment<'a>(line: &'a [u8], field: &Range<usize>) -> Option<&'a [u8]> {
+    let is_quoted = field.start.checked_sub(1).is_some_and(|before| line[before] == b'"');
+    if is_quoted {
+        return None;
+    }
+    let field = &line[field.clone()];
+    let (value, rest) = field.split_at(field.iter().position(|&byte| byte <= b' ')?);
+    (comment_signs(rest.trim_ascii_start()) > 0 && number(value).is_some()).then_some(value)
 }
 
 /// What separates columns.
@@ -76,7 +90,11 @@ impl Separator {
         (count, some_may_be_missing): (usize, bool),
     ) -> bool {
         match fields.get(count) {
-            Some(surplus) => self.is_nothing(&line[surplus.start..]),
+            Some(surplus) => {
+                let last = count.checked_sub(1).and_then(|last| fields.get(last));
+                self.is_nothing(&line[surplus.start..])
+                    || last.is_some_and(|last| number_before_comment(line, last).is_some())
+            }
             None => fields.len() == count || some_may_be_missing,
         }
     }

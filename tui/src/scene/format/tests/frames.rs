@@ -1,4 +1,5 @@
 use super::*;
+use crate::coloring::seen::Seen;
 use crate::coloring::{ColorBy, coloring};
 use crate::scene::attributes::Naming;
 use crate::scene::input::Input;
@@ -52,6 +53,19 @@ fn the_end_tells_how_many_there_are() {
     assert!(table.read(60).expect("no error").is_none());
     assert_eq!(table.count(), Some(1));
     assert!(table.read(0).expect("no error").is_some());
+}
+
+/// Whatever else is written to it.
+#[test]
+fn a_table_that_is_followed_has_one_frame() {
+    let reading = Reading { follow: true, ..Reading::default() };
+    for index in [0, 3] {
+        let table = &mut frames_of("one.csv", b"x,y,z\n1,2,3\n", &reading);
+        assert_eq!((table.count(), table.follows()), (None, true));
+        assert_eq!(table.read(index).expect("no error").is_some(), index == 0);
+        assert_eq!((table.count(), table.follows()), (Some(1), false));
+        assert!(table.read(1).expect("no error").is_none());
+    }
 }
 
 fn piped(text: String, follows: bool) -> Frames {
@@ -190,7 +204,12 @@ fn types_keep_their_colours() {
     assert_eq!(other_order.colors(), first.colors());
     assert_eq!(without_one.colors(), &first.colors()[1..]);
     for by in [Naming::Type, Naming::Molecule].map(ColorBy::Names) {
-        assert_eq!(coloring(&other_order, &by, None), coloring(&first, &by, None), "{by:?}");
+        let seen = &mut Seen::default();
+        let mut colored = |scene| coloring(scene, &by, None, seen).expect("colours");
+        let all = colored(&first);
+        assert_eq!(colored(&other_order), all, "{by:?}");
+        let (some, all) = (colored(&without_one).colors, all.colors.expect("its own"));
+        assert_eq!(some.as_deref(), Some(&all[1..]), "{by:?}");
     }
 }
 

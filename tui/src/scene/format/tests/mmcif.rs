@@ -75,3 +75,99 @@ fn mmcif_blocks_are_frames() {
         }
     }
 }
+
+/// What the wwPDB's dictionary says of the atoms of a component.
+const OF_ATOMS: [&str; 9] = [
+    "comp_id",
+    "atom_id",
+    "type_symbol",
+    "model_Cartn_x",
+    "model_Cartn_y",
+    "model_Cartn_z",
+    "pdbx_model_Cartn_x_ideal",
+    "pdbx_model_Cartn_y_ideal",
+    "pdbx_model_Cartn_z_ideal",
+];
+
+/// A block of that dictionary.
+fn component(code: &str, rows: &str) -> String {
+    let tags = OF_ATOMS.map(|name| format!("_chem_comp_atom.{name}\n")).concat();
+    format!(
+        "data_{code}\n#\n_chem_comp.id {code}\n_chem_comp.name\n;several\nlines\n;\n#\nloop_\n{tags}{rows}#\n\
+        loop_\n_chem_comp_bond.comp_id\n_chem_comp_bond.atom_id_1\n{code} C\n#\n"
+    )
+}
+
+/// One of an atom alone, which is no loop.
+fn ion(values: &str) -> String {
+    let pairs = OF_ATOMS.iter().zip(values.split(' '));
+    let lines: String =
+        pairs.map(|(name, value)| format!("_chem_comp_atom.{name}   {value} \n")).collect();
+    format!("data_ION\n#\n{lines}#\n_chem_comp.id ION\n")
+}
+
+/// Where an atom was not seen, its molecule is as computed; where that is not known either, what was seen is drawn.
+#[test]
+fn mmcif_components_are_frames() {
+    let text = [
+        component("SEE", "SEE \"C1'\" C 1 2 3 7 8 9\nSEE CL1 CL 4 5 6 7 8 9\n"),
+        component("UNL", "UNL C C ? ? ? ? ? ?\n"),
+        component("IDE", "IDE C1 C 1 2 3 7 8 9\nIDE H1 H ? ? ? 4 5 6\n"),
+        ion("MG MG MG 0.5 0 0 . . ."),
+        component("PAR", "PAR C1 C 1 2 3 ? ? ?\nPAR H1 H ? 5 6 ? ? ?\n"),
+    ];
+    let expected: [&[[f32; 3]]; 4] = [
+        &[[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]],
+        &[[7.0, 8.0, 9.0], [4.0, 5.0, 6.0]],
+        &[[0.5, 0.0, 0.0]],
+        &[[1.0, 2.0, 3.0]],
+    ];
+    let frames = &mut frames_of("components.cif", text.concat().as_bytes(), &Reading::default());
+    for index in [0, 1, 2, 3, 1, 0, 3, 2] {
+        assert!(frames.has(index).expect("no error"));
+        let scene = frames.read(index).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(scene.map(|scene| centers(&scene)).as_deref(), Some(expected[index]), "{index}");
+    }
+    assert!(!frames.has(4).expect("no error"));
+    assert_eq!(frames.notes(), ["1 atom without a position is left out"]);
+    let scene = good(text[0].clone());
+    assert_eq!(scene.label(0).as_deref(), Some("C1' SEE"));
+    assert_eq!(scene.attributes().elements, Some(vec![6, 17]));
+    let library = "data_comp_X\nloop_\n_chem_comp_atom.type_symbol\n_chem_comp_atom.x\n_chem_comp_atom.y\n_chem_comp_atom.z\nO 1 2 3\n";
+    assert_eq!(centers(&good(library)), [[1.0, 2.0, 3.0]]);
+}
+
+#[test]
+fn mmcif_components_of_an_entry_are_no_frames() {
+    let component = component("SEE", "SEE C1 C 1 2 3 7 8 9\n");
+    let table = "loop_\n_atom_site.type_symbol\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\nN 0 0 1\n#\n";
+    let rest = component.strip_prefix("data_SEE\n").expect("its name");
+    // Nor does it matter how they are written.
+    let tags = ["atom_id", "model_Cartn_x", "model_Cartn_y", "model_Cartn_z", "details"];
+    let tags = tags.map(|name| format!("_chem_comp_atom.{name}\n")).concat();
+    let text = format!("data_X\nloop_\n{tags}C1 1 2 3\n;a text\n;\n");
+    assert_eq!(error(&*text), "f:9:1: a text of many lines among atoms");
+    for text in [
+        format!("{component}{table}"),
+        format!("data_X\n{table}{rest}"),
+        format!("{text}{table}"),
+        format!("data_X\nloop_ _chem_comp_atom.comp_id\n{tags}SEE C1 1 2 3 .\n{table}"),
+        format!("data_X\nloop_\n{tags}C1 1 2 3 . C2 4 5 6 .\n{table}"),
+    ] {
+        let frames = &mut frames_of("entry.cif", text.as_bytes(), &Reading::default());
+        let scene = frames.read(0).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(scene.map(|scene| centers(&scene)), Some(vec![[0.0, 0.0, 1.0]]), "{text}");
+        assert!(!frames.has(1).expect("no error"), "{text}");
+        assert!(frames.read(1).expect("no error").is_none(), "{text}");
+    }
+}
+
+#[test]
+fn mmcif_components_that_lie() {
+    let what = "\"x\" is no finite coordinate";
+    let loops = component("BAD", "BAD C1 C 1 2 3 7 8 9\nBAD C2 C 1 x 3 7 8 9\n");
+    assert_eq!(error(loops), format!("f:20:1: {what}"));
+    assert_eq!(error(ion("MG MG MG x 0 0 . . .")), format!("f:11:1: {what}"));
+    let none = component("UNL", "UNL C C ? ? ? ? ? ?\n");
+    assert!(error(none).starts_with("f: components without positions"));
+}

@@ -1,4 +1,5 @@
 use super::*;
+use crate::scene::attributes::Naming;
 
 #[test]
 fn pdb_by_its_columns() {
@@ -108,4 +109,44 @@ fn pdb_symbols_that_are_none_leave_it_to_the_name() {
         format!("HETATM    1 {name} LIG     2       0.000   0.000   0.000  1.00  0.00          {symbol}\n")
     });
     assert_eq!(good(rows.concat()).attributes().elements, Some(vec![6, 1, 8, 6, 17]));
+}
+
+/// As AutoDock, Vina and Open Babel write them: behind a charge, in column 78, where PDB has the end of a symbol.
+#[test]
+fn pdbqt_types_tell_elements() {
+    let types = [
+        ("CL", 17),
+        ("Cl", 17),
+        ("BR", 35),
+        ("C", 6),
+        ("A", 6),
+        ("CA", 20),
+        ("CG0", 6),
+        ("HD", 1),
+        ("N", 7),
+        ("NA", 7),
+        ("Na", 11),
+        ("OA", 8),
+        ("OS", 8),
+        ("W", 8),
+        ("SA", 16),
+        ("Mg", 12),
+        ("FE", 26),
+        ("Zn", 30),
+        ("I", 53),
+        ("G0", 0),
+    ];
+    for charge in [" 0.123", "-0.123", "+0.123"] {
+        let rows = types.map(|(kind, _)| {
+            format!(
+                "HETATM    1  CA  LIG     2       0.000   0.000   0.000  1.00  0.00    {charge} {kind}\n"
+            )
+        });
+        let scene = good(rows.concat());
+        let elements = types.map(|(_, element)| element).to_vec();
+        assert_eq!(scene.attributes().elements, Some(elements), "{charge}");
+        assert_eq!([0, 1, 2].map(|atom| spheres(&scene)[atom][3]), [1.75, 1.75, 1.83]);
+        // Digits of a charge are no name of a segment.
+        assert_eq!(scene.attributes().names(Naming::Chain), None);
+    }
 }

@@ -31,17 +31,39 @@ fn values_are_those_of_their_names() {
         "# x, y, z\n0.5 1.5 2.5\n3 4 5\n",
         "x y z\n0.5;1.5;2.5\n3;4;5\n",
         "x y z\n0.5 1.5 2.5 # the first\n3 4 5 \n",
+        "x,y,z\n0.5,1.5,2.5 # the first\n3,4,5 % a, b\n",
+        "0.5,1.5,2.5 # a, b\n3,4,5 # the last\n",
+        "0.5;1.5;2.5\n3;4;5 // the last\n",
         "x,y,z\n0.5,1.5,2.5,\n3,4,5, ,\"\"\n",
         "x,y,z,v\n0.5,1.5,2.5\n3,4,5,9\n",
         "\"name\",x,y,z\n\"a\",0.5,1.5,2.5,\n\"b\",3,4,5,\n",
         "# x y z in kpc\n# x y z mass\n0.5 1.5 2.5 9\n3 4 5 9\n",
         "# x y z mass\n# x y z are in kpc\n0.5 1.5 2.5 9\n3 4 5 9\n",
         "# x y z name\n0.5\t1.5\t2.5\t\n3\t4\t5\tb\n",
+        "\"x\",\"y\",\"z\",\"humidity\",\"k\"\n\"1\",0.5,1.5,2.5,\"50 %\",7\n\"2\",3,4,5,\"40 %\",7\n",
+        "\"x\" \"y\" \"z\" \"humidity\" \"k\"\n\"1\" 0.5 1.5 2.5 \"50 %\" 7\n\"2\" 3 4 5 \"40 %\" 7\n",
     ] {
         assert_eq!(centers(&good(text)), EXPECTED, "{text}");
     }
     let scene = good("% x y z r\n1 2 3 0.5\n");
     assert_eq!(spheres(&scene), [[1.0, 2.0, 3.0, 0.5]]);
+}
+
+/// But not behind a label, which may have the sign in it.
+#[test]
+fn a_comment_follows_a_number() {
+    let scene = good("x,y,z,r,temp\n1,2,3,0.5,300 # hot, \"dry\"\n");
+    assert_eq!(spheres(&scene), [[1.0, 2.0, 3.0, 0.5]]);
+    let kept = scene.attributes().column("temp").map(|column| column.values.clone());
+    assert_eq!(kept, Some(vec![300.0]));
+    let scene = good("x,y,z,label\n1,2,3,\"5 % NaCl\"\n3,4,5,pure\n");
+    let label = scene.attributes().column("label");
+    assert!(label.is_none_or(|label| label.values.iter().all(|value| value.is_nan())));
+    let scene = good("x,y,z,diameter\n1,2,3,1 # wide\n");
+    assert_eq!(spheres(&scene), [[1.0, 2.0, 3.0, 0.5]]);
+    assert_eq!(centers(&good("name,x,y,z\n1 #2,0.5,1.5,2.5\nC #1,3,4,5\n")), EXPECTED);
+    assert_eq!(centers(&by("2,3,4", "1 #2,0.5,1.5,2.5\nC #1,3,4,5 # c\n")), EXPECTED);
+    assert_eq!(error("x,y,z\n1,2,3a # c\n"), "f:2:5: z is \"3a # c\": no number");
 }
 
 /// What is not named would shift the names of the others.
@@ -192,19 +214,31 @@ fn a_diameter_in_another_unit_is_a_number() {
     assert_eq!(spheres(&scene), [[1.0, 2.0, 3.0, 1.0]]);
 }
 
-/// As of MercuryDPM, where each frame has a line of its own.
+/// As of MercuryDPM where it is to be read as a table: each frame has a line of its own, which then is a sphere, too.
 #[test]
 fn rows_of_another_width_are_said() {
-    let notes = |text: &str| {
-        let frames = &mut frames_of("widths.txt", text.as_bytes(), &Reading::default());
+    let notes_by = |format: Option<Format>, text: &str| {
+        let reading = Reading { format, ..Reading::default() };
+        let frames = &mut frames_of("widths.txt", text.as_bytes(), &reading);
         frames.read(0).unwrap_or_else(|error| panic!("{error}"));
         frames.notes()
     };
+    let notes = |text: &str| notes_by(None, text);
     let particle = "1 2 3 0 0 0 0.5 0 0 0 0 0 0 0\n";
     let text = format!("2 0 0 0 -1 10 10 1\n{particle}{particle}");
     let what = "has not as many values as the first row: all rows are read as spheres";
-    assert!(notes(&text).contains(&format!("line 2 {what}")), "{:?}", notes(&text));
-    for same in ["1 2 3\n4 5 6 # the last\n", "1 2 3 # the first\n4 5 6\n", "1 2 3 #1\n4 5 6\n"] {
+    let said = notes_by(Some(Format::Csv), &text);
+    assert!(said.contains(&format!("line 2 {what}")), "{said:?}");
+    assert!(notes(&text).is_empty(), "it has a format of its own");
+    let said = notes("1 2 3 4 5\n6 7 8 9 10 11\n");
+    assert!(said.contains(&format!("line 2 {what}")), "{said:?}");
+    for same in [
+        "1 2 3\n4 5 6 # the last\n",
+        "1 2 3 # the first\n4 5 6\n",
+        "1 2 3 #1\n4 5 6\n",
+        "1,2,3\n4,5,6 # c\n",
+        "1,2,3 # a, b\n4,5,6\n",
+    ] {
         assert!(notes(same).is_empty(), "{same}");
     }
 }
