@@ -44,6 +44,11 @@ _spherule() {
             opts="-h -V --size --samples --projection --eye --target --fov --orbit --order --format --columns --strict --topology --frame --frames --follow --radius --accuracy --charset --color --background --palette --cell-aspect --distance --show --color-by --range --legend --occlusion --edges --depth-cue --structure --threads --level --no-probe --lossless --fps --output --once --cast --png --pick --json --help --version trace tradeoff lecture cases judge scenes"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                local IFS=$'\n'
+                COMPREPLY+=( $(compgen -f -- "${cur}") )
+                if [[ "${BASH_VERSINFO[0]}" -ge 4 ]]; then
+                    compopt -o filenames
+                fi
                 return 0
             fi
             case "${prev}" in
@@ -80,7 +85,7 @@ _spherule() {
                     return 0
                     ;;
                 --format)
-                    COMPREPLY=($(compgen -W "toml xyz pdb mmcif gro lammps-dump lammps-data csv ply npy xtc urdf" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "toml xyz pdb mmcif gro lammps-dump lammps-data mercury csv ply npy xtc urdf" -- "${cur}"))
                     return 0
                     ;;
                 --columns)
@@ -141,18 +146,6 @@ _spherule() {
                     ;;
                 --range)
                     COMPREPLY=($(compgen -f "${cur}"))
-                    return 0
-                    ;;
-                --occlusion)
-                    COMPREPLY=($(compgen -W "auto on off" -- "${cur}"))
-                    return 0
-                    ;;
-                --edges)
-                    COMPREPLY=($(compgen -W "auto on off" -- "${cur}"))
-                    return 0
-                    ;;
-                --depth-cue)
-                    COMPREPLY=($(compgen -W "auto on off" -- "${cur}"))
                     return 0
                     ;;
                 --structure)
@@ -404,7 +397,7 @@ _spherule() {
                     return 0
                     ;;
                 --format)
-                    COMPREPLY=($(compgen -W "toml xyz pdb mmcif gro lammps-dump lammps-data csv ply npy xtc urdf" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "toml xyz pdb mmcif gro lammps-dump lammps-data mercury csv ply npy xtc urdf" -- "${cur}"))
                     return 0
                     ;;
                 --columns)

@@ -1,6 +1,6 @@
 # Print an optspec for argparse to handle cmd's options that are independent of any subcommand.
 function __fish_spherule_global_optspecs
-    string join \n size= samples= projection= eye= target= fov= orbit= order= format= columns= strict topology= frame= frames= follow radius= accuracy= charset= color= background= palette= cell-aspect= distance= show= color-by= range= legend occlusion= edges= depth-cue= structure= threads= level= no-probe lossless fps= output= once cast= png= pick= json h/help V/version
+    string join \n size= samples= projection= eye= target= fov= orbit= order= format= columns= strict topology= frame= frames= follow radius= accuracy= charset= color= background= palette= cell-aspect= distance= show= color-by= range= legend occlusion edges depth-cue structure= threads= level= no-probe lossless fps= output= once cast= png= pick= json h/help V/version
 end
 
 function __fish_spherule_needs_command
@@ -41,6 +41,7 @@ mmcif\t'Macromolecular Crystallographic Information File'
 gro\t'GROMACS\'s .gro'
 lammps-dump\t'A trajectory of LAMMPS'
 lammps-data\t'The input of LAMMPS'
+mercury\t'MercuryDPM\'s .data'
 csv\t'A table: comma, tab, semicolon or space between columns'
 ply\t'Stanford\'s polygons: their points'
 npy\t'numpy\'s array, (N, 3) or (N, 4)'
@@ -70,21 +71,12 @@ always\t'As many colours as the terminal has, also into a pipe'
 256\t'The xterm palette'
 truecolor\t'24 bits'"
 complete -c spherule -n "__fish_spherule_needs_command" -l background -d 'The colour of what no sphere covers, unless the scene names one' -r
-complete -c spherule -n "__fish_spherule_needs_command" -l palette -d 'What the terminal\'s 16 colours are: xterm, vga, tango, solarized, or 16 of six digits, with commas' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l palette -d 'What the terminal\'s 16 colours are: xterm, vga, tango, solarized, or 16 of six digits, with commas [default: xterm, on Linux\'s console vga]' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l cell-aspect -d 'Shape of a cell, width to height [default: the terminal\'s, else 1:2]' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l distance -d 'How far away the eye is, in widths of a cell: 60 cm by default, if cells are 2.2 mm wide' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l show -d 'error: what the tier gets wrong against exact, cell by cell; split:TIER,TIER: two tiers side by side; table: what every tier takes and gets wrong' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l color-by -d 'What spheres are coloured by: scene, element, chain, residue, molecule, type, or a column of numbers [default: chain if there are several, else scene]' -r
-complete -c spherule -n "__fish_spherule_needs_command" -l range -d 'The numbers with the darkest and the lightest colour, with --color-by a column [default: the least and the largest]' -r
-complete -c spherule -n "__fish_spherule_needs_command" -l occlusion -d 'Less light where others are in the way; auto: if there are chains' -r -f -a "auto\t'Whatever suits'
-on\t'Shown'
-off\t'Not shown'"
-complete -c spherule -n "__fish_spherule_needs_command" -l edges -d 'Dark edges before what is far behind, and around chains; auto: if there are chains' -r -f -a "auto\t'Whatever suits'
-on\t'Shown'
-off\t'Not shown'"
-complete -c spherule -n "__fish_spherule_needs_command" -l depth-cue -d 'What is far away fades; auto: if there are chains' -r -f -a "auto\t'Whatever suits'
-on\t'Shown'
-off\t'Not shown'"
+complete -c spherule -n "__fish_spherule_needs_command" -l range -d 'The numbers with the darkest and the lightest colour, with --color-by a column [default: the least and the largest of the frames so far]' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l structure -d 'How spheres are searched' -r -f -a "auto\t'Whatever suits'
 brute\t'All spheres, from end to end'
 depth-list\t'The spheres by their depth, sorted for every picture'
@@ -105,6 +97,9 @@ complete -c spherule -n "__fish_spherule_needs_command" -l pick -d 'In place of 
 complete -c spherule -n "__fish_spherule_needs_command" -l strict -d 'Refuse particles of unknown types, which are drawn grey otherwise'
 complete -c spherule -n "__fish_spherule_needs_command" -l follow -d 'Wait for frames that are still being written'
 complete -c spherule -n "__fish_spherule_needs_command" -l legend -d 'Write what colours mean over the picture, also outside the viewer'
+complete -c spherule -n "__fish_spherule_needs_command" -l occlusion -d 'Less light where others are in the way; auto: if there are chains'
+complete -c spherule -n "__fish_spherule_needs_command" -l edges -d 'Dark edges before what is far behind, and around chains; auto: if there are chains'
+complete -c spherule -n "__fish_spherule_needs_command" -l depth-cue -d 'What is far away fades; auto: if there are chains'
 complete -c spherule -n "__fish_spherule_needs_command" -l no-probe -d 'Ask the terminal nothing: not what it can do, nor how far it has come'
 complete -c spherule -n "__fish_spherule_needs_command" -l lossless -d 'Send every frame of the viewer as it is, and none that looks alike'
 complete -c spherule -n "__fish_spherule_needs_command" -l once -d 'Write one picture, also to a terminal; so does --size'
@@ -155,6 +150,7 @@ mmcif\t'Macromolecular Crystallographic Information File'
 gro\t'GROMACS\'s .gro'
 lammps-dump\t'A trajectory of LAMMPS'
 lammps-data\t'The input of LAMMPS'
+mercury\t'MercuryDPM\'s .data'
 csv\t'A table: comma, tab, semicolon or space between columns'
 ply\t'Stanford\'s polygons: their points'
 npy\t'numpy\'s array, (N, 3) or (N, 4)'

@@ -20,6 +20,7 @@ use spherule::arguments::{Arguments, Request, parse};
 use spherule::cells::{CellGrid, Color};
 use spherule::color::{Srgb, oklab};
 use spherule::coloring::coloring;
+use spherule::coloring::seen::Seen;
 use spherule::draw::{Renderer, Spending, picture_workload};
 use spherule::scene::Scene;
 use spherule::scene::attributes::Naming;
@@ -63,7 +64,8 @@ fn legibility(arguments: &Arguments) -> Result<Legibility, Box<dyn Error>> {
     let picture = &arguments.picture;
     let mut scene = picture.scene.open().map_err(said)?.scene;
     let by = picture.crowd.color_by(&scene);
-    if let Some(colors) = coloring(&scene, &by, picture.crowd.range)?.colors {
+    let colored = coloring(&scene, &by, picture.crowd.range, &mut Seen::default())?;
+    if let Some(colors) = colored.colors {
         scene.set_colors(colors);
     }
     let size = picture.scene.size.unwrap_or(SIZE);

@@ -3,9 +3,11 @@
 //! `positions FILE [FRAME [TOPOLOGY]]` writes x, y, z of every sphere to standard output, as little-endian `float32`.
 //! `positions --time FILE` reads all frames and prints bytes, frames, spheres and seconds; the file is read once before.
 
+use spherule::scene::file_name::FileName;
 use spherule::scene::open::{Opened, open};
 use spherule::scene::reading::Reading;
 use std::error::Error;
+use std::ffi::OsString;
 use std::io::{Write, stdout};
 use std::time::Instant;
 
@@ -15,12 +17,14 @@ fn main() -> Result<(), Box<dyn Error>> {
         ["--time", file] => time(file),
         [file] => write(file, 0, None),
         [file, frame] => write(file, frame.parse()?, None),
-        [file, frame, topology] => write(file, frame.parse()?, Some((*topology).to_owned())),
+        [file, frame, topology] => {
+            write(file, frame.parse()?, Some(FileName::from(OsString::from(*topology))))
+        }
         _ => Err("positions FILE [FRAME [TOPOLOGY]], or positions --time FILE".into()),
     }
 }
 
-fn write(file: &str, frame: usize, topology: Option<String>) -> Result<(), Box<dyn Error>> {
+fn write(file: &str, frame: usize, topology: Option<FileName>) -> Result<(), Box<dyn Error>> {
     let reading = Reading { topology, ..Reading::default() };
     let scene = match open(file, &reading)? {
         Opened::Builtin(scene) => scene,

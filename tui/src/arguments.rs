@@ -19,13 +19,13 @@ use crate::structure::{Order, Structure};
 use crate::style::{CHAIR, Charset};
 use crate::terminal::color_depth::ColorChoice;
 use crate::threads::MOST_THREADS;
-use clap::error::ErrorKind;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, CommandFactory, FromArgMatches, Parser, Subcommand, value_parser};
 pub use crowd::CrowdArguments;
 pub use overlay::Overlay;
 pub use scene::SceneArguments;
-use second_scene::second_scene;
+use second_scene::{late_command, second_scene};
 use spherule_kernel::{Level, Tier};
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -96,9 +96,10 @@ pub struct PictureArguments {
     /// The colour of what no sphere covers, unless the scene names one
     #[arg(long, value_name = "#RRGGBB", value_parser = color)]
     pub background: Option<Srgb>,
-    /// What the terminal's 16 colours are: xterm, vga, tango, solarized, or 16 of six digits, with commas
-    #[arg(long, value_name = "COLOURS", default_value = "xterm")]
-    pub palette: Theme,
+    /// What the terminal's 16 colours are: xterm, vga, tango, solarized, or 16 of six digits, with commas [default: xterm,
+    /// on Linux's console vga]
+    #[arg(long, value_name = "COLOURS")]
+    pub palette: Option<Theme>,
     /// Shape of a cell, width to height [default: the terminal's, else 1:2]
     #[arg(long, value_name = "W:H", value_parser = aspect)]
     pub cell_aspect: Option<f32>,
@@ -231,18 +232,24 @@ pub enum Request {
 /// [`Error::Input`], in one line, if it is wrong.
 pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, Error> {
     let words: Vec<_> = arguments.into_iter().collect();
-    let matches = Arguments::command().try_get_matches_from(&words).and_then(|matches| {
+    let program = Arguments::command();
+    let matches = program.clone().try_get_matches_from(&words).and_then(|matches| {
         check_order(&matches)?;
         check_frames(&matches)?;
         Arguments::from_arg_matches(&matches)
     });
     match matches {
-        Ok(arguments) => Ok(Request::Run(Box::new(arguments))),
+        Ok(arguments) => match late_command(&program, &words) {
+            None => Ok(Request::Run(Box::new(arguments))),
+            Some(message) => Err(Error::Input(message)),
+        },
         Err(error) if error.exit_code() == 0 => Ok(Request::Print(error.to_string())),
         Err(error) => {
             let behind = words.get(1..).unwrap_or_default();
-            let message = second_scene(&error, &Arguments::command(), behind);
-            Err(Error::Input(message.unwrap_or_else(|| in_one_line(&error.to_string()))))
+            let message = late_command(&program, &words)
+                .or_else(|| second_scene(&error, &program, behind))
+                .unwrap_or_else(|| in_one_line(&error));
+            Err(Error::Input(message))
         }
     }
 }
@@ -269,11 +276,17 @@ fn check_frames(matches: &ArgMatches) -> Result<(), clap::Error> {
     Ok(())
 }
 
-/// clap's message without its prefix, usage and tips, its lines joined.
-fn in_one_line(message: &str) -> String {
-    let message = message.strip_prefix("error: ").unwrap_or(message);
+/// clap's message without its prefix and usage, its lines joined, and what it takes to be meant.
+fn in_one_line(error: &clap::Error) -> String {
+    let message = error.to_string();
+    let message = message.strip_prefix("error: ").unwrap_or(&message);
     let first = message.split("\n\n").next().unwrap_or_default();
-    first.split_whitespace().collect::<Vec<_>>().join(" ")
+    let line = first.split_whitespace().collect::<Vec<_>>().join(" ");
+    let meant = [ContextKind::SuggestedArg, ContextKind::SuggestedValue];
+    match meant.into_iter().find_map(|kind| error.get(kind)) {
+        Some(ContextValue::String(meant)) => format!("{line}; did you mean '{meant}'?"),
+        _ => line,
+    }
 }
 
 #[cfg(test)]

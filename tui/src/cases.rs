@@ -5,8 +5,8 @@
 
 use crate::error::stdout::Stdout;
 use crate::error::{Error, write_stdout};
-use crate::whole_file::WholeFile;
-use clap::{Args, value_parser};
+use crate::whole_file::{WholeFile, check_outputs};
+use clap::{ArgGroup, Args, value_parser};
 use spherule_kernel::Tier;
 use spherule_kernel::{Ray, Sphere, Vec3};
 use spherule_referee::case::Case;
@@ -19,18 +19,25 @@ use std::path::{Path, PathBuf};
 
 /// Cases, and where they go.
 #[derive(Args, Clone, Debug)]
+#[command(group(ArgGroup::new("written").args(["out_spheres", "out_rays", "out_family", "json"]).multiple(true)))]
 pub struct CasesArguments {
     /// Families, with commas between them [default: all]
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = family)]
     pub family: Vec<Family>,
     /// How many cases, of all families together and in turns
-    #[arg(long, value_name = "N", default_value = "24000")]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value = "24000",
+        requires = "written",
+        allow_negative_numbers = true
+    )]
     pub count: u64,
     /// Their seed
-    #[arg(long, value_name = "N", default_value_t = SEED)]
+    #[arg(long, value_name = "N", default_value_t = SEED, requires = "written", allow_negative_numbers = true)]
     pub seed: u32,
     /// Bring directions to unit length, as near as float32 does
-    #[arg(long)]
+    #[arg(long, requires = "written")]
     pub unit: bool,
     /// Where to write spheres: .npy, float32, (N, 4): centre xyz, radius
     #[arg(long, value_name = "S.npy")]
@@ -54,7 +61,7 @@ fn family(name: &str) -> Result<Family, String> {
 /// Writes the cases that `arguments` ask for; without files and `--json`, a line for every family.
 ///
 /// # Errors
-/// [`Error::Running`] if an output cannot be written; then none of the files exists.
+/// [`Error::Input`] if two outputs are one, [`Error::Running`] if an output cannot be written; then none of the files exists.
 pub fn cases(arguments: &CasesArguments) -> Result<(), Error> {
     let all = || FAMILIES.to_vec();
     let families = if arguments.family.is_empty() { all() } else { arguments.family.clone() };
@@ -65,6 +72,11 @@ pub fn cases(arguments: &CasesArguments) -> Result<(), Error> {
     if out_spheres.is_none() && out_rays.is_none() && out_family.is_none() {
         return write_stdout(list(&families).as_bytes());
     }
+    let outputs =
+        [("--out-spheres", out_spheres), ("--out-rays", out_rays), ("--out-family", out_family)];
+    let outputs: Vec<(&str, &Path)> =
+        outputs.into_iter().filter_map(|(option, path)| Some((option, path.as_deref()?))).collect();
+    check_outputs(&outputs, &[])?;
     let mut spheres = Output::create(out_spheres.as_deref(), "<f4", (*count, Some(4)))?;
     let mut rays = Output::create(out_rays.as_deref(), "<f4", (*count, Some(8)))?;
     let mut numbers = Output::create(out_family.as_deref(), "|u1", (*count, None))?;
@@ -85,19 +97,10 @@ pub fn cases(arguments: &CasesArguments) -> Result<(), Error> {
 fn case(arguments: &CasesArguments, families: &[Family], index: u64) -> (Family, Case) {
     let count = families.len() as u64;
     let family = families[(index % count) as usize];
-    let case = family.seeded(arguments.seed, index / count);
-    (family, if arguments.unit { with_unit_direction(case) } else { case })
-}
-
-/// The case with a direction as near to unit length as it gets; a direction without length stays.
-fn with_unit_direction(case: Case) -> Case {
-    let direction = case.ray.direction.to_array().map(f64::from);
-    let length = direction.iter().map(|x| x * x).sum::<f64>().sqrt();
-    if !(length > 0.0 && length.is_finite()) {
-        return case;
-    }
-    let direction = Vec3::from_array(direction.map(|x| (x / length) as f32));
-    Case { ray: Ray { direction, ..case.ray }, ..case }
+    let (seed, index) = (arguments.seed, index / count);
+    let case =
+        if arguments.unit { family.seeded_unit(seed, index) } else { family.seeded(seed, index) };
+    (family, case)
 }
 
 /// A row of an array.

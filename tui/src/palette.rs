@@ -33,9 +33,14 @@ pub enum Color {
     Rgb([u8; 3]),
 }
 
-/// What a terminal's 16 colours are: black, red, green, yellow, blue, magenta, cyan, white, and the same bright.
+/// What a terminal's 16 colours are, and which of them it has behind characters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Theme(pub [Srgb; 16]);
+pub struct Theme {
+    /// Black, red, green, yellow, blue, magenta, cyan, white, and the same bright.
+    pub colors: [Srgb; 16],
+    /// How many of them can be paper, the first ones: all, or the eight that are not bright.
+    pub papers: u8,
+}
 
 /// The themes that have names.
 pub const THEMES: [(&str, Theme); 4] = [
@@ -67,15 +72,24 @@ impl Theme {
         0x00_2b36, 0xcb_4b16, 0x58_6e75, 0x65_7b83, 0x83_9496, 0x6c_71c4, 0x93_a1a1, 0xfd_f6e3,
     ]);
 
-    const fn new(colors: [u32; 16]) -> Self {
-        let mut theme = [Srgb::BLACK; 16];
+    const fn new(digits: [u32; 16]) -> Self {
+        let mut colors = [Srgb::BLACK; 16];
         let mut index = 0;
         while index < 16 {
-            let [_, red, green, blue] = colors[index].to_be_bytes();
-            theme[index] = Srgb([red, green, blue]);
+            let [_, red, green, blue] = digits[index].to_be_bytes();
+            colors[index] = Srgb([red, green, blue]);
             index += 1;
         }
-        Self(theme)
+        Self { colors, papers: 16 }
+    }
+
+    /// The paper of a colour's name: a bright one that cannot be paper is what it is without its brightness.
+    #[must_use]
+    pub fn paper(&self, color: Color) -> Color {
+        match color {
+            Color::Ansi16(index) if index >= self.papers => Color::Ansi16(index % 8),
+            color => color,
+        }
     }
 }
 
@@ -97,8 +111,8 @@ impl FromStr for Theme {
             .collect::<Result<Vec<_>, _>>()
             .map_err(|_| format!("{names}, or 16 colours such as cd0000,00cd00"))?;
         let count = colors.len();
-        let theme = colors.try_into().map_err(|_| format!("{count} colours in place of 16"))?;
-        Ok(Self(theme))
+        let colors = colors.try_into().map_err(|_| format!("{count} colours in place of 16"))?;
+        Ok(Self { colors, papers: 16 })
     }
 }
 
@@ -108,7 +122,7 @@ impl FromStr for Theme {
 pub fn xterm_256(index: u8) -> Srgb {
     let level = |step: u8| if step == 0 { 0 } else { 55 + 40 * step };
     match index {
-        0..16 => Theme::XTERM.0[usize::from(index)],
+        0..16 => Theme::XTERM.colors[usize::from(index)],
         16..232 => Srgb([(index - 16) / 36, (index - 16) / 6 % 6, (index - 16) % 6].map(level)),
         232.. => Srgb([8 + 10 * (index - 232); 3]),
     }
@@ -123,28 +137,32 @@ pub struct Entry {
     pub light: Vec3,
     /// In `OKLab`.
     pub look: Vec3,
+    /// Whether it can be paper; ink it can always be.
+    pub is_paper: bool,
 }
 
 /// The colours of a depth; none if there are too many or too few to list.
 #[must_use]
 pub fn entries(depth: ColorDepth, theme: &Theme) -> Vec<Entry> {
-    let entry = |color, srgb: Srgb| {
+    let entry = |color, srgb: Srgb, is_paper| {
         let light = srgb.to_linear();
-        Entry { color, light, look: oklab(light) }
+        Entry { color, light, look: oklab(light), is_paper }
     };
     match depth {
         ColorDepth::Never | ColorDepth::Truecolor => Vec::new(),
-        ColorDepth::Ansi16 => {
-            (0..).zip(theme.0).map(|(index, srgb)| entry(Color::Ansi16(index), srgb)).collect()
-        }
+        ColorDepth::Ansi16 => (0..)
+            .zip(theme.colors)
+            .map(|(index, srgb)| entry(Color::Ansi16(index), srgb, index < theme.papers))
+            .collect(),
         // The first 16 are the theme's: with 240 others, none of them is worth the doubt.
         ColorDepth::Ansi256 => {
-            (16..=255).map(|index| entry(Color::Ansi256(index), xterm_256(index))).collect()
+            (16..=255).map(|index| entry(Color::Ansi256(index), xterm_256(index), true)).collect()
         }
     }
 }
 
-/// The colour of a terminal of this depth that looks most like `srgb`; the terminal's own colour if there are none.
+/// The colour of a terminal of this depth that looks most like `srgb`, if only as ink; the terminal's own if there are no
+/// colours.
 #[must_use]
 pub fn shown(srgb: Srgb, depth: ColorDepth, theme: &Theme) -> Color {
     match depth {
@@ -177,7 +195,7 @@ mod tests {
     #[test]
     fn themes_have_names_or_are_lists() {
         assert_eq!("vga".parse(), Ok(Theme::VGA));
-        let list = Theme::TANGO.0.map(|Srgb([r, g, b])| format!("{r:02x}{g:02X}{b:02x}"));
+        let list = Theme::TANGO.colors.map(|Srgb([r, g, b])| format!("{r:02x}{g:02X}{b:02x}"));
         assert_eq!(list.join(",").parse(), Ok(Theme::TANGO));
         assert_eq!(list.map(|color| format!("#{color}")).join(", ").parse(), Ok(Theme::TANGO));
     }
@@ -200,5 +218,19 @@ mod tests {
         let cube = entries(ColorDepth::Ansi256, &Theme::VGA);
         assert_eq!((cube.len(), cube[0].color), (240, Color::Ansi256(16)));
         assert!(entries(ColorDepth::Truecolor, &Theme::VGA).is_empty());
+    }
+
+    #[test]
+    fn bright_colours_may_be_inks_alone() {
+        let theme = Theme { papers: 8, ..Theme::VGA };
+        let papers = |theme| {
+            let entries = entries(ColorDepth::Ansi16, theme);
+            entries.iter().filter(|entry| entry.is_paper).count()
+        };
+        assert_eq!((papers(&theme), papers(&Theme::VGA)), (8, 16));
+        assert_eq!(shown(Srgb::WHITE, ColorDepth::Ansi16, &theme), Color::Ansi16(15));
+        let red = Color::Ansi16(9);
+        assert_eq!((theme.paper(red), Theme::VGA.paper(red)), (Color::Ansi16(1), red));
+        assert_eq!(theme.paper(Color::Default), Color::Default);
     }
 }

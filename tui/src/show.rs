@@ -1,16 +1,19 @@
 //! One picture, or the viewer: what `spherule [SCENE]` does.
 
+mod background;
 mod cast;
 mod conflicts;
 mod once;
+mod overwriting;
 mod reading;
 mod still;
 mod written;
 
 use crate::arguments::files::Subject;
 use crate::arguments::{ComputingArguments, Overlay, PictureArguments};
-use crate::color::Srgb;
+use crate::coloring::seen::Seen;
 use crate::coloring::{Coloring, coloring};
+use crate::draw::pixels::PixelGrid;
 use crate::draw::{Renderer, picture_workload};
 use crate::error::Error;
 use crate::machine::check_floats;
@@ -18,6 +21,7 @@ use crate::pixels::Output;
 use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::scene::frames::Frames;
+use crate::scene::notes::say;
 use crate::structure::scene::SceneStructures;
 use crate::style::{Charset, ColorDepth, PIPE_SIZE, Style};
 use crate::terminal::color_depth::{ColorChoice, Surroundings};
@@ -33,7 +37,7 @@ use std::ops::RangeInclusive;
 use std::sync::Arc;
 use std::time::Duration;
 use still::Still;
-use written::Written;
+use written::{Written, is_in_square_pixels};
 
 /// The widest cell and the narrowest that a terminal is believed to have.
 const LIKELY_ASPECTS: RangeInclusive<f32> = 0.2..=2.0;
@@ -49,6 +53,7 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         check_floats(Tier::Exact)?;
     }
     let Subject { mut scene, frame, frames } = open(arguments)?;
+    overwriting::refuse(arguments, frames.is_some())?;
     let is_terminal = std::io::stdout().is_terminal();
     let mut surroundings = Surroundings::of_process(is_terminal);
     let PictureArguments { png, cast, pick, crowd, .. } = arguments;
@@ -60,7 +65,8 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         conflicts::refuse(arguments, is_terminal)?;
     }
     let color_by = crowd.color_by(&scene);
-    let colored = coloring(&scene, &color_by, crowd.range);
+    let mut seen = Seen::default();
+    let colored = coloring(&scene, &color_by, crowd.range, &mut seen);
     let colored =
         colored.map_err(|error| Error::Input(format!("{}: {error}", arguments.scene.name)))?;
     if !in_viewer && crowd.range.is_some() && !colored.has_numbers() {
@@ -92,8 +98,11 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     let abilities =
         terminal.as_ref().map_or_else(Abilities::default, |terminal| *terminal.abilities());
     surroundings.told = abilities.truecolor;
-    let background = arguments.background.or(abilities.background);
-    paint_background(&mut scene, background);
+    // Without colours, letters and dots are chosen as light ink on dark paper.
+    let own = abilities.background.filter(|_| uses.color);
+    let own = own.filter(|&own| background::sets_off(own, &scene));
+    let background = arguments.background.or(own);
+    background::paint(&mut scene, background);
     // The viewer starts from the scene's own colours and changes them itself.
     if let Some(colors) = colored.colors.filter(|_| !in_viewer) {
         scene.set_colors(colors);
@@ -120,7 +129,7 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
             _ => Charset::Half,
         }),
         depth,
-        theme: arguments.palette,
+        theme: surroundings.theme(arguments.palette),
         samples: arguments.scene.samples,
         cell_aspect: arguments
             .cell_aspect
@@ -129,6 +138,8 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         distance: arguments.distance,
         aids: arguments.crowd.aids(&scene),
     };
+    let is_in_pixels = is_in_square_pixels(arguments, is_terminal);
+    let style = if is_in_pixels { PixelGrid::square(&style) } else { style };
     let view = arguments.scene.view(&scene, style.picture_aspect(columns, rows));
     let renderer = Renderer::new(level.unwrap_or_else(Level::best), &threads);
     structures.set_aids(style.aids);
@@ -145,13 +156,12 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
             rate: arguments.fps,
             lossless: arguments.lossless,
             output: arguments.output,
-            asked: arguments.scene.clone(),
+            asked: arguments.clone(),
         };
         let asked = arguments.scene.clone();
         let prepare = move |scene: &mut Scene| {
-            paint_background(scene, background);
-            // A frame without these radii goes without them.
-            let _ = asked.set_radii(scene);
+            background::paint(scene, background);
+            asked.set_radii(scene).map_err(|error| format!("keeps its radii: {error}"))
         };
         let film = frames.map(|frames| Film::new(frames, frame, prepare));
         return viewer::run(scene, colors, structures, start, renderer, (wire, film.transpose()?));
@@ -173,15 +183,21 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         };
         return say_more(&mut frames, frame, what);
     };
-    // What some frames do not have: told once, for the first of them.
-    let [mut no_radii, mut no_colors] = [None, None];
+    // What some frames do not have is told once, of the first of them: before the end, which a file that is followed has not.
+    let source = frames.source().to_owned();
+    let [mut all_have_radii, mut all_have_colors] = [true; 2];
     let prepared = |index: usize, mut scene: Scene| {
-        paint_background(&mut scene, background);
-        if let Err(error) = arguments.scene.set_radii(&mut scene) {
-            no_radii.get_or_insert(format!("frame {index} keeps its radii: {error}"));
+        background::paint(&mut scene, background);
+        if let Err(error) = arguments.scene.set_radii(&mut scene)
+            && std::mem::take(&mut all_have_radii)
+        {
+            say(&source, &format!("frame {index} keeps its radii: {error}"));
         }
-        let colored = coloring(&scene, &color_by, crowd.range).unwrap_or_else(|error| {
-            no_colors.get_or_insert(format!("frame {index} keeps its colours: {error}"));
+        let colored = coloring(&scene, &color_by, crowd.range, &mut seen);
+        let colored = colored.unwrap_or_else(|error| {
+            if std::mem::take(&mut all_have_colors) {
+                say(&source, &format!("frame {index} keeps its colours: {error}"));
+            }
             Coloring { colors: None, legend: None }
         });
         if let Some(colors) = colored.colors {
@@ -193,9 +209,6 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     let still = Still { view, style, structure, size, is_terminal };
     let range = frame + 1..range.end;
     let shown = still.pictures(&mut renderer, structures, &mut frames, range, prepared);
-    for note in [no_radii, no_colors].into_iter().flatten() {
-        frames.note(note);
-    }
     frames.report();
     shown
 }
@@ -221,13 +234,6 @@ fn say_more(frames: &mut Frames, frame: usize, what: String) -> Result<(), Error
         frames.report();
     }
     Ok(())
-}
-
-/// Gives a scene that names no background the user's.
-fn paint_background(scene: &mut Scene, background: Option<Srgb>) {
-    if let Some(background) = background.filter(|_| !scene.names_background) {
-        scene.background = background;
-    }
 }
 
 /// A terminal may not know its size, or report a wrong one.

@@ -14,6 +14,7 @@ use crate::structure::Structure;
 use crate::structure::scene::SceneStructures;
 use crate::structure::search::Tracing;
 use crate::threads::{Threads, packets_a_task, packets_a_tree_task};
+use crate::whole_file::check_outputs;
 use batches::{batches, runs, workload};
 use passes::{Passes, Query};
 use report::Report;
@@ -28,7 +29,7 @@ use std::sync::Arc;
 /// written, or there is no memory or no thread.
 pub fn trace(arguments: &TraceArguments) -> Result<(), Error> {
     let ComputingArguments { structure, threads, level } = arguments.computing;
-    refuse_stdout(arguments)?;
+    check_files(arguments)?;
     let query = match (arguments.pairs, arguments.any) {
         (true, _) => Query::Pairs,
         (false, true) => Query::Any,
@@ -98,15 +99,19 @@ pub fn trace(arguments: &TraceArguments) -> Result<(), Error> {
     write_stdout(text.as_bytes())
 }
 
-/// Refuses arrays on standard output, which has the line about them.
-fn refuse_stdout(arguments: &TraceArguments) -> Result<(), Error> {
-    for (option, path) in [("--out-t", &arguments.out_t), ("--out-id", &arguments.out_id)] {
-        if path.as_deref() == Some(Path::new("-")) {
+/// Refuses arrays on standard output, which has the line about them, two of them in one file, and one in place of an input.
+fn check_files(arguments: &TraceArguments) -> Result<(), Error> {
+    let TraceArguments { out_t, out_id, spheres, rays, .. } = arguments;
+    let outputs = [("--out-t", out_t), ("--out-id", out_id)];
+    let outputs: Vec<(&str, &Path)> =
+        outputs.into_iter().filter_map(|(option, path)| Some((option, path.as_deref()?))).collect();
+    for (option, path) in &outputs {
+        if *path == Path::new("-") {
             let what = format!("{option} -: standard output has the report; name a file");
             return Err(Error::Input(what));
         }
     }
-    Ok(())
+    check_outputs(&outputs, &[("--spheres", spheres.as_path()), ("--rays", rays.as_path())])
 }
 
 /// Checks that there are not too many spheres and rays, and as many of each for pairs.

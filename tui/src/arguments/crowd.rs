@@ -24,7 +24,7 @@ pub struct CrowdArguments {
     #[arg(long, value_name = "WHAT")]
     pub color_by: Option<ColorBy>,
     /// The numbers with the darkest and the lightest colour, with --color-by a column [default: the least and the
-    /// largest]
+    /// largest of the frames so far]
     #[arg(long, value_name = "LOW:HIGH", requires = "color_by", allow_hyphen_values = true)]
     pub range: Option<Range>,
     /// Write what colours mean over the picture, also outside the viewer

@@ -1,6 +1,7 @@
 //! What the command line says of a scene's file: its format, its columns, its frames.
 
 use crate::error::Error;
+use crate::scene::file_name::FileName;
 use crate::scene::format::Format;
 use crate::scene::frames::Frames;
 use crate::scene::open::{Opened, open};
@@ -23,12 +24,12 @@ pub struct FileArguments {
     pub strict: bool,
     /// The file that says what the particles of an .xtc are
     #[arg(long, value_name = "FILE")]
-    pub topology: Option<String>,
+    pub topology: Option<FileName>,
     /// The frame that is shown first, from 0 [default: the first with particles]
-    #[arg(long, value_name = "N", conflicts_with = "frames")]
+    #[arg(long, value_name = "N", conflicts_with = "frames", allow_negative_numbers = true)]
     pub frame: Option<usize>,
     /// Write the pictures of frames A to B - 1, from 0; without B, up to the last; N is 0..N
-    #[arg(long, value_name = "A..B", value_parser = range)]
+    #[arg(long, value_name = "A..B", value_parser = range, allow_negative_numbers = true)]
     pub frames: Option<Range<usize>>,
     /// Wait for frames that are still being written
     #[arg(long)]
@@ -51,7 +52,7 @@ impl FileArguments {
     ///
     /// # Errors
     /// [`Error::Input`] if there is no such scene or frame, or it cannot be read.
-    pub fn open(&self, name: &str) -> Result<Subject, Error> {
+    pub fn open(&self, name: &FileName) -> Result<Subject, Error> {
         let wrong = |error: ReadError| Error::Input(error.to_string());
         let reading = Reading {
             format: self.format,

@@ -6,6 +6,7 @@ use crate::choice::{Auto, size};
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::scene::builtin::DEFAULT;
+use crate::scene::file_name::FileName;
 use crate::scene::radii::{RadiusBy, set_radii};
 use crate::structure::Order;
 use crate::view::{Lens, LensKind, View, orbited, with_projection};
@@ -17,7 +18,7 @@ use glam::DVec3;
 pub struct SceneArguments {
     /// A built-in scene, a file, or - for standard input; --format lists the formats that are told by content
     #[arg(value_name = "SCENE", default_value = DEFAULT)]
-    pub name: String,
+    pub name: FileName,
     /// Picture size in cells, each 1 to 4096, without the viewer [default: 80x24; on a terminal all rows but the last]
     #[arg(long, value_name = "COLSxROWS", value_parser = size)]
     pub size: Option<(u16, u16)>,

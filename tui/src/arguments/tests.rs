@@ -93,6 +93,7 @@ fn what_is_wrong_is_said_in_one_line() {
         ("--level sse", "baseline, avx2, avx512"),
         ("--cell-aspect 1:0", "W:H"),
         ("--cell-aspect nan:1", "W:H"),
+        ("--cell-aspect=-1:-2", "W:H"),
         ("--pick 5", "COL,ROW"),
         ("--pick -1,0", "COL,ROW"),
         ("--pick 1e9,0", "COL,ROW"),
@@ -118,6 +119,8 @@ fn what_is_wrong_is_said_in_one_line() {
         ("--fps 0", "1..=240"),
         ("--fps -1", "1..=240"),
         ("--threads -2", "1..=1024"),
+        ("--frame -1", "--frame <N>"),
+        ("--frames -1", "A below B"),
         ("--frames 3..2", "A below B"),
         ("--frames 0", "A below B"),
         ("--cast a --png b", "cannot be used with"),
@@ -128,12 +131,29 @@ fn what_is_wrong_is_said_in_one_line() {
         ("--background #ffeeddcc", "is no colour"),
         ("a b", "'b' is a second scene; one is shown"),
         ("--once unit a.toml", "'a.toml' is a second scene; one is shown"),
-        ("unit cases", "the subcommand 'cases' cannot be used with '[SCENE]'"),
+        ("unit cases", "cases is a command; it comes first, its options behind it"),
+        ("help trace", "trace is a command; it comes first"),
+        ("--once tradeoff unit", "tradeoff is a command; it comes first"),
+        ("--size 8x4 tradeoff", "tradeoff is a command; it comes first"),
+        ("--color never lecture", "lecture is a command; it comes first"),
+        ("--threads 1 trace --spheres s --rays r", "trace is a command; it comes first"),
+        ("--json cases", "cases is a command; it comes first"),
+        ("--topology trace a b", "'b' is a second scene; one is shown"),
         ("tradeof unit", "'tradeof' is neither a scene nor a command; tradeoff is a command"),
         ("trace", "--spheres <S.npy> --rays <R.npy>"),
         ("trace --spheres s --rays r --any --out-t t", "cannot be used with"),
         ("trace --spheres s --rays r --repeat 0", "1.."),
         ("scenes --once", "--once"),
+        ("--colour never", "'--colour' found; did you mean '--color'?"),
+        ("--color nevr", "; did you mean 'never'?"),
+        ("cases --count 5", "not provided"),
+        ("cases --seed 4", "not provided"),
+        ("cases --unit", "not provided"),
+        ("cases --json --count -1", "--count <N>"),
+        ("cases --json --seed -1", "--seed <N>"),
+        ("lecture --list --station 1", "cannot be used with"),
+        ("lecture --list --size 80x24", "cannot be used with"),
+        ("lecture --station -1", "--station <STATION>"),
     ] {
         match parsed(line) {
             Err(Error::Input(message)) => {
@@ -142,6 +162,13 @@ fn what_is_wrong_is_said_in_one_line() {
             }
             other => panic!("{line}: {other:?}"),
         }
+    }
+}
+
+#[test]
+fn behind_two_dashes_a_command_is_a_scene() {
+    for line in ["-- tradeoff", "--once -- tradeoff"] {
+        assert_eq!(picture(line).scene.name, "tradeoff", "{line}");
     }
 }
 
@@ -180,7 +207,7 @@ fn names_are_accepted_and_listed() {
     assert_eq!(picture("--charset auto --samples auto").charset, None);
     assert_eq!(picture("--charset auto --samples auto").scene.samples, None);
     for (word, theme) in THEMES {
-        assert_eq!(picture(&format!("--palette {word}")).palette, theme);
+        assert_eq!(picture(&format!("--palette {word}")).palette, Some(theme));
     }
     for depth in ColorChoice::value_variants() {
         assert_eq!(picture(&format!("--color {}", name(depth))).color, *depth);

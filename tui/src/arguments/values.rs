@@ -70,7 +70,8 @@ pub(super) fn samples(text: &str) -> Result<Auto<u32>, String> {
 pub(super) fn aspect(text: &str) -> Result<f32, &'static str> {
     let ratio = || {
         let (width, height) = text.split_once(':')?;
-        Some(width.parse::<f32>().ok()? / height.parse::<f32>().ok()?)
+        let side = |text: &str| text.parse::<f32>().ok().filter(|side| *side > 0.0);
+        Some(side(width)? / side(height)?)
     };
     ratio().filter(|ratio| ASPECTS.contains(ratio)).ok_or("W:H, such as 1:2; from 1:20 to 20:1")
 }

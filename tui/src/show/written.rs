@@ -38,6 +38,12 @@ pub(super) fn protocol(arguments: &PictureArguments, is_terminal: bool) -> Auto<
     output.protocol(&Abilities::default())
 }
 
+/// Whether pixels are written that no terminal stretches over its cells: they are square.
+pub(super) fn is_in_square_pixels(arguments: &PictureArguments, is_terminal: bool) -> bool {
+    let is_sent = arguments.show.is_none() && protocol(arguments, is_terminal).is_some();
+    arguments.png.is_some() || is_sent && !is_terminal
+}
+
 /// What is drawn, and how.
 pub(super) struct Written<'a, 't> {
     pub(super) arguments: &'a PictureArguments,
@@ -125,7 +131,9 @@ impl Written<'_, '_> {
 
     fn pixels(&mut self, protocol: Protocol) -> Result<(), Error> {
         let Self { scene, view, style, size, is_terminal, .. } = *self;
-        let cell = pixels_of_cell(None).unwrap_or_else(|| PixelGrid::usual_cell(&style));
+        // The terminal that a pipe was started from has no part in it.
+        let own = if is_terminal { pixels_of_cell(None) } else { None };
+        let cell = own.unwrap_or_else(|| PixelGrid::usual_cell(&style));
         let grid = PixelGrid::in_cells(&view, &style, size, cell, SAMPLES);
         let (width, height) = grid.size();
         if u64::from(width) * u64::from(height) > MOST_PIXELS {

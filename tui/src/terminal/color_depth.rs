@@ -1,6 +1,7 @@
 //! How many colours: what the user asks for, then what the environment says.
 
 use super::multiplexer::Multiplexer;
+use crate::palette::Theme;
 use crate::style::ColorDepth;
 use clap::ValueEnum;
 use std::env;
@@ -80,6 +81,16 @@ impl Surroundings {
             ColorChoice::Auto if self.force => forced(),
             ColorChoice::Auto if self.is_terminal => self.terminal_depth(),
             ColorChoice::Auto => ColorDepth::Never,
+        }
+    }
+
+    /// What the 16 colours are: those that are `asked` for, else xterm's, or on Linux's console its own. That has eight papers: codes 100 to
+    /// 107 mean the same as 40 to 47 (`console_codes(4)`).
+    #[must_use]
+    pub fn theme(&self, asked: Option<Theme>) -> Theme {
+        match self.term.as_str() {
+            "linux" => Theme { papers: 8, ..asked.unwrap_or(Theme::VGA) },
+            _ => asked.unwrap_or(Theme::XTERM),
         }
     }
 
@@ -169,6 +180,16 @@ mod tests {
             };
             assert_eq!(surroundings.depth(choice), depth, "{row:?}");
         }
+    }
+
+    #[test]
+    fn linux_s_console_has_colours_of_its_own_and_eight_papers() {
+        let of = |term: &str| Surroundings { term: term.to_owned(), ..Surroundings::default() };
+        let (console, xterm) = (of("linux"), of("xterm"));
+        assert_eq!(xterm.theme(None), Theme::XTERM);
+        assert_eq!(xterm.theme(Some(Theme::TANGO)), Theme::TANGO);
+        assert_eq!(console.theme(None), Theme { papers: 8, ..Theme::VGA });
+        assert_eq!(console.theme(Some(Theme::TANGO)), Theme { papers: 8, ..Theme::TANGO });
     }
 
     #[test]

@@ -148,5 +148,5 @@ fn a_file_of_an_unknown_format() {
     let path = file("scene.txt", b"1\n\nH 0 0 0\n");
     assert!(run([path.as_os_str()]).status.success());
     let path = file("text.txt", b"Some text.\n");
-    assert!(refusal(&run([path.as_os_str()])).ends_with("unknown format; --format names one of toml, xyz, pdb, mmcif, gro, lammps-dump, lammps-data, csv, ply, npy, xtc, urdf"));
+    assert!(refusal(&run([path.as_os_str()])).ends_with("unknown format; --format names one of toml, xyz, pdb, mmcif, gro, lammps-dump, lammps-data, mercury, csv, ply, npy, xtc, urdf"));
 }

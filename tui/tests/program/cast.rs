@@ -1,21 +1,13 @@
 //! `--cast`: a recording that plays, or none; and the options that say where the eye is.
 
-use crate::run::{printed, refusal, run, spherule};
+use crate::run::{folder, printed, refusal, run, spherule};
 use serde_json::Value;
 use std::fs;
-use std::path::PathBuf;
 use std::process::Command;
 
 fn cast(words: &str) -> Vec<Value> {
     let text = printed(&run(words.split(' ').chain(["--cast", "-"])));
     text.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect()
-}
-
-fn folder(name: &str) -> PathBuf {
-    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = fs::remove_dir_all(&path);
-    fs::create_dir(&path).expect("a writable folder");
-    path
 }
 
 /// What a player shows after so many frames.

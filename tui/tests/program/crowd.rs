@@ -1,6 +1,7 @@
 //! What tells spheres of a crowd apart: what is off changes nothing, what is on does, at every size and distance.
 
 use crate::run::{file, printed, refusal, run};
+use std::ffi::OsStr;
 
 fn words(arguments: &str) -> Vec<&str> {
     arguments.split_whitespace().collect()
@@ -111,6 +112,11 @@ fn what_a_scene_does_not_have_is_refused() {
     assert!(error("--edges=maybe").contains("maybe"));
     let names = refusal(&run(words("caffeine --once --color-by element --range 1:2")));
     assert_eq!(names, "--range: for numbers; colours are by element");
+    let path = file("crowd-words.csv", b"x,y,z,r,name,q\n0,0,0,1,a,1\n2,0,0,1,b,2\n");
+    let options = ["--once", "--color-by", "name"].map(OsStr::new);
+    let words = refusal(&run([path.as_os_str()].into_iter().chain(options)));
+    let what = "column name has no number to colour by; there are scene, q";
+    assert!(words.ends_with(what), "{words}");
 }
 
 #[test]
@@ -139,20 +145,22 @@ fn a_legend_says_what_colours_mean() {
     }
 }
 
-/// Frames have scales of their own, and so legends of their own.
+/// A colour means one number in all frames: the scale of the first widens where others exceed it, and never narrows. So
+/// do their legends.
 #[test]
 fn every_frame_has_its_legend() {
     let frames = "1\nProperties=species:S:1:pos:R:3:q:R:1\nC 0 0 0 1\n".to_owned()
-        + "2\nProperties=species:S:1:pos:R:3:q:R:1\nC 0 0 0 5\nC 2 0 0 7\n";
+        + "2\nProperties=species:S:1:pos:R:3:q:R:1\nC 0 0 0 5\nC 2 0 0 7\n"
+        + "1\nProperties=species:S:1:pos:R:3:q:R:1\nC 0 0 0 3\n";
     let path = file("legends.xyz", frames.as_bytes());
-    let words = "--size 40x10 --frames 0..2 --color-by q --legend --color 16 --charset ascii";
+    let words = "--size 40x10 --frames 0..3 --color-by q --legend --color 16 --charset ascii";
     let printed = printed(&run([path.as_os_str()]
         .into_iter()
         .chain(words.split_whitespace().map(AsRef::as_ref))));
     let lines: Vec<_> = printed.lines().collect();
-    assert_eq!(lines.len(), 20);
-    // The second frame's numbers begin at 5 and end at 7.
-    for (frame, [low, high]) in [(&lines[..10], ["1", "1"]), (&lines[10..], ["5", "7"])] {
+    assert_eq!(lines.len(), 30);
+    let ends = [["1", "1"], ["1", "7"], ["1", "7"]];
+    for (frame, [low, high]) in lines.chunks(10).zip(ends) {
         let has = |line: &&str, what: &str| line.contains(&format!(" {what}"));
         assert!(frame.iter().any(|line| has(line, "q ")), "{printed}");
         assert!(frame.iter().any(|line| has(line, low) && has(line, high)), "{printed}");

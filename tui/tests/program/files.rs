@@ -1,13 +1,18 @@
 //! Other people's files, on the command line: frames, notes, pipes.
 
-use crate::run::{file, printed, refusal, run, run_with_input};
+use crate::run::{file, printed, refusal, run, run_with_input, spherule};
 use std::ffi::OsStr;
-use std::io::Write;
-use std::process::Output;
+use std::io::{BufRead, BufReader, Write};
+use std::os::unix::ffi::OsStrExt;
+use std::path::{Path, PathBuf};
+use std::process::{Output, Stdio};
+use std::sync::mpsc::channel;
+use std::thread;
+use std::time::Duration;
 
 const TWO: &str = "1\none\nC 0 0 0\n2\ntwo\nC 0 0 0\nO 3 0 0\n";
 
-fn with(path: &std::path::Path, words: &str) -> Output {
+fn with(path: &Path, words: &str) -> Output {
     run([path.as_os_str()].into_iter().chain(words.split_whitespace().map(AsRef::as_ref)))
 }
 
@@ -116,6 +121,46 @@ fn a_frame_without_the_colours_or_radii_that_are_asked_for_is_said() {
     assert_eq!((keeps("colours"), keeps("radii"), said.lines().count()), (1, 1, 2), "{said}");
 }
 
+/// At once, since a file that is followed has no end.
+#[test]
+fn a_frame_that_is_followed_and_lacks_the_colours_is_said() {
+    let frames = "1\nProperties=species:S:1:pos:R:3:charge:R:1\nC 0 0 0 1\n1\nno charge\nC 0 0 0\n";
+    let path = file("followed.xyz", frames.as_bytes());
+    let words = "--size 20x5 --frames 0.. --follow --color-by charge";
+    let mut command = spherule();
+    command.arg(path).args(words.split(' ')).stdout(Stdio::null()).stderr(Stdio::piped());
+    let mut child = command.spawn().expect("the program runs");
+    let mut stderr = BufReader::new(child.stderr.take().expect("piped"));
+    let (sender, lines) = channel();
+    thread::spawn(move || {
+        let mut line = String::new();
+        let _ = stderr.read_line(&mut line);
+        let _ = sender.send(line);
+    });
+    let said = lines.recv_timeout(Duration::from_secs(60));
+    child.kill().expect("it runs");
+    child.wait().expect("it ends");
+    let said = said.expect("a line");
+    assert!(said.contains("followed.xyz: frame 1 keeps its colours: no charge"), "{said}");
+}
+
+/// It is shown as near to text as can be.
+#[test]
+fn a_name_need_not_be_text() {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(OsStr::from_bytes(b"no\xfftext.xyz"));
+    if std::fs::write(&path, TWO).is_err() {
+        println!("skipped: names are text in this file system");
+        return;
+    }
+    let expected = printed(&with(&file("text.xyz", TWO.as_bytes()), "--size 20x5 --frame 1"));
+    assert_eq!(printed(&with(&path, "--size 20x5 --frame 1")), expected);
+    let said = stderr(&with(&path, "--size 20x5"));
+    assert!(said.contains("/no\u{fffd}text.xyz: frame 0 is shown"), "{said}");
+    std::fs::remove_file(&path).expect("it was there");
+    assert!(refusal(&with(&path, "")).ends_with("/no\u{fffd}text.xyz: no such file"));
+    assert!(refusal(&run([OsStr::from_bytes(b"\xff")])).starts_with("\u{fffd}: no such scene"));
+}
+
 /// From a pipe, compressed, each frame as from the file.
 #[test]
 fn a_pipe_is_unpacked_and_has_frames() {
@@ -129,8 +174,11 @@ fn a_pipe_is_unpacked_and_has_frames() {
     // As a tape has it.
     let padded = [&*gz, &[0; 512][..]].concat();
     assert_eq!(printed(&run_with_input("- --size 20x5 --frames 0..2", &padded)), expected);
-    let cut = refusal(&run_with_input("-", &gz[..gz.len() - 5]));
-    assert!(cut.contains("the compressed data ends early"), "{cut}");
+    // What has come is drawn.
+    let cut = run_with_input("- --size 20x5 --frames 0..", &gz[..gz.len() - 5]);
+    assert_eq!(cut.status.code(), Some(2));
+    assert_eq!(String::from_utf8_lossy(&cut.stdout), expected);
+    assert!(stderr(&cut).contains("the compressed data ends early"), "{}", stderr(&cut));
 }
 
 #[test]
@@ -196,18 +244,44 @@ fn options_that_a_file_has_no_use_for() {
     assert!(printed(&with(&table, "--columns a,b,c --size 9x3")).lines().count() == 3);
 }
 
-/// The notes about it are its own.
-#[test]
-fn types_that_a_topology_does_not_know_are_said_or_refused() {
-    let gro = "t\n 3\n    1SOL     OW    1   0.126   1.624   1.679\n    1SOL    HW1    2   0.190   1.661   1.747\n    \
-        1SOL     MW    3   0.177   1.568   1.613\n   1.8 1.8 1.8\n";
-    let topology = file("topology.gro", gro.as_bytes());
+const TOPOLOGY: &str = "t\n 3\n    1SOL     OW    1   0.126   1.624   1.679\n    1SOL    HW1    2   0.190   1.661   1.747\n    \
+    1SOL     MW    3   0.177   1.568   1.613\n   1.8 1.8 1.8\n";
+
+/// A trajectory of as many atoms.
+fn trajectory(name: &str) -> PathBuf {
     // Magic, atoms, what says when and in which box, atoms again; few atoms are not compressed.
     let mut xtc = [1995_u32.to_be_bytes(), 3_u32.to_be_bytes()].concat();
     xtc.extend([0; 44]);
     xtc.extend(3_u32.to_be_bytes());
     xtc.extend((0..9_u8).flat_map(|value| f32::from(value).to_be_bytes()));
-    let path = file("topology.xtc", &xtc);
+    file(name, &xtc)
+}
+
+#[test]
+fn a_topology_s_name_need_not_be_text() {
+    let path = trajectory("named.xtc");
+    let named = Path::new(env!("CARGO_TARGET_TMPDIR")).join(OsStr::from_bytes(b"topo\xfflogy.gro"));
+    if std::fs::write(&named, TOPOLOGY).is_err() {
+        println!("skipped: names are text in this file system");
+        return;
+    }
+    let drawn = |topology: &Path| {
+        let words = ["--size", "20x5", "--topology"].map(OsStr::new);
+        run([path.as_os_str()].into_iter().chain(words).chain([topology.as_os_str()]))
+    };
+    let output = drawn(&named);
+    assert_eq!(output.stdout, drawn(&file("named.gro", TOPOLOGY.as_bytes())).stdout);
+    let said = stderr(&output);
+    assert!(said.contains("/topo\u{fffd}logy.gro: 1 particle is of an unknown type"), "{said}");
+    std::fs::remove_file(&named).expect("it was there");
+    assert!(refusal(&drawn(&named)).ends_with("/topo\u{fffd}logy.gro: no such file or directory"));
+}
+
+/// The notes about it are its own.
+#[test]
+fn types_that_a_topology_does_not_know_are_said_or_refused() {
+    let topology = file("topology.gro", TOPOLOGY.as_bytes());
+    let path = trajectory("topology.xtc");
     let with_topology = |options: &[&str]| {
         let named = [path.as_os_str(), OsStr::new("--topology"), topology.as_os_str()];
         run(named.into_iter().chain(options.iter().map(OsStr::new)))

@@ -2,6 +2,8 @@
 
 use crate::run::{array, file, npy, printed, refusal, run, run_with_input};
 use serde_json::Value;
+use spherule_kernel::{Exact, Ray, Sphere, Vec3, roots};
+use spherule_referee::ulp::ulp_between;
 use std::ffi::OsString;
 use std::fs;
 use std::path::PathBuf;
@@ -274,6 +276,24 @@ fn cases_are_the_same_as_lines_and_in_files() {
     let unknown = refusal(&run(words("cases --family tangents")));
     assert!(unknown.contains("one of ordinary, far-1e2"), "{unknown}");
     assert!(refusal(&run(words("cases --json --out-rays r.npy"))).contains("cannot be used with"));
+}
+
+/// Directions that are brought to length one leave intervals where they end on the ray.
+#[test]
+fn unit_directions_keep_ends_at_roots() {
+    let files = Files::new("unit", "--unit --count 400 --family interval-at-root", "exact");
+    let (rays, spheres) = (floats(&data(&files.rays)), floats(&data(&files.spheres)));
+    let is_at_root = |(ray, sphere): &(&[f32; 8], &[f32; 4])| {
+        let [x, y, z, dx, dy, dz, t_min, t_max] = **ray;
+        let ray = Ray::new(Vec3::new(x, y, z), Vec3::new(dx, dy, dz));
+        assert!((ray.direction.length() - 1.0).abs() < 1e-6, "{ray:?}");
+        let is_end = |root| [t_min, t_max].iter().any(|end| ulp_between(root, *end) <= 2);
+        let roots = roots(Exact, &ray, &Sphere::from(**sphere));
+        roots.is_some_and(|roots| roots.into_iter().any(is_end))
+    };
+    let cases = rays.as_chunks::<8>().0.iter().zip(spheres.as_chunks::<4>().0);
+    let count = cases.filter(is_at_root).count();
+    assert!(count > 300, "{count} of 400");
 }
 
 #[test]

@@ -8,6 +8,7 @@ use spherule::shade::Shader;
 use spherule::structure::Structure;
 use spherule::structure::scene::{PictureSearch, Setting};
 use spherule::structure::search::{Scratch, Search, Tracing};
+use spherule::threads::Threads;
 use spherule::view::View;
 use spherule_kernel::{Camera, Coherence, HitPacket, Level, RayPacket, Tier, Vec3};
 use std::collections::BTreeMap;
@@ -46,7 +47,8 @@ fn sphere_pixels(scene: &Scene, view: &View) -> Vec<(u32, Srgb)> {
             met.push((hit.sphere, pixel));
         }
     }
-    shader.light(tracing, &mut scratch, scene, &search, (&rays, &hits), &mut picture);
+    let (threads, hits) = (Threads::default(), (&*rays, &*hits));
+    shader.light(tracing, (&mut scratch, &threads), scene, &search, hits, &mut picture);
     let color = |(sphere, pixel)| (sphere, Srgb::from_linear(picture.pixels()[pixel]));
     met.into_iter().map(color).collect()
 }

@@ -25,3 +25,4 @@ mod table;
 mod trace;
 mod traced;
 mod tradeoff;
+mod whole_files;

@@ -79,6 +79,9 @@ fn kitty_gets_the_pixels_of_the_png() {
     assert!(keys.split(',').any(|key| key == "C=1"), "{keys}");
     assert!(text.starts_with(&format!("{}\x1b[8A\x1b_G", "\n".repeat(8))));
     assert!(text.ends_with("\x1b\\\x1b[8B\n"));
+    let wide = "marbles --size 12x20 --cell-aspect 3:1";
+    let text = String::from_utf8(sent(&format!("{wide} --output kitty"), None)).expect("UTF-8");
+    assert!(of_kitty(&text).1 == png(wide), "other pixels of wide cells");
     let row = String::from_utf8(sent("marbles --size 30x1 --output kitty", None)).expect("UTF-8");
     assert!(row.starts_with("\x1b_G") && row.ends_with("\x1b\\\n"), "{row:?}");
 }

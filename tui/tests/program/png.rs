@@ -1,29 +1,16 @@
 //! `--png`: a file that is whole, of the right size, and always the same; or none.
 
-use crate::run::{printed, refusal, run, spherule};
+use crate::run::{folder, names, printed, refusal, run, spherule};
 use png::{BitDepth, ColorType, Decoder, SrgbRenderingIntent};
 use rustix::process::{Pid, Signal, kill_process};
 use std::fs::{self, OpenOptions, Permissions};
 use std::io::Cursor;
 use std::os::unix::fs::PermissionsExt;
 use std::os::unix::process::ExitStatusExt;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
-
-/// An empty folder that is this test's own.
-fn folder(name: &str) -> PathBuf {
-    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = fs::remove_dir_all(&path);
-    fs::create_dir(&path).expect("a writable folder");
-    path
-}
-
-fn names(folder: &Path) -> Vec<String> {
-    let entries = fs::read_dir(folder).expect("a folder");
-    entries.map(|entry| entry.expect("an entry").file_name().display().to_string()).collect()
-}
 
 /// What the program makes of these words in a file.
 fn png(words: &str) -> Vec<u8> {
@@ -63,6 +50,27 @@ fn a_cell_is_eight_pixels_by_sixteen() {
     assert_eq!(size("unit --size 7x3"), (56, 48));
     assert_eq!(size("unit --size 7x3 --cell-aspect 1:1"), (56, 24));
     assert_eq!(size("unit --size 1x1 --cell-aspect 20:1"), (8, 1));
+}
+
+/// Whatever whole pixels make of the shape of a cell.
+#[test]
+fn a_sphere_is_round_in_cells_of_every_shape() {
+    for (shape, size) in [
+        ("9:20", "40x12"),
+        ("11:24", "40x12"),
+        ("1:2", "40x12"),
+        ("3:5", "40x12"),
+        ("3:1", "20x40"),
+        ("20:1", "20x120"),
+    ] {
+        let words = format!("unit --size {size} --cell-aspect {shape}");
+        let (width, _, pixels) = decoded(&png(&words));
+        let lines: Vec<&[u8]> = pixels.chunks(3 * width as usize).collect();
+        let rows = lines.iter().filter(|line| line.iter().any(|&byte| byte > 0)).count();
+        let is_lit = |x: &usize| lines.iter().any(|line| line[3 * x] > 0);
+        let columns = (0..width as usize).filter(is_lit).count();
+        assert!(rows > 50 && rows.abs_diff(columns) <= 2, "{words}: {columns} x {rows}");
+    }
 }
 
 #[test]

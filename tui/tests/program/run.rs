@@ -1,8 +1,9 @@
 //! The real program, run and its outcome checked.
 
 use std::ffi::OsStr;
+use std::fs;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
 /// The program without any variable that decides about colour or characters.
@@ -55,8 +56,22 @@ pub(crate) fn refusal(output: &Output) -> String {
 /// A file that is this test's own.
 pub(crate) fn file(name: &str, bytes: &[u8]) -> PathBuf {
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
-    std::fs::write(&path, bytes).expect("a writable folder");
+    fs::write(&path, bytes).expect("a writable folder");
     path
+}
+
+/// An empty folder that is this test's own.
+pub(crate) fn folder(name: &str) -> PathBuf {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = fs::remove_dir_all(&path);
+    fs::create_dir(&path).expect("a writable folder");
+    path
+}
+
+/// The names of what is in a folder.
+pub(crate) fn names(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).expect("a folder");
+    entries.map(|entry| entry.expect("an entry").file_name().display().to_string()).collect()
 }
 
 /// A `.npy` file of version 1 with this header and data.

@@ -195,7 +195,7 @@ fn an_output_that_cannot_be_written_is_a_failure() {
     }
 }
 
-/// What was there before stays until both are whole.
+/// What was there before stays until both are whole, each in a file of its own.
 #[test]
 fn an_output_is_no_half_of_two_and_not_standard_output() {
     let (spheres, rays) = data();
@@ -218,6 +218,21 @@ fn an_output_is_no_half_of_two_and_not_standard_output() {
         let message = refusal(&written(outputs));
         assert_eq!(message, format!("{option} -: standard output has the report; name a file"));
     }
+    let folder = t.parent().expect("a folder");
+    for again in [t.clone(), folder.join("./halves.t.npy"), folder.join(".//halves.t.npy")] {
+        let message = refusal(&written([out_t, t.as_os_str(), out_id, again.as_os_str()]));
+        let what = "--out-t has that file; name another";
+        assert_eq!(message, format!("--out-id {}: {what}", again.display()));
+    }
+    for (option, input) in [("--spheres", &spheres), ("--rays", &rays)] {
+        let before = std::fs::read(input).expect("a file");
+        let message = refusal(&written([out_t, t.as_os_str(), out_id, input.as_os_str()]));
+        let what = format!("{option} is read from that file; name another");
+        assert_eq!(message, format!("--out-id {}: {what}", input.display()));
+        assert!(std::fs::read(input).expect("a file") == before);
+    }
+    let null = OsStr::new("/dev/null");
+    assert!(written([out_t, null, out_id, null]).status.success());
     assert_eq!(std::fs::read(&t).expect("a file"), b"before");
 }
 

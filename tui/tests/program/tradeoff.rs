@@ -128,6 +128,21 @@ fn edge_is_where_the_lecture_s_forms_are_wrong_and_exact_is_right() {
     assert_eq!((count(exact), exact["ulp_max"].as_u64()), ([0; 3], Some(0)));
 }
 
+/// A hit at the other root has another normal.
+#[test]
+fn wrong_normals_of_edge_are_wrong_spheres() {
+    let report = measured(&["edge", "--size", "80x24"]);
+    let wrong = tier(&report, "fast", "camera")["wrong_sphere"].as_u64().expect("a count");
+    let [fast, ..] = lighting(&report);
+    assert!(wrong > 0 && wrong >= fast[1], "{wrong} wrong spheres, {} wrong normals", fast[1]);
+}
+
+#[test]
+fn one_ray_is_counted_as_one() {
+    let table = printed(&run(["tradeoff", "unit", "--size", "1x1", "--samples", "1"]));
+    assert!(table.contains("\n1 camera ray\n"), "{table}");
+}
+
 /// The counts of `Fast`, found by one lane; the truth is in double precision.
 #[test]
 fn the_counts_are_those_of_a_scalar_loop() {

@@ -1,0 +1,146 @@
+//! Files that are written whole or not at all: several at once, and one in place of another.
+
+use crate::run::{folder, names, printed, refusal, run, spherule};
+use rustix::process::{Gid, Pid, Signal, getgroups, kill_process};
+use std::ffi::OsStr;
+use std::fs::{self, Permissions};
+use std::os::unix::fs::{MetadataExt, PermissionsExt, chown, symlink};
+use std::os::unix::process::ExitStatusExt;
+use std::path::Path;
+use std::process::Stdio;
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// Whichever of them is removed first.
+#[test]
+fn a_signal_leaves_none_of_several_files() {
+    for round in 0..8 {
+        let folder = folder("whole-several");
+        let mut command = spherule();
+        command.args(["cases", "--count", "1000000000"]);
+        for (option, name) in [("--out-spheres", "s"), ("--out-rays", "r"), ("--out-family", "f")] {
+            command.arg(option).arg(folder.join(name));
+        }
+        let mut child = command.stdout(Stdio::null()).spawn().expect("the program runs");
+        let deadline = Instant::now() + Duration::from_secs(60);
+        while names(&folder).len() < 3 {
+            assert!(Instant::now() < deadline, "no files");
+            thread::sleep(Duration::from_millis(1));
+        }
+        kill_process(Pid::from_child(&child), Signal::INT).expect("it runs");
+        let status = child.wait().expect("it ends");
+        assert_eq!(status.signal(), Some(Signal::INT.as_raw()), "{status}");
+        assert_eq!(names(&folder), [""; 0], "round {round}");
+    }
+}
+
+/// Whoever reads the old file as one of its group reads the new one.
+#[test]
+fn a_file_that_is_replaced_keeps_its_group() {
+    let file = folder("whole-group").join("a.png");
+    fs::write(&file, "before").expect("a writable folder");
+    let group = || fs::metadata(&file).expect("a file").gid();
+    let own = group();
+    // Root may give a file any group, others one that they are in.
+    let mut others = getgroups().unwrap_or_default().into_iter().map(Gid::as_raw).chain([own + 1]);
+    let is_given = |&other: &u32| other != own && chown(&file, None, Some(other)).is_ok();
+    let Some(other) = others.find(is_given) else {
+        println!("skipped: this user is in one group");
+        return;
+    };
+    fs::set_permissions(&file, Permissions::from_mode(0o660)).expect("the owner's file");
+    let output = run(["unit".as_ref(), "--png".as_ref(), file.as_os_str()]);
+    assert_eq!((&*printed(&output), group()), ("", other));
+    assert_eq!(fs::metadata(&file).expect("a file").permissions().mode() & 0o777, 0o660);
+}
+
+/// There is no other copy of it. A recording is none, though it has commas.
+#[test]
+fn a_scene_is_not_replaced_by_its_picture() {
+    let folder = folder("whole-scene");
+    let [scene, points, link] = ["s.toml", "p.txt", "link.png"].map(|name| folder.join(name));
+    let files = [
+        (&scene, "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n"),
+        (&points, "0.5,1.5,2.5\n3,4,5\n"),
+    ];
+    for (file, text) in files {
+        fs::write(file, text).expect("a writable folder");
+    }
+    symlink("s.toml", &link).expect("a link");
+    let shown = |scene: &Path, option: &str, file: &Path| {
+        let sizes = ["--size", "8x4", option].map(OsStr::new);
+        run([scene.as_os_str()].into_iter().chain(sizes).chain([file.as_os_str()]))
+    };
+    let unit = Path::new("unit");
+    for option in ["--png", "--cast"] {
+        for (scene, file, what) in [
+            (&*scene, &*scene, "the scene is read from that file"),
+            (&*scene, &*link, "the scene is read from that file"),
+            (unit, &*scene, "it is a scene (toml)"),
+            (unit, &*link, "it is a scene (toml)"),
+            (unit, &*points, "it is a scene (csv)"),
+        ] {
+            let message = refusal(&shown(scene, option, file));
+            assert!(
+                message.starts_with(&format!("{option} {}: {what}", file.display())),
+                "{message}"
+            );
+        }
+    }
+    for (file, text) in files {
+        assert_eq!(fs::read_to_string(file).expect("a file"), text);
+    }
+    let recording = folder.join("a.cast");
+    for _ in 0..2 {
+        let words = ["unit", "--size", "8x4", "--frames", "2", "--cast"].map(OsStr::new);
+        assert_eq!(printed(&run(words.into_iter().chain([recording.as_os_str()]))), "");
+    }
+}
+
+/// Neither a new one nor a scene.
+#[test]
+fn the_name_of_a_folder_is_no_file() {
+    let folder = folder("whole-folder");
+    let text = "1\n\nH 0 0 0\n";
+    fs::write(folder.join("other.xyz"), text).expect("a writable folder");
+    for name in ["pictures/", "pictures/.", "other.xyz/"] {
+        let file = folder.join(name);
+        let output = run([OsStr::new("unit"), OsStr::new("--png"), file.as_os_str()]);
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert!(!output.status.success() && message.contains("not a directory"), "{message}");
+        assert_eq!(names(&folder), ["other.xyz"], "{name}");
+    }
+    assert_eq!(fs::read_to_string(folder.join("other.xyz")).expect("a file"), text);
+}
+
+/// It has a name, but no place.
+#[test]
+fn a_pipe_by_its_name_takes_a_picture() {
+    let output = run(["unit", "--size", "8x4", "--png", "/dev/stdout"]);
+    assert_eq!((output.status.code(), output.stderr), (Some(0), Vec::new()));
+    assert!(output.stdout.starts_with(b"\x89PNG"));
+}
+
+#[test]
+fn two_outputs_are_not_one() {
+    let folder = folder("whole-twice");
+    let (file, link) = (folder.join("a.npy"), folder.join("link.npy"));
+    symlink("a.npy", &link).expect("a link");
+    let written = |spheres: &Path, rays: &Path| {
+        let mut command = spherule();
+        command.args(["cases", "--count", "10", "--out-spheres"]).arg(spheres);
+        command.arg("--out-rays").arg(rays).output().expect("the program runs")
+    };
+    let (stdout, null) = (Path::new("-"), Path::new("/dev/null"));
+    for (spheres, rays) in [(&*file, &*file), (&*file, &*link), (&*link, &*file), (stdout, stdout)]
+    {
+        let message = refusal(&written(spheres, rays));
+        let what = "--out-spheres has that file; name another";
+        assert_eq!(message, format!("--out-rays {}: {what}", rays.display()));
+    }
+    assert_eq!(names(&folder), ["link.npy"]);
+    assert!(written(null, null).status.success());
+    // A link to no file leads to the new one.
+    let output = written(&link, null);
+    assert!(output.status.success() && link.is_symlink() && file.is_file());
+}
