@@ -71,7 +71,7 @@ impl Rays {
 /// Prints the best of some rates of either query, by packets and by slices.
 fn race(
     name: &str,
-    tier: impl Accuracy + Copy,
+    tier: impl Accuracy,
     mut trace: Trace<'_>,
     structure: &impl Intersect,
     rays: &Rays,
