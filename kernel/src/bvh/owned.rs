@@ -158,6 +158,7 @@ impl SphereTree {
     /// assert_eq!(tree.bvh().spheres().len(), 2);
     /// ```
     #[must_use]
+    #[inline]
     pub fn bvh(&self) -> Bvh<'_> {
         let (places, indices) = (&self.places, &self.indices);
         Bvh::of(self.built, self.spheres.spheres(), &self.nodes, places, indices)

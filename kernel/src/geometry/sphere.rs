@@ -136,6 +136,7 @@ impl<'a> Spheres<'a> {
 
     /// As many spheres as all four columns hold, and as an index can name.
     #[cfg(feature = "alloc")]
+    #[inline]
     pub(super) fn first_of(x: &'a [f32], y: &'a [f32], z: &'a [f32], r: &'a [f32]) -> Self {
         let count = x.len().min(y.len()).min(z.len()).min(r.len()).min(u32::MAX as usize);
         let first = |column: &'a [f32]| column.get(..count).unwrap_or_default();

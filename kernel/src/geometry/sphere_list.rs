@@ -101,6 +101,7 @@ impl SphereList {
     /// assert_eq!(list.spheres().get(1).map(|sphere| sphere.center.z), Some(9.0));
     /// ```
     #[must_use]
+    #[inline]
     pub fn spheres(&self) -> Spheres<'_> {
         Spheres::first_of(&self.x, &self.y, &self.z, &self.r)
     }
