@@ -1,6 +1,6 @@
 //! Keys while a picture is drawn that takes far longer than anyone waits.
 
-use super::look::{Look, last_row, look};
+use super::look::{Look, inverse, last_row, look};
 use super::picture::OPTIONS;
 use super::session::{Output, Session};
 use super::viewer::{COLUMNS, PICTURE_ROWS, ROWS, shows_a_frame};
@@ -121,6 +121,31 @@ fn a_key_that_is_held_down_leaves_pictures_to_be_seen() {
         viewer.hold(key, |output| shows_a_frame(output) && picture(output) != before);
         before = picture(&viewer.session.output());
     }
+    viewer.quit();
+}
+
+/// So does Enter, which needs what draws.
+#[test]
+fn enter_that_is_held_down_leaves_a_picture_to_be_seen() {
+    let mut viewer = OnTable::start("entered.csv", &[]);
+    let picked = |viewer: &OnTable, before: &[(u16, u16)]| {
+        viewer.session.wait_for("another cell that is picked", |output| {
+            let cells = inverse(output.screen());
+            let is_other = cells.len() == 1 && cells != before;
+            let is_sphere = output.screen().contents().contains("sphere ");
+            (shows_a_frame(output) && is_other).then_some((cells, is_sphere))
+        })
+    };
+    viewer.session.wait_for("a picture", |output| shows_a_frame(output).then_some(()));
+    viewer.session.type_in("p");
+    let (mut cell, mut is_sphere) = picked(&viewer, &[]);
+    while !is_sphere {
+        viewer.session.type_in("\x1b[C");
+        (cell, is_sphere) = picked(&viewer, &cell);
+    }
+    let picture = |output: &Output| look(output.screen(), PICTURE_ROWS);
+    let before = picture(&viewer.session.output());
+    viewer.hold("\r", |output| shows_a_frame(output) && picture(output) != before);
     viewer.quit();
 }
 

@@ -14,7 +14,7 @@ use crate::structure::Structure;
 use crate::structure::scene::SceneStructures;
 use crate::structure::search::Tracing;
 use crate::threads::{Threads, packets_a_task, packets_a_tree_task};
-use crate::whole_file::check_outputs;
+use crate::whole_file::{check_outputs, is_stdout};
 use batches::{batches, runs, workload};
 use passes::{Passes, Query};
 use report::Report;
@@ -106,8 +106,9 @@ fn check_files(arguments: &TraceArguments) -> Result<(), Error> {
     let outputs: Vec<(&str, &Path)> =
         outputs.into_iter().filter_map(|(option, path)| Some((option, path.as_deref()?))).collect();
     for (option, path) in &outputs {
-        if *path == Path::new("-") {
-            let what = format!("{option} -: standard output has the report; name a file");
+        if is_stdout(path) {
+            let what = "standard output has the report; name a file";
+            let what = format!("{option} {}: {what}", path.display());
             return Err(Error::Input(what));
         }
     }

@@ -117,6 +117,7 @@ pub fn run(
         asked,
         framed: None,
         postponed: None,
+        entered: None,
         notice: None,
         owes_notice: false,
         told: Vec::new(),

@@ -7,7 +7,7 @@ mod outputs;
 mod place;
 mod watch;
 
-pub use outputs::check_outputs;
+pub use outputs::{check_outputs, is_stdout};
 pub use watch::Watch;
 
 use crate::error::stdout::Stdout;

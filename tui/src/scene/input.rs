@@ -255,8 +255,9 @@ impl Input {
         self.terminated
     }
 
-    /// Gives the last line back, so that it is the next one.
+    /// Gives the last line back, so that it is the next one. No other must have been asked for since: not even the end.
     pub(super) fn give_back(&mut self) {
+        debug_assert!(self.last.offset >= self.before, "the line is no longer in the buffer");
         self.start = (self.last.offset - self.before) as usize;
         self.number = self.last.number;
     }

@@ -79,6 +79,10 @@ impl Viewer {
                 }
                 Some(keys::Input::FramePicked) if self.state.shown.cursor.is_some() => {
                     let Some(studio) = studio.as_deref_mut() else {
+                        // Held down, it asks for what is being drawn.
+                        if self.entered == Some((self.wanted(), self.state.shown.cursor)) {
+                            continue;
+                        }
                         self.postponed = Some(event);
                         return Ok(outcome.and(Outcome::Changed));
                     };
@@ -86,6 +90,7 @@ impl Viewer {
                     if let Some(sphere) = pick.and_then(|pick| Some(pick.sphere?.sphere)) {
                         outcome = outcome.and(self.state.frame(sphere));
                     }
+                    self.entered = Some((self.wanted(), self.state.shown.cursor));
                 }
                 Some(keys::Input::Spin) if self.plays() => {
                     self.film.iter_mut().for_each(Film::play);

@@ -5,6 +5,7 @@ use super::film::Film;
 use super::flow::Flow;
 use super::meter::Meter;
 use super::pace::Pace;
+use super::picking::Cursor;
 use super::pixels::Pixels;
 use super::recording::Recording;
 use super::state::State;
@@ -47,6 +48,8 @@ pub(super) struct Viewer {
     pub(super) framed: Option<Sphere>,
     /// What the user did while a picture was drawn, and what can only be done when no one draws.
     pub(super) postponed: Option<Event>,
+    /// The picture that came of the last Enter, and the cell that was picked then.
+    pub(super) entered: Option<(Wanted, Option<Cursor>)>,
     /// A word of the program, until the next key.
     pub(super) notice: Option<String>,
     /// Whether what came by itself has not been shown yet: until then no key takes it away.

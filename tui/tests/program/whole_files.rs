@@ -3,7 +3,7 @@
 use crate::run::{folder, names, printed, refusal, run, spherule};
 use rustix::process::{Gid, Pid, Signal, getgroups, kill_process};
 use std::ffi::OsStr;
-use std::fs::{self, Permissions};
+use std::fs::{self, File, Permissions};
 use std::os::unix::fs::{MetadataExt, PermissionsExt, chown, symlink};
 use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
@@ -119,6 +119,11 @@ fn a_pipe_by_its_name_takes_a_picture() {
     let output = run(["unit", "--size", "8x4", "--png", "/dev/stdout"]);
     assert_eq!((output.status.code(), output.stderr), (Some(0), Vec::new()));
     assert!(output.stdout.starts_with(b"\x89PNG"));
+    let rays = folder("whole-pipe").join("r.npy");
+    let words = ["cases", "--count", "2", "--out-spheres", "/dev/stdout", "--out-rays"];
+    let output = run(words.map(OsStr::new).into_iter().chain([rays.as_os_str()]));
+    assert_eq!((output.status.code(), output.stderr), (Some(0), Vec::new()));
+    assert!(output.stdout.starts_with(b"\x93NUMPY") && rays.is_file());
 }
 
 #[test]
@@ -140,6 +145,23 @@ fn two_outputs_are_not_one() {
     }
     assert_eq!(names(&folder), ["link.npy"]);
     assert!(written(null, null).status.success());
+    // Nor is standard output by its name, or by the name of its file, another one.
+    let taken = folder.join("stdout");
+    let into_taken = |words: &str, output: &Path| {
+        let mut command = spherule();
+        command.args(words.split(' ')).arg(output);
+        command.stdout(File::create(&taken).expect("a writable folder"));
+        refusal(&command.output().expect("the program runs"))
+    };
+    for output in [Path::new("/dev/stdout"), &*taken] {
+        let cases = "cases --count 2 --out-rays - --out-spheres";
+        let message = into_taken(cases, output);
+        assert!(message.ends_with("has that file; name another"), "{message}");
+        let message = into_taken("trace --spheres no.npy --rays no.npy --out-t", output);
+        let what = "standard output has the report; name a file";
+        assert_eq!(message, format!("--out-t {}: {what}", output.display()));
+    }
+    fs::remove_file(&taken).expect("a file");
     // A link to no file leads to the new one.
     let output = written(&link, null);
     assert!(output.status.success() && link.is_symlink() && file.is_file());

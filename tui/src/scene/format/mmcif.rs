@@ -108,10 +108,6 @@ fn find_atoms(
             let heading = std::mem::take(&mut heading);
             if !has_table {
                 let read = Component::read(&heading, input, context.fixed);
-                if read.is_err() {
-                    // The line may begin a text.
-                    input.give_back();
-                }
                 component = component.and_then(|before| Ok(read?.or(before)));
                 unplaced |= matches!(component, Ok(None));
             }

@@ -54,10 +54,11 @@ pub(super) fn read(input: &mut Input, context: &mut Context) -> Result<Scene, Re
             continue;
         }
         separator.split(line.bytes, most, &mut fields);
+        columns.end_at_comment(line.bytes, &mut fields);
         if let Some(header) = header
             && !separator.fits(line.bytes, &fields, header.names)
         {
-            return Err(misfit(&line, separator, header));
+            return Err(misfit(&line, separator, &columns, header));
         }
         if let Some(width) = width
             && other_width.is_none()
@@ -199,9 +200,10 @@ fn no_row(input: &Input) -> ReadError {
 
 /// The error that a row has other fields than the header names.
 #[cold]
-fn misfit(line: &Line<'_>, separator: Separator, header: Header) -> ReadError {
+fn misfit(line: &Line<'_>, separator: Separator, columns: &Columns, header: Header) -> ReadError {
     let mut fields = Vec::new();
     separator.split(line.bytes, usize::MAX, &mut fields);
+    columns.end_at_comment(line.bytes, &mut fields);
     let byte = fields.get(header.names.0).map_or(line.bytes.len(), |field| field.start);
     let what = format!(
         "{} values; the header in line {} names {}; --columns takes columns by number",

@@ -4,8 +4,8 @@ use super::row::Row;
 use crate::scene::input::{Input, Line};
 use crate::scene::read_error::ReadError;
 
-/// Reads rows of so many values until the table ends, or `add` returns `false`: then the row is the next one again. Returns whether no row
-/// of these may still be on its way.
+/// Reads rows of so many values until the table ends, or `add` returns `false`: then the row is the next one again; so is a line that
+/// is wrong. Returns whether no row of these may still be on its way.
 ///
 /// # Errors
 /// [`ReadError`] of `add`, and if a row has other values.
@@ -30,23 +30,19 @@ pub(super) fn read_rows(
             break;
         }
         has_ended = false;
-        if line.bytes.starts_with(b";") {
-            return Err(line.error(0, "a text of many lines among atoms"));
+        match take(&line, &mut row, count, &mut add) {
+            Ok(true) => {}
+            Ok(false) => {
+                has_ended = true;
+                input.give_back();
+                break;
+            }
+            Err(error) => {
+                // The line may begin a text, or another block.
+                input.give_back();
+                return Err(error);
+            }
         }
-        row.add(&line)?;
-        if row.words.len() < count {
-            continue;
-        }
-        if row.words.len() > count {
-            let what = format!("{} values; the table has {count} columns", row.words.len());
-            return Err(line.error(0, what));
-        }
-        if !add(&line, &row)? {
-            has_ended = true;
-            input.give_back();
-            break;
-        }
-        row.clear();
     }
     if row.is_begun() && row.words.len() < count {
         return Err(input.ends(format!(
@@ -55,6 +51,31 @@ pub(super) fn read_rows(
         )));
     }
     Ok(has_ended)
+}
+
+/// Takes a line of a row, and adds the row when it has all its values; returns `false` if `add` does.
+fn take(
+    line: &Line<'_>,
+    row: &mut Row,
+    count: usize,
+    add: &mut impl FnMut(&Line<'_>, &Row) -> Result<bool, ReadError>,
+) -> Result<bool, ReadError> {
+    if line.bytes.starts_with(b";") {
+        return Err(line.error(0, "a text of many lines among atoms"));
+    }
+    row.add(line)?;
+    if row.words.len() < count {
+        return Ok(true);
+    }
+    if row.words.len() > count {
+        let what = format!("{} values; the table has {count} columns", row.words.len());
+        return Err(line.error(0, what));
+    }
+    let goes_on = add(line, row)?;
+    if goes_on {
+        row.clear();
+    }
+    Ok(goes_on)
 }
 
 /// Whether a line begins with a word, in any case.

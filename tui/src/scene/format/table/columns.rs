@@ -3,6 +3,7 @@
 use super::separator::number_before_comment;
 use crate::scene::format::words::excerpt;
 use crate::scene::number::number;
+use std::ops::Range;
 
 /// How many other columns are kept at most: they take memory.
 const MOST_KEPT: usize = 8;
@@ -161,14 +162,21 @@ impl Columns {
         let (element, kind) = (named(&["element", "symbol", "species"]), named(&["type", "kind"]));
         columns.kind = element.or(kind);
         columns.may_number_kinds = element.is_none();
-        let taken = |column: usize| {
-            columns.position.contains(&column)
-                || [columns.radius, columns.diameter, columns.kind].contains(&Some(column))
-                || columns.color.is_some_and(|color| color.contains(&column))
+        // One without a name is called by its number, unless that is the name of another.
+        let has_others_name = |column: usize| {
+            is_header
+                && names[column].is_empty()
+                && find(names, &[&(column + 1).to_string()]).is_some()
         };
-        let others = (0..names.len()).filter(|&column| !taken(column));
-        columns.further = others.clone().count().saturating_sub(MOST_KEPT);
+        let is_other = |&column: &usize| {
+            !columns.must_be_number(column)
+                && columns.kind != Some(column)
+                && !has_others_name(column)
+        };
+        let others: Vec<usize> = (0..names.len()).filter(is_other).collect();
+        columns.further = others.len().saturating_sub(MOST_KEPT);
         let kept: Vec<(usize, Box<str>)> = others
+            .into_iter()
             .take(MOST_KEPT)
             .map(|column| {
                 // pandas writes its index without a name.
@@ -187,6 +195,26 @@ impl Columns {
         let all = all.chain(columns.kept.iter().map(|(column, _)| *column));
         columns.most = all.max().unwrap_or(0) + 1;
         Ok(columns)
+    }
+
+    /// Whether each row must have a number in this column.
+    fn must_be_number(&self, column: usize) -> bool {
+        self.position.contains(&column)
+            || [self.radius, self.diameter].contains(&Some(column))
+            || self.color.is_some_and(|color| color.contains(&column))
+    }
+
+    /// Leaves out a comment behind a number, whatever separates its words: they are no values. (A label may have such a sign.)
+    pub(super) fn end_at_comment(&self, line: &[u8], fields: &mut Vec<Range<usize>>) {
+        if memchr::memchr3(b'#', b'%', b'/', line).is_none() {
+            return;
+        }
+        let last = fields.iter().enumerate().position(|(column, field)| {
+            self.must_be_number(column) && number_before_comment(line, field).is_some()
+        });
+        if let Some(last) = last {
+            fields.truncate(last + 1);
+        }
     }
 }
 
@@ -210,5 +238,9 @@ mod tests {
         let columns = Columns::new(&names, true, None).expect("a header");
         let kept: Vec<_> = columns.kept.iter().map(|(column, name)| (*column, &**name)).collect();
         assert_eq!(kept, [(0, "1")]);
+        let names: [&[u8]; 5] = [b"", b"x", b"y", b"z", b"1"];
+        let columns = Columns::new(&names, true, None).expect("a header");
+        let kept: Vec<_> = columns.kept.iter().map(|(column, name)| (*column, &**name)).collect();
+        assert_eq!(kept, [(4, "1")]);
     }
 }

@@ -170,4 +170,18 @@ fn mmcif_components_that_lie() {
     assert_eq!(error(ion("MG MG MG x 0 0 . . .")), format!("f:11:1: {what}"));
     let none = component("UNL", "UNL C C ? ? ? ? ? ?\n");
     assert!(error(none).starts_with("f: components without positions"));
+    // One that is still being written, or was cut.
+    let whole = component("CUT", "CUT C1 C 1 2 3 7 8 9\nCUT C2 C 1 2 3 7 8\n");
+    let (cut, _) = whole.split_once("#\nloop_\n_chem_comp_bond").expect("bonds");
+    assert_eq!(error(cut), "f:21:1: the file ends after 8 of 9 values of an atom");
+    let text = component("SEE", "SEE C1 C 1 2 3 7 8 9\n") + cut;
+    let frames = &mut frames_of("cut.cif", text.as_bytes(), &Reading::default());
+    assert_eq!(
+        frames.read(0).expect("a component").map(|scene| centers(&scene)),
+        Some(vec![[1.0, 2.0, 3.0]])
+    );
+    assert!(frames.has(1).is_err());
+    // What the row lacks is not taken from the next block.
+    let text = format!("{cut}{}", component("SEE", "SEE C1 C 1 2 3 7 8 9\n"));
+    assert_eq!(error(text), "f:21:1: \"data_SEE\" is no finite coordinate");
 }

@@ -63,6 +63,19 @@ fn a_comment_follows_a_number() {
     assert_eq!(spheres(&scene), [[1.0, 2.0, 3.0, 0.5]]);
     assert_eq!(centers(&good("name,x,y,z\n1 #2,0.5,1.5,2.5\nC #1,3,4,5\n")), EXPECTED);
     assert_eq!(centers(&by("2,3,4", "1 #2,0.5,1.5,2.5\nC #1,3,4,5 # c\n")), EXPECTED);
+    // Its commas separate no values.
+    let missing = "the radius is missing: 3 columns, not 4";
+    for first in ["x,y,z,r\n0,0,0,1\n", "1,2,3,1\n4,5,6,1\n"] {
+        for comment in ["moved by 5, 7", "a,7", "a, b, 7, 8"] {
+            let text = format!("{first}4,5,6 # {comment}\n");
+            assert_eq!(error(&*text), format!("f:3:{}: {missing}", 9 + comment.len()), "{text}");
+        }
+    }
+    let what = "3 values; the header in line 1 names 4; --columns takes columns by number";
+    assert_eq!(error("# x,y,z,r\n4,5,6 # a, 7\n"), format!("f:2:13: {what}"));
+    let scene = good("x,y,z,q\n0,0,0,1\n4,5,6 # moved by 5, 7\n");
+    let kept = scene.attributes().column("q").expect("numbers");
+    assert!(kept.values[0] == 1.0 && kept.values[1].is_nan());
     assert_eq!(error("x,y,z\n1,2,3a # c\n"), "f:2:5: z is \"3a # c\": no number");
 }
 
