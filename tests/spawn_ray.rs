@@ -259,6 +259,30 @@ fn inside_rays_along_the_surface_meet_its_far_side() {
     }
 }
 
+/// Outwards, the far side is no farther than the origin is deep, which near the coordinates' zero is as little as the interval's start.
+#[test]
+fn inside_rays_of_any_direction_meet_the_far_side() {
+    let mut random = Random::seeded(53);
+    let mut shallow = 0;
+    for _ in 0..4000 {
+        let sphere = {
+            let side = random.between(1.0, 2.0);
+            let center = -side * (Vec3::ONE + random.in_cube(1e-6));
+            Sphere { center, radius: center.length() }
+        };
+        let towards = -sphere.center;
+        let Some(surface) = hit(Tier::Exact, &Ray::new(2.0 * towards, -towards), &sphere) else {
+            continue;
+        };
+        let spawned = surface.spawn_ray(Exact, &sphere, Side::Inside, Vec3::ONE);
+        let spawned = spawned.expect("an origin");
+        let hit = SphereList::from([sphere]).closest_hit(Exact, &spawned);
+        let hit = hit.unwrap_or_else(|| panic!("{spawned:?} {sphere:?}"));
+        shallow += u32::from(hit.t < 2.0 * spawned.t_min);
+    }
+    assert!(shallow > 100, "{shallow}");
+}
+
 /// A path tracer turns normals towards the ray that came.
 #[test]
 fn a_turned_normal_changes_no_ray() {
