@@ -127,7 +127,7 @@ fn origins_are_within_two_steps_of_the_point() {
                 "{off}: {ray:?} {sphere:?}"
             );
             // Near zero, neighbouring numbers are closer than double precision knows the point.
-            if spacing(left.origin) > 2.0_f64.powi(-45) * r + from_afar {
+            if spacing(left.origin) > 2.0_f64.powi(-45) * r {
                 (farthest, total) = (farthest.max(height), total + height);
                 count += 1;
             }
@@ -138,6 +138,34 @@ fn origins_are_within_two_steps_of_the_point() {
         total / f64::from(count)
     );
     assert!(farthest <= 2.0, "{farthest}");
+}
+
+/// A ray that goes back by so little passes over the sphere: from cos^2/2 r above it, and steps double.
+#[test]
+fn a_ray_that_hardly_goes_back_starts_higher() {
+    let mut random = Random::seeded(54);
+    let (mut count, mut highest) = (0, 0.0_f64);
+    while count < 20_000 {
+        let radius = random.between(1.005, 1.03);
+        let sphere = Sphere { center: -radius * Vec3::Z, radius };
+        let at = 4e-7 * random.in_cube(1.0);
+        let ray = Ray::new(Vec3::new(at.x, at.y, 2.0), Vec3::NEG_Z);
+        let Some(surface) = hit(Tier::Exact, &ray, &sphere) else { continue };
+        let back = 2_f32.powf(random.between(-24.0, -20.0));
+        let across = surface.normal.cross(random.direction()).normalize_or(Vec3::X);
+        let direction = across - back * surface.normal;
+        let spawned = surface.spawn_ray(Exact, &sphere, Side::Outside, direction);
+        let spawned = spawned.expect("an origin");
+        let r = f64::from(radius);
+        let height = (spawned.origin.as_dvec3() - sphere.center.as_dvec3()).length() - r;
+        let over = (height - 2.0 * spacing(spawned.origin)) / r;
+        highest = highest.max(over);
+        assert!(!SphereList::from([sphere]).any_hit(Exact, &spawned) || back > 2_f32.powi(-20));
+        count += 1;
+    }
+    let promised = 2.0_f64.powi(-40);
+    println!("{:.2} of what is promised", highest / promised);
+    assert!(highest > 0.5 * promised && highest <= promised, "{highest:e}");
 }
 
 /// The cosine times both lengths.
@@ -324,6 +352,23 @@ fn a_shadow_ray_until_its_light_is_not_shadowed_by_it() {
         }
     }
     assert!(shadowed > 4000, "{shadowed}");
+}
+
+/// Where squares underflow, `Stable` may have its far root before the near one.
+#[test]
+fn roots_in_the_wrong_order_end_a_ray_before_both() {
+    let sphere = Sphere {
+        center: Vec3::new(6.498_219_4e-21, 2.398_493_6e-21, 1.060_833_8e-19),
+        radius: 3.150_952e-21,
+    };
+    let ray = Ray::new(
+        Vec3::new(6.537_744e-21, 5.254_173_7e-21, 1.047_522_1e-19),
+        Vec3::new(0.562_677, 0.063_356_61, 0.165_813_61),
+    );
+    let [near, far] = roots(Tier::Stable, &ray, &sphere).expect("a hit");
+    assert!(far < near, "{near:e} {far:e}");
+    let until = ray.until(Tier::Stable, &sphere);
+    assert!(!SphereList::from([sphere]).any_hit(Tier::Stable, &until), "{until:?}");
 }
 
 #[test]

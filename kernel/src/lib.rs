@@ -67,7 +67,7 @@ pub use packets::{
 };
 pub use query::{AnyHit, ClosestHit, Query};
 pub use spawn_ray::packets::{SurfaceHit, SurfaceHits, Towards, shadow_lanes};
-pub use spawn_ray::{Side, side};
+pub use spawn_ray::side::{Side, side};
 #[cfg(feature = "stages")]
 pub use stages::{Stages, stages};
 pub use surface::{surface, surface_lanes};

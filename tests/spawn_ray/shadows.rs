@@ -159,6 +159,43 @@ fn so_they_are_to_a_light_beside_the_surface() {
     assert!(left > 1000, "{left}");
 }
 
+/// From inside to a light that is nearer than the origin is deep: the way turns out through the surface, whose far side would lie
+/// before the interval.
+#[test]
+fn so_they_are_from_inside_to_a_light_within_a_step() {
+    let list = SphereList::from([[0.0, 0.0, 1.0, 1.0]]);
+    let rays = [Ray::new(Vec3::Z, Vec3::NEG_Z)];
+    let step = 2_f32.powi(-47);
+    for aside in [0.5, 1.0, 2.0, 64.0] {
+        let light = step * Vec3::new(aside, 0.0, 0.125);
+        assert!(assert_as_one_ray(&list, &rays, Towards::Point(light)) > 0, "{light}");
+    }
+}
+
+/// So they are along the surface from an origin that is shallow: near the coordinates' zero, with a light towards which the normal faces by
+/// its rounding alone.
+#[test]
+fn so_they_are_from_inside_where_the_far_side_is_before_the_interval() {
+    for (sphere, origin, direction, light) in [
+        (
+            [-1.279_946_9, -1.279_946_2, -1.279_945_4, 2.216_931_8],
+            [-0.639_973_46, -0.639_973_1, -0.639_972_7],
+            [1.279_946_9, 1.279_946_2, 1.279_945_4],
+            [-0.359_929_35, 0.321_000_93, 0.038_928_665],
+        ),
+        (
+            [-1.967_390_4, -1.967_388_2, -1.967_389_3, 3.407_618_3],
+            [-0.983_695_2, -0.983_694_1, -0.983_694_7],
+            [1.967_390_4, 1.967_388_2, 1.967_389_3],
+            [-0.020_913_446, -0.293_196_56, 0.314_109_86],
+        ),
+    ] {
+        let rays = [Ray::new(Vec3::from_array(origin), Vec3::from_array(direction))];
+        let towards = Towards::Direction(Vec3::from_array(light));
+        assert!(assert_as_one_ray(&SphereList::from([sphere]), &rays, towards) > 0, "{light:?}");
+    }
+}
+
 /// From inside along the least number, where the normal's coordinate is below a half: their product in single precision is zero.
 #[test]
 fn rays_along_the_least_number_have_sides() {

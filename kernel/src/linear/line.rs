@@ -6,7 +6,8 @@ use crate::geometry::sphere::Sphere;
 use crate::{Accuracy, Exact};
 use core::cmp::Ordering;
 
-/// Returns where the whole line enters and leaves the sphere, whatever the ray's interval: the smaller root first.
+/// Returns where the whole line enters and leaves the sphere, whatever the ray's interval: the smaller root first (by `Stable`, in its
+/// domain).
 ///
 /// Returns `None` if the line misses the sphere, or if either is invalid. A root that is too large for a number is an
 /// infinity of its sign. t counts in multiples of the ray's direction.
@@ -72,7 +73,7 @@ impl TierWork for LineRoots<'_> {
     }
 }
 
-/// Returns which of two hits of one ray comes first, for callers who keep their own closest hit. Each hit is the t of
+/// Returns `Less` if the first of two hits is closer, for callers who keep the closest themselves. Each hit is the t of
 /// `tier`'s answer, and its sphere.
 ///
 /// [`Exact`](crate::Exact) compares the roots as real numbers, which may differ where t are equal. `Equal` means that they

@@ -2,7 +2,9 @@
 //!
 //! Steps are tried in double-precision lanes; a ray that these cannot decide goes on alone.
 
-use super::{DEEP, GRAZING, U, largest_of, next, start_of, step_of};
+use super::side::GRAZING;
+use super::start::{DEEP, U, largest_of, start_of};
+use super::steps::{next, step_of};
 use crate::accuracy::{Accuracy, RayLanes, Tier, test_lanes};
 use crate::geometry::hit::HitPacket;
 use crate::geometry::ray::{Ray, RayPacket};

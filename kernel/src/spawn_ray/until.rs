@@ -26,7 +26,8 @@ impl Ray {
     #[must_use]
     pub fn until(self, tier: impl Accuracy, sphere: &Sphere) -> Self {
         let both = roots(tier, &self, sphere).into_iter().flatten();
-        let met = both.into_iter().find(|t| t.is_finite() && self.t_min <= *t && *t <= self.t_max);
-        met.map_or(self, |t| Self { t_max: t.next_down(), ..self })
+        let met = both.filter(|t| t.is_finite() && self.t_min <= *t && *t <= self.t_max);
+        // The less: where squares of `Stable` underflow, its far root may come before the near one.
+        met.reduce(f32::min).map_or(self, |t| Self { t_max: t.next_down(), ..self })
     }
 }
