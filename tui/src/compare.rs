@@ -3,7 +3,6 @@
 pub mod error_map;
 pub mod legend;
 mod marks;
-mod middle;
 pub mod split;
 pub mod verdict;
 

@@ -24,7 +24,7 @@
 //! | [`case`], [`scene`], [`random`], [`ulp`], [`aim`] | a ray and a sphere; rays and spheres; tools that make cases |
 //! | [`families`], [`measured`] | the families of cases; those in which error is measured |
 //! | [`rules`], [`truth`] | what an intersector promises, and what is true under these promises |
-//! | [`answer`], [`verdict`], [`counts`], [`failure`], [`judge`] | an answer, how it is wrong, how many are wrong, the worst and the
+//! | [`answer`], [`middle`], [`verdict`], [`counts`], [`failure`], [`judge`] | an answer, how it is wrong, how many are wrong, the worst and the
 //! simplest, and the judge that counts them |
 //! | [`simplicity`], [`shrink`], [`snippet`] | how readable a case is, the smallest that fails, and lines to paste |
 //! | [`table`] | counts as a table, and a picture of where in a family it fails |
@@ -46,6 +46,7 @@ pub mod families;
 pub mod intersector;
 pub mod judge;
 pub mod measured;
+pub mod middle;
 pub mod random;
 pub mod rules;
 pub mod scene;

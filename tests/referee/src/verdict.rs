@@ -1,8 +1,9 @@
 //! How an answer is wrong.
 
 use crate::answer::Answer;
+use crate::middle::is_at_the_other_root;
 use crate::ulp::ulp_between;
-use spherule_kernel::{Exact, Hit, Ray, Sphere, discriminant, roots};
+use spherule_kernel::{Hit, Ray, Sphere, discriminant};
 
 /// A way to be wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -88,10 +89,8 @@ pub fn verdict(
             if ulp <= most_ulp {
                 return Verdict::Right { ulp: Some(ulp) };
             }
-            let away = |t: f32| (answer.t - f64::from(t)).abs();
-            let roots = sphere.and_then(|sphere| roots(Exact, ray, sphere));
             let is_elsewhere =
-                roots.is_some_and(|roots| roots.iter().any(|&root| away(root) < away(truth.t)));
+                sphere.is_some_and(|sphere| is_at_the_other_root(ray, sphere, answer.t, truth.t));
             wrong(if is_elsewhere { Kind::OtherRoot } else { Kind::T }, ulp as f64)
         }
     }
@@ -110,7 +109,7 @@ pub fn margin(ray: &Ray, sphere: &Sphere) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use spherule_kernel::Vec3;
+    use spherule_kernel::{Exact, Vec3, roots};
 
     #[test]
     fn what_the_rules_allow_is_right_even_at_the_other_root() {
@@ -123,5 +122,24 @@ mod tests {
             |most_ulp| verdict(&ray, Some(&sphere), truth, Some(Answer::at(far)), (true, most_ulp));
         assert_eq!(judged(4), Verdict::Right { ulp: Some(2) });
         assert_eq!(judged(1), Verdict::Wrong { kind: Kind::OtherRoot, severity: 2.0 });
+    }
+
+    /// The textbook's t where D is lost: on this side of the middle, and nearer to the other root as that is rounded.
+    #[test]
+    fn roots_are_told_apart_by_the_middle() {
+        let origin = Vec3::new(115.54503, 93.65253, 1990.1035);
+        let ray = Ray::new(origin, Vec3::new(-0.060_130_928, -0.045_098_197, -0.997_171_2));
+        let sphere = Sphere::from([-4.4, 1.8, 0.0, 1.9]);
+        let near = roots(Exact, &ray, &sphere).expect("a hit")[0];
+        let truth = Some(Hit { t: near, sphere: 0 });
+        for (t, expected) in
+            [(1995.8287_f32, Kind::OtherRoot), (1995.8287_f32.next_down(), Kind::T)]
+        {
+            let judged = verdict(&ray, Some(&sphere), truth, Some(Answer::at(t)), (true, 4));
+            assert!(
+                matches!(judged, Verdict::Wrong { kind, .. } if kind == expected),
+                "{t}: {judged:?}"
+            );
+        }
     }
 }

@@ -1,9 +1,9 @@
 //! What one answer gets wrong against the truth, and counts of many such verdicts.
 
-use super::middle;
 pub use crate::tally::Class;
 use crate::tally::Tally;
-use spherule_kernel::{Exact, Hit, Ray, Spheres, roots};
+use spherule_kernel::{Hit, Ray, Spheres};
+use spherule_referee::middle::is_at_the_other_root;
 
 /// A [`Class`], and how far t is off in ulp if both hit the same sphere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -26,7 +26,9 @@ impl Verdict {
         let (class, ulp) = Class::of(t, true_t, elsewhere);
         let class = match (class, answer.zip(truth)) {
             (Class::Off(_), Some((answer, truth)))
-                if is_at_the_other_root(ray, spheres, answer, truth) =>
+                if spheres.get(truth.sphere as usize).is_some_and(|sphere| {
+                    is_at_the_other_root(ray, &sphere, f64::from(answer.t), truth.t)
+                }) =>
             {
                 Class::OtherRoot
             }
@@ -50,20 +52,6 @@ pub(crate) fn tally(
         tally.record(answer.map(|hit| hit.t), truth.map(|hit| hit.t), elsewhere);
     }
     tally
-}
-
-/// Whether the answer is nearer to the other root of the line than to that of the truth: beyond the middle between them.
-fn is_at_the_other_root(ray: &Ray, spheres: Spheres<'_>, answer: Hit, truth: Hit) -> bool {
-    let Some(sphere) = spheres.get(truth.sphere as usize) else { return false };
-    if middle::are_before_or_behind(ray, &sphere, [answer.t, truth.t]) {
-        return false;
-    }
-    // Of roots that are one number, t tells neither.
-    let apart = roots(Exact, ray, &sphere).filter(|[near, far]| near < far);
-    apart.is_some_and(|[near, _]| {
-        let side = middle::side(answer.t, ray, &sphere);
-        if truth.t == near { side.is_gt() } else { side.is_lt() }
-    })
 }
 
 /// The worst ray of some.
@@ -160,7 +148,7 @@ impl Counts {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use spherule_kernel::{Intersect, Vec3};
+    use spherule_kernel::{Exact, Intersect, Vec3};
 
     fn hit(t: f32, sphere: u32) -> Option<Hit> {
         Some(Hit { t, sphere })
