@@ -41,6 +41,8 @@ enum Timed {
 /// A scene's picture.
 pub(crate) struct OfScene {
     pub(crate) scene: &'static str,
+    /// How many rays a sample took, of how many in the picture.
+    pub(crate) rays: [usize; 2],
     /// Nanoseconds a ray.
     times: Samples<Timed>,
 }
@@ -86,7 +88,8 @@ impl OfScene {
             }
         }
         let times = Samples::take(samplers, Duration::ZERO, rounds..=rounds);
-        Self { scene: scene.name, times }
+        let rays = [made.rays.list.len(), scene.rays(Kind::Primary).len()];
+        Self { scene: scene.name, rays, times }
     }
 
     pub(crate) fn rounds(&self) -> usize {
@@ -251,6 +254,20 @@ impl<'a> Picture<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::page;
+
+    #[test]
+    fn the_page_tells_what_part_of_the_picture_was_timed() {
+        let scene = Scene::large("u64", Size(128, 64)).expect("listed");
+        let (tree, (camera, pixels)) = (scene.tree(), camera(&scene));
+        let picture = Picture::new(&tree, camera, pixels, 2);
+        let rays = [picture.rays().list.len(), scene.rays(Kind::Primary).len()];
+        let sampler: Sampler<'_> = Box::new(|| 1.0);
+        let timed = vec![(Timed::Ours(Way::Before, LevelName::Baseline), sampler)];
+        let times = Samples::take(timed, Duration::ZERO, 1..=1);
+        let page = page::cameras::page("", &[OfScene { scene: scene.name, rays, times }]);
+        assert!(page.contains("; 8192 of 16384 rays of each picture,"), "{page}");
+    }
 
     /// The tree's own rays and hits are not what another way left.
     #[test]

@@ -5,7 +5,7 @@
 //! | `cargo bench --bench closest_hit` | criterion: the small scenes by brute force, every tier and lane width |
 //! | `cargo bench --bench report` | prints tables: `-- tiers` speed against error, `-- structures` the large scenes, `-- cameras` the rays that a camera makes there, `-- surfaces` what is seen there, `-- orders` rays in every order, `-- calls` what a call costs, `-- scales` other units; or all |
 //! | `cargo bench -p spherule-benches --features peers ...` | with other crates |
-//! | `... --features embree ... -- --write` | with other crates and Embree (Debian: `libembree3-3`); and writes `docs/benchmarks` |
+//! | `... --features embree ... -- --write` | with other crates and Embree (Debian: `libembree3-3`); and writes `docs/benchmarks`, where all else is committed |
 //!
 //! Speed is written for one build at a time: run once more with `RUSTFLAGS="-C target-cpu=native"`. `--scene NAME` runs one large scene
 //! alone, `--order NAME` one order of rays, and `--rays N` calls of N rays. `--quick` takes a part of the rays; with `--scene` it takes

@@ -13,7 +13,8 @@ use crate::rounds::{Median, Sampler, Samples};
 use spherule_kernel::{Level, LevelName, Ray};
 use spherule_tests::orders::{Extent, Order};
 use spherule_tests::scenes::{LARGE, SPREAD, Scene, Size};
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
+use std::rc::Rc;
 use std::time::Duration;
 use trial::Trial;
 use ways::Work;
@@ -33,7 +34,7 @@ pub(crate) struct Row {
     pub(crate) level: LevelName,
     /// How many rays a sample took.
     pub(crate) rays: usize,
-    /// Whether the plain call was so slow that a part of the rays was timed.
+    /// Whether the plain call was so slow that it was timed on a part of the rays alone.
     pub(crate) is_cut_short: bool,
     /// Nanoseconds a ray.
     times: Samples<Timed>,
@@ -144,15 +145,13 @@ impl Row {
         let trial = Trial::of((level, query), work, embree, rays, asked, &name);
         let Trial { ways, slow, embree: chosen, rays } = trial;
         let (work, count) = (&RefCell::new(work), rays.list.len());
-        let mut samplers = Vec::<(_, Sampler<'_>)>::new();
+        let mut timed = Vec::<(_, Sampler<'_>)>::new();
         for way in ways {
             let sample = move || work.borrow_mut().run(way, level, query) / count as f64;
-            samplers.push((Timed::Ours(way), Box::new(sample)));
+            timed.push((way, Box::new(sample)));
         }
         let is_cut_short = slow.iter().any(|(way, _)| *way == Way::Plain);
-        for (way, time) in slow {
-            samplers.push((Timed::Ours(way), Box::new(move || time)));
-        }
+        let mut samplers = with_slow(timed, slow);
         for index in chosen {
             let mut run = (embree[index].ready)(&rays);
             let sample = move || run.time(query, 1) / count as f64;
@@ -219,5 +218,59 @@ impl Row {
 
     pub(crate) fn rounds(&self) -> usize {
         self.times.rounds()
+    }
+}
+
+/// The ways that are timed, ray by ray first, and those that were too slow for it. In each round those take so many times as long as ray by
+/// ray: their time on a few rays and its time on all would not compare.
+fn with_slow<'a>(
+    timed: Vec<(Way, Sampler<'a>)>,
+    slow: Vec<(Way, f64)>,
+) -> Vec<(Timed, Sampler<'a>)> {
+    let of_ray_by_ray = Rc::new(Cell::new(f64::NAN));
+    let mut samplers = Vec::<(_, Sampler<'a>)>::new();
+    for (way, mut sampler) in timed {
+        let of_ray_by_ray = Rc::clone(&of_ray_by_ray);
+        let sample = move || {
+            let time = sampler();
+            if way == Way::RayByRay {
+                of_ray_by_ray.set(time);
+            }
+            time
+        };
+        samplers.push((Timed::Ours(way), Box::new(sample)));
+    }
+    for (way, times) in slow {
+        let of_ray_by_ray = Rc::clone(&of_ray_by_ray);
+        samplers.push((Timed::Ours(way), Box::new(move || times * of_ray_by_ray.get())));
+    }
+    samplers
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// From round to round rays take longer.
+    #[test]
+    fn a_slow_way_is_held_against_ray_by_ray_on_the_same_rays() {
+        let mut time = 0.0;
+        let sample = move || {
+            time += 1.0;
+            time
+        };
+        let timed: Vec<(_, Sampler<'_>)> = vec![(Way::RayByRay, Box::new(sample))];
+        let samplers = with_slow(timed, vec![(Way::Plain, 10.0)]);
+        let row = Row {
+            scene: "one",
+            order: Order::ALL[0],
+            query: Query::ClosestHit,
+            level: LevelName::Baseline,
+            rays: 1,
+            is_cut_short: true,
+            times: Samples::take(samplers, Duration::ZERO, 3..=3),
+        };
+        let tenth = Some(Median { low: 0.1, middle: 0.1, high: 0.1 });
+        assert_eq!((row.by_ray_by_ray(), row.by_best()), (tenth, tenth));
     }
 }

@@ -10,21 +10,35 @@ pub(crate) mod tiers;
 
 use spherule::machine::{RUSTC, cpu};
 use std::fmt::{Display, Write};
+use std::path::Path;
 use std::process::Command;
 
 /// Where figures come from, in one line: CPU, compiler, instructions, commit and date.
 pub(crate) fn origin() -> String {
-    // What a program prints; empty if it fails or is absent.
-    let output_of = |program: &str, arguments: &[&str]| {
-        let output = Command::new(program).args(arguments).output().ok();
-        output.map_or_else(String::new, |output| {
-            String::from_utf8_lossy(&output.stdout).trim().to_owned()
-        })
-    };
-    let commit = output_of("git", &["describe", "--always", "--exclude=*", "--dirty=+changes"]);
-    let date = output_of("date", &["-u", "+%Y-%m-%d %H:%M UTC"]);
+    let here = Path::new(".");
+    let commit = output_of(here, "git", &["describe", "--always", "--exclude=*"]);
+    let changes = if has_changes(here) { "+changes" } else { "" };
+    let date = output_of(here, "date", &["-u", "+%Y-%m-%d %H:%M UTC"]);
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    format!("{}, {threads} threads; {RUSTC}, {} build; commit {commit}; {date}", cpu(), build())
+    format!(
+        "{}, {threads} threads; {RUSTC}, {} build; commit {commit}{changes}; {date}",
+        cpu(),
+        build()
+    )
+}
+
+/// Whether the working tree of a folder differs from its commit, except for the pages, of which a report writes several.
+pub(crate) fn has_changes(folder: &Path) -> bool {
+    let arguments = ["status", "--porcelain", "--", ":/", ":(top,exclude)docs/benchmarks"];
+    !output_of(folder, "git", &arguments).is_empty()
+}
+
+/// What a program prints in a folder; empty if it fails or is absent.
+fn output_of(folder: &Path, program: &str, arguments: &[&str]) -> String {
+    let output = Command::new(program).args(arguments).current_dir(folder).output().ok();
+    output.map_or_else(String::new, |output| {
+        String::from_utf8_lossy(&output.stdout).trim().to_owned()
+    })
 }
 
 /// Who made the CPU, in small letters: the limits of trees differ between makers.
@@ -78,6 +92,57 @@ fn cell(value: Option<impl Display>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::engine::kernel;
+    use crate::orders;
+    use std::{env, fs, process};
+
+    /// A page that is older than the code may name a way that is gone, if it says so.
+    #[test]
+    fn pages_name_ways_that_there_are() {
+        use kernel::Way;
+        let of_kernel = [Way::BruteForce, Way::RayByRay, Way::Stream, Way::Packets, Way::DepthList];
+        let ways = of_kernel.map(Way::as_str).into_iter();
+        let ways: Vec<_> = ways.chain(orders::Way::ALL.map(orders::Way::as_str)).collect();
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/benchmarks");
+        let mut seen = 0;
+        for page in fs::read_dir(folder).expect("a folder of pages") {
+            let page = page.expect("a page").path();
+            let text = fs::read_to_string(&page).expect("text");
+            let mut column = None;
+            for line in text.lines() {
+                let cells: Vec<_> = line.split('|').map(str::trim).collect();
+                let is_way = |cell: &&str| ["way", "the best way"].contains(cell);
+                let header = cells.iter().position(is_way);
+                column = if cells.len() < 3 { None } else { header.or(column) };
+                let (Some(column), None) = (column, header) else { continue };
+                let way = cells[column];
+                let is_known = ways.contains(&way) || text.contains(&format!("*{way}* is gone"));
+                assert!(is_known || way.starts_with("--"), "{}: {way}", page.display());
+                seen += 1;
+            }
+        }
+        assert!(seen > 100, "{seen} ways on the pages");
+    }
+
+    #[test]
+    fn pages_are_no_changes() {
+        let folder = env::temp_dir().join(format!("spherule-benches-{}", process::id()));
+        let pages = folder.join("docs/benchmarks");
+        fs::create_dir_all(&pages).expect("a folder");
+        output_of(&folder, "git", &["init"]);
+        let has_git = folder.join(".git").is_dir();
+        let changes = |file: &Path| {
+            fs::write(file, "").expect("written");
+            has_changes(&pages)
+        };
+        let (page, code) = (changes(&pages.join("orders.md")), changes(&folder.join("code.rs")));
+        fs::remove_dir_all(&folder).expect("removed");
+        if !has_git {
+            println!("skipped: no git");
+            return;
+        }
+        assert_eq!((page, code), (false, true));
+    }
 
     #[test]
     fn bars_in_names_do_not_end_cells_and_numbers_have_three_digits() {

@@ -41,12 +41,17 @@ pub(crate) struct Samples<K> {
 impl<K: PartialEq> Samples<K> {
     /// Takes a sample of each in every round, after one round that does not count. As many rounds are taken as fit into
     /// `time`, judged by that first round, but within `rounds`.
+    ///
+    /// # Panics
+    /// If two have the same name.
     pub(crate) fn take(
         all: Vec<(K, Sampler<'_>)>,
         time: Duration,
         rounds: RangeInclusive<usize>,
     ) -> Self {
         let (names, mut samplers): (Vec<_>, Vec<_>) = all.into_iter().unzip();
+        let is_new = |(index, name): (usize, &K)| !names[..index].contains(name);
+        assert!(names.iter().enumerate().all(is_new), "two have the same name");
         let mut round = || -> Vec<f64> { samplers.iter_mut().map(|sampler| sampler()).collect() };
         let start = Instant::now();
         round();
@@ -77,9 +82,14 @@ impl<K: PartialEq> Samples<K> {
 }
 
 impl Median {
+    /// Between two values the result is interpolated.
     fn of(mut values: Vec<f64>) -> Self {
         values.sort_by(f64::total_cmp);
-        let at = |share: f64| values[((values.len() - 1) as f64 * share).round() as usize];
+        let at = |share: f64| {
+            let place = (values.len() - 1) as f64 * share;
+            let [below, above] = [place.floor(), place.ceil()].map(|place| values[place as usize]);
+            below + (above - below) * place.fract()
+        };
         Self { low: at(0.25), middle: at(0.5), high: at(0.75) }
     }
 
@@ -107,7 +117,16 @@ mod tests {
         let of = |values: &[f64]| Median::of(values.to_vec());
         assert_eq!(of(&[3.0]), Median { low: 3.0, middle: 3.0, high: 3.0 });
         assert_eq!(of(&[5.0, 1.0, 2.0, 4.0, 3.0]), Median { low: 2.0, middle: 3.0, high: 4.0 });
-        assert_eq!(format!("{:.1}", of(&[5.0, 1.0, 3.0]).times(2.0)), "6.0 [6.0, 10.0]");
+        assert_eq!(of(&[5.0, 1.0, 3.0]), Median { low: 2.0, middle: 3.0, high: 4.0 });
+        assert_eq!(of(&[1.0, 4.0, 2.0, 3.0]), Median { low: 1.75, middle: 2.5, high: 3.25 });
+        assert_eq!(format!("{:.1}", of(&[5.0, 1.0, 3.0]).times(2.0)), "6.0 [4.0, 8.0]");
+    }
+
+    #[test]
+    #[should_panic(expected = "the same name")]
+    fn two_of_the_same_name_are_refused() {
+        let sampler = || -> (&'static str, Sampler<'static>) { ("avx512", Box::new(|| 1.0)) };
+        drop(Samples::take(vec![sampler(), sampler()], Duration::ZERO, 1..=1));
     }
 
     #[test]

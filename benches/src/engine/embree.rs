@@ -11,17 +11,18 @@
 // beside.
 #![allow(unsafe_code)]
 
+mod call;
 mod library;
 
 pub(crate) use library::{Library, libraries};
 
 use super::{BLOCK, Engine, Label, Promise, Query, Rays, Run};
 use crate::rounds::thread_time;
+use call::{Call, calls};
 use core::arch::asm;
 use core::ffi::{c_int, c_uint, c_void};
 use library::Handle;
 use spherule_kernel::{Hit, LevelName, Ray, Sphere, Spheres};
-use spherule_tests::scenes::viewpoint;
 use std::ptr::{null, null_mut};
 use std::rc::Rc;
 
@@ -39,6 +40,13 @@ struct Context {
     instance: [u32; 1],
 }
 
+/// `RTCRayQueryContext` of Embree 4, of a build with one instance level and with arrays of instances. A hit copies both members.
+#[repr(C)]
+struct QueryContext {
+    instance: [u32; 1],
+    place: [u32; 1],
+}
+
 /// `RTCIntersectArguments` and `RTCOccludedArguments` of Embree 4.
 #[repr(C)]
 struct Arguments {
@@ -50,6 +58,7 @@ struct Arguments {
 }
 
 const _: () = assert!(size_of::<Context>() == 24 && size_of::<Arguments>() == 32);
+const _: () = assert!(size_of::<QueryContext>() == 8);
 
 /// A device and a scene of spheres, with one thread.
 pub(crate) struct Embree {
@@ -111,39 +120,30 @@ impl Drop for Embree {
     }
 }
 
-/// The calls that the device has instructions for (it traces wider ones ray by ray), and the calls of streams.
+/// One for each of the device's calls.
 pub(crate) fn engines(embree: &Rc<Embree>) -> Vec<Engine> {
-    let packets: &[_] = match embree.level {
-        LevelName::Baseline => &[(4, "4 rays a call")],
-        LevelName::Avx2 => &[(4, "4 rays a call"), (8, "8 rays a call")],
-        LevelName::Avx512 => &[(8, "8 rays a call"), (16, "16 rays a call")],
-        other => unreachable!("Embree is not asked for {other:?}"),
-    };
-    let packets = packets.iter().map(|&(n, name)| (n, false, name));
-    let stream = embree.library.intersect_stream.map(|_| (1, true, "streams"));
-    let engine = |(n, stream, name)| {
-        let label = Label { way: &embree.library.name, name, lanes: embree.level.as_str() };
+    let engine = |call: Call| {
+        let lanes = embree.level.as_str();
+        let label = Label { way: &embree.library.name, name: call.name, lanes };
         let promise = match embree.level {
             LevelName::Baseline => Promise::OTHERS_UNFUSED,
             _ => Promise::OTHERS,
         };
         let embree = Rc::clone(embree);
         let ready = move |rays: &Rays| -> Box<dyn Run> {
-            let coherent = viewpoint(&rays.list).is_some();
             let (embree, rays) = (Rc::clone(&embree), Rc::clone(&rays.list));
-            Box::new(Calls { embree, n, stream, coherent, rays, hits: Vec::new() })
+            Box::new(Calls { embree, call, rays, hits: Vec::new() })
         };
         Engine { label, promise, most_rays: usize::MAX, ready: Box::new(ready) }
     };
-    packets.chain([(1, false, "1 rays a call")]).chain(stream).map(engine).collect()
+    let has_streams = embree.library.intersect_stream.is_some();
+    calls(embree.level, has_streams).into_iter().map(engine).collect()
 }
 
-/// Calls of `n` rays, or of a block of single ones.
+/// One of the calls, with rays.
 struct Calls {
     embree: Rc<Embree>,
-    n: usize,
-    stream: bool,
-    coherent: bool,
+    call: Call,
     rays: Rc<[Ray]>,
     hits: Vec<Option<Hit>>,
 }
@@ -166,7 +166,8 @@ impl Run for Calls {
 impl Calls {
     /// Block by block: fills records, calls with the clock running, reads.
     fn pass(&mut self, query: Query) -> u64 {
-        let (n, scene, library) = (self.n, self.embree.scene, self.embree.library);
+        let Call { rays: n, is_stream, is_coherent, .. } = self.call;
+        let (scene, library) = (self.embree.scene, self.embree.library);
         // `RTCRayHit`, or `RTCRay` alone.
         let (one, many, members) = match query {
             Query::ClosestHit => (library.intersect1, library.intersect, library.members),
@@ -176,17 +177,18 @@ impl Calls {
             Query::ClosestHit => library.intersect_stream,
             Query::AnyHit => library.occluded_stream,
         };
-        let stream = stream.filter(|_| self.stream);
+        let stream = stream.filter(|_| is_stream);
         let many = many[n.ilog2().saturating_sub(2) as usize];
         // A record of one ray is aligned to 16 bytes.
         let words = (members * n).next_multiple_of(4);
-        let flags = if self.coherent { library.coherent } else { 0 };
+        let flags = if is_coherent { library.coherent } else { 0 };
         let mut context = Context { flags, filter: null(), instance: [NONE] };
-        let (context, mut query_context) = (&raw mut context, [NONE]);
+        let mut query_context = QueryContext { instance: [NONE], place: [NONE] };
+        let context = &raw mut context;
         let mut arguments = Arguments {
             flags,
             features: -1,
-            context: query_context.as_mut_ptr().cast(),
+            context: (&raw mut query_context).cast(),
             filter: null(),
             callback: null(),
         };

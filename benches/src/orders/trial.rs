@@ -29,7 +29,7 @@ const SHOWN: [Way; 3] = [Way::RayByRay, Way::Coherent, Way::Plain];
 pub(super) struct Trial {
     /// Ray by ray, every way that may be the best, and those of [`SHOWN`] that were not too slow.
     pub(super) ways: Vec<Way>,
-    /// The ways that were too slow, with nanoseconds a ray of a part.
+    /// The ways that were too slow, with how many times as long as ray by ray they took on the same rays.
     pub(super) slow: Vec<(Way, f64)>,
     /// Which of Embree's calls may be the best.
     pub(super) embree: Vec<usize>,
@@ -73,7 +73,7 @@ impl Trial {
     }
 }
 
-/// Checks all ways that are not among the slow; returns nanoseconds a ray of those that have not become slow.
+/// Checks all ways that are not among the slow; returns nanoseconds a ray of those that have not become slow, ray by ray's first.
 fn times(
     (level, query): (Level, Query),
     work: &mut Work<'_>,
@@ -82,7 +82,7 @@ fn times(
     name: &str,
 ) -> Vec<(Way, f64)> {
     let count = work.rays.len() as f64;
-    let (mut timed, mut best) = (Vec::new(), f64::INFINITY);
+    let (mut timed, mut best) = (Vec::<(Way, f64)>::new(), f64::INFINITY);
     for way in Way::ALL {
         if !way.is_for(work) || slow.iter().any(|(other, _)| *other == way) {
             continue;
@@ -97,7 +97,7 @@ fn times(
         }
         // Streams are slow for few rays, but not for more.
         if time > SLOW * best && way != Way::Stream {
-            slow.push((way, time));
+            slow.push((way, time / timed[0].1));
         } else {
             timed.push((way, time));
         }

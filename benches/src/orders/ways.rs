@@ -36,7 +36,7 @@ pub(crate) enum Way {
 
 impl Way {
     /// All ways, ray by ray first.
-    pub(super) const ALL: [Self; 7] = [
+    pub(crate) const ALL: [Self; 7] = [
         Self::RayByRay,
         Self::IncoherentPackets,
         Self::Stream,

@@ -53,8 +53,11 @@ pub(crate) fn page(origin: &str, all: &[Row]) -> String {
          rays, of which nothing is said; a million a second, on one thread. Against it: the best of ray by ray (slices said to be \
          incoherent), slices said to be coherent, packets, incoherent packets, streams (8,192 rays together, 64 places in queues for each), \
          and, where rays have a viewpoint and spheres are fewer than 20,000, a depth list made for them; \
-         and Embree, 3.13 or 4.4, in its quickest call with the same instructions (for the baseline, SSE4.2), its rays in blocks that are in the cache. \
-         Medians of {} to {} interleaved rounds of the thread's own time, ratios round by round. ~: so slow that a part of the rays was timed, once. {}\
+         and Embree, 3.13 or 4.4, in its quickest call with the same instructions (for the baseline, SSE4.2), rays said to be coherent or \
+         not, in blocks that are in the cache. \
+         Medians of {} to {} interleaved rounds of the thread's own time, ratios round by round. ~: on a part of the rays far slower than \
+         the best, so timed there alone: the rate is ray by ray's on all, by the quotient of both on that part (so, too, if they were as \
+         slow, rays said to be coherent). {}\
          Before anything is timed, every way answers as ray by ray does, bit for bit, which answers as brute force does on a sample. \
          The orders: [orders.rs](../../tests/src/orders.rs).\n\n{}\n{}\n{}\n{}{}",
         build(),

@@ -46,7 +46,7 @@ fn against_embree(scenes: &[OfScene]) -> String {
     let all = || scenes.iter().flat_map(|scene| &scene.measured);
     let levels: Vec<_> = all().next().into_iter().flat_map(Measured::levels).collect();
     let mut text = "`stable` in the kernel's quickest way, against Embree's quickest call with the same instructions (for \
-                    the baseline, which has SSE2, SSE4.2); a million rays a second.\n"
+                    the baseline, which has SSE2, SSE4.2), rays said to be coherent or not; a million rays a second.\n"
         .to_owned();
     for (query, name) in [(Query::ClosestHit, "Closest hit"), (Query::AnyHit, "Any hit")] {
         let columns = levels.iter().map(|level| format!("{level} | Embree | times"));
