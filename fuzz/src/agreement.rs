@@ -19,9 +19,9 @@ use spherule_tests::variants::{
 /// If an answer is wrong.
 pub fn check(scene: &AimedScene) {
     let AimedScene { rays, spheres, .. } = scene;
-    let one_lane = Tier::ALL.map(|tier| (tier, reference(tier).closest(spheres, rays)));
-    for (tier, answers) in &one_lane {
-        check_one_lane(*tier, scene, answers);
+    let one_lane = Tier::ALL.map(|tier| OneLane::new(tier, scene));
+    for OneLane { tier, hits, .. } in &one_lane {
+        check_one_lane(*tier, scene, hits);
         check_pairs(*tier, scene);
         surfaces::check(*tier, scene);
     }
@@ -36,6 +36,31 @@ pub fn check(scene: &AimedScene) {
         check_variants(lists, structures, scene, &one_lane);
     });
     tiles::check(scene);
+}
+
+/// What a tier answers in one lane.
+struct OneLane {
+    tier: Tier,
+    /// The closest hits.
+    hits: Vec<Option<Hit>>,
+    /// The closest hits of those spheres alone that the line really meets.
+    true_hits: Vec<Option<Hit>>,
+}
+
+impl OneLane {
+    fn new(tier: Tier, AimedScene { rays, spheres, .. }: &AimedScene) -> Self {
+        let closest_true = |ray: &Ray| {
+            // Nothing hits a sphere of negative radius.
+            let only_met = |sphere: &Sphere| match roots(Tier::Exact, ray, sphere) {
+                Some(_) => *sphere,
+                None => Sphere { radius: -1.0, ..*sphere },
+            };
+            let met: Vec<Sphere> = spheres.iter().map(only_met).collect();
+            reference(tier).closest(&met, &[*ray])[0]
+        };
+        let true_hits = rays.iter().map(closest_true).collect();
+        Self { tier, hits: reference(tier).closest(spheres, rays), true_hits }
+    }
 }
 
 /// The rules on a tier's answers.
@@ -56,19 +81,18 @@ fn check_variants(
     asked: impl Iterator<Item = Variant>,
     structures: Structures<'_>,
     AimedScene { rays, spheres, .. }: &AimedScene,
-    one_lane: &[(Tier, Vec<Option<Hit>>)],
+    one_lane: &[OneLane],
 ) {
     let is_promised =
         |ray: &Ray| spheres.iter().all(|sphere| promise::is_stable_in_structures(ray, sphere));
     let stable: Vec<bool> = rays.iter().map(is_promised).collect();
-    let hit_of = |tier: Tier, ray: usize| {
-        one_lane.iter().find(|(other, _)| *other == tier).and_then(|(_, hits)| hits[ray])
-    };
+    let lane_of = |tier: Tier| one_lane.iter().find(|lane| lane.tier == tier).expect("every tier");
     for variant in asked {
         let Answers { hits, occluded } = variant.ask(structures, rays);
+        let (own, exact) = (lane_of(variant.tier), lane_of(Tier::Exact));
         for (index, ray) in rays.iter().enumerate() {
             let answer = (hits[index], occluded[index]);
-            let expected = [variant.tier, Tier::Exact].map(|tier| hit_of(tier, index));
+            let expected = [own.hits[index], own.true_hits[index], exact.hits[index]];
             let judged = judge(&variant, (ray, spheres), answer, (expected, stable[index]));
             if let Err(wrong) = judged {
                 panic!(
@@ -79,13 +103,13 @@ fn check_variants(
     }
 }
 
-/// Judges a closest hit and any hit of a variant, with the answers in one lane of its tier and of `Exact`, and whether structures promise
-/// those of `Stable`.
+/// Judges a closest hit and any hit of a variant, with the answers in one lane: of its tier, also to those spheres alone that the line
+/// meets, and of `Exact`; and whether structures promise those of `Stable`.
 fn judge(
     variant: &Variant,
     (ray, spheres): (&Ray, &[Sphere]),
     (hit, occluded): (Option<Hit>, bool),
-    ([list, exact], stable): ([Option<Hit>; 2], bool),
+    ([list, true_hit, exact], stable): ([Option<Hit>; 3], bool),
 ) -> Result<(), &'static str> {
     let Variant { tier, structure, .. } = *variant;
     if structure == Structure::List || tier == Tier::Exact || tier == Tier::Stable && stable {
@@ -97,8 +121,11 @@ fn judge(
             Ok(())
         };
     }
-    // The other answers may lack false hits. Where squares underflow, bounds see what the ray meets: any hit is true, and what lies
-    // behind is lost.
+    // The other answers lack false hits alone: the closest hit is the closest true one, or a false one before that.
+    let is_lost = |known: Hit| {
+        !occluded || hit.is_none_or(|hit| (known.t, known.sphere) < (hit.t, hit.sphere))
+    };
+    // Where squares underflow, bounds see what the ray meets: any hit is true, and what lies behind is lost.
     let is_own = |Hit { t, sphere }: Hit| {
         let roots = roots(tier, ray, &spheres[sphere as usize]);
         roots.and_then(|roots| accepted(ray, roots)).map(f32::to_bits) == Some(t.to_bits())
@@ -108,6 +135,7 @@ fn judge(
     let same_by_every_call = !is_depth_list && tier != Tier::Stable;
     match hit {
         Some(hit) if !is_own(hit) => Err("a t that is not the tier's"),
+        _ if stable && true_hit.is_some_and(is_lost) => Err("a true hit is lost"),
         Some(_) if same_by_every_call && !occluded => Err("a closest hit without any hit"),
         None if same_by_every_call && occluded && exact.is_none() => {
             Err("any hit without a closest hit")
@@ -175,9 +203,15 @@ mod tests {
 
     #[test]
     fn random_bytes_make_geometry_worth_judging() {
-        let (mut judged, mut met, mut all) = (0, 0, 0);
+        let (mut judged, mut met, mut kept, mut all) = (0, 0, 0, 0);
         for seed in 0..200 {
             let scene = AimedScene::from_bytes(&random_bytes(seed));
+            let one_lane = OneLane::new(Tier::Fast, &scene);
+            for (ray, hit) in scene.rays.iter().zip(one_lane.true_hits) {
+                let is_promised = |sphere| promise::is_stable_in_structures(ray, sphere);
+                let is_kept = hit.is_some() && scene.spheres.iter().all(is_promised);
+                kept += i32::from(is_kept && scene.spheres.len() > 4);
+            }
             for (ray, &aim) in scene.rays.iter().zip(&scene.aims) {
                 let sphere = &scene.spheres[aim];
                 all += 1;
@@ -185,9 +219,10 @@ mod tests {
                 met += i32::from(oracle::meets(ray, sphere));
             }
         }
-        println!("{judged} judged, {met} met of {all}");
+        println!("{judged} judged, {met} met, {kept} that a tree must not lose of {all}");
         assert!(judged * 3 > all, "{judged} of {all} in the domain");
         assert!(met * 4 > all, "{met} of {all} meet");
+        assert!(kept * 20 > all, "{kept} of {all} must not be lost");
     }
 
     #[test]
@@ -213,20 +248,29 @@ mod tests {
             [(4.0, 0), (8.0, 1), (3.0, 0)].map(|(t, sphere)| Some(Hit { t, sphere }));
         let mut asked = 0;
         for variant in variants().filter(|variant| variant.structure != Structure::List) {
-            let judge = |answer, list, stable| {
-                judge(&variant, (&ray, &spheres), answer, ([list, list], stable))
+            let judge = |answer, [list, true_hit]: [Option<Hit>; 2], stable| {
+                judge(&variant, (&ray, &spheres), answer, ([list, true_hit, list], stable))
             };
             for stable in [false, true] {
-                assert_eq!(judge((near, true), near, stable), Ok(()), "{variant:?}");
-                assert_eq!(judge((None, false), None, stable), Ok(()), "{variant:?}");
-                assert!(judge((nearer, true), near, stable).is_err(), "{variant:?}");
-                assert!(judge((None, true), None, stable).is_err(), "{variant:?}");
+                assert_eq!(judge((near, true), [near; 2], stable), Ok(()), "{variant:?}");
+                assert_eq!(judge((None, false), [None; 2], stable), Ok(()), "{variant:?}");
+                assert!(judge((nearer, true), [near; 2], stable).is_err(), "{variant:?}");
+                assert!(judge((None, true), [None; 2], stable).is_err(), "{variant:?}");
             }
+            // No true hit is lost, not even behind a false one.
+            for lost in [(None, false), (behind, true), (near, false)] {
+                assert!(judge(lost, [near; 2], true).is_err(), "{variant:?}: {lost:?}");
+            }
+            assert!(judge((None, false), [near, behind], true).is_err(), "{variant:?}");
+            // A false hit is, by some tiers.
             let is_exact = matches!(variant.tier, Tier::Stable | Tier::Exact);
-            assert_eq!(judge((behind, true), near, true).is_err(), is_exact, "{variant:?}");
+            for (lost, true_hit) in [((None, false), None), ((behind, true), behind)] {
+                let judged = judge(lost, [near, true_hit], true);
+                assert_eq!(judged.is_err(), is_exact, "{variant:?}: {lost:?}");
+            }
             let is_depth_list = matches!(variant.structure, Structure::DepthList(_));
             let is_seen = is_exact || !is_depth_list;
-            assert_eq!(judge((near, false), near, true).is_err(), is_seen, "{variant:?}");
+            assert_eq!(judge((near, false), [near, None], true).is_err(), is_seen, "{variant:?}");
             asked += 1;
         }
         assert!(asked > 100, "{asked} variants");

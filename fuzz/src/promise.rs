@@ -79,8 +79,8 @@ pub fn in_domain(ray: &Ray, sphere: &Sphere) -> bool {
         && (1.0 / LENGTH..=LENGTH).contains(&length)
 }
 
-/// Whether every structure promises the bits of `Stable` for this sphere: in the contract's domain. An invalid sphere is hit
-/// by no tier.
+/// Whether every structure promises the bits of `Stable` for this sphere: in the contract's domain, where no square of `Fast` and
+/// `Geometric` underflows either. An invalid sphere is hit by no tier.
 #[must_use]
 pub fn is_stable_in_structures(ray: &Ray, sphere: &Sphere) -> bool {
     let (distance, _) = lengths(ray, sphere);

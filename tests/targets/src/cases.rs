@@ -13,6 +13,24 @@ pub struct Case {
     pub sphere: Sphere,
 }
 
+/// The most expensive cases, those that doubles cannot decide: a tangent where the coordinates are zero, and steps of spawned rays least; a
+/// tie; and the most expensive case of the kernel's cost test.
+pub static HARD: [Case; 3] = [
+    of_numbers([-3.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0], 1.0),
+    of_numbers([0.0; 3], [1.0, 0.0, 0.0], [16_777_220.0, 0.0, 0.0], 1.0),
+    of_numbers(
+        [4.304_508_3e17, 8.930_645_5e-30, 8_205.748],
+        [594.441_3, -6.914_829e26, 7.052_379e-36],
+        [-6_261.860_4, 2_136.177, -3.241_990_3e-26],
+        1.324_018_2e38,
+    ),
+];
+
+const fn of_numbers(o: [f32; 3], d: [f32; 3], c: [f32; 3], radius: f32) -> Case {
+    let ray = Ray::new(Vec3::from_array(o), Vec3::from_array(d));
+    Case { ray, sphere: Sphere { center: Vec3::from_array(c), radius } }
+}
+
 /// How many cases there are.
 pub const CASES: u32 = 20_480;
 /// How many kinds of cases there are; they take turns.

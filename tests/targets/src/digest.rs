@@ -2,42 +2,50 @@
 
 mod fnv;
 mod questions;
+mod surfaces;
 
 use crate::numbers::print_hexadecimal;
 use crate::platform::print;
+use fnv::Fnv;
 use questions::Asked;
 use spherule_kernel::{Level, LevelName, Tier};
 
-/// Prints the digests at every level that the CPU has, one line each: level, tier, question, and digest.
+/// Prints the digests at every level that the CPU has, one line each: level, tier, question, and digest. Returns whether rays hit in every
+/// question.
 ///
-/// With `control`, one bit of one answer is changed.
+/// With `control`, one bit of an answer of `Exact` to each question is changed.
 #[must_use]
 pub fn print_all(control: bool) -> bool {
+    let mut all_hit = true;
     for name in LevelName::ALL {
         if let Some(level) = Level::named(name) {
             for tier in Tier::ALL {
-                print_tier(level, tier, control && tier == Tier::Exact);
+                let control = control && tier == Tier::Exact;
+                all_hit &= print_tier(&Asked { level, tier, control });
             }
         }
     }
-    true
+    all_hit
 }
 
-fn print_tier(level: Level, tier: Tier, control: bool) {
-    let asked = Asked { level, tier };
+fn print_tier(asked: &Asked) -> bool {
     let answers = [
-        ("pairs", asked.pairs(control)),
+        ("pairs", asked.pairs()),
         ("roots", asked.roots()),
         ("lists", asked.lists()),
         ("structures", asked.structures()),
         ("pictures", asked.pictures()),
+        ("surfaces", asked.surfaces()),
     ];
-    for (question, digest) in answers {
-        for word in [level.name().as_str(), tier.as_str(), question] {
+    let mut all_hit = true;
+    for (question, Fnv { digest, hits, .. }) in answers {
+        all_hit &= hits > 0;
+        for word in [asked.level.name().as_str(), asked.tier.as_str(), question] {
             print(word.as_bytes());
             print(b" ");
         }
         print_hexadecimal(digest);
         print(b"\n");
     }
+    all_hit
 }

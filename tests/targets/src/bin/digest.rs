@@ -1,4 +1,5 @@
-//! Prints the digest of this target. An argument, on targets that have arguments, changes one bit of one answer.
+//! Prints the digests of this target, and fails if rays hit nothing in a question. An argument, on targets that have arguments, changes one
+//! bit of an answer of `Exact` to each question.
 
 #![cfg_attr(target_os = "none", no_std, no_main)]
 

@@ -1,4 +1,4 @@
-//! Asks every question of every structure.
+//! Asks pairs, roots and every structure.
 
 use super::fnv::Fnv;
 use crate::cases::{CASES, Case, Random, case};
@@ -13,6 +13,8 @@ use spherule_kernel::{
 pub(super) struct Asked {
     pub(super) level: Level,
     pub(super) tier: Tier,
+    /// Whether one bit of an answer to each question is changed.
+    pub(super) control: bool,
 }
 
 /// How many cases make a list.
@@ -26,38 +28,36 @@ const NEEDED: BvhSize = Bvh::needed(BUILT);
 
 impl Asked {
     /// Asks every case by itself, in one lane and in four.
-    pub(super) fn pairs(&self, control: bool) -> u64 {
-        let mut fnv = Fnv::new();
+    pub(super) fn pairs(&self) -> Fnv {
+        let mut fnv = Fnv::new(self.control);
         for first in (0..CASES).step_by(4) {
             let cases = [0, 1, 2, 3].map(|next| case(first + next));
             let four = pairs::<f32x4>(self.tier, &cases);
             for (case, t) in cases.iter().zip(four) {
                 let [alone, ..] = pairs::<f32>(self.tier, core::slice::from_ref(case));
-                fnv.t(t);
-                fnv.t(alone);
+                fnv.number(t);
+                fnv.number(alone);
             }
         }
-        // The control: changes the last bit of an answer, which must be noticed.
-        fnv.word(u32::from(control));
-        fnv.0
+        fnv
     }
 
     /// Asks for both roots of every case.
-    pub(super) fn roots(&self) -> u64 {
-        let mut fnv = Fnv::new();
+    pub(super) fn roots(&self) -> Fnv {
+        let mut fnv = Fnv::new(self.control);
         for number in 0..CASES {
             let Case { ray, sphere } = case(number);
             match roots(self.tier, &ray, &sphere) {
-                Some(roots) => roots.into_iter().for_each(|t| fnv.t(t)),
+                Some(roots) => roots.into_iter().for_each(|t| fnv.number(t)),
                 None => fnv.word(0),
             }
         }
-        fnv.0
+        fnv
     }
 
     /// Asks lists: every ray of some cases against the spheres of all these cases.
-    pub(super) fn lists(&self) -> u64 {
-        let mut fnv = Fnv::new();
+    pub(super) fn lists(&self) -> Fnv {
+        let mut fnv = Fnv::new(self.control);
         for first in (0..CASES).step_by(LISTED * EVERY) {
             let mut columns = [[0.0; LISTED]; 4];
             let mut rays = [Ray::INACTIVE; LISTED];
@@ -74,12 +74,12 @@ impl Asked {
                 in_lanes::<f32x4>(&mut fnv, self.tier, &spheres, &rays);
             }
         }
-        fnv.0
+        fnv
     }
 
     /// Asks list, depth list and both trees of an ordinary scene; `Exact` also with spheres one inside another.
-    pub(super) fn structures(&self) -> u64 {
-        let (mut fnv, mut random) = (Fnv::new(), Random(7));
+    pub(super) fn structures(&self) -> Fnv {
+        let (mut fnv, mut random) = (Fnv::new(self.control), Random(7));
         let mut columns = [[0.0; BUILT]; 4];
         for place in 0..BUILT {
             let center = random.point() * 4.0;
@@ -94,7 +94,7 @@ impl Asked {
         }
 
         let [x, y, z, r] = &columns;
-        let Ok(spheres) = Spheres::new(x, y, z, r) else { return 0 };
+        let Ok(spheres) = Spheres::new(x, y, z, r) else { return fnv };
         let mut words = [0.0; DepthList::needed(BUILT)];
         let mut scratch = [0.0; DepthList::scratch(BUILT)];
         let mut nodes = [BvhNode::EMPTY; NEEDED.nodes];
@@ -114,13 +114,13 @@ impl Asked {
             tree.words().iter().for_each(|&word| fnv.word(word));
             self.ask(&mut fnv, &tree, &rays, &mut []);
         }
-        fnv.0
+        fnv
     }
 
     /// Asks the lecture's scene in both projections.
-    pub(super) fn pictures(&self) -> u64 {
-        let mut fnv = Fnv::new();
-        let Some(spheres) = scene::spheres() else { return 0 };
+    pub(super) fn pictures(&self) -> Fnv {
+        let mut fnv = Fnv::new(self.control);
+        let Some(spheres) = scene::spheres() else { return fnv };
         for is_parallel in [false, true] {
             let camera = scene::camera(is_parallel);
             for y in 0..scene::HEIGHT {
@@ -133,7 +133,7 @@ impl Asked {
                 fnv.word(u32::from(spheres.any_hit(self.tier, &row[40])));
             }
         }
-        fnv.0
+        fnv
     }
 
     /// Asks what a camera's tiles hit in a tree and in a list, in both projections, and for the rays.

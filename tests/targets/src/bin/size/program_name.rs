@@ -2,6 +2,19 @@
 
 pub(super) const NAME: &[u8] = env!("CARGO_BIN_NAME").as_bytes();
 
+/// Whether the program's name ends so.
+pub(super) const fn ends_with(end: &str) -> bool {
+    let end = end.as_bytes();
+    let mut place = 0;
+    while place < end.len() {
+        if NAME[NAME.len() - 1 - place] != end[end.len() - 1 - place] {
+            return false;
+        }
+        place += 1;
+    }
+    true
+}
+
 /// Does work by the tier of the program's name.
 macro_rules! by_tier {
     ($tier:ident => $work:expr) => {

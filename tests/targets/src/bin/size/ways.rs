@@ -10,26 +10,13 @@ use core::hint::black_box;
 use core::sync::atomic::{AtomicU8, Ordering::Relaxed};
 use hardware_root::HardwareRoot;
 use memory::Memory;
-use program_name::{NAME, by_tier};
+use program_name::{NAME, by_tier, ends_with};
 use spherule_kernel::{
     Bvh, Bvh4, BvhNode, BvhSize, Exact, Fast, Geometric, HitPacket, Intersect, Ray, RayPacket,
     SpherePacket, Spheres, Stable, Trace, f32x4, pair_lanes, roots,
 };
 use spherule_targets::many::{self, BAKED_TREE};
 use spherule_targets::scene::{self, HEIGHT, WIDTH};
-
-/// Whether the program's name ends so.
-const fn ends_with(end: &str) -> bool {
-    let end = end.as_bytes();
-    let mut place = 0;
-    while place < end.len() {
-        if NAME[NAME.len() - 1 - place] != end[end.len() - 1 - place] {
-            return false;
-        }
-        place += 1;
-    }
-    true
-}
 
 const PIXELS: usize = (WIDTH * HEIGHT) as usize;
 static PICTURE: [AtomicU8; PIXELS] = [const { AtomicU8::new(0) }; PIXELS];
@@ -54,6 +41,9 @@ const OF_MANY: bool = ends_with("-many")
     || ends_with("-built")
     || ends_with("-bvh");
 
+/// Whether surfaces are asked for.
+const OF_SURFACES: bool = ends_with("-hard_surface") || ends_with("-hard_spawn");
+
 /// Draws the picture.
 pub fn draw() {
     if OF_MANY {
@@ -62,8 +52,8 @@ pub fn draw() {
         hard::by_list();
     } else if ends_with("-hard_tree") {
         hard::by_tree();
-    } else if ends_with("-hard_roots") {
-        hard::both_roots();
+    } else if OF_SURFACES {
+        hard::surfaces();
     } else if !ends_with("-none") {
         let Some(spheres) = scene::spheres() else { return };
         if ends_with("-slice") { slices(spheres) } else { pixels(spheres) }
