@@ -1,10 +1,12 @@
 //! The door's edges: slices of unequal length, empty calls, and memory that must not be touched, at every layer of
 //! every structure.
 
+mod given;
+
 use spherule_kernel::{
-    Bvh, Coherence, DepthList, Hit, HitColumns, HitPacket, Intersect, Lanes, Level, Ray,
+    Bvh, Bvh4, Coherence, DepthList, Hit, HitColumns, HitPacket, Intersect, Lanes, Level, Ray,
     RayColumns, RayPacket, Sphere, SphereList, SpherePacket, SphereTree, Spheres, Tier, Trace,
-    Vec3, Vec4, Viewpoint, f32x4, f32x8, f32x16, pair_packets, pairs,
+    Vec3, Viewpoint, f32x4, f32x8, f32x16, pair_packets, pairs,
 };
 use spherule_tests::variants::levels;
 
@@ -165,22 +167,33 @@ fn slices_and_packets(structure: &impl Intersect, hit: Option<Hit>) {
     packets(structure, hit);
 }
 
+/// The sphere, and as many others that the rays miss as make nodes, which rays enter.
+fn among_others() -> Vec<Sphere> {
+    let other = |i: u16| Sphere { center: Vec3::new(f32::from(i), 40.0, 0.0), radius: 0.25 };
+    [SPHERE].into_iter().chain((0..80).map(other)).collect()
+}
+
 #[test]
-fn every_structure_of_one_sphere_and_of_none() {
-    for (spheres, hit) in [(&[SPHERE][..], HIT), (&[], None)] {
+fn every_structure_of_one_sphere_of_none_and_of_many() {
+    let many = among_others();
+    for (spheres, hit) in [(&[SPHERE][..], HIT), (&[], None), (many.as_slice(), HIT)] {
         let list = SphereList::from(spheres);
         let tree = SphereTree::new(list.clone());
         let mut memory = vec![0.0; DepthList::needed(spheres.len())];
         let viewpoint = Viewpoint::Origin(RAY.origin);
         let depth_list = DepthList::sort(list.spheres(), viewpoint, &mut memory);
         let depth_list = depth_list.expect("enough memory");
+        let mut words = vec![0; Bvh4::needed(spheres.len())];
+        let bvh4 = Bvh4::build(list.spheres(), &mut words).expect("enough memory");
         let borrowed: Spheres<'_> = list.spheres();
         let bvh: Bvh<'_> = tree.bvh();
+        assert_eq!(bvh.size().nodes > 0, spheres.len() > 64);
         slices_and_packets(&borrowed, hit);
         slices_and_packets(&list, hit);
         slices_and_packets(&depth_list, hit);
         slices_and_packets(&bvh, hit);
         slices_and_packets(&tree, hit);
+        slices_and_packets(&bvh4, hit);
     }
 }
 
@@ -226,44 +239,5 @@ fn pairs_beside_what_is_none() {
         for (index, hit) in hits.into_iter().enumerate() {
             assert_eq!(hit.is_some(), ![3, 17, 20, 39].contains(&index), "{tier:?}, {index}");
         }
-    }
-}
-
-#[test]
-fn columns_of_unequal_length() {
-    let (one, two) = ([1.0], [1.0, 2.0]);
-    for (x, y, z, r) in [
-        (&two[..], &one[..], &one[..], &one[..]),
-        (&one, &two, &one, &one),
-        (&one, &one, &two, &one),
-        (&one, &one, &one, &two),
-        (&one, &one, &one, &[]),
-    ] {
-        assert!(Spheres::new(x, y, z, r).is_err());
-    }
-    assert!(Spheres::new(&one, &one, &one, &one).is_ok());
-}
-
-/// However spheres are given, they make the same list.
-#[test]
-fn lists_from_everything() {
-    let rows = [[0.0, 1.0, 2.0, 3.0], [4.0, 5.0, 6.0, 7.0], [f32::NAN, -0.0, 1e38, -1.0]];
-    let spheres = rows.map(Sphere::from);
-    let bits = |list: SphereList| -> Vec<[u32; 4]> {
-        let bits = |s: Sphere| [s.center.x, s.center.y, s.center.z, s.radius].map(f32::to_bits);
-        list.spheres().iter().map(bits).collect()
-    };
-    let expected: Vec<_> = rows.iter().map(|row| row.map(f32::to_bits)).collect();
-    for list in [
-        SphereList::from(&spheres[..]),
-        SphereList::from(spheres.to_vec()),
-        SphereList::from(&rows[..]),
-        SphereList::from(rows),
-        spheres.into_iter().collect(),
-        rows.into_iter().collect(),
-        rows.map(Vec4::from_array).into_iter().collect(),
-        spheres.map(|sphere| (sphere.center, sphere.radius)).into_iter().collect(),
-    ] {
-        assert_eq!(bits(list), expected);
     }
 }

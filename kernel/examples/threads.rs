@@ -1,9 +1,11 @@
-//! All threads by one call: slices of rays and hits are cut alike, and each piece is a call of its own.
+//! All threads by one call: slices or columns of rays and hits are cut alike, and each piece is a call of its own.
 //!
 //! Prints how many times as fast all threads are as one, by the number of rays.
 
 use rayon::prelude::*;
-use spherule_kernel::{Exact, Hit, Intersect, Ray, SphereTree, Vec3};
+use spherule_kernel::{
+    Exact, Hit, HitColumns, Intersect, Ray, RayColumns, SphereTree, Trace, Vec3,
+};
 use std::time::Instant;
 
 /// Rays of a piece: enough that the beginning of a call costs nothing beside them, few enough that no thread waits long for
@@ -17,6 +19,41 @@ fn closest_hits(tree: &SphereTree, rays: &[Ray], hits: &mut [Option<Hit>]) {
     rays.par_chunks(PIECE)
         .zip(hits.par_chunks_mut(PIECE))
         .for_each(|(rays, hits)| tree.closest_hits(Exact, rays, hits));
+}
+
+/// The same for rays and hits in columns.
+fn closest_hit_columns(tree: &SphereTree, rays: RayColumns<'_>, hits: HitColumns<'_>) {
+    let HitColumns { t, sphere } = hits;
+    t.par_chunks_mut(PIECE).zip(sphere.par_chunks_mut(PIECE)).enumerate().for_each(
+        |(piece, (t, sphere))| {
+            let rays = rays.part(piece * PIECE..(piece + 1) * PIECE);
+            let hits = HitColumns { t, sphere };
+            tree.closest_hit_columns(Exact, &mut Trace::new(), rays, hits);
+        },
+    );
+}
+
+/// Asserts that rays in columns have these hits.
+fn check_columns(tree: &SphereTree, rays: &[Ray], expected: &[Option<Hit>]) {
+    let column = |number: fn(&Ray) -> f32| -> Vec<f32> { rays.iter().map(number).collect() };
+    let origin =
+        [column(|ray| ray.origin.x), column(|ray| ray.origin.y), column(|ray| ray.origin.z)];
+    let direction = [
+        column(|ray| ray.direction.x),
+        column(|ray| ray.direction.y),
+        column(|ray| ray.direction.z),
+    ];
+    let (t_min, t_max) = (column(|ray| ray.t_min), column(|ray| ray.t_max));
+    let rays = RayColumns {
+        origin: origin.each_ref().map(Vec::as_slice),
+        direction: direction.each_ref().map(Vec::as_slice),
+        t_min: &t_min,
+        t_max: &t_max,
+    };
+    let (mut t, mut sphere) = (vec![0.0; rays.len()], vec![0; rays.len()]);
+    closest_hit_columns(tree, rays, HitColumns { t: &mut t, sphere: &mut sphere });
+    let hits = HitColumns { t: &mut t, sphere: &mut sphere };
+    assert!((0..expected.len()).all(|index| hits.hit(index) == expected[index]));
 }
 
 /// A number in [-1, 1): a linear congruence.
@@ -70,6 +107,7 @@ fn main() {
             let one = seconds(|| tree.closest_hits(Exact, rays, &mut alone));
             let all = seconds(|| closest_hits(&tree, rays, &mut together));
             assert_eq!(alone, together);
+            check_columns(&tree, rays, &alone);
             let rate = count as f64 / all / 1e6;
             println!(
                 "{kind:8} {count:7} rays: {:.2} of one thread, {rate:.1} million a second",

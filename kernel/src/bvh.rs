@@ -16,7 +16,7 @@
 //!
 //! A tree answers bit for bit what the list of spheres answers: by [`Exact`](crate::Exact) for every input, by
 //! [`Stable`](crate::Stable) in its domain, by [`Fast`](crate::Fast) and [`Geometric`](crate::Geometric) except for
-//! hits that their forms find on lines that pass a sphere's box by. Boxes and filters only decide what is skipped,
+//! false hits on lines that miss a sphere's box. Boxes and filters only decide what is skipped,
 //! under bounds that `docs/traversal-margins.md` proves; every t is a tier's.
 //!
 //! # Units

@@ -87,7 +87,7 @@ impl Level {
     }
 
     /// Returns the level of that name; `None` if the CPU does not have it. [`Baseline`](LevelName::Baseline) is what the build's target
-    /// guarantees: it has another name if that is more.
+    /// guarantees; if that is more, `name` returns another.
     ///
     /// ```
     /// use spherule_kernel::{Level, LevelName};

@@ -23,9 +23,9 @@ use crate::trace::Trace;
 /// tiers compare t; among equals the lowest index wins. t is in multiples of each ray's own direction.
 ///
 /// Every structure returns bit for bit what the list returns, at every level, in every lane width, alone or beside any
-/// other ray. (`Bvh`, `Bvh4` and `DepthList` say what that means for `Fast` and `Geometric`, and for `Stable` outside its
-/// domain.) [`any_hit`](Intersect::any_hit) returns true exactly if there is a closest hit. It is cheaper, since a ray is
-/// done as soon as it has hit something.
+/// other ray, and [`any_hit`](Intersect::any_hit) returns true exactly if there is a closest hit. (`Bvh`, `Bvh4` and `DepthList` say what
+/// that means for `Fast` and `Geometric`, and for `Stable` outside its domain.) `any_hit` is cheaper, since a ray is done as soon as it has
+/// hit something. The [crate's page](crate#every-hit-of-a-ray) says how to find every hit.
 ///
 /// # Domain
 ///
@@ -44,7 +44,7 @@ use crate::trace::Trace;
 ///
 /// Neither units nor the lengths of directions matter to any structure.
 ///
-/// Beside the traversal there are three layers, by what the caller keeps:
+/// Beside the traversal, a call pays for its layer:
 ///
 /// | layer | rays are | costs |
 /// |---|---|---|
@@ -57,8 +57,8 @@ use crate::trace::Trace;
 /// # Stack
 ///
 /// With `std`, provide 256 KiB for slices, columns and packets, and 512 in a build that checks for overflow: a tree that sorts the
-/// shuffled rays of a long call takes 130 to 160 KiB by slices with AVX2, 96 to 128 at the baseline. (Threads of Rust's have 2 MiB,
-/// unless you say less.) Slices take 40 KiB in every structure.
+/// shuffled rays of a long call takes 130 to 160 KiB by slices with AVX2, 96 to 128 at the baseline. (Rust's threads have 2 MiB
+/// by default.) All other slices take 40 KiB.
 ///
 /// Without `std`, slices take some 8 KiB in a list. One ray a call takes 0.7 to 2.3 KiB on a Cortex-M4F, by tier and structure;
 /// `docs/targets.md` says how much to provide.
@@ -222,10 +222,10 @@ pub trait Intersect: Lend {
     }
 
     /// Finds the closest hit of every ray in eight columns, and writes it into two columns: number `i` of each becomes the hit of ray
-    /// `i`, or `+inf` and [`HitPacket::NO_SPHERE`] if the ray hits nothing. The shortest column decides how many rays are traced; hits
+    /// `i`, or `+inf` and [`HitColumns::NO_SPHERE`] if the ray hits nothing. The shortest column decides how many rays are traced; hits
     /// past its end are left as they are.
     ///
-    /// Cost: that of slices.
+    /// Cost: that of slices. Threads share the rays by [`RayColumns::part`].
     ///
     /// ```
     /// use spherule_kernel::{Exact, HitColumns, Intersect, RayColumns, SphereList, Trace};
@@ -238,7 +238,7 @@ pub trait Intersect: Lend {
     /// let (mut t, mut sphere) = ([0.0; 2], [0; 2]);
     /// let hits = HitColumns { t: &mut t, sphere: &mut sphere };
     /// spheres.closest_hit_columns(Exact, &mut Trace::new(), rays, hits);
-    /// assert_eq!((t, sphere), ([4.0, f32::INFINITY], [0, u32::MAX]));
+    /// assert_eq!((t, sphere), ([4.0, f32::INFINITY], [0, HitColumns::NO_SPHERE]));
     /// ```
     fn closest_hit_columns(
         &self,
@@ -329,11 +329,12 @@ pub trait Intersect: Lend {
     ///
     /// `rays` is overwritten, and then holds the rays for shading. They are bit for bit those of
     /// [`Camera::packet`](crate::Camera::packet), except for the bits of a NaN. The answers are bit for bit those of
-    /// [`closest_hit_packets`](Intersect::closest_hit_packets). To know what four tiles may meet, a tree need not look at their rays:
-    /// it bounds them by the tiles' corners.
+    /// [`closest_hit_packets`](Intersect::closest_hit_packets). A tree need not read the rays of four tiles to know what they may meet:
+    /// the tiles' corners bound them.
     ///
     /// Cost: a tree takes as long as for packets that exist already. To make packets one by one and then trace them takes up to twice
-    /// as long. Other structures make the rays first, in lanes.
+    /// as long. Other structures make the rays first, in lanes. With feature `alloc`, a tree may allocate memory for a stream, as
+    /// [`closest_hit_lanes`](Intersect::closest_hit_lanes) does.
     ///
     /// ```
     /// use spherule_kernel::{
@@ -369,6 +370,10 @@ pub trait Intersect: Lend {
     /// [`closest_hit_packets`](Intersect::closest_hit_packets) in the caller's lanes, with their token. The level of `trace`
     /// is ignored.
     ///
+    /// No rays are sorted. With feature `alloc`, a call of 1,024 rays or more in a tree of more than four leaves may allocate up to 384
+    /// bytes a ray, at most 3.2 MB, to trace rays as a stream. It does not do so if `trace` [lends](Trace::with_stream) memory, or says
+    /// that the rays are [incoherent](Trace::incoherent). If the allocation fails, the call goes on without the memory.
+    ///
     /// ```
     /// use spherule_kernel::{Exact, HitPacket, Intersect, Ray, RayPacket, SphereList, Trace, Vec3, f32x8};
     ///
@@ -392,7 +397,7 @@ pub trait Intersect: Lend {
     }
 
     /// [`any_hit_packets`](Intersect::any_hit_packets) in the caller's lanes, with their token. The level of `trace` is
-    /// ignored.
+    /// ignored. Memory is as for [`closest_hit_lanes`](Intersect::closest_hit_lanes).
     ///
     /// ```
     /// use spherule_kernel::{Exact, Intersect, Ray, RayPacket, SphereList, Trace, Vec3};

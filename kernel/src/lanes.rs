@@ -3,8 +3,8 @@
 //! A kernel written against [`Lanes`] runs on one lane (`f32`: the readable reference, and the
 //! form for targets without SIMD) and on 4, 8 or 16 lanes of the crate `wide`, with the same
 //! bits: answers come from `+ - * /` and square root, each correctly rounded on every target.
-//! The two operations whose last bit differs between targets, [`Lanes::filter_mul_add`] and
-//! [`Lanes::filter_max`], carry the word *filter* in their name; they may decide which work is
+//! The operations whose result differs between targets, [`Lanes::filter_mul_add`],
+//! [`Lanes::filter_max`] and [`Lanes::filter_greatest`], are named *filter*; they may decide which work is
 //! skipped, under a bound that covers them, and never what is answered.
 //!
 //! The trait is open: other vector types can implement it. Types whose instruction set is chosen at

@@ -69,7 +69,7 @@ pub trait Traverse {
         answers: &mut [Q::Packet<L::Array>],
     );
 
-    /// Answers packets in sixteen lanes at a level; compiled with this crate.
+    /// Answers packets in sixteen lanes at a level; compiled with this crate, without `std` where it is called.
     fn in_packets<Q: LevelQuery>(
         &self,
         tier: impl Accuracy,
@@ -149,7 +149,7 @@ pub trait Traverse {
         self.in_lanes::<L, ClosestHit>(tier, token, trace, rays, hits);
     }
 
-    /// The same in sixteen lanes at a level, compiled with this crate.
+    /// The same in sixteen lanes at a level, compiled as [`in_packets`](Traverse::in_packets) is.
     fn tiles_in_packets(
         &self,
         tier: impl Accuracy,

@@ -20,8 +20,8 @@ use glam::Vec3;
 /// A sphere of radius zero has the point zero, and a normal that points back along the ray. If `t` is not the tier's
 /// answer, the surface is that at the nearer root. If ray or sphere is not valid, the numbers have no meaning.
 ///
-/// Cost: some 150 double-precision operations, by `Exact` twice as many. A coordinate that these cannot tell takes 2
-/// microseconds and 2.5 KiB of stack. One in 10^7 is such; near the zeros of a ground, one in 10^4.
+/// Cost: some 150 double-precision operations, by `Exact` twice as many. A coordinate that these cannot round takes 2
+/// microseconds and 2.5 KiB of stack: one in 10^7; near zero on a large close sphere, one in 10^4.
 ///
 /// ```
 /// use spherule_kernel::{Exact, Intersect, Ray, Sphere, SphereList, Vec3, surface};

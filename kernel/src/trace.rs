@@ -7,7 +7,9 @@ use crate::coherence::Coherence;
 use crate::coherent::learnt::Learnt;
 use crate::dispatch::Level;
 
-/// How rays are traced: at which level, with what working memory, and what is known of them. No answer depends on it.
+/// How rays are traced: at which level, with what working memory, and what is known of them. No answer depends on it, except which false
+/// hits of `Fast` and `Geometric` a [`DepthList`](crate::DepthList) loses, and what a [`Bvh`](crate::Bvh) or `DepthList` sees where a
+/// tier's squares underflow.
 ///
 /// ```
 /// use spherule_kernel::{Level, LevelName, Trace};
@@ -24,7 +26,7 @@ pub struct Trace<'m> {
     pub level: Level,
     /// What the rays have in common, if it is known.
     pub coherence: Coherence,
-    /// Working memory for a [`DepthList`](crate::DepthList), as long as its `scratch` says; other structures need none.
+    /// Working memory for a [`DepthList`](crate::DepthList), as [`scratch`](crate::DepthList::scratch) says; other structures need none.
     pub scratch: &'m mut [f32],
     /// The caller's working memory for a tree's streams. If it is `None`, a call with feature `alloc` allocates memory where it gains
     /// by a stream, or by sorting rays: at most 4.5 MB. The trace keeps this memory for its next call; with `std`, the thread
@@ -125,7 +127,7 @@ impl<'m> Trace<'m> {
 
     /// Lends memory for streams. It replaces the memory that a tree allocates by itself, and is used for rays that are said to be
     /// incoherent, too. Rays that have nothing in common are traced as a stream as long as enough of them meet at the same boxes. With
-    /// too little memory to gain by ([`queues_needed`](StreamMemory::queues_needed)) they never are.
+    /// too little memory ([`queues_needed`](StreamMemory::queues_needed)) all go ray by ray.
     ///
     /// ```
     /// use spherule_kernel::{QueuedRay, StreamMemory, StreamRay, Trace};

@@ -1,4 +1,4 @@
-//! False hits of `Fast` and `Geometric`: which of them a tree or depth list loses.
+//! False hits of `Fast` and `Geometric`, and of `Stable` where squares underflow: which of them a tree or depth list loses.
 
 use super::scenes::{point, uniform};
 use spherule_kernel::{Coherence, Hit, Ray, Sphere, Tier, Vec3, Viewpoint, roots};
@@ -90,10 +90,46 @@ fn a_tree_sees_the_same_false_hits_by_every_call() {
     assert!(seen > 1000 && lost > 1000, "{seen} {lost}");
 }
 
+/// A tree of up to four spheres is a list also where squares underflow: there formulas see a sphere everywhere, or nowhere.
+#[test]
+fn a_tree_of_few_spheres_sees_what_the_list_sees() {
+    let of_radius = |radius: f32| Sphere { center: Vec3::new(1e-21, 0.0, 0.0), radius };
+    for (start, sphere, is_seen) in [
+        // The line passes the sphere at twice its radius.
+        ([2e-23, 0.0, 0.0], [0.0, 0.0, 1e-21, 1e-23], true),
+        // The line meets it.
+        ([0.0; 3], [2.68e-23, 2.68e-23, 1e-21, 4e-23], false),
+    ] {
+        let (ray, sphere) = (Ray::from([start, [0.0, 0.0, 1.0]]), Sphere::from(sphere));
+        assert_eq!(roots(Tier::Stable, &ray, &sphere).is_some(), is_seen);
+        let (tiny, large) = (of_radius(1e-23), Sphere::from([0.0, 0.0, -1.0, 0.25]));
+        assert_as_list(&[sphere, tiny], ray);
+        assert_as_list(&[tiny, sphere, of_radius(2e-23), large], ray);
+    }
+}
+
+/// Asserts that trees of these spheres answer a ray as the list does, alone and beside others.
+fn assert_as_list(spheres: &[Sphere], ray: Ray) {
+    let of_tree = |v: &Variant| is_tree(v) || matches!(v.structure, Structure::Refitted(_));
+    Memory::new(spheres).sorted(Viewpoint::Origin(ray.origin), |structures| {
+        for variant in variants().filter(of_tree) {
+            let expected = brute(variant.tier).closest(spheres, &[ray])[0];
+            for count in [1, 9, 64] {
+                let answers = variant.ask(structures, &vec![ray; count]);
+                for (hit, occluded) in answers.hits.iter().zip(&answers.occluded) {
+                    let found = (bits(*hit), *occluded);
+                    let expected = (bits(expected), expected.is_some());
+                    assert_eq!(found, expected, "{variant:?}, {count} rays, {spheres:?}");
+                }
+            }
+        }
+    });
+}
+
 /// Lines near the border of a sphere's box, and products that are subnormal.
 #[test]
 fn a_tree_sees_the_same_hits_at_the_border_of_a_box() {
-    let behind = |x: f32, z: f32| (0..4).map(move |i| [x, 1.0, z - 10.0 * i as f32, 0.1]);
+    let behind = |x: f32, z: f32| (0..4).map(move |i| [x, 1.0, z - 0.1 * i as f32, 0.1]);
     let [step, tiny] = [-149, -109].map(|exponent| power_of_two(exponent) as f32);
     let large = power_of_two(40) as f32;
     let rows = [

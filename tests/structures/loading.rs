@@ -110,6 +110,19 @@ fn another_bit_is_another_tree() {
     }
 }
 
+/// A file that was written in another order of bytes is no tree.
+#[test]
+fn in_another_order_of_bytes() {
+    let spheres = of_all_kinds();
+    let words = words_of(&spheres);
+    let bytes: Vec<u8> = words.iter().copied().flat_map(u32::to_le_bytes).collect();
+    let read = |word: fn([u8; 4]) -> u32| -> Vec<u32> {
+        bytes.as_chunks::<4>().0.iter().copied().map(word).collect()
+    };
+    assert_eq!(error_of(&spheres, &read(u32::from_le_bytes)), None);
+    assert_eq!(error_of(&spheres, &read(u32::from_be_bytes)), Some(Bvh4Error::Mark));
+}
+
 /// A tree over other spheres is an error.
 #[test]
 fn of_other_spheres() {

@@ -46,7 +46,7 @@ use crate::{LaneMask, Lanes, Ray, Sphere};
 ///
 /// A scene multiplied by a power of two has the same answers, except for tangents that close: the squares that decide them may underflow.
 ///
-/// Outside the domain, answers are the same bits on every target, but nothing is promised. The tier does not know which of several hits
+/// Outside the domain, answers of a list are the same bits on every target, but nothing is promised. The tier does not know which of several hits
 /// with the same t is the closest.
 #[derive(Clone, Copy, Debug)]
 pub struct Stable;

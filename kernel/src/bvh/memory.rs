@@ -22,7 +22,7 @@ pub enum RefitError {
         /// How many are given.
         given: usize,
     },
-    /// There are more spheres that no box holds than the caller's memory has indices for.
+    /// The caller's memory has too few indices for the spheres that no box holds.
     TooSmall(TooSmall),
 }
 
@@ -75,7 +75,7 @@ pub struct BvhMemory<'m> {
 impl<'m> BvhMemory<'m> {
     /// Borrows memory, whose contents do not matter. [`Bvh::needed`] says how much a tree needs.
     ///
-    /// With as many indices as that and one more for each sphere, no refit is [`TooSmall`].
+    /// With one index more for each sphere, no refit returns [`RefitError::TooSmall`].
     ///
     /// ```
     /// use spherule_kernel::{Bvh, BvhMemory, RefitError, Spheres};
@@ -123,8 +123,8 @@ impl<'m> BvhMemory<'m> {
     ///
     /// Guarantees what a new tree guarantees, for any spheres; only time is lost, and [`Bvh::growth`] says how much. Spheres
     /// that are not valid now are left out, and come back when they are valid again. Some spheres are tested against every ray:
-    /// those larger or smaller by 2^40 or more than most were when the tree was built; those that were left out then and are
-    /// valid now; and, where more than four were the same then, some that no longer are.
+    /// those larger or smaller by 2^40 or more than most were when the tree was built; those left out then that are
+    /// valid now; and, of more than four equal spheres, some that now differ.
     ///
     /// Cost: a tenth to a quarter of a build's time; less with so many indices that no refit is [`TooSmall`], since then nothing
     /// is counted first. Stack: some 3 KiB. No other memory.

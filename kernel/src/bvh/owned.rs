@@ -103,7 +103,7 @@ impl SphereTree {
     /// [growth](Bvh::growth) of the boxes since the tree was built: at 1.5 or 2 it is time to build anew.
     ///
     /// `moved` is [`Spheres`](crate::Spheres), a slice, a vector or an array of anything that becomes a [`Sphere`](crate::Sphere), or a
-    /// [`SphereList`]. If one of your conversions panics, refit the tree again before it is used.
+    /// [`SphereList`], given or lent. If one of your conversions panics, refit the tree again before it is used.
     ///
     /// Guarantees what a new tree guarantees. [`BvhMemory::refit`](crate::BvhMemory::refit) says what becomes of spheres that
     /// are not valid, and of those far larger or smaller than they were.
@@ -124,9 +124,9 @@ impl SphereTree {
     /// # Ok::<(), RefitError>(())
     /// ```
     ///
-    /// Cost: a tenth to a quarter of a build's time. Spheres are copied into the list that the tree owns; only a `SphereList`
-    /// replaces it. No memory, except where more spheres are out of the boxes than ever before: 8 bytes for each of them. Aborts, as
-    /// `Vec` does, if there is none.
+    /// Cost: a tenth to a quarter of a build's time. Spheres are copied into the list that the tree owns; only a `SphereList` that is
+    /// given replaces it. Allocates only if more spheres are outside the boxes than ever before: 8 bytes for each. Aborts, as
+    /// `Vec` does, if that fails.
     ///
     /// # Errors
     /// [`RefitError::OtherCount`] if `moved` has another number of spheres; then the tree is as it was.
@@ -209,8 +209,10 @@ mod tests {
         assert!(*tree.list() == second && memory(&tree) == before, "columns");
         tree.refit(start).expect("as many");
         assert!(*tree.list() == first && memory(&tree) == before, "rows that are given");
-        tree.refit(second.clone()).expect("as many");
-        assert!(*tree.list() == second, "a list, which brings its memory");
+        tree.refit(&second).expect("as many");
+        assert!(*tree.list() == second && memory(&tree) == before, "a list that is lent");
+        tree.refit(first.clone()).expect("as many");
+        assert!(*tree.list() == first, "a list, which brings its memory");
     }
 
     #[test]

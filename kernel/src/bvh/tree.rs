@@ -19,7 +19,8 @@ use glam::Vec3;
 ///
 /// It answers bit for bit what the list does, by [`Exact`](crate::Exact) for every input, by [`Stable`](crate::Stable) in its domain. Of the
 /// hits that [`Fast`](crate::Fast) and [`Geometric`](crate::Geometric) find on lines that pass a sphere by, a tree of more than four spheres
-/// loses those on lines that miss the box around the sphere: by every call the same.
+/// loses those on lines that miss the box around the sphere: by every call the same. Where squares of these tiers underflow, or of `Stable`
+/// outside its domain, such a tree may take what its bounds see for what the formula sees: that may depend on the other rays of a call.
 ///
 /// ```
 /// use spherule_kernel::{Bvh, BvhNode, Exact, Intersect, Ray, Spheres, Vec3};
@@ -238,10 +239,10 @@ impl<'a> Bvh<'a> {
         self.spheres
     }
 
-    /// Returns by how much the boxes have grown since the tree was built: how many boxes a ray is expected to enter, over how
-    /// many it was expected to enter then. It is 1 for a tree that was not refitted, and finite and above 0 for any.
+    /// Returns by how much the boxes have grown: how many boxes a ray is expected to enter, divided by how many it was expected
+    /// to enter when the tree was built. It is 1 for a tree that was not refitted, and finite and above 0 for any.
     ///
-    /// A ray takes about this many times as long as then, as far as it spends its time on boxes. At 1.5 or 2, build the tree
+    /// The time that a ray spends on boxes has grown by about this factor. At 1.5 or 2, build the tree
     /// anew if it is used for more than a few frames.
     ///
     /// This is an estimate by the surface area heuristic (MacDonald and Booth 1990), for rays through the space in which most of

@@ -19,8 +19,8 @@ pub enum Bvh4Error {
     Length,
     /// The scale of lengths is not a power of two.
     Scale,
-    /// Not every sphere is there exactly once, among its kind: those that the bounds see, those that they do not, and
-    /// invalid ones.
+    /// A sphere is missing, there twice, or not among its kind: covered by the bounds, not covered, or
+    /// invalid.
     Order,
     /// A box is not that of its spheres.
     Box,

@@ -18,8 +18,8 @@ pub(super) const HEADER: usize = 5;
 /// which [loads](Bvh4::load) them; or it is [built](Bvh4::build) where it is used. `docs/targets.md` says what each of the two
 /// takes.
 ///
-/// It answers through [`Intersect`](crate::Intersect), bit for bit as the list does, except that by `Fast` and `Geometric`
-/// it loses some of their hits on lines that miss the box around a sphere. It answers wider packets lane by lane, in code that is compiled where it is called. Where there are
+/// It answers through [`Intersect`](crate::Intersect), bit for bit as the list does, except that by `Fast` and `Geometric`, and by `Stable`
+/// outside its domain, it loses some false hits on lines that miss a sphere's box. It answers wider packets lane by lane, in code that is compiled where it is called. Where there are
 /// vectors, `Bvh` is many times as fast.
 ///
 /// ```
@@ -29,7 +29,7 @@ pub(super) const HEADER: usize = 5;
 /// let [x, y, z, r] = &COLUMNS;
 /// let spheres = Spheres::new(x, y, z, r)?;
 ///
-/// // On the host: words, to be written as a source, or a file.
+/// // On the host: words, to be written as a source, or a file (below).
 /// let mut memory = [0; Bvh4::needed(2)];
 /// let words = Bvh4::build(spheres, &mut memory)?.words();
 /// let source = format!("pub static TREE: [u32; {}] = {words:?};", words.len());
@@ -41,6 +41,36 @@ pub(super) const HEADER: usize = 5;
 /// # assert!(source.starts_with("pub static TREE: [u32; 31] = ["));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+///
+/// A file has bytes, whose order is yours. Here the lowest comes first:
+///
+/// ```
+/// use spherule_kernel::{Bvh4, Spheres};
+///
+/// // In the firmware: `static TREE: [u32; Bvh4::needed(1)] = words(include_bytes!("tree.le"));`
+/// const fn words<const N: usize>(bytes: &[u8]) -> [u32; N] {
+///     let ((chunks, _), mut words, mut index) = (bytes.as_chunks::<4>(), [0; N], 0);
+///     while index < N {
+///         words[index] = u32::from_le_bytes(chunks[index]);
+///         index += 1;
+///     }
+///     words
+/// }
+/// # static IS_CONST: [u32; 1] = words(&[1, 2, 0, 0]);
+/// # assert_eq!(IS_CONST, [513]);
+///
+/// let spheres = Spheres::new(&[0.0], &[0.0], &[5.0], &[1.0])?;
+/// let mut memory = [0; Bvh4::needed(1)];
+/// let built = Bvh4::build(spheres, &mut memory)?.words();
+/// let file: Vec<u8> = built.iter().copied().flat_map(u32::to_le_bytes).collect();
+///
+/// let read: [u32; Bvh4::needed(1)] = words(&file);
+/// assert_eq!(Bvh4::load(spheres, &read)?.words(), built);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// The spheres must have the bits that they had on the host: with others, `load` returns an error, mostly
+/// [`Bvh4Error::Box`](crate::Bvh4Error::Box).
 #[derive(Clone, Copy, Debug)]
 pub struct Bvh4<'a> {
     /// The list, the scale and the shape.
@@ -55,7 +85,7 @@ pub struct Bvh4<'a> {
 }
 
 impl<'a> Bvh4<'a> {
-    /// Returns how many words any list of `count` spheres needs: at most 12 bytes a sphere, and 700.
+    /// Returns how many words any list of `count` spheres needs: at most 12 bytes a sphere, plus 700.
     ///
     /// More than 65,536 spheres are too many: this returns `usize::MAX`, since no memory is enough.
     ///

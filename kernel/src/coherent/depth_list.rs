@@ -26,7 +26,7 @@ use crate::scale::scene::SceneScale;
 ///
 /// It answers bit for bit what the list of spheres does: by [`Exact`](crate::Exact) for every input, by
 /// [`Stable`](crate::Stable) in its domain, by [`Fast`](crate::Fast) and [`Geometric`](crate::Geometric) except for
-/// hits that their forms find on lines that pass a sphere by: whether it finds them may depend on the rays of a call.
+/// false hits: which of these it finds may depend on the rays of a call.
 /// Lists and filters only decide what is skipped, under the bounds of the tree (`docs/traversal-margins.md`); every t is a tier's. Units do not matter, since bounds see spheres
 /// and rays multiplied by powers of two.
 ///
@@ -36,8 +36,8 @@ use crate::scale::scene::SceneScale;
 ///
 /// # Cost
 ///
-/// Time grows with the number of spheres that lie one behind the other. Besides, a thousand packets take a sixteenth of an
-/// operation for each sphere. Packets that follow each other should lie beside each other in the picture.
+/// Time grows with the number of spheres that lie one behind the other. Besides, each thousand packets take a sixteenth of an
+/// operation a sphere. Packets that follow each other should lie beside each other in the picture.
 /// [`Trace::scratch`](crate::Trace::scratch) is memory for the short lists: with less than
 /// [`DepthList::scratch`] the answers are the same, but take longer. Stack: some 12 KiB.
 ///
@@ -67,7 +67,7 @@ pub struct DepthList<'a> {
 }
 
 impl<'a> DepthList<'a> {
-    /// Returns how many numbers of memory any list of `count` spheres needs: 24 bytes a sphere, and 768.
+    /// Returns how many `f32` any list of `count` spheres needs: 24 bytes a sphere, plus at most 768.
     ///
     /// Returns `usize::MAX`, which no memory has, if that number overflows.
     ///
@@ -79,7 +79,7 @@ impl<'a> DepthList<'a> {
         column_length(count).saturating_mul(COLUMNS)
     }
 
-    /// Returns how many numbers of scratch memory a traversal uses at most: 48 bytes a sphere, and 1536.
+    /// Returns how many `f32` of scratch a traversal uses at most: 48 bytes a sphere, plus 1536.
     ///
     /// ```
     /// assert_eq!(spherule_kernel::DepthList::scratch(100), 1536);

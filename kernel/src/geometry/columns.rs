@@ -1,9 +1,10 @@
 //! A caller's rays and hits in columns: a slice for each of their numbers.
 
-use super::hit::{Hit, HitPacket};
+use super::hit::{Hit, HitPacket, NO_SPHERE};
 use super::ray::{Ray, RayPacket};
 use crate::lanes::{LaneArray, Lanes};
 use crate::numeric::axes::axes;
+use core::ops::Range;
 use glam::Vec3;
 
 /// Rays in eight columns, the form in which arrays, tables and simulations have them: ray `i` consists of number `i` of each.
@@ -28,7 +29,7 @@ use glam::Vec3;
 pub struct RayColumns<'a> {
     /// Where `t` is zero: x, y and z.
     pub origin: [&'a [f32]; 3],
-    /// Where `t` grows to: x, y and z, of any length but zero.
+    /// Towards greater `t`: x, y and z, of any length except zero.
     pub direction: [&'a [f32]; 3],
     /// The least accepted `t` of each ray.
     pub t_min: &'a [f32],
@@ -107,9 +108,21 @@ impl<'a> RayColumns<'a> {
         }
     }
 
-    /// Rays `from` to `to`; those past the end are left out.
-    pub(crate) fn part(&self, from: usize, to: usize) -> Self {
-        let part = |column: &'a [f32]| column.get(from..to.min(column.len())).unwrap_or_default();
+    /// Returns the rays of a range, without those past the end: what a thread takes of all. Cost: nothing is copied.
+    ///
+    /// ```
+    /// use spherule_kernel::{Ray, RayColumns, Vec3};
+    ///
+    /// let (zero, one, infinity) = ([0.0; 3], [1.0; 3], [f32::INFINITY; 3]);
+    /// let origin: [&[f32]; 3] = [&[0.0, 1.0, 2.0], &zero, &zero];
+    /// let rays = RayColumns { origin, direction: [&zero, &zero, &one], t_min: &zero, t_max: &infinity };
+    /// assert_eq!(rays.part(1..3).ray(1), Some(Ray::new(Vec3::new(2.0, 0.0, 0.0), Vec3::Z)));
+    /// assert_eq!([rays.part(2..4).len(), rays.part(3..5).len()], [1, 0]);
+    /// ```
+    #[must_use]
+    pub fn part(&self, range: Range<usize>) -> Self {
+        let Range { start, end } = range;
+        let part = |column: &'a [f32]| column.get(start..end.min(column.len())).unwrap_or_default();
         Self {
             origin: self.origin.map(part),
             direction: self.direction.map(part),
@@ -160,17 +173,20 @@ impl<'a> RayColumns<'a> {
 pub struct HitColumns<'a> {
     /// Where, in multiples of the ray's direction; `+inf` if the ray hits nothing.
     pub t: &'a mut [f32],
-    /// The index of the sphere in its list; [`HitPacket::NO_SPHERE`] if the ray hits nothing.
+    /// The index of the sphere in its list; [`HitColumns::NO_SPHERE`] if the ray hits nothing.
     pub sphere: &'a mut [u32],
 }
 
 impl HitColumns<'_> {
+    /// The index that stands for "no sphere".
+    pub const NO_SPHERE: u32 = NO_SPHERE;
+
     /// How many hits there is room for: the shorter of the two columns.
     ///
     /// ```
-    /// use spherule_kernel::{HitColumns, HitPacket};
+    /// use spherule_kernel::HitColumns;
     ///
-    /// let (mut t, mut sphere) = ([4.0, f32::INFINITY, 0.0], [7, HitPacket::<[f32; 16]>::NO_SPHERE]);
+    /// let (mut t, mut sphere) = ([4.0, f32::INFINITY, 0.0], [7, HitColumns::NO_SPHERE]);
     /// let hits = HitColumns { t: &mut t, sphere: &mut sphere };
     /// assert_eq!(hits.len(), 2);
     /// ```
@@ -182,9 +198,9 @@ impl HitColumns<'_> {
     /// Whether there is room for none.
     ///
     /// ```
-    /// use spherule_kernel::{HitColumns, HitPacket};
+    /// use spherule_kernel::HitColumns;
     ///
-    /// let (mut t, mut sphere) = ([4.0, f32::INFINITY, 0.0], [7, HitPacket::<[f32; 16]>::NO_SPHERE]);
+    /// let (mut t, mut sphere) = ([4.0, f32::INFINITY, 0.0], [7, HitColumns::NO_SPHERE]);
     /// let hits = HitColumns { t: &mut t, sphere: &mut sphere };
     /// assert!(!hits.is_empty());
     /// ```
@@ -196,23 +212,23 @@ impl HitColumns<'_> {
     /// Hit `index`; `None` if there is none, or past the end.
     ///
     /// ```
-    /// use spherule_kernel::{Hit, HitColumns, HitPacket};
+    /// use spherule_kernel::{Hit, HitColumns};
     ///
-    /// let (mut t, mut sphere) = ([4.0, f32::INFINITY, 0.0], [7, HitPacket::<[f32; 16]>::NO_SPHERE]);
+    /// let (mut t, mut sphere) = ([4.0, f32::INFINITY, 0.0], [7, HitColumns::NO_SPHERE]);
     /// let hits = HitColumns { t: &mut t, sphere: &mut sphere };
     /// assert_eq!([hits.hit(0), hits.hit(1)], [Some(Hit { t: 4.0, sphere: 7 }), None]);
     /// ```
     #[must_use]
     pub fn hit(&self, index: usize) -> Option<Hit> {
         let hit = Hit { t: *self.t.get(index)?, sphere: *self.sphere.get(index)? };
-        (hit.sphere != HitPacket::<[f32; 16]>::NO_SPHERE).then_some(hit)
+        (hit.sphere != Self::NO_SPHERE).then_some(hit)
     }
 
     /// Writes what one ray hits at place `index`.
     #[cfg(feature = "alloc")]
     #[inline(always)]
     pub(crate) fn set(&mut self, index: usize, one: Option<Hit>) {
-        let none = Hit { t: f32::INFINITY, sphere: HitPacket::<[f32; 16]>::NO_SPHERE };
+        let none = Hit { t: f32::INFINITY, sphere: Self::NO_SPHERE };
         let hit = one.unwrap_or(none);
         if let (Some(t), Some(sphere)) = (self.t.get_mut(index), self.sphere.get_mut(index)) {
             (*t, *sphere) = (hit.t, hit.sphere);

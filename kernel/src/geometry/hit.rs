@@ -11,10 +11,13 @@ pub struct Hit {
     pub sphere: u32,
 }
 
+/// The index that stands for "no sphere".
+pub(super) const NO_SPHERE: u32 = u32::MAX;
+
 /// A [`Hit`] or none for every lane of a packet, in plain arrays: sixteen lanes unless `A` says
 /// otherwise.
 ///
-/// Only calls write hits into it. To merge answers of your own, keep `Hit`s: [`compare_hits`](crate::compare_hits) says which of two comes
+/// Only the kernel writes into it. To merge answers of your own, keep `Hit`s: [`compare_hits`](crate::compare_hits) says which of two comes
 /// first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
@@ -26,7 +29,7 @@ pub struct HitPacket<A: LaneArray = [f32; 16]> {
 
 impl<A: LaneArray> HitPacket<A> {
     /// The index that stands for "no sphere".
-    pub const NO_SPHERE: u32 = u32::MAX;
+    pub const NO_SPHERE: u32 = NO_SPHERE;
 
     /// No hit in any lane: `t` is `+inf`, the sphere [`Self::NO_SPHERE`].
     ///

@@ -35,7 +35,7 @@ impl ManyRays<'_> {
     pub(crate) fn part(&self, from: usize, to: usize) -> Self {
         match self {
             Self::Slice(rays) => Self::Slice(rays.get(from..to).unwrap_or_default()),
-            Self::Columns(rays) => Self::Columns(rays.part(from, to)),
+            Self::Columns(rays) => Self::Columns(rays.part(from..to)),
             #[cfg(feature = "alloc")]
             Self::Packets(packets) => {
                 let part = from / RayPacket::COUNT..to / RayPacket::COUNT;

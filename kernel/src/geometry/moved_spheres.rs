@@ -10,7 +10,7 @@ pub trait MovedSpheres {
     /// How many spheres.
     fn count(&self) -> usize;
 
-    /// Replaces the spheres of a list of as many. A list brings its memory with it; all others are copied, without an allocation.
+    /// Replaces the spheres of a list of as many. A list that is given brings its memory; all others are copied, without an allocation.
     fn replace(self, list: &mut SphereList);
 }
 
@@ -41,7 +41,9 @@ macro_rules! copied {
 
 copied! {
     [] Spheres<'_>: |self| self.iter();
+    [] &SphereList: |self| self.spheres().iter();
     [S: Into<Sphere> + Copy] &[S]: |self| self.iter().copied();
+    [S: Into<Sphere> + Copy, const N: usize] &[S; N]: |self| self.iter().copied();
     [S: Into<Sphere> + Copy] &Vec<S>: |self| self.iter().copied();
     [S: Into<Sphere>] Vec<S>: |self| self.into_iter();
     [S: Into<Sphere>, const N: usize] [S; N]: |self| self.into_iter();

@@ -15,7 +15,7 @@ use glam::Vec3;
 pub struct Ray {
     /// Where `t` is zero, in the units of the scene.
     pub origin: Vec3,
-    /// Where `t` grows to; any length but zero.
+    /// Towards greater `t`; any length except zero.
     pub direction: Vec3,
     /// The least accepted `t`; may be negative or `-inf`.
     pub t_min: f32,
@@ -45,7 +45,8 @@ impl Ray {
         Self { origin, direction, t_min: 0.0, t_max: f32::INFINITY }
     }
 
-    /// Whether the ray can hit anything: rule 1, and an interval that is not empty.
+    /// Whether rule 1 lets the ray hit anything, and `t_min <= t_max`. (An interval without a finite number, which no hit has, counts as
+    /// live.)
     ///
     /// ```
     /// use spherule_kernel::{Ray, Vec3};
@@ -53,6 +54,7 @@ impl Ray {
     /// let ray = Ray::new(Vec3::ZERO, Vec3::Z);
     /// assert!(ray.is_live() && !Ray { t_max: -1.0, ..ray }.is_live());
     /// assert!(!Ray::new(Vec3::ZERO, Vec3::ZERO).is_live());
+    /// assert!(Ray { t_min: f32::INFINITY, ..ray }.is_live());
     /// ```
     #[must_use]
     pub fn is_live(&self) -> bool {

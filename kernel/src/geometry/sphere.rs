@@ -187,9 +187,18 @@ impl<'a> Spheres<'a> {
         })
     }
 
-    /// x, y, z and radii, of one length.
+    /// Returns the columns as they were given: x, y, z and radii, all of one length.
+    ///
+    /// ```
+    /// use spherule_kernel::Spheres;
+    ///
+    /// let spheres = Spheres::new(&[0.0], &[0.0], &[5.0], &[1.0]).expect("equal lengths");
+    /// let [_, _, z, radii] = spheres.columns();
+    /// assert_eq!((z, radii), (&[5.0][..], &[1.0][..]));
+    /// ```
+    #[must_use]
     #[inline(always)]
-    pub(crate) const fn columns(&self) -> [&'a [f32]; 4] {
+    pub const fn columns(&self) -> [&'a [f32]; 4] {
         [self.x, self.y, self.z, self.r]
     }
 

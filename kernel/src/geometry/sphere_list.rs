@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 /// Spheres in memory of their own, coordinate by coordinate: the owned form of [`Spheres`].
 ///
 /// Made from anything that becomes a [`Sphere`]: rows `[f32; 4]`, glam's vectors, pairs of centre and
-/// radius, slices or vectors of them, any iterator. 16 bytes a sphere.
+/// radius, slices, arrays or vectors of them, given or lent, any iterator. 16 bytes a sphere.
 ///
 /// ```
 /// use spherule_kernel::{Sphere, SphereList, Vec3, Vec4};
@@ -54,6 +54,44 @@ impl SphereList {
         self.y.push(center.y);
         self.z.push(center.z);
         self.r.push(radius);
+    }
+
+    /// Replaces sphere `index`. Returns whether there is one: past the end, nothing changes.
+    ///
+    /// ```
+    /// use spherule_kernel::SphereList;
+    ///
+    /// let mut list = SphereList::from([[0.0, 0.0, 5.0, 1.0]]);
+    /// assert!(list.set(0, [0.0, 0.0, 6.0, 1.0]));
+    /// assert!(!list.set(1, [0.0, 0.0, 7.0, 1.0]));
+    /// assert_eq!(list, SphereList::from([[0.0, 0.0, 6.0, 1.0]]));
+    /// ```
+    pub fn set(&mut self, index: usize, sphere: impl Into<Sphere>) -> bool {
+        let Self { x, y, z, r } = self;
+        let (Some(x), Some(y), Some(z), Some(r)) =
+            (x.get_mut(index), y.get_mut(index), z.get_mut(index), r.get_mut(index))
+        else {
+            return false;
+        };
+        let Sphere { center, radius } = sphere.into();
+        (*x, *y, *z, *r) = (center.x, center.y, center.z, radius);
+        true
+    }
+
+    /// Removes all spheres. The list keeps its memory for the next ones.
+    ///
+    /// ```
+    /// use spherule_kernel::SphereList;
+    ///
+    /// let mut list = SphereList::from([[0.0, 0.0, 5.0, 1.0]]);
+    /// list.clear();
+    /// list.extend([[0.0, 0.0, 6.0, 1.0]]);
+    /// assert_eq!(list, SphereList::from([[0.0, 0.0, 6.0, 1.0]]));
+    /// ```
+    pub fn clear(&mut self) {
+        for column in [&mut self.x, &mut self.y, &mut self.z, &mut self.r] {
+            column.clear();
+        }
     }
 
     /// Writes spheres over those of the list, from the first on, as far as both go.
@@ -134,6 +172,12 @@ impl<S: Into<Sphere> + Copy> From<&[S]> for SphereList {
     }
 }
 
+impl<S: Into<Sphere> + Copy, const N: usize> From<&[S; N]> for SphereList {
+    fn from(spheres: &[S; N]) -> Self {
+        spheres.iter().copied().collect()
+    }
+}
+
 impl<S: Into<Sphere> + Copy> From<&Vec<S>> for SphereList {
     fn from(spheres: &Vec<S>) -> Self {
         spheres.iter().copied().collect()
@@ -149,6 +193,12 @@ impl<S: Into<Sphere>> From<Vec<S>> for SphereList {
 impl<S: Into<Sphere>, const N: usize> From<[S; N]> for SphereList {
     fn from(spheres: [S; N]) -> Self {
         spheres.into_iter().collect()
+    }
+}
+
+impl From<&SphereList> for SphereList {
+    fn from(spheres: &SphereList) -> Self {
+        spheres.clone()
     }
 }
 

@@ -2,13 +2,16 @@
 
 use core::hint::black_box;
 
-/// Whether arithmetic rounds to nearest even and keeps subnormals, in `f32` and `f64`, on the
-/// calling thread.
+/// Returns whether arithmetic rounds to nearest even and keeps subnormals, in `f32` and `f64`, on
+/// this thread.
 ///
-/// Rust assumes so and every target starts so, but a library called from another language may have
-/// set flush-to-zero, denormals-are-zero or another rounding mode; AArch32 NEON always flushes.
-/// Where this returns `false`, [`Exact`](crate::Exact) promises nothing. Costs some nanoseconds:
-/// call it once, at the start.
+/// Rust assumes so, and every target starts so unless a library replaces the float routines:
+/// without its feature `disable-intrinsics` rp2040-hal takes those of the boot ROM, which flush
+/// subnormals. A library called from another language may have set flush-to-zero,
+/// denormals-are-zero or another rounding mode; AArch32 NEON always flushes. Where this returns
+/// `false`, [`Exact`](crate::Exact) promises nothing. Costs some nanoseconds: call it once in every
+/// thread, and in every interrupt handler that calls the kernel (on a Cortex-M a handler's
+/// environment is not that of the thread that it interrupts).
 ///
 /// ```
 /// use spherule_kernel::float_environment_is_sound;

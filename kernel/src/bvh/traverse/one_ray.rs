@@ -14,7 +14,7 @@
 
 mod found;
 
-use self::found::{MOST, Search};
+use self::found::{MOST, Search, goes_by_list};
 use super::boxes::{BoxProbe, Boxes};
 use super::prepared_ray::{PreparedLanes, far_away};
 use super::ray_time::RayTime;
@@ -77,8 +77,8 @@ fn search<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
     if !rays.live {
         return Q::one(&search.answer, 0);
     }
-    // Which false hits are seen must not depend on how many rays a call has.
-    if SPREADS && small_tree::is_listed(bvh) {
+    // What a tier sees wrongly must not depend on how many rays a call has.
+    if goes_by_list(bvh, SPREADS, tier.squares()) {
         return search.of_list();
     }
     // A tree of one sphere: to look at the sphere costs as much as to test it. (A refit may have made it no sphere, which only

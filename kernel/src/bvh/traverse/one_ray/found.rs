@@ -1,17 +1,18 @@
 //! What one ray has found: which spheres may be its closest, and what the tier has said of them.
 
 use crate::Accuracy;
-use crate::accuracy::{RayLanes, is_closer, test_one};
+use crate::accuracy::{RayLanes, Squares, is_closer, test_one};
 use crate::bvh::leaf::place_of;
 use crate::bvh::node::{LEAF, WIDTH};
 use crate::bvh::source::SphereSource;
 use crate::bvh::traverse::in_flight::test_from_afar;
 use crate::bvh::traverse::ray_time::RayTime;
 use crate::bvh::traverse::root_interval::RayProbe;
-use crate::bvh::traverse::small_tree::MOST_LEAVES;
+use crate::bvh::traverse::small_tree::{self, MOST_LEAVES};
 use crate::bvh::tree::Bvh;
 use crate::geometry::hit::Hit;
 use crate::geometry::ray::{Ray, RayPacket};
+use crate::geometry::sphere::Spheres;
 use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::linear;
 use crate::numeric::rounding::least;
@@ -19,6 +20,28 @@ use crate::query::Query;
 
 /// How many candidates are kept.
 pub(super) const MOST: usize = 8;
+
+/// 2^-40: from this radius on, no squares of `Stable` underflow so far that it sees a sphere otherwise than bounds do.
+const LEAST_RADIUS: f32 = 1.0 / (1_u64 << 40) as f32;
+
+/// Returns whether one ray goes through the list of a tree, as many rays do in a tree of few spheres: if the tier may see a sphere
+/// otherwise than bounds do, because it spreads, or because its squares underflow.
+#[inline(always)]
+pub(super) fn goes_by_list(bvh: &Bvh<'_>, spreads: bool, squares: Squares) -> bool {
+    small_tree::is_listed(bvh) && (spreads || (squares != Squares::None && has_tiny(&bvh.spheres)))
+}
+
+/// Returns whether a sphere has a radius below [`LEAST_RADIUS`].
+#[inline(always)]
+fn has_tiny(spheres: &Spheres<'_>) -> bool {
+    let [_, _, _, radii] = spheres.columns();
+    for &radius in radii {
+        if radius < LEAST_RADIUS {
+            return true;
+        }
+    }
+    false
+}
 
 /// A ray, and what it has found.
 pub(super) struct Search<'a, T, Q: Query> {

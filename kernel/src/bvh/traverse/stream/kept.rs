@@ -124,7 +124,7 @@ mod tests {
 
     use super::*;
     use crate::proofs::climb::Random;
-    use crate::{Exact, HitPacket, Intersect, Ray, SphereList, SphereTree, Trace, Vec3};
+    use crate::{Exact, HitPacket, Intersect, Ray, SphereList, SphereTree, Trace, Vec3, f32x8};
     use std::vec;
 
     impl KeptMemory {
@@ -137,7 +137,7 @@ mod tests {
         }
     }
 
-    /// Calls take the memory that `closest_hits` and `Trace::stream` promise.
+    /// Calls take the memory that `closest_hits`, `closest_hit_lanes` and `Trace::stream` promise.
     #[test]
     fn calls_take_the_memory_that_is_promised() {
         let mut random = Random(59);
@@ -175,6 +175,15 @@ mod tests {
             assert!(taken == 0 || taken + answers <= most, "{count} rays: {taken} and {answers}");
             // The next trace of this thread begins with none.
             trace.kept.0 = Memory::NONE;
+        }
+        // By lanes, rays that have nothing in common take memory for streams alone, and none if they are said to have nothing in common.
+        let packets = Vec::from_iter(rays[1].chunks(8).take(2048).map(RayPacket::<[f32; 8]>::new));
+        for (mut trace, takes) in [(Trace::new(), true), (Trace::new().incoherent(), false)] {
+            let mut hits = vec![HitPacket::<[f32; 8]>::none(); packets.len()];
+            trees[0].closest_hit_lanes::<f32x8>(Exact, (), &mut trace, &packets, &mut hits);
+            let [taken, numbers] = trace.kept.bytes();
+            assert_eq!((taken > 0, numbers), (takes, 0));
+            assert!(taken <= 3_200_000, "{taken}");
         }
     }
 }

@@ -18,7 +18,7 @@ impl<'m> StreamMemory<'m> {
     /// Returns how many places in queues a stream of so many rays needs at least: one a ray, and 256.
     ///
     /// At most 8,192 rays go down together. With memory for fewer than 1,024, or with fewer than 8 places in queues for each that
-    /// goes down, rays go by themselves, except [everywhere](Self::everywhere); with 32 places, few queues are cut short.
+    /// goes down, rays go alone, except with [`everywhere`](Self::everywhere); with 32 places, few queues are cut short.
     ///
     /// ```
     /// use spherule_kernel::StreamMemory;
