@@ -1,8 +1,11 @@
 //! How the program ends without success: the exit codes, and the one line on stderr.
 
+pub mod broken_off;
 pub mod caught;
+pub mod signal;
 pub mod stdout;
 
+use crate::harmless;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
@@ -35,11 +38,8 @@ impl Error {
             Self::Running(message) => (message, 1),
             Self::ReaderGone => return ExitCode::SUCCESS,
         };
-        let printable =
-            |c: char| if c.is_control() { c.escape_default().collect() } else { c.to_string() };
-        let line: String = message.chars().map(printable).collect();
         // If stderr is closed too, the exit code must do.
-        let _ = writeln!(io::stderr(), "spherule: {line}");
+        let _ = writeln!(io::stderr(), "spherule: {}", harmless::line(message));
         ExitCode::from(code)
     }
 }
@@ -56,5 +56,5 @@ pub fn cause(error: &io::Error) -> String {
 /// # Errors
 /// [`Error`] if that fails.
 pub fn write_stdout(bytes: &[u8]) -> Result<(), Error> {
-    stdout::write(bytes).map_err(|error| Error::of_output("standard output", &error))
+    broken_off::write(bytes).map_err(|error| Error::of_output("standard output", &error))
 }

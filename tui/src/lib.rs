@@ -2,6 +2,9 @@
 //! these.
 #![forbid(unsafe_code)]
 
+#[cfg(not(unix))]
+compile_error!("spherule needs a Unix terminal; spherule-kernel builds anywhere");
+
 pub mod arguments;
 pub mod cases;
 pub mod cast;
@@ -13,6 +16,7 @@ pub mod compare;
 pub mod draw;
 pub mod encode;
 pub mod error;
+mod harmless;
 pub mod ink;
 pub mod judge;
 pub mod lecture;

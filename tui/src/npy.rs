@@ -8,9 +8,11 @@ use std::fs::File;
 use std::io::{self, BufReader, BufWriter, IntoInnerError, Read};
 use std::path::Path;
 
-/// The longest header: one that states a type, an order and a shape takes some hundred bytes, and
-/// the parser must not recurse without end.
+/// The longest header: one that states a type, an order and a shape takes some hundred bytes.
 const LONGEST_HEADER: usize = 1024;
+/// The most opening brackets in a header: a plain array's has two, a record's some more, and the parser reads what is in one up to
+/// three times. (They are counted, not how deep they are: a closing one may be in a name.)
+const MOST_BRACKETS: usize = 8;
 /// The most digits in a header: with no more, the product of the shape cannot overflow.
 const MOST_DIGITS: usize = 19;
 
@@ -257,6 +259,10 @@ pub(crate) fn read_header(reader: &mut impl Read) -> Result<NpyHeader, String> {
     let text = &bytes[8 + digits..];
     if text.iter().filter(|byte| byte.is_ascii_digit()).count() > MOST_DIGITS {
         return Err("a shape larger than any file".to_owned());
+    }
+    let brackets = text.iter().filter(|byte| matches!(byte, b'(' | b'[' | b'{')).count();
+    if brackets > MOST_BRACKETS {
+        return Err(format!("a header of {brackets} brackets is none of a plain array of numbers"));
     }
     NpyHeader::from_reader(bytes.as_slice()).map_err(|error| cause(&error))
 }

@@ -1,8 +1,10 @@
 //! Where the cursor is, and the shortest way to where it should be.
 
+use crate::harmless::is_obeyed;
+
 /// A control character, say from the name of a file, must not reach the terminal as one.
 pub(super) fn printable(glyph: char) -> char {
-    if glyph.is_control() { '?' } else { glyph }
+    if is_obeyed(glyph) { '?' } else { glyph }
 }
 
 /// Appends a glyph, which moves the cursor.

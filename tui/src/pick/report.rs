@@ -1,6 +1,7 @@
 //! A pick in words: lines for people, one JSON object for scripts.
 
 use super::{Pick, PickedSphere};
+use crate::harmless;
 use glam::DVec3;
 use serde_json::{Value, json};
 use spherule_kernel::{Tier, Vec3};
@@ -63,7 +64,7 @@ impl Report<'_> {
                 "roots": roots.map(numbers),
             })).collect::<Vec<Value>>(),
         });
-        report.to_string() + "\n"
+        harmless::json(&report) + "\n"
     }
 }
 

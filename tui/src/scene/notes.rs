@@ -1,11 +1,15 @@
 //! What a reader of a file should know besides its picture, each once: what is ignored, what is not known.
 
 use super::read_error::ReadError;
+use crate::harmless::{cut, line};
 use std::borrow::Cow;
 use std::io::{self, Write};
 
 /// The most names in a note.
 const MOST_NAMES: usize = 6;
+
+/// The most characters of a name in a note.
+const LONGEST_NAME: usize = 40;
 
 /// What there is to say about a file, and what has been said.
 #[derive(Debug, Default)]
@@ -46,7 +50,9 @@ impl Notes {
     pub(super) fn ignored_columns(&mut self, names: &[&str]) {
         match names {
             [] => {}
-            [name] => self.note(format!("the column {name:?} is ignored")),
+            [name] => {
+                self.note(format!("the column {:?} is ignored", cut(name, LONGEST_NAME)));
+            }
             _ => self.note(format!("{} columns are ignored ({})", names.len(), listed(names))),
         }
     }
@@ -71,7 +77,8 @@ impl Notes {
         names: &[&str],
     ) -> Result<(), ReadError> {
         if self.strict {
-            let what = format!("{:?} is no element; without --strict it is drawn grey", names[0]);
+            let name = cut(names[0], LONGEST_NAME);
+            let what = format!("{name:?} is no element; without --strict it is drawn grey");
             return Err(ReadError::at(source, line, 1, what));
         }
         if self.unknown_said {
@@ -112,16 +119,13 @@ impl Notes {
 
 /// Writes what there is to say of a file to standard error, in one line.
 pub(crate) fn say(source: &str, text: &str) {
-    let line: String = format!("{source}: {text}")
-        .chars()
-        .map(|c| if c.is_control() { '\u{fffd}' } else { c })
-        .collect();
     // If it cannot be said, the picture still comes.
-    let _ = writeln!(io::stderr(), "spherule: {line}");
+    let _ = writeln!(io::stderr(), "spherule: {}", line(&format!("{source}: {text}")));
 }
 
-/// The first of `names`, with commas.
+/// The first of `names`, with commas; of long ones their ends.
 fn listed(names: &[&str]) -> String {
-    let list = names[..names.len().min(MOST_NAMES)].join(", ");
+    let first: Vec<_> = names.iter().take(MOST_NAMES).map(|name| cut(name, LONGEST_NAME)).collect();
+    let list = first.join(", ");
     if names.len() > MOST_NAMES { list + ", ..." } else { list }
 }

@@ -1,5 +1,6 @@
 //! Scenes in TOML: the format is stated in `docs/program.md` and, by example, in the tests below.
 
+mod limits;
 mod projection;
 mod table;
 
@@ -115,10 +116,11 @@ const USUAL_FOV: f32 = 40.0;
 /// Reads the scene that `text` describes; `source` is its name in errors.
 ///
 /// # Errors
-/// [`ReadError`] with line and column: no TOML, an unknown key, a wrong type, a number that is
+/// [`ReadError`], if it can be with line and column: beyond the limits, no TOML, an unknown key, a wrong type, a number that is
 /// not a finite `f32`, a negative radius, a vector without a direction, a colour that is none, a
 /// camera that cannot see, no sphere.
 pub fn read(text: &str, source: &str) -> Result<Scene, ReadError> {
+    limits::check(text).map_err(|what| ReadError::whole(source, what))?;
     let table: SceneTable = toml::from_str(text).map_err(|error| {
         let mut message = error.message().lines().map(str::trim).collect::<Vec<_>>().join(", ");
         let span = error.span().unwrap_or(0..0);

@@ -2,6 +2,7 @@
 
 use super::orders::Orders;
 use crate::choice::name;
+use crate::harmless;
 use crate::machine::RUSTC;
 use crate::structure::object_order::Counts;
 use crate::structure::{Order, Structure};
@@ -138,7 +139,7 @@ impl Report {
                 tiers.map(|(tier, errors)| lighting(tier, *errors)).collect::<Vec<Value>>()
             }),
         });
-        report.to_string() + "\n"
+        harmless::json(&report) + "\n"
     }
 
     /// A table, of the `scene` of this name.

@@ -76,6 +76,37 @@ fn a_level_that_is_none_or_not_the_cpu_s() {
 #[test]
 fn a_name_that_is_no_line() {
     assert_eq!(refusal(&run(["a\nb.toml"])), "a\\nb.toml: no such file");
+    let turned = refusal(&run(["a\u{202e}b\u{2028}\u{9b}.toml"]));
+    assert_eq!(turned, "a\\u{202e}b\\u{2028}\\u{9b}.toml: no such file");
+}
+
+/// What a run that succeeds says on stderr, in one line.
+fn note(name: &str, text: &str) -> String {
+    let output = run([file(name, text.as_bytes()).as_os_str()]);
+    assert!(output.status.success(), "{output:?}");
+    let said = String::from_utf8(output.stderr).expect("UTF-8");
+    assert_eq!(said.lines().count(), 1, "{said}");
+    said
+}
+
+#[test]
+fn a_note_that_is_no_line() {
+    let said = note("turned.xyz", "1\n\nX\u{202e}\u{9b}y 0 0 0\n");
+    assert!(said.ends_with(" of an unknown type (X\\u{202e}\\u{9b}y): drawn grey\n"), "{said}");
+}
+
+/// The ends of what is long are kept.
+#[test]
+fn messages_of_long_names_are_short() {
+    let long = "x".repeat(2000);
+    let message = scene("long.toml", &format!("{long} = 1\n"));
+    assert!(message.starts_with(":1:1: unknown field `xxx"), "{message}");
+    assert!(message.contains("xxx...xxx") && message.ends_with(", `light`"), "{message}");
+    assert!(message.len() < 1100, "{message}");
+    let atoms: String = (0..7).map(|index| format!("{long}{index} 0 0 {index}\n")).collect();
+    let said = note("long.xyz", &format!("7\n\n{atoms}"));
+    assert!(said.contains("xxx...xxx") && said.ends_with("x5, ...): drawn grey\n"), "{said}");
+    assert!(said.len() < 800, "{said}");
 }
 
 #[test]
@@ -149,4 +180,18 @@ fn a_file_of_an_unknown_format() {
     assert!(run([path.as_os_str()]).status.success());
     let path = file("text.txt", b"Some text.\n");
     assert!(refusal(&run([path.as_os_str()])).ends_with("unknown format; --format names one of toml, xyz, pdb, mmcif, gro, lammps-dump, lammps-data, mercury, csv, ply, npy, xtc, urdf"));
+}
+
+/// Where there is less memory than they would take, too.
+#[cfg(target_os = "linux")]
+#[test]
+fn an_array_that_claims_a_thousand_million_rows() {
+    use crate::run::{npy, spherule};
+    let header = "{'descr': '<f4', 'fortran_order': False, 'shape': (1000000000, 4), }\n";
+    let path = file("claims.npy", &npy(header, b""));
+    let script = "ulimit -v 500000; exec \"$0\" \"$@\"";
+    let mut command = std::process::Command::new("sh");
+    command.args(["-c", script]).arg(spherule().get_program()).arg(path);
+    let message = refusal(&command.output().expect("a shell"));
+    assert!(message.contains("fewer bytes than"), "{message}");
 }

@@ -74,6 +74,25 @@ fn a_tangent_by_hand_for_people() {
     );
 }
 
+/// Names are any text, of which a terminal may obey none.
+#[test]
+fn no_control_character_of_a_name_is_printed() {
+    let text = "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nlabel = \"\\u007f\\u009b31m\\u061c\\u202e\u{e9}\"\n";
+    let path = file("turned\u{202e}\u{9b}.toml", text.as_bytes());
+    let path = path.to_str().expect("UTF-8");
+    let words = [path, "--size", "1x1", "--pick", "0,0"];
+    for json in [None, Some("--json")] {
+        let text = printed(&run(words.into_iter().chain(json)));
+        assert!(text.contains('\u{e9}'), "{text:?}");
+        for letter in ['\u{7f}', '\u{9b}', '\u{61c}', '\u{202e}'] {
+            assert!(!text.contains(letter), "{letter:?} in {text:?}");
+        }
+    }
+    let pick = picked(&words);
+    assert_eq!(pick["scene"], json!(path));
+    assert_eq!(pick["sphere"]["label"], json!("\u{7f}\u{9b}31m\u{61c}\u{202e}\u{e9}"));
+}
+
 #[test]
 fn what_hits_nothing_says_so() {
     let path = unit("past.toml", 6);

@@ -1,5 +1,6 @@
 //! The real program, run and its outcome checked.
 
+use rustix::process::Signal;
 use std::ffi::OsStr;
 use std::fs;
 use std::io::Write;
@@ -33,6 +34,20 @@ pub(crate) fn run_with_input(words: &str, input: &[u8]) -> Output {
     // It may have seen enough before it has read everything.
     let _ = child.stdin.take().expect("piped").write_all(input);
     child.wait_with_output().expect("the program ends")
+}
+
+/// Whether a signal ends the program, as far as can be told. What is ignored where these tests were started is ignored by the
+/// program, too; off Linux it supposes so of SIGHUP.
+pub(crate) fn is_heard(signal: &Signal) -> bool {
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    let is_heard =
+        mask.map_or(*signal != Signal::HUP, |mask| mask >> (signal.as_raw() - 1) & 1 == 0);
+    if !is_heard {
+        println!("{signal:?} is left out: it is ignored here");
+    }
+    is_heard
 }
 
 /// What a successful run printed.

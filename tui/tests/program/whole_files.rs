@@ -1,6 +1,6 @@
 //! Files that are written whole or not at all: several at once, and one in place of another.
 
-use crate::run::{folder, names, printed, refusal, run, spherule};
+use crate::run::{folder, is_heard, names, printed, refusal, run, spherule};
 use rustix::process::{Gid, Pid, Signal, getgroups, kill_process};
 use std::ffi::OsStr;
 use std::fs::{self, File, Permissions};
@@ -11,10 +11,12 @@ use std::process::Stdio;
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Whichever of them is removed first.
+/// Whichever of them is removed first, by whatever signal.
 #[test]
 fn a_signal_leaves_none_of_several_files() {
-    for round in 0..8 {
+    let signals = [Signal::TERM, Signal::HUP, Signal::INT, Signal::QUIT, Signal::XCPU];
+    let signals = signals.into_iter().chain([Signal::USR1, Signal::USR2, Signal::ALARM]);
+    for signal in signals.filter(is_heard) {
         let folder = folder("whole-several");
         let mut command = spherule();
         command.args(["cases", "--count", "1000000000"]);
@@ -27,10 +29,10 @@ fn a_signal_leaves_none_of_several_files() {
             assert!(Instant::now() < deadline, "no files");
             thread::sleep(Duration::from_millis(1));
         }
-        kill_process(Pid::from_child(&child), Signal::INT).expect("it runs");
+        kill_process(Pid::from_child(&child), signal).expect("it runs");
         let status = child.wait().expect("it ends");
-        assert_eq!(status.signal(), Some(Signal::INT.as_raw()), "{status}");
-        assert_eq!(names(&folder), [""; 0], "round {round}");
+        assert_eq!(status.signal(), Some(signal.as_raw()), "{status}");
+        assert_eq!(names(&folder), [""; 0], "{signal:?}");
     }
 }
 

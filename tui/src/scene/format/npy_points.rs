@@ -27,9 +27,10 @@ pub(super) fn read(input: &mut Input, notes: &mut Notes) -> Result<Scene, ReadEr
     const MOST_AT_ONCE: u64 = 1 << 26;
     let mut particles = Particles::default();
     let room = rows.min(MOST_AT_ONCE) as usize;
-    particles.centers.reserve_exact(room);
+    // Where there is less, memory grows as rows come.
+    let _ = particles.centers.try_reserve_exact(room);
     if width == 4 {
-        particles.radii.reserve_exact(room);
+        let _ = particles.radii.try_reserve_exact(room);
     }
     array
         .each(input, |index, row| {

@@ -11,6 +11,8 @@ mod mmcif;
 mod pdb;
 mod recognised;
 mod tables;
+mod urdf;
+mod wide;
 mod xyz;
 
 use super::Format;

@@ -4,6 +4,9 @@
 //! Frames are chained from the root by the `origin` of joints, in double precision. Specification:
 //! <https://wiki.ros.org/urdf/XML>.
 
+mod joints;
+mod limits;
+
 use super::context::LONGEST_TEXT;
 use crate::scene::Scene;
 use crate::scene::attributes::Naming;
@@ -13,22 +16,28 @@ use crate::scene::particles::Particles;
 use crate::scene::read_error::ReadError;
 use crate::scene::symbols::Symbols;
 use glam::{DAffine3, DQuat, DVec3};
+use joints::Joints;
 use roxmltree::{Document, Node, ParsingOptions};
-use std::collections::HashMap;
 
-/// The most joints from the root to a link; with more, there is a circle.
-const DEEPEST: usize = 1024;
+/// The longest name of a link, in bytes: each of its spheres is found by it.
+const LONGEST_NAME: usize = 1024;
 
 /// Reads the robot.
 ///
 /// # Errors
-/// [`ReadError`] if it is no XML, has no spheres, a joint in a circle, or a number that is none.
+/// [`ReadError`] if it is no XML, beyond its limits, has no spheres, a joint in a circle, or a number that is none.
 pub(super) fn read(input: &mut Input, notes: &mut Notes) -> Result<Scene, ReadError> {
     let bytes = input.rest(LONGEST_TEXT)?;
     let source = input.source();
     let text =
         std::str::from_utf8(&bytes).map_err(|_| ReadError::whole(source, "not valid UTF-8"))?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    limits::check(text).map_err(|(byte, what)| {
+        let before = &text[..byte];
+        let line = before.matches('\n').count() + 1;
+        let column = before.chars().rev().take_while(|&letter| letter != '\n').count() + 1;
+        ReadError::at(source, line, column, what)
+    })?;
     let options = ParsingOptions { nodes_limit: 1 << 22, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, options).map_err(|error| {
         let place = error.pos();
@@ -58,36 +67,30 @@ pub(super) fn read(input: &mut Input, notes: &mut Notes) -> Result<Scene, ReadEr
     };
 
     // Every link has at most one joint above it.
-    let mut above: HashMap<&str, (&str, DAffine3)> = HashMap::new();
+    let mut joints = Joints::default();
     for joint in robot.children().filter(|node| node.has_tag_name("joint")) {
         let link = |name| child(joint, name).and_then(|node| node.attribute("link"));
         let (Some(parent), Some(below)) = (link("parent"), link("child")) else {
             // A joint of a transmission has neither.
             continue;
         };
-        if above.insert(below, (parent, origin(joint)?)).is_some() {
+        if !joints.add(parent, below, origin(joint)?) {
             return Err(wrong(joint, format!("the link {below:?} has two joints above it")));
         }
     }
-    let place = |link: Node<'_, '_>, name: &str| {
-        let (mut transform, mut at, mut depth) = (DAffine3::IDENTITY, name.to_owned(), 0);
-        while let Some((parent, joint)) = above.get(at.as_str()) {
-            transform = *joint * transform;
-            at = (*parent).to_owned();
-            depth += 1;
-            if depth > DEEPEST {
-                return Err(wrong(link, format!("the link {name:?} hangs on itself")));
-            }
-        }
-        Ok(transform)
-    };
 
     for kind in ["collision", "visual"] {
         let mut particles = Particles { symbols: Symbols::Numbers, ..Particles::default() };
         let mut others = 0;
         for link in robot.children().filter(|node| node.has_tag_name("link")) {
             let name = link.attribute("name").unwrap_or_default();
-            let transform = place(link, name)?;
+            if name.len() > LONGEST_NAME {
+                let what = format!("a link whose name has more than {LONGEST_NAME} bytes");
+                return Err(wrong(link, what));
+            }
+            let Some(transform) = joints.place(name) else {
+                return Err(wrong(link, format!("the link {name:?} hangs on itself")));
+            };
             for part in link.children().filter(|node| node.has_tag_name(kind)) {
                 let Some(geometry) = child(part, "geometry") else { continue };
                 let Some(sphere) = child(geometry, "sphere") else {

@@ -19,8 +19,11 @@ const HEADER: usize = 56;
 /// What follows if there are more than nine atoms: precision, least and most coordinates, the index of the small
 /// differences.
 const COMPRESSED: usize = 32;
-/// An atom takes a bit at least, which says whether its run goes on.
-const MOST_ATOMS_A_BYTE: u64 = 8;
+/// An atom takes two bits at least: one of its place, where all are at one point, and one that says whether a run follows.
+const MOST_ATOMS_A_BYTE: u64 = 4;
+/// Of more atoms each takes a byte at least: nine bits in a run, or as many as tell so many places apart. (The crate takes memory
+/// for all of them before it decodes one.)
+const MANY_ATOMS: u64 = 1_000_000;
 
 /// Reads the next frame.
 ///
@@ -91,10 +94,11 @@ fn raw(input: &mut Input) -> Result<Vec<u8>, ReadError> {
         input.exactly(&mut bytes[from..])?;
         let length =
             bytes[from + COMPRESSED..].iter().fold(0, |sum, &byte| sum << 8 | u64::from(byte));
-        if atoms > length.saturating_mul(MOST_ATOMS_A_BYTE) {
-            return wrong(input, format!("a frame of {atoms} atoms in {length} bytes"));
+        let most = if atoms > MANY_ATOMS { 1 } else { MOST_ATOMS_A_BYTE };
+        match length.checked_next_multiple_of(4) {
+            Some(padded) if atoms <= length.saturating_mul(most) => padded,
+            _ => return wrong(input, format!("a frame of {atoms} atoms in {length} bytes")),
         }
-        length.next_multiple_of(4)
     };
     let from = bytes.len();
     // Memory grows with what is there.

@@ -10,7 +10,7 @@
 //!
 //! A comment with `Properties=species:S:1:pos:R:3:radius:R:1` says what the columns are, as ASE, OVITO and QUIP write
 //! it: then positions are taken from `pos` alone, radii from `radius` or `diameter`, colours from `color`, numbers from the
-//! other columns of one number. Memory grows with the atoms that are there, not with the number that the first line claims.
+//! first 64 other columns of one number. Memory grows with the atoms that are there, not with the number that the first line claims.
 //! The format names no lights, so they go with the eye.
 
 mod properties;
@@ -53,8 +53,11 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
         Some(properties) => {
             particles.columns = columns(&properties);
             let ignored = properties.iter().filter(|property| property.is_ignored());
-            let ignored: Vec<&str> = ignored.map(|property| property.name.as_str()).collect();
+            let ignored: Vec<&str> = ignored.map(|property| &*property.name).collect();
             context.notes.ignored_columns(&ignored);
+            let further = properties.iter().filter(|property| property.kind == Kind::Further);
+            let further = further.map(|property| property.columns);
+            context.notes.further_columns(further.fold(0, usize::saturating_add));
             for atoms in 0..count {
                 let Some(line) = input.line()? else { return Err(ends(input, atoms)) };
                 atom_of_properties(line, &properties, &mut particles)?;
@@ -139,15 +142,15 @@ fn plain_atom(line: Line<'_>, particles: &mut Particles) -> Result<bool, ReadErr
 }
 
 /// The columns of numbers that are kept.
-fn columns(properties: &[Property]) -> Vec<NumberColumn> {
+fn columns(properties: &[Property<'_>]) -> Vec<NumberColumn> {
     let kept = properties.iter().filter(|property| property.kind == Kind::Number);
-    kept.map(|property| NumberColumn { name: property.name.as_str().into(), values: Vec::new() })
+    kept.map(|property| NumberColumn { name: (&*property.name).into(), values: Vec::new() })
         .collect()
 }
 
 fn atom_of_properties(
     line: Line<'_>,
-    properties: &[Property],
+    properties: &[Property<'_>],
     particles: &mut Particles,
 ) -> Result<(), ReadError> {
     let mut words = Words::of(line);
@@ -200,7 +203,7 @@ fn atom_of_properties(
                 particles.columns[column].values.push(value as f32);
                 column += 1;
             }
-            Kind::Other => {
+            Kind::Other | Kind::Further => {
                 for _ in 0..property.columns {
                     words.expect(&property.name)?;
                 }

@@ -144,6 +144,12 @@ fn every_mistake_has_a_line_and_a_column() {
 }
 
 #[test]
+fn a_scene_has_limits() {
+    let what = "s.toml: a scene of more than 33554432 lines, values and brackets";
+    assert_eq!(read(&"\n".repeat(64 << 20), "s.toml").expect_err("limits").to_string(), what);
+}
+
+#[test]
 fn a_scene_is_not_empty() {
     assert_eq!(error(""), "s.toml: an empty scene: at least one [[sphere]]");
     assert!(error("sphere = []\n").ends_with("at least one [[sphere]]"));

@@ -15,6 +15,9 @@ use crate::scene::read_error::ReadError;
 use crate::scene::symbols::Symbols;
 use glam::DVec3;
 
+/// How many columns of numbers are kept at most: they take memory.
+const MOST_KEPT: usize = 64;
+
 /// What a column is taken for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
@@ -26,6 +29,21 @@ enum Kind {
     Radius,
     Diameter,
     Number,
+    /// So many columns that are passed over.
+    Further(usize),
+}
+
+/// The columns of a frame.
+#[derive(Debug, Default)]
+struct Columns {
+    /// What they are, and their names; neighbours that are passed over are one.
+    list: Vec<(Kind, String)>,
+    /// How many there are.
+    count: usize,
+    /// How many of them are passed over.
+    further: usize,
+    /// Whether positions are fractions of the box.
+    are_scaled: bool,
 }
 
 /// Reads the next frame.
@@ -42,13 +60,14 @@ pub(in super::super) fn frame(
         let what = "a frame without atoms";
         return Err(ReadError::at(input.source(), first, 1, what).of_empty_frame());
     }
-    let (kinds, names, scaled) = columns(&heading)?;
+    let columns = columns(&heading)?;
+    context.notes.further_columns(columns.further);
     let mut particles = Particles { symbols: Symbols::Numbers, ..Particles::from(context.fixed) };
-    let has_element = kinds.contains(&Kind::Element);
+    let has_element = columns.list.iter().any(|(kind, _)| *kind == Kind::Element);
     if has_element {
         particles.symbols = Symbols::Elements;
     }
-    let numbers = kinds.iter().zip(&names).filter(|(kind, _)| **kind == Kind::Number);
+    let numbers = columns.list.iter().filter(|(kind, _)| *kind == Kind::Number);
     particles.columns = numbers
         .map(|(_, name)| NumberColumn { name: name.as_str().into(), values: Vec::new() })
         .collect();
@@ -58,7 +77,7 @@ pub(in super::super) fn frame(
             || format!("the file ends after {atom} of the {atoms} atoms that line {first} says");
         let Some(line) = input.line()? else { return Err(input.ends(ends())) };
         let (mut words, mut position, mut column) = (Words::of(line), [0.0; 3], 0);
-        for (kind, name) in kinds.iter().zip(&names) {
+        for (kind, name) in &columns.list {
             let (byte, word) = words.expect(name)?;
             match *kind {
                 Kind::Position(axis) => {
@@ -84,13 +103,26 @@ pub(in super::super) fn frame(
                     particles.columns[column].values.push(value);
                     column += 1;
                 }
+                Kind::Further(count) => {
+                    for _ in 1..count {
+                        words.expect(name)?;
+                    }
+                }
             }
         }
-        particles.center(if scaled { cell.point(position) } else { DVec3::from_array(position) });
+        let mut center = DVec3::from_array(position);
+        if columns.are_scaled {
+            center = cell.point(position);
+            if !center.as_vec3().is_finite() {
+                let what = format!("an atom at {center}: not finite in single precision");
+                return Err(line.error(0, what));
+            }
+        }
+        particles.center(center);
     }
     // Where a file grows, or in a pipe, this is left to whoever reads on: the next line may not be whole yet.
     if !context.follows && input.can_be_read_again() {
-        check_next(input, (atoms, first), names.len())?;
+        check_next(input, (atoms, first), columns.count)?;
     }
     particles.sort_by(&ids);
     particles.finish(&mut context.notes, input.source()).map(Some)
@@ -170,46 +202,57 @@ fn header(input: &mut Input) -> Result<Option<(usize, usize, Cell)>, ReadError> 
     }
 }
 
-type Named = (Vec<Kind>, Vec<String>, bool);
-
-fn columns(line: &Line<'_>) -> Result<Named, ReadError> {
+fn columns(line: &Line<'_>) -> Result<Columns, ReadError> {
     let text = line.bytes.strip_prefix(b"ITEM: ATOMS").unwrap_or_default();
-    let names: Vec<String> = text
-        .split(u8::is_ascii_whitespace)
-        .filter(|word| !word.is_empty())
-        .map(|word| String::from_utf8_lossy(word).into_owned())
-        .collect();
+    let names = || text.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+    let has = |name: &str| names().any(|other| other == name.as_bytes());
     // Wrapped before unwrapped, plain before scaled: positions that are written twice are taken once.
     let sets = [["x", "y", "z"], ["xu", "yu", "zu"], ["xs", "ys", "zs"], ["xsu", "ysu", "zsu"]];
-    let has = |name: &&str| names.iter().any(|other| other == name);
-    let Some(set) = sets.iter().position(|set| set.iter().all(&has)) else {
+    let Some(set) = sets.iter().position(|set| set.iter().all(|&name| has(name))) else {
         return Err(line.error(0, "no x y z, xu yu zu, xs ys zs or xsu ysu zsu among the columns"));
     };
-    let kind = |name: &String| match name.as_str() {
-        "id" => Kind::Id,
-        "type" => Kind::Type,
-        "element" => Kind::Element,
-        "mol" => Kind::Molecule,
-        "radius" => Kind::Radius,
-        "diameter" => Kind::Diameter,
-        name => match sets[set].iter().position(|axis| *axis == name) {
+    let has_radius = has("radius");
+    let kind = |name: &[u8]| match name {
+        b"id" => Kind::Id,
+        b"type" => Kind::Type,
+        b"element" => Kind::Element,
+        b"mol" => Kind::Molecule,
+        b"radius" => Kind::Radius,
+        b"diameter" if !has_radius => Kind::Diameter,
+        name => match sets[set].iter().position(|axis| axis.as_bytes() == name) {
             Some(axis) => Kind::Position(axis),
             None => Kind::Number,
         },
     };
-    let mut kinds: Vec<Kind> = names.iter().map(kind).collect();
-    // The second column of a name is a number like any other.
-    for index in 1..kinds.len() {
-        if kinds[..index].contains(&kinds[index]) {
-            kinds[index] = Kind::Number;
+    let mut columns = Columns { are_scaled: set >= 2, ..Columns::default() };
+    let (mut found, mut numbers) = (Vec::new(), 0);
+    for name in names() {
+        columns.count += 1;
+        // The second column of a name is a number like any other.
+        let kind = Some(kind(name)).filter(|kind| !found.contains(kind)).unwrap_or(Kind::Number);
+        if kind == Kind::Number {
+            numbers += 1;
+        } else {
+            found.push(kind);
+        }
+        if kind == Kind::Number && numbers > MOST_KEPT {
+            columns.pass_over();
+        } else {
+            columns.list.push((kind, String::from_utf8_lossy(name).into_owned()));
         }
     }
-    if kinds.contains(&Kind::Radius) {
-        for kind in kinds.iter_mut().filter(|kind| **kind == Kind::Diameter) {
-            *kind = Kind::Number;
+    Ok(columns)
+}
+
+impl Columns {
+    /// Adds a column that is passed over.
+    fn pass_over(&mut self) {
+        self.further += 1;
+        match self.list.last_mut() {
+            Some((Kind::Further(count), _)) => *count += 1,
+            _ => self.list.push((Kind::Further(1), "a further column".to_owned())),
         }
     }
-    Ok((kinds, names, set >= 2))
 }
 
 /// The number of an atom.

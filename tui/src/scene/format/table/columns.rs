@@ -3,6 +3,7 @@
 use super::separator::number_before_comment;
 use crate::scene::format::words::excerpt;
 use crate::scene::number::number;
+use std::collections::HashSet;
 use std::ops::Range;
 
 /// How many other columns are kept at most: they take memory.
@@ -163,10 +164,13 @@ impl Columns {
         columns.kind = element.or(kind);
         columns.may_number_kinds = element.is_none();
         // One without a name is called by its number, unless that is the name of another.
+        let numbers: HashSet<&[u8]> = names
+            .iter()
+            .filter(|name| is_header && name.first().is_some_and(u8::is_ascii_digit))
+            .flat_map(|name| [*name, with_unit(name).0])
+            .collect();
         let has_others_name = |column: usize| {
-            is_header
-                && names[column].is_empty()
-                && find(names, &[&(column + 1).to_string()]).is_some()
+            names[column].is_empty() && numbers.contains((column + 1).to_string().as_bytes())
         };
         let is_other = |&column: &usize| {
             !columns.must_be_number(column)

@@ -24,6 +24,9 @@ fn names_of_format(comment: &[u8]) -> Option<&[u8]> {
     (!names.iter().any(u8::is_ascii_whitespace)).then_some(names)
 }
 
+/// How many names a comment has at most: several are kept, and most are sentences.
+const MOST_NAMES: usize = 1 << 20;
+
 /// The first line, kept while the next is read.
 #[derive(Debug)]
 pub(super) struct FirstLine {
@@ -49,7 +52,8 @@ impl FirstLine {
         let text = joined.or(comment).unwrap_or(line.bytes).to_vec();
         let separator = joined.map_or_else(|| Separator::of(&text), |_| Separator::Byte(b'_'));
         let mut fields = Vec::new();
-        separator.split(&text, usize::MAX, &mut fields);
+        let most = if is_comment { MOST_NAMES } else { usize::MAX };
+        separator.split(&text, most, &mut fields);
         let some_may_be_missing = !is_comment && separator != Separator::Space;
         let number = line.number;
         Self { text, fields, separator, is_comment, has_slashes, some_may_be_missing, number }
@@ -123,5 +127,24 @@ impl FirstLine {
             }
         }
         names
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::input::Input;
+    use std::io::Cursor;
+
+    #[test]
+    fn a_comment_has_a_million_names_at_most() {
+        let names = |sign: &str| {
+            let text = format!("{sign}x y z{}\n", " c".repeat(MOST_NAMES));
+            let mut input = Input::of_reader(Box::new(Cursor::new(text)), "f").expect("an input");
+            let line = input.line().expect("no error").expect("a line");
+            FirstLine::of(&line).names().len()
+        };
+        assert_eq!(names("# "), MOST_NAMES);
+        assert_eq!(names(""), MOST_NAMES + 3);
     }
 }

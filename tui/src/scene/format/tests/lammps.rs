@@ -104,3 +104,24 @@ fn lammps_data_of_spheres_without_a_style() {
     let scene = good("LIGGGHTS\n\n1 atoms\n\nAtoms\n\n1 1 2e-3 2500 0.0020 0.005 0.0495\n");
     assert_eq!(spheres(&scene), [[0.002, 0.005, 0.0495, 0.001]]);
 }
+
+#[test]
+fn fractions_of_a_box_are_at_finite_points() {
+    let dump = |columns: &str, bounds: &str, atom: &str| {
+        format!(
+            "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n{bounds}\n0 1\n0 1\nITEM: ATOMS {columns}\n{atom}\n"
+        )
+    };
+    for (bounds, atom) in
+        [("nan 1", "0 0 0"), ("0 inf", "0 0 0"), ("0 1e300", "0.5 0 0"), ("-1e38 1e38", "3 0 0")]
+    {
+        let message = error(dump("xs ys zs", bounds, atom));
+        let what = "]: not finite in single precision";
+        assert!(
+            message.starts_with("f:10:1: an atom at [") && message.ends_with(what),
+            "{message}"
+        );
+    }
+    // Other positions do not need the box.
+    assert_eq!(centers(&good(dump("x y z", "nan 1", "1 2 3"))), [[1.0, 2.0, 3.0]]);
+}

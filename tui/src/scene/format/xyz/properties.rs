@@ -4,6 +4,10 @@ use super::super::words::excerpt;
 use crate::scene::attributes::Naming;
 use crate::scene::input::Line;
 use crate::scene::read_error::ReadError;
+use std::borrow::Cow;
+
+/// How many columns of numbers are kept at most, and how many others have their names: they take memory.
+const MOST_KEPT: usize = 64;
 
 /// What a column is taken for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,6 +21,8 @@ pub(super) enum Kind {
     Number,
     /// Forces, velocities and whatever a picture of spheres does not need.
     Other,
+    /// Columns beyond those that are kept.
+    Further,
 }
 
 /// Columns of names that are elements where no other column tells them.
@@ -27,15 +33,15 @@ const NUMBERS: [&str; 3] = ["z", "numbers", "atomic_numbers"];
 
 /// A name, and what its columns are.
 #[derive(Clone, Debug)]
-pub(super) struct Property {
-    pub(super) name: String,
+pub(super) struct Property<'a> {
+    pub(super) name: Cow<'a, str>,
     pub(super) kind: Kind,
     pub(super) columns: usize,
     /// Whether they are integers: then colours go to 255.
     is_integer: bool,
 }
 
-impl Property {
+impl Property<'_> {
     /// Whether a picture leaves it out.
     pub(super) fn is_ignored(&self) -> bool {
         self.kind == Kind::Other
@@ -53,7 +59,7 @@ impl Property {
 /// # Errors
 /// [`ReadError`] if they are not valid: not in threes, of an unknown type, without three columns for positions, or the
 /// same twice.
-pub(super) fn properties(comment: &Line<'_>) -> Result<Option<Vec<Property>>, ReadError> {
+pub(super) fn properties(comment: &Line<'_>) -> Result<Option<Vec<Property<'static>>>, ReadError> {
     let text = comment.bytes;
     let lower = text.to_ascii_lowercase();
     let Some(start) = memchr::memmem::find_iter(&lower, b"properties=")
@@ -74,7 +80,7 @@ pub(super) fn properties(comment: &Line<'_>) -> Result<Option<Vec<Property>>, Re
     }
     let (mut found, mut all) = (Vec::new(), Vec::with_capacity(words.len() / 3));
     for triple in words.chunks_exact(3) {
-        let name = String::from_utf8_lossy(triple[0]).into_owned();
+        let name = String::from_utf8_lossy(triple[0]);
         let columns = super::count(triple[2]).filter(|&columns| columns > 0 && columns <= 1 << 24);
         let (Some(columns), [b'S' | b'R' | b'I' | b'L']) = (columns, triple[1]) else {
             return wrong(format!(
@@ -107,20 +113,50 @@ pub(super) fn properties(comment: &Line<'_>) -> Result<Option<Vec<Property>>, Re
             property.kind = Kind::Number;
         }
     }
-    Ok(Some(all))
+    Ok(Some(kept(all)))
+}
+
+/// All properties, except that those beyond [`MOST_KEPT`] are passed over, neighbours as one.
+fn kept(all: Vec<Property<'_>>) -> Vec<Property<'static>> {
+    let (mut numbers, mut others) = (0, 0);
+    let mut kept: Vec<Property<'static>> = Vec::new();
+    for Property { name, kind, columns, is_integer } in all {
+        let before = match kind {
+            Kind::Number => numbers,
+            Kind::Other => others,
+            _ => 0,
+        };
+        numbers += usize::from(kind == Kind::Number);
+        others += usize::from(kind == Kind::Other);
+        if before < MOST_KEPT {
+            let name = Cow::Owned(name.into_owned());
+            kept.push(Property { name, kind, columns, is_integer });
+            continue;
+        }
+        match kept.last_mut() {
+            Some(last) if last.kind == Kind::Further => {
+                last.columns = last.columns.saturating_add(columns);
+            }
+            _ => {
+                let (name, kind) = (Cow::Borrowed("a further column"), Kind::Further);
+                kept.push(Property { name, kind, columns, is_integer });
+            }
+        }
+    }
+    kept
 }
 
 /// Leaves one column to tell elements: their symbols, else their numbers, else types. Others are names.
-fn choose_species(all: &mut [Property]) {
-    let is_species = |property: &Property| property.kind == Kind::Species;
-    let has_name = |property: &Property, names: &[&str]| {
+fn choose_species<'a>(all: &mut [Property<'a>]) {
+    let is_species = |property: &Property<'a>| property.kind == Kind::Species;
+    let has_name = |property: &Property<'a>, names: &[&str]| {
         names.iter().any(|name| property.name.eq_ignore_ascii_case(name))
     };
-    let is_symbol = |property: &Property| is_species(property) && !has_name(property, &TYPES);
-    let is_number = |property: &Property| {
+    let is_symbol = |property: &Property<'a>| is_species(property) && !has_name(property, &TYPES);
+    let is_number = |property: &Property<'a>| {
         property.is_integer && property.columns == 1 && has_name(property, &NUMBERS)
     };
-    let find = |is_it: &dyn Fn(&Property) -> bool| all.iter().position(is_it);
+    let find = |is_it: &dyn Fn(&Property<'a>) -> bool| all.iter().position(is_it);
     let chosen = find(&is_symbol).or_else(|| find(&is_number)).or_else(|| find(&is_species));
     let mut is_named = false;
     for (index, property) in all.iter_mut().enumerate() {
