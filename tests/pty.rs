@@ -3,6 +3,7 @@
 //! Needs no controlling terminal: `setsid -w cargo test -p spherule-tests pty </dev/null` passes, too.
 
 mod busy;
+mod container;
 mod emulated;
 mod frames;
 mod keyboard;
@@ -17,6 +18,7 @@ mod picking;
 mod picture;
 mod pixels;
 mod probe;
+mod recording;
 mod replies;
 mod session;
 mod sixels;

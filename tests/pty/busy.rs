@@ -149,6 +149,23 @@ fn enter_that_is_held_down_leaves_a_picture_to_be_seen() {
     viewer.quit();
 }
 
+/// What is told of a cell is of the picture under it, also where keys have moved the next one.
+#[test]
+fn a_cell_is_picked_in_the_picture_that_is_seen() {
+    let view = ["--eye", "13,13,80", "--target", "13,13,13"];
+    let mut viewer = OnTable::start("picked.csv", &view);
+    viewer.session.wait_for("a word about it", |output| says_that_it_draws(output).then_some(()));
+    // The first picture is drawn to its end. The next one is so far to the side that it is empty.
+    viewer.session.type_in(&format!("p{}", "H".repeat(60)));
+    viewer.session.wait_for("an empty cell", |output| {
+        let is_empty = output.screen().contents().contains("no sphere is hit");
+        (shows_a_frame(output) && is_empty).then_some(())
+    });
+    let is_told = viewer.session.output().sent.windows(6).any(|bytes| bytes == b"(13.0,");
+    assert!(is_told, "only of the next picture");
+    viewer.quit();
+}
+
 /// The last picture stays while the next is drawn, without a legend as before.
 #[test]
 fn a_legend_comes_with_its_picture() {

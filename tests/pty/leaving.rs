@@ -158,6 +158,23 @@ fn every_key_that_quits_does() {
     }
 }
 
+/// As GNU screen and Linux's console, which have no alternate screen, show it.
+#[test]
+fn without_an_alternate_screen_the_prompt_comes_below_the_picture() {
+    let mut viewer = Viewer::start();
+    viewer.session.type_in("q");
+    assert!(viewer.session.wait_for_end().success());
+    let output = viewer.session.output();
+    let sent = String::from_utf8_lossy(&output.sent);
+    let sent = sent.replace("\x1b[?1049h", "").replace("\x1b[?1049l", "");
+    let (rows, columns) = output.screen().size();
+    let mut terminal = vt100::Parser::new(rows, columns, 0);
+    terminal.process(sent.as_bytes());
+    assert_eq!(terminal.screen().cursor_position(), (ROWS - 1, 0));
+    assert_eq!(last_row(terminal.screen()).trim(), "");
+    assert!(!terminal.screen().contents().trim().is_empty(), "no picture");
+}
+
 #[test]
 fn a_panic_is_told_on_the_normal_screen() {
     let mut viewer = Viewer::start_with(&[("SPHERULE_TEST_PANIC", "1")], COLUMNS, ROWS);
@@ -184,6 +201,10 @@ fn signals_restore_and_kill() {
         (Signal::HUP, "Hangup"),
         (Signal::INT, "Interrupt"),
         (Signal::QUIT, "Quit"),
+        (Signal::XCPU, "CPU time limit exceeded"),
+        (Signal::USR1, "User defined signal 1"),
+        (Signal::USR2, "User defined signal 2"),
+        (Signal::ALARM, "Alarm clock"),
     ] {
         let mut viewer = Viewer::start();
         viewer.session.signal(signal);
@@ -191,6 +212,10 @@ fn signals_restore_and_kill() {
         assert_eq!(status.signal(), Some(name), "{status}");
         assert_eq!(viewer.session.left_behind(), [""; 0], "{name}");
     }
+    // A file that may not grow is an error where it is written.
+    let viewer = Viewer::start();
+    viewer.session.signal(Signal::XFSZ);
+    viewer.quit();
 }
 
 #[test]

@@ -1,11 +1,15 @@
 //! One picture on a terminal.
 
+use super::emulated::{Emulated, Link};
 use super::look::look;
 use super::picture::{OPTIONS, SceneFile, once};
 use super::session::Session;
 use super::viewer::{COLUMNS, ROWS, VIEW};
+use rustix::process::Signal;
 use spherule_tests::binary::spherule;
 use std::ops::RangeInclusive;
+use std::thread;
+use std::time::Duration;
 
 /// Runs the program to its end in a terminal of `columns` x `rows`, for tests of what it then shows, and where the
 /// prompt comes.
@@ -77,6 +81,64 @@ fn a_dumb_terminal_gets_one_picture() {
     let output = session.output();
     assert!(!output.sent.windows(3).any(|bytes| bytes == b"\x1b[?"), "a mode is set");
     assert_eq!(look(output.screen(), ROWS - 1), once(&VIEW, COLUMNS, ROWS - 1));
+}
+
+/// It cannot take progress away again.
+#[test]
+fn a_dumb_terminal_gets_no_progress() {
+    let start = |term| {
+        let size = (COLUMNS, ROWS);
+        Session::start(spherule(), &["tradeoff", "flake"], &[("TERM", term)], size)
+    };
+    let (dumb, other) = (start("dumb"), start("xterm"));
+    other.wait_for("progress", |output| {
+        output.sent.windows(3).any(|bytes| bytes == b"\x1b[K").then_some(())
+    });
+    thread::sleep(Duration::from_millis(300));
+    let sent = String::from_utf8_lossy(&dumb.output().sent).into_owned();
+    assert!(!sent.contains('\x1b'), "{sent:?}");
+}
+
+/// That from which the command line was typed may be another one.
+#[test]
+fn the_size_is_that_of_the_terminal_that_is_written_to() {
+    let (columns, rows) = (40, 12);
+    let mut other = Session::start("sh", &["-c", "read -r line"], &[], (columns, rows));
+    let scene = SceneFile::new(&VIEW);
+    let script = format!("exec \"$0\" \"$@\" >'{}'", other.terminal_name().display());
+    let program = spherule();
+    let program = program.to_str().expect("a path that is text");
+    let arguments = ["-c", script.as_str(), program, scene.path(), "--once"];
+    let arguments = [arguments.as_slice(), OPTIONS.as_slice()].concat();
+    let mut session = Session::start("sh", &arguments, &[], (100, 30));
+    assert!(session.wait_for_end().success());
+    let expected = once(&VIEW, columns, rows - 1);
+    other.wait_for("a picture of its size", |output| {
+        (look(output.screen(), rows - 1) == expected).then_some(())
+    });
+    other.type_in("\n");
+    assert!(other.wait_for_end().success());
+}
+
+/// Over a slow link some of a picture is always under way.
+#[test]
+fn a_picture_that_is_broken_off_leaves_no_colours() {
+    let path = std::env::temp_dir().join(format!("spherule-{}-broken.xyz", std::process::id()));
+    std::fs::write(&path, "1\n\nC 0 0 0\n".repeat(1000)).expect("a temporary file");
+    let name = path.to_str().expect("a path that is text");
+    let arguments = [name, "--frames", "0..", "--background", "102030"];
+    let arguments = [arguments.as_slice(), OPTIONS.as_slice()].concat();
+    for (signal, ends_by) in [(Signal::INT, "Interrupt"), (Signal::TERM, "Terminated")] {
+        let link = Some(Link::new(4 << 10, 0.5e6));
+        let emulated = Emulated { link, ..Emulated::good() };
+        let mut session = Session::start_in(emulated, spherule(), &arguments, &[], (100, 30));
+        session.wait_for("pictures", |output| (output.sent.len() > 50_000).then_some(()));
+        session.signal(signal);
+        let status = session.wait_for_end();
+        assert_eq!(status.signal(), Some(ends_by), "{status}");
+        assert_eq!(session.left_behind(), [""; 0]);
+    }
+    std::fs::remove_file(&path).expect("it can be removed");
 }
 
 #[test]

@@ -17,11 +17,11 @@ mod walk;
 
 use crate::choice::size;
 use crate::encode;
-use crate::error::{Error, write_stdout};
-use crate::style::{PIPE_SIZE, Style};
+use crate::error::{Error, broken_off, write_stdout};
+use crate::style::{ColorDepth, PIPE_SIZE, Style};
 use crate::terminal::color_depth::{ColorChoice, Surroundings};
+use crate::terminal::size_of_stdout;
 use clap::Args;
-use crossterm::terminal;
 use stations::{STATIONS, station};
 use std::io::IsTerminal;
 
@@ -66,17 +66,12 @@ pub fn lecture(arguments: &LectureArguments) -> Result<(), Error> {
     if is_terminal && !at_once && !surroundings.is_dumb() {
         return walk::walk(arguments.station.unwrap_or(0), style, !arguments.no_probe);
     }
-    // A terminal may not know its size, or report a wrong one.
-    let is_usable = |&(columns, rows): &(u16, u16)| {
-        [columns, rows].iter().all(|side| (1..=4096).contains(side))
-    };
     // The prompt comes back below, and pushes the top row out if there is no row left.
-    let on_terminal = || {
-        let (columns, rows) = terminal::size().ok().filter(is_usable)?;
-        Some((columns, (rows - 1).max(1)))
-    };
-    let size = arguments.size.or_else(|| on_terminal().filter(|_| is_terminal));
-    let size = size.unwrap_or(PIPE_SIZE);
+    let on_terminal = || size_of_stdout().map(|(columns, rows)| (columns, (rows - 1).max(1)));
+    let size = arguments.size.or_else(on_terminal).unwrap_or(PIPE_SIZE);
+    if is_terminal && depth != ColorDepth::Never {
+        broken_off::await_signals();
+    }
     let chosen = arguments.station.map_or(0..STATIONS.len(), |index| index..index + 1);
     for index in chosen {
         let page = frame::page(index, STATIONS[index].first(), false, size, style);

@@ -1,15 +1,17 @@
 //! What a person sees while there is nothing to read yet.
 
+use std::env;
 use std::io::{self, IsTerminal, Write};
 use std::time::{Duration, Instant};
 
 /// How long a picture may take before its progress is shown.
 pub const PATIENCE: Duration = Duration::from_secs(1);
 
-/// A line on standard error, on a terminal only, that is written over, and gone in the end.
+/// A line on standard error, on a terminal that is not dumb, that is written over, and gone in the end.
 #[derive(Debug)]
 pub struct Progress {
-    on_terminal: bool,
+    /// Whether there is a terminal that can take the line away.
+    is_shown: bool,
     /// Nothing is shown before.
     from: Instant,
     shown: Option<String>,
@@ -19,8 +21,9 @@ impl Progress {
     /// Shows nothing yet, nor within `wait`.
     #[must_use]
     pub fn after(wait: Duration) -> Self {
-        let on_terminal = io::stderr().is_terminal();
-        Self { on_terminal, from: Instant::now() + wait, shown: None }
+        let is_dumb = env::var_os("TERM").is_some_and(|term| term == "dumb");
+        let is_shown = io::stderr().is_terminal() && !is_dumb;
+        Self { is_shown, from: Instant::now() + wait, shown: None }
     }
 
     /// Shows what is being done, without a share: no one knows how much of it is done.
@@ -34,7 +37,7 @@ impl Progress {
     }
 
     fn write(&mut self, text: String) {
-        if !self.on_terminal || Instant::now() < self.from {
+        if !self.is_shown || Instant::now() < self.from {
             return;
         }
         if self.shown.as_ref() != Some(&text) {

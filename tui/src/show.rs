@@ -26,11 +26,10 @@ use crate::structure::scene::SceneStructures;
 use crate::style::{Charset, ColorDepth, PIPE_SIZE, Style};
 use crate::terminal::color_depth::{ColorChoice, Surroundings};
 use crate::terminal::locale::is_without_unicode;
-use crate::terminal::{Abilities, Terminal, Uses, lost, pixels_of_cell};
+use crate::terminal::{Abilities, Terminal, Uses, lost, pixels_of_cell, size_of_stdout};
 use crate::threads::Threads;
 use crate::viewer::film::Film;
 use crate::{scene, viewer};
-use crossterm::terminal;
 use spherule_kernel::{Level, Tier};
 use std::io::IsTerminal;
 use std::ops::RangeInclusive;
@@ -75,6 +74,8 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     }
     let ComputingArguments { structure, level, threads } = arguments.computing;
     let threads = Threads::new(threads)?;
+    // There every picture has another caller.
+    let threads = if in_viewer { threads.apart() } else { threads };
     let mut structures =
         SceneStructures::new(scene.list(), &threads).in_order(arguments.scene.order);
     if in_viewer && scene.spheres().len() >= MANY {
@@ -115,12 +116,11 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         choice => surroundings.depth(choice),
     };
     let on_terminal = || {
-        let (columns, rows) = terminal::size().ok().filter(|&size| is_usable(size))?;
+        let (columns, rows) = size_of_stdout()?;
         // The prompt comes back below a picture, and pushes the top row out if there is no row left.
         Some((columns, if in_viewer { rows } else { (rows - 1).max(1) }))
     };
-    let size = arguments.scene.size.or_else(|| on_terminal().filter(|_| is_terminal));
-    let (columns, rows) = size.unwrap_or(PIPE_SIZE);
+    let (columns, rows) = arguments.scene.size.or_else(on_terminal).unwrap_or(PIPE_SIZE);
     let style = Style {
         accuracy: arguments.accuracy,
         charset: arguments.charset.unwrap_or(match depth {
@@ -133,7 +133,7 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         samples: arguments.scene.samples,
         cell_aspect: arguments
             .cell_aspect
-            .or_else(|| terminal_aspect(abilities.cell_pixels).filter(|_| is_terminal))
+            .or_else(|| terminal_aspect(abilities.cell_pixels))
             .unwrap_or(Style::PLAIN.cell_aspect),
         distance: arguments.distance,
         aids: arguments.crowd.aids(&scene),
@@ -208,9 +208,7 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     let Written { mut renderer, structures, .. } = written;
     let still = Still { view, style, structure, size, is_terminal };
     let range = frame + 1..range.end;
-    let shown = still.pictures(&mut renderer, structures, &mut frames, range, prepared);
-    frames.report();
-    shown
+    still.pictures(&mut renderer, structures, frames, range, prepared)
 }
 
 /// Opens the scene. The frames of a turn are not the file's: they do not end the search for one with particles.
@@ -234,11 +232,6 @@ fn say_more(frames: &mut Frames, frame: usize, what: String) -> Result<(), Error
         frames.report();
     }
     Ok(())
-}
-
-/// A terminal may not know its size, or report a wrong one.
-fn is_usable((columns, rows): (u16, u16)) -> bool {
-    (1..=4096).contains(&columns) && (1..=4096).contains(&rows)
 }
 
 /// The shape of the terminal's cells, if it knows how many pixels they have.

@@ -13,6 +13,7 @@ pub mod multiplexer;
 mod reply;
 mod screen;
 mod signals;
+mod size;
 mod tty;
 mod unanswered;
 mod wish;
@@ -21,12 +22,11 @@ use crate::error::caught::is_caught;
 use crate::error::{Error, cause};
 pub use abilities::{ASKED_IMAGE, Abilities, Uses};
 use abilities::{PATIENCE, questions};
-use crossterm::terminal;
 pub use input::Incoming;
 use input::Input;
 use multiplexer::Multiplexer;
-use reply::LARGEST_CELL;
 pub use reply::Reply;
+pub use size::{pixels_of_cell, size_of_stdout};
 use std::collections::VecDeque;
 use std::env;
 use std::io;
@@ -37,8 +37,6 @@ pub use wish::{Wish, wish};
 
 /// The most events that are taken before something is drawn all the same: whoever pastes a file sees something.
 pub const LONGEST_BACKLOG: usize = 4096;
-/// The largest size, as for `--size`: a terminal that claims more is not believed.
-const LARGEST_SIZE: u16 = 4096;
 
 /// The terminal in raw mode, on its alternate screen. Dropping it gives it back.
 #[derive(Debug)]
@@ -162,11 +160,7 @@ impl Terminal {
     /// # Errors
     /// If the terminal does not tell.
     pub fn size(&self) -> io::Result<(u16, u16)> {
-        let (columns, rows) = match terminal::size()? {
-            (0, 0) => (count_of("COLUMNS").unwrap_or(80), count_of("LINES").unwrap_or(24)),
-            size => size,
-        };
-        Ok((columns.min(LARGEST_SIZE), rows.min(LARGEST_SIZE)))
+        size::size().map_err(or_hung_up)
     }
 
     /// Sends `bytes` in one piece, or drops them if the terminal is given back just now.
@@ -197,6 +191,11 @@ impl Terminal {
     #[must_use]
     pub fn open_questions(&self) -> u32 {
         unanswered::count()
+    }
+
+    /// Gives up the oldest answers, so that at most `count` are still to come.
+    pub fn await_at_most(&self, count: u32) {
+        unanswered::keep(count);
     }
 
     /// Sets the `bytes` that are sent before the terminal is given back, whenever that is: they remove images.
@@ -254,28 +253,10 @@ impl Drop for Terminal {
     }
 }
 
-/// How many columns or rows a variable tells.
-fn count_of(variable: &str) -> Option<u16> {
-    env::var(variable).ok()?.parse::<u16>().ok().filter(|&count| count > 0)
-}
-
 /// A terminal that goes away in the middle of a frame is treated as one that is found gone when it is read.
 fn or_hung_up(error: io::Error) -> io::Error {
     let is_gone = error.raw_os_error() == Some(rustix::io::Errno::IO.raw_os_error());
     if is_gone { input::hung_up() } else { error }
-}
-
-/// Width and height of a cell in pixels: by the system's word, else by what the terminal has told.
-#[must_use]
-pub fn pixels_of_cell(told: Option<(u16, u16)>) -> Option<(u32, u32)> {
-    let of_system = || {
-        let size = terminal::window_size().ok()?;
-        let pixels = |all: u16, cells: u16| {
-            all.checked_div(cells).filter(|pixels| (1..=LARGEST_CELL).contains(pixels))
-        };
-        Some((pixels(size.width, size.columns)?, pixels(size.height, size.rows)?))
-    };
-    of_system().or(told).map(|(width, height)| (u32::from(width), u32::from(height)))
 }
 
 /// The error that the terminal is not there.

@@ -1,7 +1,7 @@
 //! Work for all cores: tasks handed out one by one, so that a thread whose tasks are short takes
 //! more of them.
 
-use crate::error::Error;
+use crate::error::{Error, cause};
 use rayon::iter::{ParallelBridge, ParallelIterator};
 use rayon::{ThreadPool, ThreadPoolBuilder, current_thread_index};
 use spherule_kernel::Join;
@@ -9,6 +9,7 @@ use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::sync::{Mutex, PoisonError};
 use std::thread::available_parallelism;
+use std::{io, iter};
 
 /// The most threads that there can be.
 pub const MOST_THREADS: u16 = 1024;
@@ -38,7 +39,7 @@ pub fn packets_a_tree_task(packets: usize) -> usize {
     packets_a_task(packets).max(wanted.next_multiple_of(PACKETS.0))
 }
 
-/// A number of threads. A single thread is the caller's own: then there is no pool.
+/// A number of threads. A single thread is the caller's own, unless it is [apart](Threads::apart): then there is no pool.
 #[derive(Debug, Default)]
 pub struct Threads {
     pool: Option<ThreadPool>,
@@ -47,19 +48,29 @@ pub struct Threads {
 }
 
 impl Threads {
-    /// Makes `count` threads, or as many as the machine has if that is `None`.
+    /// Makes `count` threads. If that is `None`, it makes as many as the machine has cores, or fewer if the system does not
+    /// give so many.
     ///
     /// # Errors
-    /// [`Error::Running`] if the system does not give them.
+    /// [`Error::Running`] if the system does not give `count` threads.
     pub fn new(count: Option<u16>) -> Result<Self, Error> {
-        let available = || available_parallelism().map_or(1, NonZeroUsize::get);
-        let count = count.map_or_else(available, usize::from);
-        if count <= 1 {
-            return Ok(Self::default());
-        }
-        let pool = ThreadPoolBuilder::new().num_threads(count).build();
-        let pool = pool.map_err(|error| Error::Running(format!("{count} threads: {error}")))?;
-        Ok(Self { pool: Some(pool), ..Self::default() })
+        let build = |count| ThreadPoolBuilder::new().num_threads(count).build();
+        let pool = match count {
+            Some(0 | 1) => None,
+            Some(count) => Some(build(count.into()).map_err(|error| {
+                Error::Running(format!("{count} threads: {}", cause(&io::Error::other(error))))
+            })?),
+            None => as_many(available_parallelism().map_or(1, NonZeroUsize::get), build),
+        };
+        Ok(Self { pool, ..Self::default() })
+    }
+
+    /// The same threads, except that a single one is not the caller's own if the system gives another. What a thread keeps, such as the
+    /// kernel's memory, then outlives its callers.
+    #[must_use]
+    pub fn apart(self) -> Self {
+        let single = || ThreadPoolBuilder::new().num_threads(1).build().ok();
+        Self { pool: self.pool.or_else(single), ..self }
     }
 
     /// How many.
@@ -115,6 +126,12 @@ impl Threads {
     }
 }
 
+/// What `build` makes of `count` threads, or of the half if it cannot, and so on; `None` if only the caller's own is left.
+fn as_many<P, E>(count: usize, build: impl Fn(usize) -> Result<P, E>) -> Option<P> {
+    let counts = iter::successors(Some(count), |count| Some(count / 2));
+    counts.take_while(|&count| count > 1).find_map(|count| build(count).ok())
+}
+
 impl Join for Threads {
     fn join<A: Send, B: Send>(
         &self,
@@ -132,6 +149,7 @@ impl Join for Threads {
 mod tests {
     use super::*;
     use std::sync::Barrier;
+    use std::thread;
 
     fn threads(count: u16) -> Threads {
         Threads::new(Some(count)).expect("threads")
@@ -175,6 +193,17 @@ mod tests {
     }
 
     #[test]
+    fn where_the_system_gives_few_threads_there_are_few() {
+        for (count, most, expected) in
+            [(128, 128, Some(128)), (128, 100, Some(64)), (7, 3, Some(3)), (128, 1, None)]
+        {
+            let build = |count: usize| if count <= most { Ok(count) } else { Err(()) };
+            assert_eq!(as_many(count, build), expected, "{count} of {most}");
+        }
+        assert_eq!(as_many(1, Ok::<_, ()>), None);
+    }
+
+    #[test]
     fn the_memories_stay() {
         let (threads, mut done) = (threads(2), Vec::new());
         for _ in 0..3 {
@@ -199,11 +228,27 @@ mod tests {
         });
     }
 
+    /// Else what it keeps would be lost with every picture.
+    #[test]
+    fn a_thread_apart_is_the_same_for_all_callers() {
+        let threads = threads(1).apart();
+        let id = || thread::current().id();
+        let work = || {
+            let mut seen = Vec::new();
+            threads.share(&mut seen, 0..1, |seen: &mut Option<_>, _| *seen = Some(id()));
+            seen
+        };
+        let by_another = thread::scope(|scope| scope.spawn(work).join().expect("no panic"));
+        assert_eq!((threads.count(), &by_another), (1, &work()));
+        assert_ne!(by_another, [Some(id())]);
+        assert_eq!(threads.join(|| 1, || "one"), (1, "one"));
+    }
+
     #[test]
     fn one_thread_is_the_caller_s() {
-        let here = std::thread::current().id();
+        let here = thread::current().id();
         threads(1).share(&mut Vec::new(), 0..3, |(), _| {
-            assert_eq!(std::thread::current().id(), here);
+            assert_eq!(thread::current().id(), here);
         });
     }
 }

@@ -12,6 +12,7 @@ pub use watch::Watch;
 
 use crate::error::stdout::Stdout;
 use place::place;
+use rustix::io::Errno;
 use std::fs::{self, File, OpenOptions, Permissions};
 use std::io::{self, Write};
 use std::os::unix::ffi::OsStrExt;
@@ -89,7 +90,7 @@ impl WholeFile {
     pub fn written(&self) -> io::Result<()> {
         match self {
             Self::Stdout(_) | Self::InPlace(_) => Ok(()),
-            Self::Unfinished { file, .. } => file.as_file().sync_all(),
+            Self::Unfinished { file, .. } => synced(file.as_file()),
         }
     }
 
@@ -116,6 +117,21 @@ impl WholeFile {
     }
 }
 
+/// Sees to it that all of `file` is on the disk. Volumes of other machines and programs may not be able to, which macOS tells: there it
+/// is enough that all is written.
+///
+/// # Errors
+/// If it is not.
+pub fn synced(file: &File) -> io::Result<()> {
+    file.sync_all().or_else(unless_impossible)
+}
+
+/// Returns `error` unless it says that a volume cannot do what is asked for.
+fn unless_impossible(error: io::Error) -> io::Result<()> {
+    let is_possible = |errno| ![Errno::INVAL, Errno::NOTSUP, Errno::OPNOTSUPP].contains(&errno);
+    if Errno::from_io_error(&error).is_none_or(is_possible) { Err(error) } else { Ok(()) }
+}
+
 /// Whether only a folder may have this name. (A [`Path`] leaves such an end out.)
 fn names_folder(name: &Path) -> bool {
     let name = name.as_os_str().as_bytes();
@@ -129,5 +145,18 @@ impl Write for WholeFile {
 
     fn flush(&mut self) -> io::Result<()> {
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_volume_that_cannot_tell_has_what_is_written() {
+        let is_well = |errno: Errno| unless_impossible(errno.into()).is_ok();
+        assert_eq!([Errno::INVAL, Errno::NOTSUP, Errno::OPNOTSUPP].map(is_well), [true; 3]);
+        assert_eq!([Errno::NOSPC, Errno::DQUOT, Errno::IO].map(is_well), [false; 3]);
+        assert!(unless_impossible(io::ErrorKind::WriteZero.into()).is_err());
     }
 }

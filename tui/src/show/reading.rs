@@ -5,6 +5,8 @@ use crate::error::Error;
 use crate::scene::Scene;
 use crate::scene::frames::Frames;
 use std::ops::Range;
+use std::panic::resume_unwind;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::thread;
@@ -12,33 +14,37 @@ use std::thread;
 /// Calls `draw` with the frames of `range` in order, as far as there are any, without those that have no particles; waits
 /// for those of a file that is followed.
 ///
-/// A thread reads one frame ahead.
+/// A thread reads one frame ahead. After an error no one waits for it: a pipe may be silent for ever.
 ///
 /// # Errors
 /// The first error of `draw`; [`Error::Input`] if a frame cannot be read, after those before it have been drawn.
 pub(super) fn while_reading(
-    frames: &mut Frames,
+    mut frames: Frames,
     range: Range<usize>,
     mut draw: impl FnMut(usize, Scene) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let (sender, read) = sync_channel(0);
-    let is_over = &AtomicBool::new(false);
-    thread::scope(|scope| {
-        let reader = thread::Builder::new().name("frames".to_owned());
-        let reading = move || read_all(frames, range, &sender, is_over);
-        let reader = reader.spawn_scoped(scope, reading);
-        let result = match reader {
-            Ok(_) => read.iter().try_for_each(|frame| {
-                let (index, scene) = frame?;
-                draw(index, scene)
-            }),
-            Err(error) => Err(Error::Running(format!("a thread: {error}"))),
-        };
-        // The scope waits for the reader, so the reader must end now, whatever it waits for.
-        is_over.store(true, Ordering::Relaxed);
-        drop(read);
-        result
-    })
+    let is_over = Arc::new(AtomicBool::new(false));
+    let is_over_there = Arc::clone(&is_over);
+    let reading = move || {
+        read_all(&mut frames, range, &sender, &is_over_there);
+        // What was noted behind the last frame.
+        frames.report();
+    };
+    let reader = thread::Builder::new().name("frames".to_owned()).spawn(reading);
+    let reader = reader.map_err(|error| Error::Running(format!("a thread: {error}")))?;
+    let result = read.iter().try_for_each(|frame| {
+        let (index, scene) = frame?;
+        draw(index, scene)
+    });
+    is_over.store(true, Ordering::Relaxed);
+    drop(read);
+    result?;
+    // There are no more frames, so the reader ends now.
+    if let Err(panic) = reader.join() {
+        resume_unwind(panic);
+    }
+    Ok(())
 }
 
 /// Sends what it reads until there is no more, or no one takes it.
@@ -80,9 +86,12 @@ fn read_all(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::format::Format;
     use crate::scene::open::{Opened, open};
     use crate::scene::reading::Reading;
-    use std::io::ErrorKind;
+    use std::io::{ErrorKind, Write};
+    use std::os::fd::AsRawFd;
+    use std::time::Duration;
 
     /// Draws the frames of a file of this text, as x of their first atom, until one is `last`.
     fn drawn(name: &str, text: &str, follow: bool, last: f32) -> (Vec<f32>, Result<(), Error>) {
@@ -98,9 +107,13 @@ mod tests {
         follow: bool,
         last: f32,
     ) -> (Vec<(usize, f32)>, Result<(), Error>) {
-        let mut frames = opened(name, text, follow);
+        drawn_of(opened(name, text, follow), last)
+    }
+
+    /// The same of frames that have been opened.
+    fn drawn_of(frames: Frames, last: f32) -> (Vec<(usize, f32)>, Result<(), Error>) {
         let mut seen = Vec::new();
-        let result = while_reading(&mut frames, 0..9, |index, scene| {
+        let result = while_reading(frames, 0..9, |index, scene| {
             let x = scene.spheres().get(0).expect("an atom").center.x;
             seen.push((index, x));
             let end = || Error::of_output("standard output", &ErrorKind::BrokenPipe.into());
@@ -113,8 +126,11 @@ mod tests {
     fn opened(name: &str, text: &str, follow: bool) -> Frames {
         let path = std::env::temp_dir().join(format!("spherule-{}-{name}", std::process::id()));
         std::fs::write(&path, text).expect("a file");
-        let reading = Reading { follow, ..Reading::default() };
-        match open(path.to_str().expect("UTF-8"), &reading) {
+        open_by(path.to_str().expect("UTF-8"), &Reading { follow, ..Reading::default() })
+    }
+
+    fn open_by(name: &str, reading: &Reading) -> Frames {
+        match open(name, reading) {
             Ok(Opened::File(frames)) => frames,
             other => panic!("no file: {other:?}"),
         }
@@ -167,5 +183,22 @@ mod tests {
         let (seen, result) = drawn("grows.xyz", THREE, true, 2.0);
         assert_eq!(seen, [0.0, 1.0, 2.0]);
         assert!(result.is_err());
+    }
+
+    /// Whoever writes it keeps it open, in the middle of a frame.
+    #[test]
+    fn whoever_stops_drawing_does_not_wait_for_a_pipe() {
+        let (reader, mut writer) = std::io::pipe().expect("a pipe");
+        writer.write_all(THREE[..THREE.len() - 4].as_bytes()).expect("room in the pipe");
+        let (sender, ended) = sync_channel(1);
+        thread::spawn(move || {
+            let reading = Reading { format: Some(Format::Xyz), ..Reading::default() };
+            let frames = open_by(&format!("/dev/fd/{}", reader.as_raw_fd()), &reading);
+            sender.send(drawn_of(frames, 1.0)).expect("it is awaited");
+        });
+        let (seen, result) = ended.recv_timeout(Duration::from_secs(5)).expect("an end");
+        assert_eq!(seen, [(0, 0.0), (1, 1.0)]);
+        assert!(result.is_err());
+        drop(writer);
     }
 }

@@ -30,7 +30,7 @@ impl Still {
         &self,
         renderer: &mut Renderer<'_>,
         mut structures: SceneStructures<'_>,
-        frames: &mut Frames,
+        frames: Frames,
         range: Range<usize>,
         mut prepared: impl FnMut(usize, Scene) -> (Scene, Option<Legend>),
     ) -> Result<(), Error> {

@@ -8,7 +8,7 @@ use crate::coloring::legend::Legend;
 use crate::compare::Comparison;
 use crate::draw::pixels::{PixelGrid, SAMPLES};
 use crate::draw::{Renderer, picture_workload};
-use crate::error::{Error, write_stdout};
+use crate::error::{Error, broken_off, write_stdout};
 use crate::machine::check_floats;
 use crate::pick::report::Report;
 use crate::pick::{Pick, cell_ray};
@@ -18,11 +18,10 @@ use crate::progress::{PATIENCE, Progress};
 use crate::scene::Scene;
 use crate::structure::choose::Workload;
 use crate::structure::scene::{PictureSearch, SceneStructures};
-use crate::style::{PIPE_SIZE, Style};
-use crate::terminal::{Abilities, pixels_of_cell};
+use crate::style::{ColorDepth, PIPE_SIZE, Style};
+use crate::terminal::{Abilities, pixels_of_cell, size_of_stdout};
 use crate::tradeoff::Question;
 use crate::view::View;
-use crossterm::terminal;
 use spherule_kernel::{Ray, Tier};
 use std::path::Path;
 
@@ -77,9 +76,13 @@ impl Written<'_, '_> {
         if let Some(cell) = *pick {
             return self.pick(cell);
         }
-        match protocol(self.arguments, self.is_terminal) {
-            Some(protocol) if show.is_none() => self.pixels(protocol),
-            _ => self.cells(legend),
+        let protocol = protocol(self.arguments, self.is_terminal).filter(|_| show.is_none());
+        if self.is_terminal && (protocol.is_some() || self.style.depth != ColorDepth::Never) {
+            broken_off::await_signals();
+        }
+        match protocol {
+            Some(protocol) => self.pixels(protocol),
+            None => self.cells(legend),
         }
     }
 
@@ -131,9 +134,7 @@ impl Written<'_, '_> {
 
     fn pixels(&mut self, protocol: Protocol) -> Result<(), Error> {
         let Self { scene, view, style, size, is_terminal, .. } = *self;
-        // The terminal that a pipe was started from has no part in it.
-        let own = if is_terminal { pixels_of_cell(None) } else { None };
-        let cell = own.unwrap_or_else(|| PixelGrid::usual_cell(&style));
+        let cell = pixels_of_cell(None).unwrap_or_else(|| PixelGrid::usual_cell(&style));
         let grid = PixelGrid::in_cells(&view, &style, size, cell, SAMPLES);
         let (width, height) = grid.size();
         if u64::from(width) * u64::from(height) > MOST_PIXELS {
@@ -147,7 +148,7 @@ impl Written<'_, '_> {
         let mut bytes = Vec::new();
         // A screen that is not known is supposed to be as high as a picture for a pipe.
         let rows =
-            if is_terminal { terminal::size().map_or(0, |size| size.1) } else { PIPE_SIZE.1 };
+            if is_terminal { size_of_stdout().map_or(0, |size| size.1) } else { PIPE_SIZE.1 };
         let is_higher = (1..size.1).contains(&rows);
         protocol.write_in_line(&image, size, is_higher, &mut bytes);
         write_stdout(&bytes)

@@ -12,9 +12,10 @@ use std::time::{Duration, Instant};
 /// The alternate screen; no cursor; no wrapping, so that a terminal that has just shrunk does not
 /// scroll; presses, drags and the wheel of the mouse in decimal coordinates.
 const ENTER: &[u8] = b"\x1b[?1049h\x1b[?25l\x1b[?7l\x1b[?1000h\x1b[?1002h\x1b[?1006h";
-/// The reverse, whatever a broken-off frame has left behind.
-const LEAVE: &[u8] =
-    b"\x1b[?2026l\x1b[m\x1b[?1006l\x1b[?1002l\x1b[?1000l\x1b[?7h\x1b[?25h\x1b[?1049l";
+/// The reverse, whatever a broken-off frame has left behind. Where there is no alternate screen, such as in GNU screen and on
+/// Linux's console, the prompt comes where the status line was.
+const LEAVE: &[u8] = b"\x1b[?2026l\x1b[m\x1b[?1006l\x1b[?1002l\x1b[?1000l\x1b[?7h\x1b[?25h\
+    \x1b[999;1H\x1b[K\x1b[?1049l";
 /// A thread that is stuck in writing must not keep the others from giving the terminal back. One that gives it back is
 /// waited for, as long as it waits for answers.
 const PATIENCE: Duration = Duration::from_millis(800);

@@ -61,6 +61,12 @@ pub(super) fn answered() {
     questions.open = questions.open.saturating_sub(1);
 }
 
+/// Of those questions the oldest will not be answered any more, so that at most `count` are open.
+pub(super) fn keep(count: u32) {
+    let mut questions = questions();
+    questions.open = questions.open.min(count);
+}
+
 /// How many questions are open, besides those at the start.
 pub(super) fn count() -> u32 {
     questions().open

@@ -1,12 +1,10 @@
 //! Files that are being written, and the signals that end the process: all of them are removed before it ends.
 
-use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-use signal_hook::iterator::Signals;
-use signal_hook::low_level::emulate_default_handler;
+use crate::error::signal::{self, end_by, heard};
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::{fs, io, thread};
+use std::{fs, io};
 use tempfile::NamedTempFile;
 
 /// Removes a file if the user or the system ends the process.
@@ -57,28 +55,15 @@ impl Unfinished {
         if self.is_waiting {
             return Ok(());
         }
-        let hang_up = if is_ignored(SIGHUP) { None } else { Some(SIGHUP) };
-        let mut signals = Signals::new([SIGINT, SIGTERM].into_iter().chain(hang_up))?;
-        thread::Builder::new().name("signals".into()).spawn(move || {
-            for signal in signals.forever() {
-                // It is held to the end, so that no further file is begun.
-                let unfinished = unfinished();
-                for path in &unfinished.paths {
-                    let _ = fs::remove_file(path);
-                }
-                let _ = emulate_default_handler(signal);
+        signal::watch(heard(), |signal| {
+            // It is held to the end, so that no further file is begun.
+            let unfinished = unfinished();
+            for path in &unfinished.paths {
+                let _ = fs::remove_file(path);
             }
+            end_by(signal);
         })?;
         self.is_waiting = true;
         Ok(())
     }
-}
-
-/// Whether whoever started the process wants a signal to do nothing, as `nohup` does with SIGHUP: a handler would undo
-/// that. Linux tells; on other systems it is assumed.
-fn is_ignored(signal: i32) -> bool {
-    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
-    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
-    mask.is_none_or(|mask| mask >> (signal - 1) & 1 == 1)
 }
