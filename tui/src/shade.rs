@@ -210,7 +210,8 @@ impl Shader {
                 }
                 Some(around) => {
                     let met = hits.iter().flat_map(HitPacket::spheres).copied();
-                    traced += around.learn(tracing.level, scratch, openness, met);
+                    let by = (tracing.level, threads);
+                    traced += around.learn(by, scratch, openness, met);
                     let exposure = Exposure::of_open(&scene.lighting);
                     let mut samples = samples.iter();
                     for (packet, &count) in counts.iter().enumerate() {

@@ -32,6 +32,7 @@ mod status;
 mod studio;
 mod table;
 mod wanted;
+mod worker;
 
 use crate::arguments::PictureArguments;
 use crate::choice::Auto;
@@ -138,38 +139,44 @@ pub fn run(
     let mut studio = Studio::new(structures, renderer);
     viewer.heed_abilities();
     viewer.say_no_pixels();
-    viewer.learn_size().map_err(|error| lost(&error))?;
-    viewer.say_too_large();
-    let mut last_frame: Option<Instant> = None;
-    let mut stale = true;
-    loop {
-        let film = viewer.film.as_ref();
-        let film = [film.and_then(Film::wait), film.and_then(Film::wait_for_status)];
-        let film = film.into_iter().flatten();
-        let wait = viewer.wait(stale, last_frame).into_iter().chain(film).min();
-        match viewer.take_input(Some(&mut studio), wait)? {
-            Outcome::Quit => return viewer.leave(),
-            Outcome::Changed => stale = true,
-            Outcome::Unchanged => {}
-        }
-        stale |= viewer.go_on(&mut studio);
-        if viewer.wait(stale, last_frame) == Some(Duration::ZERO) {
-            let now = Instant::now();
-            let moving = stale || viewer.state.shown.spinning;
-            if let Some(last_frame) = last_frame {
-                viewer.state.advance(now - last_frame);
-            }
-            let meanwhile = viewer.show_frame(&mut studio, now, moving)?;
-            if meanwhile == Outcome::Quit {
-                return viewer.leave();
-            }
-            last_frame = Some(now);
-            stale = meanwhile == Outcome::Changed;
-        }
-    }
+    let result = viewer.show_until_quit(&mut studio);
+    viewer.leave(result)
 }
 
 impl Viewer {
+    /// Takes input and shows frames until the user quits.
+    fn show_until_quit(&mut self, studio: &mut Studio<'_>) -> Result<(), Error> {
+        self.learn_size().map_err(|error| lost(&error))?;
+        self.say_too_large();
+        let mut last_frame: Option<Instant> = None;
+        let mut stale = true;
+        loop {
+            let film = self.film.as_ref();
+            let film = [film.and_then(Film::wait), film.and_then(Film::wait_for_status)];
+            let film = film.into_iter().flatten();
+            let wait = self.wait(stale, last_frame).into_iter().chain(film).min();
+            match self.take_input(Some(&mut *studio), wait)? {
+                Outcome::Quit => return Ok(()),
+                Outcome::Changed => stale = true,
+                Outcome::Unchanged => {}
+            }
+            stale |= self.go_on(studio);
+            if self.wait(stale, last_frame) == Some(Duration::ZERO) {
+                let now = Instant::now();
+                let moving = stale || self.state.shown.spinning;
+                if let Some(last_frame) = last_frame {
+                    self.state.advance(now - last_frame);
+                }
+                let meanwhile = self.show_frame(studio, now, moving)?;
+                if meanwhile == Outcome::Quit {
+                    return Ok(());
+                }
+                last_frame = Some(now);
+                stale = meanwhile == Outcome::Changed;
+            }
+        }
+    }
+
     /// How long until a frame is due; for ever if there is none to draw.
     fn wait(&self, stale: bool, last_frame: Option<Instant>) -> Option<Duration> {
         let (shown, since_last) = (&self.state.shown, last_frame.map(|at| at.elapsed()));
@@ -186,7 +193,7 @@ impl Viewer {
         let (scene, news, has_changed) = (film.next(), film.take_news(), film.has_changed());
         // A frame that is due has the status line of itself.
         let is_stale = !news.is_empty() || has_changed && self.wait(false, None).is_none();
-        news.into_iter().for_each(|what| self.tell(what));
+        news.iter().for_each(|what| self.tell(what));
         let Some(scene) = scene else { return is_stale };
         studio.structures.go_on(scene.list());
         self.scene = scene;
@@ -197,16 +204,18 @@ impl Viewer {
         true
     }
 
-    /// Gives the terminal back, and then tells what there is to tell.
-    fn leave(mut self) -> Result<(), Error> {
+    /// Gives the terminal back, and then tells what there is to tell, also if `result` is an error. Returns the first error.
+    fn leave(mut self, result: Result<(), Error>) -> Result<(), Error> {
         if self.recording.is_some() {
             self.record();
         }
         let (told, failure) = (mem::take(&mut self.told), self.failure.take());
         drop(self);
-        if !told.is_empty() {
-            write_stdout((told.join("\n") + "\n").as_bytes())?;
-        }
-        failure.map_or(Ok(()), Err)
+        let telling = if told.is_empty() {
+            Ok(())
+        } else {
+            write_stdout((told.join("\n") + "\n").as_bytes())
+        };
+        result.and(telling).and(failure.map_or(Ok(()), Err))
     }
 }

@@ -15,6 +15,7 @@
 //! the result noise.
 
 use super::search::{Scratch, Search, Tracing};
+use crate::threads::Threads;
 use spherule_kernel::{
     Coherence, HitPacket, Level, Ray, RayPacket, Sphere, SphereList, SpherePacket, SphereTree,
     Spheres, SurfacePacket, Tier, Towards, Vec3, pair_packets, shadow_packets, surface_packets,
@@ -105,10 +106,11 @@ impl Openness {
 }
 
 impl Around {
-    /// Computes the openness of those of `spheres` for which it is not known. Returns how many rays that took.
+    /// Computes the openness of those of `spheres` for which it is not known, until the threads are stopped. Returns how many rays that
+    /// took.
     pub fn learn(
         &self,
-        level: Level,
+        (level, threads): (Level, &Threads),
         scratch: &mut Scratch,
         memory: &mut OpennessMemory,
         spheres: impl Iterator<Item = u32>,
@@ -124,7 +126,8 @@ impl Around {
         wanted.sort_unstable();
         wanted.dedup();
         let tracing = Tracing { tier: TIER, level, coherence: Coherence::Detect };
-        for wanted in wanted.chunks(AT_ONCE) {
+        let mut learnt = 0;
+        for wanted in wanted.chunks(AT_ONCE).take_while(|_| !threads.are_stopped()) {
             let packets: Vec<_> = wanted
                 .chunks(RayPacket::COUNT)
                 .map(|wanted| Sixteen::gather(list, wanted))
@@ -153,8 +156,9 @@ impl Around {
                 // Another thread that computed it wrote the same.
                 known[sphere as usize].store(packed(count, sum), Ordering::Relaxed);
             }
+            learnt += wanted.len();
         }
-        (wanted.len() * RAYS) as u64
+        (learnt * RAYS) as u64
     }
 }
 

@@ -4,6 +4,7 @@ use crate::error::Error;
 use crate::threads::Threads;
 use std::panic::resume_unwind;
 use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Mutex, PoisonError};
 use std::thread::{Builder, scope};
 use std::time::Duration;
 
@@ -20,24 +21,40 @@ impl Drop for Attendance<'_> {
 }
 
 /// Does `work`, which `threads` share, on a thread of its own, and calls `look` every now and then until it has ended.
-/// When a look returns that the work is not wanted, the threads are stopped, and nothing is returned.
+/// When a look returns that the work is not wanted, the threads are stopped, and nothing is returned. If the system gives no
+/// thread, the work is done on this one, and there is no look.
 ///
 /// # Errors
-/// The first error of `look`, or [`Error::Running`] if there is no thread.
+/// The first error of `look`.
 pub(super) fn attend<T: Send>(
+    threads: &Threads,
+    work: impl FnOnce() -> T + Send,
+    look: impl FnMut() -> Result<bool, Error>,
+) -> Result<Option<T>, Error> {
+    attend_on(Builder::new().name("picture".to_owned()), threads, work, look)
+}
+
+/// The same, on a thread that `builder` makes.
+fn attend_on<T: Send>(
+    builder: Builder,
     threads: &Threads,
     work: impl FnOnce() -> T + Send,
     mut look: impl FnMut() -> Result<bool, Error>,
 ) -> Result<Option<T>, Error> {
     let (working, ended) = channel::<()>();
+    // A thread that cannot be made would take the work with it.
+    let work = Mutex::new(Some(work));
+    let run = || {
+        let work = work.lock().unwrap_or_else(PoisonError::into_inner).take();
+        work.map(|work| work())
+    };
     let done: Result<Option<T>, Error> = scope(|scope| {
-        let work = move || {
+        let thread = builder.spawn_scoped(scope, move || {
             // Dropped at the end, whether it is an end or a panic.
             let _working = working;
-            work()
-        };
-        let thread = Builder::new().name("picture".to_owned()).spawn_scoped(scope, work);
-        let thread = thread.map_err(|error| Error::Running(format!("a thread: {error}")))?;
+            run()
+        });
+        let Ok(thread) = thread else { return Ok(run()) };
         let attendance = Attendance(threads);
         let mut is_wanted = true;
         while is_wanted && ended.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
@@ -45,7 +62,7 @@ pub(super) fn attend<T: Send>(
         }
         drop(attendance);
         match thread.join() {
-            Ok(done) => Ok(is_wanted.then_some(done)),
+            Ok(done) => Ok(done.filter(|_| is_wanted)),
             Err(panic) => resume_unwind(panic),
         }
     });
@@ -57,7 +74,7 @@ pub(super) fn attend<T: Send>(
 mod tests {
     use super::*;
     use std::panic::{AssertUnwindSafe, catch_unwind};
-    use std::thread::sleep;
+    use std::thread::{current, sleep};
     use std::time::Instant;
 
     const SOON: Duration = Duration::from_secs(2);
@@ -92,6 +109,15 @@ mod tests {
             assert_eq!(attend_to_slow_work(&threads, || Err(failure())), Err(failure()));
             assert!(began.elapsed() < SOON && !threads.are_stopped());
         }
+    }
+
+    #[test]
+    fn without_another_thread_it_is_done_on_this_one() {
+        // No system has memory for such a stack.
+        let builder = Builder::new().stack_size(1 << (usize::BITS - 4));
+        let (threads, work) = (Threads::default(), || current().id());
+        let done = attend_on(builder, &threads, work, || panic!("there is no look"));
+        assert_eq!(done, Ok(Some(current().id())));
     }
 
     #[test]

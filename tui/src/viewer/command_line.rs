@@ -6,6 +6,7 @@ use super::colors::Colors;
 use super::state::State;
 use crate::arguments::{PictureArguments, SceneArguments};
 use crate::choice::name;
+use crate::harmless::is_obeyed;
 use crate::length::length;
 use crate::scene::Scene;
 use crate::scene::radii::RadiusBy;
@@ -125,7 +126,7 @@ fn quoted(word: &[u8]) -> String {
     let is_plain = |byte: u8| byte.is_ascii_alphanumeric() || b"_-./,:".contains(&byte);
     match str::from_utf8(word) {
         Ok(text) if !text.is_empty() && text.bytes().all(is_plain) => text.to_owned(),
-        Ok(text) if !text.chars().any(char::is_control) => {
+        Ok(text) if !text.chars().any(is_obeyed) => {
             format!("'{}'", text.replace('\'', r"'\''"))
         }
         _ => format!("$'{}'", word.utf8_chunks().map(|chunk| escaped(&chunk)).collect::<String>()),
@@ -137,7 +138,7 @@ fn escaped(chunk: &Utf8Chunk<'_>) -> String {
     let octal = |bytes: &[u8]| bytes.iter().map(|byte| format!("\\{byte:03o}")).collect::<String>();
     let letter = |letter: char| match letter {
         '\'' | '\\' => format!("\\{letter}"),
-        _ if letter.is_control() => octal(letter.encode_utf8(&mut [0; 4]).as_bytes()),
+        _ if is_obeyed(letter) => octal(letter.encode_utf8(&mut [0; 4]).as_bytes()),
         _ => letter.to_string(),
     };
     chunk.valid().chars().map(letter).collect::<String>() + &octal(chunk.invalid())
@@ -220,7 +221,7 @@ mod tests {
 
     #[test]
     fn a_name_that_cannot_be_printed_is_escaped() {
-        let names: [(&[u8], &str); 8] = [
+        let names: [(&[u8], &str); 9] = [
             (b"a:1,b.toml", "a:1,b.toml"),
             (b"", "''"),
             ("caf\u{e9}.toml".as_bytes(), "'caf\u{e9}.toml'"),
@@ -228,6 +229,7 @@ mod tests {
             (b"esc\x1b[31m.toml", r"$'esc\033[31m.toml'"),
             (b"it's\\\n", r"$'it\'s\\\012'"),
             ("\u{9b}\u{e9}".as_bytes(), "$'\\302\\233\u{e9}'"),
+            ("a\u{202e}b".as_bytes(), r"$'a\342\200\256b'"),
             (b"-\xff", r"$'./-\377'"),
         ];
         for (name, expected) in names {

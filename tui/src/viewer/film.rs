@@ -6,18 +6,18 @@
 mod ahead;
 mod told;
 
+use super::worker;
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::scene::frames::Frames;
 use ahead::{Ready, Shared, read_ahead};
 use std::mem;
 use std::sync::Arc;
-use std::thread::Builder;
 use std::time::{Duration, Instant};
 
 /// Frames a second while it plays, at most.
 pub(super) const RATE: u32 = 25;
-/// Between two looks at how many frames have been read, while the picture rests.
+/// Between two looks at how many frames have been read, while the picture rests, and for a frame that has not come for long.
 const GLANCE: Duration = Duration::from_millis(200);
 
 /// The frames of a file, and which is shown.
@@ -28,6 +28,8 @@ pub struct Film {
     shown: usize,
     /// The one that is to be shown as soon as it is there.
     target: usize,
+    /// Since when it is awaited.
+    asked: Instant,
     is_playing: bool,
     last: Instant,
     can_go_back: bool,
@@ -59,15 +61,16 @@ impl Film {
         let (can_go_back, may_have_more) = (frames.can_go_back(), frames.follows());
         let theirs = Arc::clone(&shared);
         let read = move || read_ahead(frames, first, &theirs, prepare);
-        let thread = Builder::new().name("frames".to_owned()).spawn(read);
+        let thread = worker::begin("frames", read);
         thread.map_err(|error| Error::Running(format!("a thread: {error}")))?;
-        let (shown, target, last) = (frame, frame, Instant::now());
+        let now = Instant::now();
         Ok(Self {
             shared,
-            shown,
-            target,
+            shown: frame,
+            target: frame,
+            asked: now,
             is_playing: false,
-            last,
+            last: now,
             can_go_back,
             may_have_more,
             news: Vec::new(),
@@ -127,7 +130,7 @@ impl Film {
     }
 
     fn want(&mut self, target: usize) {
-        self.target = target;
+        (self.target, self.asked) = (target, Instant::now());
         let mut state = self.shared.lock();
         state.want(target);
         state.failure = None;
@@ -148,13 +151,17 @@ impl Film {
 
     /// How long until it should be asked for a frame; `None` if nothing is to come.
     pub(super) fn wait(&self) -> Option<Duration> {
-        /// Between two looks for a frame that is still being read.
+        /// Between two looks for a frame that is still being read, at first.
         const LOOK: Duration = Duration::from_millis(5);
+        let is_awaited = self.target != self.shown;
+        // The longer none has come, the seldomer: a pipe may be silent for ever.
+        let seldom = if is_awaited { self.asked.elapsed() / 8 } else { LOOK };
+        let look = seldom.clamp(LOOK, GLANCE);
         if self.is_playing {
             let next = Duration::from_secs(1) / RATE;
-            return Some(next.saturating_sub(self.last.elapsed()).max(LOOK));
+            return Some(next.saturating_sub(self.last.elapsed()).max(look));
         }
-        (self.target != self.shown).then_some(LOOK)
+        is_awaited.then_some(look)
     }
 
     /// How long until it should be asked whether it [has changed](Film::has_changed); `None` if nothing is read.
@@ -209,12 +216,11 @@ impl Film {
             let next = match (ends, begins_again) {
                 (false, _) => next,
                 (true, true) => 0,
-                (true, false) => {
-                    self.is_playing = false;
-                    self.shown
-                }
+                (true, false) => self.shown,
             };
-            if next != self.target {
+            if next == self.shown {
+                self.is_playing = false;
+            } else {
                 self.want(next);
             }
         }

@@ -1,18 +1,21 @@
-//! How frames follow each other over a link: at most two under way, as far as the terminal tells.
+//! How frames follow each other over a link: none begins while two are under way, as far as the terminal tells.
 //!
 //! After every frame the terminal is asked how far it has come. While two frames are unanswered, none is drawn. The
 //! next one shows what is wanted then: frames are left out, never queued. So a key is seen after two frames at most,
-//! however much the link would take. Without answers nothing is known, and nothing is held back.
+//! however much the link would take. (A third may be under way: what is shown while a picture is drawn.) Without answers nothing is known,
+//! and nothing is held back.
 //!
 //! It has no clock: instants come in.
 
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
-/// The most frames under way.
+/// While so many frames are under way, none is begun.
 const MOST: usize = 2;
 /// An answer that has not come for so long never will: longer than links stall.
 const LOST: Duration = Duration::from_secs(15);
+/// The same once the terminal has told its size. A session that is shown again tells it; while it was not shown, it swallowed answers.
+const LOST_BEFORE_RESIZE: Duration = Duration::from_secs(2);
 /// The weight of what the last frame says of the link, against all before it.
 const WEIGHT: f64 = 0.3;
 /// Seconds that a frame may take on the link. A key waits for three frames: two under way, and the next one.
@@ -52,19 +55,14 @@ impl Flow {
 
     /// A frame of so many bytes was sent, and its answer is awaited.
     pub(super) fn sent(&mut self, bytes: usize, now: Instant) {
-        if self.under_way.len() >= MOST {
-            self.under_way.pop_front();
-        }
+        self.give_up(LOST, now);
         self.under_way.push_back(Sent { at: now, bytes });
     }
 
     /// The oldest frame has come to the terminal.
     pub(super) fn answered(&mut self, now: Instant) {
         // What was sent so long ago never was answered: this answer is to a later one.
-        let is_lost = |sent: &Sent| now.saturating_duration_since(sent.at) >= LOST;
-        while self.under_way.front().is_some_and(is_lost) {
-            self.under_way.pop_front();
-        }
+        self.give_up(LOST, now);
         let Some(Sent { at, bytes }) = self.under_way.pop_front() else { return };
         self.round_trip = Some(now.saturating_duration_since(at));
         // The link began with this frame when it was done with the one before.
@@ -81,6 +79,26 @@ impl Flow {
         } else if seconds < FRAME_TIME / 2.0 {
             self.step = self.step.saturating_sub(1);
         }
+    }
+
+    /// The terminal has told its size. Returns whether answers are given up, which may have been lost.
+    pub(super) fn resized(&mut self, now: Instant) -> bool {
+        let before = self.open();
+        self.give_up(LOST_BEFORE_RESIZE, now);
+        self.open() < before
+    }
+
+    /// Gives up answers to what was sent so long ago.
+    fn give_up(&mut self, after: Duration, now: Instant) {
+        let is_lost = |sent: &Sent| now.saturating_duration_since(sent.at) >= after;
+        while self.under_way.front().is_some_and(is_lost) {
+            self.under_way.pop_front();
+        }
+    }
+
+    /// How many answers are awaited.
+    pub(super) fn open(&self) -> u32 {
+        self.under_way.len() as u32
     }
 
     /// Nothing that was sent will be answered.
@@ -125,6 +143,23 @@ mod tests {
         assert_eq!(flow.round_trip(), Some(20 * MS));
     }
 
+    /// What is shown while a picture is drawn may be under way beside it.
+    #[test]
+    fn every_answer_is_to_the_frame_that_it_was_asked_with() {
+        let (mut flow, start) = (Flow::default(), Instant::now());
+        for at in 0..3 {
+            flow.sent(10_000, start + at * MS);
+        }
+        assert_eq!(flow.open(), 3);
+        for (at, round_trip, has_room) in [(20, 20, false), (23, 22, true), (26, 24, true)] {
+            let now = start + at * MS;
+            flow.answered(now);
+            assert_eq!(flow.round_trip(), Some(round_trip * MS));
+            assert_eq!(flow.wait(now).is_none(), has_room);
+        }
+        assert_eq!(flow.open(), 0);
+    }
+
     #[test]
     fn an_answer_that_never_comes_is_given_up() {
         let (mut flow, start) = (Flow::default(), Instant::now());
@@ -133,7 +168,7 @@ mod tests {
         assert!(flow.wait(start + 10_000 * MS).is_some(), "a link may stall");
         assert_eq!(flow.wait(start + LOST), None);
         flow.sent(10_000, start + LOST);
-        assert_eq!(flow.under_way.len(), 2);
+        assert_eq!(flow.open(), 1);
         flow.forget();
         assert_eq!(flow.wait(start), None);
         // One that no one asked for.
@@ -151,6 +186,20 @@ mod tests {
         assert_eq!(flow.round_trip(), Some(20 * MS));
         assert!(flow.under_way.is_empty());
         assert!(flow.most_bytes() > 10_000, "no link that takes a minute: {}", flow.most_bytes());
+    }
+
+    /// Sizes that come one after the other over a link that is merely slow give up nothing.
+    #[test]
+    fn a_resize_gives_up_what_is_old() {
+        let (mut flow, start) = (Flow::default(), Instant::now());
+        flow.sent(10_000, start);
+        flow.sent(10_000, start + 1500 * MS);
+        assert!(!flow.resized(start + 1900 * MS));
+        assert!(flow.wait(start + 1900 * MS).is_some());
+        assert!(flow.resized(start + LOST_BEFORE_RESIZE));
+        assert_eq!((flow.open(), flow.wait(start + LOST_BEFORE_RESIZE)), (1, None));
+        assert!(flow.resized(start + 1500 * MS + LOST_BEFORE_RESIZE));
+        assert_eq!(flow.open(), 0);
     }
 
     /// Half a megabyte a second: frames become smaller until the link takes them in time.

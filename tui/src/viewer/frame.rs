@@ -65,7 +65,7 @@ impl Viewer {
         // Even if the picture stays: what was begun before may have been given up in other colours.
         if let Some(lack) = self.colors.show(&mut self.scene, wanted.pictured.coloring) {
             let frame = self.film.as_ref().map_or(0, Film::shown);
-            self.tell(format!("frame {frame} keeps its colours: {lack}"));
+            self.tell(&format!("frame {frame} keeps its colours: {lack}"));
         }
         if let Some(subject) = self.framed.take() {
             studio.structures.frame(subject);
@@ -98,7 +98,8 @@ impl Viewer {
         let shown = &self.state.shown;
         let rests = before == Some((wanted.scene, Subject::new(shown, wanted.size)));
         let means = (rests && shown.table).then(|| studio.means(&self.scene, shown));
-        let pick = studio.pick(&self.scene, shown, wanted.size)?;
+        // Keys may have moved the view while the picture was drawn.
+        let pick = studio.pick(&self.scene, &picture.of, shown.cursor)?;
         // In ASCII: a cell holds no glyph that is two columns wide, and a label may.
         let printable = |label: &str| label.escape_default().to_string();
         let picked = pick.map(|pick| report::lines(&pick, printable)).unwrap_or_default();
@@ -199,6 +200,7 @@ impl Viewer {
         let bytes = self.bytes.len();
         self.terminal.show_and_ask(&mut self.bytes)?;
         self.flow.sent(bytes, Instant::now());
+        self.terminal.await_at_most(self.flow.open());
         Ok(())
     }
 

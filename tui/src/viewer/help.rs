@@ -20,7 +20,7 @@ const LINES: [&str; 27] = [
     "  1 2 3 4                 fast, stable, exact, geometric ",
     "  e                       what the tier gets wrong ",
     "  v, [ ]                  two tiers side by side ",
-    "  t                       what every tier takes and gets wrong ",
+    "  t                       what every tier costs and gets wrong ",
     "  c                       ascii, half, quadrant, sextant, ",
     "                          octant, braille, block ",
     "  s                       auto, brute, depth-list, bvh ",

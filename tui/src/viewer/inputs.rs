@@ -60,6 +60,10 @@ impl Viewer {
                 // The terminal may have moved its cells about, even if the size is the same.
                 Some(keys::Input::Resize) => {
                     self.encoder.forget();
+                    if self.flow.resized(Instant::now()) {
+                        self.terminal.await_at_most(self.flow.open());
+                        self.pixels.awaits_first = None;
+                    }
                     self.learn_size().map_err(|error| lost(&error))?;
                     self.say_too_large();
                     outcome = Outcome::Changed;
@@ -86,7 +90,8 @@ impl Viewer {
                         self.postponed = Some(event);
                         return Ok(outcome.and(Outcome::Changed));
                     };
-                    let pick = studio.pick(&self.scene, &self.state.shown, self.state.size())?;
+                    let cursor = self.state.shown.cursor;
+                    let pick = studio.pick(&self.scene, &self.wanted(), cursor)?;
                     if let Some(sphere) = pick.and_then(|pick| Some(pick.sphere?.sphere)) {
                         outcome = outcome.and(self.state.frame(sphere));
                     }

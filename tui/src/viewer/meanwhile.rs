@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 
 /// After so long the status line says that a picture is drawn. One of a movement is not given up before: else a key that
 /// is held down would leave nothing to be seen of pictures that take longer than its repetition.
-const PATIENCE: Duration = Duration::from_millis(300);
+pub(super) const PATIENCE: Duration = Duration::from_millis(300);
 /// The time between two answers to keys.
 const ANSWER: Duration = Duration::from_millis(100);
 

@@ -7,15 +7,17 @@ use super::recording::Recording;
 use super::session::Viewer;
 use crate::cells::{CellGrid, Color};
 use crate::error::{Error, cause};
+use crate::harmless::{LONGEST_LINE, cut};
 use std::path::Path;
 use std::time::Instant;
 
 impl Viewer {
     /// Tells something that comes by itself, behind what is told already.
-    pub(super) fn tell(&mut self, what: String) {
+    pub(super) fn tell(&mut self, what: &str) {
+        let what = cut(what, LONGEST_LINE);
         self.notice = Some(match self.notice.take() {
             Some(told) => format!("{told}; {what}"),
-            None => what,
+            None => what.into_owned(),
         });
         self.owes_notice = true;
     }
@@ -34,11 +36,14 @@ impl Viewer {
     pub(super) fn record(&mut self) {
         let now = Instant::now();
         self.notice = Some(match self.recording.take() {
-            None if self.pixels.are_shown() => "no recording of pixels: --output cells".to_owned(),
-            None => {
-                self.recording = Some(Recording::new(now));
-                "recording: R ends it".to_owned()
-            }
+            None if self.pixels.are_shown() => "pixels are not recorded: --output cells".to_owned(),
+            None => match Recording::begin(now) {
+                Ok(recording) => {
+                    self.recording = Some(recording);
+                    "recording: R ends it".to_owned()
+                }
+                Err(error) => format!("no recording here: {}", cause(&error)),
+            },
             Some(recording) => {
                 let stem = Path::new(&self.asked.scene.name).file_stem().unwrap_or_default();
                 let stem = stem.to_string_lossy();

@@ -2,6 +2,7 @@
 //!
 //! It has no clock: durations come in.
 
+use super::meanwhile::PATIENCE;
 use crate::draw::{Effort, Spending};
 use std::time::Duration;
 
@@ -20,6 +21,8 @@ pub(super) struct Pace {
     interval: Duration,
     /// Samples a second, as far as is known.
     rate: Option<f64>,
+    /// How long the last picture took to draw.
+    drawing: Duration,
     /// Whether what was drawn last is all there is to see.
     is_full: bool,
     /// Whether the last picture was given up before it was drawn.
@@ -42,7 +45,8 @@ pub(super) enum Debt {
 impl Pace {
     /// Nothing has been drawn yet.
     pub(super) fn new(interval: Duration) -> Self {
-        Self { interval, rate: None, is_full: true, gave_up: false, debt: Debt::None }
+        let drawing = Duration::ZERO;
+        Self { interval, rate: None, drawing, is_full: true, gave_up: false, debt: Debt::None }
     }
 
     /// How long it takes until a frame is due, `since_last` one began; `None` if all is shown and nothing moves.
@@ -68,8 +72,9 @@ impl Pace {
 
     /// Whether a picture may be given up because what it shows has moved on. One that tells how long samples take is drawn to
     /// its end, and so is every other: else a key that is held down would leave nothing to be seen of pictures that take long.
+    /// Where the last took little longer than [`PATIENCE`], all are drawn: by the time that one is given up, most of it is done.
     pub(super) fn may_give_up(&self) -> bool {
-        self.rate.is_some() && !self.gave_up
+        self.rate.is_some() && !self.gave_up && self.drawing > 2 * PATIENCE
     }
 
     /// Takes note that a picture was given up.
@@ -89,7 +94,7 @@ impl Pace {
 
     /// Takes note of how long a frame took to draw.
     pub(super) fn drawn(&mut self, effort: Effort, drawing: Duration) {
-        (self.is_full, self.gave_up) = (effort.is_full, false);
+        (self.drawing, self.is_full, self.gave_up) = (drawing, effort.is_full, false);
         let rate = effort.samples as f64 / drawing.as_secs_f64();
         // No samples, or a clock that stood.
         if rate > 0.0 && rate.is_finite() {
@@ -163,6 +168,17 @@ mod tests {
         assert!(!pace.may_give_up());
         pace.drawn(effort(20_000, true), 900 * MS);
         assert!(pace.may_give_up());
+    }
+
+    /// Else half of the pictures would not be seen.
+    #[test]
+    fn a_movement_gives_up_nothing_that_is_soon_drawn() {
+        let mut pace = pace();
+        assert!(!pace.may_give_up());
+        for (drawing, expected) in [(320, false), (900, true), (600, false)] {
+            pace.drawn(effort(20_000, true), drawing * MS);
+            assert_eq!(pace.may_give_up(), expected, "{drawing} ms");
+        }
     }
 
     #[test]

@@ -3,10 +3,12 @@
 use crate::cast::Cast;
 use crate::cells::CellGrid;
 use crate::encode::Economy;
+use crate::whole_file::synced;
 use std::fs::File;
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::time::Instant;
+use tempfile::NamedTempFile;
 
 /// A recording takes no more memory than this: then it ends by itself.
 const MOST_BYTES: usize = 256 << 20;
@@ -24,8 +26,13 @@ pub(super) struct Recording {
 
 impl Recording {
     /// Begins now.
-    pub(super) fn new(now: Instant) -> Self {
-        Self { cast: Cast::default(), since: now, text: Vec::new(), frames: 0 }
+    ///
+    /// # Errors
+    /// If no file can be made in this folder: all would be lost at the end.
+    pub(super) fn begin(now: Instant) -> io::Result<Self> {
+        // One with a name: in a folder that was removed there may be others.
+        NamedTempFile::with_prefix_in(".spherule-", ".")?;
+        Ok(Self { cast: Cast::default(), since: now, text: Vec::new(), frames: 0 })
     }
 
     /// Takes note of what is shown from `now` on.
@@ -66,7 +73,7 @@ impl Recording {
                 Err(error) => return Err((path, error)),
             }
         };
-        match file.write_all(&self.text).and_then(|()| file.sync_all()) {
+        match file.write_all(&self.text).and_then(|()| synced(&file)) {
             Ok(()) => Ok((path, self.frames)),
             Err(error) => {
                 let _ = std::fs::remove_file(&path);

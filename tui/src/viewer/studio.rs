@@ -1,5 +1,6 @@
 //! What draws pictures: it is lent to a thread while the viewer listens.
 
+use super::picking::Cursor;
 use super::pixel_frame::NO_TEXT;
 use super::session::Picture;
 use super::shown::Shown;
@@ -62,7 +63,7 @@ impl<'a> Studio<'a> {
         }
     }
 
-    /// Draws the picture of `scene` that is wanted; also returns how long that took.
+    /// Draws the picture of `scene` that is wanted; also returns how long that took, without building a structure.
     pub(super) fn draw(
         &mut self,
         scene: &Scene,
@@ -83,7 +84,6 @@ impl<'a> Studio<'a> {
         cell: (u32, u32),
         spending: Spending,
     ) -> Result<(Picture, Duration), Error> {
-        let started = Instant::now();
         let Shown { view, style, structure, .. } = &wanted.pictured;
         let (columns, rows) = wanted.size;
         let pixels = u64::from(columns) * u64::from(rows) * u64::from(cell.0 * cell.1);
@@ -95,6 +95,7 @@ impl<'a> Studio<'a> {
         let grid = PixelGrid::in_cells(view, style, wanted.size, cell, across);
         let workload = grid.workload(scene.spheres().len());
         let search = self.structures.picture(*structure, &workload, view, scene)?;
+        let started = Instant::now();
         let image = self.renderer.draw_image(scene, &search, style.accuracy, &grid);
         let samples = pixels * u64::from(across * across);
         let effort = Effort { samples, rays: samples, is_full: across == SAMPLES };
@@ -154,14 +155,14 @@ impl<'a> Studio<'a> {
         Ok((picture, started.elapsed()))
     }
 
-    /// What is picked, in the picture that would be drawn now.
+    /// What is picked in this picture of `scene`, if a cell is.
     pub(super) fn pick<'s>(
         &mut self,
         scene: &'s Scene,
-        shown: &Shown,
-        size: (u16, u16),
+        &Wanted { ref pictured, size, .. }: &Wanted,
+        cursor: Option<Cursor>,
     ) -> Result<Option<Pick<'s>>, Error> {
-        let Shown { view, style, structure, cursor, .. } = shown;
+        let Shown { view, style, structure, .. } = pictured;
         let Some(cursor) = cursor else { return Ok(None) };
         let count = scene.spheres().len();
         let workload = picture_workload(count, style, size.0, size.1, f64::INFINITY);
@@ -169,5 +170,50 @@ impl<'a> Studio<'a> {
         let search = self.structures.picture(*structure, &workload, view, scene)?;
         let ray = cell_ray(view, style, size, (cursor.column, cursor.row));
         Ok(ray.map(|ray| Pick::new(scene, &search, level, ray)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::Srgb;
+    use crate::structure::Structure;
+    use crate::style::Style;
+    use crate::view::View;
+    use crate::viewer::Start;
+    use crate::viewer::state::State;
+    use spherule_kernel::{Level, Sphere, Vec3};
+
+    const SIZE: (u16, u16) = (8, 4);
+
+    /// Else it would be shown as the time of every picture, and fewer samples would be drawn in the next ones.
+    #[test]
+    fn the_build_of_a_tree_is_not_drawing() {
+        let mut scene = Scene::new();
+        for index in 0..20_000_u16 {
+            let [x, y, z] = [index % 30, index / 30 % 30, index / 900].map(f32::from);
+            scene.push(Sphere { center: Vec3::new(x, y, z), radius: 0.3 }, Srgb::WHITE, None);
+        }
+        let start = Start {
+            view: View::FRONT,
+            style: Style::PLAIN,
+            structure: Some(Structure::Bvh),
+            comparison: None,
+            table: false,
+            legend: false,
+        };
+        let pictured = State::new(start, (0, 1)).shown.pictured();
+        let manner = Manner { seam: 0, moving: false, spending: Spending::ByNeed };
+        for cell in [None, Some((2, 4))] {
+            let threads = Threads::default();
+            let structures = SceneStructures::new(scene.list(), &threads);
+            let mut studio = Studio::new(structures, Renderer::new(Level::best(), &threads));
+            let began = Instant::now();
+            let wanted = Wanted { scene: 0, pictured, size: SIZE, cell };
+            let drawn = studio.draw(&scene, &wanted, manner);
+            let (all, build) = (began.elapsed(), studio.structures.build_time());
+            let (_, drawing) = drawn.expect("memory for a tree");
+            assert!(build > Duration::ZERO && build + drawing <= all, "{cell:?}: {drawing:?}");
+        }
     }
 }

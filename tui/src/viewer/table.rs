@@ -5,6 +5,7 @@
 //! up.
 
 use super::shown::Shown;
+use super::worker;
 use crate::choice::Auto;
 use crate::error::Error;
 use crate::scene::Scene;
@@ -16,10 +17,9 @@ use crate::tradeoff::chart::Standing;
 use crate::tradeoff::{Question, Step};
 use crate::view::View;
 use spherule_kernel::{Level, SphereTree};
-use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::thread::{Builder, JoinHandle};
+use std::thread::JoinHandle;
 use std::time::Duration;
 
 /// The time between two looks at how far a measurement is.
@@ -147,13 +147,9 @@ impl Table {
             }
         }
         let Some(measurement) = &mut self.measurement else { return Standing::Waiting };
-        let has_ended = self.thread.as_ref().is_some_and(JoinHandle::is_finished);
         let standing = measurement.shared.standing.lock();
         let standing = standing.unwrap_or_else(PoisonError::into_inner).clone();
         measurement.is_over = matches!(standing, Standing::Done(_) | Standing::Failed(_));
-        if has_ended && !measurement.is_over {
-            self.tell_why_it_died();
-        }
         standing
     }
 
@@ -162,18 +158,10 @@ impl Table {
         let shared = Arc::new(Shared { is_unwanted: AtomicBool::new(false), standing });
         let (theirs, earlier) = (Arc::clone(&shared), self.thread.take());
         let work = move || {
-            // A panic of a measurement that is no longer wanted is not reported.
             let _ = earlier.map(JoinHandle::join);
             theirs.measure(subject, &means);
         };
-        self.thread = Some(Builder::new().name("table".into()).spawn(work)?);
+        self.thread = Some(worker::begin("table", work)?);
         Ok(Measurement { subject, shared, is_over: false })
-    }
-
-    /// A panic of the thread is one here, too.
-    fn tell_why_it_died(&mut self) {
-        if let Some(Err(panic)) = self.thread.take().map(JoinHandle::join) {
-            resume_unwind(panic);
-        }
     }
 }

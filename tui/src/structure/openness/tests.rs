@@ -5,12 +5,17 @@ fn learnt(list: &SphereList, reach: f32) -> Arc<Openness> {
     let openness = Arc::new(Openness::new(list.len(), reach));
     let around =
         Around { openness: Arc::clone(&openness), list: Arc::new(list.clone()), tree: None };
-    let (mut scratch, mut memory) = (Scratch::default(), OpennessMemory::default());
+    let threads = Threads::default();
     let all = || 0..list.len() as u32;
-    let rays = around.learn(Level::best(), &mut scratch, &mut memory, all().chain(all()));
-    assert_eq!(rays, 64 * list.len() as u64);
-    assert_eq!(around.learn(Level::best(), &mut scratch, &mut memory, all()), 0);
+    assert_eq!(learn(&around, &threads, all().chain(all())), 64 * list.len() as u64);
+    assert_eq!(learn(&around, &threads, all()), 0);
     openness
+}
+
+/// Learns some spheres, and returns how many rays that took.
+fn learn(around: &Around, threads: &Threads, spheres: impl Iterator<Item = u32>) -> u64 {
+    let (mut scratch, mut memory) = (Scratch::default(), OpennessMemory::default());
+    around.learn((Level::best(), threads), &mut scratch, &mut memory, spheres)
 }
 
 #[test]
@@ -103,14 +108,27 @@ fn in_a_heap_it_is_what_those_rays_meet() {
     assert!(all.iter().any(|&one| one < 0.5) && all.iter().any(|&one| one > 0.9));
 }
 
-/// With a tree and without, one after another and at once, and on any thread, the result is the same.
-#[test]
-fn how_it_is_found_does_not_show() {
-    let list: SphereList = (0..500_u16)
+/// So many spheres in rows of eight.
+fn rows(count: u16) -> SphereList {
+    (0..count)
         .map(|index| {
             (Vec3::new(f32::from(index % 8), f32::from(index / 8 % 8), f32::from(index / 64)), 0.6)
         })
-        .collect();
+        .collect()
+}
+
+/// Asserts that both know the same.
+fn assert_same(found: &Openness, expected: &Openness) {
+    for (sphere, (found, expected)) in found.known.iter().zip(&expected.known).enumerate() {
+        let [found, expected] = [found, expected].map(|one| one.load(Ordering::Relaxed));
+        assert_eq!(found, expected, "{sphere}");
+    }
+}
+
+/// With a tree and without, one after another and at once, and on any thread, the result is the same.
+#[test]
+fn how_it_is_found_does_not_show() {
+    let list = rows(500);
     let expected = learnt(&list, f32::INFINITY);
     let tree = Some(Arc::new(SphereTree::new(list.clone())));
     let openness = Arc::new(Openness::new(list.len(), f32::INFINITY));
@@ -120,18 +138,34 @@ fn how_it_is_found_does_not_show() {
             let around = &around;
             scope.spawn(move || {
                 let (mut scratch, mut memory) = (Scratch::default(), OpennessMemory::default());
+                let by = (Level::best(), &Threads::default());
                 for sphere in (0..500).filter(|sphere| sphere % 5 <= part) {
-                    around.learn(Level::best(), &mut scratch, &mut memory, [sphere].into_iter());
+                    around.learn(by, &mut scratch, &mut memory, [sphere].into_iter());
                 }
-                around.learn(Level::best(), &mut scratch, &mut memory, 0..500);
+                around.learn(by, &mut scratch, &mut memory, 0..500);
             });
         }
     });
-    for sphere in 0..500 {
-        let [found, expected] =
-            [&openness, &expected].map(|one| one.known[sphere].load(Ordering::Relaxed));
-        assert_eq!(found, expected, "{sphere}");
-    }
+    assert_same(&openness, &expected);
+}
+
+/// What is not learnt is learnt later, as if no one had stopped.
+#[test]
+fn stopped_threads_learn_nothing_and_what_is_known_stays() {
+    let (list, few) = (rows(500), 300);
+    let (expected, threads) = (learnt(&list, f32::INFINITY), Threads::default());
+    let openness = Arc::new(Openness::new(list.len(), f32::INFINITY));
+    let around = Around { openness: Arc::clone(&openness), list: Arc::new(list), tree: None };
+    threads.stop();
+    assert_eq!(learn(&around, &threads, 0..500), 0);
+    assert!(openness.known.iter().all(|one| one.load(Ordering::Relaxed) == UNKNOWN));
+    threads.go_on();
+    assert_eq!(learn(&around, &threads, 0..few), 64 * u64::from(few));
+    threads.stop();
+    assert_eq!(learn(&around, &threads, 0..500), 0);
+    threads.go_on();
+    assert_eq!(learn(&around, &threads, 0..500), 64 * u64::from(500 - few));
+    assert_same(&openness, &expected);
 }
 
 #[test]

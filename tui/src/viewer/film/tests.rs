@@ -154,6 +154,38 @@ fn steps_past_the_end_of_what_grows_wait_for_one_frame() {
     assert!(pipe.wait().is_none(), "it waits");
 }
 
+/// Whoever waits for what is silent does not wake up again and again.
+#[test]
+fn the_longer_no_frame_comes_the_seldomer_it_is_looked_for() {
+    for plays in [false, true] {
+        let mut film = followed("silent.xyz", 1);
+        film.is_playing = plays;
+        film.want(1);
+        assert!(film.wait() < Some(GLANCE));
+        std::thread::sleep(Duration::from_millis(400));
+        let seldom = film.wait();
+        assert!(seldom >= Some(Duration::from_millis(50)) && seldom <= Some(GLANCE), "{seldom:?}");
+        // Another frame is looked for at once.
+        film.want(2);
+        assert!(film.wait() < Some(GLANCE));
+    }
+}
+
+/// Else it would be asked for the next frame again and again.
+#[test]
+fn a_file_of_one_frame_does_not_play() {
+    let mut film = film("single.xyz", 1);
+    film.play();
+    for _ in 0..2000 {
+        assert!(film.next().is_none());
+        if !film.is_playing() {
+            break;
+        }
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    assert!(!film.is_playing() && film.wait().is_none());
+}
+
 #[test]
 fn steps_past_a_frame_that_is_wrong_lead_to_the_one_before() {
     std::fs::write(path("wrong.xyz"), text(3) + "2\n\nC 0 0 0\n").expect("a file");
