@@ -29,10 +29,10 @@ complete -c spherule -n "__fish_spherule_needs_command" -l samples -d 'Rays a ce
 complete -c spherule -n "__fish_spherule_needs_command" -l projection -d 'The projection, whatever the scene says' -r -f -a "perspective\t'Far things look smaller'
 parallel\t'They do not'"
 complete -c spherule -n "__fish_spherule_needs_command" -l eye -d 'Where the eye is, whatever the scene says' -r
-complete -c spherule -n "__fish_spherule_needs_command" -l target -d 'What it looks at, whatever the scene says' -r
-complete -c spherule -n "__fish_spherule_needs_command" -l fov -d 'The vertical field of view in degrees; of a parallel projection, the angle from the eye that is as high at the target' -r
-complete -c spherule -n "__fish_spherule_needs_command" -l orbit -d 'Then leads the eye around the target: degrees to the right, degrees up' -r
-complete -c spherule -n "__fish_spherule_needs_command" -l order -d 'Which loop is the outer one, over rays or spheres; with object there is no --structure' -r -f -a "image\t'For each ray the spheres, by a structure'
+complete -c spherule -n "__fish_spherule_needs_command" -l target -d 'The point looked at, whatever the scene says' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l fov -d 'The vertical field of view in degrees; in parallel projection, the angle at which the eye sees the height at the target' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l orbit -d 'Then lead the eye around the target: degrees right, degrees up' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l order -d 'Which loop is the outer one, over rays or spheres; object excludes --structure' -r -f -a "image\t'For each ray the spheres, by a structure'
 object\t'For each sphere the rays that may meet it'"
 complete -c spherule -n "__fish_spherule_needs_command" -l format -d 'Format of the scene [default: by content; .gz and .bz2 are unpacked]' -r -f -a "toml\t'Spheres, lights and a camera: Spherule\'s own'
 xyz\t'XYZ and extended XYZ'
@@ -74,7 +74,7 @@ complete -c spherule -n "__fish_spherule_needs_command" -l background -d 'The co
 complete -c spherule -n "__fish_spherule_needs_command" -l palette -d 'What the terminal\'s 16 colours are: xterm, vga, tango, solarized, or 16 of six digits, with commas [default: xterm, on Linux\'s console vga]' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l cell-aspect -d 'Shape of a cell, width to height [default: the terminal\'s, else 1:2]' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l distance -d 'How far away the eye is, in widths of a cell: 60 cm by default, if cells are 2.2 mm wide' -r
-complete -c spherule -n "__fish_spherule_needs_command" -l show -d 'error: what the tier gets wrong against exact, cell by cell; split:TIER,TIER: two tiers side by side; table: what every tier takes and gets wrong' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l show -d 'error: what the tier gets wrong against exact, cell by cell; split:TIER,TIER: two tiers side by side; table: what every tier costs and gets wrong' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l color-by -d 'What spheres are coloured by: scene, element, chain, residue, molecule, type, or a column of numbers [default: chain if there are several, else scene]' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l range -d 'The numbers with the darkest and the lightest colour, with --color-by a column [default: the least and the largest of the frames so far]' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l structure -d 'How spheres are searched' -r -f -a "auto\t'Whatever suits'
@@ -93,15 +93,15 @@ sixel\t'Pixels in 256 colours'
 iterm2\t'Pixels by iTerm2\'s protocol'"
 complete -c spherule -n "__fish_spherule_needs_command" -l cast -d 'Write one turn around the scene as a recording of a terminal (asciinema, version 2); - for standard output' -r -F
 complete -c spherule -n "__fish_spherule_needs_command" -l png -d 'Write one picture as a PNG of 8x16 pixels a cell; - for standard output' -r -F
-complete -c spherule -n "__fish_spherule_needs_command" -l pick -d 'In place of a picture, write what the ray through the middle of a cell meets, by every tier' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l pick -d 'Instead of a picture, write what the ray through the middle of a cell meets, by every tier' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l strict -d 'Refuse particles of unknown types, which are drawn grey otherwise'
 complete -c spherule -n "__fish_spherule_needs_command" -l follow -d 'Wait for frames that are still being written'
 complete -c spherule -n "__fish_spherule_needs_command" -l legend -d 'Write what colours mean over the picture, also outside the viewer'
-complete -c spherule -n "__fish_spherule_needs_command" -l occlusion -d 'Less light where others are in the way; auto: if there are chains'
-complete -c spherule -n "__fish_spherule_needs_command" -l edges -d 'Dark edges before what is far behind, and around chains; auto: if there are chains'
-complete -c spherule -n "__fish_spherule_needs_command" -l depth-cue -d 'What is far away fades; auto: if there are chains'
+complete -c spherule -n "__fish_spherule_needs_command" -l occlusion -d 'Darken spheres where others block light; auto: if there are chains'
+complete -c spherule -n "__fish_spherule_needs_command" -l edges -d 'Darken edges before far things, and around chains; auto: if there are chains'
+complete -c spherule -n "__fish_spherule_needs_command" -l depth-cue -d 'Fade what is far away; auto: if there are chains'
 complete -c spherule -n "__fish_spherule_needs_command" -l no-probe -d 'Ask the terminal nothing: not what it can do, nor how far it has come'
-complete -c spherule -n "__fish_spherule_needs_command" -l lossless -d 'Send every frame of the viewer as it is, and none that looks alike'
+complete -c spherule -n "__fish_spherule_needs_command" -l lossless -d 'Send the viewer\'s frames exactly, none that merely looks alike'
 complete -c spherule -n "__fish_spherule_needs_command" -l once -d 'Write one picture, also to a terminal; so does --size'
 complete -c spherule -n "__fish_spherule_needs_command" -l json -d 'With --pick, write a JSON object'
 complete -c spherule -n "__fish_spherule_needs_command" -s h -l help -d 'Print help (see more with \'--help\')'
@@ -129,8 +129,8 @@ complete -c spherule -n "__fish_spherule_using_subcommand trace" -l threads -d '
 complete -c spherule -n "__fish_spherule_using_subcommand trace" -l level -d 'Instructions [default: the best that the CPU has]' -r -f -a "baseline\t''
 avx2\t''
 avx512\t''"
-complete -c spherule -n "__fish_spherule_using_subcommand trace" -l pairs -d 'Ray i meets sphere i alone'
-complete -c spherule -n "__fish_spherule_using_subcommand trace" -l any -d 'Only whether a ray meets anything'
+complete -c spherule -n "__fish_spherule_using_subcommand trace" -l pairs -d 'Test ray i against sphere i'
+complete -c spherule -n "__fish_spherule_using_subcommand trace" -l any -d 'Write only whether rays hit anything'
 complete -c spherule -n "__fish_spherule_using_subcommand trace" -l json -d 'Report as a JSON object'
 complete -c spherule -n "__fish_spherule_using_subcommand trace" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l size -d 'Picture size in cells, each 1 to 4096, without the viewer [default: 80x24; on a terminal all rows but the last]' -r
@@ -138,10 +138,10 @@ complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l samples -
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l projection -d 'The projection, whatever the scene says' -r -f -a "perspective\t'Far things look smaller'
 parallel\t'They do not'"
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l eye -d 'Where the eye is, whatever the scene says' -r
-complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l target -d 'What it looks at, whatever the scene says' -r
-complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l fov -d 'The vertical field of view in degrees; of a parallel projection, the angle from the eye that is as high at the target' -r
-complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l orbit -d 'Then leads the eye around the target: degrees to the right, degrees up' -r
-complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l order -d 'Which loop is the outer one, over rays or spheres; with object there is no --structure' -r -f -a "image\t'For each ray the spheres, by a structure'
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l target -d 'The point looked at, whatever the scene says' -r
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l fov -d 'The vertical field of view in degrees; in parallel projection, the angle at which the eye sees the height at the target' -r
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l orbit -d 'Then lead the eye around the target: degrees right, degrees up' -r
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l order -d 'Which loop is the outer one, over rays or spheres; object excludes --structure' -r -f -a "image\t'For each ray the spheres, by a structure'
 object\t'For each sphere the rays that may meet it'"
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l format -d 'Format of the scene [default: by content; .gz and .bz2 are unpacked]' -r -f -a "toml\t'Spheres, lights and a camera: Spherule\'s own'
 xyz\t'XYZ and extended XYZ'
@@ -192,16 +192,16 @@ complete -c spherule -n "__fish_spherule_using_subcommand cases" -l out-spheres 
 complete -c spherule -n "__fish_spherule_using_subcommand cases" -l out-rays -d 'Where to write rays: .npy, float32, (N, 8): origin xyz, direction xyz, `t_min`, `t_max`' -r -F
 complete -c spherule -n "__fish_spherule_using_subcommand cases" -l out-family -d 'Where to write the numbers of families: .npy, uint8, (N,)' -r -F
 complete -c spherule -n "__fish_spherule_using_subcommand cases" -l unit -d 'Bring directions to unit length, as near as float32 does'
-complete -c spherule -n "__fish_spherule_using_subcommand cases" -l json -d 'Write each case as a line of JSON, numbers as hexadecimal floats, with the true t; without files, whose families are listed'
+complete -c spherule -n "__fish_spherule_using_subcommand cases" -l json -d 'Write each case as a line of JSON, numbers as hexadecimal floats, with the true t, instead of files'
 complete -c spherule -n "__fish_spherule_using_subcommand cases" -s h -l help -d 'Print help'
 complete -c spherule -n "__fish_spherule_using_subcommand judge" -l spheres -d 'Spheres: .npy, float32, (N, 4): centre xyz, radius' -r -F
 complete -c spherule -n "__fish_spherule_using_subcommand judge" -l rays -d 'Rays: .npy, float32, (M, 8): origin xyz, direction xyz, `t_min`, `t_max`' -r -F
 complete -c spherule -n "__fish_spherule_using_subcommand judge" -l t -d 'Answers: .npy, float32 or float64, (M,), +inf if a ray has no hit' -r -F
 complete -c spherule -n "__fish_spherule_using_subcommand judge" -l id -d 'The spheres that were answered: .npy, int32, int64 or uint32, (M,), -1 if a ray has no hit' -r -F
 complete -c spherule -n "__fish_spherule_using_subcommand judge" -l family -d 'The family of each ray, as `spherule cases` writes them: .npy, uint8, (M,)' -r -F
-complete -c spherule -n "__fish_spherule_using_subcommand judge" -l rules -d 'What the program promises otherwise than Spherule does: a .toml file' -r -F
+complete -c spherule -n "__fish_spherule_using_subcommand judge" -l rules -d 'Where the program\'s rules are not Spherule\'s: a .toml file' -r -F
 complete -c spherule -n "__fish_spherule_using_subcommand judge" -l again -d 'A command that answers other pairs: it is called with the names of S.npy and R.npy, which it reads, and T.npy, which it writes; so the smallest failures are made smaller' -r
-complete -c spherule -n "__fish_spherule_using_subcommand judge" -l pairs -d 'Ray i meets sphere i alone'
+complete -c spherule -n "__fish_spherule_using_subcommand judge" -l pairs -d 'Test ray i against sphere i'
 complete -c spherule -n "__fish_spherule_using_subcommand judge" -l json -d 'Report as a JSON object'
 complete -c spherule -n "__fish_spherule_using_subcommand judge" -l chart -d 'Show where in each family answers are wrong'
 complete -c spherule -n "__fish_spherule_using_subcommand judge" -s h -l help -d 'Print help'

@@ -109,7 +109,7 @@ pub struct PictureArguments {
     #[arg(long, value_name = "WIDTHS", default_value_t = CHAIR, value_parser = distance, allow_negative_numbers = true)]
     pub distance: f32,
     /// error: what the tier gets wrong against exact, cell by cell; split:TIER,TIER: two tiers side by side; table: what
-    /// every tier takes and gets wrong
+    /// every tier costs and gets wrong
     #[arg(long, value_name = "WHAT", value_parser = overlay, conflicts_with = "png")]
     pub show: Option<Overlay>,
     /// What tells spheres of a crowd apart.
@@ -121,7 +121,7 @@ pub struct PictureArguments {
     /// Ask the terminal nothing: not what it can do, nor how far it has come
     #[arg(long)]
     pub no_probe: bool,
-    /// Send every frame of the viewer as it is, and none that looks alike
+    /// Send the viewer's frames exactly, none that merely looks alike
     #[arg(long)]
     pub lossless: bool,
     /// Frames a second of the viewer at most, 1 to 240 [default: 60, over SSH 30]
@@ -141,7 +141,7 @@ pub struct PictureArguments {
     /// Write one picture as a PNG of 8x16 pixels a cell; - for standard output
     #[arg(long, value_name = "FILE")]
     pub png: Option<PathBuf>,
-    /// In place of a picture, write what the ray through the middle of a cell meets, by every tier
+    /// Instead of a picture, write what the ray through the middle of a cell meets, by every tier
     ///
     /// Cells are counted from 0, from the top left of the picture that --once writes. p in the viewer shows the same.
     #[arg(long, value_name = "COL,ROW", value_parser = cell, conflicts_with_all = ["png", "show"], allow_hyphen_values = true)]
@@ -176,10 +176,10 @@ pub struct TraceArguments {
     /// Rays: .npy, float32 or float64, (M, 8): origin xyz, direction xyz, `t_min`, `t_max`
     #[arg(long, value_name = "R.npy")]
     pub rays: PathBuf,
-    /// Ray i meets sphere i alone
+    /// Test ray i against sphere i
     #[arg(long)]
     pub pairs: bool,
-    /// Only whether a ray meets anything
+    /// Write only whether rays hit anything
     #[arg(long, conflicts_with = "out_t")]
     pub any: bool,
     /// Where to write t: .npy, float32, (M,), +inf if a ray has no hit

@@ -48,7 +48,7 @@ pub struct CasesArguments {
     /// Where to write the numbers of families: .npy, uint8, (N,)
     #[arg(long, value_name = "F.npy")]
     pub out_family: Option<PathBuf>,
-    /// Write each case as a line of JSON, numbers as hexadecimal floats, with the true t; without files, whose families are listed
+    /// Write each case as a line of JSON, numbers as hexadecimal floats, with the true t, instead of files
     #[arg(long, value_parser = value_parser!(bool), conflicts_with_all = ["out_spheres", "out_rays", "out_family"])]
     pub json: bool,
 }

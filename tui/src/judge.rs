@@ -39,13 +39,13 @@ pub struct JudgeArguments {
     /// The spheres that were answered: .npy, int32, int64 or uint32, (M,), -1 if a ray has no hit
     #[arg(long, value_name = "I.npy")]
     pub id: Option<PathBuf>,
-    /// Ray i meets sphere i alone
+    /// Test ray i against sphere i
     #[arg(long)]
     pub pairs: bool,
     /// The family of each ray, as `spherule cases` writes them: .npy, uint8, (M,)
     #[arg(long, value_name = "F.npy")]
     pub family: Option<PathBuf>,
-    /// What the program promises otherwise than Spherule does: a .toml file
+    /// Where the program's rules are not Spherule's: a .toml file
     #[arg(long, value_name = "FILE")]
     pub rules: Option<PathBuf>,
     /// A command that answers other pairs: it is called with the names of S.npy and R.npy, which it reads, and T.npy, which it

@@ -30,15 +30,15 @@ pub struct CrowdArguments {
     /// Write what colours mean over the picture, also outside the viewer
     #[arg(long, conflicts_with_all = ["png", "pick", "cast"])]
     pub legend: bool,
-    /// Less light where others are in the way; auto: if there are chains
+    /// Darken spheres where others block light; auto: if there are chains
     #[arg(long, value_name = "WHEN", default_value = "auto", value_parser = auto_or::<Switch>())]
     #[arg(num_args = 0..=1, require_equals = true, default_missing_value = "on")]
     pub occlusion: Auto<Switch>,
-    /// Dark edges before what is far behind, and around chains; auto: if there are chains
+    /// Darken edges before far things, and around chains; auto: if there are chains
     #[arg(long, value_name = "WHEN", default_value = "auto", value_parser = auto_or::<Switch>())]
     #[arg(num_args = 0..=1, require_equals = true, default_missing_value = "on")]
     pub edges: Auto<Switch>,
-    /// What is far away fades; auto: if there are chains
+    /// Fade what is far away; auto: if there are chains
     #[arg(long, value_name = "WHEN", default_value = "auto", value_parser = auto_or::<Switch>())]
     #[arg(num_args = 0..=1, require_equals = true, default_missing_value = "on")]
     pub depth_cue: Auto<Switch>,

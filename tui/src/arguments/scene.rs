@@ -31,16 +31,16 @@ pub struct SceneArguments {
     /// Where the eye is, whatever the scene says
     #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
     pub eye: Option<DVec3>,
-    /// What it looks at, whatever the scene says
+    /// The point looked at, whatever the scene says
     #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
     pub target: Option<DVec3>,
-    /// The vertical field of view in degrees; of a parallel projection, the angle from the eye that is as high at the target
+    /// The vertical field of view in degrees; in parallel projection, the angle at which the eye sees the height at the target
     #[arg(long, value_name = "DEGREES", value_parser = field_of_view, allow_negative_numbers = true)]
     pub fov: Option<f64>,
-    /// Then leads the eye around the target: degrees to the right, degrees up
+    /// Then lead the eye around the target: degrees right, degrees up
     #[arg(long, value_name = "RIGHT,UP", value_parser = orbit, allow_hyphen_values = true)]
     pub orbit: Option<[f32; 2]>,
-    /// Which loop is the outer one, over rays or spheres; with object there is no --structure
+    /// Which loop is the outer one, over rays or spheres; object excludes --structure
     #[arg(long, value_name = "ORDER", default_value = "image")]
     pub order: Order,
     /// What is to know of a file.
