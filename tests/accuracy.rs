@@ -97,7 +97,7 @@ fn wrong_decisions_are_counted_by_their_kind() {
     errors.record(&case, Some([-2.0, -1.0]), Some(1.0));
     errors.record(&case, Some([1.0, 2.0]), None);
     errors.record(&case, Some([1.0, 2.0]), Some(1.0));
-    errors.record(&case, Some([1.0, 2.0]), Some(1.75));
+    errors.record(&case, Some([0.25, 0.75]), Some(0.625));
     errors.record(&case, Some([-1.0, 2.0]), Some(2.0));
     errors.record(&case, Some([2.0, 2.0]), Some(2.0));
     let expected = Summary {
@@ -120,6 +120,10 @@ fn places_are_measured_in_the_scene() {
     assert_eq!(errors.place(), 1);
     errors.record(&case, Some([0.25, 0.75]), Some(step(0.25, -12)));
     assert_eq!(errors.place(), 6);
-    errors.record(&case, Some([0.25, 0.25]), Some(f32::MAX));
+    // The other root is another place; a tangent has none.
+    errors.record(&case, Some([0.25, 0.75]), Some(f32::MAX));
+    assert_eq!(errors.place(), 6);
+    let tangent = Case::from_numbers([1.0, 0.0, -2.0, 0.0, 0.0, 4.0, 0.0, 9.0, 0.0, 0.0, 0.0, 1.0]);
+    errors.record(&tangent, Some([0.5, 0.5]), Some(f32::MAX));
     assert_eq!(errors.place(), u64::MAX);
 }

@@ -58,8 +58,14 @@ impl OneLane {
             let met: Vec<Sphere> = spheres.iter().map(only_met).collect();
             reference(tier).closest(&met, &[*ray])[0]
         };
-        let true_hits = rays.iter().map(closest_true).collect();
-        Self { tier, hits: reference(tier).closest(spheres, rays), true_hits }
+        let hits = reference(tier).closest(spheres, rays);
+        // Only these tiers see hits on lines that miss.
+        let true_hits = if matches!(tier, Tier::Fast | Tier::Geometric) {
+            rays.iter().map(closest_true).collect()
+        } else {
+            hits.clone()
+        };
+        Self { tier, hits, true_hits }
     }
 }
 

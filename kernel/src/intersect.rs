@@ -60,7 +60,7 @@ use crate::trace::Trace;
 /// shuffled rays of a long call takes 130 to 160 KiB by slices with AVX2, 96 to 128 at the baseline. (Rust's threads have 2 MiB
 /// by default.) All other slices take 40 KiB.
 ///
-/// Without `std`, slices take some 8 KiB in a list. One ray a call takes 0.7 to 2.3 KiB on a Cortex-M4F, by tier and structure;
+/// Without `std`, slices take some 8 KiB in a list. One ray a call takes 0.6 to 2.6 KiB on a Cortex-M4F, by tier and structure;
 /// `docs/targets.md` says how much to provide.
 ///
 /// # Where it runs

@@ -42,8 +42,8 @@ impl Surface {
     /// [`side`](crate::side()) proves that the origin is on that side. If `tier` is `Exact`, r is at least 2^10 ulps of the origin's
     /// largest coordinate, and `direction` points to `side`, the origin is one or two of these ulps from the surface, and as near the point
     /// as double precision knows it, some 2^-50 of the ray's way. (Near the coordinates' zero, where an ulp is below 2^-45 r, it is as far
-    /// from the surface as its far side needs. If the ray goes back by a cosine below 2^-20, it is up to 2^-40 r higher, to pass over the
-    /// sphere.) For the other tiers it is as far away as they need in order not to see the sphere there. The interval begins 2^-42 r from
+    /// from the surface as its far side needs. If the ray goes back by a cosine below 2^-20, it is up to 2^-40 r and an ulp higher, to pass over
+    /// the sphere.) For the other tiers it is as far away as they need in order not to see the sphere there. The interval begins 2^-42 r from
     /// the origin, or at 2^-149 if that is more (2^-149 |d| is long only for very long directions), and has no end.
     ///
     /// If `direction` points to `side`, an outside ray never meets the sphere again, and an inside ray meets its far side,

@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 use std::{fs, process};
 
 /// Gives the program that follows process IDs of its own, from 1 on.
-const OWN_IDS: [&str; 3] = ["--pid", "--fork", "--mount-proc"];
+const OWN_IDS: [&str; 4] = ["--pid", "--fork", "--kill-child", "--mount-proc"];
 
 /// The system spares an init from signals without a handler, so it cannot end by one.
 #[test]
@@ -19,7 +19,7 @@ fn an_init_that_a_signal_ends_has_the_exit_code_of_shells() {
         println!("skipped: no process IDs of one's own");
         return;
     }
-    // Who is outside sends signals as any process; this is for what is inside.
+    // An init is spared only signals from inside, so the signal comes from there.
     let go = std::env::temp_dir().join(format!("spherule-{}-go", process::id()));
     let wait = format!("while ! [ -e '{}' ]; do sleep 0.05; done", go.display());
     let script = format!("({wait}; kill -TERM 1) & exec \"$0\" \"$@\"");

@@ -5,6 +5,7 @@ use spherule::tally::Tally;
 pub use spherule::tally::{Summary, Ulp};
 use spherule_referee::aim::double;
 use spherule_referee::case::Case;
+use spherule_referee::middle::is_at_the_other_root;
 use spherule_referee::random::{dot, power_of_two};
 
 /// What one engine gets wrong.
@@ -21,12 +22,12 @@ impl Errors {
     /// one before it.
     pub fn record(&mut self, case: &Case, roots: Option<[f32; 2]>, answer: Option<f32>) {
         let truth = roots.and_then(|roots| oracle::accepted(&case.ray, roots));
-        let away = |a: f32, b: f32| (f64::from(a) - f64::from(b)).abs();
         let mut elsewhere = false;
-        if let (Some(answer), Some(truth), Some(roots)) = (answer, truth, roots) {
-            let error = away(answer, truth);
-            elsewhere = roots.iter().any(|&root| away(answer, root) < error);
+        if let (Some(answer), Some(truth)) = (answer, truth) {
+            let t = f64::from(answer);
+            elsewhere = is_at_the_other_root(&case.ray, &case.sphere, t, truth);
             if !elsewhere {
+                let error = (t - f64::from(truth)).abs();
                 self.worst_place = self.worst_place.max(error / scene_unit(case));
             }
         }

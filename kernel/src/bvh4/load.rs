@@ -46,7 +46,7 @@ impl<'a> Bvh4<'a> {
     ///
     /// Any words may be given: a tree that is loaded answers as the list does, and all other words are an error.
     ///
-    /// Cost: some hundreds of operations a sphere, since each box is computed anew from its spheres. Stack: at most 1.4 KiB
+    /// Cost: some hundreds of operations a sphere, since each box is computed anew from its spheres. Stack: some 2 KiB
     /// on 32 bits. No other memory.
     ///
     /// # Errors

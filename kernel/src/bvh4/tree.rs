@@ -106,7 +106,7 @@ impl<'a> Bvh4<'a> {
     /// target.
     ///
     /// Cost: time in proportion to n log² n for n spheres, wherever they lie. (A ray that meets a sphere also meets all spheres
-    /// that are equal to it.) Stack: some 1.9 KiB on 32 bits. No other memory.
+    /// that are equal to it.) Stack: some 2.5 KiB on 32 bits. No other memory.
     ///
     /// # Errors
     /// [`TooSmall`] if there are fewer words than [`Bvh4::needed`] says; more words are no error, and the rest is left as it

@@ -73,12 +73,12 @@ impl TierWork for LineRoots<'_> {
     }
 }
 
-/// Returns `Less` if the first of two hits is closer, for callers who keep the closest themselves. Each hit is the t of
-/// `tier`'s answer, and its sphere.
+/// Returns `Less` if the first of two hits is closer, for callers who keep the closest themselves. Each hit is a root by `tier`, and its
+/// sphere; if both roots are t, the near one is meant.
 ///
 /// [`Exact`](crate::Exact) compares the roots as real numbers, which may differ where t are equal. `Equal` means that they
-/// are the same number; then the lower index is the closer hit. The other tiers compare t. If t is not the tier's answer
-/// for its sphere, the result has no meaning. Cost: nothing if the two t differ; else some 50 ns, and some microseconds
+/// are the same number; then the lower index is the closer hit. The other tiers compare t. If t is no root of its sphere by
+/// the tier, the result has no meaning. Cost: nothing if the two t differ; else some 50 ns, and some microseconds
 /// where double precision cannot tell.
 ///
 /// ```

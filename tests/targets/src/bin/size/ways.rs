@@ -48,26 +48,26 @@ const OF_SURFACES: bool = ends_with("-hard_surface") || ends_with("-hard_spawn")
 pub fn draw() {
     if OF_MANY {
         draw_many();
-    } else if ends_with("-hard") {
+    } else if const { ends_with("-hard") } {
         hard::by_list();
-    } else if ends_with("-hard_tree") {
+    } else if const { ends_with("-hard_tree") } {
         hard::by_tree();
     } else if OF_SURFACES {
         hard::surfaces();
-    } else if !ends_with("-none") {
+    } else if const { !ends_with("-none") } {
         let Some(spheres) = scene::spheres() else { return };
-        if ends_with("-slice") { slices(spheres) } else { pixels(spheres) }
+        if const { ends_with("-slice") } { slices(spheres) } else { pixels(spheres) }
     }
 }
 
 /// Draws many spheres.
 fn draw_many() {
     let Some(spheres) = many::spheres() else { return };
-    if ends_with("-many") {
+    if const { ends_with("-many") } {
         draw_all(&spheres);
-    } else if ends_with("-built") {
+    } else if const { ends_with("-built") } {
         built(spheres);
-    } else if ends_with("-bvh") {
+    } else if const { ends_with("-bvh") } {
         sixteen_wide(spheres);
     } else if let Ok(tree) = Bvh4::load(spheres, black_box(&BAKED_TREE)) {
         draw_all(&tree);
@@ -81,17 +81,17 @@ fn pixels(spheres: Spheres<'_>) {
     for y in 0..HEIGHT {
         for x in 0..WIDTH {
             let ray = camera.get_ray(x, y);
-            if ends_with("-closest") {
+            if const { ends_with("-closest") } {
                 let hit = by_tier!(tier => spheres.closest_hit(tier, &ray));
                 mark(place, hit.map(|hit| hit.sphere));
-            } else if ends_with("-any") {
+            } else if const { ends_with("-any") } {
                 mark(place, by_tier!(tier => spheres.any_hit(tier, &ray)).then_some(0));
-            } else if ends_with("-vsqrt") {
+            } else if const { ends_with("-vsqrt") } {
                 let (rays, mut hits) = ([RayPacket::new(&[ray])], [HitPacket::none()]);
                 let trace = &mut Trace::new();
                 by_tier!(tier => spheres.closest_hit_lanes::<HardwareRoot>(tier, (), trace, &rays, &mut hits));
                 mark(place, hits[0].hit(0).map(|hit| hit.sphere));
-            } else if ends_with("-f32x4") && x % 4 == 0 {
+            } else if const { ends_with("-f32x4") } && x % 4 == 0 {
                 let rays = [0, 1, 2, 3].map(|next| camera.get_ray(x + next, y));
                 let (rays, mut hits) = ([RayPacket::new(&rays)], [HitPacket::none()]);
                 let trace = &mut Trace::new();
@@ -99,11 +99,11 @@ fn pixels(spheres: Spheres<'_>) {
                 for lane in 0..4 {
                     mark(place + lane, hits[0].hit(lane).map(|hit| hit.sphere));
                 }
-            } else if ends_with("-libm") {
+            } else if const { ends_with("-libm") } {
                 mark(place, textbook(spheres, &ray, libm::sqrtf));
-            } else if ends_with("-micromath") {
+            } else if const { ends_with("-micromath") } {
                 mark(place, textbook(spheres, &ray, micromath::F32Ext::sqrt));
-            } else if ends_with("-pairs") || ends_with("-roots") {
+            } else if const { ends_with("-pairs") } || const { ends_with("-roots") } {
                 nearest(spheres, &ray, place);
             }
             place += 1;
@@ -118,7 +118,7 @@ fn draw_all(structure: &impl Intersect) {
     for y in 0..HEIGHT {
         for x in 0..WIDTH {
             let ray = camera.get_ray(x, y);
-            if ends_with("_any") {
+            if const { ends_with("_any") } {
                 mark(place, by_tier!(tier => structure.any_hit(tier, &ray)).then_some(0));
             } else {
                 let hit = by_tier!(tier => structure.closest_hit(tier, &ray));
@@ -155,7 +155,7 @@ const MANY: usize = many::COUNT;
 fn nearest(spheres: Spheres<'_>, ray: &Ray, place: usize) {
     let (mut closest, mut index) = ((f32::INFINITY, None), 0);
     while let Some(sphere) = spheres.get(index) {
-        let t = if ends_with("-roots") {
+        let t = if const { ends_with("-roots") } {
             by_tier!(tier => roots(tier, ray, &sphere)).map_or(f32::INFINITY, |[near, _]| near)
         } else {
             let (rays, others) = (RayPacket::new(&[*ray]), SpherePacket::new(&[sphere]));
