@@ -29,7 +29,14 @@ pub(crate) fn origin() -> String {
 
 /// Whether the working tree of a folder differs from its commit, except for the pages, of which a report writes several.
 pub(crate) fn has_changes(folder: &Path) -> bool {
-    let arguments = ["status", "--porcelain", "--", ":/", ":(top,exclude)docs/benchmarks"];
+    let arguments = [
+        "status",
+        "--porcelain",
+        "--untracked-files=normal",
+        "--",
+        ":/",
+        ":(top,exclude)docs/benchmarks",
+    ];
     !output_of(folder, "git", &arguments).is_empty()
 }
 

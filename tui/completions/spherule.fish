@@ -81,7 +81,7 @@ complete -c spherule -n "__fish_spherule_needs_command" -l structure -d 'How sph
 brute\t'All spheres, from end to end'
 depth-list\t'The spheres by their depth, sorted for every picture'
 bvh\t'A tree of boxes, built once'"
-complete -c spherule -n "__fish_spherule_needs_command" -l threads -d 'Threads, 1 to 1024 [default: all that the machine has]' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l threads -d 'Threads, 1 to 1024 [default: one a core, or as many as the system gives]' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l level -d 'Instructions [default: the best that the CPU has]' -r -f -a "baseline\t''
 avx2\t''
 avx512\t''"
@@ -125,7 +125,7 @@ complete -c spherule -n "__fish_spherule_using_subcommand trace" -l structure -d
 brute\t'All spheres, from end to end'
 depth-list\t'The spheres by their depth, sorted for every picture'
 bvh\t'A tree of boxes, built once'"
-complete -c spherule -n "__fish_spherule_using_subcommand trace" -l threads -d 'Threads, 1 to 1024 [default: all that the machine has]' -r
+complete -c spherule -n "__fish_spherule_using_subcommand trace" -l threads -d 'Threads, 1 to 1024 [default: one a core, or as many as the system gives]' -r
 complete -c spherule -n "__fish_spherule_using_subcommand trace" -l level -d 'Instructions [default: the best that the CPU has]' -r -f -a "baseline\t''
 avx2\t''
 avx512\t''"
@@ -165,7 +165,7 @@ complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l structure
 brute\t'All spheres, from end to end'
 depth-list\t'The spheres by their depth, sorted for every picture'
 bvh\t'A tree of boxes, built once'"
-complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l threads -d 'Threads, 1 to 1024 [default: all that the machine has]' -r
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l threads -d 'Threads, 1 to 1024 [default: one a core, or as many as the system gives]' -r
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l level -d 'Instructions [default: the best that the CPU has]' -r -f -a "baseline\t''
 avx2\t''
 avx512\t''"

@@ -158,7 +158,7 @@ pub struct ComputingArguments {
     /// How spheres are searched
     #[arg(long, value_name = "HOW", default_value = "auto", value_parser = auto_or::<Structure>())]
     pub structure: Auto<Structure>,
-    /// Threads, 1 to 1024 [default: all that the machine has]
+    /// Threads, 1 to 1024 [default: one a core, or as many as the system gives]
     #[arg(long, value_name = "N")]
     #[arg(value_parser = value_parser!(u16).range(1..=i64::from(MOST_THREADS)), allow_negative_numbers = true)]
     pub threads: Option<u16>,

@@ -8,7 +8,8 @@ use spherule_kernel::Join;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::sync::{Mutex, PoisonError};
-use std::thread::available_parallelism;
+use std::thread::{available_parallelism, sleep};
+use std::time::Duration;
 use std::{io, iter};
 
 /// The most threads that there can be.
@@ -129,7 +130,9 @@ impl Threads {
 /// What `build` makes of `count` threads, or of the half if it cannot, and so on; `None` if only the caller's own is left.
 fn as_many<P, E>(count: usize, build: impl Fn(usize) -> Result<P, E>) -> Option<P> {
     let counts = iter::successors(Some(count), |count| Some(count / 2));
-    counts.take_while(|&count| count > 1).find_map(|count| build(count).ok())
+    // Threads of the last try must have ended: they count, too.
+    let rest = |_| sleep(Duration::from_millis(20));
+    counts.take_while(|&count| count > 1).find_map(|count| build(count).map_err(rest).ok())
 }
 
 impl Join for Threads {

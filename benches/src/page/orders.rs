@@ -56,8 +56,8 @@ pub(crate) fn page(origin: &str, all: &[Row]) -> String {
          and Embree, 3.13 or 4.4, in its quickest call with the same instructions (for the baseline, SSE4.2), rays said to be coherent or \
          not, in blocks that are in the cache. \
          Medians of {} to {} interleaved rounds of the thread's own time, ratios round by round. ~: on a part of the rays far slower than \
-         the best, so timed there alone: the rate is ray by ray's on all, by the quotient of both on that part (so, too, if they were as \
-         slow, rays said to be coherent). {}\
+         the best, so timed there alone: the rate is ray by ray's on all, by the quotient of both on that part (rays said to be \
+         coherent are treated alike). {}\
          Before anything is timed, every way answers as ray by ray does, bit for bit, which answers as brute force does on a sample. \
          The orders: [orders.rs](../../tests/src/orders.rs).\n\n{}\n{}\n{}\n{}{}",
         build(),

@@ -189,7 +189,7 @@ mod tests {
     #[test]
     fn whoever_stops_drawing_does_not_wait_for_a_pipe() {
         let (reader, mut writer) = std::io::pipe().expect("a pipe");
-        writer.write_all(THREE[..THREE.len() - 4].as_bytes()).expect("room in the pipe");
+        writer.write_all(&THREE.as_bytes()[..THREE.len() - 4]).expect("room in the pipe");
         let (sender, ended) = sync_channel(1);
         thread::spawn(move || {
             let reading = Reading { format: Some(Format::Xyz), ..Reading::default() };

@@ -3,9 +3,9 @@
 //! A thread of its own takes them, so that a long frame does not hold them up.
 
 use super::screen::{leave, restore, resume};
-use crate::error::signal::{self, ENDING, at_last, end_by};
+use crate::error::signal::{self, ENDING, at_last, end_by, heard};
 use crossterm::terminal;
-use signal_hook::consts::{SIGCONT, SIGTSTP};
+use signal_hook::consts::{SIGCONT, SIGHUP, SIGTSTP};
 use signal_hook::low_level::emulate_default_handler;
 use std::io;
 use std::sync::atomic::{AtomicBool, Ordering::SeqCst};
@@ -16,7 +16,10 @@ pub(super) fn watch() -> io::Result<()> {
     if WATCHING.swap(true, SeqCst) {
         return Ok(());
     }
-    signal::watch(ENDING.into_iter().chain([SIGTSTP, SIGCONT]), |signal| match signal {
+    // A viewer without its terminal has nothing to do, whatever its starter ignores.
+    let heard = heard();
+    let ending = ENDING.into_iter().filter(|signal| *signal == SIGHUP || heard.contains(signal));
+    signal::watch(ending.chain([SIGTSTP, SIGCONT]), |signal| match signal {
         SIGCONT => resume(),
         SIGTSTP => {
             leave();

@@ -114,7 +114,7 @@ mod tests {
     #[test]
     fn without_another_thread_it_is_done_on_this_one() {
         // No system has memory for such a stack.
-        let builder = Builder::new().stack_size(1 << (usize::BITS - 4));
+        let builder = Builder::new().stack_size(1 << (usize::BITS - 1));
         let (threads, work) = (Threads::default(), || current().id());
         let done = attend_on(builder, &threads, work, || panic!("there is no look"));
         assert_eq!(done, Ok(Some(current().id())));

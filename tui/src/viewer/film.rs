@@ -154,7 +154,7 @@ impl Film {
         /// Between two looks for a frame that is still being read, at first.
         const LOOK: Duration = Duration::from_millis(5);
         let is_awaited = self.target != self.shown;
-        // The longer none has come, the seldomer: a pipe may be silent for ever.
+        // The longer none has come, the longer the wait: a pipe may be silent for ever.
         let seldom = if is_awaited { self.asked.elapsed() / 8 } else { LOOK };
         let look = seldom.clamp(LOOK, GLANCE);
         if self.is_playing {
@@ -241,6 +241,8 @@ impl Film {
             state.want(self.target);
             self.shared.changed.notify_all();
             if self.target == self.shown {
+                // No other frame has particles.
+                self.is_playing = false;
                 return None;
             }
         }

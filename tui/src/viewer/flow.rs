@@ -188,7 +188,7 @@ mod tests {
         assert!(flow.most_bytes() > 10_000, "no link that takes a minute: {}", flow.most_bytes());
     }
 
-    /// Sizes that come one after the other over a link that is merely slow give up nothing.
+    /// Sizes that come one after the other over a link that answers within two seconds give up nothing.
     #[test]
     fn a_resize_gives_up_what_is_old() {
         let (mut flow, start) = (Flow::default(), Instant::now());

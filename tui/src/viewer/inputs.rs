@@ -5,6 +5,7 @@ use super::keys;
 use super::session::Viewer;
 use super::shown::Outcome;
 use super::studio::Studio;
+use super::wanted::Wanted;
 use crate::error::Error;
 use crate::scene::framing;
 use crate::terminal::{Incoming, LONGEST_BACKLOG, Reply, lost};
@@ -91,7 +92,11 @@ impl Viewer {
                         return Ok(outcome.and(Outcome::Changed));
                     };
                     let cursor = self.state.shown.cursor;
-                    let pick = studio.pick(&self.scene, &self.wanted(), cursor)?;
+                    // What is seen, if it is of what is wanted: keys may have moved on.
+                    let (seen, wanted) = (self.picture.as_ref().map(|last| last.of), self.wanted());
+                    let is_of_it = |of: &Wanted| (of.scene, of.size) == (wanted.scene, wanted.size);
+                    let of = seen.filter(is_of_it).unwrap_or(wanted);
+                    let pick = studio.pick(&self.scene, &of, cursor)?;
                     if let Some(sphere) = pick.and_then(|pick| Some(pick.sphere?.sphere)) {
                         outcome = outcome.and(self.state.frame(sphere));
                     }

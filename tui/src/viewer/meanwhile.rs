@@ -78,7 +78,7 @@ impl Viewer {
         } else if moving {
             // What plays and spins shows all its pictures, however long they take.
             let has_moved_on = *drawn != wanted || has_next && !plays;
-            time >= PATIENCE && has_moved_on && self.pace.may_give_up()
+            has_moved_on && self.pace.may_give_up(time)
         } else {
             *drawn != wanted || has_next || self.state.shown.spinning
         }

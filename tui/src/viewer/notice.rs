@@ -35,29 +35,27 @@ impl Viewer {
     /// Begins a recording, or ends it and writes its file.
     pub(super) fn record(&mut self) {
         let now = Instant::now();
+        let stem = Path::new(&self.asked.scene.name).file_stem().unwrap_or_default();
+        let stem = stem.to_string_lossy();
+        // Standard input is called `-`, which begins an option.
+        let name = if stem.starts_with('-') { "spherule" } else { &*stem };
         self.notice = Some(match self.recording.take() {
             None if self.pixels.are_shown() => "pixels are not recorded: --output cells".to_owned(),
-            None => match Recording::begin(now) {
+            None => match Recording::begin(name, now) {
                 Ok(recording) => {
                     self.recording = Some(recording);
                     "recording: R ends it".to_owned()
                 }
                 Err(error) => format!("no recording here: {}", cause(&error)),
             },
-            Some(recording) => {
-                let stem = Path::new(&self.asked.scene.name).file_stem().unwrap_or_default();
-                let stem = stem.to_string_lossy();
-                // Standard input is called `-`, which begins an option.
-                let name = if stem.starts_with('-') { "spherule" } else { &*stem };
-                match recording.write(name, now) {
-                    Ok((path, frames)) => format!("{}: {frames} frames", path.display()),
-                    Err((path, error)) => {
-                        let failure = format!("{}: {}", path.display(), cause(&error));
-                        self.failure = Some(Error::Running(failure.clone()));
-                        failure
-                    }
+            Some(recording) => match recording.write(name, now) {
+                Ok((path, frames)) => format!("{}: {frames} frames", path.display()),
+                Err((path, error)) => {
+                    let failure = format!("{}: {}", path.display(), cause(&error));
+                    self.failure = Some(Error::Running(failure.clone()));
+                    failure
                 }
-            }
+            },
         });
         self.state.recording = self.recording.is_some();
     }

@@ -70,11 +70,13 @@ impl Pace {
         }
     }
 
-    /// Whether a picture may be given up because what it shows has moved on. One that tells how long samples take is drawn to
+    /// Whether a picture that takes `time` so far may be given up because what it shows has moved on. One that tells how long samples take is drawn to
     /// its end, and so is every other: else a key that is held down would leave nothing to be seen of pictures that take long.
-    /// Where the last took little longer than [`PATIENCE`], all are drawn: by the time that one is given up, most of it is done.
-    pub(super) fn may_give_up(&self) -> bool {
-        self.rate.is_some() && !self.gave_up && self.drawing > 2 * PATIENCE
+    /// Where the last, or this one so far, took little longer than [`PATIENCE`], all are drawn: by the time that one is given up, most of
+    /// it is done.
+    pub(super) fn may_give_up(&self, time: Duration) -> bool {
+        let is_slow = time >= PATIENCE && self.drawing.max(time) > 2 * PATIENCE;
+        self.rate.is_some() && !self.gave_up && is_slow
     }
 
     /// Takes note that a picture was given up.
@@ -158,26 +160,27 @@ mod tests {
     #[test]
     fn a_movement_gives_up_no_first_picture_and_no_two_in_a_row() {
         let mut pace = Pace::new(INTERVAL);
-        assert!(!pace.may_give_up());
+        assert!(!pace.may_give_up(PATIENCE));
         pace.gave_up();
         pace.drawn(effort(0, true), MS);
-        assert!(!pace.may_give_up());
+        assert!(!pace.may_give_up(PATIENCE));
         pace.drawn(effort(20_000, true), 900 * MS);
-        assert!(pace.may_give_up());
+        assert!(pace.may_give_up(PATIENCE));
         pace.gave_up();
-        assert!(!pace.may_give_up());
+        assert!(!pace.may_give_up(PATIENCE));
         pace.drawn(effort(20_000, true), 900 * MS);
-        assert!(pace.may_give_up());
+        assert!(pace.may_give_up(PATIENCE));
     }
 
     /// Else half of the pictures would not be seen.
     #[test]
     fn a_movement_gives_up_nothing_that_is_soon_drawn() {
         let mut pace = pace();
-        assert!(!pace.may_give_up());
+        assert!(!pace.may_give_up(PATIENCE));
+        assert!(pace.may_give_up(3 * PATIENCE), "a slow one after a quick one");
         for (drawing, expected) in [(320, false), (900, true), (600, false)] {
             pace.drawn(effort(20_000, true), drawing * MS);
-            assert_eq!(pace.may_give_up(), expected, "{drawing} ms");
+            assert_eq!(pace.may_give_up(PATIENCE), expected, "{drawing} ms");
         }
     }
 

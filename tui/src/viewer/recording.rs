@@ -28,10 +28,10 @@ impl Recording {
     /// Begins now.
     ///
     /// # Errors
-    /// If no file can be made in this folder: all would be lost at the end.
-    pub(super) fn begin(now: Instant) -> io::Result<Self> {
+    /// If no file can be made in this folder whose name is as long as those of [`write`](Recording::write): all would be lost at the end.
+    pub(super) fn begin(name: &str, now: Instant) -> io::Result<Self> {
         // One with a name: in a folder that was removed there may be others.
-        NamedTempFile::with_prefix_in(".spherule-", ".")?;
+        NamedTempFile::with_prefix_in(format!("{name}-"), ".")?;
         Ok(Self { cast: Cast::default(), since: now, text: Vec::new(), frames: 0 })
     }
 

@@ -56,8 +56,7 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
             let ignored: Vec<&str> = ignored.map(|property| &*property.name).collect();
             context.notes.ignored_columns(&ignored);
             let further = properties.iter().filter(|property| property.kind == Kind::Further);
-            let further = further.map(|property| property.columns);
-            context.notes.further_columns(further.fold(0, usize::saturating_add));
+            context.notes.further_columns(further.map(|property| property.properties).sum());
             for atoms in 0..count {
                 let Some(line) = input.line()? else { return Err(ends(input, atoms)) };
                 atom_of_properties(line, &properties, &mut particles)?;

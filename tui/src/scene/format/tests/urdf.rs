@@ -47,7 +47,10 @@ fn what_is_no_attribute_is_not_counted() {
         "=".repeat(100)
     );
     let all: String = (0..64).map(|index| format!(" xmlns:a{index}='u{index}'")).collect();
-    let robot = format!("<robot{all}>{others}<link name='l'>{SPHERE}</link>{others}</robot>");
+    // What is declared again is the same.
+    let again = "<b xmlns:a0='u0'/>".repeat(100);
+    let robot =
+        format!("<robot{all}>{others}<link name='l'>{SPHERE}</link>{others}{again}</robot>");
     assert_eq!(good(robot).spheres().len(), 1);
 }
 

@@ -1,6 +1,7 @@
 //! Limits of a robot's XML: beyond them its parser takes the square of a file's time, or memory for what is not there.
 
 use memchr::{memchr2_iter, memchr3, memmem};
+use std::collections::HashSet;
 
 /// The most attributes of an element, each of which the parser compares with those before it. The most namespaces, in which it looks for
 /// that of each element.
@@ -24,7 +25,7 @@ pub(super) fn check(text: &str) -> Result<(), (usize, String)> {
     if memchr2_iter(b'<', b'=', bytes).count() > MOST_SIGNS {
         return Err((0, format!("more than {MOST_SIGNS} elements and attributes")));
     }
-    let (mut at, mut namespaces) = (0, 0);
+    let (mut at, mut namespaces) = (0, HashSet::new());
     while let Some(length) = memchr::memchr(b'<', &bytes[at..]) {
         let start = at + length;
         let rest = &bytes[start..];
@@ -41,11 +42,10 @@ pub(super) fn check(text: &str) -> Result<(), (usize, String)> {
             if before == MOST {
                 return Err((start, format!("an element of more than {MOST} attributes")));
             }
-            if memmem::find(name, b"xmlns").is_none() {
-                continue;
-            }
-            namespaces += 1;
-            if namespaces > MOST {
+            let Some(begin) = memmem::find(name, b"xmlns") else { continue };
+            // Declared again, it is the same.
+            namespaces.insert((&name[begin..], value));
+            if namespaces.len() > MOST {
                 return Err((start, format!("more than {MOST} namespaces")));
             }
             if value.len() > LONGEST {

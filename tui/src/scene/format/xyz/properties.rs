@@ -37,6 +37,8 @@ pub(super) struct Property<'a> {
     pub(super) name: Cow<'a, str>,
     pub(super) kind: Kind,
     pub(super) columns: usize,
+    /// How many properties it stands for.
+    pub(super) properties: usize,
     /// Whether they are integers: then colours go to 255.
     is_integer: bool,
 }
@@ -102,7 +104,7 @@ pub(super) fn properties(comment: &Line<'_>) -> Result<Option<Vec<Property<'stat
             found.push(kind);
         }
         let is_integer = triple[1] == b"I";
-        all.push(Property { name, kind, columns, is_integer });
+        all.push(Property { name, kind, columns, properties: 1, is_integer });
     }
     if !found.contains(&Kind::Position) {
         return wrong(format!("Properties={}: no pos:R:3 among them", excerpt(value)));
@@ -120,7 +122,7 @@ pub(super) fn properties(comment: &Line<'_>) -> Result<Option<Vec<Property<'stat
 fn kept(all: Vec<Property<'_>>) -> Vec<Property<'static>> {
     let (mut numbers, mut others) = (0, 0);
     let mut kept: Vec<Property<'static>> = Vec::new();
-    for Property { name, kind, columns, is_integer } in all {
+    for Property { name, kind, columns, properties, is_integer } in all {
         let before = match kind {
             Kind::Number => numbers,
             Kind::Other => others,
@@ -130,16 +132,17 @@ fn kept(all: Vec<Property<'_>>) -> Vec<Property<'static>> {
         others += usize::from(kind == Kind::Other);
         if before < MOST_KEPT {
             let name = Cow::Owned(name.into_owned());
-            kept.push(Property { name, kind, columns, is_integer });
+            kept.push(Property { name, kind, columns, properties, is_integer });
             continue;
         }
         match kept.last_mut() {
             Some(last) if last.kind == Kind::Further => {
                 last.columns = last.columns.saturating_add(columns);
+                last.properties += properties;
             }
             _ => {
                 let (name, kind) = (Cow::Borrowed("a further column"), Kind::Further);
-                kept.push(Property { name, kind, columns, is_integer });
+                kept.push(Property { name, kind, columns, properties, is_integer });
             }
         }
     }
