@@ -3,6 +3,7 @@
 use super::attended::attend;
 use super::film::Film;
 use super::frame::Occasion;
+use super::pace::PATIENCE;
 use super::session::{Picture, Viewer};
 use super::shown::{Outcome, Shown};
 use super::studio::{Manner, Studio};
@@ -11,9 +12,6 @@ use crate::error::Error;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// After so long the status line says that a picture is drawn. One of a movement is not given up before: else a key that
-/// is held down would leave nothing to be seen of pictures that take longer than its repetition.
-pub(super) const PATIENCE: Duration = Duration::from_millis(300);
 /// The time between two answers to keys.
 const ANSWER: Duration = Duration::from_millis(100);
 

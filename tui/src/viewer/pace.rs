@@ -2,13 +2,15 @@
 //!
 //! It has no clock: durations come in.
 
-use super::meanwhile::PATIENCE;
 use crate::draw::{Effort, Spending};
 use std::time::Duration;
 
 /// A movement is over so long after its last frame. If that frame was not full, a full one follows: most are drawn
 /// within the rest of 150 ms. Keys that are held down come closer together.
 const REST: Duration = Duration::from_millis(100);
+/// After so long the status line says that a picture is drawn. One of a movement is not given up before: else a key that
+/// is held down would leave nothing to be seen of pictures that take longer than its repetition.
+pub(super) const PATIENCE: Duration = Duration::from_millis(300);
 /// The part of an interval that is for drawing. The rest is for the bytes, and for what a slow frame takes more.
 const DRAWING: f64 = 0.4;
 /// The weight of what the last frame says of the rate, against all before it.
