@@ -1,5 +1,6 @@
 //! Spawned rays: where they start, and that they miss their sphere there.
 
+mod limits;
 mod shadows;
 
 use spherule_kernel::{

@@ -137,6 +137,13 @@ mod tests {
     }
 
     #[test]
+    fn columns_share_it() {
+        assert_eq!(Spending::AtMost(100).part(1, 4), Spending::AtMost(25));
+        assert_eq!(Spending::AtMost(100).part(0, 0), Spending::AtMost(0));
+        assert_eq!(Spending::ByNeed.part(1, 4), Spending::ByNeed);
+    }
+
+    #[test]
     fn rows_share_it() {
         let of = |rows: Range<usize>| Spending::AtMost(1000).left(&rows, 7, 100);
         assert_eq!(of(0..7), Spending::AtMost(900));

@@ -103,16 +103,15 @@ fn any_frames() -> impl Strategy<Value = Vec<CellGrid>> {
         let picks = prop::collection::vec(any::<prop::sample::Index>(), count);
         // Which cells a frame keeps from the one before, in percent.
         let kept = prop::collection::vec(0..100_u8, count);
-        let mark = prop::option::of((0..columns, 0..rows));
+        // Half of the frames keep the mark.
+        let mark = prop::option::of(prop::option::of((0..columns, 0..rows)));
         prop::collection::vec((picks, kept, 0..100_u8, mark), 1..4).prop_map(move |frames| {
             let mut grid = CellGrid::new(columns, rows);
             let mut grids = Vec::new();
             for (picks, kept, keep, mark) in frames {
                 let mut next = CellGrid::new(columns, rows);
                 next.cells_mut().copy_from_slice(grid.cells());
-                if let Some((column, row)) = mark {
-                    next.mark(column, row);
-                }
+                next.set_mark(mark.unwrap_or(grid.marked()));
                 grid = next;
                 for ((cell, pick), chance) in grid.cells_mut().iter_mut().zip(picks).zip(kept) {
                     if chance >= keep {

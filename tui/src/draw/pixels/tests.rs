@@ -1,6 +1,7 @@
 use super::*;
 use crate::scene::builtin::builtin;
 use crate::structure::scene::SceneStructures;
+use crate::style::Aids;
 use crate::threads::Threads;
 use crate::view::Lens;
 use spherule_kernel::{Level, Sphere, Vec3};
@@ -22,14 +23,17 @@ fn rows(
     (columns, rows): (u16, u16),
     threads: u16,
 ) -> Vec<Vec<u8>> {
+    rows_of(&PixelGrid::new(view, style, columns, rows), scene, threads)
+}
+
+fn rows_of(grid: &PixelGrid, scene: &Scene, threads: u16) -> Vec<Vec<u8>> {
     let threads = Threads::new(Some(threads)).expect("threads");
-    let grid = PixelGrid::new(view, style, columns, rows);
     let mut structures = SceneStructures::new(scene.list(), &threads);
     let workload = grid.workload(scene.list().len());
-    let search = structures.picture(None, &workload, view, scene).expect("memory");
+    let search = structures.picture(None, &workload, &grid.view, scene).expect("memory");
     let mut rows = Vec::new();
     let renderer = Renderer::new(Level::best(), &threads);
-    let Ok(()) = renderer.draw_pixels(scene, &search, style.accuracy, &grid, |row| {
+    let Ok(()) = renderer.draw_pixels(scene, &search, grid.style.accuracy, grid, |row| {
         rows.push(row.to_vec());
         Ok::<(), Infallible>(())
     });
@@ -114,6 +118,54 @@ fn strips_tiles_and_threads_do_not_show() {
         });
         let found = &expected[y as usize][3 * x as usize..][..3];
         assert_eq!(found, Srgb::from_linear(light.pixels[0]).0, "at {x}, {y}");
+    }
+}
+
+const EDGES: Aids = Aids { edges: true, ..Aids::NONE };
+
+/// White discs on black, the larger far behind the smaller; the first has no edge that is dark, since nothing is behind it.
+fn discs(count: usize) -> Scene {
+    let mut scene = Scene::new();
+    for (z, radius) in [(0.0, 0.5), (-20.0, 1.5)].into_iter().take(count) {
+        let center = Vec3::new(0.0, 0.0, z);
+        scene.push(Sphere { center, radius }, Srgb::WHITE, None);
+    }
+    scene
+}
+
+/// The right and lower edges cut tiles. Light of one strength has the same sum, however it is shared.
+#[test]
+fn where_nothing_is_darkened_edges_change_nothing() {
+    let scene = discs(1);
+    let of = |aids| {
+        let style = Style { cell_aspect: 0.75, aids, ..Style::PLAIN };
+        rows(&scene, &VIEW, &style, (9, 11), 2)
+    };
+    let plain = of(Aids::NONE);
+    assert!(plain.iter().flatten().any(|&byte| byte == 255));
+    assert!(of(EDGES) == plain);
+}
+
+/// In a strip and a part, one sample a pixel, and in one strip. No sample lies on the border of a disc.
+#[test]
+fn edges_are_as_symmetric_as_the_scene() {
+    let scene = discs(2);
+    for (cells, across) in [((80, 40), 1), ((20, 10), SAMPLES)] {
+        let of = |aids| {
+            let style = Style { aids, ..Style::PLAIN };
+            rows_of(&PixelGrid::in_cells(&VIEW, &style, cells, (8, 16), across), &scene, 2)
+        };
+        let (plain, dark) = (of(Aids::NONE), of(EDGES));
+        let mut darkened = 0;
+        for ((row, below), plain) in dark.iter().zip(dark.iter().rev()).zip(&plain) {
+            for x in (0..row.len()).step_by(3) {
+                // Darkness is off by its rounding.
+                let mirrored = [row[row.len() - 3 - x], below[x]];
+                assert!(mirrored.iter().all(|other| row[x].abs_diff(*other) <= 1), "{cells:?}");
+                darkened += u32::from(row[x] < plain[x]);
+            }
+        }
+        assert!(darkened > 1000, "{cells:?}: {darkened}");
     }
 }
 

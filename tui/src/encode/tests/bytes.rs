@@ -43,37 +43,69 @@ fn colours_are_said_once() {
     assert_eq!(encoded(&line), "\x1b[31;44ma\x1b[39mb \x1b[0m\n");
 }
 
+/// A grid of such lines, in the terminal's own colours.
+fn written(lines: &[&str]) -> CellGrid {
+    let mut grid = CellGrid::new(lines[0].len() as u16, lines.len() as u16);
+    for (row, line) in (0..).zip(lines) {
+        grid.write(0, row, line, Color::Default, Color::Default);
+    }
+    grid
+}
+
 /// The status line is sent with the frame, and by itself.
 #[test]
 fn a_row_is_sent_by_itself() {
-    let grid = |rows: [&str; 2]| {
-        let mut grid = CellGrid::new(3, 2);
-        for (row, text) in (0..).zip(rows) {
-            grid.write(0, row, text, Color::Default, Color::Default);
-        }
-        grid
-    };
     let (mut encoder, mut bytes) = (Encoder::new(), Vec::new());
-    encoder.encode_row(&grid(["abc", "def"]), 1, &mut bytes);
+    encoder.encode_row(&written(&["abc", "def"]), 1, &mut bytes);
     assert!(bytes.is_empty(), "nothing is known of the rest");
-    encoder.encode_part(&grid(["abc", "def"]), Economy::NONE, &mut bytes);
+    encoder.encode_part(&written(&["abc", "def"]), Economy::NONE, &mut bytes);
     bytes.clear();
-    encoder.encode_row(&grid(["xyz", "deF"]), 1, &mut bytes);
-    encoder.encode_row(&grid(["xyz", "deF"]), 2, &mut bytes);
+    encoder.encode_row(&written(&["abcd", "xyzd"]), 1, &mut bytes);
+    encoder.encode_row(&written(&["abc", "def", "ghi"]), 2, &mut bytes);
+    assert!(bytes.is_empty(), "what is known has another size");
+    encoder.encode_row(&written(&["xyz", "deF"]), 1, &mut bytes);
+    encoder.encode_row(&written(&["xyz", "deF"]), 2, &mut bytes);
     assert_eq!(bytes, b"\x1b[2;3HF");
     encoder.bracket(0, &mut bytes);
     assert_eq!(bytes, b"\x1b[2;3HF", "no brackets for a terminal that may not know them");
 }
 
+/// A level of grey, which a tolerance would leave.
+#[test]
+fn a_row_by_itself_is_exact() {
+    let blank = |level| Cell { background: Color::Rgb([level; 3]), ..Cell::BLANK };
+    let (mut encoder, mut bytes) = (Encoder::new(), Vec::new());
+    encoder.encode(&one_line(&[blank(128)]), &mut bytes);
+    bytes.clear();
+    encoder.encode_row(&one_line(&[blank(129)]), 0, &mut bytes);
+    assert_eq!(bytes, b"\x1b[H\x1b[48;2;129;129;129m \x1b[m");
+}
+
+#[test]
+fn a_screen_is_cleared_unless_it_is_known() {
+    let (mut encoder, mut bytes) = (Encoder::new(), Vec::new());
+    assert!(encoder.clear(3, 2, &mut bytes));
+    assert_eq!(bytes, b"\x1b[m\x1b[2J\x1b[H");
+    bytes.clear();
+    assert!(!encoder.clear(3, 2, &mut bytes));
+    encoder.encode(&CellGrid::new(3, 2), &mut bytes);
+    assert!(bytes.is_empty(), "it is blank already");
+    assert!(encoder.clear(3, 1, &mut bytes) && encoder.clear(2, 1, &mut bytes));
+}
+
+#[test]
+fn what_was_drawn_over_is_written_again() {
+    let lines = written(&[" bc", "def"]);
+    let (mut encoder, mut bytes) = (Encoder::new(), Vec::new());
+    encoder.encode(&lines, &mut bytes);
+    bytes.clear();
+    encoder.covered(1, &lines);
+    encoder.encode(&lines, &mut bytes);
+    assert_eq!(bytes, b"\x1b[;2Hbc");
+}
+
 fn changes(from: &[&str], to: &[&str]) -> String {
-    let grid = |lines: &[&str]| {
-        let mut grid = CellGrid::new(lines[0].len() as u16, lines.len() as u16);
-        for (row, line) in (0..).zip(lines) {
-            grid.write(0, row, line, Color::Default, Color::Default);
-        }
-        grid
-    };
-    between(&grid(from), &grid(to))
+    between(&written(from), &written(to))
 }
 
 /// What turns a terminal that knows brackets from one picture to another.
@@ -99,23 +131,28 @@ fn the_cursor_goes_the_shortest_way() {
     assert_eq!(changes(&["abc", "def"], &["Abc", "dEf"]), frame("\x1b[HA\nE"));
     assert_eq!(changes(&["abcd", "efgh"], &["abCd", "efGh"]), frame("\x1b[;3HC\n\x08G"));
     assert_eq!(changes(&["abc", "def"], &["abC", "Def"]), frame("\x1b[;3HC\r\nD"));
+    let lower = changes(&["abc", "def", "ghi"], &["abc", "deF", "Ghi"]);
+    assert_eq!(lower, frame("\x1b[2;3HF\r\nG"));
 }
 
 #[test]
 fn a_mark_is_inverse_without_a_colour_and_leaves_nothing_behind() {
-    let line = |marked: Option<u16>| {
-        let mut grid = one_line(&['a', 'b', 'c'].map(|glyph| ink(glyph, Color::Default)));
+    let line = |text: &str, marked: Option<u16>| {
+        let mut grid = written(&[text]);
         if let Some(column) = marked {
             grid.mark(column, 0);
         }
         grid
     };
-    let between = |from, to| between(&line(from), &line(to));
+    let moved = |from, to| between(&line("abc", from), &line("abc", to));
     let frame = |body: &str| format!("\x1b[?2026h{body}\x1b[?2026l");
-    assert_eq!(between(None, Some(1)), frame("\x1b[;2H\x1b[7mb\x1b[m"));
-    assert_eq!(between(Some(0), Some(1)), frame("\x1b[Ha\x1b[7mb\x1b[m"));
-    assert_eq!(between(Some(1), None), frame("\x1b[;2Hb"));
-    assert_eq!(between(Some(2), Some(2)), "");
+    assert_eq!(moved(None, Some(1)), frame("\x1b[;2H\x1b[7mb\x1b[m"));
+    assert_eq!(moved(Some(0), Some(1)), frame("\x1b[Ha\x1b[7mb\x1b[m"));
+    assert_eq!(moved(Some(1), None), frame("\x1b[;2Hb"));
+    assert_eq!(moved(Some(2), Some(2)), "");
+    // In a gap it is jumped over, since no pen suits it.
+    let changed = between(&line("abc", Some(1)), &line("xbz", Some(1)));
+    assert_eq!(changed, frame("\x1b[Hx\x1b[Cz"));
 }
 
 #[test]
