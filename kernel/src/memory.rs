@@ -2,7 +2,7 @@
 //! left.
 
 #[cfg(feature = "alloc")]
-use alloc::vec::Vec;
+use alloc::{collections::TryReserveError, vec::Vec};
 use core::fmt;
 
 /// The memory given to a scene structure was too small.
@@ -30,11 +30,15 @@ impl fmt::Display for TooSmall {
 
 impl core::error::Error for TooSmall {}
 
-/// Makes heap memory at least so long; `None` if the allocation fails.
+/// Makes heap memory at least so long; returns an error if the allocation fails.
 #[cfg(feature = "alloc")]
-pub(crate) fn lengthen<T: Clone>(memory: &mut Vec<T>, filler: T, length: usize) -> Option<()> {
+pub(crate) fn lengthen<T: Clone>(
+    memory: &mut Vec<T>,
+    filler: T,
+    length: usize,
+) -> Result<(), TryReserveError> {
     let missing = length.saturating_sub(memory.len());
-    memory.try_reserve_exact(missing).ok()?;
+    memory.try_reserve_exact(missing)?;
     memory.resize(memory.len() + missing, filler);
-    Some(())
+    Ok(())
 }

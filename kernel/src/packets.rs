@@ -1,5 +1,12 @@
 //! Functions that need no structure, packet by packet at a level: pairs, tiles of a camera, object order, surfaces, shadow
 //! rays.
+#![cfg_attr(
+    not(feature = "std"),
+    expect(
+        unused_variables,
+        reason = "there is one level, whose code is called where it is known"
+    )
+)]
 
 use crate::Accuracy;
 use crate::dispatch::Level;
@@ -43,10 +50,7 @@ pub fn pair_packets(
     #[cfg(feature = "std")]
     crate::dispatch::compiled::pairs(level, tier.tier(), rays, spheres, hits);
     #[cfg(not(feature = "std"))]
-    {
-        let _ = level;
-        linear::each_pair::<wide::f32x16>(tier, (), rays, spheres, hits);
-    }
+    linear::each_pair::<wide::f32x16>(tier, (), rays, spheres, hits);
 }
 
 /// Makes the rays of a camera's tiles at `level`. Those of tile `i` go to packet `i`, as far as there are tiles and packets.
@@ -71,10 +75,7 @@ pub fn tile_rays(level: Level, tiles: CameraTiles<'_>, rays: &mut [RayPacket]) {
     #[cfg(feature = "std")]
     crate::dispatch::compiled::fill_tiles(level, tiles, rays);
     #[cfg(not(feature = "std"))]
-    {
-        let _ = level;
-        tiles.fill::<wide::f32x16>((), tiles.corners, rays);
-    }
+    tiles.fill::<wide::f32x16>((), tiles.corners, rays);
 }
 
 /// Tests sphere `index` of a list against the rays of the packets that `numbers` names: object order. `hits` are the closest
@@ -102,18 +103,15 @@ pub fn object_packets(
     rays: &[RayPacket],
     hits: &mut [HitPacket],
 ) -> Writes {
-    let (object, mut writes) = ((spheres, index), Writes::default());
+    let object = (spheres, index);
     #[cfg(feature = "std")]
     {
-        let (tier, asked) = (tier.tier(), (numbers, rays));
-        crate::dispatch::compiled::object(level, tier, object, asked, hits, &mut writes);
+        crate::dispatch::compiled::object(level, tier.tier(), object, (numbers, rays), hits)
     }
     #[cfg(not(feature = "std"))]
     {
-        let _ = level;
-        writes += linear::one_object::<wide::f32x16>(tier, (), object, numbers, rays, hits);
+        linear::one_object::<wide::f32x16>(tier, (), object, numbers, rays, hits)
     }
-    writes
 }
 
 /// Finds the [`surface`](crate::surface()) that each ray of every packet hits among `spheres`.
@@ -145,10 +143,7 @@ pub fn surface_packets(
     #[cfg(feature = "std")]
     crate::dispatch::compiled::surfaces(level, tier.tier(), spheres, (rays, hits), surfaces);
     #[cfg(not(feature = "std"))]
-    {
-        let _ = level;
-        surface::each_packet::<wide::f32x16>(tier, (), spheres, rays, hits, surfaces);
-    }
+    surface::each_packet::<wide::f32x16>(tier, (), spheres, rays, hits, surfaces);
 }
 
 /// Makes rays to a light from the hits of every packet. Each begins on the side of the surface that its ray came from; where
@@ -188,10 +183,7 @@ pub fn shadow_packets(
     #[cfg(feature = "std")]
     crate::dispatch::compiled::shadows(level, tier.tier(), spheres, hit, towards, shadow_rays);
     #[cfg(not(feature = "std"))]
-    {
-        let _ = level;
-        packets::each_packet::<wide::f32x16>(tier, (), spheres, hit, towards, shadow_rays);
-    }
+    packets::each_packet::<wide::f32x16>(tier, (), spheres, hit, towards, shadow_rays);
 }
 
 /// Tests ray `i` against sphere `i` alone, at the best level that the CPU has; the sphere of a hit is `i`.

@@ -4,7 +4,7 @@
 //! in each traversal.
 
 use crate::geometry::hit::{Hit, HitPacket};
-use crate::geometry::many_answers::{ManyHits, ManyOccluded};
+use crate::geometry::many_answers::{ManyAnswers, ManyHits, ManyOccluded};
 use crate::lanes::{LaneArray, LaneMask, Lanes};
 use core::fmt::Debug;
 
@@ -34,7 +34,7 @@ mod sealed {
         /// What one ray is answered with.
         type One: Copy;
         /// Where the answers of many rays go.
-        type Many<'a>;
+        type Many<'a>: ManyAnswers<Packet = Self::Packet<[f32; 16]>, One = Self::One>;
 
         /// No hit in any lane.
         fn none<A: LaneArray>() -> Self::Packet<A>;
@@ -64,30 +64,9 @@ mod sealed {
         fn from_lanes<L: Lanes>(t: L, sphere: L) -> Self::Packet<L::Array>;
         /// t and the index, as bits, in every lane: what [`from_lanes`](Answers::from_lanes) makes answers of.
         fn lanes<L: Lanes>(token: L::Token, packet: &Self::Packet<L::Array>) -> [L; 2];
-        /// How many answers there is room for.
-        fn room(many: &Self::Many<'_>) -> usize;
         /// Returns room for as many answers as the packets have lanes.
         #[cfg(feature = "alloc")]
         fn of_packets(packets: &mut [Self::Packet<[f32; 16]>]) -> Self::Many<'_>;
-        /// Writes the answers of packets, lane after lane, at the places `indices`.
-        #[cfg(feature = "alloc")]
-        fn scatter(
-            many: &mut Self::Many<'_>,
-            packets: &[Self::Packet<[f32; 16]>],
-            indices: impl Iterator<Item = usize>,
-        );
-        /// Writes the answer of one ray at place `index`.
-        #[cfg(feature = "std")]
-        fn write_one(many: &mut Self::Many<'_>, index: usize, one: Self::One);
-        /// Writes the answers of packets from place `from` on, before place `to`. With `std` it is compiled for each level.
-        /// Else it is a call, so that it is compiled with this crate: in a user's dev build it took longer than tracing the
-        /// rays.
-        fn write(
-            many: &mut Self::Many<'_>,
-            packets: &[Self::Packet<[f32; 16]>],
-            from: usize,
-            to: usize,
-        );
     }
 }
 
@@ -182,36 +161,10 @@ impl Answers for ClosestHit {
         [L::load(token, &packet.t), L::load(token, &bits)]
     }
 
-    #[inline(always)]
-    fn room(many: &ManyHits<'_>) -> usize {
-        many.count()
-    }
-
     #[cfg(feature = "alloc")]
     #[inline(always)]
     fn of_packets(packets: &mut [HitPacket]) -> ManyHits<'_> {
         ManyHits::Packets(packets)
-    }
-
-    #[cfg(feature = "alloc")]
-    fn scatter(
-        many: &mut ManyHits<'_>,
-        packets: &[HitPacket],
-        indices: impl Iterator<Item = usize>,
-    ) {
-        many.scatter(packets, indices);
-    }
-
-    #[cfg(feature = "std")]
-    #[inline(always)]
-    fn write_one(many: &mut ManyHits<'_>, index: usize, one: Option<Hit>) {
-        many.set(index, one);
-    }
-
-    #[cfg_attr(feature = "std", inline(always))]
-    #[cfg_attr(not(feature = "std"), inline(never))]
-    fn write(many: &mut ManyHits<'_>, packets: &[HitPacket], from: usize, to: usize) {
-        many.write(packets, from, to);
     }
 }
 
@@ -273,31 +226,9 @@ impl Answers for AnyHit {
         [L::select(L::mask(token, *packet), zero, infinity), zero]
     }
 
-    #[inline(always)]
-    fn room(many: &ManyOccluded<'_>) -> usize {
-        many.count()
-    }
-
     #[cfg(feature = "alloc")]
     #[inline(always)]
     fn of_packets(packets: &mut [u32]) -> ManyOccluded<'_> {
         ManyOccluded::Packets(packets)
-    }
-
-    #[cfg(feature = "alloc")]
-    fn scatter(many: &mut ManyOccluded<'_>, packets: &[u32], indices: impl Iterator<Item = usize>) {
-        many.scatter(packets, indices);
-    }
-
-    #[cfg(feature = "std")]
-    #[inline(always)]
-    fn write_one(many: &mut ManyOccluded<'_>, index: usize, one: bool) {
-        many.set(index, one);
-    }
-
-    #[cfg_attr(feature = "std", inline(always))]
-    #[cfg_attr(not(feature = "std"), inline(never))]
-    fn write(many: &mut ManyOccluded<'_>, packets: &[u32], from: usize, to: usize) {
-        many.write(packets, from, to);
     }
 }

@@ -12,6 +12,7 @@ use crate::Accuracy;
 #[cfg(feature = "alloc")]
 use crate::coherent::ray_order::MOST;
 use crate::geometry::many::ManyRays;
+use crate::geometry::many_answers::ManyAnswers;
 use crate::geometry::ray::RayPacket;
 use crate::structures::{LevelQuery, Traverse};
 use crate::trace::Trace;
@@ -34,7 +35,7 @@ pub(crate) fn traverse<S: Traverse + ?Sized, Q: LevelQuery>(
     rays: ManyRays<'_>,
     answers: Q::Many<'_>,
 ) {
-    let count = rays.count().min(Q::room(&answers));
+    let count = rays.count().min(answers.count());
     #[cfg(feature = "std")]
     if structure.goes_one_by_one(trace, &rays, 0..count) {
         let mut answers = answers;
@@ -84,10 +85,10 @@ fn one_by_one<S: Traverse + ?Sized, Q: LevelQuery>(
         // baseline.)
         if let ManyRays::Slice(rays) = rays {
             if let Some(ray) = rays.get(index) {
-                Q::write_one(answers, index, structure.one::<Q>(tier, trace, ray));
+                answers.set(index, structure.one::<Q>(tier, trace, ray));
             }
         } else if let Some(ray) = rays.ray(index) {
-            Q::write_one(answers, index, structure.one::<Q>(tier, trace, &ray));
+            answers.set(index, structure.one::<Q>(tier, trace, &ray));
         }
     }
 }
@@ -121,7 +122,7 @@ fn windows<S: Traverse + ?Sized, Q: LevelQuery, const AT_ONCE: usize>(
         #[cfg(feature = "std")]
         Q::write_at(trace.level, &mut answers, &answered, from, to);
         #[cfg(not(feature = "std"))]
-        Q::write(&mut answers, &answered, from, to);
+        answers.write(&answered, from, to);
         from = to;
         packets_at_once = AT_ONCE;
         #[cfg(feature = "alloc")]

@@ -213,16 +213,12 @@ fn tiles_of_the_build<S: Traverse + ?Sized>(
     if BuildLanes::COUNT == RayPacket::COUNT {
         return structure.tiles_in_lanes::<wide::f32x16>(tier, (), trace, tiles, rays, hits);
     }
+    let Some(rays) = rays.get_mut(..count_of(&tiles, rays.len(), hits.len())) else { return };
     let CameraTiles { camera, size: (width, height), corners } = tiles;
-    for ((packet, hits), &(x, y)) in rays.iter_mut().zip(hits.iter_mut()).zip(corners) {
+    for (packet, &(x, y)) in rays.iter_mut().zip(corners) {
         *packet = camera.packet(x, y, width, height);
-        structure.in_packets::<ClosestHit>(
-            tier,
-            trace,
-            core::slice::from_ref(packet),
-            core::slice::from_mut(hits),
-        );
     }
+    structure.in_packets::<ClosestHit>(tier, trace, rays, hits);
 }
 
 /// A query that is compiled for every level.

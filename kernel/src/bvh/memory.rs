@@ -2,7 +2,6 @@
 
 use super::build::join::InTurn;
 use super::build::refit::refit;
-use super::build::top_down;
 use super::built::Built;
 use super::node::BvhNode;
 use super::tree::Bvh;
@@ -113,8 +112,7 @@ impl<'m> BvhMemory<'m> {
     pub fn build<'a>(&'a mut self, spheres: Spheres<'a>) -> Result<Bvh<'a>, TooSmall> {
         self.tree = None;
         let Self { nodes, places, indices, tree } = self;
-        Bvh::check(spheres.len(), nodes, places, indices)?;
-        let built = top_down::build(&InTurn, &spheres, nodes, places, indices);
+        let built = Bvh::built(&InTurn, &spheres, nodes, places, indices)?;
         *tree = Some((built, spheres.len()));
         Ok(Bvh::of(built, spheres, nodes, places, indices))
     }

@@ -4,6 +4,9 @@ pub(crate) use crate::lanes::WIDTH;
 
 /// How many nodes lie one below the other at most.
 pub(crate) const DEPTH: usize = 10;
+/// How many frames there are for the nodes on a ray's way: so many that a mask can stand for a bounds check.
+pub(crate) const FRAMES: usize = 16;
+const _: () = assert!(FRAMES > DEPTH);
 /// A child that is not there. No leaf has that number, since a leaf's number has three zero bits.
 pub(crate) const NO_CHILD: u32 = u32::MAX;
 /// Set where a child is a leaf; the other bits are its place among nodes, or what [`leaf_at`](super::leaf::leaf_at)
@@ -33,6 +36,15 @@ impl BvhNode {
         child: [NO_CHILD; WIDTH],
         order: [0; 8],
     };
+
+    /// Sets the lower and the upper corner of a child's box.
+    #[inline(always)]
+    pub(super) fn set_box(&mut self, slot: usize, [low, high]: [[f32; 3]; 2]) {
+        for axis in 0..3 {
+            self.low[axis][slot % WIDTH] = low[axis];
+            self.high[axis][slot % WIDTH] = high[axis];
+        }
+    }
 }
 
 /// The number of an octant: bit i is set where directions run down along axis i.

@@ -10,6 +10,7 @@ use super::node::BvhNode;
 use super::tree::Bvh;
 use crate::geometry::moved_spheres::MovedSpheres;
 use crate::geometry::sphere_list::SphereList;
+use crate::memory::lengthen;
 use alloc::collections::TryReserveError;
 use alloc::vec::Vec;
 use core::iter::repeat_n;
@@ -73,12 +74,9 @@ impl SphereTree {
     pub fn build_with(join: &impl Join, spheres: SphereList) -> Result<Self, TryReserveError> {
         let needed = Bvh::needed(spheres.spheres().len());
         let (mut nodes, mut places, mut indices) = (Vec::new(), Vec::new(), Vec::new());
-        nodes.try_reserve_exact(needed.nodes)?;
-        places.try_reserve_exact(needed.places)?;
-        indices.try_reserve_exact(needed.places)?;
-        nodes.resize(needed.nodes, BvhNode::EMPTY);
-        places.resize(needed.places, [0.0; 4]);
-        indices.resize(needed.places, 0);
+        lengthen(&mut nodes, BvhNode::EMPTY, needed.nodes)?;
+        lengthen(&mut places, [0.0; 4], needed.places)?;
+        lengthen(&mut indices, 0, needed.places)?;
         Ok(Self::in_memory(join, spheres, (nodes, places, indices)))
     }
 

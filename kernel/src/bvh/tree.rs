@@ -6,7 +6,8 @@ use super::build::join::{InTurn, Join};
 use super::build::top_down;
 use super::built::Built;
 use super::leaf::{Leaf, extent_of, number_of};
-use super::node::{BvhNode, DEPTH, LEAF, NO_CHILD, WIDTH};
+use super::node::BvhNode;
+use super::prefetch::NEAR;
 use super::source::{SomeSpheres, SphereSource, Which};
 use crate::geometry::sphere::{Sphere, Spheres};
 use crate::memory::TooSmall;
@@ -45,7 +46,7 @@ pub struct Bvh<'a> {
     pub(crate) indices: &'a [u32],
     /// Spheres that no bound sees.
     pub(crate) outside: &'a [u32],
-    /// A node, a leaf with [`LEAF`] set, or [`NO_CHILD`].
+    /// A node, a leaf with [`LEAF`](super::node::LEAF) set, or [`NO_CHILD`](super::node::NO_CHILD).
     pub(crate) root: u32,
     /// How bounds see lengths.
     pub(crate) scale: SceneScale,
@@ -158,22 +159,23 @@ impl<'a> Bvh<'a> {
         places: &'a mut [[f32; 4]],
         indices: &'a mut [u32],
     ) -> Result<Self, TooSmall> {
-        Self::check(spheres.len(), nodes, places, indices)?;
-        let built = top_down::build(join, &spheres, nodes, places, indices);
+        let built = Self::built(join, &spheres, nodes, places, indices)?;
         Ok(Self::of(built, spheres, nodes, places, indices))
     }
 
-    /// Returns an error if the memory is less than so many spheres need.
-    pub(super) fn check(
-        count: usize,
-        nodes: &[BvhNode],
-        places: &[[f32; 4]],
-        indices: &[u32],
-    ) -> Result<(), TooSmall> {
-        let needed = Self::needed(count);
+    /// Builds a tree; returns an error if the memory is less than the spheres need.
+    pub(super) fn built(
+        join: &impl Join,
+        spheres: &Spheres<'_>,
+        nodes: &mut [BvhNode],
+        places: &mut [[f32; 4]],
+        indices: &mut [u32],
+    ) -> Result<Built, TooSmall> {
+        let needed = Self::needed(spheres.len());
         TooSmall::check(needed.nodes, nodes.len())?;
         TooSmall::check(needed.places, places.len())?;
-        TooSmall::check(needed.places, indices.len())
+        TooSmall::check(needed.places, indices.len())?;
+        Ok(top_down::build(join, spheres, nodes, places, indices))
     }
 
     /// The tree that was built in that memory.
@@ -206,6 +208,18 @@ impl<'a> Bvh<'a> {
     #[inline(always)]
     pub(crate) fn radius(&self) -> f32 {
         2.0 * self.extent / self.scale.factor
+    }
+
+    /// How many bytes its boxes and spheres take.
+    #[inline(always)]
+    pub(crate) fn bytes(&self) -> usize {
+        size_of_val(self.nodes) + size_of_val(self.numbers)
+    }
+
+    /// Whether the tree is near the core: its second-level cache holds it.
+    #[inline(always)]
+    pub(crate) fn is_near(&self) -> bool {
+        self.bytes() <= NEAR
     }
 
     /// The spheres that are in the tree, in the order of their list.
@@ -288,23 +302,13 @@ impl<'a> Bvh<'a> {
     /// ```
     #[must_use]
     pub fn depth(&self) -> usize {
-        // Children come after their parents, so one pass from the back would need memory;
-        // a stack of the nodes on the way needs little.
-        let mut pending = [(NO_CHILD, 0); WIDTH * (DEPTH + 1)];
-        let (mut top, mut depth) = (1, 0);
-        pending[0] = (self.root, 1);
-        while top > 0 {
-            top -= 1;
-            let Some(&(child, level)) = pending.get(top) else { break };
-            let Some(node) = self.nodes.get(child as usize) else { continue };
-            depth = depth.max(level);
-            for &child in node.child.iter().filter(|&&child| child & LEAF == 0) {
-                if let Some(place) = pending.get_mut(top) {
-                    *place = (child, level + 1);
-                    top += 1;
-                }
-            }
-        }
-        depth
+        self.depth_below(self.root)
+    }
+
+    /// How many nodes lie one below the other from a child on.
+    fn depth_below(&self, child: u32) -> usize {
+        // What is a leaf, or not there, has a number past all nodes.
+        let Some(node) = self.nodes.get(child as usize) else { return 0 };
+        1 + node.child.iter().map(|&child| self.depth_below(child)).max().unwrap_or(0)
     }
 }

@@ -64,11 +64,8 @@ impl<'a> Bvh4<'a> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn load(spheres: Spheres<'a>, words: &'a [u32]) -> Result<Self, Bvh4Error> {
-        let Some((&[mark, count, inside, valid, factor], rest)) =
-            words.split_first_chunk::<HEADER>()
-        else {
-            return Err(Bvh4Error::Length);
-        };
+        let (&[mark, count, inside, valid, factor], rest) =
+            words.split_first_chunk::<HEADER>().ok_or(Bvh4Error::Length)?;
         if mark != MARK {
             return Err(Bvh4Error::Mark);
         }
@@ -80,12 +77,8 @@ impl<'a> Bvh4<'a> {
         }
         let scale = SceneScale::from_factor(f32::from_bits(factor)).ok_or(Bvh4Error::Scale)?;
         let shape = Shape::new(inside);
-        let Some((order, rest)) = rest.split_at_checked(count as usize) else {
-            return Err(Bvh4Error::Length);
-        };
-        let Some(nodes) = rest.get(..shape.nodes as usize * NODE) else {
-            return Err(Bvh4Error::Length);
-        };
+        let (order, rest) = rest.split_at_checked(count as usize).ok_or(Bvh4Error::Length)?;
+        let nodes = rest.get(..shape.nodes as usize * NODE).ok_or(Bvh4Error::Length)?;
         check_order(&spheres, &scale, order, [inside, valid])?;
         let boxes = Boxes { spheres, scale, shape };
         check_boxes(&boxes, order, nodes)?;

@@ -47,15 +47,13 @@ impl Kind {
 pub(super) fn write(spheres: &Spheres<'_>, scale: &SceneScale, order: &mut [u32]) -> [u32; 2] {
     let (mut place, mut ends) = (0, [0; 3]);
     for (kind, end) in [Kind::Inside, Kind::Outside, Kind::Invalid].into_iter().zip(&mut ends) {
-        let mut index = 0;
-        while let Some(sphere) = spheres.get(index) {
+        for (index, sphere) in spheres.iter().enumerate() {
             if Kind::of(&sphere, scale) == kind
                 && let Some(word) = order.get_mut(place)
             {
                 *word = index as u32;
                 place += 1;
             }
-            index += 1;
         }
         *end = place as u32;
     }

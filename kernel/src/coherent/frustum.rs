@@ -175,19 +175,13 @@ impl Sides {
     /// The lines below and above the rays, along the first or second of the axes [`across`].
     #[inline(always)]
     fn lines(&self, side: usize) -> [Line; 2] {
-        let (below, above) = (2 * side % 4, (2 * side + 1) % 4);
-        [
-            Line {
-                slope: self.slope[below],
-                offset: self.offset[below],
-                length: self.length[below],
-            },
-            Line {
-                slope: self.slope[above],
-                offset: self.offset[above],
-                length: self.length[above],
-            },
-        ]
+        [self.line(2 * side), self.line(2 * side + 1)]
+    }
+
+    #[inline(always)]
+    fn line(&self, at: usize) -> Line {
+        let at = at % 4;
+        Line { slope: self.slope[at], offset: self.offset[at], length: self.length[at] }
     }
 
     /// Returns which of sixteen spheres may be between the planes, by their outlines.

@@ -31,10 +31,10 @@ pub(crate) struct Learnt {
     pub(super) sharing: [Sharing; KINDS],
     /// How many of the last packets went by themselves, and how many packets there were.
     #[cfg(feature = "alloc")]
-    pub(super) apart: [usize; 2],
+    pub(crate) apart: [usize; 2],
     /// Of groups on trial: what they did, and what their rays would have done apart. `None` if they are not on trial.
     #[cfg(feature = "alloc")]
-    pub(super) efforts: Option<[u64; 2]>,
+    pub(crate) efforts: Option<[u64; 2]>,
 }
 
 impl Learnt {
@@ -82,20 +82,7 @@ impl Learnt {
             return None;
         }
         let (in_groups, is_far) = (coherence != Coherence::Incoherent, is_far(bvh));
-        let (by_start, radius) = (is_far, bvh.radius());
-        Some(GainByOrder { in_groups, is_far, by_start, is_any: Q::ANY, radius })
-    }
-
-    /// How many of the last packets went by themselves, and how many packets there were.
-    #[cfg(feature = "alloc")]
-    pub(crate) fn apart(&self) -> [usize; 2] {
-        self.apart
-    }
-
-    /// What the groups of the last call did, and what their rays would have done apart; zeros if they were not on trial.
-    #[cfg(feature = "alloc")]
-    pub(crate) fn efforts(&self) -> [u64; 2] {
-        self.efforts.unwrap_or_default()
+        Some(GainByOrder { in_groups, is_far, is_any: Q::ANY, radius: bvh.radius() })
     }
 
     /// Returns whether some of the last packets went by themselves.

@@ -156,8 +156,7 @@ impl ListSource<'_> {
                 || {
                     for place in 0..states.len().min(rays.len()) {
                         let rays = self.view.in_frame(&RayLanes::load(token, &rays[place]));
-                        states[place].begin_again(&rays, factor, None);
-                        states[place].leave_to_tier(squares, factor, extent);
+                        states[place].begin_again(&rays, (factor, extent), (squares, false));
                     }
                 },
             );

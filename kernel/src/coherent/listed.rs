@@ -40,12 +40,11 @@ impl<'a> Listed<'a> {
     /// The first `count` spheres of columns that fill `memory`.
     pub(super) fn new(memory: &'a mut [f32], count: usize) -> Self {
         let length = memory.len() / COLUMNS;
-        let [x, y, z, radius, depth, index] = columns(memory, length);
-        Self::of([x, y, z, radius, depth, index], count)
+        Self::of(columns(memory, length), count)
     }
 
     #[inline(always)]
-    fn of([x, y, z, radius, depth, index]: [&'a [f32]; COLUMNS], count: usize) -> Self {
+    fn of([x, y, z, radius, depth, index]: [&'a mut [f32]; COLUMNS], count: usize) -> Self {
         let columns = [
             x.as_chunks().0,
             y.as_chunks().0,
@@ -114,7 +113,6 @@ impl<'a> Listed<'a> {
                 return None;
             }
         }
-        let [x, y, z, radius, depth, index] = columns;
-        Some(Listed::of([x, y, z, radius, depth, index], count))
+        Some(Listed::of(columns, count))
     }
 }

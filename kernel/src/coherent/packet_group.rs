@@ -78,8 +78,7 @@ pub(super) fn approach<L: Lanes>(
         #[inline(always)]
         || {
             for state in states {
-                state.approach(factor, if moves { Some(extent) } else { None });
-                state.leave_to_tier(squares, factor, extent);
+                state.approach((factor, extent), (squares, moves));
             }
         },
     );

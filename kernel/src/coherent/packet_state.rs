@@ -82,10 +82,15 @@ impl<'a, L: Lanes> PacketState<'a, L> {
         self.best.token()
     }
 
-    /// Begins once more, before all else, as [`PreparedLanes::of_any_length`] says.
+    /// Begins once more, before all else, as [`PreparedLanes::of_any_size`] says.
     #[inline(always)]
-    pub(super) fn begin_again(&mut self, rays: &RayLanes<L>, factor: f32, extent: Option<f32>) {
-        self.rays = PreparedLanes::of_any_length(rays, factor, extent);
+    pub(super) fn begin_again(
+        &mut self,
+        rays: &RayLanes<L>,
+        scene: (f32, f32),
+        tier: (Squares, bool),
+    ) {
+        self.rays = PreparedLanes::of_any_size(rays, scene, tier);
         let shift = self.rays.time.shift;
         (self.best, self.moved) = (self.rays.end[1], shift.like(0.0).lt(shift).any());
         self.covered = !(self.live & !(self.rays.covered & self.rays.forward(rays.t_min))).any();
@@ -93,15 +98,8 @@ impl<'a, L: Lanes> PacketState<'a, L> {
 
     /// As [`begin_again`](Self::begin_again), for rays that are seen as they are.
     #[inline(always)]
-    pub(super) fn approach(&mut self, factor: f32, extent: Option<f32>) {
-        self.begin_again(&RayLanes::load(self.token(), self.packet), factor, extent);
-    }
-
-    /// Leaves no root sure of rays whose squares overflow.
-    #[inline(always)]
-    pub(super) fn leave_to_tier(&mut self, squares: Squares, factor: f32, extent: f32) {
-        let overflowing = self.rays.overflowing(squares, factor, extent);
-        self.rays = self.rays.left_to_tier(overflowing);
+    pub(super) fn approach(&mut self, scene: (f32, f32), tier: (Squares, bool)) {
+        self.begin_again(&RayLanes::load(self.token(), self.packet), scene, tier);
     }
 
     /// Takes answers that are known, after all else.

@@ -29,12 +29,10 @@
 mod grid;
 mod keys;
 
-use crate::bvh::traverse::stream::bytes_of;
 use crate::bvh::tree::Bvh;
 use crate::geometry::many::ManyRays;
 use crate::geometry::ray::Ray;
 use crate::numeric::radix_sort::radix_sort;
-use crate::query::Query;
 use glam::Vec3;
 use grid::{Grid, Space};
 use keys::{BITS, is_of_second};
@@ -74,10 +72,8 @@ const CROWD: u32 = 6;
 pub struct GainByOrder {
     /// Whether rays of a viewpoint or of a beam may go together as groups.
     pub(crate) in_groups: bool,
-    /// Whether the tree is far from the core.
+    /// Whether the tree is far from the core: there other rays gain by starting near each other.
     pub(crate) is_far: bool,
-    /// Whether other rays gain by starting near each other.
-    pub(crate) by_start: bool,
     /// Whether any hit is asked.
     pub(crate) is_any: bool,
     /// No sphere is farther from the coordinates' origin.
@@ -88,7 +84,7 @@ impl GainByOrder {
     /// Returns whether so many rays may gain.
     #[inline(always)]
     pub(crate) fn is_for(&self, rays: usize) -> bool {
-        (self.in_groups && rays >= FEWEST_IN_GROUPS) || (self.by_start && rays >= FEWEST)
+        (self.in_groups && rays >= FEWEST_IN_GROUPS) || (self.is_far && rays >= FEWEST)
     }
 }
 
@@ -125,7 +121,7 @@ impl RayKeys {
         } else {
             viewpoints = if in_groups { two_points(some, gain.radius) } else { None };
             let gains_by_start =
-                gain.by_start && (!gain.is_any || are_most(some, |ray| ray.t_max.is_finite()));
+                gain.is_far && (!gain.is_any || are_most(some, |ray| ray.t_max.is_finite()));
             if viewpoints.is_none() && !gains_by_start {
                 return None;
             }
@@ -167,14 +163,14 @@ impl RayKeys {
     /// Returns whether groups are to be tried before all rays are sorted: those of two viewpoints, and closest hits in a near tree. (If
     /// those of one are tried in a far tree, too, few pass: among a million spheres rays all around from a point run at 1.0 of the speed
     /// unsorted, instead of 0.92, but a beam at 1.0, instead of 1.35, and rays to a light at 0.7 to 1.0, instead of 1.1 to 1.3.)
-    pub(crate) fn needs_a_trial<Q: Query>(&self, gain: GainByOrder) -> bool {
-        self.second.is_some() || (!Q::ANY && !gain.is_far && self.space != Space::Start)
+    pub(crate) fn needs_a_trial(&self, gain: GainByOrder) -> bool {
+        self.second.is_some() || (!gain.is_any && !gain.is_far && self.space != Space::Start)
     }
 }
 
 /// Returns whether a tree is so far from the core that rays gain by sharing what they read.
 pub(super) fn is_far(bvh: &Bvh<'_>) -> bool {
-    bytes_of(bvh) > FAR
+    bvh.bytes() > FAR
 }
 
 /// Sorts places by their keys; `others` is as long.

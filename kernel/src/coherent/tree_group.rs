@@ -171,7 +171,7 @@ impl Boxes {
         let mut allowance =
             Allowance::of(states, small_tree::leaf_count(bvh), [Q::ANY, is_trusted]);
         let mut sample = BoxSample::new();
-        let is_far = prefetch::pays(bvh.nodes, bvh.numbers);
+        let is_far = !bvh.is_near();
         let mut inside = Inside { places: 0, depths: [0.0; WIDTH] };
         let mut gave_up = false;
         while self.top > 0 {

@@ -156,10 +156,7 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
             {
                 answers.fill(Q::none::<L::Array>());
             }
-            #[cfg(feature = "alloc")]
-            {
-                ways.learnt.apart[0] += left;
-            }
+            ways.learnt.apart[0] += left;
             (from, run) = (end, end);
             continue;
         }

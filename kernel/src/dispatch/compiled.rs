@@ -17,6 +17,7 @@ use crate::coherent::{list_source, tree_source};
 use crate::geometry::camera::tiles::CameraTiles;
 use crate::geometry::hit::HitPacket;
 use crate::geometry::many::ManyRays;
+use crate::geometry::many_answers::ManyAnswers;
 use crate::geometry::ray::{Ray, RayPacket};
 use crate::geometry::sphere::{SpherePacket, Spheres};
 use crate::geometry::surface::SurfacePacket;
@@ -139,7 +140,7 @@ macro_rules! compiled {
             ) {
                 at_level!(level.0, simd, Vector => {
                     let _ = simd;
-                    Self::write(many, packets, from, to);
+                    many.write(packets, from, to);
                 });
             }
 
@@ -176,20 +177,20 @@ pub(crate) fn pairs(
     at_level!(level.0, simd, Vector => linear::each_pair::<Vector>(tier, simd, rays, spheres, hits));
 }
 
-/// [`object_lanes`](crate::object_lanes) for those packets that `numbers` names; adds to `writes`.
+/// [`object_lanes`](crate::object_lanes) for those packets that `numbers` names.
 #[inline(never)]
 pub(crate) fn object(
     level: Level,
     tier: Tier,
-    (spheres, index): (Spheres<'_>, u32),
+    object: (Spheres<'_>, u32),
     (numbers, rays): (&[u32], &[RayPacket]),
     hits: &mut [HitPacket],
-    writes: &mut Writes,
-) {
+) -> Writes {
     at_level!(level.0, simd, Vector => {
-        let object = (spheres, index);
-        *writes += linear::one_object::<Vector>(tier, simd, object, numbers, rays, hits);
+        linear::one_object::<Vector>(tier, simd, object, numbers, rays, hits)
     });
+    // There is no other level.
+    Writes::default()
 }
 
 /// [`surface_lanes`](crate::surface_lanes), packet by packet.

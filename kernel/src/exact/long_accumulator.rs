@@ -245,7 +245,7 @@ impl<const LIMBS: usize> LongAccumulator<LIMBS> {
                 return;
             }
             #[cfg(all(test, proofs))]
-            crate::proofs::limbs::touch();
+            crate::proofs::work::add(crate::proofs::work::Kind::Limb, 1);
             // Bits that leave a limb at its top come in at the next one's bottom.
             let limb = limbs.get(number).copied().unwrap_or(0);
             let more = limb << shift | from_below;

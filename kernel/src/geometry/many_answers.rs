@@ -5,6 +5,28 @@ use super::hit::{Hit, HitPacket};
 #[cfg(feature = "alloc")]
 use super::ray::RayPacket;
 
+/// Where the answers of many rays go.
+#[allow(unreachable_pub, reason = "a bound of a public type names it")]
+pub trait ManyAnswers {
+    /// What a packet of sixteen rays is answered with.
+    type Packet;
+    /// What one ray is answered with.
+    type One;
+
+    /// How many answers there is room for.
+    fn count(&self) -> usize;
+    /// Writes the answers of packets, lane by lane, to the places `indices`.
+    #[cfg(feature = "alloc")]
+    fn scatter(&mut self, packets: &[Self::Packet], indices: impl Iterator<Item = usize>);
+    /// Writes the answer of one ray at place `index`.
+    #[cfg(feature = "alloc")]
+    fn set(&mut self, index: usize, one: Self::One);
+    /// Writes the answers of packets from place `from` on, before place `to`. With `std` it is compiled for each level.
+    /// Else it is a call, so that it is compiled with this crate: in a user's dev build it took longer than tracing the
+    /// rays.
+    fn write(&mut self, packets: &[Self::Packet], from: usize, to: usize);
+}
+
 /// Where the closest hits of rays go.
 #[derive(Debug)]
 pub enum ManyHits<'a> {
@@ -17,10 +39,12 @@ pub enum ManyHits<'a> {
     Packets(&'a mut [HitPacket]),
 }
 
-impl ManyHits<'_> {
-    /// How many there is room for.
+impl ManyAnswers for ManyHits<'_> {
+    type Packet = HitPacket;
+    type One = Option<Hit>;
+
     #[inline(always)]
-    pub(crate) fn count(&self) -> usize {
+    fn count(&self) -> usize {
         match self {
             Self::Slice(hits) => hits.len(),
             Self::Columns(hits) => hits.len(),
@@ -29,9 +53,8 @@ impl ManyHits<'_> {
         }
     }
 
-    /// Writes the hits of packets, lane by lane, to the places `indices`.
     #[cfg(feature = "alloc")]
-    pub(crate) fn scatter(&mut self, packets: &[HitPacket], indices: impl Iterator<Item = usize>) {
+    fn scatter(&mut self, packets: &[HitPacket], indices: impl Iterator<Item = usize>) {
         // Matched once, not for each ray.
         match self {
             Self::Slice(_) => each_lane(packets, indices, |packet, lane, index| {
@@ -46,10 +69,9 @@ impl ManyHits<'_> {
         }
     }
 
-    /// Writes what one ray hits at place `index`.
     #[cfg(feature = "alloc")]
     #[inline(always)]
-    pub(crate) fn set(&mut self, index: usize, one: Option<Hit>) {
+    fn set(&mut self, index: usize, one: Option<Hit>) {
         match self {
             Self::Slice(hits) => {
                 if let Some(hit) = hits.get_mut(index) {
@@ -66,9 +88,9 @@ impl ManyHits<'_> {
         }
     }
 
-    /// Writes the hits of packets from place `from` on, before place `to`.
-    #[inline(always)]
-    pub(crate) fn write(&mut self, packets: &[HitPacket], from: usize, to: usize) {
+    #[cfg_attr(feature = "std", inline(always))]
+    #[cfg_attr(not(feature = "std"), inline(never))]
+    fn write(&mut self, packets: &[HitPacket], from: usize, to: usize) {
         match self {
             Self::Slice(hits) => write_slice(packets, hits.get_mut(from..to).unwrap_or_default()),
             Self::Columns(hits) => hits.write(packets, from, to),
@@ -112,10 +134,12 @@ pub enum ManyOccluded<'a> {
     Packets(&'a mut [u32]),
 }
 
-impl ManyOccluded<'_> {
-    /// How many there is room for.
+impl ManyAnswers for ManyOccluded<'_> {
+    type Packet = u32;
+    type One = bool;
+
     #[inline(always)]
-    pub(crate) fn count(&self) -> usize {
+    fn count(&self) -> usize {
         match self {
             Self::Slice(occluded) => occluded.len(),
             #[cfg(feature = "alloc")]
@@ -123,9 +147,8 @@ impl ManyOccluded<'_> {
         }
     }
 
-    /// Writes whether the rays of packets hit anything, lane by lane, to the places `indices`.
     #[cfg(feature = "alloc")]
-    pub(crate) fn scatter(&mut self, packets: &[u32], indices: impl Iterator<Item = usize>) {
+    fn scatter(&mut self, packets: &[u32], indices: impl Iterator<Item = usize>) {
         match self {
             Self::Slice(_) => each_lane(packets, indices, |bits, lane, index| {
                 self.set(index, bits >> lane & 1 == 1);
@@ -136,10 +159,9 @@ impl ManyOccluded<'_> {
         }
     }
 
-    /// Writes whether one ray hits anything at place `index`.
     #[cfg(feature = "alloc")]
     #[inline(always)]
-    pub(crate) fn set(&mut self, index: usize, one: bool) {
+    fn set(&mut self, index: usize, one: bool) {
         match self {
             Self::Slice(occluded) => {
                 if let Some(occluded) = occluded.get_mut(index) {
@@ -155,9 +177,9 @@ impl ManyOccluded<'_> {
         }
     }
 
-    /// Writes the answers of packets from place `from` on, before place `to`.
-    #[inline(always)]
-    pub(crate) fn write(&mut self, packets: &[u32], from: usize, to: usize) {
+    #[cfg_attr(feature = "std", inline(always))]
+    #[cfg_attr(not(feature = "std"), inline(never))]
+    fn write(&mut self, packets: &[u32], from: usize, to: usize) {
         match self {
             Self::Slice(occluded) => {
                 write_occluded(packets, occluded.get_mut(from..to).unwrap_or_default());
@@ -222,7 +244,7 @@ fn write_occluded(packets: &[u32], occluded: &mut [bool]) {
 #[cfg(all(test, proofs))]
 #[cfg(feature = "alloc")]
 mod tests {
-    use super::{ManyHits, ManyOccluded};
+    use super::{ManyAnswers, ManyHits, ManyOccluded};
     use crate::{Hit, HitPacket};
 
     /// Values from before the call do not stay.

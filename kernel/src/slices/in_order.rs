@@ -9,6 +9,7 @@ use crate::coherent::ray_order::{
 };
 use crate::dispatch::Level;
 use crate::geometry::many::ManyRays;
+use crate::geometry::many_answers::ManyAnswers;
 use crate::geometry::ray::{Ray, RayPacket};
 use crate::memory::lengthen;
 use crate::structures::{LevelQuery, Traverse};
@@ -58,7 +59,7 @@ pub(super) fn answer<S: Traverse + ?Sized, Q: LevelQuery>(
         let to = (from + part).min(count);
         let part = rays.part(from, to);
         let Some(keys) = RayKeys::of(&part, gain) else { break };
-        if lengthen(&mut memory, 0, 2 * part.count()).is_none() {
+        if lengthen(&mut memory, 0, 2 * part.count()).is_err() {
             break;
         }
         let Some((numbers, others)) = memory.split_at_mut_checked(part.count()) else { break };
@@ -73,7 +74,7 @@ pub(super) fn answer<S: Traverse + ?Sized, Q: LevelQuery>(
         crate::dispatch::compiled::write_keys(trace.level, &keys, &part, numbers);
         #[cfg(not(feature = "std"))]
         keys.write_keys::<wide::f32x16>((), &part, numbers);
-        if by_turns.is_none() && keys.needs_a_trial::<Q>(gain) {
+        if by_turns.is_none() && keys.needs_a_trial(gain) {
             let tried = (&part, Tried::Cells(numbers, keys.second.is_some()));
             if !groups_pay::<S, Q>(structure, tier, trace.level, tried, (packets, answered)) {
                 break;
@@ -90,7 +91,7 @@ pub(super) fn answer<S: Traverse + ?Sized, Q: LevelQuery>(
             part.gather(numbers.iter().map(|place| number_of(*place)), gathered);
             let these = ManyRays::Slice(gathered.get(..numbers.len()).unwrap_or_default());
             structure.many_in_packets::<Q>(tier, trace, these, packets, answered);
-            Q::scatter(answers, answered, numbers.iter().map(|place| from + number_of(*place)));
+            answers.scatter(answered, numbers.iter().map(|place| from + number_of(*place)));
         }
         from = to;
     }
@@ -126,9 +127,9 @@ fn groups_pay<S: Traverse + ?Sized, Q: LevelQuery>(
         // Each group is a call of its own, since after one in vain others would be passed over.
         let mut trial = Trace { learnt: Learnt::ON_TRIAL, ..Trace::new().at(level) };
         structure.many_in_packets::<Q>(tier, &mut trial, ManyRays::Slice(rays), packets, answered);
-        let [of_group, _] = trial.learnt.apart();
+        let [of_group, _] = trial.learnt.apart;
         apart += of_group;
-        let [did, by_rays] = trial.learnt.efforts();
+        let [did, by_rays] = trial.learnt.efforts.unwrap_or_default();
         efforts = [efforts[0] + did, efforts[1] + by_rays];
         sorting += EFFORT_OF_SORTING * count as u64;
         // A group in vain takes several times as long as its rays by themselves: no more than two or three are tried. Of rays by turns all

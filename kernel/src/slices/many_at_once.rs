@@ -3,6 +3,8 @@
 
 use crate::Accuracy;
 use crate::geometry::many::ManyRays;
+#[cfg(not(feature = "std"))]
+use crate::geometry::many_answers::ManyAnswers;
 use crate::geometry::ray::RayPacket;
 use crate::memory::lengthen;
 use crate::structures::{LevelQuery, Traverse};
@@ -27,8 +29,8 @@ pub(super) fn answer<S: Traverse + ?Sized, Q: LevelQuery>(
         && let Some(at_once) = structure.many_at_once::<Q>(trace, count - from)
     {
         let needed = at_once.div_ceil(RayPacket::COUNT);
-        if lengthen(&mut packets, RayPacket::inactive(), needed).is_none()
-            || lengthen(&mut answered, Q::none::<[f32; 16]>(), needed).is_none()
+        if lengthen(&mut packets, RayPacket::inactive(), needed).is_err()
+            || lengthen(&mut answered, Q::none::<[f32; 16]>(), needed).is_err()
         {
             break;
         }
@@ -38,7 +40,7 @@ pub(super) fn answer<S: Traverse + ?Sized, Q: LevelQuery>(
         #[cfg(feature = "std")]
         Q::write_at(trace.level, answers, &answered, from, to);
         #[cfg(not(feature = "std"))]
-        Q::write(answers, &answered, from, to);
+        answers.write(&answered, from, to);
         from = to;
     }
     trace.kept.put_packets(packets);

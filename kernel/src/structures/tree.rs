@@ -6,8 +6,6 @@ use super::{LevelQuery, Traverse};
 use crate::Accuracy;
 use crate::bvh::StreamMemory;
 #[cfg(feature = "std")]
-use crate::bvh::prefetch;
-#[cfg(feature = "std")]
 use crate::bvh::traverse::small_tree;
 use crate::bvh::tree::Bvh;
 #[cfg(feature = "alloc")]
@@ -196,7 +194,7 @@ fn of_few<'a, Q: Query>(
         FEW_IN_SMALL_TREE
     } else if level.name() != LevelName::Baseline {
         8
-    } else if Q::ANY && !prefetch::pays(bvh.nodes, bvh.numbers) {
+    } else if Q::ANY && bvh.is_near() {
         64
     } else {
         16

@@ -26,6 +26,14 @@ fn numbers(
     [ox, oy, oz, dx, dy, dz, cx, cy, cz, r]
 }
 
+/// With the direction times `length`, and all else times `size`.
+fn scaled<const N: usize>(mut numbers: [f32; N], size: f32, length: f32) -> [f32; N] {
+    for (index, number) in numbers.iter_mut().enumerate() {
+        *number *= if (3..6).contains(&index) { length } else { size };
+    }
+    numbers
+}
+
 /// The line, as a ray without a beginning, and the sphere.
 fn line(numbers: &Numbers) -> (Ray, Sphere) {
     let [ox, oy, oz, dx, dy, dz, cx, cy, cz, r] = *numbers;

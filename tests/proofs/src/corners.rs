@@ -34,20 +34,24 @@ fn needed(random: &mut Random) -> [Option<f64>; 2] {
     let exact = Points { error: [0.0; 3], at_corners: points.at_corners, ..points };
     let pixels = (0..16).map(|i| camera.get_ray(corner.0 + i % 4, corner.1 + i / 4).direction);
     let mut most = [None::<f64>; 2];
+    // Holds a pixel's number against the ends of its tile, of which the upper one is moved by `off`. What a corner's division and product
+    // lose, the turn and the margin for rays cover.
+    let mut hold = |kind: usize, number: f64, [low, high]: [f64; 2], off: f64, size: f64| {
+        let rounding = 3.0 * 2.0_f64.powi(-24) * size;
+        let outside = (number - high).max(low - number) - rounding;
+        assert!(outside <= 0.0, "{kind}, {number}: {camera:?}, {corner:?}");
+        if off > 8.0 * rounding {
+            most[kind] = Some(((outside + off) / off).max(most[kind].unwrap_or(0.0)));
+        }
+    };
+    let ends = |side: [f32x4; 2]| side.map(|ends| f64::from(ends.to_array()[0]));
 
     if let (Some(moved), Some(as_they_are)) = (points.slopes(false), exact.slopes(false)) {
-        for (side, axis) in [0, 1].into_iter().enumerate() {
-            let [minus_low, high] = moved[side].map(|ends| f64::from(ends.to_array()[0]));
-            let off = high - f64::from(as_they_are[side][1].to_array()[0]);
+        for axis in 0..2 {
+            let ([minus_low, high], [_, exact]) = (ends(moved[axis]), ends(as_they_are[axis]));
             for d in pixels.clone() {
                 let slope = f64::from(d[axis]) / f64::from(d.z);
-                // The division and the product of a corner's, which the turn for rays covers.
-                let rounding = 3.0 * 2.0_f64.powi(-24) * slope.abs();
-                let outside = (slope - high).max(-minus_low - slope) - rounding;
-                assert!(outside <= 0.0, "{slope}: {camera:?}, {corner:?}");
-                if off > 8.0 * rounding {
-                    most[0] = Some(((outside + off) / off).max(most[0].unwrap_or(0.0)));
-                }
+                hold(0, slope, [-minus_low, high], high - exact, slope.abs());
             }
         }
     }
@@ -58,19 +62,12 @@ fn needed(random: &mut Random) -> [Option<f64>; 2] {
     let (steepest, none) = (f32x4::splat(slope.abs()), f32x4::ZERO);
     let moved = points.offsets(&both, steepest, 1.0, none);
     let as_they_are = exact.offsets(&both, steepest, 1.0, none);
-    for (side, axis) in [0, 1].into_iter().enumerate() {
-        let [low, high] = moved[side].map(|ends| f64::from(ends.to_array()[0]));
-        let off = high - f64::from(as_they_are[side][1].to_array()[0]);
+    for axis in 0..2 {
+        let ([low, high], [_, exact]) = (ends(moved[axis]), ends(as_they_are[axis]));
         for o in pixels.clone() {
             let offset = f64::from(o[axis]) - f64::from(slope) * f64::from(o.z);
-            // As above: the margin for rays covers it.
-            let rounding =
-                3.0 * 2.0_f64.powi(-24) * f64::from(o[axis].abs() + slope.abs() * o.z.abs());
-            let outside = (offset - high).max(low - offset) - rounding;
-            assert!(outside <= 0.0, "{offset}, slope {slope}: {camera:?}, {corner:?}");
-            if off > 8.0 * rounding {
-                most[1] = Some(((outside + off) / off).max(most[1].unwrap_or(0.0)));
-            }
+            let size = f64::from(o[axis].abs() + slope.abs() * o.z.abs());
+            hold(1, offset, [low, high], high - exact, size);
         }
     }
     most

@@ -11,6 +11,7 @@ pub(super) mod tiers;
 use super::recorded::{Operation, Recorded};
 use super::running_error::{Input, RunningError};
 use crate::accuracy::RayLanes;
+use std::vec::Vec;
 
 /// u of single precision.
 pub(super) const U: f64 = 1.0 / 16_777_216.0;
@@ -26,7 +27,38 @@ fn ray(origin: [Recorded; 3], direction: [Recorded; 3]) -> RayLanes<Recorded> {
 
 /// Rules of single precision for inputs without errors.
 fn rules<const N: usize>(names: [&'static str; N]) -> RunningError {
-    RunningError::new(24, &names.map(Input::named))
+    rules_of(names, &[], &[])
+}
+
+/// Rules of single precision for inputs of which some are rounded once, and some are not below zero.
+fn rules_of<const N: usize>(
+    names: [&'static str; N],
+    rounded: &[&str],
+    positive: &[&str],
+) -> RunningError {
+    let inputs = names.map(|name| Input {
+        off: if rounded.contains(&name) { U } else { 0.0 },
+        positive: positive.contains(&name),
+        ..Input::named(name)
+    });
+    RunningError::new(24, &inputs)
+}
+
+/// The first node of a graph that is looked for.
+fn find(graph: &[Operation], wanted: impl Fn(Operation) -> bool) -> usize {
+    let found = graph.iter().position(|operation| wanted(*operation));
+    found.expect("what is looked for is recorded")
+}
+
+/// The sum whose first term is that node.
+fn sum_of(graph: &[Operation], first: usize) -> usize {
+    find(graph, |operation| matches!(operation, Operation::Sum(a, _) if a == first))
+}
+
+/// The roots of a graph, in their order.
+fn roots(graph: &[Operation]) -> Vec<usize> {
+    let is_root = |node: &usize| matches!(graph[*node], Operation::Root(_));
+    (0..graph.len()).filter(is_root).collect()
 }
 
 /// Names the first differences of a graph, in their order.

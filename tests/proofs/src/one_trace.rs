@@ -1,6 +1,7 @@
 //! A path tracer's calls by one trace: what the trace has learnt of bounces does not keep the camera's rays apart.
 
 use super::climb::Random;
+use super::scales::point;
 use super::work::{Kind, Work};
 use crate::bvh::owned::SphereTree;
 use crate::{Exact, HitPacket, Intersect, Ray, RayPacket, Trace, Vec3};
@@ -9,15 +10,6 @@ use std::vec::Vec;
 
 /// Rays of a group.
 const GROUP: usize = 64;
-
-/// In [-1, 1).
-fn number(random: &mut Random) -> f32 {
-    random.below(1 << 24) as f32 / (1 << 23) as f32 - 1.0
-}
-
-fn point(random: &mut Random) -> Vec3 {
-    Vec3::new(number(random), number(random), number(random))
-}
 
 struct Calls {
     tree: SphereTree,

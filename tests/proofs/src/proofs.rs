@@ -7,7 +7,7 @@ mod cost;
 mod derived;
 mod integers;
 mod lanes;
-pub(crate) mod limbs;
+mod one_lane;
 // Few rays go one by one where there are levels.
 #[cfg(feature = "std")]
 mod one_trace;

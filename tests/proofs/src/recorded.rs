@@ -3,6 +3,7 @@
 //! A lane is a node of the graph and carries a number besides, which answers comparisons: the record follows the way of
 //! a witness. A multiply-add is recorded as a product and a sum, which covers the fused one.
 
+use super::one_lane::one_lane;
 use crate::{DoubleLanes, Lanes};
 use core::cell::RefCell;
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -66,16 +67,12 @@ impl Recorded {
         NODES.with_borrow(|nodes| nodes[self.0].witness)
     }
 
-    /// The result of a product with 1, which is not rounded: structures scale by powers of two, here by none.
-    fn same_as_product(self, other: Self, operation: Operation) -> Option<Self> {
-        let is_one = |node: Self| {
-            NODES.with_borrow(|nodes| nodes[node.0].operation == Operation::Constant(1.0))
-        };
-        match operation {
-            Operation::Product(..) if is_one(other) => Some(self),
-            Operation::Product(..) if is_one(self) => Some(other),
-            _ => None,
-        }
+    fn root(self) -> Self {
+        push(Operation::Root(self.0), libm::sqrt(self.witness()))
+    }
+
+    fn magnitude(self) -> Self {
+        push(Operation::Magnitude(self.0), self.witness().abs())
     }
 
     /// The node as a number that can lie among others in memory: a NaN that tells which one.
@@ -89,16 +86,30 @@ macro_rules! operations {
         impl $operation for Recorded {
             type Output = Self;
             fn $name(self, other: Self) -> Self {
-                if let Some(same) = self.same_as_product(other, Operation::$record(0, 0)) {
-                    return same;
-                }
                 push(Operation::$record(self.0, other.0), self.witness() $sign other.witness())
             }
         }
     )*};
 }
 
-operations!(Add add + Sum, Sub sub - Difference, Mul mul * Product, Div div / Quotient);
+operations!(Add add + Sum, Sub sub - Difference, Div div / Quotient);
+
+impl Mul for Recorded {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        // A product with 1 is not rounded: structures scale by powers of two, here by none.
+        let is_one = |node: Self| {
+            NODES.with_borrow(|nodes| nodes[node.0].operation == Operation::Constant(1.0))
+        };
+        if is_one(other) {
+            return self;
+        }
+        if is_one(self) {
+            return other;
+        }
+        push(Operation::Product(self.0, other.0), self.witness() * other.witness())
+    }
+}
 
 impl Neg for Recorded {
     type Output = Self;
@@ -107,41 +118,9 @@ impl Neg for Recorded {
     }
 }
 
-/// What both precisions record alike.
-macro_rules! common {
-    () => {
-        fn token(self) {}
-
-        fn sqrt(self) -> Self {
-            push(Operation::Root(self.0), libm::sqrt(self.witness()))
-        }
-
-        fn lt(self, other: Self) -> bool {
-            self.witness() < other.witness()
-        }
-
-        fn le(self, other: Self) -> bool {
-            self.witness() <= other.witness()
-        }
-
-        fn select(mask: bool, yes: Self, no: Self) -> Self {
-            if mask { yes } else { no }
-        }
-
-        fn abs(self) -> Self {
-            push(Operation::Magnitude(self.0), self.witness().abs())
-        }
-    };
-}
-
 impl Lanes for Recorded {
-    const COUNT: usize = 1;
-    type Token = ();
-    type Array = [f32; 1];
-    type Mask = bool;
+    one_lane!(Lanes, witness);
     type Double = Self;
-
-    common!();
 
     fn splat((): (), value: f32) -> Self {
         let node = Self((value.to_bits() & 0x003f_ffff) as usize);
@@ -151,12 +130,12 @@ impl Lanes for Recorded {
         push(Operation::Constant(f64::from(value)), f64::from(value))
     }
 
-    fn load((): (), array: &[f32; 1]) -> Self {
-        <Self as Lanes>::splat((), array[0])
-    }
-
     fn store(self) -> [f32; 1] {
         [self.tag()]
+    }
+
+    fn abs(self) -> Self {
+        self.magnitude()
     }
 
     fn filter_mul_add(self, factor: Self, addend: Self) -> Self {
@@ -166,14 +145,6 @@ impl Lanes for Recorded {
     fn filter_max(self, other: Self) -> Self {
         let witness = self.witness().max(other.witness());
         push(Operation::Larger(self.0, other.0), witness)
-    }
-
-    fn out_of_line<R>((): (), work: impl FnOnce() -> R) -> R {
-        work()
-    }
-
-    fn compress(self, _: bool) -> Self {
-        self
     }
 
     fn widen(self, _: usize) -> Self {
@@ -186,13 +157,13 @@ impl Lanes for Recorded {
 }
 
 impl DoubleLanes for Recorded {
-    const COUNT: usize = 1;
-    type Token = ();
-    type Mask = bool;
-
-    common!();
+    one_lane!(DoubleLanes, witness);
 
     fn splat((): (), value: f64) -> Self {
         push(Operation::Constant(value), value)
+    }
+
+    fn abs(self) -> Self {
+        self.magnitude()
     }
 }

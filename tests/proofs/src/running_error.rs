@@ -46,6 +46,19 @@ pub(crate) struct Bound {
 }
 
 impl Bound {
+    /// What is known of a value whose magnitude is a symbol.
+    fn of_symbol(symbol: Symbol, error: Option<Polynomial>) -> Self {
+        let monomial = Monomial::of(&[(symbol, 1)]);
+        Self {
+            high: Polynomial::symbol(symbol),
+            low: Polynomial::symbol(symbol),
+            error,
+            positive: false,
+            bits: None,
+            form: Some(Form { factor: 1.0, monomial, roundings: 0 }),
+        }
+    }
+
     pub(crate) fn error(&self) -> &Polynomial {
         self.error.as_ref().expect("an error that is known")
     }
@@ -71,7 +84,7 @@ impl Input {
 }
 
 /// The bounds of all nodes of a graph.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct RunningError {
     u: f64,
     bits: u32,
@@ -84,7 +97,6 @@ pub(crate) struct RunningError {
     names: BTreeMap<usize, &'static str>,
     vectors: Vec<([Symbol; 3], Symbol)>,
     charged: BTreeSet<usize>,
-    free: BTreeSet<usize>,
     given: BTreeMap<usize, Polynomial>,
     bounds: Vec<Bound>,
     /// By symbol: the node whose magnitude it is.
@@ -95,21 +107,7 @@ impl RunningError {
     /// In a precision of `bits` bits.
     pub(crate) fn new(bits: u32, inputs: &[Input]) -> Self {
         let u = 1.0 / (1_u64 << bits) as f64;
-        let mut new = Self {
-            u,
-            bits,
-            inputs: inputs.to_vec(),
-            symbols: Vec::new(),
-            off: BTreeMap::new(),
-            upper: BTreeMap::new(),
-            names: BTreeMap::new(),
-            vectors: Vec::new(),
-            charged: BTreeSet::new(),
-            free: BTreeSet::new(),
-            given: BTreeMap::new(),
-            bounds: Vec::new(),
-            nodes: BTreeMap::new(),
-        };
+        let mut new = Self { u, bits, inputs: inputs.to_vec(), ..Self::default() };
         for input in inputs {
             let symbol = new.symbol(input.name);
             new.off.insert(symbol, input.off);
@@ -156,7 +154,7 @@ impl RunningError {
 
     /// Takes what is computed at a node for the truth.
     pub(crate) fn free(&mut self, node: usize) {
-        self.free.insert(node);
+        self.given(node, Polynomial::zero());
     }
 
     /// Takes the error of a node for known.
@@ -180,13 +178,11 @@ impl RunningError {
                     let cancels = !(matches!(operation, Operation::Sum(..))
                         && self.bounds[a].positive
                         && self.bounds[b].positive);
-                    let named = self.names.get(&node).copied();
-                    let symbol = (cancels && (factors.contains(&node) || divisors.contains(&node))
-                        || named.is_some())
-                    .then(|| self.symbol(named.unwrap_or(&format!("node {node}"))));
                     let products = is_product(graph, a) && is_product(graph, b);
-                    let charged =
-                        symbol.filter(|_| cancels && !products || self.charged.contains(&node));
+                    let is_used = factors.contains(&node) || divisors.contains(&node);
+                    let is_named = is_used || self.names.contains_key(&node);
+                    let charged = is_named && cancels && !products || self.charged.contains(&node);
+                    let charged = charged.then(|| self.symbol_of(node));
                     self.sum(a, b, cancels, charged)
                 }
                 Operation::Product(a, b) => self.product(a, b),
@@ -199,44 +195,42 @@ impl RunningError {
             if let Some(error) = self.given.get(&node) {
                 bound.error = Some(error.clone());
             }
-            if self.free.contains(&node) {
-                bound.error = Some(Polynomial::zero());
-            }
             let cancels =
                 signed && !bound.positive && bound.form.is_none() && factors.contains(&node);
-            if let Some(name) = self.names.get(&node) {
-                bound = self.named(bound, name);
-            } else if cancels || divisors.contains(&node) && signed {
-                bound = self.named(bound, &format!("node {node}"));
+            let divides = signed && divisors.contains(&node);
+            if cancels || divides || self.names.contains_key(&node) {
+                bound = self.named(bound, node);
             }
             self.bounds.push(bound);
         }
     }
 
-    fn named(&mut self, bound: Bound, name: &str) -> Bound {
-        let symbol = self.symbol(name);
-        self.nodes.insert(symbol, self.bounds.len());
-        let it = Polynomial::symbol(symbol);
-        let off = self
-            .relative(&bound)
-            .or_else(|| bound.error.as_ref().and_then(|error| self.multiple(error, symbol)));
-        let Bound { mut high, mut error, positive, bits, .. } = bound;
-        if off.is_none() {
-            // A sum over axes, so that it can be multiplied.
-            high = high.contracted(&self.vectors).unwrap_or(high);
-            error = error.map(|error| error.contracted(&self.vectors).unwrap_or(error));
+    /// The symbol of a node: that of its name, if it has one.
+    fn symbol_of(&mut self, node: usize) -> Symbol {
+        match self.names.get(&node).copied() {
+            Some(name) => self.symbol(name),
+            None => self.symbol(&format!("node {node}")),
         }
+    }
+
+    /// What is known of a node whose magnitude becomes a symbol.
+    fn named(&mut self, bound: Bound, node: usize) -> Bound {
+        let symbol = self.symbol_of(node);
+        self.nodes.insert(symbol, node);
+        let Bound { positive, bits, .. } = bound;
+        let own = Bound { positive, bits, ..Bound::of_symbol(symbol, bound.error.clone()) };
+        let (error, high) = match self.relative(&bound).or_else(|| self.relative(&own)) {
+            Some(off) => {
+                self.off.insert(symbol, off);
+                (Some(own.high.scaled(off)), bound.high)
+            }
+            // Sums over axes, so that they can be multiplied.
+            None => (
+                bound.error.map(|error| error.contracted(&self.vectors).unwrap_or(error)),
+                bound.high.contracted(&self.vectors).unwrap_or(bound.high),
+            ),
+        };
         self.upper.insert(symbol, high);
-        if let Some(off) = off {
-            self.off.insert(symbol, off);
-        }
-        Bound {
-            error: off.map(|off| it.scaled(off)).or(error),
-            high: it.clone(),
-            low: it,
-            positive,
-            bits,
-            form: Some(Form { factor: 1.0, monomial: Monomial::of(&[(symbol, 1)]), roundings: 0 }),
-        }
+        Bound { error, ..own }
     }
 }

@@ -30,7 +30,7 @@ fn number(random: &mut Random) -> f32 {
     random.below(1 << 24) as f32 / (1 << 23) as f32 - 1.0
 }
 
-fn point(random: &mut Random) -> Vec3 {
+pub(super) fn point(random: &mut Random) -> Vec3 {
     Vec3::new(number(random), number(random), number(random))
 }
 

@@ -14,6 +14,7 @@ macro_rules! formats {
 }
 
 mod boxes;
+mod case;
 mod error_free;
 mod exact;
 mod filter;

@@ -29,13 +29,9 @@ impl Corners {
 
     /// The corners of a box of spheres as it was computed, rounded outward.
     pub(super) fn outward(&self) -> [[f32; 3]; 2] {
-        let [x, y, z, _] = self.low.to_array();
-        let [far_x, far_y, far_z, _] = self.high.to_array();
+        let (low, high) = (self.low.to_array(), self.high.to_array());
         // Rounding to nearest is monotonic: one step covers all.
-        [
-            [x.next_down(), y.next_down(), z.next_down()],
-            [far_x.next_up(), far_y.next_up(), far_z.next_up()],
-        ]
+        [axes!(i => low[i].next_down()), axes!(i => high[i].next_up())]
     }
 
     /// Whether nothing is in it.

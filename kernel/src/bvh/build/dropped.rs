@@ -22,39 +22,24 @@ impl Dropped {
     }
 
     /// Reading goes on at `begin`: the spheres left out before it are copies of the first of the leaf that was read last.
-    #[inline(always)]
     pub(super) fn leave_out(&mut self, places: &mut [[f32; 4]], indices: &[u32], begin: usize) {
-        if begin > self.read {
-            self.add_run(places, indices, begin);
-        }
-    }
-
-    #[cold]
-    fn add_run(&mut self, places: &mut [[f32; 4]], indices: &[u32], begin: usize) {
-        let there = places.iter_mut().zip(indices).take(begin).skip(self.read);
-        for (place, index) in there {
+        let run = self.read..begin.max(self.read);
+        let places = places.get_mut(run.clone()).unwrap_or_default();
+        let indices = indices.get(run.clone()).unwrap_or_default();
+        for (place, index) in places.iter_mut().zip(indices) {
             *place = waiting(*index, self.last);
         }
-        (self.count, self.read) = (self.count + begin - self.read, begin);
+        (self.count, self.read) = (self.count + run.len(), run.end);
     }
 
-    /// A leaf was read up to `end`, whose lowest index is `first`; `copies` are its copies, with what they are the same as.
-    #[inline(always)]
+    /// A leaf was read up to `end`, whose lowest index is `first`; `copies` are its copies, with what they are the same as. Moves
+    /// as many as must move, the first of those that wait, to where the leaf was read.
     pub(super) fn read_leaf(
         &mut self,
         places: &mut [[f32; 4]],
         (end, first): (usize, u32),
         copies: &[Unplaced],
     ) {
-        if self.count + copies.len() > 0 {
-            self.move_behind(places, end, copies);
-        }
-        (self.count, self.read, self.last) = (self.count + copies.len(), end, first);
-    }
-
-    /// Moves as many as must move, the first of those that wait, to where the leaf was read.
-    #[cold]
-    fn move_behind(&self, places: &mut [[f32; 4]], end: usize, copies: &[Unplaced]) {
         let to = end.saturating_sub(copies.len());
         let moved = self.count.min(to.saturating_sub(self.read));
         let from = self.read.saturating_sub(self.count);
@@ -68,6 +53,7 @@ impl Dropped {
         for (place, copy) in places.iter_mut().skip(to).zip(copies) {
             *place = waiting(copy.index, copy.same);
         }
+        (self.count, self.read, self.last) = (self.count + copies.len(), end, first);
     }
 
     /// Writes those that wait at the end, the last of `all` places, to a table before them, from its front.

@@ -8,7 +8,7 @@
 
 use super::dropped::Dropped;
 use crate::bvh::leaf::{STEP, leaf_at};
-use crate::bvh::node::{BvhNode, DEPTH, LEAF, NO_CHILD, WIDTH};
+use crate::bvh::node::{BvhNode, LEAF, NO_CHILD, WIDTH};
 use crate::bvh::unplaced::Unplaced;
 
 /// How many bits say where the spheres of a leaf that is not laid down begin; the four above are their number, less
@@ -31,14 +31,13 @@ pub(super) fn lay_down(
     root: &mut u32,
 ) -> (usize, Dropped) {
     let (mut end, mut dropped) = (0, Dropped::none(first));
-    lay_down_leaves(nodes, root, |child: u32| {
+    *root = lay_down_leaves(nodes, *root, &mut |child: u32| {
         let begin = first + (child & ((1 << BEGIN_BITS) - 1)) as usize;
         let count = ((child & !LEAF) >> BEGIN_BITS) as usize + 1;
         dropped.leave_out(places, indices, begin);
         let leaf = Leaf::read(places, indices, begin, count);
         let settled = leaf_at(end, leaf.count);
-        let (copies, number) = leaf.copies();
-        let copies = copies.get(..number).unwrap_or_default();
+        let copies = leaf.copies.get(..leaf.dropped).unwrap_or_default();
         dropped.read_leaf(places, (begin + count, leaf.indices[0]), copies);
         leaf.write((places, shift), indices, end);
         end += leaf.count.next_multiple_of(STEP);
@@ -49,36 +48,21 @@ pub(super) fn lay_down(
     (end, dropped)
 }
 
-/// Replaces every leaf by what `settle` returns, in the order of their spheres.
-fn lay_down_leaves(nodes: &mut [BvhNode], root: &mut u32, mut settle: impl FnMut(u32) -> u32) {
-    if *root & LEAF != 0 {
-        if *root != NO_CHILD {
-            *root = settle(*root);
-        }
-        return;
+/// Replaces a leaf, or every leaf below a node, by what `settle` returns, in the order of their spheres; returns what the child is
+/// then. No tree is deeper than ten nodes.
+fn lay_down_leaves(nodes: &mut [BvhNode], child: u32, settle: &mut impl FnMut(u32) -> u32) -> u32 {
+    if child & LEAF != 0 {
+        return if child == NO_CHILD { child } else { settle(child) };
     }
     // Children stand in the order of their spheres.
-    let mut way = [(0_usize, 0_usize); DEPTH + 1];
-    let mut depth = 0;
-    way[0] = (*root as usize, 0);
-    while let Some((number, slot)) = way.get_mut(depth) {
-        let (node, at) = (nodes.get_mut(*number), *slot);
-        *slot += 1;
-        let child =
-            node.and_then(|node| node.child.get_mut(at)).filter(|child| **child != NO_CHILD);
-        match child {
-            Some(child) if *child & LEAF != 0 => *child = settle(*child),
-            Some(child) => {
-                let below = *child as usize;
-                depth += 1;
-                if let Some(place) = way.get_mut(depth) {
-                    *place = (below, 0);
-                }
-            }
-            None if depth == 0 => break,
-            None => depth -= 1,
+    for slot in 0..WIDTH {
+        let Some(below) = nodes.get(child as usize).map(|node| node.child[slot]) else { break };
+        let settled = lay_down_leaves(nodes, below, settle);
+        if let Some(node) = nodes.get_mut(child as usize) {
+            node.child[slot] = settled;
         }
     }
+    child
 }
 
 /// The spheres of a leaf, column by column.
@@ -86,9 +70,9 @@ struct Leaf {
     columns: [[f32; WIDTH]; 4],
     indices: [u32; WIDTH],
     count: usize,
-    /// The count with the copies of spheres, which come behind. For copies beyond the lanes that the leaf takes, x is
-    /// the index of what they are the same as, as bits.
-    all: usize,
+    /// The copies of spheres for which no lane is free, and their number.
+    copies: [Unplaced; WIDTH],
+    dropped: usize,
 }
 
 impl Leaf {
@@ -99,7 +83,8 @@ impl Leaf {
             columns: [zeros, zeros, zeros, [f32::NAN; WIDTH]],
             indices: [u32::MAX; WIDTH],
             count: 0,
-            all: 0,
+            copies: [Unplaced { index: 0, same: 0 }; WIDTH],
+            dropped: 0,
         }
     };
 
@@ -128,8 +113,7 @@ impl Leaf {
                 alike[lane] += i32::from(sum == sums[lane]);
             }
         }
-        let count = as_they_are.count;
-        let mut leaf = Self { count, all: count, ..Self::EMPTY };
+        let mut leaf = Self { count: as_they_are.count, ..Self::EMPTY };
         for lane in 0..as_they_are.count.min(WIDTH) {
             let to = ranks[lane] as usize % WIDTH;
             for axis in 0..4 {
@@ -144,29 +128,14 @@ impl Leaf {
         leaf
     }
 
-    /// The copies for which no lane is free, and their number.
-    #[inline(always)]
-    fn copies(&self) -> ([Unplaced; WIDTH], usize) {
-        let mut copies = [Unplaced { index: 0, same: 0 }; WIDTH];
-        let first = self.count.next_multiple_of(STEP);
-        let number = self.all.saturating_sub(first);
-        for copy in 0..number.min(WIDTH) {
-            let lane = (first + copy) % WIDTH;
-            let same = self.columns[0][lane].to_bits();
-            copies[copy] = Unplaced { index: self.indices[lane], same };
-        }
-        (copies, number)
-    }
-
-    /// Keeps the first of spheres that are the same; the others come behind.
+    /// Keeps the first of spheres that are the same; the others come behind as long as lanes are free.
     #[cold]
     fn keep_first(&mut self) {
         let row = |Self { columns: [x, y, z, radius], .. }: &Self, lane: usize| {
             [x[lane], y[lane], z[lane], radius[lane]]
         };
         let mut kept = Self::EMPTY;
-        let mut copies = [Unplaced { index: 0, same: 0 }; WIDTH];
-        let mut number = 0;
+        let (mut copies, mut number) = (Self::EMPTY.copies, 0);
         for lane in 0..self.count.min(WIDTH) {
             let (sphere, index) = (row(self, lane % WIDTH), self.indices[lane]);
             if let Some(other) = (0..kept.count).find(|lane| row(&kept, lane % WIDTH) == sphere) {
@@ -180,11 +149,13 @@ impl Leaf {
             kept.indices[kept.count % WIDTH] = index;
             kept.count += 1;
         }
-        kept.all = kept.count + number;
-        for (copy, lane) in copies.into_iter().zip(kept.count..kept.all) {
-            kept.indices[lane % WIDTH] = copy.index;
-            if lane >= kept.count.next_multiple_of(STEP) {
-                kept.columns[0][lane % WIDTH] = f32::from_bits(copy.same);
+        let (count, lanes) = (kept.count, kept.count.next_multiple_of(STEP));
+        for (copy, lane) in copies.into_iter().zip(count..count + number) {
+            if lane < lanes {
+                kept.indices[lane % WIDTH] = copy.index;
+            } else {
+                kept.copies[(lane - lanes) % WIDTH] = copy;
+                kept.dropped += 1;
             }
         }
         *self = kept;

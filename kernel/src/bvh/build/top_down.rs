@@ -292,11 +292,7 @@ fn build_nodes(join: &impl Join, subtree: &mut Subtree<'_>) -> usize {
 fn node_over(run: &mut Run<'_>, parts: &[Part], first: usize) -> BvhNode {
     let mut node = BvhNode::EMPTY;
     for (slot, part) in parts.iter().enumerate().take(WIDTH) {
-        let [low, high] = part.bounds.padded();
-        for axis in 0..3 {
-            node.low[axis][slot] = low[axis];
-            node.high[axis][slot] = high[axis];
-        }
+        node.set_box(slot, part.bounds.padded());
         if part.is_leaf() {
             node.child[slot] = settle(run, part, first);
         }

@@ -23,7 +23,7 @@ use super::small_tree::{self, AT_ONCE};
 use crate::Accuracy;
 use crate::accuracy::{RayLanes, Squares};
 use crate::bvh::leaf::place_of;
-use crate::bvh::node::{BvhNode, DEPTH, LEAF, NO_CHILD, WIDTH, octant_of};
+use crate::bvh::node::{BvhNode, FRAMES, LEAF, NO_CHILD, WIDTH, octant_of};
 use crate::bvh::tree::Bvh;
 use crate::count::count;
 use crate::geometry::ray::{Ray, RayPacket};
@@ -31,10 +31,6 @@ use crate::lanes::{LaneMask, Lanes};
 use crate::numeric::axes::axes;
 use crate::query::Query;
 use crate::scale::rays::ScaledRays;
-
-/// How many frames there are: more than nodes can lie one below the other.
-const FRAMES: usize = 16;
-const _: () = assert!(FRAMES > DEPTH);
 
 /// Answers one ray.
 #[inline(always)]
@@ -148,7 +144,7 @@ fn search<T: Accuracy, L: Lanes, Q: Query, const SPREADS: bool>(
         return Q::one(&search.answer, 0);
     }
     let around = if SPREADS { prepared.spread_of_boxes(bvh.extent, spread) } else { 0.0 };
-    let slabs = axes!(i => prepared.slab_of(i, along.0[i], along.1));
+    let slabs = axes!(i => prepared.slab(i, along.0[i], along.1));
     let down = axes!(i => slabs[i].down);
     let octant = octant_of(down) as usize % 8;
     let mut boxes = BoxProbe {
@@ -249,12 +245,9 @@ fn enter<L: Lanes, Q: Query>(
 /// 1 to 4 % of a ray's time.)
 #[cold]
 #[inline(never)]
-fn again(ray: &Ray, bvh: &Bvh<'_>, (squares, moves): (Squares, bool)) -> PreparedLanes<f32> {
+fn again(ray: &Ray, bvh: &Bvh<'_>, tier: (Squares, bool)) -> PreparedLanes<f32> {
     let rays = RayLanes::<f32>::load((), &RayPacket::new(core::slice::from_ref(ray)));
-    let extent = if moves { Some(bvh.extent) } else { None };
-    let prepared = PreparedLanes::of_any_length(&rays, bvh.scale.factor, extent);
-    let overflows = prepared.overflowing(squares, bvh.scale.factor, bvh.extent);
-    prepared.left_to_tier(overflows)
+    PreparedLanes::of_any_size(&rays, (bvh.scale.factor, bvh.extent), tier)
 }
 
 /// A node on the way, and which of its children are left.

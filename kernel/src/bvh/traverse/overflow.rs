@@ -4,7 +4,7 @@
 //! tier's to decide, and a tree or depth list answers as a list does.
 
 use super::prepared_ray::{ABSOLUTE_ERROR, PreparedLanes, WORTH_IT};
-use crate::accuracy::Squares;
+use crate::accuracy::{RayLanes, Squares};
 use crate::lanes::Lanes;
 
 /// 2^61. No coordinate of p and no radius is larger than a size: |p|^2 is at most 3 size^2. `Stable` brings |d|^2 below 12 (48 from 2^127 on),
@@ -13,9 +13,26 @@ use crate::lanes::Lanes;
 const LARGEST: f32 = (1_u64 << 61) as f32;
 
 impl<L: Lanes> PreparedLanes<L> {
+    /// Prepares rays of any length and place, for a scene that is scaled by `factor`, and a tier that squares that much: if it `moves`
+    /// rays, from nearer, where they begin far away from a scene of that extent. No root is sure of rays whose squares may overflow.
+    #[inline(always)]
+    pub(crate) fn of_any_size(
+        rays: &RayLanes<L>,
+        (factor, extent): (f32, f32),
+        (squares, moves): (Squares, bool),
+    ) -> Self {
+        let nearer_to = if moves { Some(extent) } else { None };
+        let mut prepared = Self::of_any_length(rays, factor, nearer_to);
+        let overflowing = prepared.overflowing(squares, factor, extent);
+        let infinity = prepared.absolute_error.like(f32::INFINITY);
+        prepared.start[1] = L::select(overflowing, infinity, prepared.start[1]);
+        prepared.end[0] = L::select(overflowing, -infinity, prepared.end[0]);
+        prepared
+    }
+
     /// The rays whose squares may overflow, in a scene of that extent that is scaled by `factor`.
     #[inline(always)]
-    pub(crate) fn overflowing(&self, squares: Squares, factor: f32, extent: f32) -> L::Mask {
+    fn overflowing(&self, squares: Squares, factor: f32, extent: f32) -> L::Mask {
         // At least the largest coordinate of where a ray is taken from, and of the scene. (`Stable`, whose rays may be moved, squares distances
         // from the line there, not from where the ray begins.)
         let error = self.absolute_error;
@@ -51,14 +68,5 @@ impl<L: Lanes> PreparedLanes<L> {
                 || self.overflowing(squares, factor, extent),
             ),
         }
-    }
-
-    /// The same rays, but no root of those is sure.
-    #[inline(always)]
-    pub(crate) fn left_to_tier(mut self, rays: L::Mask) -> Self {
-        let infinity = self.absolute_error.like(f32::INFINITY);
-        self.start[1] = L::select(rays, infinity, self.start[1]);
-        self.end[0] = L::select(rays, -infinity, self.end[0]);
-        self
     }
 }

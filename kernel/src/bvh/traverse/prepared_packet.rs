@@ -85,10 +85,9 @@ impl<A: LaneArray> PreparedPacket<A> {
             prepared.absolute_error.token(),
             #[inline(always)]
             move || {
-                let extent_if_moved = if spread > 0.0 { None } else { Some(extent) };
-                let prepared = PreparedLanes::of_any_length(&rays, factor, extent_if_moved);
-                let overflowing = prepared.overflowing(squares, factor, extent);
-                self.set(prepared.left_to_tier(overflowing), extent, spread);
+                let of_tier = (squares, spread == 0.0);
+                let prepared = PreparedLanes::of_any_size(&rays, (factor, extent), of_tier);
+                self.set(prepared, extent, spread);
             },
         );
     }
@@ -98,9 +97,10 @@ impl<A: LaneArray> PreparedPacket<A> {
         let PreparedLanes { covered, origin, direction, time, absolute_error, start, end } = rays;
         self.covered = covered.bits();
         for i in 0..3 {
-            let Slab { inverse, minus_near, far, down } = rays.slab(i);
+            let (n, one) = (direction[i], direction[i].like(1.0));
+            let Slab { inverse, minus_near, far, down } = rays.slab(i, n, one);
             self.origin[i] = origin[i].store();
-            self.direction[i] = direction[i].store();
+            self.direction[i] = n.store();
             self.inverse[i] = inverse.store();
             self.minus_inverse[i] = (-inverse).store();
             self.minus_near[i] = minus_near.store();

@@ -142,16 +142,9 @@ impl<L: Lanes> PreparedLanes<L> {
         Self { origin, time, absolute_error: absolute_error(size, step), start, end, ..self }
     }
 
-    /// How the rays see the slabs of axis `axis`.
+    /// How the rays see the slabs of axis `axis`, by a direction of any length. (The unit direction is known one division later.)
     #[inline(always)]
-    pub(super) fn slab(&self, axis: usize) -> Slab<L> {
-        let direction = self.direction[axis % 3];
-        self.slab_of(axis, direction, direction.like(1.0))
-    }
-
-    /// The same, by a direction of any length. (The unit direction is known one division later.)
-    #[inline(always)]
-    pub(super) fn slab_of(&self, axis: usize, direction: L, length: L) -> Slab<L> {
+    pub(super) fn slab(&self, axis: usize, direction: L, length: L) -> Slab<L> {
         let origin = self.origin[axis % 3];
         let pad = self.absolute_error * origin.like(PADS);
         let down = direction.lt(origin.like(0.0));

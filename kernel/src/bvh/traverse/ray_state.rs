@@ -183,12 +183,7 @@ impl RayState {
         leaf: &Leaf<'_>,
     ) -> u32 {
         count!(RayLeaf);
-        let probe = self.probe(tests, prepared);
-        let mut spheres = 0;
-        for part in 0..WIDTH / L::COUNT {
-            spheres |= probe.may_hit::<SPREADS>(&leaf.columns, part) << (part * L::COUNT);
-        }
-        spheres & leaf.lanes
+        self.probe(tests, prepared).may_hit::<SPREADS>(leaf)
     }
 
     /// Looks at the spheres of leaf `number`.

@@ -16,8 +16,9 @@
 //! A far root that is surely in the interval is a bound too where the near one is not: the answer is one
 //! of them.
 
+use crate::bvh::leaf::Leaf;
 use crate::geometry::sphere_columns::SphereColumns;
-use crate::lanes::{LaneMask, Lanes};
+use crate::lanes::{LaneMask, Lanes, WIDTH};
 use crate::numeric::axes::axes;
 use crate::numeric::rounding::{LEAST_COMPONENT, least};
 use crate::query::Query;
@@ -73,15 +74,16 @@ pub(crate) struct RayProbe<L: Lanes> {
 }
 
 impl<L: Lanes> RayProbe<L> {
-    /// Which spheres of part `part` may be hit, as far as can be told without a root.
+    /// Which spheres of a leaf may be hit, a bit each, as far as can be told without a root.
     #[inline(always)]
-    pub(crate) fn may_hit<const SPREADS: bool>(
-        &self,
-        spheres: &SphereColumns<'_>,
-        part: usize,
-    ) -> u32 {
-        let pass = self.pass(spheres, part);
-        pass.may_hit::<SPREADS>(self.start[0], self.end[1], self.spread).bits()
+    pub(super) fn may_hit<const SPREADS: bool>(&self, leaf: &Leaf<'_>) -> u32 {
+        let mut spheres = 0;
+        for part in 0..WIDTH / L::COUNT {
+            let pass = self.pass(&leaf.columns, part);
+            let those = pass.may_hit::<SPREADS>(self.start[0], self.end[1], self.spread);
+            spheres |= those.bits() << (part * L::COUNT);
+        }
+        spheres & leaf.lanes
     }
 
     #[inline(always)]

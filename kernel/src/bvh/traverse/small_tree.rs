@@ -43,16 +43,11 @@ pub(crate) fn leaves(bvh: &Bvh<'_>) -> Option<[u32; MOST_LEAVES]> {
 /// How many leaves a small tree has; `None` of a larger one.
 #[inline(always)]
 pub(crate) fn leaf_count(bvh: &Bvh<'_>) -> Option<u32> {
-    leaves(bvh).map(
-        #[inline(always)]
-        |leaves| {
-            let mut count = 0;
-            for number in 0..MOST_LEAVES {
-                count += u32::from(leaves[number] != NO_CHILD);
-            }
-            count
-        },
-    )
+    let (leaves, mut count) = (leaves(bvh)?, 0);
+    for number in 0..MOST_LEAVES {
+        count += u32::from(leaves[number] != NO_CHILD);
+    }
+    Some(count)
 }
 
 /// Answers every ray by testing it against all spheres of a small tree.

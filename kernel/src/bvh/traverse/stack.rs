@@ -7,12 +7,8 @@
 //! mask can stand for a bounds check; the mask never changes a number. (A stack of all boxes, one behind the other,
 //! is as fast, but a proof of its length must say more than that there are ten frames.)
 
-use crate::bvh::node::{BvhNode, DEPTH, NO_CHILD, WIDTH};
+use crate::bvh::node::{BvhNode, FRAMES, NO_CHILD, WIDTH};
 use crate::lanes::{LaneMask, Lanes};
-
-/// How many frames there are.
-const FRAMES: usize = 16;
-const _: () = assert!(FRAMES > DEPTH);
 
 /// Boxes of one node, and the s at which the ray enters each.
 #[derive(Clone, Copy, Debug)]

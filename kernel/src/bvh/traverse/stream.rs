@@ -38,7 +38,6 @@ mod queue;
 mod ray;
 mod seen;
 mod sharing;
-mod strategy;
 
 #[cfg(feature = "alloc")]
 pub(crate) use kept::KeptMemory;
@@ -46,19 +45,17 @@ pub use memory::StreamMemory;
 pub use queue::QueuedRay;
 pub use ray::StreamRay;
 pub(crate) use sharing::Sharing;
-#[cfg(feature = "alloc")]
-pub(crate) use sharing::bytes_of;
 
-use self::queue::{FRAMES, Frame};
+use self::queue::Frame;
 use self::seen::Seen;
-use self::sharing::TOGETHER;
-use self::strategy::StreamStrategy;
+use self::sharing::{StreamStrategy, TOGETHER};
 use super::deferred::DeferredTests;
 use super::in_flight::begin;
 use super::packet_set::PacketSet;
 use super::prepared_packet::PreparedPacket;
 use super::wavefront;
 use crate::Accuracy;
+use crate::bvh::node::FRAMES;
 use crate::bvh::tree::Bvh;
 use crate::count::count;
 use crate::geometry::ray::RayPacket;

@@ -83,7 +83,7 @@ fn by_boxes<T: Accuracy, L: Lanes, Q: Query>(tests: &mut DeferredTests<'_, T, L,
     let mut in_flight = PacketsInFlight::<L::Array>::none();
     let mut round = Round::<L::Array>::empty();
     let mut entered = Entered::default();
-    let far = prefetch::pays(bvh.nodes, bvh.numbers);
+    let far = !bvh.is_near();
     loop {
         round.clear();
         for number in 0..states.len() {

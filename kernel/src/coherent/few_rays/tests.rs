@@ -3,6 +3,7 @@
 extern crate std;
 
 use super::{ManyRays, WIDTH};
+use crate::coherent::ray_order::tests::point;
 use crate::proofs::climb::Random;
 use crate::proofs::work::{Kind, Work};
 use crate::{Exact, Intersect, Ray, SphereList, SphereTree, Trace, Vec3};
@@ -21,19 +22,14 @@ fn are_packed(tree: &SphereTree, mut trace: Trace<'_>, rays: &[Ray]) -> bool {
 /// A tree of so many spheres between -8 and 8.
 fn tree(spheres: usize) -> SphereTree {
     let mut random = Random(61);
-    let mut sphere = || (point(&mut random, 8.0), 0.25);
+    let mut sphere = || (8.0 * point(&mut random), 0.25);
     SphereTree::new((0..spheres).map(|_| sphere()).collect::<SphereList>())
-}
-
-fn point(random: &mut Random, extent: f32) -> Vec3 {
-    let mut coordinate = || random.below(1 << 20) as f32 / (1 << 19) as f32 - 1.0;
-    Vec3::new(coordinate(), coordinate(), coordinate()) * extent
 }
 
 /// Diffuse rays, parallel rays that fill the tree, and a row of a camera's rays.
 fn rays(count: usize) -> [Vec<Ray>; 3] {
     let mut random = Random(67);
-    let mut points = || [point(&mut random, 8.0), point(&mut random, 1.0)];
+    let mut points = || [8.0 * point(&mut random), point(&mut random)];
     let diffuse = (0..count).map(|_| points()).map(|[o, d]| Ray::new(o, d)).collect();
     let beam = (0..count).map(|_| points()[0]);
     let beam = beam.map(|o| Ray::new(Vec3 { z: -9.0, ..o }, Vec3::Z)).collect();
@@ -136,7 +132,7 @@ fn directions_differ_by_the_tangent_of_their_angle() {
 #[test]
 fn a_ground_hides_nothing() {
     let mut random = Random(73);
-    let mut spheres: SphereList = (0..4000).map(|_| (point(&mut random, 8.0), 0.25)).collect();
+    let mut spheres: SphereList = (0..4000).map(|_| (8.0 * point(&mut random), 0.25)).collect();
     spheres.push((Vec3::new(0.0, -1010.0, 0.0), 1000.0));
     let tree = SphereTree::new(spheres);
     assert_eq!([0.5, 4.0].map(|side| square_differs(&tree, 16, side, None)), [false, true]);

@@ -11,8 +11,7 @@ use crate::{
 use std::vec;
 use std::vec::Vec;
 
-const GAIN: GainByOrder =
-    GainByOrder { in_groups: true, is_far: true, by_start: true, is_any: false, radius: 2.0 };
+const GAIN: GainByOrder = GainByOrder { in_groups: true, is_far: true, is_any: false, radius: 2.0 };
 
 pub(crate) fn point(random: &mut Random) -> Vec3 {
     let mut coordinate = || random.below(1 << 20) as f32 / (1 << 19) as f32 - 1.0;
@@ -65,7 +64,7 @@ fn space_of(rays: &[Ray], gain: GainByOrder) -> Option<Space> {
 
 #[test]
 fn rays_are_sorted_by_what_they_have_in_common() {
-    let near = GainByOrder { is_far: false, by_start: false, ..GAIN };
+    let near = GainByOrder { is_far: false, ..GAIN };
     let incoherent = GainByOrder { in_groups: false, ..GAIN };
     let any = GainByOrder { is_any: true, ..incoherent };
     let (camera, many) = (shuffled(scan_lines()), FEWEST_IN_GROUPS);
@@ -95,7 +94,7 @@ fn rays_are_parallel_within_a_sixteenth_of_their_mean() {
             let aside = if is_left { aside } else { -aside };
             Ray::new(point(random), Vec3::new(aside, 0.0, 1.0))
         });
-        assert_eq!(space_of(&rays, GainByOrder { by_start: false, ..GAIN }), expected, "{aside}");
+        assert_eq!(space_of(&rays, GainByOrder { is_far: false, ..GAIN }), expected, "{aside}");
     }
 }
 
@@ -119,7 +118,7 @@ fn two_cameras_are_sorted_one_after_the_other() {
     for (ray, other) in others.iter_mut().step_by(19).zip(diffuse(1 << 16)) {
         *ray = other;
     }
-    let near = GainByOrder { is_far: false, by_start: false, ..GAIN };
+    let near = GainByOrder { is_far: false, ..GAIN };
     for rays in
         [two_cameras(1, &lines), two_cameras(2, &lines), shuffled(two_cameras(1, &lines)), others]
     {
@@ -234,20 +233,14 @@ fn every_ray_keeps_its_place_among_the_answers() {
     for rays in [broken(shuffled(scan_lines())), broken(beam(70_000)), broken(diffuse(30_000))] {
         let bits = |hit: Option<Hit>| hit.map(|hit| (hit.t.to_bits(), hit.sphere));
         let one = rays.iter().map(|ray| bits(tree.closest_hit(Exact, ray))).collect::<Vec<_>>();
-        let columns = |part: fn(&Ray) -> f32| rays.iter().map(part).collect::<Vec<_>>();
-        let origin: [_; 3] =
-            [columns(|ray| ray.origin.x), columns(|ray| ray.origin.y), columns(|ray| ray.origin.z)];
-        let direction: [_; 3] = [
-            columns(|ray| ray.direction.x),
-            columns(|ray| ray.direction.y),
-            columns(|ray| ray.direction.z),
-        ];
-        let t = [columns(|ray| ray.t_min), columns(|ray| ray.t_max)];
+        let column = |of: &dyn Fn(&Ray) -> f32| rays.iter().map(of).collect::<Vec<_>>();
+        let origin = [0, 1, 2].map(|axis: usize| column(&|ray| ray.origin[axis]));
+        let direction = [0, 1, 2].map(|axis: usize| column(&|ray| ray.direction[axis]));
         let columns = RayColumns {
-            origin: [&origin[0], &origin[1], &origin[2]],
-            direction: [&direction[0], &direction[1], &direction[2]],
-            t_min: &t[0],
-            t_max: &t[1],
+            origin: origin.each_ref().map(Vec::as_slice),
+            direction: direction.each_ref().map(Vec::as_slice),
+            t_min: &column(&|ray| ray.t_min),
+            t_max: &column(&|ray| ray.t_max),
         };
         let mut trace = Trace::new();
         let (mut hits, mut occluded) = (vec![None; rays.len()], vec![false; rays.len()]);

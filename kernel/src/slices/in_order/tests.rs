@@ -10,6 +10,15 @@ use crate::{Exact, Intersect, Ray, SphereList, SphereTree, Vec3};
 use std::vec;
 use std::vec::Vec;
 
+/// The work of closest hits, and that of any hits.
+fn works(tree: &SphereTree, rays: &[Ray]) -> [Work; 2] {
+    let (mut hits, mut occluded) = (vec![None; rays.len()], vec![false; rays.len()]);
+    [
+        Work::of(|| tree.closest_hits(Exact, rays, &mut hits)),
+        Work::of(|| tree.any_hits(Exact, rays, &mut occluded)),
+    ]
+}
+
 /// Few rays over many small spheres in clusters make no groups: closest hits are left as they come, any hits are sorted.
 #[test]
 fn where_groups_do_not_pay_closest_hits_are_left_in_their_order() {
@@ -28,9 +37,7 @@ fn where_groups_do_not_pay_closest_hits_are_left_in_their_order() {
     for (tree, expected) in
         [(tree(60, 60_000, 0.002), [false, true]), (tree(1000, 1000, 0.05), [true; 2])]
     {
-        let (mut hits, mut occluded) = (vec![None; rays.len()], vec![false; rays.len()]);
-        let closest = Work::of(|| tree.closest_hits(Exact, &rays, &mut hits));
-        let any = Work::of(|| tree.any_hits(Exact, &rays, &mut occluded));
+        let [closest, any] = works(&tree, &rays);
         let are_tried = [closest, any].map(|work| work.count(Kind::GroupFit) > 300);
         assert_eq!(are_tried, expected, "{} | {}", closest.per_ray(1), any.per_ray(1));
     }
@@ -117,11 +124,8 @@ fn cameras_that_take_turns_are_told_apart_where_it_pays() {
     // The sampled rays of 50,000 are a multiple of three apart.
     for (count, run) in [(32_000, 1), (32_000, 2), (50_000, 3), (65_536, 1)] {
         let rays = by_turns(count, run);
-        let (mut hits, mut occluded) = (vec![None; count], vec![false; count]);
         for (tree, is_sorted) in [(&large, true), (&clusters, false)] {
-            let closest = Work::of(|| tree.closest_hits(Exact, &rays, &mut hits));
-            let any = Work::of(|| tree.any_hits(Exact, &rays, &mut occluded));
-            let streams = [closest, any].map(|work| work.count(Kind::StreamNode));
+            let streams = works(tree, &rays).map(|work| work.count(Kind::StreamNode));
             assert_eq!(
                 streams.map(|nodes| nodes == 0),
                 [is_sorted; 2],
@@ -177,10 +181,7 @@ fn two_cameras_that_are_shuffled_are_sorted_where_groups_do_half_of_what_rays_do
         if is_second { Ray::new(-EYE, -along) } else { Ray::new(EYE, along) }
     });
     for (tree, is_sorted) in trees {
-        let (mut hits, mut occluded) = (vec![None; 1 << 16], vec![false; 1 << 16]);
-        let closest = Work::of(|| tree.closest_hits(Exact, &shuffled, &mut hits));
-        let any = Work::of(|| tree.any_hits(Exact, &shuffled, &mut occluded));
-        let streams = [closest, any].map(|work| work.count(Kind::StreamNode));
+        let streams = works(&tree, &shuffled).map(|work| work.count(Kind::StreamNode));
         assert_eq!(streams.map(|nodes| nodes == 0), [is_sorted; 2], "{streams:?}");
     }
 }

@@ -3,16 +3,12 @@
 
 extern crate std;
 
+use crate::coherent::ray_order::tests::point;
 use crate::proofs::climb::Random;
 use crate::proofs::work::{Kind, Work};
 use crate::{Exact, Intersect, Level, LevelName, Ray, SphereList, SphereTree, Trace, Vec3};
 use core::array::from_fn;
 use std::vec::Vec;
-
-fn point(random: &mut Random) -> Vec3 {
-    let mut coordinate = || random.below(1 << 20) as f32 / (1 << 19) as f32 - 1.0;
-    Vec3::new(coordinate(), coordinate(), coordinate())
-}
 
 /// Rays that each go another way.
 fn diffuse(count: usize) -> Vec<Ray> {

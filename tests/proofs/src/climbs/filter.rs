@@ -4,7 +4,7 @@
 //! `raised` computed without kappa: the search climbs towards hits for which that is large. Whether
 //! the filter loses a hit is then tested with the filter itself.
 
-use super::{cross, distance, lane, line, square, wide};
+use super::{cross, distance, lane, line, scaled, square, wide};
 use crate::accuracy::{TierFormula, Underflow};
 use crate::filter::KAPPA;
 use crate::filter::block::FilterBlock;
@@ -19,11 +19,9 @@ use std::println;
 type Numbers = [f32; 13];
 
 fn case(numbers: &Numbers) -> (Ray, Sphere, Vec3) {
-    let (of_case, [kx, ky, kz]) = numbers
-        .split_first_chunk()
-        .map_or(([0.0; 10], [0.0; 3]), |(first, rest)| (*first, [rest[0], rest[1], rest[2]]));
-    let (line, sphere) = line(&of_case);
-    (line, sphere, Vec3::new(kx, ky, kz))
+    let [of_line @ .., kx, ky, kz] = numbers;
+    let (line, sphere) = line(of_line);
+    (line, sphere, Vec3::new(*kx, *ky, *kz))
 }
 
 /// Calls `ask` with the filter of `kappa`, for the ray and a group whose second sphere is the
@@ -36,9 +34,7 @@ fn with_filter<R>(
 ) -> R {
     let (line, sphere, neighbour) = case(numbers);
     let column = |own: f32, other: f32| [other, own, other, other];
-    let x = column(sphere.center.x, neighbour.x);
-    let y = column(sphere.center.y, neighbour.y);
-    let z = column(sphere.center.z, neighbour.z);
+    let [x, y, z] = [0, 1, 2].map(|axis| column(sphere.center[axis], neighbour[axis]));
     let r = column(sphere.radius, 0.0);
     let spheres = Spheres::new(&x, &y, &z, &r).expect("equal lengths");
     let block = FilterBlock::in_frame(&spheres, 0, Frame::of(&spheres, 0, underflow, 0.0), kappa);
@@ -141,17 +137,12 @@ fn nothing_near_the_threshold_is_dropped() {
     let mut random = Random(6);
     let mut hits = 0;
     for round in 0..300_000 {
-        let mut numbers = start(&mut random);
+        let numbers = start(&mut random);
         let (scale, length) = match round % 4 {
             0 => (random.wide(-120, 120).abs(), random.wide(-120, 120).abs()),
             _ => (1.0, 1.0),
         };
-        for index in [0, 1, 2, 6, 7, 8, 9, 10, 11, 12] {
-            numbers[index] *= scale;
-        }
-        for index in [3, 4, 5] {
-            numbers[index] *= length;
-        }
+        let numbers = scaled(numbers, scale, length);
         let (line, sphere, _) = case(&numbers);
         for (tier, underflow) in [
             (Tier::Fast, Fast::UNDERFLOW),

@@ -1,6 +1,6 @@
 //! What [`Stable`](crate::accuracy::stable::Stable) promises in its domain, against searches that climb.
 
-use super::{Numbers, cross, line, square, wide};
+use super::{Numbers, cross, line, numbers, square, wide};
 use crate::accuracy::TierFormula;
 use crate::exact::{Quadratic, QuadraticTerms, Root};
 use crate::proofs::climb::{Random, assert_published, climb_twice};
@@ -19,10 +19,8 @@ const SIZES: [i32; 2] = [-36, 36];
 /// |p|, the ray and the sphere, if the case is in the domain.
 fn in_domain(numbers: &Numbers) -> Option<(f64, Ray, Sphere)> {
     let (ray, sphere) = line(numbers);
-    let p = sphere.center.to_array().map(f64::from);
-    let o = ray.origin.to_array().map(f64::from);
-    let away = libm::hypot(libm::hypot(p[0] - o[0], p[1] - o[1]), p[2] - o[2]);
-    let r = f64::from(sphere.radius);
+    let (_, p, r) = wide(&ray, &sphere);
+    let away = libm::hypot(libm::hypot(p[0], p[1]), p[2]);
     (ray.is_live() && sphere.is_valid() && r > 0.0 && away <= FARTHEST * r)
         .then_some((away, ray, sphere))
 }
@@ -87,49 +85,25 @@ fn start(random: &mut Random, part: f64) -> Numbers {
     let (along, aside) = (ahead / length, f64::from(r) * part / width);
     let size = random.below(40) as i32 - 20;
     let o = random.point(size);
-    let mut numbers = [0.0; 10];
-    for i in 0..3 {
-        let c = f64::from(o[i]) + d[i] * along + side[i] * aside;
-        (numbers[i], numbers[3 + i], numbers[6 + i]) = (o[i], d[i] as f32, c as f32);
-    }
-    numbers[9] = r;
-    numbers
+    let c = [0, 1, 2].map(|i| (f64::from(o[i]) + d[i] * along + side[i] * aside) as f32);
+    numbers(o, d.map(|x| x as f32), c, r)
 }
 
 /// Lines a thousandth of their origin from it, half a chord of a quarter of the radius, and t just below a power of two, where an ulp is
-/// least: 9 ulp. From anywhere a climb does not come here.
-const LEAST_ULP: [[u32; 10]; 2] = [
-    [
-        0x3feb_6f4e,
-        0xc4d9_ddae,
-        0xb8b5_434c,
-        0xbe38_002d,
-        0xbf64_5ae8,
-        0xbfce_0b78,
-        0x3ef7_7b2a,
-        0xc4da_0213,
-        0xbfd7_6a3d,
-        0x3f9a_17e5,
-    ],
-    [
-        0x3f03_88d4,
-        0xc4ab_aeb7,
-        0xb748_1a61,
-        0xbe38_002d,
-        0xbf64_5ae8,
-        0xbfce_0b78,
-        0xbf57_9833,
-        0xc4ab_d31c,
-        0xbfd7_67cc,
-        0x3f9a_1ae7,
-    ],
+/// least: 9 ulp. From anywhere a climb does not come here. (o, c and r in bits, for one direction.)
+const LEAST_ULP: [([u32; 3], [u32; 3], u32); 2] = [
+    ([0x3feb_6f4e, 0xc4d9_ddae, 0xb8b5_434c], [0x3ef7_7b2a, 0xc4da_0213, 0xbfd7_6a3d], 0x3f9a_17e5),
+    ([0x3f03_88d4, 0xc4ab_aeb7, 0xb748_1a61], [0xbf57_9833, 0xc4ab_d31c, 0xbfd7_67cc], 0x3f9a_1ae7),
 ];
+const ITS_DIRECTION: [u32; 3] = [0xbe38_002d, 0xbf64_5ae8, 0xbfce_0b78];
 
 #[test]
 fn t_is_within_its_ulps() {
     let anywhere = |random: &mut Random| {
         if random.below(100) == 0 {
-            return LEAST_ULP[random.below(2) as usize].map(f32::from_bits);
+            let (o, c, r) = LEAST_ULP[random.below(2) as usize];
+            let [o, d, c] = [o, ITS_DIRECTION, c].map(|v| v.map(f32::from_bits));
+            return numbers(o, d, c, f32::from_bits(r));
         }
         let part = 1.0 - f64::from(random.wide(-24, -1).abs());
         start(random, part)

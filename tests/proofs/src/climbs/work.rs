@@ -1,14 +1,13 @@
 //! Searches for how much more work the plain call does than ray by ray, without a clock.
 //!
 //! The search climbs over scenes, and over rays of any order, count, spread and interval (`work/input.rs`). Work is
-//! what `work.rs` counts and weighs. `SPHERULE_CLIMB` makes it longer; `cargo test -p spherule-proofs
-//! work_of_orders -- --ignored --nocapture` writes what groups do of each kind, and what rays do by themselves.
+//! what `work.rs` counts and weighs. `SPHERULE_CLIMB` makes it longer.
 
 mod input;
 mod patience;
 mod weights;
 
-use self::input::{Bundle, Genes, Input, OF_TREE, RayInput, Scene, SceneInput, step};
+use self::input::{Bundle, Genes, Input, OF_TREE, RayInput, Scene, SceneInput, packed, step};
 use crate::proofs::climb::{Random, climb};
 use crate::proofs::work::{Work, while_groups_persist};
 use crate::query::{AnyHit, ClosestHit, Query};
@@ -62,6 +61,12 @@ const A_PACKET: f64 = 80.0;
 fn times(packets: usize, [work, apart]: [Work; 2]) -> f64 {
     let beside = A_PACKET * packets as f64;
     (work.units() + beside) / (apart.units() + beside)
+}
+
+/// The same of an input.
+fn times_of(input: &Input, said: Said) -> f64 {
+    let packets = input.packets();
+    times(packets.len(), both(&input.scene.tree().bvh(), &packets, input.any, said))
 }
 
 /// The highest `score` that a search finds, of the work of calls whose trace is told `said` and ray by ray. Prints the
@@ -172,9 +177,7 @@ const IN_NO_ORDER: RayInput = RayInput {
 #[test]
 fn a_beam_as_wide_as_the_scene_is_seen() {
     let input = Input { scene: UNIFORM, rays: IN_NO_ORDER, any: false };
-    let (tree, rays) = (input.scene.tree(), input.packets());
-    let works = while_groups_persist(|| both(&tree.bvh(), &rays, false, Trace::coherent));
-    let found = times(rays.len(), works);
+    let found = while_groups_persist(|| times_of(&input, Trace::coherent));
     assert!(found > 10.0, "{found:.2} times the work");
 }
 
@@ -195,18 +198,18 @@ fn grid_on_a_lattice(in_turn: usize) -> (SphereTree, Vec<Ray>) {
 fn tangents_of_many_spheres_are_not_decided_more_often_together() {
     for in_turn in [1, 7] {
         let (tree, rays) = grid_on_a_lattice(in_turn);
-        let packets: Vec<_> = rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect();
+        let packets = packed(&rays);
         for any in [false, true] {
             let [grouped, apart] = both(&tree.bvh(), &packets, any, PLAIN);
             let found = times(packets.len(), [grouped, apart]);
-            let per_ray = [grouped, apart].map(|work| std::format!("{}", work.per_ray(rays.len())));
+            let per_ray = [grouped, apart].map(|work| work.per_ray(rays.len()));
             assert!(found < 1.5, "{found:.2} times the work, any: {any}: {per_ray:#?}");
         }
     }
 }
 
 /// Rays of real uses, in their orders.
-fn orders() -> [(&'static str, RayInput); 11] {
+fn orders() -> [RayInput; 11] {
     let camera =
         Bundle { from: Vec3::new(0.1, 0.2, -3.0), from_spread: 0.0, to_spread: 1.0, ..BEAM };
     let camera = Bundle { to: Vec3::ZERO, parallel: 0.0, ..camera };
@@ -215,17 +218,21 @@ fn orders() -> [(&'static str, RayInput); 11] {
     let light = Bundle { from: Vec3::ZERO, to: Vec3::new(0.3, 3.0, 0.2), parallel: 0.0, ..BEAM };
     let of = |bundle| RayInput { bundles: [bundle; 2], count: 1 << 14, ..IN_NO_ORDER };
     [
-        ("camera, lines", RayInput { lines: true, ..of(camera) }),
-        ("camera, shuffled", of(camera)),
-        ("narrow camera, shuffled", of(Bundle { to_spread: 0.6, ..camera })),
-        ("long lens, shuffled", of(lens)),
-        ("beam", of(BEAM)),
-        ("nearly parallel", of(Bundle { to_spread: 0.05, ..BEAM })),
-        ("to one light", RayInput { t_max: 1.0, ..of(light) }),
-        ("to a far light", RayInput { t_max: 1.0, ..of(Bundle { to: light.to * 3.0, ..light }) }),
-        ("diffuse", of(diffuse)),
-        ("bursts of 16", RayInput { run: 16, within_run: 0.02, ..of(diffuse) }),
-        ("bursts of 64", RayInput { run: 64, within_run: 0.02, ..of(diffuse) }),
+        // A camera: line by line, shuffled, narrow and shuffled. A long lens, shuffled.
+        RayInput { lines: true, ..of(camera) },
+        of(camera),
+        of(Bundle { to_spread: 0.6, ..camera }),
+        of(lens),
+        // A beam, and nearly parallel rays.
+        of(BEAM),
+        of(Bundle { to_spread: 0.05, ..BEAM }),
+        // To one light, and to a far light.
+        RayInput { t_max: 1.0, ..of(light) },
+        RayInput { t_max: 1.0, ..of(Bundle { to: light.to * 3.0, ..light }) },
+        // Diffuse: alone, in bursts of 16, in bursts of 64.
+        of(diffuse),
+        RayInput { run: 16, within_run: 0.02, ..of(diffuse) },
+        RayInput { run: 64, within_run: 0.02, ..of(diffuse) },
     ]
 }
 
@@ -256,7 +263,7 @@ fn any_hit_meets_what_is_large_first() {
     list.push(Sphere { center: Vec3::ZERO, radius: 0.9 });
     let tree = SphereTree::new(list);
 
-    let [_, _, (_, rays), ..] = orders();
+    let [_, _, rays, ..] = orders();
     let packets = Input { scene, rays, any: true }.packets();
     let found = times(packets.len(), both(&tree.bvh(), &packets, true, PLAIN));
     assert!(found < 0.4, "{found:.2} times the work");
@@ -265,40 +272,15 @@ fn any_hit_meets_what_is_large_first() {
 /// A camera's tiles are what groups are for. (For a week they gave up: 3.7 times as long among nested spheres.)
 #[test]
 fn groups_of_a_camera_do_not_give_up() {
-    let [(_, lines), ..] = orders();
+    let [lines, ..] = orders();
     let rays = in_tiles(&Input { scene: UNIFORM, rays: lines, any: false }.rays());
-    let packets: Vec<_> = rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect();
+    let packets = packed(&rays);
     for (scene, tree) in where_groups_pay().iter().enumerate() {
         for any in [false, true] {
             let [work, _] = both(&tree.bvh(), &packets, any, PLAIN);
             let [persisting, _] = while_groups_persist(|| both(&tree.bvh(), &packets, any, PLAIN));
             let found = times(packets.len(), [work, persisting]);
             assert!(found < 1.1, "scene {scene}: {found:.2} times the work, any: {any}");
-        }
-    }
-}
-
-#[test]
-#[ignore = "a table to read"]
-fn work_of_orders() {
-    for scene in [SceneInput { spheres: 1000, radius: 0.02, ..UNIFORM }, UNIFORM] {
-        let tree = scene.tree();
-        let show = |name: &str, rays: &[Ray], any: bool| {
-            let packets: Vec<_> = rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect();
-            let [grouped, apart] = both(&tree.bvh(), &packets, any, Trace::coherent);
-            let times = times(packets.len(), [grouped, apart]);
-            println!("{} spheres, {name}, any: {any}, {times:.2} times", scene.spheres);
-            println!("  groups {}", grouped.per_ray(rays.len()));
-            println!("  apart  {}", apart.per_ray(rays.len()));
-        };
-        for (name, rays) in orders() {
-            for any in [false, true] {
-                let rays = Input { scene, rays, any }.rays();
-                show(name, &rays, any);
-                if name == "camera, lines" {
-                    show("camera, tiles", &in_tiles(&rays), any);
-                }
-            }
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The pads of boxes: a slab is entered no later than the answer, at the corner that is farther out by the box's pad, with the
 //! ray's pad besides.
 
-use super::{U, rules};
+use super::{U, find, rules, sum_of};
 use crate::accuracy::{RayLanes, Squares};
 use crate::bvh::node::BvhNode;
 use crate::bvh::traverse::prepared_packet::PreparedPacket;
@@ -28,19 +28,16 @@ pub(in crate::proofs) fn needs() -> [f64; 2] {
         state.enter::<Recorded, ClosestHit>((), &packet, (0, &node));
         low
     });
-    let find = |wanted: &dyn Fn(&Operation) -> bool| {
-        graph.iter().position(wanted).expect("what is looked for is recorded")
-    };
     // The largest coordinate of the origin, and the error that it has; 1 / |d|, which is the first division.
-    let pair = find(&|operation| matches!(operation, Operation::Larger(..)));
-    let far = find(&|operation| matches!(*operation, Operation::Larger(a, _) if a == pair));
-    let product = find(&|operation| matches!(*operation, Operation::Product(a, _) if a == far));
-    let absolute_error =
-        find(&|operation| matches!(*operation, Operation::Sum(a, _) if a == product));
-    let per_length = find(&|operation| matches!(operation, Operation::Quotient(..)));
+    let pair = find(&graph, |operation| matches!(operation, Operation::Larger(..)));
+    let far = find(&graph, |operation| matches!(operation, Operation::Larger(a, _) if a == pair));
+    let product = |factor: usize| {
+        find(&graph, |operation| matches!(operation, Operation::Product(a, _) if a == factor))
+    };
+    let absolute_error = sum_of(&graph, product(far));
+    let per_length = find(&graph, |operation| matches!(operation, Operation::Quotient(..)));
     // low * inverse, and what is subtracted from it.
-    let product = find(&|operation| matches!(*operation, Operation::Product(a, _) if a == low.0));
-    let entry = find(&|operation| matches!(*operation, Operation::Sum(a, _) if a == product));
+    let entry = sum_of(&graph, product(low.0));
 
     let mut rules = rules(names);
     rules.name(far, "F");

@@ -6,14 +6,13 @@
 //! r^2.
 
 use super::tiers::{fast_row, geometric_row};
-use super::{U, operands, ray};
+use super::{U, operands, ray, rules_of};
 use crate::filter::block::{FilterGroup, excess};
 use crate::filter::frame::Frame;
 use crate::filter::rays::FilterRays;
 use crate::filter::{KAPPA, LEAST_SIZE};
 use crate::proofs::polynomial::Polynomial;
 use crate::proofs::recorded::{Operation, Recorded, record};
-use crate::proofs::running_error::{Input, RunningError};
 use std::vec::Vec;
 
 /// In u, of |c|^2, |o|^2 and r^2.
@@ -55,11 +54,7 @@ fn derive(kappa: f32, more: impl FnOnce(Recorded, Recorded) -> Recorded) -> Deri
     });
 
     // c is the centre less K, rounded.
-    let inputs = names.map(|name| {
-        let off = if name.starts_with('c') { U } else { 0.0 };
-        Input { off, ..Input::named(name) }
-    });
-    let mut rules = RunningError::new(24, &inputs);
+    let mut rules = rules_of(names, &["cx", "cy", "cz"], &[]);
     for axis in 0..3 {
         rules.name(filter.direction[axis].0, ["nx", "ny", "nz"][axis]);
         let [origin, _] = operands(&graph, filter.twice_origin[axis].0);

@@ -5,7 +5,7 @@
 //! middle is at most r times the length of the normal of W. So the sphere passes if the margin, (w - W) Z and what radii are
 //! larger by exceed all roundings, term by term in F, Z and r.
 
-use super::{NAMES, U, ray, rules};
+use super::{NAMES, U, find, ray, rules, sum_of};
 use crate::bvh::traverse::prepared_ray::{ABSOLUTE_ERROR, PreparedLanes};
 use crate::coherent::frustum::{Outline, Sides, length, margin, turn};
 use crate::geometry::camera::tiles::{CameraTiles, POINT_ERROR};
@@ -51,18 +51,11 @@ pub(in crate::proofs) fn needs() -> Needs {
         let _ = sides.look::<Recorded>((), &spheres, Outline::Sphere);
         (slope, low, moved, long)
     });
-    let index = |wanted: Operation| {
-        graph.iter().position(|operation| *operation == wanted).expect("what a plane is asked")
-    };
+    let index = |wanted: Operation| find(&graph, |operation| operation == wanted);
     let [cx, cz, r] = [6, 8, 9].map(|input| index(Operation::Input(input)));
-    let sum_with = |factors: [usize; 2]| {
-        let product = index(Operation::Product(factors[0], factors[1]));
-        graph
-            .iter()
-            .position(|operation| matches!(operation, Operation::Sum(a, _) if *a == product))
-    };
-    let least = sum_with([cz, low.0]).expect("where the plane lies");
-    let highest = sum_with([r, long.0]).expect("how far a sphere reaches");
+    // Where the plane lies, and how far a sphere reaches.
+    let least = sum_of(&graph, index(Operation::Product(cz, low.0)));
+    let highest = sum_of(&graph, index(Operation::Product(r, long.0)));
     assert!(matches!(graph[highest], Operation::Sum(_, across) if across == cx));
 
     let mut rules = rules(NAMES);
@@ -75,16 +68,14 @@ pub(in crate::proofs) fn needs() -> Needs {
     rules.run(&graph);
     let own = rules.symbol("w");
     let off = rules.off_by(own);
-    let error = rules.bound(least).error() + rules.bound(highest).error();
+    let mut error = rules.bound(least).error() + rules.bound(highest).error();
 
     let [f, z, radius, slope, long] = ["F", "Z", "r", "W", "L"].map(|name| rules.symbol(name));
     let [far, deep, wide] = [f, z, radius].map(Polynomial::symbol);
     let along = &(&far + &deep) + &wide;
     let across = &(&far + &(&Polynomial::symbol(slope) * &deep)) + &wide;
-    let mut error = error;
     for (name, bound) in [("ox", &far), ("oz", &far), ("cz", &along), ("cx", &across)] {
-        let symbol = rules.symbol(name);
-        error = error.with(symbol, bound);
+        error = error.with(rules.symbol(name), bound);
     }
     let of = |powers: &[(usize, i32)]| error.coefficient(powers) / U;
     let [text_z, text_f, text_r] = FROM_THE_TEXT;

@@ -7,13 +7,12 @@
 //! The results are polynomials in M = |m|, r and the absolute error: the polynomials of the source must be larger, term
 //! by term.
 
-use super::{U, name_differences, operands};
-use crate::accuracy::RayLanes;
+use super::{NAMES, U, WITNESS, name_differences, operands, ray, rules, rules_of};
 use crate::bvh::traverse::prepared_ray::PreparedLanes;
 use crate::bvh::traverse::root_interval::Pass;
 use crate::proofs::polynomial::Polynomial;
 use crate::proofs::recorded::{Operation, record};
-use crate::proofs::running_error::{Input, RunningError};
+use crate::proofs::running_error::RunningError;
 use crate::scale::rays::ScaledRays;
 use std::vec::Vec;
 
@@ -26,9 +25,7 @@ pub(in crate::proofs) fn border() -> f64 {
         let _ = Pass::new([ox, oy, oz], [nx, ny, nz], error, [cx, cy, cz], r).meets_box();
     });
     let names = ["ox", "oy", "oz", "nx", "ny", "nz", "cx", "cy", "cz", "r", "error"];
-    let off = |name: &str| if name.starts_with('n') { U } else { 0.0 };
-    let inputs = names.map(|name| Input { off: off(name), ..Input::named(name) });
-    let mut rules = RunningError::new(24, &inputs);
+    let mut rules = rules_of(names, &["nx", "ny", "nz"], &[]);
     name_differences(&mut rules, &graph, &["fx", "fy", "fz"]);
     rules.run(&graph);
     let is_product = |node: usize| matches!(graph[node], Operation::Product(..));
@@ -40,19 +37,6 @@ pub(in crate::proofs) fn border() -> f64 {
     assert_eq!(errors.len(), 3, "two axes at a time");
     let coefficients = errors.iter().flat_map(|error| error.terms().map(|(_, of)| of / U));
     coefficients.fold(0.0, f64::max)
-}
-
-/// What the roundings of the formula come to, in u.
-#[derive(Clone, Copy, Debug)]
-struct Roundings {
-    /// 1 / |d|.
-    length: f64,
-    /// m, of |p|: from p.v, and all of it.
-    middle: [f64; 2],
-    /// q, of |p|, for the m that was computed.
-    q: f64,
-    /// l^2, of itself, for the q that was computed.
-    square: f64,
 }
 
 /// The formula of a leaf, and its nodes.
@@ -77,26 +61,21 @@ impl Leaf {
             let _ = pass.may_hit::<false>(start, end, 0.0);
             (pass, pass.root_interval::<false>([start; 2], [end; 2], raise, 0.0))
         });
-        let operands = |node: usize| operands(&graph, node).into();
+        let operands = |node: usize| operands(&graph, node);
         // entry = middle - long; long = root(max(left + slack, 0)) + delta.
-        let (_, long) = operands(interval.entry.0);
-        let (root, _) = operands(long);
-        let (larger, _) = operands(root);
-        let (longest, _) = operands(larger);
-        let (_, slack) = operands(longest);
+        let [_, long] = operands(interval.entry.0);
+        let [root, _] = operands(long);
+        let [larger, _] = operands(root);
+        let [longest, _] = operands(larger);
+        let [_, slack] = operands(longest);
         let squares = (0..graph.len()).filter(|node| match graph[*node] {
             Operation::Product(a, b) => a == b && matches!(graph[a], Operation::Sum(..)),
             _ => false,
         });
-        let reach = squares
-            .clone()
-            .find(|node| {
-                let (a, _) = operands(*node);
-                operands(a).1 == pass.delta.0
-            })
-            .expect("the square of r + delta");
-        let q: Vec<usize> =
-            squares.filter(|node| *node < pass.ll.0).map(|node| operands(node).0).collect();
+        let is_reach = |node: &usize| operands(operands(*node)[0])[1] == pass.delta.0;
+        let reach = squares.clone().find(is_reach).expect("the square of r + delta");
+        let q = squares.filter(|node| *node < pass.ll.0).map(|node| operands(node)[0]);
+        let q: Vec<usize> = q.collect();
         Self {
             middle: pass.middle.0,
             square: pass.ll.0,
@@ -125,19 +104,8 @@ impl Leaf {
             "raise",
         ];
         // n is v, rounded.
-        let mut rules = RunningError::new(
-            24,
-            &names.map(|name| Input {
-                off: if name.starts_with('n') { U } else { 0.0 },
-                positive: ["r", "error"].contains(&name),
-                ..Input::named(name)
-            }),
-        );
-        let mut differences = (0..self.graph.len())
-            .filter(|node| matches!(self.graph[*node], Operation::Difference(..)));
-        for name in ["fx", "fy", "fz"] {
-            rules.name(differences.next().expect("f"), name);
-        }
+        let mut rules = rules_of(names, &["nx", "ny", "nz"], &["r", "error"]);
+        name_differences(&mut rules, &self.graph, &["fx", "fy", "fz"]);
         rules.name(self.middle, "M");
         for (name, node) in ["qx", "qy", "qz"].into_iter().zip(self.q) {
             rules.name(node, name);
@@ -145,7 +113,8 @@ impl Leaf {
         rules
     }
 
-    fn roundings(&self) -> Roundings {
+    /// In u: 1 / |d|; m and q, of |p|, where q is for the m that was computed; l^2 of itself, for the q that was computed.
+    fn roundings(&self) -> [f64; 4] {
         let length = length_off();
         let mut rules = self.rules();
         let [f, n] =
@@ -172,32 +141,16 @@ impl Leaf {
             rules.in_lengths(rules.bound(self.square).error()).coefficient(&[(q_length, 2)]);
         // From p.v to the part of |v|^2 of it.
         let part = 2.0 * length + length * length;
-        Roundings {
-            length: length / U,
-            middle: [middle / U, (middle + part) / U],
-            q: q / U,
-            square: square / U,
-        }
+        [length, middle + part, q, square].map(|off| off / U)
     }
 }
 
 /// How far off 1 / |d| is, as rays are prepared.
 fn length_off() -> f64 {
-    let (prepared, graph) = record(
-        [1.0, 0.1, 0.2, 0.0, 0.0, 0.0, -1.0, 1.0],
-        |[dx, dy, dz, ox, oy, oz, t_min, t_max]| {
-            let rays = RayLanes {
-                origin: [ox, oy, oz],
-                direction: [dx, dy, dz],
-                t_min,
-                t_max,
-                live: true,
-            };
-            PreparedLanes::as_they_are(&ScaledRays::new(&rays, 1.0))
-        },
-    );
-    let names = ["dx", "dy", "dz", "ox", "oy", "oz", "t_min", "t_max"];
-    let mut rules = RunningError::new(24, &names.map(Input::named));
+    let (prepared, graph) = record(WITNESS, |[ox, oy, oz, dx, dy, dz, ..]| {
+        PreparedLanes::as_they_are(&ScaledRays::new(&ray([ox, oy, oz], [dx, dy, dz]), 1.0))
+    });
+    let mut rules = rules(NAMES);
     rules.run(&graph);
     let Operation::Product(_, per_length) = graph[prepared.direction[0].0] else {
         unreachable!("d / |d|")
@@ -217,18 +170,14 @@ pub(in crate::proofs) fn holds(constant: f32, to: f64) -> bool {
 
 /// In u: 1 / |d|; m and q, of |p|; l^2 of itself.
 pub(in crate::proofs) fn roundings() -> [f64; 4] {
-    let Roundings { length, middle: [_, middle], q, square } = Leaf::record().roundings();
-    [length, middle, q, square]
+    Leaf::record().roundings()
 }
 
 /// For each statement, the part of the margin that is needed by the term that needs most. The statements: a hit passes
 /// the test of W; a hit passes the test of r + delta; what passes the test of -W is a hit; half the chord is in its
 /// interval; the roots are in their intervals.
 fn parts(leaf: &Leaf) -> [f64; 5] {
-    let roundings = leaf.roundings();
-    let [middle, q, square, length] =
-        [roundings.middle[1], roundings.q, roundings.square, roundings.length]
-            .map(|count| count * U * SECOND);
+    let [length, middle, q, square] = leaf.roundings().map(|count| count * U * SECOND);
     let mut rules = leaf.rules();
     rules.run(&leaf.graph);
     let [m, r, error] = ["M", "r", "error"].map(|name| Polynomial::symbol(rules.symbol(name)));

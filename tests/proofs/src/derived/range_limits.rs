@@ -3,11 +3,10 @@
 //! Put in by hand: no component of d is longer than d; r |d| and |d.p| are no more than the size; and the error of
 //! `Stable`.
 
-use super::{U, name_differences, operands, ray};
+use super::{U, find, name_differences, operands, ray, roots, rules_of};
 use crate::accuracy::range_limits::{RAISE, RangeLimits};
 use crate::proofs::polynomial::{Monomial, Polynomial};
 use crate::proofs::recorded::{Operation, record};
-use crate::proofs::running_error::{Input, RunningError};
 use std::vec::Vec;
 
 /// In u: the least raise, and the least margin of the size and of limit a.
@@ -19,22 +18,19 @@ pub(in crate::proofs) fn needs() -> [f64; 3] {
         let _ = RangeLimits::new(&rays).limit(&rays, [cx, cy, cz], r, limit);
     });
     let operands = |node: usize| operands(&graph, node);
-    let mut roots = (0..graph.len()).filter(|node| matches!(graph[*node], Operation::Root(_)));
-    let roots = [roots.next().expect("|d|"), roots.next().expect("the root of D")];
+    // |d|, and the root of D.
+    let roots = roots(&graph);
     // The last sum is end + margin; margin is MARGIN (size + |end|) and what covers underflow.
     let [end, margin] = operands(graph.len() - 1);
     let [size, _] = operands(operands(operands(margin)[0])[1]);
     let [larger, raise] = operands(operands(roots[1])[0]);
     let discriminant = operands(larger)[0];
     let [later, a] = operands(end);
-    let entry = graph.iter().find_map(|operation| match *operation {
-        Operation::Difference(b, root) if root == roots[1] => Some(b),
-        _ => None,
-    });
-    let b = entry.expect("b less the root");
+    let is_entry =
+        |operation: Operation| matches!(operation, Operation::Difference(_, b) if b == roots[1]);
+    let [b, _] = operands(find(&graph, is_entry));
 
-    let inputs = names.map(|name| Input { positive: name == "r", ..Input::named(name) });
-    let mut rules = RunningError::new(24, &inputs);
+    let mut rules = rules_of(names, &[], &["r"]);
     name_differences(&mut rules, &graph, &["px", "py", "pz", "xx", "xy", "xz"]);
     rules.name(a, "a");
     rules.name(roots[0], "|d|");

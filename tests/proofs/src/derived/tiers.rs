@@ -1,9 +1,9 @@
 //! The rows of `Fast` and `Geometric` in `docs/numerics.md`: the error of what is under a tier's root.
 
-use super::{NAMES, U, WITNESS, name_differences, operands, ray, rules};
+use super::{NAMES, U, WITNESS, name_differences, operands, ray, roots, rules};
 use crate::accuracy::{TierFormula, fast, geometric};
 use crate::proofs::polynomial::{Monomial, Polynomial, Symbol};
-use crate::proofs::recorded::{Operation, record};
+use crate::proofs::recorded::record;
 use crate::{Fast, Geometric};
 
 /// |p|^2 and r^2, times other lengths squared, and more: second order is less than 64 u of them.
@@ -19,8 +19,7 @@ pub(in crate::proofs) fn fast_row() -> [f64; 2] {
         fast::roots(&Fast::prepare(&ray([ox, oy, oz], [dx, dy, dz])), [cx, cy, cz], r)
     });
     // D = b^2 - a c under the root, and a, which is divided by.
-    let root = graph.iter().position(|operation| matches!(operation, Operation::Root(_)));
-    let [discriminant, _] = operands(&graph, root.expect("a root"));
+    let [discriminant, _] = operands(&graph, roots(&graph)[0]);
     let [bb, ac] = operands(&graph, discriminant);
     let ([b, _], [a, c]) = (operands(&graph, bb), operands(&graph, ac));
 
@@ -55,8 +54,8 @@ pub(in crate::proofs) fn geometric_row() -> [f64; 2] {
         prepared
     });
     // r^2 - (p.p - s^2) under the last root; the first is |d|.
-    let root = graph.iter().rposition(|operation| matches!(operation, Operation::Root(_)));
-    let [left, _] = operands(&graph, root.expect("a root"));
+    let roots = roots(&graph);
+    let [left, _] = operands(&graph, roots[roots.len() - 1]);
     let [_, ll] = operands(&graph, left);
     let [_, square] = operands(&graph, ll);
     let [middle, _] = operands(&graph, square);

@@ -2,7 +2,7 @@
 
 use crate::exact::long_accumulator::{Product, SumOfEights};
 use crate::proofs::climb::Random;
-use crate::proofs::integers::units::units;
+use crate::proofs::integers::units;
 use core::cmp::Ordering;
 use num_bigint::BigInt;
 use std::vec::Vec;
@@ -97,14 +97,10 @@ fn estimates_are_close() {
             sum.add_product(&a.times(&b), &c.times(&d));
             exact += product(&numbers);
         }
-        // In units of 2^-1216, an estimate is a double times 2^1216.
-        let bits = sum.estimate().to_bits();
-        let (exponent, fraction) = (bits >> 52 & 0x7ff, bits & ((1 << 52) - 1));
-        let magnitude = match exponent {
-            0 => BigInt::ZERO,
-            _ => (BigInt::from(fraction | 1 << 52) << 1216_u32 << exponent) >> 1075_u32,
-        };
-        let estimate = if bits >> 63 == 1 { -magnitude } else { magnitude };
+        // 53 bits, and an exponent, in units of 2^-1216.
+        let (fraction, exponent) = libm::frexp(sum.estimate());
+        let bits = (fraction * (1_u64 << 53) as f64) as i64;
+        let estimate = BigInt::from(bits) << (exponent + 1216 - 53) as u32;
         let off = estimate - &exact;
         assert!(off.magnitude() << 52_u32 <= *exact.magnitude(), "{exact}");
     }

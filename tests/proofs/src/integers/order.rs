@@ -3,7 +3,7 @@
 use crate::exact::Quadratic;
 use crate::exact::{QuadraticTerms, Root, compare_roots};
 use crate::proofs::climb::Random;
-use crate::proofs::integers::units::units;
+use crate::proofs::integers::units;
 use core::cmp::Ordering;
 use num_bigint::BigInt;
 use std::vec::Vec;

@@ -41,11 +41,15 @@ fn array<L: Lanes>(numbers: &[f32]) -> L::Array {
     array
 }
 
+/// A number a lane.
+fn numbers<L: Lanes>(random: &mut Random) -> Vec<f32> {
+    (0..L::COUNT).map(|_| number(random)).collect()
+}
+
 fn singles<L: Lanes<Token = ()>>() {
     let mut random = Random(41);
     for _ in 0..20_000 {
-        let [a, b, c] =
-            [(); 3].map(|()| -> Vec<f32> { (0..L::COUNT).map(|_| number(&mut random)).collect() });
+        let [a, b, c] = [(); 3].map(|()| numbers::<L>(&mut random));
         let [x, y, z] = [&a, &b, &c].map(|numbers| L::load((), &array::<L>(numbers)));
         let check = |name: &str, lanes: L, scalar: &dyn Fn(f32, f32, f32) -> f32| {
             for (lane, &found) in lanes.store().as_ref().iter().enumerate() {
@@ -90,8 +94,7 @@ fn doubles<L: Lanes<Token = ()>>() {
     let count = L::Double::COUNT;
     assert_eq!(L::PARTS * count, L::COUNT);
     for _ in 0..20_000 {
-        let [a, b] =
-            [(); 2].map(|()| -> Vec<f32> { (0..L::COUNT).map(|_| number(&mut random)).collect() });
+        let [a, b] = [(); 2].map(|()| numbers::<L>(&mut random));
         let [x, y] = [&a, &b].map(|numbers| L::load((), &array::<L>(numbers)));
         // Sums and quotients have bits below those of single precision: narrowing must round.
         type Operation<D> = fn(D, D) -> D;
@@ -132,25 +135,13 @@ fn doubles<L: Lanes<Token = ()>>() {
 }
 
 #[test]
-fn one_lane() {
-    singles::<f32>();
-    doubles::<f32>();
-}
-
-#[test]
-fn four_lanes() {
-    singles::<f32x4>();
-    doubles::<f32x4>();
-}
-
-#[test]
-fn eight_lanes() {
-    singles::<f32x8>();
-    doubles::<f32x8>();
-}
-
-#[test]
-fn sixteen_lanes() {
-    singles::<f32x16>();
-    doubles::<f32x16>();
+fn every_width_computes_what_one_lane_does() {
+    fn both<L: Lanes<Token = ()>>() {
+        singles::<L>();
+        doubles::<L>();
+    }
+    both::<f32>();
+    both::<f32x4>();
+    both::<f32x8>();
+    both::<f32x16>();
 }

@@ -7,29 +7,34 @@ use crate::proofs::climb::Random;
 use crate::{f32x4, f32x8, f32x16};
 use std::vec::Vec;
 
+/// Any pattern, NaN and subnormals too: lanes are moved as they are.
+fn any(random: &mut Random) -> f32 {
+    f32::from_bits(random.bits() as u32)
+}
+
+fn bits(numbers: &[f32]) -> Vec<u32> {
+    numbers.iter().map(|number| number.to_bits()).collect()
+}
+
 fn moves<L: Lanes>(token: L::Token) {
     let mut random = Random(43);
     for _ in 0..5_000 {
-        let bits = random.bits();
-        let mask = bits as u32 & ((1_u64 << L::COUNT) - 1) as u32;
+        let marks = random.bits() as u32;
+        let mask = marks & ((1_u64 << L::COUNT) - 1) as u32;
         let order = random.bits();
         let mut array = L::Array::filled(0.0);
-        for element in array.as_mut() {
-            // Any pattern, NaN and subnormals too: lanes are moved as they are.
-            *element = f32::from_bits(random.bits() as u32);
-        }
+        array.as_mut().fill_with(|| any(&mut random));
         let numbers = array.as_ref().to_vec();
         let lanes = L::load(token, &array);
 
         // Bits past the last lane are not looked at.
-        assert_eq!(L::mask(token, bits as u32).bits(), mask);
-        let kept = numbers.iter().enumerate().filter(|(lane, _)| mask >> lane & 1 == 1);
+        assert_eq!(L::mask(token, marks).bits(), mask);
+        let kept = (0..L::COUNT).filter(|lane| mask >> lane & 1 == 1).map(|lane| numbers[lane]);
+        let kept: Vec<f32> = kept.collect();
         let compressed = lanes.compress(L::mask(token, mask)).store();
-        for ((_, expected), found) in kept.zip(compressed.as_ref()) {
-            assert_eq!(expected.to_bits(), found.to_bits());
-        }
+        assert_eq!(bits(&compressed.as_ref()[..kept.len()]), bits(&kept));
 
-        let sixteen_bits = bits as u32 & 0xffff;
+        let sixteen_bits = marks & 0xffff;
         let ordered = L::bits_in_order(token, sixteen_bits, order);
         for place in 0..32 {
             let expected =
@@ -41,7 +46,7 @@ fn moves<L: Lanes>(token: L::Token) {
         let mut others = L::Array::filled(0.0);
         for (lane, number) in numbers.iter().enumerate() {
             let equal = random.bits() & 1 == 1;
-            let other = f32::from_bits(random.bits() as u32);
+            let other = any(&mut random);
             others.set(lane, if equal { *number } else { other });
         }
         let compared = lanes.le_in_order(L::load(token, &others), 0, order);
@@ -61,38 +66,28 @@ fn moves<L: Lanes>(token: L::Token) {
         }
 
         // Parts of sixteen numbers, and lanes laid down anywhere.
-        let sixteen: [f32; 16] = core::array::from_fn(|_| f32::from_bits(random.bits() as u32));
+        let sixteen = [(); 16].map(|()| any(&mut random));
         let mut copy = [0.0; 16];
         for part in 0..16 / L::COUNT {
             L::load_part(token, &sixteen, part).store().put_part(&mut copy, part);
         }
-        assert_eq!(copy.map(f32::to_bits), sixteen.map(f32::to_bits));
+        assert_eq!(bits(&copy), bits(&sixteen));
         let mut column = Vec::from([0.0; 20]);
         let at = random.below(24) as usize;
         let room = at + L::COUNT <= column.len();
         assert_eq!(array.put_at(&mut column, at), room);
         if room {
-            for (found, number) in column[at..].iter().zip(&numbers) {
-                assert_eq!(found.to_bits(), number.to_bits());
-            }
+            assert_eq!(bits(&column[at..at + L::COUNT]), bits(&numbers));
         }
-
-        assert_eq!(L::Array::taken_at(&column, at).is_some(), room);
-        if let Some(taken) = L::Array::taken_at(&column, at) {
-            let bits =
-                |lanes: L::Array| lanes.as_ref().iter().map(|x| x.to_bits()).collect::<Vec<_>>();
-            assert_eq!(bits(taken), bits(array));
-        }
+        let taken = L::Array::taken_at(&column, at);
+        assert_eq!(taken.map(|taken| bits(taken.as_ref())), room.then(|| bits(&numbers)));
 
         // Rows become columns.
-        let rows: [[f32; 8]; 16] =
-            [[(); 8]; 16].map(|row| row.map(|()| f32::from_bits(random.bits() as u32)));
+        let rows = [[(); 8]; 16].map(|row| row.map(|()| any(&mut random)));
         let columns = L::columns(token, |row| rows[row]);
-        for row in 0..L::COUNT {
-            for column in 0..8 {
-                let found = columns[column].get(row);
-                assert_eq!(found.to_bits(), rows[row][column].to_bits(), "{row}, {column}");
-            }
+        for (row, expected) in rows.iter().enumerate().take(L::COUNT) {
+            let found = columns.map(|column| column.get(row));
+            assert_eq!(bits(&found), bits(expected), "{row}");
         }
 
         if numbers.iter().all(|number| !number.is_nan()) {

@@ -13,22 +13,14 @@
 use super::{Bound, Form, Input, RunningError};
 use crate::proofs::polynomial::{Monomial, Polynomial, Symbol};
 use crate::proofs::recorded::Operation;
-use std::format;
 
 impl RunningError {
     pub(super) fn input(&mut self, number: usize) -> Bound {
         let Input { name, bits, off, positive } = self.inputs[number];
         let symbol = self.symbol(name);
         self.nodes.insert(symbol, self.bounds.len());
-        let it = Polynomial::symbol(symbol);
-        Bound {
-            error: Some(it.scaled(off)),
-            high: it.clone(),
-            low: it,
-            positive,
-            bits,
-            form: Some(Form { factor: 1.0, monomial: Monomial::of(&[(symbol, 1)]), roundings: 0 }),
-        }
+        let error = Polynomial::symbol(symbol).scaled(off);
+        Bound { positive, bits, ..Bound::of_symbol(symbol, Some(error)) }
     }
 
     pub(super) fn constant(&self, number: f64) -> Bound {
@@ -79,8 +71,12 @@ impl RunningError {
                 return self.scaled(other, form.factor);
             }
         }
-        let squared = a == b;
-        let (a, b) = (&self.bounds[a], &self.bounds[b]);
+        let (one, other) = (&self.bounds[a], &self.bounds[b]);
+        Bound { positive: a == b || one.positive && other.positive, ..self.multiplied(one, other) }
+    }
+
+    /// A product that is rounded, unless its factors have few bits.
+    fn multiplied(&self, a: &Bound, b: &Bound) -> Bound {
         let bits = a.bits.zip(b.bits).map(|(a, b)| a + b).filter(|bits| *bits <= self.bits);
         let roundings = i32::from(bits.is_none());
         let form = a.form.as_ref().zip(b.form.as_ref()).map(|(a, b)| Form {
@@ -89,77 +85,56 @@ impl RunningError {
             roundings: a.roundings + b.roundings + roundings,
         });
         let product = &a.high * &b.high;
+        let rounding = self.u * f64::from(roundings);
         let errors = a.error.as_ref().zip(b.error.as_ref()).map(|(error_a, error_b)| {
             let errors = &(&a.high * error_b) + &(&b.high * error_a);
-            let rounding = product.scaled(self.u * f64::from(roundings));
-            &(&errors + &(error_a * error_b)) + &rounding
+            &(&errors + &(error_a * error_b)) + &product.scaled(rounding)
         });
         Bound {
-            high: product.scaled(1.0 + self.u * f64::from(roundings)),
-            low: (&a.low * &b.low).scaled(1.0 - self.u * f64::from(roundings)),
+            high: product.scaled(1.0 + rounding),
+            low: (&a.low * &b.low).scaled(1.0 - rounding),
             error: form.as_ref().and_then(|form| self.error_of(form)).or(errors),
-            positive: squared || a.positive && b.positive,
+            positive: a.positive && b.positive,
             bits,
             form,
         }
     }
 
     pub(super) fn quotient(&self, a: usize, b: usize) -> Bound {
-        let (a, b) = (&self.bounds[a], &self.bounds[b]);
+        let b = &self.bounds[b];
         let divisor = b.form.as_ref().expect("a divisor that is a product");
         let inverse = Form {
             factor: 1.0 / divisor.factor,
             monomial: divisor.monomial.inverse(),
             roundings: divisor.roundings,
         };
-        let per =
-            Polynomial::of(inverse.factor * self.far(inverse.roundings), inverse.monomial.clone());
-        let form = a.form.as_ref().map(|a| Form {
-            factor: a.factor * inverse.factor,
-            monomial: a.monomial.times(&inverse.monomial),
-            roundings: a.roundings + inverse.roundings + 1,
-        });
-        let quotient = &a.high * &per;
-        let errors = a.error.as_ref().zip(self.error_of(&inverse)).map(|(error_a, error_per)| {
-            let errors = &(&a.high * &error_per) + &(&per * error_a);
-            &(&errors + &(error_a * &error_per)) + &quotient.scaled(self.u)
-        });
-        let least = Polynomial::of(inverse.factor / self.far(inverse.roundings), inverse.monomial);
-        Bound {
-            high: quotient.scaled(1.0 + self.u),
-            low: (&a.low * &least).scaled(1.0 - self.u),
-            error: form.as_ref().and_then(|form| self.error_of(form)).or(errors),
-            positive: a.positive && b.positive,
+        let far = self.far(inverse.roundings);
+        let per = Bound {
+            high: Polynomial::of(inverse.factor * far, inverse.monomial.clone()),
+            low: Polynomial::of(inverse.factor / far, inverse.monomial.clone()),
+            error: self.error_of(&inverse),
+            positive: b.positive,
             bits: None,
-            form,
-        }
+            form: Some(inverse),
+        };
+        self.multiplied(&self.bounds[a], &per)
     }
 
     pub(super) fn root(&mut self, node: usize, a: usize) -> Bound {
-        let name = self.names.get(&node).copied();
-        let symbol = self.symbol(name.unwrap_or(&format!("node {node}")));
+        let symbol = self.symbol_of(node);
         self.nodes.insert(symbol, node);
         let (it, a) = (Polynomial::symbol(symbol), &self.bounds[a]);
-        let rounding = it.scaled(self.u);
         let error = a.error.as_ref().map(|error| match self.relative(a) {
             // 1 - root (1 - x) is at most x / 2 (1 + x).
             Some(off) => it.scaled(off / 2.0 * (1.0 + off) * (1.0 + self.u) + self.u),
             None => {
                 let per = Polynomial::of(1.0 + 2.0 * self.u, Monomial::of(&[(symbol, -1)]));
-                &(error * &per) + &rounding
+                &(error * &per) + &it.scaled(self.u)
             }
         });
-        let bound = Bound {
-            high: it.clone(),
-            low: it,
-            error,
-            positive: true,
-            bits: None,
-            form: Some(Form { factor: 1.0, monomial: Monomial::of(&[(symbol, 1)]), roundings: 0 }),
-        };
-        if let Some(off) = bound.error.as_ref().and_then(|error| self.multiple(error, symbol)) {
-            self.off.insert(symbol, off);
-        }
+        let bound = Bound { positive: true, ..Bound::of_symbol(symbol, error) };
+        let off = self.relative(&bound);
+        self.off.extend(off.map(|off| (symbol, off)));
         bound
     }
 
@@ -210,12 +185,6 @@ impl RunningError {
     /// The relative error of a node, if it has one.
     pub(super) fn relative(&self, bound: &Bound) -> Option<f64> {
         let off = bound.error.as_ref()?.over(&bound.low);
-        (off < 1.0).then_some(off)
-    }
-
-    /// The factor by which a polynomial is a multiple of one symbol.
-    pub(super) fn multiple(&self, polynomial: &Polynomial, symbol: Symbol) -> Option<f64> {
-        let off = polynomial.over(&Polynomial::symbol(symbol));
         (off < 1.0).then_some(off)
     }
 }

@@ -7,8 +7,9 @@
 //! Rays that are moved, from far away, have twelve bits: the 2^-11 T of their error covers 2 u T from there on. The
 //! build of the tree is written for `f32` alone, and repeated here.
 
+use super::case::Case;
 use super::pairs;
-use crate::accuracy::{RayLanes, Squares};
+use crate::accuracy::Squares;
 use crate::bvh::build::bounds::PAD;
 use crate::bvh::node::{BvhNode, NO_CHILD};
 use crate::bvh::traverse::deferred::RayPlace;
@@ -37,49 +38,13 @@ const PAD_IN_U: f64 = (PAD / U) as f64;
 const ENDLESS: f32 = 1_048_576.0;
 const EXTENT: f32 = 2048.0;
 
-/// A ray and a sphere in a plane.
-#[derive(Clone, Copy, Debug)]
-struct Case {
-    o: [i64; 2],
-    d: [i64; 2],
-    c: [i64; 2],
-    r: i64,
-    extent: f32,
-}
-
 impl Case {
-    /// Both roots as real numbers: doubles are that, beside floats of ten bits.
-    fn roots(&self) -> Option<[f64; 2]> {
-        let Self { o, d, c, r, .. } = *self;
-        let p = [c[0] - o[0], c[1] - o[1]];
-        let (a, b, x) =
-            (d[0] * d[0] + d[1] * d[1], d[0] * p[0] + d[1] * p[1], d[0] * p[1] - d[1] * p[0]);
-        let discriminant = a * r * r - x * x;
-        let root = (discriminant as f64).sqrt();
-        (discriminant >= 0).then(|| [(b as f64 - root) / a as f64, (b as f64 + root) / a as f64])
-    }
-
-    fn length(&self) -> f64 {
-        ((self.d[0] * self.d[0] + self.d[1] * self.d[1]) as f64).sqrt()
-    }
-
-    fn rays<F: Format>(&self, [t_min, t_max]: [f64; 2]) -> RayLanes<Toy<F>> {
-        let lanes = |v: [i64; 2]| [v[0], v[1], 0].map(|x| Toy::new(x as f64));
-        RayLanes {
-            origin: lanes(self.o),
-            direction: lanes(self.d),
-            t_min: Toy::new(t_min),
-            t_max: Toy::new(t_max),
-            live: true,
-        }
-    }
-
     /// A box that holds the sphere, farther out by `pad` u of its size, as the build makes it.
     fn node<F: Format>(&self, pad: f64) -> BvhNode {
-        let [c, r] = [[self.c[0] as f64, self.c[1] as f64, 0.0], [self.r as f64; 3]];
+        let (c, r) = (self.c.map(|x| x as f64), self.r as f64);
         let step = |x: f64, sign: f64| F::round(x + sign * x.abs().max(1e-9) * F::U * 1.01);
-        let low = [0, 1, 2].map(|i| step(F::round(c[i] - r[i]), -1.0));
-        let high = [0, 1, 2].map(|i| step(F::round(c[i] + r[i]), 1.0));
+        let low = [0, 1, 2].map(|i| step(F::round(c[i] - r), -1.0));
+        let high = [0, 1, 2].map(|i| step(F::round(c[i] + r), 1.0));
         let largest = low.iter().chain(&high).fold(0.0_f64, |most, x| most.max(x.abs()));
         let pad = F::round(pad * F::U * largest);
         let mut node = BvhNode::EMPTY;
@@ -92,9 +57,9 @@ impl Case {
     }
 
     /// Whether a ray whose interval is no more than that answer enters the box.
-    fn enters<F: Format>(&self, t: f64, pad: f64) -> bool {
+    fn enters<F: Format>(&self, extent: f32, t: f64, pad: f64) -> bool {
         let mut packet = PreparedPacket::<[f32; 1]>::NONE;
-        packet.prepare(&self.rays::<F>([t, t]), 1.0, self.extent, (0.0, Squares::None));
+        packet.prepare(&self.rays::<F>([t, t]), 1.0, extent, (0.0, Squares::None));
         let mut state = RayState::NEW;
         state.begin(&packet, 0, RayPlace::FIRST, 0);
         state.stack.clear();
@@ -105,20 +70,15 @@ impl Case {
 
     /// What a leaf gets wrong of an answer t, one bit each: the ray with no more than that answer sees no candidate;
     /// its entry is later; a bound is sooner, or there is a bound without an answer.
-    fn leaf<F: Format>(&self, interval: [f64; 2], roots: Option<[f64; 2]>) -> u32 {
+    fn leaf<F: Format>(&self, extent: f32, interval: [f64; 2], roots: Option<[f64; 2]>) -> u32 {
         let rays = self.rays::<F>(interval);
-        let prepared = PreparedLanes::of_any_length(&rays, 1.0, Some(self.extent));
+        let prepared = PreparedLanes::of_any_length(&rays, 1.0, Some(extent));
         // In multiples of the direction as it was given.
         let shift = prepared.time.shift.get() / prepared.time.per_t.get();
-        assert_eq!(shift > 0.0, self.extent < ENDLESS, "{self:?}");
-        let center = [self.c[0], self.c[1], 0].map(|x| Toy::new(x as f64));
-        let pass = Pass::new(
-            prepared.origin,
-            prepared.direction,
-            prepared.absolute_error,
-            center,
-            Toy::new(self.r as f64),
-        );
+        assert_eq!(shift > 0.0, extent < ENDLESS, "{self:?}");
+        let (center, radius) = self.sphere::<F>();
+        let PreparedLanes { origin, direction, absolute_error, .. } = prepared;
+        let pass = Pass::new(origin, direction, absolute_error, center, radius);
         let zero = Toy::new(0.0);
         let found = pass.root_interval::<false>(prepared.start, prepared.end, zero, 0.0);
         let may = pass.may_hit::<false>(prepared.start[0], prepared.end[1], 0.0);
@@ -129,26 +89,27 @@ impl Case {
         };
         // Of a ray that was moved the ends of the interval have the error of t; entry and bound are a root's.
         let t = if shift == 0.0 { F::round(root) } else { root };
-        let [s, root] = [t, root].map(|t| (t - shift) * self.length());
+        let length = (self.truth().a as f64).sqrt();
+        let [s, root] = [t, root].map(|t| (t - shift) * length);
         // What doubles may be off.
-        let hair = (root.abs() + shift * self.length()) * 1e-12;
+        let hair = (root.abs() + shift * length) * 1e-12;
         u32::from(!found.candidates || !may)
             | u32::from(found.entry.get() > s.min(root) + hair) << 1
             | u32::from(found.bound.get() < s.max(root) - hair) << 2
     }
 }
 
+/// What is done with each case, in a scene of some extent.
+type Each<'a> = &'a mut dyn FnMut(&Case, f32);
+
 /// All cases of those rays and centres: radii are about the distance of the line, so that lines are tangents, or miss or
 /// meet by little.
-fn cases(o: [i64; 2], d: [i64; 2], centers: &[i64], extent: f32, work: &mut dyn FnMut(&Case)) {
+fn cases(o: [i64; 2], d: [i64; 2], centers: &[i64], extent: f32, each: Each<'_>) {
     for (cx, cy) in pairs(centers, centers) {
-        let mut case = Case { o, d, c: [cx, cy], r: 0, extent };
-        let side = (d[0] * (cy - o[1]) - d[1] * (cx - o[0])).abs();
-        let across = (side as f64 / case.length()).ceil() as i64;
+        let across = Case::in_plane(o, d, [cx, cy], 0).truth().distance().ceil() as i64;
         for more in [-1, 0, 1, 3, across / 64, across / 8, across] {
-            case.r = across + more;
-            if (0..1024).contains(&case.r) {
-                work(&case);
+            if (0..1024).contains(&(across + more)) {
+                each(&Case::in_plane(o, d, [cx, cy], across + more), extent);
             }
         }
     }
@@ -160,17 +121,17 @@ fn directions() -> impl Iterator<Item = [i64; 2]> {
 }
 
 /// Near the origin.
-fn all(work: &mut dyn FnMut(&Case)) {
+fn all(each: Each<'_>) {
     let centers = [-1021, -777, -100, -3, 0, 1, 2, 33, 101, 701, 999];
     for d in directions() {
         for o in [[0, 0], [37, 0], [-1023, 513], [0, -5], [-511, 37]] {
-            cases(o, d, &centers, ENDLESS, work);
+            cases(o, d, &centers, ENDLESS, each);
         }
     }
 }
 
 /// From far away: the ray is moved.
-fn far(work: &mut dyn FnMut(&Case)) {
+fn far(each: Each<'_>) {
     for d in directions() {
         // Lines beside the coordinates' origin have origins of more bits than few: a multiple of 64.
         for (away, [ox, oy]) in
@@ -178,28 +139,31 @@ fn far(work: &mut dyn FnMut(&Case)) {
         {
             let o = [ox - away * d[0], oy - away * d[1]]
                 .map(|x| Toy::<FarFused>::new(x as f64).get() as i64);
-            cases(o, d, &[-1021, -100, -3, 0, 2, 33, 701], EXTENT, work);
+            cases(o, d, &[-1021, -100, -3, 0, 2, 33, 701], EXTENT, each);
         }
     }
 }
 
 /// Answers, and those whose box is not entered.
-fn boxes<F: Format>(pad: f64, set: impl Fn(&mut dyn FnMut(&Case))) -> [u64; 2] {
+fn boxes<F: Format>(pad: f64, set: fn(Each<'_>)) -> [u64; 2] {
     let mut counts = [0; 2];
-    set(&mut |case| {
-        for root in case.roots().into_iter().flatten() {
+    set(&mut |case, extent| {
+        let truth = case.truth();
+        for root in truth.roots(|root| truth.about(root)).into_iter().flatten() {
             counts[0] += 1;
-            counts[1] += u64::from(!case.enters::<F>(F::round(root), pad));
+            counts[1] += u64::from(!case.enters::<F>(extent, F::round(root), pad));
         }
     });
     counts
 }
 
 /// Answers, and what leaves get wrong of them: [`Case::leaf`].
-fn leaves<F: Format>(set: impl Fn(&mut dyn FnMut(&Case))) -> (u64, [u64; 3]) {
+fn leaves<F: Format>(set: fn(Each<'_>)) -> (u64, [u64; 3]) {
     let (mut count, mut wrong) = (0, [0; 3]);
-    set(&mut |case| {
-        let roots = case.roots();
+    set(&mut |case, extent| {
+        let truth = case.truth();
+        // As real numbers: doubles are that, beside floats of ten bits.
+        let roots = truth.roots(|root| truth.about(root));
         let [near, far] = roots.map_or([0.0, 1.0], |roots| roots.map(F::round));
         let behind = near + near.abs() * 2.1 * F::U;
         let all = f64::INFINITY;
@@ -207,7 +171,7 @@ fn leaves<F: Format>(set: impl Fn(&mut dyn FnMut(&Case))) -> (u64, [u64; 3]) {
             [[near, near], [far, far], [-all, all], [near, far], [0.0, near], [behind, all]]
         {
             count += 1;
-            let found = case.leaf::<F>(interval.map(F::round), roots);
+            let found = case.leaf::<F>(extent, interval.map(F::round), roots);
             for (bit, wrong) in wrong.iter_mut().enumerate() {
                 *wrong += u64::from(found >> bit & 1);
             }

@@ -7,9 +7,9 @@
 
 mod cases;
 
-use self::cases::{Case, Truth, lane, neighbour, plane, short_integers, signed, space};
+use self::cases::{neighbour, plane, short_integers, signed, space};
+use super::case::Case;
 use super::pairs;
-use crate::accuracy::RayLanes;
 use crate::accuracy::constants::Constants;
 use crate::accuracy::exact::Brackets;
 use crate::accuracy::exact::estimate::Estimate;
@@ -94,13 +94,12 @@ fn discriminants_and_roots_are_within_their_bounds() {
     assert!(control.d > 1.0 && control.t > 1.0 && control.outside > 0, "{control:?}");
 }
 
-/// Decided cases, undecided ones, and those that are decided wrong.
+/// Counts cases that are decided right, decided wrong, and not decided.
 fn decided<F: Format>(bits: u32, end: i64) -> [u64; 3] {
     let mut counts = [0; 3];
     plane(bits, &[0], end, |case| {
         let truth = case.truth();
-        let roots = (truth.discriminant >= 0)
-            .then(|| [Root::Near, Root::Far].map(|root| truth.rounded::<F>(root)));
+        let roots = truth.roots(|root| truth.rounded::<F>(root));
         let [near, far] = roots.unwrap_or([-1.0, 1.0]);
         let infinity = f64::INFINITY;
         for [t_min, t_max, limit] in [
@@ -108,26 +107,13 @@ fn decided<F: Format>(bits: u32, end: i64) -> [u64; 3] {
             [neighbour::<F>(near, 1.0), far, infinity],
             [0.0, infinity, near],
         ] {
-            let lanes = |v: [i64; 3]| v.map(lane::<F>);
-            let rays = RayLanes {
-                origin: lanes(case.o),
-                direction: lanes(case.d),
-                t_min: Toy::new(t_min),
-                t_max: Toy::new(t_max),
-                live: true,
-            };
-            let brackets = Brackets::new(&rays, lanes(case.c), lane(case.r), true);
+            let (rays, (center, radius)) = (case.rays::<F>([t_min, t_max]), case.sphere());
+            let brackets = Brackets::new(&rays, center, radius, true);
             let (t, decided) = brackets.decide(&rays, Toy::new(limit));
             let accepted = |t: &f64| t_min <= *t && *t <= t_max;
             let answer = roots.into_iter().flatten().find(accepted).unwrap_or(infinity);
             let right = t.get() == answer || t.get() == infinity && answer > limit;
-            counts[if !decided {
-                1
-            } else if right {
-                0
-            } else {
-                2
-            }] += 1;
+            counts[if decided { usize::from(!right) } else { 2 }] += 1;
         }
     });
     counts
@@ -135,7 +121,7 @@ fn decided<F: Format>(bits: u32, end: i64) -> [u64; 3] {
 
 #[test]
 fn what_is_decided_is_right() {
-    for (name, [right, open, wrong]) in [
+    for (name, [right, wrong, open]) in [
         ("3 bits in 11", decided::<Single3>(3, 28)),
         ("4 bits in 13", decided::<Single4>(4, 14)),
         ("3 bits in 6", decided::<Short>(3, 28)),
@@ -144,38 +130,33 @@ fn what_is_decided_is_right() {
         assert!(wrong == 0, "{name}: {wrong} are decided wrong");
         assert!(right > 100_000 && open > 1_000, "{name}: {right}, {open}");
     }
-    let [_, _, wrong] = decided::<Control>(3, 28);
+    let [_, wrong, _] = decided::<Control>(3, 28);
     println!("with an eighth of the bounds {wrong} are decided wrong");
     assert!(wrong > 0, "no case is hard");
 }
 
-/// Counts pairs of roots of one ray and two spheres: in the order that the brackets tell, not told, told wrong.
+/// Counts pairs of roots of one ray and two spheres: in the order that the brackets tell, told wrong, not told.
 fn ordered<F: Format>(constants: &Constants) -> [u64; 3] {
     let mut counts = [0; 3];
     let both = signed(&short_integers(3, 8));
-    for d in [[5, 3, 0], [7, 6, 0]] {
-        let mut roots: Vec<(Case, Truth, Root, f64, f64)> = Vec::new();
+    for d in [[5, 3], [7, 6]] {
+        let mut roots: Vec<(Case, Root, f64, [f64; 2])> = Vec::new();
         for (cx, cy) in pairs(&both, &both) {
             for r in short_integers(3, 12) {
-                let case = Case { o: [0; 3], d, c: [cx, cy, 0], r };
-                let Estimate { discriminant, error, near, far } = case.estimate::<F>(constants);
-                if discriminant.get() > error.get() && case.truth().discriminant >= 0 {
+                let case = Case::in_plane([0, 0], d, [cx, cy], r);
+                let (truth, estimate) = (case.truth(), case.estimate::<F>(constants));
+                let Estimate { discriminant, error, near, far } = estimate;
+                if discriminant.get() > error.get() && truth.discriminant >= 0 {
                     for ((t, bound), root) in [(near, Root::Near), (far, Root::Far)] {
-                        roots.push((
-                            case,
-                            case.truth(),
-                            root,
-                            (t - bound).get(),
-                            (t + bound).get(),
-                        ));
+                        let bracket = [(t - bound).get(), (t + bound).get()];
+                        roots.push((case, root, truth.about(root), bracket));
                     }
                 }
             }
         }
-        for (one, truth, root, _, high) in &roots {
-            for (other, other_truth, other_root, low, _) in &roots {
-                let told = high < low;
-                let apart = other_truth.about(*other_root) - truth.about(*root);
+        for (one, root, t, [_, high]) in &roots {
+            for (other, other_root, other_t, [low, _]) in &roots {
+                let (told, apart) = (high < low, other_t - t);
                 // Doubles know it, unless the roots are the same or nearly.
                 let less = if apart.abs() > 1e-9 {
                     apart > 0.0
@@ -183,13 +164,7 @@ fn ordered<F: Format>(constants: &Constants) -> [u64; 3] {
                     told && compare_roots((&one.terms(), *root), (&other.terms(), *other_root))
                         .is_lt()
                 };
-                counts[if !told {
-                    1
-                } else if less {
-                    0
-                } else {
-                    2
-                }] += 1;
+                counts[if told { usize::from(!less) } else { 2 }] += 1;
             }
         }
     }
@@ -198,7 +173,7 @@ fn ordered<F: Format>(constants: &Constants) -> [u64; 3] {
 
 #[test]
 fn two_hits_are_told_apart_right() {
-    for (name, [right, open, wrong]) in [
+    for (name, [right, wrong, open]) in [
         ("11 bits", ordered::<Double11>(&Constants::of(Double11::U))),
         ("6 bits", ordered::<Double6>(&Constants::of(Double6::U))),
     ] {
@@ -206,7 +181,7 @@ fn two_hits_are_told_apart_right() {
         assert!(wrong == 0, "{name}: {wrong} wrong");
         assert!(right > 100_000 && open > right, "{name}: {right}, {open}");
     }
-    let [_, _, wrong] = ordered::<Double6>(&Constants::of(Double6::U / 64.0));
+    let [_, wrong, _] = ordered::<Double6>(&Constants::of(Double6::U / 64.0));
     println!("with a sixty-fourth of the bounds {wrong} are wrong");
     assert!(wrong > 0, "no pair is hard");
 }

@@ -4,14 +4,15 @@
 //! kappa is 114 u, so the floats have eleven bits: with fewer, the filter would let everything pass. Spheres are
 //! prepared for `f32` alone; here their centres are shifted by a lane, as rays are.
 
+use super::case::{Case, lanes};
 use super::pairs;
-use crate::accuracy::{RayLanes, TierFormula};
+use crate::accuracy::TierFormula;
 use crate::filter::block::{FilterGroup, excess};
 use crate::filter::frame::Frame;
 use crate::filter::rays::FilterRays;
 use crate::filter::{KAPPA, LEAST_SIZE};
 use crate::numeric::rounding::U;
-use crate::proofs::toy::floats::{Format, Toy};
+use crate::proofs::toy::floats::Format;
 use crate::{Fast, Geometric};
 use std::println;
 
@@ -23,36 +24,12 @@ formats! {
 /// kappa.
 const KAPPA_IN_U: f64 = (KAPPA / U) as f64;
 
-/// o, d, c, r and the filter's origin, in a plane.
-#[derive(Clone, Copy, Debug)]
-struct Case {
-    o: [i64; 2],
-    d: [i64; 2],
-    c: [i64; 2],
-    r: i64,
-    shift: [i64; 2],
-}
-
 impl Case {
-    /// D >= 0.
-    fn is_hit(&self) -> bool {
-        let [a, x] = self.terms();
-        a * self.r * self.r >= x * x
-    }
-
-    /// d.d and d x p.
-    fn terms(&self) -> [i64; 2] {
-        let Self { o, d, c, .. } = *self;
-        [d[0] * d[0] + d[1] * d[1], d[0] * (c[1] - o[1]) - d[1] * (c[0] - o[0])]
-    }
-
-    /// Whether the tier sees a hit, and whether the filter lets the sphere pass.
-    fn judged<A: TierFormula, F: Format>(&self, kappa: f32) -> [bool; 2] {
-        let vector = |v: [i64; 2]| [v[0], v[1], 0].map(|x| Toy::<F>::new(x as f64));
-        let (infinity, r) = (Toy::new(f64::INFINITY), Toy::new(self.r as f64));
-        let (origin, direction) = (vector(self.o), vector(self.d));
-        let rays = RayLanes { origin, direction, t_min: -infinity, t_max: infinity, live: true };
-        let (center, shift) = (vector(self.c), vector(self.shift));
+    /// Whether the tier sees a hit, and whether the filter, with that origin, lets the sphere pass.
+    fn judged<A: TierFormula, F: Format>(&self, shift: [i64; 2], kappa: f32) -> [bool; 2] {
+        let rays = self.rays::<F>([f64::NEG_INFINITY, f64::INFINITY]);
+        let (center, r) = self.sphere::<F>();
+        let shift = lanes::<F>([shift[0], shift[1], 0]);
         let shifted = [0, 1, 2].map(|i| center[i] - shift[i]);
         let mut group = FilterGroup::EMPTY;
         for i in 0..3 {
@@ -62,27 +39,24 @@ impl Case {
         let shift = shift.map(|k| k.get() as f32);
         let frame = Frame { scale: 1.0, shift, least_size: LEAST_SIZE, least_length: 0.0 };
         let passes = FilterRays::widened((), &rays, &frame, kappa).may_meet(&group, 0);
-        let t = A::first_root(&rays, &A::prepare(&rays), center, r, true, infinity);
+        let t = A::first_root(&rays, &A::prepare(&rays), center, r, true, rays.t_max);
         [t.get().is_finite(), passes]
     }
 }
 
 /// All cases of the sets: radii are less than the distance of the line, down to where no tier sees a hit any more, or
 /// as large.
-fn all(mut work: impl FnMut(&Case)) {
+fn all(mut work: impl FnMut(&Case, [i64; 2])) {
     let directions = [[4, 1], [5, 3], [7, 0], [6, -5], [3, 7], [-1, 5], [2047, 1023], [-999, 1]];
     let numbers = [-2001, -1021, -515, -100, -3, 0, 2, 33, 257, 701, 1501, 2047];
     for (d, o) in pairs(&directions, &[[0, 0], [37, -5], [-1023, 513], [1999, 1777], [-3, 1001]]) {
         for (x, y) in pairs(&numbers, &numbers) {
-            let mut case = Case { o, d, c: [x, y], r: 0, shift: [0; 2] };
-            let [a, side] = case.terms();
-            let across = (side.abs() as f64 / (a as f64).sqrt()).ceil() as i64;
+            let across = Case::in_plane(o, d, [x, y], 0).truth().distance().ceil() as i64;
             for (shift, less) in
                 pairs(&[[0, 0], [x, y], [y, 77]], &[-2, 0, 1, 2, 3, 5, 8, 13, 21, 34, 55, 144, 377])
             {
-                (case.r, case.shift) = (across - less, shift);
-                if (0..2048).contains(&case.r) {
-                    work(&case);
+                if (0..2048).contains(&(across - less)) {
+                    work(&Case::in_plane(o, d, [x, y], across - less), shift);
                 }
             }
         }
@@ -93,8 +67,9 @@ fn all(mut work: impl FnMut(&Case)) {
 /// out.
 fn counts<A: TierFormula, F: Format>(kappa: f64) -> [u64; 4] {
     let mut counts = [0; 4];
-    all(|case| {
-        let ([seen, passes], hit) = (case.judged::<A, F>((kappa * F::U) as f32), case.is_hit());
+    all(|case, shift| {
+        let [seen, passes] = case.judged::<A, F>(shift, (kappa * F::U) as f32);
+        let hit = case.truth().discriminant >= 0;
         counts[0] += u64::from(hit);
         counts[1] += u64::from(seen && !hit);
         counts[2] += u64::from(!passes && !hit && !seen);

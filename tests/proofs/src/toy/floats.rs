@@ -9,6 +9,7 @@
 //! Numbers of the kernel's source that follow from u do so here, by `Lanes::UNIT_ROUNDOFF`. Other numbers (2^40, and
 //! what is added for underflow) are the same as in `f32`.
 
+use crate::proofs::one_lane::one_lane;
 use crate::{DoubleLanes, Lanes};
 use core::fmt::Debug;
 use core::marker::PhantomData;
@@ -73,6 +74,11 @@ impl<F: Format> Toy<F> {
         self.value
     }
 
+    #[inline(always)]
+    fn root(self) -> Self {
+        Self::new(libm::sqrt(self.value))
+    }
+
     /// The number itself, which the format must have.
     #[inline(always)]
     fn constant(x: f64) -> Self {
@@ -108,15 +114,9 @@ impl<F: Format> Neg for Toy<F> {
 }
 
 impl<F: Format> Lanes for Toy<F> {
-    const COUNT: usize = 1;
+    one_lane!(Lanes, get);
     const UNIT_ROUNDOFF: f32 = (F::U * F::MARGIN) as f32;
-    type Token = ();
-    type Array = [f32; 1];
-    type Mask = bool;
     type Double = Toy<F::Double>;
-
-    #[inline(always)]
-    fn token(self) {}
 
     #[inline(always)]
     fn splat((): (), value: f32) -> Self {
@@ -124,18 +124,8 @@ impl<F: Format> Lanes for Toy<F> {
     }
 
     #[inline(always)]
-    fn load((): (), array: &[f32; 1]) -> Self {
-        Self::constant(f64::from(array[0]))
-    }
-
-    #[inline(always)]
     fn store(self) -> [f32; 1] {
         [self.value as f32]
-    }
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        Self::new(libm::sqrt(self.value))
     }
 
     #[inline(always)]
@@ -153,31 +143,6 @@ impl<F: Format> Lanes for Toy<F> {
     }
 
     #[inline(always)]
-    fn lt(self, other: Self) -> bool {
-        self.value < other.value
-    }
-
-    #[inline(always)]
-    fn le(self, other: Self) -> bool {
-        self.value <= other.value
-    }
-
-    #[inline(always)]
-    fn select(mask: bool, yes: Self, no: Self) -> Self {
-        if mask { yes } else { no }
-    }
-
-    #[inline(always)]
-    fn out_of_line<R>((): (), work: impl FnOnce() -> R) -> R {
-        work()
-    }
-
-    #[inline(always)]
-    fn compress(self, _: bool) -> Self {
-        self
-    }
-
-    #[inline(always)]
     fn widen(self, _: usize) -> Toy<F::Double> {
         Toy::constant(self.value)
     }
@@ -189,36 +154,11 @@ impl<F: Format> Lanes for Toy<F> {
 }
 
 impl<F: Format> DoubleLanes for Toy<F> {
-    const COUNT: usize = 1;
+    one_lane!(DoubleLanes, get);
     const UNIT_ROUNDOFF: f64 = F::U * F::MARGIN;
-    type Token = ();
-    type Mask = bool;
-
-    #[inline(always)]
-    fn token(self) {}
 
     #[inline(always)]
     fn splat((): (), value: f64) -> Self {
         Self::constant(value)
-    }
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        Self::new(libm::sqrt(self.value))
-    }
-
-    #[inline(always)]
-    fn lt(self, other: Self) -> bool {
-        self.value < other.value
-    }
-
-    #[inline(always)]
-    fn le(self, other: Self) -> bool {
-        self.value <= other.value
-    }
-
-    #[inline(always)]
-    fn select(mask: bool, yes: Self, no: Self) -> Self {
-        if mask { yes } else { no }
     }
 }

@@ -3,7 +3,7 @@
 use crate::bvh::build::bounds::{Corners, padded};
 use crate::bvh::build::lay_down::write_columns;
 use crate::bvh::leaf::{self, STEP};
-use crate::bvh::node::{BvhNode, DEPTH, LEAF, NO_CHILD, WIDTH};
+use crate::bvh::node::{BvhNode, LEAF, NO_CHILD, WIDTH};
 use crate::bvh::prefetch;
 use crate::geometry::sphere::Spheres;
 use crate::numeric::rounding::{least, most};
@@ -26,58 +26,32 @@ pub(super) struct Leaves<'a> {
     pub(super) count: usize,
 }
 
-/// A node on the way, the slot that is next, and what is in its boxes so far.
-#[derive(Clone, Copy)]
-struct Step {
-    node: usize,
-    slot: usize,
-    held: Corners,
-}
-
 impl Leaves<'_> {
-    /// Refits what is below `root`; returns its box.
-    pub(super) fn refit(&mut self, nodes: &mut [BvhNode], root: u32) -> Corners {
-        if root & LEAF != 0 {
-            return if root == NO_CHILD { Corners::EMPTY } else { self.leaf(root & !LEAF) };
+    /// Refits a node or a leaf, with all below it; returns its box. No tree is deeper than ten nodes.
+    pub(super) fn refit(&mut self, nodes: &mut [BvhNode], child: u32) -> Corners {
+        if child & LEAF != 0 {
+            return if child == NO_CHILD { Corners::EMPTY } else { self.leaf(child & !LEAF) };
         }
-        let step = |node| Step { node, slot: 0, held: Corners::EMPTY };
-        let mut way = [step(root as usize); DEPTH + 1];
-        let mut depth = 0;
         let mut held = Corners::EMPTY;
-        while let Some(step_here) = way.get_mut(depth) {
-            let Step { node, slot, held: here } = step_here;
-            let Some(node) = nodes.get_mut(*node) else { break };
-            if *slot == 0 && self.spheres.len() > NEAR {
-                self.read_ahead(node);
-            }
-            if let Some(child) = node.child.get(*slot).copied() {
-                *slot += 1;
-                if child & LEAF == 0 {
-                    depth += 1;
-                    if let Some(place) = way.get_mut(depth) {
-                        *place = step(child as usize);
-                    }
-                } else if child != NO_CHILD {
-                    let corners = self.leaf(child & !LEAF);
-                    put_box(node, slot.saturating_sub(1), &corners);
-                    here.hold(corners);
-                }
+        let Some(node) = nodes.get(child as usize) else { return held };
+        if self.spheres.len() > NEAR {
+            self.read_ahead(node);
+        }
+        for (slot, below) in node.child.into_iter().enumerate() {
+            if below == NO_CHILD {
                 continue;
             }
-            held = *here;
-            let Some(above) = depth.checked_sub(1) else { break };
-            depth = above;
-            if let Some(Step { node, slot, held: here }) = way.get_mut(depth)
-                && let Some(node) = nodes.get_mut(*node)
-            {
-                put_box(node, slot.saturating_sub(1), &held);
-                here.hold(held);
+            let corners = self.refit(nodes, below);
+            if let Some(node) = nodes.get_mut(child as usize) {
+                node.set_box(slot, box_of(&corners));
             }
+            held.hold(corners);
         }
         held
     }
 
-    /// Refits a leaf; returns its box.
+    /// Refits a leaf; returns its box. (Not inlined: each node on the way would keep room on the stack for a leaf.)
+    #[inline(never)]
     fn leaf(&mut self, number: u32) -> Corners {
         let (begin, lanes) = leaf::extent_of(number);
         let none = [0.0; WIDTH];
@@ -211,17 +185,12 @@ fn put_step(column: &mut [f32; WIDTH], step: usize, numbers: &[f32; STEP]) {
     }
 }
 
-/// Writes the box of a child; if the child has no sphere, a box that no ray enters.
+/// The box of a child, as nodes have it; if the child has no sphere, a box that no ray enters.
 #[inline(always)]
-fn put_box(node: &mut BvhNode, slot: usize, corners: &Corners) {
-    let [low, high] = if corners.is_empty() {
-        [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]]
-    } else {
-        let [low, high] = corners.outward();
-        padded(low, high)
-    };
-    for axis in 0..3 {
-        node.low[axis][slot % WIDTH] = low[axis];
-        node.high[axis][slot % WIDTH] = high[axis];
+fn box_of(corners: &Corners) -> [[f32; 3]; 2] {
+    if corners.is_empty() {
+        return [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
     }
+    let [low, high] = corners.outward();
+    padded(low, high)
 }

@@ -100,10 +100,7 @@ impl<T: Accuracy, Q: Query> Search<'_, T, Q> {
         let mut may_hit = 0;
         for number in 0..MOST_LEAVES {
             let Some(leaf) = self.bvh.leaf(leaves[number] & !LEAF) else { break };
-            for part in 0..WIDTH / L::COUNT {
-                let here = probe.may_hit::<SPREADS>(&leaf.columns, part) << (part * L::COUNT);
-                may_hit |= u64::from(here & leaf.lanes) << (number * WIDTH);
-            }
+            may_hit |= u64::from(probe.may_hit::<SPREADS>(&leaf)) << (number * WIDTH);
         }
         may_hit
     }

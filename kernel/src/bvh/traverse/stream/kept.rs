@@ -99,9 +99,9 @@ impl KeptMemory {
     fn take(&mut self, rays: usize) -> Option<StreamMemory<'_>> {
         self.find();
         let Memory { rays: places, queues, .. } = &mut self.0;
-        lengthen(places, StreamRay::EMPTY, rays)?;
+        lengthen(places, StreamRay::EMPTY, rays).ok()?;
         let needed = StreamMemory::queues_needed(places.len()).max(QUEUES * places.len());
-        lengthen(queues, QueuedRay::EMPTY, needed)?;
+        lengthen(queues, QueuedRay::EMPTY, needed).ok()?;
         StreamMemory::new(places, queues).ok()
     }
 }

@@ -1,8 +1,8 @@
 //! The memory of a stream, which the caller provides.
 
-use super::queue::{FRAMES, QueuedRay};
+use super::queue::QueuedRay;
 use super::ray::StreamRay;
-use crate::bvh::node::WIDTH;
+use crate::bvh::node::{FRAMES, WIDTH};
 use crate::memory::TooSmall;
 
 /// Memory for a stream of rays, checked to be large enough.

@@ -1,9 +1,9 @@
 //! How the rays of an octant go through the nodes.
 
 use super::Stream;
-use super::queue::{FRAMES, Frame, QueuedRay, still_waiting};
+use super::queue::{Frame, QueuedRay, still_waiting};
 use crate::Accuracy;
-use crate::bvh::node::{LEAF, NO_CHILD, WIDTH};
+use crate::bvh::node::{FRAMES, LEAF, NO_CHILD, WIDTH};
 use crate::bvh::traverse::boxes::Boxes;
 use crate::count::count;
 use crate::lanes::{LaneArray, LaneMask, Lanes};

@@ -1,7 +1,7 @@
 //! The queues of a stream: which rays wait at each box on the way, in memory of the caller's.
 
 use super::ray::StreamRay;
-use crate::bvh::node::{DEPTH, NO_CHILD, WIDTH};
+use crate::bvh::node::{NO_CHILD, WIDTH};
 
 /// Memory for a ray that waits at a box. 8 bytes.
 #[derive(Clone, Copy, Debug)]
@@ -16,10 +16,6 @@ impl QueuedRay {
     /// No ray: what memory for queues is filled with.
     pub const EMPTY: Self = Self { ray: 0, entry: 0.0 };
 }
-
-/// How many frames there are, so that a mask can stand for a bounds check.
-pub(super) const FRAMES: usize = 16;
-const _: () = assert!(FRAMES > DEPTH);
 
 /// A node on the way: the rays that wait at it, and those that wait at its children.
 #[derive(Clone, Copy)]

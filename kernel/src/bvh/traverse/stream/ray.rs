@@ -2,7 +2,7 @@
 
 use crate::accuracy::Accuracy;
 use crate::bvh::leaf::Leaf;
-use crate::bvh::node::{WIDTH, octant_of};
+use crate::bvh::node::octant_of;
 use crate::bvh::traverse::boxes::BoxProbe;
 use crate::bvh::traverse::deferred::RayPlace;
 use crate::bvh::traverse::prepared_packet::PreparedPacket;
@@ -152,12 +152,7 @@ impl StreamRay {
         leaf: &Leaf<'_>,
     ) -> u32 {
         count!(StreamLeaf);
-        let probe = self.probe::<L>(token, tier);
-        let mut spheres = 0;
-        for part in 0..WIDTH / L::COUNT {
-            spheres |= probe.may_hit::<SPREADS>(&leaf.columns, part) << (part * L::COUNT);
-        }
-        spheres & leaf.lanes
+        self.probe::<L>(token, tier).may_hit::<SPREADS>(leaf)
     }
 
     /// Takes a t that the tier has answered: `-inf` if the ray is done, `+inf` if there is no hit.

@@ -61,7 +61,6 @@
 use super::StreamMemory;
 use super::likeness::Likeness;
 use super::seen::Seen;
-use super::strategy::StreamStrategy;
 use crate::bvh::traverse::small_tree;
 use crate::bvh::traverse::wavefront::Entered;
 use crate::bvh::tree::Bvh;
@@ -85,8 +84,6 @@ const MANY: f32 = 20.0;
 /// The share of its boxes in a stream that a ray must at least enter by itself, or the stream is in vain: in a tree that is far from the
 /// core, and in one that is near it.
 const SPARED: [f32; 2] = [0.35, 0.6];
-/// Trees of at most so many bytes are near.
-const NEAR: usize = 1 << 20;
 /// Nothing is learnt of rays that enter fewer boxes, in all. (A picture of ground from the top: 112 rays met at a box, over four boxes, and
 /// 2.4 later; 1,024 rays ran at 0.63 to 0.66 of the speed of ray by ray. With three boxes a ray as the limit instead, two
 /// cameras over flake4, 1,024 rays, ran at 0.94 instead of 1.07.)
@@ -119,6 +116,13 @@ const PASSED_OVER: [usize; 2] = [1 << 14, 1 << 18];
 /// Queues with fewer places for a ray are cut short too often. (With one place a ray, a stream took 2.5 times as long as ray by ray; with
 /// 4, it runs at 0.87 of the speed of ray by ray.)
 const LEAST_QUEUES: usize = 8;
+
+/// How rays that have nothing in common go through a tree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum StreamStrategy {
+    RayByRay,
+    Stream,
+}
 
 /// What is learnt of rays as they come.
 #[derive(Clone, Copy, Debug)]
@@ -187,7 +191,7 @@ impl Sharing {
         if !Q::ANY {
             return together >= closest;
         }
-        let any = if is_near(bvh) && !self.is_many { ENOUGH_NEAR } else { any };
+        let any = if bvh.is_near() && !self.is_many { ENOUGH_NEAR } else { any };
         together * self.share >= any
     }
 
@@ -288,7 +292,7 @@ impl Sharing {
         // Judged for 8,192 rays, the most that go down together: more of those meet.
         let mut paid = self.is_enough::<Q>(bvh, TOGETHER);
         if Q::ANY {
-            let is_in_vain = share < SPARED[usize::from(is_near(bvh))];
+            let is_in_vain = share < SPARED[usize::from(bvh.is_near())];
             self.believed = self.believed.saturating_sub(seen.rays as usize);
             if !is_alone_next && (is_in_vain || share > MOST_ALONE) {
                 self.believed = 0;
@@ -304,16 +308,6 @@ impl Sharing {
             self.met = f32::NAN;
         }
     }
-}
-
-/// Whether a tree is near the core.
-fn is_near(bvh: &Bvh<'_>) -> bool {
-    bytes_of(bvh) <= NEAR
-}
-
-/// How many bytes the boxes and spheres of a tree take.
-pub(crate) fn bytes_of(bvh: &Bvh<'_>) -> usize {
-    size_of_val(bvh.nodes) + size_of_val(bvh.numbers)
 }
 
 #[cfg(all(test, proofs))]

@@ -32,19 +32,6 @@ pub(super) enum Scene {
     Lattice,
 }
 
-impl Scene {
-    const ALL: [Self; 8] = [
-        Self::Uniform,
-        Self::Clusters,
-        Self::Shells,
-        Self::Ground,
-        Self::Radii,
-        Self::Line,
-        Self::Sheet,
-        Self::Lattice,
-    ];
-}
-
 /// What a scene is made of.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SceneInput {
@@ -177,9 +164,12 @@ impl Reader<'_> {
 impl Input {
     /// An input by its genes.
     pub(super) fn of(genes: &Genes) -> Self {
+        use Scene::{Clusters, Ground, Lattice, Line, Radii, Sheet, Shells, Uniform};
+
         let (of_tree, of_rays) = genes.split_at(OF_TREE);
         let (mut tree, mut rays) = (Reader(of_tree.iter()), Reader(of_rays.iter()));
-        let scene = Scene::ALL[tree.below(Scene::ALL.len())];
+        let scenes = [Uniform, Clusters, Shells, Ground, Radii, Line, Sheet, Lattice];
+        let scene = scenes[tree.below(scenes.len())];
         let spheres = 1 + tree.count(MOST_SPHERES);
         let scene = SceneInput {
             scene,
@@ -209,7 +199,7 @@ impl Input {
 
     /// The rays, in packets.
     pub(super) fn packets(&self) -> Vec<RayPacket> {
-        self.rays().chunks(RayPacket::COUNT).map(RayPacket::new).collect()
+        packed(&self.rays())
     }
 
     /// The rays, where the scene is.
@@ -222,6 +212,10 @@ impl Input {
         };
         rays.iter().map(there).collect()
     }
+}
+
+pub(super) fn packed(rays: &[Ray]) -> Vec<RayPacket> {
+    rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect()
 }
 
 /// From -1 to 1.

@@ -1,98 +1,48 @@
-//! Rays and spheres of short integers, what is true of them, and sets of them.
+//! Rays and spheres of short integers: what the double-precision stage makes of them, where their roots are, and sets of them.
 
 use crate::accuracy::constants::Constants;
 use crate::accuracy::exact::estimate::Estimate;
 use crate::exact::{QuadraticTerms, Root};
+use crate::proofs::toy::case::{Case, Truth, lanes};
 use crate::proofs::toy::floats::{Format, Toy, power_of_two};
 use crate::proofs::toy::pairs;
 use core::cmp::Ordering;
 use std::vec::Vec;
 
-/// o, d, c, r.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Case {
-    pub(super) o: [i64; 3],
-    pub(super) d: [i64; 3],
-    pub(super) c: [i64; 3],
-    pub(super) r: i64,
-}
-
-/// a, b and D of a case, exactly.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Truth {
-    pub(super) a: i64,
-    pub(super) b: i64,
-    pub(super) discriminant: i64,
-}
-
 impl Case {
-    pub(super) fn truth(&self) -> Truth {
-        let Self { o, d, c, r } = *self;
-        let p = [c[0] - o[0], c[1] - o[1], c[2] - o[2]];
-        let x = [d[1] * p[2] - d[2] * p[1], d[2] * p[0] - d[0] * p[2], d[0] * p[1] - d[1] * p[0]];
-        let dot = |v: [i64; 3], w: [i64; 3]| v[0] * w[0] + v[1] * w[1] + v[2] * w[2];
-        let a = dot(d, d);
-        Truth { a, b: dot(d, p), discriminant: a * r * r - dot(x, x) }
-    }
-
     pub(super) fn terms(&self) -> QuadraticTerms {
-        let single = |v: [i64; 3]| v.map(|x| x as f32);
-        QuadraticTerms::new(single(self.o), single(self.d), single(self.c), self.r as f32)
+        let [o, d, c] = [self.o, self.d, self.c].map(|v| v.map(|x| x as f32));
+        QuadraticTerms::new(o, d, c, self.r as f32)
     }
 
     pub(super) fn estimate<F: Format>(&self, constants: &Constants) -> Estimate<Toy<F>> {
-        let lanes = |v: [i64; 3]| [lane(v[0]), lane(v[1]), lane(v[2])];
-        Estimate::new(lanes(self.o), lanes(self.d), lanes(self.c), lane(self.r), constants)
+        let (center, radius) = self.sphere();
+        Estimate::new(lanes(self.o), lanes(self.d), center, radius, constants)
     }
-}
-
-pub(super) fn lane<F: Format>(x: i64) -> Toy<F> {
-    Toy::new(x as f64)
 }
 
 impl Truth {
     /// How `t` compares with a root, both being real numbers: t a - b with -+sqrt D.
     pub(super) fn compare(&self, t: f64, root: Root) -> Ordering {
-        // t = fraction 2^-scale
-        let exponent = (t.to_bits() >> 52 & 0x7ff) as i32 - 1075;
-        if t == 0.0 || !t.is_finite() {
-            return match t {
-                0.0 => self.compare_scaled(0, 0, root),
-                _ if t > 0.0 => Ordering::Greater,
-                _ => Ordering::Less,
-            };
+        if !t.is_finite() {
+            return t.total_cmp(&0.0);
         }
-        let magnitude = i128::from(t.to_bits() & ((1 << 52) - 1) | 1 << 52);
-        let zeros = magnitude.trailing_zeros() as i32;
-        let (fraction, exponent) = (magnitude >> zeros, exponent + zeros);
-        let fraction = if t < 0.0 { -fraction } else { fraction };
-        match exponent {
-            0.. => self.compare_scaled(fraction << exponent, 0, root),
-            _ => self.compare_scaled(fraction, -exponent as u32, root),
-        }
-    }
-
-    pub(super) fn compare_scaled(&self, fraction: i128, scale: u32, root: Root) -> Ordering {
-        let past_middle = fraction * i128::from(self.a) - (i128::from(self.b) << scale);
-        let squares =
-            (past_middle * past_middle).cmp(&(i128::from(self.discriminant) << (2 * scale)));
-        match root {
-            Root::Near if past_middle > 0 => Ordering::Greater,
-            Root::Near if past_middle == 0 => 0.cmp(&self.discriminant).reverse(),
-            Root::Near => squares.reverse(),
-            Root::Far if past_middle < 0 => Ordering::Less,
-            Root::Far if past_middle == 0 => 0.cmp(&self.discriminant),
-            Root::Far => squares,
-        }
-    }
-
-    /// A root, near enough for figures.
-    pub(super) fn about(&self, root: Root) -> f64 {
-        let [a, b, d] = [self.a, self.b, self.discriminant].map(|x| x as f64);
-        match root {
-            Root::Near => (b - d.sqrt()) / a,
-            Root::Far => (b + d.sqrt()) / a,
-        }
+        // t = fraction 2^exponent = integer 2^-scale, in as few bits as there are.
+        let (fraction, exponent) = libm::frexp(t);
+        let integer = (fraction * (1_u64 << 53) as f64) as i128;
+        let zeros = integer.trailing_zeros().min(53) as i32;
+        let (integer, exponent) = (integer >> zeros, exponent - 53 + zeros);
+        let (integer, scale) = match exponent {
+            0.. => (integer << exponent, 0),
+            _ => (integer, exponent.unsigned_abs()),
+        };
+        let past_middle = integer * i128::from(self.a) - (i128::from(self.b) << scale);
+        let discriminant = i128::from(self.discriminant) << (2 * scale);
+        // Squares with the signs of what is squared.
+        (past_middle * past_middle.abs()).cmp(&match root {
+            Root::Near => -discriminant,
+            Root::Far => discriminant,
+        })
     }
 
     /// A root, correctly rounded: from a number near it by steps to neighbours, across midpoints.
@@ -150,7 +100,7 @@ pub(super) fn plane(bits: u32, far: &[i64], end: i64, mut work: impl FnMut(&Case
                     // The other half is this one from behind.
                     if (cx - ox, cy - oy) >= (0, 0) {
                         for &r in &radii {
-                            work(&Case { o: [ox, oy, 0], d: [dx, dy, 0], c: [cx, cy, 0], r });
+                            work(&Case::in_plane([ox, oy], [dx, dy], [cx, cy], r));
                         }
                     }
                 }

@@ -20,6 +20,27 @@ fn scene(spheres: usize, rays: usize) -> (SphereTree, Vec<Ray>) {
     (SphereTree::new(list), (0..rays).map(&mut ray).collect())
 }
 
+/// What a stream of so many rays has seen, which entered so many boxes, counted once for all and once for each.
+fn seen(rays: u32, boxes: u32, entered: u32) -> Seen {
+    Seen { streams: 1, rays, boxes, entered, ..Seen::default() }
+}
+
+/// What is learnt of a stream by closest hits, and by any hits after some rays by themselves.
+fn after(tree: &Bvh<'_>, alone: Entered, stream: Seen) -> [Sharing; 2] {
+    let (mut closest, mut any) = (Sharing::NOTHING, Sharing::NOTHING);
+    closest.take::<ClosestHit>(tree, stream);
+    any.take_alone(alone);
+    any.take::<AnyHit>(tree, stream);
+    [closest, any]
+}
+
+/// Does something with as much memory as a stream can use.
+fn with_memory(work: impl FnOnce(&StreamMemory<'_>)) {
+    let mut rays = vec![StreamRay::EMPTY; TOGETHER];
+    let mut queues = vec![QueuedRay::EMPTY; 64 * TOGETHER];
+    work(&StreamMemory::new(&mut rays, &mut queues).expect("enough"));
+}
+
 #[test]
 fn rays_that_meet_go_as_a_stream_in_memory_that_a_call_takes() {
     for (spheres, rays, is_stream) in
@@ -61,30 +82,28 @@ fn memory_that_is_too_little_to_gain_by_is_not_used() {
 
 #[test]
 fn few_that_meet_or_much_in_vain_end_it_and_all_is_tried_again() {
-    let seen = |boxes, entered| Seen { streams: 1, rays: 1024, boxes, entered, ..Seen::default() };
     let (tree, _) = scene(2000, 0);
     let tree = tree.bvh();
-    assert!(bytes_of(&tree) < NEAR);
-    let pays = |alone: u32, of: Seen| {
-        let (mut closest, mut any) = (Sharing::NOTHING, Sharing::NOTHING);
-        closest.take::<ClosestHit>(&tree, of);
-        any.take_alone(Entered { rays: 128, boxes: 128 * alone });
-        any.take::<AnyHit>(&tree, of);
+    assert!(tree.is_near());
+    for (alone, boxes, expected) in [
+        // If 1,024 rays are two at a box, eight times as many are five; if 3.4, they are 10.6.
+        (8, 4096, [false; 2]),
+        (8, 2400, [true; 2]),
+        (7, 2400, [true, false]),
+        (8, 2600, [true, false]),
+        // More boxes by itself change nothing.
+        (16, 2600, [true, false]),
+        // Five of eight boxes are a large enough share, and four are not.
+        (5, 1024, [true; 2]),
+        (4, 1024, [true, false]),
+    ] {
+        let by_themselves = Entered { rays: 128, boxes: 128 * alone };
+        let [closest, mut any] = after(&tree, by_themselves, seen(1024, boxes, 8192));
         let pay = [closest.may_pay::<ClosestHit>(&tree, 8192), any.may_pay::<AnyHit>(&tree, 8192)];
+        assert_eq!(pay, expected, "{alone} {boxes}");
         any.pass_over(PASSED_OVER[0]);
-        assert!(any.may_pay::<AnyHit>(&tree, 8192));
-        pay
-    };
-    // If 1,024 rays are two at a box, eight times as many are five; if 3.4, they are 10.6.
-    assert_eq!(pays(8, seen(4096, 8192)), [false; 2]);
-    assert_eq!(pays(8, seen(2400, 8192)), [true; 2]);
-    assert_eq!(pays(7, seen(2400, 8192)), [true, false]);
-    assert_eq!(pays(8, seen(2600, 8192)), [true, false]);
-    // More boxes by itself change nothing.
-    assert_eq!(pays(16, seen(2600, 8192)), [true, false]);
-    // Five of eight boxes are a large enough share, and four are not.
-    assert_eq!(pays(5, seen(1024, 8192)), [true; 2]);
-    assert_eq!(pays(4, seen(1024, 8192)), [true, false]);
+        assert!(any.may_pay::<AnyHit>(&tree, 8192), "{alone} {boxes}");
+    }
 }
 
 /// Of few rays a call too few meet, though of 8,192 enough would: that is not believed for ever.
@@ -93,8 +112,7 @@ fn rays_that_are_too_few_for_a_stream_are_tried_again() {
     let (tree, _) = scene(2000, 0);
     let tree = tree.bvh();
     let mut sharing = Sharing::NOTHING;
-    let seen = Seen { streams: 1, rays: 224, boxes: 1000, entered: 1800, ..Seen::default() };
-    sharing.take::<ClosestHit>(&tree, seen);
+    sharing.take::<ClosestHit>(&tree, seen(224, 1000, 1800));
     let pays = |sharing: &Sharing, rays| sharing.may_pay::<ClosestHit>(&tree, rays);
     assert!(pays(&sharing, 8192) && !pays(&sharing, 1792));
     sharing.pass_over(PASSED_OVER[0] - 1);
@@ -115,12 +133,8 @@ fn where_rays_enter_many_boxes_fewer_at_each_are_enough() {
         (4, 20, 19, [true, false]),
     ] {
         let entered = 8192 * of_each;
-        let seen =
-            Seen { streams: 1, rays: 8192, boxes: entered / at_a_box, entered, ..Seen::default() };
-        let (mut closest, mut any) = (Sharing::NOTHING, Sharing::NOTHING);
-        closest.take::<ClosestHit>(&tree, seen);
-        any.take_alone(Entered { rays: 1, boxes: alone });
-        any.take::<AnyHit>(&tree, seen);
+        let by_itself = Entered { rays: 1, boxes: alone };
+        let [closest, any] = after(&tree, by_itself, seen(8192, entered / at_a_box, entered));
         let pays =
             [closest.may_pay::<ClosestHit>(&tree, 8192), any.is_enough::<AnyHit>(&tree, 8192)];
         assert_eq!(pays, expected, "{at_a_box} {of_each} {alone}");
@@ -131,10 +145,7 @@ fn where_rays_enter_many_boxes_fewer_at_each_are_enough() {
 fn what_other_rays_entered_by_themselves_condemns_no_stream() {
     let (tree, _) = scene(2000, 0);
     let tree = tree.bvh();
-    let stream = |of_each: u32| {
-        let entered = 1024 * of_each;
-        Seen { streams: 1, rays: 1024, boxes: entered / 20, entered, ..Seen::default() }
-    };
+    let stream = |of_each: u32| seen(1024, 1024 * of_each / 20, 1024 * of_each);
     // Rays that enter two boxes; then streams of rays that enter as many, and of others.
     for (of_each, counted_anew) in [(2, false), (4, true), (1, true)] {
         let mut sharing = Sharing::NOTHING;
@@ -190,19 +201,17 @@ fn short_runs_are_bunches_and_scattered_rays_are_not() {
 fn few_rays_and_those_that_all_enter_the_same_few_boxes_tell_nothing() {
     let (tree, _) = scene(2000, 0);
     let tree = tree.bvh();
-    let mut rays = vec![StreamRay::EMPTY; TOGETHER];
-    let mut queues = vec![QueuedRay::EMPTY; 64 * TOGETHER];
-    let memory = StreamMemory::new(&mut rays, &mut queues).expect("enough");
     let packets = vec![RayPacket::<[f32; 16]>::inactive(); 512];
-    for (rays, boxes, expected) in
-        [(1024, 4, 1024), (1024, 40, TOGETHER), (63, 40, 1024), (64, 40, TOGETHER)]
-    {
-        let mut sharing = Sharing::NOTHING;
-        let seen = Seen { streams: 1, rays, boxes, entered: 1024 * 2, ..Seen::default() };
-        sharing.take::<ClosestHit>(&tree, seen);
-        let (_, next) = sharing.next::<_, ClosestHit>(&tree, &memory, &packets);
-        assert_eq!(next, expected, "{rays} {boxes}");
-    }
+    with_memory(|memory| {
+        for (rays, boxes, expected) in
+            [(1024, 4, 1024), (1024, 40, TOGETHER), (63, 40, 1024), (64, 40, TOGETHER)]
+        {
+            let mut sharing = Sharing::NOTHING;
+            sharing.take::<ClosestHit>(&tree, seen(rays, boxes, 1024 * 2));
+            let (_, next) = sharing.next::<_, ClosestHit>(&tree, memory, &packets);
+            assert_eq!(next, expected, "{rays} {boxes}");
+        }
+    });
 }
 
 #[test]
@@ -211,22 +220,17 @@ fn in_a_tree_that_is_far_a_smaller_part_is_good() {
     for (spheres, is_near, enough) in [(30_000, true, 5), (60_000, false, 3)] {
         let (tree, _) = scene(spheres, 0);
         let tree = tree.bvh();
-        assert_eq!(bytes_of(&tree) <= NEAR, is_near, "{}", bytes_of(&tree));
+        assert_eq!(tree.is_near(), is_near, "{}", tree.bytes());
         for (alone, pays) in [(enough, true), (enough - 1, false)] {
-            let mut any = Sharing::NOTHING;
-            any.take_alone(Entered { rays: 128, boxes: 128 * alone });
-            let seen =
-                Seen { streams: 1, rays: 1024, boxes: 1024, entered: 8192, ..Seen::default() };
-            any.take::<AnyHit>(&tree, seen);
+            let by_themselves = Entered { rays: 128, boxes: 128 * alone };
+            let [_, any] = after(&tree, by_themselves, seen(1024, 1024, 8192));
             assert_eq!(any.may_pay::<AnyHit>(&tree, 8192), pays, "{spheres} {alone}");
         }
         // Fewer rays at a box are enough there, too.
         for (at_a_box, pays) in [(6.9, [false; 2]), (7.1, [true, false]), (10.2, [true; 2])] {
-            let mut any = Sharing::NOTHING;
-            any.take_alone(Entered { rays: 1, boxes: 8 });
             let boxes = (65_536.0 / at_a_box) as u32;
-            let seen = Seen { streams: 1, rays: 8192, boxes, entered: 65_536, ..Seen::default() };
-            any.take::<AnyHit>(&tree, seen);
+            let by_itself = Entered { rays: 1, boxes: 8 };
+            let [_, any] = after(&tree, by_itself, seen(8192, boxes, 65_536));
             let pays = pays[usize::from(is_near)];
             assert_eq!(any.may_pay::<AnyHit>(&tree, 8192), pays, "{spheres} {at_a_box}");
         }
@@ -253,23 +257,20 @@ fn rays_that_stop_at_the_first_leaf_go_by_themselves() {
 fn what_rays_enter_by_themselves_is_counted_now_and_then() {
     let (tree, _) = scene(2000, 0);
     let (tree, mut sharing) = (tree.bvh(), Sharing::NOTHING);
-    let mut rays = vec![StreamRay::EMPTY; TOGETHER];
-    let mut queues = vec![QueuedRay::EMPTY; 64 * TOGETHER];
-    let memory = StreamMemory::new(&mut rays, &mut queues).expect("enough");
     let mut strategies = Vec::new();
     let packets = vec![RayPacket::<[f32; 16]>::inactive(); 1 << 13];
-    for _ in 0..8 {
-        let (strategy, rays) = sharing.next::<_, AnyHit>(&tree, &memory, &packets);
-        strategies.push((strategy == StreamStrategy::Stream, rays));
-        let entered = 20 * rays as u32;
-        if strategy == StreamStrategy::Stream {
-            let (rays, boxes) = (rays as u32, entered / 20);
-            let seen = Seen { streams: 1, rays, boxes, entered, ..Seen::default() };
-            sharing.take::<AnyHit>(&tree, seen);
-        } else {
-            sharing.take_alone(Entered { rays: rays as u32, boxes: entered });
+    with_memory(|memory| {
+        for _ in 0..8 {
+            let (strategy, rays) = sharing.next::<_, AnyHit>(&tree, memory, &packets);
+            strategies.push((strategy == StreamStrategy::Stream, rays));
+            let rays = rays as u32;
+            if strategy == StreamStrategy::Stream {
+                sharing.take::<AnyHit>(&tree, seen(rays, rays, 20 * rays));
+            } else {
+                sharing.take_alone(Entered { rays, boxes: 20 * rays });
+            }
         }
-    }
+    });
     // Some by themselves, as many together, then as many as fit; and after 32,768 some by themselves again.
     let [first, alone, all] = [(true, 1024), (false, 1024), (true, TOGETHER)];
     assert_eq!(strategies, [alone, first, all, all, all, all, alone, all]);
@@ -279,9 +280,6 @@ fn what_rays_enter_by_themselves_is_counted_now_and_then() {
 fn rays_that_look_otherwise_are_counted_anew() {
     let (tree, _) = scene(2000, 0);
     let (tree, mut sharing) = (tree.bvh(), Sharing::NOTHING);
-    let mut rays = vec![StreamRay::EMPTY; TOGETHER];
-    let mut queues = vec![QueuedRay::EMPTY; 64 * TOGETHER];
-    let memory = StreamMemory::new(&mut rays, &mut queues).expect("enough");
     // A camera's rays, then some that look anywhere, then the camera's again.
     let mut random = Random(61);
     let packets: Vec<RayPacket> = (0..1600)
@@ -298,20 +296,20 @@ fn rays_that_look_otherwise_are_counted_anew() {
         })
         .collect();
     let (mut from, mut strategies) = (0, Vec::new());
-    while from < packets.len() {
-        let left = &packets[from..];
-        let (strategy, count) = sharing.next::<_, ClosestHit>(&tree, &memory, left);
-        assert!(count > 0, "{strategies:?}");
-        let is_stream = strategy == StreamStrategy::Stream;
-        strategies.push((is_stream, from, count / 16));
-        if is_stream {
-            let met = if (320..1280).contains(&from) { 1 } else { 30 };
-            let (rays, entered) = (count as u32, 1000 * met);
-            let seen = Seen { streams: 1, rays, boxes: 1000, entered, ..Seen::default() };
-            sharing.take::<ClosestHit>(&tree, seen);
+    with_memory(|memory| {
+        while from < packets.len() {
+            let left = &packets[from..];
+            let (strategy, count) = sharing.next::<_, ClosestHit>(&tree, memory, left);
+            assert!(count > 0, "{strategies:?}");
+            let is_stream = strategy == StreamStrategy::Stream;
+            strategies.push((is_stream, from, count / 16));
+            if is_stream {
+                let met = if (320..1280).contains(&from) { 1 } else { 30 };
+                sharing.take::<ClosestHit>(&tree, seen(count as u32, 1000, 1000 * met));
+            }
+            from += count.div_ceil(16);
         }
-        from += count.div_ceil(16);
-    }
+    });
     // A sample of each kind, and the strategy that it gives to rays that look like it.
     let expected = [
         (true, 0, 64),
