@@ -2,15 +2,13 @@
 
 #[cfg(feature = "embree")]
 use crate::engine::embree::{self, Embree, libraries};
-use crate::engine::{Engine, peers};
+use crate::engine::{EMBREE, Engine, peers};
 use crate::rounds::{Sampler, Samples, timed};
 use spherule_kernel::{BvhNode, InTurn, Level, SphereTree};
 use spherule_tests::scenes::Scene;
 use std::rc::Rc;
 use std::time::Duration;
 
-/// What the name of every version of Embree starts with, among builds and engines.
-pub(crate) const EMBREE: &str = "Embree";
 /// The kernel's name among builds.
 pub(crate) const OURS: &str = "ours";
 
@@ -37,6 +35,13 @@ impl Trees {
         #[cfg(not(feature = "embree"))]
         let _ = levels;
         Self { ours: scene.tree(), others }
+    }
+
+    /// Embree's calls with the instructions of a level.
+    pub(crate) fn embree(&self, level: Level) -> Vec<&Engine> {
+        let lanes = level.name().as_str();
+        let is_it = |engine: &&Engine| engine.label.is_embree() && engine.label.lanes == lanes;
+        self.others.iter().filter(is_it).collect()
     }
 }
 
@@ -80,9 +85,7 @@ impl Builds {
 
     /// The version of Embree that builds fastest.
     pub(crate) fn embree(&self) -> Option<&'static str> {
-        let versions = self.times.names.iter().filter(|name| name.starts_with(EMBREE));
-        let time = |name: &&&'static str| self.milliseconds(name).unwrap_or(f64::INFINITY);
-        versions.min_by(|a, b| time(a).total_cmp(&time(b))).copied()
+        self.times.quickest(|name| name.starts_with(EMBREE)).copied()
     }
 
     /// Milliseconds; `None` for who did not take part.

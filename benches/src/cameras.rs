@@ -1,16 +1,16 @@
 //! Rays that a camera makes, in the ways that it can make them, with the clock running from the camera to the hits.
 
 use crate::agreement::{WithTruth, check};
-use crate::builds::{EMBREE, Trees};
+use crate::builds::Trees;
 use crate::engine::kernel::{Kernel, levels};
 use crate::engine::{BLOCK, Query, Rays};
-use crate::measure::Effort;
+use crate::measure::{Effort, large_scenes};
 use crate::rounds::{Median, Sampler, Samples, timed};
 use spherule_kernel::{
     Camera, CameraTiles, HitPacket, Intersect, Level, LevelName, Projection, Ray, RayPacket,
     SphereTree, Tier, Trace, tile_rays,
 };
-use spherule_tests::scenes::{Kind, LARGE, Scene, Size};
+use spherule_tests::scenes::{Kind, Scene, Size};
 use std::cell::RefCell;
 use std::time::Duration;
 
@@ -54,12 +54,11 @@ pub(crate) fn measure(effort: Effort, one: Option<&str>) -> Vec<OfScene> {
         Effort::Quick => (Size::FULL, 16, 5),
         Effort::Full => (Size::FULL, usize::MAX, 9),
     };
-    let chosen = LARGE.into_iter().filter(|name| one.is_none_or(|one| one == *name));
-    let of_scene = |name| {
-        eprintln!("the camera of {name}");
-        OfScene::measure(&Scene::large(name, size).expect("listed"), blocks, rounds)
+    let of_scene = |scene: Scene| {
+        eprintln!("the camera of {}", scene.name);
+        OfScene::measure(&scene, blocks, rounds)
     };
-    chosen.map(of_scene).collect()
+    large_scenes(one, size).map(of_scene).collect()
 }
 
 impl OfScene {
@@ -80,11 +79,11 @@ impl OfScene {
             }
         }
         for (index, engine) in trees.others.iter().enumerate() {
-            if engine.label.way.starts_with(EMBREE) {
+            if engine.label.is_embree() {
                 let mut run = (engine.ready)(&made.rays);
                 check((scene, engine), (&made, &made), &mut *run, &exact);
-                let sample = move || run.time(Query::ClosestHit, 1) / count;
-                samplers.push((Timed::Embree(engine.label.lanes, index), Box::new(sample)));
+                let sampler = engine.sampler(&made.rays, Query::ClosestHit);
+                samplers.push((Timed::Embree(engine.label.lanes, index), sampler));
             }
         }
         let times = Samples::take(samplers, Duration::ZERO, rounds..=rounds);
@@ -115,11 +114,8 @@ impl OfScene {
     /// How many times as fast as Embree's quickest call with the same instructions, on rays made before.
     pub(crate) fn times_embree(&self, way: Way, level: LevelName) -> Option<Median> {
         let is_it =
-            |timed: &&Timed| matches!(timed, Timed::Embree(name, _) if *name == level.as_str());
-        let time = |timed: &&Timed| self.times.median(timed).map_or(f64::INFINITY, |it| it.middle);
-        let all = self.times.names.iter().filter(is_it);
-        let embree = all.min_by(|a, b| time(a).total_cmp(&time(b)))?;
-        self.times.ratio(embree, &Timed::Ours(way, level))
+            |timed: &Timed| matches!(timed, Timed::Embree(name, _) if *name == level.as_str());
+        self.times.ratio(self.times.quickest(is_it)?, &Timed::Ours(way, level))
     }
 }
 

@@ -9,7 +9,7 @@ pub(crate) mod marks;
 pub(crate) mod peers;
 pub(crate) mod probes;
 
-use crate::rounds::timed;
+use crate::rounds::{Sampler, timed};
 use spherule_kernel::{Hit, Ray, RayPacket};
 use std::cell::OnceCell;
 use std::fmt;
@@ -44,6 +44,14 @@ pub(crate) struct Engine {
     pub(crate) ready: Ready,
 }
 
+impl Engine {
+    /// Takes nanoseconds a ray, of all rays once.
+    pub(crate) fn sampler(&self, rays: &Rays, query: Query) -> Sampler<'static> {
+        let (mut run, count) = ((self.ready)(rays), rays.list.len() as f64);
+        Box::new(move || run.time(query, 1) / count)
+    }
+}
+
 /// Brings rays into the memory that an engine wants.
 pub(crate) type Ready = Box<dyn Fn(&Rays) -> Box<dyn Run>>;
 
@@ -62,6 +70,9 @@ pub(crate) trait Run {
     }
 }
 
+/// What the name of every version of Embree starts with, among builds and engines.
+pub(crate) const EMBREE: &str = "Embree";
+
 /// What an engine is called; engines that are compared have different labels.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Label {
@@ -71,6 +82,12 @@ pub(crate) struct Label {
     pub(crate) name: &'static str,
     /// Lanes, or the level of instructions; may be empty.
     pub(crate) lanes: &'static str,
+}
+
+impl Label {
+    pub(crate) fn is_embree(&self) -> bool {
+        self.way.starts_with(EMBREE)
+    }
 }
 
 impl fmt::Display for Label {

@@ -27,6 +27,7 @@ mod cameras;
 mod criterion_groups;
 mod engine;
 mod errors;
+mod forms;
 mod lists;
 mod measure;
 mod orders;

@@ -3,7 +3,7 @@
 use crate::agreement::{WithTruth, check};
 use crate::engine::{Engine, Label, Query, Ready, Run};
 use crate::rounds::{Median, Sampler, Samples};
-use spherule_tests::scenes::{Kind, Scene};
+use spherule_tests::scenes::{Kind, LARGE, Scene, Size};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
@@ -16,6 +16,12 @@ pub(crate) enum Effort {
     Test,
     Quick,
     Full,
+}
+
+/// The large scenes, or `one` alone.
+pub(crate) fn large_scenes(one: Option<&str>, size: Size) -> impl Iterator<Item = Scene> {
+    let chosen = LARGE.into_iter().filter(move |name| one.is_none_or(|one| one == *name));
+    chosen.map(move |name| Scene::large(name, size).expect("listed"))
 }
 
 /// How long and how often everything is timed.
@@ -143,7 +149,7 @@ impl Measured {
 
     /// The fastest of the engines that `chosen` keeps.
     pub(crate) fn fastest(&self, query: Query, chosen: impl Fn(&Label) -> bool) -> Option<&Label> {
-        let time = |label: &&Label| self.time(label, query).map_or(f64::INFINITY, |t| t.middle);
-        self.labels().filter(|label| chosen(label)).min_by(|a, b| time(a).total_cmp(&time(b)))
+        let quickest = self.times.quickest(|(label, of)| *of == query && chosen(label));
+        quickest.map(|(label, _)| label)
     }
 }

@@ -5,7 +5,7 @@ mod ways;
 
 pub(crate) use ways::Way;
 
-use crate::builds::{EMBREE, Trees};
+use crate::builds::Trees;
 use crate::engine::kernel::levels;
 use crate::engine::{Engine, Query};
 use crate::measure::Effort;
@@ -59,39 +59,18 @@ pub(crate) fn measure(
     (one, order): (Option<&str>, Option<Order>),
     rays: Option<usize>,
 ) -> Vec<Row> {
-    let (size, usual) = match effort {
-        Effort::Test => (
-            Size::SMALL,
-            Plan {
-                rays: 256,
-                rounds: 1,
-                time: Duration::ZERO,
-                nanoseconds: 0.0,
-                every_level: false,
-            },
-        ),
-        Effort::Quick => (
-            Size::FULL,
-            Plan {
-                rays: 1 << 14,
-                rounds: 3,
-                time: Duration::from_millis(60),
-                nanoseconds: 8e6,
-                every_level: true,
-            },
-        ),
-        Effort::Full => (
-            Size::FULL,
-            Plan {
-                rays: 1 << 16,
-                rounds: 7,
-                time: Duration::from_secs(1),
-                nanoseconds: 1e8,
-                every_level: true,
-            },
-        ),
+    let (size, usual, rounds, milliseconds, nanoseconds) = match effort {
+        Effort::Test => (Size::SMALL, 256, 1, 0, 0.0),
+        Effort::Quick => (Size::FULL, 1 << 14, 3, 60, 8e6),
+        Effort::Full => (Size::FULL, 1 << 16, 7, 1000, 1e8),
     };
-    let plan = Plan { rays: rays.unwrap_or(usual.rays), ..usual };
+    let plan = Plan {
+        rays: rays.unwrap_or(usual),
+        rounds,
+        time: Duration::from_millis(milliseconds),
+        nanoseconds,
+        every_level: effort != Effort::Test,
+    };
     let chosen = |name: &&str| one.is_none_or(|one| one == *name);
     let mut rows = Vec::new();
     for name in LARGE.into_iter().chain([SPREAD]).filter(chosen) {
@@ -117,11 +96,7 @@ fn of_scene(scene: &Scene, one: Option<Order>, plan: Plan) -> Vec<Row> {
         let rays = order.rays_in(&extent, spheres, plan.rays, 1);
         let at = |place: usize| plan.every_level || place == index % levels.len();
         for (_, &level) in levels.iter().enumerate().filter(|(place, _)| at(*place)) {
-            let is_it = |engine: &&Engine| {
-                let label = &engine.label;
-                label.way.starts_with(EMBREE) && label.lanes == level.name().as_str()
-            };
-            let embree: Vec<_> = trees.others.iter().filter(is_it).collect();
+            let embree = trees.embree(level);
             for query in Query::ALL {
                 let asked = (scene.name, order, query, level);
                 rows.push(Row::measure(asked, &mut work, &embree, &rays, plan));
@@ -153,29 +128,21 @@ impl Row {
         let is_cut_short = slow.iter().any(|(way, _)| *way == Way::Plain);
         let mut samplers = with_slow(timed, slow);
         for index in chosen {
-            let mut run = (embree[index].ready)(&rays);
-            let sample = move || run.time(query, 1) / count as f64;
-            samplers.push((Timed::Embree(index), Box::new(sample)));
+            samplers.push((Timed::Embree(index), embree[index].sampler(&rays, query)));
         }
         let times = Samples::take(samplers, plan.time, plan.rounds..=3 * plan.rounds);
         Self { scene, order, query, level: level.name(), rays: count, is_cut_short, times }
     }
 
-    fn quickest(&self, is_it: impl Fn(&Timed) -> bool) -> Option<Timed> {
-        let time = |timed: &&Timed| self.times.median(timed).map_or(f64::INFINITY, |it| it.middle);
-        let all = self.times.names.iter().filter(|timed| is_it(timed));
-        all.min_by(|a, b| time(a).total_cmp(&time(b))).copied()
-    }
-
     /// How many times as fast the plain call is as another.
-    fn plain_by(&self, other: Option<Timed>) -> Option<Median> {
-        self.times.ratio(&other?, &Timed::Ours(Way::Plain))
+    fn plain_by(&self, other: &Timed) -> Option<Median> {
+        self.times.ratio(other, &Timed::Ours(Way::Plain))
     }
 
     /// The best way; it may be the plain call.
     pub(crate) fn best(&self) -> Option<Way> {
-        match self.quickest(|timed| matches!(timed, Timed::Ours(_)))? {
-            Timed::Ours(way) => Some(way),
+        match self.times.quickest(|timed| matches!(timed, Timed::Ours(_)))? {
+            Timed::Ours(way) => Some(*way),
             Timed::Embree(_) => None,
         }
     }
@@ -186,9 +153,10 @@ impl Row {
             Timed::Ours(way) => way.traversal(),
             Timed::Embree(_) => None,
         };
-        let own = self.quickest(|timed| of(timed) == Some(traversal))?;
-        let next = self.quickest(|timed| of(timed).is_some_and(|other| other != traversal))?;
-        Some((self.times.ratio(&next, &own)?, of(&next)?))
+        let own = self.times.quickest(|timed| of(timed) == Some(traversal))?;
+        let is_other = |timed: &Timed| of(timed).is_some_and(|other| other != traversal);
+        let next = self.times.quickest(is_other)?;
+        Some((self.times.ratio(next, own)?, of(next)?))
     }
 
     /// A million rays a second of the plain call.
@@ -198,12 +166,12 @@ impl Row {
 
     /// The plain call's speed divided by the best way's: 1 where the plain call is the best.
     pub(crate) fn by_best(&self) -> Option<Median> {
-        self.plain_by(self.best().map(Timed::Ours))
+        self.plain_by(&Timed::Ours(self.best()?))
     }
 
     /// The plain call's speed divided by that of ray by ray.
     pub(crate) fn by_ray_by_ray(&self) -> Option<Median> {
-        self.plain_by(Some(Timed::Ours(Way::RayByRay)))
+        self.plain_by(&Timed::Ours(Way::RayByRay))
     }
 
     /// The speed of rays said to be coherent, divided by that of ray by ray, whether they are coherent or not.
@@ -213,7 +181,7 @@ impl Row {
 
     /// The plain call's speed divided by that of Embree's quickest call.
     pub(crate) fn by_embree(&self) -> Option<Median> {
-        self.plain_by(self.quickest(|timed| matches!(timed, Timed::Embree(_))))
+        self.plain_by(self.times.quickest(|timed| matches!(timed, Timed::Embree(_)))?)
     }
 
     pub(crate) fn rounds(&self) -> usize {

@@ -8,6 +8,7 @@ pub(crate) mod structures;
 pub(crate) mod surfaces;
 pub(crate) mod tiers;
 
+use crate::engine::Query;
 use spherule::machine::{RUSTC, cpu};
 use std::fmt::{Display, Write};
 use std::path::Path;
@@ -82,6 +83,10 @@ impl Table {
         }
         self.0.push('\n');
     }
+}
+
+fn query_name(query: Query) -> &'static str {
+    if query == Query::AnyHit { "any" } else { "closest" }
 }
 
 /// Three digits; an empty cell if nothing was measured.

@@ -1,6 +1,7 @@
 //! Charts, as SVG in memory.
 
-use crate::builds::{EMBREE, OURS};
+use crate::builds::OURS;
+use crate::engine::EMBREE;
 use crate::structures::OfScene;
 use plotters::coord::Shift;
 use plotters::prelude::*;

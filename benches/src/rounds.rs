@@ -74,6 +74,12 @@ impl<K: PartialEq> Samples<K> {
         Some(Median::of(self.rounds.iter().map(|round| round[index]).collect()))
     }
 
+    /// Of the names that `is_it` keeps, that of what takes the least time.
+    pub(crate) fn quickest(&self, is_it: impl Fn(&K) -> bool) -> Option<&K> {
+        let time = |name: &&K| self.median(name).map_or(f64::INFINITY, |time| time.middle);
+        self.names.iter().filter(|name| is_it(name)).min_by(|a, b| time(a).total_cmp(&time(b)))
+    }
+
     /// The time of `name`, divided by the time of `other`, round by round.
     pub(crate) fn ratio(&self, name: &K, other: &K) -> Option<Median> {
         let (own, other) = (self.index(name)?, self.index(other)?);

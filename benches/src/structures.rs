@@ -1,12 +1,12 @@
 //! Many spheres: the kernel's ways through the large scenes, against Embree and the trees of other crates.
 
-use crate::builds::{Builds, EMBREE, Trees};
+use crate::builds::{Builds, Trees};
 use crate::engine::kernel::{Kernel, Way, levels};
 use crate::engine::{Label, Query, Rays};
-use crate::measure::{Effort, Measured, Plan};
+use crate::measure::{Effort, Measured, Plan, large_scenes};
 use crate::rounds::{Median, Sampler, Samples};
 use spherule_kernel::{HitPacket, Intersect, Level, LevelName, SphereTree, Tier, Trace};
-use spherule_tests::scenes::{Kind, LARGE, Scene, Size};
+use spherule_tests::scenes::{Kind, Scene, Size};
 use std::sync::Mutex;
 use std::thread::available_parallelism;
 use std::time::{Duration, Instant};
@@ -47,29 +47,25 @@ pub(crate) fn measure(effort: Effort, one: Option<&str>) -> Structures {
     };
     let (time, sample) = (Duration::from_secs(seconds), Duration::ZERO);
     let plan = Plan { queries: &Query::ALL, time, rounds: rounds.clone(), rays, sample };
-    let of_scene = |name| {
-        let scene = Scene::large(name, size).expect("listed");
-        match (effort, one) {
-            // Without other crates, and without the tiers that are no faster: so it takes less than a minute.
-            (Effort::Quick, Some(_)) => {
-                OfScene::measure(&scene, None, (&levels, &[Tier::Stable, Tier::Exact]), &plan)
-            }
-            _ => OfScene::measure(&scene, Some(builds), (&levels, &Tier::ALL), &plan),
+    let of_scene = |scene: Scene| match (effort, one) {
+        // Without other crates, and without the tiers that are no faster: so it takes less than a minute.
+        (Effort::Quick, Some(_)) => {
+            OfScene::measure(&scene, None, (&levels, &[Tier::Stable, Tier::Exact]), &plan)
         }
+        _ => OfScene::measure(&scene, Some(builds), (&levels, &Tier::ALL), &plan),
     };
     let growth = Plan { time: time.min(Duration::from_secs(3)), ..plan.clone() };
     let step = |power| {
         let scene = Scene::uniform(10_usize.pow(power), pixels);
         OfScene::measure(&scene, None, (&levels[..1], &[Tier::Stable]), &growth)
     };
-    let chosen = LARGE.into_iter().filter(|name| one.is_none_or(|one| one == *name));
     let threads = || {
         let scene = Scene::large(FOR_THREADS, size).expect("listed");
         two_threads_by_one(&scene, levels[0], *rounds.end())
     };
     Structures {
         rays: (rays < usize::MAX).then_some(rays),
-        scenes: chosen.map(of_scene).collect(),
+        scenes: large_scenes(one, size).map(of_scene).collect(),
         two_threads: one.is_none().then(threads).flatten(),
         growth: (2..most).filter(|_| one.is_none()).map(step).collect(),
     }
@@ -114,7 +110,7 @@ impl OfScene {
         };
         let ours =
             |of, ways: &[Way]| rate(of, &|label| ways.iter().any(|way| label.way == way.as_str()));
-        let embree = |of| rate(of, &|label| label.way.starts_with(EMBREE));
+        let embree = |of| rate(of, &Label::is_embree);
         [
             ("tree, primary", ours(primary, &[Way::Packets])),
             ("depth list, primary", ours(primary, &[Way::DepthList])),
@@ -142,7 +138,7 @@ impl Measured {
 
     /// Embree's quickest call with the instructions of a level, over all its versions that took part.
     pub(crate) fn embree(&self, level: &str, query: Query) -> Option<&Label> {
-        self.fastest(query, |label| label.way.starts_with(EMBREE) && label.lanes == level)
+        self.fastest(query, |label| label.is_embree() && label.lanes == level)
     }
 
     /// How many times as fast as Embree's quickest call `Stable` is in its quickest way, at a level.

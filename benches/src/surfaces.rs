@@ -1,13 +1,13 @@
 //! What a picture needs beyond hits: surfaces, and shadow rays from them.
 
 use crate::engine::Rays;
-use crate::measure::Effort;
+use crate::measure::{Effort, large_scenes};
 use crate::rounds::{Median, Sampler, Samples, timed};
 use spherule_kernel::{
     Coherence, HitPacket, Intersect, Level, Ray, RayPacket, Side, Sphere, SphereTree, Surface,
     SurfacePacket, Tier, Towards, Trace, Vec3, shadow_packets, surface, surface_packets,
 };
-use spherule_tests::scenes::{Kind, LARGE, Scene, Size};
+use spherule_tests::scenes::{Kind, Scene, Size};
 use std::cell::RefCell;
 use std::time::Duration;
 
@@ -44,14 +44,12 @@ pub(crate) fn measure(effort: Effort, one: Option<&str>) -> Vec<OfRays> {
         Effort::Quick => (Size::FULL, 3),
         Effort::Full => (Size::FULL, 9),
     };
-    let chosen = LARGE.into_iter().filter(|name| one.is_none_or(|one| one == *name));
-    let of_scene = |name| {
-        eprintln!("surfaces of {name}");
-        let scene = Scene::large(name, size).expect("listed");
+    let of_scene = |scene: Scene| {
+        eprintln!("surfaces of {}", scene.name);
         let tree = SphereTree::new((*scene.spheres).clone());
         Kind::ALL.map(|kind| OfRays::measure(&scene, kind, &tree, rounds))
     };
-    chosen.flat_map(of_scene).collect()
+    large_scenes(one, size).flat_map(of_scene).collect()
 }
 
 impl OfRays {

@@ -5,8 +5,6 @@ use crate::{promise, surfaces, tiles};
 use spherule_kernel::{Hit, Ray, Sphere, Tier, Viewpoint, roots};
 use spherule_referee::bytes::AimedScene;
 use spherule_referee::case::Case;
-#[cfg(test)]
-use spherule_tests::oracle;
 use spherule_tests::oracle::{accepted, is_closer};
 use spherule_tests::variants::{
     Answers, Memory, Structure, Structures, Variant, bits, pair_layers, pairs_of, reference,
@@ -188,22 +186,23 @@ fn check_rules(tier: Tier, ray: &Ray, spheres: &[Sphere], hit: Option<Hit>) {
     assert_eq!(bits(hit), bits(expected), "{tier:?}: {hit:?}, rules {expected:?}: {ray:?}");
 }
 
-/// Bytes for the tests.
-#[cfg(test)]
-pub(crate) fn random_bytes(seed: u64) -> Vec<u8> {
-    let mut random = spherule_referee::random::Random::new(seed, 0);
-    (0..700).map(|_| random.bits() as u8).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use spherule_kernel::Vec3;
+    use spherule_referee::random::Random;
+    use spherule_tests::oracle;
+
+    fn random_scene(seed: u64) -> AimedScene {
+        let mut random = Random::new(seed, 0);
+        let bytes: Vec<u8> = (0..700).map(|_| random.bits() as u8).collect();
+        AimedScene::from_bytes(&bytes)
+    }
 
     #[test]
     fn random_scenes_pass() {
         for seed in 0..500 {
-            check(&AimedScene::from_bytes(&random_bytes(seed)));
+            check(&random_scene(seed));
         }
     }
 
@@ -211,7 +210,7 @@ mod tests {
     fn random_bytes_make_geometry_worth_judging() {
         let (mut judged, mut met, mut kept, mut all) = (0, 0, 0, 0);
         for seed in 0..200 {
-            let scene = AimedScene::from_bytes(&random_bytes(seed));
+            let scene = random_scene(seed);
             let one_lane = OneLane::new(Tier::Fast, &scene);
             for (ray, hit) in scene.rays.iter().zip(one_lane.true_hits) {
                 let is_promised = |sphere| promise::is_stable_in_structures(ray, sphere);

@@ -42,13 +42,10 @@ impl Refit {
                 }
             })
         };
-        let mut turn = 0;
+        let mut turn = 1;
         let refit = || {
-            let mut next = || {
-                turn += 1;
-                lists[turn % 2].clone()
-            };
-            let all: Vec<_> = (0..times).map(|_| next()).collect();
+            let all: Vec<_> = (turn..turn + times).map(|turn| lists[turn % 2].clone()).collect();
+            turn += times;
             timed(|| {
                 for list in all {
                     tree.refit(list).expect("as many");

@@ -82,7 +82,7 @@ impl<'a> Kernel<'a> {
         for tier in Tier::ALL {
             let in_lanes = |lanes, ready| {
                 let label = Label { way: Way::BruteForce.as_str(), name: tier.as_str(), lanes };
-                let promise = self.like_brute_force(tier);
+                let promise = Promise::SameBits(self.reference(tier));
                 Engine { label, promise, most_rays: usize::MAX, ready }
             };
             all.push(in_lanes("f32", self.in_lanes::<f32>(tier)));
@@ -113,10 +113,6 @@ impl<'a> Kernel<'a> {
         all
     }
 
-    fn like_brute_force(&self, tier: Tier) -> Promise {
-        Promise::SameBits(self.reference(tier))
-    }
-
     /// What the other ways are held to.
     fn reference(&self, tier: Tier) -> Ready {
         self.at_level(Way::BruteForce, tier, Level::best())
@@ -130,7 +126,7 @@ impl<'a> Kernel<'a> {
             Tier::Fast | Tier::Geometric if !is_brute_force => {
                 Promise::SameButFalseHits(self.reference(tier))
             }
-            _ if !is_reference => self.like_brute_force(tier),
+            _ if !is_reference => Promise::SameBits(self.reference(tier)),
             Tier::Exact => Promise::Near(0.0, 0),
             _ if !self.scene.is_small => Promise::Nothing,
             Tier::Geometric if self.scene.has_ground() => Promise::GEOMETRIC_ON_GROUND,

@@ -1,7 +1,8 @@
 //! The trial before the clock: checks every way's answers, on a few rays first, and drops the ways that are far behind.
 
-use super::ways::{Answers, Way, Work};
+use super::ways::{Way, Work};
 use crate::engine::{Engine, Query, Rays};
+use crate::forms::Answer;
 use spherule_kernel::{Level, Ray};
 use spherule_tests::scenes::sample;
 
@@ -49,7 +50,7 @@ impl Trial {
         name: &str,
     ) -> Self {
         let (mut slow, mut best) = (Vec::new(), f64::INFINITY);
-        let mut answers = Answers::Any(Vec::new());
+        let mut answers = Vec::new();
         // A few rays are all in one part.
         let parts = if rays.len() > PARTS[0] { &PARTS[..] } else { &PARTS[..1] };
         for &part in parts {
@@ -59,7 +60,7 @@ impl Trial {
             let timed = times((level, query), work, &mut slow, &answers, name);
             best = timed.into_iter().fold(f64::INFINITY, |best, (_, time)| time.min(best));
         }
-        let (embree, of_embree) = nearest(embree, &work.rays, (query, is_far), &answers, name);
+        let (embree, of_embree) = nearest(embree, work.rays(), (query, is_far), &answers, name);
         let fit = (2.0 * nanoseconds / (best + of_embree)) as usize;
         let all = sample(rays, fit.max(LEAST).min(rays.len()));
         work.take(all);
@@ -69,7 +70,7 @@ impl Trial {
         let is_kept = |&(way, time): &(Way, f64)| SHOWN.contains(&way) || time < NEAR * best;
         let ways = timed.into_iter().filter(is_kept).map(|(way, _)| way).collect();
         slow.retain(|(way, _)| SHOWN.contains(way));
-        Self { ways, slow, embree, rays: Rays::new(&work.rays) }
+        Self { ways, slow, embree, rays: Rays::new(work.rays()) }
     }
 }
 
@@ -78,10 +79,10 @@ fn times(
     (level, query): (Level, Query),
     work: &mut Work<'_>,
     slow: &mut Vec<(Way, f64)>,
-    truth: &Answers,
+    truth: &[Answer],
     name: &str,
 ) -> Vec<(Way, f64)> {
-    let count = work.rays.len() as f64;
+    let count = work.rays().len() as f64;
     let (mut timed, mut best) = (Vec::<(Way, f64)>::new(), f64::INFINITY);
     for way in Way::ALL {
         if !way.is_for(work) || slow.iter().any(|(other, _)| *other == way) {
@@ -89,9 +90,9 @@ fn times(
         }
         work.forget();
         let mut time = work.run(way, level, query) / count;
-        assert!(work.answers(query) == *truth, "{name}: {way:?} differs from ray by ray");
+        assert!(work.answers(way, query) == truth, "{name}: {way:?} differs from ray by ray");
         // A part takes little time, so the best of some runs counts: the first run finds nothing in the cache.
-        let again = if work.rays.len() > LAST_PART || time * count > LONG { 0 } else { 2 };
+        let again = if work.rays().len() > LAST_PART || time * count > LONG { 0 } else { 2 };
         for _ in 0..again {
             time = time.min(work.run(way, level, query) / count);
         }
@@ -111,7 +112,7 @@ fn nearest(
     embree: &[&Engine],
     rays: &[Ray],
     (query, is_far): (Query, bool),
-    truth: &Answers,
+    truth: &[Answer],
     name: &str,
 ) -> (Vec<usize>, f64) {
     /// A call that takes so many times as long as the quickest is not the quickest: on the first part, and on the second.
@@ -124,7 +125,7 @@ fn nearest(
             let engine = embree[index];
             let mut run = (engine.ready)(&rays);
             let time = run.time(query, 1).min(run.time(query, 1)) / count;
-            let differs = |(ray, hit): &(usize, bool)| *hit != truth.is_hit(*ray);
+            let differs = |(ray, hit): &(usize, bool)| *hit != truth[*ray].is_some();
             let hits = run.hits().into_iter().map(|hit| hit.is_some()).enumerate();
             let differ = hits.filter(differs).count() as f64;
             let is_like_ours = is_far || differ <= OTHERWISE * count;

@@ -1,8 +1,7 @@
 //! What a call costs.
 
-use super::{Table, build, cell, number};
+use super::{Table, build, cell, number, query_name};
 use crate::calls::{Call, Calls, Row, SHORT};
-use crate::engine::Query;
 use crate::rounds::Median;
 
 /// The report.
@@ -18,15 +17,15 @@ pub(crate) fn page(origin: &str, all: &Calls) -> String {
         table.row([
             row.scene.to_owned(),
             row.kind.as_str().to_owned(),
-            if row.query == Query::AnyHit { "any" } else { "closest" }.to_owned(),
+            query_name(row.query).to_owned(),
             row.level.as_str().to_owned(),
             number(row.rate(Call::OneRay)),
             ratio(row.by_embree()),
             [1, 8].map(|count| ratio(row.ratio(Call::SlicesOf(count), Call::OneRay))).join(", "),
-            number(row.rate(Call::Packets)),
-            ratio(row.ratio(Call::Slices, Call::Packets)),
-            ratio(row.ratio(Call::Columns, Call::Packets)),
-            ratio(row.ratio(Call::SlicesOf(SHORT), Call::ShortPackets)),
+            number(row.rate(Call::PACKETS)),
+            ratio(row.ratio(Call::SLICES, Call::PACKETS)),
+            ratio(row.ratio(Call::Columns, Call::PACKETS)),
+            ratio(row.ratio(Call::SlicesOf(SHORT), Call::PacketsOf(SHORT))),
         ]);
     }
     let mut refits = Table::new(1, "scene | spheres | growth | a refit by a build");

@@ -1,30 +1,38 @@
 //! Rays in every order.
 
-use super::{Table, build, cell, number};
+use super::{Table, build, cell, number, query_name};
 use crate::engine::Query;
 use crate::orders::{Row, Way};
 use crate::rounds::Median;
 use spherule_kernel::LevelName;
-use std::fmt::Write;
-
-/// The limits for [`RATIOS`].
-const ASKED: [f64; 4] = [0.85, 0.7, 0.7, 1.2];
 
 type Ratio = fn(&Row) -> Option<Median>;
 
-/// Ratios of speeds: the plain call by the best way, and by ray by ray; rays said to be coherent by ray by ray; the plain call by Embree.
-const RATIOS: [Ratio; 4] =
-    [Row::by_best, Row::by_ray_by_ray, Row::coherent_by_ray_by_ray, Row::by_embree];
+/// Ratios of speeds, and their limits: the plain call by the best way, and by ray by ray; rays said to be coherent by ray by ray; the plain
+/// call by Embree.
+const RATIOS: [(Ratio, f64); 4] = [
+    (Row::by_best, 0.85),
+    (Row::by_ray_by_ray, 0.7),
+    (Row::coherent_by_ray_by_ray, 0.7),
+    (Row::by_embree, 1.2),
+];
 
-/// The middle of a ratio; `None` if it was not measured.
-fn middle(row: &Row, ratio: Ratio) -> Option<f64> {
-    ratio(row).map(|it| it.middle)
+/// The middles of a ratio, of the rows of which it was measured.
+fn middles<'a>(rows: impl Iterator<Item = &'a Row>, ratio: Ratio) -> impl Iterator<Item = f64> {
+    rows.filter_map(ratio).map(|it| it.middle)
+}
+
+/// In how many rows each of the ratios is below its limit.
+fn below<'a>(rows: &(impl Iterator<Item = &'a Row> + Clone)) -> [String; 4] {
+    RATIOS.map(|(ratio, limit)| {
+        middles(rows.clone(), ratio).filter(|it| *it < limit).count().to_string()
+    })
 }
 
 /// The report.
 pub(crate) fn page(origin: &str, all: &[Row]) -> String {
     let mut rows: Vec<_> = all.iter().collect();
-    let worst = |row: &Row| middle(row, Row::by_best).unwrap_or(f64::INFINITY);
+    let worst = |row: &Row| row.by_best().map_or(f64::INFINITY, |it| it.middle);
     rows.sort_by(|a, b| worst(a).total_cmp(&worst(b)));
     let mut table = Table::new(
         4,
@@ -32,9 +40,10 @@ pub(crate) fn page(origin: &str, all: &[Row]) -> String {
          said coherent, by ray by ray | times Embree",
     );
     for row in &rows {
-        let ratio = |ratio: Ratio| cell(ratio(row).map(|it| format!("{:.2}", it.middle)));
+        let ratio =
+            |(ratio, _): (Ratio, f64)| cell(ratio(row).map(|it| format!("{:.2}", it.middle)));
         let slow = if row.is_cut_short { "~" } else { "" };
-        table.row([
+        let cells = [
             row.scene.to_owned(),
             row.order.as_str().to_owned(),
             query_name(row.query).to_owned(),
@@ -42,11 +51,8 @@ pub(crate) fn page(origin: &str, all: &[Row]) -> String {
             row.rays.to_string(),
             slow.to_owned() + &number(row.rate()),
             cell(row.best().map(Way::as_str)),
-            ratio(RATIOS[0]),
-            ratio(RATIOS[1]),
-            ratio(RATIOS[2]),
-            ratio(RATIOS[3]),
-        ]);
+        ];
+        table.row(cells.into_iter().chain(RATIOS.map(ratio)));
     }
     format!(
         "# Rays in every order, {} build\n\n{origin}\n\n*Plain*: `closest_hits` or `any_hits` of a tree, `exact`, one call for all \
@@ -59,7 +65,7 @@ pub(crate) fn page(origin: &str, all: &[Row]) -> String {
          the best, so timed there alone: the rate is ray by ray's on all, by the quotient of both on that part (rays said to be \
          coherent are treated alike). {}\
          Before anything is timed, every way answers as ray by ray does, bit for bit, which answers as brute force does on a sample. \
-         The orders: [orders.rs](../../tests/src/orders.rs).\n\n{}\n{}\n{}\n{}{}",
+         The orders: [orders.rs](../../tests/src/orders.rs).\n\n{}\n{}\n{}\n{}\nEvery row, the worst first:\n\n{}",
         build(),
         all.iter().map(Row::rounds).min().unwrap_or(0),
         all.iter().map(Row::rounds).max().unwrap_or(0),
@@ -68,7 +74,7 @@ pub(crate) fn page(origin: &str, all: &[Row]) -> String {
         leads(all),
         worst_of(all, "order", |row| row.order.as_str()),
         worst_of(all, "scene", |row| row.scene),
-        format_args!("\nEvery row, the worst first:\n\n{}", table.0)
+        table.0
     )
 }
 
@@ -86,7 +92,7 @@ fn noise(all: &[Row]) -> String {
 
 /// How many rows are below the limits, level by level.
 fn summary(all: &[Row]) -> String {
-    let [best, alone, said, embree] = ASKED;
+    let [best, alone, said, embree] = RATIOS.map(|(_, limit)| limit);
     let mut table = Table::new(
         1,
         &format!(
@@ -95,12 +101,8 @@ fn summary(all: &[Row]) -> String {
         ),
     );
     let of = |name: &str, is_it: &dyn Fn(&Row) -> bool| {
-        let rows = || all.iter().filter(|row| is_it(row));
-        let below = |(ratio, asked): (Ratio, f64)| {
-            rows().filter(|row| middle(row, ratio).is_some_and(|it| it < asked)).count()
-        };
-        let counts = [0, 1, 2, 3].map(|it| below((RATIOS[it], ASKED[it])).to_string());
-        [name.to_owned(), rows().count().to_string()].into_iter().chain(counts)
+        let rows = all.iter().filter(|row| is_it(row));
+        [name.to_owned(), rows.clone().count().to_string()].into_iter().chain(below(&rows))
     };
     for level in LevelName::ALL.into_iter().rev() {
         if all.iter().any(|row| row.level == level) {
@@ -115,32 +117,25 @@ fn summary(all: &[Row]) -> String {
 fn leads(all: &[Row]) -> String {
     let mut table = Table::new(3, "traversal | query | level | where | times as fast | as");
     for way in Way::TRAVERSALS {
-        for (query, level) in Query::ALL
-            .into_iter()
-            .flat_map(|query| LevelName::ALL.into_iter().rev().map(move |level| (query, level)))
-        {
-            let rows = all.iter().filter(|row| row.query == query && row.level == level);
-            let leads = rows.filter_map(|row| Some((row, row.lead(way)?)));
-            let by_lead = |(_, (one, _)): &(&Row, (Median, Way)), (_, (other, _)): &_| {
-                let other: &Median = other;
-                one.middle.total_cmp(&other.middle)
-            };
-            let Some((row, (lead, next))) = leads.max_by(by_lead) else { continue };
-            table.row([
-                way.as_str().to_owned(),
-                query_name(query).to_owned(),
-                level.as_str().to_owned(),
-                format!("{}, {}", row.scene, row.order.as_str()),
-                format!("{lead}"),
-                next.as_str().to_owned(),
-            ]);
+        for query in Query::ALL {
+            for level in LevelName::ALL.into_iter().rev() {
+                let rows = all.iter().filter(|row| row.query == query && row.level == level);
+                let leads = rows.filter_map(|row| Some((row, row.lead(way)?)));
+                let furthest = leads
+                    .max_by(|(_, (one, _)), (_, (other, _))| one.middle.total_cmp(&other.middle));
+                let Some((row, (lead, next))) = furthest else { continue };
+                table.row([
+                    way.as_str().to_owned(),
+                    query_name(query).to_owned(),
+                    level.as_str().to_owned(),
+                    format!("{}, {}", row.scene, row.order.as_str()),
+                    format!("{lead}"),
+                    next.as_str().to_owned(),
+                ]);
+            }
         }
     }
     format!("Where each traversal is furthest ahead of the best of the others:\n\n{}", table.0)
-}
-
-fn query_name(query: Query) -> &'static str {
-    if query == Query::AnyHit { "any" } else { "closest" }
 }
 
 /// The worst row of each name.
@@ -156,21 +151,16 @@ fn worst_of(all: &[Row], what: &str, name: impl Fn(&Row) -> &'static str) -> Str
         &format!(
             "{what} | worst by the best way | by ray by ray | said coherent, by ray by ray | times Embree | \
              rows below {} | {} | {} | {}",
-            ASKED[0], ASKED[1], ASKED[2], ASKED[3]
+            RATIOS[0].1, RATIOS[1].1, RATIOS[2].1, RATIOS[3].1
         ),
     );
     for of in names {
-        let rows = || all.iter().filter(|row| name(row) == of);
-        let ratios = |ratio| rows().filter_map(move |row| middle(row, ratio));
-        let worst = RATIOS.map(|ratio| {
-            let worst = ratios(ratio).fold(f64::INFINITY, f64::min);
+        let rows = all.iter().filter(|row| name(row) == of);
+        let worst = RATIOS.map(|(ratio, _)| {
+            let worst = middles(rows.clone(), ratio).fold(f64::INFINITY, f64::min);
             cell(worst.is_finite().then(|| format!("{worst:.3}")))
         });
-        let below = [0, 1, 2, 3]
-            .map(|it| ratios(RATIOS[it]).filter(|ratio| *ratio < ASKED[it]).count().to_string());
-        table.row([of.to_owned()].into_iter().chain(worst).chain(below));
+        table.row([of.to_owned()].into_iter().chain(worst).chain(below(&rows)));
     }
-    let mut text = String::new();
-    let _ = write!(text, "The worst of every {what}:\n\n{}", table.0);
-    text
+    format!("The worst of every {what}:\n\n{}", table.0)
 }

@@ -1,7 +1,7 @@
 //! The large scenes.
 
 use super::{Table, build, cell, number};
-use crate::builds::{EMBREE, OURS};
+use crate::builds::OURS;
 use crate::engine::kernel::STREAM;
 use crate::engine::{BLOCK, Label, Query};
 use crate::measure::Measured;
@@ -80,7 +80,7 @@ fn versions(scenes: &[OfScene]) -> String {
     let all = || scenes.iter().flat_map(|scene| &scene.measured);
     let Some(first) = all().next() else { return String::new() };
     let mut columns = Vec::new();
-    for label in first.labels().filter(|label| label.way.starts_with(EMBREE)) {
+    for label in first.labels().filter(|label| label.is_embree()) {
         if !columns.contains(&(label.lanes, label.way)) {
             columns.push((label.lanes, label.way));
         }

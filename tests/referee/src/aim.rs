@@ -21,6 +21,17 @@ pub struct Aim {
 }
 
 impl Aim {
+    /// At a sphere of this radius, in a scene of a few units: two of three rays hit.
+    pub(crate) fn ordinary(random: &mut Random, radius: f64) -> Self {
+        Self {
+            origin: random.unit().map(|x| 10.0 * x),
+            length: random.log_uniform(-2, 1),
+            distance: radius * random.uniform(1.5, 20.0),
+            radius,
+            offset: random.uniform(0.0, 1.5),
+        }
+    }
+
     /// The case in a random orientation, `t` in `[0, +inf]`.
     #[must_use]
     pub fn case(&self, random: &mut Random) -> Case {
@@ -57,6 +68,12 @@ pub fn single(v: [f64; 3]) -> Vec3 {
 #[must_use]
 pub fn double(v: Vec3) -> [f64; 3] {
     v.to_array().map(f64::from)
+}
+
+/// The length, in double precision.
+pub(crate) fn length(v: Vec3) -> f64 {
+    let v = double(v);
+    dot(v, v).sqrt()
 }
 
 /// The vector scaled to length one; `None` if its length is zero or infinite.

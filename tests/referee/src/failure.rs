@@ -47,18 +47,13 @@ pub(crate) struct NewFailure<'a> {
 }
 
 /// The failures that are kept, by kind.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Failures {
-    worst: [Option<Failure>; Kind::ALL.len()],
-    simplest: [Option<Failure>; Kind::ALL.len()],
+    pub(crate) worst: [Option<Failure>; Kind::ALL.len()],
+    pub(crate) simplest: [Option<Failure>; Kind::ALL.len()],
 }
 
 impl Failures {
-    pub(crate) const NONE: Self = Self {
-        worst: [const { None }; Kind::ALL.len()],
-        simplest: [const { None }; Kind::ALL.len()],
-    };
-
     /// Keeps a failure if it is the worst of its kind so far, or the simplest.
     pub(crate) fn add(&mut self, new: &NewFailure<'_>) {
         let worst = &mut self.worst[new.kind as usize];
@@ -71,14 +66,6 @@ impl Failures {
         if is_simplest {
             *simplest = Some(new.kept());
         }
-    }
-
-    pub(crate) fn worst(&self, kind: Kind) -> Option<&Failure> {
-        self.worst[kind as usize].as_ref()
-    }
-
-    pub(crate) fn simplest(&self, kind: Kind) -> Option<&Failure> {
-        self.simplest[kind as usize].as_ref()
     }
 }
 

@@ -42,7 +42,7 @@ impl Judge {
     #[must_use]
     pub fn new(rules: Rules, maps_places: bool) -> Self {
         let scores = vec![Score::default(); FAMILIES.len() + 1];
-        Self { rules, maps_places, scores, failures: Failures::NONE, rows: 0 }
+        Self { rules, maps_places, scores, failures: Failures::default(), rows: 0 }
     }
 
     /// Judges the answers to `rays[i]` against `spheres[i]` alone, whose index is 0.
@@ -58,24 +58,18 @@ impl Judge {
         answers: &[Option<Answer>],
         families: &[u8],
     ) {
-        assert_sound_floats();
-        let (mut by_rules, mut by_contract) = (Vec::new(), Vec::new());
-        truth::of_pairs(&Rules::CONTRACT, rays, spheres, &mut by_contract);
-        let same = self.rules.closed_as_contract();
-        if !same {
-            truth::of_pairs(&self.rules, rays, spheres, &mut by_rules);
-        }
+        let truths = self.truths(|rules, truths| truth::of_pairs(rules, rays, spheres, truths));
         for (index, (ray, answer)) in rays.iter().zip(answers).enumerate() {
             let sphere = &spheres[index];
-            let truths =
-                [if same { by_contract[index] } else { by_rules[index] }, by_contract[index]];
-            let covered = self.rules.cover_ray(ray) && self.rules.cover_sphere(sphere);
-            let judged = Judged { ray, truths, answer: *answer, covered };
-            let spheres = std::slice::from_ref(sphere);
-            let is_there = |answered: u32| answered == 0;
-            self.row(&judged, spheres, families.get(index).copied(), |_, _, answered| {
-                is_there(answered)
-            });
+            let judged = Judged {
+                ray,
+                spheres: std::slice::from_ref(sphere),
+                truths: truths[index],
+                answer: *answer,
+                covered: self.rules.cover_ray(ray) && self.rules.cover_sphere(sphere),
+                family: families.get(index).copied(),
+            };
+            self.row(&judged, None);
         }
     }
 
@@ -90,95 +84,89 @@ impl Judge {
         answers: &[Option<Answer>],
         families: &[u8],
     ) {
-        assert_sound_floats();
-        let (mut by_rules, mut by_contract) = (Vec::new(), Vec::new());
-        shared.truths(&Rules::CONTRACT, rays, &mut by_contract);
-        let same = self.rules.closed_as_contract();
-        if !same {
-            shared.truths(&self.rules, rays, &mut by_rules);
-        }
-        let rules = self.rules;
+        let truths = self.truths(|rules, truths| shared.truths(rules, rays, truths));
+        let (rules, spheres) = (self.rules, shared.spheres());
         let all_covered =
-            rules.covers_all() || shared.spheres().iter().all(|sphere| rules.cover_sphere(sphere));
+            rules.covers_all() || spheres.iter().all(|sphere| rules.cover_sphere(sphere));
         for (index, (ray, answer)) in rays.iter().zip(answers).enumerate() {
-            let truths =
-                [if same { by_contract[index] } else { by_rules[index] }, by_contract[index]];
-            let covered = all_covered && rules.cover_ray(ray);
-            let judged = Judged { ray, truths, answer: *answer, covered };
-            let family = families.get(index).copied();
-            self.row(&judged, shared.spheres(), family, |rules, truth, answered| {
-                shared.is_as_close(rules, ray, truth, answered)
-            });
+            let judged = Judged {
+                ray,
+                spheres,
+                truths: truths[index],
+                answer: *answer,
+                covered: all_covered && rules.cover_ray(ray),
+                family: families.get(index).copied(),
+            };
+            self.row(&judged, Some(shared));
         }
     }
 
-    fn row(
-        &mut self,
-        judged: &Judged<'_>,
-        spheres: &[Sphere],
-        family: Option<u8>,
-        is_as_close: impl Fn(&Rules, Hit, u32) -> bool,
-    ) {
+    /// For each ray the truth under the rules, then that under the contract; `under` overwrites a list with the truths under some rules.
+    fn truths(&self, under: impl Fn(&Rules, &mut Vec<Truth>)) -> Vec<[Truth; 2]> {
+        assert!(
+            float_environment_is_sound(),
+            "this thread does not round to nearest, or takes subnormals for zero: truths would be wrong"
+        );
+        let mut by_contract = Vec::new();
+        under(&Rules::CONTRACT, &mut by_contract);
+        let mut by_rules = by_contract.clone();
+        if !self.rules.closed_as_contract() {
+            under(&self.rules, &mut by_rules);
+        }
+        by_rules.into_iter().zip(by_contract).map(Into::into).collect()
+    }
+
+    /// Judges one ray; `shared` knows which spheres are as close as others, if there are others.
+    fn row(&mut self, judged: &Judged<'_>, shared: Option<&Shared<'_>>) {
         let row = self.rows;
         self.rows += 1;
+        let Judged { ray, spheres, truths: [truth, contract], answer, covered, family } = *judged;
         let place = family.map(usize::from).filter(|&place| place < FAMILIES.len());
         let score = &mut self.scores[place.unwrap_or(FAMILIES.len())];
-        let Judged { ray, truths, answer, covered } = *judged;
-        let rules = [self.rules, Rules::CONTRACT];
         let named = answer.and_then(|answer| answer.sphere);
         let there = |index: u32| spheres.get(index as usize);
         let only = (spheres.len() == 1).then_some(0);
-        // If the rules are the contract, there is one verdict; it is counted under both.
-        let count_of_rules = if rules[0] == rules[1] { 1 } else { 2 };
-        for (which, (rules, truth)) in rules.iter().zip(truths).take(count_of_rules).enumerate() {
-            let counts = if which == 0 { &mut score.by_rules } else { &mut score.by_contract };
-            if which == 0 && !covered {
-                counts.unpromised += 1;
-                continue;
+        // The true sphere, else the named one, else the only one.
+        let sphere_of =
+            |hit: Option<Hit>| hit.map(|hit| hit.sphere).or(named).or(only).and_then(there);
+        let found = |rules: &Rules, hit: Option<Hit>| {
+            if named.is_some_and(|named| there(named).is_none()) {
+                return Verdict::Wrong { kind: Kind::NoAnswer, severity: f64::INFINITY };
             }
-            if truth == Truth::Open {
-                counts.open += 1;
-                continue;
-            }
-            let hit = truth.hit();
-            let found = if named.is_some_and(|named| there(named).is_none()) {
-                Verdict::Wrong { kind: Kind::NoAnswer, severity: f64::INFINITY }
-            } else {
-                let sphere = hit.map(|hit| hit.sphere).or(named).and_then(there);
-                let sphere = sphere.or(only.and_then(there));
-                let is_true = hit.is_none_or(|hit| {
-                    named.is_none_or(|named| named == hit.sphere || is_as_close(rules, hit, named))
-                });
-                verdict(ray, sphere, hit, answer, (is_true, rules.ulp))
+            let is_as_close = |hit: Hit, named| {
+                shared.is_some_and(|shared| shared.is_as_close(rules, ray, hit, named))
             };
-            counts.add(hit.is_some(), found);
-            if which == 1 {
-                continue;
-            }
-            let is_contract = *rules == Rules::CONTRACT;
-            if is_contract {
-                score.by_contract.add(hit.is_some(), found);
-            }
-            if self.maps_places
-                && let Some(sphere) = hit.map(|hit| hit.sphere).or(named).or(only).and_then(there)
-            {
-                let place = place_of(margin(ray, sphere));
-                score.places[place][0] += 1;
-                let decided_wrong = |kind| kind != Kind::T;
-                let is_wrong = matches!(found, Verdict::Wrong { kind, .. } if decided_wrong(kind));
-                score.places[place][1] += u64::from(is_wrong);
-            }
-            let Verdict::Wrong { kind, severity } = found else { continue };
-            self.failures.add(&NewFailure {
-                kind,
-                severity,
-                ray,
-                spheres,
-                answer,
-                truth: hit,
-                family,
-                row,
-            });
+            let is_true = hit
+                .zip(named)
+                .is_none_or(|(hit, named)| named == hit.sphere || is_as_close(hit, named));
+            verdict(ray, sphere_of(hit), hit, answer, (is_true, rules.ulp))
+        };
+
+        // The contract promises something of every ray, and leaves none open.
+        let by_contract = found(&Rules::CONTRACT, contract.hit());
+        score.by_contract.add(contract.hit().is_some(), by_contract);
+        if !covered {
+            score.by_rules.unpromised += 1;
+            return;
+        }
+        if truth == Truth::Open {
+            score.by_rules.open += 1;
+            return;
+        }
+        let hit = truth.hit();
+        let is_contract = self.rules == Rules::CONTRACT;
+        let by_rules = if is_contract { by_contract } else { found(&self.rules, hit) };
+        score.by_rules.add(hit.is_some(), by_rules);
+        if self.maps_places
+            && let Some(sphere) = sphere_of(hit)
+        {
+            let [judged, wrong] = &mut score.places[place_of(margin(ray, sphere))];
+            let is_wrong = matches!(by_rules, Verdict::Wrong { kind, .. } if kind != Kind::T);
+            (*judged, *wrong) = (*judged + 1, *wrong + u64::from(is_wrong));
+        }
+        if let Verdict::Wrong { kind, severity } = by_rules {
+            let new = NewFailure { kind, severity, ray, spheres, answer, truth: hit, family, row };
+            self.failures.add(&new);
         }
     }
 
@@ -213,13 +201,13 @@ impl Judge {
     /// The worst failure of a kind.
     #[must_use]
     pub fn worst(&self, kind: Kind) -> Option<&Failure> {
-        self.failures.worst(kind)
+        self.failures.worst[kind as usize].as_ref()
     }
 
     /// The failure of a kind that has the fewest digits. For t, only answers that are plainly off count, if there are any.
     #[must_use]
     pub fn simplest(&self, kind: Kind) -> Option<&Failure> {
-        self.failures.simplest(kind)
+        self.failures.simplest[kind as usize].as_ref()
     }
 }
 
@@ -236,19 +224,14 @@ impl Rules {
     }
 }
 
-/// A ray with its truths, under the rules and under the contract, and the answer.
+/// A ray with its spheres, its truths, under the rules and under the contract, and the answer.
 struct Judged<'a> {
     ray: &'a Ray,
+    spheres: &'a [Sphere],
     truths: [Truth; 2],
     answer: Option<Answer>,
     covered: bool,
-}
-
-fn assert_sound_floats() {
-    assert!(
-        float_environment_is_sound(),
-        "this thread does not round to nearest, or takes subnormals for zero: truths would be wrong"
-    );
+    family: Option<u8>,
 }
 
 fn place_of(margin: f64) -> usize {

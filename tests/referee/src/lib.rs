@@ -41,6 +41,7 @@ pub mod answer;
 pub mod bytes;
 pub mod case;
 pub mod counts;
+mod exact_sum;
 pub mod failure;
 pub mod families;
 pub mod intersector;

@@ -87,13 +87,7 @@ impl Measured {
 impl Kind {
     fn case(self, random: &mut Random) -> Case {
         let radius = random.log_uniform(-2, 1);
-        let ordinary = Aim {
-            origin: random.unit().map(|x| 10.0 * x),
-            length: random.log_uniform(-2, 1),
-            distance: radius * random.uniform(1.5, 20.0),
-            radius,
-            offset: random.uniform(0.0, 1.5),
-        };
+        let ordinary = Aim::ordinary(random, radius);
         match self {
             Self::Aimed { nearest, furthest } => {
                 let distance = radius * random.uniform(nearest, furthest);

@@ -1,5 +1,7 @@
 //! The middle between the two roots of a line: b/a, where it is closest to the centre.
 
+use crate::aim::double;
+use crate::exact_sum::Sum;
 use spherule_kernel::{Exact, Ray, Sphere, roots};
 use std::cmp::Ordering;
 
@@ -22,7 +24,7 @@ pub fn is_at_the_other_root(ray: &Ray, sphere: &Sphere, t: f64, truth: f32) -> b
 
 /// Whether double precision is sure that both t are on one side of the middle, as most are.
 fn are_before_or_behind(ray: &Ray, sphere: &Sphere, t: [f64; 2]) -> bool {
-    let [o, d, c] = in_double(ray, sphere);
+    let [o, d, c] = [ray.origin, ray.direction, sphere.center].map(double);
     let (mut middle, mut squared, mut size) = (0.0, 0.0, 0.0);
     for ((o, d), c) in o.into_iter().zip(d).zip(c) {
         let along = (c - o) * d;
@@ -41,53 +43,22 @@ fn are_before_or_behind(ray: &Ray, sphere: &Sphere, t: [f64; 2]) -> bool {
 fn side(t: f64, ray: &Ray, sphere: &Sphere) -> Ordering {
     let t = t.clamp(-LARGEST, LARGEST);
     let t = if t.abs() < LEAST { 0.0 } else { t };
-    let [o, d, c] = in_double(ray, sphere);
+    let [o, d, c] = [ray.origin, ray.direction, sphere.center].map(double);
     let mut sum = Sum::default();
     for ((o, d), c) in o.into_iter().zip(d).zip(c) {
         let along = t * d;
-        for part in [along, t.mul_add(d, -along)] {
-            let product = part * d;
-            sum.add(product);
-            sum.add(part.mul_add(d, -product));
-        }
-        sum.add(o * d);
-        sum.add(-c * d);
+        sum.add_product(along, d);
+        sum.add_product(t.mul_add(d, -along), d);
+        sum.add_product(o, d);
+        sum.add_product(-c, d);
     }
     sum.sign()
-}
-
-/// The origin, the direction and the centre.
-fn in_double(ray: &Ray, sphere: &Sphere) -> [[f64; 3]; 3] {
-    [ray.origin, ray.direction, sphere.center].map(|v| v.to_array().map(f64::from))
 }
 
 /// 2^-600.
 const LEAST: f64 = f64::from_bits((1023 - 600) << 52);
 /// 2^384: |b| / a <= |c - o| / |d| is below 2^131 / 2^-149.
 const LARGEST: f64 = f64::from_bits((1023 + 384) << 52);
-
-/// A sum without any rounding: numbers that do not overlap, from small to large, and zeros (Shewchuk 1997).
-#[derive(Default)]
-struct Sum(Vec<f64>);
-
-impl Sum {
-    fn add(&mut self, value: f64) {
-        let mut carried = value;
-        for part in &mut self.0 {
-            let sum = carried + *part;
-            let other = sum - carried;
-            *part = (carried - (sum - other)) + (*part - other);
-            carried = sum;
-        }
-        self.0.push(carried);
-    }
-
-    /// How it compares with zero: the largest part decides.
-    fn sign(&self) -> Ordering {
-        let largest = self.0.iter().rev().find(|part| **part != 0.0);
-        largest.map_or(Ordering::Equal, |part| part.total_cmp(&0.0))
-    }
-}
 
 #[cfg(test)]
 mod tests {

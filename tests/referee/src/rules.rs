@@ -3,6 +3,8 @@
 //! Every rule defaults to the contract's. Cases about which an intersector promises nothing are not judged under its rules; under the
 //! contract all cases are judged.
 
+use crate::aim::double;
+use crate::random::dot;
 use spherule_kernel::{Ray, Sphere};
 use std::fmt;
 
@@ -216,16 +218,12 @@ impl Rules {
     /// Whether these rules promise anything of this ray, whatever the spheres.
     #[must_use]
     pub fn cover_ray(&self, ray: &Ray) -> bool {
-        let Ray { origin, direction, t_min, t_max } = *ray;
-        let is_valid = origin.is_finite()
-            && direction.is_finite()
-            && direction.to_array() != [0.0; 3]
-            && t_min <= t_max;
+        let Ray { origin, direction, t_min, .. } = *ray;
         let is_unit = || {
-            let square: f64 = direction.to_array().map(f64::from).iter().map(|x| x * x).sum();
-            (square - 1.0).abs() <= 2.0 / f64::from(1 << 20)
+            let direction = double(direction);
+            (dot(direction, direction) - 1.0).abs() <= 2.0 / f64::from(1 << 20)
         };
-        (self.invalid == Promise::Judged || is_valid)
+        (self.invalid == Promise::Judged || ray.is_live())
             && match self.starts {
                 Starts::Any => true,
                 Starts::NotBehind => t_min >= 0.0 || t_min.is_nan(),
@@ -278,24 +276,21 @@ mod tests {
 
     #[test]
     fn what_is_not_promised_is_not_covered() {
-        let none =
-            |rules: Rules, ray: Ray| assert!(!rules.cover_ray(&ray) && CONTRACT.cover_ray(&ray));
-        none(Rules { starts: Starts::NotBehind, ..CONTRACT }, Ray { t_min: -1.0, ..RAY });
-        none(Rules { starts: Starts::Zero, ..CONTRACT }, Ray { t_min: 1.0, ..RAY });
-        none(
-            Rules { directions: Directions::Unit, ..CONTRACT },
-            Ray { direction: Vec3::ONE, ..RAY },
-        );
-        none(Rules { invalid: Promise::None, ..CONTRACT }, Ray { t_max: f32::NAN, ..RAY });
-        none(Rules { invalid: Promise::None, ..CONTRACT }, Ray { direction: Vec3::ZERO, ..RAY });
-        none(Rules { largest: 9.0, ..CONTRACT }, Ray { origin: Vec3::X * 10.0, ..RAY });
-        none(Rules { smallest: 0.1, ..CONTRACT }, Ray { origin: Vec3::X * 0.01, ..RAY });
-        let all = Rules {
-            directions: Directions::Unit,
-            starts: Starts::NotBehind,
-            invalid: Promise::None,
-            ..CONTRACT
-        };
+        let unit = Rules { directions: Directions::Unit, ..CONTRACT };
+        let not_behind = Rules { starts: Starts::NotBehind, ..CONTRACT };
+        let valid = Rules { invalid: Promise::None, ..CONTRACT };
+        for (rules, ray) in [
+            (not_behind, Ray { t_min: -1.0, ..RAY }),
+            (Rules { starts: Starts::Zero, ..CONTRACT }, Ray { t_min: 1.0, ..RAY }),
+            (unit, Ray { direction: Vec3::ONE, ..RAY }),
+            (valid, Ray { t_max: f32::NAN, ..RAY }),
+            (valid, Ray { direction: Vec3::ZERO, ..RAY }),
+            (Rules { largest: 9.0, ..CONTRACT }, Ray { origin: Vec3::X * 10.0, ..RAY }),
+            (Rules { smallest: 0.1, ..CONTRACT }, Ray { origin: Vec3::X * 0.01, ..RAY }),
+        ] {
+            assert!(!rules.cover_ray(&ray) && CONTRACT.cover_ray(&ray), "{rules:?}: {ray:?}");
+        }
+        let all = Rules { starts: Starts::NotBehind, invalid: Promise::None, ..unit };
         assert!(all.cover_ray(&RAY));
         assert!(!all.cover_sphere(&Sphere::from([0.0, 0.0, 0.0, -1.0])));
     }

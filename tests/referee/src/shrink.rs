@@ -12,6 +12,9 @@ use std::time::{Duration, Instant};
 /// How many bits of a significand are kept.
 const BITS: [u32; 12] = [1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 18, 21];
 
+/// The place of the first sphere among the numbers of a case, which begin with the ray's.
+const SPHERES: usize = 8;
+
 /// A ray and its spheres.
 pub type Candidate = (Ray, Vec<Sphere>);
 
@@ -63,59 +66,37 @@ fn candidates(failure: &Failure) -> Vec<Candidate> {
         }
     }
     let numbers = numbers_of(ray, spheres);
-    let mut push = |numbers: &[f32]| all.push(case_of(numbers));
+    let mut push = |change: &dyn Fn(usize, f32) -> f32| {
+        let changed = numbers.iter().enumerate().map(|(place, &x)| change(place, x));
+        all.push(case_of(&changed.collect::<Vec<_>>()));
+    };
     // Changes one number.
-    for place in 0..numbers.len() {
-        for simple in simpler_numbers(numbers[place], place) {
-            let mut changed = numbers.clone();
-            changed[place] = simple;
-            push(&changed);
+    for (place, &number) in numbers.iter().enumerate() {
+        for simple in simpler_numbers(number, place) {
+            push(&|other, x| if other == place { simple } else { x });
         }
     }
-    // Scales all lengths, or the direction, by a power of two; cuts all numbers to fewer bits.
-    let spheres_at = 8;
-    let is_length = |place: usize| place < 3 || place >= spheres_at;
+    // Scales all lengths, or the direction, or both by a power of two; cuts all numbers to fewer bits.
+    let is_length = |place: usize| !(3..SPHERES).contains(&place);
+    let is_direction = |place: usize| (3..6).contains(&place);
     for exponent in [-64, -16, -4, -1, 1, 4, 16, 64] {
         let scale = |x: f32| (f64::from(x) * 2.0_f64.powi(exponent)) as f32;
-        let mut lengths = numbers.clone();
-        let mut both = numbers.clone();
-        let mut direction = numbers.clone();
-        for place in 0..numbers.len() {
-            if is_length(place) {
-                lengths[place] = scale(numbers[place]);
-                both[place] = scale(numbers[place]);
-            } else if place < 6 {
-                both[place] = scale(numbers[place]);
-                direction[place] = scale(numbers[place]);
-            }
-        }
-        [lengths, both, direction].iter().for_each(|changed| push(changed));
+        push(&|place, x| if is_length(place) { scale(x) } else { x });
+        push(&|place, x| if is_length(place) || is_direction(place) { scale(x) } else { x });
+        push(&|place, x| if is_direction(place) { scale(x) } else { x });
     }
     for bits in BITS {
-        let rounded: Vec<f32> = numbers.iter().map(|&x| with_bits(x, bits)).collect();
-        push(&rounded);
+        push(&|_, x| with_bits(x, bits));
     }
-    let whole: Vec<f32> =
-        numbers.iter().map(|x| if x.is_finite() { x.round() } else { *x }).collect();
-    push(&whole);
-    // Moves an axis so that the ray or a sphere is at its zero; puts the direction along an axis; swaps axes.
+    push(&|_, x| if x.is_finite() { x.round() } else { x });
+    // Moves an axis so that the ray or a sphere is at its zero; puts the direction along an axis.
     for axis in 0..3 {
-        for zero in [axis, spheres_at + axis] {
-            let by = numbers[zero];
-            let mut moved = numbers.clone();
-            for place in (0..numbers.len()).filter(|&place| is_length(place)) {
-                let of_axis = if place < 3 { place } else { (place - spheres_at) % 4 };
-                if of_axis == axis {
-                    moved[place] -= by;
-                }
-            }
-            push(&moved);
+        let is_of_axis =
+            |place: usize| place == axis || place >= SPHERES && (place - SPHERES) % 4 == axis;
+        for zero in [axis, SPHERES + axis] {
+            push(&|place, x| if is_of_axis(place) { x - numbers[zero] } else { x });
         }
-        let mut along = numbers.clone();
-        for other in (0..3).filter(|&other| other != axis) {
-            along[3 + other] = 0.0;
-        }
-        push(&along);
+        push(&|place, x| if is_direction(place) && place != 3 + axis { 0.0 } else { x });
     }
     all.retain(|(ray, spheres)| weight(ray, spheres) < now);
     all
@@ -146,19 +127,14 @@ fn with_bits(x: f32, bits: u32) -> f32 {
 }
 
 fn numbers_of(ray: &Ray, spheres: &[Sphere]) -> Vec<f32> {
-    let mut numbers = Vec::with_capacity(8 + 4 * spheres.len());
-    numbers.extend(ray.origin.to_array());
-    numbers.extend(ray.direction.to_array());
-    numbers.extend([ray.t_min, ray.t_max]);
-    for sphere in spheres {
-        numbers.extend(sphere.center.to_array());
-        numbers.push(sphere.radius);
-    }
-    numbers
+    let (origin, direction) = (ray.origin.to_array(), ray.direction.to_array());
+    let spheres = spheres.iter().flat_map(|sphere| sphere.center.extend(sphere.radius).to_array());
+    let ends = [ray.t_min, ray.t_max];
+    origin.into_iter().chain(direction).chain(ends).chain(spheres).collect()
 }
 
 fn case_of(numbers: &[f32]) -> Candidate {
     let vector = |from: usize| Vec3::from_slice(&numbers[from..from + 3]);
     let ray = Ray { origin: vector(0), direction: vector(3), t_min: numbers[6], t_max: numbers[7] };
-    (ray, numbers[8..].as_chunks::<4>().0.iter().map(|&row| row.into()).collect())
+    (ray, numbers[SPHERES..].as_chunks::<4>().0.iter().map(|&row| row.into()).collect())
 }

@@ -149,9 +149,8 @@ fn rows(failure: &Failure, number: impl Fn(f32) -> String) -> Rows {
     };
     let Ray { origin, direction, t_min, t_max } = failure.ray;
     let ray = [&origin.to_array()[..], &direction.to_array(), &[t_min, t_max]].concat();
-    let of_sphere =
-        |Sphere { center, radius }: &Sphere| [&center.to_array()[..], &[*radius]].concat();
-    let spheres: Vec<Vec<f32>> = failure.spheres.iter().map(of_sphere).collect();
+    let of_sphere = |Sphere { center, radius }: &Sphere| center.extend(*radius).to_array();
+    let spheres: Vec<[f32; 4]> = failure.spheres.iter().map(of_sphere).collect();
     let in_decimal: Vec<String> = spheres.iter().map(|sphere| row(sphere, &decimal)).collect();
     Rows {
         ray: row(&ray, &number),

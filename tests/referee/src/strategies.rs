@@ -12,7 +12,7 @@ use crate::ulp::step;
 use proptest::prelude::*;
 use proptest::sample::select;
 use proptest::test_runner::Config;
-use spherule_kernel::Vec3;
+use spherule_kernel::{Ray, Sphere, Vec3};
 use std::env;
 
 /// `cases` cases a test, or as many as the environment variable `PROPTEST_CASES` says. Failures are
@@ -84,10 +84,9 @@ pub fn lattice() -> impl Strategy<Value = Case> {
             .prop_map(|(low, length)| (f32::from(low), f32::from(low) + f32::from(length))),
     ];
     (point(), direction, point(), 0_i8..=5, ends).prop_map(|(o, d, c, r, (t_min, t_max))| {
-        let ([ox, oy, oz], [dx, dy, dz]) = (o.map(f32::from), d.map(f32::from));
-        let [cx, cy, cz] = c.map(f32::from);
-        let radius = f32::from(r);
-        Case::from_numbers([ox, oy, oz, dx, dy, dz, t_min, t_max, cx, cy, cz, radius])
+        let vector = |v: [i8; 3]| Vec3::from_array(v.map(f32::from));
+        let ray = Ray { origin: vector(o), direction: vector(d), t_min, t_max };
+        Case { ray, sphere: Sphere { center: vector(c), radius: f32::from(r) } }
     })
 }
 

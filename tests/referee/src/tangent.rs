@@ -1,9 +1,10 @@
 //! Whether a line touches a sphere in one point, decided exactly.
 //!
 //! D = b^2 - a (p.p - r^2) as a sum of products of four numbers each. Every number is a multiple of 2^-149 below 2^128, so
-//! every product is one of 2^-596 and below 2^520, and double precision holds each, and its rounding error, without loss;
-//! the sum is kept as numbers that do not overlap (Shewchuk 1997).
+//! every product is one of 2^-596 and below 2^520, and double precision holds each, and its rounding error, without loss.
 
+use crate::aim::double;
+use crate::exact_sum::Sum;
 use spherule_kernel::{Ray, Sphere, discriminant};
 
 /// Whether D = 0; false for invalid input.
@@ -13,8 +14,7 @@ pub(crate) fn is_tangent(ray: &Ray, sphere: &Sphere) -> bool {
 }
 
 fn discriminant_is_zero(ray: &Ray, sphere: &Sphere) -> bool {
-    let double = |v: spherule_kernel::Vec3| v.to_array().map(f64::from);
-    let (o, d, c) = (double(ray.origin), double(ray.direction), double(sphere.center));
+    let [o, d, c] = [ray.origin, ray.direction, sphere.center].map(double);
     let r = f64::from(sphere.radius);
     // Products of two are exact in 48 bits.
     let b: Vec<f64> = (0..3).flat_map(|i| [d[i] * c[i], -d[i] * o[i]]).collect();
@@ -29,34 +29,7 @@ fn discriminant_is_zero(ray: &Ray, sphere: &Sphere) -> bool {
     for x in a {
         square.iter().for_each(|y| sum.add_product(-x, *y));
     }
-    sum.is_zero()
-}
-
-/// A sum without any rounding: numbers that do not overlap.
-#[derive(Default)]
-struct Sum(Vec<f64>);
-
-impl Sum {
-    fn add_product(&mut self, x: f64, y: f64) {
-        let high = x * y;
-        self.add(x.mul_add(y, -high));
-        self.add(high);
-    }
-
-    fn add(&mut self, mut value: f64) {
-        for part in &mut self.0 {
-            let sum = value + *part;
-            let other = sum - value;
-            let low = (value - (sum - other)) + (*part - other);
-            (value, *part) = (sum, low);
-        }
-        self.0.push(value);
-        self.0.retain(|part| *part != 0.0);
-    }
-
-    fn is_zero(&self) -> bool {
-        self.0.is_empty()
-    }
+    sum.sign().is_eq()
 }
 
 #[cfg(test)]

@@ -78,19 +78,12 @@ mod tests {
     use crate::rules::{Directions, Promise};
     use spherule_kernel::{Tier, Vec3};
 
-    #[test]
-    fn what_is_right_passes() {
-        let (spheres, rays) =
-            (vec![[0.0, 0.0, 5.0, 1.0].into()], vec![Ray::new(Vec3::ZERO, Vec3::Z)]);
-        check(&mut Kernel(Tier::Exact), (&spheres, &rays), 0.0);
-    }
+    const RAY: Ray = Ray::new(Vec3::ZERO, Vec3::Z);
+    const SPHERE: Sphere = Sphere { center: Vec3::new(0.0, 0.0, 5.0), radius: 1.0 };
 
     #[test]
-    #[should_panic(expected = "blind: 1 of 1 rays are decided wrong")]
-    fn what_is_wrong_is_not_timed() {
-        let (spheres, rays) =
-            (vec![[0.0, 0.0, 5.0, 1.0].into()], vec![Ray::new(Vec3::ZERO, Vec3::Z)]);
-        check(&mut Pair::new("blind", |_: &Ray, _: &Sphere| None::<f32>), (&spheres, &rays), 0.5);
+    fn what_is_right_passes() {
+        check(&mut Kernel(Tier::Exact), (&[SPHERE], &[RAY]), 0.0);
     }
 
     /// The check of an intersector that sees nothing, under these rules.
@@ -100,19 +93,23 @@ mod tests {
     }
 
     #[test]
+    #[should_panic(expected = "blind: 1 of 1 rays are decided wrong")]
+    fn what_is_wrong_is_not_timed() {
+        check_blind(Rules::CONTRACT, (&[SPHERE], &[RAY]));
+    }
+
+    #[test]
     #[should_panic(expected = "promise nothing of 1, since there is a sphere at (")]
     fn a_scene_of_which_nothing_is_promised_is_not_timed() {
-        let spheres = [[0.0, 0.0, 5.0, 1.0], [0.0, 0.0, 5.0, -1.0]].map(Sphere::from);
         let rules = Rules { invalid: Promise::None, ..Rules::CONTRACT };
-        check_blind(rules, (&spheres, &[Ray::new(Vec3::ZERO, Vec3::Z)]));
+        check_blind(rules, (&[SPHERE, Sphere { radius: -1.0, ..SPHERE }], &[RAY]));
     }
 
     #[test]
     #[should_panic(expected = "promise nothing of 1, such as the ray from (")]
     fn rays_of_which_nothing_is_promised_are_not_timed() {
         let rules = Rules { directions: Directions::Unit, ..Rules::CONTRACT };
-        let spheres = [Sphere::from([0.0, 0.0, 5.0, 1.0])];
-        check_blind(rules, (&spheres, &[Ray::new(Vec3::ZERO, 2.0 * Vec3::Z)]));
+        check_blind(rules, (&[SPHERE], &[Ray::new(Vec3::ZERO, 2.0 * Vec3::Z)]));
     }
 
     #[test]

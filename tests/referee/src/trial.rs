@@ -1,5 +1,6 @@
 //! An intersector against all families: pairs, and scenes of eight spheres.
 
+use crate::answer::Answer;
 use crate::failure::Failure;
 use crate::families::{FAMILIES, Family, SEED};
 use crate::intersector::Intersector;
@@ -146,10 +147,9 @@ impl<I: Intersector + Clone + Send + 'static> Course<'_, I> {
         let case = |index| {
             if is_unit { family.seeded_unit(seed, index) } else { family.seeded(seed, index) }
         };
-        let (mut mishaps, mut from) = (0, 0);
-        while from < cases {
+        let mut mishaps = 0;
+        for from in (0..cases).step_by(PAIRS) {
             let indices = from..(from + PAIRS as u64).min(cases);
-            from = indices.end;
             let (rays, spheres): (Vec<Ray>, Vec<Sphere>) =
                 indices.map(case).map(|case| (case.ray, case.sphere)).unzip();
             let all = Question { spheres, rays, pairs: true };
@@ -206,14 +206,18 @@ impl<I: Intersector + Clone + Send + 'static> Course<'_, I> {
     fn answer(&mut self, question: &Question, family: &Family) -> Result<(), Mishap> {
         let answers = self.watched.ask(question)?;
         let families = vec![family.number; answers.len()];
-        let Question { spheres, rays, pairs } = question;
-        let judge = &mut self.report.judge;
-        if *pairs {
-            judge.pairs(rays, spheres, &answers, &families);
-        } else {
-            judge.shared(&Shared::new(spheres), rays, &answers, &families);
-        }
+        judged(&mut self.report.judge, question, &answers, &families);
         Ok(())
+    }
+}
+
+/// Judges the answers to a question.
+fn judged(judge: &mut Judge, question: &Question, answers: &[Option<Answer>], families: &[u8]) {
+    let Question { spheres, rays, pairs } = question;
+    if *pairs {
+        judge.pairs(rays, spheres, answers, families);
+    } else {
+        judge.shared(&Shared::new(spheres), rays, answers, families);
     }
 }
 
@@ -245,11 +249,7 @@ fn failure_of<I: Intersector + Clone + Send + 'static>(
     let question = Question { spheres: spheres.clone(), rays: vec![*ray], pairs };
     let answers = watched.ask(&question).ok()?;
     let mut judge = Judge::new(rules, false);
-    if pairs {
-        judge.pairs(&question.rays, spheres, &answers, &[]);
-    } else {
-        judge.shared(&Shared::new(spheres), &question.rays, &answers, &[]);
-    }
+    judged(&mut judge, &question, &answers, &[]);
     Kind::ALL.into_iter().find_map(|kind| judge.worst(kind).cloned())
 }
 

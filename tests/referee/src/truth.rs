@@ -2,12 +2,12 @@
 //!
 //! `Exact` gives the roots and the order of spheres; where rules say otherwise, each case is settled by itself.
 
-use crate::aim::double;
-use crate::random::{dot, power_of_two};
+use crate::aim::length;
+use crate::random::power_of_two;
 use crate::rules::{Inside, Interval, Precision, Rules, Tangents, Ties};
 use crate::tangent::is_tangent;
 use spherule_kernel::{
-    Exact, Hit, Intersect, Ray, Side, Sphere, SphereTree, Vec3, compare_hits, pairs, roots, side,
+    Exact, Hit, Intersect, Ray, Side, Sphere, SphereTree, compare_hits, pairs, roots, side,
 };
 use std::cmp::Ordering;
 
@@ -57,7 +57,7 @@ pub fn of_pair(rules: &Rules, ray: &Ray, sphere: &Sphere) -> Truth {
 fn first_hit(ray: &Ray, sphere: &Sphere) -> Option<Hit> {
     let mut hit = [None];
     pairs(Exact, &[*ray], &[*sphere], &mut hit);
-    hit[0].map(|hit| Hit { sphere: 0, ..hit })
+    hit[0]
 }
 
 /// What rules make of the contract's hit, which is that of the closed interval.
@@ -205,9 +205,4 @@ impl<'a> Shared<'a> {
         hit.map(|hit| Hit { sphere: answered, ..hit })
             .is_some_and(|hit| hit.t == truth.t && (rules.ties == Ties::Rounded || is_tie(hit)))
     }
-}
-
-fn length(v: Vec3) -> f64 {
-    let v = double(v);
-    dot(v, v).sqrt()
 }

@@ -1,7 +1,9 @@
 //! How an answer is wrong.
 
+use crate::aim::double;
 use crate::answer::Answer;
 use crate::middle::is_at_the_other_root;
+use crate::random::dot;
 use crate::ulp::ulp_between;
 use spherule_kernel::{Hit, Ray, Sphere, discriminant};
 
@@ -101,9 +103,8 @@ pub fn verdict(
 #[must_use]
 pub fn margin(ray: &Ray, sphere: &Sphere) -> f64 {
     let Some((d, _)) = discriminant(ray, sphere) else { return f64::NAN };
-    let a: f64 = ray.direction.to_array().map(f64::from).iter().map(|x| x * x).sum();
-    let r = f64::from(sphere.radius);
-    d / (a * r * r)
+    let (direction, r) = (double(ray.direction), f64::from(sphere.radius));
+    d / (dot(direction, direction) * r * r)
 }
 
 #[cfg(test)]

@@ -50,13 +50,14 @@ pub struct Question {
 }
 
 type Reply = Result<Vec<Option<Answer>>, String>;
+type Worker = (Sender<Question>, Receiver<Reply>);
 
 /// An intersector, and another to go on with after a mishap.
 #[derive(Debug)]
 pub struct Watched<I> {
     spare: I,
     patience: Duration,
-    worker: Option<(Sender<Question>, Receiver<Reply>)>,
+    worker: Option<Worker>,
 }
 
 impl<I: Intersector + Clone + Send + 'static> Watched<I> {
@@ -92,9 +93,7 @@ impl<I: Intersector + Clone + Send + 'static> Watched<I> {
     }
 }
 
-fn start<I: Intersector + Send + 'static>(
-    mut intersector: I,
-) -> Option<(Sender<Question>, Receiver<Reply>)> {
+fn start<I: Intersector + Send + 'static>(mut intersector: I) -> Option<Worker> {
     let (questions, inbox) = channel::<Question>();
     let (outbox, replies) = channel();
     let work = move || {

@@ -1,23 +1,25 @@
 //! Judges intersectors whose faults are known.
 
-use spherule_kernel::Tier;
+use spherule_kernel::{Exact, Side, Tier, roots, side};
 use spherule_referee::answer::Answer;
 use spherule_referee::families::{FAMILIES, Family};
 use spherule_referee::intersector::{Kernel, Pair};
-use spherule_referee::rules::{Directions, Inside, Interval, Promise, Starts, Tangents};
+use spherule_referee::rules::{Directions, Inside, Interval, Precision, Promise, Starts, Tangents};
 use spherule_referee::verdict::Kind;
 use spherule_referee::watched::Mishap;
-use spherule_referee::{Intersector, Ray, Rules, Sphere, Trial, snippet};
+use spherule_referee::{Intersector, Ray, Rules, Sphere, Trial, Vec3, snippet};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
 
 fn trial() -> Trial {
-    Trial { cases: 300, shrinking: Duration::from_secs(5), ..Trial::default() }
+    Trial { cases: 300, ..Trial::default() }
 }
 
-fn named(names: &[&str]) -> Vec<Family> {
-    names.iter().map(|name| Family::named(name).expect("a family")).collect()
+/// A trial of these families, in which nothing is shrunk.
+fn trial_of(names: &[&str]) -> Trial {
+    let families = names.iter().map(|name| Family::named(name).expect("a family")).collect();
+    Trial { families, shrinking: Duration::ZERO, ..trial() }
 }
 
 #[path = "../examples/textbook.rs"]
@@ -49,8 +51,7 @@ fn exact_is_never_wrong() {
 #[test]
 fn other_tiers_are_wrong_where_they_are_known_to_be() {
     for tier in [Tier::Fast, Tier::Geometric, Tier::Stable] {
-        let trial = Trial { families: named(&["far-1e4"]), shrinking: Duration::ZERO, ..trial() };
-        let counts = trial.run(&Kernel(tier)).judge.total().by_rules;
+        let counts = trial_of(&["far-1e4"]).run(&Kernel(tier)).judge.total().by_rules;
         let wrong = counts.of(Kind::FalseHit) + counts.of(Kind::LostHit);
         assert_eq!(wrong > 50, tier != Tier::Stable, "{tier:?}: {wrong}");
     }
@@ -79,22 +80,12 @@ fn a_textbook_is_shrunk_to_what_can_be_read() {
 
 #[test]
 fn double_precision_is_judged_where_single_can_tell() {
-    let contract = Pair::new("double", double);
-    let rules = Rules {
-        precision: spherule_referee::rules::Precision::F64,
-        // It cannot tell the sign of D = 0.
-        tangents: Tangents::Either,
-        ..contract.rules()
-    };
-    let by = |rules| {
-        let trial = Trial {
-            families: named(&["far-1e6", "inside", "tie"]),
-            shrinking: Duration::ZERO,
-            ..trial()
-        };
-        trial.run(&Pair::new("double", double).with_rules(rules)).judge.total().by_rules
-    };
-    let counts = by(rules);
+    let double = Pair::new("double", double);
+    // It cannot tell the sign of D = 0.
+    let tangents = Tangents::Either;
+    let rules = Rules { precision: Precision::F64, tangents, ..double.rules() };
+    let trial = trial_of(&["far-1e6", "inside", "tie"]);
+    let counts = trial.run(&double.with_rules(rules)).judge.total().by_rules;
     assert_eq!(counts.decided_wrong(), 0, "{counts:?}");
     assert!(counts.judged > 1000);
 }
@@ -104,20 +95,13 @@ fn double_precision_is_judged_where_single_can_tell() {
 fn rules_are_kept_or_broken() {
     // A ball that rays do not see from inside, with open ends, without tangents.
     fn open(ray: &Ray, sphere: &Sphere) -> Option<f32> {
-        let inside =
-            spherule_kernel::side(ray.origin, sphere) == Some(spherule_kernel::Side::Inside);
-        let roots = spherule_kernel::roots(spherule_kernel::Exact, ray, sphere)?;
-        let is_tangent = spherule_kernel::roots(
-            spherule_kernel::Exact,
-            ray,
-            &Sphere { radius: sphere.radius.next_down(), ..*sphere },
-        )
-        .is_none()
-            && roots[0] == roots[1];
-        if inside || is_tangent {
+        let [near, far] = roots(Exact, ray, sphere)?;
+        let smaller = Sphere { radius: sphere.radius.next_down(), ..*sphere };
+        let is_tangent = near == far && roots(Exact, ray, &smaller).is_none();
+        if side(ray.origin, sphere) == Some(Side::Inside) || is_tangent {
             return None;
         }
-        roots.into_iter().find(|t| ray.t_min < *t && *t < ray.t_max && t.is_finite())
+        [near, far].into_iter().find(|t| ray.t_min < *t && *t < ray.t_max && t.is_finite())
     }
     let rules = Rules {
         interval: Interval::Open,
@@ -125,9 +109,8 @@ fn rules_are_kept_or_broken() {
         inside: Inside::Miss,
         ..Pair::new("open", open).rules()
     };
-    let families =
-        named(&["ordinary", "tangent", "inside", "on-surface", "interval-at-root", "outside"]);
-    let trial = Trial { families, shrinking: Duration::ZERO, ..trial() };
+    let trial =
+        trial_of(&["ordinary", "tangent", "inside", "on-surface", "interval-at-root", "outside"]);
     let total = trial.run(&Pair::new("open", open).with_rules(rules)).judge.total();
     assert_eq!(total.by_rules.decided_wrong(), 0, "{:?}", total.by_rules);
     assert!(total.by_rules.open > 300 && total.by_contract.of(Kind::LostHit) > 500);
@@ -143,13 +126,8 @@ fn what_is_not_promised_is_not_judged() {
         largest: 1e18,
         ..Rules::CONTRACT
     };
-    let trial = Trial {
-        families: named(&["overflow", "degenerate"]),
-        shrinking: Duration::ZERO,
-        ..trial()
-    };
-    let total =
-        trial.run(&Pair::new("textbook", textbook::textbook).with_rules(rules)).judge.total();
+    let textbook = Pair::new("textbook", textbook::textbook).with_rules(rules);
+    let total = trial_of(&["overflow", "degenerate"]).run(&textbook).judge.total();
     assert!(total.by_rules.unpromised > 600, "{total:?}");
     assert_eq!(
         total.by_rules.judged + total.by_rules.open + total.by_rules.unpromised,
@@ -160,13 +138,12 @@ fn what_is_not_promised_is_not_judged() {
 #[test]
 fn rules_that_want_unit_directions_get_them() {
     let exact = |ray: &Ray, sphere: &Sphere| {
-        let roots = spherule_kernel::roots(spherule_kernel::Exact, ray, sphere)?;
+        let roots = roots(Exact, ray, sphere)?;
         roots.into_iter().find(|t| t.is_finite() && ray.t_min <= *t && *t <= ray.t_max)
     };
     let exact = Pair::new("exact", exact);
     let rules = Rules { directions: Directions::Unit, ..exact.rules() };
-    let trial = Trial { families: named(&["far-1e4", "interval-at-root"]), ..trial() };
-    let report = trial.run(&exact.with_rules(rules));
+    let report = trial_of(&["far-1e4", "interval-at-root"]).run(&exact.with_rules(rules));
     // In pairs and in scenes.
     assert_eq!(report.judge.scores().count(), 2);
     for (family, score) in report.judge.scores() {
@@ -193,7 +170,7 @@ impl Intersector for Faulty {
     }
 
     fn closest_hits(&mut self, spheres: &[Sphere], rays: &[Ray]) -> Vec<Option<Answer>> {
-        let fails = rays.iter().any(|ray| ray.direction == spherule_referee::Vec3::ZERO);
+        let fails = rays.iter().any(|ray| ray.direction == Vec3::ZERO);
         let mut answers = Kernel(Tier::Exact).closest_hits(spheres, rays);
         match self.0 {
             Fault::Panics if fails => panic!("a zero direction"),
@@ -215,16 +192,12 @@ fn mishaps_are_reported_and_the_trial_goes_on() {
         (Fault::Hangs, Mishap::Hung(Duration::from_millis(300))),
         (Fault::AnswersTooFew, Mishap::Count { answers: 0, rays: 1 }),
     ] {
-        let trial = Trial {
-            families: named(&["degenerate", "ordinary"]),
-            cases: 40,
-            patience: Duration::from_millis(300),
-            ..trial()
-        };
-        let report = trial.run(&Faulty(fault));
+        let trial = trial_of(&["degenerate", "ordinary"]);
+        let patience = Duration::from_millis(300);
+        let report = Trial { cases: 40, patience, ..trial }.run(&Faulty(fault));
         let first = report.unanswered.first().expect("a mishap");
         assert_eq!((&first.mishap, first.spheres.len()), (&expected, 1));
-        assert_eq!(first.ray.direction, spherule_referee::Vec3::ZERO);
+        assert_eq!(first.ray.direction, Vec3::ZERO);
         assert!(report.unanswered.iter().all(|unanswered| unanswered.family.name == "degenerate"));
         // All of the other family is judged, and nothing is wrong.
         let ordinary =
@@ -235,7 +208,8 @@ fn mishaps_are_reported_and_the_trial_goes_on() {
 
 #[test]
 fn nonsense_is_no_answer() {
-    let trial = Trial { families: named(&["degenerate"]), cases: 40, ..trial() };
+    let shrinking = Duration::from_secs(5);
+    let trial = Trial { cases: 40, shrinking, ..trial_of(&["degenerate"]) };
     let report = trial.run(&Faulty(Fault::AnswersNonsense));
     assert!(report.judge.total().by_rules.of(Kind::NoAnswer) > 0);
     assert_eq!(report.smallest.len(), 1);
@@ -273,8 +247,7 @@ impl Intersector for Slow {
 #[test]
 fn who_is_slow_does_not_hang() {
     let patience = Duration::from_millis(500);
-    let trial =
-        Trial { families: named(&["ordinary"]), cases: 1300, scenes: false, patience, ..trial() };
+    let trial = Trial { cases: 1300, scenes: false, patience, ..trial_of(&["ordinary"]) };
     let report = trial.run(&Slow::new(patience / 500, false));
     assert!(report.unanswered.is_empty(), "{:?}", report.unanswered);
     assert_eq!(report.judge.total().by_rules.judged, 1300);
@@ -283,13 +256,8 @@ fn who_is_slow_does_not_hang() {
 #[test]
 fn a_slow_intersector_is_shrunk_no_longer_than_others() {
     let slow = Slow::new(Duration::from_millis(10), true);
-    let trial = Trial {
-        families: named(&["ordinary"]),
-        cases: 20,
-        scenes: false,
-        shrinking: Duration::from_millis(100),
-        ..trial()
-    };
+    let shrinking = Duration::from_millis(100);
+    let trial = Trial { cases: 20, scenes: false, shrinking, ..trial_of(&["ordinary"]) };
     let report = trial.run(&slow);
     assert_eq!(report.smallest.len(), 1);
     // A call a case, then those that the time allows.

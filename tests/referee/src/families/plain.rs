@@ -4,16 +4,9 @@ use crate::aim::{Aim, line_distance};
 use crate::case::Case;
 use crate::random::{Random, power_of_two};
 
-/// A scene of a few units in size: two of three rays hit.
 fn ordinary_aim(random: &mut Random) -> Aim {
     let radius = random.log_uniform(-3, 2);
-    Aim {
-        origin: random.unit().map(|x| 10.0 * x),
-        length: random.log_uniform(-2, 1),
-        distance: radius * random.uniform(1.5, 20.0),
-        radius,
-        offset: random.uniform(0.0, 1.5),
-    }
+    Aim::ordinary(random, radius)
 }
 
 pub(super) fn ordinary(random: &mut Random) -> Case {

@@ -3,17 +3,17 @@
 use crate::case::Case;
 use crate::random::Random;
 use crate::ulp::step;
+use spherule_kernel::{Ray, Sphere};
 
 /// Small integers throughout, half of the directions along an axis, and common intervals.
 pub(super) fn integers(random: &mut Random) -> Case {
     let mut point = |reach: i64| [(); 3].map(|()| random.integer(-reach, reach) as f32);
-    let ([ox, oy, oz], [cx, cy, cz]) = (point(4), point(2));
+    let (origin, center) = (point(4), point(2));
     let mut direction = point(2);
     if random.one_in(2) || direction == [0.0; 3] {
         direction = [0.0; 3];
         direction[random.integer(0, 2) as usize] = random.pick(&[1.0, -1.0, 2.0, 3.0]);
     }
-    let [dx, dy, dz] = direction;
     let (t_min, t_max) = match random.integer(0, 5) {
         0 => (f32::NEG_INFINITY, f32::INFINITY),
         1 => {
@@ -23,7 +23,9 @@ pub(super) fn integers(random: &mut Random) -> Case {
         _ => (0.0, f32::INFINITY),
     };
     let radius = random.integer(0, 5) as f32;
-    Case::from_numbers([ox, oy, oz, dx, dy, dz, t_min, t_max, cx, cy, cz, radius])
+    let (origin, direction) = (origin.into(), direction.into());
+    let ray = Ray { origin, direction, t_min, t_max };
+    Case { ray, sphere: Sphere { center: center.into(), radius } }
 }
 
 /// The same, with one nonzero number up to two ulp off.

@@ -1,8 +1,7 @@
 //! Cases brought to directions of length one.
 
-use crate::aim::{double, single};
+use crate::aim::{double, length, single};
 use crate::case::Case;
-use crate::random::dot;
 use crate::ulp::{ordered, step};
 use spherule_kernel::{Exact, Ray, roots};
 
@@ -12,12 +11,12 @@ const AT_ROOT: i64 = 2;
 /// The case with a direction as near to length one as `f32` has one. The interval keeps its place on the ray. A direction
 /// without length stays.
 pub(super) fn with_unit_direction(case: &Case) -> Case {
-    let direction = double(case.ray.direction);
-    let length = dot(direction, direction).sqrt();
+    let length = length(case.ray.direction);
     if !(length > 0.0 && length.is_finite()) {
         return *case;
     }
-    let ray = Ray { direction: single(direction.map(|x| x / length)), ..case.ray };
+    let direction = single(double(case.ray.direction).map(|x| x / length));
+    let ray = Ray { direction, ..case.ray };
     let [before, after] = [&case.ray, &ray].map(|ray| roots(Exact, ray, &case.sphere));
     let end = |end: f32| moved(end, length, before.zip(after));
     Case { ray: Ray { t_min: end(ray.t_min), t_max: end(ray.t_max), ..ray }, ..*case }
@@ -77,12 +76,9 @@ mod tests {
         for family in FAMILIES {
             for index in 0..200 {
                 let (case, unit) = (family.seeded(SEED, index), family.seeded_unit(SEED, index));
-                let length = |case: &Case| {
-                    let direction = double(case.ray.direction);
-                    dot(direction, direction).sqrt()
-                };
-                let is_unit = (length(&unit) - 1.0).abs() < 1e-6;
-                let has_none = !(length(&case) > 0.0 && length(&case).is_finite());
+                let [before, after] = [case, unit].map(|case| length(case.ray.direction));
+                let is_unit = (after - 1.0).abs() < 1e-6;
+                let has_none = !(before > 0.0 && before.is_finite());
                 assert!(is_unit || has_none && unit.bits() == case.bits(), "{case:?}: {unit:?}");
             }
         }
